@@ -1,0 +1,70 @@
+// Errors as values. A Problem is one sentence for people with the place it speaks of; a Result is a
+// value or a Problem; Problems collects many, so that a reader can report all of them at once.
+// Thread rule: plain values, no sharing.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace luxodus {
+
+/// Where a statement stands in a file: 1-based line, 0 where a line has no meaning (binary files).
+struct SourcePlace {
+  std::string file;
+  int line = 0;
+};
+
+/// What is wrong, where, and what to do about it.
+struct Problem {
+  SourcePlace where;
+  std::string what;
+
+  /// "file:line: what", the form editors understand.
+  std::string text() const {
+    std::string out = where.file;
+    if (where.line > 0) out += ":" + std::to_string(where.line);
+    return out.empty() ? what : out + ": " + what;
+  }
+};
+
+/// A value, or the problem that kept us from having it.
+template <class T>
+class [[nodiscard]] Result {
+ public:
+  Result(T value) : state_(std::move(value)) {}  // NOLINT: implicit on purpose, `return value;`
+  Result(Problem problem) : state_(std::move(problem)) {}  // NOLINT: implicit on purpose
+
+  bool ok() const { return state_.index() == 0; }
+  explicit operator bool() const { return ok(); }
+
+  /// Requires: ok().
+  T& value() & { return std::get<0>(state_); }
+  const T& value() const& { return std::get<0>(state_); }
+  T&& value() && { return std::get<0>(std::move(state_)); }
+  T* operator->() { return &std::get<0>(state_); }
+  const T* operator->() const { return &std::get<0>(state_); }
+
+  /// Requires: !ok().
+  const Problem& problem() const { return std::get<1>(state_); }
+
+ private:
+  std::variant<T, Problem> state_;
+};
+
+/// All that is wrong with something, in the order it was found.
+class Problems {
+ public:
+  void add(SourcePlace where, std::string what) {
+    list_.push_back({std::move(where), std::move(what)});
+  }
+  void add(Problem problem) { list_.push_back(std::move(problem)); }
+  bool empty() const { return list_.empty(); }
+  const std::vector<Problem>& list() const { return list_; }
+
+ private:
+  std::vector<Problem> list_;
+};
+
+}  // namespace luxodus

@@ -1,0 +1,14 @@
+// Where a thing stands and how it is turned.
+#pragma once
+
+#include <glm/glm.hpp>
+
+namespace luxodus {
+
+/// Position and axes. Columns of `axes` are orthonormal: local x, y, z in scene coordinates.
+struct Frame {
+  glm::dvec3 origin{0};
+  glm::dmat3 axes{1.0};
+};
+
+}  // namespace luxodus

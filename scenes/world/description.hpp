@@ -1,0 +1,266 @@
+// What a scene says, after everything it names has been read: plain values in SI units (m, sr, W, lm, cd/m2,
+// 1/m, nm), one struct per TOML table, each with the place it stands at, for messages. Made by
+// scenes/format, compiled for the tracer by scenes/world/compile.*. Immutable once read; any thread.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "runtime/core/result.hpp"
+#include "scenes/geometry/mesh.hpp"
+#include "scenes/optics/medium.hpp"
+#include "scenes/optics/photometric_web.hpp"
+#include "scenes/optics/spectrum.hpp"
+
+namespace luxodus {
+
+/// Row-major picture, top row first, linear values in [0, 1]. channels: 1, 3 or 4.
+struct Image {
+  int width = 0;
+  int height = 0;
+  int channels = 0;
+  std::vector<float> texels;
+};
+
+// ---- materials and objects ---------------------------------------------------------------------
+
+enum class MaterialKind {
+  lambertian,  // reflectance
+  glossy,      // reflectance (diffuse part) + specular through a GGX lobe of given roughness
+  mirror,      // specular
+  glass_pane,  // thin pane: ior, transmittance of the glass itself (internal), no deviation
+  dielectric,  // smooth refracting boundary of a solid: ior inside (behind the front side)
+  open,        // not there: light passes, fluxes are counted
+};
+
+struct Material {
+  std::string name;
+  SourcePlace place;
+  MaterialKind kind = MaterialKind::lambertian;
+  Spectrum reflectance = Spectrum::constant(0.5);  // diffuse, [0, 1]
+  Spectrum specular = Spectrum::constant(0);       // [0, 1], reflectance + specular <= 1
+  double roughness = 0.3;                          // GGX alpha, (0, 1]
+  double ior = 1.52;
+  Spectrum internal_transmittance = Spectrum::constant(1);  // one pass, glass_pane
+  std::shared_ptr<const Image> reflectance_image;           // multiplies reflectance; needs uv
+};
+
+struct Door {
+  bool open = false;         // state unless a scenario says otherwise
+  glm::dvec3 hinge{0};       // a point of the hinge [m]
+  glm::dvec3 axis{0, 0, 1};  // of the hinge
+  double open_angle_deg = 90;
+};
+
+struct Object {
+  std::string name;
+  SourcePlace place;
+  Mesh mesh;  // placed: scene coordinates
+  int material = 0;
+  int back_material = 0;  // seen from behind the triangles; same as material unless said
+  double patch_edge_m = 0;  // maximum edge of a flux patch; 0: one patch per triangle
+  std::vector<std::string> tags;
+  std::string group;  // surface group, "" for none
+  std::optional<Door> door;
+};
+
+// ---- emitters ---------------------------------------------------------------------------------
+
+enum class EmitterShape { point, rectangle, disc, sphere, tube, mesh };
+enum class Distribution { lambertian, isotropic, cosine_power, spot, collimated, web };
+
+/// One emitter, analytic or a luminaire of a photometric file. Surfaces emit along local -Z (the luminaire
+/// frame: -Z is down); rectangle and disc lie in the local xy plane; a tube's axis is local x.
+struct Emitter {
+  std::string name;
+  SourcePlace place;
+  std::string circuit;  // "" for none
+  std::string group;    // source group; "" takes the scene's rule
+  EmitterShape shape = EmitterShape::point;
+  Frame frame;
+  glm::dvec3 size{0};  // rectangle: x, y; disc, sphere: x = diameter; tube: x = length, y = diameter
+  Mesh mesh;           // shape mesh: scene coordinates, emits to the front side
+  Distribution distribution = Distribution::lambertian;
+  double cosine_power = 1;          // intensity ~ cos^n about -Z
+  double spot_inner_deg = 0;        // half angles about -Z: full inside, smooth cosine fall-off, zero outside
+  double spot_outer_deg = 0;
+  std::shared_ptr<const PhotometricWeb> web;
+  Spectrum spectrum = equal_energy_shape();  // integral 1 over 380..780 nm
+  // Flux emitted in each operating state, all factors applied. Photometric input is in lm, radiometric in W.
+  bool radiometric = false;
+  double mains_flux = 0;      // [lm] or [W]
+  double emergency_flux = 0;  // [lm] or [W]; 0 for a luminaire that fails with the mains
+  std::string body_material;  // "" for none: returning light passes
+};
+
+// ---- signs ------------------------------------------------------------------------------------
+
+enum class SignLighting { internal, external, photoluminescent };
+
+/// What each texel of a face is. White and green are the colours of the legend and its ground; which of
+/// them is the legend is `legend`. `other` is neither (a border, a lamp cover).
+enum class SignColour : uint8_t { white, green, other };
+
+struct SignFace {
+  int width = 0;  // texels; square texels up to rounding
+  int height = 0;
+  std::vector<SignColour> colour;        // top row first, seen by a reader
+  std::vector<float> relative_luminance;  // empty: uniform in each colour; else per texel, mean 1 per colour
+  SignColour legend = SignColour::white;
+};
+
+struct SignState {
+  double white_cd_m2 = 0;  // luminance of each colour along the normal
+  double green_cd_m2 = 0;
+};
+
+struct Sign {
+  std::string name;
+  SourcePlace place;
+  std::string circuit;
+  std::string group;
+  Frame frame;  // origin: centre of the face; local z: viewing direction (out of the face); local y: up
+  double width_m = 0;
+  double height_m = 0;
+  double smallest_detail_m = 0;
+  bool double_sided = false;
+  double thickness_m = 0.03;  // distance between the two faces
+  SignFace face;
+  SignLighting lighting = SignLighting::internal;
+  SignState mains;
+  SignState emergency;
+  double angular_exponent = 0;  // luminance ~ cos^n from the normal; 0: Lambertian
+  std::vector<glm::dvec2> decay;  // photoluminescent: time after excitation [s], share of the luminance
+  Spectrum white_shape = equal_energy_shape();
+  Spectrum green_shape = equal_energy_shape();
+  Spectrum white_reflectance = Spectrum::constant(0.7);
+  Spectrum green_reflectance = Spectrum::constant(0.15);
+};
+
+// ---- measurements -----------------------------------------------------------------------------
+
+struct PlaneMeasure {
+  std::string name;
+  SourcePlace place;
+  glm::dvec3 corner{0};  // cells run from here along the two edges; normal = normalize(cross(u, v))
+  glm::dvec3 edge_u{1, 0, 0};
+  glm::dvec3 edge_v{0, 1, 0};
+  int cells_u = 1;
+  int cells_v = 1;
+};
+
+struct ProbeMeasure {
+  std::string name;
+  SourcePlace place;
+  glm::dvec3 position{0};
+  glm::dvec3 normal{0, 0, 1};
+};
+
+struct SurfaceGroupMeasure {
+  std::string name;
+  SourcePlace place;
+  std::vector<std::string> objects;  // names or tags
+};
+
+struct VolumeGroupMeasure {
+  enum class Shape { box, sphere, shell, layer };
+  std::string name;
+  SourcePlace place;
+  Shape shape = Shape::box;
+  glm::dvec3 low{0}, high{0};  // box; layer: z only
+  glm::dvec3 centre{0};
+  double radius = 0;
+  double inner_radius = 0;  // shell
+};
+
+struct CountingPlaneMeasure {
+  std::string name;
+  SourcePlace place;
+  glm::dvec3 corner{0};
+  glm::dvec3 edge_u{1, 0, 0};
+  glm::dvec3 edge_v{0, 1, 0};
+};
+
+struct Observer {
+  std::string name;
+  SourcePlace place;
+  glm::dvec3 eye{0};
+  glm::dvec3 gaze{1, 0, 0};
+};
+
+struct Camera {
+  std::string name;
+  SourcePlace place;
+  glm::dvec3 eye{0};
+  glm::dvec3 target{1, 0, 0};
+  glm::dvec3 up{0, 0, 1};
+  double vertical_fov_deg = 60;
+  int width = 640;
+  int height = 360;
+};
+
+// ---- scenarios and run ------------------------------------------------------------------------
+
+enum class Operation { mains, emergency, dark };
+
+struct Scenario {
+  struct Factor {
+    std::string name;
+    double factor;
+  };
+  std::string name;
+  SourcePlace place;
+  Operation operation = Operation::mains;
+  double seconds_after_failure = 0;     // photoluminescent decay
+  std::vector<Factor> circuits;         // by circuit name; others 1
+  std::vector<Factor> media;            // extinction factor by medium name; 0 removes it
+  double smoke_factor = 1;              // for every medium not named
+  double emission_factor = 1;           // flames
+  std::vector<std::string> doors_open;  // by object name
+  std::vector<std::string> doors_closed;
+};
+
+enum class GroupRule { one, by_circuit, by_emitter };
+
+struct RunSettings {
+  uint64_t seed = 1;
+  int bands_most = 8;                       // 1 forces one band
+  std::vector<double> band_edges_nm;        // empty: told apart automatically
+  double band_tolerance = 0.02;
+  int64_t batch_particles = 0;              // 0: follows from the scene
+  double voxel_edge_m = 0;                  // 0: follows from the scene; only where a medium is
+  bool voxels = true;
+  bool analogue = false;                    // sampled absorption instead of weighted survival
+  GroupRule groups = GroupRule::one;
+  double eye_share = 1.0;                   // paths from the eye per batch, relative to the default
+};
+
+struct SceneDescription {
+  std::string name;
+  std::string title;
+  std::string file;
+  RunSettings run;
+  std::vector<Material> materials;
+  std::vector<Object> objects;
+  std::vector<Emitter> emitters;
+  std::vector<Medium> media;
+  std::vector<Sign> signs;
+  std::vector<PlaneMeasure> planes;
+  std::vector<ProbeMeasure> probes;
+  std::vector<SurfaceGroupMeasure> surface_groups;
+  std::vector<VolumeGroupMeasure> volume_groups;
+  std::vector<CountingPlaneMeasure> counting_planes;
+  std::vector<Observer> observers;
+  std::vector<Camera> cameras;
+  std::vector<Scenario> scenarios;  // empty: mains, as written
+  uint64_t content_hash = 0;        // of every file read
+  int64_t degenerate_triangles = 0;  // dropped on reading
+  std::vector<Problem> warnings;    // said by `check`, not fatal
+};
+
+}  // namespace luxodus
