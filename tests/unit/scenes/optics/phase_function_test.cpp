@@ -112,7 +112,7 @@ TEST_CASE("Henyey-Greenstein has mean cosine g and cosines in [-1, 1] for every 
   }
 }
 
-TEST_CASE("Henyey-Greenstein in float inverts as in double: cosine to 4e-7, sine to 1e-6 relative",
+TEST_CASE("Henyey-Greenstein in float inverts as in double: cosine to 5e-7, sine to 1e-6 relative",
           "[optics][phase]") {
   for (const double g : {1e-7, 1e-5, 1e-3, 0.1, 0.5, 0.9, 0.99, 0.999, 0.99999}) {
     CAPTURE(g);
@@ -131,7 +131,7 @@ TEST_CASE("Henyey-Greenstein in float inverts as in double: cosine to 4e-7, sine
       mirrored = mirrored && b.cos == -a.cos && b.sin == a.sin;
     }
     CAPTURE(worst_cos, worst_sin);
-    CHECK(worst_cos < 4e-7);
+    CHECK(worst_cos < 5e-7);
     CHECK(worst_sin < 1e-6);
     CHECK(mirrored);
   }
