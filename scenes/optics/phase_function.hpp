@@ -87,11 +87,12 @@ inline PhaseFunction::Deflection PhaseFunction::henyey_greenstein(float u) const
   const float q = 2.0F * (1.0F - u);
   const float d = one_minus_g_ + g_ * p;
   if (d == 0.0F) return {sign_, 0.0F};  // |g| = 1 and u = 0: as any other u at |g| = 1
-  const float ratio = one_minus_g_ / d;
-  const float ratio_plus = (1.0F + g_) / d;
+  const float inverse = 1.0F / d;
+  const float ratio = one_minus_g_ * inverse;
+  const float ratio_plus = (1.0F + g_) * inverse;
   const float one_minus_cos = 0.5F * ratio * ratio * q * (2.0F + g_ * p);
   const float one_plus_cos = 0.5F * ratio_plus * ratio_plus * p * (2.0F * one_minus_g_ + g_ * p);
-  const float cos = one_minus_cos < 1.0F ? 1.0F - one_minus_cos : one_plus_cos - 1.0F;
+  const float cos = choose(one_minus_cos < 1.0F, 1.0F - one_minus_cos, one_plus_cos - 1.0F);
   return {sign_ * cos, std::sqrt(one_minus_cos * one_plus_cos)};
 }
 

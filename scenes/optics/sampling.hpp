@@ -23,6 +23,14 @@ inline float unit_float(uint32_t bits) {
   return static_cast<float>(bits >> 8) * 0x1p-24F;
 }
 
+/// `condition ? a : b` without a branch: on random conditions a mispredicted one costs more than
+/// both sides.
+inline float choose(bool condition, float a, float b) {
+  const uint32_t mask = 0U - static_cast<uint32_t>(condition);
+  return std::bit_cast<float>((std::bit_cast<uint32_t>(a) & mask) |
+                              (std::bit_cast<uint32_t>(b) & ~mask));
+}
+
 // ---- elementary functions ----------------------------------------------------------------------
 // Polynomials interpolate at the Chebyshev nodes of their range (computed for this file in double).
 
@@ -44,8 +52,8 @@ inline SinCos sin_cos_two_pi(float u) {
   const bool odd = (quarter & 1) != 0;
   const uint32_t sin_sign = static_cast<uint32_t>(quarter & 2) << 30;
   const uint32_t cos_sign = static_cast<uint32_t>((quarter + 1) & 2) << 30;
-  return {std::bit_cast<float>(std::bit_cast<uint32_t>(odd ? c : s) ^ sin_sign),
-          std::bit_cast<float>(std::bit_cast<uint32_t>(odd ? s : c) ^ cos_sign)};
+  return {std::bit_cast<float>(std::bit_cast<uint32_t>(choose(odd, c, s)) ^ sin_sign),
+          std::bit_cast<float>(std::bit_cast<uint32_t>(choose(odd, s, c)) ^ cos_sign)};
 }
 
 /// log2(x) for normal x > 0, relative error at most 4e-7 (also next to x = 1); -1000 for x below
@@ -167,8 +175,8 @@ inline glm::vec2 uniform_disc(float u, float v) {
 /// Square", 2019).
 inline glm::vec3 uniform_triangle(float u, float v) {
   const bool above = v > u;
-  const float b0 = above ? 0.5F * u : u - 0.5F * v;
-  const float b1 = above ? v - 0.5F * u : 0.5F * v;
+  const float b0 = choose(above, 0.5F * u, u - 0.5F * v);
+  const float b1 = choose(above, v - 0.5F * u, 0.5F * v);
   return {b0, b1, (1.0F - b0) - b1};
 }
 
