@@ -8,6 +8,7 @@
 #include <set>
 
 #include "runtime/core/hash.hpp"
+#include "runtime/core/random.hpp"
 #include "scenes/transport/compile_surfaces.hpp"
 
 namespace luxodus {
@@ -93,8 +94,30 @@ Result<bool> compile_media(CompiledScene& scene) {
       [&](const Spectrum& s, int band) { return scene.bands.average(s, band); }, scene.local_origin);
   if (!media.ok()) return media.problem();
   scene.media = std::move(media).value();
+  for (const Phase& phase : scene.media.phases()) {
+    auto made = PhaseFunction::make(phase, {d.file, 0});
+    if (!made.ok()) return made.problem();
+    scene.phases.push_back(std::move(made).value());
+  }
   scene.features.media = scene.media.need();
   return true;
+}
+
+/// Points that stand for a flame where light is computed without chance.
+constexpr int flame_points = 512;
+
+void scatter_volume_points(CompiledScene& scene) {
+  ResidentBricks bricks(scene.media);
+  for (const CompiledEmitter& e : scene.emitters) {
+    if (e.kind != EmitterKind::volume) continue;
+    Random random(e.medium, RandomStream::layout);
+    auto& points = scene.volume_points[e.medium];
+    for (int i = 0; i < flame_points; ++i) {
+      random.start(static_cast<uint64_t>(i));
+      points.push_back(scene.media.sample_emission_point(
+          static_cast<int>(e.medium), [&] { return random.uniform_double(); }, bricks));
+    }
+  }
 }
 
 CompiledPlane make_plane(const glm::dvec3& corner, const glm::dvec3& u, const glm::dvec3& v, int nu,
@@ -379,6 +402,7 @@ Result<std::shared_ptr<const CompiledScene>> compile_scene(
   }
   compile_emitters(*scene, sources);
   if (auto ok = compile_media(*scene); !ok.ok()) return ok.problem();
+  scatter_volume_points(*scene);
   compile_detectors(*scene);
   if (auto ok = resolve_surface_groups(*scene); !ok.ok()) return ok.problem();
   choose_voxels(*scene);

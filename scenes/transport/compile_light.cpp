@@ -141,22 +141,6 @@ void place_frame(CompiledEmitter& out, const Frame& frame, const CompiledScene& 
   out.axes = glm::mat3(frame.axes);
 }
 
-/// Integral of a spot's relative intensity over directions [sr], by Simpson's rule in the angle.
-double spot_solid_angle(double inner, double outer) {
-  const auto falloff = [&](double theta) {
-    return theta <= inner ? 1.0 : 0.5 * (1 + std::cos(pi * (theta - inner) / (outer - inner)));
-  };
-  const int n = 1000;
-  double sum = 0;
-  const double h = (outer - inner) / n;
-  for (int i = 0; i <= n; ++i) {
-    const double theta = inner + h * i;
-    const double w = i == 0 || i == n ? 1 : (i % 2 ? 4 : 2);
-    sum += w * falloff(theta) * std::sin(theta);
-  }
-  return 2 * pi * (1 - std::cos(inner)) + 2 * pi * sum * h / 3;
-}
-
 void normalise_cdf(std::vector<double>& cdf) {
   std::partial_sum(cdf.begin(), cdf.end(), cdf.begin());
   const double total = cdf.back();
@@ -241,13 +225,8 @@ CompiledEmitter compile_emitter(const ActiveSource& s, const CompiledScene& scen
     compile_shape(out, e, scene);
     out.distribution = e.distribution;
     out.exponent = static_cast<float>(e.cosine_power);
-    if (e.distribution == Distribution::spot) {
-      const double inner = e.spot_inner_deg * pi / 180;
-      const double outer = std::max(e.spot_outer_deg * pi / 180, inner + 1e-6);
-      out.spot_cos_inner = static_cast<float>(std::cos(inner));
-      out.spot_cos_outer = static_cast<float>(std::cos(outer));
-      out.spot_flux = static_cast<float>(spot_solid_angle(inner, outer));
-    }
+    if (e.distribution == Distribution::spot)
+      out.spot = SpotLobe::from_half_angles(glm::radians(e.spot_inner_deg), glm::radians(e.spot_outer_deg));
     for (uint32_t i = 0; i < scene.webs.size(); ++i) {
       if (scene.webs[i] == e.web) out.web = i;
     }

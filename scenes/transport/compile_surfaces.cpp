@@ -7,6 +7,7 @@
 #include "scenes/geometry/patches.hpp"
 #include "scenes/geometry/primitives.hpp"
 #include "scenes/geometry/transform.hpp"
+#include "scenes/tally/fixed_point.hpp"
 
 namespace luxodus {
 
@@ -78,7 +79,7 @@ Mesh body_mesh(const Emitter& e) {
       return face_mesh(down, e.size.x, e.size.y);
     }
     case EmitterShape::disc: {
-      const auto n = segments_within(e.size.x / 2, bound);
+      const auto n = shapes::segments_within(e.size.x / 2, bound);
       if (auto shape = shapes::disc(e.size.x / 2, n.ok() ? n.value() : 32); shape.ok()) mesh = shape->mesh;
       apply(rotation({1, 0, 0}, 180).value(), mesh);
       break;
@@ -87,7 +88,7 @@ Mesh body_mesh(const Emitter& e) {
       if (auto shape = shapes::sphere(e.size.x / 2, bound); shape.ok()) mesh = shape->mesh;
       break;
     case EmitterShape::tube: {
-      const auto n = segments_within(e.size.y / 2, bound);
+      const auto n = shapes::segments_within(e.size.y / 2, bound);
       auto shape = shapes::cylinder(e.size.y / 2, e.size.x, n.ok() ? n.value() : 32, shapes::Caps::none);
       if (shape.ok()) mesh = shape->mesh;
       apply(translation({0, 0, -e.size.x / 2}), mesh);

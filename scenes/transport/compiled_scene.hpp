@@ -15,6 +15,7 @@
 #include "scenes/optics/bands.hpp"
 #include "scenes/optics/media_set.hpp"
 #include "scenes/optics/phase_function.hpp"
+#include "scenes/optics/sampling.hpp"
 #include "scenes/optics/surface.hpp"
 #include "scenes/tally/layout.hpp"
 #include "scenes/world/description.hpp"
@@ -52,9 +53,7 @@ struct CompiledEmitter {
   glm::mat3 axes{1.0f};
   glm::vec3 size{0};
   float exponent = 1;             // cosine power; of a sign: of its luminance
-  float spot_cos_inner = 1;
-  float spot_cos_outer = 0;
-  float spot_flux = 1;            // integral of the spot's relative intensity [sr]
+  SpotLobe spot;
   uint32_t web = none_index;
   uint32_t sign = none_index;
   uint32_t medium = none_index;   // volume
@@ -129,7 +128,7 @@ struct EyeTarget {
   uint32_t first_bin = 0;  // in the views block: white, green, surround
 };
 
-/// One visible face of a sign.
+/// One face of a sign.
 struct CompiledSign {
   uint32_t sign = 0;  // in the description
   bool back = false;
@@ -173,6 +172,7 @@ struct CompiledScene {
   std::vector<std::shared_ptr<const Image>> images;
   std::vector<std::array<float, 3>> image_basis;  // per band: response to r, g, b texels
   MediaSet media;
+  std::vector<PhaseFunction> phases;  // by Flight::phase
   std::vector<std::string> media_names;
   std::map<uint32_t, std::vector<glm::vec3>> volume_points;  // of emitting media: points of equal power
 

@@ -26,8 +26,8 @@ EmissionPoint point_on_sign(const CompiledEmitter& e, float u, float v, double w
 EmissionPoint point_on_mesh(const CompiledEmitter& e, float u, float v, double w) {
   const size_t triangle = find_interval(e.texel_cdf, w);
   const glm::vec3* corner = &e.corners[3 * triangle];
-  const glm::vec2 b = uniform_triangle(u, v);
-  const glm::vec3 p = corner[0] * (1 - b.x - b.y) + corner[1] * b.x + corner[2] * b.y;
+  const glm::vec3 b = uniform_triangle(u, v);
+  const glm::vec3 p = corner[0] * b.x + corner[1] * b.y + corner[2] * b.z;
   return {p, glm::normalize(glm::cross(corner[1] - corner[0], corner[2] - corner[0]))};
 }
 
@@ -93,15 +93,6 @@ float flat_distance(const CompiledEmitter& e, const Ray& ray) {
 }
 
 }  // namespace
-
-float spot_falloff(float cos_theta, float cos_inner, float cos_outer) {
-  if (cos_theta >= cos_inner) return 1;
-  if (cos_theta <= cos_outer) return 0;
-  const float inner = std::acos(cos_inner);
-  const float outer = std::acos(cos_outer);
-  const float x = (std::acos(cos_theta) - inner) / (outer - inner);
-  return 0.5f * (1 + std::cos(pi_f * x));
-}
 
 EmissionPoint emission_point(const CompiledEmitter& e, float u, float v, double w) {
   const glm::vec3 down = -e.axes[2];

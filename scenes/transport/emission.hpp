@@ -37,9 +37,6 @@ EmissionPoint emission_point(const CompiledScene& scene, const CompiledEmitter& 
   return emission_point(emitter, u, v, w);
 }
 
-/// Relative intensity of a spot: 1 inside the inner cone, a cosine fall-off to 0 at the outer one.
-float spot_falloff(float cos_theta, float cos_inner, float cos_outer);
-
 /// Density [1/sr] of directions at a point of the emitter; 0 for collimated light, which is no density.
 template <class Resolver>
 float directional_density(const CompiledEmitter& emitter, const EmissionPoint& point,
@@ -51,9 +48,9 @@ float directional_density(const CompiledEmitter& emitter, const EmissionPoint& p
     case Distribution::lambertian:
       return std::max(0.0f, cosine) / pi_f;
     case Distribution::cosine_power:
-      return cosine > 0 ? (emitter.exponent + 1) / (2 * pi_f) * std::pow(cosine, emitter.exponent) : 0;
+      return cosine_power_pdf(emitter.exponent, cosine);
     case Distribution::spot:
-      return spot_falloff(cosine, emitter.spot_cos_inner, emitter.spot_cos_outer) / emitter.spot_flux;
+      return emitter.spot.relative_intensity(cosine) / emitter.spot.solid_angle();
     case Distribution::collimated:
       return 0;
     case Distribution::web: {
@@ -70,17 +67,6 @@ template <class Resolver>
 glm::vec3 emission_direction(const CompiledEmitter& emitter, const EmissionPoint& point,
                              Random& random, Resolver& resolver) {
   if (emitter.distribution == Distribution::collimated) return point.axis;
-  if (emitter.distribution == Distribution::spot) {
-    for (int attempt = 0; attempt < 256; ++attempt) {
-      const float u = random.uniform();
-      const float v = random.uniform();
-      const glm::vec3 d = to_world(point.axis, uniform_cone(u, v, emitter.spot_cos_outer));
-      const float keep = random.uniform();
-      if (keep < spot_falloff(glm::dot(d, point.axis), emitter.spot_cos_inner, emitter.spot_cos_outer))
-        return d;
-    }
-    return point.axis;
-  }
   if (emitter.distribution == Distribution::web) {
     const double u = random.uniform_double();
     const double v = random.uniform_double();
@@ -90,8 +76,10 @@ glm::vec3 emission_direction(const CompiledEmitter& emitter, const EmissionPoint
   const float u = random.uniform();
   const float v = random.uniform();
   if (emitter.distribution == Distribution::isotropic) return uniform_sphere(u, v);
+  if (emitter.distribution == Distribution::spot)
+    return to_world(point.axis, emitter.spot.sample(u, v));
   if (emitter.distribution == Distribution::cosine_power)
-    return to_world(point.axis, cosine_power_hemisphere(u, v, emitter.exponent));
+    return to_world(point.axis, cosine_power(emitter.exponent, u, v));
   return to_world(point.axis, cosine_hemisphere(u, v));
 }
 

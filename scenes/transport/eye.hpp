@@ -99,13 +99,13 @@ class EyeTracer {
         sum += throughput * emitted_along(ray, hit.distance, flight.collided ? flight.t : hit.distance, band);
       }
       if (flight.collided) {
-        throughput *= static_cast<double>(flight.albedo);
+        throughput *= flight.albedo;
         if (throughput <= 0) return sum;
         ray.origin += ray.direction * flight.t;
-        sum += throughput * scattered_light(ray.origin, ray.direction, scene_.media.phase(flight.phase), band);
+        sum += throughput * scattered_light(ray.origin, ray.direction, scene_.phases[static_cast<size_t>(flight.phase)], band);
         const float u = random_.uniform();
         const float v = random_.uniform();
-        ray.direction = sample(scene_.media.phase(flight.phase), ray.direction, u, v);
+        ray.direction = sample(scene_.phases[static_cast<size_t>(flight.phase)], ray.direction, u, v);
         emitters_count = false;
       } else {
         if (!hit.found()) return sum;
@@ -197,32 +197,32 @@ class EyeTracer {
     return sum + flames_along(ray, solid, band);
   }
 
+  /// Emission of flames along the ray, each piece weighted by what passes the media before it.
   double flames_along(const Ray& ray, float length, int band) {
+    if (scene_.volume_points.empty()) return 0;
     double sum = 0;
-    bool any = false;
-    for (const CompiledEmitter& e : scene_.emitters) any |= e.kind == EmitterKind::volume;
-    if (!any) return 0;
-    const float end = std::min(length, 4 * scene_.diagonal_m);
+    double depth = 0;
+    for_each_segment(
+        scene_.media, band, ray.origin, ray.direction, std::min(length, 4 * scene_.diagonal_m), resolver_,
+        [&](const MediaSegment& s) {
+          const double tau = s.sigma_t * s.length;
+          const double through = s.sigma_t > 0 ? -std::expm1(-tau) / s.sigma_t : s.length;
+          for (const EmissionPart& part : s.emission) {
+            sum += flame_power(part.medium, band) * part.density * std::exp(-depth) * through;
+          }
+          depth += tau;
+          return depth < 50;
+        });
+    return sum / (4 * static_cast<double>(pi_f));
+  }
+
+  /// Watts of a medium's glow in a band; 0 where the scenario has put it out.
+  double flame_power(int medium, int band) const {
     for (const CompiledEmitter& e : scene_.emitters) {
-      if (e.kind != EmitterKind::volume) continue;
-      // power per volume / (4 pi), integrated with the transmittance to each piece.
-      const double per_density = e.power_w[static_cast<size_t>(band)] / (4 * static_cast<double>(pi_f));
-      double depth = 0;
-      for_each_segment(scene_.media, band, ray.origin, ray.direction, end, resolver_,
-                       [&](const MediaSegment& s) {
-                         const double tau = s.sigma_t * static_cast<double>(s.t1 - s.t0);
-                         const double through =
-                             s.sigma_t > 0 ? -std::expm1(-tau) / s.sigma_t : static_cast<double>(s.t1 - s.t0);
-                         const glm::vec3 middle = ray.origin + ray.direction * (0.5f * (s.t0 + s.t1));
-                         sum += per_density *
-                                static_cast<double>(scene_.media.emission_density(
-                                    static_cast<int>(e.medium), middle, resolver_)) *
-                                std::exp(-depth) * through;
-                         depth += tau;
-                         return depth < 50;
-                       });
+      if (e.kind == EmitterKind::volume && e.medium == static_cast<uint32_t>(medium))
+        return e.power_w[static_cast<size_t>(band)];
     }
-    return sum;
+    return 0;
   }
 
   double sign_radiance(uint32_t index, const Hit& hit, const glm::vec3& direction, int band) const {
@@ -233,7 +233,7 @@ class EyeTracer {
 
   double texel_radiance(const CompiledSign& sign, const Sign& d, const glm::vec2& uv,
                         const glm::vec3& to_eye, int band) const {
-    const SignColour colour = sign_colour(d.face, uv);
+    const SignColour colour = d.face.colour[texel_at(d.face, uv)];
     if (colour == SignColour::other) return 0;
     const auto& radiance = colour == SignColour::white ? sign.white_radiance : sign.green_radiance;
     const double cosine = std::max(0.0, static_cast<double>(glm::dot(sign.axes[2], to_eye)));
@@ -243,10 +243,7 @@ class EyeTracer {
 
   static double face_relative(const SignFace& face, const glm::vec2& uv) {
     if (face.relative_luminance.empty()) return 1;
-    const int x = std::clamp(static_cast<int>(uv.x * static_cast<float>(face.width)), 0, face.width - 1);
-    const int y =
-        std::clamp(static_cast<int>((1 - uv.y) * static_cast<float>(face.height)), 0, face.height - 1);
-    return static_cast<double>(face.relative_luminance[static_cast<size_t>(y * face.width + x)]);
+    return static_cast<double>(face.relative_luminance[texel_at(face, uv)]);
   }
 
   // ---- asking an emitter -------------------------------------------------------------------------
@@ -427,13 +424,13 @@ class EyeTracer {
     const Flight flight = free_flight<MediaNeed::general>(scene_.media, band, c.ray.origin, c.ray.direction,
                                                           c.distance, tau, choice, resolver_);
     if (!flight.collided || flight.albedo <= 0) return sum;
-    const PhaseFunction& phase = scene_.media.phase(flight.phase);
+    const PhaseFunction& phase = scene_.phases[static_cast<size_t>(flight.phase)];
     const glm::vec3 place = c.ray.origin + c.ray.direction * flight.t;
     double inner = scattered_light(place, c.ray.direction, phase, band);
     const float u = random_.uniform();
     const float v = random_.uniform();
     inner += radiance({place, sample(phase, c.ray.direction, u, v)}, band, false);
-    return sum + collided * static_cast<double>(flight.albedo) * inner;
+    return sum + collided * flight.albedo * inner;
   }
 
   void store(const SignSums& sums, uint32_t bin, BatchScores& scores) {

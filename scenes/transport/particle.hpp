@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "runtime/core/random.hpp"
+#include "scenes/geometry/patches.hpp"
 #include "scenes/optics/offset_ray.hpp"
 #include "scenes/tally/totals.hpp"
 #include "scenes/transport/detectors.hpp"
@@ -151,7 +152,7 @@ class ParticleTracer {
     ++batch_->ledger.collisions;
     const glm::vec3 place = p.ray.origin + p.ray.direction * flight.t;
     const Weight before = p.weight;
-    const Weight after = surviving(before, to_fraction(static_cast<double>(flight.albedo)));
+    const Weight after = surviving(before, to_fraction(flight.albedo));
     batch_->ledger.absorbed_media += before - after;
     score_collision(scene_, place, p.band, static_cast<uint32_t>(flight.medium), before - after, after,
                     *batch_);
@@ -160,7 +161,7 @@ class ParticleTracer {
     const float u = random_.uniform();
     const float v = random_.uniform();
     p.ray.origin = place;
-    p.ray.direction = sample(scene_.media.phase(flight.phase), p.ray.direction, u, v);
+    p.ray.direction = sample(scene_.phases[static_cast<size_t>(flight.phase)], p.ray.direction, u, v);
     p.direct = false;
     p.collided = true;
     return true;

@@ -32,11 +32,11 @@ float image_factor(const CompiledScene& scene, const Image& image, const glm::ve
   return std::clamp(texel[0] * basis[0] + texel[1] * basis[1] + texel[2] * basis[2], 0.0f, 1.0f);
 }
 
-SignColour sign_colour(const SignFace& face, const glm::vec2& uv) {
+size_t texel_at(const SignFace& face, const glm::vec2& uv) {
   const int x = std::clamp(static_cast<int>(uv.x * static_cast<float>(face.width)), 0, face.width - 1);
   const int y =
       std::clamp(static_cast<int>((1 - uv.y) * static_cast<float>(face.height)), 0, face.height - 1);
-  return face.colour[static_cast<size_t>(y * face.width + x)];
+  return static_cast<size_t>(y * face.width + x);
 }
 
 }  // namespace luxodus

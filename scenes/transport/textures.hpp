@@ -12,8 +12,8 @@ glm::vec2 texture_uv(const GeometryCell& cell, const Hit& hit);
 /// Reflectance factor of an image at (u, v) in a band, in [0, 1]; nearest texel.
 float image_factor(const CompiledScene& scene, const Image& image, const glm::vec2& uv, int band);
 
-/// Colour of a sign's face at (u, v).
-SignColour sign_colour(const SignFace& face, const glm::vec2& uv);
+/// Texel of a sign's face at (u, v); (0, 0) is the reader's lower left corner.
+size_t texel_at(const SignFace& face, const glm::vec2& uv);
 
 /// The model that holds at this hit: the material's, with its diffuse part taken from picture or sign face.
 template <class Resolver>
@@ -24,7 +24,7 @@ SurfaceModel surface_at(const CompiledScene& scene, const Hit& hit, bool front, 
   if (surface.sign != none_index && front) {
     const CompiledSign& sign = scene.signs[surface.sign];
     const SignFace& face = scene.description->signs[sign.sign].face;
-    const SignColour colour = sign_colour(face, texture_uv(*hit.cell, hit));
+    const SignColour colour = face.colour[texel_at(face, texture_uv(*hit.cell, hit))];
     if (colour != SignColour::other) {
       const auto b = static_cast<size_t>(band);
       model.reflectance =
