@@ -1,0 +1,189 @@
+#include "scenes/emergency/sign_geometry.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "scenes/emergency/sign_face.hpp"
+
+using namespace luxodus;
+
+namespace {
+
+/// 0.4 m by 0.2 m in the xz plane at the origin, looking along +y (so x of the sign is -x).
+Sign facing_y() {
+  Sign sign;
+  sign.frame.axes = glm::dmat3(glm::dvec3(-1, 0, 0), glm::dvec3(0, 0, 1), glm::dvec3(0, 1, 0));
+  sign.width_m = 0.4;
+  sign.height_m = 0.2;
+  sign.smallest_detail_m = 0.02;
+  sign.mains = {500, 50};
+  sign.emergency = {100, 10};
+  return sign;
+}
+
+double arcmin_of(double half_m, double distance_m) {
+  return 2 * std::atan(half_m / distance_m) * 180 / std::numbers::pi * 60;
+}
+
+const std::vector<glm::dvec2> decay_like_1_over_t{{60, 1.0}, {600, 0.1}, {6000, 0.01}};
+
+}  // namespace
+
+TEST_CASE("a sign seen square on has the angular size of its edges", "[emergency][geometry]") {
+  const SignView view = view_of_sign(facing_y(), {0, 10, 0});
+  CHECK_FALSE(view.behind);
+  CHECK_FALSE(view.back_face);
+  CHECK(view.distance_m == Approx(10));
+  CHECK(view.angle_deg == Approx(0).margin(1e-9));
+  CHECK(view.width_arcmin == Approx(arcmin_of(0.2, 10)));
+  CHECK(view.height_arcmin == Approx(arcmin_of(0.1, 10)));
+  CHECK(view.detail_arcmin == Approx(arcmin_of(0.01, 10)));
+}
+
+TEST_CASE("a sign at the end of its viewing distance is as large as the factor says",
+          "[emergency][geometry]") {
+  // 1/200 is 17.2 arcmin, 1/100 is 34.4 arcmin.
+  CHECK(view_of_sign(facing_y(), {0, 40, 0}).height_arcmin == Approx(17.19).epsilon(1e-3));
+  CHECK(view_of_sign(facing_y(), {0, 20, 0}).height_arcmin == Approx(34.38).epsilon(1e-3));
+}
+
+TEST_CASE("a sign seen aslant shrinks by the cosine in the plane of the tilt only",
+          "[emergency][geometry]") {
+  const double far_m = 1000, angle = std::numbers::pi / 3;
+  const SignView view =
+      view_of_sign(facing_y(), {far_m * std::sin(angle), far_m * std::cos(angle), 0});
+  CHECK(view.angle_deg == Approx(60));
+  CHECK(view.width_arcmin == Approx(arcmin_of(0.1, far_m)).epsilon(1e-6));
+  CHECK(view.height_arcmin == Approx(arcmin_of(0.1, far_m)).epsilon(1e-6));
+  CHECK(view.detail_arcmin == Approx(arcmin_of(0.005, far_m)).epsilon(1e-6));
+}
+
+TEST_CASE("a sign seen from behind or edge-on shows nothing", "[emergency][geometry]") {
+  for (const glm::dvec3& eye : {glm::dvec3(0, -5, 0), glm::dvec3(5, 0, 0)}) {
+    const SignView view = view_of_sign(facing_y(), eye);
+    CHECK(view.behind);
+    CHECK(view.distance_m == Approx(5));
+    CHECK(view.width_arcmin == 0);
+    CHECK(view.detail_arcmin == 0);
+  }
+}
+
+TEST_CASE(
+    "a double-sided sign shows its second face to who stands behind, not to who stands beside",
+    "[emergency][geometry]") {
+  Sign sign = facing_y();
+  sign.double_sided = true;
+  sign.thickness_m = 0.05;
+  const SignView back = view_of_sign(sign, {0, -10, 0});
+  CHECK_FALSE(back.behind);
+  CHECK(back.back_face);
+  CHECK(back.distance_m == Approx(9.95));
+  CHECK(back.angle_deg == Approx(0).margin(1e-9));
+  CHECK(back.normal.y == -1);
+  CHECK(back.width_arcmin == Approx(arcmin_of(0.2, 9.95)));
+  CHECK(view_of_sign(sign, {3, -0.02, 0}).behind);
+  CHECK_FALSE(view_of_sign(sign, {0, 10, 0}).back_face);
+}
+
+TEST_CASE("the viewing distance is height times 200 or 100, less the cosine aslant",
+          "[emergency][geometry]") {
+  Sign sign = facing_y();
+  const auto rule_at = [&](const glm::dvec3& eye) {
+    return viewing_distance(sign, view_of_sign(sign, eye));
+  };
+  CHECK(rule_at({0, 39.9, 0}).allowed_m == Approx(40));
+  CHECK(rule_at({0, 39.9, 0}).within);
+  CHECK_FALSE(rule_at({0, 40.1, 0}).within);
+  CHECK_FALSE(rule_at({0, -5, 0}).within);
+  const double d = 25 / std::numbers::sqrt2;  // 45 degrees: 28.3 m
+  CHECK(rule_at({d, d, 0}).allowed_oblique_m == Approx(40 / std::numbers::sqrt2));
+  CHECK(rule_at({d, d, 0}).within);
+  for (SignLighting lighting : {SignLighting::external, SignLighting::photoluminescent}) {
+    sign.lighting = lighting;
+    CHECK(rule_at({0, 5, 0}).factor == 100);
+    CHECK(rule_at({0, 5, 0}).allowed_m == Approx(20));
+  }
+}
+
+TEST_CASE("decay between points follows a power of time exactly", "[emergency][decay]") {
+  for (double t : {60.0, 100.0, 600.0, 1234.0, 6000.0})
+    CHECK(decay_share(decay_like_1_over_t, t) == Approx(60 / t));
+}
+
+TEST_CASE("decay holds its first share before the table and goes on as a power after it",
+          "[emergency][decay]") {
+  CHECK(decay_share(decay_like_1_over_t, 0) == 1);
+  CHECK(decay_share(decay_like_1_over_t, 60) == 1);
+  CHECK(decay_share(decay_like_1_over_t, 60000) == Approx(0.001));
+  CHECK(decay_share({{10, 0.5}, {20, 0.8}}, 40) == 0.8);  // never rising beyond
+}
+
+TEST_CASE("decay with time 0 or share 0 is linear there and never negative", "[emergency][decay]") {
+  const std::vector<glm::dvec2> decay{{0, 1}, {10, 0.5}, {20, 0}};
+  CHECK(decay_share(decay, 0) == 1);
+  CHECK(decay_share(decay, 5) == Approx(0.75));
+  CHECK(decay_share(decay, 15) == Approx(0.25));
+  CHECK(decay_share(decay, 1000) == 0);
+  CHECK(decay_share({}, 100) == 1);
+  CHECK(decay_share({{5, 0.3}}, 100) == 0.3);
+}
+
+TEST_CASE("each operating state has its luminance, and a dark one leaves photoluminescence alone",
+          "[emergency][luminance]") {
+  Sign sign = facing_y();
+  const auto white = [&](Operation operation, double seconds = 0) {
+    return sign_luminance(sign, SignColour::white, operation, seconds, 1.0);
+  };
+  CHECK(white(Operation::mains) == 500);
+  CHECK(white(Operation::emergency) == 100);
+  CHECK(white(Operation::dark) == 0);
+  CHECK(sign_luminance(sign, SignColour::green, Operation::emergency, 0, 1) == 10);
+  CHECK(sign_luminance(sign, SignColour::other, Operation::mains, 0, 1) == 0);
+
+  sign.decay = decay_like_1_over_t;
+  CHECK(white(Operation::emergency, 600) == 100);  // lit from within: the table has no say
+  sign.lighting = SignLighting::photoluminescent;
+  CHECK(white(Operation::mains, 600) == 500);
+  CHECK(white(Operation::emergency, 600) == Approx(10));
+  CHECK(white(Operation::dark, 6000) == Approx(1));
+
+  sign.lighting = SignLighting::external;
+  CHECK(white(Operation::mains) == 0);
+}
+
+TEST_CASE("luminance falls with the cosine to the sign's exponent, and none goes backwards",
+          "[emergency][luminance]") {
+  Sign sign = facing_y();
+  const auto white = [&](double cosine) {
+    return sign_luminance(sign, SignColour::white, Operation::mains, 0, cosine);
+  };
+  CHECK(white(0.3) == 500);
+  CHECK(white(0.0) == 0);
+  CHECK(white(-0.3) == 0);
+  sign.angular_exponent = 2;
+  CHECK(white(0.5) == Approx(125));
+}
+
+TEST_CASE("a face's flux is the integral of its luminance over area and half space",
+          "[emergency][luminance]") {
+  Sign sign = facing_y();
+  sign.face = uniform_face(SignColour::white, 0.4, 0.2, 8).value();
+  // Half of the face green.
+  for (size_t i = 0; i < sign.face.colour.size() / 2; ++i) sign.face.colour[i] = SignColour::green;
+  for (double n : {0.0, 0.5, 1.0, 3.0}) {
+    sign.angular_exponent = n;
+    for (SignColour colour : {SignColour::white, SignColour::green}) {
+      // Midpoint rule over the polar angle; 4000 steps leave an error under 1e-6.
+      double flux_lm = 0;
+      const int steps = 4000;
+      for (int i = 0; i < steps; ++i) {
+        const double theta = (i + 0.5) / steps * std::numbers::pi / 2;
+        flux_lm += sign_luminance(sign, colour, Operation::mains, 0, std::cos(theta)) * 0.04 *
+                   std::cos(theta) * std::sin(theta) * 2 * std::numbers::pi *
+                   (std::numbers::pi / 2 / steps);
+      }
+      CHECK(face_flux_lm(sign, colour, Operation::mains, 0) == Approx(flux_lm).epsilon(1e-5));
+    }
+  }
+}
