@@ -1,0 +1,54 @@
+// Meshes from files of other programs: Wavefront OBJ and glTF 2.0 (.gltf, .glb), read through
+// Assimp, which appears in import.cpp only. Positions come out in metres with z up, node transforms
+// applied, faces cut into triangles, equal vertices joined, degenerate triangles dropped and
+// counted.
+//
+// Not read: normals (flat triangles are what is traced), lights, cameras, pictures, animation,
+// points and lines. Assimp keeps coordinates in single precision: files whose coordinates are so
+// far from their origin that this costs a centimetre are refused. Call from any thread; nothing is
+// shared.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "runtime/core/result.hpp"
+#include "scenes/geometry/mesh.hpp"
+#include "scenes/geometry/mesh_tools.hpp"
+#include "scenes/geometry/transform.hpp"
+
+namespace luxodus {
+
+struct ImportedPart {
+  std::string name;           // of the node or OBJ object; "#2", "#3" appended where names repeat
+  std::string material_name;  // "" where the file gives none
+  Mesh mesh;                  // texture coordinates where the file has them, v upwards
+  std::optional<glm::dvec3>
+      base_colour;                   // linear RGB in [0, 1]: glTF base colour, OBJ Kd as written
+  int64_t degenerate_triangles = 0;  // dropped; those of parts that had no others go to the first
+};
+
+namespace limits {
+/// Of each file that an import opens [bytes]; Assimp takes about five times that in memory.
+inline constexpr uint64_t mesh_file_bytes = 1ull << 30;
+/// Of one import, instances counted each time they are placed.
+inline constexpr uint64_t mesh_vertices = 100'000'000;
+inline constexpr uint64_t mesh_triangles = 100'000'000;
+inline constexpr uint64_t mesh_parts = 1'000'000;
+/// Largest step between neighbouring single-precision coordinates that is accepted [m].
+inline constexpr double mesh_coordinate_step_m = 0.01;
+}  // namespace limits
+
+/// One part per mesh and place in the file, in the file's order. `metres_per_unit` scales the
+/// file's numbers (1 for glTF, which is in metres); `up` is the file's upward axis (glTF: y).
+/// `files_read`, where given, gets the path of every file that was opened, for a hash of the scene.
+/// Errors: a missing, oversized, unreadable or unknown file, no triangles, a coordinate or colour
+/// that is not a number (by part and vertex), more than the limits.
+Result<std::vector<ImportedPart>> import_mesh(const std::string& path, double metres_per_unit,
+                                              UpAxis up,
+                                              std::vector<std::string>* files_read = nullptr);
+
+}  // namespace luxodus

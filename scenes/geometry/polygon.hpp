@@ -1,0 +1,32 @@
+// Simple polygons in the plane: checked and cut into triangles. Floor outlines and the profiles of
+// extruded bodies. Pure functions; any thread.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include "runtime/core/result.hpp"
+
+namespace luxodus {
+
+namespace limits {
+/// Checking takes the square of this, cutting up to the cube in the worst case: 2048 stays within
+/// seconds.
+inline constexpr size_t polygon_points = 2048;
+}  // namespace limits
+
+/// Shoelace area [m2]: positive for counter-clockwise outlines.
+double signed_area(std::span<const glm::dvec2> outline);
+
+/// The outline, counter-clockwise (reversed where it was not); the last point joins the first.
+/// Errors: fewer than 3 points, too many, a point that is not finite or repeats its neighbour, an
+/// outline that touches or crosses itself; points and edges are counted from 1.
+Result<std::vector<glm::dvec2>> checked_outline(std::span<const glm::dvec2> outline);
+
+/// n - 2 counter-clockwise triangles that use every point, also those on straight edges, so that
+/// what is built on the same outline meets it without a crack. Ear clipping (Meisters 1975).
+/// Requires: an outline from checked_outline. Errors: angles too flat for double precision.
+Result<std::vector<glm::uvec3>> triangulate(std::span<const glm::dvec2> outline);
+
+}  // namespace luxodus
