@@ -9,8 +9,9 @@ namespace {
 /// Second radiation constant h c / k [m K] (CODATA 2018, exact in the SI).
 constexpr double c2_m_k = 1.438776877e-2;
 
-/// Integral of t^power / (e^t - 1) from x to infinity, as the sum over n of that of t^power e^(-n t). Each term
-/// is Gamma(power + 1, n x) / n^(power + 1); x above 1 here, so that 40 terms leave under e^-40.
+/// Integral of t^power / (e^t - 1) from x to infinity, as the sum over n of that of t^power e^(-n
+/// t). Each term is Gamma(power + 1, n x) / n^(power + 1); x above 1 here, so that 40 terms leave
+/// under e^-40.
 double planck_tail(double x, int power) {
   double sum = 0;
   for (int n = 1; n <= 40; ++n) {
@@ -35,8 +36,8 @@ FlameSpectrum flame_spectrum(double kelvin, bool soot) {
     const double t = c2_m_k / (w * 1e-9 * kelvin);
     // Relative to 560 nm, so that 600 K does not underflow.
     const double t0 = c2_m_k / (560e-9 * kelvin);
-    const double planck = std::pow(w / 560, -5) * std::exp(t0 - t) * -std::expm1(-t0) /
-                          -std::expm1(-t);
+    const double planck =
+        std::pow(w / 560, -5) * std::exp(t0 - t) * -std::expm1(-t0) / -std::expm1(-t);
     f.shape.value[static_cast<size_t>(i)] = soot ? planck * 560 / w : planck;
   }
   f.shape = f.shape * (1 / f.shape.integral());

@@ -17,7 +17,9 @@ std::string shown(double v) {
   return text;
 }
 
-std::string quoted(std::string_view key) { return "'" + std::string(key) + "'"; }
+std::string in_quotes(std::string_view key) {
+  return "'" + std::string(key) + "'";
+}
 
 std::string with_unit(const KeySpec& spec) {
   return spec.unit.empty() ? std::string() : " " + std::string(spec.unit);
@@ -65,16 +67,24 @@ SourcePlace place_of(const toml::node& node, const SourcePlace& fallback) {
 
 std::string kind_of(const toml::node& node) {
   switch (node.type()) {
-    case toml::node_type::table: return "a table";
-    case toml::node_type::array: return "an array";
-    case toml::node_type::string: return "a text";
-    case toml::node_type::integer: return "an integer";
-    case toml::node_type::floating_point: return "a number";
-    case toml::node_type::boolean: return "true or false";
+    case toml::node_type::table:
+      return "a table";
+    case toml::node_type::array:
+      return "an array";
+    case toml::node_type::string:
+      return "a text";
+    case toml::node_type::integer:
+      return "an integer";
+    case toml::node_type::floating_point:
+      return "a number";
+    case toml::node_type::boolean:
+      return "true or false";
     case toml::node_type::date:
     case toml::node_type::time:
-    case toml::node_type::date_time: return "a date or time";
-    case toml::node_type::none: break;
+    case toml::node_type::date_time:
+      return "a date or time";
+    case toml::node_type::none:
+      break;
   }
   return "nothing";
 }
@@ -103,10 +113,10 @@ KeyReader::KeyReader(const toml::table& table, const std::vector<std::string>& s
     if (specs_.count(name) > 0) continue;
     SourcePlace at = place_of(value, place_);
     if (key.source().begin.line > 0) at.line = static_cast<int>(key.source().begin.line);
-    std::string what = "unknown key " + quoted(name);
+    std::string what = "unknown key " + in_quotes(name);
     const auto near = nearest_word(name, known);
     if (near) {
-      what += "; did you mean " + quoted(*near) + "?";
+      what += "; did you mean " + in_quotes(*near) + "?";
       values_.emplace(*near, &value);  // no effect where the right key stands too
     } else {
       what += "; known here:";
@@ -155,7 +165,7 @@ void KeyReader::problem(const std::string& what) {
 const toml::node* KeyReader::needed(const KeySpec& s) {
   const toml::node* n = find(s.name);
   if (!n && s.fallback == "required") {
-    problem("the key " + quoted(s.name) + " is missing: " + std::string(s.meaning));
+    problem("the key " + in_quotes(s.name) + " is missing: " + std::string(s.meaning));
   }
   return n;
 }
@@ -163,7 +173,7 @@ const toml::node* KeyReader::needed(const KeySpec& s) {
 void KeyReader::wrong_type(const KeySpec& s, const toml::node& n, const char* should) {
   clean_ = false;
   reading_.problem(place_of(n, place_),
-                   quoted(s.name) + " must be " + should + ", not " + kind_of(n));
+                   in_quotes(s.name) + " must be " + should + ", not " + kind_of(n));
 }
 
 std::optional<double> KeyReader::default_number(std::string_view key) const {
@@ -189,7 +199,7 @@ std::optional<double> KeyReader::checked(std::string_view key, const toml::node&
                                          const char* what) {
   const KeySpec& s = spec(key);
   const auto v = number_in(n);
-  const std::string subject = quoted(key) + what;
+  const std::string subject = in_quotes(key) + what;
   if (!v) {
     clean_ = false;
     reading_.problem(place_of(n, place_), subject + " must be a number, not " + kind_of(n));
@@ -199,7 +209,8 @@ std::optional<double> KeyReader::checked(std::string_view key, const toml::node&
   if (!std::isfinite(*v)) {
     wrong = subject + " must be a finite number, not " + shown(*v);
   } else if (const auto range = interval_of(s.range); range && !range->holds(*v)) {
-    wrong = subject + " is " + shown(*v) + " but must lie in " + std::string(s.range) + with_unit(s);
+    wrong =
+        subject + " is " + shown(*v) + " but must lie in " + std::string(s.range) + with_unit(s);
   }
   if (wrong.empty()) return v;
   clean_ = false;
@@ -260,20 +271,22 @@ std::optional<std::string> KeyReader::maybe_text(std::string_view key) {
   }
   const std::string& value = t->get();
   if (s.type == "name" && !is_good_name(value)) {
-    problem(key, quoted(key) + " must be 1 to " + std::to_string(scene_limits::name_chars) +
+    problem(key, in_quotes(key) + " must be 1 to " + std::to_string(scene_limits::name_chars) +
                      " characters without control characters, quotes, slashes, a leading dot or "
                      "outer spaces");
     return std::nullopt;
   }
   if (value.size() > scene_limits::list_values) {
-    problem(key, quoted(key) + " is longer than " + std::to_string(scene_limits::list_values) +
+    problem(key, in_quotes(key) + " is longer than " + std::to_string(scene_limits::list_values) +
                      " characters");
     return std::nullopt;
   }
   return value;
 }
 
-std::string KeyReader::text(std::string_view key) { return maybe_text(key).value_or(""); }
+std::string KeyReader::text(std::string_view key) {
+  return maybe_text(key).value_or("");
+}
 
 std::optional<std::string> KeyReader::maybe_choice(std::string_view key) {
   const KeySpec& s = spec(key, "choice");
@@ -298,7 +311,8 @@ std::optional<std::string> KeyReader::maybe_choice(std::string_view key) {
     if (w == t->get()) return t->get();
     known.emplace_back(w);
   }
-  std::string what = quoted(key) + " is \"" + t->get() + "\" but must be one of " + list_words(s.range);
+  std::string what =
+      in_quotes(key) + " is \"" + t->get() + "\" but must be one of " + list_words(s.range);
   if (const auto near = nearest_word(t->get(), known)) what += "; did you mean \"" + *near + "\"?";
   problem(key, what);
   return std::nullopt;
@@ -321,9 +335,8 @@ std::optional<std::vector<double>> KeyReader::components(const KeySpec& s, size_
   if (!a || a->size() != count) {
     clean_ = false;
     reading_.problem(place_of(*n, place_),
-                     quoted(s.name) + " must be a list of " + std::to_string(count) +
-                         " numbers, not " +
-                         (a ? "of " + std::to_string(a->size()) : kind_of(*n)));
+                     in_quotes(s.name) + " must be a list of " + std::to_string(count) +
+                         " numbers, not " + (a ? "of " + std::to_string(a->size()) : kind_of(*n)));
     return std::nullopt;
   }
   std::vector<double> out;
@@ -358,7 +371,7 @@ std::optional<glm::dvec3> KeyReader::maybe_direction(std::string_view key) {
   if (!c) return std::nullopt;
   const glm::dvec3 v((*c)[0], (*c)[1], (*c)[2]);
   if (glm::length(v) < 1e-9) {
-    problem(key, quoted(key) + " must not be the zero vector");
+    problem(key, in_quotes(key) + " must not be the zero vector");
     return std::nullopt;
   }
   return glm::normalize(v);
@@ -377,7 +390,7 @@ const toml::array* KeyReader::list(const KeySpec& s) {
     return nullptr;
   }
   if (a->size() > scene_limits::list_values) {
-    problem(s.name, quoted(s.name) + " has " + std::to_string(a->size()) + " values; at most " +
+    problem(s.name, in_quotes(s.name) + " has " + std::to_string(a->size()) + " values; at most " +
                         std::to_string(scene_limits::list_values) + " are allowed");
     return nullptr;
   }
@@ -440,14 +453,15 @@ std::vector<glm::dvec2> KeyReader::rows(const KeySpec& s, bool range_of_both) {
     const toml::array* row = e.as_array();
     if (!row || row->size() != 2) {
       clean_ = false;
-      reading_.problem(place_of(e, place_), quoted(key) + " must be a list of rows of two numbers");
+      reading_.problem(place_of(e, place_),
+                       in_quotes(key) + " must be a list of rows of two numbers");
       return {};
     }
     const auto first = number_in((*row)[0]);
     if (!first || !std::isfinite(*first)) {
       clean_ = false;
       reading_.problem(place_of((*row)[0], place_),
-                       quoted(key) + " must hold finite numbers, not " +
+                       in_quotes(key) + " must hold finite numbers, not " +
                            (first ? shown(*first) : kind_of((*row)[0])));
       return {};
     }
@@ -463,11 +477,12 @@ std::string KeyReader::exactly_one(std::initializer_list<std::string_view> keys,
   std::string given, all;
   int count = 0;
   for (const auto k : keys) {
-    all += (all.empty() ? "" : ", ") + quoted(k);
+    all += (all.empty() ? "" : ", ") + in_quotes(k);
     if (!has(k)) continue;
     ++count;
     if (count == 2) {
-      problem(k, quoted(k) + " and " + quoted(given) + " say the same thing; keep one of them");
+      problem(k,
+              in_quotes(k) + " and " + in_quotes(given) + " say the same thing; keep one of them");
     }
     if (count == 1) given = k;
   }
@@ -496,7 +511,7 @@ std::string table_choice(const toml::table& table, std::string_view spec, std::s
     const auto* t = table[key].as_string();
     const auto words = words_of(k.range);
     return t && std::find(words.begin(), words.end(), t->get()) != words.end() ? t->get()
-                                                                             : std::string();
+                                                                               : std::string();
   }
   throw std::logic_error("no key '" + std::string(key) + "' in table " + std::string(spec));
 }

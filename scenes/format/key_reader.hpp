@@ -1,9 +1,12 @@
-// Reads the keys of one TOML table as its TableSpec describes them: checks type, range and finiteness, fills
-// in defaults, resolves paths, and reports each mistake once, with its line. A misspelt key is reported and
-// then read as the key it was meant to be, so that one slip does not become three problems. After a mistake
-// the methods return some value within the key's range, so that reading can go on and find the rest.
-// Single-threaded; holds references to the parsed document and to the SceneReading.
+// Reads the keys of one TOML table as its TableSpec describes them: checks type, range and
+// finiteness, fills in defaults, resolves paths, and reports each mistake once, with its line. A
+// misspelt key is reported and then read as the key it was meant to be, so that one slip does not
+// become three problems. After a mistake the methods return some value within the key's range, so
+// that reading can go on and find the rest. Single-threaded; holds references to the parsed
+// document and to the SceneReading.
 #pragma once
+
+#include <toml++/toml.h>
 
 #include <cstdint>
 #include <filesystem>
@@ -13,7 +16,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <toml++/toml.h>
 #include <utility>
 #include <vector>
 
@@ -33,8 +35,8 @@ std::optional<double> number_in(const toml::node& node);
 class KeyReader {
  public:
   /// Reports every key that none of the specs knows. `specs` are names of the schema.
-  KeyReader(const toml::table& table, const std::vector<std::string>& specs,
-            SceneReading& reading, const SourcePlace& fallback = {});
+  KeyReader(const toml::table& table, const std::vector<std::string>& specs, SceneReading& reading,
+            const SourcePlace& fallback = {});
 
   const SourcePlace& place() const { return place_; }
   /// Of a key's value; of the table where the key is absent.
@@ -100,7 +102,8 @@ class KeyReader {
   std::optional<std::string> default_text(std::string_view key) const;
 
   /// Checks a number against finiteness and the key's range.
-  std::optional<double> checked(std::string_view key, const toml::node& node, const char* what = "");
+  std::optional<double> checked(std::string_view key, const toml::node& node,
+                                const char* what = "");
 
  private:
   const toml::node* find(std::string_view key) const;
@@ -122,12 +125,14 @@ class KeyReader {
   bool clean_ = true;
 };
 
-/// The word of the choice `key` of a table, before a KeyReader exists: it decides which further specs hold.
+/// The word of the choice `key` of a table, before a KeyReader exists: it decides which further
+/// specs hold.
 /// "" where it is absent without default, or none of the words; nothing is reported.
 std::string table_choice(const toml::table& table, std::string_view spec, std::string_view key);
 
-/// A reader with the keys of `base` and of `base.KIND`, where KIND is the choice `key`, reported where wrong
-/// or missing; of all kinds where it is, so that their keys are not called unknown. Fills in `kind`.
+/// A reader with the keys of `base` and of `base.KIND`, where KIND is the choice `key`, reported
+/// where wrong or missing; of all kinds where it is, so that their keys are not called unknown.
+/// Fills in `kind`.
 KeyReader kind_reader(const toml::table& table, const std::string& base, std::string_view key,
                       SceneReading& reading, std::string& kind);
 

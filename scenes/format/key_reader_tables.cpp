@@ -3,7 +3,9 @@
 
 namespace luxodus {
 
-const toml::node* KeyReader::node(std::string_view key) { return needed(spec(key)); }
+const toml::node* KeyReader::node(std::string_view key) {
+  return needed(spec(key));
+}
 
 const toml::table* KeyReader::table(std::string_view key) {
   const KeySpec& s = spec(key, "table");

@@ -1,5 +1,5 @@
-// The files that a scene file names: read once each, hashed, their problems taken over. Nothing is returned
-// where a file could not be read; the problem is then in the SceneReading.
+// The files that a scene file names: read once each, hashed, their problems taken over. Nothing is
+// returned where a file could not be read; the problem is then in the SceneReading.
 #pragma once
 
 #include <filesystem>

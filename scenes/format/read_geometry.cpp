@@ -13,7 +13,9 @@ namespace luxodus {
 
 namespace {
 
-void move_by(Mesh& mesh, const glm::dvec3& offset) { apply(translation(offset), mesh); }
+void move_by(Mesh& mesh, const glm::dvec3& offset) {
+  apply(translation(offset), mesh);
+}
 
 Result<int> segments_of(KeyReader& keys, const char* radius) {
   return shapes::segments_within(keys.number(radius), keys.number("bound_m"));
@@ -107,9 +109,9 @@ Result<Shape> climbing_shape(KeyReader& keys, bool ramp) {
   if (ramp) {
     const double length = keys.number("length");
     if (!keys.clean()) return Problem{};
-    return shapes::ramp(length, width, rise,
-                        underside == "none" ? shapes::RampUnderside::none
-                                            : shapes::RampUnderside::solid);
+    return shapes::ramp(
+        length, width, rise,
+        underside == "none" ? shapes::RampUnderside::none : shapes::RampUnderside::solid);
   }
   const int steps = static_cast<int>(keys.integer("steps"));
   const double going = keys.number("going");
@@ -152,8 +154,8 @@ void read_room(KeyReader& keys, const Object& common, const SurfaceWords& words,
   }
   for (const auto& face : omit) {
     if (faces.erase(face) == 0) {
-      keys.problem("omit", "a room has no face '" + face +
-                               "'; it has floor, ceiling, x0, x1, y0, y1");
+      keys.problem("omit",
+                   "a room has no face '" + face + "'; it has floor, ceiling, x0, x1, y0, y1");
     }
   }
   if (keys.clean() && !glm::all(glm::lessThan(low, high))) {
@@ -205,7 +207,8 @@ void read_object(const toml::table& table, SceneReading& reading) {
       adopt_problem(keys, shape.problem());
     }
   }
-  // A material that was not given has been reported as missing; only the name must be known from here on.
+  // A material that was not given has been reported as missing; only the name must be known from
+  // here on.
   if (words.material.empty() || !keys.clean()) {
     reading.note("object or tag", object.name, object.place);
     for (const auto& tag : object.tags) reading.note("object or tag", tag, object.place);

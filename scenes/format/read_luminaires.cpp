@@ -1,4 +1,5 @@
 // Luminaires of photometric files and emitters of simple shape.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -15,7 +16,8 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// Fluxes of both states from the rated flux: E = rated x factors, each stated in the file, none guessed.
+/// Fluxes of both states from the rated flux: E = rated x factors, each stated in the file, none
+/// guessed.
 void read_operation(KeyReader& keys, Emitter& e, double rated) {
   if (const auto circuit = keys.maybe_text("circuit")) {
     e.circuit = *circuit;
@@ -34,8 +36,9 @@ void read_operation(KeyReader& keys, Emitter& e, double rated) {
   if (emergency == "false") {
     for (const char* key : {"emergency_flux", "emergency_factor", "end_of_duration_factor"}) {
       if (keys.has(key)) {
-        keys.problem(key, "'" + std::string(key) + "' is given, but 'emergency' is not; say "
-                                                   "\"maintained\" or \"non-maintained\"");
+        keys.problem(key, "'" + std::string(key) +
+                              "' is given, but 'emergency' is not; say "
+                              "\"maintained\" or \"non-maintained\"");
         break;
       }
     }
@@ -56,8 +59,8 @@ void read_body(KeyReader& keys, Emitter& e) {
   }
 }
 
-/// The emitting shape of a file's luminous opening: what it shows below. Lying tubes and boxes become their
-/// rectangle, upright cylinders their disc; a line is 1 mm wide.
+/// The emitting shape of a file's luminous opening: what it shows below. Lying tubes and boxes
+/// become their rectangle, upright cylinders their disc; a line is 1 mm wide.
 void take_opening(const LuminousOpening& opening, Emitter& e) {
   using Shape = LuminousOpening::Shape;
   constexpr double line_m = 1e-3;
@@ -66,8 +69,8 @@ void take_opening(const LuminousOpening& opening, Emitter& e) {
   if (opening.shape == Shape::point || largest < line_m) return;
   if (opening.shape == Shape::sphere) {
     e.shape = EmitterShape::sphere;
-    e.size.x = std::cbrt(std::max(size.x, line_m) * std::max(size.y, line_m) *
-                         std::max(size.z, line_m));
+    e.size.x =
+        std::cbrt(std::max(size.x, line_m) * std::max(size.y, line_m) * std::max(size.z, line_m));
     return;
   }
   const double x = std::max(size.x, line_m), y = std::max(size.y, line_m);
@@ -104,8 +107,8 @@ void read_distribution(KeyReader& keys, Emitter& e) {
   if (word == "spot" && e.spot_inner_deg > e.spot_outer_deg) {
     keys.problem("spot_inner_deg", "'spot_inner_deg' must not exceed 'spot_outer_deg'");
   }
-  const bool directed = e.distribution == Distribution::spot ||
-                        e.distribution == Distribution::collimated;
+  const bool directed =
+      e.distribution == Distribution::spot || e.distribution == Distribution::collimated;
   const bool flat = e.shape == EmitterShape::point || e.shape == EmitterShape::rectangle ||
                     e.shape == EmitterShape::disc;
   if (directed && !flat) {
@@ -155,12 +158,18 @@ void read_shape(KeyReader& keys, Emitter& e, const std::string& kind) {
 /// Luminous area [m2]; of a tube its side alone.
 double area_of(const Emitter& e) {
   switch (e.shape) {
-    case EmitterShape::point: return 0;
-    case EmitterShape::rectangle: return e.size.x * e.size.y;
-    case EmitterShape::disc: return pi * e.size.x * e.size.x / 4;
-    case EmitterShape::sphere: return pi * e.size.x * e.size.x;
-    case EmitterShape::tube: return pi * e.size.x * e.size.y;
-    case EmitterShape::mesh: return area_of(e.mesh);
+    case EmitterShape::point:
+      return 0;
+    case EmitterShape::rectangle:
+      return e.size.x * e.size.y;
+    case EmitterShape::disc:
+      return pi * e.size.x * e.size.x / 4;
+    case EmitterShape::sphere:
+      return pi * e.size.x * e.size.x;
+    case EmitterShape::tube:
+      return pi * e.size.x * e.size.y;
+    case EmitterShape::mesh:
+      return area_of(e.mesh);
   }
   return 0;
 }

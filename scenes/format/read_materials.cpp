@@ -16,9 +16,10 @@ void read_glossy(KeyReader& keys, Material& m) {
     const double sum = m.reflectance.value[s] + m.specular.value[s];
     if (sum <= 1 + 1e-9) continue;
     char text[160];
-    std::snprintf(text, sizeof text,
-                  "'reflectance' + 'specular' is %.4g at %.0f nm; a surface cannot reflect more than 1",
-                  sum, Spectrum::wavelength_nm(i));
+    std::snprintf(
+        text, sizeof text,
+        "'reflectance' + 'specular' is %.4g at %.0f nm; a surface cannot reflect more than 1", sum,
+        Spectrum::wavelength_nm(i));
     keys.problem("specular", text);
     return;
   }

@@ -17,7 +17,8 @@ namespace {
 
 constexpr double ln10 = std::numbers::ln10;
 constexpr double metres_per_foot = 0.3048;
-/// Specific extinction of flaming fires' soot at 633 nm [m2/kg], mean of 29 fuels (Mulholland and Croarkin).
+/// Specific extinction of flaming fires' soot at 633 nm [m2/kg], mean of 29 fuels (Mulholland and
+/// Croarkin).
 constexpr double flaming_mass_extinction = 8700;
 
 /// Extinction [1/m] of the key that was used, by the definitions T = exp(-K d) = 10^(-OD d).
@@ -30,8 +31,9 @@ double extinction_of(KeyReader& keys, const std::string& given, const std::strin
   if (given == "percent_per_ft") return -std::log1p(-value / 100) / metres_per_foot;
   const auto own = keys.maybe_number("mass_extinction");
   if (!own && !keys.has("mass_extinction") && smoke != "flaming") {
-    keys.problem("'mass_extinction' [m2/kg] is needed with 'soot_density'; only smoke = \"flaming\" has "
-                 "a default (8700)");
+    keys.problem(
+        "'mass_extinction' [m2/kg] is needed with 'soot_density'; only smoke = \"flaming\" has "
+        "a default (8700)");
   }
   return value * own.value_or(flaming_mass_extinction);
 }
@@ -39,10 +41,9 @@ double extinction_of(KeyReader& keys, const std::string& given, const std::strin
 Extinction read_extinction(KeyReader& keys) {
   Extinction e;
   const std::string smoke = keys.maybe_choice("smoke").value_or("");
-  const std::string given =
-      keys.exactly_one({"extinction", "od_per_m", "db_per_m", "percent_per_m", "percent_per_ft",
-                        "soot_density", "extinction_table"},
-                       true);
+  const std::string given = keys.exactly_one({"extinction", "od_per_m", "db_per_m", "percent_per_m",
+                                              "percent_per_ft", "soot_density", "extinction_table"},
+                                             true);
   e.wavelength_nm = keys.number("wavelength_nm");
   e.angstrom = keys.maybe_number("angstrom").value_or(smoke == "flaming" ? 1 : 0);
   if (given != "soot_density" && keys.has("mass_extinction")) {
@@ -75,7 +76,8 @@ Phase read_phase(KeyReader& keys) {
   if (word == "hg") {
     phase.kind = PhaseKind::henyey_greenstein;
     phase.g = g.value_or(0);
-    if (!keys.has("g")) keys.problem("the key 'g' is missing: phase = \"hg\" needs its mean cosine");
+    if (!keys.has("g"))
+      keys.problem("the key 'g' is missing: phase = \"hg\" needs its mean cosine");
   }
   if (word != "table") return phase;
   phase.kind = PhaseKind::tabulated;
@@ -93,7 +95,8 @@ Phase read_phase(KeyReader& keys) {
   }
   if (!keys.clean()) return phase;
   if (rows.size() < 2 || !ascending || rows.front().x != -1 || rows.back().x != 1) {
-    keys.problem("phase_table", "'phase_table' needs ascending cosines, the first -1 and the last 1");
+    keys.problem("phase_table",
+                 "'phase_table' needs ascending cosines, the first -1 and the last 1");
   } else if (!(sum > 0)) {
     keys.problem("phase_table", "'phase_table' scatters nothing anywhere");
   }
@@ -163,9 +166,8 @@ void read_layers(KeyReader& keys, Medium& m) {
     layers.push_back({std::move(l), layer.place()});
   }
   if (keys.clean() && layers.empty()) keys.problem("a layered medium needs a [[medium.layer]]");
-  std::stable_sort(layers.begin(), layers.end(), [](const Placed& a, const Placed& b) {
-    return a.layer.z_low < b.layer.z_low;
-  });
+  std::stable_sort(layers.begin(), layers.end(),
+                   [](const Placed& a, const Placed& b) { return a.layer.z_low < b.layer.z_low; });
   for (size_t i = 1; good && i < layers.size(); ++i) {
     if (layers[i].layer.z_low >= layers[i - 1].layer.z_high) continue;
     keys.reading().problem(layers[i].place, "this layer overlaps the one at line " +

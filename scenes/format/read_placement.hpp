@@ -1,4 +1,5 @@
-// Where things stand: transforms of objects, frames of luminaires, and handing an object to the scene.
+// Where things stand: transforms of objects, frames of luminaires, and handing an object to the
+// scene.
 #pragma once
 
 #include "scenes/format/key_reader.hpp"

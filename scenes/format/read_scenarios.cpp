@@ -82,8 +82,9 @@ void read_run(const toml::table& table, SceneReading& reading) {
                          }) == edges.end();
   if (edges.size() < 2 || edges.size() > 65 || !ascending || edges.front() != spectrum_first_nm ||
       edges.back() != spectrum_last_nm) {
-    keys.problem("band_edges_nm",
-                 "'band_edges_nm' must be 2 to 65 ascending wavelengths, the first 380 and the last 780");
+    keys.problem(
+        "band_edges_nm",
+        "'band_edges_nm' must be 2 to 65 ascending wavelengths, the first 380 and the last 780");
   }
 }
 

@@ -28,7 +28,8 @@ Result<SignFace> drawn_face(const std::filesystem::path& path, const Sign& sign,
   const std::string extension = lower_extension(path);
   if (extension == ".svg") return face_from_svg(path, sign.width_m, sign.height_m, texels);
   if (extension == ".png") return face_from_png(path, sign.width_m, sign.height_m, texels);
-  return Problem{{}, "a pictogram is an .svg or a .png file, not '" + path.filename().string() + "'"};
+  return Problem{{},
+                 "a pictogram is an .svg or a .png file, not '" + path.filename().string() + "'"};
 }
 
 void read_face(KeyReader& keys, Sign& sign) {
@@ -51,8 +52,9 @@ void read_face(KeyReader& keys, Sign& sign) {
     }
   }
   if (!given.empty() && given != "text" && !keys.has("smallest_detail")) {
-    keys.problem("'smallest_detail' [m] is needed where the face is no 'text': what must be seen to "
-                 "understand the sign?");
+    keys.problem(
+        "'smallest_detail' [m] is needed where the face is no 'text': what must be seen to "
+        "understand the sign?");
   }
   sign.smallest_detail_m = detail.value_or(stroke);
   if (!keys.clean()) return;
@@ -73,7 +75,8 @@ void read_face(KeyReader& keys, Sign& sign) {
   const auto image = read_image(*map, keys.place("luminance_map"), keys.reading());
   if (!image) return;
   auto with_map = with_luminance_map(std::move(sign.face), *image);
-  if (!with_map) return take_problem(with_map.problem(), keys.place("luminance_map"), keys.reading());
+  if (!with_map)
+    return take_problem(with_map.problem(), keys.place("luminance_map"), keys.reading());
   sign.face = std::move(with_map).value();
 }
 
@@ -96,8 +99,9 @@ void read_luminances(KeyReader& keys, Sign& sign) {
     sign.lighting = SignLighting::external;
     for (const char* key : {"mains_white", "mains_green", "emergency_white", "emergency_green"}) {
       if (keys.has(key)) {
-        keys.problem(key, "'" + std::string(key) + "' is given, but an externally lit sign shows only "
-                                                   "what falls on it");
+        keys.problem(key, "'" + std::string(key) +
+                              "' is given, but an externally lit sign shows only "
+                              "what falls on it");
         break;
       }
     }
@@ -111,7 +115,8 @@ void read_luminances(KeyReader& keys, Sign& sign) {
   }
   sign.lighting = SignLighting::photoluminescent;
   if (!keys.has("decay")) {
-    keys.problem("the key 'decay' is missing: rows [seconds after failure, share of the luminance]");
+    keys.problem(
+        "the key 'decay' is missing: rows [seconds after failure, share of the luminance]");
   } else if (keys.clean()) {
     bool good = sign.decay.size() >= 2 && sign.decay.front().x == 0;
     for (size_t i = 1; i < sign.decay.size(); ++i) good &= sign.decay[i].x > sign.decay[i - 1].x;
@@ -141,7 +146,8 @@ void read_sign(const toml::table& table, SceneReading& reading) {
   const glm::dvec3 up = keys.direction("up");
   if (facing && keys.clean()) {
     if (glm::length(glm::cross(*facing, up)) < 1e-6) {
-      keys.problem("up", "'up' must not be parallel to 'facing'; a sign that lies flat must say it");
+      keys.problem("up",
+                   "'up' must not be parallel to 'facing'; a sign that lies flat must say it");
     } else if (auto frame = frame_facing(position, *facing, up)) {
       sign.frame = frame.value();
     } else {
@@ -149,8 +155,8 @@ void read_sign(const toml::table& table, SceneReading& reading) {
     }
   }
   sign.white_shape = emission_shape(keys, "white_spectrum");
-  sign.green_shape = keys.has("green_spectrum") ? emission_shape(keys, "green_spectrum")
-                                                : safety_green_shape();
+  sign.green_shape =
+      keys.has("green_spectrum") ? emission_shape(keys, "green_spectrum") : safety_green_shape();
   sign.white_reflectance = property(keys, "white_reflectance");
   sign.green_reflectance = property(keys, "green_reflectance");
   read_luminances(keys, sign);

@@ -9,18 +9,20 @@ namespace luxodus {
 
 namespace {
 
-constexpr double absolute_cold_k = 500;     // below, the visible share underflows all use
+constexpr double absolute_cold_k = 500;  // below, the visible share underflows all use
 constexpr double absolute_hot_k = 100'000;
 constexpr double led_cold_k = 2700, led_hot_k = 6500;  // what white_led_shape is made for
 
-std::string quoted(std::string_view key) { return "'" + std::string(key) + "'"; }
+std::string in_quotes(std::string_view key) {
+  return "'" + std::string(key) + "'";
+}
 
 /// Rows [[nm, value], ...] of a spectrum, wavelengths ascending.
 std::optional<std::vector<glm::dvec2>> rows_of(KeyReader& keys, std::string_view key,
                                                const toml::array& array) {
   std::vector<glm::dvec2> rows;
   const std::string form =
-      quoted(key) + " as a spectrum is a list of at least two rows [wavelength in nm, value]";
+      in_quotes(key) + " as a spectrum is a list of at least two rows [wavelength in nm, value]";
   if (array.size() < 2 || array.size() > scene_limits::list_values) {
     keys.problem(key, form);
     return std::nullopt;
@@ -33,13 +35,13 @@ std::optional<std::vector<glm::dvec2>> rows_of(KeyReader& keys, std::string_view
       return std::nullopt;
     }
     if (!(*nm >= 100 && *nm <= 20'000)) {
-      keys.problem(key, quoted(key) + " has a wavelength outside [100, 20000] nm");
+      keys.problem(key, in_quotes(key) + " has a wavelength outside [100, 20000] nm");
       return std::nullopt;
     }
     const auto value = keys.checked(key, (*row)[1]);
     if (!value) return std::nullopt;
     if (!rows.empty() && !(*nm > rows.back().x)) {
-      keys.problem(key, quoted(key) + " must have ascending wavelengths");
+      keys.problem(key, in_quotes(key) + " must have ascending wavelengths");
       return std::nullopt;
     }
     rows.emplace_back(*nm, *value);
@@ -55,15 +57,15 @@ std::optional<std::array<double, 3>> colour_of(KeyReader& keys, std::string_view
   const toml::node* given = srgb ? srgb : linear;
   const toml::array* a = given ? given->as_array() : nullptr;
   if (table.size() != 1 || !a || a->size() != 3) {
-    keys.problem(key, quoted(key) +
-                          " as a colour is { srgb = [r, g, b] } or { linear_rgb = [r, g, b] }");
+    keys.problem(
+        key, in_quotes(key) + " as a colour is { srgb = [r, g, b] } or { linear_rgb = [r, g, b] }");
     return std::nullopt;
   }
   std::array<double, 3> rgb{};
   for (size_t i = 0; i < 3; ++i) {
     const auto v = number_in((*a)[i]);
     if (!v || !(*v >= 0 && *v <= 1)) {
-      keys.problem(key, quoted(key) + " must have colour values in [0, 1]");
+      keys.problem(key, in_quotes(key) + " must have colour values in [0, 1]");
       return std::nullopt;
     }
     rgb[i] = srgb ? linear_from_srgb(*v) : *v;
@@ -88,14 +90,15 @@ std::optional<Spectrum> named_shape(KeyReader& keys, std::string_view key, std::
   const bool led = text.substr(0, 4) == "led ";
   const auto kelvin = kelvin_of(led ? text.substr(4) : text);
   if (!kelvin) {
-    keys.problem(key, quoted(key) + " is \"" + std::string(text) +
-                          "\" but must be \"A\", \"D65\", \"E\", \"2700 K\", \"led 4000 K\", a colour "
-                          "table, or rows [nm, value]");
+    keys.problem(key,
+                 in_quotes(key) + " is \"" + std::string(text) +
+                     "\" but must be \"A\", \"D65\", \"E\", \"2700 K\", \"led 4000 K\", a colour "
+                     "table, or rows [nm, value]");
     return std::nullopt;
   }
   const double low = led ? led_cold_k : absolute_cold_k, high = led ? led_hot_k : absolute_hot_k;
   if (!(*kelvin >= low && *kelvin <= high)) {
-    keys.problem(key, quoted(key) + (led ? " of an LED" : " of a black body") +
+    keys.problem(key, in_quotes(key) + (led ? " of an LED" : " of a black body") +
                           " needs a temperature in [" + std::to_string(static_cast<int>(low)) +
                           ", " + std::to_string(static_cast<int>(high)) + "] K");
     return std::nullopt;
@@ -109,14 +112,15 @@ std::optional<Spectrum> shape_of(KeyReader& keys, std::string_view key, const to
     const auto rgb = colour_of(keys, key, *table);
     if (!rgb) return std::nullopt;
     if ((*rgb)[0] + (*rgb)[1] + (*rgb)[2] <= 0) {
-      keys.problem(key, quoted(key) + " must not be black: it has no colour to shine in");
+      keys.problem(key, in_quotes(key) + " must not be black: it has no colour to shine in");
       return std::nullopt;
     }
     return emission_shape_from_linear_srgb((*rgb)[0], (*rgb)[1], (*rgb)[2]);
   }
   const auto* array = n.as_array();
   if (!array) {
-    keys.problem(key, quoted(key) + " must be the name of a spectrum, a colour, or rows [nm, value], not " +
+    keys.problem(key, in_quotes(key) +
+                          " must be the name of a spectrum, a colour, or rows [nm, value], not " +
                           kind_of(n));
     return std::nullopt;
   }
@@ -125,7 +129,7 @@ std::optional<Spectrum> shape_of(KeyReader& keys, std::string_view key, const to
   Spectrum s = emission_through(*rows);
   const double total = s.integral();
   if (!(total > 0)) {
-    keys.problem(key, quoted(key) + " emits nothing between 380 and 780 nm");
+    keys.problem(key, in_quotes(key) + " emits nothing between 380 and 780 nm");
     return std::nullopt;
   }
   return s * (1 / total);
@@ -177,12 +181,13 @@ Spectrum emission_through(const std::vector<glm::dvec2>& rows) {
 
 std::optional<Spectrum> maybe_property(KeyReader& keys, std::string_view key) {
   const toml::node* n = keys.node(key);
-  if (!n) return keys.default_number(key) ? std::optional(Spectrum::constant(*keys.default_number(key)))
-                                          : std::nullopt;
+  if (!n)
+    return keys.default_number(key) ? std::optional(Spectrum::constant(*keys.default_number(key)))
+                                    : std::nullopt;
   if (const auto* text = n->as_string()) {
     const auto grey = named_grey(text->get());
     if (grey) return Spectrum::constant(*grey);
-    keys.problem(key, quoted(key) + " is \"" + text->get() +
+    keys.problem(key, in_quotes(key) + " is \"" + text->get() +
                           "\"; a text here names a grey, such as \"grey50\" or \"white80\"");
     return std::nullopt;
   }

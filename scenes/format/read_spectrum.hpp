@@ -1,5 +1,6 @@
-// Spectra as a scene file writes them: properties (reflectances, albedos, transmittances) and shapes of
-// emission. The forms are listed in README.md. Plain functions; single-threaded like the KeyReader.
+// Spectra as a scene file writes them: properties (reflectances, albedos, transmittances) and
+// shapes of emission. The forms are listed in README.md. Plain functions; single-threaded like the
+// KeyReader.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -22,8 +23,8 @@ Spectrum emission_shape(KeyReader& keys, std::string_view key);
 
 /// The property that is linear between the rows (nm, value) and constant beyond them.
 Spectrum spectrum_through(const std::vector<glm::dvec2>& rows);
-/// The emission that is linear between the rows and zero beyond them, averaged over the 5 nm around each
-/// sample, so that lines narrower than the grid keep their power.
+/// The emission that is linear between the rows and zero beyond them, averaged over the 5 nm around
+/// each sample, so that lines narrower than the grid keep their power.
 Spectrum emission_through(const std::vector<glm::dvec2>& rows);
 
 /// Linear value of an sRGB value in [0, 1]. Law: IEC 61966-2-1.

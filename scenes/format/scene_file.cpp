@@ -1,5 +1,6 @@
-// The order of reading: every file is parsed, includes first, then the tables of all files kind by kind, so
-// that a name is known before it is used, in whichever file it stands. One error of syntax ends a file.
+// The order of reading: every file is parsed, includes first, then the tables of all files kind by
+// kind, so that a name is known before it is used, in whichever file it stands. One error of syntax
+// ends a file.
 #include "scenes/format/scene_file.hpp"
 
 #include <algorithm>
@@ -34,8 +35,8 @@ class Loader {
     }
     if (std::find(done_.begin(), done_.end(), id) != done_.end()) return;
     if (done_.size() + open_.size() >= scene_limits::included_files) {
-      reading_.problem(said_at, "a scene may have " +
-                                    std::to_string(scene_limits::included_files) + " files");
+      reading_.problem(
+          said_at, "a scene may have " + std::to_string(scene_limits::included_files) + " files");
       return;
     }
     const auto text = bytes_of(path);
@@ -83,8 +84,9 @@ class Loader {
     try {
       auto document = std::make_unique<Document>();
       document->table = toml::parse(std::string_view(text), path.string());
-      document->keys = std::make_unique<KeyReader>(document->table, std::vector<std::string>{"scene"},
-                                                   reading_, SourcePlace{path.string(), 1});
+      document->keys =
+          std::make_unique<KeyReader>(document->table, std::vector<std::string>{"scene"}, reading_,
+                                      SourcePlace{path.string(), 1});
       return document;
     } catch (const toml::parse_error& e) {
       reading_.problem({path.string(), static_cast<int>(e.source().begin.line)},
@@ -120,10 +122,9 @@ void read_all(const Documents& documents, std::string_view key, Reader reader,
     const auto tables = d->keys->tables(key);
     count += tables.size();
     if (count > scene_limits::tables_per_kind) {
-      reading.problem(d->keys->place(key),
-                      "the files of this scene have more than " +
-                          std::to_string(scene_limits::tables_per_kind) + " tables '" +
-                          std::string(key) + "' together");
+      reading.problem(d->keys->place(key), "the files of this scene have more than " +
+                                               std::to_string(scene_limits::tables_per_kind) +
+                                               " tables '" + std::string(key) + "' together");
       return;
     }
     for (const toml::table* t : tables) reader(*t, reading);

@@ -1,6 +1,6 @@
-// The readers of the tables of a scene file, one per kind of table, called by scene_file.cpp in the order in
-// which names are needed: materials, objects and imports, emitters, media, signs, measurements, scenarios.
-// Each adds to reading.scene and reports every mistake. Single-threaded.
+// The readers of the tables of a scene file, one per kind of table, called by scene_file.cpp in the
+// order in which names are needed: materials, objects and imports, emitters, media, signs,
+// measurements, scenarios. Each adds to reading.scene and reports every mistake. Single-threaded.
 #pragma once
 
 #include <toml++/toml.h>

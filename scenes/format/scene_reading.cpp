@@ -50,8 +50,7 @@ void SceneReading::declare(std::string_view kind, const std::string& name,
   }
 }
 
-void SceneReading::note(std::string_view kind, const std::string& name,
-                        const SourcePlace& place) {
+void SceneReading::note(std::string_view kind, const std::string& name, const SourcePlace& place) {
   names_.try_emplace(std::string(kind)).first->second.emplace(name, place);
 }
 

@@ -1,5 +1,5 @@
-// What is shared while one scene is read: the scene as it grows, every problem found, the names said so far,
-// and the hash of every byte read. Single-threaded; lives for one read_scene call.
+// What is shared while one scene is read: the scene as it grows, every problem found, the names
+// said so far, and the hash of every byte read. Single-threaded; lives for one read_scene call.
 #pragma once
 
 #include <cstdint>
@@ -37,7 +37,8 @@ inline constexpr size_t triangles = 50'000'000;
 class SceneReading {
  public:
   SceneDescription scene;
-  /// Set when a whole file or part of one could not be read: names it may have said are then not missed.
+  /// Set when a whole file or part of one could not be read: names it may have said are then not
+  /// missed.
   bool incomplete = false;
 
   /// Keeps a problem, except a second one with the same place and words.
@@ -54,10 +55,12 @@ class SceneReading {
   /// Remembers a name that may be said many times: a circuit, a tag.
   void note(std::string_view kind, const std::string& name, const SourcePlace& place);
   bool declared(std::string_view kind, const std::string& name) const;
-  /// A problem where nothing of this kind has this name, once per name; `what` names the kind to people.
+  /// A problem where nothing of this kind has this name, once per name; `what` names the kind to
+  /// people.
   bool require(std::string_view kind, const std::string& name, const SourcePlace& place);
 
-  /// Index of a material, making the named greys and "open" on first use; 0 and a problem where unknown.
+  /// Index of a material, making the named greys and "open" on first use; 0 and a problem where
+  /// unknown.
   int material_index(const std::string& name, const SourcePlace& place);
   /// What is seen from behind a surface of this material: its own `back`, or itself.
   int back_of(int material) const;
@@ -84,10 +87,10 @@ class SceneReading {
     int index = -1;
   };
   std::vector<Problem> problems_;
-  std::set<std::string> said_;           // "file:line: what" of every problem
-  std::vector<std::string> files_;       // in order of first reading
+  std::set<std::string> said_;      // "file:line: what" of every problem
+  std::vector<std::string> files_;  // in order of first reading
   std::map<std::string, std::map<std::string, SourcePlace>, std::less<>> names_;
-  std::set<std::string> missed_;         // kind and name already reported as missing
+  std::set<std::string> missed_;  // kind and name already reported as missing
   std::map<int, Back> backs_;
   std::map<std::string, int> material_at_;  // of the first materials_indexed_ materials
   size_t materials_indexed_ = 0;
@@ -100,6 +103,7 @@ std::optional<double> named_grey(std::string_view name);
 /// Steps (insert, remove, replace, swap neighbours) from one word to another.
 int edit_distance(std::string_view a, std::string_view b);
 /// The nearest of these words, or nothing when none is near enough to be what was meant.
-std::optional<std::string> nearest_word(std::string_view word, const std::vector<std::string>& known);
+std::optional<std::string> nearest_word(std::string_view word,
+                                        const std::vector<std::string>& known);
 
 }  // namespace luxodus

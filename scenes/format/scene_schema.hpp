@@ -1,6 +1,6 @@
-// Every table and key of a scene file, stated once: type, unit, default, range, meaning, as text. The
-// reader takes defaults and ranges from here, README.md repeats the same rows, and a test compares the two,
-// so that neither can say what the other does not do. Constant data; any thread.
+// Every table and key of a scene file, stated once: type, unit, default, range, meaning, as text.
+// The reader takes defaults and ranges from here, README.md repeats the same rows, and a test
+// compares the two, so that neither can say what the other does not do. Constant data; any thread.
 #pragma once
 
 #include <optional>
@@ -14,9 +14,10 @@ namespace luxodus {
 struct KeySpec {
   std::string_view name;
   std::string_view type;
-  std::string_view unit;      // "" for none
-  std::string_view fallback;  // TOML text of the default; "required"; or "" where absence has a meaning
-  std::string_view range;     // "[0, 1]", "(0, 10]", the words of a choice, or "" for any finite value
+  std::string_view unit;  // "" for none
+  std::string_view
+      fallback;  // TOML text of the default; "required"; or "" where absence has a meaning
+  std::string_view range;  // "[0, 1]", "(0, 10]", the words of a choice, or "" for any finite value
   std::string_view meaning;
 };
 
@@ -53,7 +54,7 @@ std::string schema_markdown();
 
 // Pieces of the schema, one per source file.
 std::vector<TableSpec> geometry_schema();
-std::vector<TableSpec> object_schema();  // part of geometry_schema
+std::vector<TableSpec> object_schema();    // part of geometry_schema
 std::vector<TableSpec> data_set_schema();  // part of light_schema
 std::vector<TableSpec> light_schema();
 std::vector<TableSpec> measure_schema();

@@ -6,65 +6,70 @@ namespace luxodus {
 namespace {
 
 TableSpec scene_keys() {
-  return {"scene",
-          "Top of the file",
-          {
-              {"name", "name", "", "", "", "name of the scene; the file's name without `.toml` unless said"},
-              {"title", "text", "", "\"\"", "", "a line for people"},
-              {"include", "paths", "", "", "",
-               "scene files read before this one, relative to it; what this file says at its top and in "
-               "`[run]` wins, lists of tables add up"},
-              {"patch_edge_m", "number", "m", "0.5", "[0, 1e4]",
-               "longest edge of a flux patch where an object does not say its own; 0: one patch per "
-               "triangle"},
-              {"run", "table", "", "", "", "settings of a run"},
-              {"material", "tables", "", "", "", "materials"},
-              {"object", "tables", "", "", "", "surfaces written in the file"},
-              {"import", "tables", "", "", "", "OBJ and glTF files"},
-              {"luminaire", "tables", "", "", "", "luminaires of LDT and IES files"},
-              {"emitter", "tables", "", "", "", "light sources of simple shape"},
-              {"sign", "tables", "", "", "", "safety signs"},
-              {"medium", "tables", "", "", "", "smoke and flames"},
-              {"plane", "tables", "", "", "", "grids of illuminance"},
-              {"probe", "tables", "", "", "", "illuminance at points"},
-              {"surface_group", "tables", "", "", "", "several surfaces as one number"},
-              {"volume_group", "tables", "", "", "", "regions as one number"},
-              {"counting_plane", "tables", "", "", "", "particles that cross"},
-              {"observer", "tables", "", "", "", "eyes"},
-              {"camera", "tables", "", "", "", "pictures"},
-              {"scenario", "tables", "", "", "", "states of the building; none: mains, as written"},
-          }};
+  return {
+      "scene",
+      "Top of the file",
+      {
+          {"name", "name", "", "", "",
+           "name of the scene; the file's name without `.toml` unless said"},
+          {"title", "text", "", "\"\"", "", "a line for people"},
+          {"include", "paths", "", "", "",
+           "scene files read before this one, relative to it; what this file says at its top and "
+           "in "
+           "`[run]` wins, lists of tables add up"},
+          {"patch_edge_m", "number", "m", "0.5", "[0, 1e4]",
+           "longest edge of a flux patch where an object does not say its own; 0: one patch per "
+           "triangle"},
+          {"run", "table", "", "", "", "settings of a run"},
+          {"material", "tables", "", "", "", "materials"},
+          {"object", "tables", "", "", "", "surfaces written in the file"},
+          {"import", "tables", "", "", "", "OBJ and glTF files"},
+          {"luminaire", "tables", "", "", "", "luminaires of LDT and IES files"},
+          {"emitter", "tables", "", "", "", "light sources of simple shape"},
+          {"sign", "tables", "", "", "", "safety signs"},
+          {"medium", "tables", "", "", "", "smoke and flames"},
+          {"plane", "tables", "", "", "", "grids of illuminance"},
+          {"probe", "tables", "", "", "", "illuminance at points"},
+          {"surface_group", "tables", "", "", "", "several surfaces as one number"},
+          {"volume_group", "tables", "", "", "", "regions as one number"},
+          {"counting_plane", "tables", "", "", "", "particles that cross"},
+          {"observer", "tables", "", "", "", "eyes"},
+          {"camera", "tables", "", "", "", "pictures"},
+          {"scenario", "tables", "", "", "", "states of the building; none: mains, as written"},
+      }};
 }
 
 TableSpec run_keys() {
-  return {"run",
-          "`[run]`",
-          {
-              {"seed", "integer", "", "1", "[0, 9e18]", "seed of all random numbers"},
-              {"bands_most", "integer", "", "8", "[1, 64]", "most wavelength bands; 1 forces one"},
-              {"band_edges_nm", "numbers", "nm", "", "[380, 780]",
-               "edges of the bands, ascending, first 380, last 780; without it bands are told apart "
-               "automatically"},
-              {"band_tolerance", "number", "", "0.02", "(0, 1]",
-               "relative difference at which two wavelengths are told apart"},
-              {"batch_particles", "integer", "", "0", "[0, 1e9]",
-               "particles of a batch; 0: follows from the scene"},
-              {"voxel_edge_m", "number", "m", "0", "[0, 1e4]",
-               "edge of a voxel, only where a medium is; 0: follows from the scene"},
-              {"voxels", "flag", "", "true", "", "keep fluence by voxel"},
-              {"analogue", "flag", "", "false", "", "sampled absorption instead of weighted survival"},
-              {"groups", "choice", "", "\"one\"", "one, circuit, emitter",
-               "what gets tallies of its own: nothing, each circuit, each emitter; a `group` key wins"},
-              {"eye_share", "number", "", "1", "[0, 1000]",
-               "paths from the eye per batch, relative to the default"},
-          }};
+  return {
+      "run",
+      "`[run]`",
+      {
+          {"seed", "integer", "", "1", "[0, 9e18]", "seed of all random numbers"},
+          {"bands_most", "integer", "", "8", "[1, 64]", "most wavelength bands; 1 forces one"},
+          {"band_edges_nm", "numbers", "nm", "", "[380, 780]",
+           "edges of the bands, ascending, first 380, last 780; without it bands are told apart "
+           "automatically"},
+          {"band_tolerance", "number", "", "0.02", "(0, 1]",
+           "relative difference at which two wavelengths are told apart"},
+          {"batch_particles", "integer", "", "0", "[0, 1e9]",
+           "particles of a batch; 0: follows from the scene"},
+          {"voxel_edge_m", "number", "m", "0", "[0, 1e4]",
+           "edge of a voxel, only where a medium is; 0: follows from the scene"},
+          {"voxels", "flag", "", "true", "", "keep fluence by voxel"},
+          {"analogue", "flag", "", "false", "", "sampled absorption instead of weighted survival"},
+          {"groups", "choice", "", "\"one\"", "one, circuit, emitter",
+           "what gets tallies of its own: nothing, each circuit, each emitter; a `group` key wins"},
+          {"eye_share", "number", "", "1", "[0, 1000]",
+           "paths from the eye per batch, relative to the default"},
+      }};
 }
 
 std::vector<TableSpec> material_keys() {
-  const KeySpec reflectance = {"reflectance", "reflectance",      "", "required", "[0, 1]",
-                               "diffuse reflectance"};
-  const KeySpec image = {"image", "path", "", "", "",
-                         "PNG that multiplies the reflectance; objects need texture coordinates"};
+  const KeySpec reflectance = {"reflectance", "reflectance", "",
+                               "required",    "[0, 1]",      "diffuse reflectance"};
+  const KeySpec image = {
+      "image", "path", "",
+      "",      "",     "PNG that multiplies the reflectance; objects need texture coordinates"};
   return {
       {"material",
        "`[[material]]`",
@@ -100,7 +105,9 @@ std::vector<TableSpec> material_keys() {
       {"material.dielectric",
        "`[[material]]` with `kind = \"dielectric\"`: the refracting surface of a solid",
        {{"ior", "number", "", "1.52", "[1, 4]", "refractive index behind the front side"}}},
-      {"material.open", "`[[material]]` with `kind = \"open\"`: nothing is there, fluxes are counted", {}},
+      {"material.open",
+       "`[[material]]` with `kind = \"open\"`: nothing is there, fluxes are counted",
+       {}},
   };
 }
 

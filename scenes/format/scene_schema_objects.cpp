@@ -32,8 +32,8 @@ Keys surface_keys() {
 }
 
 KeySpec round_key() {
-  return {"bound_m", "number", "m", "0.002", "[1e-6, 10]",
-          "largest distance between the mesh and the true surface"};
+  return {"bound_m", "number",     "m",
+          "0.002",   "[1e-6, 10]", "largest distance between the mesh and the true surface"};
 }
 
 std::vector<TableSpec> flat_shapes() {
@@ -77,7 +77,8 @@ std::vector<TableSpec> flat_shapes() {
            {"height", "number", "m", "required", "(0, 1e7]", "height"},
        }},
       {"object.wall",
-       "`[[object]]` with `shape = \"wall\"`: a solid wall to the left of the way from `from` to `to`",
+       "`[[object]]` with `shape = \"wall\"`: a solid wall to the left of the way from `from` to "
+       "`to`",
        {
            {"from", "point", "m", "required", "[-1e7, 1e7]", "foot of its start"},
            {"to", "point", "m", "required", "[-1e7, 1e7]", "foot of its end, as high as `from`"},
@@ -94,7 +95,8 @@ std::vector<TableSpec> flat_shapes() {
            {"height", "number", "m", "required", "(0, 1e5]", "height"},
        }},
       {"object.stairs",
-       "`[[object]]` with `shape = \"stairs\"`: climbs along local +x from the origin, y from 0 to width",
+       "`[[object]]` with `shape = \"stairs\"`: climbs along local +x from the origin, y from 0 to "
+       "width",
        {
            {"steps", "integer", "", "required", "[1, 500]", "number of steps"},
            {"rise", "number", "m", "required", "(0, 10]", "height of a step"},
@@ -104,7 +106,8 @@ std::vector<TableSpec> flat_shapes() {
             "a folded sheet, a block, or a slanted underside"},
        }},
       {"object.ramp",
-       "`[[object]]` with `shape = \"ramp\"`: climbs along local +x from the origin, y from 0 to width",
+       "`[[object]]` with `shape = \"ramp\"`: climbs along local +x from the origin, y from 0 to "
+       "width",
        {
            {"length", "number", "m", "required", "(0, 1e5]", "horizontal length"},
            {"width", "number", "m", "required", "(0, 1e4]", "width"},
@@ -147,13 +150,16 @@ std::vector<TableSpec> object_schema() {
   std::vector<TableSpec> all = {
       {"object",
        "`[[object]]`: a surface or body; its local coordinates are the scene's, then transformed",
-       joined(joined({{"name", "name", "", "required", "", "name of the object"},
-                      {"shape", "choice", "", "required",
-                       "quad, box, room, polygon, prism, wall, stairs, ramp, cylinder, disc, tube, sphere",
-                       "what it is"},
-                      {"material", "text", "", "required", "", "name of a material, or a named grey"}},
-                     surface_keys()),
-              joined(transform_keys(), {{"door", "table", "", "", "", "makes it a leaf that turns"}}))},
+       joined(
+           joined({{"name", "name", "", "required", "", "name of the object"},
+                   {"shape", "choice", "", "required",
+                    "quad, box, room, polygon, prism, wall, stairs, ramp, cylinder, disc, tube, "
+                    "sphere",
+                    "what it is"},
+                   {"material", "text", "", "required", "", "name of a material, or a named grey"}},
+                  surface_keys()),
+           joined(transform_keys(),
+                  {{"door", "table", "", "", "", "makes it a leaf that turns"}}))},
   };
   for (auto& t : flat_shapes()) all.push_back(std::move(t));
   for (auto& t : round_shapes()) all.push_back(std::move(t));
@@ -169,29 +175,32 @@ std::vector<TableSpec> object_schema() {
                  }});
   all.push_back(
       {"import",
-       "`[[import]]`: an OBJ or glTF 2.0 file; becomes one object NAME.PART for each of its parts, which "
+       "`[[import]]`: an OBJ or glTF 2.0 file; becomes one object NAME.PART for each of its parts, "
+       "which "
        "all bear the tag NAME",
-       joined(joined({{"name", "name", "", "required", "", "name, which opens the names of its parts"},
-                      {"file", "path", "", "required", "", "the .obj, .gltf or .glb file"},
-                      {"units", "choice", "", "required", "m, cm, mm, km, in, ft",
-                       "unit of length of the file (glTF: m)"},
-                      {"up", "choice", "", "required", "y, z",
-                       "axis that points up in the file (glTF: y)"},
-                      {"materials", "words", "", "", "",
-                       "table: material of the file = material of the scene"},
-                      {"material", "text", "", "", "", "material of parts that the table does not name"},
-                      {"file_colours", "flag", "", "false", "",
-                       "parts that neither names are Lambertian in the colour of the file"}},
-                     surface_keys()),
-              joined(transform_keys(), {{"part", "tables", "", "", "", "what is said of single parts"}}))});
-  all.push_back({"import.part",
-                 "`[[import.part]]`: replaces for some parts what the import says",
+       joined(
+           joined(
+               {{"name", "name", "", "required", "", "name, which opens the names of its parts"},
+                {"file", "path", "", "required", "", "the .obj, .gltf or .glb file"},
+                {"units", "choice", "", "required", "m, cm, mm, km, in, ft",
+                 "unit of length of the file (glTF: m)"},
+                {"up", "choice", "", "required", "y, z",
+                 "axis that points up in the file (glTF: y)"},
+                {"materials", "words", "", "", "",
+                 "table: material of the file = material of the scene"},
+                {"material", "text", "", "", "", "material of parts that the table does not name"},
+                {"file_colours", "flag", "", "false", "",
+                 "parts that neither names are Lambertian in the colour of the file"}},
+               surface_keys()),
+           joined(transform_keys(),
+                  {{"part", "tables", "", "", "", "what is said of single parts"}}))});
+  all.push_back({"import.part", "`[[import.part]]`: replaces for some parts what the import says",
                  joined({{"match", "text", "", "required", "",
                           "name of a part in the file; `*` stands for any characters"},
                          {"omit", "flag", "", "false", "", "leave it out"},
                          {"material", "text", "", "", "", "material"}},
-                        joined(surface_keys(), {{"door", "table", "", "", "",
-                                                 "makes it a leaf that turns"}}))});
+                        joined(surface_keys(),
+                               {{"door", "table", "", "", "", "makes it a leaf that turns"}}))});
   return all;
 }
 
