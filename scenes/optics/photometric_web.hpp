@@ -1,9 +1,11 @@
-// The photometric web of a luminaire: luminous intensity [cd] over all directions, as a table, and its
-// exact integral and sampling. Made by the LDT and IES readers; immutable afterwards; any thread.
+// The photometric web of a luminaire: luminous intensity [cd] over all directions, as a table, and
+// its exact integral and sampling. Made by the LDT and IES readers; immutable afterwards; any
+// thread.
 //
-// Luminaire frame: the luminaire hangs horizontally, -Z points down (gamma 0), C0 lies along +X, C90 along +Y.
-// The table lives in a polar frame of its own: for C-type files the pole is -Z (polar angle gamma, azimuth
-// C), for B-type files the pole is horizontal. Intensity is bilinear in the two angles [deg].
+// Luminaire frame: the luminaire hangs horizontally, -Z points down (gamma 0), C0 lies along +X,
+// C90 along +Y. The table lives in a polar frame of its own: for C-type files the pole is -Z (polar
+// angle gamma, azimuth C), for B-type files the pole is horizontal. Intensity is bilinear in the
+// two angles [deg].
 #pragma once
 
 #include <glm/glm.hpp>
@@ -17,7 +19,8 @@ class PhotometricWeb {
  public:
   /// `azimuth_deg`: ascending, first 0, last 360 (the last column repeats the first);
   /// `polar_deg`: ascending, first 0, last 180; `candela[a * polar_deg.size() + p]`, >= 0, finite.
-  /// `to_luminaire`: rotation from the table's frame (pole +Z, azimuth 0 along +X) to the luminaire's.
+  /// `to_luminaire`: orthonormal map from the table's frame (pole +Z, azimuth 0 along +X) to the
+  /// luminaire's; it may mirror: C angles turn about +Z of the luminaire while their pole is -Z.
   /// Errors: a sentence when a table breaks these rules or holds no light at all.
   static Result<PhotometricWeb> make(std::vector<double> azimuth_deg, std::vector<double> polar_deg,
                                      std::vector<double> candela, const glm::dmat3& to_luminaire);
@@ -52,6 +55,13 @@ class PhotometricWeb {
   glm::dmat3 to_luminaire_{1.0};
   double flux_lm_ = 0;
   double peak_cd_ = 0;
+  // Between neighbouring polar angles [rad]: start with its sine and cosine, width w, the integrals
+  // of sin(start + x) and of x sin(start + x) over x in [0, w], and the sine of the end. Sampling
+  // would compute them per particle.
+  struct Row {
+    double start, sine, cosine, width, even, sloped, end_sine;
+  };
+  std::vector<Row> rows_;
   // Cumulative flux by cell, for sampling: columns, then rows within a column.
   std::vector<double> column_cdf_;
   std::vector<double> row_cdf_;
