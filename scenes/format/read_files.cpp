@@ -24,7 +24,7 @@ std::shared_ptr<const Image> read_image(const std::filesystem::path& path, const
   auto& kept = reading.cache["image " + path.string()];
   if (!kept) {
     if (!take_hash(path, place, reading)) return nullptr;
-    auto image = read_png(path);
+    auto image = read_png(path.string());
     if (!image) {
       take_problem(image.problem(), place, reading);
       return nullptr;

@@ -2,6 +2,7 @@
 #include <cctype>
 
 #include "scenes/emergency/sign_face.hpp"
+#include "scenes/format/image_file.hpp"
 #include "scenes/format/read_files.hpp"
 #include "scenes/format/read_placement.hpp"
 #include "scenes/format/read_spectrum.hpp"

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+#include <string>
+
+#include "scenes/format/image_file.hpp"
 
 namespace luxodus {
 
@@ -136,10 +138,6 @@ std::optional<Spectrum> shape_of(KeyReader& keys, std::string_view key, const to
 }
 
 }  // namespace
-
-double linear_from_srgb(double v) {
-  return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-}
 
 Spectrum spectrum_through(const std::vector<glm::dvec2>& rows) {
   Spectrum s;

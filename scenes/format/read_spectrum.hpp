@@ -27,7 +27,4 @@ Spectrum spectrum_through(const std::vector<glm::dvec2>& rows);
 /// each sample, so that lines narrower than the grid keep their power.
 Spectrum emission_through(const std::vector<glm::dvec2>& rows);
 
-/// Linear value of an sRGB value in [0, 1]. Law: IEC 61966-2-1.
-double linear_from_srgb(double v);
-
 }  // namespace luxodus
