@@ -1,0 +1,154 @@
+// Checking a data set and cutting it into bricks.
+#include "scenes/optics/smoke_grid.hpp"
+
+#include <xxhash.h>
+
+#include <cmath>
+#include <string>
+
+#include "scenes/optics/quadric_body.hpp"
+
+namespace luxodus {
+
+namespace {
+
+/// The first value outside [0, most], as a sentence, or "".
+std::string array_fault(const char* name, const std::vector<float>& values, int64_t cells,
+                        float most) {
+  if (values.empty()) return {};
+  if (static_cast<int64_t>(values.size()) != cells) {
+    return std::string("has ") + std::to_string(values.size()) + " values of " + name + " for " +
+           std::to_string(cells) + " cells";
+  }
+  for (size_t i = 0; i < values.size(); ++i) {
+    if (!(values[i] >= 0) || !(values[i] <= most)) {
+      return std::string("has ") + name + " " + std::to_string(values[i]) + " in cell " +
+             std::to_string(i) + "; it must be finite, not negative" +
+             (most <= 1 ? " and at most 1" : "");
+    }
+  }
+  return {};
+}
+
+std::string data_fault(const DataSet& d) {
+  int64_t cells = 1;
+  for (const int n : {d.nx, d.ny, d.nz}) {
+    if (n < 1 || n > limits::grid_side_most) {
+      return "has " + std::to_string(n) + " cells along a side; 1 to " +
+             std::to_string(limits::grid_side_most) + " are allowed";
+    }
+    cells *= n;
+  }
+  if (cells > limits::grid_cells_most) return "has more than 2^30 cells";
+  for (int k = 0; k < 3; ++k) {
+    if (!(d.extent[k] > 0) || !std::isfinite(d.extent[k])) {
+      return "has a box whose sides are not all positive and finite";
+    }
+  }
+  constexpr float any = std::numeric_limits<float>::max();
+  if (auto f = array_fault("extinction", d.extinction, cells, any); !f.empty()) return f;
+  if (auto f = array_fault("albedo", d.albedo, cells, 1); !f.empty()) return f;
+  return array_fault("emission", d.emission, cells, any);
+}
+
+std::vector<float> cut_one(const DataSet& d, const std::vector<float>& values,
+                           const glm::ivec3& first) {
+  if (values.empty()) return {};
+  std::vector<float> out(limits::brick_cells, 0.0F);
+  const glm::ivec3 last =
+      glm::min(first + glm::ivec3(limits::brick_side), glm::ivec3(d.nx, d.ny, d.nz));
+  for (int z = first.z; z < last.z; ++z) {
+    for (int y = first.y; y < last.y; ++y) {
+      for (int x = first.x; x < last.x; ++x) {
+        const size_t from =
+            (static_cast<size_t>(z) * static_cast<size_t>(d.ny) + static_cast<size_t>(y)) *
+                static_cast<size_t>(d.nx) +
+            static_cast<size_t>(x);
+        out[static_cast<size_t>(Brick::cell_index({x, y, z}))] = values[from];
+      }
+    }
+  }
+  return out;
+}
+
+uint64_t content_hash(const Brick& b) {
+  uint64_t h = 0;
+  for (const std::vector<float>* values : {&b.extinction, &b.albedo, &b.emission}) {
+    h = XXH3_64bits_withSeed(values->data(), values->size() * sizeof(float), h + values->size());
+  }
+  return h;
+}
+
+bool any_above_zero(const std::vector<float>& values) {
+  return std::any_of(values.begin(), values.end(), [](float v) { return v > 0; });
+}
+
+int bricks_along(int cells) {
+  return (cells + limits::brick_side - 1) / limits::brick_side;
+}
+
+}  // namespace
+
+Result<SmokeGrid> SmokeGrid::make(const Medium& medium, int medium_index,
+                                  const glm::dvec3& local_origin) {
+  std::string fault = frame_fault(medium.frame);
+  if (fault.empty()) fault = data_fault(medium.data);
+  if (!fault.empty()) return Problem{medium.place, "medium \"" + medium.name + "\" " + fault};
+  const DataSet& d = medium.data;
+  SmokeGrid out;
+  out.medium_ = medium_index;
+  out.origin_ = medium.frame.origin - local_origin;
+  out.axes_ = medium.frame.axes;
+  out.extent_ = d.extent;
+  out.cells_ = {d.nx, d.ny, d.nz};
+  out.cell_ = d.extent / glm::dvec3(out.cells_);
+  out.per_cell_ = glm::dvec3(out.cells_) / d.extent;
+  out.bricks_ = {bricks_along(d.nx), bricks_along(d.ny), bricks_along(d.nz)};
+  out.has_extinction_ = !d.extinction.empty();
+  out.has_albedo_ = !d.albedo.empty();
+  out.has_emission_ = !d.emission.empty();
+  out.interpolate_emission_ = d.interpolate_emission && out.has_emission_;
+  out.clear_.assign(static_cast<size_t>(out.brick_count()), 0);
+  return out;
+}
+
+std::vector<Brick> SmokeGrid::cut(const DataSet& d) {
+  std::vector<Brick> out;
+  for (int z = 0; z < d.nz; z += limits::brick_side) {
+    for (int y = 0; y < d.ny; y += limits::brick_side) {
+      for (int x = 0; x < d.nx; x += limits::brick_side) {
+        Brick b;
+        b.extinction = cut_one(d, d.extinction, {x, y, z});
+        b.albedo = cut_one(d, d.albedo, {x, y, z});
+        b.emission = cut_one(d, d.emission, {x, y, z});
+        double sum = 0;
+        for (const float e : b.emission) {
+          sum += static_cast<double>(e);
+          b.emission_cumulative.push_back(sum);
+        }
+        b.content = content_hash(b);
+        out.push_back(std::move(b));
+      }
+    }
+  }
+  return out;
+}
+
+void SmokeGrid::find_clear(const std::vector<Brick>& bricks, bool emits) {
+  for (size_t i = 0; i < bricks.size(); ++i) {
+    const Brick& b = bricks[i];
+    const bool glows =
+        emits && (!has_emission_ || interpolate_emission_ || any_above_zero(b.emission));
+    clear_[i] = has_extinction_ && !any_above_zero(b.extinction) && !glows ? 1 : 0;
+  }
+}
+
+Bounds SmokeGrid::bounds() const {
+  Bounds out;
+  for (int corner = 0; corner < 8; ++corner) {
+    out.extend(from_local(extent_ * glm::dvec3(corner & 1, (corner >> 1) & 1, corner >> 2)));
+  }
+  return out;
+}
+
+}  // namespace luxodus
