@@ -1,0 +1,25 @@
+// Reads a scene file (TOML) with everything it names, and says all that is wrong with it at once,
+// each mistake in one sentence with its file and line. The format is described in README.md of this
+// folder, key by key; the same table drives the reader. Reads files only; any thread, one call per
+// scene.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "runtime/core/result.hpp"
+#include "scenes/world/description.hpp"
+
+namespace luxodus {
+
+struct ReadScene {
+  std::optional<SceneDescription> scene;  // only where there is no problem
+  Problems problems;
+};
+
+/// Reads the file, the files it includes, and the meshes, pictures and photometric data that they
+/// name. Warnings that do not hinder are in the scene. The content hash covers every byte of every
+/// file.
+ReadScene read_scene(const std::filesystem::path& path);
+
+}  // namespace luxodus

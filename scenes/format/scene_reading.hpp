@@ -1,0 +1,109 @@
+// What is shared while one scene is read: the scene as it grows, every problem found, the names
+// said so far, and the hash of every byte read. Single-threaded; lives for one read_scene call.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "runtime/core/result.hpp"
+#include "scenes/world/description.hpp"
+
+namespace luxodus {
+
+namespace scene_limits {
+/// A scene file is written by people or small scripts; 16 MiB of TOML is already 200 000 tables.
+inline constexpr uint64_t file_bytes = uint64_t{16} << 20;
+/// Files that a scene may include, all levels together.
+inline constexpr size_t included_files = 256;
+/// [[...]] tables of one kind.
+inline constexpr size_t tables_per_kind = 100'000;
+/// Values in one list.
+inline constexpr size_t list_values = 100'000;
+/// Characters of a name or a title.
+inline constexpr size_t name_chars = 200;
+/// Problems kept; after this many a file is broken as a whole and more sentences help nobody.
+inline constexpr size_t problems = 1000;
+/// Triangles of all objects together (72 bytes each in double precision: 3.6 GB).
+inline constexpr size_t triangles = 50'000'000;
+}  // namespace scene_limits
+
+class SceneReading {
+ public:
+  SceneDescription scene;
+  /// Set when a whole file or part of one could not be read: names it may have said are then not
+  /// missed.
+  bool incomplete = false;
+
+  /// Keeps a problem, except a second one with the same place and words.
+  void problem(SourcePlace where, std::string what);
+  void problem(Problem p) { problem(std::move(p.where), std::move(p.what)); }
+  void warning(SourcePlace where, std::string what);
+  bool any_problem() const { return !problems_.empty(); }
+  size_t problem_count() const { return problems_.size(); }
+  /// All problems, by file in order of reading, then by line.
+  Problems take_problems();
+
+  /// Remembers a name of a kind ("material", "object"...); a problem where it is taken already.
+  void declare(std::string_view kind, const std::string& name, const SourcePlace& place);
+  /// Remembers a name that may be said many times: a circuit, a tag.
+  void note(std::string_view kind, const std::string& name, const SourcePlace& place);
+  bool declared(std::string_view kind, const std::string& name) const;
+  /// A problem where nothing of this kind has this name, once per name; `what` names the kind to
+  /// people.
+  bool require(std::string_view kind, const std::string& name, const SourcePlace& place);
+
+  /// Index of a material, making the named greys and "open" on first use; 0 and a problem where
+  /// unknown.
+  int material_index(const std::string& name, const SourcePlace& place);
+  /// What is seen from behind a surface of this material: its own `back`, or itself.
+  int back_of(int material) const;
+  void set_back(int material, std::string name, SourcePlace place);
+  /// Turns the names given to set_back into indices. Call when all materials are read.
+  void resolve_backs();
+  /// Triangles of all objects so far.
+  size_t triangles = 0;
+  /// Default of an object's patch edge [m].
+  double patch_edge_m = 0.5;
+
+  /// Takes the file's bytes into the content hash (once per file).
+  /// Errors: a file that cannot be read.
+  std::optional<Problem> hash_file(const std::filesystem::path& path);
+  void hash_bytes(std::string_view bytes);
+
+  /// Keeps what was read from a file, so that a file named twice is read once.
+  std::map<std::string, std::shared_ptr<const void>> cache;
+
+ private:
+  struct Back {
+    std::string name;
+    SourcePlace place;
+    int index = -1;
+  };
+  std::vector<Problem> problems_;
+  std::set<std::string> said_;      // "file:line: what" of every problem
+  std::vector<std::string> files_;  // in order of first reading
+  std::map<std::string, std::map<std::string, SourcePlace>, std::less<>> names_;
+  std::set<std::string> missed_;  // kind and name already reported as missing
+  std::map<int, Back> backs_;
+  std::map<std::string, int> material_at_;  // of the first materials_indexed_ materials
+  size_t materials_indexed_ = 0;
+  std::set<std::string> hashed_;
+};
+
+/// The value of a named grey: "grey50" and "gray50" 0.50, "white80" 0.80, "black5" 0.05.
+std::optional<double> named_grey(std::string_view name);
+
+/// Steps (insert, remove, replace, swap neighbours) from one word to another.
+int edit_distance(std::string_view a, std::string_view b);
+/// The nearest of these words, or nothing when none is near enough to be what was meant.
+std::optional<std::string> nearest_word(std::string_view word,
+                                        const std::vector<std::string>& known);
+
+}  // namespace luxodus
