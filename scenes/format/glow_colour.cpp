@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "scenes/format/false_colour_png.hpp"
 
@@ -57,7 +58,8 @@ std::array<uint8_t, 3> glow_colour(double t) {
   // A picture asks for millions of colours; 8 bits a channel tell fewer than these apart.
   static const std::vector<std::array<uint8_t, 3>> table = [] {
     std::vector<std::array<uint8_t, 3>> out;
-    for (int i = 0; i <= table_steps; ++i) out.push_back(computed_colour(double(i) / table_steps));
+    for (int i = 0; i <= table_steps; ++i)
+      out.push_back(computed_colour(static_cast<double>(i) / table_steps));
     return out;
   }();
   t = std::isnan(t) ? 0 : std::clamp(t, 0.0, 1.0);

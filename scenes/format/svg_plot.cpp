@@ -22,7 +22,7 @@ constexpr double left = 96, right = 32, bottom_margin = 92;
 constexpr double marker_radius = 4.6;
 constexpr double legend_line = 24;
 
-/// Coordinates with a tenth of a thousandth of a unit: more is noise and makes files long.
+/// A coordinate to a hundredth of a unit: more is noise and makes files long.
 std::string coordinate(double value) {
   std::array<char, 40> buffer;
   const double rounded = std::round(value * 1e2) / 1e2;

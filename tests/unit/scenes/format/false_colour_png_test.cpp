@@ -8,6 +8,12 @@
 #include "scenes/format/plot_axis.hpp"
 #include "tests/unit/scenes/format/scratch_folder.hpp"
 
+// fontconfig keeps what it has read until the process ends; the leak sanitizer need not report it.
+// Weak, so that the test program may have suppressions of its own.
+extern "C" __attribute__((weak)) const char* __lsan_default_suppressions() {
+  return "leak:libfontconfig\n";
+}
+
 using namespace luxodus;
 using Catch::Matchers::Contains;
 
