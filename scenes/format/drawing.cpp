@@ -99,12 +99,23 @@ void Canvas::rimmed_text(double x, double y, const std::string& text, TextAlign 
 std::string Canvas::fitted(const std::string& text, double width_px) {
   std::string out = clean_utf8(text);
   if (text_width(out) <= width_px) return out;
-  while (!out.empty() && text_width(out + "…") > width_px) {
-    // A whole character goes: its continuation bytes are 10xxxxxx.
-    while (!out.empty() && (static_cast<uint8_t>(out.back()) & 0xC0) == 0x80) out.pop_back();
-    if (!out.empty()) out.pop_back();
+  // Bisection over the bytes kept; a cut never falls between the bytes of one character, whose
+  // continuation bytes are 10xxxxxx.
+  const auto cut_at = [&](size_t length) {
+    while (length > 0 && (static_cast<uint8_t>(out[length]) & 0xC0) == 0x80) --length;
+    return out.substr(0, length);
+  };
+  size_t fits = 0;
+  size_t wide = out.size() - 1;
+  while (fits < wide) {
+    const size_t middle = (fits + wide + 1) / 2;
+    if (text_width(cut_at(middle) + "…") <= width_px) {
+      fits = middle;
+    } else {
+      wide = middle - 1;
+    }
   }
-  return out + "…";
+  return cut_at(fits) + "…";
 }
 
 void Canvas::line(double x0, double y0, double x1, double y1) {

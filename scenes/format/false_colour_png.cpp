@@ -28,6 +28,8 @@ constexpr double bar_thickness = 34;
 constexpr double plot_height_most = 1100;
 constexpr double plot_height_least = 70;
 constexpr double wide_aspect = 2.1;
+// From this ratio of largest to smallest value on, a linear scale shows the small ones as black.
+constexpr double logarithmic_ratio = 15;
 // More than this between the ends of an automatic logarithmic scale hides what is bright.
 constexpr double scale_ratio_most = 1e4;
 
@@ -57,6 +59,11 @@ Statistics statistics_of(const std::vector<double>& values) {
   return s;
 }
 
+/// Whether some cells have a value and some have none.
+bool has_gaps(const FalseColourPicture& picture, const Statistics& s) {
+  return s.count > 0 && s.count < picture.values.size();
+}
+
 /// From values to places on the colour scale.
 struct Scale {
   bool logarithmic = false;
@@ -66,7 +73,7 @@ struct Scale {
   double place(double value) const {
     if (!logarithmic) return std::clamp((value - low) / (high - low), 0.0, 1.0);
     if (value <= low) return 0;
-    return std::min(std::log(value / low) / std::log(high / low), 1.0);
+    return std::min((std::log(value) - std::log(low)) / (std::log(high) - std::log(low)), 1.0);
   }
   std::vector<AxisTick> ticks(int about) const {
     return logarithmic ? log_ticks(low, high) : linear_ticks(low, high, about);
@@ -77,7 +84,7 @@ Scale scale_of(const FalseColourPicture& picture, const Statistics& s) {
   Scale scale;
   scale.logarithmic = picture.scale == ColourScale::logarithmic ||
                       (picture.scale == ColourScale::automatic && s.low_positive > 0 &&
-                       s.low >= 0 && s.high > 30 * s.low_positive);
+                       s.low >= 0 && s.high > logarithmic_ratio * s.low_positive);
   if (scale.logarithmic) {
     const double high = s.high > 0 ? s.high : 1;
     scale.high = picture.scale_high.value_or(round_up_125(high));
@@ -109,7 +116,7 @@ struct Layout {
   double title_y = 0, subtitle_y = 0, summary_y = 0;
 };
 
-Layout lay_out(const FalseColourPicture& p) {
+Layout lay_out(const FalseColourPicture& p, size_t note_lines) {
   Layout l;
   l.k = p.width_px / design_width;
   l.width = p.width_px;
@@ -134,7 +141,7 @@ Layout lay_out(const FalseColourPicture& p) {
     l.bar = {l.plot.x + width + 48, l.plot.y, bar_thickness, height};
   }
   l.summary_y = y + 32;
-  y = l.summary_y + static_cast<double>(p.notes.size()) * text_size * 1.5 + margin * 0.7;
+  y = l.summary_y + static_cast<double>(note_lines) * text_size * 1.5 + margin * 0.7;
   l.height = static_cast<int>(std::ceil(y * l.k));
   return l;
 }
@@ -145,7 +152,7 @@ class Painter {
       : p_(picture),
         s_(statistics),
         scale_(scale_of(picture, statistics)),
-        l_(lay_out(picture)),
+        l_(lay_out(picture, picture.notes.size() + (has_gaps(picture, statistics) ? 1 : 0))),
         map_(picture.colour_map ? picture.colour_map : ColourMap(glow_colour)),
         canvas_(l_.width, l_.height) {}
 
@@ -153,8 +160,8 @@ class Painter {
     paint_values();
     cairo_scale(canvas_.context(), l_.k, l_.k);
     draw_contours();
-    if (p_.mark_minimum && s_.count > 0 && s_.low < s_.high) draw_minimum();
     draw_axes();
+    if (marks_minimum()) draw_minimum();
     draw_bar();
     draw_texts();
     return canvas_;
@@ -181,6 +188,8 @@ class Painter {
     return readable_number(value) + (p_.unit.empty() ? "" : " " + p_.unit);
   }
 
+  bool marks_minimum() const { return p_.mark_minimum && s_.count > 0 && s_.low < s_.high; }
+
   void paint_values();
   void draw_contours();
   void draw_contour(const ContourLine& line);
@@ -200,8 +209,7 @@ class Painter {
   std::vector<glm::dvec2> labels_;  // where contour labels stand already
 };
 
-/// The value at a place in cells from the corner; between centres bilinear where all four are
-/// there, else the nearest cell's.
+/// The value at a place in cells from the corner, bilinear between the centres that have one.
 double Painter::smooth_value(double u, double v) const {
   const int nearest_u = std::clamp(static_cast<int>(u), 0, p_.cells_u - 1);
   const int nearest_v = std::clamp(static_cast<int>(v), 0, p_.cells_v - 1);
@@ -211,12 +219,19 @@ double Painter::smooth_value(double u, double v) const {
   const double cv = std::clamp(v - 0.5, 0.0, p_.cells_v - 1.0);
   const int u0 = static_cast<int>(cu);
   const int v0 = static_cast<int>(cv);
-  const int u1 = std::min(u0 + 1, p_.cells_u - 1);
-  const int v1 = std::min(v0 + 1, p_.cells_v - 1);
-  const double low = std::lerp(cell(u0, v0), cell(u1, v0), cu - u0);
-  const double high = std::lerp(cell(u0, v1), cell(u1, v1), cu - u0);
-  const double value = std::lerp(low, high, cv - v0);
-  return std::isfinite(value) ? value : nearest;
+  double sum = 0;
+  double weights = 0;
+  for (const int j : {v0, v0 + 1}) {
+    for (const int i : {u0, u0 + 1}) {
+      const double weight = (1 - std::abs(cu - i)) * (1 - std::abs(cv - j));
+      if (weight <= 0 || i >= p_.cells_u || j >= p_.cells_v) continue;
+      const double value = cell(i, j);
+      if (!std::isfinite(value)) continue;
+      sum += weight * value;
+      weights += weight;
+    }
+  }
+  return weights > 0 ? sum / weights : nearest;
 }
 
 std::array<uint8_t, 3> Painter::no_value_colour(int x, int y) const {
@@ -343,7 +358,6 @@ void Painter::draw_minimum() {
   const double y = l_.plot.y + (1 - v) * l_.plot.height;
   cairo_t* context = canvas_.context();
   cairo_save(context);
-  clip_to_plot();
   cairo_set_line_cap(context, CAIRO_LINE_CAP_ROUND);
   for (const bool rim : {true, false}) {
     cairo_set_line_width(context, rim ? 7 : 3.2);
@@ -368,7 +382,7 @@ void Painter::draw_axes() {
     canvas_.line(x, bottom, x, bottom + 9);
     canvas_.text(x, bottom + 34, tick.label, TextAlign::centre);
   }
-  const int about_v = std::clamp(static_cast<int>(l_.plot.height / 90), 1, 10);
+  const int about_v = std::clamp(static_cast<int>(l_.plot.height / 60), 2, 10);
   double widest = 0;
   for (const AxisTick& tick : linear_ticks(p_.origin_v_m, p_.origin_v_m + p_.length_v_m, about_v)) {
     const double y = y_of(tick.value);
@@ -419,7 +433,9 @@ void Painter::draw_bar() {
   cairo_rectangle(context, bar.x, bar.y, bar.width, bar.height);
   cairo_stroke(context);
   canvas_.font(tick_size);
+  double widest = 0;
   for (const AxisTick& tick : scale_.ticks(std::clamp(static_cast<int>(length / 90), 2, 10))) {
+    widest = std::max(widest, canvas_.text_width(tick.label));
     const double a = at(scale_.place(tick.value));
     const double reach = tick.label.empty() ? 5 : 9;
     if (l_.bar_below) {
@@ -435,21 +451,18 @@ void Painter::draw_bar() {
   if (l_.bar_below) {
     canvas_.text(bar.x, bar.y - 14, canvas_.fitted(name, bar.width));
   } else {
-    canvas_.text(bar.x + bar.width + 118, bar.y + bar.height / 2, canvas_.fitted(name, bar.height),
-                 TextAlign::centre, std::numbers::pi / 2);
+    canvas_.text(bar.x + bar.width + 34 + widest, bar.y + bar.height / 2,
+                 canvas_.fitted(name, bar.height), TextAlign::centre, std::numbers::pi / 2);
   }
 }
 
 std::string Painter::summary() const {
   if (s_.count == 0) return "No cell of this grid has a value.";
-  const bool marked = p_.mark_minimum && s_.low < s_.high;
-  std::string out = "minimum " + with_unit(s_.low) + (marked ? " (×)" : "") + "   ·   mean " +
-                    with_unit(s_.mean) + "   ·   maximum " + with_unit(s_.high) + "   ·   " +
-                    std::to_string(p_.cells_u) + " × " + std::to_string(p_.cells_v) + " cells of " +
-                    readable_number(p_.length_u_m / p_.cells_u) + " × " +
+  std::string out = "minimum " + with_unit(s_.low) + (marks_minimum() ? " (×)" : "") +
+                    "   ·   mean " + with_unit(s_.mean) + "   ·   maximum " + with_unit(s_.high) +
+                    "   ·   " + std::to_string(p_.cells_u) + " × " + std::to_string(p_.cells_v) +
+                    " cells of " + readable_number(p_.length_u_m / p_.cells_u) + " × " +
                     readable_number(p_.length_v_m / p_.cells_v) + " m";
-  const size_t none = p_.values.size() - s_.count;
-  if (none > 0) out += "   ·   " + std::to_string(none) + " without a value (hatched)";
   return out;
 }
 
@@ -466,7 +479,12 @@ void Painter::draw_texts() {
   canvas_.text(left, l_.summary_y, canvas_.fitted(summary(), room));
   canvas_.colour(0.32);
   double y = l_.summary_y;
-  for (const std::string& note : p_.notes) {
+  std::vector<std::string> notes = p_.notes;
+  if (has_gaps(p_, s_)) {
+    notes.insert(notes.begin(),
+                 std::to_string(p_.values.size() - s_.count) + " cells have no value (hatched)");
+  }
+  for (const std::string& note : notes) {
     y += text_size * 1.5;
     canvas_.text(left, y, canvas_.fitted(note, room));
   }
@@ -503,34 +521,6 @@ Result<Done> check(const FalseColourPicture& p, const SourcePlace& place) {
 }
 
 }  // namespace
-
-std::array<uint8_t, 3> glow_colour(double t) {
-  t = std::isnan(t) ? 0 : std::clamp(t, 0.0, 1.0);
-  // OKLab (B. Ottosson, 2020): even lightness; hue from violet over red to yellow; the chroma is
-  // the most that stays within sRGB at both ends of the way.
-  const double lightness = 0.10 + 0.87 * t;
-  const double hue = (-78 + 186 * t) * std::numbers::pi / 180;
-  double chroma = 0.20 * std::pow(std::sin(std::numbers::pi * (0.06 + 0.86 * t)), 0.8);
-  std::array<double, 3> rgb{};
-  for (int attempt = 0; attempt < 60; ++attempt, chroma *= 0.96) {
-    const double a = chroma * std::cos(hue);
-    const double b = chroma * std::sin(hue);
-    const double l = std::pow(lightness + 0.3963377774 * a + 0.2158037573 * b, 3);
-    const double m = std::pow(lightness - 0.1055613458 * a - 0.0638541728 * b, 3);
-    const double s = std::pow(lightness - 0.0894841775 * a - 1.2914855480 * b, 3);
-    rgb = {4.0767416621 * l - 3.3077115913 * m + 0.2309699292 * s,
-           -1.2684380046 * l + 2.6097574011 * m - 0.3413193965 * s,
-           -0.0041960863 * l - 0.7034186147 * m + 1.7076147010 * s};
-    if (std::all_of(rgb.begin(), rgb.end(), [](double c) { return c >= 0 && c <= 1; })) break;
-  }
-  std::array<uint8_t, 3> out{};
-  for (size_t i = 0; i < 3; ++i) {
-    const double c = std::clamp(rgb[i], 0.0, 1.0);
-    const double encoded = c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1 / 2.4) - 0.055;
-    out[i] = static_cast<uint8_t>(std::lround(255 * encoded));
-  }
-  return out;
-}
 
 Result<PngImage> draw_false_colour(const FalseColourPicture& picture, const SourcePlace& place) {
   if (auto good = check(picture, place); !good) return good.problem();

@@ -33,7 +33,7 @@ using ColourMap = std::function<std::array<uint8_t, 3>(double)>;
 std::array<uint8_t, 3> glow_colour(double t);
 
 enum class ColourScale {
-  automatic,  // logarithmic where the largest value is over 30 times the smallest above zero
+  automatic,  // logarithmic where the largest value is over 15 times the smallest above zero
   linear,
   logarithmic,  // values at or below zero take the lowest colour
 };

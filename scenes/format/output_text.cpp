@@ -46,8 +46,9 @@ std::string shortest_number(double value) {
 }
 
 std::string power_of_ten(int exponent) {
-  static constexpr std::array<std::string_view, 10> superscripts = {"⁰", "¹", "²", "³", "⁴",
-                                                                    "⁵", "⁶", "⁷", "⁸", "⁹"};
+  using Digits = std::array<std::string_view, 10>;
+  static constexpr Digits superscripts = {"⁰", "¹", "²", "³", "⁴",  // 0..4
+                                          "⁵", "⁶", "⁷", "⁸", "⁹"};
   std::string out = "10";
   for (const char c : std::to_string(exponent)) {
     out += c == '-' ? std::string_view("⁻") : superscripts[static_cast<size_t>(c - '0')];

@@ -60,7 +60,7 @@ std::vector<AxisTick> linear_ticks(double low, double high, int about) {
 std::vector<AxisTick> log_ticks(double low, double high, int labels_most) {
   const int first = static_cast<int>(std::floor(std::log10(low) + 1e-12));
   const int last = static_cast<int>(std::ceil(std::log10(high) - 1e-12));
-  const double decades = std::log10(high / low);
+  const double decades = std::log10(high) - std::log10(low);
   const int every =
       std::max(1, static_cast<int>(std::ceil((last - first + 1) / double(labels_most))));
   // One way of writing per axis: powers as soon as one label would be long.
@@ -75,7 +75,7 @@ std::vector<AxisTick> log_ticks(double low, double high, int labels_most) {
         tick.label = plain ? readable_number(value) : power_of_ten(exponent);
       } else if (decades < 2 && (mantissa == 2 || mantissa == 5 || decades < 0.7)) {
         tick.label = readable_number(value);
-      } else if (every > 1 && mantissa != 1) {
+      } else if (every > 1 && (mantissa != 1 || every > 9)) {
         continue;  // so many decades leave no room for ticks between them
       }
       ticks.push_back(std::move(tick));

@@ -22,12 +22,17 @@ constexpr double left = 96, right = 32, bottom_margin = 92;
 constexpr double marker_radius = 4.6;
 constexpr double legend_line = 24;
 
-/// Coordinates with a tenth of a thousandth of a unit: more is noise and makes files long.
+/// A coordinate to a hundredth of a unit: more is noise and makes files long.
 std::string coordinate(double value) {
   std::array<char, 40> buffer;
   const double rounded = std::round(value * 1e2) / 1e2;
   const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), rounded + 0.0);
   return {buffer.data(), end.ptr};
+}
+
+/// log(a / b) without the quotient, which may be too large for a double.
+double log_ratio(double a, double b) {
+  return std::log(a) - std::log(b);
 }
 
 struct Axis {
@@ -38,7 +43,7 @@ struct Axis {
   bool shows(double value) const { return std::isfinite(value) && (!logarithmic || value > 0); }
   double place(double value) const {
     const double t =
-        logarithmic ? std::log(value / low) / std::log(high / low) : (value - low) / (high - low);
+        logarithmic ? log_ratio(value, low) / log_ratio(high, low) : (value - low) / (high - low);
     return from + t * (to - from);
   }
   double clamped(double value) const {
@@ -64,7 +69,7 @@ void fit(Axis& axis, Range range) {
   if (!(range.low <= range.high)) range = axis.logarithmic ? Range{1, 10} : Range{0, 1};
   if (axis.logarithmic) {
     // A little air; whole decades only where the data nearly fill them.
-    const double air = std::max(std::pow(range.high / range.low, 0.05), 1.25);
+    const double air = std::max(std::exp(0.05 * log_ratio(range.high, range.low)), 1.25);
     axis.low = std::max(range.low / air, std::numeric_limits<double>::min());
     axis.high = std::min(range.high * air, std::numeric_limits<double>::max());
     return;

@@ -145,9 +145,13 @@ Result<Done> write_vtp(const std::filesystem::path& path, const VtkSurface& surf
           "\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"" +
           std::to_string(surface.triangles.size()) + "\">\n";
   head += cell_data_elements(surface.cell_data, appended);
-  head += "      <Points>\n" + appended.element("Points", 3, points) + "      </Points>\n";
-  head += "      <Polys>\n" + appended.element("connectivity", 1, connectivity) +
-          appended.element("offsets", 1, offsets) + "      </Polys>\n";
+  // One statement each: the order in which operands of + are evaluated is not defined.
+  head += "      <Points>\n";
+  head += appended.element("Points", 3, points);
+  head += "      </Points>\n      <Polys>\n";
+  head += appended.element("connectivity", 1, connectivity);
+  head += appended.element("offsets", 1, offsets);
+  head += "      </Polys>\n";
   head += "    </Piece>\n  </PolyData>\n";
   return write_file_atomically(path, std::string_view(head + file_end(appended)));
 }
