@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "actors/display/maps.hpp"
+#include "scenes/emergency/sign_face.hpp"
 #include "scenes/emergency/sign_geometry.hpp"
 
 namespace luxodus {
@@ -165,8 +166,8 @@ Json views_json(const CompiledScene& scene, const Readout& readout) {
       return readout.value(scene.blocks.views, t.first_bin + part, static_cast<uint32_t>(EyeQuantity::at_eye));
     };
     const Estimate white = at_eye(0), green = at_eye(1), surround = at_eye(2);
-    const double w = sign_colour_share(sign, SignColour::white);
-    const double g = sign_colour_share(sign, SignColour::green);
+    const double w = colour_share(sign.face, SignColour::white);
+    const double g = colour_share(sign.face, SignColour::green);
     const Estimate mean{(w * white.value + g * green.value) / std::max(w + g, 1e-12),
                         std::hypot(w * white.standard_error, g * green.standard_error) / std::max(w + g, 1e-12)};
     const bool white_legend = sign.face.legend == SignColour::white;

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "scenes/geometry/mesh.hpp"
@@ -25,6 +26,10 @@ class EmbreeDevice {
   ~EmbreeDevice();
   EmbreeDevice(const EmbreeDevice&) = delete;
   EmbreeDevice& operator=(const EmbreeDevice&) = delete;
+
+  /// "3.13.5" of the library that is loaded, and the instruction sets its kernels were built for.
+  static std::string library_version();
+  static std::string instruction_sets();
 
   RTCDeviceTy* get() const { return device_; }
   /// Bytes that Embree holds now, by its own memory monitor.

@@ -2,7 +2,7 @@
 
 namespace luxodus {
 
-template std::unique_ptr<BatchTracer> choose_kernel<MediaNeed::none>(const CompiledScene&,
+template std::unique_ptr<ParticleBatches> choose_kernel<MediaNeed::none>(const CompiledScene&,
                                                                    const SceneIndex&, uint64_t);
 
 }  // namespace luxodus

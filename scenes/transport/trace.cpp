@@ -4,8 +4,10 @@
 
 namespace luxodus {
 
-std::unique_ptr<BatchTracer> make_batch_tracer(const CompiledScene& scene, const SceneIndex& index,
-                                               uint64_t seed) {
+namespace {
+
+std::unique_ptr<ParticleBatches> make_particle_batches(const CompiledScene& scene,
+                                                       const SceneIndex& index, uint64_t seed) {
   switch (scene.features.media) {
     case MediaNeed::none:
       return choose_kernel<MediaNeed::none>(scene, index, seed);
@@ -17,6 +19,34 @@ std::unique_ptr<BatchTracer> make_batch_tracer(const CompiledScene& scene, const
       break;
   }
   return choose_kernel<MediaNeed::general>(scene, index, seed);
+}
+
+template <class Resolver>
+class ResolverBatchTracer final : public BatchTracer {
+ public:
+  ResolverBatchTracer(const CompiledScene& scene, const SceneIndex& index, uint64_t seed)
+      : particles_(make_particle_batches(scene, index, seed)),
+        resolver_(scene, index),
+        eyes_(scene, resolver_, seed, RandomStream::eye) {}
+
+  void trace(int group, uint64_t first, int64_t count, BatchScores& scores) override {
+    particles_->trace(group, first, count, scores);
+  }
+  void look(int64_t batch, BatchScores& scores) override { eyes_.score_batch(batch, scores); }
+
+ private:
+  std::unique_ptr<ParticleBatches> particles_;
+  Resolver resolver_;
+  EyeTracer<Resolver> eyes_;
+};
+
+}  // namespace
+
+std::unique_ptr<BatchTracer> make_batch_tracer(const CompiledScene& scene, const SceneIndex& index,
+                                               uint64_t seed) {
+  if (index.cells() > 1)
+    return std::make_unique<ResolverBatchTracer<PartitionResolver>>(scene, index, seed);
+  return std::make_unique<ResolverBatchTracer<MergedResolver>>(scene, index, seed);
 }
 
 DirectLight direct_light_at(const CompiledScene& scene, const SceneIndex& index,

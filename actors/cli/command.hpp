@@ -1,0 +1,63 @@
+// What the subcommands share: exit codes, reading a scene with all its problems told, numbers with units.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "actors/source/local_run.hpp"
+#include "scenes/world/description.hpp"
+
+namespace luxodus::cli {
+
+enum ExitCode : int { success = 0, failure = 1, bad_input = 2, interrupted = 130 };
+
+/// Adds a subcommand to the program; its action sets `exit_code`.
+void add_run(CLI::App& app, int& exit_code);
+void add_check(CLI::App& app, int& exit_code);
+void add_render(CLI::App& app, int& exit_code);
+void add_converge(CLI::App& app, int& exit_code);
+void add_info(CLI::App& app, int& exit_code);
+
+/// One line "file:line: sentence" on standard error.
+void tell(const Problem& problem);
+
+/// The scene, or null after every problem was told.
+std::shared_ptr<const SceneDescription> load_scene(const std::string& file);
+
+/// The scenarios that a name stands for: one, all of them for "all", the first for "".
+Result<std::vector<Scenario>> chosen_scenarios(const SceneDescription& scene, const std::string& name);
+
+/// "1e6", "250k", "10M", "2G" -> a count; "1%", "0.01" -> a share; "90", "60s", "5m", "1h" -> seconds.
+Result<int64_t> parse_count(const std::string& text);
+Result<double> parse_share(const std::string& text);
+Result<double> parse_seconds(const std::string& text);
+
+/// Threads to use when the caller names none.
+int default_threads();
+
+/// Set by Ctrl-C (and SIGTERM) once installed; the second Ctrl-C ends the program at once.
+const std::atomic<bool>& interrupt_flag();
+void install_interrupt_handler();
+
+/// A line that is rewritten on a terminal, and logged every ten seconds elsewhere.
+class ProgressLine {
+ public:
+  explicit ProgressLine(std::string title);
+  ~ProgressLine();
+  void show(const Progress& progress);
+  void show_share(double share);
+
+ private:
+  void put(const std::string& text, bool last);
+  std::string title_;
+  bool terminal_;
+  double logged_at_ = -1e9;
+};
+
+/// "1.23 M", "45.6 k".
+std::string short_number(double v);
+
+}  // namespace luxodus::cli

@@ -1,0 +1,150 @@
+// luxodus converge: how the error falls with particles and with seconds.
+#include <cmath>
+#include <filesystem>
+
+#include "actors/cli/command.hpp"
+#include "scenes/format/csv.hpp"
+#include "scenes/format/json_out.hpp"
+#include "scenes/format/svg_plot.hpp"
+#include "scenes/transport/compile.hpp"
+
+namespace luxodus::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ConvergeOptions {
+  std::string scene, scenario, out;
+  std::string particles = "8M";
+  int threads = default_threads();
+  std::optional<uint64_t> seed;
+  bool json = false;
+};
+
+struct Point {
+  double particles, seconds, error, figure_of_merit;
+};
+
+/// Least-squares slope of log y over log x.
+double slope(const std::vector<Point>& points, double Point::* x) {
+  double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
+  for (const Point& p : points) {
+    const double lx = std::log(p.*x);
+    const double ly = std::log(p.error);
+    n += 1;
+    sx += lx;
+    sy += ly;
+    sxx += lx * lx;
+    sxy += lx * ly;
+  }
+  return (n * sxy - sx * sy) / (n * sxx - sx * sx);
+}
+
+/// One run that doubles, looked at after each doubling: every point is a run of its own would-be length.
+std::vector<Point> trace_points(LocalRun& run, int64_t most) {
+  std::vector<Point> points;
+  ProgressLine line("converge");
+  for (int64_t n = 8 * run.scene().batch_particles;; n *= 2) {
+    StopRule rule;
+    rule.particles = std::min(n, most);
+    run.run(rule, interrupt_flag(), [&](const Progress& p) { line.show(p); });
+    const double error = Readout(run.scene(), run.totals()).worst_relative_error();
+    if (std::isfinite(error) && error > 0)
+      points.push_back({static_cast<double>(run.particles()), run.seconds(), error,
+                        1 / (error * error * run.seconds())});
+    if (n >= most || interrupt_flag().load()) return points;
+  }
+}
+
+SvgPlot plot_of(const std::vector<Point>& points, double Point::* x, const std::string& scene,
+                const std::string& x_label) {
+  SvgPlot plot;
+  plot.title = "Error of " + scene;
+  plot.label_x = x_label;
+  plot.label_y = "worst relative standard error";
+  plot.log_x = plot.log_y = true;
+  plot.reference = PlotReference{};
+  PlotSeries series;
+  series.name = "measured";
+  for (const Point& p : points) {
+    series.x.push_back(p.*x);
+    series.y.push_back(p.error);
+  }
+  plot.series.push_back(std::move(series));
+  return plot;
+}
+
+Result<Done> write_points(const fs::path& out, const std::vector<Point>& points, const std::string& name) {
+  std::error_code error;
+  fs::create_directories(out, error);
+  if (error) return Problem{{out.string(), 0}, "cannot make this folder: " + error.message()};
+  CsvTable table({"particles", "seconds", "relative_error", "figure_of_merit_per_s"});
+  for (const Point& p : points) {
+    table.cell(p.particles).cell(p.seconds).cell(p.error).cell(p.figure_of_merit);
+    table.end_row();
+  }
+  if (auto ok = write_csv(out / "converge.csv", table); !ok.ok()) return ok.problem();
+  if (auto ok = write_svg_plot(out / "error_particles.svg", plot_of(points, &Point::particles, name, "particles"));
+      !ok.ok())
+    return ok.problem();
+  return write_svg_plot(out / "error_seconds.svg", plot_of(points, &Point::seconds, name, "time [s]"));
+}
+
+Result<Done> converge(const ConvergeOptions& options) {
+  auto most = parse_count(options.particles);
+  if (!most.ok()) return most.problem();
+  const auto description = load_scene(options.scene);
+  if (!description) return Problem{{options.scene, 0}, "the scene has problems, told above"};
+  auto scenario = find_scenario(*description, options.scenario);
+  if (!scenario.ok()) return scenario.problem();
+  auto scene = compile_scene(description, scenario.value(), {});
+  if (!scene.ok()) return scene.problem();
+  install_interrupt_handler();
+  LocalRun run(scene.value(), options.seed.value_or(description->run.seed), options.threads);
+  const std::vector<Point> points = trace_points(run, most.value());
+  if (points.size() < 2)
+    return Problem{{options.scene, 0}, "too few particles for a slope: ask for more with --particles"};
+  const fs::path out =
+      options.out.empty() ? fs::path("out") / (fs::path(options.scene).stem().string() + "_converge") : fs::path(options.out);
+  if (auto ok = write_points(out, points, description->name); !ok.ok()) return ok.problem();
+  const double by_particles = slope(points, &Point::particles);
+  const double by_seconds = slope(points, &Point::seconds);
+  if (options.json) {
+    Json rows = Json::array();
+    for (const Point& p : points)
+      rows.push_back({{"particles", p.particles}, {"seconds", p.seconds}, {"relative_error", p.error},
+                      {"figure_of_merit", p.figure_of_merit}});
+    std::fputs(json_text({{"points", rows}, {"slope_particles", by_particles}, {"slope_seconds", by_seconds}}).c_str(),
+               stdout);
+    return Done{};
+  }
+  std::printf("%14s %10s %12s %16s\n", "particles", "seconds", "error", "merit 1/(e2 s)");
+  for (const Point& p : points)
+    std::printf("%14.0f %10.2f %11.4f%% %16.4g\n", p.particles, p.seconds, 100 * p.error, p.figure_of_merit);
+  std::printf("slope of error: %.3f over particles, %.3f over seconds (Monte Carlo: -0.5)\nwritten to %s\n",
+              by_particles, by_seconds, out.string().c_str());
+  return Done{};
+}
+
+}  // namespace
+
+void add_converge(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<ConvergeOptions>();
+  CLI::App* command = app.add_subcommand("converge", "Error against particles and seconds: table, CSV, plots, slope");
+  command->add_option("scene", options->scene, "scene file (TOML)")->required();
+  command->add_option("--scenario", options->scenario, "name of a scenario [the first]");
+  command->add_option("--particles", options->particles, "where to end [8M]");
+  command->add_option("--out", options->out, "folder for converge.csv and the plots [out/NAME_converge]");
+  command->add_option("--seed", options->seed, "of the random numbers [the scene's]");
+  command->add_option("--threads", options->threads, "[all cores]")->check(CLI::Range(1, 1024));
+  command->add_flag("--json", options->json, "machine-readable");
+  command->callback([options, &exit_code] {
+    auto done = converge(*options);
+    if (done.ok()) return;
+    tell(done.problem());
+    exit_code = ExitCode::bad_input;
+  });
+}
+
+}  // namespace luxodus::cli

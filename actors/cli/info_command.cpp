@@ -1,0 +1,69 @@
+// luxodus info: what this program is made of, and whether this machine can run it.
+#include <fmt/format.h>
+#include <spdlog/version.h>
+#include <zstd.h>
+
+#include <glm/glm.hpp>
+
+#include "actors/cli/command.hpp"
+#include "scenes/format/json_out.hpp"
+#include "scenes/intersect/embree_scene.hpp"
+
+namespace luxodus::cli {
+
+namespace {
+
+const char* instruction_set() {
+  __builtin_cpu_init();
+  if (__builtin_cpu_supports("x86-64-v4")) return "x86-64-v4 (AVX-512)";
+  if (__builtin_cpu_supports("x86-64-v3")) return "x86-64-v3 (AVX2, FMA)";
+  if (__builtin_cpu_supports("x86-64-v2")) return "x86-64-v2 (SSE4.2)";
+  return "x86-64";
+}
+
+Json info() {
+  Json packages = {{"embree", EmbreeDevice::library_version()},
+                   {"spdlog", fmt::format("{}.{}.{}", SPDLOG_VER_MAJOR, SPDLOG_VER_MINOR, SPDLOG_VER_PATCH)},
+                   {"fmt", fmt::format("{}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100)},
+                   {"CLI11", CLI11_VERSION},
+                   {"nlohmann-json", fmt::format("{}.{}.{}", NLOHMANN_JSON_VERSION_MAJOR,
+                                                 NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH)},
+                   {"glm", fmt::format("{}.{}.{}", GLM_VERSION_MAJOR, GLM_VERSION_MINOR, GLM_VERSION_PATCH)},
+                   {"zstd", ZSTD_versionString()}};
+  return {{"version", LUX_VERSION},
+          {"build", LUX_BUILD},
+          {"compiler", fmt::format("GCC {}", __VERSION__)},
+          {"built_for", LUX_ARCH},
+          {"this_processor", instruction_set()},
+          {"embree_instruction_sets", EmbreeDevice::instruction_sets()},
+          {"threads", default_threads()},
+          {"packages", packages}};
+}
+
+void print(const Json& j, int indent) {
+  for (const auto& [key, value] : j.items()) {
+    if (value.is_object()) {
+      std::printf("%s\n", key.c_str());
+      print(value, indent + 2);
+      continue;
+    }
+    const std::string text = value.is_string() ? value.get<std::string>() : value.dump();
+    std::printf("%*s%-24s %s\n", indent, "", key.c_str(), text.c_str());
+  }
+}
+
+}  // namespace
+
+void add_info(CLI::App& app, int& exit_code) {
+  auto json = std::make_shared<bool>(false);
+  CLI::App* command = app.add_subcommand("info", "Version, build, packages, instruction set");
+  command->add_flag("--json", *json, "machine-readable");
+  command->callback([json, &exit_code] {
+    const Json j = info();
+    if (*json) std::fputs(json_text(j).c_str(), stdout);
+    else print(j, 0);
+    exit_code = ExitCode::success;
+  });
+}
+
+}  // namespace luxodus::cli

@@ -1,0 +1,85 @@
+// luxodus render: pictures from a finished run, without tracing particles again.
+#include <filesystem>
+
+#include "actors/cli/command.hpp"
+#include "actors/display/pictures.hpp"
+#include "actors/source/flux_store.hpp"
+#include "scenes/format/json_out.hpp"
+#include "scenes/transport/compile.hpp"
+
+namespace luxodus::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct RenderOptions {
+  std::string folder;
+  std::string view;
+  int threads = default_threads();
+  int paths = 32;
+};
+
+/// result.json of a run, as far as rendering needs it.
+struct Finished {
+  std::string scene_file, scenario;
+  uint64_t seed = 0;
+  int cells = 1;
+};
+
+Result<Finished> read_result(const fs::path& file) {
+  constexpr uint64_t most_bytes = uint64_t{1} << 30;
+  auto bytes = read_whole_file(file, most_bytes);
+  if (!bytes.ok()) return bytes.problem();
+  const auto* text = reinterpret_cast<const char*>(bytes->data());
+  const Json json = Json::parse(text, text + bytes->size(), nullptr, false);
+  const SourcePlace place{file.string(), 0};
+  if (!json.is_object() || !json.contains("scene_file") || !json["scene_file"].is_string() ||
+      !json.contains("scenario") || !json["scenario"].is_string() ||
+      !json.value("seed", Json()).is_number_unsigned() || !json.value("cells", Json()).is_number_integer()) {
+    return Problem{place, "this is no result of a run: run the scene again"};
+  }
+  return Finished{json["scene_file"], json["scenario"], json["seed"], json["cells"]};
+}
+
+Result<Done> render(const RenderOptions& options) {
+  const fs::path folder = options.folder;
+  auto finished = read_result(folder / "result.json");
+  if (!finished.ok()) return finished.problem();
+  const auto description = load_scene(finished->scene_file);
+  if (!description) return Problem{{finished->scene_file, 0}, "the run's scene cannot be read any more"};
+  const std::string name = description->scenarios.empty() ? "" : finished->scenario;
+  auto scenario = find_scenario(*description, name);
+  if (!scenario.ok()) return scenario.problem();
+  auto scene = compile_scene(description, scenario.value(), {finished->cells});
+  if (!scene.ok()) return scene.problem();
+  if (description->cameras.empty())
+    return Problem{{finished->scene_file, 0}, "the scene has no [[camera]] to render"};
+  LocalRun run(scene.value(), finished->seed, options.threads);
+  if (auto ok = load_flux(folder / "flux.lux", run); !ok.ok()) return ok.problem();
+  ProgressLine line("pictures");
+  PictureOptions picture;
+  picture.paths_per_pixel = options.paths;
+  return render_views(folder, run, options.view, picture, [&](double share) { line.show_share(share); });
+}
+
+}  // namespace
+
+void add_render(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<RenderOptions>();
+  CLI::App* command =
+      app.add_subcommand("render", "Make pictures from a finished run, without tracing it again");
+  command->footer("Reads DIR/result.json, DIR/flux.lux and the scene file; refuses if the scene has changed.");
+  command->add_option("dir", options->folder, "folder of a finished run")->required();
+  command->add_option("--view", options->view, "name of one camera [all]");
+  command->add_option("--paths", options->paths, "paths per pixel [32]")->check(CLI::Range(1, 100'000));
+  command->add_option("--threads", options->threads, "[all cores]")->check(CLI::Range(1, 1024));
+  command->callback([options, &exit_code] {
+    auto done = render(*options);
+    if (done.ok()) return;
+    tell(done.problem());
+    exit_code = ExitCode::bad_input;
+  });
+}
+
+}  // namespace luxodus::cli

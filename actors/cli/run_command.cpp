@@ -1,0 +1,179 @@
+// luxodus run: trace a scene, write everything that came of it.
+#include <spdlog/spdlog.h>
+
+#include <filesystem>
+
+#include "actors/cli/command.hpp"
+#include "actors/display/pictures.hpp"
+#include "actors/display/report.hpp"
+#include "actors/source/flux_store.hpp"
+#include "scenes/transport/compile.hpp"
+
+namespace luxodus::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct RunOptions {
+  std::string scene;
+  std::string out;
+  std::string scenario;
+  std::string particles, error, time;
+  std::optional<uint64_t> seed;
+  int threads = default_threads();
+  int cells = 1;
+  bool resume = false;
+  bool no_views = false;
+  bool json = false;
+  int picture_paths = 32;
+};
+
+constexpr int64_t default_particles = 4'000'000;
+
+Result<StopRule> stop_rule(const RunOptions& o) {
+  StopRule rule;
+  if (!o.particles.empty()) {
+    auto n = parse_count(o.particles);
+    if (!n.ok()) return n.problem();
+    rule.particles = n.value();
+  }
+  if (!o.error.empty()) {
+    auto e = parse_share(o.error);
+    if (!e.ok()) return e.problem();
+    rule.relative_error = e.value();
+  }
+  if (!o.time.empty()) {
+    auto t = parse_seconds(o.time);
+    if (!t.ok()) return t.problem();
+    rule.seconds = t.value();
+  }
+  if (!rule.particles && !rule.relative_error && !rule.seconds) rule.particles = default_particles;
+  return rule;
+}
+
+const char* reason_word(StopReason reason) {
+  switch (reason) {
+    case StopReason::particles:
+      return "particles";
+    case StopReason::error:
+      return "error";
+    case StopReason::time:
+      return "time";
+    case StopReason::interrupted:
+      return "interrupted";
+  }
+  return "";
+}
+
+Result<Done> write_all(const fs::path& folder, const LocalRun& run, const RunRecord& record,
+                       const RunOptions& options) {
+  if (auto ok = save_flux(folder / "flux.lux", run); !ok.ok()) return ok.problem();
+  if (auto ok = write_report(folder, run, record); !ok.ok()) return ok.problem();
+  const bool pictures = !options.no_views && !run.scene().description->cameras.empty();
+  if (!pictures || record.stopped_by == std::string("interrupted")) return Done{};
+  ProgressLine line("pictures");
+  PictureOptions picture;
+  picture.paths_per_pixel = options.picture_paths;
+  return render_views(folder, run, "", picture, [&](double share) { line.show_share(share); });
+}
+
+/// One scenario into one folder.
+Result<StopReason> run_scenario(std::shared_ptr<const SceneDescription> description,
+                                const Scenario& scenario, const fs::path& folder,
+                                const RunOptions& options, const StopRule& rule) {
+  auto scene = compile_scene(description, scenario, {options.cells});
+  if (!scene.ok()) return scene.problem();
+  for (const Problem& w : scene.value()->warnings) spdlog::warn("{}", w.text());
+  const uint64_t seed = options.seed.value_or(description->run.seed);
+  LocalRun run(scene.value(), seed, options.threads);
+  if (options.resume) {
+    if (auto ok = load_flux(folder / "flux.lux", run); !ok.ok()) return ok.problem();
+  }
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) return Problem{{folder.string(), 0}, "cannot make this folder: " + error.message()};
+  StopReason reason = StopReason::particles;
+  {
+    ProgressLine line(scenario.name);
+    reason = run.run(rule, interrupt_flag(), [&](const Progress& p) { line.show(p); });
+  }
+  RunRecord record;
+  record.scene_file = fs::absolute(options.scene).string();
+  record.stopped_by = reason_word(reason);
+  record.cells = options.cells;
+  if (auto ok = write_all(folder, run, record, options); !ok.ok()) return ok.problem();
+  const Json result = result_json(run, record);
+  if (options.json) std::fputs(json_text(result).c_str(), stdout);
+  else
+    std::printf("%s, scenario %s, in %s\n%s", description->name.c_str(), scenario.name.c_str(),
+                folder.string().c_str(), summary_text(run, result).c_str());
+  return reason;
+}
+
+int run_scene(const RunOptions& options) {
+  auto rule = stop_rule(options);
+  if (!rule.ok()) {
+    tell(rule.problem());
+    return ExitCode::bad_input;
+  }
+  const auto description = load_scene(options.scene);
+  if (!description) return ExitCode::bad_input;
+  auto scenarios = chosen_scenarios(*description, options.scenario);
+  if (!scenarios.ok()) {
+    tell(scenarios.problem());
+    return ExitCode::bad_input;
+  }
+  install_interrupt_handler();
+  const fs::path out =
+      options.out.empty() ? fs::path("out") / fs::path(options.scene).stem() : fs::path(options.out);
+  const bool several = options.scenario == "all" && description->scenarios.size() > 0;
+  for (const Scenario& scenario : scenarios.value()) {
+    const fs::path folder = several ? out / scenario.name : out;
+    auto reason = run_scenario(description, scenario, folder, options, rule.value());
+    if (!reason.ok()) {
+      tell(reason.problem());
+      return ExitCode::bad_input;
+    }
+    if (reason.value() == StopReason::interrupted) {
+      spdlog::warn("interrupted; what there is was written; go on with --resume");
+      return ExitCode::interrupted;
+    }
+  }
+  return ExitCode::success;
+}
+
+}  // namespace
+
+void add_run(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<RunOptions>();
+  CLI::App* command = app.add_subcommand("run", "Trace a scene and write flux, lux, signs and pictures");
+  command->footer(
+      "Examples:\n"
+      "  luxodus run scenes/library/empty_room.toml --out out/room --particles 10M\n"
+      "  luxodus run scenes/library/office_floor.toml --scenario all --error 1%\n"
+      "  luxodus run scene.toml --out out/x --time 60s     then: ... --time 60s --resume\n\n"
+      "Stops at the first of --particles, --error and --time that holds (4M particles if none is given).\n"
+      "The error is the worst relative standard error of plane means, probes and signs at the eye.\n"
+      "Ctrl-C stops at a batch's end and writes what there is. Equal scene, seed, particles and cells give\n"
+      "the same flux file, bit for bit, for any number of threads.\n\n"
+      "DIR then holds result.json, flux.lux, planes/, views/, patches.vtp and volume.vti.");
+  command->add_option("scene", options->scene, "scene file (TOML; see scenes/format/README.md)")->required();
+  command->add_option("--out", options->out, "folder for the results [out/NAME]");
+  command->add_option("--scenario", options->scenario, "name of a scenario, or 'all' [the first]");
+  command->add_option("--particles", options->particles, "how many, e.g. 1e6, 250k, 10M (whole batches)");
+  command->add_option("--error", options->error, "relative standard error to reach, e.g. 1%");
+  command->add_option("--time", options->time, "how long, e.g. 60s, 5m");
+  command->add_option("--seed", options->seed, "of the random numbers [the scene's]");
+  command->add_option("--threads", options->threads, "[all cores]")->check(CLI::Range(1, 1024));
+  command->add_option("--cells", options->cells, "geometry cells; 1 is one merged scene [1]")
+      ->check(CLI::Range(1, 1'000'000));
+  command->add_option("--picture-paths", options->picture_paths, "paths per pixel of the views [32]")
+      ->check(CLI::Range(1, 100'000));
+  command->add_flag("--resume", options->resume, "go on from DIR's flux file");
+  command->add_flag("--no-views", options->no_views, "make no pictures");
+  command->add_flag("--json", options->json, "print result.json instead of a summary");
+  command->callback([options, &exit_code] { exit_code = run_scene(*options); });
+}
+
+}  // namespace luxodus::cli
