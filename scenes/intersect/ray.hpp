@@ -24,8 +24,20 @@ struct TriangleRecord {
   uint32_t surface;         // index of the object it belongs to
   uint32_t global_triangle;  // its number in the whole scene: ties go to the smaller
 
+  /// The point at barycentrics (u, v), kept off the edges by 2^-16 of the triangle: a point that rounding puts
+  /// beyond a neighbour in a corner of the room would see the outside.
   glm::vec3 at(float u, float v) const {
-    return corner[0] * (1 - u - v) + corner[1] * u + corner[2] * v;
+    constexpr float margin = 0x1p-16f;
+    u = u < margin ? margin : u;
+    v = v < margin ? margin : v;
+    float w = 1 - u - v;
+    if (w < margin) {
+      const float shrink = (1 - margin) / (u + v);
+      u *= shrink;
+      v *= shrink;
+      w = margin;
+    }
+    return corner[0] * w + corner[1] * u + corner[2] * v;
   }
 };
 static_assert(sizeof(TriangleRecord) == 64);
