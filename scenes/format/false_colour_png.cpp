@@ -495,7 +495,7 @@ Result<Done> check(const FalseColourPicture& p, const SourcePlace& place) {
   if (p.cells_u < 1 || p.cells_v < 1 || p.cells_u > limits::grid_edge_most ||
       p.cells_v > limits::grid_edge_most ||
       static_cast<uint64_t>(p.cells_u) * static_cast<uint64_t>(p.cells_v) >
-          limits::grid_cells_most) {
+          limits::drawn_cells_most) {
     return Problem{place, "a grid of " + std::to_string(p.cells_u) + " x " +
                               std::to_string(p.cells_v) +
                               " cells cannot be drawn; edges are 1 to " +

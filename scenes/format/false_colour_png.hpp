@@ -18,7 +18,7 @@ namespace luxodus {
 
 namespace limits {
 inline constexpr int grid_edge_most = 8192;  // cells
-inline constexpr uint64_t grid_cells_most = uint64_t{1} << 24;
+inline constexpr uint64_t drawn_cells_most = uint64_t{1} << 24;
 inline constexpr size_t contours_most = 32;
 inline constexpr int picture_edge_px_least = 480;
 inline constexpr int picture_edge_px_most = 8192;
