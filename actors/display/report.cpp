@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "actors/display/maps.hpp"
+#include "scenes/emergency/sign_face.hpp"
 #include "scenes/emergency/sign_geometry.hpp"
 
 namespace luxodus {
@@ -165,8 +166,8 @@ Json views_json(const CompiledScene& scene, const Readout& readout) {
       return readout.value(scene.blocks.views, t.first_bin + part, static_cast<uint32_t>(EyeQuantity::at_eye));
     };
     const Estimate white = at_eye(0), green = at_eye(1), surround = at_eye(2);
-    const double w = sign_colour_share(sign, SignColour::white);
-    const double g = sign_colour_share(sign, SignColour::green);
+    const double w = colour_share(sign.face, SignColour::white);
+    const double g = colour_share(sign.face, SignColour::green);
     const Estimate mean{(w * white.value + g * green.value) / std::max(w + g, 1e-12),
                         std::hypot(w * white.standard_error, g * green.standard_error) / std::max(w + g, 1e-12)};
     const bool white_legend = sign.face.legend == SignColour::white;
@@ -192,9 +193,7 @@ Json views_json(const CompiledScene& scene, const Readout& readout) {
   return out;
 }
 
-}  // namespace
-
-Json result_json(const LocalRun& run, const RunRecord& record) {
+Json result_of(const LocalRun& run, const RunRecord& record, const PlaneMaps& maps) {
   const CompiledScene& scene = run.scene();
   const Readout readout(scene, run.totals());
   const double error = readout.worst_relative_error();
@@ -228,7 +227,7 @@ Json result_json(const LocalRun& run, const RunRecord& record) {
   for (const Group& g : scene.groups)
     groups.push_back({{"name", g.name}, {"luminous_flux", exact_json(g.luminous_flux_lm, "lm")}});
   out["source_groups"] = std::move(groups);
-  out["planes"] = planes_json(run, readout);
+  out["planes"] = planes_json(run, readout, maps);
   out["probes"] = probes_json(run, readout);
   out["signs"] = views_json(scene, readout);
   out["surfaces"] = surfaces_json(scene, readout);
@@ -240,14 +239,21 @@ Json result_json(const LocalRun& run, const RunRecord& record) {
   return out;
 }
 
+}  // namespace
+
+Json result_json(const LocalRun& run, const RunRecord& record) {
+  return result_of(run, record, make_plane_maps(run));
+}
+
 Result<Done> write_report(const std::filesystem::path& folder, const LocalRun& run,
                           const RunRecord& record) {
   std::error_code error;
   std::filesystem::create_directories(folder / "planes", error);
   if (error) return Problem{{folder.string(), 0}, "cannot make this folder: " + error.message()};
-  if (auto ok = write_plane_maps(folder / "planes", run); !ok.ok()) return ok.problem();
+  const PlaneMaps maps = make_plane_maps(run);
+  if (auto ok = write_plane_maps(folder / "planes", run, maps); !ok.ok()) return ok.problem();
   if (auto ok = write_flux_maps(folder, run); !ok.ok()) return ok.problem();
-  return write_json(folder / "result.json", result_json(run, record));
+  return write_json(folder / "result.json", result_of(run, record, maps));
 }
 
 std::string summary_text(const LocalRun& run, const Json& result) {
