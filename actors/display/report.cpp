@@ -193,9 +193,7 @@ Json views_json(const CompiledScene& scene, const Readout& readout) {
   return out;
 }
 
-}  // namespace
-
-Json result_json(const LocalRun& run, const RunRecord& record) {
+Json result_of(const LocalRun& run, const RunRecord& record, const PlaneMaps& maps) {
   const CompiledScene& scene = run.scene();
   const Readout readout(scene, run.totals());
   const double error = readout.worst_relative_error();
@@ -229,7 +227,7 @@ Json result_json(const LocalRun& run, const RunRecord& record) {
   for (const Group& g : scene.groups)
     groups.push_back({{"name", g.name}, {"luminous_flux", exact_json(g.luminous_flux_lm, "lm")}});
   out["source_groups"] = std::move(groups);
-  out["planes"] = planes_json(run, readout);
+  out["planes"] = planes_json(run, readout, maps);
   out["probes"] = probes_json(run, readout);
   out["signs"] = views_json(scene, readout);
   out["surfaces"] = surfaces_json(scene, readout);
@@ -241,14 +239,21 @@ Json result_json(const LocalRun& run, const RunRecord& record) {
   return out;
 }
 
+}  // namespace
+
+Json result_json(const LocalRun& run, const RunRecord& record) {
+  return result_of(run, record, make_plane_maps(run));
+}
+
 Result<Done> write_report(const std::filesystem::path& folder, const LocalRun& run,
                           const RunRecord& record) {
   std::error_code error;
   std::filesystem::create_directories(folder / "planes", error);
   if (error) return Problem{{folder.string(), 0}, "cannot make this folder: " + error.message()};
-  if (auto ok = write_plane_maps(folder / "planes", run); !ok.ok()) return ok.problem();
+  const PlaneMaps maps = make_plane_maps(run);
+  if (auto ok = write_plane_maps(folder / "planes", run, maps); !ok.ok()) return ok.problem();
   if (auto ok = write_flux_maps(folder, run); !ok.ok()) return ok.problem();
-  return write_json(folder / "result.json", result_json(run, record));
+  return write_json(folder / "result.json", result_of(run, record, maps));
 }
 
 std::string summary_text(const LocalRun& run, const Json& result) {

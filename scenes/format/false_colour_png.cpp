@@ -391,8 +391,9 @@ void Painter::draw_axes() {
     widest = std::max(widest, canvas_.text_width(tick.label));
   }
   canvas_.font(text_size);
-  canvas_.text(l_.plot.x + l_.plot.width / 2, bottom + 70, p_.label_u + " [m]", TextAlign::centre);
-  canvas_.text(l_.plot.x - 32 - widest, l_.plot.y + l_.plot.height / 2, p_.label_v + " [m]",
+  const std::string unit = " [" + p_.length_unit + "]";
+  canvas_.text(l_.plot.x + l_.plot.width / 2, bottom + 70, p_.label_u + unit, TextAlign::centre);
+  canvas_.text(l_.plot.x - 32 - widest, l_.plot.y + l_.plot.height / 2, p_.label_v + unit,
                TextAlign::centre, -std::numbers::pi / 2);
 }
 
@@ -462,7 +463,7 @@ std::string Painter::summary() const {
                     "   ·   mean " + with_unit(s_.mean) + "   ·   maximum " + with_unit(s_.high) +
                     "   ·   " + std::to_string(p_.cells_u) + " × " + std::to_string(p_.cells_v) +
                     " cells of " + readable_number(p_.length_u_m / p_.cells_u) + " × " +
-                    readable_number(p_.length_v_m / p_.cells_v) + " m";
+                    readable_number(p_.length_v_m / p_.cells_v) + " " + p_.length_unit;
   return out;
 }
 
@@ -494,7 +495,7 @@ Result<Done> check(const FalseColourPicture& p, const SourcePlace& place) {
   if (p.cells_u < 1 || p.cells_v < 1 || p.cells_u > limits::grid_edge_most ||
       p.cells_v > limits::grid_edge_most ||
       static_cast<uint64_t>(p.cells_u) * static_cast<uint64_t>(p.cells_v) >
-          limits::grid_cells_most) {
+          limits::drawn_cells_most) {
     return Problem{place, "a grid of " + std::to_string(p.cells_u) + " x " +
                               std::to_string(p.cells_v) +
                               " cells cannot be drawn; edges are 1 to " +

@@ -18,7 +18,7 @@ namespace luxodus {
 
 namespace limits {
 inline constexpr int grid_edge_most = 8192;  // cells
-inline constexpr uint64_t grid_cells_most = uint64_t{1} << 24;
+inline constexpr uint64_t drawn_cells_most = uint64_t{1} << 24;
 inline constexpr size_t contours_most = 32;
 inline constexpr int picture_edge_px_least = 480;
 inline constexpr int picture_edge_px_most = 8192;
@@ -43,8 +43,9 @@ struct FalseColourPicture {
   std::string subtitle;       // one line below the title: scene, scenario
   std::string quantity;       // "Illuminance"
   std::string unit;           // "lx"
-  std::string label_u = "x";  // names of the axes; " [m]" is added
+  std::string label_u = "x";  // names of the axes; their unit is added
   std::string label_v = "y";
+  std::string length_unit = "m";  // "px" where the grid is a picture; the lengths below are in it
   int cells_u = 0;
   int cells_v = 0;
   std::vector<double>

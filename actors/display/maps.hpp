@@ -1,0 +1,56 @@
+// Results over places: planes as tables and false-colour pictures, patches and voxels for ParaView,
+// and what result.json says of planes. Direct light is computed without chance at the centres of a
+// plane's cells; indirect light is what the run has traced, with its standard error. Positions are
+// scene coordinates [m]. Reads the run, changes nothing; one call at a time per run.
+#pragma once
+
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "actors/source/local_run.hpp"
+#include "scenes/format/json_out.hpp"
+
+namespace luxodus {
+
+namespace limits {
+/// Patches (of one side) up to which patches.vtp shows each; above it shows whole triangles.
+inline constexpr uint64_t patches_drawn = 2'000'000;
+}  // namespace limits
+
+/// Illuminance in the cells of one plane [lx], index v * cells_u + u.
+struct PlaneMap {
+  std::vector<glm::dvec3> centres;         // scene coordinates
+  std::vector<double> direct_lx;           // with media
+  std::vector<double> direct_in_clear_lx;  // without: what codes calculate
+  std::vector<Estimate> indirect_lx;       // traced: scattered, reflected, collimated
+  std::vector<double> group_direct_lx;     // means over the plane, per source group
+  std::vector<double> group_in_clear_lx;
+
+  Estimate total(size_t cell) const {
+    return {direct_lx[cell] + indirect_lx[cell].value, indirect_lx[cell].standard_error};
+  }
+};
+
+/// One map per plane of the scene.
+struct PlaneMaps {
+  std::vector<PlaneMap> planes;
+};
+
+/// Computes the direct light of all planes, on the run's threads, and reads out the indirect light.
+PlaneMaps make_plane_maps(const LocalRun& run);
+
+/// The planes of result.json. Means are bins of their own, so that their errors are; minimum and
+/// maximum are cells, with the error of that cell.
+Json planes_json(const LocalRun& run, const Readout& readout, const PlaneMaps& maps);
+
+/// Writes NAME.csv, NAME.png and NAME_direct_clear_air.png of every plane. A plane of more cells
+/// than limits::drawn_cells_most or grid_edge_most is written as a table only. Errors: as write_csv
+/// and write_png.
+Result<Done> write_plane_maps(const std::filesystem::path& folder, const LocalRun& run,
+                              const PlaneMaps& maps);
+
+/// Writes patches.vtp and, where the run has voxels, volume.vti. Errors: as write_vtp.
+Result<Done> write_flux_maps(const std::filesystem::path& folder, const LocalRun& run);
+
+}  // namespace luxodus

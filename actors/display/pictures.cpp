@@ -1,0 +1,200 @@
+// Tracing. Pixels and bands are sampled together by Roberts' R3 sequence, shifted at random for
+// every pixel: the paths of a pixel are spread over its area and over the bands at once, without
+// making one depend on the other. Standard errors take them as independent, which errs on the safe
+// side.
+#include "actors/display/pictures.hpp"
+
+#include <atomic>
+#include <cmath>
+#include <limits>
+
+#include "actors/display/rows.hpp"
+#include "scenes/geometry/patches.hpp"
+#include "scenes/optics/sampling.hpp"
+
+namespace luxodus {
+
+namespace {
+
+constexpr double plastic = 1.2207440846057596;  // root of x^4 = x + 1
+constexpr glm::dvec3 r3_step{1 / plastic, 1 / (plastic * plastic),
+                             1 / (plastic * plastic * plastic)};
+
+/// A path's number: camera, pixel (28 bits), path; path 0 draws the pixel's shift.
+constexpr int camera_shift = 48;
+constexpr int pixel_shift = 17;
+
+double area_of(const TriangleRecord& t) {
+  const glm::dvec3 a(t.corner[0]);
+  return glm::length(glm::cross(glm::dvec3(t.corner[1]) - a, glm::dvec3(t.corner[2]) - a)) / 2;
+}
+
+class FluxRadiance final : public PatchRadiance {
+ public:
+  explicit FluxRadiance(const LocalRun& run)
+      : bands_(static_cast<size_t>(run.scene().bands.count())),
+        table_(size_t{run.scene().patch_count} * bands_) {
+    const Readout readout(run.scene(), run.totals());
+    constexpr int64_t per_row = 1024;  // triangles
+    for (const GeometryCell& cell : run.scene().cells) {
+      const auto count = static_cast<int64_t>(cell.triangles.size());
+      const auto fill = [&](int64_t row) {
+        for (int64_t i = row * per_row; i < std::min(count, (row + 1) * per_row); ++i) {
+          fill_triangle(run.scene(), readout, cell.triangles[static_cast<size_t>(i)]);
+        }
+      };
+      for_each_row((count + per_row - 1) / per_row, run.threads(), [&] { return fill; });
+    }
+  }
+
+  double radiance(const Hit& hit, bool front, int band) const override {
+    const TriangleRecord& t = *hit.triangle;
+    const uint32_t n = t.subdivision;
+    const uint32_t patch = t.first_patch + (front ? 0 : n * n) + sub_triangle(hit.u, hit.v, n);
+    return static_cast<double>(table_[patch * bands_ + static_cast<size_t>(band)]);
+  }
+
+ private:
+  void fill_triangle(const CompiledScene& scene, const Readout& readout, const TriangleRecord& t) {
+    const uint32_t patches = t.subdivision * t.subdivision;
+    const double per_watt = patches / (static_cast<double>(pi_f) * area_of(t));
+    for (uint32_t patch = t.first_patch; patch < t.first_patch + 2 * patches; ++patch) {
+      for (size_t b = 0; b < bands_; ++b) {
+        const Estimate out = readout.watts(scene.blocks.patches, patch, static_cast<int>(b), 1);
+        table_[patch * bands_ + b] = static_cast<float>(out.value * per_watt);
+      }
+    }
+  }
+
+  size_t bands_;
+  std::vector<float> table_;
+};
+
+/// A camera without a lens: every ray passes through one point.
+class Pinhole {
+ public:
+  Pinhole(const Camera& camera, const glm::dvec3& local_origin)
+      : eye_(camera.eye - local_origin), width_(camera.width), height_(camera.height) {
+    forward_ = glm::normalize(camera.target - camera.eye);
+    glm::dvec3 right = glm::cross(forward_, camera.up);
+    if (glm::length(right) < 1e-9 * glm::length(camera.up)) {
+      // Looking along `up`: any direction across will do; y is up on a plan.
+      const glm::dvec3 other =
+          std::abs(forward_.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
+      right = glm::cross(forward_, other);
+    }
+    right = glm::normalize(right);
+    const double half = std::tan(glm::radians(camera.vertical_fov_deg) / 2);
+    up_ = glm::cross(right, forward_) * half;
+    right_ = right * (half * camera.width / camera.height);
+  }
+
+  /// Through a place in pixels from the picture's upper left corner.
+  Ray ray(double x, double y) const {
+    const glm::dvec3 d = forward_ + right_ * (2 * x / width_ - 1) + up_ * (1 - 2 * y / height_);
+    return {glm::vec3(eye_), glm::vec3(glm::normalize(d))};
+  }
+
+ private:
+  glm::dvec3 eye_, forward_, right_, up_;
+  double width_, height_;
+};
+
+double wrapped(double x) {
+  return x - std::floor(x);
+}
+
+/// Light of one pixel.
+struct PixelSums {
+  double x = 0, y = 0, z = 0, scotopic = 0, y_squares = 0;
+
+  void add(const Band& band, double radiance) {
+    const double luminance = radiance * band.lm_per_w;
+    x += radiance * band.x_per_w;
+    y += luminance;
+    z += radiance * band.z_per_w;
+    scotopic += radiance * band.scotopic_lm_per_w;
+    y_squares += luminance * luminance;
+  }
+  double standard_error(double paths) const {
+    if (paths < 2) return std::numeric_limits<double>::quiet_NaN();
+    const double mean = y / paths;
+    return std::sqrt(std::max(0.0, y_squares / paths - mean * mean) / (paths - 1));
+  }
+};
+
+/// Traces the pixels of one picture; one per thread.
+class PixelTracer {
+ public:
+  PixelTracer(const LocalRun& run, size_t camera, const PictureOptions& options,
+              const PatchRadiance* flux)
+      : scene_(run.scene()),
+        tracer_(make_picture_tracer(run.scene(), run.index(), run.seed())),
+        pinhole_(run.scene().description->cameras[camera], run.scene().local_origin),
+        first_path_(static_cast<uint64_t>(camera) << camera_shift),
+        paths_(options.paths_per_pixel),
+        flux_(flux) {}
+
+  PixelSums trace(int column, int row, uint64_t pixel) {
+    const uint64_t first = first_path_ + (pixel << pixel_shift);
+    tracer_->start(first);
+    glm::dvec3 place;
+    for (int a = 0; a < 3; ++a) place[a] = static_cast<double>(tracer_->uniform());
+    PixelSums sums;
+    for (int i = 1; i <= paths_; ++i) {
+      for (int a = 0; a < 3; ++a) place[a] = wrapped(place[a] + r3_step[a]);
+      tracer_->start(first + static_cast<uint64_t>(i));
+      const int band = tracer_->choose_band(place[2]);
+      const double probability = tracer_->band_probability(band);
+      const Ray ray = pinhole_.ray(column + place[0], row + place[1]);
+      sums.add(scene_.bands[band], tracer_->radiance(ray, band, flux_) / probability);
+    }
+    return sums;
+  }
+
+ private:
+  const CompiledScene& scene_;
+  std::unique_ptr<PictureTracer> tracer_;
+  Pinhole pinhole_;
+  uint64_t first_path_;
+  int paths_;
+  const PatchRadiance* flux_;
+};
+
+}  // namespace
+
+std::unique_ptr<PatchRadiance> flux_radiance(const LocalRun& run) {
+  return std::make_unique<FluxRadiance>(run);
+}
+
+TracedPicture trace_picture(const LocalRun& run, size_t camera, const PictureOptions& options,
+                            const PatchRadiance* flux, const PictureProgress& progress) {
+  const Camera& view = run.scene().description->cameras[camera];
+  TracedPicture out;
+  out.light.width = view.width;
+  out.light.height = view.height;
+  out.light.xyz.resize(3 * out.light.pixels());
+  out.light.scotopic.resize(out.light.pixels());
+  out.standard_error_y.resize(out.light.pixels());
+  const double paths = options.paths_per_pixel;
+  const auto make = [&] {
+    auto tracer = std::make_shared<PixelTracer>(run, camera, options, flux);
+    return [&, tracer](int64_t row) {
+      for (int column = 0; column < view.width; ++column) {
+        const auto pixel = static_cast<size_t>(row * view.width + column);
+        const PixelSums sums = tracer->trace(column, static_cast<int>(row), pixel);
+        out.light.xyz[3 * pixel] = static_cast<float>(sums.x / paths);
+        out.light.xyz[3 * pixel + 1] = static_cast<float>(sums.y / paths);
+        out.light.xyz[3 * pixel + 2] = static_cast<float>(sums.z / paths);
+        out.light.scotopic[pixel] = static_cast<float>(sums.scotopic / paths);
+        out.standard_error_y[pixel] = static_cast<float>(sums.standard_error(paths));
+      }
+    };
+  };
+  for_each_row(view.height, run.threads(), make, [&](int64_t done) {
+    if (progress) progress(static_cast<double>(done) / view.height);
+  });
+  return out;
+}
+
+}  // namespace luxodus

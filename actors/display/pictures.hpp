@@ -1,0 +1,58 @@
+// Pictures of a run's cameras: luminance data first (OpenEXR, cd/m2), pixels second. Paths are
+// traced from the eye; a path ends in the run's flux at the second surface it meets after something
+// diffuse (final gather), so a picture takes seconds once the flux is there. Nothing is clamped,
+// blurred or denoised. The standard error of a pixel is that of its paths; what the flux itself
+// errs comes on top. The pixels depend on the scene, the flux, the seed and the paths per pixel,
+// never on the number of threads. One call at a time per run.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "actors/source/local_run.hpp"
+#include "scenes/format/atomic_file.hpp"
+#include "scenes/vision/picture.hpp"
+
+namespace luxodus {
+
+namespace limits {
+inline constexpr int paths_per_pixel_most = 1 << 16;  // 17 bits of a path's number
+}
+
+struct PictureOptions {
+  int paths_per_pixel = 32;
+  /// End paths in the run's flux. Without it they are traced to their end: slower and noisier, free
+  /// of the patches' size. A run that has traced nothing has no flux to end in.
+  bool gather = true;
+};
+
+/// How much of all pictures is done, 0 to 1; called from one thread at a time.
+using PictureProgress = std::function<void(double share)>;
+
+/// A camera's picture and the standard error of its luminance.
+struct TracedPicture {
+  XyzPicture light;                     // with scotopic luminance from the bands
+  std::vector<float> standard_error_y;  // [cd/m2]; NaN with one path per pixel
+};
+
+/// Outgoing radiance of every patch of the run [W/(m2 sr)], spread evenly over directions.
+std::unique_ptr<PatchRadiance> flux_radiance(const LocalRun& run);
+
+/// One camera's picture. `flux`: where paths end, or null.
+/// Requires: camera is one of the scene's; 1 <= paths_per_pixel <= limits::paths_per_pixel_most.
+TracedPicture trace_picture(const LocalRun& run, size_t camera, const PictureOptions& options,
+                            const PatchRadiance* flux, const PictureProgress& progress = {});
+
+/// Traces every camera, or the one named `only_view`, and writes into folder/views (made if
+/// missing): NAME.exr (X, Y, Z, R, G, B, scotopic, standard_error.Y), NAME.png (one exposure),
+/// NAME_human.png (what an adapted eye tells apart), NAME_luminance.png (false colours with a
+/// scale; up to 8192 pixels an edge). A scene without cameras has no pictures, which is no error.
+/// Errors: no camera of that name, paths per pixel out of range, a file that cannot be written.
+Result<Done> render_views(const std::filesystem::path& folder, const LocalRun& run,
+                          const std::string& only_view, const PictureOptions& options,
+                          const PictureProgress& progress);
+
+}  // namespace luxodus

@@ -1,0 +1,179 @@
+// From traced pictures to files.
+#include <cmath>
+
+#include "actors/display/pictures.hpp"
+#include "scenes/format/false_colour_png.hpp"
+#include "scenes/format/write_image.hpp"
+#include "scenes/optics/chromaticity.hpp"
+#include "scenes/vision/tone.hpp"
+
+namespace luxodus {
+
+namespace {
+
+/// Linear sRGB from XYZ, the inverse of the standard's matrix.
+glm::dmat3 srgb_from_xyz() {
+  glm::dmat3 xyz;
+  for (int c = 0; c < 3; ++c) {
+    std::array<double, 3> primary{};
+    primary[static_cast<size_t>(c)] = 1;
+    const Xyz column = xyz_from_linear_srgb(primary);
+    xyz[c] = {column[0], column[1], column[2]};
+  }
+  return glm::inverse(xyz);
+}
+
+std::vector<ImageText> texts_of(const LocalRun& run, const Camera& camera) {
+  const CompiledScene& scene = run.scene();
+  return {{"Software", "luxodus"},
+          {"Scene", scene.description->name},
+          {"Scenario", scene.scenario.name},
+          {"View", camera.name}};
+}
+
+ExrImage exr_of(const LocalRun& run, const Camera& camera, const TracedPicture& traced,
+                const PictureOptions& options) {
+  ExrImage image;
+  image.width = camera.width;
+  image.height = camera.height;
+  const size_t pixels = traced.light.pixels();
+  for (const char* name : {"X", "Y", "Z", "R", "G", "B"})
+    image.channels.push_back({name, std::vector<float>(pixels)});
+  const glm::dmat3 to_rgb = srgb_from_xyz();
+  for (size_t i = 0; i < pixels; ++i) {
+    const float* xyz = &traced.light.xyz[3 * i];
+    const glm::dvec3 rgb = to_rgb * glm::dvec3(xyz[0], xyz[1], xyz[2]);
+    for (size_t c = 0; c < 3; ++c) {
+      image.channels[c].values[i] = xyz[c];
+      image.channels[3 + c].values[i] = static_cast<float>(rgb[static_cast<int>(c)]);
+    }
+  }
+  image.channels.push_back({"scotopic", traced.light.scotopic});
+  image.channels.push_back({"standard_error.Y", traced.standard_error_y});
+  image.chromaticities = Chromaticities{};
+  image.white_luminance_cd_m2 = 1.0f;
+  image.text = texts_of(run, camera);
+  image.text.emplace_back(
+      "comments",
+      "X, Y, Z: CIE 1931, Y in cd/m2. R, G, B: linear sRGB of the same light, not "
+      "clipped. scotopic: scotopic cd/m2. standard_error.Y: of the pixel's paths.");
+  image.numbers = {{"paths_per_pixel", static_cast<double>(options.paths_per_pixel)},
+                   {"particles", static_cast<double>(run.particles())}};
+  return image;
+}
+
+PngImage png_of(SrgbPicture picture, std::vector<ImageText> texts, const std::string& description) {
+  texts.emplace_back("Description", description);
+  return {picture.width, picture.height, std::move(picture.rgb), std::move(texts)};
+}
+
+FalseColourPicture luminance_map(const LocalRun& run, const Camera& camera,
+                                 const TracedPicture& traced, const PictureOptions& options) {
+  const SceneDescription& scene = *run.scene().description;
+  FalseColourPicture p;
+  p.title = "View \"" + camera.name + "\"";
+  p.subtitle = (scene.title.empty() ? scene.name : scene.title) + ", scenario \"" +
+               run.scene().scenario.name + "\"";
+  p.quantity = "Luminance";
+  p.unit = "cd/m2";
+  p.label_u = "column";
+  p.label_v = "row from below";
+  p.length_unit = "px";
+  p.cells_u = camera.width;
+  p.cells_v = camera.height;
+  p.length_u_m = camera.width;
+  p.length_v_m = camera.height;
+  p.scale = ColourScale::logarithmic;
+  p.smooth = false;
+  p.mark_minimum = false;
+  const auto width = static_cast<size_t>(camera.width);
+  for (size_t row = static_cast<size_t>(camera.height); row-- > 0;) {
+    for (size_t column = 0; column < width; ++column) {
+      p.values.push_back(static_cast<double>(traced.light.xyz[3 * (row * width + column) + 1]));
+    }
+  }
+  p.notes = {std::to_string(options.paths_per_pixel) + " paths per pixel, flux of " +
+             std::to_string(run.particles()) + " particles"};
+  p.text = texts_of(run, camera);
+  return p;
+}
+
+Result<Done> write_view(const std::filesystem::path& folder, const LocalRun& run,
+                        const Camera& camera, const TracedPicture& traced,
+                        const PictureOptions& options) {
+  const auto path = [&](const char* ending) { return folder / (camera.name + ending); };
+  if (auto ok = write_exr(path(".exr"), exr_of(run, camera, traced, options)); !ok.ok()) return ok;
+  const auto texts = texts_of(run, camera);
+  const PngImage plain =
+      png_of(tone_plain(traced.light, {}), texts,
+             "One exposure, as a camera takes it; luminance data is in the EXR file");
+  if (auto ok = write_png(path(".png"), plain); !ok.ok()) return ok;
+  HumanTone human;
+  human.degrees_per_pixel =
+      glm::degrees(2 * std::tan(glm::radians(camera.vertical_fov_deg) / 2) / camera.height);
+  const PngImage seen =
+      png_of(tone_human(traced.light, human), texts,
+             "What an adapted eye tells apart (Ward Larson, Rushmeier and Piatko 1997), shown on a "
+             "monitor of 200 cd/m2; luminance data is in the EXR file");
+  if (auto ok = write_png(path("_human.png"), seen); !ok.ok()) return ok;
+  if (std::max(camera.width, camera.height) > limits::grid_edge_most ||
+      traced.light.pixels() > limits::drawn_cells_most) {
+    return Done{};
+  }
+  return write_false_colour_png(path("_luminance.png"),
+                                luminance_map(run, camera, traced, options));
+}
+
+/// The cameras to render, by number.
+Result<std::vector<size_t>> chosen_views(const SceneDescription& scene, const std::string& only) {
+  std::vector<size_t> out;
+  std::string known;
+  for (size_t i = 0; i < scene.cameras.size(); ++i) {
+    if (only.empty() || scene.cameras[i].name == only) out.push_back(i);
+    known += (known.empty() ? "" : ", ") + scene.cameras[i].name;
+  }
+  if (!only.empty() && out.empty()) {
+    return Problem{{scene.file, 0},
+                   "there is no camera \"" + only + "\"; there " +
+                       (known.empty() ? "are none: add a [[camera]]" : "are: " + known)};
+  }
+  return out;
+}
+
+}  // namespace
+
+Result<Done> render_views(const std::filesystem::path& folder, const LocalRun& run,
+                          const std::string& only_view, const PictureOptions& options,
+                          const PictureProgress& progress) {
+  const SceneDescription& scene = *run.scene().description;
+  if (options.paths_per_pixel < 1 || options.paths_per_pixel > limits::paths_per_pixel_most) {
+    return Problem{{scene.file, 0},
+                   "paths per pixel must be 1 to " + std::to_string(limits::paths_per_pixel_most) +
+                       ", not " + std::to_string(options.paths_per_pixel)};
+  }
+  const auto views = chosen_views(scene, only_view);
+  if (!views.ok()) return views.problem();
+  if (views.value().empty()) return Done{};
+  std::error_code error;
+  std::filesystem::create_directories(folder / "views", error);
+  if (error)
+    return Problem{{(folder / "views").string(), 0}, "cannot make this folder: " + error.message()};
+  std::unique_ptr<PatchRadiance> flux;
+  if (options.gather && run.batches() > 0) flux = flux_radiance(run);
+  double all = 0, before = 0;
+  const auto pixels = [&](size_t i) {
+    return static_cast<double>(scene.cameras[i].width) * scene.cameras[i].height;
+  };
+  for (const size_t i : views.value()) all += pixels(i);
+  for (const size_t i : views.value()) {
+    const TracedPicture traced = trace_picture(run, i, options, flux.get(), [&](double share) {
+      if (progress) progress((before + share * pixels(i)) / all);
+    });
+    before += pixels(i);
+    if (auto ok = write_view(folder / "views", run, scene.cameras[i], traced, options); !ok.ok())
+      return ok;
+  }
+  return Done{};
+}
+
+}  // namespace luxodus

@@ -1,0 +1,49 @@
+// A small scene traced on the spot, for tests of what the display makes of it.
+#pragma once
+
+#include <catch2/catch.hpp>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <string>
+
+#include "actors/source/local_run.hpp"
+#include "scenes/format/scene_file.hpp"
+#include "scenes/transport/compile.hpp"
+#include "tests/unit/scenes/format/scratch_folder.hpp"
+
+namespace luxodus::test {
+
+/// Reads and compiles a scene, first scenario; a problem fails the test with its text.
+inline std::shared_ptr<const CompiledScene> scene_of(const std::string& toml, int cells = 1) {
+  const ScratchFolder folder;
+  std::ofstream(folder / "test.toml", std::ios::binary) << toml;
+  ReadScene read = read_scene(folder / "test.toml");
+  std::string problems;
+  for (const Problem& p : read.problems.list()) problems += p.text() + "\n";
+  INFO(problems);
+  REQUIRE(read.scene.has_value());
+  auto description = std::make_shared<const SceneDescription>(std::move(*read.scene));
+  const auto scenario = find_scenario(*description, "");
+  REQUIRE(scenario.ok());
+  auto compiled = compile_scene(description, scenario.value(), {cells});
+  if (!compiled.ok()) FAIL(compiled.problem().text());
+  return compiled.value();
+}
+
+/// Traces this many particles.
+inline std::unique_ptr<LocalRun> traced(const std::string& toml, int64_t particles, int threads = 1,
+                                        int cells = 1) {
+  auto run = std::make_unique<LocalRun>(scene_of(toml, cells), 11, threads);
+  StopRule stop;
+  stop.particles = particles;
+  run->run(stop, std::atomic<bool>{false}, [](const Progress&) {});
+  return run;
+}
+
+inline std::string file_text(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+}  // namespace luxodus::test
