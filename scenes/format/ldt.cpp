@@ -63,7 +63,7 @@ class LdtReader {
   /// The next line; its number is line_.
   std::string_view text(const std::string& what) {
     if (static_cast<size_t>(line_) >= lines_.size()) {
-      fail(line_, "the file ends where " + what + " should follow; it is cut off");
+      fail(std::max(1, line_), "the file ends where " + what + " should follow; it is cut off");
       return {};
     }
     return bare(lines_[static_cast<size_t>(line_++)]);

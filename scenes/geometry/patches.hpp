@@ -4,13 +4,14 @@
 //
 // A point of the triangle (p0, p1, p2) is (1 - u - v) p0 + u p1 + v p2, as Embree reports it. Row i
 // holds i/n <= u < (i+1)/n, with 2 (n - i) - 1 triangles; the rows before it hold i (2n - i). In
-// the row, squares j of the (u, v) grid give a lower triangle and, below the diagonal, an upper
-// one:
+// the row, square j of the (u, v) grid gives a lower triangle and, where it is whole, an upper one:
 //
-//   v ^   |\                      index = i (2n - i) + 2 j + upper
-//     |   |_\                     drawn: n = 2 with u to the right;
-//     |   |\ |\                   row 0 holds indices 0, 1, 2, row 1 holds index 3
-//     |   |_\|_\  -> u
+//   v ^                index = i (2n - i) + 2 j + upper
+//     |\               drawn: n = 2, u to the right
+//     |2\              row 0: 0 lower, 1 upper (j = 0), 2 lower (j = 1)
+//     |--\             row 1: 3 lower
+//     |\1|\            .
+//     |0\|3\  -> u
 #pragma once
 
 #include <algorithm>
@@ -27,8 +28,8 @@ inline constexpr uint32_t patch_subdivision = 32768;
 }  // namespace limits
 
 /// Index in [0, n*n) of the sub-triangle that holds (u, v). Rounding beyond the edges (u + v a
-/// little above 1, u a little below 0) lands in the nearest one along v; NaN counts as 0. Requires:
-/// 1 <= n <= limits::patch_subdivision.
+/// little above 1, u a little below 0) lands in the nearest one along v; NaN counts as 0.
+/// Requires: 1 <= n <= limits::patch_subdivision.
 inline uint32_t sub_triangle(float u, float v, uint32_t n) {
   const float most = static_cast<float>(n);
   const float un = u > 0.0f ? std::min(u * most, most) : 0.0f;

@@ -163,10 +163,13 @@ double VolumeEmitter::mean_density(const GridCursor& cursor, double t0, double t
   for (int k = 0; k < 3; ++k) {
     const double centre = (cursor.cell()[k] + 0.5) * grid_.cell_size()[k];
     const double share = (centre - start[k]) / way[k];
-    if (share > 0 && share < 1) cut[n++] = t0 + share * (t1 - t0);
+    if (!(share > 0 && share < 1)) continue;
+    const double t = t0 + share * (t1 - t0);
+    int place = n++;
+    for (; place > 1 && cut[place - 1] > t; --place) cut[place] = cut[place - 1];
+    cut[place] = t;
   }
   cut[n++] = t1;
-  std::sort(cut, cut + n);
   double sum = 0;
   double before = local_density(cursor.local_at(t0), bricks);
   for (int i = 1; i < n; ++i) {

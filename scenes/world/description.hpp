@@ -1,6 +1,6 @@
 // What a scene says, after everything it names has been read: plain values in SI units (m, sr, W, lm, cd/m2,
 // 1/m, nm), one struct per TOML table, each with the place it stands at, for messages. Made by
-// scenes/format, compiled for the tracer by scenes/world/compile.*. Immutable once read; any thread.
+// scenes/format, compiled for the tracer by scenes/transport/compile.*. Immutable once read; any thread.
 #pragma once
 
 #include <array>

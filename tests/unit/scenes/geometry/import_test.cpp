@@ -69,10 +69,13 @@ std::string gltf(
         R"({"name":"paint","pbrMetallicRoughness":{"baseColorFactor":[0.25,0.5,0.75,1]}})") {
   return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[)" + roots +
          R"(]}],"nodes":[)" + nodes + R"(],"materials":[)" + material +
-         R"(],"meshes":[{"name":"tri","primitives":[{"attributes":{"POSITION":0},"indices":1,"material":0}]}],)"
-         R"("accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,2,0]},)"
+         R"(],"meshes":[{"name":"tri","primitives":[)"
+         R"({"attributes":{"POSITION":0},"indices":1,"material":0}]}],)"
+         R"("accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3",)"
+         R"("min":[0,0,0],"max":[1,2,0]},)"
          R"({"bufferView":1,"componentType":5123,"count":3,"type":"SCALAR"}],)"
-         R"("bufferViews":[{"buffer":0,"byteOffset":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":6}],)"
+         R"("bufferViews":[{"buffer":0,"byteOffset":0,"byteLength":36},)"
+         R"({"buffer":0,"byteOffset":36,"byteLength":6}],)"
          R"("buffers":[{"byteLength":42,"uri":"data:application/octet-stream;base64,)" +
          base64(triangle_buffer()) + R"("}]})";
 }

@@ -1,0 +1,281 @@
+#include "actors/display/report.hpp"
+
+#include <cmath>
+
+#include "actors/display/maps.hpp"
+#include "scenes/emergency/sign_geometry.hpp"
+
+namespace luxodus {
+
+namespace {
+
+constexpr int result_schema = 1;
+
+Json measured(const Estimate& e, const char* unit) {
+  return measured_json(e.value, e.standard_error, unit);
+}
+
+Json vector_json(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
+
+Json ledger_json(const Ledger& l) {
+  const auto units = [](Int128 v) { return to_string(v); };
+  return {{"unit", "2^-32 of a particle's birth weight"},
+          {"emitted", units(l.emitted)},
+          {"roulette_gain", units(l.roulette_gain)},
+          {"absorbed_surfaces", units(l.absorbed_surfaces)},
+          {"absorbed_media", units(l.absorbed_media)},
+          {"escaped", units(l.escaped)},
+          {"roulette_loss", units(l.roulette_loss)},
+          {"lost", units(l.lost())},
+          {"closes", l.closes()},
+          {"rays", l.rays},
+          {"hits", l.hits},
+          {"collisions", l.collisions}};
+}
+
+Json surfaces_json(const CompiledScene& scene, const Readout& readout) {
+  Json out = Json::array();
+  const uint32_t block = scene.blocks.surfaces;
+  for (uint32_t s = 0; s < scene.surfaces.size(); ++s) {
+    const CompiledSurface& surface = scene.surfaces[s];
+    const Estimate in = readout.lumens(block, s, 0);
+    Json item = {{"name", surface.name},
+                 {"area", exact_json(surface.area_m2, "m2")},
+                 {"incident", measured(in, "lm")},
+                 {"outgoing", measured(readout.lumens(block, s, 1), "lm")},
+                 {"absorbed", measured(readout.lumens(block, s, 2), "lm")},
+                 {"mean_illuminance_of_both_sides",
+                  measured(in * (surface.area_m2 > 0 ? 1 / surface.area_m2 : 0), "lx")}};
+    Json watts = Json::array();
+    for (int b = 0; b < scene.bands.count(); ++b) watts.push_back(measured(readout.watts(block, s, b, 0), "W"));
+    item["incident_by_band"] = std::move(watts);
+    out.push_back(std::move(item));
+  }
+  return out;
+}
+
+Json surface_groups_json(const CompiledScene& scene, const Readout& readout) {
+  Json out = Json::array();
+  const uint32_t block = scene.blocks.surface_groups;
+  for (uint32_t g = 0; g < scene.surface_groups.size(); ++g) {
+    double watts_in = 0;
+    for (int b = 0; b < scene.bands.count(); ++b) watts_in += readout.watts(block, g, b, 0).value;
+    out.push_back({{"name", scene.description->surface_groups[g].name},
+                   {"incident", measured(readout.lumens(block, g, 0), "lm")},
+                   {"outgoing", measured(readout.lumens(block, g, 1), "lm")},
+                   {"absorbed", measured(readout.lumens(block, g, 2), "lm")},
+                   {"incident_power", exact_json(watts_in, "W")}});
+  }
+  return out;
+}
+
+Json volumes_json(const CompiledScene& scene, const Readout& readout) {
+  Json out = Json::array();
+  for (uint32_t i = 0; i < scene.volume_groups.size(); ++i) {
+    out.push_back(
+        {{"name", scene.description->volume_groups[i].name},
+         {"track_length", measured(readout.lumens(scene.blocks.volume_length, i, 0), "lm m")},
+         {"absorbed", measured(readout.lumens(scene.blocks.volume_power, i, 0), "lm")},
+         {"scattered", measured(readout.lumens(scene.blocks.volume_power, i, 1), "lm")}});
+  }
+  return out;
+}
+
+Json media_json(const CompiledScene& scene, const Readout& readout) {
+  Json out = Json::array();
+  for (uint32_t i = 0; i < scene.media_names.size(); ++i) {
+    out.push_back({{"name", scene.media_names[i]},
+                   {"absorbed", measured(readout.lumens(scene.blocks.media_power, i, 0), "lm")},
+                   {"scattered", measured(readout.lumens(scene.blocks.media_power, i, 1), "lm")}});
+  }
+  return out;
+}
+
+Json counting_json(const CompiledScene& scene, const Readout& readout) {
+  Json out = Json::array();
+  const auto at = [&](uint32_t i, uint32_t q) {
+    return measured(readout.lumens(scene.blocks.counting, i, q), "lm");
+  };
+  for (uint32_t i = 0; i < scene.counting_planes.size(); ++i) {
+    out.push_back({{"name", scene.description->counting_planes[i].name},
+                   {"along_normal", {{"uncollided", at(i, 0)}, {"collided", at(i, 1)}}},
+                   {"against_normal", {{"uncollided", at(i, 2)}, {"collided", at(i, 3)}}}});
+  }
+  return out;
+}
+
+Json escape_json(const CompiledScene& scene, const Readout& readout) {
+  const char* sides[] = {"x-", "x+", "y-", "y+", "z-", "z+"};
+  Json out;
+  for (uint32_t i = 0; i < 6; ++i) out[sides[i]] = measured(readout.lumens(scene.blocks.escape, i, 0), "lm");
+  return out;
+}
+
+Json probes_json(const LocalRun& run, const Readout& readout) {
+  const CompiledScene& scene = run.scene();
+  Json out = Json::array();
+  for (uint32_t p = 0; p < scene.description->probes.size(); ++p) {
+    const ProbeMeasure& probe = scene.description->probes[p];
+    const DirectLight direct =
+        direct_light_at(scene, run.index(), glm::vec3(probe.position - scene.local_origin),
+                        glm::vec3(probe.normal), {});
+    const Estimate indirect = readout.value(scene.blocks.probes, p, 0);
+    const Estimate fluence = readout.value(scene.blocks.probes, p, 1);
+    Json groups;
+    for (size_t g = 0; g < scene.groups.size(); ++g) {
+      groups[scene.groups[g].name] = exact_json(direct.illuminance_lx[g], "lx");
+    }
+    out.push_back({{"name", probe.name},
+                   {"position", vector_json(probe.position)},
+                   {"normal", vector_json(probe.normal)},
+                   {"direct_illuminance", exact_json(direct.total_lx(), "lx")},
+                   {"indirect_illuminance", measured(indirect, "lx")},
+                   {"illuminance", measured({direct.total_lx() + indirect.value, indirect.standard_error}, "lx")},
+                   {"direct_by_source_group", groups},
+                   {"fluence", measured({direct.total_fluence() + fluence.value, fluence.standard_error}, "lx")}});
+  }
+  return out;
+}
+
+Json sign_part_json(const CompiledScene& scene, const Readout& readout, uint32_t bin) {
+  const auto of = [&](EyeQuantity q) { return readout.value(scene.blocks.views, bin, static_cast<uint32_t>(q)); };
+  return {{"luminance_at_face", measured(of(EyeQuantity::own), "cd/m2")},
+          {"reflected_at_face", measured(of(EyeQuantity::reflected), "cd/m2")},
+          {"luminance_at_eye", measured(of(EyeQuantity::at_eye), "cd/m2")},
+          {"veil", measured(of(EyeQuantity::path), "cd/m2")},
+          {"transmission", measured(of(EyeQuantity::transmission), "1")},
+          {"visible_share", measured(of(EyeQuantity::visible), "1")}};
+}
+
+/// (a - b) / b with first-order error propagation; the two are independent samples.
+Json contrast_json(const Estimate& a, const Estimate& b) {
+  if (b.value <= 0) return measured_json(std::nan(""), std::nan(""), "1");
+  const double ratio = a.value / b.value;
+  const double error = std::hypot(a.standard_error, ratio * b.standard_error) / b.value;
+  return measured_json(ratio - 1, error, "1");
+}
+
+Json views_json(const CompiledScene& scene, const Readout& readout) {
+  Json out = Json::array();
+  for (const EyeTarget& t : scene.eye_targets) {
+    const CompiledSign& face = scene.signs[t.sign];
+    const Sign& sign = scene.description->signs[face.sign];
+    const Observer& observer = scene.description->observers[t.observer];
+    const auto at_eye = [&](uint32_t part) {
+      return readout.value(scene.blocks.views, t.first_bin + part, static_cast<uint32_t>(EyeQuantity::at_eye));
+    };
+    const Estimate white = at_eye(0), green = at_eye(1), surround = at_eye(2);
+    const double w = sign_colour_share(sign, SignColour::white);
+    const double g = sign_colour_share(sign, SignColour::green);
+    const Estimate mean{(w * white.value + g * green.value) / std::max(w + g, 1e-12),
+                        std::hypot(w * white.standard_error, g * green.standard_error) / std::max(w + g, 1e-12)};
+    const bool white_legend = sign.face.legend == SignColour::white;
+    const SignView view = view_of_sign(sign, observer.eye);
+    const double gaze = glm::degrees(std::acos(std::clamp(
+        glm::dot(glm::normalize(face.frame.origin - observer.eye), glm::normalize(observer.gaze)), -1.0, 1.0)));
+    out.push_back({{"sign", sign.name},
+                   {"back_face", face.back},
+                   {"observer", observer.name},
+                   {"distance", exact_json(view.distance_m, "m")},
+                   {"angle_from_normal", exact_json(view.angle_deg, "deg")},
+                   {"angle_from_gaze", exact_json(gaze, "deg")},
+                   {"angular_height", exact_json(view.height_arcmin, "arcmin")},
+                   {"angular_width", exact_json(view.width_arcmin, "arcmin")},
+                   {"angular_detail", exact_json(view.detail_arcmin, "arcmin")},
+                   {"white", sign_part_json(scene, readout, t.first_bin)},
+                   {"green", sign_part_json(scene, readout, t.first_bin + 1)},
+                   {"surround", {{"luminance_at_eye", measured(surround, "cd/m2")}}},
+                   {"contrast_legend_background",
+                    white_legend ? contrast_json(white, green) : contrast_json(green, white)},
+                   {"contrast_sign_surround", contrast_json(mean, surround)}});
+  }
+  return out;
+}
+
+}  // namespace
+
+Json result_json(const LocalRun& run, const RunRecord& record) {
+  const CompiledScene& scene = run.scene();
+  const Readout readout(scene, run.totals());
+  const double error = readout.worst_relative_error();
+  const double seconds = run.seconds();
+  char hash[17];
+  std::snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(scene.scene_hash));
+  const auto rays = static_cast<double>(run.totals().ledger().rays);
+  const double fom = error > 0 && seconds > 0 ? 1 / (error * error * seconds) : std::nan("");
+  Json out = {{"schema", result_schema},
+              {"program", "luxodus"},
+              {"scene", scene.description->name},
+              {"title", scene.description->title},
+              {"scene_file", record.scene_file},
+              {"scene_hash", hash},
+              {"scenario", scene.scenario.name},
+              {"cells", record.cells},
+              {"kernel", describe_kernel(scene)},
+              {"seed", run.seed()},
+              {"particles", run.particles()},
+              {"batches", run.batches()},
+              {"batch_particles", scene.batch_particles},
+              {"stopped_by", record.stopped_by},
+              {"threads", run.threads()},
+              {"seconds", exact_json(seconds, "s")},
+              {"particles_per_second", exact_json(static_cast<double>(run.particles()) / seconds, "1/s")},
+              {"rays_per_second", exact_json(rays / seconds, "1/s")},
+              {"worst_relative_error", exact_json(error, "1")},
+              {"figure_of_merit", exact_json(fom, "1/s")},
+              {"ledger", ledger_json(run.totals().ledger())}};
+  Json groups = Json::array();
+  for (const Group& g : scene.groups)
+    groups.push_back({{"name", g.name}, {"luminous_flux", exact_json(g.luminous_flux_lm, "lm")}});
+  out["source_groups"] = std::move(groups);
+  out["planes"] = planes_json(run, readout);
+  out["probes"] = probes_json(run, readout);
+  out["signs"] = views_json(scene, readout);
+  out["surfaces"] = surfaces_json(scene, readout);
+  out["surface_groups"] = surface_groups_json(scene, readout);
+  out["volume_groups"] = volumes_json(scene, readout);
+  out["media"] = media_json(scene, readout);
+  out["counting_planes"] = counting_json(scene, readout);
+  out["escape"] = escape_json(scene, readout);
+  return out;
+}
+
+Result<Done> write_report(const std::filesystem::path& folder, const LocalRun& run,
+                          const RunRecord& record) {
+  std::error_code error;
+  std::filesystem::create_directories(folder / "planes", error);
+  if (error) return Problem{{folder.string(), 0}, "cannot make this folder: " + error.message()};
+  if (auto ok = write_plane_maps(folder / "planes", run); !ok.ok()) return ok.problem();
+  if (auto ok = write_flux_maps(folder, run); !ok.ok()) return ok.problem();
+  return write_json(folder / "result.json", result_json(run, record));
+}
+
+std::string summary_text(const LocalRun& run, const Json& result) {
+  std::string text;
+  char line[256];
+  const auto number = [](const Json& j) { return j.is_number() ? j.get<double>() : std::nan(""); };
+  for (const Json& p : result["planes"]) {
+    std::snprintf(line, sizeof line, "  plane %-24s min %8.3g  mean %8.3g +- %.2g lx\n",
+                  p["name"].get<std::string>().c_str(), number(p["minimum"]["value"]),
+                  number(p["mean_illuminance"]["value"]), number(p["mean_illuminance"]["standard_error"]));
+    text += line;
+  }
+  for (const Json& s : result["signs"]) {
+    std::snprintf(line, sizeof line,
+                  "  sign %-16s from %-14s %5.1f m  white %8.3g +- %-7.2g green %8.3g +- %-7.2g surround %8.3g cd/m2\n",
+                  s["sign"].get<std::string>().c_str(), s["observer"].get<std::string>().c_str(),
+                  number(s["distance"]["value"]), number(s["white"]["luminance_at_eye"]["value"]),
+                  number(s["white"]["luminance_at_eye"]["standard_error"]),
+                  number(s["green"]["luminance_at_eye"]["value"]),
+                  number(s["green"]["luminance_at_eye"]["standard_error"]),
+                  number(s["surround"]["luminance_at_eye"]["value"]));
+    text += line;
+  }
+  std::snprintf(line, sizeof line, "  ledger %s; %lld particles, worst relative error %.2g\n",
+                run.totals().ledger().closes() ? "closes exactly" : "DOES NOT CLOSE",
+                static_cast<long long>(run.particles()), number(result["worst_relative_error"]["value"]));
+  text += line;
+  return text;
+}
+
+}  // namespace luxodus

@@ -1,0 +1,29 @@
+// The results of a run on disk: result.json, the planes as tables and pictures, patches and voxels for ParaView.
+// Every value with standard error and unit. Reads the run, changes nothing.
+#pragma once
+
+#include <filesystem>
+
+#include "actors/source/local_run.hpp"
+#include "scenes/format/json_out.hpp"
+
+namespace luxodus {
+
+/// How the run came to its end, for the record.
+struct RunRecord {
+  std::string scene_file;
+  std::string stopped_by;  // "particles", "error", "time", "interrupted"
+  int cells = 1;
+};
+
+/// result.json as a value.
+Json result_json(const LocalRun& run, const RunRecord& record);
+
+/// Writes result.json, planes/*.csv and *.png, patches.vtp and volume.vti into `folder` (made if missing).
+Result<Done> write_report(const std::filesystem::path& folder, const LocalRun& run,
+                          const RunRecord& record);
+
+/// A few lines for the terminal: planes, signs, what to look at.
+std::string summary_text(const LocalRun& run, const Json& result);
+
+}  // namespace luxodus

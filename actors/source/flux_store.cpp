@@ -1,0 +1,120 @@
+#include "actors/source/flux_store.hpp"
+
+#include <cstring>
+
+#include "scenes/format/flux_file.hpp"
+#include "scenes/format/json_out.hpp"
+
+namespace luxodus {
+
+namespace {
+
+std::string hex(uint64_t v) {
+  char text[17];
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(v));
+  return text;
+}
+
+template <class T>
+Block block_of(const std::string& name, const T* values, size_t count) {
+  static_assert(std::is_trivially_copyable_v<T>);
+  Block block{name, std::vector<std::byte>(count * sizeof(T))};
+  if (count > 0) std::memcpy(block.bytes.data(), values, block.bytes.size());
+  return block;
+}
+
+std::string group_block_name(int group) { return "totals/" + std::to_string(group); }
+
+Json describe_layout(const TallyLayout& layout) {
+  Json blocks = Json::array();
+  for (const TallyBlock& b : layout.blocks()) {
+    blocks.push_back({{"name", b.name},
+                      {"bins", b.bins},
+                      {"quantities", b.quantities},
+                      {"channels", b.banded ? layout.channels() : 1},
+                      {"first_total", b.first_total}});
+  }
+  return blocks;
+}
+
+Json describe_run(const LocalRun& run) {
+  const CompiledScene& scene = run.scene();
+  Json bands = Json::array();
+  for (int b = 0; b < scene.bands.count(); ++b) {
+    bands.push_back({scene.bands[b].low_nm, scene.bands[b].high_nm});
+  }
+  Json groups = Json::array();
+  for (int g = 0; g < run.totals().groups(); ++g) {
+    groups.push_back({{"name", scene.groups[static_cast<size_t>(g)].name},
+                      {"batches", run.totals().batches(g)}});
+  }
+  return {{"schema", limits::flux_schema_version},
+          {"scene_hash", hex(scene.scene_hash)},
+          {"scenario", scene.scenario.name},
+          {"seed", run.seed()},
+          {"batches", run.batches()},
+          {"batch_particles", scene.batch_particles},
+          {"bands_nm", bands},
+          {"groups", groups},
+          {"total", "128-bit sum, 128-bit sum of squares of (batch score / 2^12), little endian"},
+          {"layout", describe_layout(scene.layout)}};
+}
+
+Result<bool> same(const Json& header, const Json& wanted, const char* key, const SourcePlace& place) {
+  const Json found = header.value(key, Json());
+  if (found == wanted[key]) return true;
+  return Problem{place, std::string("this flux is of another ") + key + " (" + found.dump() +
+                            " here, the run has " + wanted[key].dump() +
+                            "): give another --out, or run without --resume"};
+}
+
+}  // namespace
+
+Result<Done> save_flux(const std::filesystem::path& path, const LocalRun& run) {
+  FluxFile file;
+  file.header_json = describe_run(run).dump(1);
+  const Totals& totals = run.totals();
+  file.blocks.push_back(block_of("ledger", &totals.ledger(), 1));
+  for (int g = 0; g < totals.groups(); ++g) {
+    const auto& state = totals.state(g);
+    file.blocks.push_back(block_of(group_block_name(g), state.totals.data(), state.totals.size()));
+  }
+  return write_flux_file(path, file);
+}
+
+Result<Done> load_flux(const std::filesystem::path& path, LocalRun& run) {
+  auto read = read_flux_file(path);
+  if (!read.ok()) return read.problem();
+  const SourcePlace place{path.string(), 0};
+  const Json header = Json::parse(read->header_json, nullptr, false);
+  if (!header.is_object()) return Problem{place, "the flux file's header is no JSON object"};
+  const Json wanted = describe_run(run);
+  for (const char* key : {"schema", "scenario", "seed", "scene_hash", "batch_particles", "layout"}) {
+    if (auto ok = same(header, wanted, key, place); !ok.ok()) return ok.problem();
+  }
+  Totals& totals = run.totals();
+  const Block* ledger_block = read->find("ledger");
+  if (ledger_block == nullptr || ledger_block->bytes.size() != sizeof(Ledger))
+    return Problem{place, "the flux file holds no ledger of the expected size"};
+  Ledger ledger;
+  std::memcpy(&ledger, ledger_block->bytes.data(), sizeof ledger);
+  const Json& groups = header["groups"];
+  for (int g = 0; g < totals.groups(); ++g) {
+    const Block* block = read->find(group_block_name(g));
+    const size_t count = static_cast<size_t>(run.scene().layout.totals());
+    if (block == nullptr || block->bytes.size() != count * sizeof(Total) || !groups.is_array() ||
+        groups.size() <= static_cast<size_t>(g)) {
+      return Problem{place, "the flux file lacks totals of source group " + std::to_string(g)};
+    }
+    Totals::GroupState state;
+    state.totals.resize(count);
+    std::memcpy(state.totals.data(), block->bytes.data(), block->bytes.size());
+    state.batches = groups[static_cast<size_t>(g)].value("batches", int64_t{0});
+    totals.restore(g, std::move(state));
+  }
+  totals.restore_ledger(ledger);
+  run.resume(header.value("batches", int64_t{0}));
+  return Done{};
+}
+
+}  // namespace luxodus

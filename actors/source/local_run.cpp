@@ -1,0 +1,118 @@
+#include "actors/source/local_run.hpp"
+
+#include <xmmintrin.h>
+
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <thread>
+
+namespace luxodus {
+
+namespace {
+
+/// Denormals to zero: a weight's float shadow never needs them, and they cost a hundred times a multiplication.
+void flush_denormals() { _mm_setcsr(_mm_getcsr() | 0x8040); }
+
+constexpr double report_every_s = 0.25;
+
+}  // namespace
+
+class LocalRun::Clock {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+LocalRun::LocalRun(std::shared_ptr<const CompiledScene> scene, uint64_t seed, int threads)
+    : scene_(std::move(scene)),
+      seed_(seed),
+      threads_(threads),
+      index_(std::make_unique<SceneIndex>(device_, *scene_)),
+      totals_(scene_->layout, static_cast<int>(scene_->groups.size()), photopic_weights(*scene_)),
+      plan_(*scene_),
+      error_(std::numeric_limits<double>::quiet_NaN()) {}
+
+void LocalRun::resume(int64_t batches) { plan_.skip(batches); }
+
+Progress LocalRun::progress(const StopRule& stop, double seconds) const {
+  Progress p;
+  p.particles = plan_.given() * scene_->batch_particles;
+  p.seconds = seconds;
+  const auto here = static_cast<double>((plan_.given() - batches_at_start_) * scene_->batch_particles);
+  p.particles_per_second = seconds > 0 ? here / seconds : 0;
+  p.relative_error = error_;
+  double left = std::numeric_limits<double>::infinity();
+  if (stop.seconds) left = std::min(left, *stop.seconds - seconds);
+  if (stop.particles && p.particles_per_second > 0)
+    left = std::min(left, static_cast<double>(*stop.particles - p.particles) / p.particles_per_second);
+  if (stop.relative_error && std::isfinite(error_) && error_ > 0) {
+    const double ratio = error_ / *stop.relative_error;
+    left = std::min(left, seconds * std::max(0.0, ratio * ratio - 1));
+  }
+  p.seconds_left = std::isfinite(left) ? std::max(0.0, left) : std::numeric_limits<double>::quiet_NaN();
+  return p;
+}
+
+void LocalRun::trace_until(int64_t end, const StopRule& stop, const std::atomic<bool>& interrupt,
+                           const std::function<void(const Progress&)>& report, const Clock& clock) {
+  double last_report = clock.seconds();
+  const auto work = [&] {
+    flush_denormals();
+    const auto tracer = make_batch_tracer(*scene_, *index_, seed_);
+    BatchScores scores;
+    while (true) {
+      Batch batch;
+      {
+        const std::lock_guard lock(plan_mutex_);
+        const double now = clock.seconds();
+        if (stop.seconds && now >= *stop.seconds) time_is_up_ = true;
+        if (interrupt.load() || time_is_up_ || plan_.given() >= end) return;
+        if (now - last_report >= report_every_s) {
+          last_report = now;
+          report(progress(stop, now));
+        }
+        batch = plan_.next();
+      }
+      scores.reset(scene_->layout);
+      tracer->trace(batch.group, batch.first_particle, scene_->batch_particles, scores);
+      tracer->look(batch.number, scores);
+      totals_.merge(scores, batch.group);
+    }
+  };
+  std::vector<std::thread> threads;
+  for (int i = 1; i < threads_; ++i) threads.emplace_back(work);
+  work();
+  for (std::thread& t : threads) t.join();
+}
+
+StopReason LocalRun::run(const StopRule& stop, const std::atomic<bool>& interrupt,
+                         const std::function<void(const Progress&)>& report) {
+  const Clock clock;
+  const double before = seconds_;
+  batches_at_start_ = plan_.given();
+  time_is_up_ = false;
+  int64_t target = std::numeric_limits<int64_t>::max();
+  if (stop.particles) target = (*stop.particles + scene_->batch_particles - 1) / scene_->batch_particles;
+  StopReason reason = StopReason::particles;
+  while (plan_.given() < target) {
+    // Rounds end where threads wait for one another: only an error target needs them.
+    const int64_t end = stop.relative_error ? std::min(target, plan_.round_end(plan_.given())) : target;
+    trace_until(end, stop, interrupt, report, clock);
+    error_ = Readout(*scene_, totals_).worst_relative_error();
+    if (interrupt.load()) reason = StopReason::interrupted;
+    else if (time_is_up_) reason = StopReason::time;
+    else if (stop.relative_error && error_ <= *stop.relative_error) reason = StopReason::error;
+    else continue;
+    break;
+  }
+  seconds_ = before + clock.seconds();
+  report(progress(stop, clock.seconds()));
+  return reason;
+}
+
+}  // namespace luxodus

@@ -1,0 +1,79 @@
+// A run on this machine: threads that trace batches until a stopping rule holds, all into the same totals.
+// The flux depends on (scene, seed, which batches) only; threads and timing decide how fast, never what.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+
+#include "actors/source/batch_plan.hpp"
+#include "scenes/transport/readout.hpp"
+#include "scenes/transport/trace.hpp"
+
+namespace luxodus {
+
+/// When to stop; the first rule that holds does. Particles are rounded up to whole batches; the error is
+/// tested at the ends of rounds.
+struct StopRule {
+  std::optional<int64_t> particles;
+  std::optional<double> relative_error;
+  std::optional<double> seconds;
+};
+
+struct Progress {
+  int64_t particles = 0;
+  double seconds = 0;
+  double particles_per_second = 0;
+  double relative_error = 0;  // NaN until a round has ended
+  double seconds_left = 0;    // NaN where no rule gives one
+};
+
+enum class StopReason { particles, error, time, interrupted };
+
+class LocalRun {
+ public:
+  /// Requires: threads >= 1.
+  LocalRun(std::shared_ptr<const CompiledScene> scene, uint64_t seed, int threads);
+
+  /// Traces until `stop` holds or `interrupt` is set; batches in flight are finished. May be called again to go on.
+  /// `report` is called about four times a second, from one thread at a time.
+  StopReason run(const StopRule& stop, const std::atomic<bool>& interrupt,
+                 const std::function<void(const Progress&)>& report);
+
+  /// Goes on from totals that hold the first `batches` batches. Requires: nothing traced yet.
+  void resume(int64_t batches);
+
+  const CompiledScene& scene() const { return *scene_; }
+  const SceneIndex& index() const { return *index_; }
+  Totals& totals() { return totals_; }
+  const Totals& totals() const { return totals_; }
+  const EmbreeDevice& device() const { return device_; }
+  int64_t batches() const { return plan_.given(); }
+  int64_t particles() const { return plan_.given() * scene_->batch_particles; }
+  double seconds() const { return seconds_; }
+  uint64_t seed() const { return seed_; }
+  int threads() const { return threads_; }
+
+ private:
+  class Clock;
+  void trace_until(int64_t end, const StopRule& stop, const std::atomic<bool>& interrupt,
+                   const std::function<void(const Progress&)>& report, const Clock& clock);
+  Progress progress(const StopRule& stop, double seconds) const;
+
+  std::shared_ptr<const CompiledScene> scene_;
+  uint64_t seed_;
+  int threads_;
+  EmbreeDevice device_;
+  std::unique_ptr<SceneIndex> index_;
+  Totals totals_;
+  BatchPlan plan_;
+  std::mutex plan_mutex_;
+  std::atomic<bool> time_is_up_{false};
+  double seconds_ = 0;
+  double error_ = 0;
+  int64_t batches_at_start_ = 0;
+};
+
+}  // namespace luxodus

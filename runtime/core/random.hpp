@@ -1,0 +1,130 @@
+// Counter-based random numbers: Philox 4x32-10 (Salmon, Moraes, Dror, Shaw, "Parallel random numbers: as easy
+// as 1, 2, 3", SC11). A draw is a pure function of (seed, stream, particle, draw number), so any machine can
+// redo any particle and get the same bits. Draws of one particle are made 32 at a time, in vector registers
+// where the target has them; both ways give the same numbers.
+// Rule: never two draws in one expression, since their order would be the compiler's choice.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#ifdef __AVX2__
+#include <immintrin.h>
+#endif
+
+namespace luxodus {
+
+/// What a stream of numbers is for: equal particle ids in different streams are independent.
+enum class RandomStream : uint32_t { particle = 0, eye = 1, picture = 2, layout = 3, test = 4 };
+
+/// One Philox 4x32-10 block, the definition that every other form must equal.
+inline std::array<uint32_t, 4> philox_block(std::array<uint32_t, 4> counter, uint64_t seed) {
+  uint32_t key0 = static_cast<uint32_t>(seed);
+  uint32_t key1 = static_cast<uint32_t>(seed >> 32);
+  for (int round = 0; round < 10; ++round) {
+    const uint64_t p0 = uint64_t{0xD2511F53} * counter[0];
+    const uint64_t p1 = uint64_t{0xCD9E8D57} * counter[2];
+    counter = {static_cast<uint32_t>(p1 >> 32) ^ counter[1] ^ key0, static_cast<uint32_t>(p1),
+               static_cast<uint32_t>(p0 >> 32) ^ counter[3] ^ key1, static_cast<uint32_t>(p0)};
+    key0 += 0x9E3779B9u;
+    key1 += 0xBB67AE85u;
+  }
+  return counter;
+}
+
+/// The draws of one particle after another. Plain value, one per fiber or thread.
+class Random {
+ public:
+  Random(uint64_t seed, RandomStream stream)
+      : seed_(seed), stream_(static_cast<uint32_t>(stream)) {}
+
+  /// Begins the sequence of this particle at its first draw.
+  void start(uint64_t particle) {
+    particle_ = particle;
+    block_ = 0;
+    refill();
+  }
+
+  /// The next 32 random bits.
+  uint32_t bits() {
+    if (next_ == draws_per_refill) refill();
+    return static_cast<uint32_t>(words_[next_++]);
+  }
+  uint64_t bits64() {
+    const uint64_t high = bits();
+    const uint64_t low = bits();
+    return (high << 32) | low;
+  }
+  /// Uniform in [0, 1), a multiple of 2^-24: never rounds to 1 in float.
+  float uniform() { return static_cast<float>(bits() >> 8) * 0x1p-24f; }
+  /// Uniform in [0, 1), a multiple of 2^-53.
+  double uniform_double() { return static_cast<double>(bits64() >> 11) * 0x1p-53; }
+
+ private:
+  static constexpr uint32_t blocks_per_refill = 8;
+  static constexpr uint32_t draws_per_refill = 4 * blocks_per_refill;
+
+  // Draw number d of a refill is word d / 8 of block d % 8: the order in which vector lanes come out.
+  void refill() {
+#ifdef __AVX2__
+    const __m256i m0 = _mm256_set1_epi64x(0xD2511F53);
+    const __m256i m1 = _mm256_set1_epi64x(0xCD9E8D57);
+    const __m256i low_half = _mm256_set1_epi64x(0xFFFFFFFF);
+    const __m256i first = _mm256_set1_epi64x(block_);
+    __m256i a0 = _mm256_add_epi64(first, _mm256_set_epi64x(3, 2, 1, 0));
+    __m256i b0 = _mm256_add_epi64(first, _mm256_set_epi64x(7, 6, 5, 4));
+    __m256i a1 = _mm256_set1_epi64x(stream_), b1 = a1;
+    __m256i a2 = _mm256_set1_epi64x(static_cast<uint32_t>(particle_)), b2 = a2;
+    __m256i a3 = _mm256_set1_epi64x(static_cast<uint32_t>(particle_ >> 32)), b3 = a3;
+    uint32_t key0 = static_cast<uint32_t>(seed_);
+    uint32_t key1 = static_cast<uint32_t>(seed_ >> 32);
+    for (int round = 0; round < 10; ++round) {
+      const __m256i k0 = _mm256_set1_epi64x(key0);
+      const __m256i k1 = _mm256_set1_epi64x(key1);
+      philox_round(a0, a1, a2, a3, m0, m1, k0, k1, low_half);
+      philox_round(b0, b1, b2, b3, m0, m1, k0, k1, low_half);
+      key0 += 0x9E3779B9u;
+      key1 += 0xBB67AE85u;
+    }
+    auto* out = reinterpret_cast<__m256i*>(words_.data());
+    _mm256_store_si256(out + 0, a0);
+    _mm256_store_si256(out + 1, b0);
+    _mm256_store_si256(out + 2, a1);
+    _mm256_store_si256(out + 3, b1);
+    _mm256_store_si256(out + 4, a2);
+    _mm256_store_si256(out + 5, b2);
+    _mm256_store_si256(out + 6, a3);
+    _mm256_store_si256(out + 7, b3);
+#else
+    for (uint32_t lane = 0; lane < blocks_per_refill; ++lane) {
+      const auto word = philox_block({block_ + lane, stream_, static_cast<uint32_t>(particle_),
+                                      static_cast<uint32_t>(particle_ >> 32)},
+                                     seed_);
+      for (uint32_t w = 0; w < 4; ++w) words_[w * blocks_per_refill + lane] = word[w];
+    }
+#endif
+    block_ += blocks_per_refill;
+    next_ = 0;
+  }
+
+#ifdef __AVX2__
+  static void philox_round(__m256i& c0, __m256i& c1, __m256i& c2, __m256i& c3, __m256i m0,
+                           __m256i m1, __m256i k0, __m256i k1, __m256i low_half) {
+    const __m256i p0 = _mm256_mul_epu32(m0, c0);
+    const __m256i p1 = _mm256_mul_epu32(m1, c2);
+    c0 = _mm256_xor_si256(_mm256_xor_si256(_mm256_srli_epi64(p1, 32), c1), k0);
+    c2 = _mm256_xor_si256(_mm256_xor_si256(_mm256_srli_epi64(p0, 32), c3), k1);
+    c1 = _mm256_and_si256(p1, low_half);
+    c3 = _mm256_and_si256(p0, low_half);
+  }
+#endif
+
+  uint64_t seed_;
+  uint32_t stream_;
+  uint32_t block_ = 0;
+  uint64_t particle_ = 0;
+  uint32_t next_ = draws_per_refill;
+  alignas(32) std::array<uint64_t, draws_per_refill> words_{};
+};
+
+}  // namespace luxodus

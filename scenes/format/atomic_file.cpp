@@ -1,0 +1,231 @@
+// Order of steps, and why: (1) open the folder, so that it can be synced later and cannot be
+// swapped meanwhile; (2) create a temporary file in it with O_EXCL; (3) write, fsync: the data is
+// on the disk before any name points to it; (4) rename over the target; (5) fsync the folder: the
+// name is on the disk. Until (4) the target is untouched; on every failure until then the temporary
+// file is removed.
+#include "scenes/format/atomic_file.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <cstdio>
+#include <string>
+#include <system_error>
+
+namespace luxodus {
+namespace {
+
+// A stale temporary file of a crashed process with our process id costs one attempt each.
+constexpr int temporary_name_attempts_most = 1000;
+// Linux transfers at most 2^31 - 4096 bytes per call; smaller pieces answer signals sooner.
+constexpr size_t transfer_bytes = size_t{1} << 26;
+
+/// A file descriptor that closes itself. Not copyable.
+class Descriptor {
+ public:
+  explicit Descriptor(int fd) : fd_(fd) {}
+  ~Descriptor() {
+    if (fd_ >= 0) ::close(fd_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+
+  int get() const { return fd_; }
+  bool valid() const { return fd_ >= 0; }
+  /// Closes now and tells whether that went well: network file systems report a full disk here.
+  bool close() {
+    const int fd = fd_;
+    fd_ = -1;
+    return ::close(fd) == 0;
+  }
+
+ private:
+  int fd_;
+};
+
+std::string_view advice(int error) {
+  switch (error) {
+    case ENOENT:
+      return "; create the folder first or correct the path";
+    case EACCES:
+    case EPERM:
+      return "; choose a place you may write to";
+    case ENOSPC:
+    case EDQUOT:
+      return "; free some space or choose another disk";
+    case EROFS:
+      return "; choose a place on a writable disk";
+    case ENAMETOOLONG:
+      return "; choose a shorter name";
+    case ENOTDIR:
+      return "; a part of the path is a file, not a folder";
+    default:
+      return "";
+  }
+}
+
+Problem problem_of(const std::filesystem::path& path, std::string what) {
+  SourcePlace place{path.string(), 0};
+  return {std::move(place), std::move(what)};
+}
+
+Problem system_problem(const std::filesystem::path& path, std::string_view doing, int error) {
+  std::string what(doing);
+  what += ": " + std::generic_category().message(error);
+  what += advice(error);
+  return problem_of(path, std::move(what));
+}
+
+Problem write_problem(const std::filesystem::path& path, int error) {
+  return system_problem(path, "cannot write this file", error);
+}
+
+bool holds_nul(const std::filesystem::path& path) {
+  return path.native().find('\0') != std::string::npos;
+}
+
+/// Writes all bytes; 0 or the errno.
+int write_all(int fd, std::span<const std::byte> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t n = ::write(fd, bytes.data(), std::min(bytes.size(), transfer_bytes));
+    if (n < 0) {
+      if (errno == EINTR) continue;
+      return errno;
+    }
+    bytes = bytes.subspan(static_cast<size_t>(n));
+  }
+  return 0;
+}
+
+/// Where the bytes really go: behind symbolic links. `mode` is set when a file is there already.
+struct Target {
+  std::filesystem::path path;
+  mode_t mode = 0;
+  bool exists = false;
+};
+
+Result<Target> find_target(const std::filesystem::path& path) {
+  Target target{path, 0, false};
+  struct stat about {};
+  if (::lstat(path.c_str(), &about) != 0) {
+    if (errno == ENOENT) return target;
+    return write_problem(path, errno);
+  }
+  if (S_ISLNK(about.st_mode)) {
+    std::error_code error;
+    target.path = std::filesystem::canonical(path, error);
+    if (error) return system_problem(path, "this symbolic link leads nowhere", error.value());
+    if (::stat(target.path.c_str(), &about) != 0) return write_problem(path, errno);
+  }
+  if (!S_ISREG(about.st_mode)) {
+    const std::string what = S_ISDIR(about.st_mode)
+                                 ? "this is a folder; name a file in it"
+                                 : "this is a device or a pipe; only regular files are written";
+    return problem_of(path, what);
+  }
+  target.mode = about.st_mode & 0777;
+  target.exists = true;
+  return target;
+}
+
+/// Makes a new file in the folder. The name does not hold the target's, whose length may be at the
+/// system's limit already. Returns the descriptor, or -1 with errno set.
+int create_temporary(int folder, std::string& name) {
+  static std::atomic<uint64_t> counter{0};
+  for (int attempt = 0; attempt < temporary_name_attempts_most; ++attempt) {
+    name = ".luxodus-" + std::to_string(::getpid()) + "-" + std::to_string(counter++) + ".tmp";
+    const int fd = ::openat(folder, name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (fd >= 0 || errno != EEXIST) return fd;
+  }
+  return -1;
+}
+
+/// Steps 3 and 4; 0 or the errno of what failed.
+int fill_and_rename(int folder, Descriptor& file, const std::string& temporary,
+                    const Target& target, std::span<const std::byte> bytes) {
+  if (const int error = write_all(file.get(), bytes)) return error;
+  if (target.exists && ::fchmod(file.get(), target.mode) != 0) return errno;
+  if (::fsync(file.get()) != 0) return errno;
+  if (!file.close()) return errno;
+  const std::string name = target.path.filename().string();
+  if (::renameat(folder, temporary.c_str(), folder, name.c_str()) != 0) return errno;
+  return 0;
+}
+
+}  // namespace
+
+Result<Done> write_file_atomically(const std::filesystem::path& path,
+                                   std::span<const std::byte> bytes) {
+  if (path.empty() || path.filename().empty()) {
+    return problem_of(path, "no file is named here; add a file name to the path");
+  }
+  if (holds_nul(path)) return problem_of(path, "a path cannot hold a zero byte");
+  Result<Target> target = find_target(path);
+  if (!target) return target.problem();
+
+  std::filesystem::path parent = target->path.parent_path();
+  if (parent.empty()) parent = ".";
+  Descriptor folder(::open(parent.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (!folder.valid()) return write_problem(path, errno);
+
+  std::string temporary;
+  Descriptor file(create_temporary(folder.get(), temporary));
+  if (!file.valid()) return write_problem(path, errno);
+  if (const int error = fill_and_rename(folder.get(), file, temporary, target.value(), bytes)) {
+    ::unlinkat(folder.get(), temporary.c_str(), 0);
+    return write_problem(path, error);
+  }
+  // EINVAL: the file system has no notion of syncing a folder, and nothing better can be done.
+  if (::fsync(folder.get()) != 0 && errno != EINVAL) {
+    return system_problem(path, "the file is written, but its folder could not be synced", errno);
+  }
+  return Done{};
+}
+
+Result<Done> write_file_atomically(const std::filesystem::path& path, std::string_view text) {
+  return write_file_atomically(path, std::as_bytes(std::span(text.data(), text.size())));
+}
+
+Result<std::vector<std::byte>> read_whole_file(const std::filesystem::path& path,
+                                               uint64_t most_bytes) {
+  if (holds_nul(path)) return problem_of(path, "a path cannot hold a zero byte");
+  const auto too_long = [&] {
+    return problem_of(path, "this file is longer than " + std::to_string(most_bytes) +
+                                " bytes, the most that is read from a file of its kind");
+  };
+  constexpr std::string_view doing = "cannot read this file";
+  Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  if (!file.valid()) return system_problem(path, doing, errno);
+  struct stat about {};
+  if (::fstat(file.get(), &about) != 0) return system_problem(path, doing, errno);
+  if (S_ISDIR(about.st_mode)) return system_problem(path, doing, EISDIR);
+  if (static_cast<uint64_t>(about.st_size) > most_bytes) return too_long();
+
+  // The size is a hint only: a pipe has none, and a file may grow while it is read.
+  std::vector<std::byte> bytes;
+  uint64_t wanted = static_cast<uint64_t>(about.st_size);
+  size_t filled = 0;
+  while (true) {
+    if (filled == bytes.size()) {
+      wanted = std::min(std::max<uint64_t>(wanted, filled + filled / 2 + 4096), most_bytes + 1);
+      bytes.resize(static_cast<size_t>(wanted));
+    }
+    const ssize_t n =
+        ::read(file.get(), bytes.data() + filled, std::min(bytes.size() - filled, transfer_bytes));
+    if (n < 0) {
+      if (errno == EINTR) continue;
+      return system_problem(path, doing, errno);
+    }
+    if (n == 0) break;
+    filled += static_cast<size_t>(n);
+    if (filled > most_bytes) return too_long();
+  }
+  bytes.resize(filled);
+  return bytes;
+}
+
+}  // namespace luxodus

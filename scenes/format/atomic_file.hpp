@@ -1,0 +1,35 @@
+// Whole files in, whole files out. A file written here is either the old one or the new one, also
+// after a full disk, a crash or a power cut: the bytes go to a temporary name in the same folder,
+// are synced, and take the target's name in one rename. Every failure is a Problem with the path
+// and the system's reason. Any thread; two writers of one path do not disturb each other, the later
+// rename wins.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "runtime/core/result.hpp"
+
+namespace luxodus {
+
+/// The value of a Result that carries nothing but success.
+struct Done {};
+
+/// Replaces or makes the file `path`. The target's permissions are kept where it exists; a symbolic
+/// link is followed; anything that is not a regular file (a folder, a device, a pipe) is refused.
+/// Errors: the folder is missing or not writable, no space, a name the system does not take. The
+/// old file is then untouched and no temporary file is left.
+Result<Done> write_file_atomically(const std::filesystem::path& path,
+                                   std::span<const std::byte> bytes);
+Result<Done> write_file_atomically(const std::filesystem::path& path, std::string_view text);
+
+/// All bytes of a file. Errors: not there, not readable, a folder, or longer than `most_bytes`;
+/// memory is never asked for beyond that.
+Result<std::vector<std::byte>> read_whole_file(const std::filesystem::path& path,
+                                               uint64_t most_bytes);
+
+}  // namespace luxodus

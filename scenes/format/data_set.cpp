@@ -1,0 +1,137 @@
+#include "scenes/format/data_set.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+
+#include "scenes/format/data_set_fields.hpp"
+
+namespace luxodus {
+namespace data_set {
+
+static_assert(std::endian::native == std::endian::little,
+              "samples are copied as they lie in files");
+
+bool is_known_field(std::string_view name) {
+  return name == "extinction" || name == "soot_density" || name == "albedo" || name == "emission";
+}
+
+std::string grid_fault(uint64_t nx, uint64_t ny, uint64_t nz) {
+  for (const uint64_t side : {nx, ny, nz}) {
+    if (side == 0) return "the grid has no cells along one of its axes";
+    if (side > limits::data_set_side) {
+      return fmt::format("the grid has {} cells along one axis, the most are {}", side,
+                         limits::data_set_side);
+    }
+  }
+  // Sides up to 2^20: no product overflows.
+  if (nx * ny * nz > limits::data_set_cells) {
+    return fmt::format("the grid has {} x {} x {} cells, the most are {}", nx, ny, nz,
+                       limits::data_set_cells);
+  }
+  return "";
+}
+
+}  // namespace data_set
+
+namespace {
+
+using data_set::fault;
+using data_set::Field;
+using data_set::Grid;
+
+std::string ending_of(const std::string& path) {
+  std::string ending = std::filesystem::path(path).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return ending;
+}
+
+/// Every value a number that its field can have; the first that is not is named by its cell.
+std::optional<Problem> bad_value(const std::string& path, const Grid& grid, const Field& field) {
+  const float most = field.name == "albedo" ? 1.0f : 3e38f;
+  for (size_t i = 0; i < field.value.size(); ++i) {
+    const float v = field.value[i];
+    if (v >= 0 && v <= most) continue;  // NaN fails
+    const uint64_t x = i % grid.nx, y = i / grid.nx % grid.ny, z = i / grid.nx / grid.ny;
+    const char* const rule = field.name == "albedo" ? "0 to 1" : "a finite value of 0 or more";
+    return fault(path, 0,
+                 fmt::format("{} of cell ({}, {}, {}), index {}, is {}: give {}", field.name, x, y,
+                             z, i, v, rule));
+  }
+  return std::nullopt;
+}
+
+std::optional<Problem> bad_placement(const std::string& path, const Grid& grid) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!(grid.spacing[axis] > 0) || !std::isfinite(grid.spacing[axis])) {
+      return fault(path, 0,
+                   fmt::format("the spacing along {} is {}: give a length above 0", "xyz"[axis],
+                               grid.spacing[axis]));
+    }
+    if (!std::isfinite(grid.origin[axis])) return fault(path, 0, "the origin is not finite");
+  }
+  return std::nullopt;
+}
+
+Result<LoadedDataSet> assembled(const std::string& path, Grid grid, const DataSetOptions& options) {
+  if (auto bad = bad_placement(path, grid)) return *bad;
+  LoadedDataSet out;
+  out.origin = grid.origin;
+  out.spacing = grid.spacing;
+  out.files_read = std::move(grid.files_read);
+  DataSet& data = out.data;
+  data.nx = static_cast<int>(grid.nx);
+  data.ny = static_cast<int>(grid.ny);
+  data.nz = static_cast<int>(grid.nz);
+  data.extent = grid.spacing * glm::dvec3(data.nx, data.ny, data.nz);
+  for (Field& field : grid.fields) {
+    const bool soot = field.name == "soot_density";
+    if (soot) {
+      // Before the check, so that an overflow is found by it too.
+      const auto factor = static_cast<float>(options.mass_extinction_m2_per_kg);
+      for (float& v : field.value) v *= factor;
+    }
+    if (auto bad = bad_value(path, grid, field)) return *bad;
+    std::vector<float>& to = soot || field.name == "extinction" ? data.extinction
+                             : field.name == "albedo"           ? data.albedo
+                                                                : data.emission;
+    if (!to.empty()) {
+      return fault(path, 0,
+                   fmt::format("\"{}\" would be given twice{}: keep one", field.name,
+                               soot || field.name == "extinction"
+                                   ? " (extinction and soot density say the same)"
+                                   : ""));
+    }
+    to = std::move(field.value);
+  }
+  return out;
+}
+
+}  // namespace
+
+Result<LoadedDataSet> read_data_set(const std::string& path, const DataSetOptions& options) {
+  if (!(options.mass_extinction_m2_per_kg > 0) ||
+      !std::isfinite(options.mass_extinction_m2_per_kg)) {
+    return fault(path, 0,
+                 fmt::format("a mass extinction of {} m2/kg: give a value above 0",
+                             options.mass_extinction_m2_per_kg));
+  }
+  const std::string ending = ending_of(path);
+  const bool nrrd = ending == ".nrrd" || ending == ".nhdr";
+  if (!nrrd && ending != ".vti") {
+    return fault(path, 0, "unknown kind of data set: .nrrd, .nhdr and .vti are read");
+  }
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error))
+    return fault(path, 0, "there is no such file");
+  Result<Grid> grid = nrrd ? data_set::read_nrrd(path, options) : data_set::read_vti(path);
+  if (!grid) return grid.problem();
+  return assembled(path, std::move(grid.value()), options);
+}
+
+}  // namespace luxodus

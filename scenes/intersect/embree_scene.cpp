@@ -1,0 +1,192 @@
+// Design: one triangle geometry per cell, ROBUST so that shared edges do not leak, vertices written straight
+// from the records (welding would save memory but the records hold the corners a hit needs anyway).
+// The proxies' callback only notes candidates and never changes the ray: cells are entered outside Embree,
+// where a caller may wait. Callbacks are noexcept, because Embree swallows exceptions.
+#include "scenes/intersect/embree_scene.hpp"
+
+#include <embree3/rtcore.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace luxodus {
+
+namespace {
+
+/// The first error of this thread's start-up; queries raise none.
+void report_error(void*, RTCError code, const char* text) noexcept {
+  if (code != RTC_ERROR_NONE) {
+    std::fprintf(stderr, "luxodus: Embree error %d: %s\n", static_cast<int>(code), text);
+  }
+}
+
+bool count_bytes(void* counter, ssize_t bytes, bool) noexcept {
+  static_cast<std::atomic<int64_t>*>(counter)->fetch_add(bytes);
+  return true;
+}
+
+RTCRayHit to_embree(const Ray& ray) {
+  RTCRayHit query;
+  query.ray.org_x = ray.origin.x;
+  query.ray.org_y = ray.origin.y;
+  query.ray.org_z = ray.origin.z;
+  query.ray.tnear = 0;
+  query.ray.dir_x = ray.direction.x;
+  query.ray.dir_y = ray.direction.y;
+  query.ray.dir_z = ray.direction.z;
+  query.ray.time = 0;
+  query.ray.tfar = ray.length;
+  query.ray.mask = 0xFFFFFFFFu;
+  query.ray.id = 0;
+  query.ray.flags = 0;
+  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  return query;
+}
+
+struct CollectContext {
+  RTCIntersectContext base;  // first: Embree hands back a pointer to it
+  const Ray* ray;
+  const std::vector<ProxyScene::Box>* boxes;
+  std::vector<Candidate>* out;
+};
+
+/// Where the ray enters the box, widened by a few roundings so that no hit on a face is missed.
+bool enters(const ProxyScene::Box& box, const Ray& ray, float& entry) {
+  float first = 0;
+  float last = ray.length;
+  for (int axis = 0; axis < 3; ++axis) {
+    const float inverse = 1.0f / ray.direction[axis];
+    float a = (box.low[axis] - ray.origin[axis]) * inverse;
+    float b = (box.high[axis] - ray.origin[axis]) * inverse;
+    if (a > b) std::swap(a, b);
+    // NaN (0 * infinity: the ray lies in a face plane) must not exclude the box.
+    if (a > first) first = a;
+    if (b < last) last = b;
+  }
+  constexpr float slack = 8 * std::numeric_limits<float>::epsilon();
+  first *= 1 - slack;
+  last *= 1 + slack;
+  entry = first;
+  return first <= last;
+}
+
+void proxy_bounds(const RTCBoundsFunctionArguments* args) noexcept {
+  const auto& boxes = *static_cast<const std::vector<ProxyScene::Box>*>(args->geometryUserPtr);
+  const ProxyScene::Box& box = boxes[args->primID];
+  RTCBounds* out = args->bounds_o;
+  out->lower_x = box.low.x;
+  out->lower_y = box.low.y;
+  out->lower_z = box.low.z;
+  out->upper_x = box.high.x;
+  out->upper_y = box.high.y;
+  out->upper_z = box.high.z;
+}
+
+void proxy_intersect(const RTCIntersectFunctionNArguments* args) noexcept {
+  auto* context = reinterpret_cast<CollectContext*>(args->context);
+  float entry = 0;
+  if (enters((*context->boxes)[args->primID], *context->ray, entry)) {
+    context->out->push_back({entry, args->primID});
+  }
+}
+
+}  // namespace
+
+EmbreeDevice::EmbreeDevice() {
+  device_ = rtcNewDevice(nullptr);
+  if (device_ == nullptr) throw std::runtime_error("Embree does not start on this machine");
+  rtcSetDeviceErrorFunction(device_, report_error, nullptr);
+  rtcSetDeviceMemoryMonitorFunction(device_, count_bytes, &bytes_);
+}
+
+EmbreeDevice::~EmbreeDevice() { rtcReleaseDevice(device_); }
+
+CellScene::CellScene(const EmbreeDevice& device, const GeometryCell& cell) : cell_(&cell) {
+  RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
+  const size_t count = cell.triangles.size();
+  auto* vertices = static_cast<glm::vec3*>(
+      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                              sizeof(glm::vec3), 3 * std::max<size_t>(count, 1)));
+  auto* indices = static_cast<uint32_t*>(
+      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                              3 * sizeof(uint32_t), std::max<size_t>(count, 1)));
+  if (vertices == nullptr || indices == nullptr) throw std::bad_alloc();
+  for (size_t i = 0; i < count; ++i) {
+    for (size_t k = 0; k < 3; ++k) {
+      vertices[3 * i + k] = cell.triangles[i].corner[k];
+      indices[3 * i + k] = static_cast<uint32_t>(3 * i + k);
+    }
+  }
+  if (count == 0) {  // Embree wants a buffer: one degenerate triangle that nothing can hit
+    for (size_t k = 0; k < 3; ++k) {
+      vertices[k] = glm::vec3(std::numeric_limits<float>::quiet_NaN());
+      indices[k] = static_cast<uint32_t>(k);
+    }
+  }
+  rtcCommitGeometry(geometry);
+  scene_ = rtcNewScene(device.get());
+  rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
+  rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_MEDIUM);
+  rtcAttachGeometry(scene_, geometry);
+  rtcReleaseGeometry(geometry);
+  rtcCommitScene(scene_);
+}
+
+CellScene::~CellScene() { rtcReleaseScene(scene_); }
+
+Hit CellScene::nearest(const Ray& ray) const {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  RTCRayHit query = to_embree(ray);
+  rtcIntersect1(scene_, &context, &query);
+  Hit hit;
+  if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return hit;
+  hit.distance = query.ray.tfar;
+  hit.u = query.hit.u;
+  hit.v = query.hit.v;
+  hit.index = query.hit.primID;
+  hit.triangle = &cell_->triangles[hit.index];
+  hit.cell = cell_;
+  return hit;
+}
+
+bool CellScene::occluded(const Ray& ray) const {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  RTCRayHit query = to_embree(ray);
+  rtcOccluded1(scene_, &context, &query.ray);
+  return query.ray.tfar < 0;
+}
+
+ProxyScene::ProxyScene(const EmbreeDevice& device, std::vector<Box> boxes)
+    : boxes_(std::move(boxes)) {
+  RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_USER);
+  rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(boxes_.size()));
+  rtcSetGeometryUserData(geometry, &boxes_);
+  rtcSetGeometryBoundsFunction(geometry, proxy_bounds, nullptr);
+  rtcSetGeometryIntersectFunction(geometry, proxy_intersect);
+  rtcCommitGeometry(geometry);
+  scene_ = rtcNewScene(device.get());
+  rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
+  rtcAttachGeometry(scene_, geometry);
+  rtcReleaseGeometry(geometry);
+  rtcCommitScene(scene_);
+}
+
+ProxyScene::~ProxyScene() { rtcReleaseScene(scene_); }
+
+void ProxyScene::candidates(const Ray& ray, std::vector<Candidate>& out) const {
+  out.clear();
+  CollectContext context{{}, &ray, &boxes_, &out};
+  rtcInitIntersectContext(&context.base);
+  RTCRayHit query = to_embree(ray);
+  rtcIntersect1(scene_, &context.base, &query);
+  std::sort(out.begin(), out.end(), [](const Candidate& a, const Candidate& b) {
+    return a.entry != b.entry ? a.entry < b.entry : a.cell < b.cell;
+  });
+}
+
+}  // namespace luxodus

@@ -1,0 +1,114 @@
+// The only room that includes Embree. An EmbreeDevice is one library instance; a CellScene is the search
+// structure over the triangles of one geometry cell (a merged scene is a single cell); a ProxyScene is the
+// structure over the boxes of many cells, which finds candidates and never enters one.
+// Thread rule: queries are const and may run on any thread; building is not on the photon path.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "scenes/geometry/mesh.hpp"
+#include "scenes/intersect/ray.hpp"
+
+struct RTCDeviceTy;
+struct RTCSceneTy;
+
+namespace luxodus {
+
+class EmbreeDevice {
+ public:
+  EmbreeDevice();
+  ~EmbreeDevice();
+  EmbreeDevice(const EmbreeDevice&) = delete;
+  EmbreeDevice& operator=(const EmbreeDevice&) = delete;
+
+  RTCDeviceTy* get() const { return device_; }
+  /// Bytes that Embree holds now, by its own memory monitor.
+  int64_t bytes() const { return bytes_.load(); }
+
+ private:
+  RTCDeviceTy* device_ = nullptr;
+  std::atomic<int64_t> bytes_{0};
+};
+
+/// The content of a geometry cell: immutable, position-independent.
+struct GeometryCell {
+  std::vector<TriangleRecord> triangles;
+  /// Texture coordinates of the few triangles that have them, ascending by triangle.
+  struct TriangleUv {
+    uint32_t triangle;
+    glm::vec2 corner[3];
+  };
+  std::vector<TriangleUv> texture_uv;
+  glm::vec3 low{0};
+  glm::vec3 high{0};
+};
+
+class CellScene {
+ public:
+  /// Builds at once, on the calling thread and Embree's. `cell` must outlive this.
+  CellScene(const EmbreeDevice& device, const GeometryCell& cell);
+  ~CellScene();
+  CellScene(const CellScene&) = delete;
+  CellScene& operator=(const CellScene&) = delete;
+
+  /// Nearest triangle within (0, ray.length]; both sides count.
+  Hit nearest(const Ray& ray) const;
+  /// Whether any triangle lies within (0, ray.length).
+  bool occluded(const Ray& ray) const;
+  const GeometryCell& cell() const { return *cell_; }
+
+ private:
+  const GeometryCell* cell_;
+  RTCSceneTy* scene_ = nullptr;
+};
+
+/// A cell that a ray may enter, and where.
+struct Candidate {
+  float entry;
+  uint32_t cell;
+};
+
+class ProxyScene {
+ public:
+  struct Box {
+    glm::vec3 low, high;
+  };
+  ProxyScene(const EmbreeDevice& device, std::vector<Box> boxes);
+  ~ProxyScene();
+  ProxyScene(const ProxyScene&) = delete;
+  ProxyScene& operator=(const ProxyScene&) = delete;
+
+  /// All cells whose box the ray meets, sorted by (entry, cell). Replaces what `out` held.
+  void candidates(const Ray& ray, std::vector<Candidate>& out) const;
+
+ private:
+  std::vector<Box> boxes_;
+  RTCSceneTy* scene_ = nullptr;
+};
+
+/// Nearest hit over cells, front to back: `enter(cell)` gives the CellScene and may wait for it. A cell is
+/// entered only while it can hold something nearer; equal distances go to the smaller global triangle, so
+/// the answer does not depend on the order of the visits.
+template <class Enter>
+Hit nearest_in_cells(const ProxyScene& proxies, const Ray& ray, std::vector<Candidate>& scratch,
+                     Enter&& enter) {
+  proxies.candidates(ray, scratch);
+  Hit best;
+  for (const Candidate& c : scratch) {
+    if (c.entry > best.distance) break;
+    const Hit hit = enter(c.cell).nearest(ray);
+    if (!hit.found()) continue;
+    const bool nearer = hit.distance < best.distance;
+    const bool tie = hit.distance == best.distance && best.found() &&
+                     hit.triangle->global_triangle < best.triangle->global_triangle;
+    if (nearer || tie) best = hit;
+  }
+  return best;
+}
+
+}  // namespace luxodus

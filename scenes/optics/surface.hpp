@@ -1,0 +1,261 @@
+// What a surface does with light that hits it, compiled for one band: sampling for flux particles
+// and for radiance traced from the eye alike, since every model is reciprocal. Promise: on average
+// a surface never gives back more than arrives (weights are in [0, 1]), at any angle and roughness.
+// Directions: `incoming` travels towards the surface; `normal` is the unit geometric normal on the
+// side it comes from; wo and wi point away from the surface. The weight is for flux and for basic
+// radiance L / n^2, which a refracting boundary keeps. Not here: textures and which side of a
+// triangle is hit. Any thread.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <glm/glm.hpp>
+
+#include "scenes/optics/sampling.hpp"
+
+namespace luxodus {
+
+enum class SurfaceKind {
+  lambertian,  // reflectance
+  glossy,      // reflectance (Lambert) + specular (GGX of roughness alpha)
+  mirror,      // specular
+  glass_pane,  // thin plane pane with both its faces and the reflections between them
+  dielectric,  // smooth boundary of a solid; ior is behind the front
+  open,        // not there
+};
+
+namespace surface_limits {
+/// GGX narrower than this is a mirror for every luminaire here, and its peak 1 / (pi alpha^2) would
+/// let rounding of the half vector decide.
+inline constexpr double least_alpha = 1e-3;
+/// Cosines below this (6e-5 degrees above the plane) are taken as this: Fresnel's terms stay
+/// defined.
+inline constexpr float least_cos = 1e-6F;
+/// Refractive indices relative to the outside: a bubble in diamond to beyond any transparent solid.
+inline constexpr double least_ior = 0.2;
+inline constexpr double most_ior = 5.0;
+}  // namespace surface_limits
+
+/// One surface in one band. Made by make_surface; the reflectance may be scaled by a texture
+/// afterwards.
+struct SurfaceModel {
+  SurfaceKind kind = SurfaceKind::open;
+  float reflectance = 0;         // Lambertian part, [0, 1]
+  float specular = 0;            // mirror or GGX part, [0, 1]; reflectance + specular <= 1
+  float alpha = 0.3F;            // GGX roughness, [1e-3, 1]
+  float ior = 1;                 // n behind / n in front; of the glass for a pane
+  float log2_transmittance = 0;  // log2 of the internal transmittance of a pane along its normal
+};
+
+struct SurfaceSample {
+  glm::vec3 direction;  // of travel afterwards, unit
+  float weight;      // f cos / pdf of the sampled lobe, [0, 1]: the share of the power that goes on
+  bool transmitted;  // the light leaves on the other side
+  bool specular;     // into a single direction: next-event estimation cannot see it
+};
+
+/// Compiles a surface. Values outside their range are brought to its end; reflectance + specular
+/// above 1 (a rounding of two averages) is scaled to 1. `roughness` is GGX alpha.
+SurfaceModel make_surface(SurfaceKind kind, double reflectance, double specular, double roughness,
+                          double ior, double internal_transmittance);
+
+/// Reflectance for perfectly diffuse incident light from the front (mean over cosine-weighted
+/// directions); to summarise a surface as Lambertian. Deterministic to 1e-3, not for the tracer's
+/// loop.
+double mean_hemispherical_reflectance(const SurfaceModel& model);
+
+// ---- glass -------------------------------------------------------------------------------------
+
+/// Reflectance r and 1 - r of one boundary for one polarisation; the second has its own accuracy.
+struct FresnelShares {
+  float r;
+  float t;
+};
+
+/// Fresnel's equations for both polarisations, and the cosine behind the boundary (0: total
+/// reflection).
+struct FresnelTerms {
+  FresnelShares s;
+  FresnelShares p;
+  float cos_behind;
+};
+inline FresnelTerms fresnel(float cos_theta, float ior) {
+  const float c = std::clamp(cos_theta, surface_limits::least_cos, 1.0F);
+  const float square = ior * ior - (1.0F - c) * (1.0F + c);  // (n cos behind)^2
+  if (square <= 0.0F) return {{1.0F, 0.0F}, {1.0F, 0.0F}, 0.0F};
+  const float b = std::sqrt(square);
+  const float cos_behind = b / ior;
+  // r = ((x - y) / (x + y))^2 and 1 - r = 4 x y / (x + y)^2.
+  const auto shares = [](float x, float y) {
+    const float inverse = 1.0F / (x + y);
+    const float amplitude = (x - y) * inverse;
+    return FresnelShares{amplitude * amplitude, 4.0F * (x * inverse) * (y * inverse)};
+  };
+  return {shares(c, b), shares(ior * c, cos_behind), cos_behind};
+}
+
+/// Share of unpolarised power that a smooth boundary reflects. `ior` = n behind / n in front.
+inline float fresnel_reflectance(float cos_theta, float ior) {
+  const FresnelTerms terms = fresnel(cos_theta, ior);
+  return 0.5F * (terms.s.r + terms.p.r);
+}
+
+struct PaneShares {
+  float reflected;
+  float transmitted;
+};
+
+/// A thin pane with all reflections between its faces, incoherent, averaged over the polarisations:
+/// R = r + (1-r)^2 r t^2 / (1 - r^2 t^2), T = (1-r)^2 t / (1 - r^2 t^2), t = internal^(1 / cos
+/// behind).
+inline PaneShares pane_shares(const SurfaceModel& model, float cos_theta) {
+  const FresnelTerms terms = fresnel(std::fabs(cos_theta), model.ior);
+  if (terms.cos_behind <= 0.0F) return {1.0F, 0.0F};
+  const float loss = -exp2_minus_one(model.log2_transmittance / terms.cos_behind);  // 1 - t
+  const float t = 1.0F - loss;
+  PaneShares sum{0.0F, 0.0F};
+  for (const FresnelShares& f : {terms.s, terms.p}) {
+    // 1 - r^2 t^2 = (1 - r t) (1 + r t) with 1 - r t = (1 - r) + r (1 - t): no cancellation at
+    // grazing.
+    const float through = f.t * f.t * t / ((f.t + f.r * loss) * (1.0F + f.r * t));
+    sum.transmitted += 0.5F * through;
+    sum.reflected += 0.5F * f.r * (1.0F + t * through);
+  }
+  return sum;
+}
+
+/// Share of the power that passes a pane without deviation, either way: for shadow rays.
+/// `cos_theta` is the cosine between the ray and the pane's normal, any sign.
+inline float pane_transmittance(const SurfaceModel& model, float cos_theta) {
+  return pane_shares(model, cos_theta).transmitted;
+}
+
+// ---- glossy ------------------------------------------------------------------------------------
+
+/// sqrt(cos^2 + alpha^2 sin^2): Smith's Lambda for GGX is (this / cos - 1) / 2, without a tangent.
+inline float ggx_stretch(float cos_theta, float alpha) {
+  const float cos_square = cos_theta * cos_theta;
+  return std::sqrt(cos_square + alpha * alpha * std::max(0.0F, 1.0F - cos_square));
+}
+
+/// Microfacet normal seen from the local direction wo (z > 0), distributed as the visible normals
+/// of GGX (Heitz, "Sampling the GGX Distribution of Visible Normals", JCGT 7(4), 2018): stretch to
+/// the half sphere, sample its projection as seen from wo, go back.
+inline glm::vec3 sample_ggx_visible_normal(const glm::vec3& wo, float alpha, float u, float v) {
+  const glm::vec3 view = glm::normalize(glm::vec3(alpha * wo.x, alpha * wo.y, wo.z));
+  // The visible half disc is cut along the axis that lies in the surface.
+  const float flat = view.x * view.x + view.y * view.y;
+  const glm::vec3 t1 = flat > 1e-14F ? glm::vec3(-view.y, view.x, 0.0F) * (1.0F / std::sqrt(flat))
+                                     : glm::vec3(1.0F, 0.0F, 0.0F);
+  const glm::vec3 t2 = glm::cross(view, t1);
+  const glm::vec2 disc = uniform_disc(u, v);
+  const float visible = 0.5F * (1.0F + view.z);
+  const float y = (1.0F - visible) * safe_sqrt(1.0F - disc.x * disc.x) + visible * disc.y;
+  const float z = safe_sqrt(1.0F - disc.x * disc.x - y * y);
+  const glm::vec3 h = t1 * disc.x + t2 * y + view * z;
+  return glm::normalize(glm::vec3(alpha * h.x, alpha * h.y, std::max(1e-6F, h.z)));
+}
+
+// ---- the two calls of the tracer ---------------------------------------------------------------
+
+/// BRDF [1/sr] of everything that is spread over directions (Lambert + GGX with Smith's
+/// height-correlated masking, Heitz, JCGT 3(2), 2014); 0 for mirror, pane, dielectric and open, and
+/// below the horizon.
+inline float evaluate_surface(const SurfaceModel& model, const glm::vec3& wo, const glm::vec3& wi,
+                              const glm::vec3& normal) {
+  const float cos_o = glm::dot(wo, normal);
+  const float cos_i = glm::dot(wi, normal);
+  if (!(cos_o > 0.0F && cos_i > 0.0F)) return 0.0F;
+  if (model.kind == SurfaceKind::lambertian) return model.reflectance * inverse_pi_f;
+  if (model.kind != SurfaceKind::glossy) return 0.0F;
+  const glm::vec3 h = glm::normalize(wo + wi);
+  const float cos_h = glm::dot(h, normal);
+  const glm::vec3 flat =
+      glm::cross(h, normal);  // sin^2 from here: 1 - cos^2 would lose a narrow lobe
+  const float alpha_square = model.alpha * model.alpha;
+  const float spread = cos_h * cos_h * alpha_square + glm::dot(flat, flat);
+  const float d = inverse_pi_f * alpha_square / (spread * spread);
+  const float masking =
+      cos_i * ggx_stretch(cos_o, model.alpha) + cos_o * ggx_stretch(cos_i, model.alpha);
+  return model.reflectance * inverse_pi_f + model.specular * d * 0.5F / masking;
+}
+
+namespace surface_detail {
+
+inline SurfaceSample sample_ggx(const SurfaceModel& model, const glm::vec3& incoming,
+                                const glm::vec3& normal, float u, float v) {
+  const Basis basis = basis_around(normal);
+  glm::vec3 wo = basis.to_local(-incoming);
+  wo.z = std::max(wo.z, surface_limits::least_cos);
+  const glm::vec3 m = sample_ggx_visible_normal(wo, model.alpha, u, v);
+  const glm::vec3 wi = m * (2.0F * glm::dot(wo, m)) - wo;
+  // Reflected into the surface: a second facet would be next; the single-scattering model ends
+  // here.
+  if (!(wi.z > 0.0F)) return {normal, 0.0F, false, false};
+  const float stretch_o = ggx_stretch(wo.z, model.alpha);
+  const float stretch_i = ggx_stretch(wi.z, model.alpha);
+  const float masking = wi.z * (wo.z + stretch_o) / (wi.z * stretch_o + wo.z * stretch_i);
+  const float weight = (model.reflectance + model.specular) * std::min(1.0F, masking);
+  return {renormalised(basis.to_world(wi)), weight, false, false};
+}
+
+inline glm::vec3 mirrored(const glm::vec3& incoming, const glm::vec3& normal, float cos_theta) {
+  return renormalised(incoming + normal * (2.0F * cos_theta));
+}
+
+inline SurfaceSample sample_dielectric(const SurfaceModel& model, const glm::vec3& incoming,
+                                       const glm::vec3& normal, bool front, float u_lobe) {
+  const float cos_theta = std::clamp(-glm::dot(incoming, normal), 0.0F, 1.0F);
+  const float ior = front ? model.ior : 1.0F / model.ior;
+  const FresnelTerms terms = fresnel(cos_theta, ior);
+  if (terms.cos_behind <= 0.0F || u_lobe < 0.5F * (terms.s.r + terms.p.r)) {
+    return {mirrored(incoming, normal, cos_theta), 1.0F, false, true};
+  }
+  // Snell: the part along the surface shrinks by 1 / ior, the rest is cos_behind.
+  const float inverse = 1.0F / ior;
+  const glm::vec3 refracted =
+      incoming * inverse + normal * (cos_theta * inverse - terms.cos_behind);
+  return {glm::normalize(refracted), 1.0F, true, true};
+}
+
+}  // namespace surface_detail
+
+/// One event: chooses a lobe with u_lobe and a direction in it with u, v. `front` tells a
+/// dielectric that the light comes from outside. Requires: incoming, normal unit; incoming . normal
+/// <= 0 up to rounding.
+inline SurfaceSample sample_surface(const SurfaceModel& model, const glm::vec3& incoming,
+                                    const glm::vec3& normal, bool front, float u_lobe, float u,
+                                    float v) {
+  switch (model.kind) {
+    case SurfaceKind::lambertian:
+      break;
+    case SurfaceKind::glossy: {
+      // Lobes in proportion to their reflectivity: each then carries the sum of both.
+      const float sum = model.reflectance + model.specular;
+      if (u_lobe * sum < model.specular) {
+        return surface_detail::sample_ggx(model, incoming, normal, u, v);
+      }
+      return {to_world(normal, cosine_hemisphere(u, v)), sum, false, false};
+    }
+    case SurfaceKind::mirror: {
+      const float cos_theta = std::max(0.0F, -glm::dot(incoming, normal));
+      return {surface_detail::mirrored(incoming, normal, cos_theta), model.specular, false, true};
+    }
+    case SurfaceKind::glass_pane: {
+      const float cos_theta = std::max(0.0F, -glm::dot(incoming, normal));
+      const PaneShares shares = pane_shares(model, cos_theta);
+      const float sum = std::min(1.0F, shares.reflected + shares.transmitted);
+      if (u_lobe * sum < shares.reflected) {
+        return {surface_detail::mirrored(incoming, normal, cos_theta), sum, false, true};
+      }
+      return {incoming, sum, true, true};
+    }
+    case SurfaceKind::dielectric:
+      return surface_detail::sample_dielectric(model, incoming, normal, front, u_lobe);
+    case SurfaceKind::open:
+      return {incoming, 1.0F, true, true};
+  }
+  return {to_world(normal, cosine_hemisphere(u, v)), model.reflectance, false, false};
+}
+
+}  // namespace luxodus

@@ -1,0 +1,33 @@
+// Weights as integers. A particle is born with weight 2^32 units; every event splits that integer without
+// remainder, so the ledger closes exactly and sums do not depend on order. Rounding is randomised by the
+// particle's own draws, so the split has the right expectation.
+#pragma once
+
+#include <cstdint>
+
+#include "runtime/core/wide.hpp"
+
+namespace luxodus {
+
+using Weight = uint64_t;
+
+inline constexpr Weight unit_weight = Weight{1} << 32;
+
+/// A fraction in [0, 1] in units of 2^-32; 1 is 2^32 exactly.
+using Fraction = uint64_t;
+
+inline Fraction to_fraction(double x) {
+  if (!(x > 0)) return 0;
+  if (x >= 1) return unit_weight;
+  return static_cast<Fraction>(x * 0x1p32 + 0.5);
+}
+inline double from_fraction(Fraction f) { return static_cast<double>(f) * 0x1p-32; }
+
+/// The part of `weight` that goes on when a fraction of it does; the rest is weight minus this.
+/// Expectation over the 32 random bits: exactly weight * fraction / 2^32. Never more than weight.
+inline Weight split(Weight weight, Fraction fraction, uint32_t random_bits) {
+  const UInt128 product = static_cast<UInt128>(weight) * fraction + random_bits;
+  return static_cast<Weight>(product >> 32);
+}
+
+}  // namespace luxodus

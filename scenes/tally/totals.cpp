@@ -1,0 +1,128 @@
+// Merging walks the bins in stripes, each behind a lock of its own, so that threads that finish together do
+// not wait for one another. A bin that scored nothing in a batch adds nothing to sum or squares: skipped.
+#include "scenes/tally/totals.hpp"
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace luxodus {
+
+namespace {
+
+void add_score(Total& total, int64_t score) {
+  total.sum += score;
+  const int64_t half = int64_t{1} << (Totals::square_shift - 1);
+  const Int128 shifted = (static_cast<Int128>(score) + half) >> Totals::square_shift;
+  total.squares += static_cast<UInt128>(shifted * shifted);
+}
+
+}  // namespace
+
+Totals::Totals(const TallyLayout& layout, int groups,
+               std::vector<std::vector<int64_t>> photopic_weights)
+    : layout_(layout), photopic_weights_(std::move(photopic_weights)) {
+  groups_.resize(static_cast<size_t>(groups));
+  for (GroupState& g : groups_) g.totals.resize(static_cast<size_t>(layout.totals()));
+}
+
+void Totals::fill_aggregates(BatchScores& batch) const {
+  for (const Aggregate& a : layout_.aggregates()) {
+    const TallyBlock& from = layout_.block(a.from_block);
+    const TallyBlock& into = layout_.block(a.to_block);
+    const size_t bands = static_cast<size_t>(layout_.bands());
+    const size_t width = bands * from.quantities;
+    int64_t* to = &batch.scores[static_cast<size_t>(layout_.score_index(a.to_block, a.to_bin, 0, 0))];
+    const int64_t* source =
+        &batch.scores[static_cast<size_t>(layout_.score_index(a.from_block, a.first_bin, 0, 0))];
+    for (uint32_t bin = 0; bin < a.bin_count; ++bin, source += width) {
+      for (size_t b = 0; b < bands; ++b) {
+        const int64_t* s = source + b * from.quantities;
+        int64_t* t = to + b * into.quantities;
+        for (size_t q = 0; q < from.quantities; ++q) t[q] += s[q];
+        // A third quantity beside (in, out) is what stayed.
+        if (into.quantities > from.quantities) t[from.quantities] += s[0] - s[1];
+      }
+    }
+  }
+}
+
+void Totals::merge_bins(const BatchScores& batch, GroupState& to, const TallyBlock& block,
+                        const std::vector<int64_t>& photopic, uint32_t first_bin,
+                        uint32_t end_bin) const {
+  const size_t bands = block.banded ? static_cast<size_t>(layout_.bands()) : 1;
+  const size_t channels = block.banded ? static_cast<size_t>(layout_.channels()) : 1;
+  const size_t quantities = block.quantities;
+  const int64_t* score = batch.scores.data() + block.first_score +
+                         static_cast<int64_t>(first_bin * bands * quantities);
+  Total* total = to.totals.data() + block.first_total +
+                 static_cast<int64_t>(first_bin * channels * quantities);
+  for (uint32_t bin = first_bin; bin < end_bin; ++bin) {
+    bool any = false;
+    for (size_t i = 0; i < bands * quantities; ++i) {
+      if (score[i] == 0) continue;
+      any = true;
+      add_score(total[i], score[i]);
+    }
+    if (any && channels > bands) {
+      for (size_t q = 0; q < quantities; ++q) {
+        Int128 weighted = 0;
+        for (size_t b = 0; b < bands; ++b) {
+          weighted += static_cast<Int128>(score[b * quantities + q]) * photopic[b];
+        }
+        add_score(total[bands * quantities + q], static_cast<int64_t>(weighted >> Totals::photopic_shift));
+      }
+    }
+    score += bands * quantities;
+    total += channels * quantities;
+  }
+}
+
+void Totals::merge(BatchScores& batch, int group) {
+  fill_aggregates(batch);
+  GroupState& to = groups_[static_cast<size_t>(group)];
+  const auto& photopic = photopic_weights_[static_cast<size_t>(group)];
+  uint32_t stripe = 0;
+  for (const TallyBlock& block : layout_.blocks()) {
+    for (uint32_t first = 0; first < block.bins; first += stripe_bins, ++stripe) {
+      const std::lock_guard lock(stripes_[stripe % stripes_.size()]);
+      merge_bins(batch, to, block, photopic, first, std::min(block.bins, first + stripe_bins));
+    }
+  }
+  const std::lock_guard lock(ledger_mutex_);
+  ledger_.add(batch.ledger);
+  ++to.batches;
+}
+
+namespace {
+
+BatchMean mean_of(const Total& total, int64_t batches) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  if (batches == 0) return {0, nan};
+  const auto n = static_cast<double>(batches);
+  const double mean = to_double(total.sum) / n;
+  if (batches < 2) return {mean, nan};
+  const double mean_square = std::ldexp(to_double(total.squares), 2 * Totals::square_shift) / n;
+  const double variance = std::max(0.0, mean_square - mean * mean) * n / (n - 1);
+  return {mean, std::sqrt(variance / n)};
+}
+
+}  // namespace
+
+BatchMean Totals::mean(int group, int64_t total_index) const {
+  const GroupState& g = state(group);
+  return mean_of(g.totals[static_cast<size_t>(total_index)], g.batches);
+}
+
+BatchMean Totals::pooled_mean(int64_t total_index) const {
+  Total sum;
+  int64_t batches = 0;
+  for (const GroupState& g : groups_) {
+    sum.sum += g.totals[static_cast<size_t>(total_index)].sum;
+    sum.squares += g.totals[static_cast<size_t>(total_index)].squares;
+    batches += g.batches;
+  }
+  return mean_of(sum, batches);
+}
+
+}  // namespace luxodus

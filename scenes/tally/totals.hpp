@@ -1,0 +1,90 @@
+// Scores of one batch, and the totals that batches are merged into. All integers, so totals are the same
+// bits for any order of merging and any number of threads. A batch belongs to one source group.
+// Thread rule: a BatchScores belongs to one thread; Totals::merge may be called from any thread.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <mutex>
+#include <vector>
+
+#include "runtime/core/wide.hpp"
+#include "scenes/tally/layout.hpp"
+#include "scenes/tally/ledger.hpp"
+
+namespace luxodus {
+
+struct BatchScores {
+  std::vector<int64_t> scores;
+  Ledger ledger;
+  // Sum of all path-length scores of the batch: while it is below 2^63, no single bin can have wrapped.
+  double length_score_sum = 0;
+
+  void reset(const TallyLayout& layout) {
+    scores.assign(static_cast<size_t>(layout.scores()), 0);
+    ledger = {};
+    length_score_sum = 0;
+  }
+};
+
+struct Total {
+  Int128 sum = 0;
+  UInt128 squares = 0;  // of (batch score >> square_shift, rounded)
+};
+
+/// Mean and standard error of a score per batch.
+struct BatchMean {
+  double mean = 0;
+  double standard_error = 0;
+};
+
+class Totals {
+ public:
+  /// Squares are taken of batch scores divided by 2^12: (2^63 / 2^12)^2 = 2^102 leaves room for 2^26 batches.
+  static constexpr int square_shift = 12;
+
+  /// The photopic channel is (sum over bands of score * weight) / 2^24.
+  static constexpr int photopic_shift = 24;
+
+  /// `photopic_weights[group][band]`: integer weights (<= 2^24) of the photopic channel.
+  Totals(const TallyLayout& layout, int groups,
+         std::vector<std::vector<int64_t>> photopic_weights);
+
+  /// Fills the aggregate bins of the batch, then adds its scores and their squares to group's totals.
+  void merge(BatchScores& batch, int group);
+
+  int groups() const { return static_cast<int>(groups_.size()); }
+  int64_t batches(int group) const { return groups_[static_cast<size_t>(group)].batches; }
+  const Ledger& ledger() const { return ledger_; }
+  const TallyLayout& layout() const { return layout_; }
+
+  /// Of one score over the batches of a group; the standard error is NaN for fewer than two batches.
+  BatchMean mean(int group, int64_t total_index) const;
+  /// Of a value score, over the batches of all groups alike.
+  BatchMean pooled_mean(int64_t total_index) const;
+
+  /// Raw state, for the flux file.
+  struct GroupState {
+    std::vector<Total> totals;
+    int64_t batches = 0;
+  };
+  const GroupState& state(int group) const { return groups_[static_cast<size_t>(group)]; }
+  /// Requires: totals.size() == layout.totals().
+  void restore(int group, GroupState state) { groups_[static_cast<size_t>(group)] = std::move(state); }
+  void restore_ledger(const Ledger& ledger) { ledger_ = ledger; }
+
+ private:
+  void fill_aggregates(BatchScores& batch) const;
+  void merge_bins(const BatchScores& batch, GroupState& to, const TallyBlock& block,
+                  const std::vector<int64_t>& photopic, uint32_t first_bin, uint32_t end_bin) const;
+
+  const TallyLayout& layout_;
+  std::vector<GroupState> groups_;
+  std::vector<std::vector<int64_t>> photopic_weights_;
+  Ledger ledger_;
+  static constexpr uint32_t stripe_bins = 1u << 14;
+  std::array<std::mutex, 64> stripes_;
+  std::mutex ledger_mutex_;
+};
+
+}  // namespace luxodus

@@ -1,0 +1,421 @@
+// Order matters: light first (it decides the bands), then materials, surfaces, emitters (which know the
+// surfaces they sit on), media, detectors, and last the layout of the tally and the size of a batch.
+#include "scenes/transport/compile.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <set>
+
+#include "runtime/core/hash.hpp"
+#include "runtime/core/random.hpp"
+#include "scenes/transport/compile_surfaces.hpp"
+
+namespace luxodus {
+
+namespace limits {
+inline constexpr int64_t patches = 200'000'000;       // 16 GB of totals; ten times as many do not fit 32 bits
+inline constexpr int64_t voxels = 50'000'000;
+inline constexpr int64_t default_voxels = 20'000;     // of the grid a scene gets unless it says an edge
+inline constexpr int64_t smallest_batch = 1 << 13;
+inline constexpr int64_t largest_batch = 1 << 20;     // 2^20 particles of 2^32 leave 2^11 passes of head-room
+}  // namespace limits
+
+namespace {
+
+void add_unique(std::vector<Spectrum>& list, const Spectrum& s) {
+  for (const Spectrum& known : list) {
+    if (known.value == s.value) return;
+  }
+  list.push_back(s);
+}
+
+/// Everything that may vary over wavelength and is met by light in this scenario.
+std::vector<Spectrum> scene_properties(const SceneDescription& scene, const Scenario& scenario) {
+  std::vector<Spectrum> out;
+  for (const Material& m : scene.materials) {
+    add_unique(out, m.reflectance);
+    add_unique(out, m.specular);
+    add_unique(out, m.internal_transmittance);
+    if (m.reflectance_image && m.reflectance_image->channels >= 3) {
+      add_unique(out, reflectance_from_linear_srgb(1, 0, 0));
+      add_unique(out, reflectance_from_linear_srgb(0, 0, 1));
+    }
+  }
+  for (const Sign& s : scene.signs) {
+    add_unique(out, s.white_reflectance);
+    add_unique(out, s.green_reflectance);
+  }
+  for (const Medium& m : scene.media) {
+    if (factor_of(scenario.media, m.name, scenario.smoke_factor) <= 0) continue;
+    const auto add_optics = [&](const SmokeOptics& o) {
+      if (o.extinction.sigma_t > 0 || o.extinction.table) add_unique(out, o.extinction.spectrum());
+      add_unique(out, o.albedo);
+    };
+    if (m.kind == MediumKind::layered) {
+      for (const Layer& l : m.layers) add_optics(l.optics);
+    } else {
+      SmokeOptics optics = m.optics;
+      if (m.kind == MediumKind::data_set) optics.extinction.sigma_t = 1;  // the arrays carry the size
+      add_optics(optics);
+    }
+  }
+  return out;
+}
+
+Bands choose_bands(const SceneDescription& scene, const Scenario& scenario,
+                   const std::vector<ActiveSource>& sources) {
+  std::vector<Spectrum> shapes;
+  Spectrum total;
+  for (const ActiveSource& s : sources) {
+    add_unique(shapes, s.shape);
+    total = total + s.shape * s.watts;
+  }
+  std::vector<double> edges = scene.run.band_edges_nm;
+  if (edges.empty()) {
+    edges = told_apart(scene_properties(scene, scenario), shapes, scene.run.band_tolerance,
+                       scene.run.bands_most);
+  }
+  return Bands(edges, total);
+}
+
+Result<bool> compile_media(CompiledScene& scene) {
+  const SceneDescription& d = *scene.description;
+  std::vector<MediumInput> inputs;
+  for (const Medium& m : d.media) {
+    const double named = factor_of(scene.scenario.media, m.name, -1);
+    // A flame is no smoke: the general factor leaves it alone.
+    const double general = m.emission ? 1.0 : scene.scenario.smoke_factor;
+    inputs.push_back({&m, named >= 0 ? named : general});
+    scene.media_names.push_back(m.name);
+  }
+  auto media = MediaSet::compile(
+      inputs, scene.bands.count(),
+      [&](const Spectrum& s, int band) { return scene.bands.average(s, band); }, scene.local_origin);
+  if (!media.ok()) return media.problem();
+  scene.media = std::move(media).value();
+  for (const Phase& phase : scene.media.phases()) {
+    auto made = PhaseFunction::make(phase, {d.file, 0});
+    if (!made.ok()) return made.problem();
+    scene.phases.push_back(std::move(made).value());
+  }
+  scene.features.media = scene.media.need();
+  return true;
+}
+
+/// Points that stand for a flame where light is computed without chance.
+constexpr int flame_points = 512;
+
+void scatter_volume_points(CompiledScene& scene) {
+  ResidentBricks bricks(scene.media);
+  for (const CompiledEmitter& e : scene.emitters) {
+    if (e.kind != EmitterKind::volume) continue;
+    Random random(e.medium, RandomStream::layout);
+    auto& points = scene.volume_points[e.medium];
+    for (int i = 0; i < flame_points; ++i) {
+      random.start(static_cast<uint64_t>(i));
+      points.push_back(scene.media.sample_emission_point(
+          static_cast<int>(e.medium), [&] { return random.uniform_double(); }, bricks));
+    }
+  }
+}
+
+CompiledPlane make_plane(const glm::dvec3& corner, const glm::dvec3& u, const glm::dvec3& v, int nu,
+                         int nv, const glm::dvec3& origin) {
+  CompiledPlane out;
+  const glm::dvec3 cross = glm::cross(u, v);
+  const glm::dvec3 n = glm::normalize(cross);
+  out.corner = glm::vec3(corner - origin);
+  out.normal = glm::vec3(n);
+  // Dual edges: coordinates along u and v also where the two are not perpendicular.
+  out.dual_u = glm::vec3(glm::cross(v, n) / glm::dot(u, glm::cross(v, n)));
+  out.dual_v = glm::vec3(glm::cross(n, u) / glm::dot(v, glm::cross(n, u)));
+  out.cells_u = nu;
+  out.cells_v = nv;
+  out.cell_area_m2 = glm::length(cross) / (nu * nv);
+  return out;
+}
+
+void compile_detectors(CompiledScene& scene) {
+  const SceneDescription& d = *scene.description;
+  uint32_t bin = 0;
+  for (const PlaneMeasure& p : d.planes) {
+    CompiledPlane plane = make_plane(p.corner, p.edge_u, p.edge_v, p.cells_u, p.cells_v, scene.local_origin);
+    plane.first_bin = bin;
+    bin += static_cast<uint32_t>(p.cells_u * p.cells_v);
+    scene.planes.push_back(plane);
+  }
+  for (const CountingPlaneMeasure& p : d.counting_planes) {
+    scene.counting_planes.push_back(make_plane(p.corner, p.edge_u, p.edge_v, 1, 1, scene.local_origin));
+  }
+  for (const VolumeGroupMeasure& v : d.volume_groups) {
+    CompiledVolumeGroup out;
+    out.shape = v.shape;
+    out.low = glm::vec3(v.low - scene.local_origin);
+    out.high = glm::vec3(v.high - scene.local_origin);
+    if (v.shape == VolumeGroupMeasure::Shape::layer) {
+      out.low.x = out.low.y = -1e30f;
+      out.high.x = out.high.y = 1e30f;
+    }
+    out.centre = glm::vec3(v.centre - scene.local_origin);
+    out.radius = static_cast<float>(v.radius);
+    out.inner_radius = static_cast<float>(v.inner_radius);
+    scene.volume_groups.push_back(out);
+  }
+}
+
+void choose_voxels(CompiledScene& scene) {
+  const RunSettings& run = scene.description->run;
+  if (!run.voxels || scene.features.media == MediaNeed::none) return;
+  const glm::dvec3 size = scene.bounds.high - scene.bounds.low;
+  double edge = run.voxel_edge_m;
+  if (edge <= 0) {
+    const double volume = std::max(size.x, 1e-6) * std::max(size.y, 1e-6) * std::max(size.z, 1e-6);
+    edge = std::cbrt(volume / static_cast<double>(limits::default_voxels));
+  }
+  const auto cells = [&](double length) { return std::max(1, static_cast<int>(std::ceil(length / edge))); };
+  scene.voxels.edge = static_cast<float>(edge);
+  scene.voxels.low = scene.local_low;
+  scene.voxels.nx = cells(size.x);
+  scene.voxels.ny = cells(size.y);
+  scene.voxels.nz = cells(size.z);
+}
+
+void choose_eye_targets(CompiledScene& scene) {
+  const SceneDescription& d = *scene.description;
+  uint32_t bin = 0;
+  for (uint32_t o = 0; o < d.observers.size(); ++o) {
+    for (uint32_t s = 0; s < scene.signs.size(); ++s) {
+      const glm::dvec3 to_eye = d.observers[o].eye - scene.signs[s].frame.origin;
+      if (glm::dot(to_eye, scene.signs[s].frame.axes[2]) <= 0) continue;  // sees its back
+      scene.eye_targets.push_back({o, s, bin});
+      bin += 3;  // white, green, surround
+    }
+  }
+}
+
+void lay_out_tally(CompiledScene& scene) {
+  scene.layout = TallyLayout(scene.bands.count());
+  TallyLayout& l = scene.layout;
+  TallyBlocks& b = scene.blocks;
+  const auto size = [](const auto& list) { return static_cast<uint32_t>(list.size()); };
+  b.patches = l.add_block({"patches", scene.patch_count, 2, ScoreUnit::weight});
+  b.surfaces = l.add_block({"surfaces", size(scene.surfaces), 3, ScoreUnit::weight});
+  b.escape = l.add_block({"escape", 6, 1, ScoreUnit::weight});
+  for (uint32_t i = 0; i < scene.surfaces.size(); ++i) {
+    l.add_aggregate({b.patches, scene.surfaces[i].first_patch, scene.surfaces[i].patches, b.surfaces, i});
+  }
+  if (!scene.surface_groups.empty()) {
+    b.surface_groups = l.add_block({"surface_groups", size(scene.surface_groups), 3, ScoreUnit::weight});
+    for (uint32_t g = 0; g < scene.surface_groups.size(); ++g) {
+      for (const uint32_t s : scene.surface_groups[g]) {
+        l.add_aggregate({b.surfaces, s, 1, b.surface_groups, g});
+      }
+    }
+  }
+  if (!scene.planes.empty()) {
+    const CompiledPlane& last = scene.planes.back();
+    const uint32_t cells = last.first_bin + static_cast<uint32_t>(last.cells_u * last.cells_v);
+    b.plane_cells = l.add_block({"plane_cells", cells, 2, ScoreUnit::weight});
+    b.planes = l.add_block({"planes", size(scene.planes), 2, ScoreUnit::weight});
+    for (uint32_t i = 0; i < scene.planes.size(); ++i) {
+      const CompiledPlane& p = scene.planes[i];
+      l.add_aggregate({b.plane_cells, p.first_bin, static_cast<uint32_t>(p.cells_u * p.cells_v), b.planes, i});
+    }
+  }
+  if (!scene.counting_planes.empty())
+    b.counting = l.add_block({"counting", size(scene.counting_planes), 4, ScoreUnit::weight});
+  if (!scene.volume_groups.empty()) {
+    b.volume_length = l.add_block({"volume_length", size(scene.volume_groups), 1, ScoreUnit::weight_length});
+    b.volume_power = l.add_block({"volume_power", size(scene.volume_groups), 2, ScoreUnit::weight});
+  }
+  if (!scene.media_names.empty())
+    b.media_power = l.add_block({"media_power", size(scene.media_names), 2, ScoreUnit::weight});
+  if (scene.voxels.edge > 0) {
+    b.voxels = l.add_block({"voxels", scene.voxels.count(), 4, ScoreUnit::weight_length});
+    b.voxel_power = l.add_block({"voxel_power", scene.voxels.count(), 2, ScoreUnit::weight});
+  }
+  if (!scene.description->probes.empty())
+    b.probes = l.add_block({"probes", size(scene.description->probes), 2, ScoreUnit::value, false});
+  if (!scene.eye_targets.empty()) {
+    b.views = l.add_block({"views", 3 * size(scene.eye_targets), eye_quantities, ScoreUnit::value, false});
+  }
+}
+
+void choose_batch(CompiledScene& scene) {
+  const RunSettings& run = scene.description->run;
+  // A batch ends with a walk over all its scores: about one nanosecond each, against some 250 a particle.
+  const auto wanted = std::bit_ceil(static_cast<uint64_t>(scene.layout.scores() / 4));
+  scene.batch_particles =
+      run.batch_particles > 0
+          ? run.batch_particles
+          : std::clamp(static_cast<int64_t>(wanted), limits::smallest_batch, limits::largest_batch);
+  const auto parts = static_cast<double>(3 * scene.eye_targets.size() + 2 * scene.description->probes.size());
+  if (parts > 0) {
+    // A path from the eye costs some ten histories' rays (each event asks the lights as well).
+    const double paths = 0.1 * run.eye_share * static_cast<double>(scene.batch_particles) / parts;
+    scene.eye_paths_per_batch = std::clamp(static_cast<int>(paths), 1, 1024);
+  }
+}
+
+Result<bool> resolve_surface_groups(CompiledScene& scene) {
+  const SceneDescription& d = *scene.description;
+  for (const SurfaceGroupMeasure& measure : d.surface_groups) {
+    std::vector<uint32_t> members;
+    for (uint32_t s = 0; s < scene.surfaces.size(); ++s) {
+      const bool is_object = s < d.objects.size();
+      const bool named = std::any_of(measure.objects.begin(), measure.objects.end(), [&](const auto& name) {
+        if (scene.surfaces[s].name == name) return true;
+        if (!is_object) return false;
+        const auto& tags = d.objects[s].tags;
+        return std::find(tags.begin(), tags.end(), name) != tags.end();
+      });
+      if (named || (is_object && d.objects[s].group == measure.name)) members.push_back(s);
+    }
+    if (members.empty()) {
+      return Problem{measure.place, "surface group \"" + measure.name +
+                                        "\" holds no object: name an object or a tag of one"};
+    }
+    scene.surface_groups.push_back(std::move(members));
+  }
+  return true;
+}
+
+void choose_features(CompiledScene& scene) {
+  Features& f = scene.features;
+  f.bands = scene.bands.count() > 1;
+  for (const CompiledSurface& s : scene.surfaces) {
+    for (const uint32_t m : s.material) {
+      const CompiledMaterial& material = scene.materials[m];
+      f.surfaces |= material.kind != MaterialKind::lambertian || material.image != none_index;
+    }
+    f.surfaces |= s.sign != none_index;
+  }
+  f.detectors = !scene.planes.empty() || !scene.counting_planes.empty() ||
+                !scene.volume_groups.empty() || scene.voxels.edge > 0;
+}
+
+uint64_t hash_scene(const CompiledScene& scene, int cells) {
+  Hasher hash;
+  hash.add(scene.description->content_hash);
+  hash.add(scene.scenario.name);
+  hash.add(static_cast<uint64_t>(std::max(cells, 1)));
+  hash.add(scene.triangles);
+  hash.add(static_cast<uint64_t>(scene.batch_particles));
+  hash.add(static_cast<uint64_t>(scene.eye_paths_per_batch));
+  for (int b = 0; b < scene.bands.count(); ++b) hash.add(std::bit_cast<uint64_t>(scene.bands[b].high_nm));
+  for (const Group& g : scene.groups) {
+    for (const double p : g.power_w) hash.add(std::bit_cast<uint64_t>(p));
+  }
+  return hash.value();
+}
+
+std::string group_name(const ActiveSource& s, GroupRule rule) {
+  switch (rule) {
+    case GroupRule::one:
+      return "all";
+    case GroupRule::by_circuit:
+      return s.group.empty() ? "other" : s.group;
+    case GroupRule::by_emitter:
+      return s.name;
+  }
+  return "all";
+}
+
+void set_bounds(CompiledScene& scene) {
+  scene.bounds = solid_bounds(*scene.description, scene.scenario);
+  const glm::dvec3 centre = 0.5 * (scene.bounds.low + scene.bounds.high);
+  scene.local_origin = centre;
+  // Rounded outwards, so that nothing solid lies outside in single precision.
+  scene.local_low = glm::vec3(scene.bounds.low - centre);
+  scene.local_high = glm::vec3(scene.bounds.high - centre);
+  scene.diagonal_m = glm::length(scene.local_high - scene.local_low);
+  scene.length_unit_m = std::exp2(std::ceil(std::log2(std::max(static_cast<double>(scene.diagonal_m), 1e-6))));
+}
+
+void compile_emitters(CompiledScene& scene, const std::vector<ActiveSource>& sources) {
+  const SceneDescription& d = *scene.description;
+  std::vector<std::string> groups;
+  for (const ActiveSource& s : sources) {
+    scene.emitters.push_back(compile_emitter(s, scene));
+    groups.push_back(group_name(s, d.run.groups));
+    if (s.sign == nullptr) continue;
+    const CompiledEmitter& e = scene.emitters.back();
+    CompiledSign& sign = scene.signs[e.sign];
+    auto& radiance = s.colour == SignColour::white ? sign.white_radiance : sign.green_radiance;
+    for (const double p : e.power_w) {
+      radiance.push_back(p * (static_cast<double>(e.exponent) + 1) / (2 * 3.14159265358979 * e.area_m2));
+    }
+  }
+  for (CompiledSign& sign : scene.signs) {
+    sign.white_radiance.resize(static_cast<size_t>(scene.bands.count()), 0.0);
+    sign.green_radiance.resize(static_cast<size_t>(scene.bands.count()), 0.0);
+  }
+  compile_groups(scene, groups);
+}
+
+}  // namespace
+
+Result<Scenario> find_scenario(const SceneDescription& description, const std::string& name) {
+  if (description.scenarios.empty() && name.empty()) {
+    Scenario plain;
+    plain.name = "as written";
+    return plain;
+  }
+  if (name.empty()) return description.scenarios.front();
+  std::string known;
+  for (const Scenario& s : description.scenarios) {
+    if (s.name == name) return s;
+    known += (known.empty() ? "" : ", ") + s.name;
+  }
+  return Problem{{description.file, 0},
+                 "there is no scenario \"" + name + "\"; there " +
+                     (known.empty() ? "are none" : "are: " + known)};
+}
+
+Result<std::shared_ptr<const CompiledScene>> compile_scene(
+    std::shared_ptr<const SceneDescription> description, const Scenario& scenario,
+    const CompileOptions& options) {
+  auto scene = std::make_shared<CompiledScene>();
+  scene->description = description;
+  scene->scenario = scenario;
+  const std::vector<ActiveSource> sources = active_sources(*description, scenario);
+  if (sources.empty()) {
+    return Problem{{description->file, 0},
+                   "nothing emits light in scenario \"" + scenario.name +
+                       "\": add an emitter, a luminaire or a lit sign, or switch a circuit on"};
+  }
+  scene->bands = choose_bands(*description, scenario, sources);
+  set_bounds(*scene);
+  for (const ActiveSource& s : sources) {
+    if (s.emitter != nullptr && s.emitter->web &&
+        std::find(scene->webs.begin(), scene->webs.end(), s.emitter->web) == scene->webs.end()) {
+      scene->webs.push_back(s.emitter->web);
+    }
+  }
+  compile_materials(*scene);
+  compile_sign_faces(*scene);
+  compile_triangles(*scene, options.cells);
+  if (int64_t{scene->patch_count} > limits::patches) {
+    return Problem{{description->file, 0}, "the scene has " + std::to_string(scene->patch_count) +
+                                               " flux patches: make patch_edge larger"};
+  }
+  compile_emitters(*scene, sources);
+  if (auto ok = compile_media(*scene); !ok.ok()) return ok.problem();
+  scatter_volume_points(*scene);
+  compile_detectors(*scene);
+  if (auto ok = resolve_surface_groups(*scene); !ok.ok()) return ok.problem();
+  choose_voxels(*scene);
+  if (int64_t{scene->voxels.nx} * scene->voxels.ny * scene->voxels.nz > limits::voxels) {
+    return Problem{{description->file, 0}, "the voxel grid would have more than 50 million voxels: "
+                                           "make voxel_edge larger"};
+  }
+  choose_eye_targets(*scene);
+  choose_features(*scene);
+  lay_out_tally(*scene);
+  choose_batch(*scene);
+  scene->scene_hash = hash_scene(*scene, options.cells);
+  return std::shared_ptr<const CompiledScene>(std::move(scene));
+}
+
+}  // namespace luxodus

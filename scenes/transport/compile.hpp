@@ -1,0 +1,24 @@
+// Compiling: from what a scene says to what the tracer needs, for one scenario and one partition.
+// Pure; throws nothing; everything wrong is in Problems.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "scenes/transport/compiled_scene.hpp"
+
+namespace luxodus {
+
+struct CompileOptions {
+  int cells = 1;  // geometry cells; 1 is one merged scene
+};
+
+/// The scenario of that name; with an empty name the first, or plain mains where a scene has none.
+Result<Scenario> find_scenario(const SceneDescription& description, const std::string& name);
+
+/// Errors: no light at all, no geometry, a medium or emitter that cannot be; each with its place.
+Result<std::shared_ptr<const CompiledScene>> compile_scene(
+    std::shared_ptr<const SceneDescription> description, const Scenario& scenario,
+    const CompileOptions& options);
+
+}  // namespace luxodus

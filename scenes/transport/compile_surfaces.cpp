@@ -1,0 +1,346 @@
+#include "scenes/transport/compile_surfaces.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scenes/geometry/partition.hpp"
+#include "scenes/geometry/patches.hpp"
+#include "scenes/geometry/primitives.hpp"
+#include "scenes/geometry/transform.hpp"
+#include "scenes/tally/fixed_point.hpp"
+
+namespace luxodus {
+
+namespace {
+
+SurfaceKind surface_kind(MaterialKind kind) {
+  switch (kind) {
+    case MaterialKind::lambertian:
+      return SurfaceKind::lambertian;
+    case MaterialKind::glossy:
+      return SurfaceKind::glossy;
+    case MaterialKind::mirror:
+      return SurfaceKind::mirror;
+    case MaterialKind::glass_pane:
+      return SurfaceKind::glass_pane;
+    case MaterialKind::dielectric:
+      return SurfaceKind::dielectric;
+    case MaterialKind::open:
+      return SurfaceKind::open;
+  }
+  return SurfaceKind::lambertian;
+}
+
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+bool door_is_open(const Object& object, const Scenario& scenario) {
+  if (contains(scenario.doors_open, object.name)) return true;
+  if (contains(scenario.doors_closed, object.name)) return false;
+  return object.door->open;
+}
+
+/// The object's mesh with its door turned as the scenario says.
+Mesh mesh_in(const Object& object, const Scenario& scenario) {
+  Mesh mesh = object.mesh;
+  if (object.door && door_is_open(object, scenario)) {
+    const auto turn = rotation(object.door->axis, object.door->open_angle_deg);
+    if (turn.ok()) {
+      apply(translation(-object.door->hinge), mesh);
+      apply(turn.value(), mesh);
+      apply(translation(object.door->hinge), mesh);
+    }
+  }
+  return mesh;
+}
+
+/// A flat face in the local xy plane of a frame, front to +z, with texture coordinates.
+Mesh face_mesh(const Frame& frame, double width, double height) {
+  const glm::dvec3 x = frame.axes[0] * (width / 2);
+  const glm::dvec3 y = frame.axes[1] * (height / 2);
+  const glm::dvec3 o = frame.origin;
+  return {{o - x - y, o + x - y, o + x + y, o - x + y},
+          {{0, 1, 2}, {0, 2, 3}},
+          {{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
+}
+
+/// The solid surface of an emitter that has a body, its front where the light comes out.
+Mesh body_mesh(const Emitter& e) {
+  const double bound = 0.002;  // [m] chords of round bodies stay this close
+  Mesh mesh;
+  switch (e.shape) {
+    case EmitterShape::point:
+      return mesh;
+    case EmitterShape::rectangle: {
+      Frame down = e.frame;
+      down.axes[1] = -down.axes[1];
+      down.axes[2] = -down.axes[2];
+      return face_mesh(down, e.size.x, e.size.y);
+    }
+    case EmitterShape::disc: {
+      const auto n = shapes::segments_within(e.size.x / 2, bound);
+      if (auto shape = shapes::disc(e.size.x / 2, n.ok() ? n.value() : 32); shape.ok()) mesh = shape->mesh;
+      apply(rotation({1, 0, 0}, 180).value(), mesh);
+      break;
+    }
+    case EmitterShape::sphere:
+      if (auto shape = shapes::sphere(e.size.x / 2, bound); shape.ok()) mesh = shape->mesh;
+      break;
+    case EmitterShape::tube: {
+      const auto n = shapes::segments_within(e.size.y / 2, bound);
+      auto shape = shapes::cylinder(e.size.y / 2, e.size.x, n.ok() ? n.value() : 32, shapes::Caps::none);
+      if (shape.ok()) mesh = shape->mesh;
+      apply(translation({0, 0, -e.size.x / 2}), mesh);
+      apply(rotation({0, 1, 0}, 90).value(), mesh);
+      break;
+    }
+    case EmitterShape::mesh:
+      return e.mesh;
+  }
+  apply(as_transform(e.frame), mesh);
+  return mesh;
+}
+
+Frame back_frame(const Sign& sign) {
+  Frame back = sign.frame;
+  back.origin -= sign.frame.axes[2] * sign.thickness_m;
+  back.axes[0] = -back.axes[0];
+  back.axes[2] = -back.axes[2];
+  return back;
+}
+
+/// Collects the triangles of one surface after another.
+class TriangleBuilder {
+ public:
+  explicit TriangleBuilder(CompiledScene& scene) : scene_(scene) {}
+
+  void add(CompiledSurface surface, const Mesh& mesh, double patch_edge_m) {
+    surface.first_patch = patches_;
+    const auto index = static_cast<uint32_t>(scene_.surfaces.size());
+    for (const glm::uvec3& t : mesh.triangles) add_triangle(surface, index, mesh, t, patch_edge_m);
+    surface.patches = patches_ - surface.first_patch;
+    scene_.total_area_m2 += surface.area_m2;
+    scene_.surfaces.push_back(std::move(surface));
+  }
+
+  int64_t degenerate() const { return degenerate_; }
+  uint32_t patches() const { return patches_; }
+  std::vector<TriangleRecord>& records() { return records_; }
+  std::vector<GeometryCell::TriangleUv>& uv() { return uv_; }
+
+ private:
+  void add_triangle(CompiledSurface& surface, uint32_t index, const Mesh& mesh, const glm::uvec3& t,
+                    double patch_edge_m) {
+    TriangleRecord r{};
+    double longest = 0;
+    for (int k = 0; k < 3; ++k) {
+      r.corner[k] = glm::vec3(mesh.positions[t[k]] - scene_.local_origin);
+      longest = std::max(longest, glm::distance(mesh.positions[t[k]], mesh.positions[t[(k + 1) % 3]]));
+    }
+    const glm::dvec3 cross = glm::cross(glm::dvec3(r.corner[1]) - glm::dvec3(r.corner[0]),
+                                        glm::dvec3(r.corner[2]) - glm::dvec3(r.corner[0]));
+    const double twice_area = glm::length(cross);
+    if (!(twice_area > 0)) {
+      ++degenerate_;
+      return;
+    }
+    r.normal = glm::vec3(cross / twice_area);
+    r.subdivision = patch_edge_m > 0 ? subdivision_for(longest, patch_edge_m) : 1;
+    r.first_patch = patches_;
+    r.surface = index;
+    r.global_triangle = static_cast<uint32_t>(records_.size());
+    patches_ += 2 * r.subdivision * r.subdivision;
+    surface.area_m2 += twice_area / 2;
+    if (!mesh.texture_uv.empty()) {
+      uv_.push_back({r.global_triangle, {mesh.texture_uv[t[0]], mesh.texture_uv[t[1]], mesh.texture_uv[t[2]]}});
+    }
+    records_.push_back(r);
+  }
+
+  CompiledScene& scene_;
+  std::vector<TriangleRecord> records_;
+  std::vector<GeometryCell::TriangleUv> uv_;
+  uint32_t patches_ = 0;
+  int64_t degenerate_ = 0;
+};
+
+GeometryCell make_cell(const std::vector<TriangleRecord>& records,
+                       const std::vector<GeometryCell::TriangleUv>& uv,
+                       const std::vector<uint32_t>& members) {
+  GeometryCell cell;
+  cell.low = glm::vec3(std::numeric_limits<float>::infinity());
+  cell.high = -cell.low;
+  for (const uint32_t global : members) {
+    const auto at = std::lower_bound(uv.begin(), uv.end(), global,
+                                     [](const auto& t, uint32_t g) { return t.triangle < g; });
+    if (at != uv.end() && at->triangle == global) {
+      cell.texture_uv.push_back(*at);
+      cell.texture_uv.back().triangle = static_cast<uint32_t>(cell.triangles.size());
+    }
+    cell.triangles.push_back(records[global]);
+    for (const glm::vec3& c : records[global].corner) {
+      cell.low = glm::min(cell.low, c);
+      cell.high = glm::max(cell.high, c);
+    }
+  }
+  return cell;
+}
+
+void cut_into_cells(CompiledScene& scene, TriangleBuilder& builder, int cells) {
+  if (cells <= 1) {
+    GeometryCell cell;
+    cell.triangles = std::move(builder.records());
+    cell.texture_uv = std::move(builder.uv());
+    cell.low = scene.local_low;
+    cell.high = scene.local_high;
+    scene.cells.push_back(std::move(cell));
+    return;
+  }
+  std::vector<glm::dvec3> centroids;
+  for (const TriangleRecord& r : builder.records()) {
+    centroids.push_back((glm::dvec3(r.corner[0]) + glm::dvec3(r.corner[1]) + glm::dvec3(r.corner[2])) / 3.0);
+  }
+  for (const auto& members : partition_triangles(centroids, cells)) {
+    scene.cells.push_back(make_cell(builder.records(), builder.uv(), members));
+  }
+}
+
+/// Back sides of signs and of emitter bodies: matt, dark.
+constexpr double sign_back_reflectance = 0.3;
+
+}  // namespace
+
+void compile_materials(CompiledScene& scene) {
+  const auto add = [&](const Material& m) {
+    CompiledMaterial out;
+    out.name = m.name;
+    out.kind = m.kind;
+    for (int b = 0; b < scene.bands.count(); ++b) {
+      out.by_band.push_back(make_surface(
+          surface_kind(m.kind), scene.bands.average(m.reflectance, b),
+          scene.bands.average(m.specular, b), m.roughness, m.ior,
+          scene.bands.average(m.internal_transmittance, b)));
+    }
+    if (m.reflectance_image) {
+      out.image = static_cast<uint32_t>(scene.images.size());
+      scene.images.push_back(m.reflectance_image);
+    }
+    scene.materials.push_back(std::move(out));
+  };
+  for (const Material& m : scene.description->materials) add(m);
+  Material back;
+  back.name = "sign back";
+  back.reflectance = Spectrum::constant(sign_back_reflectance);
+  add(back);
+  // Texels are linear RGB: each channel's share of a white texel's reflectance in a band.
+  const Spectrum r = reflectance_from_linear_srgb(1, 0, 0);
+  const Spectrum g = reflectance_from_linear_srgb(0, 1, 0);
+  const Spectrum b = reflectance_from_linear_srgb(0, 0, 1);
+  for (int i = 0; i < scene.bands.count(); ++i) {
+    const double share[3] = {scene.bands.average(r, i), scene.bands.average(g, i),
+                             scene.bands.average(b, i)};
+    const double sum = std::max(share[0] + share[1] + share[2], 1e-9);
+    scene.image_basis.push_back({static_cast<float>(share[0] / sum), static_cast<float>(share[1] / sum),
+                                 static_cast<float>(share[2] / sum)});
+  }
+}
+
+void compile_sign_faces(CompiledScene& scene) {
+  for (uint32_t i = 0; i < scene.description->signs.size(); ++i) {
+    const Sign& sign = scene.description->signs[i];
+    for (int side = 0; side < (sign.double_sided ? 2 : 1); ++side) {
+      CompiledSign out;
+      out.sign = i;
+      out.back = side == 1;
+      out.frame = side == 0 ? sign.frame : back_frame(sign);
+      out.origin = glm::vec3(out.frame.origin - scene.local_origin);
+      out.axes = glm::mat3(out.frame.axes);
+      out.white_cd_m2 = scenario_luminance(sign, SignColour::white, scene.scenario);
+      out.green_cd_m2 = scenario_luminance(sign, SignColour::green, scene.scenario);
+      for (int b = 0; b < scene.bands.count(); ++b) {
+        out.white_reflectance.push_back(
+            static_cast<float>(scene.bands.average(sign.white_reflectance, b)));
+        out.green_reflectance.push_back(
+            static_cast<float>(scene.bands.average(sign.green_reflectance, b)));
+      }
+      scene.signs.push_back(std::move(out));
+    }
+  }
+}
+
+void compile_triangles(CompiledScene& scene, int cells) {
+  TriangleBuilder builder(scene);
+  const auto dark = static_cast<uint32_t>(scene.materials.size() - 1);
+  for (const Object& object : scene.description->objects) {
+    CompiledSurface s;
+    s.name = object.name;
+    s.material[0] = static_cast<uint32_t>(object.material);
+    s.material[1] = static_cast<uint32_t>(object.back_material);
+    builder.add(std::move(s), mesh_in(object, scene.scenario), object.patch_edge_m);
+  }
+  for (uint32_t i = 0; i < scene.signs.size(); ++i) {
+    const Sign& sign = scene.description->signs[scene.signs[i].sign];
+    CompiledSurface s;
+    s.name = sign.name + (scene.signs[i].back ? " back" : "");
+    s.material[0] = s.material[1] = dark;
+    s.sign = i;
+    scene.signs[i].surface = static_cast<uint32_t>(scene.surfaces.size());
+    builder.add(std::move(s), face_mesh(scene.signs[i].frame, sign.width_m, sign.height_m), 0);
+  }
+  for (uint32_t i = 0; i < scene.description->emitters.size(); ++i) {
+    const Emitter& e = scene.description->emitters[i];
+    if (e.body_material.empty()) continue;
+    CompiledSurface s;
+    s.name = e.name + " body";
+    s.body_emitter = i;
+    s.material[0] = s.material[1] = dark;
+    for (uint32_t m = 0; m < scene.materials.size(); ++m) {
+      if (scene.materials[m].name == e.body_material) s.material[0] = s.material[1] = m;
+    }
+    builder.add(std::move(s), body_mesh(e), 0);
+  }
+  if (builder.degenerate() > 0) {
+    scene.warnings.push_back({{scene.description->file, 0},
+                              std::to_string(builder.degenerate()) +
+                                  " triangles have no area in single precision and were dropped"});
+  }
+  scene.triangles = builder.records().size();
+  scene.patch_count = builder.patches();
+  cut_into_cells(scene, builder, cells);
+  const auto bands = static_cast<size_t>(scene.bands.count());
+  scene.lambert_fraction.resize(scene.surfaces.size() * 2 * bands);
+  for (size_t i = 0; i < scene.surfaces.size(); ++i) {
+    for (size_t side = 0; side < 2; ++side) {
+      const CompiledMaterial& m = scene.materials[scene.surfaces[i].material[side]];
+      for (size_t b = 0; b < bands; ++b) {
+        scene.lambert_fraction[(i * 2 + side) * bands + b] =
+            to_fraction(static_cast<double>(m.by_band[b].reflectance));
+      }
+    }
+  }
+}
+
+Bounds solid_bounds(const SceneDescription& description, const Scenario& scenario) {
+  Bounds bounds;
+  const auto extend = [&](const Mesh& mesh) {
+    for (const glm::dvec3& p : mesh.positions) bounds.extend(p);
+  };
+  for (const Object& object : description.objects) extend(mesh_in(object, scenario));
+  for (const Sign& sign : description.signs) {
+    extend(face_mesh(sign.frame, sign.width_m, sign.height_m));
+    if (sign.double_sided) extend(face_mesh(back_frame(sign), sign.width_m, sign.height_m));
+  }
+  for (const Emitter& e : description.emitters) {
+    if (!e.body_material.empty()) extend(body_mesh(e));
+    bounds.extend(e.frame.origin);
+  }
+  for (const PlaneMeasure& p : description.planes) {
+    bounds.extend(p.corner);
+    bounds.extend(p.corner + p.edge_u + p.edge_v);
+  }
+  for (const Observer& o : description.observers) bounds.extend(o.eye);
+  return bounds;
+}
+
+}  // namespace luxodus

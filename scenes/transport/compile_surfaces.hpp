@@ -1,0 +1,24 @@
+// Part of compile: materials per band, surfaces, triangles with their flux patches, and geometry cells.
+#pragma once
+
+#include <span>
+
+#include "scenes/transport/compile_light.hpp"
+
+namespace luxodus {
+
+/// Surface models of every material in every band; the last material is the dark back of signs.
+void compile_materials(CompiledScene& scene);
+
+/// The faces of all signs: frames in local coordinates, luminances and reflectances per band.
+void compile_sign_faces(CompiledScene& scene);
+
+/// Surfaces of objects (doors moved as the scenario says), sign faces and emitter bodies.
+/// Degenerate triangles were dropped on reading; what single precision makes degenerate is dropped here and
+/// counted in the warnings.
+void compile_triangles(CompiledScene& scene, int cells);
+
+/// The meshes as the scenario has them, in scene coordinates: bounds of everything solid.
+Bounds solid_bounds(const SceneDescription& description, const Scenario& scenario);
+
+}  // namespace luxodus

@@ -1,0 +1,77 @@
+// Straight connections between two places: what share of the light passes unscattered. Thin panes and open
+// surfaces let it through; everything else solid stops it, refracting solids too, because light that they bend
+// does not arrive along this line. Suspends: where the resolver does.
+#pragma once
+
+#include <cmath>
+#include <glm/glm.hpp>
+#include <limits>
+
+#include "scenes/optics/offset_ray.hpp"
+#include "scenes/transport/compiled_scene.hpp"
+
+namespace luxodus {
+
+namespace limits {
+/// Panes one straight line may cross; more count as opaque.
+inline constexpr int panes_per_line = 64;
+}  // namespace limits
+
+/// Product of the transmittances of all panes within `length` of the ray, per band; 0 when blocked.
+template <class Resolver>
+double solid_transmittance(const CompiledScene& scene, Ray ray, float length, int band,
+                           Resolver& resolver) {
+  ray.length = length;
+  if (!scene.features.surfaces) return resolver.occluded(ray) ? 0 : 1;
+  double share = 1;
+  for (int pane = 0; pane < limits::panes_per_line; ++pane) {
+    const Hit hit = resolver.nearest(ray);
+    if (!hit.found()) return share;
+    const TriangleRecord& t = *hit.triangle;
+    const float cosine = glm::dot(t.normal, ray.direction);
+    const size_t side = cosine < 0 ? 0 : 1;
+    const CompiledMaterial& material = scene.materials[scene.surfaces[t.surface].material[side]];
+    if (material.kind == MaterialKind::glass_pane) {
+      share *= static_cast<double>(pane_transmittance(material.by_band[static_cast<size_t>(band)], cosine));
+    } else if (material.kind != MaterialKind::open) {
+      return 0;
+    }
+    const glm::vec3 end = ray.origin + ray.direction * ray.length;
+    ray.origin = offset_ray(t.at(hit.u, hit.v), cosine < 0 ? -t.normal : t.normal);
+    ray.length = glm::dot(end - ray.origin, ray.direction);
+    if (ray.length <= 0) return share;
+  }
+  return 0;
+}
+
+/// exp(-optical depth) along the ray.
+template <class Resolver>
+double medium_transmittance(const CompiledScene& scene, const Ray& ray, float length, int band,
+                            Resolver& resolver) {
+  if (scene.features.media == MediaNeed::none) return 1;
+  return std::exp(-optical_depth<MediaNeed::general>(scene.media, band, ray.origin, ray.direction,
+                                                     length, resolver));
+}
+
+/// A straight line from a place to a point of an emitter.
+struct Connection {
+  Ray ray;
+  float distance = 0;
+};
+
+/// `axis` is the emitting side's normal; a target on a solid face is met just in front of it.
+inline Connection connect(const glm::vec3& from, const glm::vec3& to, const glm::vec3& axis,
+                          bool on_surface) {
+  glm::vec3 target = to;
+  if (on_surface) target = offset_ray(to, glm::dot(from - to, axis) >= 0 ? axis : -axis);
+  const glm::vec3 difference = target - from;
+  Connection c;
+  c.distance = glm::length(difference);
+  c.ray.origin = from;
+  c.ray.direction = difference / c.distance;
+  // The last millionth belongs to the emitter's own surface.
+  c.ray.length = c.distance * (1 - 1e-6f);
+  return c;
+}
+
+}  // namespace luxodus

@@ -1,0 +1,173 @@
+#include "scenes/transport/emission.hpp"
+
+#include <algorithm>
+
+namespace luxodus {
+
+namespace {
+
+/// Index of the interval of a cumulative table that w in [0, 1) falls into.
+size_t find_interval(const std::vector<double>& cdf, double w) {
+  const auto it = std::upper_bound(cdf.begin(), cdf.end(), w);
+  return std::min(static_cast<size_t>(it - cdf.begin()), cdf.size() - 1);
+}
+
+EmissionPoint point_on_sign(const CompiledEmitter& e, float u, float v, double w) {
+  const size_t texel = find_interval(e.texel_cdf, w);
+  const auto columns = static_cast<size_t>(e.texel_columns);
+  const float rows = static_cast<float>(e.texel_cdf.size() / columns);
+  const float x = (static_cast<float>(texel % columns) + u) / static_cast<float>(columns);
+  const float y = (static_cast<float>(texel / columns) + v) / rows;
+  const glm::vec3 p = e.origin + e.axes[0] * ((x - 0.5f) * e.size.x) +
+                      e.axes[1] * ((0.5f - y) * e.size.y);
+  return {p, e.axes[2]};
+}
+
+EmissionPoint point_on_mesh(const CompiledEmitter& e, float u, float v, double w) {
+  const size_t triangle = find_interval(e.texel_cdf, w);
+  const glm::vec3* corner = &e.corners[3 * triangle];
+  const glm::vec3 b = uniform_triangle(u, v);
+  const glm::vec3 p = corner[0] * b.x + corner[1] * b.y + corner[2] * b.z;
+  return {p, glm::normalize(glm::cross(corner[1] - corner[0], corner[2] - corner[0]))};
+}
+
+/// Distance along the ray to a triangle's front, infinity if none (Moeller and Trumbore 1997).
+float triangle_distance(const glm::vec3* corner, const Ray& ray) {
+  const float none = std::numeric_limits<float>::infinity();
+  const glm::vec3 e1 = corner[1] - corner[0];
+  const glm::vec3 e2 = corner[2] - corner[0];
+  const glm::vec3 p = glm::cross(ray.direction, e2);
+  const float determinant = glm::dot(e1, p);
+  if (determinant <= 0) return none;  // behind, or edge-on
+  const glm::vec3 s = ray.origin - corner[0];
+  const float u = glm::dot(s, p);
+  if (u < 0 || u > determinant) return none;
+  const glm::vec3 q = glm::cross(s, e1);
+  const float v = glm::dot(ray.direction, q);
+  if (v < 0 || u + v > determinant) return none;
+  return glm::dot(e2, q) / determinant;
+}
+
+float sphere_distance(const CompiledEmitter& e, const Ray& ray) {
+  const float radius = 0.5f * e.size.x;
+  const glm::vec3 to_centre = e.origin - ray.origin;
+  const float along = glm::dot(to_centre, ray.direction);
+  const glm::vec3 offset = to_centre - ray.direction * along;
+  const float half = radius * radius - glm::dot(offset, offset);
+  return half > 0 ? along - std::sqrt(half) : std::numeric_limits<float>::infinity();
+}
+
+/// Lateral surface of a tube about local x, from outside.
+float tube_distance(const CompiledEmitter& e, const Ray& ray) {
+  const float none = std::numeric_limits<float>::infinity();
+  const float radius = 0.5f * e.size.y;
+  const glm::vec3 o = ray.origin - e.origin;
+  const glm::vec2 p(glm::dot(o, e.axes[1]), glm::dot(o, e.axes[2]));
+  const glm::vec2 d(glm::dot(ray.direction, e.axes[1]), glm::dot(ray.direction, e.axes[2]));
+  const float a = glm::dot(d, d);
+  if (a <= 0) return none;
+  const float along = -glm::dot(p, d) / a;
+  const glm::vec2 closest = p + d * along;
+  const float half = (radius * radius - glm::dot(closest, closest)) / a;
+  if (half <= 0) return none;
+  const float t = along - std::sqrt(half);
+  const float x = glm::dot(o + ray.direction * t, e.axes[0]);
+  return std::abs(x) <= 0.5f * e.size.x ? t : none;
+}
+
+/// Flat shapes emit to local -Z; isotropic ones to both sides.
+float flat_distance(const CompiledEmitter& e, const Ray& ray) {
+  const float none = std::numeric_limits<float>::infinity();
+  const float cosine = glm::dot(ray.direction, e.axes[2]);
+  if (cosine == 0 || (cosine < 0 && e.distribution != Distribution::isotropic &&
+                      e.distribution != Distribution::web))
+    return none;
+  const float t = glm::dot(e.origin - ray.origin, e.axes[2]) / cosine;
+  const glm::vec3 p = ray.origin + ray.direction * t - e.origin;
+  const float x = glm::dot(p, e.axes[0]);
+  const float y = glm::dot(p, e.axes[1]);
+  const bool in = e.kind == EmitterKind::disc
+                      ? x * x + y * y <= 0.25f * e.size.x * e.size.x
+                      : std::abs(x) <= 0.5f * e.size.x && std::abs(y) <= 0.5f * e.size.y;
+  return in ? t : none;
+}
+
+}  // namespace
+
+EmissionPoint emission_point(const CompiledEmitter& e, float u, float v, double w) {
+  const glm::vec3 down = -e.axes[2];
+  switch (e.kind) {
+    case EmitterKind::point:
+    case EmitterKind::volume:
+      return {e.origin, down};
+    case EmitterKind::rectangle:
+      return {e.origin + e.axes[0] * ((u - 0.5f) * e.size.x) + e.axes[1] * ((v - 0.5f) * e.size.y),
+              down};
+    case EmitterKind::disc: {
+      const glm::vec2 p = uniform_disc(u, v) * (0.5f * e.size.x);
+      return {e.origin + e.axes[0] * p.x + e.axes[1] * p.y, down};
+    }
+    case EmitterKind::sphere: {
+      const glm::vec3 n = uniform_sphere(u, v);
+      return {e.origin + n * (0.5f * e.size.x), e.distribution == Distribution::web ? down : n};
+    }
+    case EmitterKind::tube: {
+      const SinCos around = sin_cos_two_pi(v);
+      const glm::vec3 n = e.axes[1] * around.cos + e.axes[2] * around.sin;
+      return {e.origin + e.axes[0] * ((u - 0.5f) * e.size.x) + n * (0.5f * e.size.y),
+              e.distribution == Distribution::web ? down : n};
+    }
+    case EmitterKind::mesh:
+      return point_on_mesh(e, u, v, w);
+    case EmitterKind::sign_face:
+      return point_on_sign(e, u, v, w);
+  }
+  return {e.origin, down};
+}
+
+EmitterHit nearest_emitter(const CompiledScene& scene, const Ray& ray, float length) {
+  EmitterHit best;
+  best.distance = length;
+  for (uint32_t i = 0; i < scene.emitters.size(); ++i) {
+    const CompiledEmitter& e = scene.emitters[i];
+    float t = std::numeric_limits<float>::infinity();
+    glm::vec3 normal = -e.axes[2];
+    switch (e.kind) {
+      case EmitterKind::point:
+      case EmitterKind::volume:
+      case EmitterKind::sign_face:
+        continue;
+      case EmitterKind::rectangle:
+      case EmitterKind::disc:
+        t = flat_distance(e, ray);
+        break;
+      case EmitterKind::sphere:
+        t = sphere_distance(e, ray);
+        if (t < best.distance)
+          normal = glm::normalize(ray.origin + ray.direction * t - e.origin);
+        break;
+      case EmitterKind::tube:
+        t = tube_distance(e, ray);
+        if (t < best.distance) {
+          const glm::vec3 o = ray.origin + ray.direction * t - e.origin;
+          normal = glm::normalize(o - e.axes[0] * glm::dot(o, e.axes[0]));
+        }
+        break;
+      case EmitterKind::mesh:
+        for (size_t k = 0; k + 2 < e.corners.size(); k += 3) {
+          const float at = triangle_distance(&e.corners[k], ray);
+          if (!(at > 0 && at < t)) continue;
+          t = at;
+          normal = glm::normalize(
+              glm::cross(e.corners[k + 1] - e.corners[k], e.corners[k + 2] - e.corners[k]));
+        }
+        break;
+    }
+    if (t > 0 && t < best.distance) {
+      best = {t, i, {ray.origin + ray.direction * t, normal}};
+    }
+  }
+  return best;
+}
+
+}  // namespace luxodus

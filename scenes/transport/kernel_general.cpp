@@ -1,0 +1,8 @@
+#include "scenes/transport/kernels.hpp"
+
+namespace luxodus {
+
+template std::unique_ptr<BatchTracer> choose_kernel<MediaNeed::general>(const CompiledScene&,
+                                                                   const SceneIndex&, uint64_t);
+
+}  // namespace luxodus

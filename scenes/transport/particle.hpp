@@ -1,0 +1,304 @@
+// The life of a particle: one loop, compiled for what a scene needs and for how its data is reached.
+// (S. N. Pattanaik, S. P. Mudur, "Computation of global illumination in a participating medium by Monte Carlo
+// simulation", 1993.) The same code is the reference that every other way of running is compared with, bit for bit:
+// a history is a pure function of (scene, seed, particle id).
+// Thread rule: one ParticleTracer per thread or fiber; it suspends only where its resolver does.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "runtime/core/random.hpp"
+#include "scenes/geometry/patches.hpp"
+#include "scenes/optics/offset_ray.hpp"
+#include "scenes/tally/totals.hpp"
+#include "scenes/transport/detectors.hpp"
+#include "scenes/transport/emission.hpp"
+#include "scenes/transport/textures.hpp"
+
+namespace luxodus {
+
+namespace limits {
+/// Events of one history; beyond it the particle is counted as lost. A closed room of reflectance 0.999 in the
+/// analogue game needs about 1000 on average, 20 000 at one particle in 1e9; albedo 1 in thick fog more.
+inline constexpr int events_per_history = 1'000'000;
+}  // namespace limits
+
+namespace defaults {
+/// Russian roulette: below `roulette_below` (share of the birth weight) a particle is either ended or
+/// goes on with `roulette_to`.
+inline constexpr Weight roulette_below = unit_weight / 8;
+inline constexpr Weight roulette_to = unit_weight / 4;
+}  // namespace defaults
+
+/// What the loop contains; everything absent is not compiled in.
+template <MediaNeed Media, bool ManyBands, bool AllSurfaces, bool Detectors>
+struct Kernel {
+  static constexpr MediaNeed media = Media;
+  static constexpr bool many_bands = ManyBands;
+  static constexpr bool all_surfaces = AllSurfaces;
+  static constexpr bool detectors = Detectors;
+};
+
+template <class K, class Resolver>
+class ParticleTracer {
+ public:
+  ParticleTracer(const CompiledScene& scene, Resolver& resolver, uint64_t seed)
+      : scene_(scene),
+        resolver_(resolver),
+        random_(seed, RandomStream::particle),
+        analogue_(scene.description->run.analogue),
+        patches_(scene.layout.block(scene.blocks.patches).first_score) {}
+
+  /// Traces particles [first, first + count) of a source group into the batch.
+  void trace_batch(int group, uint64_t first, int64_t count, BatchScores& batch) {
+    batch_ = &batch;
+    group_ = &scene_.groups[static_cast<size_t>(group)];
+    for (int64_t i = 0; i < count; ++i) trace(first + static_cast<uint64_t>(i));
+  }
+
+ private:
+  struct State {
+    Ray ray;
+    Weight weight = unit_weight;
+    int band = 0;
+    bool direct = true;
+    bool collided = false;
+  };
+
+  void trace(uint64_t particle) {
+    random_.start(particle);
+    State p = emit();
+    Ledger& ledger = batch_->ledger;
+    ++ledger.particles;
+    ledger.emitted += p.weight;
+    for (int event = 0; event < limits::events_per_history; ++event) {
+      ++ledger.rays;
+      const Hit hit = resolver_.nearest(p.ray);
+      const bool alive = fly_and_interact(p, hit);
+      if (!alive) return;
+    }
+    ledger.lost_too_long += p.weight;
+  }
+
+  // ---- birth -----------------------------------------------------------------------------------
+
+  State emit() {
+    State p;
+    p.band = choose_band();
+    const CompiledEmitter& emitter = choose_emitter(p.band);
+    const EmissionPoint point = emission_point(scene_, emitter, random_, resolver_);
+    p.ray.direction = emission_direction(emitter, point, random_, resolver_);
+    p.ray.origin = point.position;
+    if (emitter.body != none_index) {
+      const glm::vec3 side = glm::dot(point.axis, p.ray.direction) >= 0 ? point.axis : -point.axis;
+      p.ray.origin = offset_ray(point.position, side);
+    }
+    // Collimated light has no density of directions, so the deterministic part cannot hold it.
+    p.direct = emitter.distribution != Distribution::collimated;
+    return p;
+  }
+
+  int choose_band() {
+    if constexpr (!K::many_bands) return 0;
+    const uint64_t r = random_.bits64();
+    return static_cast<int>(find(group_->band_cdf, r));
+  }
+
+  const CompiledEmitter& choose_emitter(int band) {
+    const auto b = static_cast<size_t>(band);
+    const std::vector<uint32_t>& choices = group_->emitters[b];
+    if (choices.size() == 1) return scene_.emitters[choices[0]];
+    const uint64_t r = random_.bits64();
+    return scene_.emitters[choices[find(group_->emitter_cdf[b], r)]];
+  }
+
+  static size_t find(const std::vector<uint64_t>& cdf, uint64_t r) {
+    const auto it = std::upper_bound(cdf.begin(), cdf.end(), r);
+    return std::min(static_cast<size_t>(it - cdf.begin()), cdf.size() - 1);
+  }
+
+  // ---- a flight and how it ends ------------------------------------------------------------------
+
+  bool fly_and_interact(State& p, const Hit& hit) {
+    if constexpr (K::media != MediaNeed::none) {
+      // -log(1 - u), u in [0, 1) with 32 bits, exact in double.
+      const uint32_t r = random_.bits();
+      const double tau = -std::log((4294967296.0 - static_cast<double>(r)) * 0x1p-32);
+      const float choice = random_.uniform();
+      const Flight flight =
+          free_flight<K::media>(scene_.media, p.band, p.ray.origin, p.ray.direction, hit.distance,
+                                tau, choice, resolver_);
+      if (flight.collided) {
+        pass_detectors(p, flight.t);
+        return collide(p, flight);
+      }
+    }
+    if (!hit.found()) return escape(p);
+    pass_detectors(p, hit.distance);
+    return meet_surface(p, hit);
+  }
+
+  void pass_detectors(const State& p, float length) {
+    if constexpr (K::detectors) {
+      score_flight(scene_, {p.ray.origin, p.ray.direction, length, p.weight, p.band, p.direct, p.collided},
+                   *batch_);
+    }
+  }
+
+  // ---- the medium --------------------------------------------------------------------------------
+
+  bool collide(State& p, const Flight& flight) {
+    ++batch_->ledger.collisions;
+    const glm::vec3 place = p.ray.origin + p.ray.direction * flight.t;
+    const Weight before = p.weight;
+    const Weight after = surviving(before, to_fraction(flight.albedo));
+    batch_->ledger.absorbed_media += before - after;
+    score_collision(scene_, place, p.band, static_cast<uint32_t>(flight.medium), before - after, after,
+                    *batch_);
+    p.weight = after;
+    if (!goes_on(p)) return false;
+    const float u = random_.uniform();
+    const float v = random_.uniform();
+    p.ray.origin = place;
+    p.ray.direction = sample(scene_.phases[static_cast<size_t>(flight.phase)], p.ray.direction, u, v);
+    p.direct = false;
+    p.collided = true;
+    return true;
+  }
+
+  // ---- surfaces ----------------------------------------------------------------------------------
+
+  bool meet_surface(State& p, const Hit& hit) {
+    ++batch_->ledger.hits;
+    const TriangleRecord& triangle = *hit.triangle;
+    const bool front = glm::dot(triangle.normal, p.ray.direction) < 0;
+    if constexpr (K::all_surfaces) {
+      const uint32_t side = front ? 0 : 1;
+      const CompiledSurface& surface = scene_.surfaces[triangle.surface];
+      const CompiledMaterial& material = scene_.materials[surface.material[side]];
+      if (material.kind != MaterialKind::lambertian || material.image != none_index ||
+          surface.sign != none_index) {
+        return meet_any_surface(p, hit, front, material);
+      }
+    }
+    const size_t side = front ? 0 : 1;
+    const size_t bands = K::many_bands ? static_cast<size_t>(scene_.bands.count()) : 1;
+    const Fraction reflectance =
+        scene_.lambert_fraction[(triangle.surface * 2 + side) * bands + static_cast<size_t>(p.band)];
+    const Weight before = p.weight;
+    const Weight after = surviving(before, reflectance);
+    int64_t* patch = patch_score(hit, front, p.band);
+    patch[0] += static_cast<int64_t>(before);
+    patch[1] += static_cast<int64_t>(after);
+    batch_->ledger.absorbed_surfaces += before - after;
+    p.weight = after;
+    if (!goes_on(p)) return false;
+    const glm::vec3 normal = front ? triangle.normal : -triangle.normal;
+    const float u = random_.uniform();
+    const float v = random_.uniform();
+    p.ray.direction = to_world(normal, cosine_hemisphere(u, v));
+    p.ray.origin = offset_ray(triangle.at(hit.u, hit.v), normal);
+    p.direct = false;
+    return true;
+  }
+
+  /// Glossy, mirror, glass, open, textured, sign faces: the lobe is sampled first, then the weight it carries.
+  bool meet_any_surface(State& p, const Hit& hit, bool front, const CompiledMaterial& material) {
+    const TriangleRecord& triangle = *hit.triangle;
+    const glm::vec3 normal = front ? triangle.normal : -triangle.normal;
+    const SurfaceModel model = surface_at(scene_, hit, front, p.band, material, resolver_);
+    const glm::vec3 place = triangle.at(hit.u, hit.v);
+    const float lobe = random_.uniform();
+    const float u = random_.uniform();
+    const float v = random_.uniform();
+    const SurfaceSample sampled = sample_surface(model, p.ray.direction, normal, front, lobe, u, v);
+    const Weight before = p.weight;
+    const Weight after = surviving(before, to_fraction(static_cast<double>(sampled.weight)));
+    patch_score(hit, front, p.band)[0] += static_cast<int64_t>(before);
+    patch_score(hit, front != sampled.transmitted, p.band)[1] += static_cast<int64_t>(after);
+    batch_->ledger.absorbed_surfaces += before - after;
+    p.weight = after;
+    if (!goes_on(p)) return false;
+    const bool straight = sampled.transmitted && sampled.specular && model.kind != SurfaceKind::dielectric;
+    p.direct = p.direct && straight;
+    p.ray.direction = sampled.direction;
+    p.ray.origin = offset_ray(place, sampled.transmitted ? -normal : normal);
+    return true;
+  }
+
+  int64_t* patch_score(const Hit& hit, bool front, int band) {
+    const TriangleRecord& t = *hit.triangle;
+    const uint32_t n = t.subdivision;
+    uint32_t patch = t.first_patch + (front ? 0 : n * n);
+    if (n > 1) patch += sub_triangle(hit.u, hit.v, n);
+    const int64_t bands = K::many_bands ? scene_.bands.count() : 1;
+    return batch_->scores.data() + patches_ + (int64_t{patch} * bands + band) * 2;
+  }
+
+  // ---- weights -----------------------------------------------------------------------------------
+
+  /// What survives of a weight at an event: the share itself, or all or nothing in the analogue game.
+  Weight surviving(Weight weight, Fraction fraction) {
+    if (fraction == unit_weight) return weight;
+    if (fraction == 0) return 0;
+    const uint32_t r = random_.bits();
+    if (analogue_) return r < fraction ? weight : 0;
+    return split(weight, fraction, r);
+  }
+
+  /// Russian roulette. Survival with probability weight / roulette_to keeps the expectation.
+  bool goes_on(State& p) {
+    if (p.weight >= defaults::roulette_below) return true;
+    if (p.weight == 0) return false;
+    const uint64_t r = (uint64_t{random_.bits()} * defaults::roulette_to) >> 32;
+    if (r < p.weight) {
+      batch_->ledger.roulette_gain += defaults::roulette_to - p.weight;
+      p.weight = defaults::roulette_to;
+      return true;
+    }
+    batch_->ledger.roulette_loss += p.weight;
+    return false;
+  }
+
+  // ---- leaving the scene -------------------------------------------------------------------------
+
+  bool escape(State& p) {
+    const EscapePoint exit = leave_box(p.ray);
+    pass_detectors(p, exit.distance);
+    const int64_t at = scene_.layout.score_index(scene_.blocks.escape, exit.side, p.band, 0);
+    batch_->scores[static_cast<size_t>(at)] += static_cast<int64_t>(p.weight);
+    batch_->ledger.escaped += p.weight;
+    return false;
+  }
+
+  struct EscapePoint {
+    float distance;
+    uint32_t side;
+  };
+
+  /// Where a ray that hits nothing leaves the bounding box; a ray outside leaves at the face it flees.
+  EscapePoint leave_box(const Ray& ray) const {
+    const glm::vec3 low = scene_.local_low;
+    const glm::vec3 high = scene_.local_high;
+    EscapePoint exit{std::numeric_limits<float>::infinity(), 0};
+    for (int a = 0; a < 3; ++a) {
+      const float d = ray.direction[a];
+      if (d == 0) continue;
+      const float t = ((d > 0 ? high[a] : low[a]) - ray.origin[a]) / d;
+      if (t < exit.distance) exit = {t, static_cast<uint32_t>(2 * a + (d > 0 ? 1 : 0))};
+    }
+    exit.distance = std::max(exit.distance, 0.0f);
+    return exit;
+  }
+
+  const CompiledScene& scene_;
+  Resolver& resolver_;
+  Random random_;
+  const bool analogue_;
+  const int64_t patches_;
+  const Group* group_ = nullptr;
+  BatchScores* batch_ = nullptr;
+};
+
+}  // namespace luxodus

@@ -1,0 +1,122 @@
+#include "scenes/transport/readout.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "scenes/transport/eye.hpp"
+
+namespace luxodus {
+
+namespace {
+
+/// Watts that one particle of unit weight stands for, times the particles of a group.
+double watts_per_share(const Group& group, size_t band) {
+  const double share = group.band_share[band];
+  return share > 0 ? group.power_w[band] / share : 0;
+}
+
+double largest_lumens_per_share(const CompiledScene& scene, const Group& group) {
+  double most = 0;
+  for (int b = 0; b < scene.bands.count(); ++b) {
+    most = std::max(most, watts_per_share(group, static_cast<size_t>(b)) * scene.bands[b].lm_per_w);
+  }
+  return most;
+}
+
+}  // namespace
+
+double Estimate::relative_error() const {
+  if (value == 0) return standard_error == 0 ? 0 : std::numeric_limits<double>::infinity();
+  return std::abs(standard_error / value);
+}
+
+std::vector<std::vector<int64_t>> photopic_weights(const CompiledScene& scene) {
+  std::vector<std::vector<int64_t>> out;
+  for (const Group& group : scene.groups) {
+    const double most = largest_lumens_per_share(scene, group);
+    std::vector<int64_t> weights;
+    for (int b = 0; b < scene.bands.count(); ++b) {
+      const double lumens = watts_per_share(group, static_cast<size_t>(b)) * scene.bands[b].lm_per_w;
+      weights.push_back(most > 0 ? std::llround(std::ldexp(lumens / most, Totals::photopic_shift)) : 0);
+    }
+    out.push_back(std::move(weights));
+  }
+  return out;
+}
+
+double Readout::scale(int group, int channel, ScoreUnit unit) const {
+  if (unit == ScoreUnit::value) return limits::value_quantum;
+  const Group& g = scene_.groups[static_cast<size_t>(group)];
+  const double per_particle = 1.0 / (static_cast<double>(scene_.batch_particles) * 0x1p32);
+  const double length = unit == ScoreUnit::weight_length ? scene_.length_unit_m : 1;
+  const double carried = channel < scene_.bands.count()
+                             ? watts_per_share(g, static_cast<size_t>(channel))
+                             : largest_lumens_per_share(scene_, g);
+  return carried * per_particle * length;
+}
+
+Estimate Readout::sum_groups(uint32_t block, uint32_t bin, int channel, uint32_t quantity,
+                             int group) const {
+  const int64_t index = scene_.layout.total_index(block, bin, channel, quantity);
+  const ScoreUnit unit = scene_.layout.block(block).unit;
+  Estimate out;
+  double variance = 0;
+  for (int g = 0; g < totals_.groups(); ++g) {
+    if (group >= 0 && g != group) continue;
+    const BatchMean m = totals_.mean(g, index);
+    const double k = scale(g, channel, unit);
+    out.value += m.mean * k;
+    variance += m.standard_error * m.standard_error * k * k;
+  }
+  out.standard_error = std::sqrt(variance);
+  return out;
+}
+
+Estimate Readout::watts(uint32_t block, uint32_t bin, int band, uint32_t quantity, int group) const {
+  return sum_groups(block, bin, band, quantity, group);
+}
+
+Estimate Readout::lumens(uint32_t block, uint32_t bin, uint32_t quantity, int group) const {
+  const int channel = scene_.layout.photopic_channel();
+  const Estimate e = sum_groups(block, bin, channel, quantity, group);
+  return scene_.bands.count() == 1 ? e * scene_.bands[0].lm_per_w : e;
+}
+
+Estimate Readout::value(uint32_t block, uint32_t bin, uint32_t quantity) const {
+  // Values come with every batch, whatever its group: the groups' samples are pooled.
+  const int64_t index = scene_.layout.total_index(block, bin, 0, quantity);
+  const BatchMean m = totals_.pooled_mean(index);
+  return {m.mean * limits::value_quantum, m.standard_error * limits::value_quantum};
+}
+
+double Readout::worst_relative_error() const {
+  double worst = 0;
+  bool asked = false;
+  const auto judge = [&](const Estimate& e) {
+    if (e.value <= 0) return;
+    asked = true;
+    worst = std::max(worst, e.relative_error());
+  };
+  for (uint32_t i = 0; i < scene_.planes.size(); ++i) {
+    const Estimate direct = lumens(scene_.blocks.planes, i, 0);
+    const Estimate indirect = lumens(scene_.blocks.planes, i, 1);
+    // Direct light is computed without chance: only the traced part errs.
+    judge({direct.value + indirect.value, indirect.standard_error});
+  }
+  for (uint32_t i = 0; i < scene_.description->probes.size(); ++i) judge(value(scene_.blocks.probes, i, 0));
+  for (const EyeTarget& t : scene_.eye_targets) {
+    const auto at_eye = static_cast<uint32_t>(EyeQuantity::at_eye);
+    judge(value(scene_.blocks.views, t.first_bin, at_eye));
+  }
+  if (asked) return worst;
+  double total = 0;
+  for (uint32_t s = 0; s < scene_.surfaces.size(); ++s) total += lumens(scene_.blocks.surfaces, s, 0).value;
+  for (uint32_t s = 0; s < scene_.surfaces.size(); ++s) {
+    const Estimate in = lumens(scene_.blocks.surfaces, s, 0);
+    if (in.value > 0.01 * total) judge(in);
+  }
+  return asked ? worst : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace luxodus

@@ -1,0 +1,46 @@
+// From totals to physical values: watts, lumens, lux, cd/m2, each with its standard error over batches.
+// Values of several source groups add; groups are independent samples, so their variances add too.
+#pragma once
+
+#include <vector>
+
+#include "scenes/tally/totals.hpp"
+#include "scenes/transport/compiled_scene.hpp"
+
+namespace luxodus {
+
+struct Estimate {
+  double value = 0;
+  double standard_error = 0;  // NaN with fewer than two batches
+
+  double relative_error() const;
+  Estimate operator*(double k) const { return {value * k, standard_error * (k < 0 ? -k : k)}; }
+};
+
+/// Integer weights of the photopic channel, per group and band; see Totals.
+std::vector<std::vector<int64_t>> photopic_weights(const CompiledScene& scene);
+
+class Readout {
+ public:
+  Readout(const CompiledScene& scene, const Totals& totals) : scene_(scene), totals_(totals) {}
+
+  /// Watts in a band; with a length score watts x metres. All groups, or one.
+  Estimate watts(uint32_t block, uint32_t bin, int band, uint32_t quantity, int group = -1) const;
+  /// Lumens (lumen metres). All groups, or one.
+  Estimate lumens(uint32_t block, uint32_t bin, uint32_t quantity, int group = -1) const;
+  /// A value score in its own unit.
+  Estimate value(uint32_t block, uint32_t bin, uint32_t quantity) const;
+
+  /// The relative standard error that a run is judged by: the worst of plane means, probes and sign luminances
+  /// at the eye; where a scene asks for none of these, of the flux into surfaces that get at least 1 % of it.
+  double worst_relative_error() const;
+
+ private:
+  Estimate sum_groups(uint32_t block, uint32_t bin, int channel, uint32_t quantity, int group) const;
+  double scale(int group, int channel, ScoreUnit unit) const;
+
+  const CompiledScene& scene_;
+  const Totals& totals_;
+};
+
+}  // namespace luxodus

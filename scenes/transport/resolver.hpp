@@ -1,0 +1,88 @@
+// Resolvers: how the transport loop reads what lies beyond the skeleton. The loop asks; a resolver answers at
+// once (everything resident), or may wait in between (a fiber that fetches). What it answers is the same
+// content either way, so the bits are the same. A reference that a resolver returns is good until its next
+// call.
+//
+// A resolver has: nearest(ray) -> Hit, occluded(ray) -> bool, cell_of(hit) -> const GeometryCell&,
+// brick(medium, brick) -> const Brick&, web(index) -> const PhotometricWeb&, image(index) -> const Image&.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "scenes/intersect/embree_scene.hpp"
+#include "scenes/transport/compiled_scene.hpp"
+
+namespace luxodus {
+
+/// The search structures over a scene's cells, built once and shared by all threads.
+class SceneIndex {
+ public:
+  SceneIndex(const EmbreeDevice& device, const CompiledScene& scene) {
+    std::vector<ProxyScene::Box> boxes;
+    for (const GeometryCell& cell : scene.cells) {
+      cells_.push_back(std::make_unique<CellScene>(device, cell));
+      boxes.push_back({cell.low, cell.high});
+    }
+    if (cells_.size() > 1) proxies_ = std::make_unique<ProxyScene>(device, std::move(boxes));
+  }
+  const CellScene& cell(uint32_t i) const { return *cells_[i]; }
+  size_t cells() const { return cells_.size(); }
+  /// Requires: cells() > 1.
+  const ProxyScene& proxies() const { return *proxies_; }
+
+ private:
+  std::vector<std::unique_ptr<CellScene>> cells_;
+  std::unique_ptr<ProxyScene> proxies_;
+};
+
+/// Everything but geometry, resident.
+class ResidentData {
+ public:
+  explicit ResidentData(const CompiledScene& scene) : scene_(&scene) {}
+
+  const Brick& brick(int medium, int index) const { return scene_->media.brick(medium, index); }
+  const PhotometricWeb& web(uint32_t i) const { return *scene_->webs[i]; }
+  const Image& image(uint32_t i) const { return *scene_->images[i]; }
+
+ private:
+  const CompiledScene* scene_;
+};
+
+/// One merged cell, resident: no proxy on the path.
+class MergedResolver : public ResidentData {
+ public:
+  MergedResolver(const CompiledScene& scene, const SceneIndex& index)
+      : ResidentData(scene), cell_(&index.cell(0)) {}
+
+  Hit nearest(const Ray& ray) const { return cell_->nearest(ray); }
+  bool occluded(const Ray& ray) const { return cell_->occluded(ray); }
+
+ private:
+  const CellScene* cell_;
+};
+
+/// Many cells, all resident: candidates are collected, then visited front to back.
+class PartitionResolver : public ResidentData {
+ public:
+  PartitionResolver(const CompiledScene& scene, const SceneIndex& index)
+      : ResidentData(scene), index_(&index) {}
+
+  Hit nearest(const Ray& ray) {
+    return nearest_in_cells(index_->proxies(), ray, candidates_,
+                            [this](uint32_t cell) -> const CellScene& { return index_->cell(cell); });
+  }
+  bool occluded(const Ray& ray) {
+    index_->proxies().candidates(ray, candidates_);
+    for (const Candidate& c : candidates_) {
+      if (index_->cell(c.cell).occluded(ray)) return true;
+    }
+    return false;
+  }
+
+ private:
+  const SceneIndex* index_;
+  std::vector<Candidate> candidates_;
+};
+
+}  // namespace luxodus

@@ -1,0 +1,42 @@
+#include "scenes/transport/textures.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace luxodus {
+
+namespace {
+
+int texel_index(float coordinate, int size) {
+  const float wrapped = coordinate - std::floor(coordinate);
+  return std::clamp(static_cast<int>(wrapped * static_cast<float>(size)), 0, size - 1);
+}
+
+}  // namespace
+
+glm::vec2 texture_uv(const GeometryCell& cell, const Hit& hit) {
+  const auto at = std::lower_bound(
+      cell.texture_uv.begin(), cell.texture_uv.end(), hit.index,
+      [](const GeometryCell::TriangleUv& t, uint32_t index) { return t.triangle < index; });
+  if (at == cell.texture_uv.end() || at->triangle != hit.index) return {0, 0};
+  return at->corner[0] * (1 - hit.u - hit.v) + at->corner[1] * hit.u + at->corner[2] * hit.v;
+}
+
+float image_factor(const CompiledScene& scene, const Image& image, const glm::vec2& uv, int band) {
+  const int x = texel_index(uv.x, image.width);
+  const int y = texel_index(1 - uv.y, image.height);
+  const float* texel =
+      &image.texels[static_cast<size_t>((y * image.width + x) * image.channels)];
+  if (image.channels < 3) return texel[0];
+  const std::array<float, 3>& basis = scene.image_basis[static_cast<size_t>(band)];
+  return std::clamp(texel[0] * basis[0] + texel[1] * basis[1] + texel[2] * basis[2], 0.0f, 1.0f);
+}
+
+size_t texel_at(const SignFace& face, const glm::vec2& uv) {
+  const int x = std::clamp(static_cast<int>(uv.x * static_cast<float>(face.width)), 0, face.width - 1);
+  const int y =
+      std::clamp(static_cast<int>((1 - uv.y) * static_cast<float>(face.height)), 0, face.height - 1);
+  return static_cast<size_t>(y * face.width + x);
+}
+
+}  // namespace luxodus

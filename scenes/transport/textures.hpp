@@ -1,0 +1,40 @@
+// The surface model at a hit where it varies over the surface: reflectance pictures and sign faces.
+#pragma once
+
+#include "scenes/intersect/embree_scene.hpp"
+#include "scenes/transport/compiled_scene.hpp"
+
+namespace luxodus {
+
+/// Texture coordinates at a hit; (0, 0) is the picture's lower left corner, and pictures repeat.
+glm::vec2 texture_uv(const GeometryCell& cell, const Hit& hit);
+
+/// Reflectance factor of an image at (u, v) in a band, in [0, 1]; nearest texel.
+float image_factor(const CompiledScene& scene, const Image& image, const glm::vec2& uv, int band);
+
+/// Texel of a sign's face at (u, v); (0, 0) is the reader's lower left corner.
+size_t texel_at(const SignFace& face, const glm::vec2& uv);
+
+/// The model that holds at this hit: the material's, with its diffuse part taken from picture or sign face.
+template <class Resolver>
+SurfaceModel surface_at(const CompiledScene& scene, const Hit& hit, bool front, int band,
+                        const CompiledMaterial& material, Resolver& resolver) {
+  SurfaceModel model = material.by_band[static_cast<size_t>(band)];
+  const CompiledSurface& surface = scene.surfaces[hit.triangle->surface];
+  if (surface.sign != none_index && front) {
+    const CompiledSign& sign = scene.signs[surface.sign];
+    const SignFace& face = scene.description->signs[sign.sign].face;
+    const SignColour colour = face.colour[texel_at(face, texture_uv(*hit.cell, hit))];
+    if (colour != SignColour::other) {
+      const auto b = static_cast<size_t>(band);
+      model.reflectance =
+          colour == SignColour::white ? sign.white_reflectance[b] : sign.green_reflectance[b];
+    }
+  } else if (material.image != none_index) {
+    const glm::vec2 uv = texture_uv(*hit.cell, hit);
+    model.reflectance *= image_factor(scene, resolver.image(material.image), uv, band);
+  }
+  return model;
+}
+
+}  // namespace luxodus

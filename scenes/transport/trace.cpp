@@ -1,0 +1,86 @@
+#include "scenes/transport/trace.hpp"
+
+#include "scenes/transport/kernels.hpp"
+
+namespace luxodus {
+
+std::unique_ptr<BatchTracer> make_batch_tracer(const CompiledScene& scene, const SceneIndex& index,
+                                               uint64_t seed) {
+  switch (scene.features.media) {
+    case MediaNeed::none:
+      return choose_kernel<MediaNeed::none>(scene, index, seed);
+    case MediaNeed::homogeneous:
+      return choose_kernel<MediaNeed::homogeneous>(scene, index, seed);
+    case MediaNeed::layered:
+      return choose_kernel<MediaNeed::layered>(scene, index, seed);
+    case MediaNeed::general:
+      break;
+  }
+  return choose_kernel<MediaNeed::general>(scene, index, seed);
+}
+
+DirectLight direct_light_at(const CompiledScene& scene, const SceneIndex& index,
+                            const glm::vec3& point, const glm::vec3& normal,
+                            const DirectOptions& options) {
+  if (index.cells() > 1) {
+    PartitionResolver resolver(scene, index);
+    return direct_light(scene, point, normal, options, resolver);
+  }
+  MergedResolver resolver(scene, index);
+  return direct_light(scene, point, normal, options, resolver);
+}
+
+namespace {
+
+template <class Resolver>
+class ResolverPictureTracer final : public PictureTracer {
+ public:
+  ResolverPictureTracer(const CompiledScene& scene, const SceneIndex& index, uint64_t seed)
+      : resolver_(scene, index), eye_(scene, resolver_, seed, RandomStream::picture) {}
+
+  void start(uint64_t path) override { eye_.random().start(path); }
+  float uniform() override { return eye_.random().uniform(); }
+  int choose_band(double u) const override { return eye_.choose_band(u); }
+  double band_probability(int band) const override { return eye_.band_probability(band); }
+  double radiance(const Ray& ray, int band, const PatchRadiance* gather) override {
+    return eye_.radiance(ray, band, true, gather);
+  }
+
+ private:
+  Resolver resolver_;
+  EyeTracer<Resolver> eye_;
+};
+
+}  // namespace
+
+std::unique_ptr<PictureTracer> make_picture_tracer(const CompiledScene& scene,
+                                                   const SceneIndex& index, uint64_t seed) {
+  if (index.cells() > 1)
+    return std::make_unique<ResolverPictureTracer<PartitionResolver>>(scene, index, seed);
+  return std::make_unique<ResolverPictureTracer<MergedResolver>>(scene, index, seed);
+}
+
+std::string describe_kernel(const CompiledScene& scene) {
+  const Features& f = scene.features;
+  std::string text;
+  switch (f.media) {
+    case MediaNeed::none:
+      text = "no medium";
+      break;
+    case MediaNeed::homogeneous:
+      text = "one homogeneous medium";
+      break;
+    case MediaNeed::layered:
+      text = "layered media";
+      break;
+    case MediaNeed::general:
+      text = "bounded media (footprints, quadrics or data sets)";
+      break;
+  }
+  text += f.bands ? ", " + std::to_string(scene.bands.count()) + " bands" : ", one band";
+  text += f.surfaces ? ", all surface models" : ", Lambertian surfaces only";
+  text += f.detectors ? ", scores along flights" : ", no scores along flights";
+  return text;
+}
+
+}  // namespace luxodus

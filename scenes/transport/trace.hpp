@@ -1,0 +1,47 @@
+// Batches: the door through which callers trace a scene, whatever its kernel and its partition.
+#pragma once
+
+#include <memory>
+
+#include "scenes/transport/direct.hpp"
+#include "scenes/transport/eye.hpp"
+#include "scenes/transport/resolver.hpp"
+
+namespace luxodus {
+
+/// Traces batches of one scene, one thread or fiber at a time.
+class BatchTracer {
+ public:
+  virtual ~BatchTracer() = default;
+  /// Particles [first, first + count) of a source group, into `scores`.
+  virtual void trace(int group, uint64_t first, int64_t count, BatchScores& scores) = 0;
+  /// The eye paths that belong to a batch number, into `scores`.
+  virtual void look(int64_t batch, BatchScores& scores) = 0;
+};
+
+/// The kernel that the scene's features ask for, on everything resident. All arguments must outlive it.
+std::unique_ptr<BatchTracer> make_batch_tracer(const CompiledScene& scene, const SceneIndex& index,
+                                               uint64_t seed);
+
+/// Direct light through whichever resolver the index needs; one thread at a time.
+DirectLight direct_light_at(const CompiledScene& scene, const SceneIndex& index,
+                            const glm::vec3& point, const glm::vec3& normal,
+                            const DirectOptions& options);
+
+/// Radiance along one ray of a picture [W/(m2 sr)]; see EyeTracer::radiance.
+class PictureTracer {
+ public:
+  virtual ~PictureTracer() = default;
+  virtual void start(uint64_t path) = 0;
+  virtual float uniform() = 0;
+  virtual int choose_band(double u) const = 0;
+  virtual double band_probability(int band) const = 0;
+  virtual double radiance(const Ray& ray, int band, const PatchRadiance* gather) = 0;
+};
+std::unique_ptr<PictureTracer> make_picture_tracer(const CompiledScene& scene,
+                                                   const SceneIndex& index, uint64_t seed);
+
+/// "layered media, 8 bands, ...": what the chosen kernel contains, and what it leaves out.
+std::string describe_kernel(const CompiledScene& scene);
+
+}  // namespace luxodus

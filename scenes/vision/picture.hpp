@@ -1,0 +1,42 @@
+// Pictures of the display: light per pixel on the one side, sRGB bytes on the other. Plain values;
+// any thread. Written to files by scenes/format and actors/display; made here by tone.hpp and
+// false_colour.hpp.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace luxodus {
+
+/// Row-major, top row first. XYZ per pixel with Y in cd/m2 (X and Z on the same scale).
+struct XyzPicture {
+  int width = 0;
+  int height = 0;
+  std::vector<float> xyz;       // 3 per pixel
+  std::vector<float> scotopic;  // [scotopic cd/m2], 1 per pixel, or empty: estimated from XYZ
+
+  size_t pixels() const { return static_cast<size_t>(width) * static_cast<size_t>(height); }
+};
+
+/// Row-major, top row first, 3 bytes per pixel, sRGB (IEC 61966-2-1).
+struct SrgbPicture {
+  int width = 0;
+  int height = 0;
+  std::vector<uint8_t> rgb;
+};
+
+struct Rgb8 {
+  uint8_t r = 0;
+  uint8_t g = 0;
+  uint8_t b = 0;
+
+  friend bool operator==(const Rgb8&, const Rgb8&) = default;
+};
+
+/// The sRGB byte of a linear value: clamped to [0, 1], encoded, rounded. NaN gives 0.
+uint8_t srgb_byte(double linear);
+/// The linear value of an sRGB byte.
+double linear_of_srgb_byte(uint8_t byte);
+
+}  // namespace luxodus

@@ -1,0 +1,343 @@
+// Both operators work on luminance alone and carry the colour along: a pixel's XYZ is divided by
+// its luminance, multiplied by the display's, and brought into the monitor's gamut at constant
+// luminance.
+#include "scenes/vision/tone.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "scenes/optics/chromaticity.hpp"
+#include "scenes/vision/mesopic.hpp"
+
+namespace luxodus {
+namespace {
+
+// Below this nobody sees anything (absolute threshold about 1e-6 cd/m2), and logarithms stay
+// finite.
+constexpr double darkest_cd_m2 = 1e-6;
+
+struct Pixel {
+  Xyz xyz{};
+  double luminance = 0;  // [cd/m2], 0 where there is nothing usable
+};
+
+Pixel pixel(const XyzPicture& picture, size_t i) {
+  Pixel p;
+  for (size_t k = 0; k < 3; ++k) p.xyz[k] = static_cast<double>(picture.xyz[3 * i + k]);
+  const bool usable =
+      std::isfinite(p.xyz[0]) && std::isfinite(p.xyz[1]) && std::isfinite(p.xyz[2]) && p.xyz[1] > 0;
+  if (usable) {
+    p.luminance = p.xyz[1];
+  } else {
+    p.xyz = {};
+  }
+  return p;
+}
+
+// Linear sRGB of display luminance `shown` (0..1) with the colour of `xyz`. What the monitor cannot
+// show moves towards the grey of the same luminance, just as far as it must.
+std::array<double, 3> into_gamut(const Xyz& xyz, double shown) {
+  const double k = shown / xyz[1];
+  std::array<double, 3> rgb = linear_srgb_from_xyz({k * xyz[0], shown, k * xyz[2]});
+  double saturation = 1;
+  for (const double v : rgb) {
+    if (v > 1) saturation = std::min(saturation, (1 - shown) / (v - shown));
+    if (v < 0) saturation = std::min(saturation, shown / (shown - v));
+  }
+  for (double& v : rgb) v = shown + saturation * (v - shown);
+  return rgb;
+}
+
+void put(SrgbPicture& out, const Pixel& p, double shown) {
+  std::array<double, 3> rgb{};
+  if (p.luminance > 0) rgb = into_gamut(p.xyz, std::clamp(shown, 0.0, 1.0));
+  for (const double v : rgb) out.rgb.push_back(srgb_byte(v));
+}
+
+SrgbPicture empty_like(const XyzPicture& picture) {
+  SrgbPicture out{picture.width, picture.height, {}};
+  out.rgb.reserve(3 * picture.pixels());
+  return out;
+}
+
+// ---- plain --------------------------------------------------------------------------------------
+
+struct Exposure {
+  double factor = 1;  // display value per cd/m2
+  double white = 1;   // exposed value at which the shoulder reaches 1
+};
+
+Exposure exposure_of(const XyzPicture& picture, const PlainTone& tone) {
+  if (tone.white_cd_m2 && *tone.white_cd_m2 > 0) return {1 / *tone.white_cd_m2, 1};
+  double log_sum = 0;
+  std::vector<double> lit;
+  for (size_t i = 0; i < picture.pixels(); ++i) {
+    const double l = pixel(picture, i).luminance;
+    if (l <= darkest_cd_m2) continue;
+    log_sum += std::log(l);
+    lit.push_back(l);
+  }
+  if (lit.empty()) return {};
+  const double factor = tone.key / std::exp(log_sum / static_cast<double>(lit.size()));
+  // White is the luminance that one pixel in a thousand exceeds: a lamp may burn out, a wall may
+  // not.
+  const size_t rank = (lit.size() - 1) - lit.size() / 1000;
+  std::nth_element(lit.begin(), lit.begin() + static_cast<std::ptrdiff_t>(rank), lit.end());
+  return {factor, std::max(1.0, factor * lit[rank])};
+}
+
+// ---- human --------------------------------------------------------------------------------------
+
+constexpr int histogram_bins = 100;       // Ward Larson et al. 1997
+constexpr double trim_tolerance = 0.025;  // their share of the histogram that a pass may still cut
+constexpr int most_passes = 200;
+constexpr double fovea_deg = 1.0;
+// A small picture is not averaged into fewer cells than this: a histogram of ten is none.
+constexpr double least_cells = 256;
+
+struct Histogram {
+  double log_low = 0;
+  double step = 0;
+  std::vector<double> count;
+
+  double total() const {
+    double sum = 0;
+    for (const double c : count) sum += c;
+    return sum;
+  }
+  double log_centre(size_t b) const { return log_low + (static_cast<double>(b) + 0.5) * step; }
+};
+
+Histogram histogram_of(const std::vector<double>& luminances) {
+  double low = std::log(luminances.front());
+  double high = low;
+  for (const double l : luminances) {
+    low = std::min(low, std::log(l));
+    high = std::max(high, std::log(l));
+  }
+  Histogram h{low, (high - low) / histogram_bins, std::vector<double>(histogram_bins, 0.0)};
+  for (const double l : luminances) {
+    const double position = h.step > 0 ? (std::log(l) - low) / h.step : 0;
+    h.count[std::min(static_cast<size_t>(position), h.count.size() - 1)] += 1;
+  }
+  return h;
+}
+
+// Cuts every bin to the count at which the curve is as steep as an eye allows:
+//   f(b) <= dL_t(L_d)/dL_t(L_w) * T step L_w / (log(L_dmax/L_dmin) L_d)     (their eq. 10)
+// until a pass cuts little. False when hardly anything is left: the scene has less contrast than
+// the display.
+bool trim_to_human_contrast(Histogram& h, double log_black, double log_white) {
+  const double whole = h.total();
+  for (int pass = 0; pass < most_passes; ++pass) {
+    const double total = h.total();
+    if (total < trim_tolerance * whole) return false;
+    double trimmed = 0;
+    double below = 0;
+    for (size_t b = 0; b < h.count.size(); ++b) {
+      const double share = (below + 0.5 * h.count[b]) / total;
+      below += h.count[b];
+      const double display = std::exp(log_black + (log_white - log_black) * share);
+      const double world = std::exp(h.log_centre(b));
+      const double ceiling = threshold_difference_cd_m2(display) /
+                             threshold_difference_cd_m2(world) * total * h.step * world /
+                             ((log_white - log_black) * display);
+      if (h.count[b] > ceiling) {
+        trimmed += h.count[b] - ceiling;
+        h.count[b] = ceiling;
+      }
+    }
+    if (trimmed <= trim_tolerance * total) return true;
+  }
+  return true;
+}
+
+// One factor for all, so that what is just visible in the scene is just visible on the display
+// (Ward 1994): the eye before the display adapts to half of its white.
+ToneCurve linear_curve(const std::vector<double>& luminances, const DisplayModel& display) {
+  double log_sum = 0;
+  for (const double l : luminances) log_sum += std::log(l);
+  const double world =
+      luminances.empty() ? 1 : std::exp(log_sum / static_cast<double>(luminances.size()));
+  ToneCurve curve;
+  curve.linear = true;
+  curve.factor =
+      threshold_difference_cd_m2(display.white_cd_m2 / 2) / threshold_difference_cd_m2(world);
+  curve.display_white_cd_m2 = display.white_cd_m2;
+  return curve;
+}
+
+// What each pixel looks like to the adapted eye, and the mean of that over cells of one degree.
+struct Seen {
+  int cell_px = 1;
+  int cells_wide = 0;
+  std::vector<double> cell_adaptation;  // m of CIE 191, per cell
+  std::vector<double> cell_luminance;   // mesopic [cd/m2], per cell
+  std::vector<double> pixel_photopic;   // [cd/m2]
+  std::vector<double> pixel_scotopic;   // [scotopic cd/m2]
+
+  size_t cell_of(int x, int y) const {
+    return static_cast<size_t>(y / cell_px) * static_cast<size_t>(cells_wide) +
+           static_cast<size_t>(x / cell_px);
+  }
+};
+
+Seen see(const XyzPicture& picture, const HumanTone& tone) {
+  Seen seen;
+  const auto n = static_cast<double>(picture.pixels());
+  const double widest = std::max(1.0, std::floor(std::sqrt(n / least_cells)));
+  const double wanted = tone.degrees_per_pixel > 0 ? fovea_deg / tone.degrees_per_pixel : 1;
+  seen.cell_px = static_cast<int>(std::clamp(std::round(wanted), 1.0, widest));
+  seen.cells_wide = (picture.width + seen.cell_px - 1) / seen.cell_px;
+  const int cells_high = (picture.height + seen.cell_px - 1) / seen.cell_px;
+  const size_t cells = static_cast<size_t>(seen.cells_wide) * static_cast<size_t>(cells_high);
+  std::vector<double> photopic(cells, 0.0), scotopic(cells, 0.0), members(cells, 0.0);
+  for (int y = 0; y < picture.height; ++y)
+    for (int x = 0; x < picture.width; ++x) {
+      const size_t i = seen.pixel_photopic.size();
+      const Pixel p = pixel(picture, i);
+      double s = scotopic_from_xyz(p.xyz[0], p.xyz[1], p.xyz[2]);
+      if (!picture.scotopic.empty()) s = static_cast<double>(picture.scotopic[i]);
+      if (!(s > 0) || !std::isfinite(s)) s = 0;
+      seen.pixel_photopic.push_back(p.luminance);
+      seen.pixel_scotopic.push_back(s);
+      const size_t c = seen.cell_of(x, y);
+      photopic[c] += p.luminance;
+      scotopic[c] += s;
+      members[c] += 1;
+    }
+  for (size_t c = 0; c < cells; ++c) {
+    const MesopicLuminance m =
+        mesopic_luminance(photopic[c] / members[c], scotopic[c] / members[c]);
+    seen.cell_adaptation.push_back(m.adaptation);
+    seen.cell_luminance.push_back(std::max(m.cd_m2, darkest_cd_m2));
+  }
+  return seen;
+}
+
+// Adaptation at a pixel, bilinear between the centres of the cells, so that no cell shows as a
+// square.
+double adaptation_at(const Seen& seen, int x, int y) {
+  const int wide = seen.cells_wide;
+  const int high = static_cast<int>(seen.cell_adaptation.size()) / wide;
+  const auto place = [&](int pixel_index, int cells) {
+    const double at = (pixel_index + 0.5) / seen.cell_px - 0.5;
+    return std::clamp(at, 0.0, static_cast<double>(cells - 1));
+  };
+  const double u = place(x, wide), v = place(y, high);
+  const int i = std::min(static_cast<int>(u), std::max(0, wide - 2));
+  const int j = std::min(static_cast<int>(v), std::max(0, high - 2));
+  const double fu = u - i, fv = v - j;
+  const auto m = [&](int a, int b) {
+    return seen
+        .cell_adaptation[static_cast<size_t>(std::min(b, high - 1)) * static_cast<size_t>(wide) +
+                         static_cast<size_t>(std::min(a, wide - 1))];
+  };
+  return (1 - fv) * ((1 - fu) * m(i, j) + fu * m(i + 1, j)) +
+         fv * ((1 - fu) * m(i, j + 1) + fu * m(i + 1, j + 1));
+}
+
+}  // namespace
+
+double shoulder(double exposed, double white) {
+  if (!(exposed > 0)) return 0;
+  if (exposed <= shoulder_knee) return exposed;
+  const double top = std::max(white, 1.0);
+  if (exposed >= top) return 1;
+  const double t = (exposed - shoulder_knee) / (top - shoulder_knee);
+  const double slope = (top - shoulder_knee) / (1 - shoulder_knee);
+  return shoulder_knee + (1 - shoulder_knee) * slope * t / (1 + (slope - 1) * t);
+}
+
+SrgbPicture tone_plain(const XyzPicture& picture, const PlainTone& tone) {
+  const Exposure exposure = exposure_of(picture, tone);
+  SrgbPicture out = empty_like(picture);
+  for (size_t i = 0; i < picture.pixels(); ++i) {
+    const Pixel p = pixel(picture, i);
+    put(out, p, shoulder(exposure.factor * p.luminance, exposure.white));
+  }
+  return out;
+}
+
+double threshold_difference_cd_m2(double adaptation_cd_m2) {
+  // Rods below about 0.0148 cd/m2 ... cones above 15.4: five pieces in l = log10 L_a.
+  if (!(adaptation_cd_m2 > 1.148e-4)) return 1.38e-3;
+  const double l = std::log10(adaptation_cd_m2);
+  double log_difference = 0;
+  if (l < -1.44) {
+    log_difference = std::pow(0.405 * l + 1.6, 2.18) - 2.86;
+  } else if (l < -0.0184) {
+    log_difference = l - 0.395;
+  } else if (l < 1.9) {
+    log_difference = std::pow(0.249 * l + 0.65, 2.7) - 0.72;
+  } else {
+    log_difference = l - 1.255;
+  }
+  return std::pow(10.0, log_difference);
+}
+
+double ToneCurve::display(double world_cd_m2) const {
+  if (!(world_cd_m2 > 0)) return 0;
+  if (linear) return std::min(factor * world_cd_m2, display_white_cd_m2);
+  const double l = std::log(world_cd_m2);
+  if (l <= log_world.front()) {
+    // Darker than every degree of the scene: keep the ratio to the darkest, so that black stays
+    // black.
+    return std::exp(log_display.front()) * world_cd_m2 / std::exp(log_world.front());
+  }
+  if (l >= log_world.back()) return std::exp(log_display.back());
+  const auto above = std::upper_bound(log_world.begin(), log_world.end(), l);
+  const auto k = static_cast<size_t>(above - log_world.begin());
+  const double f = (l - log_world[k - 1]) / (log_world[k] - log_world[k - 1]);
+  return std::exp(log_display[k - 1] + f * (log_display[k] - log_display[k - 1]));
+}
+
+ToneCurve human_curve(const std::vector<double>& adaptation_cd_m2, const DisplayModel& display) {
+  std::vector<double> lit;
+  for (const double l : adaptation_cd_m2)
+    if (std::isfinite(l) && l > 0) lit.push_back(std::max(l, darkest_cd_m2));
+  if (lit.empty()) return linear_curve(lit, display);
+  const double log_black = std::log(display.black_cd_m2);
+  const double log_white = std::log(display.white_cd_m2);
+  Histogram h = histogram_of(lit);
+  const bool fits = h.step * histogram_bins <= log_white - log_black;
+  if (fits || !trim_to_human_contrast(h, log_black, log_white)) return linear_curve(lit, display);
+
+  ToneCurve curve;
+  curve.display_white_cd_m2 = display.white_cd_m2;
+  const double total = h.total();
+  double below = 0;
+  for (size_t b = 0; b <= h.count.size(); ++b) {
+    curve.log_world.push_back(h.log_low + static_cast<double>(b) * h.step);
+    curve.log_display.push_back(log_black + (log_white - log_black) * below / total);
+    if (b < h.count.size()) below += h.count[b];
+  }
+  return curve;
+}
+
+SrgbPicture tone_human(const XyzPicture& picture, const HumanTone& tone) {
+  SrgbPicture out = empty_like(picture);
+  if (picture.pixels() == 0) return out;
+  const Seen seen = see(picture, tone);
+  const ToneCurve curve = human_curve(seen.cell_luminance, tone.display);
+  const double black = tone.display.black_cd_m2;
+  const double range = tone.display.white_cd_m2 - black;
+  for (int y = 0; y < picture.height; ++y)
+    for (int x = 0; x < picture.width; ++x) {
+      const size_t i =
+          static_cast<size_t>(y) * static_cast<size_t>(picture.width) + static_cast<size_t>(x);
+      Pixel p = pixel(picture, i);
+      const double m = adaptation_at(seen, x, y);
+      const double l = mesopic_luminance_adapted(seen.pixel_photopic[i], seen.pixel_scotopic[i], m);
+      if (tone.lose_colour && p.luminance > 0) {
+        // Rods see no colour: the cones' share of the adaptation is the share of the colour kept.
+        for (size_t k = 0; k < 3; ++k)
+          p.xyz[k] = p.luminance * (m * p.xyz[k] / p.luminance + (1 - m) * d65_white[k]);
+      }
+      put(out, p, (curve.display(l) - black) / range);
+    }
+  return out;
+}
+
+}  // namespace luxodus

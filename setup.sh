@@ -1,0 +1,48 @@
+#!/usr/bin/env bash
+# Installs what Luxodus is built with, on Debian 12, and nothing that is there already: a second
+# call only looks. Both ./run.sh and ./test.sh call it.
+set -euo pipefail
+
+packages=(
+  # compiler and build
+  g++ cmake ninja-build pkg-config ccache
+  # rays, meshes, threads
+  libembree-dev libtbb-dev libassimp-dev libglm-dev
+  # text: scene files, options, logs, reports
+  libtomlplusplus-dev libcli11-dev libspdlog-dev libfmt-dev nlohmann-json3-dev
+  # pictures, drawings, data
+  libopenexr-dev libpng-dev librsvg2-dev libcairo2-dev libzstd-dev libxxhash-dev
+  # tests and formatting
+  catch2 python3 clang-format
+)
+
+if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
+  echo "setup.sh: this is no Debian; install by hand what these packages hold: ${packages[*]}" >&2
+  exit 0
+fi
+
+# dpkg-query fails when it knows nothing of a package; what counts is the list it prints.
+installed=" $(dpkg-query --show --showformat='${Package} ${db:Status-Status}\n' "${packages[@]}" \
+  2>/dev/null | awk '$2 == "installed" { print $1 }' | sort -u | tr '\n' ' ' || true) "
+missing=()
+for package in "${packages[@]}"; do
+  [[ $installed == *" $package "* ]] || missing+=("$package")
+done
+if [ ${#missing[@]} -eq 0 ]; then
+  exit 0
+fi
+
+echo "setup.sh: installing ${missing[*]}"
+as_root=()
+if [ "$(id -u)" -ne 0 ]; then
+  command -v sudo >/dev/null || {
+    echo "setup.sh: run as root, or install sudo: apt-get install ${missing[*]}" >&2
+    exit 1
+  }
+  as_root=(sudo)
+fi
+# Another apt may hold the lock for a while, on a machine that has just started.
+apt=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=300 -qq)
+"${apt[@]}" update
+"${apt[@]}" install -y --no-install-recommends "${missing[@]}" >/dev/null
+echo "setup.sh: done"

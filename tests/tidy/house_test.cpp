@@ -1,0 +1,319 @@
+// The rules of CONTRIBUTING.md that a machine can check, each as one test that names every file
+// which breaks it. It reads the source tree only; it builds and runs nothing but `bash -n`.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <set>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace fs = std::filesystem;
+
+namespace {
+
+const fs::path root = LUX_SOURCE_DIR;
+constexpr const char* top_folders[] = {"runtime", "proto", "topology", "scenes", "actors", "tests"};
+constexpr size_t columns_most = 100;
+constexpr size_t lines_most = 700;
+
+using Findings = std::vector<std::string>;
+
+std::string joined(const Findings& findings) {
+  std::string out;
+  for (const auto& finding : findings) out += "\n  " + finding;
+  return out;
+}
+
+#define CHECK_NONE(findings)   \
+  do {                         \
+    INFO(joined(findings));    \
+    CHECK((findings).empty()); \
+  } while (false)
+
+std::vector<std::string> lines_of(const fs::path& file) {
+  std::ifstream in(file);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+struct Source {
+  std::string path;  // from the repository's root, with '/'
+  std::vector<std::string> lines;
+
+  bool in(std::string_view folder) const { return path.rfind(std::string(folder) + "/", 0) == 0; }
+  bool header() const { return path.ends_with(".hpp"); }
+  std::string at(size_t line) const { return path + ":" + std::to_string(line + 1); }
+};
+
+const std::vector<Source>& sources() {
+  static const std::vector<Source> all = [] {
+    std::vector<Source> found;
+    for (const char* top : top_folders) {
+      if (!fs::exists(root / top)) continue;
+      for (const auto& entry : fs::recursive_directory_iterator(root / top)) {
+        const std::string suffix = entry.path().extension().string();
+        if (entry.is_regular_file() && (suffix == ".cpp" || suffix == ".hpp"))
+          found.push_back(
+              {fs::relative(entry.path(), root).generic_string(), lines_of(entry.path())});
+      }
+    }
+    std::sort(found.begin(), found.end(),
+              [](const Source& a, const Source& b) { return a.path < b.path; });
+    return found;
+  }();
+  return all;
+}
+
+/// The name between quotes or angle brackets of an include line; "" for other lines.
+std::string included(const std::string& line, char open, char close) {
+  std::string_view rest = line;
+  const size_t start = rest.find_first_not_of(" \t");
+  if (start == std::string_view::npos || rest[start] != '#') return {};
+  rest.remove_prefix(start + 1);
+  const size_t word = rest.find_first_not_of(" \t");
+  if (word == std::string_view::npos || rest.substr(word, 7) != "include") return {};
+  const size_t from = rest.find(open, word + 7);
+  if (from == std::string_view::npos) return {};
+  const size_t to = rest.find(close, from + 1);
+  return to == std::string_view::npos ? std::string()
+                                      : std::string(rest.substr(from + 1, to - from - 1));
+}
+
+bool starts_with_folder(const std::string& path, const std::string& folder) {
+  return path.rfind(folder + "/", 0) == 0;
+}
+
+/// What each room may include, the most special room first.
+struct Arrow {
+  std::string from;
+  std::vector<std::string> to;
+};
+const std::vector<Arrow> arrows{
+    {"runtime/core", {"runtime/core"}},
+    {"proto", {"proto", "runtime/core"}},
+    {"runtime", {"runtime", "proto"}},
+    {"topology", {"topology", "runtime/core"}},
+    {"scenes", {"scenes", "runtime/core"}},
+    {"actors", {"actors", "runtime", "proto", "topology", "scenes"}},
+    {"tests", {"tests", "actors", "runtime", "proto", "topology", "scenes"}},
+};
+
+bool allowed(const std::string& from, const std::string& to) {
+  for (const Arrow& arrow : arrows)
+    if (starts_with_folder(from, arrow.from))
+      return std::any_of(arrow.to.begin(), arrow.to.end(),
+                         [&](const std::string& folder) { return starts_with_folder(to, folder); });
+  return false;
+}
+
+/// Characters, not bytes: UTF-8 continuation bytes do not count.
+size_t columns_of(const std::string& line) {
+  return static_cast<size_t>(std::count_if(line.begin(), line.end(), [](char c) {
+    return (static_cast<unsigned char>(c) & 0xc0) != 0x80;
+  }));
+}
+
+/// This file names what it forbids.
+bool names_the_banned(const Source& source) {
+  return source.in("tests/tidy");
+}
+
+}  // namespace
+
+TEST_CASE("the tidy tests see the sources of the tree", "[tidy]") {
+  CHECK(sources().size() > 5);
+  CHECK(std::any_of(sources().begin(), sources().end(),
+                    [](const Source& s) { return s.path == "runtime/core/result.hpp"; }));
+}
+
+TEST_CASE("the table of arrows says what the house says", "[tidy]") {
+  CHECK(allowed("scenes/optics/a.hpp", "runtime/core/b.hpp"));
+  CHECK(allowed("scenes/optics/a.hpp", "scenes/geometry/b.hpp"));
+  CHECK(allowed("actors/cli/a.cpp", "scenes/format/b.hpp"));
+  CHECK(allowed("tests/unit/actors/a.cpp", "actors/source/b.hpp"));
+  CHECK_FALSE(allowed("runtime/core/a.hpp", "scenes/optics/b.hpp"));
+  CHECK_FALSE(allowed("runtime/core/a.hpp", "runtime/net/b.hpp"));
+  CHECK_FALSE(allowed("scenes/optics/a.hpp", "actors/source/b.hpp"));
+  CHECK_FALSE(allowed("scenes/optics/a.hpp", "runtime/net/b.hpp"));
+  CHECK_FALSE(allowed("actors/cli/a.cpp", "tests/tools/b.hpp"));
+}
+
+TEST_CASE("includes follow the arrows between rooms and name files from the root", "[tidy]") {
+  Findings bad;
+  for (const Source& source : sources())
+    for (size_t i = 0; i < source.lines.size(); ++i) {
+      const std::string name = included(source.lines[i], '"', '"');
+      if (name.empty()) continue;
+      if (!fs::is_regular_file(root / name))
+        bad.push_back(source.at(i) + ": \"" + name + "\" is no file from the repository's root");
+      else if (!allowed(source.path, name))
+        bad.push_back(source.at(i) + ": this room may not include " + name);
+    }
+  CHECK_NONE(bad);
+}
+
+TEST_CASE("only the room of a library includes it", "[tidy]") {
+  const std::map<std::string, std::string> owner{
+      {"embree", "scenes/intersect"},     {"zmq", "runtime/net"},
+      {"boost/context", "runtime/fiber"}, {"librsvg", "scenes/emergency"},
+      {"cairo", "scenes/emergency"},
+  };
+  Findings bad;
+  for (const Source& source : sources())
+    for (size_t i = 0; i < source.lines.size(); ++i) {
+      const std::string name = included(source.lines[i], '<', '>');
+      for (const auto& [library, room] : owner)
+        if (name.rfind(library, 0) == 0 && !source.in(room))
+          bad.push_back(source.at(i) + ": <" + name + "> belongs to " + room);
+    }
+  CHECK_NONE(bad);
+}
+
+TEST_CASE("no line is wider than 100 columns, holds a tab, or ends in a blank", "[tidy]") {
+  Findings bad;
+  for (const Source& source : sources())
+    for (size_t i = 0; i < source.lines.size(); ++i) {
+      const std::string& line = source.lines[i];
+      if (columns_of(line) > columns_most)
+        bad.push_back(source.at(i) + ": " + std::to_string(columns_of(line)) + " columns");
+      if (line.find('\t') != std::string::npos) bad.push_back(source.at(i) + ": a tab");
+      if (!line.empty() && (line.back() == ' ' || line.back() == '\r'))
+        bad.push_back(source.at(i) + ": ends in a blank or carriage return");
+    }
+  CHECK_NONE(bad);
+}
+
+TEST_CASE("no source is longer than 700 lines", "[tidy]") {
+  Findings bad;
+  for (const Source& source : sources())
+    if (source.lines.size() > lines_most)
+      bad.push_back(source.path + ": " + std::to_string(source.lines.size()) + " lines");
+  CHECK_NONE(bad);
+}
+
+TEST_CASE("every header opens with what it promises and is included once", "[tidy]") {
+  Findings bad;
+  for (const Source& source : sources()) {
+    if (!source.header()) continue;
+    if (source.lines.empty() || source.lines[0].rfind("//", 0) != 0)
+      bad.push_back(source.path + ": does not open with a comment");
+    if (std::find(source.lines.begin(), source.lines.end(), "#pragma once") == source.lines.end())
+      bad.push_back(source.path + ": has no #pragma once");
+  }
+  CHECK_NONE(bad);
+}
+
+TEST_CASE("no header opens a namespace to whoever includes it", "[tidy]") {
+  Findings bad;
+  for (const Source& source : sources()) {
+    if (!source.header()) continue;
+    for (size_t i = 0; i < source.lines.size(); ++i)
+      if (source.lines[i].rfind("using namespace", 0) == 0) bad.push_back(source.at(i));
+  }
+  CHECK_NONE(bad);
+}
+
+TEST_CASE("chance comes from the counter-based generator and time from nowhere", "[tidy]") {
+  struct Ban {
+    std::string word;
+    std::string within;  // "" for everywhere
+    std::string reason;
+  };
+  const std::vector<Ban> bans{
+      {"std::rand", "", "chance is keyed by seed, particle and draw"},
+      {"random_device", "", "a run must be repeatable from its seed"},
+      {"mt19937", "scenes", "chance is keyed by seed, particle and draw"},
+      {"sleep_for", "", "nothing waits for the clock"},
+      {"steady_clock::now", "scenes", "the physics knows no clock"},
+      {"system_clock::now", "scenes", "the physics knows no clock"},
+      {"std::cout", "scenes", "the physics prints nothing"},
+      {"FIXME", "", "unfinished work is not committed"},
+      {"TODO", "", "unfinished work is not committed"},
+  };
+  Findings bad;
+  for (const Source& source : sources()) {
+    if (names_the_banned(source)) continue;
+    for (size_t i = 0; i < source.lines.size(); ++i)
+      for (const Ban& ban : bans)
+        if ((ban.within.empty() || source.in(ban.within)) &&
+            source.lines[i].find(ban.word) != std::string::npos)
+          bad.push_back(source.at(i) + ": " + ban.word + ": " + ban.reason);
+  }
+  CHECK_NONE(bad);
+}
+
+TEST_CASE("every room with sources has a README.md, and tests have one for all", "[tidy]") {
+  std::set<std::string> folders{"tests"};
+  for (const Source& source : sources())
+    if (!source.in("tests")) folders.insert(fs::path(source.path).parent_path().generic_string());
+  Findings missing;
+  for (const std::string& folder : folders) {
+    const fs::path readme = root / folder / "README.md";
+    std::error_code failed;
+    if (!fs::exists(readme))
+      missing.push_back(folder + "/README.md is missing");
+    else if (fs::file_size(readme, failed) < 100)
+      missing.push_back(folder + "/README.md says next to nothing");
+  }
+  CHECK_NONE(missing);
+}
+
+TEST_CASE("the documents that every repository has are there", "[tidy]") {
+  Findings missing;
+  for (const char* name : {"README.md", "ARCHITECTURE.md", "CONTRIBUTING.md", "CHANGELOG.md",
+                           "LICENSE", "CMakePresets.json", ".clang-format", ".clang-tidy",
+                           ".ci/run", "run.sh", "test.sh", "setup.sh"})
+    if (!fs::exists(root / name)) missing.push_back(name);
+  CHECK_NONE(missing);
+}
+
+TEST_CASE("relative links in the documents lead somewhere", "[tidy]") {
+  Findings bad;
+  std::vector<fs::path> documents;
+  for (const auto& entry : fs::directory_iterator(root))
+    if (entry.path().extension() == ".md") documents.push_back(entry.path());
+  for (const char* top : top_folders) {
+    if (!fs::exists(root / top)) continue;
+    for (const auto& entry : fs::recursive_directory_iterator(root / top))
+      if (entry.path().extension() == ".md") documents.push_back(entry.path());
+  }
+  for (const fs::path& document : documents)
+    for (const std::string& line : lines_of(document))
+      for (size_t at = line.find("]("); at != std::string::npos; at = line.find("](", at + 2)) {
+        std::string target = line.substr(at + 2, line.find(')', at) - at - 2);
+        target = target.substr(0, target.find('#'));
+        if (target.empty() || target.find(':') != std::string::npos) continue;
+        if (!fs::exists(document.parent_path() / target))
+          bad.push_back(fs::relative(document, root).generic_string() + " links to " + target);
+      }
+  CHECK_NONE(bad);
+}
+
+TEST_CASE("every shell script parses and can be run", "[tidy]") {
+  std::vector<fs::path> scripts{root / "setup.sh", root / "run.sh", root / "test.sh",
+                                root / ".ci" / "run", root / ".ci" / "build"};
+  for (const char* folder : {"scripts", "scenes", "tests"}) {
+    if (!fs::exists(root / folder)) continue;
+    for (const auto& entry : fs::recursive_directory_iterator(root / folder))
+      if (entry.path().extension() == ".sh") scripts.push_back(entry.path());
+  }
+  Findings bad;
+  for (const fs::path& script : scripts) {
+    const std::string name = fs::relative(script, root).generic_string();
+    if (!fs::exists(script)) {
+      bad.push_back(name + " is missing");
+      continue;
+    }
+    if ((fs::status(script).permissions() & fs::perms::owner_exec) == fs::perms::none)
+      bad.push_back(name + " is not executable");
+    if (std::system(("bash -n '" + script.string() + "'").c_str()) != 0)
+      bad.push_back(name + " does not parse");
+  }
+  CHECK_NONE(bad);
+}

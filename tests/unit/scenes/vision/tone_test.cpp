@@ -1,0 +1,206 @@
+#include "scenes/vision/tone.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "scenes/optics/chromaticity.hpp"
+
+using namespace luxodus;
+
+namespace {
+
+// A picture of these luminances in one row, all of one linear sRGB colour.
+XyzPicture row(const std::vector<double>& luminances,
+               const std::array<double, 3>& colour = {1, 1, 1}) {
+  const Xyz c = xyz_from_linear_srgb(colour);
+  XyzPicture p;
+  p.width = static_cast<int>(luminances.size());
+  p.height = 1;
+  for (const double l : luminances)
+    for (const double v : c) p.xyz.push_back(static_cast<float>(l * v / c[1]));
+  return p;
+}
+
+Rgb8 at(const SrgbPicture& p, size_t i) {
+  return {p.rgb[3 * i], p.rgb[3 * i + 1], p.rgb[3 * i + 2]};
+}
+
+double luminance(Rgb8 c) {
+  return xyz_from_linear_srgb(
+      {linear_of_srgb_byte(c.r), linear_of_srgb_byte(c.g), linear_of_srgb_byte(c.b)})[1];
+}
+
+int spread(Rgb8 c) {
+  return std::max({c.r, c.g, c.b}) - std::min({c.r, c.g, c.b});
+}
+
+PlainTone white_at(double cd_m2) {
+  PlainTone t;
+  t.white_cd_m2 = cd_m2;
+  return t;
+}
+
+// Luminances evenly spread in logarithm.
+std::vector<double> even_logs(double low, double high, int n) {
+  std::vector<double> out;
+  for (int i = 0; i < n; ++i) out.push_back(low * std::pow(high / low, i / (n - 1.0)));
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("with a fixed white the picture is linear up to it and white above", "[vision][tone]") {
+  const SrgbPicture p = tone_plain(row({0, 12.5, 50, 100, 1000}), white_at(100));
+  CHECK(at(p, 0) == Rgb8{0, 0, 0});
+  CHECK(luminance(at(p, 1)) == Approx(0.125).margin(0.003));
+  CHECK(luminance(at(p, 2)) == Approx(0.5).margin(0.003));
+  CHECK(at(p, 3) == Rgb8{255, 255, 255});
+  CHECK(at(p, 4) == Rgb8{255, 255, 255});
+}
+
+TEST_CASE("without a white the log-average becomes middle grey at any level of light",
+          "[vision][tone]") {
+  for (const double level : {1e-3, 1.0, 1e4}) {
+    const SrgbPicture p = tone_plain(row({level / 2, level, level * 2}), {});
+    CHECK(luminance(at(p, 1)) == Approx(0.18).margin(0.003));
+  }
+}
+
+TEST_CASE("the shoulder is monotone, smooth at the knee and ends at white", "[vision][tone]") {
+  for (const double white : {1.0, 2.0, 50.0}) {
+    double before = 0;
+    for (double x = 0.01; x < white; x += 0.01) {
+      const double now = shoulder(x, white);
+      CHECK(now > before);
+      CHECK(now <= x + 1e-12);
+      before = now;
+    }
+    CHECK(shoulder(white, white) == 1);
+    CHECK(shoulder(10 * white, white) == 1);
+    const double h = 1e-6;
+    CHECK((shoulder(shoulder_knee + h, white) - shoulder_knee) / h == Approx(1).epsilon(1e-3));
+  }
+  CHECK(shoulder(std::nan(""), 2) == 0);
+}
+
+TEST_CASE("colours beyond the monitor keep their luminance and hue's leading channel",
+          "[vision][tone]") {
+  // Monochromatic 520 nm: far outside sRGB.
+  XyzPicture p;
+  p.width = p.height = 1;
+  const double k = 30 / cie_y().at(520);
+  p.xyz = {static_cast<float>(k * cie_x().at(520)), 30.0f, static_cast<float>(k * cie_z().at(520))};
+  const Rgb8 c = at(tone_plain(p, white_at(100)), 0);
+  CHECK(luminance(c) == Approx(0.3).margin(0.005));
+  CHECK(c.g > c.r);
+  CHECK(c.g > c.b);
+  // A saturated red as bright as white must lose its colour, not its luminance.
+  const Rgb8 red = at(tone_plain(row({90}, {1, 0, 0}), white_at(100)), 0);
+  CHECK(luminance(red) == Approx(0.9).margin(0.01));
+}
+
+TEST_CASE("pixels that are no light are black and disturb nothing", "[vision][tone]") {
+  XyzPicture p = row({10, 10, 10, 10});
+  p.xyz[0] = std::nanf("");
+  p.xyz[4] = -1.0f;
+  p.xyz[8] = INFINITY;
+  for (const SrgbPicture& out : {tone_plain(p, {}), tone_human(p, {})}) {
+    REQUIRE(out.rgb.size() == 12);
+    CHECK(at(out, 0) == Rgb8{0, 0, 0});
+    CHECK(at(out, 1) == Rgb8{0, 0, 0});
+    CHECK(at(out, 2) == Rgb8{0, 0, 0});
+  }
+  CHECK(luminance(at(tone_plain(p, {}), 3)) == Approx(0.18).margin(0.003));
+  CHECK(tone_plain(XyzPicture{}, {}).rgb.empty());
+  CHECK(tone_human(XyzPicture{}, {}).rgb.empty());
+  CHECK(at(tone_human(row({0, 0}), {}), 0) == Rgb8{0, 0, 0});
+}
+
+TEST_CASE("the human threshold has the published contrasts", "[vision][tone]") {
+  // dL/L at .01, .1, 1, 10, 100 cd/m2.
+  const std::array<double, 5> contrast{0.547, 0.403, 0.391, 0.107, 0.056};
+  double l = 0.01;
+  for (const double c : contrast) {
+    CHECK(threshold_difference_cd_m2(l) / l == Approx(c).margin(6e-4));
+    l *= 10;
+  }
+  CHECK(threshold_difference_cd_m2(0) == 1.38e-3);
+}
+
+TEST_CASE("a scene that fits the display is shown by one factor", "[vision][tone]") {
+  const ToneCurve curve = human_curve(even_logs(5, 50, 500), {});
+  CHECK(curve.linear);
+  CHECK(curve.display(20) == Approx(2 * curve.display(10)));
+  CHECK(curve.display(1e9) == 200);
+}
+
+TEST_CASE("the human curve rises from the display's black to its white", "[vision][tone]") {
+  const DisplayModel display{200, 1};
+  const ToneCurve curve = human_curve(even_logs(0.01, 1e4, 2000), display);
+  REQUIRE_FALSE(curve.linear);
+  CHECK(curve.display(0.01) == Approx(1).epsilon(1e-6));
+  CHECK(curve.display(1e4) == Approx(200).epsilon(1e-6));
+  double before = 0;
+  for (const double l : even_logs(0.001, 1e5, 500)) {
+    CHECK(curve.display(l) >= before);
+    before = curve.display(l);
+  }
+  CHECK(curve.display(0) == 0);
+}
+
+TEST_CASE("the human curve never shows a contrast that the eye could not see in the scene",
+          "[vision][tone]") {
+  // A corridor: most of the view between 0.05 and 0.2 cd/m2, a few degrees of sign and lamp.
+  std::vector<double> scene = even_logs(0.05, 0.2, 1500);
+  for (const double l : even_logs(0.2, 2000, 100)) scene.push_back(l);
+  const ToneCurve curve = human_curve(scene, {});
+  REQUIRE_FALSE(curve.linear);
+  // dL_d / dL_w <= dL_t(L_d) / dL_t(L_w); the trimming stops within a tolerance and works on bins,
+  // which is allowed for by a tenth.
+  for (size_t k = 1; k < curve.log_world.size(); ++k) {
+    const double w = std::exp(0.5 * (curve.log_world[k] + curve.log_world[k - 1]));
+    const double d = std::exp(0.5 * (curve.log_display[k] + curve.log_display[k - 1]));
+    const double slope = (curve.log_display[k] - curve.log_display[k - 1]) /
+                         (curve.log_world[k] - curve.log_world[k - 1]) * d / w;
+    const double allowed = threshold_difference_cd_m2(d) / threshold_difference_cd_m2(w);
+    CHECK(slope <= 1.1 * allowed);
+  }
+  // The crowded dark part is not stretched to fill the display, as plain equalisation would.
+  CHECK(curve.display(0.2) < 100);
+}
+
+TEST_CASE("a night scene loses its colour and a day scene keeps it", "[vision][tone]") {
+  const std::array<double, 3> green{0.1, 1, 0.3};
+  const auto shown = [&](double level) {
+    return at(tone_human(row({level / 2, level, level * 2}, green), {}), 1);
+  };
+  const Rgb8 night = shown(0.002), dusk = shown(0.1), day = shown(100);
+  CHECK(spread(night) <= 2);
+  CHECK(spread(day) > 60);
+  HumanTone keep;
+  keep.lose_colour = false;
+  const Rgb8 kept = at(tone_human(row({0.05, 0.1, 0.2}, green), keep), 1);
+  CHECK(spread(kept) > spread(dusk));
+}
+
+TEST_CASE("a scotopic channel takes the place of the estimate", "[vision][tone]") {
+  XyzPicture p = row({0.001, 0.002, 0.004});
+  p.scotopic = {0.001f, 0.010f, 0.004f};
+  const SrgbPicture out = tone_human(p, {});
+  // The middle pixel is the brightest to the rods, though the last is to a photometer.
+  CHECK(at(out, 1).g > at(out, 2).g);
+}
+
+TEST_CASE("adaptation is taken over a degree of view", "[vision][tone]") {
+  // A pixel-fine checkerboard of 0.001 and 20 cd/m2: over a degree the eye is photopic everywhere,
+  // so the dark pixels keep their colour's adaptation; pixel by pixel they would be scotopic.
+  std::vector<double> lights;
+  for (int i = 0; i < 64 * 64; ++i) lights.push_back((i + i / 64) % 2 == 0 ? 0.001 : 20);
+  XyzPicture p = row(lights, {0.2, 1, 0.2});
+  p.width = p.height = 64;
+  HumanTone coarse;
+  coarse.degrees_per_pixel = 0.25;
+  const Rgb8 lit = at(tone_human(p, coarse), 64 * 32 + 31);
+  CHECK(spread(lit) > 60);
+}
