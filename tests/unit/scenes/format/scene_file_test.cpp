@@ -21,9 +21,13 @@ SceneDescription good(SceneFolder& folder, const std::string& text) {
   return *read.scene;
 }
 
-Approx near(double v) { return Approx(v).epsilon(1e-12).margin(1e-12); }
+Approx near(double v) {
+  return Approx(v).epsilon(1e-12).margin(1e-12);
+}
 
-bool same(const glm::dvec3& a, const glm::dvec3& b) { return glm::length(a - b) < 1e-12; }
+bool same(const glm::dvec3& a, const glm::dvec3& b) {
+  return glm::length(a - b) < 1e-12;
+}
 
 template <class T>
 const T& named(const std::vector<T>& list, const std::string& name) {
@@ -70,7 +74,8 @@ eye_share = 0.5
   CHECK(s.warnings.size() == 2);  // no light, no surfaces
 }
 
-TEST_CASE("materials of every kind come with their optics, and their backs by name", "[format][scene]") {
+TEST_CASE("materials of every kind come with their optics, and their backs by name",
+          "[format][scene]") {
   SceneFolder f;
   const auto s = good(f, R"(
 [[material]]
@@ -269,7 +274,8 @@ material = "grey20"
   CHECK(signed_volume_of(named(s.objects, "pier").mesh) == near(0.12));
 }
 
-TEST_CASE("an imported file becomes objects by part, with materials from the table", "[format][scene]") {
+TEST_CASE("an imported file becomes objects by part, with materials from the table",
+          "[format][scene]") {
   SceneFolder f;
   const auto s = good(f, R"(
 [[import]]
@@ -375,23 +381,32 @@ maintenance_factor = 0.9
 TEST_CASE("emitters of every shape have their size, distribution and flux", "[format][scene]") {
   SceneFolder f;
   const std::string head = "position = [0, 0, 1]\n";
-  const auto s = good(f, "[[emitter]]\nname = \"p\"\nshape = \"point\"\ndistribution = \"isotropic\"\n"
-                         "flux_w = 3\n" + head +
-                         "[[emitter]]\nname = \"r\"\nshape = \"rectangle\"\nsize = [2, 3]\n"
-                         "luminance_cd_m2 = 100\n" + head +
-                         "[[emitter]]\nname = \"d\"\nshape = \"disc\"\ndiameter = 2\n"
-                         "luminance_cd_m2 = 100\n" + head +
-                         "[[emitter]]\nname = \"s\"\nshape = \"sphere\"\ndiameter = 2\n"
-                         "luminance_cd_m2 = 100\n" + head +
-                         "[[emitter]]\nname = \"t\"\nshape = \"tube\"\nlength = 2\ndiameter = 0.1\n"
-                         "luminance_cd_m2 = 100\n" + head +
-                         "[[emitter]]\nname = \"m\"\nshape = \"mesh\"\nfile = \"cube.obj\"\n"
-                         "units = \"cm\"\nup = \"z\"\nluminance_cd_m2 = 100\n"
-                         "[[emitter]]\nname = \"spot\"\nshape = \"disc\"\ndiameter = 0.1\n"
-                         "distribution = \"spot\"\nspot_inner_deg = 5\nspot_outer_deg = 12\n"
-                         "flux_lm = 800\ndirection = [2, 0, 0]\n" + head +
-                         "[[emitter]]\nname = \"c\"\nshape = \"point\"\n"
-                         "distribution = \"cosine_power\"\ncosine_power = 4\nflux_lm = 1\n" + head);
+  const auto s =
+      good(f,
+           "[[emitter]]\nname = \"p\"\nshape = \"point\"\ndistribution = \"isotropic\"\n"
+           "flux_w = 3\n" +
+               head +
+               "[[emitter]]\nname = \"r\"\nshape = \"rectangle\"\nsize = [2, 3]\n"
+               "luminance_cd_m2 = 100\n" +
+               head +
+               "[[emitter]]\nname = \"d\"\nshape = \"disc\"\ndiameter = 2\n"
+               "luminance_cd_m2 = 100\n" +
+               head +
+               "[[emitter]]\nname = \"s\"\nshape = \"sphere\"\ndiameter = 2\n"
+               "luminance_cd_m2 = 100\n" +
+               head +
+               "[[emitter]]\nname = \"t\"\nshape = \"tube\"\nlength = 2\ndiameter = 0.1\n"
+               "luminance_cd_m2 = 100\n" +
+               head +
+               "[[emitter]]\nname = \"m\"\nshape = \"mesh\"\nfile = \"cube.obj\"\n"
+               "units = \"cm\"\nup = \"z\"\nluminance_cd_m2 = 100\n"
+               "[[emitter]]\nname = \"spot\"\nshape = \"disc\"\ndiameter = 0.1\n"
+               "distribution = \"spot\"\nspot_inner_deg = 5\nspot_outer_deg = 12\n"
+               "flux_lm = 800\ndirection = [2, 0, 0]\n" +
+               head +
+               "[[emitter]]\nname = \"c\"\nshape = \"point\"\n"
+               "distribution = \"cosine_power\"\ncosine_power = 4\nflux_lm = 1\n" +
+               head);
   CHECK(named(s.emitters, "p").radiometric);
   CHECK(named(s.emitters, "p").mains_flux == 3);
   CHECK(named(s.emitters, "p").distribution == Distribution::isotropic);
@@ -407,7 +422,8 @@ TEST_CASE("emitters of every shape have their size, distribution and flux", "[fo
   CHECK(named(s.emitters, "c").cosine_power == 4);
 }
 
-TEST_CASE("signs have a face, luminances in both states, and a detail to be seen", "[format][scene]") {
+TEST_CASE("signs have a face, luminances in both states, and a detail to be seen",
+          "[format][scene]") {
   SceneFolder f;
   const auto s = good(f, R"(
 [[sign]]
@@ -487,8 +503,10 @@ TEST_CASE("extinction means the same in every unit", "[format][scene]") {
   CHECK(flaming.angstrom == 1);
   CHECK(flaming.wavelength_nm == 633);
   const Extinction own =
-      smoke(f, "smoke = \"smouldering\"\nsoot_density = 1e-4\nmass_extinction = 4000\nangstrom = 2\n"
-               "wavelength_nm = 550").extinction;
+      smoke(f,
+            "smoke = \"smouldering\"\nsoot_density = 1e-4\nmass_extinction = 4000\nangstrom = 2\n"
+            "wavelength_nm = 550")
+          .extinction;
   CHECK(own.sigma_t == near(0.4));
   CHECK(own.angstrom == 2);
   CHECK(own.wavelength_nm == 550);
@@ -732,7 +750,8 @@ TEST_CASE("including files share a building, and paths follow the file that says
           "[format][scene]") {
   SceneFolder f;
   std::filesystem::create_directory(f.path() / "parts");
-  f.put("parts/lamp2.ies", "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 2 1 1 2 0 0 0\n1 1 10\n0 90\n0\n9 9\n");
+  f.put("parts/lamp2.ies",
+        "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 2 1 1 2 0 0 0\n1 1 10\n0 90\n0\n9 9\n");
   f.put("parts/building.toml", R"(
 title = "from the building"
 include = ["base.toml"]
@@ -764,19 +783,20 @@ material = "m"
   CHECK(s.emitters.at(0).place.file.find("building.toml") != std::string::npos);
 }
 
-TEST_CASE("the content hash follows every byte of every file, and nothing else", "[format][scene]") {
+TEST_CASE("the content hash follows every byte of every file, and nothing else",
+          "[format][scene]") {
   SceneFolder f;
-  const std::string text = "[[luminaire]]\nname = \"l\"\nfile = \"lamp.ies\"\nposition = [0, 0, 2]\n"
-                           "[[import]]\nname = \"i\"\nfile = \"cube.obj\"\nunits = \"m\"\nup = \"z\"\n"
-                           "material = \"grey50\"\n";
+  const std::string text =
+      "[[luminaire]]\nname = \"l\"\nfile = \"lamp.ies\"\nposition = [0, 0, 2]\n"
+      "[[import]]\nname = \"i\"\nfile = \"cube.obj\"\nunits = \"m\"\nup = \"z\"\n"
+      "material = \"grey50\"\n";
   const uint64_t first = good(f, text).content_hash;
   CHECK(good(f, text).content_hash == first);
   CHECK(good(f, text + "# a word\n").content_hash != first);
   f.put("cube.mtl", "newmtl paint\nKd 0.5 0.5 0.5\nnewmtl steel\nKd 0.3 0.2 0.2\n");
   const uint64_t other_mtl = good(f, text).content_hash;
   CHECK(other_mtl != first);
-  f.put("lamp.ies",
-        "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 2 1 1 2 0 0 0\n1 1 10\n0 90\n0\n9 9\n");
+  f.put("lamp.ies", "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 2 1 1 2 0 0 0\n1 1 10\n0 90\n0\n9 9\n");
   CHECK(good(f, text).content_hash != other_mtl);
 }
 
