@@ -4,12 +4,12 @@
 // where a caller may wait. Callbacks are noexcept, because Embree swallows exceptions.
 #include "scenes/intersect/embree_scene.hpp"
 
-#include <embree3/rtcore.h>
-
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
+
+#include "scenes/intersect/embree_ray.hpp"
 
 namespace luxodus {
 
@@ -25,25 +25,6 @@ void report_error(void*, RTCError code, const char* text) noexcept {
 bool count_bytes(void* counter, ssize_t bytes, bool) noexcept {
   static_cast<std::atomic<int64_t>*>(counter)->fetch_add(bytes);
   return true;
-}
-
-RTCRayHit to_embree(const Ray& ray) {
-  RTCRayHit query;
-  query.ray.org_x = ray.origin.x;
-  query.ray.org_y = ray.origin.y;
-  query.ray.org_z = ray.origin.z;
-  query.ray.tnear = 0;
-  query.ray.dir_x = ray.direction.x;
-  query.ray.dir_y = ray.direction.y;
-  query.ray.dir_z = ray.direction.z;
-  query.ray.time = 0;
-  query.ray.tfar = ray.length;
-  query.ray.mask = 0xFFFFFFFFu;
-  query.ray.id = 0;
-  query.ray.flags = 0;
-  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  return query;
 }
 
 struct CollectContext {

@@ -66,6 +66,7 @@ class CellScene {
   /// Whether any triangle lies within (0, ray.length).
   bool occluded(const Ray& ray) const;
   const GeometryCell& cell() const { return *cell_; }
+  RTCSceneTy* get() const { return scene_; }
 
  private:
   const GeometryCell* cell_;

@@ -1,0 +1,160 @@
+#include "tests/bench/bench_scenes.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "runtime/core/random.hpp"
+#include "scenes/geometry/primitives.hpp"
+#include "scenes/transport/compile.hpp"
+
+namespace luxodus::bench {
+
+namespace {
+
+constexpr glm::dvec3 room_size{20, 15, 3};
+constexpr int boxes = 131;  // of five quads: 655, and six walls
+constexpr double patch_edge_m = 1.5;
+constexpr double albedo = 0.8;
+constexpr double layer_sigma_t[6] = {0.05, 0.1, 0.25, 0.5, 1, 2};  // [1/m], upwards
+
+std::shared_ptr<const CompiledScene> compiled(SceneDescription description) {
+  const Scenario scenario = find_scenario(description, "").value();
+  auto scene =
+      compile_scene(std::make_shared<const SceneDescription>(std::move(description)), scenario, {});
+  if (!scene.ok()) throw std::logic_error(scene.problem().text());
+  return std::move(scene).value();
+}
+
+void add_object(SceneDescription& d, const std::string& name, Mesh mesh, double patch_edge) {
+  Object object;
+  object.name = name;
+  object.mesh = std::move(mesh);
+  object.patch_edge_m = patch_edge;
+  d.objects.push_back(std::move(object));
+}
+
+/// A box standing on the floor, without the bottom that nothing sees.
+Mesh furniture(const glm::dvec3& low, const glm::dvec3& size) {
+  Mesh mesh;
+  const glm::dvec3 x(size.x, 0, 0), y(0, size.y, 0), z(0, 0, size.z);
+  const auto face = [&](const glm::dvec3& corner, const glm::dvec3& u, const glm::dvec3& v) {
+    const auto first = static_cast<unsigned>(mesh.positions.size());
+    for (const glm::dvec3& p : {corner, corner + u, corner + u + v, corner + v}) mesh.positions.push_back(p);
+    mesh.triangles.push_back({first, first + 1, first + 2});
+    mesh.triangles.push_back({first, first + 2, first + 3});
+  };
+  face(low, x, z);
+  face(low + y, z, x);
+  face(low, z, y);
+  face(low + x, y, z);
+  face(low + z, x, y);
+  return mesh;
+}
+
+void furnish(SceneDescription& d) {
+  const auto room = shapes::room(room_size).value();
+  const Mesh* walls[] = {&room.floor, &room.ceiling, &room.x0, &room.x1, &room.y0, &room.y1};
+  const char* names[] = {"floor", "ceiling", "x0", "x1", "y0", "y1"};
+  for (int i = 0; i < 6; ++i) add_object(d, names[i], *walls[i], patch_edge_m);
+  // On a grid of 14 x 10 places, each box with its own size and shift: nothing overlaps.
+  Random random(1, RandomStream::test);
+  random.start(0);
+  const double place_x = room_size.x / 14, place_y = room_size.y / 10;
+  for (int i = 0; i < boxes; ++i) {
+    const double sx = 0.3 + 0.5 * random.uniform_double();
+    const double sy = 0.3 + 0.5 * random.uniform_double();
+    const double sz = 0.4 + 1.6 * random.uniform_double() * random.uniform_double();
+    const double dx = 0.1 + (place_x - sx - 0.2) * random.uniform_double();
+    const double dy = 0.1 + (place_y - sy - 0.2) * random.uniform_double();
+    add_object(d, "box " + std::to_string(i),
+               furniture({place_x * (i % 14) + dx, place_y * (i / 14) + dy, 0}, {sx, sy, sz}),
+               patch_edge_m);
+  }
+}
+
+Emitter lamp(const glm::dvec3& at, const glm::dvec3& size) {
+  Emitter e;
+  e.name = "lamp";
+  e.shape = EmitterShape::rectangle;
+  e.frame.origin = at;
+  e.size = size;
+  e.mains_flux = 10'000;
+  return e;
+}
+
+Medium smoke(Air air) {
+  Medium m;
+  m.name = "smoke";
+  m.optics.albedo = Spectrum::constant(albedo);
+  m.optics.extinction.sigma_t = 0.1;
+  if (air != Air::layered) return m;
+  m.kind = MediumKind::layered;
+  for (int i = 0; i < 6; ++i) {
+    SmokeOptics optics = m.optics;
+    optics.extinction.sigma_t = layer_sigma_t[i];
+    m.layers.push_back({0.5 * i, 0.5 * (i + 1), optics});
+  }
+  return m;
+}
+
+}  // namespace
+
+std::shared_ptr<const CompiledScene> furnished_room(Air air, const Counting& counting) {
+  SceneDescription d;
+  d.name = "furnished room";
+  d.materials.emplace_back().name = "grey";
+  furnish(d);
+  d.emitters.push_back(lamp({10, 7.5, 2.99}, {2, 1, 0}));
+  if (air != Air::clear) d.media.push_back(smoke(air));
+  d.run.bands_most = 1;
+  d.run.voxels = counting.voxels;
+  if (counting.detectors) {
+    PlaneMeasure plane;
+    plane.name = "working plane";
+    plane.corner = {0, 0, 0.85};
+    plane.edge_u = {20, 0, 0};
+    plane.edge_v = {0, 15, 0};
+    plane.cells_u = 20;
+    plane.cells_v = 15;
+    d.planes.push_back(plane);
+    CountingPlaneMeasure gate;
+    gate.name = "gate";
+    gate.corner = {10, 0, 0};
+    gate.edge_u = {0, 15, 0};
+    gate.edge_v = {0, 0, 3};
+    d.counting_planes.push_back(gate);
+    VolumeGroupMeasure volume;
+    volume.name = "heads";
+    volume.shape = VolumeGroupMeasure::Shape::layer;
+    volume.low = {0, 0, 1.5};
+    volume.high = {0, 0, 2};
+    d.volume_groups.push_back(volume);
+  }
+  return compiled(std::move(d));
+}
+
+std::shared_ptr<const CompiledScene> landscape(int n) {
+  SceneDescription d;
+  d.name = "landscape";
+  d.materials.emplace_back().name = "grey";
+  Mesh mesh;
+  const double step = 100.0 / n;
+  for (int j = 0; j <= n; ++j) {
+    for (int i = 0; i <= n; ++i) {
+      mesh.positions.push_back({i * step, j * step, std::sin(0.5 * i * step) * std::cos(0.3 * j * step)});
+    }
+  }
+  const auto at = [&](int i, int j) { return static_cast<unsigned>(j * (n + 1) + i); };
+  for (int j = 0; j < n; ++j) {
+    for (int i = 0; i < n; ++i) {
+      mesh.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+      mesh.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+    }
+  }
+  add_object(d, "hills", std::move(mesh), 0);
+  d.emitters.push_back(lamp({50, 50, 10}, {5, 5, 0}));
+  d.run.bands_most = 1;
+  return compiled(std::move(d));
+}
+
+}  // namespace luxodus::bench

@@ -1,0 +1,26 @@
+// The scenes that are measured, made in memory: a furnished room of 661 quads under one lamp, clear or in
+// smoke, and a landscape of any number of triangles. Every number that matters for speed is named here.
+#pragma once
+
+#include <memory>
+
+#include "scenes/transport/compiled_scene.hpp"
+
+namespace luxodus::bench {
+
+enum class Air { clear, homogeneous, layered };
+
+/// What the room counts beside the flux into and out of every patch, wall and piece of furniture.
+struct Counting {
+  bool detectors = false;  // a working plane of 20 x 15 cells, a counting plane, a volume group
+  bool voxels = false;     // about 20 000
+};
+
+/// 20 x 15 x 3 m, six walls and 131 boxes without bottoms, Lambertian 0.5, one ceiling rectangle. Homogeneous:
+/// isotropic, 0.1/m, albedo 0.8. Layered: six layers of 0.5 m, 0.05 to 2/m upwards, albedo 0.8.
+std::shared_ptr<const CompiledScene> furnished_room(Air air, const Counting& counting);
+
+/// A hilly floor of 2 n^2 triangles under a lamp, one patch a side of each.
+std::shared_ptr<const CompiledScene> landscape(int n);
+
+}  // namespace luxodus::bench

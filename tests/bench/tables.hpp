@@ -1,0 +1,15 @@
+// The tables that luxodus_bench prints, one function each. What each column means: README.md beside this.
+#pragma once
+
+namespace luxodus::bench {
+
+/// Particles and rays per second of whole runs, and their share of bare Embree; `repeats` pairs each.
+void print_speed(int repeats);
+/// Two threads against one, wall time.
+void print_threads(int repeats);
+/// Bytes per triangle, patch and voxel of a scene of 2 n^2 triangles.
+void print_memory(int n);
+/// Nanoseconds of the small pieces that every ray passes.
+void print_pieces(int repeats);
+
+}  // namespace luxodus::bench
