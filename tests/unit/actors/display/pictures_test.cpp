@@ -174,7 +174,8 @@ TEST_CASE("a lamp in clear air has its own luminance in every pixel, without cha
   }
 }
 
-TEST_CASE("a picture is the same bits for one and three threads, and in cells", "[display]") {
+TEST_CASE("a picture is the same bits for one and three threads, and for geometry in cells",
+          "[display]") {
   const std::string toml = glowing_box("0.5", "0.8");
   const auto one = traced(toml, 1 << 14, 1);
   const auto three = traced(toml, 1 << 14, 3);
@@ -182,6 +183,8 @@ TEST_CASE("a picture is the same bits for one and three threads, and in cells", 
   const TracedPicture b = picture_of(*three, 4, true);
   CHECK(a.light.xyz == b.light.xyz);
   CHECK(a.standard_error_y == b.standard_error_y);
+  const auto cells = traced(toml, 1 << 14, 1, 4);
+  CHECK(a.light.xyz == picture_of(*cells, 4, true).light.xyz);
 }
 
 TEST_CASE("the standard error of a pixel is that of repeated pictures", "[display]") {
