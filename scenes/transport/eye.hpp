@@ -53,12 +53,14 @@ class EyeTracer {
  public:
   EyeTracer(const CompiledScene& scene, Resolver& resolver, uint64_t seed, RandomStream stream)
       : scene_(scene), resolver_(resolver), random_(seed, stream) {
+    // A picture shows colours, an estimate of luminance needs few.
+    const double colour = stream == RandomStream::picture ? 1.0 : 0.05;
     double total = 0;
     for (int b = 0; b < scene.bands.count(); ++b) {
       double power = 0;
       for (const Group& g : scene.groups) power += g.power_w[static_cast<size_t>(b)];
       const Band& band = scene.bands[b];
-      total += power * (band.lm_per_w + 0.05 * (band.x_per_w + band.z_per_w));
+      total += power * (band.lm_per_w + colour * (band.x_per_w + band.z_per_w));
       band_cdf_.push_back(total);
     }
     for (double& c : band_cdf_) c /= total;
