@@ -301,18 +301,18 @@ TEST_CASE("a partition changes the triangle only of rays that meet an edge") {
 TEST_CASE("a partition gives the same light within standard errors") {
   const auto merged = compile(room_of_everything());
   LocalRun a(merged, 11, 2);
-  trace(a, 200'000);
+  trace(a, 100'000);
   for (const int cells : {4, 9}) {
     const auto scene = compile(room_of_everything(), cells);
     LocalRun b(scene, 12, 2);
-    trace(b, 200'000);
+    trace(b, 100'000);
     const Readout x(*merged, a.totals()), y(*scene, b.totals());
     for (uint32_t s = 0; s < merged->surfaces.size(); ++s) {
       INFO(cells << " cells, " << merged->surfaces[s].name);
       check_agree(x.lumens(merged->blocks.surfaces, s, 0), y.lumens(scene->blocks.surfaces, s, 0),
                   5e-2);
     }
-    check_agree(x.lumens(merged->blocks.planes, 0, 1), y.lumens(scene->blocks.planes, 0, 1), 5e-2);
+    check_agree(x.lumens(merged->blocks.planes, 0, 1), y.lumens(scene->blocks.planes, 0, 1), 7e-2);
   }
 }
 
