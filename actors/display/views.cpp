@@ -62,6 +62,38 @@ ExrImage exr_of(const LocalRun& run, const Camera& camera, const TracedPicture& 
   return image;
 }
 
+/// Light that an eye or a camera takes for white: within this of black bodies of these
+/// temperatures. Flames alone stay orange.
+constexpr double white_kelvin_least = 2500, white_kelvin_most = 10000, white_duv_most = 0.02;
+
+/// The picture as it looks to who is adapted to the scene's lamps, on a monitor whose white is D65.
+XyzPicture white_balanced(const CompiledScene& scene, XyzPicture picture) {
+  Xyz light{0, 0, 0};
+  for (const Group& g : scene.groups) {
+    for (int b = 0; b < scene.bands.count(); ++b) {
+      const double watts = g.power_w[static_cast<size_t>(b)];
+      light[0] += watts * scene.bands[b].x_per_w;
+      light[1] += watts * scene.bands[b].lm_per_w;
+      light[2] += watts * scene.bands[b].z_per_w;
+    }
+  }
+  const ColourTemperature white = correlated_colour_temperature(light);
+  if (white.kelvin < white_kelvin_least || white.kelvin > white_kelvin_most ||
+      white.duv > white_duv_most) {
+    return picture;
+  }
+  for (size_t i = 0; i < picture.pixels(); ++i) {
+    float* p = &picture.xyz[3 * i];
+    const Xyz colour{static_cast<double>(p[0]), static_cast<double>(p[1]),
+                     static_cast<double>(p[2])};
+    const Xyz seen = adapt_white(colour, light, d65_white);
+    // Scaled back to the pixel's own luminance: adaptation is to change colours only.
+    const double scale = seen[1] > 0 ? colour[1] / seen[1] : 0;
+    for (size_t c = 0; c < 3; ++c) p[c] = static_cast<float>(seen[c] * scale);
+  }
+  return picture;
+}
+
 PngImage png_of(SrgbPicture picture, std::vector<ImageText> texts, const std::string& description) {
   texts.emplace_back("Description", description);
   return {picture.width, picture.height, std::move(picture.rgb), std::move(texts)};
@@ -104,15 +136,16 @@ Result<Done> write_view(const std::filesystem::path& folder, const LocalRun& run
   const auto path = [&](const char* ending) { return folder / (camera.name + ending); };
   if (auto ok = write_exr(path(".exr"), exr_of(run, camera, traced, options)); !ok.ok()) return ok;
   const auto texts = texts_of(run, camera);
-  const PngImage plain =
-      png_of(tone_plain(traced.light, {}), texts,
-             "One exposure, as a camera takes it; luminance data is in the EXR file");
+  const XyzPicture balanced = white_balanced(run.scene(), traced.light);
+  const PngImage plain = png_of(
+      tone_plain(balanced, {}), texts,
+      "One exposure, white balanced, as a camera takes it; luminance data is in the EXR file");
   if (auto ok = write_png(path(".png"), plain); !ok.ok()) return ok;
   HumanTone human;
   human.degrees_per_pixel =
       glm::degrees(2 * std::tan(glm::radians(camera.vertical_fov_deg) / 2) / camera.height);
   const PngImage seen =
-      png_of(tone_human(traced.light, human), texts,
+      png_of(tone_human(balanced, human), texts,
              "What an adapted eye tells apart (Ward Larson, Rushmeier and Piatko 1997), shown on a "
              "monitor of 200 cd/m2; luminance data is in the EXR file");
   if (auto ok = write_png(path("_human.png"), seen); !ok.ok()) return ok;

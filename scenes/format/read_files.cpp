@@ -21,8 +21,9 @@ bool take_hash(const std::filesystem::path& path, const SourcePlace& place, Scen
 
 std::shared_ptr<const Image> read_image(const std::filesystem::path& path, const SourcePlace& place,
                                         SceneReading& reading) {
-  auto& kept = reading.cache["image " + path.string()];
-  if (!kept) {
+  const auto [it, fresh] = reading.cache.try_emplace("image " + path.string());
+  auto& kept = it->second;  // null where it failed before: said once is enough
+  if (fresh) {
     if (!take_hash(path, place, reading)) return nullptr;
     auto image = read_png(path.string());
     if (!image) {
@@ -37,8 +38,9 @@ std::shared_ptr<const Image> read_image(const std::filesystem::path& path, const
 std::shared_ptr<const PhotometricFile> read_photometry(const std::filesystem::path& path,
                                                        const SourcePlace& place,
                                                        SceneReading& reading) {
-  auto& kept = reading.cache["photometry " + path.string()];
-  if (!kept) {
+  const auto [it, fresh] = reading.cache.try_emplace("photometry " + path.string());
+  auto& kept = it->second;  // null where it failed before: said once is enough
+  if (fresh) {
     if (!take_hash(path, place, reading)) return nullptr;
     auto file = read_photometric_file(path);
     if (!file) {

@@ -27,7 +27,10 @@ class Loader {
 
   /// Parses a file after those it includes. `said_at`: the include that names it.
   void load(const fs::path& path, const SourcePlace& said_at) {
-    const std::string id = fs::weakly_canonical(path).string();
+    std::error_code error;
+    fs::path canonical = fs::weakly_canonical(path, error);
+    if (error) canonical = path;
+    const std::string id = canonical.string();
     if (std::find(open_.begin(), open_.end(), id) != open_.end()) {
       reading_.problem(said_at, "'" + path.filename().string() +
                                     "' is included by a file that it includes itself, in a circle");
@@ -59,7 +62,7 @@ class Loader {
   std::optional<std::string> bytes_of(const fs::path& path) {
     std::error_code error;
     const auto size = fs::file_size(path, error);
-    if (error || !fs::is_regular_file(path)) {
+    if (error || !fs::is_regular_file(path, error)) {
       reading_.problem({path.string(), 0}, "there is no such scene file");
       return std::nullopt;
     }

@@ -1,5 +1,7 @@
 // Design: one triangle geometry per cell, ROBUST so that shared edges do not leak, vertices written straight
-// from the records (welding would save memory but the records hold the corners a hit needs anyway).
+// from the records (welding would save memory but the records hold the corners a hit needs anyway). Corners are
+// another matter: of rays aimed at a corner itself to the last bit, Embree loses 4 in 1000 (measured); a ray that
+// is not aimed comes that close with a chance of some 1e-14 a corner, and is then counted as escaped.
 // The proxies' callback only notes candidates and never changes the ray: cells are entered outside Embree,
 // where a caller may wait. Callbacks are noexcept, because Embree swallows exceptions.
 #include "scenes/intersect/embree_scene.hpp"

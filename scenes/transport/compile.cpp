@@ -18,7 +18,7 @@ inline constexpr int64_t patches = 200'000'000;       // 16 GB of totals; ten ti
 inline constexpr int64_t voxels = 50'000'000;
 inline constexpr int64_t default_voxels = 20'000;     // of the grid a scene gets unless it says an edge
 inline constexpr int64_t smallest_batch = 1 << 13;
-inline constexpr int64_t largest_batch = 1 << 20;     // 2^20 particles of 2^32 leave 2^11 passes of head-room
+inline constexpr int64_t largest_batch = 1 << 18;     // 2^18 particles of 2^32 leave 2^13 passes of head-room
 }  // namespace limits
 
 namespace {
@@ -244,8 +244,10 @@ void lay_out_tally(CompiledScene& scene) {
 
 void choose_batch(CompiledScene& scene) {
   const RunSettings& run = scene.description->run;
-  // A batch ends with a walk over all its scores: about one nanosecond each, against some 250 a particle.
-  const auto wanted = std::bit_ceil(static_cast<uint64_t>(scene.layout.scores() / 4));
+  // A batch ends with a walk over all its scores, some 3 ns each, against 250 ns a particle in clear air
+  // and several times that in smoke; yet a run should have many batches, since they carry its errors.
+  const int64_t scores_per_particle = scene.features.media == MediaNeed::none ? 16 : 64;
+  const auto wanted = std::bit_ceil(static_cast<uint64_t>(scene.layout.scores() / scores_per_particle));
   scene.batch_particles =
       run.batch_particles > 0
           ? run.batch_particles

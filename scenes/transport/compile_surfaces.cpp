@@ -258,6 +258,7 @@ void compile_sign_faces(CompiledScene& scene) {
       out.axes = glm::mat3(out.frame.axes);
       out.white_cd_m2 = scenario_luminance(sign, SignColour::white, scene.scenario);
       out.green_cd_m2 = scenario_luminance(sign, SignColour::green, scene.scenario);
+      out.near_m = static_cast<float>(0.5 * std::max(sign.width_m, sign.height_m));
       for (int b = 0; b < scene.bands.count(); ++b) {
         out.white_reflectance.push_back(
             static_cast<float>(scene.bands.average(sign.white_reflectance, b)));

@@ -60,6 +60,7 @@ struct CompiledEmitter {
   uint32_t body = none_index;     // surface that it sits on: rays leave by an offset
   int group = 0;
   double area_m2 = 0;
+  float near_m = 0;  // half its size: eyes that are closer meet it instead of asking it; 0 for points
   double luminous_flux_lm = 0;
   std::vector<double> power_w;    // per band
   std::vector<double> texel_cdf;  // sign face: by texel; mesh: by triangle; cumulative share
@@ -137,6 +138,7 @@ struct CompiledSign {
   Frame frame;          // local origin kept in double
   glm::vec3 origin{0};  // local
   glm::mat3 axes{1.0f};
+  float near_m = 0;     // as of its emitters
   double white_cd_m2 = 0, green_cd_m2 = 0;  // along the normal, in this scenario
   std::vector<double> white_radiance, green_radiance;  // [W/(m2 sr)] per band
   std::vector<float> white_reflectance, green_reflectance;

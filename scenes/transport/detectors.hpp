@@ -7,6 +7,7 @@
 #include <cmath>
 #include <glm/glm.hpp>
 
+#include "scenes/optics/sampling.hpp"
 #include "scenes/tally/totals.hpp"
 #include "scenes/transport/compiled_scene.hpp"
 
@@ -32,8 +33,10 @@ inline int64_t length_score(const CompiledScene& scene, Weight weight, double le
 inline uint32_t crossed_cell(const CompiledPlane& plane, const FlightPiece& piece, float& cosine) {
   cosine = glm::dot(plane.normal, piece.direction);
   if (cosine == 0) return none_index;
-  const float t = glm::dot(plane.normal, plane.corner - piece.origin) / cosine;
-  if (!(t > 0 && t <= piece.length)) return none_index;
+  const float height = glm::dot(plane.normal, plane.corner - piece.origin);
+  // Most pieces stay on one side: told without a division.
+  if (!(height * cosine > 0 && std::abs(height) <= piece.length * std::abs(cosine))) return none_index;
+  const float t = height / cosine;
   const glm::vec3 p = piece.origin + piece.direction * t - plane.corner;
   const float u = glm::dot(p, plane.dual_u);
   const float v = glm::dot(p, plane.dual_v);
@@ -43,8 +46,31 @@ inline uint32_t crossed_cell(const CompiledPlane& plane, const FlightPiece& piec
   return plane.first_bin + static_cast<uint32_t>(j * plane.cells_u + i);
 }
 
-/// Length of the piece inside a volume group [m].
-float length_inside(const CompiledVolumeGroup& group, const FlightPiece& piece);
+/// 1 / direction, finite: no product with a finite length is NaN. A direction of zero counts as the smallest
+/// rise, so that a piece in a face belongs to the side above it.
+inline glm::vec3 finite_inverse(const glm::vec3& direction) {
+  constexpr float least = 1e-30f;
+  const auto inverse = [](float d) { return 1.0f / (std::abs(d) < least ? least : d); };
+  return {inverse(direction.x), inverse(direction.y), inverse(direction.z)};
+}
+
+/// The part of the piece inside an axis-aligned box, low <= p < high; empty where last <= first.
+struct BoxStretch {
+  float first, last;
+};
+inline BoxStretch stretch_in_box(const glm::vec3& low, const glm::vec3& high, const glm::vec3& inverse,
+                              const FlightPiece& piece) {
+  const glm::vec3 t0 = (low - piece.origin) * inverse;
+  const glm::vec3 t1 = (high - piece.origin) * inverse;
+  const glm::vec3 near = glm::min(t0, t1);
+  const glm::vec3 far = glm::max(t0, t1);
+  return {std::max(std::max(near.x, near.y), std::max(near.z, 0.0f)),
+          std::min(std::min(far.x, far.y), std::min(far.z, piece.length))};
+}
+
+/// Length of the piece inside a volume group [m]; `inverse` is finite_inverse of its direction.
+float length_inside(const CompiledVolumeGroup& group, const FlightPiece& piece,
+                    const glm::vec3& inverse);
 /// Whether a point lies inside.
 bool inside(const CompiledVolumeGroup& group, const glm::vec3& p);
 
@@ -58,55 +84,50 @@ inline uint32_t voxel_of(const VoxelGrid& grid, const glm::vec3& p) {
   return static_cast<uint32_t>((z * grid.ny + y) * grid.nx + x);
 }
 
-/// Calls visit(voxel, length_m) for every voxel on the piece, in order (Amanatides and Woo 1987, stepping by
-/// integer cells, so that it ends whatever the rounding).
+/// Calls visit(voxel, length_m) for every voxel on the piece, in order; a voxel that is only touched may be
+/// visited with length 0. `inverse` is finite_inverse of the direction. Returns the length inside the grid.
+/// Steps are counted in whole cells (Amanatides and Woo 1987), so that it ends whatever the rounding; which
+/// axis is next is chance, hence no branch on it.
 template <class Visit>
-void for_each_voxel(const VoxelGrid& grid, const FlightPiece& piece, Visit&& visit) {
-  // Clip to the grid.
+float for_each_voxel(const VoxelGrid& grid, const FlightPiece& piece, const glm::vec3& inverse,
+                     Visit&& visit) {
   const glm::vec3 high = grid.low + grid.edge * glm::vec3(static_cast<float>(grid.nx),
                                                           static_cast<float>(grid.ny),
                                                           static_cast<float>(grid.nz));
-  float first = 0, last = piece.length;
-  for (int a = 0; a < 3; ++a) {
-    if (piece.direction[a] == 0) {
-      if (piece.origin[a] < grid.low[a] || piece.origin[a] >= high[a]) return;
-      continue;
-    }
-    const float inverse = 1.0f / piece.direction[a];
-    float t0 = (grid.low[a] - piece.origin[a]) * inverse;
-    float t1 = (high[a] - piece.origin[a]) * inverse;
-    if (t0 > t1) std::swap(t0, t1);
-    first = std::max(first, t0);
-    last = std::min(last, t1);
-  }
-  if (!(first < last)) return;
+  const auto [first, last] = stretch_in_box(grid.low, high, inverse, piece);
+  if (!(first < last)) return 0;
   const int n[3] = {grid.nx, grid.ny, grid.nz};
-  int cell[3], step[3];
+  const int stride[3] = {1, grid.nx, grid.nx * grid.ny};
+  int step[3], left[3];  // of the voxel's index; cells left on the way out
   float next[3], delta[3];
+  int voxel = 0;
   const glm::vec3 start = piece.origin + piece.direction * first;
+  const float cells_per_metre = 1.0f / grid.edge;
   for (int a = 0; a < 3; ++a) {
-    cell[a] = std::clamp(static_cast<int>(std::floor((start[a] - grid.low[a]) / grid.edge)), 0, n[a] - 1);
-    step[a] = piece.direction[a] > 0 ? 1 : -1;
-    if (piece.direction[a] == 0) {
-      next[a] = delta[a] = std::numeric_limits<float>::infinity();
-      continue;
-    }
-    const float face = grid.low[a] + grid.edge * static_cast<float>(cell[a] + (step[a] > 0 ? 1 : 0));
-    next[a] = (face - piece.origin[a]) / piece.direction[a];
-    delta[a] = grid.edge / std::abs(piece.direction[a]);
+    const bool up = inverse[a] > 0;
+    const int cell =
+        std::clamp(static_cast<int>((start[a] - grid.low[a]) * cells_per_metre), 0, n[a] - 1);
+    voxel += cell * stride[a];
+    step[a] = up ? stride[a] : -stride[a];
+    left[a] = up ? n[a] - 1 - cell : cell;
+    const float face = grid.low[a] + grid.edge * static_cast<float>(cell + (up ? 1 : 0));
+    next[a] = (face - piece.origin[a]) * inverse[a];
+    delta[a] = grid.edge * std::abs(inverse[a]);
   }
   float t = first;
   while (true) {
-    const int a = next[0] < next[1] ? (next[0] < next[2] ? 0 : 2) : (next[1] < next[2] ? 1 : 2);
-    const float end = std::min(next[a], last);
-    if (end > t) {
-      visit(static_cast<uint32_t>((cell[2] * grid.ny + cell[1]) * grid.nx + cell[0]), end - t);
-      t = end;
+    const float end = std::min(std::min(next[0], next[1]), next[2]);
+    const float stop = std::max(t, std::min(end, last));
+    visit(static_cast<uint32_t>(voxel), stop - t);
+    t = stop;
+    if (end >= last) return last - first;
+    for (int a = 0; a < 3; ++a) {
+      const int crossed = next[a] <= end ? -1 : 0;
+      voxel += step[a] & crossed;
+      left[a] += crossed;
+      next[a] += choose(crossed != 0, delta[a], 0.0f);
     }
-    if (next[a] >= last) return;
-    cell[a] += step[a];
-    if (cell[a] < 0 || cell[a] >= n[a]) return;
-    next[a] += delta[a];
+    if ((left[0] | left[1] | left[2]) < 0) return t - first;
   }
 }
 

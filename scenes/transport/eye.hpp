@@ -1,6 +1,8 @@
 // Light traced from where it is seen: what an eye receives from a sign, its surround and the veil between, what
 // reaches a point probe after at least one event, and the radiance of a picture's rays. Paths run backwards
 // (all laws are reciprocal); at every event one emitter is asked directly, so that a path needs no luck to meet it.
+// Close to an emitter asking has no bounded variance (1/r2), so light from points nearer than its half size is
+// counted only where a path meets it, and from farther ones only where it is asked: each pair of places once.
 // Unbiased, except where pictures end a path in the patches' flux (final gather). Paths have a particle
 // range, batches and standard errors of their own.
 // Not seen: point emitters and caustics through mirrors and refracting solids; the forward tracer counts those.
@@ -19,6 +21,7 @@ namespace luxodus {
 
 namespace limits {
 inline constexpr int eye_events = 10'000;
+inline constexpr int emitters_per_line = 16;  // emitting faces that one straight line may cross
 inline constexpr int nearby_emitters = 256;  // up to here distance decides who is asked
 /// Of a value score [its unit]: 2^-40, so int64 holds up to 8 million cd/m2 per batch mean.
 inline constexpr double value_quantum = 0x1p-40;
@@ -36,6 +39,13 @@ class PatchRadiance {
 /// Texels of each colour of a face, to aim at.
 struct FaceTexels {
   std::vector<uint32_t> white, green;
+};
+
+/// Which emitters count when a path meets them on its way.
+enum class Met {
+  none,  // somebody else holds all direct light of this place
+  near,  // those closer than their half size; the others were asked
+  all,   // nothing was asked
 };
 
 template <class Resolver>
@@ -84,46 +94,44 @@ class EyeTracer {
     score_probes(next, paths, scores);
   }
 
-  /// Radiance [W/(m2 sr)] in `band` that arrives against `ray.direction`, from one path.
-  /// `see_emitters`: whether emitters met directly count. `gather`: where paths may end after their first diffuse
+  /// Radiance [W/(m2 sr)] in `band` that arrives against `ray.direction`, from one path. `met`: which
+  /// emitters count before the first event. `gather`: where paths may end after their first diffuse
   /// event; null traces them to their end.
-  double radiance(Ray ray, int band, bool see_emitters, const PatchRadiance* gather = nullptr) {
-    double sum = 0;
-    double throughput = 1;
-    bool emitters_count = see_emitters;
-    bool diffused = false;
+  double radiance(Ray ray, int band, Met met, const PatchRadiance* gather = nullptr) {
+    Path path{ray, band, met};
     for (int event = 0; event < limits::eye_events; ++event) {
-      const Hit hit = resolver_.nearest(ray);
-      const Flight flight = fly(ray, hit.distance, band);
-      if (emitters_count) {
-        sum += throughput * emitted_along(ray, hit.distance, flight.collided ? flight.t : hit.distance, band);
-      }
+      const Hit hit = resolver_.nearest(path.ray);
+      if (path.met != Met::none) path.sum += path.throughput * emitted_along(path, hit);
+      const Flight flight = fly(path.ray, hit.distance, band);
       if (flight.collided) {
-        throughput *= flight.albedo;
-        if (throughput <= 0) return sum;
-        ray.origin += ray.direction * flight.t;
-        sum += throughput * scattered_light(ray.origin, ray.direction, scene_.phases[static_cast<size_t>(flight.phase)], band);
-        const float u = random_.uniform();
-        const float v = random_.uniform();
-        ray.direction = sample(scene_.phases[static_cast<size_t>(flight.phase)], ray.direction, u, v);
-        emitters_count = false;
+        if (!scatter(path, flight)) return path.sum;
       } else {
-        if (!hit.found()) return sum;
-        const bool front = glm::dot(hit.triangle->normal, ray.direction) < 0;
-        if (gather != nullptr && diffused) {
-          return sum + throughput * gather->radiance(hit, front, band);
+        if (!hit.found()) return path.sum;
+        if (gather != nullptr && path.diffused && reflects_diffusely(hit, path.ray)) {
+          const bool front = glm::dot(hit.triangle->normal, path.ray.direction) < 0;
+          return path.sum + path.throughput * gather->radiance(hit, front, band);
         }
-        if (!bounce(ray, hit, front, band, sum, throughput, emitters_count, diffused)) return sum;
+        if (!bounce(path, hit)) return path.sum;
       }
-      if (event >= 2 && !survives(throughput)) return sum;
+      if (event >= 2 && !survives(path.throughput)) return path.sum;
     }
-    return sum;
+    return path.sum;
   }
 
  private:
   struct SignSums {
     double value[eye_quantities] = {};
     int64_t paths = 0;
+  };
+
+  struct Path {
+    Ray ray;
+    int band;
+    Met met;
+    double sum = 0;
+    double throughput = 1;
+    float travelled = 0;    // from the last event to the ray's origin, through panes
+    bool diffused = false;  // a surface has spread it
   };
 
   // ---- events ------------------------------------------------------------------------------------
@@ -137,34 +145,59 @@ class EyeTracer {
                                            choice, resolver_);
   }
 
+  const CompiledMaterial& material_at(const Hit& hit, bool front) const {
+    return scene_.materials[scene_.surfaces[hit.triangle->surface].material[front ? 0 : 1]];
+  }
+
+  bool reflects_diffusely(const Hit& hit, const Ray& ray) const {
+    const bool front = glm::dot(hit.triangle->normal, ray.direction) < 0;
+    const MaterialKind kind = material_at(hit, front).kind;
+    return kind == MaterialKind::lambertian || kind == MaterialKind::glossy;
+  }
+
+  /// Medium event: light asked from an emitter, then a new direction. False ends the path.
+  bool scatter(Path& p, const Flight& flight) {
+    p.throughput *= flight.albedo;
+    if (p.throughput <= 0) return false;
+    const PhaseFunction& phase = scene_.phases[static_cast<size_t>(flight.phase)];
+    p.ray.origin += p.ray.direction * flight.t;
+    p.sum += p.throughput * scattered_light(p.ray.origin, p.ray.direction, phase, p.band);
+    const float u = random_.uniform();
+    const float v = random_.uniform();
+    p.ray.direction = sample(phase, p.ray.direction, u, v);
+    p.met = Met::near;
+    p.travelled = 0;
+    return true;
+  }
+
   /// Surface event: light asked from an emitter, then a new direction. False ends the path.
-  bool bounce(Ray& ray, const Hit& hit, bool front, int band, double& sum, double& throughput,
-              bool& emitters_count, bool& diffused) {
+  bool bounce(Path& p, const Hit& hit) {
     const TriangleRecord& t = *hit.triangle;
-    const CompiledSurface& surface = scene_.surfaces[t.surface];
-    if (emitters_count && front && surface.sign != none_index) {
-      sum += throughput * sign_radiance(surface.sign, hit, ray.direction, band);
-    }
-    const CompiledMaterial& material = scene_.materials[surface.material[front ? 0 : 1]];
-    const SurfaceModel model = surface_at(scene_, hit, front, band, material, resolver_);
+    const bool front = glm::dot(t.normal, p.ray.direction) < 0;
+    const SurfaceModel model = surface_at(scene_, hit, front, p.band, material_at(hit, front), resolver_);
     const glm::vec3 normal = front ? t.normal : -t.normal;
     const glm::vec3 place = t.at(hit.u, hit.v);
-    const bool diffuse = model.kind == SurfaceKind::lambertian || model.kind == SurfaceKind::glossy;
-    if (diffuse) {
-      sum += throughput * reflected_light(offset_ray(place, normal), ray.direction, normal, model, band);
+    if (model.kind == SurfaceKind::lambertian || model.kind == SurfaceKind::glossy) {
+      p.sum += p.throughput *
+               reflected_light(offset_ray(place, normal), p.ray.direction, normal, model, p.band);
     }
     const float lobe = random_.uniform();
     const float u = random_.uniform();
     const float v = random_.uniform();
-    const SurfaceSample s = sample_surface(model, ray.direction, normal, front, lobe, u, v);
-    throughput *= static_cast<double>(s.weight);
-    if (throughput <= 0) return false;
-    // Straight through a pane nothing has happened that the direct part does not know of.
+    const SurfaceSample s = sample_surface(model, p.ray.direction, normal, front, lobe, u, v);
+    p.throughput *= static_cast<double>(s.weight);
+    if (p.throughput <= 0) return false;
+    // Straight through a pane nothing has happened that asking does not know of.
     const bool straight = s.specular && s.transmitted && model.kind != SurfaceKind::dielectric;
-    if (!straight) emitters_count = s.specular;
-    if (!s.specular) diffused = true;
-    ray.direction = s.direction;
-    ray.origin = offset_ray(place, s.transmitted ? -normal : normal);
+    if (straight) {
+      p.travelled += hit.distance;
+    } else {
+      p.met = s.specular ? Met::all : Met::near;
+      p.travelled = 0;
+    }
+    if (!s.specular) p.diffused = true;
+    p.ray.direction = s.direction;
+    p.ray.origin = offset_ray(place, s.transmitted ? -normal : normal);
     return true;
   }
 
@@ -179,27 +212,62 @@ class EyeTracer {
 
   // ---- emitters seen directly --------------------------------------------------------------------
 
-  /// Emitting surfaces without body before the end of the flight, and flames along the whole line of sight
-  /// weighted by what passes the media.
-  double emitted_along(const Ray& ray, float solid, float end, int band) {
+  /// Expected radiance of what emits along the ray up to the surface it hits: emitting faces, the sign that
+  /// was hit, flames; each weighted by what passes the media before it.
+  double emitted_along(const Path& p, const Hit& hit) {
+    const float slack = 1 + 1e-5f;  // a body's own face lies as far as the emitter on it
+    float reach = hit.distance * slack;
     double sum = 0;
-    float reach = end * (1 + 1e-5f);
-    Ray rest = ray;
-    for (int k = 0; k < 8; ++k) {
+    Ray rest = p.ray;
+    float before = 0;
+    for (int k = 0; k < limits::emitters_per_line; ++k) {
       const EmitterHit e = nearest_emitter(scene_, rest, reach);
       if (e.emitter == none_index) break;
-      sum += emitted_radiance(scene_.emitters[e.emitter], e.point, -ray.direction, band, resolver_);
-      const float step = std::nextafter(e.distance * (1 + 1e-5f), std::numeric_limits<float>::infinity());
-      rest.origin = rest.origin + rest.direction * step;
+      const CompiledEmitter& emitter = scene_.emitters[e.emitter];
+      const float distance = before + e.distance;
+      if (counts(p, distance, emitter.near_m)) {
+        sum += emitted_radiance(emitter, e.point, -p.ray.direction, p.band, resolver_) *
+               medium_transmittance(scene_, p.ray, distance, p.band, resolver_);
+      }
+      const float step = std::nextafter(e.distance * slack, std::numeric_limits<float>::infinity());
+      rest.origin += rest.direction * step;
+      before += step;
       reach -= step;
       if (!(reach > 0)) break;
     }
-    return sum + flames_along(ray, solid, band);
+    return sum + emitted_by_sign(p, hit) + flames_met(p, hit.distance);
   }
 
-  /// Emission of flames along the ray, each piece weighted by what passes the media before it.
-  double flames_along(const Ray& ray, float length, int band) {
+  static bool counts(const Path& p, float distance, float near) {
+    return p.met == Met::all || p.travelled + distance < near;
+  }
+
+  double emitted_by_sign(const Path& p, const Hit& hit) {
+    if (!hit.found()) return 0;
+    const uint32_t index = scene_.surfaces[hit.triangle->surface].sign;
+    if (index == none_index || glm::dot(hit.triangle->normal, p.ray.direction) >= 0) return 0;
+    const CompiledSign& sign = scene_.signs[index];
+    if (!counts(p, hit.distance, sign.near_m)) return 0;
+    const Sign& d = scene_.description->signs[sign.sign];
+    const double own = texel_radiance(sign, d, texture_uv(*hit.cell, hit), -p.ray.direction, p.band);
+    return own > 0 ? own * medium_transmittance(scene_, p.ray, hit.distance, p.band, resolver_) : 0;
+  }
+
+  /// Flames that count: all along the line, or the part of each that is near.
+  double flames_met(const Path& p, float length) {
     if (scene_.volume_points.empty()) return 0;
+    if (p.met == Met::all) return flames_along(p.ray, length, p.band, -1);
+    double sum = 0;
+    for (const CompiledEmitter& e : scene_.emitters) {
+      if (e.kind != EmitterKind::volume) continue;
+      const float rest = e.near_m - p.travelled;
+      if (rest > 0) sum += flames_along(p.ray, std::min(length, rest), p.band, static_cast<int>(e.medium));
+    }
+    return sum;
+  }
+
+  /// Emission of flames along the ray, of one medium or of all (-1).
+  double flames_along(const Ray& ray, float length, int band, int medium) {
     double sum = 0;
     double depth = 0;
     for_each_segment(
@@ -208,6 +276,7 @@ class EyeTracer {
           const double tau = s.sigma_t * s.length;
           const double through = s.sigma_t > 0 ? -std::expm1(-tau) / s.sigma_t : s.length;
           for (const EmissionPart& part : s.emission) {
+            if (medium >= 0 && part.medium != medium) continue;
             sum += flame_power(part.medium, band) * part.density * std::exp(-depth) * through;
           }
           depth += tau;
@@ -223,12 +292,6 @@ class EyeTracer {
         return e.power_w[static_cast<size_t>(band)];
     }
     return 0;
-  }
-
-  double sign_radiance(uint32_t index, const Hit& hit, const glm::vec3& direction, int band) const {
-    const CompiledSign& sign = scene_.signs[index];
-    const Sign& d = scene_.description->signs[sign.sign];
-    return texel_radiance(sign, d, texture_uv(*hit.cell, hit), -direction, band);
   }
 
   double texel_radiance(const CompiledSign& sign, const Sign& d, const glm::vec2& uv,
@@ -291,7 +354,7 @@ class EyeTracer {
     const CompiledEmitter& e = *asked.emitter;
     const EmissionPoint point = emission_point(scene_, e, random_, resolver_);
     const Connection c = connect(place, point.position, point.axis, e.kind != EmitterKind::volume);
-    if (!(c.distance > 0)) return {};
+    if (!(c.distance > e.near_m)) return {};  // counted where paths meet it
     const auto density = static_cast<double>(directional_density(e, point, -c.ray.direction, resolver_));
     if (density <= 0) return {};
     const double solid = solid_transmittance(scene_, c.ray, c.ray.length, band, resolver_);
@@ -367,7 +430,7 @@ class EyeTracer {
     double* value = sums.value;
     const auto add = [&](EyeQuantity q, double v) { value[static_cast<size_t>(q)] += v; };
     if (part == 2) {
-      add(EyeQuantity::at_eye, lm * radiance({eye, c.ray.direction}, band, true));
+      add(EyeQuantity::at_eye, lm * radiance({eye, c.ray.direction}, band, Met::all));
       return;
     }
     const double solid = solid_transmittance(scene_, c.ray, c.ray.length, band, resolver_);
@@ -385,7 +448,7 @@ class EyeTracer {
     const double reflected = lm * face_reflection(sign, part, aimed, c.ray.direction, band);
     add(EyeQuantity::reflected, reflected);
     if (solid <= 0) {
-      add(EyeQuantity::at_eye, lm * radiance({eye, c.ray.direction}, band, true));
+      add(EyeQuantity::at_eye, lm * radiance({eye, c.ray.direction}, band, Met::all));
       return;
     }
     add(EyeQuantity::visible, 1);
@@ -407,14 +470,14 @@ class EyeTracer {
     const float u = random_.uniform();
     const float v = random_.uniform();
     const Ray onward{start, to_world(normal, cosine_hemisphere(u, v))};
-    sum += static_cast<double>(model.reflectance) * radiance(onward, band, false);
+    sum += static_cast<double>(model.reflectance) * radiance(onward, band, Met::near);
     return sum;
   }
 
   /// Light scattered, or emitted by flames, into the line of sight: one collision is forced on it.
   double path_radiance(const Connection& c, int band) {
     if (scene_.features.media == MediaNeed::none) return 0;
-    double sum = flames_along(c.ray, c.ray.length, band);
+    double sum = scene_.volume_points.empty() ? 0 : flames_along(c.ray, c.ray.length, band, -1);
     const double depth = optical_depth<MediaNeed::general>(scene_.media, band, c.ray.origin,
                                                            c.ray.direction, c.distance, resolver_);
     if (!(depth > 0)) return sum;
@@ -429,7 +492,7 @@ class EyeTracer {
     double inner = scattered_light(place, c.ray.direction, phase, band);
     const float u = random_.uniform();
     const float v = random_.uniform();
-    inner += radiance({place, sample(phase, c.ray.direction, u, v)}, band, false);
+    inner += radiance({place, sample(phase, c.ray.direction, u, v)}, band, Met::near);
     return sum + collided * flight.albedo * inner;
   }
 
@@ -455,10 +518,10 @@ class EyeTracer {
         const double lm = scene_.bands[band].lm_per_w / band_probability(band);
         const float u = random_.uniform();
         const float v = random_.uniform();
-        illuminance += lm * radiance({start, to_world(normal, cosine_hemisphere(u, v))}, band, false);
+        illuminance += lm * radiance({start, to_world(normal, cosine_hemisphere(u, v))}, band, Met::none);
         const float s = random_.uniform();
         const float t = random_.uniform();
-        fluence += lm * radiance({start, uniform_sphere(s, t)}, band, false);
+        fluence += lm * radiance({start, uniform_sphere(s, t)}, band, Met::none);
       }
       const double n = static_cast<double>(paths);
       const double pi = static_cast<double>(pi_f);

@@ -66,6 +66,17 @@ class ParticleTracer {
     bool collided = false;
   };
 
+  /// Chance for a new direction, and what becomes of it on a Lambertian surface: a direction about its normal.
+  struct Turn {
+    float u, v;
+    glm::vec3 lambertian;
+  };
+  Turn draw_turn() {
+    const float u = random_.uniform();
+    const float v = random_.uniform();
+    return {u, v, cosine_hemisphere(u, v)};
+  }
+
   void trace(uint64_t particle) {
     random_.start(particle);
     State p = emit();
@@ -74,8 +85,11 @@ class ParticleTracer {
     ledger.emitted += p.weight;
     for (int event = 0; event < limits::events_per_history; ++event) {
       ++ledger.rays;
+      // The turn at the end of this flight is drawn before it: its arithmetic needs nothing of the hit, and so
+      // runs beside the search for it.
+      const Turn turn = draw_turn();
       const Hit hit = resolver_.nearest(p.ray);
-      const bool alive = fly_and_interact(p, hit);
+      const bool alive = fly_and_interact(p, hit, turn);
       if (!alive) return;
     }
     ledger.lost_too_long += p.weight;
@@ -120,7 +134,7 @@ class ParticleTracer {
 
   // ---- a flight and how it ends ------------------------------------------------------------------
 
-  bool fly_and_interact(State& p, const Hit& hit) {
+  bool fly_and_interact(State& p, const Hit& hit, const Turn& turn) {
     if constexpr (K::media != MediaNeed::none) {
       // -log(1 - u), u in [0, 1) with 32 bits, exact in double.
       const uint32_t r = random_.bits();
@@ -131,12 +145,12 @@ class ParticleTracer {
                                 tau, choice, resolver_);
       if (flight.collided) {
         pass_detectors(p, flight.t);
-        return collide(p, flight);
+        return collide(p, flight, turn);
       }
     }
     if (!hit.found()) return escape(p);
     pass_detectors(p, hit.distance);
-    return meet_surface(p, hit);
+    return meet_surface(p, hit, turn);
   }
 
   void pass_detectors(const State& p, float length) {
@@ -148,7 +162,7 @@ class ParticleTracer {
 
   // ---- the medium --------------------------------------------------------------------------------
 
-  bool collide(State& p, const Flight& flight) {
+  bool collide(State& p, const Flight& flight, const Turn& turn) {
     ++batch_->ledger.collisions;
     const glm::vec3 place = p.ray.origin + p.ray.direction * flight.t;
     const Weight before = p.weight;
@@ -158,10 +172,9 @@ class ParticleTracer {
                     *batch_);
     p.weight = after;
     if (!goes_on(p)) return false;
-    const float u = random_.uniform();
-    const float v = random_.uniform();
     p.ray.origin = place;
-    p.ray.direction = sample(scene_.phases[static_cast<size_t>(flight.phase)], p.ray.direction, u, v);
+    p.ray.direction =
+        sample(scene_.phases[static_cast<size_t>(flight.phase)], p.ray.direction, turn.u, turn.v);
     p.direct = false;
     p.collided = true;
     return true;
@@ -169,7 +182,7 @@ class ParticleTracer {
 
   // ---- surfaces ----------------------------------------------------------------------------------
 
-  bool meet_surface(State& p, const Hit& hit) {
+  bool meet_surface(State& p, const Hit& hit, const Turn& turn) {
     ++batch_->ledger.hits;
     const TriangleRecord& triangle = *hit.triangle;
     const bool front = glm::dot(triangle.normal, p.ray.direction) < 0;
@@ -179,7 +192,7 @@ class ParticleTracer {
       const CompiledMaterial& material = scene_.materials[surface.material[side]];
       if (material.kind != MaterialKind::lambertian || material.image != none_index ||
           surface.sign != none_index) {
-        return meet_any_surface(p, hit, front, material);
+        return meet_any_surface(p, hit, front, material, turn);
       }
     }
     const size_t side = front ? 0 : 1;
@@ -195,24 +208,22 @@ class ParticleTracer {
     p.weight = after;
     if (!goes_on(p)) return false;
     const glm::vec3 normal = front ? triangle.normal : -triangle.normal;
-    const float u = random_.uniform();
-    const float v = random_.uniform();
-    p.ray.direction = to_world(normal, cosine_hemisphere(u, v));
+    p.ray.direction = to_world(normal, turn.lambertian);
     p.ray.origin = offset_ray(triangle.at(hit.u, hit.v), normal);
     p.direct = false;
     return true;
   }
 
   /// Glossy, mirror, glass, open, textured, sign faces: the lobe is sampled first, then the weight it carries.
-  bool meet_any_surface(State& p, const Hit& hit, bool front, const CompiledMaterial& material) {
+  bool meet_any_surface(State& p, const Hit& hit, bool front, const CompiledMaterial& material,
+                        const Turn& turn) {
     const TriangleRecord& triangle = *hit.triangle;
     const glm::vec3 normal = front ? triangle.normal : -triangle.normal;
     const SurfaceModel model = surface_at(scene_, hit, front, p.band, material, resolver_);
     const glm::vec3 place = triangle.at(hit.u, hit.v);
     const float lobe = random_.uniform();
-    const float u = random_.uniform();
-    const float v = random_.uniform();
-    const SurfaceSample sampled = sample_surface(model, p.ray.direction, normal, front, lobe, u, v);
+    const SurfaceSample sampled =
+        sample_surface(model, p.ray.direction, normal, front, lobe, turn.u, turn.v);
     const Weight before = p.weight;
     const Weight after = surviving(before, to_fraction(static_cast<double>(sampled.weight)));
     patch_score(hit, front, p.band)[0] += static_cast<int64_t>(before);

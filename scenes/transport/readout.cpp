@@ -96,7 +96,8 @@ double Readout::worst_relative_error() const {
   const auto judge = [&](const Estimate& e) {
     if (e.value <= 0) return;
     asked = true;
-    worst = std::max(worst, e.relative_error());
+    const double error = e.relative_error();  // NaN with fewer than two batches: not known, so not small
+    worst = std::isnan(error) ? std::numeric_limits<double>::infinity() : std::max(worst, error);
   };
   for (uint32_t i = 0; i < scene_.planes.size(); ++i) {
     const Estimate direct = lumens(scene_.blocks.planes, i, 0);

@@ -73,7 +73,7 @@ class ResolverPictureTracer final : public PictureTracer {
   int choose_band(double u) const override { return eye_.choose_band(u); }
   double band_probability(int band) const override { return eye_.band_probability(band); }
   double radiance(const Ray& ray, int band, const PatchRadiance* gather) override {
-    return eye_.radiance(ray, band, true, gather);
+    return eye_.radiance(ray, band, Met::all, gather);
   }
 
  private:

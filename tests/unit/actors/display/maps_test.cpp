@@ -107,7 +107,7 @@ TEST_CASE("a plane's direct light is the inverse square law, with and without sm
 TEST_CASE("the means of a plane's table are those of result.json, and extremes are cells of it",
           "[display]") {
   const ScratchFolder folder;
-  const auto run = traced(smoky_room, 1 << 15);
+  const auto run = traced(smoky_room, 1 << 17);
   const auto done = write_report(folder.path(), *run, {"test.toml", "particles", 1});
   if (!done.ok()) FAIL(done.problem().text());
   const Json result = Json::parse(file_text(folder / "result.json"));

@@ -17,7 +17,6 @@ namespace {
 /// * flux/(pi area) everywhere (Ulbricht's sphere).
 std::string ulbricht_sphere(const std::string& reflectance) {
   return R"(
-patch_edge_m = 0.5
 [[material]]
 name = "white"
 reflectance = )" +
@@ -26,6 +25,7 @@ reflectance = )" +
 name = "sphere"
 shape = "sphere"
 radius = 2
+patch_edge_m = 0.5
 bound_m = 0.01
 material = "white"
 [[emitter]]
@@ -156,9 +156,11 @@ TEST_CASE("colours of a picture are those of the bands", "[display]") {
 TEST_CASE("white smoke in a box of even light is invisible", "[display]") {
   const bool gather = GENERATE(true, false);
   const auto run = traced(glowing_box("0.5", "0.8"), 1 << 17);
-  const MeanLuminance seen = mean_luminance(picture_of(*run, 64, gather));
+  const MeanLuminance seen = mean_luminance(picture_of(*run, 2048, gather));
   INFO("seen " << seen.mean << " +- " << seen.error);
-  CHECK(seen.error < 2.5);
+  // So near to glowing walls the light asked in smoke has rare large values (1/z2 at a distance z),
+  // and the error falls slowly with the number of paths.
+  CHECK(seen.error < 5);
   // The emitters stand 0.5 mm before the walls, which loses 0.1 % at the edges.
   CHECK(std::abs(seen.mean - 200) < 4 * seen.error + 0.6);
 }
@@ -172,7 +174,8 @@ TEST_CASE("a lamp in clear air has its own luminance in every pixel, without cha
   }
 }
 
-TEST_CASE("a picture is the same bits for one and three threads, and in cells", "[display]") {
+TEST_CASE("a picture is the same bits for one and three threads, and for geometry in cells",
+          "[display]") {
   const std::string toml = glowing_box("0.5", "0.8");
   const auto one = traced(toml, 1 << 14, 1);
   const auto three = traced(toml, 1 << 14, 3);
@@ -180,6 +183,8 @@ TEST_CASE("a picture is the same bits for one and three threads, and in cells", 
   const TracedPicture b = picture_of(*three, 4, true);
   CHECK(a.light.xyz == b.light.xyz);
   CHECK(a.standard_error_y == b.standard_error_y);
+  const auto cells = traced(toml, 1 << 14, 1, 4);
+  CHECK(a.light.xyz == picture_of(*cells, 4, true).light.xyz);
 }
 
 TEST_CASE("the standard error of a pixel is that of repeated pictures", "[display]") {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 #include <sstream>
+#include <vector>
 
 #include "scenes/format/flame_spectrum.hpp"
 #include "scenes/format/read_spectrum.hpp"
@@ -90,6 +91,43 @@ TEST_CASE("the example of the README is a good scene", "[format][scene]") {
   CHECK(read.scene->warnings.empty());
   CHECK(read.scene->objects.size() == 7);
   CHECK(read.scene->scenarios.size() == 2);
+}
+
+TEST_CASE("however the example is damaged, it is a scene or has problems, never both or neither",
+          "[format][scene]") {
+  const std::string text = readme();
+  const size_t begin = text.find("```toml\n") + 8;
+  std::vector<std::string> rows;
+  std::istringstream in(text.substr(begin, text.find("```", begin) - begin));
+  for (std::string row; std::getline(in, row);) {
+    rows.push_back(row == "text = \"EXIT\"" ? row + "\ntexels = 64" : row);  // a quick face
+  }
+  SceneFolder f;
+  std::filesystem::copy_file(f.path() / "lamp.ies", f.path() / "corridor.ies");
+  const std::vector<std::string> values = {
+      "nan",   "-1", "1e300",       "true", "\"\"",   "\"x\"",      "[]",
+      "[[1]]", "{}", "[{ a = 1 }]", "0",    "[1, 2]", "2024-01-01", "[-1, inf, 0]"};
+  int refused = 0;
+  for (size_t i = 0; i < rows.size(); ++i) {
+    const size_t equals = rows[i].find(" = ");
+    std::vector<std::string> damaged = {"", rows[i] + rows[i], rows[i] + "\n" + rows[i]};
+    if (equals != std::string::npos) {
+      // Five of the values, others on the next line: the whole square would take a minute.
+      for (size_t k = 0; k < 5; ++k) {
+        damaged.push_back(rows[i].substr(0, equals + 3) + values[(i * 5 + k) % values.size()]);
+      }
+    }
+    for (const std::string& replacement : damaged) {
+      std::string scene;
+      for (size_t k = 0; k < rows.size(); ++k) scene += (k == i ? replacement : rows[k]) + "\n";
+      const ReadScene read = f.read(scene);
+      INFO("line " << i + 1 << ": " << replacement << "\n" << all_problems(read));
+      REQUIRE(read.scene.has_value() == read.problems.empty());
+      for (const Problem& p : read.problems.list()) CHECK(p.where.line > 0);
+      refused += read.scene.has_value() ? 0 : 1;
+    }
+  }
+  CHECK(refused > 250);
 }
 
 TEST_CASE("a spectrum narrower than the grid keeps its power", "[format][spectrum]") {
