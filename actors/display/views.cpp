@@ -63,9 +63,10 @@ ExrImage exr_of(const LocalRun& run, const Camera& camera, const TracedPicture& 
   return image;
 }
 
-/// The picture with each pixel's chromaticity averaged over its neighbourhood of 7 x 7, luminance untouched.
-/// A path carries one band, so few paths give right luminance in wrong colours; eyes resolve colour
-/// coarsely. For pictures on a screen only: the data of the EXR file stays as traced.
+/// The picture with each pixel's chromaticity averaged over its neighbourhood of 7 x 7, luminance
+/// untouched. A path carries one band, so few paths give right luminance in wrong colours; eyes
+/// resolve colour coarsely. For pictures on a screen only: the data of the EXR file stays as
+/// traced.
 XyzPicture with_calm_colour(const XyzPicture& in) {
   XyzPicture out = in;
   constexpr int reach = 3;
@@ -75,7 +76,8 @@ XyzPicture with_calm_colour(const XyzPicture& in) {
       for (int j = std::max(0, y - reach); j <= std::min(in.height - 1, y + reach); ++j) {
         for (int i = std::max(0, x - reach); i <= std::min(in.width - 1, x + reach); ++i) {
           const float* near = &in.xyz[3 * static_cast<size_t>(j * in.width + i)];
-          // Bright neighbours (a lamp, a flame) must not colour what is beside them: equal weight each.
+          // Bright neighbours (a lamp, a flame) must not colour what is beside them: equal weight
+          // each.
           const float total = near[0] + near[1] + near[2];
           if (!(total > 0)) continue;
           const float weight = 1 / (total + in.xyz[3 * static_cast<size_t>(y * in.width + x) + 1]);

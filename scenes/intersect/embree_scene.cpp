@@ -91,18 +91,22 @@ std::string EmbreeDevice::library_version() {
   const auto part = [&](RTCDeviceProperty p) {
     return std::to_string(rtcGetDeviceProperty(device.get(), p));
   };
-  return part(RTC_DEVICE_PROPERTY_VERSION_MAJOR) + "." + part(RTC_DEVICE_PROPERTY_VERSION_MINOR) + "." +
-         part(RTC_DEVICE_PROPERTY_VERSION_PATCH);
+  return part(RTC_DEVICE_PROPERTY_VERSION_MAJOR) + "." + part(RTC_DEVICE_PROPERTY_VERSION_MINOR) +
+         "." + part(RTC_DEVICE_PROPERTY_VERSION_PATCH);
 }
 
 std::string EmbreeDevice::instruction_sets() {
   const EmbreeDevice device;
-  if (rtcGetDeviceProperty(device.get(), RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0) return "up to AVX-512";
-  if (rtcGetDeviceProperty(device.get(), RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED) != 0) return "up to AVX2";
+  if (rtcGetDeviceProperty(device.get(), RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0)
+    return "up to AVX-512";
+  if (rtcGetDeviceProperty(device.get(), RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED) != 0)
+    return "up to AVX2";
   return "up to SSE4.2";
 }
 
-EmbreeDevice::~EmbreeDevice() { rtcReleaseDevice(device_); }
+EmbreeDevice::~EmbreeDevice() {
+  rtcReleaseDevice(device_);
+}
 
 CellScene::CellScene(const EmbreeDevice& device, const GeometryCell& cell) : cell_(&cell) {
   RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);

@@ -24,8 +24,8 @@ struct TriangleRecord {
   uint32_t surface;          // index of the object it belongs to
   uint32_t global_triangle;  // its number in the whole scene: ties go to the smaller
 
-  /// The point at barycentrics (u, v), kept off the edges by 2^-16 of the triangle: a point that rounding puts
-  /// beyond a neighbour in a corner of the room would see the outside.
+  /// The point at barycentrics (u, v), kept off the edges by 2^-16 of the triangle: a point that
+  /// rounding puts beyond a neighbour in a corner of the room would see the outside.
   glm::vec3 at(float u, float v) const {
     constexpr float margin = 0x1p-16f;
     u = u < margin ? margin : u;
