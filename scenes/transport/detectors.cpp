@@ -65,9 +65,9 @@ bool inside(const CompiledVolumeGroup& group, const glm::vec3& p) {
 
 namespace {
 
-/// Reach beyond a flight's end, as a share of the scene's size: a plane that lies in a wall or on a floor is
-/// crossed by the flights that end there, whichever way their ends are rounded (a few ulps of a
-/// coordinate). Less than offset_ray's step, and what comes back crosses from behind.
+/// Reach beyond a flight's end, as a share of the scene's size: a plane that lies in a wall or on a
+/// floor is crossed by the flights that end there, whichever way their ends are rounded (a few ulps
+/// of a coordinate). What comes back crosses from behind.
 constexpr float reach_share = 0x1p-21f;
 
 void score_planes(const CompiledScene& scene, FlightPiece piece, BatchScores& batch) {
