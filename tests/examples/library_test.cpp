@@ -1,0 +1,287 @@
+// The scenes that ship give the numbers that stand beside them. scenes/library/NAME.expected.toml
+// says what NAME.toml must give and why; its format is described in scenes/library/README.md. Every
+// number of a run must lie within four combined standard errors of the stated one.
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <atomic>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <set>
+#include <thread>
+
+#include "actors/display/report.hpp"
+#include "actors/source/local_run.hpp"
+#include "scenes/format/scene_file.hpp"
+#include "scenes/transport/compile.hpp"
+
+using namespace luxodus;
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double standard_errors = 4;
+constexpr int64_t batches = 16;  // enough for an honest standard error, few enough to be quick
+
+const fs::path library = fs::path(LUX_SOURCE_DIR) / "scenes/library";
+
+bool is_expectation(const fs::path& file) {
+  return file.string().ends_with(".expected.toml");
+}
+
+std::set<std::string> shipped() {
+  std::set<std::string> names;
+  for (const auto& entry : fs::directory_iterator(library)) {
+    const fs::path& file = entry.path();
+    if (file.extension() == ".toml" && !is_expectation(file)) names.insert(file.stem().string());
+  }
+  return names;
+}
+
+SceneDescription described(const std::string& name) {
+  ReadScene read = read_scene(library / (name + ".toml"));
+  for (const Problem& p : read.problems)
+    FAIL_CHECK(p.where.file << ":" << p.where.line << ": " << p.what);
+  REQUIRE(read.scene);
+  return std::move(*read.scene);
+}
+
+std::shared_ptr<const CompiledScene> compiled(SceneDescription description,
+                                              const std::string& scenario) {
+  const auto shared = std::make_shared<const SceneDescription>(std::move(description));
+  const auto chosen = find_scenario(*shared, scenario);
+  REQUIRE(chosen.ok());
+  auto scene = compile_scene(shared, chosen.value(), {});
+  if (!scene.ok()) FAIL(scenario << ": " << scene.problem().what);
+  return scene.value();
+}
+
+// ---- one run and its numbers
+// ---------------------------------------------------------------------
+
+struct Number {
+  double value = 0;
+  double error = 0;  // standard error
+};
+
+/// "planes/floor/mean_illuminance": lists are searched by name, those of signs by "SIGN from
+/// OBSERVER".
+const Json* member(const Json& in, const std::string& key) {
+  if (in.is_object()) return in.contains(key) ? &in.at(key) : nullptr;
+  for (const Json& item : in) {
+    const std::string name =
+        item.contains("observer")
+            ? item["sign"].get<std::string>() + " from " + item["observer"].get<std::string>()
+            : item["name"].get<std::string>();
+    if (name == key) return &item;
+  }
+  return nullptr;
+}
+
+Number number_at(const Json& result, const std::string& path) {
+  const Json* at = &result;
+  for (size_t begin = 0; begin <= path.size();) {
+    const size_t end = std::min(path.find('/', begin), path.size());
+    at = member(*at, path.substr(begin, end - begin));
+    if (!at) {
+      FAIL("a result has no '" << path << "'");
+      return {};
+    }
+    begin = end + 1;
+  }
+  REQUIRE(at->contains("value"));
+  REQUIRE(at->at("value").is_number());
+  const bool measured = at->contains("standard_error") && at->at("standard_error").is_number();
+  return {at->at("value").get<double>(), measured ? at->at("standard_error").get<double>() : 0};
+}
+
+/// Values with a unit that are not numbers. Contrasts and uniformities are ratios: in the dark they
+/// do not exist.
+void list_unknown(const Json& in, const std::string& path, std::vector<std::string>& out) {
+  if (in.is_object() && in.contains("value") && in.contains("unit")) {
+    if (!in["value"].is_number()) out.push_back(path);
+    return;
+  }
+  if (!in.is_structured()) return;
+  for (const auto& [key, item] : in.items()) {
+    if (key.starts_with("contrast") || key == "uniformity") continue;
+    list_unknown(item, path + "/" + key, out);
+  }
+}
+
+Json traced(SceneDescription description, const std::string& scenario, int64_t particles) {
+  description.run.batch_particles = particles / batches;
+  const int threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  const uint64_t seed = description.run.seed;
+  const std::atomic<bool> interrupt{false};
+  LocalRun run(compiled(std::move(description), scenario), seed, threads);
+  run.run({particles, std::nullopt, std::nullopt}, interrupt, [](const Progress&) {});
+  CHECK(run.totals().ledger().closes());
+  Json result = result_json(run, {});
+  std::vector<std::string> unknown;
+  for (const char* part :
+       {"planes", "probes", "signs", "surfaces", "surface_groups", "media", "escape"}) {
+    list_unknown(result[part], part, unknown);
+  }
+  CHECK(unknown == std::vector<std::string>{});
+  return result;
+}
+
+// ---- what is stated
+// ------------------------------------------------------------------------------
+
+double stated(const toml::table& table, const char* key, double otherwise = 0) {
+  return table[key].value<double>().value_or(otherwise);
+}
+
+std::string words(const toml::table& table, const char* key) {
+  return table[key].value<std::string>().value_or("");
+}
+
+void check_value(const toml::table& value, const Json& result) {
+  const std::string path = words(value, "at");
+  INFO(path << ": " << words(value, "why"));
+  const double is = *value["is"].value<double>();
+  const Number got = number_at(result, path);
+  const double allowed = standard_errors * std::hypot(got.error, stated(value, "error")) +
+                         stated(value, "relative") * std::abs(is);
+  INFO("allowed distance " << allowed);
+  CHECK(got.value == Approx(is).epsilon(1e-9).margin(allowed));
+}
+
+/// { scenario, at } of a number that an order names.
+Number named(const toml::table& order, const char* key,
+             const std::map<std::string, Json>& results) {
+  const toml::array* pair = order[key].as_array();
+  REQUIRE(pair);
+  REQUIRE(pair->size() == 2);
+  const auto result = results.find(*(*pair)[0].value<std::string>());
+  REQUIRE(result != results.end());
+  return number_at(result->second, *(*pair)[1].value<std::string>());
+}
+
+void check_exact(const toml::table& exact, const SceneDescription& scene) {
+  const auto count = [&](const char* key, size_t have) {
+    if (const auto want = exact[key].value<int64_t>()) {
+      INFO(key);
+      CHECK(static_cast<int64_t>(have) == *want);
+    }
+  };
+  count("emitters", scene.emitters.size());
+  count("signs", scene.signs.size());
+  count("observers", scene.observers.size());
+  count("cameras", scene.cameras.size());
+  count("scenarios", scene.scenarios.size());
+  count("doors",
+        static_cast<size_t>(std::count_if(scene.objects.begin(), scene.objects.end(),
+                                          [](const Object& o) { return o.door.has_value(); })));
+  if (const toml::table* tops = exact["tops"].as_table()) {
+    for (const auto& [name, height] : *tops) {
+      INFO("top of " << name.str());
+      const auto object =
+          std::find_if(scene.objects.begin(), scene.objects.end(),
+                       [&, &n = name](const Object& o) { return o.name == n.str(); });
+      REQUIRE(object != scene.objects.end());
+      double top = -1e300;
+      for (const glm::dvec3& v : object->mesh.positions) top = std::max(top, v.z);
+      CHECK(top == Approx(*height.value<double>()).margin(1e-12));
+    }
+  }
+  // 1e-4: a photometric file keeps four to five digits of its intensities.
+  double mains = 0, emergency = 0;
+  for (const Emitter& e : scene.emitters) {
+    mains += e.mains_flux;
+    emergency += e.emergency_flux;
+  }
+  if (const auto lm = exact["lumens_mains"].value<double>())
+    CHECK(mains == Approx(*lm).epsilon(1e-4));
+  if (const auto lm = exact["lumens_emergency"].value<double>())
+    CHECK(emergency == Approx(*lm).epsilon(1e-4));
+}
+
+void check_library_scene(const std::string& name) {
+  const toml::table file = toml::parse_file((library / (name + ".expected.toml")).string());
+  const SceneDescription scene = described(name);
+  if (const toml::table* exact = file["exact"].as_table()) check_exact(*exact, scene);
+  std::map<std::string, Json> results;
+  REQUIRE(file["run"].is_array());
+  for (const toml::node& node : *file["run"].as_array()) {
+    const toml::table& run = *node.as_table();
+    const std::string scenario = words(run, "scenario");
+    INFO("scenario " << scenario);
+    const auto particles = static_cast<int64_t>(stated(run, "particles"));
+    REQUIRE(particles >= batches);
+    const Json& result =
+        results.emplace(scenario, traced(scene, scenario, particles)).first->second;
+    if (!run.contains("value")) continue;
+    for (const toml::node& value : *run["value"].as_array()) check_value(*value.as_table(), result);
+  }
+  if (!file.contains("order")) return;
+  for (const toml::node& node : *file["order"].as_array()) {
+    const toml::table& order = *node.as_table();
+    INFO(words(order, "why"));
+    const Number less = named(order, "less", results), more = named(order, "more", results);
+    CHECK(less.value + standard_errors * std::hypot(less.error, more.error) < more.value);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("every scene that ships is read and compiled without a problem, in all its scenarios",
+          "[library]") {
+  for (const std::string& name : shipped()) {
+    INFO(name);
+    const SceneDescription scene = described(name);
+    CHECK(!scene.cameras.empty());
+    std::vector<std::string> scenarios = {""};
+    for (const Scenario& s : scene.scenarios) scenarios.push_back(s.name);
+    for (const std::string& scenario : scenarios) {
+      const auto compiled_scene = compiled(scene, scenario);
+      CHECK(compiled_scene->triangles < 20'000);
+      CHECK(compiled_scene->patch_count < 60'000);
+      CHECK(compiled_scene->bands.count() <= 6);
+    }
+  }
+}
+
+TEST_CASE("beside every scene that ships stands what it must give", "[library]") {
+  std::set<std::string> expected;
+  for (const auto& entry : fs::directory_iterator(library)) {
+    const std::string file = entry.path().filename().string();
+    if (is_expectation(file))
+      expected.insert(file.substr(0, file.size() - std::string(".expected.toml").size()));
+  }
+  CHECK(expected == shipped());
+}
+
+TEST_CASE("the empty room receives twice the light of its lamp", "[library]") {
+  check_library_scene("empty_room");
+}
+
+TEST_CASE("the integrating sphere is equally bright everywhere inside", "[library]") {
+  check_library_scene("integrating_sphere");
+}
+
+TEST_CASE("the smoke tank follows Beer and Lambert to Smokeview's greys", "[library]") {
+  check_library_scene("smoke_tank");
+}
+
+TEST_CASE("a ball of flame loses to its own soot what the closed form says", "[library]") {
+  check_library_scene("fire_in_a_box");
+}
+
+TEST_CASE("the auditorium gives the numbers of its long runs", "[library]") {
+  check_library_scene("auditorium");
+}
+
+TEST_CASE("the office floor in clear air gives the numbers of its long runs", "[library]") {
+  check_library_scene("office_floor_clear");
+}
+
+TEST_CASE("the office floor gives the numbers of its long runs, and smoke dims high signs most",
+          "[library]") {
+  check_library_scene("office_floor");
+}
