@@ -437,11 +437,13 @@ class EyeTracer {
     double through = 0;
     double own = 0;
     double own_at_eye = 0;
+    double through_scene = 0;  // weighted by the scene's light, for faces without their own
     for (int b = 0; b < scene_.bands.count(); ++b) {
       const double t = medium_transmittance(scene_, c.ray, c.distance, b, resolver_);
       const double l = scene_.bands[b].lm_per_w * texel_radiance(sign, d, uv, -c.ray.direction, b);
       own += l;
       own_at_eye += l * t;
+      through_scene += band_probability(b) * t;
       if (b == band) through = t;
     }
     add(EyeQuantity::own, own);
@@ -452,7 +454,8 @@ class EyeTracer {
       return;
     }
     add(EyeQuantity::visible, 1);
-    add(EyeQuantity::transmission, solid * through);
+    // Of the sign's own light: every band is known here, so none is left to chance.
+    add(EyeQuantity::transmission, solid * (own > 0 ? own_at_eye / own : through_scene));
     const double path = lm * path_radiance(c, band);
     add(EyeQuantity::path, path);
     add(EyeQuantity::at_eye, solid * (own_at_eye + reflected * through) + path);
