@@ -4,6 +4,7 @@
 
 #include "scenes/geometry/primitives.hpp"
 #include "scenes/transport/kernels.hpp"
+#include "scenes/transport/trace.hpp"
 #include "tests/optics/light_kit.hpp"
 
 namespace luxodus::light {
@@ -211,15 +212,18 @@ void check_same_scores(const std::shared_ptr<const CompiledScene>& scene, int64_
   const EmbreeDevice device;
   const SceneIndex index(device, *scene);
   const auto resident = make_batch_tracer(*scene, index, 3);
-  KernelTracer<Everything, Resolver> missing(*scene, index, 3);
+  Resolver forgetful(*scene, index);
+  ParticleTracer<Everything, Resolver> particles(*scene, forgetful, 3);
+  EyeTracer<Resolver> eyes(*scene, forgetful, 3, RandomStream::eye);
   for (int64_t batch = 0; batch < batches; ++batch) {
     BatchScores a, b;
-    for (const auto& [tracer, scores] : {std::pair<BatchTracer*, BatchScores*>(resident.get(), &a),
-                                         std::pair<BatchTracer*, BatchScores*>(&missing, &b)}) {
-      scores->reset(scene->layout);
-      tracer->trace(0, static_cast<uint64_t>(batch) * 2000, 2000, *scores);
-      tracer->look(batch, *scores);
-    }
+    const uint64_t first = static_cast<uint64_t>(batch) * 2000;
+    a.reset(scene->layout);
+    resident->trace(0, first, 2000, a);
+    resident->look(batch, a);
+    b.reset(scene->layout);
+    particles.trace_batch(0, first, 2000, b);
+    eyes.score_batch(batch, b);
     CHECK(a.scores == b.scores);
     check_same_ledger(a.ledger, b.ledger);
   }

@@ -83,7 +83,7 @@ const T& named(const std::vector<T>& list, const std::string& name) {
 }
 
 /// The optics of a homogeneous medium with these keys.
-inline SmokeOptics smoke(SceneFolder& folder, const std::string& keys) {
+inline SmokeOptics smoke_optics(SceneFolder& folder, const std::string& keys) {
   return good(folder, "[[medium]]\nname = \"s\"\nkind = \"homogeneous\"\nalbedo = 0\n" + keys)
       .media.at(0)
       .optics;

@@ -12,25 +12,26 @@ namespace luxodus {
 TEST_CASE("extinction means the same in every unit", "[format][scene]") {
   SceneFolder f;
   // K = 1 /m in the units of fire protection, by T = exp(-K d).
-  CHECK(smoke(f, "extinction = 1").extinction.sigma_t == 1);
-  CHECK(smoke(f, "od_per_m = 0.4342944819032518").extinction.sigma_t == near(1));
-  CHECK(smoke(f, "db_per_m = 4.342944819032518").extinction.sigma_t == near(1));
-  CHECK(smoke(f, "percent_per_m = 63.21205588285577").extinction.sigma_t == near(1));
-  CHECK(smoke(f, "percent_per_ft = 26.27291861900436").extinction.sigma_t == near(1));
-  const Extinction flaming = smoke(f, "smoke = \"flaming\"\nsoot_density = 1e-4").extinction;
+  CHECK(smoke_optics(f, "extinction = 1").extinction.sigma_t == 1);
+  CHECK(smoke_optics(f, "od_per_m = 0.4342944819032518").extinction.sigma_t == near(1));
+  CHECK(smoke_optics(f, "db_per_m = 4.342944819032518").extinction.sigma_t == near(1));
+  CHECK(smoke_optics(f, "percent_per_m = 63.21205588285577").extinction.sigma_t == near(1));
+  CHECK(smoke_optics(f, "percent_per_ft = 26.27291861900436").extinction.sigma_t == near(1));
+  const Extinction flaming = smoke_optics(f, "smoke = \"flaming\"\nsoot_density = 1e-4").extinction;
   CHECK(flaming.sigma_t == near(0.87));
   CHECK(flaming.angstrom == 1);
   CHECK(flaming.wavelength_nm == 633);
   const Extinction own =
-      smoke(f,
-            "smoke = \"smouldering\"\nsoot_density = 1e-4\nmass_extinction = 4000\nangstrom = 2\n"
-            "wavelength_nm = 550")
+      smoke_optics(
+          f,
+          "smoke = \"smouldering\"\nsoot_density = 1e-4\nmass_extinction = 4000\nangstrom = 2\n"
+          "wavelength_nm = 550")
           .extinction;
   CHECK(own.sigma_t == near(0.4));
   CHECK(own.angstrom == 2);
   CHECK(own.wavelength_nm == 550);
-  CHECK(smoke(f, "extinction = 1").extinction.angstrom == 0);
-  const Extinction table = smoke(f, "extinction_table = [[400, 2], [800, 1]]").extinction;
+  CHECK(smoke_optics(f, "extinction = 1").extinction.angstrom == 0);
+  const Extinction table = smoke_optics(f, "extinction_table = [[400, 2], [800, 1]]").extinction;
   REQUIRE(table.table.has_value());
   CHECK(table.table->at(600) == near(1.5));
 }
