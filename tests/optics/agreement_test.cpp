@@ -151,7 +151,7 @@ TEST_CASE("indirect illuminance by paths from the eye is what crosses a plane th
 
 TEST_CASE("direct light along shadow rays is the direct light that tracing counts") {
   RunOptions options;
-  options.particles = 1 << 20;
+  options.particles = 1 << 21;
   Run run(scene_from_toml(furnished_room), options);
   const double lm_per_w = efficacy_lm_per_w(run.scene().description->emitters[0].spectrum);
   constexpr int per_side = 8;

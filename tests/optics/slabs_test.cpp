@@ -70,7 +70,13 @@ void check_stack(const Row& row) {
     INFO("layer " << i);
     // Reflectances and albedos are single precision: an albedo of 1 absorbs nothing, others err by
     // 6e-8.
-    check_near(run.absorbed_in(i), absorbed[i], error, 1e-6);
+    // What fewer than ten particles bring on average is no normal distribution: bounded, not
+    // judged.
+    const double few = 10.0 / static_cast<double>(options.particles);
+    if (absorbed[i] < few)
+      CHECK(run.absorbed_in(i).value <= absorbed[i] + 2 * few);
+    else
+      check_near(run.absorbed_in(i), absorbed[i], error, 1e-6);
     check_near(run.track_length(i), track[i], 4e-2 * track[i] + 2 * error, 2e-6 * track[i]);
   }
 }
