@@ -11,6 +11,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <sstream>
 #include <thread>
 
 #include "actors/display/report.hpp"
@@ -43,8 +44,7 @@ std::set<std::string> shipped() {
 
 SceneDescription described(const std::string& name) {
   ReadScene read = read_scene(library / (name + ".toml"));
-  for (const Problem& p : read.problems)
-    FAIL_CHECK(p.where.file << ":" << p.where.line << ": " << p.what);
+  for (const Problem& p : read.problems.list()) FAIL_CHECK(p.text());
   REQUIRE(read.scene);
   return std::move(*read.scene);
 }
@@ -83,14 +83,10 @@ const Json* member(const Json& in, const std::string& key) {
 
 Number number_at(const Json& result, const std::string& path) {
   const Json* at = &result;
-  for (size_t begin = 0; begin <= path.size();) {
-    const size_t end = std::min(path.find('/', begin), path.size());
-    at = member(*at, path.substr(begin, end - begin));
-    if (!at) {
-      FAIL("a result has no '" << path << "'");
-      return {};
-    }
-    begin = end + 1;
+  std::istringstream words_of(path);
+  for (std::string word; std::getline(words_of, word, '/');) {
+    at = member(*at, word);
+    if (!at) FAIL("a result has no '" << word << "' of '" << path << "'");
   }
   REQUIRE(at->contains("value"));
   REQUIRE(at->at("value").is_number());
