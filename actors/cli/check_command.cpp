@@ -17,7 +17,9 @@ struct CheckOptions {
   bool json = false;
 };
 
-Json point_json(const glm::dvec3& p) { return {p.x, p.y, p.z}; }
+Json point_json(const glm::dvec3& p) {
+  return {p.x, p.y, p.z};
+}
 
 /// Heights at which horizontal, upward-facing surfaces of at least a square metre lie: the floors.
 std::vector<double> floor_heights(const CompiledScene& scene) {
@@ -25,7 +27,8 @@ std::vector<double> floor_heights(const CompiledScene& scene) {
   for (const GeometryCell& cell : scene.cells) {
     for (const TriangleRecord& t : cell.triangles) {
       if (t.normal.z < 0.999f) continue;
-      const float area = 0.5f * glm::length(glm::cross(t.corner[1] - t.corner[0], t.corner[2] - t.corner[0]));
+      const float area =
+          0.5f * glm::length(glm::cross(t.corner[1] - t.corner[0], t.corner[2] - t.corner[0]));
       const double z = static_cast<double>(t.corner[0].z) + scene.local_origin.z;
       area_at[std::llround(z * 1000)] += static_cast<double>(area);
     }
@@ -42,8 +45,8 @@ std::vector<double> floor_heights(const CompiledScene& scene) {
 Json memory_json(const CompiledScene& scene) {
   const auto triangles = static_cast<double>(scene.triangles);
   const double scores = static_cast<double>(scene.layout.scores()) * sizeof(int64_t);
-  const double totals =
-      static_cast<double>(scene.layout.totals()) * sizeof(Total) * static_cast<double>(scene.groups.size());
+  const double totals = static_cast<double>(scene.layout.totals()) * sizeof(Total) *
+                        static_cast<double>(scene.groups.size());
   // Records, Embree's vertices and indices, and its tree (measured by tests/bench).
   const double geometry = triangles * (sizeof(TriangleRecord) + 48 + 100);
   double webs = 0;
@@ -63,25 +66,27 @@ Json describe(const CompiledScene& scene) {
     lumens += e.luminous_flux_lm;
   }
   Json bands = Json::array();
-  for (int b = 0; b < scene.bands.count(); ++b) bands.push_back({scene.bands[b].low_nm, scene.bands[b].high_nm});
-  return {{"scenario", scene.scenario.name},
-          {"surfaces", scene.surfaces.size()},
-          {"triangles", scene.triangles},
-          {"degenerate_triangles_dropped", d.degenerate_triangles},
-          {"area", exact_json(scene.total_area_m2, "m2")},
-          {"patches", scene.patch_count},
-          {"voxels", scene.voxels.edge > 0 ? scene.voxels.count() : 0},
-          {"bounds", {{"low", point_json(scene.bounds.low)}, {"high", point_json(scene.bounds.high)}}},
-          {"floor_heights_m", floor_heights(scene)},
-          {"luminous_flux", exact_json(lumens, "lm")},
-          {"emitters", emitters},
-          {"media", scene.media_names},
-          {"bands_nm", bands},
-          {"kernel", describe_kernel(scene)},
-          {"cells", scene.cells.size()},
-          {"batch_particles", scene.batch_particles},
-          {"eye_paths_per_batch", scene.eye_paths_per_batch},
-          {"memory", memory_json(scene)}};
+  for (int b = 0; b < scene.bands.count(); ++b)
+    bands.push_back({scene.bands[b].low_nm, scene.bands[b].high_nm});
+  return {
+      {"scenario", scene.scenario.name},
+      {"surfaces", scene.surfaces.size()},
+      {"triangles", scene.triangles},
+      {"degenerate_triangles_dropped", d.degenerate_triangles},
+      {"area", exact_json(scene.total_area_m2, "m2")},
+      {"patches", scene.patch_count},
+      {"voxels", scene.voxels.edge > 0 ? scene.voxels.count() : 0},
+      {"bounds", {{"low", point_json(scene.bounds.low)}, {"high", point_json(scene.bounds.high)}}},
+      {"floor_heights_m", floor_heights(scene)},
+      {"luminous_flux", exact_json(lumens, "lm")},
+      {"emitters", emitters},
+      {"media", scene.media_names},
+      {"bands_nm", bands},
+      {"kernel", describe_kernel(scene)},
+      {"cells", scene.cells.size()},
+      {"batch_particles", scene.batch_particles},
+      {"eye_paths_per_batch", scene.eye_paths_per_batch},
+      {"memory", memory_json(scene)}};
 }
 
 void print(const Json& s) {
@@ -91,12 +96,13 @@ void print(const Json& s) {
   std::printf("scenario %s\n", s["scenario"].get<std::string>().c_str());
   std::printf("  geometry   %zu surfaces, %s triangles, %.4g m2, %zu flux patches, %zu voxels\n",
               s["surfaces"].get<size_t>(), short_number(s["triangles"].get<double>()).c_str(),
-              s["area"]["value"].get<double>(), s["patches"].get<size_t>(), s["voxels"].get<size_t>());
+              s["area"]["value"].get<double>(), s["patches"].get<size_t>(),
+              s["voxels"].get<size_t>());
   const auto& low = s["bounds"]["low"];
   const auto& high = s["bounds"]["high"];
   std::printf("  bounds     x %.4g .. %.4g, y %.4g .. %.4g, z %.4g .. %.4g m; floors at",
-              low[0].get<double>(), high[0].get<double>(), low[1].get<double>(), high[1].get<double>(),
-              low[2].get<double>(), high[2].get<double>());
+              low[0].get<double>(), high[0].get<double>(), low[1].get<double>(),
+              high[1].get<double>(), low[2].get<double>(), high[2].get<double>());
   for (const Json& z : s["floor_heights_m"]) std::printf(" %.4g", z.get<double>());
   std::printf(" m\n");
   std::printf("  light      %zu emitters, %.6g lm\n", s["emitters"].size(),
@@ -108,10 +114,12 @@ void print(const Json& s) {
   std::printf("  media      ");
   for (const Json& m : s["media"]) std::printf("%s ", m.get<std::string>().c_str());
   std::printf("%s\n  bands      ", s["media"].empty() ? "none" : "");
-  for (const Json& b : s["bands_nm"]) std::printf("%.0f-%.0f ", b[0].get<double>(), b[1].get<double>());
+  for (const Json& b : s["bands_nm"])
+    std::printf("%.0f-%.0f ", b[0].get<double>(), b[1].get<double>());
   std::printf("nm\n  kernel     %s\n", s["kernel"].get<std::string>().c_str());
-  std::printf("  memory     geometry %s, totals %s, scores %s a thread, webs %s\n", bytes("geometry").c_str(),
-              bytes("totals").c_str(), bytes("scores_per_thread").c_str(), bytes("webs").c_str());
+  std::printf("  memory     geometry %s, totals %s, scores %s a thread, webs %s\n",
+              bytes("geometry").c_str(), bytes("totals").c_str(),
+              bytes("scores_per_thread").c_str(), bytes("webs").c_str());
   std::printf("  batch      %lld particles\n", s["batch_particles"].get<long long>());
 }
 
@@ -135,7 +143,8 @@ int check(const CheckOptions& options) {
     for (const Problem& w : scene.value()->warnings) tell(w);
     all.push_back(describe(*scene.value()));
   }
-  if (options.json) std::fputs(json_text({{"scene", description->name}, {"scenarios", all}}).c_str(), stdout);
+  if (options.json)
+    std::fputs(json_text({{"scene", description->name}, {"scenarios", all}}).c_str(), stdout);
   else {
     std::printf("%s: %s\n", description->name.c_str(), description->title.c_str());
     for (const Json& s : all) print(s);
@@ -147,12 +156,13 @@ int check(const CheckOptions& options) {
 
 void add_check(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<CheckOptions>();
-  CLI::App* command =
-      app.add_subcommand("check", "Read everything a scene names and say what was found, without tracing");
+  CLI::App* command = app.add_subcommand(
+      "check", "Read everything a scene names and say what was found, without tracing");
   command->footer("Every problem is told with its file and line; exit code 2 if there is any.");
   command->add_option("scene", options->scene, "scene file (TOML)")->required();
   command->add_option("--scenario", options->scenario, "name of a scenario, or 'all' [all]");
-  command->add_option("--cells", options->cells, "geometry cells [1]")->check(CLI::Range(1, 1'000'000));
+  command->add_option("--cells", options->cells, "geometry cells [1]")
+      ->check(CLI::Range(1, 1'000'000));
   command->add_flag("--json", options->json, "machine-readable");
   command->callback([options, &exit_code] { exit_code = check(*options); });
 }

@@ -15,7 +15,9 @@
 
 namespace luxodus::cli {
 
-void tell(const Problem& problem) { std::fprintf(stderr, "%s\n", problem.text().c_str()); }
+void tell(const Problem& problem) {
+  std::fprintf(stderr, "%s\n", problem.text().c_str());
+}
 
 std::shared_ptr<const SceneDescription> load_scene(const std::string& file) {
   ReadScene read = read_scene(file);
@@ -25,7 +27,8 @@ std::shared_ptr<const SceneDescription> load_scene(const std::string& file) {
   return std::make_shared<const SceneDescription>(std::move(*read.scene));
 }
 
-Result<std::vector<Scenario>> chosen_scenarios(const SceneDescription& scene, const std::string& name) {
+Result<std::vector<Scenario>> chosen_scenarios(const SceneDescription& scene,
+                                               const std::string& name) {
   if (name == "all" && !scene.scenarios.empty()) return scene.scenarios;
   auto one = find_scenario(scene, name == "all" ? "" : name);
   if (!one.ok()) return one.problem();
@@ -47,7 +50,8 @@ bool split_number(const std::string& text, double& value, std::string& rest) {
 }
 
 Problem not_understood(const char* what, const std::string& text, const char* examples) {
-  return {{}, std::string(what) + " \"" + text + "\" is not understood; write for example " + examples};
+  return {{},
+          std::string(what) + " \"" + text + "\" is not understood; write for example " + examples};
 }
 
 }  // namespace
@@ -57,10 +61,14 @@ Result<int64_t> parse_count(const std::string& text) {
   double value = 0;
   std::string rest;
   if (!split_number(text, value, rest)) return problem;
-  if (rest == "k") value *= 1e3;
-  else if (rest == "M") value *= 1e6;
-  else if (rest == "G") value *= 1e9;
-  else if (!rest.empty()) return problem;
+  if (rest == "k")
+    value *= 1e3;
+  else if (rest == "M")
+    value *= 1e6;
+  else if (rest == "G")
+    value *= 1e9;
+  else if (!rest.empty())
+    return problem;
   if (!(value >= 1 && value <= 1e15)) return problem;
   return static_cast<int64_t>(std::ceil(value));
 }
@@ -70,8 +78,10 @@ Result<double> parse_share(const std::string& text) {
   double value = 0;
   std::string rest;
   if (!split_number(text, value, rest)) return problem;
-  if (rest == "%") value /= 100;
-  else if (!rest.empty()) return problem;
+  if (rest == "%")
+    value /= 100;
+  else if (!rest.empty())
+    return problem;
   if (!(value > 0 && value < 1)) return problem;
   return value;
 }
@@ -81,14 +91,19 @@ Result<double> parse_seconds(const std::string& text) {
   double value = 0;
   std::string rest;
   if (!split_number(text, value, rest)) return problem;
-  if (rest == "m") value *= 60;
-  else if (rest == "h") value *= 3600;
-  else if (!rest.empty() && rest != "s") return problem;
+  if (rest == "m")
+    value *= 60;
+  else if (rest == "h")
+    value *= 3600;
+  else if (!rest.empty() && rest != "s")
+    return problem;
   if (!(value > 0 && value < 1e8)) return problem;
   return value;
 }
 
-int default_threads() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
+int default_threads() {
+  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
 
 namespace {
 
@@ -100,7 +115,9 @@ void on_interrupt(int) {
 
 }  // namespace
 
-const std::atomic<bool>& interrupt_flag() { return interrupted_flag; }
+const std::atomic<bool>& interrupt_flag() {
+  return interrupted_flag;
+}
 
 void install_interrupt_handler() {
   std::signal(SIGINT, on_interrupt);
@@ -144,9 +161,11 @@ void ProgressLine::put(const std::string& text, bool last) {
 }
 
 void ProgressLine::show(const Progress& p) {
-  std::string text = fmt::format("{}particles, {}/s", short_number(static_cast<double>(p.particles)) + " ",
-                                 short_number(p.particles_per_second));
-  if (std::isfinite(p.relative_error)) text += fmt::format(", error {:.2g} %", 100 * p.relative_error);
+  std::string text =
+      fmt::format("{}particles, {}/s", short_number(static_cast<double>(p.particles)) + " ",
+                  short_number(p.particles_per_second));
+  if (std::isfinite(p.relative_error))
+    text += fmt::format(", error {:.2g} %", 100 * p.relative_error);
   text += fmt::format(", {:.0f} s", p.seconds);
   if (std::isfinite(p.seconds_left)) text += fmt::format(", {:.0f} s left", p.seconds_left);
   put(text, p.seconds_left == 0);

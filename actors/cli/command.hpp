@@ -1,4 +1,5 @@
-// What the subcommands share: exit codes, reading a scene with all its problems told, numbers with units.
+// What the subcommands share: exit codes, reading a scene with all its problems told, numbers with
+// units.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -28,9 +29,11 @@ void tell(const Problem& problem);
 std::shared_ptr<const SceneDescription> load_scene(const std::string& file);
 
 /// The scenarios that a name stands for: one, all of them for "all", the first for "".
-Result<std::vector<Scenario>> chosen_scenarios(const SceneDescription& scene, const std::string& name);
+Result<std::vector<Scenario>> chosen_scenarios(const SceneDescription& scene,
+                                               const std::string& name);
 
-/// "1e6", "250k", "10M", "2G" -> a count; "1%", "0.01" -> a share; "90", "60s", "5m", "1h" -> seconds.
+/// "1e6", "250k", "10M", "2G" -> a count; "1%", "0.01" -> a share; "90", "60s", "5m", "1h" ->
+/// seconds.
 Result<int64_t> parse_count(const std::string& text);
 Result<double> parse_share(const std::string& text);
 Result<double> parse_seconds(const std::string& text);

@@ -27,7 +27,7 @@ struct Point {
 };
 
 /// Least-squares slope of log y over log x.
-double slope(const std::vector<Point>& points, double Point::* x) {
+double slope(const std::vector<Point>& points, double Point::*x) {
   double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
   for (const Point& p : points) {
     const double lx = std::log(p.*x);
@@ -41,7 +41,8 @@ double slope(const std::vector<Point>& points, double Point::* x) {
   return (n * sxy - sx * sy) / (n * sxx - sx * sx);
 }
 
-/// One run that doubles, looked at after each doubling: every point is a run of its own would-be length.
+/// One run that doubles, looked at after each doubling: every point is a run of its own would-be
+/// length.
 std::vector<Point> trace_points(LocalRun& run, int64_t most) {
   std::vector<Point> points;
   ProgressLine line("converge");
@@ -57,7 +58,7 @@ std::vector<Point> trace_points(LocalRun& run, int64_t most) {
   }
 }
 
-SvgPlot plot_of(const std::vector<Point>& points, double Point::* x, const std::string& scene,
+SvgPlot plot_of(const std::vector<Point>& points, double Point::*x, const std::string& scene,
                 const std::string& x_label) {
   SvgPlot plot;
   plot.title = "Error of " + scene;
@@ -75,7 +76,8 @@ SvgPlot plot_of(const std::vector<Point>& points, double Point::* x, const std::
   return plot;
 }
 
-Result<Done> write_points(const fs::path& out, const std::vector<Point>& points, const std::string& name) {
+Result<Done> write_points(const fs::path& out, const std::vector<Point>& points,
+                          const std::string& name) {
   std::error_code error;
   fs::create_directories(out, error);
   if (error) return Problem{{out.string(), 0}, "cannot make this folder: " + error.message()};
@@ -85,10 +87,12 @@ Result<Done> write_points(const fs::path& out, const std::vector<Point>& points,
     table.end_row();
   }
   if (auto ok = write_csv(out / "converge.csv", table); !ok.ok()) return ok.problem();
-  if (auto ok = write_svg_plot(out / "error_particles.svg", plot_of(points, &Point::particles, name, "particles"));
+  if (auto ok = write_svg_plot(out / "error_particles.svg",
+                               plot_of(points, &Point::particles, name, "particles"));
       !ok.ok())
     return ok.problem();
-  return write_svg_plot(out / "error_seconds.svg", plot_of(points, &Point::seconds, name, "time [s]"));
+  return write_svg_plot(out / "error_seconds.svg",
+                        plot_of(points, &Point::seconds, name, "time [s]"));
 }
 
 Result<Done> converge(const ConvergeOptions& options) {
@@ -104,26 +108,36 @@ Result<Done> converge(const ConvergeOptions& options) {
   LocalRun run(scene.value(), options.seed.value_or(description->run.seed), options.threads);
   const std::vector<Point> points = trace_points(run, most.value());
   if (points.size() < 2)
-    return Problem{{options.scene, 0}, "too few particles for a slope: ask for more with --particles"};
+    return Problem{{options.scene, 0},
+                   "too few particles for a slope: ask for more with --particles"};
   const fs::path out =
-      options.out.empty() ? fs::path("out") / (fs::path(options.scene).stem().string() + "_converge") : fs::path(options.out);
+      options.out.empty()
+          ? fs::path("out") / (fs::path(options.scene).stem().string() + "_converge")
+          : fs::path(options.out);
   if (auto ok = write_points(out, points, description->name); !ok.ok()) return ok.problem();
   const double by_particles = slope(points, &Point::particles);
   const double by_seconds = slope(points, &Point::seconds);
   if (options.json) {
     Json rows = Json::array();
     for (const Point& p : points)
-      rows.push_back({{"particles", p.particles}, {"seconds", p.seconds}, {"relative_error", p.error},
+      rows.push_back({{"particles", p.particles},
+                      {"seconds", p.seconds},
+                      {"relative_error", p.error},
                       {"figure_of_merit", p.figure_of_merit}});
-    std::fputs(json_text({{"points", rows}, {"slope_particles", by_particles}, {"slope_seconds", by_seconds}}).c_str(),
-               stdout);
+    std::fputs(
+        json_text(
+            {{"points", rows}, {"slope_particles", by_particles}, {"slope_seconds", by_seconds}})
+            .c_str(),
+        stdout);
     return Done{};
   }
   std::printf("%14s %10s %12s %16s\n", "particles", "seconds", "error", "merit 1/(e2 s)");
   for (const Point& p : points)
-    std::printf("%14.0f %10.2f %11.4f%% %16.4g\n", p.particles, p.seconds, 100 * p.error, p.figure_of_merit);
-  std::printf("slope of error: %.3f over particles, %.3f over seconds (Monte Carlo: -0.5)\nwritten to %s\n",
-              by_particles, by_seconds, out.string().c_str());
+    std::printf("%14.0f %10.2f %11.4f%% %16.4g\n", p.particles, p.seconds, 100 * p.error,
+                p.figure_of_merit);
+  std::printf(
+      "slope of error: %.3f over particles, %.3f over seconds (Monte Carlo: -0.5)\nwritten to %s\n",
+      by_particles, by_seconds, out.string().c_str());
   return Done{};
 }
 
@@ -131,11 +145,13 @@ Result<Done> converge(const ConvergeOptions& options) {
 
 void add_converge(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<ConvergeOptions>();
-  CLI::App* command = app.add_subcommand("converge", "Error against particles and seconds: table, CSV, plots, slope");
+  CLI::App* command = app.add_subcommand(
+      "converge", "Error against particles and seconds: table, CSV, plots, slope");
   command->add_option("scene", options->scene, "scene file (TOML)")->required();
   command->add_option("--scenario", options->scenario, "name of a scenario [the first]");
   command->add_option("--particles", options->particles, "where to end [8M]");
-  command->add_option("--out", options->out, "folder for converge.csv and the plots [out/NAME_converge]");
+  command->add_option("--out", options->out,
+                      "folder for converge.csv and the plots [out/NAME_converge]");
   command->add_option("--seed", options->seed, "of the random numbers [the scene's]");
   command->add_option("--threads", options->threads, "[all cores]")->check(CLI::Range(1, 1024));
   command->add_flag("--json", options->json, "machine-readable");

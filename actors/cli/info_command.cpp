@@ -22,14 +22,16 @@ const char* instruction_set() {
 }
 
 Json info() {
-  Json packages = {{"embree", EmbreeDevice::library_version()},
-                   {"spdlog", fmt::format("{}.{}.{}", SPDLOG_VER_MAJOR, SPDLOG_VER_MINOR, SPDLOG_VER_PATCH)},
-                   {"fmt", fmt::format("{}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100)},
-                   {"CLI11", CLI11_VERSION},
-                   {"nlohmann-json", fmt::format("{}.{}.{}", NLOHMANN_JSON_VERSION_MAJOR,
-                                                 NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH)},
-                   {"glm", fmt::format("{}.{}.{}", GLM_VERSION_MAJOR, GLM_VERSION_MINOR, GLM_VERSION_PATCH)},
-                   {"zstd", ZSTD_versionString()}};
+  Json packages = {
+      {"embree", EmbreeDevice::library_version()},
+      {"spdlog", fmt::format("{}.{}.{}", SPDLOG_VER_MAJOR, SPDLOG_VER_MINOR, SPDLOG_VER_PATCH)},
+      {"fmt",
+       fmt::format("{}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100)},
+      {"CLI11", CLI11_VERSION},
+      {"nlohmann-json", fmt::format("{}.{}.{}", NLOHMANN_JSON_VERSION_MAJOR,
+                                    NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH)},
+      {"glm", fmt::format("{}.{}.{}", GLM_VERSION_MAJOR, GLM_VERSION_MINOR, GLM_VERSION_PATCH)},
+      {"zstd", ZSTD_versionString()}};
   return {{"version", LUX_VERSION},
           {"build", LUX_BUILD},
           {"compiler", fmt::format("GCC {}", __VERSION__)},
@@ -60,8 +62,10 @@ void add_info(CLI::App& app, int& exit_code) {
   command->add_flag("--json", *json, "machine-readable");
   command->callback([json, &exit_code] {
     const Json j = info();
-    if (*json) std::fputs(json_text(j).c_str(), stdout);
-    else print(j, 0);
+    if (*json)
+      std::fputs(json_text(j).c_str(), stdout);
+    else
+      print(j, 0);
     exit_code = ExitCode::success;
   });
 }

@@ -9,13 +9,15 @@
 
 namespace {
 
-/// The release is built for a processor generation; a machine that lacks it is told so, not crashed on.
+/// The release is built for a processor generation; a machine that lacks it is told so, not crashed
+/// on.
 bool processor_is_good_enough() {
   __builtin_cpu_init();
   if (std::strcmp(LUX_ARCH, "x86-64-v3") == 0 && !__builtin_cpu_supports("x86-64-v3")) {
-    std::fputs("luxodus: this build needs a processor with AVX2 and FMA (x86-64-v3). Build with\n"
-               "  cmake --preset release -DLUX_ARCH=x86-64-v2\n",
-               stderr);
+    std::fputs(
+        "luxodus: this build needs a processor with AVX2 and FMA (x86-64-v3). Build with\n"
+        "  cmake --preset release -DLUX_ARCH=x86-64-v2\n",
+        stderr);
     return false;
   }
   return true;
@@ -30,14 +32,16 @@ int main(int argc, char** argv) {
   spdlog::set_pattern("%^%l%$ %v");
 
   CLI::App app{
-      "Luxodus simulates the light in a smoke-filled building by Monte Carlo particle tracing and says\n"
+      "Luxodus simulates the light in a smoke-filled building by Monte Carlo particle tracing and "
+      "says\n"
       "what reaches the escape routes and what an eye receives from the exit signs."};
   app.require_subcommand(1);
   app.set_version_flag("--version", LUX_VERSION);
-  app.footer("First steps:\n"
-             "  luxodus check scenes/library/office_floor.toml\n"
-             "  luxodus run scenes/library/office_floor.toml --out out/floor --time 30s\n"
-             "`luxodus COMMAND --help` tells more; scenes/format/README.md explains scene files.");
+  app.footer(
+      "First steps:\n"
+      "  luxodus check scenes/library/office_floor.toml\n"
+      "  luxodus run scenes/library/office_floor.toml --out out/floor --time 30s\n"
+      "`luxodus COMMAND --help` tells more; scenes/format/README.md explains scene files.");
   int exit_code = ExitCode::success;
   add_run(app, exit_code);
   add_check(app, exit_code);

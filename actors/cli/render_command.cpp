@@ -36,7 +36,8 @@ Result<Finished> read_result(const fs::path& file) {
   const SourcePlace place{file.string(), 0};
   if (!json.is_object() || !json.contains("scene_file") || !json["scene_file"].is_string() ||
       !json.contains("scenario") || !json["scenario"].is_string() ||
-      !json.value("seed", Json()).is_number_unsigned() || !json.value("cells", Json()).is_number_integer()) {
+      !json.value("seed", Json()).is_number_unsigned() ||
+      !json.value("cells", Json()).is_number_integer()) {
     return Problem{place, "this is no result of a run: run the scene again"};
   }
   return Finished{json["scene_file"], json["scenario"], json["seed"], json["cells"]};
@@ -47,7 +48,8 @@ Result<Done> render(const RenderOptions& options) {
   auto finished = read_result(folder / "result.json");
   if (!finished.ok()) return finished.problem();
   const auto description = load_scene(finished->scene_file);
-  if (!description) return Problem{{finished->scene_file, 0}, "the run's scene cannot be read any more"};
+  if (!description)
+    return Problem{{finished->scene_file, 0}, "the run's scene cannot be read any more"};
   const std::string name = description->scenarios.empty() ? "" : finished->scenario;
   auto scenario = find_scenario(*description, name);
   if (!scenario.ok()) return scenario.problem();
@@ -60,7 +62,8 @@ Result<Done> render(const RenderOptions& options) {
   ProgressLine line("pictures");
   PictureOptions picture;
   picture.paths_per_pixel = options.paths;
-  return render_views(folder, run, options.view, picture, [&](double share) { line.show_share(share); });
+  return render_views(folder, run, options.view, picture,
+                      [&](double share) { line.show_share(share); });
 }
 
 }  // namespace
@@ -69,10 +72,12 @@ void add_render(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<RenderOptions>();
   CLI::App* command =
       app.add_subcommand("render", "Make pictures from a finished run, without tracing it again");
-  command->footer("Reads DIR/result.json, DIR/flux.lux and the scene file; refuses if the scene has changed.");
+  command->footer(
+      "Reads DIR/result.json, DIR/flux.lux and the scene file; refuses if the scene has changed.");
   command->add_option("dir", options->folder, "folder of a finished run")->required();
   command->add_option("--view", options->view, "name of one camera [all]");
-  command->add_option("--paths", options->paths, "paths per pixel [32]")->check(CLI::Range(1, 100'000));
+  command->add_option("--paths", options->paths, "paths per pixel [32]")
+      ->check(CLI::Range(1, 100'000));
   command->add_option("--threads", options->threads, "[all cores]")->check(CLI::Range(1, 1024));
   command->callback([options, &exit_code] {
     auto done = render(*options);

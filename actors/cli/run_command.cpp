@@ -104,7 +104,8 @@ Result<StopReason> run_scenario(std::shared_ptr<const SceneDescription> descript
   record.cells = options.cells;
   if (auto ok = write_all(folder, run, record, options); !ok.ok()) return ok.problem();
   const Json result = result_json(run, record);
-  if (options.json) std::fputs(json_text(result).c_str(), stdout);
+  if (options.json)
+    std::fputs(json_text(result).c_str(), stdout);
   else
     std::printf("%s, scenario %s, in %s\n%s", description->name.c_str(), scenario.name.c_str(),
                 folder.string().c_str(), summary_text(run, result).c_str());
@@ -125,8 +126,8 @@ int run_scene(const RunOptions& options) {
     return ExitCode::bad_input;
   }
   install_interrupt_handler();
-  const fs::path out =
-      options.out.empty() ? fs::path("out") / fs::path(options.scene).stem() : fs::path(options.out);
+  const fs::path out = options.out.empty() ? fs::path("out") / fs::path(options.scene).stem()
+                                           : fs::path(options.out);
   const bool several = options.scenario == "all" && description->scenarios.size() > 0;
   for (const Scenario& scenario : scenarios.value()) {
     const fs::path folder = several ? out / scenario.name : out;
@@ -147,28 +148,35 @@ int run_scene(const RunOptions& options) {
 
 void add_run(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<RunOptions>();
-  CLI::App* command = app.add_subcommand("run", "Trace a scene and write flux, lux, signs and pictures");
+  CLI::App* command =
+      app.add_subcommand("run", "Trace a scene and write flux, lux, signs and pictures");
   command->footer(
       "Examples:\n"
       "  luxodus run scenes/library/empty_room.toml --out out/room --particles 10M\n"
       "  luxodus run scenes/library/office_floor.toml --scenario all --error 1%\n"
       "  luxodus run scene.toml --out out/x --time 60s     then: ... --time 60s --resume\n\n"
-      "Stops at the first of --particles, --error and --time that holds (4M particles if none is given).\n"
-      "The error is the worst relative standard error of plane means, probes and signs at the eye.\n"
-      "Ctrl-C stops at a batch's end and writes what there is. Equal scene, seed, particles and cells give\n"
+      "Stops at the first of --particles, --error and --time that holds (4M particles if none is "
+      "given).\n"
+      "The error is the worst relative standard error of plane means, probes and signs at the "
+      "eye.\n"
+      "Ctrl-C stops at a batch's end and writes what there is. Equal scene, seed, particles and "
+      "cells give\n"
       "the same flux file, bit for bit, for any number of threads.\n\n"
       "DIR then holds result.json, flux.lux, planes/, views/, patches.vtp and volume.vti.");
-  command->add_option("scene", options->scene, "scene file (TOML; see scenes/format/README.md)")->required();
+  command->add_option("scene", options->scene, "scene file (TOML; see scenes/format/README.md)")
+      ->required();
   command->add_option("--out", options->out, "folder for the results [out/NAME]");
   command->add_option("--scenario", options->scenario, "name of a scenario, or 'all' [the first]");
-  command->add_option("--particles", options->particles, "how many, e.g. 1e6, 250k, 10M (whole batches)");
+  command->add_option("--particles", options->particles,
+                      "how many, e.g. 1e6, 250k, 10M (whole batches)");
   command->add_option("--error", options->error, "relative standard error to reach, e.g. 1%");
   command->add_option("--time", options->time, "how long, e.g. 60s, 5m");
   command->add_option("--seed", options->seed, "of the random numbers [the scene's]");
   command->add_option("--threads", options->threads, "[all cores]")->check(CLI::Range(1, 1024));
   command->add_option("--cells", options->cells, "geometry cells; 1 is one merged scene [1]")
       ->check(CLI::Range(1, 1'000'000));
-  command->add_option("--picture-paths", options->picture_paths, "paths per pixel of the views [32]")
+  command
+      ->add_option("--picture-paths", options->picture_paths, "paths per pixel of the views [32]")
       ->check(CLI::Range(1, 100'000));
   command->add_flag("--resume", options->resume, "go on from DIR's flux file");
   command->add_flag("--no-views", options->no_views, "make no pictures");

@@ -16,7 +16,9 @@ Json measured(const Estimate& e, const char* unit) {
   return measured_json(e.value, e.standard_error, unit);
 }
 
-Json vector_json(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
+Json vector_json(const glm::dvec3& v) {
+  return {v.x, v.y, v.z};
+}
 
 Json ledger_json(const Ledger& l) {
   const auto units = [](Int128 v) { return to_string(v); };
@@ -48,7 +50,8 @@ Json surfaces_json(const CompiledScene& scene, const Readout& readout) {
                  {"mean_illuminance_of_both_sides",
                   measured(in * (surface.area_m2 > 0 ? 1 / surface.area_m2 : 0), "lx")}};
     Json watts = Json::array();
-    for (int b = 0; b < scene.bands.count(); ++b) watts.push_back(measured(readout.watts(block, s, b, 0), "W"));
+    for (int b = 0; b < scene.bands.count(); ++b)
+      watts.push_back(measured(readout.watts(block, s, b, 0), "W"));
     item["incident_by_band"] = std::move(watts);
     out.push_back(std::move(item));
   }
@@ -108,7 +111,8 @@ Json counting_json(const CompiledScene& scene, const Readout& readout) {
 Json escape_json(const CompiledScene& scene, const Readout& readout) {
   const char* sides[] = {"x-", "x+", "y-", "y+", "z-", "z+"};
   Json out;
-  for (uint32_t i = 0; i < 6; ++i) out[sides[i]] = measured(readout.lumens(scene.blocks.escape, i, 0), "lm");
+  for (uint32_t i = 0; i < 6; ++i)
+    out[sides[i]] = measured(readout.lumens(scene.blocks.escape, i, 0), "lm");
   return out;
 }
 
@@ -126,20 +130,25 @@ Json probes_json(const LocalRun& run, const Readout& readout) {
     for (size_t g = 0; g < scene.groups.size(); ++g) {
       groups[scene.groups[g].name] = exact_json(direct.illuminance_lx[g], "lx");
     }
-    out.push_back({{"name", probe.name},
-                   {"position", vector_json(probe.position)},
-                   {"normal", vector_json(probe.normal)},
-                   {"direct_illuminance", exact_json(direct.total_lx(), "lx")},
-                   {"indirect_illuminance", measured(indirect, "lx")},
-                   {"illuminance", measured({direct.total_lx() + indirect.value, indirect.standard_error}, "lx")},
-                   {"direct_by_source_group", groups},
-                   {"fluence", measured({direct.total_fluence() + fluence.value, fluence.standard_error}, "lx")}});
+    out.push_back(
+        {{"name", probe.name},
+         {"position", vector_json(probe.position)},
+         {"normal", vector_json(probe.normal)},
+         {"direct_illuminance", exact_json(direct.total_lx(), "lx")},
+         {"indirect_illuminance", measured(indirect, "lx")},
+         {"illuminance",
+          measured({direct.total_lx() + indirect.value, indirect.standard_error}, "lx")},
+         {"direct_by_source_group", groups},
+         {"fluence",
+          measured({direct.total_fluence() + fluence.value, fluence.standard_error}, "lx")}});
   }
   return out;
 }
 
 Json sign_part_json(const CompiledScene& scene, const Readout& readout, uint32_t bin) {
-  const auto of = [&](EyeQuantity q) { return readout.value(scene.blocks.views, bin, static_cast<uint32_t>(q)); };
+  const auto of = [&](EyeQuantity q) {
+    return readout.value(scene.blocks.views, bin, static_cast<uint32_t>(q));
+  };
   return {{"luminance_at_face", measured(of(EyeQuantity::own), "cd/m2")},
           {"reflected_at_face", measured(of(EyeQuantity::reflected), "cd/m2")},
           {"luminance_at_eye", measured(of(EyeQuantity::at_eye), "cd/m2")},
@@ -163,17 +172,20 @@ Json views_json(const CompiledScene& scene, const Readout& readout) {
     const Sign& sign = scene.description->signs[face.sign];
     const Observer& observer = scene.description->observers[t.observer];
     const auto at_eye = [&](uint32_t part) {
-      return readout.value(scene.blocks.views, t.first_bin + part, static_cast<uint32_t>(EyeQuantity::at_eye));
+      return readout.value(scene.blocks.views, t.first_bin + part,
+                           static_cast<uint32_t>(EyeQuantity::at_eye));
     };
     const Estimate white = at_eye(0), green = at_eye(1), surround = at_eye(2);
     const double w = colour_share(sign.face, SignColour::white);
     const double g = colour_share(sign.face, SignColour::green);
-    const Estimate mean{(w * white.value + g * green.value) / std::max(w + g, 1e-12),
-                        std::hypot(w * white.standard_error, g * green.standard_error) / std::max(w + g, 1e-12)};
+    const Estimate mean{
+        (w * white.value + g * green.value) / std::max(w + g, 1e-12),
+        std::hypot(w * white.standard_error, g * green.standard_error) / std::max(w + g, 1e-12)};
     const bool white_legend = sign.face.legend == SignColour::white;
     const SignView view = view_of_sign(sign, observer.eye);
     const double gaze = glm::degrees(std::acos(std::clamp(
-        glm::dot(glm::normalize(face.frame.origin - observer.eye), glm::normalize(observer.gaze)), -1.0, 1.0)));
+        glm::dot(glm::normalize(face.frame.origin - observer.eye), glm::normalize(observer.gaze)),
+        -1.0, 1.0)));
     out.push_back({{"sign", sign.name},
                    {"back_face", face.back},
                    {"observer", observer.name},
@@ -202,27 +214,28 @@ Json result_of(const LocalRun& run, const RunRecord& record, const PlaneMaps& ma
   std::snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(scene.scene_hash));
   const auto rays = static_cast<double>(run.totals().ledger().rays);
   const double fom = error > 0 && seconds > 0 ? 1 / (error * error * seconds) : std::nan("");
-  Json out = {{"schema", result_schema},
-              {"program", "luxodus"},
-              {"scene", scene.description->name},
-              {"title", scene.description->title},
-              {"scene_file", record.scene_file},
-              {"scene_hash", hash},
-              {"scenario", scene.scenario.name},
-              {"cells", record.cells},
-              {"kernel", describe_kernel(scene)},
-              {"seed", run.seed()},
-              {"particles", run.particles()},
-              {"batches", run.batches()},
-              {"batch_particles", scene.batch_particles},
-              {"stopped_by", record.stopped_by},
-              {"threads", run.threads()},
-              {"seconds", exact_json(seconds, "s")},
-              {"particles_per_second", exact_json(static_cast<double>(run.particles()) / seconds, "1/s")},
-              {"rays_per_second", exact_json(rays / seconds, "1/s")},
-              {"worst_relative_error", exact_json(error, "1")},
-              {"figure_of_merit", exact_json(fom, "1/s")},
-              {"ledger", ledger_json(run.totals().ledger())}};
+  Json out = {
+      {"schema", result_schema},
+      {"program", "luxodus"},
+      {"scene", scene.description->name},
+      {"title", scene.description->title},
+      {"scene_file", record.scene_file},
+      {"scene_hash", hash},
+      {"scenario", scene.scenario.name},
+      {"cells", record.cells},
+      {"kernel", describe_kernel(scene)},
+      {"seed", run.seed()},
+      {"particles", run.particles()},
+      {"batches", run.batches()},
+      {"batch_particles", scene.batch_particles},
+      {"stopped_by", record.stopped_by},
+      {"threads", run.threads()},
+      {"seconds", exact_json(seconds, "s")},
+      {"particles_per_second", exact_json(static_cast<double>(run.particles()) / seconds, "1/s")},
+      {"rays_per_second", exact_json(rays / seconds, "1/s")},
+      {"worst_relative_error", exact_json(error, "1")},
+      {"figure_of_merit", exact_json(fom, "1/s")},
+      {"ledger", ledger_json(run.totals().ledger())}};
   Json groups = Json::array();
   for (const Group& g : scene.groups)
     groups.push_back({{"name", g.name}, {"luminous_flux", exact_json(g.luminous_flux_lm, "lm")}});
@@ -263,12 +276,14 @@ std::string summary_text(const LocalRun& run, const Json& result) {
   for (const Json& p : result["planes"]) {
     std::snprintf(line, sizeof line, "  plane %-24s min %8.3g  mean %8.3g +- %.2g lx\n",
                   p["name"].get<std::string>().c_str(), number(p["minimum"]["value"]),
-                  number(p["mean_illuminance"]["value"]), number(p["mean_illuminance"]["standard_error"]));
+                  number(p["mean_illuminance"]["value"]),
+                  number(p["mean_illuminance"]["standard_error"]));
     text += line;
   }
   for (const Json& s : result["signs"]) {
     std::snprintf(line, sizeof line,
-                  "  sign %-16s from %-14s %5.1f m  white %8.3g +- %-7.2g green %8.3g +- %-7.2g surround %8.3g cd/m2\n",
+                  "  sign %-16s from %-14s %5.1f m  white %8.3g +- %-7.2g green %8.3g +- %-7.2g "
+                  "surround %8.3g cd/m2\n",
                   s["sign"].get<std::string>().c_str(), s["observer"].get<std::string>().c_str(),
                   number(s["distance"]["value"]), number(s["white"]["luminance_at_eye"]["value"]),
                   number(s["white"]["luminance_at_eye"]["standard_error"]),
@@ -279,7 +294,8 @@ std::string summary_text(const LocalRun& run, const Json& result) {
   }
   std::snprintf(line, sizeof line, "  ledger %s; %lld particles, worst relative error %.2g\n",
                 run.totals().ledger().closes() ? "closes exactly" : "DOES NOT CLOSE",
-                static_cast<long long>(run.particles()), number(result["worst_relative_error"]["value"]));
+                static_cast<long long>(run.particles()),
+                number(result["worst_relative_error"]["value"]));
   text += line;
   return text;
 }

@@ -1,5 +1,5 @@
-// The results of a run on disk: result.json, the planes as tables and pictures, patches and voxels for ParaView.
-// Every value with standard error and unit. Reads the run, changes nothing.
+// The results of a run on disk: result.json, the planes as tables and pictures, patches and voxels
+// for ParaView. Every value with standard error and unit. Reads the run, changes nothing.
 #pragma once
 
 #include <filesystem>
@@ -19,7 +19,8 @@ struct RunRecord {
 /// result.json as a value.
 Json result_json(const LocalRun& run, const RunRecord& record);
 
-/// Writes result.json, planes/*.csv and *.png, patches.vtp and volume.vti into `folder` (made if missing).
+/// Writes result.json, planes/*.csv and *.png, patches.vtp and volume.vti into `folder` (made if
+/// missing).
 Result<Done> write_report(const std::filesystem::path& folder, const LocalRun& run,
                           const RunRecord& record);
 

@@ -1,4 +1,5 @@
 // From traced pictures to files.
+#include <algorithm>
 #include <cmath>
 
 #include "actors/display/pictures.hpp"
@@ -60,6 +61,36 @@ ExrImage exr_of(const LocalRun& run, const Camera& camera, const TracedPicture& 
   image.numbers = {{"paths_per_pixel", static_cast<double>(options.paths_per_pixel)},
                    {"particles", static_cast<double>(run.particles())}};
   return image;
+}
+
+/// The picture with each pixel's chromaticity averaged over its neighbourhood of 7 x 7, luminance
+/// untouched. A path carries one band, so few paths give right luminance in wrong colours; eyes
+/// resolve colour coarsely. For pictures on a screen only: the data of the EXR file stays as
+/// traced.
+XyzPicture with_calm_colour(const XyzPicture& in) {
+  XyzPicture out = in;
+  constexpr int reach = 3;
+  for (int y = 0; y < in.height; ++y) {
+    for (int x = 0; x < in.width; ++x) {
+      float sum[3] = {0, 0, 0};
+      for (int j = std::max(0, y - reach); j <= std::min(in.height - 1, y + reach); ++j) {
+        for (int i = std::max(0, x - reach); i <= std::min(in.width - 1, x + reach); ++i) {
+          const float* near = &in.xyz[3 * static_cast<size_t>(j * in.width + i)];
+          // Bright neighbours (a lamp, a flame) must not colour what is beside them: equal weight
+          // each.
+          const float total = near[0] + near[1] + near[2];
+          if (!(total > 0)) continue;
+          const float weight = 1 / (total + in.xyz[3 * static_cast<size_t>(y * in.width + x) + 1]);
+          for (int c = 0; c < 3; ++c) sum[c] += weight * near[c];
+        }
+      }
+      if (!(sum[1] > 0)) continue;
+      float* pixel = &out.xyz[3 * static_cast<size_t>(y * in.width + x)];
+      pixel[0] = pixel[1] * sum[0] / sum[1];
+      pixel[2] = pixel[1] * sum[2] / sum[1];
+    }
+  }
+  return out;
 }
 
 /// Light that an eye or a camera takes for white: within this of black bodies of these
@@ -136,7 +167,7 @@ Result<Done> write_view(const std::filesystem::path& folder, const LocalRun& run
   const auto path = [&](const char* ending) { return folder / (camera.name + ending); };
   if (auto ok = write_exr(path(".exr"), exr_of(run, camera, traced, options)); !ok.ok()) return ok;
   const auto texts = texts_of(run, camera);
-  const XyzPicture balanced = white_balanced(run.scene(), traced.light);
+  const XyzPicture balanced = white_balanced(run.scene(), with_calm_colour(traced.light));
   const PngImage plain = png_of(
       tone_plain(balanced, {}), texts,
       "One exposure, white balanced, as a camera takes it; luminance data is in the EXR file");

@@ -1,5 +1,5 @@
-// Groups take turns by largest deficit: half of the batches evenly, half in proportion to lumens, since a
-// designer may ask for a weak circuit alone.
+// Groups take turns by largest deficit: half of the batches evenly, half in proportion to lumens,
+// since a designer may ask for a weak circuit alone.
 #include "actors/source/batch_plan.hpp"
 
 #include <algorithm>
@@ -27,7 +27,8 @@ Batch BatchPlan::next() {
   size_t chosen = 0;
   double most = -1e300;
   for (size_t g = 0; g < share_.size(); ++g) {
-    const double deficit = share_[g] * static_cast<double>(given_ + 1) - static_cast<double>(issued_[g]);
+    const double deficit =
+        share_[g] * static_cast<double>(given_ + 1) - static_cast<double>(issued_[g]);
     if (deficit > most) {
       most = deficit;
       chosen = g;

@@ -1,5 +1,6 @@
-// Which batch is what: batch k belongs to one source group and is a fixed range of its particle ids. A pure
-// function of the scene, so nodes, threads and resumed runs agree on it without talking.
+// Which batch is what: batch k belongs to one source group and is a fixed range of its particle
+// ids. A pure function of the scene, so nodes, threads and resumed runs agree on it without
+// talking.
 #pragma once
 
 #include <cstdint>
@@ -25,8 +26,8 @@ class BatchPlan {
   void skip(int64_t count);
   int64_t given() const { return given_; }
 
-  /// Batches of the first round, and after that the end of the round that `done` batches lie in: rounds grow by a
-  /// quarter, so that a run oversteps its target by little.
+  /// Batches of the first round, and after that the end of the round that `done` batches lie in:
+  /// rounds grow by a quarter, so that a run oversteps its target by little.
   int64_t round_end(int64_t done) const;
 
  private:

@@ -23,7 +23,9 @@ Block block_of(const std::string& name, const T* values, size_t count) {
   return block;
 }
 
-std::string group_block_name(int group) { return "totals/" + std::to_string(group); }
+std::string group_block_name(int group) {
+  return "totals/" + std::to_string(group);
+}
 
 Json describe_layout(const TallyLayout& layout) {
   Json blocks = Json::array();
@@ -60,7 +62,8 @@ Json describe_run(const LocalRun& run) {
           {"layout", describe_layout(scene.layout)}};
 }
 
-Result<bool> same(const Json& header, const Json& wanted, const char* key, const SourcePlace& place) {
+Result<bool> same(const Json& header, const Json& wanted, const char* key,
+                  const SourcePlace& place) {
   const Json found = header.value(key, Json());
   if (found == wanted[key]) return true;
   return Problem{place, std::string("this flux is of another ") + key + " (" + found.dump() +
@@ -89,7 +92,8 @@ Result<Done> load_flux(const std::filesystem::path& path, LocalRun& run) {
   const Json header = Json::parse(read->header_json, nullptr, false);
   if (!header.is_object()) return Problem{place, "the flux file's header is no JSON object"};
   const Json wanted = describe_run(run);
-  for (const char* key : {"schema", "scenario", "seed", "scene_hash", "batch_particles", "layout"}) {
+  for (const char* key :
+       {"schema", "scenario", "seed", "scene_hash", "batch_particles", "layout"}) {
     if (auto ok = same(header, wanted, key, place); !ok.ok()) return ok.problem();
   }
   Totals& totals = run.totals();

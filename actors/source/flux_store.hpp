@@ -1,5 +1,5 @@
-// A run's totals on disk, whole: sums, squares and ledger of every group, so that a file is both a result and a
-// place to go on from, bit for bit. It holds no timings, threads or machines.
+// A run's totals on disk, whole: sums, squares and ledger of every group, so that a file is both a
+// result and a place to go on from, bit for bit. It holds no timings, threads or machines.
 #pragma once
 
 #include <filesystem>

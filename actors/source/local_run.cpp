@@ -11,8 +11,11 @@ namespace luxodus {
 
 namespace {
 
-/// Denormals to zero: a weight's float shadow never needs them, and they cost a hundred times a multiplication.
-void flush_denormals() { _mm_setcsr(_mm_getcsr() | 0x8040); }
+/// Denormals to zero: a weight's float shadow never needs them, and they cost a hundred times a
+/// multiplication.
+void flush_denormals() {
+  _mm_setcsr(_mm_getcsr() | 0x8040);
+}
 
 constexpr double report_every_s = 0.25;
 
@@ -37,24 +40,29 @@ LocalRun::LocalRun(std::shared_ptr<const CompiledScene> scene, uint64_t seed, in
       plan_(*scene_),
       error_(std::numeric_limits<double>::quiet_NaN()) {}
 
-void LocalRun::resume(int64_t batches) { plan_.skip(batches); }
+void LocalRun::resume(int64_t batches) {
+  plan_.skip(batches);
+}
 
 Progress LocalRun::progress(const StopRule& stop, double seconds) const {
   Progress p;
   p.particles = plan_.given() * scene_->batch_particles;
   p.seconds = seconds;
-  const auto here = static_cast<double>((plan_.given() - batches_at_start_) * scene_->batch_particles);
+  const auto here =
+      static_cast<double>((plan_.given() - batches_at_start_) * scene_->batch_particles);
   p.particles_per_second = seconds > 0 ? here / seconds : 0;
   p.relative_error = error_;
   double left = std::numeric_limits<double>::infinity();
   if (stop.seconds) left = std::min(left, *stop.seconds - seconds);
   if (stop.particles && p.particles_per_second > 0)
-    left = std::min(left, static_cast<double>(*stop.particles - p.particles) / p.particles_per_second);
+    left =
+        std::min(left, static_cast<double>(*stop.particles - p.particles) / p.particles_per_second);
   if (stop.relative_error && std::isfinite(error_) && error_ > 0) {
     const double ratio = error_ / *stop.relative_error;
     left = std::min(left, seconds * std::max(0.0, ratio * ratio - 1));
   }
-  p.seconds_left = std::isfinite(left) ? std::max(0.0, left) : std::numeric_limits<double>::quiet_NaN();
+  p.seconds_left =
+      std::isfinite(left) ? std::max(0.0, left) : std::numeric_limits<double>::quiet_NaN();
   return p;
 }
 
@@ -97,17 +105,23 @@ StopReason LocalRun::run(const StopRule& stop, const std::atomic<bool>& interrup
   batches_at_start_ = plan_.given();
   time_is_up_ = false;
   int64_t target = std::numeric_limits<int64_t>::max();
-  if (stop.particles) target = (*stop.particles + scene_->batch_particles - 1) / scene_->batch_particles;
+  if (stop.particles)
+    target = (*stop.particles + scene_->batch_particles - 1) / scene_->batch_particles;
   StopReason reason = StopReason::particles;
   while (plan_.given() < target) {
     // Rounds end where threads wait for one another: only an error target needs them.
-    const int64_t end = stop.relative_error ? std::min(target, plan_.round_end(plan_.given())) : target;
+    const int64_t end =
+        stop.relative_error ? std::min(target, plan_.round_end(plan_.given())) : target;
     trace_until(end, stop, interrupt, report, clock);
     error_ = Readout(*scene_, totals_).worst_relative_error();
-    if (interrupt.load()) reason = StopReason::interrupted;
-    else if (time_is_up_) reason = StopReason::time;
-    else if (stop.relative_error && error_ <= *stop.relative_error) reason = StopReason::error;
-    else continue;
+    if (interrupt.load())
+      reason = StopReason::interrupted;
+    else if (time_is_up_)
+      reason = StopReason::time;
+    else if (stop.relative_error && error_ <= *stop.relative_error)
+      reason = StopReason::error;
+    else
+      continue;
     break;
   }
   seconds_ = before + clock.seconds();

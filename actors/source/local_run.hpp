@@ -1,5 +1,6 @@
-// A run on this machine: threads that trace batches until a stopping rule holds, all into the same totals.
-// The flux depends on (scene, seed, which batches) only; threads and timing decide how fast, never what.
+// A run on this machine: threads that trace batches until a stopping rule holds, all into the same
+// totals. The flux depends on (scene, seed, which batches) only; threads and timing decide how
+// fast, never what.
 #pragma once
 
 #include <atomic>
@@ -14,8 +15,8 @@
 
 namespace luxodus {
 
-/// When to stop; the first rule that holds does. Particles are rounded up to whole batches; the error is
-/// tested at the ends of rounds.
+/// When to stop; the first rule that holds does. Particles are rounded up to whole batches; the
+/// error is tested at the ends of rounds.
 struct StopRule {
   std::optional<int64_t> particles;
   std::optional<double> relative_error;
@@ -37,8 +38,8 @@ class LocalRun {
   /// Requires: threads >= 1.
   LocalRun(std::shared_ptr<const CompiledScene> scene, uint64_t seed, int threads);
 
-  /// Traces until `stop` holds or `interrupt` is set; batches in flight are finished. May be called again to go on.
-  /// `report` is called about four times a second, from one thread at a time.
+  /// Traces until `stop` holds or `interrupt` is set; batches in flight are finished. May be called
+  /// again to go on. `report` is called about four times a second, from one thread at a time.
   StopReason run(const StopRule& stop, const std::atomic<bool>& interrupt,
                  const std::function<void(const Progress&)>& report);
 

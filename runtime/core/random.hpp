@@ -1,8 +1,9 @@
-// Counter-based random numbers: Philox 4x32-10 (Salmon, Moraes, Dror, Shaw, "Parallel random numbers: as easy
-// as 1, 2, 3", SC11). A draw is a pure function of (seed, stream, particle, draw number), so any machine can
-// redo any particle and get the same bits. Draws of one particle are made 32 at a time, in vector registers
-// where the target has them; both ways give the same numbers.
-// Rule: never two draws in one expression, since their order would be the compiler's choice.
+// Counter-based random numbers: Philox 4x32-10 (Salmon, Moraes, Dror, Shaw, "Parallel random
+// numbers: as easy as 1, 2, 3", SC11). A draw is a pure function of (seed, stream, particle, draw
+// number), so any machine can redo any particle and get the same bits. Draws of one particle are
+// made 32 at a time, in vector registers where the target has them; both ways give the same
+// numbers. Rule: never two draws in one expression, since their order would be the compiler's
+// choice.
 #pragma once
 
 #include <array>
@@ -64,7 +65,8 @@ class Random {
   static constexpr uint32_t blocks_per_refill = 8;
   static constexpr uint32_t draws_per_refill = 4 * blocks_per_refill;
 
-  // Draw number d of a refill is word d / 8 of block d % 8: the order in which vector lanes come out.
+  // Draw number d of a refill is word d / 8 of block d % 8: the order in which vector lanes come
+  // out.
   void refill() {
 #ifdef __AVX2__
     const __m256i m0 = _mm256_set1_epi64x(0xD2511F53);

@@ -6,12 +6,16 @@
 
 namespace luxodus {
 
-__extension__ typedef __int128 Int128;            // NOLINT: a typedef takes __extension__, `using` does not
+__extension__ typedef __int128 Int128;  // NOLINT: a typedef takes __extension__, `using` does not
 __extension__ typedef unsigned __int128 UInt128;  // NOLINT
 
 /// Nearest double.
-inline double to_double(Int128 v) { return static_cast<double>(v); }
-inline double to_double(UInt128 v) { return static_cast<double>(v); }
+inline double to_double(Int128 v) {
+  return static_cast<double>(v);
+}
+inline double to_double(UInt128 v) {
+  return static_cast<double>(v);
+}
 
 /// Decimal digits, for messages and JSON.
 inline std::string to_string(Int128 v) {

@@ -9,9 +9,9 @@
 namespace luxodus {
 
 struct Mesh {
-  std::vector<glm::dvec3> positions;   // [m]
-  std::vector<glm::uvec3> triangles;   // counter-clockwise seen from the front
-  std::vector<glm::vec2> texture_uv;   // one per position, or empty
+  std::vector<glm::dvec3> positions;  // [m]
+  std::vector<glm::uvec3> triangles;  // counter-clockwise seen from the front
+  std::vector<glm::vec2> texture_uv;  // one per position, or empty
 };
 
 struct Bounds {

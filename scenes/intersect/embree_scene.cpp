@@ -1,9 +1,10 @@
-// Design: one triangle geometry per cell, ROBUST so that shared edges do not leak, vertices written straight
-// from the records (welding would save memory but the records hold the corners a hit needs anyway). Corners are
-// another matter: of rays aimed at a corner itself to the last bit, Embree loses 4 in 1000 (measured); a ray that
-// is not aimed comes that close with a chance of some 1e-14 a corner, and is then counted as escaped.
-// The proxies' callback only notes candidates and never changes the ray: cells are entered outside Embree,
-// where a caller may wait. Callbacks are noexcept, because Embree swallows exceptions.
+// Design: one triangle geometry per cell, ROBUST so that shared edges do not leak, vertices written
+// straight from the records (welding would save memory but the records hold the corners a hit needs
+// anyway). Corners are another matter: of rays aimed at a corner itself to the last bit, Embree
+// loses 4 in 1000 (measured); a ray that is not aimed comes that close with a chance of some 1e-14
+// a corner, and is then counted as escaped. The proxies' callback only notes candidates and never
+// changes the ray: cells are entered outside Embree, where a caller may wait. Callbacks are
+// noexcept, because Embree swallows exceptions.
 #include "scenes/intersect/embree_scene.hpp"
 
 #include <algorithm>
@@ -90,18 +91,22 @@ std::string EmbreeDevice::library_version() {
   const auto part = [&](RTCDeviceProperty p) {
     return std::to_string(rtcGetDeviceProperty(device.get(), p));
   };
-  return part(RTC_DEVICE_PROPERTY_VERSION_MAJOR) + "." + part(RTC_DEVICE_PROPERTY_VERSION_MINOR) + "." +
-         part(RTC_DEVICE_PROPERTY_VERSION_PATCH);
+  return part(RTC_DEVICE_PROPERTY_VERSION_MAJOR) + "." + part(RTC_DEVICE_PROPERTY_VERSION_MINOR) +
+         "." + part(RTC_DEVICE_PROPERTY_VERSION_PATCH);
 }
 
 std::string EmbreeDevice::instruction_sets() {
   const EmbreeDevice device;
-  if (rtcGetDeviceProperty(device.get(), RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0) return "up to AVX-512";
-  if (rtcGetDeviceProperty(device.get(), RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED) != 0) return "up to AVX2";
+  if (rtcGetDeviceProperty(device.get(), RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0)
+    return "up to AVX-512";
+  if (rtcGetDeviceProperty(device.get(), RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED) != 0)
+    return "up to AVX2";
   return "up to SSE4.2";
 }
 
-EmbreeDevice::~EmbreeDevice() { rtcReleaseDevice(device_); }
+EmbreeDevice::~EmbreeDevice() {
+  rtcReleaseDevice(device_);
+}
 
 CellScene::CellScene(const EmbreeDevice& device, const GeometryCell& cell) : cell_(&cell) {
   RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
@@ -134,7 +139,9 @@ CellScene::CellScene(const EmbreeDevice& device, const GeometryCell& cell) : cel
   rtcCommitScene(scene_);
 }
 
-CellScene::~CellScene() { rtcReleaseScene(scene_); }
+CellScene::~CellScene() {
+  rtcReleaseScene(scene_);
+}
 
 Hit CellScene::nearest(const Ray& ray) const {
   RTCIntersectContext context;
@@ -175,7 +182,9 @@ ProxyScene::ProxyScene(const EmbreeDevice& device, std::vector<Box> boxes)
   rtcCommitScene(scene_);
 }
 
-ProxyScene::~ProxyScene() { rtcReleaseScene(scene_); }
+ProxyScene::~ProxyScene() {
+  rtcReleaseScene(scene_);
+}
 
 void ProxyScene::candidates(const Ray& ray, std::vector<Candidate>& out) const {
   out.clear();

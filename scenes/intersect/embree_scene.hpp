@@ -1,7 +1,8 @@
-// The only room that includes Embree. An EmbreeDevice is one library instance; a CellScene is the search
-// structure over the triangles of one geometry cell (a merged scene is a single cell); a ProxyScene is the
-// structure over the boxes of many cells, which finds candidates and never enters one.
-// Thread rule: queries are const and may run on any thread; building is not on the photon path.
+// The only room that includes Embree. An EmbreeDevice is one library instance; a CellScene is the
+// search structure over the triangles of one geometry cell (a merged scene is a single cell); a
+// ProxyScene is the structure over the boxes of many cells, which finds candidates and never enters
+// one. Thread rule: queries are const and may run on any thread; building is not on the photon
+// path.
 #pragma once
 
 #include <atomic>
@@ -97,9 +98,9 @@ class ProxyScene {
   RTCSceneTy* scene_ = nullptr;
 };
 
-/// Nearest hit over cells, front to back: `enter(cell)` gives the CellScene and may wait for it. A cell is
-/// entered only while it can hold something nearer; equal distances go to the smaller global triangle, so
-/// the answer does not depend on the order of the visits.
+/// Nearest hit over cells, front to back: `enter(cell)` gives the CellScene and may wait for it. A
+/// cell is entered only while it can hold something nearer; equal distances go to the smaller
+/// global triangle, so the answer does not depend on the order of the visits.
 template <class Enter>
 Hit nearest_in_cells(const ProxyScene& proxies, const Ray& ray, std::vector<Candidate>& scratch,
                      Enter&& enter) {

@@ -1,5 +1,5 @@
-// Rays answered by Embree alone: the yardstick that benchmarks hold the tracer against. Nothing of a hit is
-// read but what proves that the work was done. Any thread.
+// Rays answered by Embree alone: the yardstick that benchmarks hold the tracer against. Nothing of
+// a hit is read but what proves that the work was done. Any thread.
 #pragma once
 
 #include <cstdint>

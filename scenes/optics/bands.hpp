@@ -1,6 +1,6 @@
 // Wavelength bands: the few bins of wavelength that a scene's spectra can tell apart.
-// A band holds radiant watts; its coefficients turn watts into photopic, scotopic and XYZ quantities,
-// weighted within the band by the light that the scene emits.
+// A band holds radiant watts; its coefficients turn watts into photopic, scotopic and XYZ
+// quantities, weighted within the band by the light that the scene emits.
 #pragma once
 
 #include <vector>
@@ -20,8 +20,9 @@ struct Band {
 
 class Bands {
  public:
-  /// Bands with the given edges [nm], ascending, first 380 and last 780, for light of this total emission
-  /// shape (W/nm, any scale). A band where the scene emits nothing is weighted by equal energy.
+  /// Bands with the given edges [nm], ascending, first 380 and last 780, for light of this total
+  /// emission shape (W/nm, any scale). A band where the scene emits nothing is weighted by equal
+  /// energy.
   Bands(const std::vector<double>& edges_nm, const Spectrum& total_emission);
 
   int count() const { return static_cast<int>(bands_.size()); }
@@ -38,10 +39,11 @@ class Bands {
   Spectrum weight_;
 };
 
-/// Edges [nm] of the bands that these spectra can tell apart: `properties` are reflectances, extinctions,
-/// albedos; `emissions` the emission shapes in use. Grey properties and one emission shape give one band.
-/// Adjacent 20 nm bins are merged, least different first, until all are told apart by more than
-/// `tolerance` (relative to the largest value of each spectrum) and no more than `most` are left.
+/// Edges [nm] of the bands that these spectra can tell apart: `properties` are reflectances,
+/// extinctions, albedos; `emissions` the emission shapes in use. Grey properties and one emission
+/// shape give one band. Adjacent 20 nm bins are merged, least different first, until all are told
+/// apart by more than `tolerance` (relative to the largest value of each spectrum) and no more than
+/// `most` are left.
 std::vector<double> told_apart(const std::vector<Spectrum>& properties,
                                const std::vector<Spectrum>& emissions, double tolerance, int most);
 

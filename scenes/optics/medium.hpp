@@ -1,5 +1,6 @@
-// What a participating medium is, as a designer says it: kinds, optics, and where it stands. Plain values in
-// SI units; media overlap and their extinctions add. Compiled for tracing by media_set.hpp.
+// What a participating medium is, as a designer says it: kinds, optics, and where it stands. Plain
+// values in SI units; media overlap and their extinctions add. Compiled for tracing by
+// media_set.hpp.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -49,7 +50,7 @@ struct Footprint {
 enum class MediumKind { homogeneous, layered, bounded, data_set };
 
 struct Layer {
-  double z_low = 0;   // [m]; layers do not overlap, ascending
+  double z_low = 0;  // [m]; layers do not overlap, ascending
   double z_high = 0;
   SmokeOptics optics;
 };
@@ -69,17 +70,17 @@ struct Quadric {
 /// 3-D arrays in a box, x fastest. All arrays are empty (the constant holds) or nx*ny*nz long.
 struct DataSet {
   int nx = 0, ny = 0, nz = 0;
-  glm::dvec3 extent{0};          // box [0, extent] in local coordinates [m]
+  glm::dvec3 extent{0};           // box [0, extent] in local coordinates [m]
   std::vector<float> extinction;  // [1/m] at extinction wavelength
   std::vector<float> albedo;
-  std::vector<float> emission;    // relative strength per volume
+  std::vector<float> emission;  // relative strength per volume
   bool interpolate_emission = false;
 };
 
 /// Emission of a medium: power over all wavelengths, its shape and visible share from the spectrum.
 struct MediumEmission {
-  double power_w = 0;            // radiant, over all wavelengths
-  double visible_fraction = 1;   // share within 380..780 nm
+  double power_w = 0;           // radiant, over all wavelengths
+  double visible_fraction = 1;  // share within 380..780 nm
   Spectrum spectrum = equal_energy_shape();
   std::string group;
   std::string circuit;

@@ -1,5 +1,5 @@
-// Spectra on one grid of 5 nm from 380 to 780 nm, the CIE functions, and the illuminants a scene can name.
-// Plain values; any thread. Units: emission shapes are per nm and relative unless said.
+// Spectra on one grid of 5 nm from 380 to 780 nm, the CIE functions, and the illuminants a scene
+// can name. Plain values; any thread. Units: emission shapes are per nm and relative unless said.
 #pragma once
 
 #include <array>

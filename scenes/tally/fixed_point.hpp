@@ -1,6 +1,6 @@
-// Weights as integers. A particle is born with weight 2^32 units; every event splits that integer without
-// remainder, so the ledger closes exactly and sums do not depend on order. Rounding is randomised by the
-// particle's own draws, so the split has the right expectation.
+// Weights as integers. A particle is born with weight 2^32 units; every event splits that integer
+// without remainder, so the ledger closes exactly and sums do not depend on order. Rounding is
+// randomised by the particle's own draws, so the split has the right expectation.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,9 @@ inline Fraction to_fraction(double x) {
   if (x >= 1) return unit_weight;
   return static_cast<Fraction>(x * 0x1p32 + 0.5);
 }
-inline double from_fraction(Fraction f) { return static_cast<double>(f) * 0x1p-32; }
+inline double from_fraction(Fraction f) {
+  return static_cast<double>(f) * 0x1p-32;
+}
 
 /// The part of `weight` that goes on when a fraction of it does; the rest is weight minus this.
 /// Expectation over the 32 random bits: exactly weight * fraction / 2^32. Never more than weight.

@@ -1,5 +1,6 @@
 // The ledger: where every unit of weight came from and went, exact in integers.
-//   emitted + roulette gain = absorbed on surfaces + absorbed in media + escaped + roulette loss + lost
+//   emitted + roulette gain = absorbed on surfaces + absorbed in media + escaped + roulette loss +
+//   lost
 #pragma once
 
 #include <cstdint>

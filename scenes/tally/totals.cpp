@@ -1,5 +1,6 @@
-// Merging walks the bins in stripes, each behind a lock of its own, so that threads that finish together do
-// not wait for one another. A bin that scored nothing in a batch adds nothing to sum or squares: skipped.
+// Merging walks the bins in stripes, each behind a lock of its own, so that threads that finish
+// together do not wait for one another. A bin that scored nothing in a batch adds nothing to sum or
+// squares: skipped.
 #include "scenes/tally/totals.hpp"
 
 #include <cmath>
@@ -32,7 +33,8 @@ void Totals::fill_aggregates(BatchScores& batch) const {
     const TallyBlock& into = layout_.block(a.to_block);
     const size_t bands = static_cast<size_t>(layout_.bands());
     const size_t width = bands * from.quantities;
-    int64_t* to = &batch.scores[static_cast<size_t>(layout_.score_index(a.to_block, a.to_bin, 0, 0))];
+    int64_t* to =
+        &batch.scores[static_cast<size_t>(layout_.score_index(a.to_block, a.to_bin, 0, 0))];
     const int64_t* source =
         &batch.scores[static_cast<size_t>(layout_.score_index(a.from_block, a.first_bin, 0, 0))];
     for (uint32_t bin = 0; bin < a.bin_count; ++bin, source += width) {
@@ -70,7 +72,8 @@ void Totals::merge_bins(const BatchScores& batch, GroupState& to, const TallyBlo
         for (size_t b = 0; b < bands; ++b) {
           weighted += static_cast<Int128>(score[b * quantities + q]) * photopic[b];
         }
-        add_score(total[bands * quantities + q], static_cast<int64_t>(weighted >> Totals::photopic_shift));
+        add_score(total[bands * quantities + q],
+                  static_cast<int64_t>(weighted >> Totals::photopic_shift));
       }
     }
     score += bands * quantities;

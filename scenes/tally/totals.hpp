@@ -1,6 +1,7 @@
-// Scores of one batch, and the totals that batches are merged into. All integers, so totals are the same
-// bits for any order of merging and any number of threads. A batch belongs to one source group.
-// Thread rule: a BatchScores belongs to one thread; Totals::merge may be called from any thread.
+// Scores of one batch, and the totals that batches are merged into. All integers, so totals are the
+// same bits for any order of merging and any number of threads. A batch belongs to one source
+// group. Thread rule: a BatchScores belongs to one thread; Totals::merge may be called from any
+// thread.
 #pragma once
 
 #include <array>
@@ -17,7 +18,8 @@ namespace luxodus {
 struct BatchScores {
   std::vector<int64_t> scores;
   Ledger ledger;
-  // Sum of all path-length scores of the batch: while it is below 2^63, no single bin can have wrapped.
+  // Sum of all path-length scores of the batch: while it is below 2^63, no single bin can have
+  // wrapped.
   double length_score_sum = 0;
 
   void reset(const TallyLayout& layout) {
@@ -40,17 +42,18 @@ struct BatchMean {
 
 class Totals {
  public:
-  /// Squares are taken of batch scores divided by 2^12: (2^63 / 2^12)^2 = 2^102 leaves room for 2^26 batches.
+  /// Squares are taken of batch scores divided by 2^12: (2^63 / 2^12)^2 = 2^102 leaves room for
+  /// 2^26 batches.
   static constexpr int square_shift = 12;
 
   /// The photopic channel is (sum over bands of score * weight) / 2^24.
   static constexpr int photopic_shift = 24;
 
   /// `photopic_weights[group][band]`: integer weights (<= 2^24) of the photopic channel.
-  Totals(const TallyLayout& layout, int groups,
-         std::vector<std::vector<int64_t>> photopic_weights);
+  Totals(const TallyLayout& layout, int groups, std::vector<std::vector<int64_t>> photopic_weights);
 
-  /// Fills the aggregate bins of the batch, then adds its scores and their squares to group's totals.
+  /// Fills the aggregate bins of the batch, then adds its scores and their squares to group's
+  /// totals.
   void merge(BatchScores& batch, int group);
 
   int groups() const { return static_cast<int>(groups_.size()); }
@@ -58,7 +61,8 @@ class Totals {
   const Ledger& ledger() const { return ledger_; }
   const TallyLayout& layout() const { return layout_; }
 
-  /// Of one score over the batches of a group; the standard error is NaN for fewer than two batches.
+  /// Of one score over the batches of a group; the standard error is NaN for fewer than two
+  /// batches.
   BatchMean mean(int group, int64_t total_index) const;
   /// Of a value score, over the batches of all groups alike.
   BatchMean pooled_mean(int64_t total_index) const;
@@ -70,7 +74,9 @@ class Totals {
   };
   const GroupState& state(int group) const { return groups_[static_cast<size_t>(group)]; }
   /// Requires: totals.size() == layout.totals().
-  void restore(int group, GroupState state) { groups_[static_cast<size_t>(group)] = std::move(state); }
+  void restore(int group, GroupState state) {
+    groups_[static_cast<size_t>(group)] = std::move(state);
+  }
   void restore_ledger(const Ledger& ledger) { ledger_ = ledger; }
 
  private:

@@ -1,5 +1,6 @@
-// Order matters: light first (it decides the bands), then materials, surfaces, emitters (which know the
-// surfaces they sit on), media, detectors, and last the layout of the tally and the size of a batch.
+// Order matters: light first (it decides the bands), then materials, surfaces, emitters (which know
+// the surfaces they sit on), media, detectors, and last the layout of the tally and the size of a
+// batch.
 #include "scenes/transport/compile.hpp"
 
 #include <algorithm>
@@ -14,11 +15,14 @@
 namespace luxodus {
 
 namespace limits {
-inline constexpr int64_t patches = 200'000'000;       // 16 GB of totals; ten times as many do not fit 32 bits
+inline constexpr int64_t patches =
+    200'000'000;  // 16 GB of totals; ten times as many do not fit 32 bits
 inline constexpr int64_t voxels = 50'000'000;
-inline constexpr int64_t default_voxels = 20'000;     // of the grid a scene gets unless it says an edge
+inline constexpr int64_t default_voxels =
+    20'000;  // of the grid a scene gets unless it says an edge
 inline constexpr int64_t smallest_batch = 1 << 13;
-inline constexpr int64_t largest_batch = 1 << 18;     // 2^18 particles of 2^32 leave 2^13 passes of head-room
+inline constexpr int64_t largest_batch =
+    1 << 18;  // 2^18 particles of 2^32 leave 2^13 passes of head-room
 }  // namespace limits
 
 namespace {
@@ -56,7 +60,8 @@ std::vector<Spectrum> scene_properties(const SceneDescription& scene, const Scen
       for (const Layer& l : m.layers) add_optics(l.optics);
     } else {
       SmokeOptics optics = m.optics;
-      if (m.kind == MediumKind::data_set) optics.extinction.sigma_t = 1;  // the arrays carry the size
+      if (m.kind == MediumKind::data_set)
+        optics.extinction.sigma_t = 1;  // the arrays carry the size
       add_optics(optics);
     }
   }
@@ -91,7 +96,8 @@ Result<bool> compile_media(CompiledScene& scene) {
   }
   auto media = MediaSet::compile(
       inputs, scene.bands.count(),
-      [&](const Spectrum& s, int band) { return scene.bands.average(s, band); }, scene.local_origin);
+      [&](const Spectrum& s, int band) { return scene.bands.average(s, band); },
+      scene.local_origin);
   if (!media.ok()) return media.problem();
   scene.media = std::move(media).value();
   for (const Phase& phase : scene.media.phases()) {
@@ -140,13 +146,15 @@ void compile_detectors(CompiledScene& scene) {
   const SceneDescription& d = *scene.description;
   uint32_t bin = 0;
   for (const PlaneMeasure& p : d.planes) {
-    CompiledPlane plane = make_plane(p.corner, p.edge_u, p.edge_v, p.cells_u, p.cells_v, scene.local_origin);
+    CompiledPlane plane =
+        make_plane(p.corner, p.edge_u, p.edge_v, p.cells_u, p.cells_v, scene.local_origin);
     plane.first_bin = bin;
     bin += static_cast<uint32_t>(p.cells_u * p.cells_v);
     scene.planes.push_back(plane);
   }
   for (const CountingPlaneMeasure& p : d.counting_planes) {
-    scene.counting_planes.push_back(make_plane(p.corner, p.edge_u, p.edge_v, 1, 1, scene.local_origin));
+    scene.counting_planes.push_back(
+        make_plane(p.corner, p.edge_u, p.edge_v, 1, 1, scene.local_origin));
   }
   for (const VolumeGroupMeasure& v : d.volume_groups) {
     CompiledVolumeGroup out;
@@ -173,7 +181,9 @@ void choose_voxels(CompiledScene& scene) {
     const double volume = std::max(size.x, 1e-6) * std::max(size.y, 1e-6) * std::max(size.z, 1e-6);
     edge = std::cbrt(volume / static_cast<double>(limits::default_voxels));
   }
-  const auto cells = [&](double length) { return std::max(1, static_cast<int>(std::ceil(length / edge))); };
+  const auto cells = [&](double length) {
+    return std::max(1, static_cast<int>(std::ceil(length / edge)));
+  };
   scene.voxels.edge = static_cast<float>(edge);
   scene.voxels.low = scene.local_low;
   scene.voxels.nx = cells(size.x);
@@ -203,10 +213,12 @@ void lay_out_tally(CompiledScene& scene) {
   b.surfaces = l.add_block({"surfaces", size(scene.surfaces), 3, ScoreUnit::weight});
   b.escape = l.add_block({"escape", 6, 1, ScoreUnit::weight});
   for (uint32_t i = 0; i < scene.surfaces.size(); ++i) {
-    l.add_aggregate({b.patches, scene.surfaces[i].first_patch, scene.surfaces[i].patches, b.surfaces, i});
+    l.add_aggregate(
+        {b.patches, scene.surfaces[i].first_patch, scene.surfaces[i].patches, b.surfaces, i});
   }
   if (!scene.surface_groups.empty()) {
-    b.surface_groups = l.add_block({"surface_groups", size(scene.surface_groups), 3, ScoreUnit::weight});
+    b.surface_groups =
+        l.add_block({"surface_groups", size(scene.surface_groups), 3, ScoreUnit::weight});
     for (uint32_t g = 0; g < scene.surface_groups.size(); ++g) {
       for (const uint32_t s : scene.surface_groups[g]) {
         l.add_aggregate({b.surfaces, s, 1, b.surface_groups, g});
@@ -220,13 +232,15 @@ void lay_out_tally(CompiledScene& scene) {
     b.planes = l.add_block({"planes", size(scene.planes), 2, ScoreUnit::weight});
     for (uint32_t i = 0; i < scene.planes.size(); ++i) {
       const CompiledPlane& p = scene.planes[i];
-      l.add_aggregate({b.plane_cells, p.first_bin, static_cast<uint32_t>(p.cells_u * p.cells_v), b.planes, i});
+      l.add_aggregate(
+          {b.plane_cells, p.first_bin, static_cast<uint32_t>(p.cells_u * p.cells_v), b.planes, i});
     }
   }
   if (!scene.counting_planes.empty())
     b.counting = l.add_block({"counting", size(scene.counting_planes), 4, ScoreUnit::weight});
   if (!scene.volume_groups.empty()) {
-    b.volume_length = l.add_block({"volume_length", size(scene.volume_groups), 1, ScoreUnit::weight_length});
+    b.volume_length =
+        l.add_block({"volume_length", size(scene.volume_groups), 1, ScoreUnit::weight_length});
     b.volume_power = l.add_block({"volume_power", size(scene.volume_groups), 2, ScoreUnit::weight});
   }
   if (!scene.media_names.empty())
@@ -238,21 +252,25 @@ void lay_out_tally(CompiledScene& scene) {
   if (!scene.description->probes.empty())
     b.probes = l.add_block({"probes", size(scene.description->probes), 2, ScoreUnit::value, false});
   if (!scene.eye_targets.empty()) {
-    b.views = l.add_block({"views", 3 * size(scene.eye_targets), eye_quantities, ScoreUnit::value, false});
+    b.views = l.add_block(
+        {"views", 3 * size(scene.eye_targets), eye_quantities, ScoreUnit::value, false});
   }
 }
 
 void choose_batch(CompiledScene& scene) {
   const RunSettings& run = scene.description->run;
-  // A batch ends with a walk over all its scores, some 3 ns each, against 250 ns a particle in clear air
-  // and several times that in smoke; yet a run should have many batches, since they carry its errors.
+  // A batch ends with a walk over all its scores, some 3 ns each, against 250 ns a particle in
+  // clear air and several times that in smoke; yet a run should have many batches, since they carry
+  // its errors.
   const int64_t scores_per_particle = scene.features.media == MediaNeed::none ? 16 : 64;
-  const auto wanted = std::bit_ceil(static_cast<uint64_t>(scene.layout.scores() / scores_per_particle));
+  const auto wanted =
+      std::bit_ceil(static_cast<uint64_t>(scene.layout.scores() / scores_per_particle));
   scene.batch_particles =
       run.batch_particles > 0
           ? run.batch_particles
           : std::clamp(static_cast<int64_t>(wanted), limits::smallest_batch, limits::largest_batch);
-  const auto parts = static_cast<double>(3 * scene.eye_targets.size() + 2 * scene.description->probes.size());
+  const auto parts =
+      static_cast<double>(3 * scene.eye_targets.size() + 2 * scene.description->probes.size());
   if (parts > 0) {
     // A path from the eye costs some ten histories' rays (each event asks the lights as well).
     const double paths = 0.1 * run.eye_share * static_cast<double>(scene.batch_particles) / parts;
@@ -266,12 +284,13 @@ Result<bool> resolve_surface_groups(CompiledScene& scene) {
     std::vector<uint32_t> members;
     for (uint32_t s = 0; s < scene.surfaces.size(); ++s) {
       const bool is_object = s < d.objects.size();
-      const bool named = std::any_of(measure.objects.begin(), measure.objects.end(), [&](const auto& name) {
-        if (scene.surfaces[s].name == name) return true;
-        if (!is_object) return false;
-        const auto& tags = d.objects[s].tags;
-        return std::find(tags.begin(), tags.end(), name) != tags.end();
-      });
+      const bool named =
+          std::any_of(measure.objects.begin(), measure.objects.end(), [&](const auto& name) {
+            if (scene.surfaces[s].name == name) return true;
+            if (!is_object) return false;
+            const auto& tags = d.objects[s].tags;
+            return std::find(tags.begin(), tags.end(), name) != tags.end();
+          });
       if (named || (is_object && d.objects[s].group == measure.name)) members.push_back(s);
     }
     if (members.empty()) {
@@ -305,7 +324,8 @@ uint64_t hash_scene(const CompiledScene& scene, int cells) {
   hash.add(scene.triangles);
   hash.add(static_cast<uint64_t>(scene.batch_particles));
   hash.add(static_cast<uint64_t>(scene.eye_paths_per_batch));
-  for (int b = 0; b < scene.bands.count(); ++b) hash.add(std::bit_cast<uint64_t>(scene.bands[b].high_nm));
+  for (int b = 0; b < scene.bands.count(); ++b)
+    hash.add(std::bit_cast<uint64_t>(scene.bands[b].high_nm));
   for (const Group& g : scene.groups) {
     for (const double p : g.power_w) hash.add(std::bit_cast<uint64_t>(p));
   }
@@ -332,7 +352,8 @@ void set_bounds(CompiledScene& scene) {
   scene.local_low = glm::vec3(scene.bounds.low - centre);
   scene.local_high = glm::vec3(scene.bounds.high - centre);
   scene.diagonal_m = glm::length(scene.local_high - scene.local_low);
-  scene.length_unit_m = std::exp2(std::ceil(std::log2(std::max(static_cast<double>(scene.diagonal_m), 1e-6))));
+  scene.length_unit_m =
+      std::exp2(std::ceil(std::log2(std::max(static_cast<double>(scene.diagonal_m), 1e-6))));
 }
 
 void compile_emitters(CompiledScene& scene, const std::vector<ActiveSource>& sources) {
@@ -346,7 +367,8 @@ void compile_emitters(CompiledScene& scene, const std::vector<ActiveSource>& sou
     CompiledSign& sign = scene.signs[e.sign];
     auto& radiance = s.colour == SignColour::white ? sign.white_radiance : sign.green_radiance;
     for (const double p : e.power_w) {
-      radiance.push_back(p * (static_cast<double>(e.exponent) + 1) / (2 * 3.14159265358979 * e.area_m2));
+      radiance.push_back(p * (static_cast<double>(e.exponent) + 1) /
+                         (2 * 3.14159265358979 * e.area_m2));
     }
   }
   for (CompiledSign& sign : scene.signs) {
@@ -399,8 +421,9 @@ Result<std::shared_ptr<const CompiledScene>> compile_scene(
   compile_sign_faces(*scene);
   compile_triangles(*scene, options.cells);
   if (int64_t{scene->patch_count} > limits::patches) {
-    return Problem{{description->file, 0}, "the scene has " + std::to_string(scene->patch_count) +
-                                               " flux patches: make patch_edge larger"};
+    return Problem{{description->file, 0},
+                   "the scene has " + std::to_string(scene->patch_count) +
+                       " flux patches: make patch_edge larger"};
   }
   compile_emitters(*scene, sources);
   if (auto ok = compile_media(*scene); !ok.ok()) return ok.problem();
@@ -409,8 +432,9 @@ Result<std::shared_ptr<const CompiledScene>> compile_scene(
   if (auto ok = resolve_surface_groups(*scene); !ok.ok()) return ok.problem();
   choose_voxels(*scene);
   if (int64_t{scene->voxels.nx} * scene->voxels.ny * scene->voxels.nz > limits::voxels) {
-    return Problem{{description->file, 0}, "the voxel grid would have more than 50 million voxels: "
-                                           "make voxel_edge larger"};
+    return Problem{{description->file, 0},
+                   "the voxel grid would have more than 50 million voxels: "
+                   "make voxel_edge larger"};
   }
   choose_eye_targets(*scene);
   choose_features(*scene);

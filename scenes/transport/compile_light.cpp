@@ -1,6 +1,6 @@
-// Band shares follow the eye: a band's particles are in proportion to its power times its weight in XYZ, so
-// that few are spent where nobody sees; every share is positive where there is power, and values are scaled
-// back by it, so nothing is biased.
+// Band shares follow the eye: a band's particles are in proportion to its power times its weight in
+// XYZ, so that few are spent where nobody sees; every share is positive where there is power, and
+// values are scaled back by it, so nothing is biased.
 #include "scenes/transport/compile_light.hpp"
 
 #include <algorithm>
@@ -66,8 +66,8 @@ void add_signs(const SceneDescription& scene, const Scenario& scenario,
         // L cos^n over the hemisphere, projected: L A 2 pi / (n + 2).
         s.lumens = luminance * area * 2 * pi / (sign.angular_exponent + 2);
         s.watts = s.lumens / efficacy_lm_per_w(s.shape);
-        s.name = sign.name + (back ? " back" : "") +
-                 (colour == SignColour::white ? " white" : " green");
+        s.name =
+            sign.name + (back ? " back" : "") + (colour == SignColour::white ? " white" : " green");
         s.group = !sign.group.empty() ? sign.group : sign.circuit;
         s.place = sign.place;
         out.push_back(std::move(s));
@@ -153,8 +153,8 @@ void compile_mesh(CompiledEmitter& out, const Emitter& e, const CompiledScene& s
       out.corners.push_back(glm::vec3(e.mesh.positions[t[k]] - scene.local_origin));
     }
     const glm::vec3* c = &out.corners[out.corners.size() - 3];
-    out.texel_cdf.push_back(
-        0.5 * static_cast<double>(glm::length(glm::cross(c[1] - c[0], c[2] - c[0]))));
+    out.texel_cdf.push_back(0.5 *
+                            static_cast<double>(glm::length(glm::cross(c[1] - c[0], c[2] - c[0]))));
     out.area_m2 += out.texel_cdf.back();
   }
   normalise_cdf(out.texel_cdf);
@@ -195,7 +195,8 @@ void compile_sign_face(CompiledEmitter& out, const ActiveSource& s, const Compil
   out.distribution = Distribution::cosine_power;
   out.exponent = static_cast<float>(sign.angular_exponent + 1);
   for (uint32_t i = 0; i < scene.signs.size(); ++i) {
-    if (scene.signs[i].sign == s.description_index && scene.signs[i].back == s.sign_back) out.sign = i;
+    if (scene.signs[i].sign == s.description_index && scene.signs[i].back == s.sign_back)
+      out.sign = i;
   }
   const CompiledSign& face = scene.signs[out.sign];
   out.origin = face.origin;
@@ -206,8 +207,9 @@ void compile_sign_face(CompiledEmitter& out, const ActiveSource& s, const Compil
   out.texel_columns = sign.face.width;
   for (size_t i = 0; i < sign.face.colour.size(); ++i) {
     const bool on = sign.face.colour[i] == s.colour;
-    const double relative =
-        sign.face.relative_luminance.empty() ? 1.0 : static_cast<double>(sign.face.relative_luminance[i]);
+    const double relative = sign.face.relative_luminance.empty()
+                                ? 1.0
+                                : static_cast<double>(sign.face.relative_luminance[i]);
     out.texel_cdf.push_back(on ? relative : 0.0);
   }
   normalise_cdf(out.texel_cdf);
@@ -246,7 +248,8 @@ CompiledEmitter compile_emitter(const ActiveSource& s, const CompiledScene& scen
     out.distribution = e.distribution;
     out.exponent = static_cast<float>(e.cosine_power);
     if (e.distribution == Distribution::spot)
-      out.spot = SpotLobe::from_half_angles(glm::radians(e.spot_inner_deg), glm::radians(e.spot_outer_deg));
+      out.spot = SpotLobe::from_half_angles(glm::radians(e.spot_inner_deg),
+                                            glm::radians(e.spot_outer_deg));
     for (uint32_t i = 0; i < scene.webs.size(); ++i) {
       if (scene.webs[i] == e.web) out.web = i;
     }
@@ -261,8 +264,8 @@ CompiledEmitter compile_emitter(const ActiveSource& s, const CompiledScene& scen
     compile_sign_face(out, s, scene);
   }
   out.near_m = near_distance(out, s, scene);
-  // The bands' efficacies hold for the scene's light as a whole; an emitter of another spectrum is scaled so
-  // that its lumens are exact.
+  // The bands' efficacies hold for the scene's light as a whole; an emitter of another spectrum is
+  // scaled so that its lumens are exact.
   const int bands = scene.bands.count();
   double lumens = 0;
   for (int b = 0; b < bands; ++b) {
@@ -320,7 +323,8 @@ void compile_groups(CompiledScene& scene, const std::vector<std::string>& group_
   const auto bands = static_cast<size_t>(scene.bands.count());
   std::map<std::string, int> index;
   for (uint32_t i = 0; i < scene.emitters.size(); ++i) {
-    const auto [at, fresh] = index.try_emplace(group_names[i], static_cast<int>(scene.groups.size()));
+    const auto [at, fresh] =
+        index.try_emplace(group_names[i], static_cast<int>(scene.groups.size()));
     if (fresh) {
       Group group;
       group.name = group_names[i];

@@ -1,4 +1,5 @@
-// Part of compile: which emitters and signs shine in a scenario, in what spectrum, in which source group.
+// Part of compile: which emitters and signs shine in a scenario, in what spectrum, in which source
+// group.
 #pragma once
 
 #include <string>
@@ -23,7 +24,8 @@ struct ActiveSource {
   SourcePlace place;
 };
 
-double factor_of(const std::vector<Scenario::Factor>& factors, const std::string& name, double other);
+double factor_of(const std::vector<Scenario::Factor>& factors, const std::string& name,
+                 double other);
 
 /// Luminance [cd/m2] along the normal of a colour of a sign in this scenario.
 double scenario_luminance(const Sign& sign, SignColour colour, const Scenario& scenario);
@@ -34,7 +36,8 @@ double sign_colour_area_m2(const Sign& sign, SignColour colour);
 /// Everything that emits in this scenario; sources of zero flux are left out.
 std::vector<ActiveSource> active_sources(const SceneDescription& scene, const Scenario& scenario);
 
-/// Emitter with its shape, distribution and per-band power; corners and positions in local coordinates.
+/// Emitter with its shape, distribution and per-band power; corners and positions in local
+/// coordinates.
 CompiledEmitter compile_emitter(const ActiveSource& source, const CompiledScene& scene);
 
 /// Source groups, their band shares and cumulative tables, from scene.emitters.

@@ -80,7 +80,8 @@ Mesh body_mesh(const Emitter& e) {
     }
     case EmitterShape::disc: {
       const auto n = shapes::segments_within(e.size.x / 2, bound);
-      if (auto shape = shapes::disc(e.size.x / 2, n.ok() ? n.value() : 32); shape.ok()) mesh = shape->mesh;
+      if (auto shape = shapes::disc(e.size.x / 2, n.ok() ? n.value() : 32); shape.ok())
+        mesh = shape->mesh;
       apply(rotation({1, 0, 0}, 180).value(), mesh);
       break;
     }
@@ -89,7 +90,8 @@ Mesh body_mesh(const Emitter& e) {
       break;
     case EmitterShape::tube: {
       const auto n = shapes::segments_within(e.size.y / 2, bound);
-      auto shape = shapes::cylinder(e.size.y / 2, e.size.x, n.ok() ? n.value() : 32, shapes::Caps::none);
+      auto shape =
+          shapes::cylinder(e.size.y / 2, e.size.x, n.ok() ? n.value() : 32, shapes::Caps::none);
       if (shape.ok()) mesh = shape->mesh;
       apply(translation({0, 0, -e.size.x / 2}), mesh);
       apply(rotation({0, 1, 0}, 90).value(), mesh);
@@ -136,7 +138,8 @@ class TriangleBuilder {
     double longest = 0;
     for (int k = 0; k < 3; ++k) {
       r.corner[k] = glm::vec3(mesh.positions[t[k]] - scene_.local_origin);
-      longest = std::max(longest, glm::distance(mesh.positions[t[k]], mesh.positions[t[(k + 1) % 3]]));
+      longest =
+          std::max(longest, glm::distance(mesh.positions[t[k]], mesh.positions[t[(k + 1) % 3]]));
     }
     const glm::dvec3 cross = glm::cross(glm::dvec3(r.corner[1]) - glm::dvec3(r.corner[0]),
                                         glm::dvec3(r.corner[2]) - glm::dvec3(r.corner[0]));
@@ -153,7 +156,8 @@ class TriangleBuilder {
     patches_ += 2 * r.subdivision * r.subdivision;
     surface.area_m2 += twice_area / 2;
     if (!mesh.texture_uv.empty()) {
-      uv_.push_back({r.global_triangle, {mesh.texture_uv[t[0]], mesh.texture_uv[t[1]], mesh.texture_uv[t[2]]}});
+      uv_.push_back({r.global_triangle,
+                     {mesh.texture_uv[t[0]], mesh.texture_uv[t[1]], mesh.texture_uv[t[2]]}});
     }
     records_.push_back(r);
   }
@@ -199,7 +203,8 @@ void cut_into_cells(CompiledScene& scene, TriangleBuilder& builder, int cells) {
   }
   std::vector<glm::dvec3> centroids;
   for (const TriangleRecord& r : builder.records()) {
-    centroids.push_back((glm::dvec3(r.corner[0]) + glm::dvec3(r.corner[1]) + glm::dvec3(r.corner[2])) / 3.0);
+    centroids.push_back(
+        (glm::dvec3(r.corner[0]) + glm::dvec3(r.corner[1]) + glm::dvec3(r.corner[2])) / 3.0);
   }
   for (const auto& members : partition_triangles(centroids, cells)) {
     scene.cells.push_back(make_cell(builder.records(), builder.uv(), members));
@@ -217,10 +222,10 @@ void compile_materials(CompiledScene& scene) {
     out.name = m.name;
     out.kind = m.kind;
     for (int b = 0; b < scene.bands.count(); ++b) {
-      out.by_band.push_back(make_surface(
-          surface_kind(m.kind), scene.bands.average(m.reflectance, b),
-          scene.bands.average(m.specular, b), m.roughness, m.ior,
-          scene.bands.average(m.internal_transmittance, b)));
+      out.by_band.push_back(make_surface(surface_kind(m.kind),
+                                         scene.bands.average(m.reflectance, b),
+                                         scene.bands.average(m.specular, b), m.roughness, m.ior,
+                                         scene.bands.average(m.internal_transmittance, b)));
     }
     if (m.reflectance_image) {
       out.image = static_cast<uint32_t>(scene.images.size());
@@ -241,7 +246,8 @@ void compile_materials(CompiledScene& scene) {
     const double share[3] = {scene.bands.average(r, i), scene.bands.average(g, i),
                              scene.bands.average(b, i)};
     const double sum = std::max(share[0] + share[1] + share[2], 1e-9);
-    scene.image_basis.push_back({static_cast<float>(share[0] / sum), static_cast<float>(share[1] / sum),
+    scene.image_basis.push_back({static_cast<float>(share[0] / sum),
+                                 static_cast<float>(share[1] / sum),
                                  static_cast<float>(share[2] / sum)});
   }
 }

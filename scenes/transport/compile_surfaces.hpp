@@ -1,4 +1,5 @@
-// Part of compile: materials per band, surfaces, triangles with their flux patches, and geometry cells.
+// Part of compile: materials per band, surfaces, triangles with their flux patches, and geometry
+// cells.
 #pragma once
 
 #include <span>
@@ -14,8 +15,8 @@ void compile_materials(CompiledScene& scene);
 void compile_sign_faces(CompiledScene& scene);
 
 /// Surfaces of objects (doors moved as the scenario says), sign faces and emitter bodies.
-/// Degenerate triangles were dropped on reading; what single precision makes degenerate is dropped here and
-/// counted in the warnings.
+/// Degenerate triangles were dropped on reading; what single precision makes degenerate is dropped
+/// here and counted in the warnings.
 void compile_triangles(CompiledScene& scene, int cells);
 
 /// The meshes as the scenario has them, in scene coordinates: bounds of everything solid.

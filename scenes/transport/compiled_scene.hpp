@@ -1,7 +1,7 @@
-// What the tracer needs, and nothing else: one scenario of a scene, in local float coordinates, per band.
-// The skeleton (surfaces, materials, emitters, media tables, detectors, tally layout) is small and always
-// there; geometry cells, bricks, texels and photometric webs are data objects that the transport loop reads
-// only through its resolver. Immutable once compiled; any thread.
+// What the tracer needs, and nothing else: one scenario of a scene, in local float coordinates, per
+// band. The skeleton (surfaces, materials, emitters, media tables, detectors, tally layout) is
+// small and always there; geometry cells, bricks, texels and photometric webs are data objects that
+// the transport loop reads only through its resolver. Immutable once compiled; any thread.
 #pragma once
 
 #include <cstdint>
@@ -31,9 +31,9 @@ struct CompiledSurface {
   uint32_t sign = none_index;     // the object is a face of this sign
   uint32_t sign_emitter = none_index;
   uint32_t body_emitter = none_index;  // the object is the body of this emitter
-  uint32_t first_patch = 0;       // of all its patches, both sides
+  uint32_t first_patch = 0;            // of all its patches, both sides
   uint32_t patches = 0;
-  double area_m2 = 0;             // of one side
+  double area_m2 = 0;  // of one side
 };
 
 struct CompiledMaterial {
@@ -52,19 +52,20 @@ struct CompiledEmitter {
   glm::vec3 origin{0};  // local
   glm::mat3 axes{1.0f};
   glm::vec3 size{0};
-  float exponent = 1;             // cosine power; of a sign: of its luminance
+  float exponent = 1;  // cosine power; of a sign: of its luminance
   SpotLobe spot;
   uint32_t web = none_index;
   uint32_t sign = none_index;
-  uint32_t medium = none_index;   // volume
-  uint32_t body = none_index;     // surface that it sits on: rays leave by an offset
+  uint32_t medium = none_index;  // volume
+  uint32_t body = none_index;    // surface that it sits on: rays leave by an offset
   int group = 0;
   double area_m2 = 0;
-  float near_m = 0;  // half its size: eyes that are closer meet it instead of asking it; 0 for points
+  float near_m =
+      0;  // half its size: eyes that are closer meet it instead of asking it; 0 for points
   double luminous_flux_lm = 0;
-  std::vector<double> power_w;    // per band
-  std::vector<double> texel_cdf;  // sign face: by texel; mesh: by triangle; cumulative share
-  int texel_columns = 0;          // sign face
+  std::vector<double> power_w;     // per band
+  std::vector<double> texel_cdf;   // sign face: by texel; mesh: by triangle; cumulative share
+  int texel_columns = 0;           // sign face
   std::vector<glm::vec3> corners;  // mesh: three per triangle
 };
 
@@ -116,16 +117,17 @@ struct Features {
   bool detectors = false;  // planes, volume groups or voxels on the way
 };
 
-/// What is estimated along the rays to one part (white, green, surround) of a sign: mean luminances [cd/m2] at
-/// the face (own, reflected), at the eye (face and path together), of the path alone, the transmission and the share
-/// of the part that nothing solid hides. Scored as values, see eye.hpp.
+/// What is estimated along the rays to one part (white, green, surround) of a sign: mean luminances
+/// [cd/m2] at the face (own, reflected), at the eye (face and path together), of the path alone,
+/// the transmission and the share of the part that nothing solid hides. Scored as values, see
+/// eye.hpp.
 inline constexpr uint32_t eye_quantities = 6;
 enum class EyeQuantity : uint32_t { own, reflected, at_eye, path, transmission, visible };
 
 /// A sign as one observer looks at it: what is estimated from the eye.
 struct EyeTarget {
   uint32_t observer = 0;
-  uint32_t sign = 0;  // compiled face
+  uint32_t sign = 0;       // compiled face
   uint32_t first_bin = 0;  // in the views block: white, green, surround
 };
 
@@ -138,19 +140,19 @@ struct CompiledSign {
   Frame frame;          // local origin kept in double
   glm::vec3 origin{0};  // local
   glm::mat3 axes{1.0f};
-  float near_m = 0;     // as of its emitters
-  double white_cd_m2 = 0, green_cd_m2 = 0;  // along the normal, in this scenario
+  float near_m = 0;                                    // as of its emitters
+  double white_cd_m2 = 0, green_cd_m2 = 0;             // along the normal, in this scenario
   std::vector<double> white_radiance, green_radiance;  // [W/(m2 sr)] per band
   std::vector<float> white_reflectance, green_reflectance;
 };
 
 struct Group {
   std::string name;
-  std::vector<double> power_w;       // per band
-  std::vector<double> band_share;    // probability of each band for its particles
-  std::vector<uint64_t> band_cdf;    // cumulative, of 2^64 - 1
-  std::vector<std::vector<uint32_t>> emitters;      // per band, those that emit in it
-  std::vector<std::vector<uint64_t>> emitter_cdf;   // per band, cumulative
+  std::vector<double> power_w;                     // per band
+  std::vector<double> band_share;                  // probability of each band for its particles
+  std::vector<uint64_t> band_cdf;                  // cumulative, of 2^64 - 1
+  std::vector<std::vector<uint32_t>> emitters;     // per band, those that emit in it
+  std::vector<std::vector<uint64_t>> emitter_cdf;  // per band, cumulative
   double luminous_flux_lm = 0;
 };
 
@@ -161,7 +163,7 @@ struct CompiledScene {
   Bounds bounds;               // scene coordinates
   glm::vec3 local_low{0}, local_high{0};
   float diagonal_m = 1;
-  double length_unit_m = 1;    // a path-length score of weight * this is one unit weight
+  double length_unit_m = 1;  // a path-length score of weight * this is one unit weight
   Bands bands{{spectrum_first_nm, spectrum_last_nm}, equal_energy_shape()};
 
   std::vector<CompiledSurface> surfaces;
@@ -176,7 +178,8 @@ struct CompiledScene {
   MediaSet media;
   std::vector<PhaseFunction> phases;  // by Flight::phase
   std::vector<std::string> media_names;
-  std::map<uint32_t, std::vector<glm::vec3>> volume_points;  // of emitting media: points of equal power
+  std::map<uint32_t, std::vector<glm::vec3>>
+      volume_points;  // of emitting media: points of equal power
 
   std::vector<CompiledPlane> planes;
   std::vector<CompiledPlane> counting_planes;
@@ -191,8 +194,8 @@ struct CompiledScene {
   std::vector<GeometryCell> cells;  // one when merged
 
   int64_t batch_particles = 0;
-  int eye_paths_per_batch = 0;   // per eye target part and per probe
-  uint64_t scene_hash = 0;       // content, scenario, partition, seed
+  int eye_paths_per_batch = 0;  // per eye target part and per probe
+  uint64_t scene_hash = 0;      // content, scenario, partition, seed
   uint64_t triangles = 0;
   uint32_t patch_count = 0;
   double total_area_m2 = 0;

@@ -1,6 +1,6 @@
-// Straight connections between two places: what share of the light passes unscattered. Thin panes and open
-// surfaces let it through; everything else solid stops it, refracting solids too, because light that they bend
-// does not arrive along this line. Suspends: where the resolver does.
+// Straight connections between two places: what share of the light passes unscattered. Thin panes
+// and open surfaces let it through; everything else solid stops it, refracting solids too, because
+// light that they bend does not arrive along this line. Suspends: where the resolver does.
 #pragma once
 
 #include <cmath>
@@ -32,7 +32,8 @@ double solid_transmittance(const CompiledScene& scene, Ray ray, float length, in
     const size_t side = cosine < 0 ? 0 : 1;
     const CompiledMaterial& material = scene.materials[scene.surfaces[t.surface].material[side]];
     if (material.kind == MaterialKind::glass_pane) {
-      share *= static_cast<double>(pane_transmittance(material.by_band[static_cast<size_t>(band)], cosine));
+      share *= static_cast<double>(
+          pane_transmittance(material.by_band[static_cast<size_t>(band)], cosine));
     } else if (material.kind != MaterialKind::open) {
       return 0;
     }

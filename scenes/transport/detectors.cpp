@@ -52,14 +52,21 @@ bool inside(const CompiledVolumeGroup& group, const glm::vec3& p) {
 
 namespace {
 
-void score_planes(const CompiledScene& scene, const FlightPiece& piece, BatchScores& batch) {
+/// Reach beyond a flight's end, as a share of the scene's size: a plane that lies in a wall or on a
+/// floor is crossed by the flights that end there, whichever way their ends are rounded (a few ulps
+/// of a coordinate). Less than offset_ray's step, and what comes back crosses from behind.
+constexpr float reach_share = 0x1p-21f;
+
+void score_planes(const CompiledScene& scene, FlightPiece piece, BatchScores& batch) {
   const TallyLayout& layout = scene.layout;
+  piece.length += scene.diagonal_m * reach_share;
   const auto score = static_cast<int64_t>(piece.weight);
   float cosine = 0;
   for (const CompiledPlane& plane : scene.planes) {
     const uint32_t bin = crossed_cell(plane, piece, cosine);
     if (bin == none_index || cosine > 0) continue;  // illuminance counts what falls on the front
-    const auto at = layout.score_index(scene.blocks.plane_cells, bin, piece.band, piece.direct ? 0 : 1);
+    const auto at =
+        layout.score_index(scene.blocks.plane_cells, bin, piece.band, piece.direct ? 0 : 1);
     batch.scores[static_cast<size_t>(at)] += score;
   }
   for (uint32_t i = 0; i < scene.counting_planes.size(); ++i) {
@@ -82,8 +89,8 @@ void score_volumes(const CompiledScene& scene, const FlightPiece& piece, const g
   }
 }
 
-/// A double below 2^51 in size as an integer, to nearest, in two instructions that also exist for vectors:
-/// adding 1.5 * 2^52 leaves the integer in the lowest bits.
+/// A double below 2^51 in size as an integer, to nearest, in two instructions that also exist for
+/// vectors: adding 1.5 * 2^52 leaves the integer in the lowest bits.
 int64_t nearest_integer(double x) {
   constexpr double magic = 0x1.8p52;
   return std::bit_cast<int64_t>(x + magic) - std::bit_cast<int64_t>(magic);
@@ -94,12 +101,15 @@ void score_voxels(const CompiledScene& scene, const FlightPiece& piece, const gl
   const double per_metre = static_cast<double>(piece.weight) / scene.length_unit_m;
   const glm::dvec3 d = per_metre * glm::dvec3(piece.direction);
   const double rate[4] = {per_metre, d.x, d.y, d.z};
-  int64_t* scores = batch.scores.data() + scene.layout.score_index(scene.blocks.voxels, 0, piece.band, 0);
+  int64_t* scores =
+      batch.scores.data() + scene.layout.score_index(scene.blocks.voxels, 0, piece.band, 0);
   const auto stride = static_cast<size_t>(4 * scene.bands.count());
-  const float inside = for_each_voxel(scene.voxels, piece, inverse, [&](uint32_t voxel, float length) {
-    int64_t* score = scores + voxel * stride;
-    for (int q = 0; q < 4; ++q) score[q] += nearest_integer(rate[q] * static_cast<double>(length));
-  });
+  const float inside =
+      for_each_voxel(scene.voxels, piece, inverse, [&](uint32_t voxel, float length) {
+        int64_t* score = scores + voxel * stride;
+        for (int q = 0; q < 4; ++q)
+          score[q] += nearest_integer(rate[q] * static_cast<double>(length));
+      });
   batch.length_score_sum += per_metre * static_cast<double>(inside);
 }
 

@@ -1,6 +1,6 @@
-// What a flight passes on its way: planes and probes never stop light, so they are scored here, together with
-// voxels and volume groups. All work is on one straight piece of a path, from `origin` for `length`.
-// Pure functions on a batch's scores; one thread.
+// What a flight passes on its way: planes and probes never stop light, so they are scored here,
+// together with voxels and volume groups. All work is on one straight piece of a path, from
+// `origin` for `length`. Pure functions on a batch's scores; one thread.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +24,8 @@ struct FlightPiece {
   bool collided;  // has collided with a medium
 };
 
-/// Fixed-point score of weight times length; rounded to nearest, one part in 2^32 of the scene's size.
+/// Fixed-point score of weight times length; rounded to nearest, one part in 2^32 of the scene's
+/// size.
 inline int64_t length_score(const CompiledScene& scene, Weight weight, double length_m) {
   return static_cast<int64_t>(static_cast<double>(weight) * (length_m / scene.length_unit_m) + 0.5);
 }
@@ -35,19 +36,22 @@ inline uint32_t crossed_cell(const CompiledPlane& plane, const FlightPiece& piec
   if (cosine == 0) return none_index;
   const float height = glm::dot(plane.normal, plane.corner - piece.origin);
   // Most pieces stay on one side: told without a division.
-  if (!(height * cosine > 0 && std::abs(height) <= piece.length * std::abs(cosine))) return none_index;
+  if (!(height * cosine > 0 && std::abs(height) <= piece.length * std::abs(cosine)))
+    return none_index;
   const float t = height / cosine;
   const glm::vec3 p = piece.origin + piece.direction * t - plane.corner;
   const float u = glm::dot(p, plane.dual_u);
   const float v = glm::dot(p, plane.dual_v);
   if (!(u >= 0 && u < 1 && v >= 0 && v < 1)) return none_index;
-  const int i = std::min(static_cast<int>(u * static_cast<float>(plane.cells_u)), plane.cells_u - 1);
-  const int j = std::min(static_cast<int>(v * static_cast<float>(plane.cells_v)), plane.cells_v - 1);
+  const int i =
+      std::min(static_cast<int>(u * static_cast<float>(plane.cells_u)), plane.cells_u - 1);
+  const int j =
+      std::min(static_cast<int>(v * static_cast<float>(plane.cells_v)), plane.cells_v - 1);
   return plane.first_bin + static_cast<uint32_t>(j * plane.cells_u + i);
 }
 
-/// 1 / direction, finite: no product with a finite length is NaN. A direction of zero counts as the smallest
-/// rise, so that a piece in a face belongs to the side above it.
+/// 1 / direction, finite: no product with a finite length is NaN. A direction of zero counts as the
+/// smallest rise, so that a piece in a face belongs to the side above it.
 inline glm::vec3 finite_inverse(const glm::vec3& direction) {
   constexpr float least = 1e-30f;
   const auto inverse = [](float d) { return 1.0f / (std::abs(d) < least ? least : d); };
@@ -58,8 +62,8 @@ inline glm::vec3 finite_inverse(const glm::vec3& direction) {
 struct BoxStretch {
   float first, last;
 };
-inline BoxStretch stretch_in_box(const glm::vec3& low, const glm::vec3& high, const glm::vec3& inverse,
-                              const FlightPiece& piece) {
+inline BoxStretch stretch_in_box(const glm::vec3& low, const glm::vec3& high,
+                                 const glm::vec3& inverse, const FlightPiece& piece) {
   const glm::vec3 t0 = (low - piece.origin) * inverse;
   const glm::vec3 t1 = (high - piece.origin) * inverse;
   const glm::vec3 near = glm::min(t0, t1);
@@ -84,16 +88,16 @@ inline uint32_t voxel_of(const VoxelGrid& grid, const glm::vec3& p) {
   return static_cast<uint32_t>((z * grid.ny + y) * grid.nx + x);
 }
 
-/// Calls visit(voxel, length_m) for every voxel on the piece, in order; a voxel that is only touched may be
-/// visited with length 0. `inverse` is finite_inverse of the direction. Returns the length inside the grid.
-/// Steps are counted in whole cells (Amanatides and Woo 1987), so that it ends whatever the rounding; which
-/// axis is next is chance, hence no branch on it.
+/// Calls visit(voxel, length_m) for every voxel on the piece, in order; a voxel that is only
+/// touched may be visited with length 0. `inverse` is finite_inverse of the direction. Returns the
+/// length inside the grid. Steps are counted in whole cells (Amanatides and Woo 1987), so that it
+/// ends whatever the rounding; which axis is next is chance, hence no branch on it.
 template <class Visit>
 float for_each_voxel(const VoxelGrid& grid, const FlightPiece& piece, const glm::vec3& inverse,
                      Visit&& visit) {
-  const glm::vec3 high = grid.low + grid.edge * glm::vec3(static_cast<float>(grid.nx),
-                                                          static_cast<float>(grid.ny),
-                                                          static_cast<float>(grid.nz));
+  const glm::vec3 high =
+      grid.low + grid.edge * glm::vec3(static_cast<float>(grid.nx), static_cast<float>(grid.ny),
+                                       static_cast<float>(grid.nz));
   const auto [first, last] = stretch_in_box(grid.low, high, inverse, piece);
   if (!(first < last)) return 0;
   const int n[3] = {grid.nx, grid.ny, grid.nz};

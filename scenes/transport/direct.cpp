@@ -1,5 +1,5 @@
-// Flat rectangles are cut on a regular grid; every other shape takes points of Roberts' R3 sequence, which
-// fills its three numbers evenly at any count.
+// Flat rectangles are cut on a regular grid; every other shape takes points of Roberts' R3
+// sequence, which fills its three numbers evenly at any count.
 #include "scenes/transport/direct.hpp"
 
 #include <cmath>
@@ -10,9 +10,12 @@ namespace {
 
 constexpr double plastic = 1.2207440846057596;  // root of x^4 = x + 1
 
-double fractional(double x) { return x - std::floor(x); }
+double fractional(double x) {
+  return x - std::floor(x);
+}
 
-std::vector<EmissionPoint> rectangle_parts(const CompiledEmitter& e, double distance, double share) {
+std::vector<EmissionPoint> rectangle_parts(const CompiledEmitter& e, double distance,
+                                           double share) {
   const auto count = [&](float size) {
     const double wanted = std::ceil(static_cast<double>(size) / (share * distance));
     return std::clamp(static_cast<int>(wanted), 1, limits::direct_parts_per_side);
@@ -62,7 +65,8 @@ std::vector<EmissionPoint> emitter_parts(const CompiledScene& scene, const Compi
   const double distance = distance_to(e, from, size);
   if (e.kind == EmitterKind::rectangle) return rectangle_parts(e, distance, part_share);
   const double per_side = std::ceil(size / (part_share * distance));
-  const int count = std::clamp(static_cast<int>(per_side * per_side * 2), 16, limits::direct_points);
+  const int count =
+      std::clamp(static_cast<int>(per_side * per_side * 2), 16, limits::direct_points);
   std::vector<EmissionPoint> parts;
   for (int i = 0; i < count; ++i) {
     const double n = i + 1;

@@ -1,8 +1,9 @@
-// Direct light at a point, without chance: every emitter is cut into parts by its size and distance, each part
-// is connected by a shadow ray, and the photometric web, the cosine law and the media say what arrives.
-// Regulations judge this part alone. Collimated beams have no density of directions and are left to the traced
-// part, as is light that a refracting solid or a mirror has turned.
-// Accuracy: parts are no wider than 1/16 of their distance where the cap allows; midpoint rule.
+// Direct light at a point, without chance: every emitter is cut into parts by its size and
+// distance, each part is connected by a shadow ray, and the photometric web, the cosine law and the
+// media say what arrives. Regulations judge this part alone. Collimated beams have no density of
+// directions and are left to the traced part, as is light that a refracting solid or a mirror has
+// turned. Accuracy: parts are no wider than 1/16 of their distance where the cap allows; midpoint
+// rule.
 #pragma once
 
 #include <algorithm>
@@ -63,7 +64,8 @@ DirectFromEmitter direct_from(const CompiledScene& scene, const CompiledEmitter&
     const float density = directional_density(emitter, part, -c.ray.direction, resolver);
     const float cosine = glm::dot(normal, c.ray.direction);
     if (density <= 0) continue;
-    // Below the horizon of the point only the fluence counts, and a line into the surface is no line.
+    // Below the horizon of the point only the fluence counts, and a line into the surface is no
+    // line.
     double lumens = 0;
     double solid = -1;
     for (int b = 0; b < bands; ++b) {
@@ -87,8 +89,9 @@ DirectFromEmitter direct_from(const CompiledScene& scene, const CompiledEmitter&
 
 /// Light from all emitters at a point [local coordinates] with a normal.
 template <class Resolver>
-DirectLight direct_light(const CompiledScene& scene, const glm::vec3& point, const glm::vec3& normal,
-                         const DirectOptions& options, Resolver& resolver) {
+DirectLight direct_light(const CompiledScene& scene, const glm::vec3& point,
+                         const glm::vec3& normal, const DirectOptions& options,
+                         Resolver& resolver) {
   DirectLight out;
   out.illuminance_lx.assign(scene.groups.size(), 0);
   out.fluence_lm_m2.assign(scene.groups.size(), 0);

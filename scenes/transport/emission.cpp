@@ -18,8 +18,8 @@ EmissionPoint point_on_sign(const CompiledEmitter& e, float u, float v, double w
   const float rows = static_cast<float>(e.texel_cdf.size() / columns);
   const float x = (static_cast<float>(texel % columns) + u) / static_cast<float>(columns);
   const float y = (static_cast<float>(texel / columns) + v) / rows;
-  const glm::vec3 p = e.origin + e.axes[0] * ((x - 0.5f) * e.size.x) +
-                      e.axes[1] * ((0.5f - y) * e.size.y);
+  const glm::vec3 p =
+      e.origin + e.axes[0] * ((x - 0.5f) * e.size.x) + e.axes[1] * ((0.5f - y) * e.size.y);
   return {p, e.axes[2]};
 }
 
@@ -143,8 +143,7 @@ EmitterHit nearest_emitter(const CompiledScene& scene, const Ray& ray, float len
         break;
       case EmitterKind::sphere:
         t = sphere_distance(e, ray);
-        if (t < best.distance)
-          normal = glm::normalize(ray.origin + ray.direction * t - e.origin);
+        if (t < best.distance) normal = glm::normalize(ray.origin + ray.direction * t - e.origin);
         break;
       case EmitterKind::tube:
         t = tube_distance(e, ray);

@@ -1,7 +1,7 @@
-// Where and whither an emitter sends its light. Every emitter is described by two functions: a point drawn in
-// proportion to emitted power over its surface or volume, and the density of directions [1/sr] there. The
-// tracer samples both; direct light and eyes evaluate the second toward a place.
-// Pure; webs come from the caller's resolver. Any thread.
+// Where and whither an emitter sends its light. Every emitter is described by two functions: a
+// point drawn in proportion to emitted power over its surface or volume, and the density of
+// directions [1/sr] there. The tracer samples both; direct light and eyes evaluate the second
+// toward a place. Pure; webs come from the caller's resolver. Any thread.
 #pragma once
 
 #include <cmath>
@@ -37,7 +37,8 @@ EmissionPoint emission_point(const CompiledScene& scene, const CompiledEmitter& 
   return emission_point(emitter, u, v, w);
 }
 
-/// Density [1/sr] of directions at a point of the emitter; 0 for collimated light, which is no density.
+/// Density [1/sr] of directions at a point of the emitter; 0 for collimated light, which is no
+/// density.
 template <class Resolver>
 float directional_density(const CompiledEmitter& emitter, const EmissionPoint& point,
                           const glm::vec3& direction, Resolver& resolver) {
@@ -54,7 +55,8 @@ float directional_density(const CompiledEmitter& emitter, const EmissionPoint& p
     case Distribution::collimated:
       return 0;
     case Distribution::web: {
-      const glm::dvec3 local(glm::dot(emitter.axes[0], direction), glm::dot(emitter.axes[1], direction),
+      const glm::dvec3 local(glm::dot(emitter.axes[0], direction),
+                             glm::dot(emitter.axes[1], direction),
                              glm::dot(emitter.axes[2], direction));
       return static_cast<float>(resolver.web(emitter.web).pdf(local));
     }
@@ -94,7 +96,8 @@ struct EmitterHit {
 /// Sign faces are surfaces of the scene and not looked for here.
 EmitterHit nearest_emitter(const CompiledScene& scene, const Ray& ray, float length);
 
-/// Radiance [W/(m2 sr)] that leaves the point toward `direction`, in a band. Not for points and volumes.
+/// Radiance [W/(m2 sr)] that leaves the point toward `direction`, in a band. Not for points and
+/// volumes.
 template <class Resolver>
 double emitted_radiance(const CompiledEmitter& emitter, const EmissionPoint& point,
                         const glm::vec3& direction, int band, Resolver& resolver) {

@@ -1,12 +1,13 @@
-// Light traced from where it is seen: what an eye receives from a sign, its surround and the veil between, what
-// reaches a point probe after at least one event, and the radiance of a picture's rays. Paths run backwards
-// (all laws are reciprocal); at every event one emitter is asked directly, so that a path needs no luck to meet it.
-// Close to an emitter asking has no bounded variance (1/r2), so light from points nearer than its half size is
-// counted only where a path meets it, and from farther ones only where it is asked: each pair of places once.
-// Unbiased, except where pictures end a path in the patches' flux (final gather). Paths have a particle
+// Light traced from where it is seen: what an eye receives from a sign, its surround and the veil
+// between, what reaches a point probe after at least one event, and the radiance of a picture's
+// rays. Paths run backwards (all laws are reciprocal); at every event one emitter is asked
+// directly, so that a path needs no luck to meet it. Close to an emitter asking has no bounded
+// variance (1/r2), so light from points nearer than its half size is counted only where a path
+// meets it, and from farther ones only where it is asked: each pair of places once. Unbiased,
+// except where pictures end a path in the patches' flux (final gather). Paths have a particle
 // range, batches and standard errors of their own.
-// Not seen: point emitters and caustics through mirrors and refracting solids; the forward tracer counts those.
-// Thread rule: one EyeTracer per thread or fiber.
+// Not seen: point emitters and caustics through mirrors and refracting solids; the forward tracer
+// counts those. Thread rule: one EyeTracer per thread or fiber.
 #pragma once
 
 #include <cmath>
@@ -22,14 +23,15 @@ namespace luxodus {
 namespace limits {
 inline constexpr int eye_events = 10'000;
 inline constexpr int emitters_per_line = 16;  // emitting faces that one straight line may cross
-inline constexpr int nearby_emitters = 256;  // up to here distance decides who is asked
+inline constexpr int nearby_emitters = 256;   // up to here distance decides who is asked
 /// Of a value score [its unit]: 2^-40, so int64 holds up to 8 million cd/m2 per batch mean.
 inline constexpr double value_quantum = 0x1p-40;
 }  // namespace limits
 
 int64_t value_score(double mean);
 
-/// Outgoing radiance of a patch, for final gathers: [W/(m2 sr)]. Implemented where flux is collected.
+/// Outgoing radiance of a patch, for final gathers: [W/(m2 sr)]. Implemented where flux is
+/// collected.
 class PatchRadiance {
  public:
   virtual ~PatchRadiance() = default;
@@ -53,12 +55,14 @@ class EyeTracer {
  public:
   EyeTracer(const CompiledScene& scene, Resolver& resolver, uint64_t seed, RandomStream stream)
       : scene_(scene), resolver_(resolver), random_(seed, stream) {
+    // A picture shows colours, an estimate of luminance needs few.
+    const double colour = stream == RandomStream::picture ? 1.0 : 0.05;
     double total = 0;
     for (int b = 0; b < scene.bands.count(); ++b) {
       double power = 0;
       for (const Group& g : scene.groups) power += g.power_w[static_cast<size_t>(b)];
       const Band& band = scene.bands[b];
-      total += power * (band.lm_per_w + 0.05 * (band.x_per_w + band.z_per_w));
+      total += power * (band.lm_per_w + colour * (band.x_per_w + band.z_per_w));
       band_cdf_.push_back(total);
     }
     for (double& c : band_cdf_) c /= total;
@@ -70,8 +74,8 @@ class EyeTracer {
   /// A band for a path, from a uniform number; and the probability of it.
   int choose_band(double u) const {
     const auto it = std::upper_bound(band_cdf_.begin(), band_cdf_.end(), u);
-    return static_cast<int>(std::min<std::ptrdiff_t>(it - band_cdf_.begin(),
-                                                     static_cast<std::ptrdiff_t>(band_cdf_.size()) - 1));
+    return static_cast<int>(std::min<std::ptrdiff_t>(
+        it - band_cdf_.begin(), static_cast<std::ptrdiff_t>(band_cdf_.size()) - 1));
   }
   double band_probability(int b) const {
     return band_cdf_[static_cast<size_t>(b)] - (b > 0 ? band_cdf_[static_cast<size_t>(b - 1)] : 0);
@@ -94,9 +98,9 @@ class EyeTracer {
     score_probes(next, paths, scores);
   }
 
-  /// Radiance [W/(m2 sr)] in `band` that arrives against `ray.direction`, from one path. `met`: which
-  /// emitters count before the first event. `gather`: where paths may end after their first diffuse
-  /// event; null traces them to their end.
+  /// Radiance [W/(m2 sr)] in `band` that arrives against `ray.direction`, from one path. `met`:
+  /// which emitters count before the first event. `gather`: where paths may end after their first
+  /// diffuse event; null traces them to their end.
   double radiance(Ray ray, int band, Met met, const PatchRadiance* gather = nullptr) {
     Path path{ray, band, met};
     for (int event = 0; event < limits::eye_events; ++event) {
@@ -134,15 +138,16 @@ class EyeTracer {
     bool diffused = false;  // a surface has spread it
   };
 
-  // ---- events ------------------------------------------------------------------------------------
+  // ---- events
+  // ------------------------------------------------------------------------------------
 
   Flight fly(const Ray& ray, float length, int band) {
     if (scene_.features.media == MediaNeed::none) return {};
     const uint32_t r = random_.bits();
     const double tau = -std::log((4294967296.0 - static_cast<double>(r)) * 0x1p-32);
     const float choice = random_.uniform();
-    return free_flight<MediaNeed::general>(scene_.media, band, ray.origin, ray.direction, length, tau,
-                                           choice, resolver_);
+    return free_flight<MediaNeed::general>(scene_.media, band, ray.origin, ray.direction, length,
+                                           tau, choice, resolver_);
   }
 
   const CompiledMaterial& material_at(const Hit& hit, bool front) const {
@@ -174,7 +179,8 @@ class EyeTracer {
   bool bounce(Path& p, const Hit& hit) {
     const TriangleRecord& t = *hit.triangle;
     const bool front = glm::dot(t.normal, p.ray.direction) < 0;
-    const SurfaceModel model = surface_at(scene_, hit, front, p.band, material_at(hit, front), resolver_);
+    const SurfaceModel model =
+        surface_at(scene_, hit, front, p.band, material_at(hit, front), resolver_);
     const glm::vec3 normal = front ? t.normal : -t.normal;
     const glm::vec3 place = t.at(hit.u, hit.v);
     if (model.kind == SurfaceKind::lambertian || model.kind == SurfaceKind::glossy) {
@@ -210,10 +216,11 @@ class EyeTracer {
     return true;
   }
 
-  // ---- emitters seen directly --------------------------------------------------------------------
+  // ---- emitters seen directly
+  // --------------------------------------------------------------------
 
-  /// Expected radiance of what emits along the ray up to the surface it hits: emitting faces, the sign that
-  /// was hit, flames; each weighted by what passes the media before it.
+  /// Expected radiance of what emits along the ray up to the surface it hits: emitting faces, the
+  /// sign that was hit, flames; each weighted by what passes the media before it.
   double emitted_along(const Path& p, const Hit& hit) {
     const float slack = 1 + 1e-5f;  // a body's own face lies as far as the emitter on it
     float reach = hit.distance * slack;
@@ -249,7 +256,8 @@ class EyeTracer {
     const CompiledSign& sign = scene_.signs[index];
     if (!counts(p, hit.distance, sign.near_m)) return 0;
     const Sign& d = scene_.description->signs[sign.sign];
-    const double own = texel_radiance(sign, d, texture_uv(*hit.cell, hit), -p.ray.direction, p.band);
+    const double own =
+        texel_radiance(sign, d, texture_uv(*hit.cell, hit), -p.ray.direction, p.band);
     return own > 0 ? own * medium_transmittance(scene_, p.ray, hit.distance, p.band, resolver_) : 0;
   }
 
@@ -261,7 +269,8 @@ class EyeTracer {
     for (const CompiledEmitter& e : scene_.emitters) {
       if (e.kind != EmitterKind::volume) continue;
       const float rest = e.near_m - p.travelled;
-      if (rest > 0) sum += flames_along(p.ray, std::min(length, rest), p.band, static_cast<int>(e.medium));
+      if (rest > 0)
+        sum += flames_along(p.ray, std::min(length, rest), p.band, static_cast<int>(e.medium));
     }
     return sum;
   }
@@ -271,8 +280,8 @@ class EyeTracer {
     double sum = 0;
     double depth = 0;
     for_each_segment(
-        scene_.media, band, ray.origin, ray.direction, std::min(length, 4 * scene_.diagonal_m), resolver_,
-        [&](const MediaSegment& s) {
+        scene_.media, band, ray.origin, ray.direction, std::min(length, 4 * scene_.diagonal_m),
+        resolver_, [&](const MediaSegment& s) {
           const double tau = s.sigma_t * s.length;
           const double through = s.sigma_t > 0 ? -std::expm1(-tau) / s.sigma_t : s.length;
           for (const EmissionPart& part : s.emission) {
@@ -309,7 +318,8 @@ class EyeTracer {
     return static_cast<double>(face.relative_luminance[texel_at(face, uv)]);
   }
 
-  // ---- asking an emitter -------------------------------------------------------------------------
+  // ---- asking an emitter
+  // -------------------------------------------------------------------------
 
   struct Asked {
     const CompiledEmitter* emitter = nullptr;
@@ -335,14 +345,16 @@ class EyeTracer {
     }
     if (!(total > 0)) return {};
     const double u = random_.uniform_double() * total;
-    const auto at = static_cast<size_t>(std::upper_bound(weights_.begin(), weights_.end(), u) - weights_.begin());
+    const auto at = static_cast<size_t>(std::upper_bound(weights_.begin(), weights_.end(), u) -
+                                        weights_.begin());
     const size_t chosen = std::min(at, n - 1);
     const double share = (weights_[chosen] - (chosen > 0 ? weights_[chosen - 1] : 0)) / total;
     if (!(share > 0)) return {};
     return {&scene_.emitters[chosen], share};
   }
 
-  /// Irradiance normal to the line from one point of one emitter, divided by the probability of asking it.
+  /// Irradiance normal to the line from one point of one emitter, divided by the probability of
+  /// asking it.
   struct Arriving {
     glm::vec3 direction{0};  // towards the emitter
     double irradiance = 0;
@@ -355,24 +367,26 @@ class EyeTracer {
     const EmissionPoint point = emission_point(scene_, e, random_, resolver_);
     const Connection c = connect(place, point.position, point.axis, e.kind != EmitterKind::volume);
     if (!(c.distance > e.near_m)) return {};  // counted where paths meet it
-    const auto density = static_cast<double>(directional_density(e, point, -c.ray.direction, resolver_));
+    const auto density =
+        static_cast<double>(directional_density(e, point, -c.ray.direction, resolver_));
     if (density <= 0) return {};
     const double solid = solid_transmittance(scene_, c.ray, c.ray.length, band, resolver_);
     if (solid <= 0) return {};
     const double medium = medium_transmittance(scene_, c.ray, c.distance, band, resolver_);
     const auto d = static_cast<double>(c.distance);
-    return {c.ray.direction, e.power_w[static_cast<size_t>(band)] * density * solid * medium / (d * d * asked.probability)};
+    return {c.ray.direction, e.power_w[static_cast<size_t>(band)] * density * solid * medium /
+                                 (d * d * asked.probability)};
   }
 
-  double scattered_light(const glm::vec3& place, const glm::vec3& direction, const PhaseFunction& phase,
-                         int band) {
+  double scattered_light(const glm::vec3& place, const glm::vec3& direction,
+                         const PhaseFunction& phase, int band) {
     const Arriving a = arriving_light(place, band);
     if (a.irradiance <= 0) return 0;
     return a.irradiance * static_cast<double>(evaluate(phase, glm::dot(a.direction, direction)));
   }
 
-  double reflected_light(const glm::vec3& place, const glm::vec3& direction, const glm::vec3& normal,
-                         const SurfaceModel& model, int band) {
+  double reflected_light(const glm::vec3& place, const glm::vec3& direction,
+                         const glm::vec3& normal, const SurfaceModel& model, int band) {
     const Arriving a = arriving_light(place, band);
     const float cosine = glm::dot(a.direction, normal);
     if (a.irradiance <= 0 || cosine <= 0) return 0;
@@ -380,7 +394,8 @@ class EyeTracer {
            static_cast<double>(evaluate_surface(model, -direction, a.direction, normal));
   }
 
-  // ---- a sign seen by an observer ----------------------------------------------------------------
+  // ---- a sign seen by an observer
+  // ----------------------------------------------------------------
 
   FaceTexels list_texels(const CompiledSign& s) const {
     FaceTexels out;
@@ -392,7 +407,8 @@ class EyeTracer {
     return out;
   }
 
-  /// A point of the wanted part in face coordinates, u to the reader's right, v up, the face is [0, 1]^2.
+  /// A point of the wanted part in face coordinates, u to the reader's right, v up, the face is [0,
+  /// 1]^2.
   bool aim(const EyeTarget& target, uint32_t part, glm::vec2& uv) {
     const SignFace& face = scene_.description->signs[scene_.signs[target.sign].sign].face;
     if (part == 2) {  // the ring as wide as half the face on each side
@@ -408,8 +424,10 @@ class EyeTracer {
     if (texels.empty()) return false;
     const uint64_t r = random_.bits();
     const uint32_t texel = texels[(r * texels.size()) >> 32];
-    const float x = static_cast<float>(texel % static_cast<uint32_t>(face.width)) + random_.uniform();
-    const float y = static_cast<float>(texel / static_cast<uint32_t>(face.width)) + random_.uniform();
+    const float x =
+        static_cast<float>(texel % static_cast<uint32_t>(face.width)) + random_.uniform();
+    const float y =
+        static_cast<float>(texel / static_cast<uint32_t>(face.width)) + random_.uniform();
     uv = {x / static_cast<float>(face.width), 1 - y / static_cast<float>(face.height)};
     return true;
   }
@@ -421,7 +439,8 @@ class EyeTracer {
     const CompiledSign& sign = scene_.signs[target.sign];
     const Sign& d = scene_.description->signs[sign.sign];
     const glm::vec3 eye(scene_.description->observers[target.observer].eye - scene_.local_origin);
-    const glm::vec3 aimed = sign.origin + sign.axes[0] * ((uv.x - 0.5f) * static_cast<float>(d.width_m)) +
+    const glm::vec3 aimed = sign.origin +
+                            sign.axes[0] * ((uv.x - 0.5f) * static_cast<float>(d.width_m)) +
                             sign.axes[1] * ((uv.y - 0.5f) * static_cast<float>(d.height_m));
     const Connection c = connect(eye, aimed, sign.axes[2], true);
     const double chance = random_.uniform_double();
@@ -465,8 +484,8 @@ class EyeTracer {
   double face_reflection(const CompiledSign& sign, uint32_t part, const glm::vec3& place,
                          const glm::vec3& direction, int band) {
     const auto& rho = part == 0 ? sign.white_reflectance : sign.green_reflectance;
-    SurfaceModel model = make_surface(SurfaceKind::lambertian, static_cast<double>(rho[static_cast<size_t>(band)]),
-                                      0, 1, 1, 1);
+    SurfaceModel model = make_surface(
+        SurfaceKind::lambertian, static_cast<double>(rho[static_cast<size_t>(band)]), 0, 1, 1, 1);
     const glm::vec3 normal = sign.axes[2];
     const glm::vec3 start = offset_ray(place, normal);
     double sum = reflected_light(start, direction, normal, model, band);
@@ -487,8 +506,8 @@ class EyeTracer {
     const double collided = -std::expm1(-depth);
     const double tau = -std::log1p(-random_.uniform_double() * collided);
     const float choice = random_.uniform();
-    const Flight flight = free_flight<MediaNeed::general>(scene_.media, band, c.ray.origin, c.ray.direction,
-                                                          c.distance, tau, choice, resolver_);
+    const Flight flight = free_flight<MediaNeed::general>(
+        scene_.media, band, c.ray.origin, c.ray.direction, c.distance, tau, choice, resolver_);
     if (!flight.collided || flight.albedo <= 0) return sum;
     const PhaseFunction& phase = scene_.phases[static_cast<size_t>(flight.phase)];
     const glm::vec3 place = c.ray.origin + c.ray.direction * flight.t;
@@ -503,17 +522,20 @@ class EyeTracer {
     if (sums.paths == 0) return;
     for (uint32_t q = 0; q < eye_quantities; ++q) {
       const auto at = scene_.layout.score_index(scene_.blocks.views, bin, 0, q);
-      scores.scores[static_cast<size_t>(at)] = value_score(sums.value[q] / static_cast<double>(sums.paths));
+      scores.scores[static_cast<size_t>(at)] =
+          value_score(sums.value[q] / static_cast<double>(sums.paths));
     }
   }
 
-  // ---- probes ------------------------------------------------------------------------------------
+  // ---- probes
+  // ------------------------------------------------------------------------------------
 
   void score_probes(uint64_t next, uint64_t paths, BatchScores& scores) {
     const auto& probes = scene_.description->probes;
     for (uint32_t p = 0; p < probes.size(); ++p) {
       const glm::vec3 normal(probes[p].normal);
-      const glm::vec3 start = offset_ray(glm::vec3(probes[p].position - scene_.local_origin), normal);
+      const glm::vec3 start =
+          offset_ray(glm::vec3(probes[p].position - scene_.local_origin), normal);
       double illuminance = 0, fluence = 0;
       for (uint64_t i = 0; i < paths; ++i) {
         random_.start(next++);
@@ -521,7 +543,8 @@ class EyeTracer {
         const double lm = scene_.bands[band].lm_per_w / band_probability(band);
         const float u = random_.uniform();
         const float v = random_.uniform();
-        illuminance += lm * radiance({start, to_world(normal, cosine_hemisphere(u, v))}, band, Met::none);
+        illuminance +=
+            lm * radiance({start, to_world(normal, cosine_hemisphere(u, v))}, band, Met::none);
         const float s = random_.uniform();
         const float t = random_.uniform();
         fluence += lm * radiance({start, uniform_sphere(s, t)}, band, Met::none);

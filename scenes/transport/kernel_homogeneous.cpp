@@ -2,7 +2,7 @@
 
 namespace luxodus {
 
-template std::unique_ptr<ParticleBatches> choose_kernel<MediaNeed::homogeneous>(const CompiledScene&,
-                                                                   const SceneIndex&, uint64_t);
+template std::unique_ptr<ParticleBatches> choose_kernel<MediaNeed::homogeneous>(
+    const CompiledScene&, const SceneIndex&, uint64_t);
 
 }  // namespace luxodus

@@ -3,6 +3,7 @@
 namespace luxodus {
 
 template std::unique_ptr<ParticleBatches> choose_kernel<MediaNeed::none>(const CompiledScene&,
-                                                                   const SceneIndex&, uint64_t);
+                                                                         const SceneIndex&,
+                                                                         uint64_t);
 
 }  // namespace luxodus

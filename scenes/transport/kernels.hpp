@@ -1,5 +1,5 @@
-// Choosing a kernel at run time. Each medium need is compiled in a source of its own (kernel_*.cpp), so that
-// the sixteen loops of each build side by side.
+// Choosing a kernel at run time. Each medium need is compiled in a source of its own
+// (kernel_*.cpp), so that the sixteen loops of each build side by side.
 #pragma once
 
 #include "scenes/transport/particle.hpp"
@@ -31,22 +31,24 @@ class KernelBatches final : public ParticleBatches {
 
 template <MediaNeed Media, bool Bands, bool Surfaces, bool Detectors>
 std::unique_ptr<ParticleBatches> make_kernel(const CompiledScene& scene, const SceneIndex& index,
-                                         uint64_t seed) {
+                                             uint64_t seed) {
   using K = Kernel<Media, Bands, Surfaces, Detectors>;
-  if (index.cells() > 1) return std::make_unique<KernelBatches<K, PartitionResolver>>(scene, index, seed);
+  if (index.cells() > 1)
+    return std::make_unique<KernelBatches<K, PartitionResolver>>(scene, index, seed);
   return std::make_unique<KernelBatches<K, MergedResolver>>(scene, index, seed);
 }
 
 template <MediaNeed Media, bool Bands, bool Surfaces>
-std::unique_ptr<ParticleBatches> choose_detectors(const CompiledScene& scene, const SceneIndex& index,
-                                              uint64_t seed) {
-  if (scene.features.detectors) return make_kernel<Media, Bands, Surfaces, true>(scene, index, seed);
+std::unique_ptr<ParticleBatches> choose_detectors(const CompiledScene& scene,
+                                                  const SceneIndex& index, uint64_t seed) {
+  if (scene.features.detectors)
+    return make_kernel<Media, Bands, Surfaces, true>(scene, index, seed);
   return make_kernel<Media, Bands, Surfaces, false>(scene, index, seed);
 }
 
 template <MediaNeed Media>
 std::unique_ptr<ParticleBatches> choose_kernel(const CompiledScene& scene, const SceneIndex& index,
-                                           uint64_t seed) {
+                                               uint64_t seed) {
   const Features& f = scene.features;
   if (f.bands && f.surfaces) return choose_detectors<Media, true, true>(scene, index, seed);
   if (f.bands) return choose_detectors<Media, true, false>(scene, index, seed);
@@ -54,16 +56,13 @@ std::unique_ptr<ParticleBatches> choose_kernel(const CompiledScene& scene, const
   return choose_detectors<Media, false, false>(scene, index, seed);
 }
 
-extern template std::unique_ptr<ParticleBatches> choose_kernel<MediaNeed::none>(const CompiledScene&,
-                                                                            const SceneIndex&,
-                                                                            uint64_t);
+extern template std::unique_ptr<ParticleBatches> choose_kernel<MediaNeed::none>(
+    const CompiledScene&, const SceneIndex&, uint64_t);
 extern template std::unique_ptr<ParticleBatches> choose_kernel<MediaNeed::homogeneous>(
     const CompiledScene&, const SceneIndex&, uint64_t);
-extern template std::unique_ptr<ParticleBatches> choose_kernel<MediaNeed::layered>(const CompiledScene&,
-                                                                               const SceneIndex&,
-                                                                               uint64_t);
-extern template std::unique_ptr<ParticleBatches> choose_kernel<MediaNeed::general>(const CompiledScene&,
-                                                                               const SceneIndex&,
-                                                                               uint64_t);
+extern template std::unique_ptr<ParticleBatches> choose_kernel<MediaNeed::layered>(
+    const CompiledScene&, const SceneIndex&, uint64_t);
+extern template std::unique_ptr<ParticleBatches> choose_kernel<MediaNeed::general>(
+    const CompiledScene&, const SceneIndex&, uint64_t);
 
 }  // namespace luxodus

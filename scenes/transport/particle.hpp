@@ -1,8 +1,9 @@
-// The life of a particle: one loop, compiled for what a scene needs and for how its data is reached.
-// (S. N. Pattanaik, S. P. Mudur, "Computation of global illumination in a participating medium by Monte Carlo
-// simulation", 1993.) The same code is the reference that every other way of running is compared with, bit for bit:
-// a history is a pure function of (scene, seed, particle id).
-// Thread rule: one ParticleTracer per thread or fiber; it suspends only where its resolver does.
+// The life of a particle: one loop, compiled for what a scene needs and for how its data is
+// reached. (S. N. Pattanaik, S. P. Mudur, "Computation of global illumination in a participating
+// medium by Monte Carlo simulation", 1993.) The same code is the reference that every other way of
+// running is compared with, bit for bit: a history is a pure function of (scene, seed, particle
+// id). Thread rule: one ParticleTracer per thread or fiber; it suspends only where its resolver
+// does.
 #pragma once
 
 #include <algorithm>
@@ -19,14 +20,15 @@
 namespace luxodus {
 
 namespace limits {
-/// Events of one history; beyond it the particle is counted as lost. A closed room of reflectance 0.999 in the
-/// analogue game needs about 1000 on average, 20 000 at one particle in 1e9; albedo 1 in thick fog more.
+/// Events of one history; beyond it the particle is counted as lost. A closed room of reflectance
+/// 0.999 in the analogue game needs about 1000 on average, 20 000 at one particle in 1e9; albedo 1
+/// in thick fog more.
 inline constexpr int events_per_history = 1'000'000;
 }  // namespace limits
 
 namespace defaults {
-/// Russian roulette: below `roulette_below` (share of the birth weight) a particle is either ended or
-/// goes on with `roulette_to`.
+/// Russian roulette: below `roulette_below` (share of the birth weight) a particle is either ended
+/// or goes on with `roulette_to`.
 inline constexpr Weight roulette_below = unit_weight / 8;
 inline constexpr Weight roulette_to = unit_weight / 4;
 }  // namespace defaults
@@ -66,7 +68,8 @@ class ParticleTracer {
     bool collided = false;
   };
 
-  /// Chance for a new direction, and what becomes of it on a Lambertian surface: a direction about its normal.
+  /// Chance for a new direction, and what becomes of it on a Lambertian surface: a direction about
+  /// its normal.
   struct Turn {
     float u, v;
     glm::vec3 lambertian;
@@ -85,8 +88,8 @@ class ParticleTracer {
     ledger.emitted += p.weight;
     for (int event = 0; event < limits::events_per_history; ++event) {
       ++ledger.rays;
-      // The turn at the end of this flight is drawn before it: its arithmetic needs nothing of the hit, and so
-      // runs beside the search for it.
+      // The turn at the end of this flight is drawn before it: its arithmetic needs nothing of the
+      // hit, and so runs beside the search for it.
       const Turn turn = draw_turn();
       const Hit hit = resolver_.nearest(p.ray);
       const bool alive = fly_and_interact(p, hit, turn);
@@ -132,7 +135,8 @@ class ParticleTracer {
     return std::min(static_cast<size_t>(it - cdf.begin()), cdf.size() - 1);
   }
 
-  // ---- a flight and how it ends ------------------------------------------------------------------
+  // ---- a flight and how it ends
+  // ------------------------------------------------------------------
 
   bool fly_and_interact(State& p, const Hit& hit, const Turn& turn) {
     if constexpr (K::media != MediaNeed::none) {
@@ -155,12 +159,14 @@ class ParticleTracer {
 
   void pass_detectors(const State& p, float length) {
     if constexpr (K::detectors) {
-      score_flight(scene_, {p.ray.origin, p.ray.direction, length, p.weight, p.band, p.direct, p.collided},
+      score_flight(scene_,
+                   {p.ray.origin, p.ray.direction, length, p.weight, p.band, p.direct, p.collided},
                    *batch_);
     }
   }
 
-  // ---- the medium --------------------------------------------------------------------------------
+  // ---- the medium
+  // --------------------------------------------------------------------------------
 
   bool collide(State& p, const Flight& flight, const Turn& turn) {
     ++batch_->ledger.collisions;
@@ -168,8 +174,8 @@ class ParticleTracer {
     const Weight before = p.weight;
     const Weight after = surviving(before, to_fraction(flight.albedo));
     batch_->ledger.absorbed_media += before - after;
-    score_collision(scene_, place, p.band, static_cast<uint32_t>(flight.medium), before - after, after,
-                    *batch_);
+    score_collision(scene_, place, p.band, static_cast<uint32_t>(flight.medium), before - after,
+                    after, *batch_);
     p.weight = after;
     if (!goes_on(p)) return false;
     p.ray.origin = place;
@@ -180,7 +186,8 @@ class ParticleTracer {
     return true;
   }
 
-  // ---- surfaces ----------------------------------------------------------------------------------
+  // ---- surfaces
+  // ----------------------------------------------------------------------------------
 
   bool meet_surface(State& p, const Hit& hit, const Turn& turn) {
     ++batch_->ledger.hits;
@@ -198,7 +205,8 @@ class ParticleTracer {
     const size_t side = front ? 0 : 1;
     const size_t bands = K::many_bands ? static_cast<size_t>(scene_.bands.count()) : 1;
     const Fraction reflectance =
-        scene_.lambert_fraction[(triangle.surface * 2 + side) * bands + static_cast<size_t>(p.band)];
+        scene_
+            .lambert_fraction[(triangle.surface * 2 + side) * bands + static_cast<size_t>(p.band)];
     const Weight before = p.weight;
     const Weight after = surviving(before, reflectance);
     int64_t* patch = patch_score(hit, front, p.band);
@@ -214,7 +222,8 @@ class ParticleTracer {
     return true;
   }
 
-  /// Glossy, mirror, glass, open, textured, sign faces: the lobe is sampled first, then the weight it carries.
+  /// Glossy, mirror, glass, open, textured, sign faces: the lobe is sampled first, then the weight
+  /// it carries.
   bool meet_any_surface(State& p, const Hit& hit, bool front, const CompiledMaterial& material,
                         const Turn& turn) {
     const TriangleRecord& triangle = *hit.triangle;
@@ -231,7 +240,8 @@ class ParticleTracer {
     batch_->ledger.absorbed_surfaces += before - after;
     p.weight = after;
     if (!goes_on(p)) return false;
-    const bool straight = sampled.transmitted && sampled.specular && model.kind != SurfaceKind::dielectric;
+    const bool straight =
+        sampled.transmitted && sampled.specular && model.kind != SurfaceKind::dielectric;
     p.direct = p.direct && straight;
     p.ray.direction = sampled.direction;
     p.ray.origin = offset_ray(place, sampled.transmitted ? -normal : normal);
@@ -247,9 +257,11 @@ class ParticleTracer {
     return batch_->scores.data() + patches_ + (int64_t{patch} * bands + band) * 2;
   }
 
-  // ---- weights -----------------------------------------------------------------------------------
+  // ---- weights
+  // -----------------------------------------------------------------------------------
 
-  /// What survives of a weight at an event: the share itself, or all or nothing in the analogue game.
+  /// What survives of a weight at an event: the share itself, or all or nothing in the analogue
+  /// game.
   Weight surviving(Weight weight, Fraction fraction) {
     if (fraction == unit_weight) return weight;
     if (fraction == 0) return 0;
@@ -272,7 +284,8 @@ class ParticleTracer {
     return false;
   }
 
-  // ---- leaving the scene -------------------------------------------------------------------------
+  // ---- leaving the scene
+  // -------------------------------------------------------------------------
 
   bool escape(State& p) {
     const EscapePoint exit = leave_box(p.ray);
@@ -288,7 +301,8 @@ class ParticleTracer {
     uint32_t side;
   };
 
-  /// Where a ray that hits nothing leaves the bounding box; a ray outside leaves at the face it flees.
+  /// Where a ray that hits nothing leaves the bounding box; a ray outside leaves at the face it
+  /// flees.
   EscapePoint leave_box(const Ray& ray) const {
     const glm::vec3 low = scene_.local_low;
     const glm::vec3 high = scene_.local_high;

@@ -37,8 +37,10 @@ std::vector<std::vector<int64_t>> photopic_weights(const CompiledScene& scene) {
     const double most = largest_lumens_per_share(scene, group);
     std::vector<int64_t> weights;
     for (int b = 0; b < scene.bands.count(); ++b) {
-      const double lumens = watts_per_share(group, static_cast<size_t>(b)) * scene.bands[b].lm_per_w;
-      weights.push_back(most > 0 ? std::llround(std::ldexp(lumens / most, Totals::photopic_shift)) : 0);
+      const double lumens =
+          watts_per_share(group, static_cast<size_t>(b)) * scene.bands[b].lm_per_w;
+      weights.push_back(most > 0 ? std::llround(std::ldexp(lumens / most, Totals::photopic_shift))
+                                 : 0);
     }
     out.push_back(std::move(weights));
   }
@@ -73,7 +75,8 @@ Estimate Readout::sum_groups(uint32_t block, uint32_t bin, int channel, uint32_t
   return out;
 }
 
-Estimate Readout::watts(uint32_t block, uint32_t bin, int band, uint32_t quantity, int group) const {
+Estimate Readout::watts(uint32_t block, uint32_t bin, int band, uint32_t quantity,
+                        int group) const {
   return sum_groups(block, bin, band, quantity, group);
 }
 
@@ -96,7 +99,8 @@ double Readout::worst_relative_error() const {
   const auto judge = [&](const Estimate& e) {
     if (e.value <= 0) return;
     asked = true;
-    const double error = e.relative_error();  // NaN with fewer than two batches: not known, so not small
+    const double error =
+        e.relative_error();  // NaN with fewer than two batches: not known, so not small
     worst = std::isnan(error) ? std::numeric_limits<double>::infinity() : std::max(worst, error);
   };
   for (uint32_t i = 0; i < scene_.planes.size(); ++i) {
@@ -105,14 +109,16 @@ double Readout::worst_relative_error() const {
     // Direct light is computed without chance: only the traced part errs.
     judge({direct.value + indirect.value, indirect.standard_error});
   }
-  for (uint32_t i = 0; i < scene_.description->probes.size(); ++i) judge(value(scene_.blocks.probes, i, 0));
+  for (uint32_t i = 0; i < scene_.description->probes.size(); ++i)
+    judge(value(scene_.blocks.probes, i, 0));
   for (const EyeTarget& t : scene_.eye_targets) {
     const auto at_eye = static_cast<uint32_t>(EyeQuantity::at_eye);
     judge(value(scene_.blocks.views, t.first_bin, at_eye));
   }
   if (asked) return worst;
   double total = 0;
-  for (uint32_t s = 0; s < scene_.surfaces.size(); ++s) total += lumens(scene_.blocks.surfaces, s, 0).value;
+  for (uint32_t s = 0; s < scene_.surfaces.size(); ++s)
+    total += lumens(scene_.blocks.surfaces, s, 0).value;
   for (uint32_t s = 0; s < scene_.surfaces.size(); ++s) {
     const Estimate in = lumens(scene_.blocks.surfaces, s, 0);
     if (in.value > 0.01 * total) judge(in);

@@ -1,5 +1,6 @@
-// From totals to physical values: watts, lumens, lux, cd/m2, each with its standard error over batches.
-// Values of several source groups add; groups are independent samples, so their variances add too.
+// From totals to physical values: watts, lumens, lux, cd/m2, each with its standard error over
+// batches. Values of several source groups add; groups are independent samples, so their variances
+// add too.
 #pragma once
 
 #include <vector>
@@ -31,12 +32,14 @@ class Readout {
   /// A value score in its own unit.
   Estimate value(uint32_t block, uint32_t bin, uint32_t quantity) const;
 
-  /// The relative standard error that a run is judged by: the worst of plane means, probes and sign luminances
-  /// at the eye; where a scene asks for none of these, of the flux into surfaces that get at least 1 % of it.
+  /// The relative standard error that a run is judged by: the worst of plane means, probes and sign
+  /// luminances at the eye; where a scene asks for none of these, of the flux into surfaces that
+  /// get at least 1 % of it.
   double worst_relative_error() const;
 
  private:
-  Estimate sum_groups(uint32_t block, uint32_t bin, int channel, uint32_t quantity, int group) const;
+  Estimate sum_groups(uint32_t block, uint32_t bin, int channel, uint32_t quantity,
+                      int group) const;
   double scale(int group, int channel, ScoreUnit unit) const;
 
   const CompiledScene& scene_;

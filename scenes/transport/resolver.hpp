@@ -1,10 +1,11 @@
-// Resolvers: how the transport loop reads what lies beyond the skeleton. The loop asks; a resolver answers at
-// once (everything resident), or may wait in between (a fiber that fetches). What it answers is the same
-// content either way, so the bits are the same. A reference that a resolver returns is good until its next
-// call.
+// Resolvers: how the transport loop reads what lies beyond the skeleton. The loop asks; a resolver
+// answers at once (everything resident), or may wait in between (a fiber that fetches). What it
+// answers is the same content either way, so the bits are the same. A reference that a resolver
+// returns is good until its next call.
 //
 // A resolver has: nearest(ray) -> Hit, occluded(ray) -> bool, cell_of(hit) -> const GeometryCell&,
-// brick(medium, brick) -> const Brick&, web(index) -> const PhotometricWeb&, image(index) -> const Image&.
+// brick(medium, brick) -> const Brick&, web(index) -> const PhotometricWeb&, image(index) -> const
+// Image&.
 #pragma once
 
 #include <memory>
@@ -69,8 +70,9 @@ class PartitionResolver : public ResidentData {
       : ResidentData(scene), index_(&index) {}
 
   Hit nearest(const Ray& ray) {
-    return nearest_in_cells(index_->proxies(), ray, candidates_,
-                            [this](uint32_t cell) -> const CellScene& { return index_->cell(cell); });
+    return nearest_in_cells(
+        index_->proxies(), ray, candidates_,
+        [this](uint32_t cell) -> const CellScene& { return index_->cell(cell); });
   }
   bool occluded(const Ray& ray) {
     index_->proxies().candidates(ray, candidates_);

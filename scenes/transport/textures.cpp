@@ -25,17 +25,17 @@ glm::vec2 texture_uv(const GeometryCell& cell, const Hit& hit) {
 float image_factor(const CompiledScene& scene, const Image& image, const glm::vec2& uv, int band) {
   const int x = texel_index(uv.x, image.width);
   const int y = texel_index(1 - uv.y, image.height);
-  const float* texel =
-      &image.texels[static_cast<size_t>((y * image.width + x) * image.channels)];
+  const float* texel = &image.texels[static_cast<size_t>((y * image.width + x) * image.channels)];
   if (image.channels < 3) return texel[0];
   const std::array<float, 3>& basis = scene.image_basis[static_cast<size_t>(band)];
   return std::clamp(texel[0] * basis[0] + texel[1] * basis[1] + texel[2] * basis[2], 0.0f, 1.0f);
 }
 
 size_t texel_at(const SignFace& face, const glm::vec2& uv) {
-  const int x = std::clamp(static_cast<int>(uv.x * static_cast<float>(face.width)), 0, face.width - 1);
-  const int y =
-      std::clamp(static_cast<int>((1 - uv.y) * static_cast<float>(face.height)), 0, face.height - 1);
+  const int x =
+      std::clamp(static_cast<int>(uv.x * static_cast<float>(face.width)), 0, face.width - 1);
+  const int y = std::clamp(static_cast<int>((1 - uv.y) * static_cast<float>(face.height)), 0,
+                           face.height - 1);
   return static_cast<size_t>(y * face.width + x);
 }
 

@@ -15,7 +15,8 @@ float image_factor(const CompiledScene& scene, const Image& image, const glm::ve
 /// Texel of a sign's face at (u, v); (0, 0) is the reader's lower left corner.
 size_t texel_at(const SignFace& face, const glm::vec2& uv);
 
-/// The model that holds at this hit: the material's, with its diffuse part taken from picture or sign face.
+/// The model that holds at this hit: the material's, with its diffuse part taken from picture or
+/// sign face.
 template <class Resolver>
 SurfaceModel surface_at(const CompiledScene& scene, const Hit& hit, bool front, int band,
                         const CompiledMaterial& material, Resolver& resolver) {

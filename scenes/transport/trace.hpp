@@ -19,7 +19,8 @@ class BatchTracer {
   virtual void look(int64_t batch, BatchScores& scores) = 0;
 };
 
-/// The kernel that the scene's features ask for, on everything resident. All arguments must outlive it.
+/// The kernel that the scene's features ask for, on everything resident. All arguments must outlive
+/// it.
 std::unique_ptr<BatchTracer> make_batch_tracer(const CompiledScene& scene, const SceneIndex& index,
                                                uint64_t seed);
 

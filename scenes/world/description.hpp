@@ -1,6 +1,7 @@
-// What a scene says, after everything it names has been read: plain values in SI units (m, sr, W, lm, cd/m2,
-// 1/m, nm), one struct per TOML table, each with the place it stands at, for messages. Made by
-// scenes/format, compiled for the tracer by scenes/transport/compile.*. Immutable once read; any thread.
+// What a scene says, after everything it names has been read: plain values in SI units (m, sr, W,
+// lm, cd/m2, 1/m, nm), one struct per TOML table, each with the place it stands at, for messages.
+// Made by scenes/format, compiled for the tracer by scenes/transport/compile.*. Immutable once
+// read; any thread.
 #pragma once
 
 #include <array>
@@ -62,7 +63,7 @@ struct Object {
   SourcePlace place;
   Mesh mesh;  // placed: scene coordinates
   int material = 0;
-  int back_material = 0;  // seen from behind the triangles; same as material unless said
+  int back_material = 0;    // seen from behind the triangles; same as material unless said
   double patch_edge_m = 0;  // maximum edge of a flux patch; 0: one patch per triangle
   std::vector<std::string> tags;
   std::string group;  // surface group, "" for none
@@ -74,8 +75,9 @@ struct Object {
 enum class EmitterShape { point, rectangle, disc, sphere, tube, mesh };
 enum class Distribution { lambertian, isotropic, cosine_power, spot, collimated, web };
 
-/// One emitter, analytic or a luminaire of a photometric file. Surfaces emit along local -Z (the luminaire
-/// frame: -Z is down); rectangle and disc lie in the local xy plane; a tube's axis is local x.
+/// One emitter, analytic or a luminaire of a photometric file. Surfaces emit along local -Z (the
+/// luminaire frame: -Z is down); rectangle and disc lie in the local xy plane; a tube's axis is
+/// local x.
 struct Emitter {
   std::string name;
   SourcePlace place;
@@ -83,15 +85,18 @@ struct Emitter {
   std::string group;    // source group; "" takes the scene's rule
   EmitterShape shape = EmitterShape::point;
   Frame frame;
-  glm::dvec3 size{0};  // rectangle: x, y; disc, sphere: x = diameter; tube: x = length, y = diameter
-  Mesh mesh;           // shape mesh: scene coordinates, emits to the front side
+  glm::dvec3 size{
+      0};     // rectangle: x, y; disc, sphere: x = diameter; tube: x = length, y = diameter
+  Mesh mesh;  // shape mesh: scene coordinates, emits to the front side
   Distribution distribution = Distribution::lambertian;
-  double cosine_power = 1;          // intensity ~ cos^n about -Z
-  double spot_inner_deg = 0;        // half angles about -Z: full inside, smooth cosine fall-off, zero outside
+  double cosine_power = 1;  // intensity ~ cos^n about -Z
+  double spot_inner_deg =
+      0;  // half angles about -Z: full inside, smooth cosine fall-off, zero outside
   double spot_outer_deg = 0;
   std::shared_ptr<const PhotometricWeb> web;
   Spectrum spectrum = equal_energy_shape();  // integral 1 over 380..780 nm
-  // Flux emitted in each operating state, all factors applied. Photometric input is in lm, radiometric in W.
+  // Flux emitted in each operating state, all factors applied. Photometric input is in lm,
+  // radiometric in W.
   bool radiometric = false;
   double mains_flux = 0;      // [lm] or [W]
   double emergency_flux = 0;  // [lm] or [W]; 0 for a luminaire that fails with the mains
@@ -102,15 +107,16 @@ struct Emitter {
 
 enum class SignLighting { internal, external, photoluminescent };
 
-/// What each texel of a face is. White and green are the colours of the legend and its ground; which of
-/// them is the legend is `legend`. `other` is neither (a border, a lamp cover).
+/// What each texel of a face is. White and green are the colours of the legend and its ground;
+/// which of them is the legend is `legend`. `other` is neither (a border, a lamp cover).
 enum class SignColour : uint8_t { white, green, other };
 
 struct SignFace {
   int width = 0;  // texels; square texels up to rounding
   int height = 0;
-  std::vector<SignColour> colour;        // top row first, seen by a reader
-  std::vector<float> relative_luminance;  // empty: uniform in each colour; else per texel, mean 1 per colour
+  std::vector<SignColour> colour;  // top row first, seen by a reader
+  std::vector<float>
+      relative_luminance;  // empty: uniform in each colour; else per texel, mean 1 per colour
   SignColour legend = SignColour::white;
 };
 
@@ -124,7 +130,8 @@ struct Sign {
   SourcePlace place;
   std::string circuit;
   std::string group;
-  Frame frame;  // origin: centre of the face; local z: viewing direction (out of the face); local y: up
+  Frame frame;  // origin: centre of the face; local z: viewing direction (out of the face); local
+                // y: up
   double width_m = 0;
   double height_m = 0;
   double smallest_detail_m = 0;
@@ -135,7 +142,8 @@ struct Sign {
   SignState mains;
   SignState emergency;
   double angular_exponent = 0;  // luminance ~ cos^n from the normal; 0: Lambertian
-  std::vector<glm::dvec2> decay;  // photoluminescent: time after excitation [s], share of the luminance
+  std::vector<glm::dvec2>
+      decay;  // photoluminescent: time after excitation [s], share of the luminance
   Spectrum white_shape = equal_energy_shape();
   Spectrum green_shape = equal_energy_shape();
   Spectrum white_reflectance = Spectrum::constant(0.7);
@@ -229,15 +237,15 @@ enum class GroupRule { one, by_circuit, by_emitter };
 
 struct RunSettings {
   uint64_t seed = 1;
-  int bands_most = 8;                       // 1 forces one band
-  std::vector<double> band_edges_nm;        // empty: told apart automatically
+  int bands_most = 8;                 // 1 forces one band
+  std::vector<double> band_edges_nm;  // empty: told apart automatically
   double band_tolerance = 0.02;
-  int64_t batch_particles = 0;              // 0: follows from the scene
-  double voxel_edge_m = 0;                  // 0: follows from the scene; only where a medium is
+  int64_t batch_particles = 0;  // 0: follows from the scene
+  double voxel_edge_m = 0;      // 0: follows from the scene; only where a medium is
   bool voxels = true;
-  bool analogue = false;                    // sampled absorption instead of weighted survival
+  bool analogue = false;  // sampled absorption instead of weighted survival
   GroupRule groups = GroupRule::one;
-  double eye_share = 1.0;                   // paths from the eye per batch, relative to the default
+  double eye_share = 1.0;  // paths from the eye per batch, relative to the default
 };
 
 struct SceneDescription {
@@ -257,10 +265,10 @@ struct SceneDescription {
   std::vector<CountingPlaneMeasure> counting_planes;
   std::vector<Observer> observers;
   std::vector<Camera> cameras;
-  std::vector<Scenario> scenarios;  // empty: mains, as written
-  uint64_t content_hash = 0;        // of every file read
+  std::vector<Scenario> scenarios;   // empty: mains, as written
+  uint64_t content_hash = 0;         // of every file read
   int64_t degenerate_triangles = 0;  // dropped on reading
-  std::vector<Problem> warnings;    // said by `check`, not fatal
+  std::vector<Problem> warnings;     // said by `check`, not fatal
 };
 
 }  // namespace luxodus

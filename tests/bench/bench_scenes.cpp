@@ -39,7 +39,8 @@ Mesh furniture(const glm::dvec3& low, const glm::dvec3& size) {
   const glm::dvec3 x(size.x, 0, 0), y(0, size.y, 0), z(0, 0, size.z);
   const auto face = [&](const glm::dvec3& corner, const glm::dvec3& u, const glm::dvec3& v) {
     const auto first = static_cast<unsigned>(mesh.positions.size());
-    for (const glm::dvec3& p : {corner, corner + u, corner + u + v, corner + v}) mesh.positions.push_back(p);
+    for (const glm::dvec3& p : {corner, corner + u, corner + u + v, corner + v})
+      mesh.positions.push_back(p);
     mesh.triangles.push_back({first, first + 1, first + 2});
     mesh.triangles.push_back({first, first + 2, first + 3});
   };
@@ -141,7 +142,8 @@ std::shared_ptr<const CompiledScene> landscape(int n) {
   const double step = 100.0 / n;
   for (int j = 0; j <= n; ++j) {
     for (int i = 0; i <= n; ++i) {
-      mesh.positions.push_back({i * step, j * step, std::sin(0.5 * i * step) * std::cos(0.3 * j * step)});
+      mesh.positions.push_back(
+          {i * step, j * step, std::sin(0.5 * i * step) * std::cos(0.3 * j * step)});
     }
   }
   const auto at = [&](int i, int j) { return static_cast<unsigned>(j * (n + 1) + i); };

@@ -1,5 +1,6 @@
-// The scenes that are measured, made in memory: a furnished room of 661 quads under one lamp, clear or in
-// smoke, and a landscape of any number of triangles. Every number that matters for speed is named here.
+// The scenes that are measured, made in memory: a furnished room of 661 quads under one lamp, clear
+// or in smoke, and a landscape of any number of triangles. Every number that matters for speed is
+// named here.
 #pragma once
 
 #include <memory>
@@ -16,8 +17,9 @@ struct Counting {
   bool voxels = false;     // about 20 000
 };
 
-/// 20 x 15 x 3 m, six walls and 131 boxes without bottoms, Lambertian 0.5, one ceiling rectangle. Homogeneous:
-/// isotropic, 0.1/m, albedo 0.8. Layered: six layers of 0.5 m, 0.05 to 2/m upwards, albedo 0.8.
+/// 20 x 15 x 3 m, six walls and 131 boxes without bottoms, Lambertian 0.5, one ceiling rectangle.
+/// Homogeneous: isotropic, 0.1/m, albedo 0.8. Layered: six layers of 0.5 m, 0.05 to 2/m upwards,
+/// albedo 0.8.
 std::shared_ptr<const CompiledScene> furnished_room(Air air, const Counting& counting);
 
 /// A hilly floor of 2 n^2 triangles under a lamp, one patch a side of each.

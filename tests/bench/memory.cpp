@@ -13,8 +13,10 @@ namespace {
 
 constexpr double gib = 1024.0 * 1024 * 1024;
 
-/// Bytes of one bin of a block in a batch's scores (one per thread) and in the totals (one per group).
-void print_bin(const CompiledScene& scene, const char* what, std::initializer_list<uint32_t> blocks) {
+/// Bytes of one bin of a block in a batch's scores (one per thread) and in the totals (one per
+/// group).
+void print_bin(const CompiledScene& scene, const char* what,
+               std::initializer_list<uint32_t> blocks) {
   size_t scores = 0, totals = 0;
   for (const uint32_t b : blocks) {
     const TallyBlock& block = scene.layout.block(b);
@@ -38,7 +40,8 @@ void print_memory(int n) {
              scene->patch_count);
   fmt::print("{:<44} {:>10.2f} s scene, {:.2f} s search structure\n", "made in", compiled - start,
              built - compiled);
-  const auto records = static_cast<double>(scene->cells[0].triangles.capacity() * sizeof(TriangleRecord));
+  const auto records =
+      static_cast<double>(scene->cells[0].triangles.capacity() * sizeof(TriangleRecord));
   fmt::print("{:<44} {:>10.1f}\n", "per triangle: records", records / triangles);
   fmt::print("{:<44} {:>10.1f}\n", "per triangle: Embree",
              static_cast<double>(run.device().bytes()) / triangles);

@@ -16,8 +16,8 @@ namespace {
 
 constexpr int calls_per_turn = 200'000;
 
-/// Nanoseconds per call of `piece`, a function of a call number that gives a float: results are chained into
-/// a sum, so that none can be left out.
+/// Nanoseconds per call of `piece`, a function of a call number that gives a float: results are
+/// chained into a sum, so that none can be left out.
 template <class Piece>
 void print_piece(const char* name, int repeats, Piece&& piece) {
   std::vector<double> ns;
@@ -64,7 +64,8 @@ void print_pieces(int repeats) {
     const float rise = 2 * random.uniform() - 1;
     const float tau = 3 * random.uniform();
     const glm::vec3 d(std::sqrt(1 - rise * rise), 0, rise);
-    return free_flight<MediaNeed::layered>(scene->media, 0, {0, 0, z}, d, 5, static_cast<double>(tau), 0.5, bricks)
+    return free_flight<MediaNeed::layered>(scene->media, 0, {0, 0, z}, d, 5,
+                                           static_cast<double>(tau), 0.5, bricks)
         .t;
   });
   print_piece("split of a weight", repeats, [&](int) {
@@ -75,7 +76,8 @@ void print_pieces(int repeats) {
   scores.reset(scene->layout);
   print_piece("detectors and voxels along 3 m", repeats, [&](int) {
     const float x = 10 * random.uniform() - 7;
-    score_flight(*scene, {{x, 0, 0}, {0.6f, 0.64f, 0.48f}, 3, unit_weight, 0, false, false}, scores);
+    score_flight(*scene, {{x, 0, 0}, {0.6f, 0.64f, 0.48f}, 3, unit_weight, 0, false, false},
+                 scores);
     return x;
   });
 }

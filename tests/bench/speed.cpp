@@ -52,7 +52,8 @@ class RecordingResolver : public MergedResolver {
 template <MediaNeed Media>
 std::vector<Ray> record(const CompiledScene& scene, const SceneIndex& index) {
   RecordingResolver resolver(scene, index);
-  ParticleTracer<Kernel<Media, false, false, false>, RecordingResolver> tracer(scene, resolver, seed);
+  ParticleTracer<Kernel<Media, false, false, false>, RecordingResolver> tracer(scene, resolver,
+                                                                               seed);
   BatchScores scores;
   scores.reset(scene.layout);
   for (uint64_t first = 0; resolver.rays.size() < recorded_rays; first += 1024) {
@@ -91,7 +92,8 @@ class Runner {
   uint64_t next_ = 0;
 };
 
-/// Repeats `turn`, which returns how many rays it made, for a while: rays per second of processor time.
+/// Repeats `turn`, which returns how many rays it made, for a while: rays per second of processor
+/// time.
 template <class Turn>
 double rays_per_second(Turn&& turn) {
   const double start = thread_seconds();

@@ -1,9 +1,11 @@
-// The tables that luxodus_bench prints, one function each. What each column means: README.md beside this.
+// The tables that luxodus_bench prints, one function each. What each column means: README.md beside
+// this.
 #pragma once
 
 namespace luxodus::bench {
 
-/// Particles and rays per second of whole runs, and their share of bare Embree; `repeats` pairs each.
+/// Particles and rays per second of whole runs, and their share of bare Embree; `repeats` pairs
+/// each.
 void print_speed(int repeats);
 /// Two threads against one, wall time.
 void print_threads(int repeats);

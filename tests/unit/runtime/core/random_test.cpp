@@ -32,7 +32,8 @@ TEST_CASE("a particle's draws are the blocks of its counter, past any refill", "
   }
 }
 
-TEST_CASE("starting a particle again repeats its draws whatever was drawn before", "[core][random]") {
+TEST_CASE("starting a particle again repeats its draws whatever was drawn before",
+          "[core][random]") {
   Random random(7, RandomStream::particle);
   random.start(41);
   std::vector<uint32_t> first;

@@ -4,7 +4,8 @@
 
 using namespace luxodus;
 
-TEST_CASE("a problem prints as file:line: sentence, and without a line as file: sentence", "[core]") {
+TEST_CASE("a problem prints as file:line: sentence, and without a line as file: sentence",
+          "[core]") {
   CHECK(Problem{{"a.toml", 7}, "unknown key"}.text() == "a.toml:7: unknown key");
   CHECK(Problem{{"a.png", 0}, "not a PNG"}.text() == "a.png: not a PNG");
   CHECK(Problem{{}, "no scene given"}.text() == "no scene given");

@@ -3,9 +3,12 @@
 
 #include <unistd.h>
 
+#include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
+#include <numbers>
 #include <string>
+#include <vector>
 
 #include "scenes/format/scene_file.hpp"
 
@@ -50,6 +53,40 @@ inline std::string all_problems(const ReadScene& read) {
   std::string out;
   for (const Problem& p : read.problems.list()) out += p.text() + "\n";
   return out;
+}
+
+inline constexpr double pi = std::numbers::pi;
+
+inline SceneDescription good(SceneFolder& folder, const std::string& text) {
+  ReadScene read = folder.read(text);
+  INFO(all_problems(read));
+  REQUIRE(read.scene.has_value());
+  REQUIRE(read.problems.empty());
+  return *read.scene;
+}
+
+inline Approx near(double v) {
+  return Approx(v).epsilon(1e-12).margin(1e-12);
+}
+
+inline bool same(const glm::dvec3& a, const glm::dvec3& b) {
+  return glm::length(a - b) < 1e-12;
+}
+
+template <class T>
+const T& named(const std::vector<T>& list, const std::string& name) {
+  for (const T& t : list) {
+    if (t.name == name) return t;
+  }
+  FAIL("nothing is called " << name);
+  return list.front();
+}
+
+/// The optics of a homogeneous medium with these keys.
+inline SmokeOptics smoke_optics(SceneFolder& folder, const std::string& keys) {
+  return good(folder, "[[medium]]\nname = \"s\"\nkind = \"homogeneous\"\nalbedo = 0\n" + keys)
+      .media.at(0)
+      .optics;
 }
 
 }  // namespace luxodus

@@ -170,8 +170,9 @@ TEST_CASE("closed stairs are closed and have the volume of their steps", "[geome
   }
 }
 
-TEST_CASE("a flight whose corners are in a line but for rounding is cut into triangles all the same",
-          "[geometry][parts]") {
+TEST_CASE(
+    "a flight whose corners are in a line but for rounding is cut into triangles all the same",
+    "[geometry][parts]") {
   // 0.17 m and 0.28 m have no exact double: the inner corners leave their line in the last digit.
   const double rise = 0.17, going = 0.28, width = 1.2;
   for (int n = 2; n <= 40; ++n) {

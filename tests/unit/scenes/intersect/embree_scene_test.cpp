@@ -22,8 +22,8 @@ void add_triangle(GeometryCell& cell, const glm::vec3& a, const glm::vec3& b, co
   cell.triangles.push_back(r);
 }
 
-/// A closed box of side 2 about the origin, turned askew, each face n x n squares of two triangles: shared
-/// edges nowhere run along an axis.
+/// A closed box of side 2 about the origin, turned askew, each face n x n squares of two triangles:
+/// shared edges nowhere run along an axis.
 GeometryCell closed_box(int n) {
   GeometryCell cell;
   const glm::vec3 x = glm::normalize(glm::vec3(1, 0.3f, 0.2f));
@@ -89,7 +89,8 @@ struct Partition {
       }
       boxes.push_back({cell.low, cell.high});
     }
-    for (const GeometryCell& cell : cells) scenes.push_back(std::make_unique<CellScene>(device, cell));
+    for (const GeometryCell& cell : cells)
+      scenes.push_back(std::make_unique<CellScene>(device, cell));
     proxies = std::make_unique<ProxyScene>(device, boxes);
   }
   Hit nearest(const Ray& ray, std::vector<Candidate>& scratch) const {
@@ -160,7 +161,8 @@ TEST_CASE("a closed box lets none of a million rays out through its shared edges
     const glm::vec3 origin = any_point(random, 0.5f);
     glm::vec3 direction = any_direction(random);
     if (i % 2 == 0) {
-      // Aimed at the middle of an edge, where neighbours meet, or a hundredth of a millimetre past a corner.
+      // Aimed at the middle of an edge, where neighbours meet, or a hundredth of a millimetre past
+      // a corner.
       const TriangleRecord& t = cell.triangles[random.bits() % cell.triangles.size()];
       const uint32_t k = random.bits() % 3;
       const bool middle = random.bits() % 2 == 0;

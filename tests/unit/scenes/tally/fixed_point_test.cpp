@@ -14,7 +14,8 @@ TEST_CASE("a split has the expectation of the fraction and never makes weight", 
   for (const Weight weight : {Weight{1}, Weight{5}, unit_weight / 8 + 1, unit_weight}) {
     for (const double share : {1e-9, 0.25, 0.5, 0.999, 1 - 1e-9}) {
       const Fraction fraction = to_fraction(share);
-      // The result is one of two neighbours, so a run's mean errs by at most half a unit over sqrt(n).
+      // The result is one of two neighbours, so a run's mean errs by at most half a unit over
+      // sqrt(n).
       constexpr int n = 20'000;
       const double expected = static_cast<double>(weight) * from_fraction(fraction);
       double sum = 0;

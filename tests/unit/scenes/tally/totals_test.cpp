@@ -12,7 +12,8 @@ namespace {
 
 constexpr int64_t unit = int64_t{1} << 32;
 
-/// Patches (in, out), a surface that is bins 1 to 3 of them (in, out, stayed), and a value without bands.
+/// Patches (in, out), a surface that is bins 1 to 3 of them (in, out, stayed), and a value without
+/// bands.
 struct Layout {
   TallyLayout layout;
   uint32_t patches, surface, value;
@@ -28,7 +29,8 @@ struct Layout {
     scores.reset(layout);
     return scores;
   }
-  int64_t& at(BatchScores& scores, uint32_t block, uint32_t bin, int band, uint32_t quantity) const {
+  int64_t& at(BatchScores& scores, uint32_t block, uint32_t bin, int band,
+              uint32_t quantity) const {
     return scores.scores[static_cast<size_t>(layout.score_index(block, bin, band, quantity))];
   }
   /// Every score a number of its own, different in every batch.
@@ -82,7 +84,8 @@ TEST_CASE("no two scores share a place, and together they fill the array", "[tal
   CHECK(std::all_of(totals.begin(), totals.end(), [](int n) { return n == 1; }));
 }
 
-TEST_CASE("totals are the same for any order of batches and from any number of threads", "[tally]") {
+TEST_CASE("totals are the same for any order of batches and from any number of threads",
+          "[tally]") {
   const Layout l(2);
   constexpr uint64_t batches = 40;
   Totals forward(l.layout, 1, ones(1, 2));
@@ -142,7 +145,8 @@ TEST_CASE("an aggregate is the sum of its bins in every batch, and what stayed i
           "[tally]") {
   const Layout l(2);
   Totals totals(l.layout, 1, ones(1, 2));
-  // Bins that rise and fall against one another: their sum does not vary, whatever each of them does.
+  // Bins that rise and fall against one another: their sum does not vary, whatever each of them
+  // does.
   for (int i = 0; i < 10; ++i) {
     BatchScores b = l.batch();
     const int64_t swing = i % 2 == 0 ? unit : -unit;

@@ -43,13 +43,13 @@ double clipped(const glm::dvec3& low, const glm::dvec3& high, const FlightPiece&
 std::map<uint32_t, double> lengths_in(const VoxelGrid& grid, const FlightPiece& piece) {
   std::map<uint32_t, double> out;
   double sum = 0;
-  const float inside =
-      for_each_voxel(grid, piece, finite_inverse(piece.direction), [&](uint32_t voxel, float length) {
-        REQUIRE(voxel < grid.count());
-        REQUIRE(length >= 0);
-        out[voxel] += static_cast<double>(length);
-        sum += static_cast<double>(length);
-      });
+  const float inside = for_each_voxel(grid, piece, finite_inverse(piece.direction),
+                                      [&](uint32_t voxel, float length) {
+                                        REQUIRE(voxel < grid.count());
+                                        REQUIRE(length >= 0);
+                                        out[voxel] += static_cast<double>(length);
+                                        sum += static_cast<double>(length);
+                                      });
   CHECK(static_cast<double>(inside) == Approx(sum).margin(1e-5));
   return out;
 }
@@ -112,8 +112,9 @@ TEST_CASE("layers that touch share a flight between them without gap or overlap"
   CHECK(lengths(piece_of({5, 6, 2}, {0, 1, 0}, 3)) == glm::vec2(0, 0));
 }
 
-TEST_CASE("a plane's cell is scored by flights that cross it, not by those that stop short or pass by",
-          "[transport][detectors]") {
+TEST_CASE(
+    "a plane's cell is scored by flights that cross it, not by those that stop short or pass by",
+    "[transport][detectors]") {
   CompiledPlane plane;  // the unit square in z = 0, in 4 x 2 cells from bin 10
   plane.cells_u = 4;
   plane.cells_v = 2;

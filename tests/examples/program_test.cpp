@@ -1,0 +1,205 @@
+// The program as a person uses it: exit codes, files, and the promises that only whole runs can
+// show.
+#include <catch2/catch.hpp>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A folder of its own for one test, gone afterwards.
+class Folder {
+ public:
+  Folder() {
+    std::string name = (fs::temp_directory_path() / "luxodus_program_XXXXXX").string();
+    REQUIRE(mkdtemp(name.data()) != nullptr);
+    path = name;
+  }
+  ~Folder() { fs::remove_all(path); }
+  fs::path path;
+};
+
+std::string slurp(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream out;
+  out << in.rdbuf();
+  return out.str();
+}
+
+struct Outcome {
+  int code;
+  std::string out;
+  std::string err;
+};
+
+Outcome luxodus(const Folder& folder, const std::string& arguments) {
+  const std::string command = std::string(LUX_PROGRAM) + " " + arguments + " >" +
+                              (folder.path / "stdout").string() + " 2>" +
+                              (folder.path / "stderr").string();
+  const int status = std::system(command.c_str());
+  return {WEXITSTATUS(status), slurp(folder.path / "stdout"), slurp(folder.path / "stderr")};
+}
+
+/// The first scene of the README, which a newcomer copies.
+std::string readme_scene() {
+  const std::string readme = slurp(fs::path(LUX_SOURCE_DIR) / "README.md");
+  const std::string fence = "```toml\n";
+  const size_t first = readme.find(fence) + fence.size();
+  return readme.substr(first, readme.find("```", first) - first);
+}
+
+std::string write_scene(const Folder& folder, const std::string& text) {
+  const fs::path file = folder.path / "room.toml";
+  std::ofstream(file) << text;
+  return file.string();
+}
+
+std::string out(const Folder& folder, const char* name) {
+  return (folder.path / name).string();
+}
+
+std::string flux(const Folder& folder, const char* name) {
+  const std::string bytes = slurp(folder.path / name / "flux.lux");
+  REQUIRE(!bytes.empty());
+  return bytes;
+}
+
+}  // namespace
+
+TEST_CASE("the README's first scene runs and leaves what the README lists", "[program]") {
+  const Folder folder;
+  const std::string scene = write_scene(folder, readme_scene());
+  const Outcome run = luxodus(folder, "run " + scene + " --out " + out(folder, "room") +
+                                          " --particles 50k --picture-paths 1");
+  INFO(run.err);
+  REQUIRE(run.code == 0);
+  for (const char* file : {"result.json", "flux.lux", "planes/floor.csv", "planes/floor.png",
+                           "views/door.exr", "views/door.png", "patches.vtp", "volume.vti"}) {
+    INFO(file);
+    CHECK(fs::file_size(folder.path / "room" / file) > 0);
+  }
+  const auto result = nlohmann::json::parse(slurp(folder.path / "room" / "result.json"));
+  CHECK(result["ledger"]["closes"] == true);
+  CHECK(result["planes"][0]["mean_illuminance"]["standard_error"].get<double>() > 0);
+  CHECK(result["particles"].get<int64_t>() >= 50'000);
+}
+
+TEST_CASE("the flux file has the same bits for one, two and three threads", "[program]") {
+  const Folder folder;
+  const std::string scene = write_scene(folder, readme_scene());
+  for (const char* threads : {"1", "2", "3"}) {
+    REQUIRE(luxodus(folder, "run " + scene + " --no-views --particles 100k --out " +
+                                out(folder, threads) + " --threads " + threads)
+                .code == 0);
+  }
+  CHECK(flux(folder, "1") == flux(folder, "2"));
+  CHECK(flux(folder, "1") == flux(folder, "3"));
+}
+
+TEST_CASE("a resumed run equals an uninterrupted one bit for bit", "[program]") {
+  const Folder folder;
+  const std::string scene = write_scene(folder, readme_scene());
+  const std::string common = "run " + scene + " --no-views --cells 4 --out ";
+  REQUIRE(luxodus(folder, common + out(folder, "whole") + " --particles 120k").code == 0);
+  REQUIRE(luxodus(folder, common + out(folder, "parts") + " --particles 40k").code == 0);
+  CHECK(flux(folder, "whole") != flux(folder, "parts"));
+  REQUIRE(luxodus(folder, common + out(folder, "parts") + " --particles 120k --resume").code == 0);
+  CHECK(flux(folder, "whole") == flux(folder, "parts"));
+}
+
+TEST_CASE("another seed is another flux, and resuming with it is refused by name", "[program]") {
+  const Folder folder;
+  const std::string scene = write_scene(folder, readme_scene());
+  const std::string common = "run " + scene + " --no-views --particles 20k --out ";
+  REQUIRE(luxodus(folder, common + out(folder, "a") + " --seed 1").code == 0);
+  REQUIRE(luxodus(folder, common + out(folder, "b") + " --seed 2").code == 0);
+  CHECK(flux(folder, "a") != flux(folder, "b"));
+  const Outcome refused = luxodus(folder, common + out(folder, "a") + " --seed 2 --resume");
+  CHECK(refused.code == 2);
+  CHECK(refused.err.find("seed") != std::string::npos);
+}
+
+TEST_CASE("a finished run is rendered again without tracing", "[program]") {
+  const Folder folder;
+  const std::string scene = write_scene(folder, readme_scene());
+  REQUIRE(
+      luxodus(folder, "run " + scene + " --particles 20k --no-views --out " + out(folder, "room"))
+          .code == 0);
+  const std::string before = flux(folder, "room");
+  CHECK_FALSE(fs::exists(folder.path / "room" / "views"));
+  REQUIRE(luxodus(folder, "render " + out(folder, "room") + " --view door --paths 1").code == 0);
+  CHECK(fs::exists(folder.path / "room" / "views" / "door.png"));
+  CHECK(flux(folder, "room") == before);
+  CHECK(luxodus(folder, "render " + out(folder, "room") + " --view nowhere").code == 2);
+}
+
+TEST_CASE("bad input is one line with file and line, exit code 2, and nothing written",
+          "[program]") {
+  const Folder folder;
+  const std::string good = readme_scene();
+  struct Mistake {
+    std::string from, to, said;
+  };
+  for (const Mistake& m : {
+           Mistake{"reflectance = \"white80\"", "reflectence = 0.8", "reflectance"},
+           Mistake{"extinction = 0.2", "extinction = -0.2", "extinction"},
+           Mistake{"albedo = 0.9", "albedo = 1.9", "albedo"},
+           Mistake{"size = [0.6, 0.6]", "size = [0.6, 0.0]", "size"},
+           Mistake{"flux_lm = 3000", "flux_lm = nan", "flux_lm"},
+           Mistake{"material = \"white\"", "material = \"whote\"", "whote"},
+       }) {
+    std::string text = good;
+    text.replace(text.find(m.from), m.from.size(), m.to);
+    const std::string scene = write_scene(folder, text);
+    const Outcome run = luxodus(folder, "run " + scene + " --out " + out(folder, "never"));
+    INFO(m.to << "\n" << run.err);
+    CHECK(run.code == 2);
+    CHECK(run.err.find("room.toml:") != std::string::npos);
+    CHECK(run.err.find(m.said) != std::string::npos);
+    CHECK(std::count(run.err.begin(), run.err.end(), '\n') == 1);
+    CHECK_FALSE(fs::exists(folder.path / "never"));
+  }
+}
+
+TEST_CASE("wrong words on the command line are exit code 2 and explained", "[program]") {
+  const Folder folder;
+  CHECK(luxodus(folder, "").code == 2);
+  CHECK(luxodus(folder, "simulate").code == 2);
+  CHECK(luxodus(folder, "run").code == 2);
+  const std::string scene = write_scene(folder, readme_scene());
+  const Outcome wrong = luxodus(folder, "run " + scene + " --particles many");
+  CHECK(wrong.code == 2);
+  CHECK(wrong.err.find("many") != std::string::npos);
+  CHECK(luxodus(folder, "run " + scene + " --scenario nowhere").code == 2);
+  CHECK(luxodus(folder, "run " + out(folder, "absent.toml")).code == 2);
+  CHECK(luxodus(folder, "run --help").out.find("--particles") != std::string::npos);
+}
+
+TEST_CASE("check and info speak JSON on request", "[program]") {
+  const Folder folder;
+  const std::string scene = write_scene(folder, readme_scene());
+  const auto check = nlohmann::json::parse(luxodus(folder, "check --json " + scene).out);
+  CHECK(check["scenarios"][0]["luminous_flux"]["value"].get<double>() == Approx(3000));
+  CHECK(check["scenarios"][0]["bands_nm"].size() == 1);
+  const auto info = nlohmann::json::parse(luxodus(folder, "info --json").out);
+  CHECK(info["packages"]["embree"].get<std::string>().rfind("3.", 0) == 0);
+}
+
+TEST_CASE("converge writes its table and plots, and the error falls like one over the root",
+          "[program]") {
+  const Folder folder;
+  const std::string scene = write_scene(folder, readme_scene());
+  const Outcome run = luxodus(
+      folder, "converge " + scene + " --particles 2M --json --out " + out(folder, "converge"));
+  INFO(run.err);
+  REQUIRE(run.code == 0);
+  for (const char* file : {"converge.csv", "error_particles.svg", "error_seconds.svg"})
+    CHECK(fs::file_size(folder.path / "converge" / file) > 0);
+  const auto json = nlohmann::json::parse(run.out);
+  // Seven doublings; each standard error is itself known to about 1 / sqrt(2 n) of n >= 8 batches.
+  CHECK(json["slope_particles"].get<double>() == Approx(-0.5).margin(0.12));
+}
