@@ -11,7 +11,7 @@ packages=(
   # text: scene files, options, logs, reports
   libtomlplusplus-dev libcli11-dev libspdlog-dev libfmt-dev nlohmann-json3-dev
   # pictures, drawings, data
-  libopenexr-dev libpng-dev librsvg2-dev libcairo2-dev libzstd-dev libxxhash-dev
+  libopenexr-dev libpng-dev librsvg2-dev libcairo2-dev fonts-dejavu-core libzstd-dev libxxhash-dev
   # tests and formatting
   catch2 python3 clang-format
 )
