@@ -18,6 +18,7 @@ struct RenderOptions {
   std::string view;
   int threads = default_threads();
   int paths = 32;
+  bool full_paths = false;
 };
 
 /// result.json of a run, as far as rendering needs it.
@@ -62,6 +63,7 @@ Result<Done> render(const RenderOptions& options) {
   ProgressLine line("pictures");
   PictureOptions picture;
   picture.paths_per_pixel = options.paths;
+  picture.gather = !options.full_paths;
   return render_views(folder, run, options.view, picture,
                       [&](double share) { line.show_share(share); });
 }
@@ -78,6 +80,9 @@ void add_render(CLI::App& app, int& exit_code) {
   command->add_option("--view", options->view, "name of one camera [all]");
   command->add_option("--paths", options->paths, "paths per pixel [32]")
       ->check(CLI::Range(1, 100'000));
+  command->add_flag("--full-paths", options->full_paths,
+                    "trace every path to its end instead of ending in the run's flux: slower and\n"
+                    "noisier, free of the patches' size");
   command->add_option("--threads", options->threads, "[all cores]")->check(CLI::Range(1, 1024));
   command->callback([options, &exit_code] {
     auto done = render(*options);

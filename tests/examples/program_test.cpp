@@ -132,7 +132,10 @@ TEST_CASE("a finished run is rendered again without tracing", "[program]") {
   const std::string before = flux(folder, "room");
   CHECK_FALSE(fs::exists(folder.path / "room" / "views"));
   REQUIRE(luxodus(folder, "render " + out(folder, "room") + " --view door --paths 1").code == 0);
+  const std::string gathered = slurp(folder.path / "room" / "views" / "door.exr");
   CHECK(fs::exists(folder.path / "room" / "views" / "door.png"));
+  REQUIRE(luxodus(folder, "render " + out(folder, "room") + " --paths 1 --full-paths").code == 0);
+  CHECK(slurp(folder.path / "room" / "views" / "door.exr") != gathered);
   CHECK(flux(folder, "room") == before);
   CHECK(luxodus(folder, "render " + out(folder, "room") + " --view nowhere").code == 2);
 }
