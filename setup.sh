@@ -12,6 +12,8 @@ packages=(
   libtomlplusplus-dev libcli11-dev libspdlog-dev libfmt-dev nlohmann-json3-dev
   # pictures, drawings, data
   libopenexr-dev libpng-dev librsvg2-dev libcairo2-dev fonts-dejavu-core libzstd-dev libxxhash-dev
+  # nodes: fibers, links, messages
+  libboost-context-dev libzmq3-dev cppzmq-dev libcapnp-dev capnproto
   # tests and formatting
   catch2 python3 clang-format
 )
