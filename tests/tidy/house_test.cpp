@@ -161,9 +161,12 @@ TEST_CASE("includes follow the arrows between rooms and name files from the root
 TEST_CASE("only the room of a library includes it", "[tidy]") {
   // Drawings are read where faces of signs are made, and drawn where results are written.
   const std::map<std::string, std::string> owner{
-      {"embree", "scenes/intersect"},     {"zmq", "runtime/net"},
-      {"boost/context", "runtime/fiber"}, {"librsvg", "scenes/emergency"},
-      {"cairo", "scenes/emergency"},      {"capnp", "proto"},
+      {"embree", "scenes/intersect"},
+      {"zmq", "runtime/net"},
+      {"boost/context", "runtime/fiber"},
+      {"librsvg", "scenes/emergency"},
+      {"cairo", "scenes/emergency"},
+      {"capnp", "proto"},
       {"kj", "proto"},
   };
   const auto may_draw = [](const Source& source, const std::string& library) {
@@ -250,6 +253,23 @@ TEST_CASE("chance comes from the counter-based generator and time from nowhere",
         if ((ban.within.empty() || source.in(ban.within)) &&
             source.lines[i].find(ban.word) != std::string::npos)
           bad.push_back(source.at(i) + ": " + ban.word + ": " + ban.reason);
+  }
+  CHECK_NONE(bad);
+}
+
+TEST_CASE("no test's name holds what CMake would read as a list", "[tidy]") {
+  // A bracket or a semicolon in one name makes CTest take many tests for one, which then runs none.
+  Findings bad;
+  for (const Source& source : sources()) {
+    if (!source.in("tests")) continue;
+    for (size_t i = 0; i < source.lines.size(); ++i) {
+      const size_t from = source.lines[i].find("TEST_CASE(\"");
+      if (from == std::string::npos) continue;
+      const size_t name = from + std::string_view("TEST_CASE(\"").size();
+      const size_t to = source.lines[i].find('"', name);
+      if (source.lines[i].substr(name, to - name).find_first_of("[];") != std::string::npos)
+        bad.push_back(source.at(i));
+    }
   }
   CHECK_NONE(bad);
 }

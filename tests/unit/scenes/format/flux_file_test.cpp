@@ -127,7 +127,7 @@ TEST_CASE("a damaged block is named", "[format][flux]") {
   }
 }
 
-TEST_CASE("a flux file cut anywhere is refused; between records it says what is missing",
+TEST_CASE("a flux file cut anywhere is refused, and between records it says what is missing",
           "[format][flux]") {
   const Bytes good = encoded(example());
   for (size_t size = 0; size < good.size(); ++size) {

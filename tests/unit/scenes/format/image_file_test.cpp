@@ -140,7 +140,7 @@ TEST_CASE("an interlaced PNG reads like a plain one", "[format][image]") {
   CHECK(read_ok(folder.write("b.png", encode(picture))).texels == plain.texels);
 }
 
-TEST_CASE("a PNG that states another gamma is decoded by it; sRGB and 1/2.2 mean sRGB",
+TEST_CASE("a PNG that states another gamma is decoded by it, and sRGB and 1/2.2 mean sRGB",
           "[format][image]") {
   const TemporaryFolder folder;
   Picture picture{1, 1, 8, PNG_COLOR_TYPE_GRAY, {51}};

@@ -108,7 +108,7 @@ TEST_CASE("a facing frame exists for every direction, also along up", "[geometry
   check_near(frame_facing({0, 0, 0}, {0, 0, -1}).value().axes[1], {0, 1, 0});
 }
 
-TEST_CASE("a frame that aims has -z along its direction; look_at aims at the target",
+TEST_CASE("a frame that aims has -z along its direction, and look_at aims at the target",
           "[geometry][transform]") {
   // A luminaire that hangs horizontally: the frame of the scene itself.
   const Frame down = frame_aiming({0, 0, 2.5}, {0, 0, -1}).value();

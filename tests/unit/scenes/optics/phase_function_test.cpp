@@ -75,7 +75,7 @@ Fit fit(const PhaseFunction& phase, uint32_t seed, const std::function<double(do
 
 }  // namespace
 
-TEST_CASE("Henyey-Greenstein has mean cosine g and cosines in [-1, 1] for every g up to 0.999",
+TEST_CASE("Henyey-Greenstein has mean cosine g and cosines from -1 to 1 for every g up to 0.999",
           "[optics][phase]") {
   for (const double g :
        {0.0, 1e-7, -1e-7, 1e-3, -1e-3, 0.3, 0.5, 0.9, -0.9, 0.99, -0.99, 0.999, -0.999}) {

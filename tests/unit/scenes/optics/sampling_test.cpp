@@ -14,8 +14,9 @@ constexpr float last_unit = 1.0F - 0x1p-24F;
 
 }  // namespace
 
-TEST_CASE("a unit float is in [0, 1) for every random word and keeps its upper 24 bits",
-          "[optics][sampling]") {
+TEST_CASE(
+    "a unit float is at least 0 and below 1 for every random word and keeps its upper 24 bits",
+    "[optics][sampling]") {
   CHECK(unit_float(0) == 0.0F);
   CHECK(unit_float(0xffU) == 0.0F);
   CHECK(unit_float(0x100U) == 0x1p-24F);
