@@ -116,6 +116,14 @@ Json escape_json(const CompiledScene& scene, const Readout& readout) {
   return out;
 }
 
+/// A probe's indirect value of one source group; the only group's is the whole.
+Estimate probe_of_group(const CompiledScene& scene, const Readout& readout, uint32_t probe,
+                        uint32_t group, uint32_t quantity) {
+  const auto groups = static_cast<uint32_t>(scene.groups.size());
+  if (groups == 1) return readout.value(scene.blocks.probes, probe, quantity);
+  return readout.value(scene.blocks.probes_by_group, probe * groups + group, quantity);
+}
+
 Json probes_json(const LocalRun& run, const Readout& readout) {
   const CompiledScene& scene = run.scene();
   Json out = Json::array();
@@ -127,8 +135,12 @@ Json probes_json(const LocalRun& run, const Readout& readout) {
     const Estimate indirect = readout.value(scene.blocks.probes, p, 0);
     const Estimate fluence = readout.value(scene.blocks.probes, p, 1);
     Json groups;
-    for (size_t g = 0; g < scene.groups.size(); ++g) {
-      groups[scene.groups[g].name] = exact_json(direct.illuminance_lx[g], "lx");
+    for (uint32_t g = 0; g < scene.groups.size(); ++g) {
+      groups[scene.groups[g].name] = {
+          {"direct_illuminance", exact_json(direct.illuminance_lx[g], "lx")},
+          {"indirect_illuminance", measured(probe_of_group(scene, readout, p, g, 0), "lx")},
+          {"direct_fluence", exact_json(direct.fluence_lm_m2[g], "lx")},
+          {"indirect_fluence", measured(probe_of_group(scene, readout, p, g, 1), "lx")}};
     }
     out.push_back(
         {{"name", probe.name},
@@ -138,23 +150,54 @@ Json probes_json(const LocalRun& run, const Readout& readout) {
          {"indirect_illuminance", measured(indirect, "lx")},
          {"illuminance",
           measured({direct.total_lx() + indirect.value, indirect.standard_error}, "lx")},
-         {"direct_by_source_group", groups},
+         {"by_source_group", groups},
          {"fluence",
           measured({direct.total_fluence() + fluence.value, fluence.standard_error}, "lx")}});
   }
   return out;
 }
 
+using NamedQuantities = std::initializer_list<std::pair<const char*, GroupEyeQuantity>>;
+
+/// What each source group gives to a part of a sign, where there are several.
+void add_groups_of_sign_part(Json& part, const CompiledScene& scene, const Readout& readout,
+                             uint32_t bin, NamedQuantities quantities) {
+  const auto groups = static_cast<uint32_t>(scene.groups.size());
+  if (groups == 1) return;
+  for (uint32_t g = 0; g < groups; ++g) {
+    Json& of_group = part["by_source_group"][scene.groups[g].name];
+    for (const auto& [name, quantity] : quantities) {
+      of_group[name] = measured(readout.value(scene.blocks.views_by_group, bin * groups + g,
+                                              static_cast<uint32_t>(quantity)),
+                                "cd/m2");
+    }
+  }
+}
+
 Json sign_part_json(const CompiledScene& scene, const Readout& readout, uint32_t bin) {
   const auto of = [&](EyeQuantity q) {
     return readout.value(scene.blocks.views, bin, static_cast<uint32_t>(q));
   };
-  return {{"luminance_at_face", measured(of(EyeQuantity::own), "cd/m2")},
-          {"reflected_at_face", measured(of(EyeQuantity::reflected), "cd/m2")},
-          {"luminance_at_eye", measured(of(EyeQuantity::at_eye), "cd/m2")},
-          {"veil", measured(of(EyeQuantity::path), "cd/m2")},
-          {"transmission", measured(of(EyeQuantity::transmission), "1")},
-          {"visible_share", measured(of(EyeQuantity::visible), "1")}};
+  Json part = {{"luminance_at_face", measured(of(EyeQuantity::own), "cd/m2")},
+               {"reflected_at_face", measured(of(EyeQuantity::reflected), "cd/m2")},
+               {"luminance_at_eye", measured(of(EyeQuantity::at_eye), "cd/m2")},
+               {"veil", measured(of(EyeQuantity::path), "cd/m2")},
+               {"transmission", measured(of(EyeQuantity::transmission), "1")},
+               {"visible_share", measured(of(EyeQuantity::visible), "1")}};
+  add_groups_of_sign_part(part, scene, readout, bin,
+                          {{"reflected_at_face", GroupEyeQuantity::reflected},
+                           {"luminance_at_eye", GroupEyeQuantity::at_eye},
+                           {"veil", GroupEyeQuantity::path}});
+  return part;
+}
+
+Json surround_json(const CompiledScene& scene, const Readout& readout, uint32_t bin) {
+  const auto at_eye = static_cast<uint32_t>(EyeQuantity::at_eye);
+  Json part = {
+      {"luminance_at_eye", measured(readout.value(scene.blocks.views, bin, at_eye), "cd/m2")}};
+  add_groups_of_sign_part(part, scene, readout, bin,
+                          {{"luminance_at_eye", GroupEyeQuantity::at_eye}});
+  return part;
 }
 
 /// (a - b) / b with first-order error propagation; the two are independent samples.
@@ -197,7 +240,7 @@ Json views_json(const CompiledScene& scene, const Readout& readout) {
                    {"angular_detail", exact_json(view.detail_arcmin, "arcmin")},
                    {"white", sign_part_json(scene, readout, t.first_bin)},
                    {"green", sign_part_json(scene, readout, t.first_bin + 1)},
-                   {"surround", {{"luminance_at_eye", measured(surround, "cd/m2")}}},
+                   {"surround", surround_json(scene, readout, t.first_bin + 2)},
                    {"contrast_legend_background",
                     white_legend ? contrast_json(white, green) : contrast_json(green, white)},
                    {"contrast_sign_surround", contrast_json(mean, surround)}});

@@ -142,6 +142,11 @@ CompiledPlane make_plane(const glm::dvec3& corner, const glm::dvec3& u, const gl
   return out;
 }
 
+/// Reach beyond a flight's end, as a share of the scene's size: a plane that lies in a wall or on a
+/// floor is crossed by the flights that end there, whichever way their ends are rounded (a few ulps
+/// of a coordinate). Less than offset_ray's step, and what comes back crosses from behind.
+constexpr float plane_reach_share = 0x1p-21f;
+
 void compile_detectors(CompiledScene& scene) {
   const SceneDescription& d = *scene.description;
   uint32_t bin = 0;
@@ -156,6 +161,11 @@ void compile_detectors(CompiledScene& scene) {
     scene.counting_planes.push_back(
         make_plane(p.corner, p.edge_u, p.edge_v, 1, 1, scene.local_origin));
   }
+  for (const auto* list : {&scene.planes, &scene.counting_planes}) {
+    for (const CompiledPlane& p : *list)
+      scene.plane_tests.push_back({p.normal, glm::dot(p.normal, p.corner)});
+  }
+  scene.plane_reach_m = scene.diagonal_m * plane_reach_share;
   for (const VolumeGroupMeasure& v : d.volume_groups) {
     CompiledVolumeGroup out;
     out.shape = v.shape;
@@ -249,11 +259,20 @@ void lay_out_tally(CompiledScene& scene) {
     b.voxels = l.add_block({"voxels", scene.voxels.count(), 4, ScoreUnit::weight_length});
     b.voxel_power = l.add_block({"voxel_power", scene.voxels.count(), 2, ScoreUnit::weight});
   }
-  if (!scene.description->probes.empty())
-    b.probes = l.add_block({"probes", size(scene.description->probes), 2, ScoreUnit::value, false});
-  if (!scene.eye_targets.empty()) {
-    b.views = l.add_block(
-        {"views", 3 * size(scene.eye_targets), eye_quantities, ScoreUnit::value, false});
+  const uint32_t groups = size(scene.groups);
+  if (const uint32_t probes = size(scene.description->probes); probes > 0) {
+    b.probes = l.add_block({"probes", probes, 2, ScoreUnit::value, false});
+    if (groups > 1) {
+      b.probes_by_group =
+          l.add_block({"probes_by_group", probes * groups, 2, ScoreUnit::value, false});
+    }
+  }
+  if (const uint32_t parts = 3 * size(scene.eye_targets); parts > 0) {
+    b.views = l.add_block({"views", parts, eye_quantities, ScoreUnit::value, false});
+    if (groups > 1) {
+      b.views_by_group = l.add_block(
+          {"views_by_group", parts * groups, group_eye_quantities, ScoreUnit::value, false});
+    }
   }
 }
 
@@ -354,6 +373,7 @@ void set_bounds(CompiledScene& scene) {
   scene.diagonal_m = glm::length(scene.local_high - scene.local_low);
   scene.length_unit_m =
       std::exp2(std::ceil(std::log2(std::max(static_cast<double>(scene.diagonal_m), 1e-6))));
+  scene.scores_per_metre = 1 / scene.length_unit_m;
 }
 
 void compile_emitters(CompiledScene& scene, const std::vector<ActiveSource>& sources) {
@@ -376,6 +396,12 @@ void compile_emitters(CompiledScene& scene, const std::vector<ActiveSource>& sou
     sign.green_radiance.resize(static_cast<size_t>(scene.bands.count()), 0.0);
   }
   compile_groups(scene, groups);
+  for (size_t i = 0; i < sources.size(); ++i) {
+    if (sources[i].sign == nullptr) continue;
+    CompiledSign& sign = scene.signs[scene.emitters[i].sign];
+    const bool white = sources[i].colour == SignColour::white;
+    (white ? sign.white_group : sign.green_group) = scene.emitters[i].group;
+  }
 }
 
 }  // namespace

@@ -27,9 +27,8 @@ inline constexpr uint32_t none_index = 0xFFFFFFFF;
 /// One object's two sides.
 struct CompiledSurface {
   std::string name;
-  uint32_t material[2] = {0, 0};  // front, back
-  uint32_t sign = none_index;     // the object is a face of this sign
-  uint32_t sign_emitter = none_index;
+  uint32_t material[2] = {0, 0};       // front, back
+  uint32_t sign = none_index;          // the object is a face of this sign
   uint32_t body_emitter = none_index;  // the object is the body of this emitter
   uint32_t first_patch = 0;            // of all its patches, both sides
   uint32_t patches = 0;
@@ -78,6 +77,12 @@ struct CompiledPlane {
   uint32_t first_bin = 0;
 };
 
+/// What tells that most flights stay on one side of a plane.
+struct PlaneTest {
+  glm::vec3 normal{0, 0, 1};
+  float height = 0;  // of the corner along the normal
+};
+
 struct CompiledVolumeGroup {
   VolumeGroupMeasure::Shape shape = VolumeGroupMeasure::Shape::box;
   glm::vec3 low{0}, high{0}, centre{0};
@@ -106,7 +111,10 @@ struct TallyBlocks {
   uint32_t counting = none_index;        // along normal uncollided, collided; against: the same
   uint32_t escape = none_index;          // six sides x-, x+, y-, y+, z-, z+
   uint32_t probes = none_index;          // from the probe: indirect illuminance, fluence (values)
-  uint32_t views = none_index;           // from the eye: see EyeTarget (values)
+  uint32_t probes_by_group =
+      none_index;                        // the same per (probe, source group), if there are several
+  uint32_t views = none_index;           // from the eye: see EyeQuantity (values)
+  uint32_t views_by_group = none_index;  // see GroupEyeQuantity; per (part, source group)
 };
 
 /// What the kernels of this scene must contain.
@@ -120,9 +128,13 @@ struct Features {
 /// What is estimated along the rays to one part (white, green, surround) of a sign: mean luminances
 /// [cd/m2] at the face (own, reflected), at the eye (face and path together), of the path alone,
 /// the transmission and the share of the part that nothing solid hides. Scored as values, see
-/// eye.hpp.
+/// look.hpp.
 inline constexpr uint32_t eye_quantities = 6;
 enum class EyeQuantity : uint32_t { own, reflected, at_eye, path, transmission, visible };
+
+/// The part of them that one source group gives, where there are several.
+inline constexpr uint32_t group_eye_quantities = 3;
+enum class GroupEyeQuantity : uint32_t { reflected, at_eye, path };
 
 /// A sign as one observer looks at it: what is estimated from the eye.
 struct EyeTarget {
@@ -135,10 +147,10 @@ struct EyeTarget {
 struct CompiledSign {
   uint32_t sign = 0;  // in the description
   bool back = false;
-  uint32_t emitter = none_index;
   uint32_t surface = none_index;
-  Frame frame;          // local origin kept in double
-  glm::vec3 origin{0};  // local
+  int white_group = 0, green_group = 0;  // source groups of its own light
+  Frame frame;                           // local origin kept in double
+  glm::vec3 origin{0};                   // local
   glm::mat3 axes{1.0f};
   float near_m = 0;                                    // as of its emitters
   double white_cd_m2 = 0, green_cd_m2 = 0;             // along the normal, in this scenario
@@ -163,7 +175,8 @@ struct CompiledScene {
   Bounds bounds;               // scene coordinates
   glm::vec3 local_low{0}, local_high{0};
   float diagonal_m = 1;
-  double length_unit_m = 1;  // a path-length score of weight * this is one unit weight
+  double length_unit_m = 1;     // a path-length score of weight * this is one unit weight
+  double scores_per_metre = 1;  // its inverse; both are powers of two, hence exact
   Bands bands{{spectrum_first_nm, spectrum_last_nm}, equal_energy_shape()};
 
   std::vector<CompiledSurface> surfaces;
@@ -183,6 +196,8 @@ struct CompiledScene {
 
   std::vector<CompiledPlane> planes;
   std::vector<CompiledPlane> counting_planes;
+  std::vector<PlaneTest> plane_tests;  // of planes, then of counting planes
+  float plane_reach_m = 0;             // beyond a flight's end, see compile_detectors
   std::vector<CompiledVolumeGroup> volume_groups;
   VoxelGrid voxels;
   std::vector<EyeTarget> eye_targets;

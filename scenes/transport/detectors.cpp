@@ -1,6 +1,7 @@
 #include "scenes/transport/detectors.hpp"
 
 #include <bit>
+#include <cstring>
 
 namespace luxodus {
 
@@ -21,13 +22,19 @@ float length_in_sphere(const glm::vec3& centre, float radius, const FlightPiece&
 
 }  // namespace
 
-float length_inside(const CompiledVolumeGroup& group, const FlightPiece& piece,
-                    const glm::vec3& inverse) {
+float length_inside(const CompiledVolumeGroup& group, const FlightPiece& piece) {
   using Shape = VolumeGroupMeasure::Shape;
   switch (group.shape) {
-    case Shape::box:
     case Shape::layer: {
-      const BoxStretch stretch = stretch_in_box(group.low, group.high, inverse, piece);
+      const float inverse = finite_inverse(piece.direction.z);
+      const float t0 = (group.low.z - piece.origin.z) * inverse;
+      const float t1 = (group.high.z - piece.origin.z) * inverse;
+      const float first = std::max(std::min(t0, t1), 0.0f);
+      const float last = std::min(std::max(t0, t1), piece.length);
+      return std::max(0.0f, last - first);
+    }
+    case Shape::box: {
+      const BoxStretch stretch = stretch_in_box(group.low, group.high, piece);
       return std::max(0.0f, stretch.last - stretch.first);
     }
     case Shape::sphere:
@@ -50,37 +57,40 @@ bool inside(const CompiledVolumeGroup& group, const glm::vec3& p) {
   return r2 < group.radius * group.radius && r2 >= inner * inner;
 }
 
-namespace {
-
-/// Reach beyond a flight's end, as a share of the scene's size: a plane that lies in a wall or on a
-/// floor is crossed by the flights that end there, whichever way their ends are rounded (a few ulps
-/// of a coordinate). Less than offset_ray's step, and what comes back crosses from behind.
-constexpr float reach_share = 0x1p-21f;
-
-void score_planes(const CompiledScene& scene, FlightPiece piece, BatchScores& batch) {
-  const TallyLayout& layout = scene.layout;
-  piece.length += scene.diagonal_m * reach_share;
-  const auto score = static_cast<int64_t>(piece.weight);
-  float cosine = 0;
-  for (const CompiledPlane& plane : scene.planes) {
-    const uint32_t bin = crossed_cell(plane, piece, cosine);
-    if (bin == none_index || cosine > 0) continue;  // illuminance counts what falls on the front
-    const auto at =
-        layout.score_index(scene.blocks.plane_cells, bin, piece.band, piece.direct ? 0 : 1);
-    batch.scores[static_cast<size_t>(at)] += score;
-  }
-  for (uint32_t i = 0; i < scene.counting_planes.size(); ++i) {
-    if (crossed_cell(scene.counting_planes[i], piece, cosine) == none_index) continue;
-    const uint32_t quantity = (cosine > 0 ? 0u : 2u) + (piece.collided ? 1u : 0u);
-    const auto at = layout.score_index(scene.blocks.counting, i, piece.band, quantity);
-    batch.scores[static_cast<size_t>(at)] += score;
-  }
+uint32_t crossed_cell(const CompiledPlane& plane, const FlightPiece& piece, float t) {
+  const glm::vec3 p = piece.origin + piece.direction * t - plane.corner;
+  const float u = glm::dot(p, plane.dual_u);
+  const float v = glm::dot(p, plane.dual_v);
+  if (!(u >= 0 && u < 1 && v >= 0 && v < 1)) return none_index;
+  const int i =
+      std::min(static_cast<int>(u * static_cast<float>(plane.cells_u)), plane.cells_u - 1);
+  const int j =
+      std::min(static_cast<int>(v * static_cast<float>(plane.cells_v)), plane.cells_v - 1);
+  return plane.first_bin + static_cast<uint32_t>(j * plane.cells_u + i);
 }
 
-void score_volumes(const CompiledScene& scene, const FlightPiece& piece, const glm::vec3& inverse,
-                   BatchScores& batch) {
+void score_crossing(const CompiledScene& scene, size_t index, const FlightPiece& piece,
+                    const Approach& approach, BatchScores& batch) {
+  const size_t planes = scene.planes.size();
+  const bool counting = index >= planes;
+  const bool along = approach.cosine > 0;
+  if (!counting && along) return;  // illuminance counts what falls on the front
+  const CompiledPlane& plane =
+      counting ? scene.counting_planes[index - planes] : scene.planes[index];
+  const uint32_t cell = crossed_cell(plane, piece, approach.height / approach.cosine);
+  if (cell == none_index) return;
+  const TallyLayout& layout = scene.layout;
+  const int64_t at =
+      counting
+          ? layout.score_index(scene.blocks.counting, static_cast<uint32_t>(index - planes),
+                               piece.band, (along ? 0u : 2u) + (piece.collided ? 1u : 0u))
+          : layout.score_index(scene.blocks.plane_cells, cell, piece.band, piece.direct ? 0 : 1);
+  batch.scores[static_cast<size_t>(at)] += static_cast<int64_t>(piece.weight);
+}
+
+void score_volumes(const CompiledScene& scene, const FlightPiece& piece, BatchScores& batch) {
   for (uint32_t i = 0; i < scene.volume_groups.size(); ++i) {
-    const float length = length_inside(scene.volume_groups[i], piece, inverse);
+    const float length = length_inside(scene.volume_groups[i], piece);
     if (length <= 0) continue;
     const int64_t score = length_score(scene, piece.weight, length);
     const auto at = scene.layout.score_index(scene.blocks.volume_length, i, piece.band, 0);
@@ -89,37 +99,40 @@ void score_volumes(const CompiledScene& scene, const FlightPiece& piece, const g
   }
 }
 
-/// A double below 2^51 in size as an integer, to nearest, in two instructions that also exist for
-/// vectors: adding 1.5 * 2^52 leaves the integer in the lowest bits.
+namespace {
+
+/// A double below 2^51 in size as an integer, to nearest, in two instructions instead of a call:
+/// adding 1.5 * 2^52 leaves the integer in the lowest bits.
 int64_t nearest_integer(double x) {
   constexpr double magic = 0x1.8p52;
   return std::bit_cast<int64_t>(x + magic) - std::bit_cast<int64_t>(magic);
 }
 
-void score_voxels(const CompiledScene& scene, const FlightPiece& piece, const glm::vec3& inverse,
-                  BatchScores& batch) {
-  const double per_metre = static_cast<double>(piece.weight) / scene.length_unit_m;
-  const glm::dvec3 d = per_metre * glm::dvec3(piece.direction);
-  const double rate[4] = {per_metre, d.x, d.y, d.z};
-  int64_t* scores =
-      batch.scores.data() + scene.layout.score_index(scene.blocks.voxels, 0, piece.band, 0);
-  const auto stride = static_cast<size_t>(4 * scene.bands.count());
-  const float inside =
-      for_each_voxel(scene.voxels, piece, inverse, [&](uint32_t voxel, float length) {
-        int64_t* score = scores + voxel * stride;
-        for (int q = 0; q < 4; ++q)
-          score[q] += nearest_integer(rate[q] * static_cast<double>(length));
-      });
-  batch.length_score_sum += per_metre * static_cast<double>(inside);
-}
+/// A voxel's four scores as one register.
+using FourScores [[gnu::vector_size(32)]] = int64_t;
 
 }  // namespace
 
-void score_flight(const CompiledScene& scene, const FlightPiece& piece, BatchScores& batch) {
-  score_planes(scene, piece, batch);
-  const glm::vec3 inverse = finite_inverse(piece.direction);
-  score_volumes(scene, piece, inverse, batch);
-  if (scene.voxels.edge > 0) score_voxels(scene, piece, inverse, batch);
+void score_voxels(const CompiledScene& scene, const FlightPiece& piece, BatchScores& batch) {
+  // Fluence and its three components along the axes, of one point.
+  const double spacing_m = static_cast<double>(scene.voxels.edge * voxel_point_spacing);
+  const double length = to_double(piece.weight) * (spacing_m * scene.scores_per_metre);
+  const glm::dvec3 along = length * glm::dvec3(piece.direction);
+  const FourScores share = {nearest_integer(length), nearest_integer(along.x),
+                            nearest_integer(along.y), nearest_integer(along.z)};
+  int64_t* scores =
+      batch.scores.data() + scene.layout.score_index(scene.blocks.voxels, 0, piece.band, 0);
+  const auto stride = static_cast<size_t>(4 * scene.bands.count());
+  for_each_voxel_point(scene.voxels, piece, [&](uint32_t voxel) {
+    int64_t* score = scores + voxel * stride;
+    FourScores sum;
+    std::memcpy(&sum, score, sizeof sum);
+    sum += share;
+    std::memcpy(score, &sum, sizeof sum);
+  });
+  batch.length_score_sum += to_double(piece.weight) *
+                            (static_cast<double>(piece.length) + spacing_m) *
+                            scene.scores_per_metre;
 }
 
 void score_collision(const CompiledScene& scene, const glm::vec3& place, int band, uint32_t medium,

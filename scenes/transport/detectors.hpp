@@ -22,40 +22,39 @@ struct FlightPiece {
   int band;
   bool direct;    // not scattered or reflected yet (glass panes passed straight do not count)
   bool collided;  // has collided with a medium
+  float chance;   // uniform in [0, 1), independent of all the above: where voxel points begin
 };
 
 /// Fixed-point score of weight times length; rounded to nearest, one part in 2^32 of the scene's
 /// size.
 inline int64_t length_score(const CompiledScene& scene, Weight weight, double length_m) {
-  return static_cast<int64_t>(static_cast<double>(weight) * (length_m / scene.length_unit_m) + 0.5);
+  return static_cast<int64_t>(to_double(weight) * (length_m * scene.scores_per_metre) + 0.5);
 }
 
-/// Where the piece crosses the plane's parallelogram, as a bin of it; none_index where it does not.
-inline uint32_t crossed_cell(const CompiledPlane& plane, const FlightPiece& piece, float& cosine) {
-  cosine = glm::dot(plane.normal, piece.direction);
-  if (cosine == 0) return none_index;
-  const float height = glm::dot(plane.normal, plane.corner - piece.origin);
-  // Most pieces stay on one side: told without a division.
-  if (!(height * cosine > 0 && std::abs(height) <= piece.length * std::abs(cosine)))
-    return none_index;
-  const float t = height / cosine;
-  const glm::vec3 p = piece.origin + piece.direction * t - plane.corner;
-  const float u = glm::dot(p, plane.dual_u);
-  const float v = glm::dot(p, plane.dual_v);
-  if (!(u >= 0 && u < 1 && v >= 0 && v < 1)) return none_index;
-  const int i =
-      std::min(static_cast<int>(u * static_cast<float>(plane.cells_u)), plane.cells_u - 1);
-  const int j =
-      std::min(static_cast<int>(v * static_cast<float>(plane.cells_v)), plane.cells_v - 1);
-  return plane.first_bin + static_cast<uint32_t>(j * plane.cells_u + i);
+/// A piece's height over a plane at its start, against the normal, and its rise along it.
+struct Approach {
+  float height, cosine;
+};
+inline Approach approach(const PlaneTest& plane, const FlightPiece& piece) {
+  return {plane.height - glm::dot(plane.normal, piece.origin),
+          glm::dot(plane.normal, piece.direction)};
+}
+/// Whether the piece, `length` long, meets the plane; told without a division.
+inline bool meets(const Approach& a, float length) {
+  return a.height * a.cosine > 0 && std::abs(a.height) <= length * std::abs(a.cosine);
 }
 
-/// 1 / direction, finite: no product with a finite length is NaN. A direction of zero counts as the
-/// smallest rise, so that a piece in a face belongs to the side above it.
-inline glm::vec3 finite_inverse(const glm::vec3& direction) {
+/// The bin of the plane's parallelogram that is crossed at distance t; none_index beside it.
+uint32_t crossed_cell(const CompiledPlane& plane, const FlightPiece& piece, float t);
+
+/// 1 / rise, finite: no product with a finite length is NaN. A rise of zero counts as the smallest
+/// one, so that a piece in a face belongs to the side above it.
+inline float finite_inverse(float rise) {
   constexpr float least = 1e-30f;
-  const auto inverse = [](float d) { return 1.0f / (std::abs(d) < least ? least : d); };
-  return {inverse(direction.x), inverse(direction.y), inverse(direction.z)};
+  return 1.0f / (std::abs(rise) < least ? least : rise);
+}
+inline glm::vec3 finite_inverse(const glm::vec3& d) {
+  return {finite_inverse(d.x), finite_inverse(d.y), finite_inverse(d.z)};
 }
 
 /// The part of the piece inside an axis-aligned box, low <= p < high; empty where last <= first.
@@ -63,7 +62,8 @@ struct BoxStretch {
   float first, last;
 };
 inline BoxStretch stretch_in_box(const glm::vec3& low, const glm::vec3& high,
-                                 const glm::vec3& inverse, const FlightPiece& piece) {
+                                 const FlightPiece& piece) {
+  const glm::vec3 inverse = finite_inverse(piece.direction);
   const glm::vec3 t0 = (low - piece.origin) * inverse;
   const glm::vec3 t1 = (high - piece.origin) * inverse;
   const glm::vec3 near = glm::min(t0, t1);
@@ -72,9 +72,8 @@ inline BoxStretch stretch_in_box(const glm::vec3& low, const glm::vec3& high,
           std::min(std::min(far.x, far.y), std::min(far.z, piece.length))};
 }
 
-/// Length of the piece inside a volume group [m]; `inverse` is finite_inverse of its direction.
-float length_inside(const CompiledVolumeGroup& group, const FlightPiece& piece,
-                    const glm::vec3& inverse);
+/// Length of the piece inside a volume group [m].
+float length_inside(const CompiledVolumeGroup& group, const FlightPiece& piece);
 /// Whether a point lies inside.
 bool inside(const CompiledVolumeGroup& group, const glm::vec3& p);
 
@@ -88,55 +87,70 @@ inline uint32_t voxel_of(const VoxelGrid& grid, const glm::vec3& p) {
   return static_cast<uint32_t>((z * grid.ny + y) * grid.nx + x);
 }
 
-/// Calls visit(voxel, length_m) for every voxel on the piece, in order; a voxel that is only
-/// touched may be visited with length 0. `inverse` is finite_inverse of the direction. Returns the
-/// length inside the grid. Steps are counted in whole cells (Amanatides and Woo 1987), so that it
-/// ends whatever the rounding; which axis is next is chance, hence no branch on it.
+/// Distance of the points at which voxels look at a flight, in voxel edges. Against the exact
+/// length the variance is 6 % more at 0.5 and 24 % at 1, the whole run 1.27 and 1.35 times as fast.
+inline constexpr float voxel_point_spacing = 0.5f;
+
+/// Calls visit(voxel) at points of the piece, `voxel_point_spacing` edges apart, the first at the
+/// share `piece.chance` of that distance: each stands for one spacing of path, so that for every
+/// voxel the expectation is the length in it. (A walk from face to face is exact, but each of its
+/// steps waits for the one before; points are independent, and eight are found at once.)
 template <class Visit>
-float for_each_voxel(const VoxelGrid& grid, const FlightPiece& piece, const glm::vec3& inverse,
-                     Visit&& visit) {
-  const glm::vec3 high =
-      grid.low + grid.edge * glm::vec3(static_cast<float>(grid.nx), static_cast<float>(grid.ny),
-                                       static_cast<float>(grid.nz));
-  const auto [first, last] = stretch_in_box(grid.low, high, inverse, piece);
-  if (!(first < last)) return 0;
-  const int n[3] = {grid.nx, grid.ny, grid.nz};
-  const int stride[3] = {1, grid.nx, grid.nx * grid.ny};
-  int step[3], left[3];  // of the voxel's index; cells left on the way out
-  float next[3], delta[3];
-  int voxel = 0;
-  const glm::vec3 start = piece.origin + piece.direction * first;
-  const float cells_per_metre = 1.0f / grid.edge;
-  for (int a = 0; a < 3; ++a) {
-    const bool up = inverse[a] > 0;
-    const int cell =
-        std::clamp(static_cast<int>((start[a] - grid.low[a]) * cells_per_metre), 0, n[a] - 1);
-    voxel += cell * stride[a];
-    step[a] = up ? stride[a] : -stride[a];
-    left[a] = up ? n[a] - 1 - cell : cell;
-    const float face = grid.low[a] + grid.edge * static_cast<float>(cell + (up ? 1 : 0));
-    next[a] = (face - piece.origin[a]) * inverse[a];
-    delta[a] = grid.edge * std::abs(inverse[a]);
+void for_each_voxel_point(const VoxelGrid& grid, const FlightPiece& piece, Visit&& visit) {
+  constexpr int lanes = 8;
+  const glm::vec3 cells(static_cast<float>(grid.nx), static_cast<float>(grid.ny),
+                        static_cast<float>(grid.nz));
+  const float per_edge = 1.0f / grid.edge;
+  const glm::vec3 start = (piece.origin - grid.low) * per_edge;  // in cells
+  const glm::vec3 step = piece.direction * voxel_point_spacing;
+  float first = 0;
+  float last = piece.length * (per_edge / voxel_point_spacing);  // in steps
+  const auto in_grid = [&](const glm::vec3& p) {
+    return glm::all(glm::greaterThanEqual(p, glm::vec3(0))) &&
+           glm::all(glm::lessThanEqual(p, cells));
+  };
+  if (!in_grid(start) || !in_grid(start + step * last)) {
+    const BoxStretch inside =
+        stretch_in_box(glm::vec3(0), cells, {start, step, last, 0, 0, false, false, 0});
+    if (!(inside.first < inside.last)) return;
+    first = std::ceil(inside.first - piece.chance);
+    last = inside.last;
   }
-  float t = first;
-  while (true) {
-    const float end = std::min(std::min(next[0], next[1]), next[2]);
-    const float stop = std::max(t, std::min(end, last));
-    visit(static_cast<uint32_t>(voxel), stop - t);
-    t = stop;
-    if (end >= last) return last - first;
-    for (int a = 0; a < 3; ++a) {
-      const int crossed = next[a] <= end ? -1 : 0;
-      voxel += step[a] & crossed;
-      left[a] += crossed;
-      next[a] += choose(crossed != 0, delta[a], 0.0f);
+  const glm::vec3 begin = start + step * (first + piece.chance);
+  const auto points = static_cast<int64_t>(std::ceil(last - first - piece.chance));
+  uint32_t voxel[lanes];
+  for (int64_t k = 0; k < points; k += lanes) {
+    for (int lane = 0; lane < lanes; ++lane) {
+      const auto steps = static_cast<float>(k + lane);
+      const auto cell = [&](int axis, int count) {
+        return std::clamp(static_cast<int>(begin[axis] + step[axis] * steps), 0, count - 1);
+      };
+      voxel[lane] = static_cast<uint32_t>(
+          (cell(2, grid.nz) * grid.ny + cell(1, grid.ny)) * grid.nx + cell(0, grid.nx));
     }
-    if ((left[0] | left[1] | left[2]) < 0) return t - first;
+    const auto count = std::min<int64_t>(lanes, points - k);
+    for (int64_t lane = 0; lane < count; ++lane) visit(voxel[lane]);
   }
 }
 
+/// Scores plane `index` (counting planes come after the others) where the piece crosses it.
+void score_crossing(const CompiledScene& scene, size_t index, const FlightPiece& piece,
+                    const Approach& approach, BatchScores& batch);
+/// Scores lengths inside volume groups.
+void score_volumes(const CompiledScene& scene, const FlightPiece& piece, BatchScores& batch);
+/// Scores fluence and vector flux of voxels.
+void score_voxels(const CompiledScene& scene, const FlightPiece& piece, BatchScores& batch);
+
 /// Scores planes, counting planes, volume groups and voxels along the piece.
-void score_flight(const CompiledScene& scene, const FlightPiece& piece, BatchScores& batch);
+inline void score_flight(const CompiledScene& scene, const FlightPiece& piece, BatchScores& batch) {
+  const float length = piece.length + scene.plane_reach_m;
+  for (size_t i = 0; i < scene.plane_tests.size(); ++i) {
+    const Approach a = approach(scene.plane_tests[i], piece);
+    if (meets(a, length)) score_crossing(scene, i, piece, a, batch);
+  }
+  if (!scene.volume_groups.empty()) score_volumes(scene, piece, batch);
+  if (scene.voxels.edge > 0) score_voxels(scene, piece, batch);
+}
 
 /// Scores a collision's absorbed and scattered weight where it happens.
 void score_collision(const CompiledScene& scene, const glm::vec3& place, int band, uint32_t medium,

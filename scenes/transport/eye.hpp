@@ -1,13 +1,11 @@
-// Light traced from where it is seen: what an eye receives from a sign, its surround and the veil
-// between, what reaches a point probe after at least one event, and the radiance of a picture's
-// rays. Paths run backwards (all laws are reciprocal); at every event one emitter is asked
-// directly, so that a path needs no luck to meet it. Close to an emitter asking has no bounded
-// variance (1/r2), so light from points nearer than its half size is counted only where a path
-// meets it, and from farther ones only where it is asked: each pair of places once. Unbiased,
-// except where pictures end a path in the patches' flux (final gather). Paths have a particle
-// range, batches and standard errors of their own.
-// Not seen: point emitters and caustics through mirrors and refracting solids; the forward tracer
-// counts those. Thread rule: one EyeTracer per thread or fiber.
+// Radiance along a ray, traced from where it is seen. Paths run backwards (all laws are
+// reciprocal); at every event one emitter is asked directly, so that a path needs no luck to meet
+// it. Close to an emitter asking has no bounded variance (1/r2), so light from points nearer than
+// its half size is counted only where a path meets it, and from farther ones only where it is
+// asked: each pair of places once. Unbiased, except where pictures end a path in the patches' flux
+// (final gather). look.hpp makes of it what signs and probes are asked for. Not seen: point
+// emitters and caustics through mirrors and refracting solids; the forward tracer counts those.
+// Thread rule: one EyeTracer per thread or fiber.
 #pragma once
 
 #include <cmath>
@@ -24,11 +22,42 @@ namespace limits {
 inline constexpr int eye_events = 10'000;
 inline constexpr int emitters_per_line = 16;  // emitting faces that one straight line may cross
 inline constexpr int nearby_emitters = 256;   // up to here distance decides who is asked
-/// Of a value score [its unit]: 2^-40, so int64 holds up to 8 million cd/m2 per batch mean.
-inline constexpr double value_quantum = 0x1p-40;
 }  // namespace limits
 
-int64_t value_score(double mean);
+/// Light of one source group on its way to an eye [W/(m2 sr)].
+struct SourceLight {
+  int group = 0;
+  double radiance = 0;
+};
+
+/// Light that arrives at a place, by source group: what an eye path adds up.
+class GroupLight {
+ public:
+  explicit GroupLight(size_t groups) : by_group_(groups, 0.0) {}
+
+  void clear() {
+    std::fill(by_group_.begin(), by_group_.end(), 0.0);
+    total_ = 0;
+  }
+  void add(int group, double amount) {
+    by_group_[static_cast<size_t>(group)] += amount;
+    total_ += amount;
+  }
+  /// Light of which nobody knows the source, as of a patch that all groups have lit.
+  void add_of_all(double amount) { total_ += amount; }
+
+  void add_scaled(const GroupLight& light, double factor) {
+    for (size_t g = 0; g < by_group_.size(); ++g) by_group_[g] += factor * light.by_group_[g];
+    total_ += factor * light.total_;
+  }
+
+  double total() const { return total_; }
+  double of(size_t group) const { return by_group_[group]; }
+
+ private:
+  std::vector<double> by_group_;
+  double total_ = 0;
+};
 
 /// Outgoing radiance of a patch, for final gathers: [W/(m2 sr)]. Implemented where flux is
 /// collected.
@@ -36,11 +65,6 @@ class PatchRadiance {
  public:
   virtual ~PatchRadiance() = default;
   virtual double radiance(const Hit& hit, bool front, int band) const = 0;
-};
-
-/// Texels of each colour of a face, to aim at.
-struct FaceTexels {
-  std::vector<uint32_t> white, green;
 };
 
 /// Which emitters count when a path meets them on its way.
@@ -66,7 +90,6 @@ class EyeTracer {
       band_cdf_.push_back(total);
     }
     for (double& c : band_cdf_) c /= total;
-    for (const CompiledSign& s : scene.signs) texels_.push_back(list_texels(s));
   }
 
   Random& random() { return random_; }
@@ -81,61 +104,103 @@ class EyeTracer {
     return band_cdf_[static_cast<size_t>(b)] - (b > 0 ? band_cdf_[static_cast<size_t>(b - 1)] : 0);
   }
 
-  /// Eye paths of one batch: all targets and probes, into their value bins.
-  void score_batch(int64_t batch, BatchScores& scores) {
-    const auto paths = static_cast<uint64_t>(scene_.eye_paths_per_batch);
-    uint64_t next = static_cast<uint64_t>(batch) << 28;
-    for (const EyeTarget& target : scene_.eye_targets) {
-      for (uint32_t part = 0; part < 3; ++part) {
-        SignSums sums;
-        for (uint64_t i = 0; i < paths; ++i) {
-          random_.start(next++);
-          look_at_sign(target, part, sums);
-        }
-        store(sums, target.first_bin + part, scores);
-      }
-    }
-    score_probes(next, paths, scores);
-  }
-
-  /// Radiance [W/(m2 sr)] in `band` that arrives against `ray.direction`, from one path. `met`:
-  /// which emitters count before the first event. `gather`: where paths may end after their first
-  /// diffuse event; null traces them to their end.
-  double radiance(Ray ray, int band, Met met, const PatchRadiance* gather = nullptr) {
-    Path path{ray, band, met};
+  /// Adds `weight` times the radiance [W/(m2 sr)] in `band` that arrives against `ray.direction`,
+  /// from one path. `met`: which emitters count before the first event. `gather`: where paths may
+  /// end after their first diffuse event; null traces them to their end.
+  void radiance(const Ray& ray, int band, Met met, double weight, GroupLight& into,
+                const PatchRadiance* gather = nullptr) {
+    Path path{ray, band, met, weight, into};
     for (int event = 0; event < limits::eye_events; ++event) {
       const Hit hit = resolver_.nearest(path.ray);
-      if (path.met != Met::none) path.sum += path.throughput * emitted_along(path, hit);
+      if (path.met != Met::none) add_emitted_along(path, hit);
       const Flight flight = fly(path.ray, hit.distance, band);
       if (flight.collided) {
-        if (!scatter(path, flight)) return path.sum;
+        if (!scatter(path, flight)) return;
       } else {
-        if (!hit.found()) return path.sum;
+        if (!hit.found()) return;
         if (gather != nullptr && path.diffused && reflects_diffusely(hit, path.ray)) {
           const bool front = glm::dot(hit.triangle->normal, path.ray.direction) < 0;
-          return path.sum + path.throughput * gather->radiance(hit, front, band);
+          into.add_of_all(path.weight * path.throughput * gather->radiance(hit, front, band));
+          return;
         }
-        if (!bounce(path, hit)) return path.sum;
+        if (!bounce(path, hit)) return;
       }
-      if (event >= 2 && !survives(path.throughput)) return path.sum;
+      if (event >= 2 && !survives(path.throughput)) return;
     }
-    return path.sum;
+  }
+
+  /// Light of an emitter that a medium at `place` turns against `direction`; one emitter is asked,
+  /// and divided by the probability of asking it.
+  SourceLight scattered_light(const glm::vec3& place, const glm::vec3& direction,
+                              const PhaseFunction& phase, int band) {
+    const Arriving a = arriving_light(place, band);
+    if (a.irradiance <= 0) return {};
+    return {a.group,
+            a.irradiance * static_cast<double>(evaluate(phase, glm::dot(a.direction, direction)))};
+  }
+
+  /// The same of a surface.
+  SourceLight reflected_light(const glm::vec3& place, const glm::vec3& direction,
+                              const glm::vec3& normal, const SurfaceModel& model, int band) {
+    const Arriving a = arriving_light(place, band);
+    const float cosine = glm::dot(a.direction, normal);
+    if (a.irradiance <= 0 || cosine <= 0) return {};
+    return {a.group,
+            a.irradiance * static_cast<double>(cosine) *
+                static_cast<double>(evaluate_surface(model, -direction, a.direction, normal))};
+  }
+
+  /// Own light of a point of a sign's face towards an eye, without path or room light.
+  SourceLight texel_light(const CompiledSign& sign, const glm::vec2& uv, const glm::vec3& to_eye,
+                          int band) const {
+    const Sign& d = scene_.description->signs[sign.sign];
+    const SignColour colour = d.face.colour[texel_at(d.face, uv)];
+    if (colour == SignColour::other) return {};
+    const bool white = colour == SignColour::white;
+    const auto& radiance = white ? sign.white_radiance : sign.green_radiance;
+    const double cosine = std::max(0.0, static_cast<double>(glm::dot(sign.axes[2], to_eye)));
+    const double angular = d.angular_exponent == 0 ? 1 : std::pow(cosine, d.angular_exponent);
+    return {white ? sign.white_group : sign.green_group,
+            radiance[static_cast<size_t>(band)] * angular * face_relative(d.face, uv)};
+  }
+
+  /// Adds `weight` times the emission of flames along `length` of the ray, of one medium or of all
+  /// (-1).
+  void add_flames(const Ray& ray, float length, int band, int medium, double weight,
+                  GroupLight& into) {
+    double depth = 0;
+    for_each_segment(
+        scene_.media, band, ray.origin, ray.direction, std::min(length, 4 * scene_.diagonal_m),
+        resolver_, [&](const MediaSegment& s) {
+          const double tau = s.sigma_t * s.length;
+          const double through = s.sigma_t > 0 ? -std::expm1(-tau) / s.sigma_t : s.length;
+          for (const EmissionPart& part : s.emission) {
+            if (medium >= 0 && part.medium != medium) continue;
+            const CompiledEmitter* flame = flame_of(part.medium);
+            if (flame == nullptr) continue;  // the scenario has put it out
+            const double power = flame->power_w[static_cast<size_t>(band)] * part.density;
+            into.add(flame->group,
+                     weight * power * std::exp(-depth) * through / (4 * static_cast<double>(pi_f)));
+          }
+          depth += tau;
+          return depth < 50;
+        });
   }
 
  private:
-  struct SignSums {
-    double value[eye_quantities] = {};
-    int64_t paths = 0;
-  };
-
   struct Path {
     Ray ray;
     int band;
     Met met;
-    double sum = 0;
+    double weight;
+    GroupLight& into;
     double throughput = 1;
     float travelled = 0;    // from the last event to the ray's origin, through panes
     bool diffused = false;  // a surface has spread it
+
+    void add(const SourceLight& light) {
+      into.add(light.group, weight * throughput * light.radiance);
+    }
   };
 
   // ---- events
@@ -166,7 +231,7 @@ class EyeTracer {
     if (p.throughput <= 0) return false;
     const PhaseFunction& phase = scene_.phases[static_cast<size_t>(flight.phase)];
     p.ray.origin += p.ray.direction * flight.t;
-    p.sum += p.throughput * scattered_light(p.ray.origin, p.ray.direction, phase, p.band);
+    p.add(scattered_light(p.ray.origin, p.ray.direction, phase, p.band));
     const float u = random_.uniform();
     const float v = random_.uniform();
     p.ray.direction = sample(phase, p.ray.direction, u, v);
@@ -184,8 +249,7 @@ class EyeTracer {
     const glm::vec3 normal = front ? t.normal : -t.normal;
     const glm::vec3 place = t.at(hit.u, hit.v);
     if (model.kind == SurfaceKind::lambertian || model.kind == SurfaceKind::glossy) {
-      p.sum += p.throughput *
-               reflected_light(offset_ray(place, normal), p.ray.direction, normal, model, p.band);
+      p.add(reflected_light(offset_ray(place, normal), p.ray.direction, normal, model, p.band));
     }
     const float lobe = random_.uniform();
     const float u = random_.uniform();
@@ -221,10 +285,9 @@ class EyeTracer {
 
   /// Expected radiance of what emits along the ray up to the surface it hits: emitting faces, the
   /// sign that was hit, flames; each weighted by what passes the media before it.
-  double emitted_along(const Path& p, const Hit& hit) {
+  void add_emitted_along(Path& p, const Hit& hit) {
     const float slack = 1 + 1e-5f;  // a body's own face lies as far as the emitter on it
     float reach = hit.distance * slack;
-    double sum = 0;
     Ray rest = p.ray;
     float before = 0;
     for (int k = 0; k < limits::emitters_per_line; ++k) {
@@ -233,8 +296,9 @@ class EyeTracer {
       const CompiledEmitter& emitter = scene_.emitters[e.emitter];
       const float distance = before + e.distance;
       if (counts(p, distance, emitter.near_m)) {
-        sum += emitted_radiance(emitter, e.point, -p.ray.direction, p.band, resolver_) *
-               medium_transmittance(scene_, p.ray, distance, p.band, resolver_);
+        p.add({emitter.group,
+               emitted_radiance(emitter, e.point, -p.ray.direction, p.band, resolver_) *
+                   medium_transmittance(scene_, p.ray, distance, p.band, resolver_)});
       }
       const float step = std::nextafter(e.distance * slack, std::numeric_limits<float>::infinity());
       rest.origin += rest.direction * step;
@@ -242,75 +306,47 @@ class EyeTracer {
       reach -= step;
       if (!(reach > 0)) break;
     }
-    return sum + emitted_by_sign(p, hit) + flames_met(p, hit.distance);
+    add_emitted_by_sign(p, hit);
+    add_flames_met(p, hit.distance);
   }
 
   static bool counts(const Path& p, float distance, float near) {
     return p.met == Met::all || p.travelled + distance < near;
   }
 
-  double emitted_by_sign(const Path& p, const Hit& hit) {
-    if (!hit.found()) return 0;
+  void add_emitted_by_sign(Path& p, const Hit& hit) {
+    if (!hit.found()) return;
     const uint32_t index = scene_.surfaces[hit.triangle->surface].sign;
-    if (index == none_index || glm::dot(hit.triangle->normal, p.ray.direction) >= 0) return 0;
+    if (index == none_index || glm::dot(hit.triangle->normal, p.ray.direction) >= 0) return;
     const CompiledSign& sign = scene_.signs[index];
-    if (!counts(p, hit.distance, sign.near_m)) return 0;
-    const Sign& d = scene_.description->signs[sign.sign];
-    const double own =
-        texel_radiance(sign, d, texture_uv(*hit.cell, hit), -p.ray.direction, p.band);
-    return own > 0 ? own * medium_transmittance(scene_, p.ray, hit.distance, p.band, resolver_) : 0;
+    if (!counts(p, hit.distance, sign.near_m)) return;
+    const SourceLight own = texel_light(sign, texture_uv(*hit.cell, hit), -p.ray.direction, p.band);
+    if (own.radiance <= 0) return;
+    p.add({own.group,
+           own.radiance * medium_transmittance(scene_, p.ray, hit.distance, p.band, resolver_)});
   }
 
   /// Flames that count: all along the line, or the part of each that is near.
-  double flames_met(const Path& p, float length) {
-    if (scene_.volume_points.empty()) return 0;
-    if (p.met == Met::all) return flames_along(p.ray, length, p.band, -1);
-    double sum = 0;
+  void add_flames_met(const Path& p, float length) {
+    if (scene_.volume_points.empty()) return;
+    const double weight = p.weight * p.throughput;
+    if (p.met == Met::all) return add_flames(p.ray, length, p.band, -1, weight, p.into);
     for (const CompiledEmitter& e : scene_.emitters) {
       if (e.kind != EmitterKind::volume) continue;
       const float rest = e.near_m - p.travelled;
-      if (rest > 0)
-        sum += flames_along(p.ray, std::min(length, rest), p.band, static_cast<int>(e.medium));
+      if (rest > 0) {
+        add_flames(p.ray, std::min(length, rest), p.band, static_cast<int>(e.medium), weight,
+                   p.into);
+      }
     }
-    return sum;
   }
 
-  /// Emission of flames along the ray, of one medium or of all (-1).
-  double flames_along(const Ray& ray, float length, int band, int medium) {
-    double sum = 0;
-    double depth = 0;
-    for_each_segment(
-        scene_.media, band, ray.origin, ray.direction, std::min(length, 4 * scene_.diagonal_m),
-        resolver_, [&](const MediaSegment& s) {
-          const double tau = s.sigma_t * s.length;
-          const double through = s.sigma_t > 0 ? -std::expm1(-tau) / s.sigma_t : s.length;
-          for (const EmissionPart& part : s.emission) {
-            if (medium >= 0 && part.medium != medium) continue;
-            sum += flame_power(part.medium, band) * part.density * std::exp(-depth) * through;
-          }
-          depth += tau;
-          return depth < 50;
-        });
-    return sum / (4 * static_cast<double>(pi_f));
-  }
-
-  /// Watts of a medium's glow in a band; 0 where the scenario has put it out.
-  double flame_power(int medium, int band) const {
+  /// The emitter that stands for a medium's glow; null where the scenario has put it out.
+  const CompiledEmitter* flame_of(int medium) const {
     for (const CompiledEmitter& e : scene_.emitters) {
-      if (e.kind == EmitterKind::volume && e.medium == static_cast<uint32_t>(medium))
-        return e.power_w[static_cast<size_t>(band)];
+      if (e.kind == EmitterKind::volume && e.medium == static_cast<uint32_t>(medium)) return &e;
     }
-    return 0;
-  }
-
-  double texel_radiance(const CompiledSign& sign, const Sign& d, const glm::vec2& uv,
-                        const glm::vec3& to_eye, int band) const {
-    const SignColour colour = d.face.colour[texel_at(d.face, uv)];
-    if (colour == SignColour::other) return 0;
-    const auto& radiance = colour == SignColour::white ? sign.white_radiance : sign.green_radiance;
-    const double cosine = std::max(0.0, static_cast<double>(glm::dot(sign.axes[2], to_eye)));
-    const double angular = d.angular_exponent == 0 ? 1 : std::pow(cosine, d.angular_exponent);
-    return radiance[static_cast<size_t>(band)] * angular * face_relative(d.face, uv);
+    return nullptr;
   }
 
   static double face_relative(const SignFace& face, const glm::vec2& uv) {
@@ -357,6 +393,7 @@ class EyeTracer {
   /// asking it.
   struct Arriving {
     glm::vec3 direction{0};  // towards the emitter
+    int group = 0;
     double irradiance = 0;
   };
 
@@ -374,194 +411,15 @@ class EyeTracer {
     if (solid <= 0) return {};
     const double medium = medium_transmittance(scene_, c.ray, c.distance, band, resolver_);
     const auto d = static_cast<double>(c.distance);
-    return {c.ray.direction, e.power_w[static_cast<size_t>(band)] * density * solid * medium /
-                                 (d * d * asked.probability)};
-  }
-
-  double scattered_light(const glm::vec3& place, const glm::vec3& direction,
-                         const PhaseFunction& phase, int band) {
-    const Arriving a = arriving_light(place, band);
-    if (a.irradiance <= 0) return 0;
-    return a.irradiance * static_cast<double>(evaluate(phase, glm::dot(a.direction, direction)));
-  }
-
-  double reflected_light(const glm::vec3& place, const glm::vec3& direction,
-                         const glm::vec3& normal, const SurfaceModel& model, int band) {
-    const Arriving a = arriving_light(place, band);
-    const float cosine = glm::dot(a.direction, normal);
-    if (a.irradiance <= 0 || cosine <= 0) return 0;
-    return a.irradiance * static_cast<double>(cosine) *
-           static_cast<double>(evaluate_surface(model, -direction, a.direction, normal));
-  }
-
-  // ---- a sign seen by an observer
-  // ----------------------------------------------------------------
-
-  FaceTexels list_texels(const CompiledSign& s) const {
-    FaceTexels out;
-    const SignFace& face = scene_.description->signs[s.sign].face;
-    for (uint32_t i = 0; i < face.colour.size(); ++i) {
-      if (face.colour[i] == SignColour::white) out.white.push_back(i);
-      if (face.colour[i] == SignColour::green) out.green.push_back(i);
-    }
-    return out;
-  }
-
-  /// A point of the wanted part in face coordinates, u to the reader's right, v up, the face is [0,
-  /// 1]^2.
-  bool aim(const EyeTarget& target, uint32_t part, glm::vec2& uv) {
-    const SignFace& face = scene_.description->signs[scene_.signs[target.sign].sign].face;
-    if (part == 2) {  // the ring as wide as half the face on each side
-      for (int attempt = 0; attempt < 64; ++attempt) {
-        uv.x = 2 * random_.uniform() - 0.5f;
-        uv.y = 2 * random_.uniform() - 0.5f;
-        if (uv.x < 0 || uv.x >= 1 || uv.y < 0 || uv.y >= 1) return true;
-      }
-      return false;
-    }
-    const std::vector<uint32_t>& texels =
-        part == 0 ? texels_[target.sign].white : texels_[target.sign].green;
-    if (texels.empty()) return false;
-    const uint64_t r = random_.bits();
-    const uint32_t texel = texels[(r * texels.size()) >> 32];
-    const float x =
-        static_cast<float>(texel % static_cast<uint32_t>(face.width)) + random_.uniform();
-    const float y =
-        static_cast<float>(texel / static_cast<uint32_t>(face.width)) + random_.uniform();
-    uv = {x / static_cast<float>(face.width), 1 - y / static_cast<float>(face.height)};
-    return true;
-  }
-
-  void look_at_sign(const EyeTarget& target, uint32_t part, SignSums& sums) {
-    glm::vec2 uv;
-    if (!aim(target, part, uv)) return;
-    ++sums.paths;
-    const CompiledSign& sign = scene_.signs[target.sign];
-    const Sign& d = scene_.description->signs[sign.sign];
-    const glm::vec3 eye(scene_.description->observers[target.observer].eye - scene_.local_origin);
-    const glm::vec3 aimed = sign.origin +
-                            sign.axes[0] * ((uv.x - 0.5f) * static_cast<float>(d.width_m)) +
-                            sign.axes[1] * ((uv.y - 0.5f) * static_cast<float>(d.height_m));
-    const Connection c = connect(eye, aimed, sign.axes[2], true);
-    const double chance = random_.uniform_double();
-    const int band = choose_band(chance);
-    const double lm = scene_.bands[band].lm_per_w / band_probability(band);
-    double* value = sums.value;
-    const auto add = [&](EyeQuantity q, double v) { value[static_cast<size_t>(q)] += v; };
-    if (part == 2) {
-      add(EyeQuantity::at_eye, lm * radiance({eye, c.ray.direction}, band, Met::all));
-      return;
-    }
-    const double solid = solid_transmittance(scene_, c.ray, c.ray.length, band, resolver_);
-    double through = 0;
-    double own = 0;
-    double own_at_eye = 0;
-    double through_scene = 0;  // weighted by the scene's light, for faces without their own
-    for (int b = 0; b < scene_.bands.count(); ++b) {
-      const double t = medium_transmittance(scene_, c.ray, c.distance, b, resolver_);
-      const double l = scene_.bands[b].lm_per_w * texel_radiance(sign, d, uv, -c.ray.direction, b);
-      own += l;
-      own_at_eye += l * t;
-      through_scene += band_probability(b) * t;
-      if (b == band) through = t;
-    }
-    add(EyeQuantity::own, own);
-    const double reflected = lm * face_reflection(sign, part, aimed, c.ray.direction, band);
-    add(EyeQuantity::reflected, reflected);
-    if (solid <= 0) {
-      add(EyeQuantity::at_eye, lm * radiance({eye, c.ray.direction}, band, Met::all));
-      return;
-    }
-    add(EyeQuantity::visible, 1);
-    // Of the sign's own light: every band is known here, so none is left to chance.
-    add(EyeQuantity::transmission, solid * (own > 0 ? own_at_eye / own : through_scene));
-    const double path = lm * path_radiance(c, band);
-    add(EyeQuantity::path, path);
-    add(EyeQuantity::at_eye, solid * (own_at_eye + reflected * through) + path);
-  }
-
-  /// Room light that the face sends back to the eye.
-  double face_reflection(const CompiledSign& sign, uint32_t part, const glm::vec3& place,
-                         const glm::vec3& direction, int band) {
-    const auto& rho = part == 0 ? sign.white_reflectance : sign.green_reflectance;
-    SurfaceModel model = make_surface(
-        SurfaceKind::lambertian, static_cast<double>(rho[static_cast<size_t>(band)]), 0, 1, 1, 1);
-    const glm::vec3 normal = sign.axes[2];
-    const glm::vec3 start = offset_ray(place, normal);
-    double sum = reflected_light(start, direction, normal, model, band);
-    const float u = random_.uniform();
-    const float v = random_.uniform();
-    const Ray onward{start, to_world(normal, cosine_hemisphere(u, v))};
-    sum += static_cast<double>(model.reflectance) * radiance(onward, band, Met::near);
-    return sum;
-  }
-
-  /// Light scattered, or emitted by flames, into the line of sight: one collision is forced on it.
-  double path_radiance(const Connection& c, int band) {
-    if (scene_.features.media == MediaNeed::none) return 0;
-    double sum = scene_.volume_points.empty() ? 0 : flames_along(c.ray, c.ray.length, band, -1);
-    const double depth = optical_depth<MediaNeed::general>(scene_.media, band, c.ray.origin,
-                                                           c.ray.direction, c.distance, resolver_);
-    if (!(depth > 0)) return sum;
-    const double collided = -std::expm1(-depth);
-    const double tau = -std::log1p(-random_.uniform_double() * collided);
-    const float choice = random_.uniform();
-    const Flight flight = free_flight<MediaNeed::general>(
-        scene_.media, band, c.ray.origin, c.ray.direction, c.distance, tau, choice, resolver_);
-    if (!flight.collided || flight.albedo <= 0) return sum;
-    const PhaseFunction& phase = scene_.phases[static_cast<size_t>(flight.phase)];
-    const glm::vec3 place = c.ray.origin + c.ray.direction * flight.t;
-    double inner = scattered_light(place, c.ray.direction, phase, band);
-    const float u = random_.uniform();
-    const float v = random_.uniform();
-    inner += radiance({place, sample(phase, c.ray.direction, u, v)}, band, Met::near);
-    return sum + collided * flight.albedo * inner;
-  }
-
-  void store(const SignSums& sums, uint32_t bin, BatchScores& scores) {
-    if (sums.paths == 0) return;
-    for (uint32_t q = 0; q < eye_quantities; ++q) {
-      const auto at = scene_.layout.score_index(scene_.blocks.views, bin, 0, q);
-      scores.scores[static_cast<size_t>(at)] =
-          value_score(sums.value[q] / static_cast<double>(sums.paths));
-    }
-  }
-
-  // ---- probes
-  // ------------------------------------------------------------------------------------
-
-  void score_probes(uint64_t next, uint64_t paths, BatchScores& scores) {
-    const auto& probes = scene_.description->probes;
-    for (uint32_t p = 0; p < probes.size(); ++p) {
-      const glm::vec3 normal(probes[p].normal);
-      const glm::vec3 start =
-          offset_ray(glm::vec3(probes[p].position - scene_.local_origin), normal);
-      double illuminance = 0, fluence = 0;
-      for (uint64_t i = 0; i < paths; ++i) {
-        random_.start(next++);
-        const int band = choose_band(random_.uniform_double());
-        const double lm = scene_.bands[band].lm_per_w / band_probability(band);
-        const float u = random_.uniform();
-        const float v = random_.uniform();
-        illuminance +=
-            lm * radiance({start, to_world(normal, cosine_hemisphere(u, v))}, band, Met::none);
-        const float s = random_.uniform();
-        const float t = random_.uniform();
-        fluence += lm * radiance({start, uniform_sphere(s, t)}, band, Met::none);
-      }
-      const double n = static_cast<double>(paths);
-      const double pi = static_cast<double>(pi_f);
-      const auto at = static_cast<size_t>(scene_.layout.score_index(scene_.blocks.probes, p, 0, 0));
-      scores.scores[at] = value_score(pi * illuminance / n);
-      scores.scores[at + 1] = value_score(4 * pi * fluence / n);
-    }
+    return {c.ray.direction, e.group,
+            e.power_w[static_cast<size_t>(band)] * density * solid * medium /
+                (d * d * asked.probability)};
   }
 
   const CompiledScene& scene_;
   Resolver& resolver_;
   Random random_;
   std::vector<double> band_cdf_;
-  std::vector<FaceTexels> texels_;
   std::vector<double> weights_;
 };
 

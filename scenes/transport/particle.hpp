@@ -91,8 +91,14 @@ class ParticleTracer {
       // The turn at the end of this flight is drawn before it: its arithmetic needs nothing of the
       // hit, and so runs beside the search for it.
       const Turn turn = draw_turn();
+      Flight flight;
+      if constexpr (flight_first) {
+        flight = fly(p, std::numeric_limits<float>::infinity());
+        p.ray.length = flight.t;
+      }
       const Hit hit = resolver_.nearest(p.ray);
-      const bool alive = fly_and_interact(p, hit, turn);
+      if constexpr (!flight_first && K::media != MediaNeed::none) flight = fly(p, hit.distance);
+      const bool alive = interact(p, hit, flight, turn);
       if (!alive) return;
     }
     ledger.lost_too_long += p.weight;
@@ -138,30 +144,40 @@ class ParticleTracer {
   // ---- a flight and how it ends
   // ------------------------------------------------------------------
 
-  bool fly_and_interact(State& p, const Hit& hit, const Turn& turn) {
+  /// Where media are a formula, the flight to the next collision is drawn first, and a surface is
+  /// sought only up to there. Bodies and voxels are looked at no farther than the surface.
+  static constexpr bool flight_first =
+      K::media == MediaNeed::homogeneous || K::media == MediaNeed::layered;
+
+  Flight fly(const State& p, float length) {
+    // -log(1 - u), u in [0, 1) with 32 bits, exact in double.
+    const uint32_t r = random_.bits();
+    const double tau = -std::log((4294967296.0 - static_cast<double>(r)) * 0x1p-32);
+    const float choice = random_.uniform();
+    return free_flight<K::media>(scene_.media, p.band, p.ray.origin, p.ray.direction, length, tau,
+                                 choice, resolver_);
+  }
+
+  /// The event at the end of a flight; a surface that was found comes before the collision.
+  bool interact(State& p, const Hit& hit, const Flight& flight, const Turn& turn) {
     if constexpr (K::media != MediaNeed::none) {
-      // -log(1 - u), u in [0, 1) with 32 bits, exact in double.
-      const uint32_t r = random_.bits();
-      const double tau = -std::log((4294967296.0 - static_cast<double>(r)) * 0x1p-32);
-      const float choice = random_.uniform();
-      const Flight flight =
-          free_flight<K::media>(scene_.media, p.band, p.ray.origin, p.ray.direction, hit.distance,
-                                tau, choice, resolver_);
-      if (flight.collided) {
-        pass_detectors(p, flight.t);
+      if (flight.collided && (!flight_first || !hit.found())) {
+        pass_detectors(p, flight.t, turn);
         return collide(p, flight, turn);
       }
     }
-    if (!hit.found()) return escape(p);
-    pass_detectors(p, hit.distance);
+    if (!hit.found()) return escape(p, turn);
+    pass_detectors(p, hit.distance, turn);
     return meet_surface(p, hit, turn);
   }
 
-  void pass_detectors(const State& p, float length) {
+  /// The turn that follows a flight is independent of it, and so may say where its points lie.
+  void pass_detectors(const State& p, float length, const Turn& turn) {
     if constexpr (K::detectors) {
-      score_flight(scene_,
-                   {p.ray.origin, p.ray.direction, length, p.weight, p.band, p.direct, p.collided},
-                   *batch_);
+      score_flight(
+          scene_,
+          {p.ray.origin, p.ray.direction, length, p.weight, p.band, p.direct, p.collided, turn.u},
+          *batch_);
     }
   }
 
@@ -287,9 +303,9 @@ class ParticleTracer {
   // ---- leaving the scene
   // -------------------------------------------------------------------------
 
-  bool escape(State& p) {
+  bool escape(State& p, const Turn& turn) {
     const EscapePoint exit = leave_box(p.ray);
-    pass_detectors(p, exit.distance);
+    pass_detectors(p, exit.distance, turn);
     const int64_t at = scene_.layout.score_index(scene_.blocks.escape, exit.side, p.band, 0);
     batch_->scores[static_cast<size_t>(at)] += static_cast<int64_t>(p.weight);
     batch_->ledger.escaped += p.weight;

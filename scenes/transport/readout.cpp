@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "scenes/transport/eye.hpp"
+#include "scenes/transport/look.hpp"
 
 namespace luxodus {
 

@@ -27,7 +27,7 @@ class ResolverBatchTracer final : public BatchTracer {
   ResolverBatchTracer(const CompiledScene& scene, const SceneIndex& index, uint64_t seed)
       : particles_(make_particle_batches(scene, index, seed)),
         resolver_(scene, index),
-        eyes_(scene, resolver_, seed, RandomStream::eye) {}
+        eyes_(scene, resolver_, seed) {}
 
   void trace(int group, uint64_t first, int64_t count, BatchScores& scores) override {
     particles_->trace(group, first, count, scores);
@@ -37,7 +37,7 @@ class ResolverBatchTracer final : public BatchTracer {
  private:
   std::unique_ptr<ParticleBatches> particles_;
   Resolver resolver_;
-  EyeTracer<Resolver> eyes_;
+  EyeScores<Resolver> eyes_;
 };
 
 }  // namespace
@@ -66,19 +66,24 @@ template <class Resolver>
 class ResolverPictureTracer final : public PictureTracer {
  public:
   ResolverPictureTracer(const CompiledScene& scene, const SceneIndex& index, uint64_t seed)
-      : resolver_(scene, index), eye_(scene, resolver_, seed, RandomStream::picture) {}
+      : resolver_(scene, index),
+        eye_(scene, resolver_, seed, RandomStream::picture),
+        light_(scene.groups.size()) {}
 
   void start(uint64_t path) override { eye_.random().start(path); }
   float uniform() override { return eye_.random().uniform(); }
   int choose_band(double u) const override { return eye_.choose_band(u); }
   double band_probability(int band) const override { return eye_.band_probability(band); }
   double radiance(const Ray& ray, int band, const PatchRadiance* gather) override {
-    return eye_.radiance(ray, band, Met::all, gather);
+    light_.clear();
+    eye_.radiance(ray, band, Met::all, 1, light_, gather);
+    return light_.total();
   }
 
  private:
   Resolver resolver_;
   EyeTracer<Resolver> eye_;
+  GroupLight light_;
 };
 
 }  // namespace

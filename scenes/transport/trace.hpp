@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "scenes/transport/direct.hpp"
-#include "scenes/transport/eye.hpp"
+#include "scenes/transport/look.hpp"
 #include "scenes/transport/resolver.hpp"
 
 namespace luxodus {

@@ -214,7 +214,7 @@ void check_same_scores(const std::shared_ptr<const CompiledScene>& scene, int64_
   const auto resident = make_batch_tracer(*scene, index, 3);
   Resolver forgetful(*scene, index);
   ParticleTracer<Everything, Resolver> particles(*scene, forgetful, 3);
-  EyeTracer<Resolver> eyes(*scene, forgetful, 3, RandomStream::eye);
+  EyeScores<Resolver> eyes(*scene, forgetful, 3);
   for (int64_t batch = 0; batch < batches; ++batch) {
     BatchScores a, b;
     const uint64_t first = static_cast<uint64_t>(batch) * 2000;
