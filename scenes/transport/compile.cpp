@@ -11,6 +11,7 @@
 #include "runtime/core/hash.hpp"
 #include "runtime/core/random.hpp"
 #include "scenes/transport/compile_surfaces.hpp"
+#include "scenes/transport/emission.hpp"
 
 namespace luxodus {
 
@@ -396,6 +397,9 @@ void compile_emitters(CompiledScene& scene, const std::vector<ActiveSource>& sou
     sign.green_radiance.resize(static_cast<size_t>(scene.bands.count()), 0.0);
   }
   compile_groups(scene, groups);
+  for (uint32_t i = 0; i < scene.emitters.size(); ++i) {
+    if (has_own_face(scene.emitters[i])) scene.emitter_bounds.push_back(emitter_bound(scene, i));
+  }
   for (size_t i = 0; i < sources.size(); ++i) {
     if (sources[i].sign == nullptr) continue;
     CompiledSign& sign = scene.signs[scene.emitters[i].sign];

@@ -68,6 +68,13 @@ struct CompiledEmitter {
   std::vector<glm::vec3> corners;  // mesh: three per triangle
 };
 
+/// A sphere around an emitter that rays can meet: tells most of them apart at little cost.
+struct EmitterBound {
+  glm::vec3 centre{0};
+  float radius = 0;
+  uint32_t emitter = 0;
+};
+
 /// Parallelogram of cells, crossed by flights without stopping them.
 struct CompiledPlane {
   glm::vec3 corner{0}, normal{0, 0, 1};
@@ -183,6 +190,7 @@ struct CompiledScene {
   std::vector<CompiledMaterial> materials;
   std::vector<uint64_t> lambert_fraction;  // [(surface * 2 + side) * bands + band], units of 2^-32
   std::vector<CompiledEmitter> emitters;
+  std::vector<EmitterBound> emitter_bounds;  // of those with a face of their own
   std::vector<Group> groups;
   std::vector<CompiledSign> signs;
   std::vector<std::shared_ptr<const PhotometricWeb>> webs;

@@ -1,5 +1,5 @@
-// Flat rectangles are cut on a regular grid; every other shape takes points of Roberts' R3
-// sequence, which fills its three numbers evenly at any count.
+// Flat rectangles are halved until their parts are small; every other shape takes points of
+// Roberts' R3 sequence, which fills its three numbers evenly at any count.
 #include "scenes/transport/direct.hpp"
 
 #include <cmath>
@@ -14,20 +14,48 @@ double fractional(double x) {
   return x - std::floor(x);
 }
 
-std::vector<EmissionPoint> rectangle_parts(const CompiledEmitter& e, double distance,
-                                           double share) {
-  const auto count = [&](float size) {
-    const double wanted = std::ceil(static_cast<double>(size) / (share * distance));
-    return std::clamp(static_cast<int>(wanted), 1, limits::direct_parts_per_side);
-  };
-  const int nu = count(e.size.x);
-  const int nv = count(e.size.y);
-  std::vector<EmissionPoint> parts;
-  for (int j = 0; j < nv; ++j) {
-    for (int i = 0; i < nu; ++i) {
-      const float u = (static_cast<float>(i) + 0.5f) / static_cast<float>(nu);
-      const float v = (static_cast<float>(j) + 0.5f) / static_cast<float>(nv);
-      parts.push_back(emission_point(e, u, v, 0));
+/// A rectangular piece of a rectangle, in its own coordinates from 0 to 1.
+struct Cell {
+  float u0, v0, u1, v1;
+  glm::vec2 centre() const { return {0.5f * (u0 + u1), 0.5f * (v0 + v1)}; }
+};
+
+/// How many times its allowed width a cell has, the midpoint rule's error in view: light falls with
+/// the fourth power of the distance, or as fast as exp(-sigma_t d), or to nothing at the horizon.
+double excess_width(const CompiledEmitter& e, const Cell& cell, const Viewpoint& from) {
+  const glm::vec2 centre = cell.centre();
+  const glm::vec3 to_part = emission_point(e, centre.x, centre.y, 0).position - from.place;
+  const auto distance = std::max(static_cast<double>(glm::length(to_part)), 1e-6);
+  const float size_x = e.size.x * (cell.u1 - cell.u0);
+  const float size_y = e.size.y * (cell.v1 - cell.v0);
+  const auto width = static_cast<double>(std::max(size_x, size_y));
+  const double excess = width * (1 + from.sigma_t * distance / 4) / (from.part_share * distance);
+  const float reach = 0.5f * (std::abs(glm::dot(from.normal, e.axes[0])) * size_x +
+                              std::abs(glm::dot(from.normal, e.axes[1])) * size_y);
+  const bool cut_by_horizon = std::abs(glm::dot(from.normal, to_part)) < reach;
+  return cut_by_horizon ? 8 * excess : excess;
+}
+
+/// Halves cells across their longer side until all are small, those first that were cut first.
+std::vector<EmitterPart> rectangle_parts(const CompiledEmitter& e, const Viewpoint& from) {
+  std::vector<Cell> cells{{0, 0, 1, 1}};
+  std::vector<EmitterPart> parts;
+  for (size_t next = 0; next < cells.size(); ++next) {
+    const Cell cell = cells[next];
+    const bool room = parts.size() + (cells.size() - next) < limits::direct_parts;
+    if (!room || excess_width(e, cell, from) <= 1) {
+      const glm::vec2 centre = cell.centre();
+      const auto share = static_cast<double>((cell.u1 - cell.u0) * (cell.v1 - cell.v0));
+      parts.push_back({emission_point(e, centre.x, centre.y, 0), share});
+      continue;
+    }
+    const glm::vec2 centre = cell.centre();
+    if (e.size.x * (cell.u1 - cell.u0) >= e.size.y * (cell.v1 - cell.v0)) {
+      cells.push_back({cell.u0, cell.v0, centre.x, cell.v1});
+      cells.push_back({centre.x, cell.v0, cell.u1, cell.v1});
+    } else {
+      cells.push_back({cell.u0, cell.v0, cell.u1, centre.y});
+      cells.push_back({cell.u0, centre.y, cell.u1, cell.v1});
     }
   }
   return parts;
@@ -53,27 +81,28 @@ double distance_to(const CompiledEmitter& e, const glm::vec3& from, double size)
 
 }  // namespace
 
-std::vector<EmissionPoint> emitter_parts(const CompiledScene& scene, const CompiledEmitter& e,
-                                         const glm::vec3& from, double part_share) {
-  if (e.kind == EmitterKind::point) return {emission_point(e, 0, 0, 0)};
+std::vector<EmitterPart> emitter_parts(const CompiledScene& scene, const CompiledEmitter& e,
+                                       const Viewpoint& from) {
+  if (e.kind == EmitterKind::point) return {{emission_point(e, 0, 0, 0), 1}};
+  if (e.kind == EmitterKind::rectangle) return rectangle_parts(e, from);
+  std::vector<EmitterPart> parts;
   if (e.kind == EmitterKind::volume) {
-    std::vector<EmissionPoint> parts;
-    for (const glm::vec3& p : scene.volume_points.at(e.medium)) parts.push_back({p, {0, 0, -1}});
+    const std::vector<glm::vec3>& points = scene.volume_points.at(e.medium);
+    const double share = 1 / static_cast<double>(points.size());
+    for (const glm::vec3& p : points) parts.push_back({{p, {0, 0, -1}}, share});
     return parts;
   }
   const double size = extent(e);
-  const double distance = distance_to(e, from, size);
-  if (e.kind == EmitterKind::rectangle) return rectangle_parts(e, distance, part_share);
-  const double per_side = std::ceil(size / (part_share * distance));
+  const double per_side = std::ceil(size / (from.part_share * distance_to(e, from.place, size)));
   const int count =
       std::clamp(static_cast<int>(per_side * per_side * 2), 16, limits::direct_points);
-  std::vector<EmissionPoint> parts;
   for (int i = 0; i < count; ++i) {
     const double n = i + 1;
     const auto u = static_cast<float>(fractional(0.5 + n / plastic));
     const auto v = static_cast<float>(fractional(0.5 + n / (plastic * plastic)));
     const double w = fractional(0.5 + n / (plastic * plastic * plastic));
-    parts.push_back(emission_point(e, std::min(u, 0x1.fffffep-1f), std::min(v, 0x1.fffffep-1f), w));
+    parts.push_back({emission_point(e, std::min(u, 0x1.fffffep-1f), std::min(v, 0x1.fffffep-1f), w),
+                     1.0 / count});
   }
   return parts;
 }

@@ -92,7 +92,35 @@ float flat_distance(const CompiledEmitter& e, const Ray& ray) {
   return in ? t : none;
 }
 
+/// Whether the ray misses the sphere before `length`.
+bool passes(const EmitterBound& bound, const Ray& ray, float length) {
+  const glm::vec3 d = bound.centre - ray.origin;
+  const float along = glm::dot(d, ray.direction);
+  if (along < -bound.radius || along - bound.radius > length) return true;
+  const glm::vec3 beside = d - ray.direction * along;
+  return glm::dot(beside, beside) > bound.radius * bound.radius;
+}
+
 }  // namespace
+
+bool has_own_face(const CompiledEmitter& e) {
+  return e.kind != EmitterKind::point && e.kind != EmitterKind::volume &&
+         e.kind != EmitterKind::sign_face;
+}
+
+EmitterBound emitter_bound(const CompiledScene& scene, uint32_t emitter) {
+  const CompiledEmitter& e = scene.emitters[emitter];
+  EmitterBound bound{e.origin, 0, emitter};
+  if (e.kind == EmitterKind::mesh) {
+    bound.centre = e.corners.front();
+    for (const glm::vec3& c : e.corners)
+      bound.radius = std::max(bound.radius, glm::length(c - bound.centre));
+  } else {
+    bound.radius = 0.5f * glm::length(e.size);  // at least half the diagonal of any shape
+  }
+  bound.radius = bound.radius * 1.001f + scene.diagonal_m * 0x1p-18f;  // over all roundings
+  return bound;
+}
 
 EmissionPoint emission_point(const CompiledEmitter& e, float u, float v, double w) {
   const glm::vec3 down = -e.axes[2];
@@ -128,7 +156,9 @@ EmissionPoint emission_point(const CompiledEmitter& e, float u, float v, double 
 EmitterHit nearest_emitter(const CompiledScene& scene, const Ray& ray, float length) {
   EmitterHit best;
   best.distance = length;
-  for (uint32_t i = 0; i < scene.emitters.size(); ++i) {
+  for (const EmitterBound& bound : scene.emitter_bounds) {
+    if (passes(bound, ray, best.distance)) continue;
+    const uint32_t i = bound.emitter;
     const CompiledEmitter& e = scene.emitters[i];
     float t = std::numeric_limits<float>::infinity();
     glm::vec3 normal = -e.axes[2];

@@ -92,6 +92,12 @@ struct EmitterHit {
   EmissionPoint point;
 };
 
+/// Whether rays can meet the emitter itself: points and volumes have no face, and faces of signs
+/// are surfaces of the scene.
+bool has_own_face(const CompiledEmitter& emitter);
+/// A sphere that holds all of its faces.
+EmitterBound emitter_bound(const CompiledScene& scene, uint32_t emitter);
+
 /// Nearest emitting surface along the ray whose emitting side is turned to it, within `length`.
 /// Sign faces are surfaces of the scene and not looked for here.
 EmitterHit nearest_emitter(const CompiledScene& scene, const Ray& ray, float length);
