@@ -1,9 +1,8 @@
 // luxodus info: what this program is made of, and whether this machine can run it.
 #include <fmt/format.h>
-#include <spdlog/version.h>
-#include <zstd.h>
 
-#include <glm/glm.hpp>
+#include <sstream>
+#include <string>
 
 #include "actors/cli/command.hpp"
 #include "scenes/format/json_out.hpp"
@@ -22,16 +21,12 @@ const char* instruction_set() {
 }
 
 Json info() {
-  Json packages = {
-      {"embree", EmbreeDevice::library_version()},
-      {"spdlog", fmt::format("{}.{}.{}", SPDLOG_VER_MAJOR, SPDLOG_VER_MINOR, SPDLOG_VER_PATCH)},
-      {"fmt",
-       fmt::format("{}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100)},
-      {"CLI11", CLI11_VERSION},
-      {"nlohmann-json", fmt::format("{}.{}.{}", NLOHMANN_JSON_VERSION_MAJOR,
-                                    NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH)},
-      {"glm", fmt::format("{}.{}.{}", GLM_VERSION_MAJOR, GLM_VERSION_MINOR, GLM_VERSION_PATCH)},
-      {"zstd", ZSTD_versionString()}};
+  Json packages = {{"Embree", EmbreeDevice::library_version()}};
+  std::istringstream built_with(LUX_PACKAGES);
+  for (std::string line; std::getline(built_with, line);) {
+    const size_t blank = line.rfind(' ');
+    packages[line.substr(0, blank)] = line.substr(blank + 1);
+  }
   return {{"version", LUX_VERSION},
           {"build", LUX_BUILD},
           {"compiler", fmt::format("GCC {}", __VERSION__)},

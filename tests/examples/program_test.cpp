@@ -189,7 +189,7 @@ TEST_CASE("check and info speak JSON on request", "[program]") {
   CHECK(check["scenarios"][0]["luminous_flux"]["value"].get<double>() == Approx(3000));
   CHECK(check["scenarios"][0]["bands_nm"].size() == 1);
   const auto info = nlohmann::json::parse(luxodus(folder, "info --json").out);
-  CHECK(info["packages"]["embree"].get<std::string>().rfind("3.", 0) == 0);
+  CHECK(info["packages"]["Embree"].get<std::string>().rfind("3.", 0) == 0);
 }
 
 TEST_CASE("converge writes its table and plots, and the error falls like one over the root",
