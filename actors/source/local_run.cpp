@@ -71,7 +71,7 @@ void LocalRun::trace_until(int64_t end, const StopRule& stop, const std::atomic<
   double last_report = clock.seconds();
   const auto work = [&] {
     flush_denormals();
-    const auto tracer = make_batch_tracer(*scene_, *index_, seed_);
+    const auto tracer = make_batch_tracer(*scene_, GeometryAccess::resident(*index_), seed_);
     BatchScores scores;
     while (true) {
       Batch batch;
@@ -88,7 +88,8 @@ void LocalRun::trace_until(int64_t end, const StopRule& stop, const std::atomic<
       }
       scores.reset(scene_->layout);
       tracer->trace(batch.group, batch.first_particle, scene_->batch_particles, scores);
-      tracer->look(batch.number, scores);
+      for (uint32_t unit = 0; unit < tracer->look_units(); ++unit)
+        tracer->look(batch.number, unit, scores);
       totals_.merge(scores, batch.group);
     }
   };

@@ -5,6 +5,7 @@
 // path.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
@@ -52,6 +53,14 @@ struct GeometryCell {
   std::vector<TriangleUv> texture_uv;
   glm::vec3 low{0};
   glm::vec3 high{0};
+
+  /// Texture coordinates of a triangle; null where it has none.
+  const TriangleUv* uv_of(uint32_t triangle) const {
+    const auto at = std::lower_bound(
+        texture_uv.begin(), texture_uv.end(), triangle,
+        [](const TriangleUv& uv, uint32_t wanted) { return uv.triangle < wanted; });
+    return at != texture_uv.end() && at->triangle == triangle ? &*at : nullptr;
+  }
 };
 
 class CellScene {
@@ -98,9 +107,15 @@ class ProxyScene {
   RTCSceneTy* scene_ = nullptr;
 };
 
-/// Nearest hit over cells, front to back: `enter(cell)` gives the CellScene and may wait for it. A
-/// cell is entered only while it can hold something nearer; equal distances go to the smaller
-/// global triangle, so the answer does not depend on the order of the visits.
+/// Equal distances go to the smaller global triangle, so that the order of visits does not matter.
+inline bool is_nearer(const Hit& hit, const Hit& best) {
+  if (!hit.found()) return false;
+  if (hit.distance != best.distance) return hit.distance < best.distance;
+  return best.found() && hit.triangle->global_triangle < best.triangle->global_triangle;
+}
+
+/// Nearest hit over cells, front to back: `enter(cell)` gives the CellScene. A cell is entered only
+/// while it can hold something nearer.
 template <class Enter>
 Hit nearest_in_cells(const ProxyScene& proxies, const Ray& ray, std::vector<Candidate>& scratch,
                      Enter&& enter) {
@@ -109,11 +124,7 @@ Hit nearest_in_cells(const ProxyScene& proxies, const Ray& ray, std::vector<Cand
   for (const Candidate& c : scratch) {
     if (c.entry > best.distance) break;
     const Hit hit = enter(c.cell).nearest(ray);
-    if (!hit.found()) continue;
-    const bool nearer = hit.distance < best.distance;
-    const bool tie = hit.distance == best.distance && best.found() &&
-                     hit.triangle->global_triangle < best.triangle->global_triangle;
-    if (nearer || tie) best = hit;
+    if (is_nearer(hit, best)) best = hit;
   }
   return best;
 }

@@ -3,7 +3,7 @@
 namespace luxodus {
 
 template std::unique_ptr<ParticleBatches> choose_kernel<MediaNeed::general>(const CompiledScene&,
-                                                                            const SceneIndex&,
+                                                                            const GeometryAccess&,
                                                                             uint64_t);
 
 }  // namespace luxodus

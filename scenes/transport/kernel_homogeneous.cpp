@@ -3,6 +3,6 @@
 namespace luxodus {
 
 template std::unique_ptr<ParticleBatches> choose_kernel<MediaNeed::homogeneous>(
-    const CompiledScene&, const SceneIndex&, uint64_t);
+    const CompiledScene&, const GeometryAccess&, uint64_t);
 
 }  // namespace luxodus

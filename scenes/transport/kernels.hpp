@@ -17,8 +17,8 @@ class ParticleBatches {
 template <class K, class Resolver>
 class KernelBatches final : public ParticleBatches {
  public:
-  KernelBatches(const CompiledScene& scene, const SceneIndex& index, uint64_t seed)
-      : resolver_(scene, index), particles_(scene, resolver_, seed) {}
+  KernelBatches(const CompiledScene& scene, Resolver resolver, uint64_t seed)
+      : resolver_(std::move(resolver)), particles_(scene, resolver_, seed) {}
 
   void trace(int group, uint64_t first, int64_t count, BatchScores& scores) override {
     particles_.trace_batch(group, first, count, scores);
@@ -30,39 +30,39 @@ class KernelBatches final : public ParticleBatches {
 };
 
 template <MediaNeed Media, bool Bands, bool Surfaces, bool Detectors>
-std::unique_ptr<ParticleBatches> make_kernel(const CompiledScene& scene, const SceneIndex& index,
-                                             uint64_t seed) {
+std::unique_ptr<ParticleBatches> make_kernel(const CompiledScene& scene,
+                                             const GeometryAccess& access, uint64_t seed) {
   using K = Kernel<Media, Bands, Surfaces, Detectors>;
-  if (index.cells() > 1)
-    return std::make_unique<KernelBatches<K, PartitionResolver>>(scene, index, seed);
-  return std::make_unique<KernelBatches<K, MergedResolver>>(scene, index, seed);
+  return with_resolver(scene, access, [&](auto resolver) -> std::unique_ptr<ParticleBatches> {
+    return std::make_unique<KernelBatches<K, decltype(resolver)>>(scene, std::move(resolver), seed);
+  });
 }
 
 template <MediaNeed Media, bool Bands, bool Surfaces>
 std::unique_ptr<ParticleBatches> choose_detectors(const CompiledScene& scene,
-                                                  const SceneIndex& index, uint64_t seed) {
+                                                  const GeometryAccess& access, uint64_t seed) {
   if (scene.features.detectors)
-    return make_kernel<Media, Bands, Surfaces, true>(scene, index, seed);
-  return make_kernel<Media, Bands, Surfaces, false>(scene, index, seed);
+    return make_kernel<Media, Bands, Surfaces, true>(scene, access, seed);
+  return make_kernel<Media, Bands, Surfaces, false>(scene, access, seed);
 }
 
 template <MediaNeed Media>
-std::unique_ptr<ParticleBatches> choose_kernel(const CompiledScene& scene, const SceneIndex& index,
-                                               uint64_t seed) {
+std::unique_ptr<ParticleBatches> choose_kernel(const CompiledScene& scene,
+                                               const GeometryAccess& access, uint64_t seed) {
   const Features& f = scene.features;
-  if (f.bands && f.surfaces) return choose_detectors<Media, true, true>(scene, index, seed);
-  if (f.bands) return choose_detectors<Media, true, false>(scene, index, seed);
-  if (f.surfaces) return choose_detectors<Media, false, true>(scene, index, seed);
-  return choose_detectors<Media, false, false>(scene, index, seed);
+  if (f.bands && f.surfaces) return choose_detectors<Media, true, true>(scene, access, seed);
+  if (f.bands) return choose_detectors<Media, true, false>(scene, access, seed);
+  if (f.surfaces) return choose_detectors<Media, false, true>(scene, access, seed);
+  return choose_detectors<Media, false, false>(scene, access, seed);
 }
 
 extern template std::unique_ptr<ParticleBatches> choose_kernel<MediaNeed::none>(
-    const CompiledScene&, const SceneIndex&, uint64_t);
+    const CompiledScene&, const GeometryAccess&, uint64_t);
 extern template std::unique_ptr<ParticleBatches> choose_kernel<MediaNeed::homogeneous>(
-    const CompiledScene&, const SceneIndex&, uint64_t);
+    const CompiledScene&, const GeometryAccess&, uint64_t);
 extern template std::unique_ptr<ParticleBatches> choose_kernel<MediaNeed::layered>(
-    const CompiledScene&, const SceneIndex&, uint64_t);
+    const CompiledScene&, const GeometryAccess&, uint64_t);
 extern template std::unique_ptr<ParticleBatches> choose_kernel<MediaNeed::general>(
-    const CompiledScene&, const SceneIndex&, uint64_t);
+    const CompiledScene&, const GeometryAccess&, uint64_t);
 
 }  // namespace luxodus

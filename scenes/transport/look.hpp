@@ -44,28 +44,29 @@ class EyeScores {
       texels_.push_back(list_texels(scene.description->signs[s.sign].face));
   }
 
-  /// Eye paths of one batch: all targets and probes, into their value bins.
-  void score_batch(int64_t batch, BatchScores& scores) {
+  /// Parts of signs, white, green and surround of each target, then probes: each with its own paths
+  /// and bins, so that they may be traced in any order.
+  uint32_t units() const {
+    return static_cast<uint32_t>(3 * scene_.eye_targets.size() + scene_.description->probes.size());
+  }
+
+  /// Eye paths of one batch for one unit, into its value bins. Requires: unit < units().
+  void score(int64_t batch, uint32_t unit, BatchScores& scores) {
     const auto paths = static_cast<uint64_t>(scene_.eye_paths_per_batch);
-    uint64_t next = static_cast<uint64_t>(batch) << 28;
-    for (const EyeTarget& target : scene_.eye_targets) {
-      for (uint32_t part = 0; part < 3; ++part) {
-        start_sums();
-        for (uint64_t i = 0; i < paths; ++i) {
-          random_.start(next++);
-          look_at_sign(target, part);
-        }
-        store_sign(target.first_bin + part, scores);
-      }
+    const uint64_t first = (static_cast<uint64_t>(batch) << 28) + unit * paths;
+    const auto parts = static_cast<uint32_t>(3 * scene_.eye_targets.size());
+    start_sums();
+    for (uint64_t path = first; path < first + paths; ++path) {
+      random_.start(path);
+      if (unit < parts)
+        look_at_sign(scene_.eye_targets[unit / 3], unit % 3);
+      else
+        look_around_probe(unit - parts);
     }
-    for (uint32_t p = 0; p < scene_.description->probes.size(); ++p) {
-      start_sums();
-      for (uint64_t i = 0; i < paths; ++i) {
-        random_.start(next++);
-        look_around_probe(p);
-      }
-      store_probe(p, scores);
-    }
+    if (unit < parts)
+      store_sign(scene_.eye_targets[unit / 3].first_bin + unit % 3, scores);
+    else
+      store_probe(unit - parts, scores);
   }
 
  private:

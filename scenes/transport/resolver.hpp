@@ -13,6 +13,7 @@
 
 #include "scenes/intersect/embree_scene.hpp"
 #include "scenes/transport/compiled_scene.hpp"
+#include "scenes/transport/object_source.hpp"
 
 namespace luxodus {
 
@@ -86,5 +87,67 @@ class PartitionResolver : public ResidentData {
   const SceneIndex* index_;
   std::vector<Candidate> candidates_;
 };
+
+/// Many cells, each of which may have to be waited for. A hit's triangle is copied, because its
+/// cell may be gone when the next one is entered.
+class SourcedResolver : public ResidentData {
+ public:
+  SourcedResolver(const CompiledScene& scene, const ProxyScene& proxies, ObjectSource& source)
+      : ResidentData(scene), proxies_(&proxies), source_(&source) {}
+
+  Hit nearest(const Ray& ray) {
+    proxies_->candidates(ray, candidates_);
+    Hit best;
+    for (const Candidate& c : candidates_) {
+      if (c.entry > best.distance) break;
+      const Hit hit = source_->cell(c.cell).nearest(ray);
+      if (is_nearer(hit, best)) best = keep(hit);
+    }
+    return best;
+  }
+  bool occluded(const Ray& ray) {
+    proxies_->candidates(ray, candidates_);
+    for (const Candidate& c : candidates_) {
+      if (source_->cell(c.cell).occluded(ray)) return true;
+    }
+    return false;
+  }
+
+ private:
+  Hit keep(Hit hit) {
+    triangle_ = *hit.triangle;
+    kept_.texture_uv.clear();
+    if (const auto* uv = hit.cell->uv_of(hit.index)) kept_.texture_uv.push_back(*uv);
+    hit.triangle = &triangle_;
+    hit.cell = &kept_;
+    return hit;
+  }
+
+  const ProxyScene* proxies_;
+  ObjectSource* source_;
+  std::vector<Candidate> candidates_;
+  TriangleRecord triangle_;
+  GeometryCell kept_;  // holds the texture coordinates of that triangle only
+};
+
+/// What a tracer reaches geometry by: everything resident, or a source that may wait.
+struct GeometryAccess {
+  const SceneIndex* index = nullptr;
+  const ProxyScene* proxies = nullptr;  // with `source`, instead of the index
+  ObjectSource* source = nullptr;
+
+  static GeometryAccess resident(const SceneIndex& index) { return {&index, nullptr, nullptr}; }
+  static GeometryAccess through(const ProxyScene& proxies, ObjectSource& source) {
+    return {nullptr, &proxies, &source};
+  }
+};
+
+/// Calls `use(resolver)` with the resolver that fits, moved into place by whoever receives it.
+template <class Use>
+auto with_resolver(const CompiledScene& scene, const GeometryAccess& access, Use&& use) {
+  if (access.source != nullptr) return use(SourcedResolver(scene, *access.proxies, *access.source));
+  if (access.index->cells() > 1) return use(PartitionResolver(scene, *access.index));
+  return use(MergedResolver(scene, *access.index));
+}
 
 }  // namespace luxodus

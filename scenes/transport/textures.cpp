@@ -15,11 +15,9 @@ int texel_index(float coordinate, int size) {
 }  // namespace
 
 glm::vec2 texture_uv(const GeometryCell& cell, const Hit& hit) {
-  const auto at = std::lower_bound(
-      cell.texture_uv.begin(), cell.texture_uv.end(), hit.index,
-      [](const GeometryCell::TriangleUv& t, uint32_t index) { return t.triangle < index; });
-  if (at == cell.texture_uv.end() || at->triangle != hit.index) return {0, 0};
-  return at->corner[0] * (1 - hit.u - hit.v) + at->corner[1] * hit.u + at->corner[2] * hit.v;
+  const auto* uv = cell.uv_of(hit.index);
+  if (uv == nullptr) return {0, 0};
+  return uv->corner[0] * (1 - hit.u - hit.v) + uv->corner[1] * hit.u + uv->corner[2] * hit.v;
 }
 
 float image_factor(const CompiledScene& scene, const Image& image, const glm::vec2& uv, int band) {

@@ -7,32 +7,37 @@ namespace luxodus {
 namespace {
 
 std::unique_ptr<ParticleBatches> make_particle_batches(const CompiledScene& scene,
-                                                       const SceneIndex& index, uint64_t seed) {
+                                                       const GeometryAccess& access,
+                                                       uint64_t seed) {
   switch (scene.features.media) {
     case MediaNeed::none:
-      return choose_kernel<MediaNeed::none>(scene, index, seed);
+      return choose_kernel<MediaNeed::none>(scene, access, seed);
     case MediaNeed::homogeneous:
-      return choose_kernel<MediaNeed::homogeneous>(scene, index, seed);
+      return choose_kernel<MediaNeed::homogeneous>(scene, access, seed);
     case MediaNeed::layered:
-      return choose_kernel<MediaNeed::layered>(scene, index, seed);
+      return choose_kernel<MediaNeed::layered>(scene, access, seed);
     case MediaNeed::general:
       break;
   }
-  return choose_kernel<MediaNeed::general>(scene, index, seed);
+  return choose_kernel<MediaNeed::general>(scene, access, seed);
 }
 
 template <class Resolver>
 class ResolverBatchTracer final : public BatchTracer {
  public:
-  ResolverBatchTracer(const CompiledScene& scene, const SceneIndex& index, uint64_t seed)
-      : particles_(make_particle_batches(scene, index, seed)),
-        resolver_(scene, index),
+  ResolverBatchTracer(const CompiledScene& scene, const GeometryAccess& access, Resolver resolver,
+                      uint64_t seed)
+      : particles_(make_particle_batches(scene, access, seed)),
+        resolver_(std::move(resolver)),
         eyes_(scene, resolver_, seed) {}
 
   void trace(int group, uint64_t first, int64_t count, BatchScores& scores) override {
     particles_->trace(group, first, count, scores);
   }
-  void look(int64_t batch, BatchScores& scores) override { eyes_.score_batch(batch, scores); }
+  uint32_t look_units() const override { return eyes_.units(); }
+  void look(int64_t batch, uint32_t unit, BatchScores& scores) override {
+    eyes_.score(batch, unit, scores);
+  }
 
  private:
   std::unique_ptr<ParticleBatches> particles_;
@@ -42,11 +47,12 @@ class ResolverBatchTracer final : public BatchTracer {
 
 }  // namespace
 
-std::unique_ptr<BatchTracer> make_batch_tracer(const CompiledScene& scene, const SceneIndex& index,
-                                               uint64_t seed) {
-  if (index.cells() > 1)
-    return std::make_unique<ResolverBatchTracer<PartitionResolver>>(scene, index, seed);
-  return std::make_unique<ResolverBatchTracer<MergedResolver>>(scene, index, seed);
+std::unique_ptr<BatchTracer> make_batch_tracer(const CompiledScene& scene,
+                                               const GeometryAccess& access, uint64_t seed) {
+  return with_resolver(scene, access, [&](auto resolver) -> std::unique_ptr<BatchTracer> {
+    return std::make_unique<ResolverBatchTracer<decltype(resolver)>>(scene, access,
+                                                                     std::move(resolver), seed);
+  });
 }
 
 DirectLight direct_light_at(const CompiledScene& scene, const SceneIndex& index,

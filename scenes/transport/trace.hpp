@@ -15,14 +15,16 @@ class BatchTracer {
   virtual ~BatchTracer() = default;
   /// Particles [first, first + count) of a source group, into `scores`.
   virtual void trace(int group, uint64_t first, int64_t count, BatchScores& scores) = 0;
-  /// The eye paths that belong to a batch number, into `scores`.
-  virtual void look(int64_t batch, BatchScores& scores) = 0;
+  /// The eye paths that belong to a batch number fall into units that stand alone: parts of signs,
+  /// and probes.
+  virtual uint32_t look_units() const = 0;
+  /// Those of one unit, into `scores`.
+  virtual void look(int64_t batch, uint32_t unit, BatchScores& scores) = 0;
 };
 
-/// The kernel that the scene's features ask for, on everything resident. All arguments must outlive
-/// it.
-std::unique_ptr<BatchTracer> make_batch_tracer(const CompiledScene& scene, const SceneIndex& index,
-                                               uint64_t seed);
+/// The kernel that the scene's features ask for. All that is referred to must outlive it.
+std::unique_ptr<BatchTracer> make_batch_tracer(const CompiledScene& scene,
+                                               const GeometryAccess& access, uint64_t seed);
 
 /// Direct light through whichever resolver the index needs; one thread at a time.
 DirectLight direct_light_at(const CompiledScene& scene, const SceneIndex& index,

@@ -79,7 +79,7 @@ class Runner {
  public:
   Runner(const CompiledScene& scene, const SceneIndex& index)
       : scene_(scene),
-        tracer_(make_batch_tracer(scene, index, seed)),
+        tracer_(make_batch_tracer(scene, GeometryAccess::resident(index), seed)),
         totals_(scene.layout, static_cast<int>(scene.groups.size()), photopic_weights(scene)) {}
 
   void batch() {

@@ -211,7 +211,7 @@ void check_same_scores(const std::shared_ptr<const CompiledScene>& scene, int64_
   REQUIRE(scene->features.detectors);
   const EmbreeDevice device;
   const SceneIndex index(device, *scene);
-  const auto resident = make_batch_tracer(*scene, index, 3);
+  const auto resident = make_batch_tracer(*scene, GeometryAccess::resident(index), 3);
   Resolver forgetful(*scene, index);
   ParticleTracer<Everything, Resolver> particles(*scene, forgetful, 3);
   EyeScores<Resolver> eyes(*scene, forgetful, 3);
@@ -220,10 +220,10 @@ void check_same_scores(const std::shared_ptr<const CompiledScene>& scene, int64_
     const uint64_t first = static_cast<uint64_t>(batch) * 2000;
     a.reset(scene->layout);
     resident->trace(0, first, 2000, a);
-    resident->look(batch, a);
+    for (uint32_t unit = 0; unit < resident->look_units(); ++unit) resident->look(batch, unit, a);
     b.reset(scene->layout);
     particles.trace_batch(0, first, 2000, b);
-    eyes.score_batch(batch, b);
+    for (uint32_t unit = eyes.units(); unit-- > 0;) eyes.score(batch, unit, b);
     CHECK(a.scores == b.scores);
     check_same_ledger(a.ledger, b.ledger);
   }
