@@ -21,6 +21,7 @@ void add_check(CLI::App& app, int& exit_code);
 void add_render(CLI::App& app, int& exit_code);
 void add_converge(CLI::App& app, int& exit_code);
 void add_info(CLI::App& app, int& exit_code);
+void add_topology(CLI::App& app, int& exit_code);
 
 /// One line "file:line: sentence" on standard error.
 void tell(const Problem& problem);

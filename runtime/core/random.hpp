@@ -16,7 +16,14 @@
 namespace luxodus {
 
 /// What a stream of numbers is for: equal particle ids in different streams are independent.
-enum class RandomStream : uint32_t { particle = 0, eye = 1, picture = 2, layout = 3, test = 4 };
+enum class RandomStream : uint32_t {
+  particle = 0,
+  eye = 1,
+  picture = 2,
+  layout = 3,
+  test = 4,
+  graph = 5
+};
 
 /// One Philox 4x32-10 block, the definition that every other form must equal.
 inline std::array<uint32_t, 4> philox_block(std::array<uint32_t, 4> counter, uint64_t seed) {

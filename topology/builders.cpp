@@ -1,0 +1,160 @@
+#include "topology/builders.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <set>
+
+#include "runtime/core/random.hpp"
+#include "topology/distances.hpp"
+
+namespace luxodus {
+namespace {
+
+std::optional<Problem> size_problem(uint32_t nodes) {
+  if (nodes >= 1 && nodes <= limits::graph_vertices) return std::nullopt;
+  return Problem{{},
+                 fmt::format("{} nodes: a graph has from 1 to {}", nodes, limits::graph_vertices)};
+}
+
+/// The graph of these links, with as many links a node as the busiest has.
+Result<Graph> graph_of(uint32_t nodes, uint32_t rotation, std::vector<Link> links) {
+  std::vector<uint32_t> degree(nodes);
+  for (const Link& link : links) {
+    ++degree[link.a];
+    ++degree[link.b];
+  }
+  GraphPlan plan{nodes, *std::max_element(degree.begin(), degree.end()), ControllerRole::none,
+                 rotation, std::move(links)};
+  if (const auto fault = fault_of(plan)) return Problem{{}, fault->what};
+  return Graph(std::move(plan));
+}
+
+/// Links from node 0 to these distances, turned all the way round.
+std::vector<Link> circulant(uint32_t nodes, const std::vector<uint32_t>& distances) {
+  std::vector<Link> once;
+  for (const uint32_t distance : distances) {
+    if (distance % nodes != 0) once.push_back({0, distance % nodes});
+  }
+  return turned(nodes, nodes, once);
+}
+
+/// The greatest divisor that is at most the root: the rows of the grid nearest to a square.
+uint32_t rows_of(uint32_t nodes) {
+  uint32_t rows = 1;
+  for (uint32_t r = 1; r * r <= nodes; ++r) {
+    if (nodes % r == 0) rows = r;
+  }
+  return rows;
+}
+
+std::vector<Link> grid(uint32_t rows, uint32_t columns, bool joined) {
+  std::set<Link> links;
+  for (uint32_t r = 0; r < rows; ++r) {
+    for (uint32_t c = 0; c < columns; ++c) {
+      const Vertex here = r * columns + c;
+      const Vertex right = r * columns + (c + 1) % columns;
+      const Vertex below = (r + 1) % rows * columns + c;
+      if (right != here && (joined || c + 1 < columns)) links.insert(link_between(here, right));
+      if (below != here && (joined || r + 1 < rows)) links.insert(link_between(here, below));
+    }
+  }
+  return {links.begin(), links.end()};
+}
+
+}  // namespace
+
+Result<Graph> make_ring(uint32_t nodes) {
+  if (auto problem = size_problem(nodes)) return *problem;
+  return graph_of(nodes, nodes, circulant(nodes, {1}));
+}
+
+Result<Graph> make_mesh(uint32_t nodes) {
+  if (auto problem = size_problem(nodes)) return *problem;
+  const uint32_t rows = rows_of(nodes);
+  return graph_of(nodes, 1, grid(rows, nodes / rows, false));
+}
+
+Result<Graph> make_torus(uint32_t nodes) {
+  if (auto problem = size_problem(nodes)) return *problem;
+  const uint32_t rows = rows_of(nodes);
+  return graph_of(nodes, rows, grid(rows, nodes / rows, true));
+}
+
+Result<Graph> make_hypercube(uint32_t nodes) {
+  if (auto problem = size_problem(nodes)) return *problem;
+  if (!std::has_single_bit(nodes)) {
+    return Problem{{}, fmt::format("{} is no power of two, and a hypercube is one", nodes)};
+  }
+  std::vector<Link> links;
+  for (Vertex v = 0; v < nodes; ++v) {
+    for (Vertex bit = 1; bit < nodes; bit *= 2) {
+      if ((v & bit) == 0) links.push_back({v, v | bit});
+    }
+  }
+  // Half a turn adds the highest bit.
+  return graph_of(nodes, nodes > 1 ? 2 : 1, std::move(links));
+}
+
+Result<Graph> make_ternary_tree(uint32_t nodes) {
+  if (auto problem = size_problem(nodes)) return *problem;
+  std::vector<Link> links;
+  for (Vertex v = 1; v < nodes; ++v) links.push_back({(v - 1) / 3, v});
+  return graph_of(nodes, 1, std::move(links));
+}
+
+Result<Graph> make_chordal_ring(uint32_t nodes) {
+  if (auto problem = size_problem(nodes)) return *problem;
+  uint64_t fewest = UINT64_MAX;
+  std::vector<Link> best = circulant(nodes, {1});
+  for (uint32_t chord = 2; chord <= nodes / 2; ++chord) {
+    std::vector<Link> links = circulant(nodes, {1, chord});
+    const uint64_t hops = path_lengths(Adjacency(nodes, links)).hops;
+    if (hops >= fewest) continue;
+    fewest = hops;
+    best = std::move(links);
+  }
+  return graph_of(nodes, nodes, std::move(best));
+}
+
+Result<Graph> make_random_regular(uint32_t nodes, uint32_t links, uint64_t seed) {
+  // Links are exchanged so often each: after 10 nothing of the order is left to be measured.
+  constexpr uint64_t exchanges_per_link = 50;
+  // At random a graph of 3 links and more falls apart once in many thousand times.
+  constexpr uint64_t attempts_most = 100;
+  if (auto problem = size_problem(nodes)) return *problem;
+  if (links >= nodes || links > limits::vertex_links || uint64_t{nodes} * links % 2 == 1) {
+    return Problem{{}, fmt::format("no graph of {} nodes has {} links at each", nodes, links)};
+  }
+  std::vector<uint32_t> distances;
+  for (uint32_t d = 1; d <= links / 2; ++d) distances.push_back(d);
+  if (links % 2 == 1) distances.push_back(nodes / 2);
+  std::vector<Link> list = circulant(nodes, distances);
+  std::set<Link> present(list.begin(), list.end());
+
+  Random random(seed, RandomStream::graph);
+  for (uint64_t attempt = 0; attempt < attempts_most; ++attempt) {
+    random.start(attempt);
+    for (uint64_t i = 0; i < exchanges_per_link * list.size(); ++i) {
+      Link& one = list[random.bits() % list.size()];
+      Link& other = list[random.bits() % list.size()];
+      const bool crossed = (random.bits() & 1) == 1;
+      const auto [c, d] = crossed ? Link{other.b, other.a} : other;
+      const Link first = link_between(one.a, c), second = link_between(one.b, d);
+      if (first.a == first.b || second.a == second.b) continue;
+      if (present.contains(first) || present.contains(second)) continue;
+      present.erase(one);
+      present.erase(other);
+      present.insert({first, second});
+      one = first;
+      other = second;
+    }
+    const GraphPlan plan{nodes, links, ControllerRole::none, 1, list};
+    if (!fault_of(plan)) return Graph(plan);
+  }
+  return Problem{
+      {}, fmt::format("no connected graph of {} nodes with {} links each was found", nodes, links)};
+}
+
+}  // namespace luxodus

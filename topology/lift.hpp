@@ -1,0 +1,91 @@
+// A rotational graph in the making: `base` vertices and their links once, turned `turns` times.
+// Each base vertex has `links` darts, ends of links. A dart is joined to another with a turn t:
+// then (b, i) is linked to (c, i + t) for every i; or to the controller; or to none, and then it
+// links (b, i) with (b, i + turns / 2) where turns are even, and stays free where they are odd.
+// (These are the voltage graphs of Gross and Tucker, "Topological Graph Theory", with semi-edges.)
+// Links that coincide are wasted, not forbidden: the search finds that out by itself. Plain values.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "runtime/core/random.hpp"
+#include "topology/graph.hpp"
+
+namespace luxodus {
+
+/// Uniform in 0 .. end - 1. Requires: end > 0.
+inline uint32_t random_below(Random& random, uint32_t end) {
+  return static_cast<uint32_t>(uint64_t{random.bits()} * end >> 32);
+}
+
+struct LiftShape {
+  uint32_t base = 0;
+  uint32_t turns = 1;
+  uint32_t links = 0;
+  /// Requires: a multiple of turns, at most links * base * turns.
+  uint32_t controller_links = 0;
+
+  uint32_t workers() const { return base * turns; }
+};
+
+class Lift {
+ public:
+  using Dart = uint32_t;
+  static constexpr Dart to_controller = 0xFFFF'FFFF;
+
+  /// Where a dart leads.
+  struct Joint {
+    Dart mate = 0;
+    uint32_t base = 0;  // the mate's base vertex
+    uint32_t turn = 0;
+  };
+
+  /// Joined at random, a pure function of the draws.
+  Lift(const LiftShape& shape, Random& random);
+
+  const LiftShape& shape() const { return shape_; }
+  /// Dart d belongs to the base vertex d / shape().links.
+  const std::vector<Joint>& joints() const { return joints_; }
+
+  /// Changes a few joints at random, and remembers how they were.
+  void change(Random& random);
+  /// Takes the last change back; does nothing where it was taken back already.
+  void take_back();
+
+  /// All links, each once, as a Graph numbers them: (b, i) is i * base + b.
+  std::vector<Link> links() const;
+
+ private:
+  struct Former {
+    Dart dart;
+    Joint joint;
+  };
+
+  Dart darts() const { return static_cast<Dart>(joints_.size()); }
+  void set(Dart dart, Dart mate, uint32_t turn);
+  void join(Dart a, Dart b, uint32_t turn);
+  void leave_alone(Dart dart);
+  void exchange(Dart a, Dart b, Random& random);
+
+  LiftShape shape_;
+  std::vector<Joint> joints_;
+  std::vector<Former> former_;
+};
+
+/// Counts hops in lifts of one shape, some million times a second. One thread at a time; takes
+/// memory only when it is made.
+class HopCounter {
+ public:
+  virtual ~HopCounter() = default;
+  /// Hops from the base vertices to all workers, without the controller's help, and twice those
+  /// from the controller to the base vertices: the hops of all ordered pairs, divided by turns. A
+  /// pair without a way counts as more hops than any way has. Any number above `enough` may come
+  /// back where the truth is above it too.
+  virtual uint64_t hops(const Lift& lift, uint64_t enough) = 0;
+};
+
+std::unique_ptr<HopCounter> make_hop_counter(const LiftShape& shape);
+
+}  // namespace luxodus
