@@ -1,4 +1,5 @@
-// luxodus_bench [--repeats N] [speed|threads|memory|pieces ...]: prints the tables named, or all.
+// luxodus_bench [--repeats N] [speed|threads|memory|pieces|switch ...]: prints the tables named, or
+// all.
 #include <xmmintrin.h>
 
 #include <charconv>
@@ -19,11 +20,13 @@ int main(int argc, char** argv) {
       const auto read = std::from_chars(number.data(), number.data() + number.size(), repeats);
       if (read.ec == std::errc() && repeats >= 1 && repeats <= 1000) continue;
     }
-    if (word == "speed" || word == "threads" || word == "memory" || word == "pieces") {
+    if (word == "speed" || word == "threads" || word == "memory" || word == "pieces" ||
+        word == "switch") {
       wanted.insert(word);
       continue;
     }
-    std::fprintf(stderr, "luxodus_bench [--repeats 1..1000] [speed|threads|memory|pieces ...]\n");
+    std::fprintf(stderr,
+                 "luxodus_bench [--repeats 1..1000] [speed|threads|memory|pieces|switch ...]\n");
     return 2;
   }
   const auto asked = [&](const char* table) { return wanted.empty() || wanted.count(table) > 0; };
@@ -32,4 +35,5 @@ int main(int argc, char** argv) {
   if (asked("speed")) luxodus::bench::print_speed(repeats);
   if (asked("threads")) luxodus::bench::print_threads(repeats);
   if (asked("pieces")) luxodus::bench::print_pieces(repeats);
+  if (asked("switch")) luxodus::bench::print_switch(repeats);
 }

@@ -13,5 +13,7 @@ void print_threads(int repeats);
 void print_memory(int n);
 /// Nanoseconds of the small pieces that every ray passes.
 void print_pieces(int repeats);
+/// Nanoseconds of the runtime's own steps: switches, messages, timers.
+void print_switch(int repeats);
 
 }  // namespace luxodus::bench

@@ -1,0 +1,115 @@
+// An actor: state that only its own handlers touch, and a mailbox of two lanes. A control message
+// is handled at the beginning of the next turn, on the scheduler's stack: it overtakes all data,
+// needs no fiber, cannot be starved, and its handler may not suspend. A data message is handled on
+// the actor's own fiber, one after another, and its handler may suspend; control may come meanwhile
+// and find the actor between two of its suspends. A class declares what it accepts, and has a
+// handler `void on(const Message&)` for each:
+//
+//   struct Stop {};
+//   struct Square { int number; WaitList* answered; };
+//   class Squarer final : public Actor<Squarer, ControlLane<Accepts<Stop, 1, WhenFull::coalesce>>,
+//                                      DataLane<Accepts<Square, 64, WhenFull::wait>>> { ... };
+//
+// Belongs to one node: all calls are made on its thread.
+#pragma once
+
+#include "runtime/actor/mailbox.hpp"
+#include "runtime/actor/scheduler.hpp"
+
+namespace luxodus {
+
+template <class... Kinds>
+using ControlLane = MailboxLane<Kinds...>;
+template <class... Kinds>
+using DataLane = MailboxLane<Kinds...>;
+
+template <class Derived, class Control, class Data>
+class Actor : public ControlReceiver {
+ public:
+  /// `name` is a literal, the tag of the actor's fiber.
+  Actor(Scheduler& scheduler, const char* name) : scheduler_(scheduler), name_(name) {}
+  Actor(const Actor&) = delete;
+  Actor& operator=(const Actor&) = delete;
+
+  /// Begins to handle data; what was sent before has waited. Requires: called once, before the
+  /// scheduler is sealed; the limits of the scheduler count this fiber.
+  void start() {
+    LUX_CHECK(!scheduler_.sealed(), "an actor started after the seal");
+    const auto fiber = scheduler_.fibers().start(name_, [this] { handle_data(); });
+    LUX_CHECK(fiber.has_value(), "no fiber for an actor; the limits must count one for each");
+  }
+
+  /// Sends without waiting; `rejected` where the kind is full and does not coalesce.
+  template <class Message>
+  [[nodiscard]] Sent offer(const Message& message) {
+    if constexpr (is_control<Message>) {
+      scheduler_.call_for_control(*this);
+      return control_.offer(message);
+    } else {
+      return announced(data_.offer(message));
+    }
+  }
+
+  /// Sends, after a wait where the kind is full and waits; `cancelled` where the sender should end
+  /// instead. Requires: on a fiber. Suspends.
+  template <class Message>
+  [[nodiscard]] Sent send(const Message& message) {
+    if constexpr (is_control<Message>)
+      return offer(message);
+    else
+      return announced(data_.send(scheduler_.fibers(), message));
+  }
+
+  size_t waiting() const { return control_.size() + data_.size(); }
+
+ protected:
+  Scheduler& scheduler() { return scheduler_; }
+
+ private:
+  static_assert(!Control::any_waits, "who sends control may be the loop itself, which never waits");
+  template <class Message>
+  static constexpr bool is_control = Control::template accepts<Message>;
+  // A long queue of messages that need no wait still lets other fibers run in between.
+  static constexpr size_t messages_at_once = 32;
+
+  void handle_control() final {
+    for (size_t left = control_.size(); left > 0; --left)
+      dispatch(control_.take(scheduler_.fibers()));
+    if (!control_.empty()) scheduler_.call_for_control(*this);
+  }
+
+  void handle_data() {
+    Fibers& fibers = scheduler_.fibers();
+    for (size_t handled = 0; !fibers.cancelled();) {
+      if (data_.empty()) {
+        if (fibers.wait(idle_, "mailbox empty") == Wake::cancelled) return;
+        continue;
+      }
+      dispatch(data_.take(fibers));
+      if (++handled % messages_at_once == 0 && fibers.yield() == Wake::cancelled) return;
+    }
+  }
+
+  template <class Any>
+  void dispatch(const Any& any) {
+    std::visit(
+        [this](const auto& message) {
+          if constexpr (!std::is_same_v<std::decay_t<decltype(message)>, std::monostate>)
+            static_cast<Derived*>(this)->on(message);
+        },
+        any);
+  }
+
+  Sent announced(Sent sent) {
+    if (sent == Sent::taken) scheduler_.fibers().wake_one(idle_);
+    return sent;
+  }
+
+  Scheduler& scheduler_;
+  const char* name_;
+  Control control_;
+  Data data_;
+  WaitList idle_;  // the actor's fiber, while it has nothing to do
+};
+
+}  // namespace luxodus

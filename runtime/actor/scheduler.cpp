@@ -1,0 +1,141 @@
+#include "runtime/actor/scheduler.hpp"
+
+#include <fmt/core.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+
+#include "runtime/core/check.hpp"
+#include "runtime/fiber/overflow_report.hpp"
+
+namespace luxodus {
+
+namespace {
+
+size_t timers_of(const SchedulerLimits& limits) {
+  return limits.fibers.count + limits.timers_beside_fibers;
+}
+
+}  // namespace
+
+Scheduler::Scheduler(const SchedulerLimits& limits, const Clock& clock, EventSource& source)
+    : limits_(limits),
+      clock_(clock),
+      source_(source),
+      fibers_(limits.fibers),
+      timers_(timers_of(limits), clock.now()),
+      handoff_(limits.handoffs, source) {}
+
+void Scheduler::plan_memory(MemoryPlan& plan, const SchedulerLimits& limits) {
+  const size_t fibers = limits.fibers.count;
+  plan.add("fiber stacks", fibers * limits.fibers.stack_bytes,
+           fmt::format("{} fibers x {} B, resident as they are touched", fibers,
+                       limits.fibers.stack_bytes));
+  plan.add("fibers", fibers * Fibers::bytes_each,
+           fmt::format("{} fibers x {} B", fibers, Fibers::bytes_each));
+  const size_t timers = timers_of(limits);
+  plan.add("timers", timers * Timers::bytes_each,
+           fmt::format("({} fibers + {} of parts) x {} B", fibers, limits.timers_beside_fibers,
+                       Timers::bytes_each));
+  plan.add("handoff", limits.handoffs * sizeof(Task),
+           fmt::format("{} results x {} B", limits.handoffs, sizeof(Task)));
+}
+
+void Scheduler::add_metrics(Metrics& metrics) const {
+  const Counters& c = counters_;
+  metrics.add_counter({"turns", "", "Turns of the node's loop.", ""}, c.turns);
+  metrics.add_counter({"fiber_resumes", "", "Times a fiber ran.", ""}, c.resumes);
+  metrics.add_counter({"control_calls", "", "Times an actor handled control.", ""}, c.controls);
+  metrics.add_counter({"timers_fired", "", "Timers that came due.", ""}, c.timers_fired);
+  metrics.add_counter({"handed_over", "", "Results of other threads.", ""}, c.handed_over);
+  metrics.add_counter({"stalls", "", "Fibers that ran for too long at once.", ""}, c.stalls);
+  metrics.add_gauge({"fibers_live", "", "Fibers that have work.", ""}, c.fibers_live);
+  metrics.add_gauge({"fibers_suspended", "", "Fibers that wait.", ""}, c.fibers_suspended);
+}
+
+ShutdownPhase Scheduler::end_all_fibers(Nanoseconds most) {
+  return {"end all fibers", most, [this] { fibers_.cancel_all(); },
+          [this] { return fibers_.live() == 0; }, [this] { return fibers_.describe_live(); }};
+}
+
+void Scheduler::call_for_control(ControlReceiver& receiver) {
+  if (!receiver.linked()) controls_.push_back(receiver);
+}
+
+// On the scheduler's stack, when the deadline has come. The fiber may have been woken just before,
+// in the same turn: then it is not suspended any more, and that wake stands.
+Task Scheduler::wake_by_deadline() {
+  LUX_CHECK(fibers_.current() != nullptr, "waited for a deadline outside of any fiber");
+  return [this, id = fibers_.current()->id()] { fibers_.time_out(id); };
+}
+
+Wake Scheduler::sleep_until(Nanoseconds deadline) {
+  const TimerId timer = timers_.set(deadline, wake_by_deadline());
+  const Wake how = fibers_.suspend("sleep");
+  timers_.cancel(timer);
+  return how;
+}
+
+Wake Scheduler::wait_until(WaitList& list, Nanoseconds deadline, const char* reason) {
+  const TimerId timer = timers_.set(deadline, wake_by_deadline());
+  const Wake how = fibers_.wait(list, reason);
+  timers_.cancel(timer);
+  return how;
+}
+
+Nanoseconds Scheduler::turn() {
+  ++counters_.turns;
+  handle_controls();
+  counters_.timers_fired += timers_.run_due(clock_.now(), limits_.timers_per_turn);
+  const bool more_arrives = source_.poll();
+  counters_.handed_over += handoff_.run();
+  run_fibers();
+  counters_.fibers_live = fibers_.live();
+  counters_.fibers_suspended = fibers_.suspended();
+  const Nanoseconds now = clock_.now();
+  const Nanoseconds shutdown_due = shutdown_.step(now);
+  if (more_arrives || !controls_.empty() || fibers_.any_ready() || handoff_.waiting() > 0)
+    return now;
+  return std::min(timers_.next(), shutdown_due);
+}
+
+/// Those who wait now, once each: an actor that sends control to itself is called in the next turn.
+void Scheduler::handle_controls() {
+  IntrusiveList<ControlReceiver> waiting;
+  while (ControlReceiver* receiver = controls_.pop_front()) waiting.push_back(*receiver);
+  while (ControlReceiver* receiver = waiting.pop_front()) {
+    receiver->handle_control();
+    ++counters_.controls;
+  }
+}
+
+void Scheduler::run_fibers() {
+  Nanoseconds before = clock_.now();
+  const Nanoseconds end = before + limits_.fibers_per_turn;
+  for (size_t i = 0; i < limits_.resumes_per_turn && before < end && fibers_.any_ready(); ++i) {
+    const Fiber& fiber = fibers_.run_next();
+    const Nanoseconds after = clock_.now();
+    if (after - before > limits_.stall) report_stall(fiber, after - before);
+    before = after;
+    ++counters_.resumes;
+  }
+}
+
+void Scheduler::report_stall(const Fiber& fiber, Nanoseconds ran) {
+  ++counters_.stalls;
+  last_stall_ = {fiber.id(), fiber.tag(), fiber.reason(), fiber.subject(), ran};
+  spdlog::warn("event=stall fiber={:#x} tag=\"{}\" subject={} last_suspend=\"{}\" ran_ms={}",
+               fiber.id().value, fiber.tag(), fiber.subject(), fiber.reason(),
+               ran / milliseconds(1));
+}
+
+void Scheduler::run() {
+  const OverflowReport report;
+  for (;;) {
+    const Nanoseconds due = turn();
+    if (shutdown_.finished()) return;
+    if (due > clock_.now()) source_.wait_until(due);
+  }
+}
+
+}  // namespace luxodus

@@ -1,0 +1,129 @@
+// The loop of a node, which is one OS thread. A turn goes through what may be waiting, the urgent
+// first and each with a budget, so that nothing starves and heartbeats are on time:
+//   control messages > timers > what arrives > results of other threads > ready fibers
+// With nothing ready it waits where things arrive. Everything of a node is owned by its scheduler
+// and touched by its thread alone, but for handoff().give(). It knows time by its Clock only and
+// keeps nothing outside itself, so many schedulers can take turns on one thread, simulated.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "runtime/actor/event_source.hpp"
+#include "runtime/actor/handoff.hpp"
+#include "runtime/actor/shutdown.hpp"
+#include "runtime/actor/timers.hpp"
+#include "runtime/core/clock.hpp"
+#include "runtime/core/memory_plan.hpp"
+#include "runtime/fiber/fiber.hpp"
+#include "runtime/observe/metrics.hpp"
+
+namespace luxodus {
+
+struct SchedulerLimits {
+  FiberLimits fibers;
+  size_t timers_beside_fibers = 64;  // of the node's parts; every fiber has one of its own
+  size_t handoffs = 64;              // results of other threads that wait at once
+  // A turn of fibers ends at either: short against a heartbeat of 250 ms, long against the 100 ns
+  // that a turn costs by itself.
+  size_t resumes_per_turn = 256;
+  Nanoseconds fibers_per_turn = milliseconds(1);
+  size_t timers_per_turn = 256;
+  Nanoseconds stall = milliseconds(20);  // a fiber that runs for longer is reported
+};
+
+/// What has control messages to handle. The scheduler calls back in the next turn.
+class ControlReceiver : public ListHook {
+ public:
+  virtual ~ControlReceiver() = default;
+  /// Handles what is waiting now. On the scheduler's stack: it may not suspend.
+  virtual void handle_control() = 0;
+};
+
+/// A fiber that ran for too long.
+struct Stall {
+  FiberId fiber;
+  const char* tag = "";
+  const char* reason = "";  // where it suspended at last
+  uint64_t subject = 0;
+  Nanoseconds ran = 0;
+};
+
+class Scheduler {
+ public:
+  /// Takes all memory there will be. Requires: `clock` and `source` outlive this.
+  /// Throws std::runtime_error where the system refuses.
+  Scheduler(const SchedulerLimits& limits, const Clock& clock, EventSource& source);
+
+  /// Adds what a scheduler of these limits takes.
+  static void plan_memory(MemoryPlan& plan, const SchedulerLimits& limits);
+
+  // ---- the node's parts --------------------------------------------------------------------
+
+  Fibers& fibers() { return fibers_; }
+  Timers& timers() { return timers_; }
+  Handoff& handoff() { return handoff_; }
+  Shutdown& shutdown() { return shutdown_; }
+  const Clock& clock() const { return clock_; }
+
+  /// Registers the scheduler's own numbers.
+  void add_metrics(Metrics& metrics) const;
+  /// The last phase of an end: cancels all fibers and waits until they have returned.
+  ShutdownPhase end_all_fibers(Nanoseconds most);
+  /// Ends the start: parts are made, actors started, metrics registered before it. From here on the
+  /// node's thread takes no memory.
+  void seal() { sealed_ = true; }
+  bool sealed() const { return sealed_; }
+
+  /// Has `receiver` called at the beginning of the next turn.
+  void call_for_control(ControlReceiver& receiver);
+
+  // ---- from inside a fiber -----------------------------------------------------------------
+
+  /// Rests until `deadline`: timed_out, unless cancelled before. Suspends.
+  [[nodiscard]] Wake sleep_until(Nanoseconds deadline);
+  /// As Fibers::wait, but no longer than until `deadline`. Suspends.
+  [[nodiscard]] Wake wait_until(WaitList& list, Nanoseconds deadline, const char* reason);
+
+  // ---- the loop ----------------------------------------------------------------------------
+
+  /// One turn, which never waits. Returns when the next is due: not after now where there is more
+  /// to do at once, `never` where only the source can bring work.
+  Nanoseconds turn();
+
+  /// Turns and waits until the shutdown has finished.
+  void run();
+
+  struct Counters {
+    uint64_t turns = 0;
+    uint64_t resumes = 0;
+    uint64_t controls = 0;
+    uint64_t timers_fired = 0;
+    uint64_t handed_over = 0;
+    uint64_t stalls = 0;
+    uint64_t fibers_live = 0;       // at the end of the last turn
+    uint64_t fibers_suspended = 0;  // of those
+  };
+  const Counters& counters() const { return counters_; }
+  const Stall& last_stall() const { return last_stall_; }
+
+ private:
+  void handle_controls();
+  void run_fibers();
+  void report_stall(const Fiber& fiber, Nanoseconds ran);
+  Task wake_by_deadline();
+
+  SchedulerLimits limits_;
+  const Clock& clock_;
+  EventSource& source_;
+  Fibers fibers_;
+  Timers timers_;
+  Handoff handoff_;
+  Shutdown shutdown_;
+  IntrusiveList<ControlReceiver> controls_;
+  Counters counters_;
+  Stall last_stall_;
+  bool sealed_ = false;
+};
+
+}  // namespace luxodus

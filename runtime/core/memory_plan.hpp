@@ -1,0 +1,39 @@
+// Where a node's memory goes, said before it is used: one term per consumer, with the sentence that
+// derives its size. The sum is held against the node's budget at start, and the table is printed,
+// so that whoever runs out of memory sees which number to change. It allocates nothing itself.
+// A plain value, made at start.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "runtime/core/result.hpp"
+
+namespace luxodus {
+
+class MemoryPlan {
+ public:
+  struct Term {
+    std::string name;
+    uint64_t bytes = 0;
+    std::string derivation;  // "4096 fibers x 32 KB"
+  };
+
+  void add(std::string name, uint64_t bytes, std::string derivation);
+
+  const std::vector<Term>& terms() const { return terms_; }
+  uint64_t total_bytes() const;
+
+  /// What is wrong where the sum passes the budget: by how much, and the largest term.
+  std::optional<Problem> against(uint64_t budget_bytes) const;
+
+  /// One line per term, the largest first, and the sum beside the budget.
+  std::string table(uint64_t budget_bytes) const;
+
+ private:
+  std::vector<Term> terms_;
+};
+
+}  // namespace luxodus

@@ -1,0 +1,39 @@
+// Something to do later, kept in place: a callable of a few words that is copied as bytes, so that
+// setting a timer or starting a fiber takes no memory. It captures pointers and numbers, and
+// whoever makes it answers for what the pointers point to. A plain value.
+#pragma once
+
+#include <cstddef>
+#include <cstring>
+#include <new>
+#include <type_traits>
+
+namespace luxodus {
+
+class Task {
+ public:
+  /// Six words: an object, what it is about, and a few numbers.
+  static constexpr size_t capture_bytes_most = 48;
+
+  Task() = default;
+
+  template <class Callable, class = std::enable_if_t<!std::is_same_v<Callable, Task>>>
+  Task(Callable callable)  // NOLINT: implicit on purpose, `start("photon", [this] { ... })`
+      : call_([](const void* capture) { (*static_cast<const Callable*>(capture))(); }) {
+    static_assert(std::is_trivially_copyable_v<Callable>, "capture pointers and numbers only");
+    static_assert(sizeof(Callable) <= capture_bytes_most, "capture a pointer to what is larger");
+    static_assert(alignof(Callable) <= alignof(std::max_align_t));
+    new (capture_) Callable(callable);
+  }
+
+  explicit operator bool() const { return call_ != nullptr; }
+
+  /// Requires: not empty.
+  void operator()() const { call_(capture_); }
+
+ private:
+  void (*call_)(const void* capture) = nullptr;
+  alignas(std::max_align_t) std::byte capture_[capture_bytes_most]{};
+};
+
+}  // namespace luxodus

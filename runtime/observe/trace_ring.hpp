@@ -1,0 +1,67 @@
+// What happened last, event by event, for ui.perfetto.dev: a ring of 32-byte records that is always
+// on for the particles whose id the sample divides, so that a run can be repeated and its trace
+// with it. Recording takes no memory and forgets the oldest. Spans of one request id join up across
+// nodes and hosts. Written by one node; dumped on its thread, or when it has stopped.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "runtime/core/clock.hpp"
+#include "runtime/core/ids.hpp"
+
+namespace luxodus {
+
+enum class TracePhase : uint32_t {
+  moment,  // a point on the node's track
+  begin,   // of a span that is told apart by its id
+  end,
+};
+
+struct TraceEvent {
+  Nanoseconds at = 0;
+  uint64_t id = 0;   // the request, or the particle
+  uint64_t arg = 0;  // what the kind says it is
+  uint32_t kind = 0;
+  TracePhase phase = TracePhase::moment;
+};
+static_assert(sizeof(TraceEvent) == 32);
+
+class TraceRing {
+ public:
+  /// The last `events` are kept. Particles with id % every == 0 are wanted; none where it is 0.
+  TraceRing(size_t events, uint64_t every) : events_(events), every_(every) {}
+
+  bool wants(uint64_t particle) const { return every_ != 0 && particle % every_ == 0; }
+
+  void record(const TraceEvent& event) {
+    if (events_.empty()) return;
+    events_[next_] = event;
+    next_ = next_ + 1 == events_.size() ? 0 : next_ + 1;
+    ++recorded_;
+  }
+
+  uint64_t recorded() const { return recorded_; }
+  /// What is kept, the oldest first.
+  std::vector<TraceEvent> kept() const;
+
+ private:
+  std::vector<TraceEvent> events_;
+  uint64_t every_;
+  size_t next_ = 0;
+  uint64_t recorded_ = 0;
+};
+
+/// One node's part of a picture.
+struct TraceTrack {
+  NodeId node;
+  std::vector<TraceEvent> events;
+};
+
+/// Chrome's trace format (JSON), one track per node; `kinds` names the kinds, by number.
+std::string chrome_trace(const std::vector<TraceTrack>& tracks,
+                         const std::vector<std::string>& kinds);
+
+}  // namespace luxodus

@@ -1,0 +1,154 @@
+#include <fmt/core.h>
+
+#include <functional>
+#include <string>
+
+#include "runtime/actor/actor.hpp"
+#include "runtime/core/random.hpp"
+#include "tests/bench/measure.hpp"
+#include "tests/bench/tables.hpp"
+
+namespace luxodus::bench {
+
+namespace {
+
+constexpr size_t resumes_per_turn = 1'000'000;
+
+/// `piece` does something `count` times; prints what one of them cost.
+void print_cost(const std::string& name, int repeats, size_t count,
+                const std::function<void()>& piece) {
+  std::vector<double> ns;
+  piece();  // pages of stacks are touched, caches filled
+  for (int r = 0; r < repeats; ++r) {
+    const double start = thread_seconds();
+    piece();
+    ns.push_back((thread_seconds() - start) * 1e9 / static_cast<double>(count));
+  }
+  const Summary s = summarise(ns);
+  fmt::print("{:<44} {:>8.1f} {:>8.1f}-{:.1f}\n", name, s.median, s.low, s.high);
+}
+
+FiberLimits limits_for(size_t count) {
+  FiberLimits limits;
+  limits.count = count;
+  return limits;
+}
+
+/// Starts `count` fibers that yield until they are cancelled.
+void start_yielding(Fibers& fibers, size_t count) {
+  for (size_t i = 0; i < count; ++i) {
+    const auto started = fibers.start("bench", [&fibers] {
+      while (fibers.yield() == Wake::woken) {
+      }
+    });
+    LUX_CHECK(started.has_value(), "the limits count every fiber of the benchmark");
+  }
+}
+
+void end_all(Fibers& fibers) {
+  fibers.cancel_all();
+  while (fibers.live() > 0) fibers.run_next();
+}
+
+void print_switches(int repeats) {
+  for (const size_t count : {1u, 100u, 1000u, 10'000u}) {
+    Fibers fibers(limits_for(count));
+    start_yielding(fibers, count);
+    print_cost(fmt::format("resume and suspend, {} fibers", count), repeats, resumes_per_turn,
+               [&fibers] {
+                 for (size_t i = 0; i < resumes_per_turn; ++i) fibers.run_next();
+               });
+    end_all(fibers);
+  }
+}
+
+/// The same under the scheduler, which reads the clock after each resume.
+void print_scheduled(int repeats) {
+  const SystemClock clock;
+  QuietSource source(clock);
+  SchedulerLimits limits;
+  limits.fibers = limits_for(1000);
+  Scheduler scheduler(limits, clock, source);
+  constexpr size_t turns = 10'000;
+  print_cost("a turn with nothing to do", repeats, turns, [&] {
+    for (size_t i = 0; i < turns; ++i) scheduler.turn();
+  });
+  start_yielding(scheduler.fibers(), 1000);
+  print_cost("resume and suspend, 1000 fibers, scheduled", repeats, resumes_per_turn, [&] {
+    const uint64_t end = scheduler.counters().resumes + resumes_per_turn;
+    while (scheduler.counters().resumes < end) scheduler.turn();
+  });
+  end_all(scheduler.fibers());
+}
+
+struct Ping {
+  uint64_t number;
+};
+struct Nudge {
+  uint64_t number;
+};
+
+class Counter final : public Actor<Counter, ControlLane<Accepts<Nudge, 64, WhenFull::reject>>,
+                                   DataLane<Accepts<Ping, 64, WhenFull::wait>>> {
+ public:
+  explicit Counter(Scheduler& scheduler) : Actor(scheduler, "counter") {}
+  void on(const Ping& ping) { sum += ping.number; }
+  void on(const Nudge& nudge) { sum += nudge.number; }
+  uint64_t sum = 0;
+};
+
+void print_messages(int repeats) {
+  const SystemClock clock;
+  QuietSource source(clock);
+  SchedulerLimits limits;
+  limits.fibers = limits_for(2);
+  Scheduler scheduler(limits, clock, source);
+  Counter counter(scheduler);
+  counter.start();
+  constexpr uint64_t messages = 200'000;
+  print_cost("data message sent and handled, mailbox of 64", repeats, messages, [&] {
+    const auto sender = scheduler.fibers().start("sender", [&counter] {
+      for (uint64_t i = 0; i < messages; ++i)
+        if (counter.send(Ping{i}) != Sent::taken) return;
+    });
+    LUX_CHECK(sender.has_value(), "the sender before has ended");
+    while (scheduler.fibers().live() > 1 || counter.waiting() > 0) scheduler.turn();
+  });
+  print_cost("control message sent and handled, 64 a turn", repeats, messages, [&] {
+    for (uint64_t i = 0; i < messages; ++i)
+      if (counter.offer(Nudge{i}) == Sent::rejected || i % 64 == 63) scheduler.turn();
+  });
+  end_all(scheduler.fibers());
+}
+
+void print_timers(int repeats) {
+  constexpr size_t standing = 10'000;  // other timers, seconds ahead
+  constexpr size_t count = 200'000;
+  Timers timers(standing + 1, 0);
+  Random random(1, RandomStream::test);
+  random.start(0);
+  for (size_t i = 0; i < standing; ++i)
+    timers.set(seconds(1'000'000) + Nanoseconds{random.bits()}, [] {});
+  Nanoseconds now = 0;
+  print_cost("timer set and cancelled, 10 000 others", repeats, count, [&] {
+    for (size_t i = 0; i < count; ++i) timers.cancel(timers.set(now + milliseconds(50), [] {}));
+  });
+  print_cost("timer set and fired, 10 000 others", repeats, count, [&] {
+    for (size_t i = 0; i < count; ++i) {
+      timers.set(now + milliseconds(1), [] {});
+      timers.run_due(now += milliseconds(1), 1);
+    }
+  });
+}
+
+}  // namespace
+
+void print_switch(int repeats) {
+  fmt::print("\nRuntime [ns]\n{:<44} {:>8} {:>13}\n", "piece", "median", "spread");
+  print_switches(repeats);
+  print_scheduled(repeats);
+  print_messages(repeats);
+  print_timers(repeats);
+}
+
+}  // namespace luxodus::bench

@@ -1,0 +1,60 @@
+// A node for tests: a scheduler on a clock that is moved by hand, with a source that brings what it
+// is told to. Tests say turn() and advance(); nothing waits.
+#pragma once
+
+#include <catch2/catch.hpp>
+#include <functional>
+#include <string>
+
+#include "runtime/actor/scheduler.hpp"
+
+namespace luxodus::test {
+
+/// Counts what the scheduler asks of it.
+struct ScriptedSource final : EventSource {
+  bool poll() override {
+    if (on_poll) on_poll();
+    return false;
+  }
+  void wait_until(Nanoseconds deadline) override { waited_until = deadline; }
+  void wake() noexcept override { ++wakes; }
+
+  std::function<void()> on_poll;
+  Nanoseconds waited_until = 0;
+  int wakes = 0;
+};
+
+inline SchedulerLimits small_limits(size_t fibers = 16) {
+  SchedulerLimits limits;
+  limits.fibers.count = fibers;
+  limits.fibers.maps_most = 1000;
+  return limits;
+}
+
+struct Node {
+  explicit Node(const SchedulerLimits& limits = small_limits())
+      : scheduler(limits, clock, source) {}
+
+  FiberId start(const Task& body, const char* tag = "test") {
+    const auto id = scheduler.fibers().start(tag, body);
+    REQUIRE(id.has_value());
+    return *id;
+  }
+  /// Turns until only time or the source could bring more.
+  void settle() {
+    while (scheduler.turn() <= clock.now()) {
+    }
+  }
+  void advance(Nanoseconds by) {
+    clock.advance(by);
+    settle();
+  }
+  void note(const std::string& what) { noted += what + " "; }
+
+  ManualClock clock;
+  ScriptedSource source;
+  Scheduler scheduler;
+  std::string noted;
+};
+
+}  // namespace luxodus::test
