@@ -272,20 +272,34 @@ FetchObject read_fetch(wire::FetchObject::Reader in) {
 
 Message read(wire::Message::Reader in) {
   switch (in.which()) {
-    case wire::Message::HELLO: return Hello{read_identity(in.getHello())};
-    case wire::Message::WELCOME: return Welcome{read_identity(in.getWelcome())};
-    case wire::Message::REFUSE: return read_refuse(in.getRefuse());
-    case wire::Message::BYE: return Bye{};
-    case wire::Message::BEAT: return read_beat(in.getBeat());
-    case wire::Message::LINK_CHANGES: return read_changes(in.getLinkChanges());
-    case wire::Message::FETCH_OBJECT: return read_fetch(in.getFetchObject());
-    case wire::Message::OBJECT_FOUND: return read_answer<ObjectFound>(in.getObjectFound());
-    case wire::Message::OBJECT_NOT_HERE: return read_answer<ObjectNotHere>(in.getObjectNotHere());
-    case wire::Message::REQUEST_LEASE: return RequestLease{in.getRequestLease().getBatches()};
-    case wire::Message::LEASE_GRANTED: return read_lease(in.getLeaseGranted());
-    case wire::Message::LEASES_FENCED: return LeasesFenced{read_leases(in.getLeasesFenced())};
-    case wire::Message::FLUSH: return read_flush(in.getFlush());
-    case wire::Message::FLUSH_TAKEN: return FlushTaken{};
+    case wire::Message::HELLO:
+      return Hello{read_identity(in.getHello())};
+    case wire::Message::WELCOME:
+      return Welcome{read_identity(in.getWelcome())};
+    case wire::Message::REFUSE:
+      return read_refuse(in.getRefuse());
+    case wire::Message::BYE:
+      return Bye{};
+    case wire::Message::BEAT:
+      return read_beat(in.getBeat());
+    case wire::Message::LINK_CHANGES:
+      return read_changes(in.getLinkChanges());
+    case wire::Message::FETCH_OBJECT:
+      return read_fetch(in.getFetchObject());
+    case wire::Message::OBJECT_FOUND:
+      return read_answer<ObjectFound>(in.getObjectFound());
+    case wire::Message::OBJECT_NOT_HERE:
+      return read_answer<ObjectNotHere>(in.getObjectNotHere());
+    case wire::Message::REQUEST_LEASE:
+      return RequestLease{in.getRequestLease().getBatches()};
+    case wire::Message::LEASE_GRANTED:
+      return read_lease(in.getLeaseGranted());
+    case wire::Message::LEASES_FENCED:
+      return LeasesFenced{read_leases(in.getLeasesFenced())};
+    case wire::Message::FLUSH:
+      return read_flush(in.getFlush());
+    case wire::Message::FLUSH_TAKEN:
+      return FlushTaken{};
     case wire::Message::FLUSH_REFUSED: {
       const auto refused = in.getFlushRefused();
       return FlushRefused{read_leases(refused.getFenced()), read_text(refused.getText())};
@@ -302,8 +316,10 @@ Message read(wire::Message::Reader in) {
       const auto counted = in.getProfileCounted();
       return ProfileCounted{counted.getParticles(), counted.getObjects()};
     }
-    case wire::Message::ASK_STATUS: return AskStatus{};
-    case wire::Message::STATUS_ANSWERED: return StatusAnswered{};
+    case wire::Message::ASK_STATUS:
+      return AskStatus{};
+    case wire::Message::STATUS_ANSWERED:
+      return StatusAnswered{};
     case wire::Message::ENTER_PHASE: {
       const auto enter = in.getEnterPhase();
       return EnterPhase{read_enum<ShutdownPhase>(enter.getPhase(), last_phase, "phase"),
@@ -395,22 +411,21 @@ auto decode_segment(const std::byte* begin, size_t bytes)
 }  // namespace
 
 Kind kind_of(const Message& message) {
-  return std::visit(
-      Overloaded{
-          [](const Hello&) { return Kind::link; },
-          [](const Welcome&) { return Kind::link; },
-          [](const Refuse&) { return Kind::link; },
-          [](const Bye&) { return Kind::link; },
-          [](const Beat&) { return Kind::link; },
-          [](const LinkChanges&) { return Kind::link; },
-          [](const FetchObject&) { return Kind::request; },
-          [](const ObjectFound&) { return Kind::reply; },
-          [](const ObjectNotHere&) { return Kind::reply; },
-          [](const Flush&) { return Kind::commit; },
-          [](const ProfileCounted&) { return Kind::commit; },
-          [](const auto&) { return Kind::control; },
-      },
-      message);
+  return std::visit(Overloaded{
+                        [](const Hello&) { return Kind::link; },
+                        [](const Welcome&) { return Kind::link; },
+                        [](const Refuse&) { return Kind::link; },
+                        [](const Bye&) { return Kind::link; },
+                        [](const Beat&) { return Kind::link; },
+                        [](const LinkChanges&) { return Kind::link; },
+                        [](const FetchObject&) { return Kind::request; },
+                        [](const ObjectFound&) { return Kind::reply; },
+                        [](const ObjectNotHere&) { return Kind::reply; },
+                        [](const Flush&) { return Kind::commit; },
+                        [](const ProfileCounted&) { return Kind::commit; },
+                        [](const auto&) { return Kind::control; },
+                    },
+                    message);
 }
 
 constexpr size_t scratch_words = limits::message_bytes / word;

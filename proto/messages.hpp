@@ -55,6 +55,7 @@ struct Grant {
   Kind kind = Kind::link;  // link: no grant
   uint8_t hop_class = 0;
   uint64_t limit = 0;
+  friend bool operator==(const Grant&, const Grant&) = default;
 };
 
 struct Envelope {
@@ -72,6 +73,8 @@ struct Envelope {
   uint32_t total_bytes = 0;  // of the message, payload included
   uint64_t sent = 0;         // charged to (kind, hops) on this link, this frame included
   Grant grant;
+
+  friend bool operator==(const Envelope&, const Envelope&) = default;
 };
 
 /// How equal results must be: to the bit (one instruction set), or within the errors.
@@ -87,6 +90,7 @@ struct Identity {
   uint64_t fingerprint = 0;  // of particles traced on a tiny scene
   std::string build;
   std::string isa;
+  friend bool operator==(const Identity&, const Identity&) = default;
 };
 
 enum class RefusalReason : uint8_t {
@@ -104,54 +108,67 @@ inline constexpr size_t refusal_reasons = 9;
 
 struct Hello {
   Identity identity;
+  friend bool operator==(const Hello&, const Hello&) = default;
 };
 struct Welcome {
   Identity identity;
+  friend bool operator==(const Welcome&, const Welcome&) = default;
 };
 struct Refuse {
   RefusalReason reason = RefusalReason::protocol;
   std::string text;
+  friend bool operator==(const Refuse&, const Refuse&) = default;
 };
-struct Bye {};
+struct Bye {
+  friend bool operator==(const Bye&, const Bye&) = default;
+};
 
 struct PoolState {
   Kind kind = Kind::control;
   uint8_t hop_class = 0;
   uint64_t sent = 0;   // by the sender of the beat, so far
   uint64_t limit = 0;  // up to which the other end may send
+  friend bool operator==(const PoolState&, const PoolState&) = default;
 };
 struct Beat {
   uint64_t epoch = 0;
   uint8_t pool_count = 0;
   std::array<PoolState, routed_kinds.size() * limits::hops> pools;
+  friend bool operator==(const Beat&, const Beat&) = default;
 };
 
 /// The state of a link, newest version wins; odd versions say that it is down.
 struct LinkChange {
   NodeId a, b;
   uint32_t version = 0;
+  friend bool operator==(const LinkChange&, const LinkChange&) = default;
 };
 struct LinkChanges {
   std::vector<LinkChange> changes;
+  friend bool operator==(const LinkChanges&, const LinkChanges&) = default;
 };
 
 struct FetchObject {
   ObjectId object;
   uint64_t budget_us = 0;  // left when it was sent: a span, since nodes share no clock
   uint16_t attempt = 0;
+  friend bool operator==(const FetchObject&, const FetchObject&) = default;
 };
 /// The object's bytes follow as payload.
 struct ObjectFound {
   ObjectId object;
   NodeId answered_by;
+  friend bool operator==(const ObjectFound&, const ObjectFound&) = default;
 };
 struct ObjectNotHere {
   ObjectId object;
   NodeId answered_by;
+  friend bool operator==(const ObjectNotHere&, const ObjectNotHere&) = default;
 };
 
 struct RequestLease {
   uint32_t batches = 0;
+  friend bool operator==(const RequestLease&, const RequestLease&) = default;
 };
 struct LeaseGranted {
   uint64_t lease = 0;
@@ -160,9 +177,11 @@ struct LeaseGranted {
   uint64_t first_batch = 0;
   uint32_t batches = 0;
   uint32_t duration_ms = 0;
+  friend bool operator==(const LeaseGranted&, const LeaseGranted&) = default;
 };
 struct LeasesFenced {
   std::vector<uint64_t> leases;
+  friend bool operator==(const LeasesFenced&, const LeasesFenced&) = default;
 };
 
 /// Bins, squares and counts by fate follow as payload; the id names the flush.
@@ -170,36 +189,48 @@ struct Flush {
   uint32_t round = 0;
   uint64_t payload_hash = 0;
   std::vector<uint64_t> leases;
+  friend bool operator==(const Flush&, const Flush&) = default;
 };
-struct FlushTaken {};
+struct FlushTaken {
+  friend bool operator==(const FlushTaken&, const FlushTaken&) = default;
+};
 struct FlushRefused {
   std::vector<uint64_t> fenced;
   std::string text;
+  friend bool operator==(const FlushRefused&, const FlushRefused&) = default;
 };
 
 struct RoundOpened {
   uint32_t round = 0;
   uint64_t batches = 0;
+  friend bool operator==(const RoundOpened&, const RoundOpened&) = default;
 };
 struct RunEnded {
   uint32_t round = 0;
   std::string text;
+  friend bool operator==(const RunEnded&, const RunEnded&) = default;
 };
 
 /// References per object follow as payload.
 struct ProfileCounted {
   uint64_t particles = 0;
   uint32_t objects = 0;
+  friend bool operator==(const ProfileCounted&, const ProfileCounted&) = default;
 };
 
-struct AskStatus {};
+struct AskStatus {
+  friend bool operator==(const AskStatus&, const AskStatus&) = default;
+};
 /// What is to be shown follows as payload.
-struct StatusAnswered {};
+struct StatusAnswered {
+  friend bool operator==(const StatusAnswered&, const StatusAnswered&) = default;
+};
 
 enum class ShutdownPhase : uint8_t { stop_admitting = 0, finish_fibers, flush_commits, leave };
 struct EnterPhase {
   ShutdownPhase phase = ShutdownPhase::stop_admitting;
   uint32_t duration_ms = 0;
+  friend bool operator==(const EnterPhase&, const EnterPhase&) = default;
 };
 
 using Message = std::variant<Hello, Welcome, Refuse, Bye, Beat, LinkChanges, FetchObject,

@@ -71,8 +71,9 @@ Result<std::string> read_key(const fs::path& path, bool secret) {
   struct stat state {};
   if (::fstat(file.descriptor, &state) != 0) return system_trouble(path, "cannot be read");
   if (secret && (state.st_mode & (S_IRWXG | S_IRWXO)) != 0)
-    return trouble(path, "holds a secret key that others may read: chmod 600 it, and if they may "
-                         "have read it, make a new one");
+    return trouble(path,
+                   "holds a secret key that others may read: chmod 600 it, and if they may "
+                   "have read it, make a new one");
   std::array<char, file_bytes_most + 1> text;
   const ssize_t n = ::read(file.descriptor, text.data(), text.size());
   if (n < 0) return system_trouble(path, "cannot be read");

@@ -32,15 +32,18 @@ size_t Link::memory_bytes() const {
 Sent Link::give(const Envelope& envelope, std::span<const std::byte> body, Lane lane) {
   alignas(8) std::array<std::byte, limits::envelope_bytes> head;
   const size_t head_bytes = around_.codec.encode(envelope, head);
-  const Sent sent =
-      around_.transport.send(neighbour_, lane, {head.data(), head_bytes}, body);
+  const Sent sent = around_.transport.send(neighbour_, lane, {head.data(), head_bytes}, body);
   switch (sent) {
     case Sent::taken:
       ++around_.counters.frames_sent;
       around_.counters.bytes_sent += head_bytes + body.size();
       break;
-    case Sent::full: ++around_.counters.transport_full; break;
-    case Sent::unreachable: ++around_.counters.transport_unreachable; break;
+    case Sent::full:
+      ++around_.counters.transport_full;
+      break;
+    case Sent::unreachable:
+      ++around_.counters.transport_unreachable;
+      break;
   }
   return sent;
 }
@@ -131,9 +134,14 @@ Link::Gone Link::send(Envelope envelope, std::span<const std::byte> body, Nanose
   envelope.sent = out.sent() + charge;
   envelope.grant = next_grant();
   switch (give(envelope, body, lane_of(envelope.kind))) {
-    case Sent::taken: out.spend(charge); return Gone::sent;
-    case Sent::unreachable: state_.unreachable(now); break;
-    case Sent::full: break;
+    case Sent::taken:
+      out.spend(charge);
+      return Gone::sent;
+    case Sent::unreachable:
+      state_.unreachable(now);
+      break;
+    case Sent::full:
+      break;
   }
   return Gone::not_now;
 }
@@ -178,8 +186,7 @@ void Link::meet(const Envelope& envelope, const Identity& theirs, bool welcomed,
 void Link::be_refused(const Refuse& refuse, Nanoseconds now) {
   if (state_.phase() != LinkPhase::refused)
     spdlog::error("link=refused_by_peer node={} neighbour={} reason={} text=\"{}\"",
-                  around_.config.self.value, neighbour_.value, name_of(refuse.reason),
-                  refuse.text);
+                  around_.config.self.value, neighbour_.value, name_of(refuse.reason), refuse.text);
   ++around_.counters.refused_by_peer[static_cast<size_t>(refuse.reason)];
   state_.refuse(now);
 }

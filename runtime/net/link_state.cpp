@@ -69,7 +69,8 @@ void LinkState::tick(Nanoseconds now) {
       phase_ = LinkPhase::connecting;
       attempt_began_ = now;
       break;
-    case LinkPhase::refused: break;
+    case LinkPhase::refused:
+      break;
   }
 }
 
@@ -85,11 +86,15 @@ void LinkState::forgive(Nanoseconds span) {
 Nanoseconds LinkState::next_deadline() const {
   switch (phase_) {
     case LinkPhase::connecting:
-    case LinkPhase::greeting: return std::min(hello_at_, attempt_began_ + times_.patience);
-    case LinkPhase::up: return heard_ + times_.beat * times_.suspect_after_beats;
-    case LinkPhase::suspect: return heard_ + times_.beat * times_.down_after_beats;
+    case LinkPhase::greeting:
+      return std::min(hello_at_, attempt_began_ + times_.patience);
+    case LinkPhase::up:
+      return heard_ + times_.beat * times_.suspect_after_beats;
+    case LinkPhase::suspect:
+      return heard_ + times_.beat * times_.down_after_beats;
     case LinkPhase::down:
-    case LinkPhase::refused: break;
+    case LinkPhase::refused:
+      break;
   }
   return hello_at_;
 }

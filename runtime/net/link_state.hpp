@@ -11,16 +11,15 @@
 
 namespace luxodus {
 
-//  ┌────────────┐  hello went out   ┌──────────┐   acknowledged   ┌────┐ 3 beats missed ┌─────────┐
-//  │ connecting │ ────────────────► │ greeting │ ───────────────► │ up │ ─────────────► │ suspect │
-//  └────────────┘ ◄──────────────── └──────────┘ ◄─────────────── └────┘ ◄───────────── └─────────┘
-//     ▲    │        unreachable       │      ▲   another life        │     any frame        │
-//     │    │                          │      │                       │                      │
-//     │    │ patience over            │      │ accepted              │ bye,                 │ bye,
-//     │    ▼                          ▼      │                       ▼ unreachable          ▼ 8 missed
-//  ┌───────────────────────────────────────────────────────────────────────────────────────────────┐
-//  │ down                                                                                            │
-//  └───────────────────────────────────────────────────────────────────────────────────────────────┘
+//  ┌────────────┐ hello out ┌──────────┐ acknowledged ┌────┐ 3 missed ┌─────────┐
+//  │ connecting │ ────────► │ greeting │ ───────────► │ up │ ───────► │ suspect │
+//  └────────────┘ ◄──────── └──────────┘ ◄─────────── └────┘ ◄─────── └─────────┘
+//     ▲    │    unreachable    │    ▲   another life     │   any frame     │
+//     │    │ patience          │    │                    │ bye,            │ 8 missed, bye,
+//     │    ▼ over              ▼    │ accepted           ▼ unreachable     ▼ unreachable
+//  ┌──────────────────────────────────────────────────────────────────────────────┐
+//  │                                     down                                     │
+//  └──────────────────────────────────────────────────────────────────────────────┘
 //  down ── backoff over ──► connecting;  connecting, refused ── accepted ──► greeting
 //  any  ── identities differ, or the peer says so ──► refused
 //
@@ -37,8 +36,8 @@ constexpr const char* name_of(LinkPhase phase) {
 struct LinkTimes {
   Nanoseconds beat = milliseconds(250);
   int suspect_after_beats = 3;
-  int down_after_beats = 8;            // 2 s: a pause for a page or a build is shorter
-  Nanoseconds patience = seconds(10);  // for a greeting: hosts start at their own pace
+  int down_after_beats = 8;                 // 2 s: a pause for a page or a build is shorter
+  Nanoseconds patience = seconds(10);       // for a greeting: hosts start at their own pace
   Nanoseconds backoff = milliseconds(250);  // between hellos, doubled up to:
   Nanoseconds backoff_most = seconds(5);
   Nanoseconds refused_retry = seconds(30);  // an operator acts in minutes, and reads the log

@@ -48,8 +48,8 @@ struct NetConfig {
   NodeId self;
   Incarnation incarnation;  // random, not 0
   Identity identity;
-  size_t nodes = 0;            // in the run
-  std::vector<Edge> edges;     // of the whole graph
+  size_t nodes = 0;         // in the run
+  std::vector<Edge> edges;  // of the whole graph
   LinkTimes times;
   uint8_t hop_limit = defaults::hop_limit;
   size_t small_chunk_bytes = defaults::small_chunk_bytes;

@@ -275,9 +275,13 @@ bool Network::take_piece(const Envelope& envelope, std::span<const std::byte> bo
     assembler_.begin(envelope, room, now);
   }
   switch (assembler_.add(envelope, body, now)) {
-    case Assembler::Added::incomplete: return true;
-    case Assembler::Added::inconsistent: ++counters_.dropped_unexpected; return true;
-    case Assembler::Added::complete: break;
+    case Assembler::Added::incomplete:
+      return true;
+    case Assembler::Added::inconsistent:
+      ++counters_.dropped_unexpected;
+      return true;
+    case Assembler::Added::complete:
+      break;
   }
   if (!deliver(envelope, assembler_.bytes(envelope))) return false;
   assembler_.close(envelope.id, envelope.kind);

@@ -45,8 +45,8 @@ std::span<const std::byte> Outbox::chunk(size_t n, Envelope& envelope) {
   envelope.total_bytes = static_cast<uint32_t>(total);
   if (end <= head) return std::span(s.head).subspan(begin, end - begin);
   if (begin >= head) return s.payload.bytes.subspan(begin - head, end - begin);
-  const auto behind = std::copy(s.head.begin() + static_cast<std::ptrdiff_t>(begin), s.head.end(),
-                                seam_.begin());
+  const auto behind =
+      std::copy(s.head.begin() + static_cast<std::ptrdiff_t>(begin), s.head.end(), seam_.begin());
   std::copy_n(s.payload.bytes.begin(), end - head, behind);
   return std::span(seam_).first(end - begin);
 }

@@ -26,9 +26,8 @@ void Router::use(NextHops hops) {
   for (size_t node = 0; node < hops.next.size(); ++node) {
     next_[node] = nullptr;
     if (hops.next[node] == no_node || node == config_.self.value) continue;
-    const auto link = std::find_if(links_.begin(), links_.end(), [&](const Link& l) {
-      return l.neighbour() == hops.next[node];
-    });
+    const auto link = std::find_if(links_.begin(), links_.end(),
+                                   [&](const Link& l) { return l.neighbour() == hops.next[node]; });
     if (link == links_.end()) throw std::invalid_argument("a next hop must be a neighbour");
     next_[node] = &*link;
   }
@@ -42,7 +41,8 @@ bool Router::pump(uint64_t epoch, Nanoseconds now) {
   epoch_ = epoch;
   budget_ = frames_per_turn;
   for (const Kind kind : routed_kinds)
-    while (budget_ > 0 && pump_kind(kind, now)) {}
+    while (budget_ > 0 && pump_kind(kind, now)) {
+    }
   if (!links_.empty()) first_link_ = (first_link_ + 1) % links_.size();
   return budget_ == 0;
 }

@@ -1,11 +1,11 @@
 #include "runtime/net/zmq_context.hpp"
 
 #include <spdlog/spdlog.h>
-#include <zmq.hpp>
 
 #include <algorithm>
 #include <array>
 #include <stdexcept>
+#include <zmq.hpp>
 
 namespace luxodus {
 
@@ -30,9 +30,8 @@ ZmqContext::ZmqContext(const std::vector<Admitted>& admitted, int io_threads)
     : context_(std::make_unique<zmq::context_t>(io_threads)) {
   for (const Admitted& one : admitted) {
     std::string binary(32, '\0');
-    if (one.public_key.size() != 40 ||
-        zmq_z85_decode(reinterpret_cast<uint8_t*>(binary.data()), one.public_key.c_str()) ==
-            nullptr)
+    if (one.public_key.size() != 40 || zmq_z85_decode(reinterpret_cast<uint8_t*>(binary.data()),
+                                                      one.public_key.c_str()) == nullptr)
       throw std::invalid_argument("the public key of node " + std::to_string(one.node.value) +
                                   " is none: 40 characters of Z85");
     listed_.push_back({std::move(binary), routing_id(one.node)});
@@ -56,7 +55,8 @@ void ZmqContext::answer_door() {
   // wakes at changes only, so the door is answered until nobody is left.
   const std::unique_lock lock(door_mutex_, std::try_to_lock);
   if (!lock) return;
-  while (answer_one()) {}
+  while (answer_one()) {
+  }
 }
 
 bool ZmqContext::answer_one() {
@@ -74,13 +74,17 @@ bool ZmqContext::answer_one() {
   if (listed != nullptr) {
     ++let_in_;
   } else if (turned_away_++ % logged_every == 0) {
-    spdlog::warn("zmq=turned_away address={} mechanism={} key={} total={} text=\"its key is not in "
-                 "the allow-list\"",
-                 parts[3], parts[5], curve ? text_key(parts[6]) : "none", turned_away_.load());
+    spdlog::warn(
+        "zmq=turned_away address={} mechanism={} key={} total={} text=\"its key is not in "
+        "the allow-list\"",
+        parts[3], parts[5], curve ? text_key(parts[6]) : "none", turned_away_.load());
   }
-  const std::array<std::string, 6> answer{
-      "1.0", parts[1], listed ? "200" : "400",
-      listed ? "OK" : "key not in the allow-list", listed ? listed->name : "", ""};
+  const std::array<std::string, 6> answer{"1.0",
+                                          parts[1],
+                                          listed ? "200" : "400",
+                                          listed ? "OK" : "key not in the allow-list",
+                                          listed ? listed->name : "",
+                                          ""};
   for (size_t i = 0; i < answer.size(); ++i)
     door_->send(zmq::buffer(answer[i]),
                 i + 1 < answer.size() ? zmq::send_flags::sndmore : zmq::send_flags::none);

@@ -7,13 +7,13 @@
 #include <spdlog/spdlog.h>
 #include <sys/eventfd.h>
 #include <unistd.h>
-#include <zmq.hpp>
 
 #include <algorithm>
 #include <charconv>
 #include <cstring>
 #include <stdexcept>
 #include <string_view>
+#include <zmq.hpp>
 
 #include "proto/messages.hpp"
 
@@ -40,7 +40,8 @@ bool is_inproc(const std::string& endpoint) {
 }  // namespace
 
 bool stays_on_host(const std::string& endpoint) {
-  for (const char* local : {"inproc://", "ipc://", "tcp://127.", "tcp://localhost:", "tcp://[::1]:"})
+  for (const char* local :
+       {"inproc://", "ipc://", "tcp://127.", "tcp://localhost:", "tcp://[::1]:"})
     if (endpoint.starts_with(local)) return true;
   return false;
 }
@@ -84,7 +85,7 @@ void ZmqTransport::set_options(LaneSockets& lane) {
   s.set(zmq::sockopt::sndhwm, config_.high_water_frames);
   s.set(zmq::sockopt::rcvhwm, config_.high_water_frames);
   s.set(zmq::sockopt::maxmsgsize, frame_bytes_most);
-  s.set(zmq::sockopt::handshake_ivl, 2000);      // [ms], as all below
+  s.set(zmq::sockopt::handshake_ivl, 2000);  // [ms], as all below
   s.set(zmq::sockopt::heartbeat_ivl, 500);
   s.set(zmq::sockopt::heartbeat_timeout, 1500);
   s.set(zmq::sockopt::reconnect_ivl, 100);
@@ -99,11 +100,12 @@ void ZmqTransport::set_options(LaneSockets& lane) {
   lane.monitor.set(zmq::sockopt::linger, 0);
   lane.monitor.connect(told);
 
-  spdlog::debug("zmq=options node={} lane={} mandatory=1 handover=1 immediate=1 linger_ms=0 "
-                "hwm_frames={} frame_bytes_most={} handshake_ms=2000 heartbeat_ms=500/1500 "
-                "reconnect_ms=100..5000 curve={}",
-                config_.self.value, lane.name, config_.high_water_frames, frame_bytes_most,
-                config_.keys.has_value());
+  spdlog::debug(
+      "zmq=options node={} lane={} mandatory=1 handover=1 immediate=1 linger_ms=0 "
+      "hwm_frames={} frame_bytes_most={} handshake_ms=2000 heartbeat_ms=500/1500 "
+      "reconnect_ms=100..5000 curve={}",
+      config_.self.value, lane.name, config_.high_water_frames, frame_bytes_most,
+      config_.keys.has_value());
 }
 
 Result<std::string> ZmqTransport::secure(LaneSockets& lane, const std::string& endpoint,
@@ -115,8 +117,9 @@ Result<std::string> ZmqTransport::secure(LaneSockets& lane, const std::string& e
   if (!curve) {
     if (!stays_on_host(endpoint)) {
       if (!config_.insecure)
-        return Problem{{endpoint, 0}, "leads beyond this host and there are no keys: make them "
-                                      "with `luxodus keygen`, or say insecure"};
+        return Problem{{endpoint, 0},
+                       "leads beyond this host and there are no keys: make them "
+                       "with `luxodus keygen`, or say insecure"};
       open_to_all_ = true;
     }
     s.set(zmq::sockopt::curve_server, false);  // back to no mechanism
@@ -127,7 +130,8 @@ Result<std::string> ZmqTransport::secure(LaneSockets& lane, const std::string& e
     s.set(zmq::sockopt::curve_server, true);
     s.set(zmq::sockopt::curve_secretkey, config_.keys->secret_key);
   } else {
-    if (server_key.size() != 40) return Problem{{endpoint, 0}, "the neighbour's public key is none"};
+    if (server_key.size() != 40)
+      return Problem{{endpoint, 0}, "the neighbour's public key is none"};
     s.set(zmq::sockopt::curve_serverkey, server_key);
     s.set(zmq::sockopt::curve_publickey, config_.keys->public_key);
     s.set(zmq::sockopt::curve_secretkey, config_.keys->secret_key);
@@ -137,8 +141,8 @@ Result<std::string> ZmqTransport::secure(LaneSockets& lane, const std::string& e
 
 Result<Endpoints> ZmqTransport::listen(const Endpoints& where) {
   Endpoints bound = where;
-  for (const auto& [lane, endpoint] : {std::pair{Lane::control, &bound.control},
-                                      std::pair{Lane::bulk, &bound.bulk}}) {
+  for (const auto& [lane, endpoint] :
+       {std::pair{Lane::control, &bound.control}, std::pair{Lane::bulk, &bound.bulk}}) {
     LaneSockets& sockets = *lanes_[static_cast<size_t>(lane)];
     try {
       const auto secured = secure(sockets, *endpoint, true, {});
@@ -154,8 +158,8 @@ Result<Endpoints> ZmqTransport::listen(const Endpoints& where) {
 
 Result<Endpoints> ZmqTransport::connect(NodeId neighbour, const Endpoints& where,
                                         const std::string& server_key) {
-  for (const auto& [lane, endpoint] : {std::pair{Lane::control, &where.control},
-                                      std::pair{Lane::bulk, &where.bulk}}) {
+  for (const auto& [lane, endpoint] :
+       {std::pair{Lane::control, &where.control}, std::pair{Lane::bulk, &where.bulk}}) {
     LaneSockets& sockets = *lanes_[static_cast<size_t>(lane)];
     try {
       const auto secured = secure(sockets, *endpoint, false, server_key);
@@ -212,8 +216,8 @@ std::optional<Arrival> ZmqTransport::receive_from(Lane lane) {
     const char* proven = parts == 1 ? zmq_msg_gets(sockets.frame.handle(), "User-Id") : nullptr;
     const bool honest = proven == nullptr || *proven == '\0' || name == proven;
     if (parts == 1 && node && honest)
-      return Arrival{*node, lane, {static_cast<const std::byte*>(sockets.frame.data()),
-                                   sockets.frame.size()}};
+      return Arrival{
+          *node, lane, {static_cast<const std::byte*>(sockets.frame.data()), sockets.frame.size()}};
     ++counters_.strangers;
   }
   return std::nullopt;
@@ -221,9 +225,8 @@ std::optional<Arrival> ZmqTransport::receive_from(Lane lane) {
 
 void ZmqTransport::wait_until(Nanoseconds until) {
   const Nanoseconds left = std::max<Nanoseconds>(0, until - clock_.now());
-  const auto timeout_ms =
-      static_cast<long>(std::min<Nanoseconds>((left + milliseconds(1) - 1) / milliseconds(1),
-                                              seconds(1) / milliseconds(1)));
+  const auto timeout_ms = static_cast<long>(std::min<Nanoseconds>(
+      (left + milliseconds(1) - 1) / milliseconds(1), seconds(1) / milliseconds(1)));
   zmq_pollitem_t items[] = {
       {lanes_[0]->router.handle(), 0, ZMQ_POLLIN, 0},
       {lanes_[1]->router.handle(), 0, ZMQ_POLLIN, 0},
@@ -262,18 +265,24 @@ void ZmqTransport::take_event(Lane lane) {
                    sockets.name, where.to_string_view(), why);
     };
     switch (kind) {
-      case ZMQ_EVENT_HANDSHAKE_SUCCEEDED: ++counters_.connected; break;
-      case ZMQ_EVENT_DISCONNECTED: ++counters_.disconnected; break;
+      case ZMQ_EVENT_HANDSHAKE_SUCCEEDED:
+        ++counters_.connected;
+        break;
+      case ZMQ_EVENT_DISCONNECTED:
+        ++counters_.disconnected;
+        break;
       case ZMQ_EVENT_HANDSHAKE_FAILED_AUTH:
         if (counters_.refused_us++ == 0) say("refused_us", "the neighbour does not list our key");
         break;
       case ZMQ_EVENT_HANDSHAKE_FAILED_NO_DETAIL:
       case ZMQ_EVENT_HANDSHAKE_FAILED_PROTOCOL:
         if (counters_.handshake_failed++ == 0)
-          say("handshake_failed", "the neighbour's public key is not the one configured, or only "
-                                  "one end has keys");
+          say("handshake_failed",
+              "the neighbour's public key is not the one configured, or only "
+              "one end has keys");
         break;
-      default: break;
+      default:
+        break;
     }
   }
 }
@@ -281,9 +290,10 @@ void ZmqTransport::take_event(Lane lane) {
 void ZmqTransport::remind_of_insecurity() {
   if (!open_to_all_ || clock_.now() < remind_at_) return;
   remind_at_ = clock_.now() + reminder_interval;
-  spdlog::warn("zmq=insecure node={} text=\"links beyond this host are neither encrypted nor "
-               "proven: anybody may send, and read\"",
-               config_.self.value);
+  spdlog::warn(
+      "zmq=insecure node={} text=\"links beyond this host are neither encrypted nor "
+      "proven: anybody may send, and read\"",
+      config_.self.value);
 }
 
 }  // namespace luxodus

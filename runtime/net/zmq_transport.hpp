@@ -41,9 +41,9 @@ struct ZmqConfig {
 struct ZmqCounters {
   uint64_t connected = 0;
   uint64_t disconnected = 0;
-  uint64_t refused_us = 0;         // the other end does not list our key
-  uint64_t handshake_failed = 0;   // not our protocol, or a wrong server key
-  uint64_t strangers = 0;          // frames of senders that are no nodes, or not who they say
+  uint64_t refused_us = 0;        // the other end does not list our key
+  uint64_t handshake_failed = 0;  // not our protocol, or a wrong server key
+  uint64_t strangers = 0;         // frames of senders that are no nodes, or not who they say
 };
 
 class ZmqTransport final : public Transport {

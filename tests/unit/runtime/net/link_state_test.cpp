@@ -33,14 +33,22 @@ LinkState in(LinkPhase phase) {
 void feed(LinkState& link, Event event) {
   constexpr Nanoseconds now = 1;
   switch (event) {
-    case Event::greeted: return link.greeted(now);
-    case Event::unreachable: return link.unreachable(now);
-    case Event::accepted: return (void)link.accept(second_life, now);
-    case Event::acknowledged: return link.acknowledge(now);
-    case Event::heard: return link.heard(now);
-    case Event::bye: return link.bye(now);
-    case Event::refused: return link.refuse(now);
-    case Event::silence: return link.tick(times.patience + 1);
+    case Event::greeted:
+      return link.greeted(now);
+    case Event::unreachable:
+      return link.unreachable(now);
+    case Event::accepted:
+      return (void)link.accept(second_life, now);
+    case Event::acknowledged:
+      return link.acknowledge(now);
+    case Event::heard:
+      return link.heard(now);
+    case Event::bye:
+      return link.bye(now);
+    case Event::refused:
+      return link.refuse(now);
+    case Event::silence:
+      return link.tick(times.patience + 1);
   }
 }
 

@@ -19,8 +19,7 @@ namespace luxodus::test {
 
 inline std::vector<Edge> ring(uint16_t nodes) {
   std::vector<Edge> edges;
-  for (uint16_t i = 0; i + 1 < nodes; ++i)
-    edges.push_back({{i}, {static_cast<uint16_t>(i + 1)}});
+  for (uint16_t i = 0; i + 1 < nodes; ++i) edges.push_back({{i}, {static_cast<uint16_t>(i + 1)}});
   if (nodes > 2) edges.push_back({{0}, {static_cast<uint16_t>(nodes - 1)}});
   return edges;
 }
@@ -95,7 +94,7 @@ class Handler : public NetHandler {
   std::vector<Taken> taken;
   std::vector<std::pair<NodeId, LinkPhase>> changes;
   std::vector<MessageId> abandoned_ids;
-  std::function<bool(const Delivery&)> on_deliver;    // before it is remembered
+  std::function<bool(const Delivery&)> on_deliver;  // before it is remembered
   std::function<bool(const Delivery&)> on_intercept;
   bool wants_pieces = true;
 
@@ -161,9 +160,11 @@ class Cluster {
 
   /// Polls every node a few times, then moves time.
   void turn(Nanoseconds by = milliseconds(1)) {
-    for (int round = 0; round < 3; ++round)
+    for (int round = 0; round < 3; ++round) {
       for (auto& node : nodes_)
         if (node) node->network.poll(clock.now());
+      net.arrive();
+    }
     clock.advance(by);
   }
   void run(Nanoseconds span, Nanoseconds step = milliseconds(10)) {

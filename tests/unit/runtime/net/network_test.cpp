@@ -179,6 +179,7 @@ TEST_CASE("who says bye is down at once", "[runtime][network]") {
   Cluster pair(2, ring(2));
   pair.bring_up();
   pair[1].network.say_bye();
+  pair.net.arrive();
   pair[0].network.poll(pair.clock.now());
   CHECK(pair[0].network.phase(b) == LinkPhase::down);
 }
@@ -230,8 +231,8 @@ TEST_CASE("an actor without room stops its senders and loses nothing", "[runtime
     if (pair[0].network.send(b, pair[0].network.next_id(), FetchObject{}) == SendOutcome::full) {
       const size_t before = pair.net.frames;
       pair.turn();
-      if (pair.net.frames == before && pair[0].network.send(b, pair[0].network.next_id(),
-                                                             FetchObject{}) == SendOutcome::full)
+      if (pair.net.frames == before &&
+          pair[0].network.send(b, pair[0].network.next_id(), FetchObject{}) == SendOutcome::full)
         break;
     } else {
       ++sent;

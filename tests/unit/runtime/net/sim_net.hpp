@@ -1,9 +1,12 @@
-// A network in memory for tests: frames lie in queues between nodes until a test lets them pass.
-// Faults are drawn from a seed. One thread.
+// A network in memory for tests. Frames are on their way until arrive() is called, so that all
+// nodes act on what was sent before, as nodes at a distance do. Faults are drawn from a seed. One
+// thread.
 #pragma once
 
+#include <algorithm>
 #include <cstring>
 #include <deque>
+#include <iterator>
 #include <map>
 #include <set>
 #include <tuple>
@@ -17,7 +20,7 @@ namespace luxodus::test {
 struct SimFaults {
   float loss = 0;  // shares of frames
   float twice = 0;
-  float reorder = 0;      // a frame goes to the front of its queue
+  float reorder = 0;  // a frame goes to the front of its queue
   float flipped_bit = 0;
   size_t capacity = 1'000'000;  // frames in one queue; beyond it the transport is full
 };
@@ -34,16 +37,17 @@ class SimNet {
   /// Sends to this node say "unreachable"; what was on its way to it is gone.
   void leave(NodeId node) {
     absent_.insert(node);
-    for (auto& [way, queue] : queues_)
-      if (std::get<1>(way) == node) queue.clear();
+    for (auto* all : {&queues_, &on_way_})
+      for (auto& [way, queue] : *all)
+        if (std::get<1>(way) == node) queue.clear();
   }
   void join(NodeId node) { absent_.erase(node); }
 
   Sent send(NodeId from, NodeId to, Lane lane, std::span<const std::byte> head,
             std::span<const std::byte> body) {
     if (absent_.contains(to)) return Sent::unreachable;
-    auto& queue = queues_[{from, to, lane}];
-    if (queue.size() >= faults.capacity) return Sent::full;
+    auto& queue = on_way_[{from, to, lane}];
+    if (queue.size() + queues_[{from, to, lane}].size() >= faults.capacity) return Sent::full;
     if (cut_.contains(std::minmax(from, to)) || happens(faults.loss)) return Sent::taken;
     std::vector<std::byte> frame(head.begin(), head.end());
     frame.insert(frame.end(), body.begin(), body.end());
@@ -51,6 +55,7 @@ class SimNet {
       const uint32_t bit = random_.bits() % static_cast<uint32_t>(8 * frame.size());
       frame[bit / 8] ^= static_cast<std::byte>(1u << (bit % 8));
     }
+    if (recorded.size() < record_most) recorded.push_back(frame);
     if (happens(faults.twice)) queue.push_back(frame);
     if (happens(faults.reorder))
       queue.push_front(std::move(frame));
@@ -58,6 +63,15 @@ class SimNet {
       queue.push_back(std::move(frame));
     ++frames;
     return Sent::taken;
+  }
+
+  /// What is on its way arrives.
+  void arrive() {
+    for (auto& [way, frames_on_way] : on_way_) {
+      auto& queue = queues_[way];
+      std::move(frames_on_way.begin(), frames_on_way.end(), std::back_inserter(queue));
+      frames_on_way.clear();
+    }
   }
 
   /// The next frame for this node, neighbours in turn, control before bulk.
@@ -84,13 +98,16 @@ class SimNet {
   }
 
   uint64_t frames = 0;
+  /// The first frames that were sent, as many as asked for.
+  std::vector<std::vector<std::byte>> recorded;
+  size_t record_most = 0;
 
  private:
   bool happens(float share) { return share > 0 && random_.uniform() < share; }
 
   using Way = std::tuple<NodeId, NodeId, Lane>;
   Random random_;
-  std::map<Way, std::deque<std::vector<std::byte>>> queues_;
+  std::map<Way, std::deque<std::vector<std::byte>>> queues_, on_way_;
   std::map<std::pair<NodeId, Lane>, uint16_t> turns_;
   std::set<std::pair<NodeId, NodeId>> cut_;
   std::set<NodeId> absent_;

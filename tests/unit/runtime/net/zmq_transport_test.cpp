@@ -56,8 +56,7 @@ void exchange(RealNode& one, RealNode& other) {
     return other.network.send(d.source, d.id, ObjectFound{{7}, b}, share(object)) ==
            SendOutcome::taken;
   };
-  REQUIRE(one.network.send(b, one.network.next_id(), FetchObject{{7}, 0, 1}) ==
-          SendOutcome::taken);
+  REQUIRE(one.network.send(b, one.network.next_id(), FetchObject{{7}, 0, 1}) == SendOutcome::taken);
   REQUIRE(poll_until({&one, &other}, [&] { return one.handler.count<ObjectFound>() == 1; }));
   CHECK(one.handler.taken[0].payload == object);
 }
@@ -142,8 +141,7 @@ TEST_CASE("a node without keys does not get in where keys are asked for", "[runt
   const auto where = one.transport.listen(tcp());
   REQUIRE(where.ok());
   REQUIRE(other.transport.connect(a, where.value()).ok());
-  CHECK(poll_until({&one, &other},
-                   [&] { return one.transport.counters().handshake_failed >= 1; }));
+  CHECK(poll_until({&one, &other}, [&] { return one.transport.counters().handshake_failed >= 1; }));
   CHECK(one.network.counters().frames_received == 0);
 }
 
