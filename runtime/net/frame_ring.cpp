@@ -51,12 +51,11 @@ FrameRing::Frame FrameRing::front() const {
 
 void FrameRing::pop() {
   head_ += frame_charge(record_at(head_).body_bytes);
-  if (--count_ == 0) return clear();
-  if (head_ == wrap_ && tail_ <= head_) head_ = 0;
-}
-
-void FrameRing::clear() {
-  count_ = head_ = tail_ = wrap_ = 0;
+  --count_;
+  if (count_ == 0)
+    head_ = tail_ = wrap_ = 0;
+  else if (head_ == wrap_ && tail_ <= head_)
+    head_ = 0;
 }
 
 }  // namespace luxodus

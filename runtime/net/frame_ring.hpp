@@ -40,7 +40,6 @@ class FrameRing {
   Frame front() const;
   /// Requires: not empty.
   void pop();
-  void clear();
 
   size_t memory_bytes() const { return capacity_; }
 

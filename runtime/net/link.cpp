@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include <array>
+#include <stdexcept>
 #include <variant>
 
 #include "runtime/net/handshake.hpp"
@@ -57,11 +58,10 @@ Envelope Link::link_envelope() const {
   return envelope;
 }
 
-Sent Link::say(const Message& message, Lane lane, Grant grant) {
+Sent Link::say(const Message& message, Lane lane) {
   const auto bytes = around_.codec.encode(message, around_.scratch);
   if (!bytes) throw std::logic_error("link: " + bytes.problem().what);
   Envelope envelope = link_envelope();
-  envelope.grant = grant;
   envelope.total_bytes = static_cast<uint32_t>(bytes.value());
   return give(envelope, around_.scratch.first(bytes.value()), lane);
 }
@@ -148,21 +148,25 @@ Link::Gone Link::send(Envelope envelope, std::span<const std::byte> body, Nanose
 
 // ---- what is heard
 
-void Link::take(const Envelope& envelope, Lane lane, const Message& message, Nanoseconds now) {
+bool Link::take(const Envelope& envelope, Lane lane, const Message& message, Nanoseconds now) {
   const bool was_usable = state_.usable();
+  bool current = true;
   if (const auto* hello = std::get_if<Hello>(&message)) {
     meet(envelope, hello->identity, false, now);
   } else if (const auto* welcome = std::get_if<Welcome>(&message)) {
     meet(envelope, welcome->identity, true, now);
   } else if (const auto* refuse = std::get_if<Refuse>(&message)) {
-    be_refused(*refuse, now);
-  } else if (admits(envelope, now)) {
-    if (std::holds_alternative<Bye>(message)) state_.bye(now);
-    if (const auto* beat = std::get_if<Beat>(&message)) settle(*beat, lane);
+    // Who refuses has accepted nobody, so it names no life of ours; but it may be gone itself.
+    current = !state_.accepted() || envelope.from_incarnation == state_.peer();
+    if (current) be_refused(*refuse, now);
   } else {
-    ++around_.counters.dropped_stale;
+    current = admits(envelope, now);
+    if (current && std::holds_alternative<Bye>(message)) state_.bye(now);
+    if (const auto* beat = std::get_if<Beat>(&message); current && beat) settle(*beat, lane);
   }
+  if (!current) ++around_.counters.dropped_stale;
   note_rise(was_usable, now);
+  return current;
 }
 
 void Link::meet(const Envelope& envelope, const Identity& theirs, bool welcomed, Nanoseconds now) {

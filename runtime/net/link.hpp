@@ -47,8 +47,8 @@ class Link {
   void say_bye();
   void say(const LinkChanges& changes);
 
-  /// A message of kind `link` has come.
-  void take(const Envelope& envelope, Lane lane, const Message& message, Nanoseconds now);
+  /// A message of kind `link` has come. False: from another life than the one accepted; dropped.
+  bool take(const Envelope& envelope, Lane lane, const Message& message, Nanoseconds now);
 
   /// Whether a routed frame is of this life of the neighbour for this life of ours; if so, its
   /// grant is used.
@@ -88,7 +88,7 @@ class Link {
   void use(const Grant& grant);
   Grant next_grant();
   Envelope link_envelope() const;
-  Sent say(const Message& message, Lane lane, Grant grant = {});
+  Sent say(const Message& message, Lane lane);
   Sent give(const Envelope& envelope, std::span<const std::byte> body, Lane lane);
   void note_rise(bool was_usable, Nanoseconds now);
 

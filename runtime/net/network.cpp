@@ -194,8 +194,7 @@ void Network::take_link_message(Link& link, const OpenedFrame& frame, Lane lane,
   if (!opened) return malformed(link.neighbour(), opened.problem().what, now);
   if (kind_of(opened->message) != Kind::link)
     return malformed(link.neighbour(), "its message is not of its kind", now);
-  link.take(frame.envelope, lane, opened->message, now);
-  if (!link.state().usable()) return;
+  if (!link.take(frame.envelope, lane, opened->message, now) || !link.state().usable()) return;
   if (const auto* changes = std::get_if<LinkChanges>(&opened->message)) learn(*changes, link);
   if (const auto* beat = std::get_if<Beat>(&opened->message))
     if (beat->epoch < view_.epoch()) link.say(view_.changes());
