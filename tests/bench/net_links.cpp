@@ -2,11 +2,13 @@
 // small question (one at a time), questions a second (64 at a time), and objects of 1 MB.
 #include <fmt/core.h>
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <string>
 #include <thread>
 #include <vector>
@@ -154,7 +156,9 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "net_bench [--seconds 1..600]\n");
     return 2;
   }
-  const std::string path = "ipc:///tmp/luxodus-net-bench-" + std::to_string(::getpid());
+  const std::string path = "ipc://" + (std::filesystem::temp_directory_path() /
+                                       ("luxodus-net-bench-" + std::to_string(::getpid())))
+                                          .string();
   const Endpoints tcp{"tcp://127.0.0.1:*", "tcp://127.0.0.1:*"};
   fmt::print("{:<12} {:>9} {:>9} {:>12} {:>9}\n", "transport", "p50 [us]", "p99 [us]",
              "questions/s", "MB/s");
