@@ -1,0 +1,59 @@
+// The only place that reads or writes Cap'n Proto. Bytes from outside are decoded once, into plain
+// values, with limits set from their own length; what is malformed is a Problem, never an
+// exception, and never more work than its length allows. Misaligned bytes are copied first (the
+// network hands out frames at any address). It allocates for text and lists only.
+// Thread rule: a Codec holds scratch memory and belongs to one node.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+
+#include "proto/messages.hpp"
+#include "runtime/core/result.hpp"
+
+namespace luxodus {
+
+/// An envelope, and where in the frame the piece of message behind it begins.
+struct OpenedFrame {
+  Envelope envelope;
+  std::span<const std::byte> body;
+};
+
+/// A message, and the payload behind it, which lies in the bytes that were decoded.
+struct OpenedMessage {
+  Message message;
+  std::span<const std::byte> payload;
+};
+
+class Codec {
+ public:
+  Codec();
+
+  /// Writes an envelope to the front of `out` and returns its bytes, a multiple of 8.
+  /// Requires: room for limits::envelope_bytes.
+  size_t encode(const Envelope& envelope, std::span<std::byte> out);
+
+  /// Writes a message to the front of `out` and returns its bytes, a multiple of 8.
+  /// Errors: longer than `out` or than limits::message_bytes, or a list or text over its limit.
+  Result<size_t> encode(const Message& message, std::span<std::byte> out);
+
+  /// Errors: anything but one envelope within the limits, followed by any bytes.
+  Result<OpenedFrame> open_frame(std::span<const std::byte> frame);
+
+  /// Errors: anything but one message within the limits, followed by any payload.
+  Result<OpenedMessage> open_message(std::span<const std::byte> bytes);
+
+ private:
+  /// One segment of words at the front of `bytes`, at an address that words may have.
+  struct Segment {
+    const std::byte* begin = nullptr;
+    size_t bytes = 0;
+  };
+  Result<Segment> first_segment(std::span<const std::byte> bytes, size_t limit);
+
+  std::unique_ptr<uint64_t[]> aligned_;   // copies of what came misaligned
+  std::unique_ptr<uint64_t[]> building_;  // all zero between calls
+};
+
+}  // namespace luxodus

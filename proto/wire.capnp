@@ -1,0 +1,145 @@
+# The frames of Luxodus. PROTOCOL.md says who sends what, when, and why. Numbers are never reused;
+# new fields come at the end. A frame is one Envelope, one segment long, and behind it a piece of a
+# message: a Message, one segment long, and behind that the payload, which no schema describes.
+@0xb3c1f5a2d7e84690;
+
+using Cxx = import "/capnp/c++.capnp";
+$Cxx.namespace("luxodus::wire");
+
+# Rewritten by every node that a frame passes.
+struct Envelope {
+  from @0 :UInt16;              # the neighbour that sends the frame
+  source @1 :UInt16;            # the node where the message was made
+  destination @2 :UInt16;
+  kind @3 :UInt8;               # link, control, request, reply, commit
+  hops @4 :UInt8;               # links passed when the frame arrives: its buffer class
+  fromIncarnation @5 :UInt64;
+  toIncarnation @6 :UInt64;     # of the receiver, 0 while unknown
+  idNode @7 :UInt16;            # the id: who asked, in which life, for the how-manieth time
+  grantKind @8 :UInt8;          # one grant rides on every frame; 0 is none
+  grantClass @9 :UInt8;
+  chunk @10 :UInt32;            # which piece of the message follows
+  idIncarnation @11 :UInt64;
+  idSequence @12 :UInt64;
+  epoch @13 :UInt64;            # of the links as the source knew them
+  sent @14 :UInt64;             # bytes charged to this kind and class so far, this frame included
+  grantLimit @15 :UInt64;
+  totalBytes @16 :UInt32;       # of the whole message
+  chunkBytes @17 :UInt32;       # of every piece but the last
+}
+
+struct Message {
+  union {
+    hello @0 :Identity;
+    welcome @1 :Identity;
+    refuse @2 :Refuse;
+    bye @3 :Void;
+    beat @4 :Beat;
+    linkChanges @5 :List(LinkChange);
+    fetchObject @6 :FetchObject;
+    objectFound @7 :FetchAnswer;
+    objectNotHere @8 :FetchAnswer;
+    requestLease @9 :RequestLease;
+    leaseGranted @10 :LeaseGranted;
+    leasesFenced @11 :List(UInt64);
+    flush @12 :Flush;
+    flushTaken @13 :Void;
+    flushRefused @14 :FlushRefused;
+    roundOpened @15 :RoundOpened;
+    runEnded @16 :RunEnded;
+    profileCounted @17 :ProfileCounted;
+    askStatus @18 :Void;
+    statusAnswered @19 :Void;
+    enterPhase @20 :EnterPhase;
+  }
+}
+
+struct Identity {
+  protocolVersion @0 :UInt16;
+  node @1 :UInt16;
+  level @2 :UInt8;
+  sceneHash @3 :UInt64;
+  topologyHash @4 :UInt64;
+  runId @5 :UInt64;
+  fingerprint @6 :UInt64;
+  build @7 :Text;
+  isa @8 :Text;
+}
+
+struct Refuse {
+  reason @0 :UInt8;
+  text @1 :Text;
+}
+
+struct Beat {
+  epoch @0 :UInt64;
+  pools @1 :List(PoolState);
+}
+
+struct PoolState {
+  kind @0 :UInt8;
+  hopClass @1 :UInt8;
+  sent @2 :UInt64;
+  limit @3 :UInt64;
+}
+
+struct LinkChange {
+  a @0 :UInt16;
+  b @1 :UInt16;
+  version @2 :UInt32;
+}
+
+struct FetchObject {
+  object @0 :UInt64;
+  budgetUs @1 :UInt64;
+  attempt @2 :UInt16;
+}
+
+struct FetchAnswer {
+  object @0 :UInt64;
+  answeredBy @1 :UInt16;
+}
+
+struct RequestLease {
+  batches @0 :UInt32;
+}
+
+struct LeaseGranted {
+  lease @0 :UInt64;
+  round @1 :UInt32;
+  group @2 :UInt32;
+  firstBatch @3 :UInt64;
+  batches @4 :UInt32;
+  durationMs @5 :UInt32;
+}
+
+struct Flush {
+  round @0 :UInt32;
+  payloadHash @1 :UInt64;
+  leases @2 :List(UInt64);
+}
+
+struct FlushRefused {
+  fenced @0 :List(UInt64);
+  text @1 :Text;
+}
+
+struct RoundOpened {
+  round @0 :UInt32;
+  batches @1 :UInt64;
+}
+
+struct RunEnded {
+  round @0 :UInt32;
+  text @1 :Text;
+}
+
+struct ProfileCounted {
+  particles @0 :UInt64;
+  objects @1 :UInt32;
+}
+
+struct EnterPhase {
+  phase @0 :UInt8;
+  durationMs @1 :UInt32;
+}

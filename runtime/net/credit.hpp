@@ -1,0 +1,70 @@
+// Byte credit of one pool: one link, direction, kind and hop class. Both ends count bytes from the
+// beginning of the session and tell totals, never differences, so grants and reports may be lost,
+// doubled or late. A receiver learns what was lost on the way from the sender's own total, and
+// frees it; it never holds more than its window, whatever the other end does.
+// Thread rule: one node's thread.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+namespace luxodus {
+
+/// The sending end.
+class CreditOut {
+ public:
+  bool allows(uint64_t bytes) const { return bytes <= limit_ - sent_; }
+  /// Requires: allows(bytes).
+  void spend(uint64_t bytes) { sent_ += bytes; }
+  void grant(uint64_t limit) { limit_ = std::max(limit_, limit); }
+  uint64_t sent() const { return sent_; }
+
+ private:
+  uint64_t sent_ = 0;
+  uint64_t limit_ = 0;  // >= sent_
+};
+
+/// The receiving end.
+class CreditIn {
+ public:
+  explicit CreditIn(uint64_t window = 0) : window_(window) {}
+
+  /// A frame of this many bytes has come, the sender's total with it. False: there is no room, and
+  /// it must be dropped.
+  bool arrive(uint64_t sent, uint64_t bytes) {
+    const bool room = bytes <= window_ - held_;
+    arrived_ = std::max(arrived_, sent);
+    if (room) held_ += bytes;
+    return room;
+  }
+
+  /// The sender says that it had sent so much, and what it sent before has come or is lost.
+  void settle(uint64_t sent) { arrived_ = std::max(arrived_, sent); }
+
+  /// The sender begins another life and counts from 0. What is held stays held.
+  void restart() { arrived_ = announced_ = 0; }
+
+  /// Requires: bytes <= held().
+  void release(uint64_t bytes) { held_ -= bytes; }
+
+  /// Up to which total the sender may send.
+  uint64_t limit() const { return arrived_ + (window_ - held_); }
+
+  /// The limit, to be told now; remembered as told.
+  uint64_t announce() { return announced_ = limit(); }
+
+  /// Half the window has become free since the last announcement: worth a frame of its own.
+  bool overdue() const { return limit() >= announced_ + window_ / 2 && limit() > announced_; }
+
+  bool news() const { return limit() > announced_; }
+  uint64_t held() const { return held_; }
+  uint64_t window() const { return window_; }
+
+ private:
+  uint64_t window_;
+  uint64_t held_ = 0;  // <= window_
+  uint64_t arrived_ = 0;
+  uint64_t announced_ = 0;
+};
+
+}  // namespace luxodus

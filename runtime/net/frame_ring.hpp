@@ -1,0 +1,58 @@
+// A first-in-first-out queue of frames in one block of memory that is taken at construction. A
+// frame lies in one piece, its body at an address that words may have. What a frame is charged is
+// what it takes, so a queue within its window never overflows.
+// Thread rule: one node's thread.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+
+#include "proto/messages.hpp"
+
+namespace luxodus {
+
+namespace limits {
+/// Bytes charged per frame beside its body: what a frame costs to hold. Known to both ends.
+inline constexpr size_t frame_overhead_bytes = 128;
+}  // namespace limits
+
+/// Bytes of a window, and of a ring, that a frame with this body takes.
+constexpr size_t frame_charge(size_t body_bytes) {
+  return limits::frame_overhead_bytes + (body_bytes + 7) / 8 * 8;
+}
+
+class FrameRing {
+ public:
+  /// Frames are held as long as their charges sum to at most `window`; none has a body longer than
+  /// `body_most` [bytes].
+  FrameRing(size_t window, size_t body_most);
+
+  struct Frame {
+    const Envelope& envelope;
+    std::span<const std::byte> body;
+  };
+
+  bool empty() const { return count_ == 0; }
+  /// Requires: room within the window, and a body within its limit.
+  void push(const Envelope& envelope, std::span<const std::byte> body);
+  /// Requires: not empty. Valid until pop().
+  Frame front() const;
+  /// Requires: not empty.
+  void pop();
+
+  size_t memory_bytes() const { return capacity_; }
+
+ private:
+  struct Record;
+  Record& record_at(size_t at) const;
+
+  size_t capacity_;
+  std::unique_ptr<std::byte[]> memory_;
+  size_t count_ = 0;
+  size_t head_ = 0;  // of the oldest frame
+  size_t tail_ = 0;  // behind the newest frame
+  size_t wrap_ = 0;  // where the frames before the wrap end; read while head_ is behind tail_
+};
+
+}  // namespace luxodus

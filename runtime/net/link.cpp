@@ -1,0 +1,251 @@
+#include "runtime/net/link.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <array>
+#include <stdexcept>
+#include <variant>
+
+#include "runtime/net/handshake.hpp"
+
+namespace luxodus {
+
+Link::Link(const LinkSurroundings& around, NodeId neighbour, Nanoseconds now)
+    : around_(around), neighbour_(neighbour), state_(around.config.times, now) {
+  pools_.reserve(routed_kinds.size() * around.config.hop_limit);
+  for (const Kind kind : routed_kinds)
+    for (int hops = 1; hops <= around.config.hop_limit; ++hops)
+      pools_.emplace_back(around.config.window_bytes(kind), around.config.chunk_bytes(kind));
+}
+
+size_t Link::index(Kind kind, uint8_t hop_class) const {
+  return (static_cast<size_t>(kind) - 1) * around_.config.hop_limit + (hop_class - 1u);
+}
+
+size_t Link::memory_bytes() const {
+  size_t sum = 0;
+  for (const Pool& pool : pools_) sum += pool.frames.memory_bytes();
+  return sum;
+}
+
+// ---- what is said
+
+Sent Link::give(const Envelope& envelope, std::span<const std::byte> body, Lane lane) {
+  alignas(8) std::array<std::byte, limits::envelope_bytes> head;
+  const size_t head_bytes = around_.codec.encode(envelope, head);
+  const Sent sent = around_.transport.send(neighbour_, lane, {head.data(), head_bytes}, body);
+  switch (sent) {
+    case Sent::taken:
+      ++around_.counters.frames_sent;
+      around_.counters.bytes_sent += head_bytes + body.size();
+      break;
+    case Sent::full:
+      ++around_.counters.transport_full;
+      break;
+    case Sent::unreachable:
+      ++around_.counters.transport_unreachable;
+      break;
+  }
+  return sent;
+}
+
+Envelope Link::link_envelope() const {
+  Envelope envelope;
+  envelope.from = envelope.source = around_.config.self;
+  envelope.from_incarnation = around_.config.incarnation;
+  envelope.to_incarnation = state_.accepted() ? state_.peer() : Incarnation{};
+  envelope.destination = neighbour_;
+  return envelope;
+}
+
+Sent Link::say(const Message& message, Lane lane) {
+  const auto bytes = around_.codec.encode(message, around_.scratch);
+  if (!bytes) throw std::logic_error("link: " + bytes.problem().what);
+  Envelope envelope = link_envelope();
+  envelope.total_bytes = static_cast<uint32_t>(bytes.value());
+  return give(envelope, around_.scratch.first(bytes.value()), lane);
+}
+
+void Link::tick(Nanoseconds now) {
+  state_.tick(now);
+  if (!state_.hello_due(now)) return;
+  const Sent sent = say(Message{Hello{around_.config.identity}}, Lane::control);
+  if (sent == Sent::taken)
+    state_.greeted(now);
+  else
+    state_.unreachable(now);
+}
+
+void Link::beat(uint64_t epoch) {
+  if (!state_.accepted()) return;
+  for (const Lane lane : {Lane::control, Lane::bulk}) {
+    Beat beat;
+    beat.epoch = epoch;
+    for (const Kind kind : routed_kinds) {
+      if (lane_of(kind) != lane) continue;
+      for (uint8_t hops = 1; hops <= around_.config.hop_limit; ++hops) {
+        Pool& pool = at(kind, hops);
+        beat.pools[beat.pool_count++] = {kind, hops, pool.out.sent(), pool.in.announce()};
+      }
+    }
+    (void)say(Message{beat}, lane);  // the next beat says it again
+  }
+}
+
+void Link::say_bye() {
+  if (state_.accepted()) (void)say(Message{Bye{}}, Lane::control);  // silence says it too
+}
+
+void Link::say(const LinkChanges& changes) {
+  if (state_.usable()) (void)say(Message{changes}, Lane::control);  // told again when epochs differ
+}
+
+void Link::tell_grants() {
+  if (!state_.usable()) return;
+  for (const Kind kind : routed_kinds)
+    for (uint8_t hops = 1; hops <= around_.config.hop_limit; ++hops) {
+      if (!at(kind, hops).in.overdue()) continue;
+      Envelope envelope = link_envelope();
+      envelope.grant = {kind, hops, at(kind, hops).in.announce()};
+      (void)give(envelope, {}, Lane::control);  // the next beat says it again
+    }
+}
+
+Grant Link::next_grant() {
+  for (size_t tried = 0; tried < pools_.size(); ++tried) {
+    grant_cursor_ = (grant_cursor_ + 1) % pools_.size();
+    CreditIn& in = pools_[grant_cursor_].in;
+    if (!in.news()) continue;
+    const auto kind = static_cast<Kind>(1 + grant_cursor_ / around_.config.hop_limit);
+    const auto hops = static_cast<uint8_t>(1 + grant_cursor_ % around_.config.hop_limit);
+    return {kind, hops, in.announce()};
+  }
+  return {};
+}
+
+Link::Gone Link::send(Envelope envelope, std::span<const std::byte> body, Nanoseconds now) {
+  if (!state_.usable()) return Gone::not_now;
+  CreditOut& out = at(envelope.kind, envelope.hops).out;
+  const size_t charge = frame_charge(body.size());
+  if (!out.allows(charge)) return Gone::not_now;
+  envelope.from = around_.config.self;
+  envelope.from_incarnation = around_.config.incarnation;
+  envelope.to_incarnation = state_.peer();
+  envelope.sent = out.sent() + charge;
+  envelope.grant = next_grant();
+  switch (give(envelope, body, lane_of(envelope.kind))) {
+    case Sent::taken:
+      out.spend(charge);
+      return Gone::sent;
+    case Sent::unreachable:
+      state_.unreachable(now);
+      break;
+    case Sent::full:
+      break;
+  }
+  return Gone::not_now;
+}
+
+// ---- what is heard
+
+bool Link::take(const Envelope& envelope, Lane lane, const Message& message, Nanoseconds now) {
+  const bool was_usable = state_.usable();
+  bool current = true;
+  if (const auto* hello = std::get_if<Hello>(&message)) {
+    meet(envelope, hello->identity, false, now);
+  } else if (const auto* welcome = std::get_if<Welcome>(&message)) {
+    meet(envelope, welcome->identity, true, now);
+  } else if (const auto* refuse = std::get_if<Refuse>(&message)) {
+    // Who refuses has accepted nobody, so it names no life of ours; but it may be gone itself.
+    current = !state_.accepted() || envelope.from_incarnation == state_.peer();
+    if (current) be_refused(*refuse, now);
+  } else {
+    current = admits(envelope, now);
+    if (current && std::holds_alternative<Bye>(message)) state_.bye(now);
+    if (const auto* beat = std::get_if<Beat>(&message); current && beat) settle(*beat, lane);
+  }
+  if (!current) ++around_.counters.dropped_stale;
+  note_rise(was_usable, now);
+  return current;
+}
+
+void Link::meet(const Envelope& envelope, const Identity& theirs, bool welcomed, Nanoseconds now) {
+  if (const auto no = refusal(around_.config.identity, theirs, neighbour_)) {
+    ++around_.counters.refused[static_cast<size_t>(no->reason)];
+    spdlog::error("link=refused node={} neighbour={} reason={} text=\"{}\"",
+                  around_.config.self.value, neighbour_.value, name_of(no->reason), no->text);
+    state_.refuse(now);
+    (void)say(Message{*no}, Lane::control);  // a peer that does not hear it asks again
+    return;
+  }
+  if (state_.accept(envelope.from_incarnation, now))
+    for (Pool& pool : pools_) {
+      pool.out = {};
+      pool.in.restart();
+    }
+  if (envelope.to_incarnation == around_.config.incarnation) state_.acknowledge(now);
+  if (!welcomed) (void)say(Message{Welcome{around_.config.identity}}, Lane::control);
+}
+
+void Link::be_refused(const Refuse& refuse, Nanoseconds now) {
+  if (state_.phase() != LinkPhase::refused)
+    spdlog::error("link=refused_by_peer node={} neighbour={} reason={} text=\"{}\"",
+                  around_.config.self.value, neighbour_.value, name_of(refuse.reason), refuse.text);
+  ++around_.counters.refused_by_peer[static_cast<size_t>(refuse.reason)];
+  state_.refuse(now);
+}
+
+void Link::note_rise(bool was_usable, Nanoseconds now) {
+  if (was_usable || !state_.usable()) return;
+  state_.heard(now);
+  ++sessions_;
+}
+
+void Link::settle(const Beat& beat, Lane lane) {
+  for (unsigned i = 0; i < beat.pool_count; ++i) {
+    const PoolState& told = beat.pools[i];
+    if (told.kind == Kind::link || told.hop_class == 0) continue;
+    if (told.hop_class > around_.config.hop_limit || lane_of(told.kind) != lane) continue;
+    at(told.kind, told.hop_class).in.settle(told.sent);
+    use({told.kind, told.hop_class, told.limit});
+  }
+}
+
+void Link::use(const Grant& grant) {
+  if (grant.kind == Kind::link || grant.hop_class == 0) return;
+  if (grant.hop_class > around_.config.hop_limit) return;
+  at(grant.kind, grant.hop_class).out.grant(grant.limit);
+}
+
+bool Link::admits(const Envelope& envelope, Nanoseconds now) {
+  if (!state_.accepted() || envelope.from_incarnation != state_.peer()) return false;
+  if (envelope.to_incarnation != around_.config.incarnation) return false;
+  const bool was_usable = state_.usable();
+  state_.acknowledge(now);
+  note_rise(was_usable, now);
+  use(envelope.grant);
+  return true;
+}
+
+bool Link::hold(const Envelope& envelope, std::span<const std::byte> body) {
+  Pool& pool = at(envelope.kind, envelope.hops);
+  if (!pool.in.arrive(envelope.sent, frame_charge(body.size()))) return false;
+  pool.frames.push(envelope, body);
+  return true;
+}
+
+bool Link::pass(const Envelope& envelope, size_t body_bytes) {
+  CreditIn& in = at(envelope.kind, envelope.hops).in;
+  const size_t charge = frame_charge(body_bytes);
+  if (!in.arrive(envelope.sent, charge)) return false;
+  in.release(charge);
+  return true;
+}
+
+void Link::release(Kind kind, uint8_t hop_class) {
+  Pool& pool = at(kind, hop_class);
+  pool.in.release(frame_charge(pool.frames.front().body.size()));
+  pool.frames.pop();
+}
+
+}  // namespace luxodus

@@ -1,0 +1,91 @@
+// The life of one link as one of its ends sees it: a pure machine of events and time. It sends
+// nothing and knows no frames; Link feeds it and does what it says is due.
+// Thread rule: one node's thread.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "runtime/core/clock.hpp"
+#include "runtime/core/ids.hpp"
+
+namespace luxodus {
+
+//  ┌────────────┐ hello out ┌──────────┐ acknowledged ┌────┐ 3 missed ┌─────────┐
+//  │ connecting │ ────────► │ greeting │ ───────────► │ up │ ───────► │ suspect │
+//  └────────────┘ ◄──────── └──────────┘ ◄─────────── └────┘ ◄─────── └─────────┘
+//     ▲    │    unreachable    │    ▲   another life     │   any frame     │
+//     │    │ patience          │    │                    │ bye,            │ 8 missed, bye,
+//     │    ▼ over              ▼    │ accepted           ▼ unreachable     ▼ unreachable
+//  ┌──────────────────────────────────────────────────────────────────────────────┐
+//  │                                     down                                     │
+//  └──────────────────────────────────────────────────────────────────────────────┘
+//  down ── backoff over ──► connecting;  connecting, refused ── accepted ──► greeting
+//  any  ── identities differ, or the peer says so ──► refused
+//
+// Accepted: the peer's identity agrees with ours. Acknowledged: a frame from that life of the peer
+// was addressed to this life of ours, so it has accepted us. A refused link goes on saying hello,
+// rarely: one end or the other may have been put right.
+enum class LinkPhase : uint8_t { connecting, greeting, up, suspect, down, refused };
+
+constexpr const char* name_of(LinkPhase phase) {
+  constexpr const char* names[] = {"connecting", "greeting", "up", "suspect", "down", "refused"};
+  return names[static_cast<size_t>(phase)];
+}
+
+struct LinkTimes {
+  Nanoseconds beat = milliseconds(250);
+  int suspect_after_beats = 3;
+  int down_after_beats = 8;                 // 2 s: a pause for a page or a build is shorter
+  Nanoseconds patience = seconds(10);       // for a greeting: hosts start at their own pace
+  Nanoseconds backoff = milliseconds(250);  // between hellos, doubled up to:
+  Nanoseconds backoff_most = seconds(5);
+  Nanoseconds refused_retry = seconds(30);  // an operator acts in minutes, and reads the log
+};
+
+class LinkState {
+ public:
+  LinkState(const LinkTimes& times, Nanoseconds now);
+
+  LinkPhase phase() const { return phase_; }
+  bool usable() const { return phase_ == LinkPhase::up || phase_ == LinkPhase::suspect; }
+  bool accepted() const { return accepted_; }
+  /// The life of the peer that was accepted last; 0 before any was.
+  Incarnation peer() const { return peer_; }
+
+  /// Our hello was taken by the transport.
+  void greeted(Nanoseconds now);
+  /// The transport has no connection.
+  void unreachable(Nanoseconds now);
+  /// The peer's identity agrees with ours. True: it is another life than the one known, and what
+  /// was counted with that one is void.
+  bool accept(Incarnation peer, Nanoseconds now);
+  /// The accepted peer addressed this life of ours.
+  void acknowledge(Nanoseconds now);
+  /// The accepted peer sent a frame.
+  void heard(Nanoseconds now);
+  void bye(Nanoseconds now) { fall(now); }
+  void refuse(Nanoseconds now);
+  void tick(Nanoseconds now);
+  /// This node itself stood still for so long: it heard nobody, and blames nobody.
+  void forgive(Nanoseconds span);
+
+  bool hello_due(Nanoseconds now) const;
+  /// When tick() or hello_due() may say something new.
+  Nanoseconds next_deadline() const;
+
+ private:
+  void fall(Nanoseconds now);
+  void postpone_hello(Nanoseconds now);
+
+  LinkTimes times_;
+  LinkPhase phase_ = LinkPhase::connecting;
+  Incarnation peer_;
+  bool accepted_ = false;
+  Nanoseconds attempt_began_;
+  Nanoseconds heard_;
+  Nanoseconds hello_at_;
+  Nanoseconds backoff_;
+};
+
+}  // namespace luxodus

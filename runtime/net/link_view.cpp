@@ -1,0 +1,61 @@
+#include "runtime/net/link_view.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace luxodus {
+
+LinkView::LinkView(std::vector<Edge> edges) {
+  std::sort(edges.begin(), edges.end());
+  if (std::adjacent_find(edges.begin(), edges.end()) != edges.end())
+    throw std::invalid_argument("a link stands twice in the graph");
+  if (edges.size() > limits::link_changes)
+    throw std::invalid_argument("a graph has more links than one message can tell of");
+  for (const Edge& edge : edges) {
+    if (edge.b <= edge.a) throw std::invalid_argument("a link must name its smaller node first");
+    links_.push_back({edge});
+  }
+}
+
+const LinkView::Known* LinkView::find(Edge edge) const {
+  const auto at = std::lower_bound(links_.begin(), links_.end(), edge,
+                                   [](const Known& k, const Edge& e) { return k.edge < e; });
+  return at != links_.end() && at->edge == edge ? &*at : nullptr;
+}
+
+bool LinkView::set(Edge edge, bool up) {
+  Known* known = find(edge);
+  if (known == nullptr) throw std::invalid_argument("the graph has no such link");
+  if ((known->version % 2 == 0) == up) return false;
+  ++known->version;
+  ++epoch_;
+  return true;
+}
+
+uint32_t LinkView::version(Edge edge) const {
+  return find(edge)->version;
+}
+
+bool LinkView::merge(const LinkChange& change) {
+  Known* known = find({change.a, change.b});
+  if (known == nullptr || change.version <= known->version) return false;
+  epoch_ += change.version - known->version;
+  known->version = change.version;
+  return true;
+}
+
+std::vector<Edge> LinkView::down() const {
+  std::vector<Edge> out;
+  for (const Known& known : links_)
+    if (known.version % 2 == 1) out.push_back(known.edge);
+  return out;
+}
+
+LinkChanges LinkView::changes() const {
+  LinkChanges out;
+  for (const Known& known : links_)
+    if (known.version > 0) out.changes.push_back({known.edge.a, known.edge.b, known.version});
+  return out;
+}
+
+}  // namespace luxodus

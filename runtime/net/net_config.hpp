@@ -1,0 +1,73 @@
+// What a node's network is made of: who it is, whom it is linked to, and how much it may hold.
+// Plain values; any thread.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "proto/messages.hpp"
+#include "runtime/net/link_state.hpp"
+
+namespace luxodus {
+
+/// A link of the graph. Requires: a < b.
+struct Edge {
+  NodeId a, b;
+  friend auto operator<=>(const Edge&, const Edge&) = default;
+};
+constexpr Edge edge_between(NodeId one, NodeId other) {
+  return one < other ? Edge{one, other} : Edge{other, one};
+}
+
+/// For every destination the neighbour to send to; `no_node` where no way leads there.
+struct NextHops {
+  std::vector<NodeId> next;
+};
+inline constexpr NodeId no_node{0xFFFF};
+
+namespace defaults {
+/// A piece of an object or a flush: 0.5 ms of a 1 Gb/s link, so that others have their turn.
+inline constexpr size_t bulk_chunk_bytes = 65536;
+/// A piece of what is urgent: below it, no message of today is cut.
+inline constexpr size_t small_chunk_bytes = 4096;
+/// Bandwidth x round trip x 2, at least 4 chunks: 4 x (64 KB + overhead) covers 1 Gb/s at 1 ms.
+inline constexpr size_t bulk_window_bytes = 4 * (bulk_chunk_bytes + 128);
+inline constexpr size_t small_window_bytes = 4 * (small_chunk_bytes + 128);
+/// Diameter 3 of the graph of 32 nodes, 5 after any three failures; larger graphs say more.
+inline constexpr uint8_t hop_limit = 5;
+/// Messages made here that wait for the network, per kind: one for each of a node's fetches in
+/// a burst; more of them wait with their fibers.
+inline constexpr size_t outbox_messages = 64;
+/// Messages in several pieces on their way to this node at once.
+inline constexpr size_t assemblies = 64;
+/// The longest message [bytes]: an object of a scene is bounded far below it.
+inline constexpr size_t message_bytes_most = 64 << 20;
+}  // namespace defaults
+
+struct NetConfig {
+  NodeId self;
+  Incarnation incarnation;  // random, not 0
+  Identity identity;
+  size_t nodes = 0;         // in the run
+  std::vector<Edge> edges;  // of the whole graph
+  LinkTimes times;
+  uint8_t hop_limit = defaults::hop_limit;
+  size_t small_chunk_bytes = defaults::small_chunk_bytes;
+  size_t bulk_chunk_bytes = defaults::bulk_chunk_bytes;
+  size_t small_window_bytes = defaults::small_window_bytes;  // of one pool
+  size_t bulk_window_bytes = defaults::bulk_window_bytes;
+  size_t outbox_messages = defaults::outbox_messages;
+  size_t assemblies = defaults::assemblies;
+  size_t message_bytes_most = defaults::message_bytes_most;
+  Nanoseconds assembly_patience = seconds(10);  // without a new piece
+
+  size_t chunk_bytes(Kind kind) const {
+    return is_bulk(kind) ? bulk_chunk_bytes : small_chunk_bytes;
+  }
+  size_t window_bytes(Kind kind) const {
+    return is_bulk(kind) ? bulk_window_bytes : small_window_bytes;
+  }
+  static constexpr bool is_bulk(Kind kind) { return kind == Kind::reply || kind == Kind::commit; }
+};
+
+}  // namespace luxodus

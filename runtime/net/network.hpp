@@ -1,0 +1,141 @@
+// The network of one node: links, routes and messages in several pieces behind three calls. Each
+// turn of the node's loop calls poll(); between turns it may send(). A message is delivered at most
+// once per arrival, in no order, and perhaps not at all: who needs an answer asks again under the
+// same id. Nothing that comes from outside ends a node: it is counted and dropped.
+// It knows no fibers, no actors and no threads of its own.
+// Thread rule: one node's thread. The handler is called from poll() alone, and may call send().
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "proto/codec.hpp"
+#include "runtime/core/result.hpp"
+#include "runtime/net/assembler.hpp"
+#include "runtime/net/counters.hpp"
+#include "runtime/net/link.hpp"
+#include "runtime/net/link_view.hpp"
+#include "runtime/net/net_config.hpp"
+#include "runtime/net/router.hpp"
+#include "runtime/net/transport.hpp"
+
+namespace luxodus {
+
+/// A message that has come.
+struct Delivery {
+  NodeId source;
+  MessageId id;
+  uint8_t hops = 0;
+  const Message& message;
+  std::span<const std::byte> payload;  // during the call; for messages in pieces, in their room
+};
+
+/// What the node does with what the network brings. Thread rule: called from Network::poll().
+class NetHandler {
+ public:
+  virtual ~NetHandler() = default;
+
+  /// False: there is no room now; it is asked again, and others of the kind wait behind it. A
+  /// request may wait for room to send its reply; a reply may not wait for the network at all.
+  virtual bool deliver(const Delivery& delivery) = 0;
+
+  /// Room for a message in several pieces, which stays valid until it is delivered, abandoned(),
+  /// or given up by Network::forget(). Empty, or too short: the message is not wanted (a reply
+  /// that nobody waits for) or must come again (no room now).
+  virtual std::span<std::byte> room_for(const MessageId& id, NodeId source, Kind kind,
+                                        size_t bytes) = 0;
+  /// Pieces have stopped coming: the room is the handler's again.
+  virtual void abandoned(const MessageId& id, Kind kind) = 0;
+
+  /// A request on its way to another node passes here. True: this node has answered it.
+  virtual bool intercept(const Delivery& request) = 0;
+
+  virtual void link_changed(NodeId neighbour, LinkPhase phase) = 0;
+
+  /// Next hops on the graph without these links; the same at every node that sees the same links.
+  virtual NextHops reroute(std::span<const Edge> down) = 0;
+};
+
+enum class SendOutcome : uint8_t {
+  taken,
+  full,        // the outbox of the kind: try again after a poll
+  unreachable  // no way leads there
+};
+
+class Network {
+ public:
+  /// All memory is taken here.
+  /// Errors (exception): a configuration that contradicts itself.
+  Network(const NetConfig& config, Transport& transport, NetHandler& handler, Nanoseconds now);
+  ~Network();
+  Network(const Network&) = delete;
+  Network& operator=(const Network&) = delete;
+
+  /// An id for a message of this node: a question, a flush.
+  MessageId next_id();
+
+  /// Gives a message to the network. Its kind follows from the message; an answer carries the id
+  /// of its question, so that its pieces find the room set aside for them.
+  /// Requires: another node than this one (actors here are reached without a network), a message
+  /// that is not of kind link. Errors (exception): a message over its limits.
+  SendOutcome send(NodeId destination, const MessageId& id, const Message& message,
+                   SharedBytes payload = {});
+
+  /// Takes what has come, lets time pass, moves what can be moved. Never blocks.
+  /// True: there is more to do at once.
+  bool poll(Nanoseconds now);
+
+  /// When poll() has something to do even if no frame comes.
+  Nanoseconds next_deadline() const;
+
+  /// The room for this message is the handler's again.
+  void forget(const MessageId& id, Kind kind) { assembler_.close(id, kind); }
+
+  /// Tells the neighbours that this node leaves.
+  void say_bye();
+
+  const NetCounters& counters() const { return counters_; }
+  LinkPhase phase(NodeId neighbour) const;
+  uint64_t epoch() const { return view_.epoch(); }
+  /// Bytes of the fixed buffers, for the memory plan.
+  size_t memory_bytes() const;
+
+ private:
+  struct Watched;
+  class Here;
+
+  void own_lag(Nanoseconds now);
+  bool receive(Nanoseconds now);
+  void take_frame(const Arrival& arrival, Nanoseconds now);
+  void take_link_message(Link& link, const OpenedFrame& frame, Lane lane, Nanoseconds now);
+  void take_routed(Link& link, const OpenedFrame& frame, Lane lane, Nanoseconds now);
+  bool consistent(const Envelope& envelope, size_t body_bytes) const;
+  bool intercepted(const Envelope& envelope, std::span<const std::byte> body);
+  void malformed(NodeId neighbour, const std::string& what, Nanoseconds now);
+  bool deliver(const Envelope& envelope, std::span<const std::byte> bytes);
+  bool take_here(const Envelope& envelope, std::span<const std::byte> body, Nanoseconds now);
+  bool take_piece(const Envelope& envelope, std::span<const std::byte> body, Nanoseconds now);
+  void watch_links();
+  void learn(const LinkChanges& told, const Link& by);
+  void spread(const LinkChanges& news, const Link* except);
+  Link* link_to(NodeId neighbour);
+
+  NetConfig config_;
+  Transport& transport_;
+  NetHandler& handler_;
+  Codec codec_;
+  NetCounters counters_;
+  std::vector<std::byte> scratch_;  // of a message being made
+  std::vector<Link> links_;
+  std::vector<Watched> watched_;  // by link: what was last seen of it
+  LinkView view_;
+  Assembler assembler_;
+  std::unique_ptr<Router::Destination> here_;
+  Router router_;
+  uint64_t sequence_ = 0;
+  Nanoseconds next_beat_;
+};
+
+}  // namespace luxodus

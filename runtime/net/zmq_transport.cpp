@@ -1,0 +1,299 @@
+// What libzmq does and does not do decides the options (all in set_options): a ROUTER that is not
+// MANDATORY drops frames silently; HANDOVER lets a neighbour that lost its connection take its name
+// again; IMMEDIATE keeps frames from queueing for nobody; ZMTP heartbeats find dead hosts (stuck
+// nodes are found by the beats of Link, sent by the node's own loop).
+#include "runtime/net/zmq_transport.hpp"
+
+#include <spdlog/spdlog.h>
+#include <sys/eventfd.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstring>
+#include <stdexcept>
+#include <string_view>
+#include <zmq.hpp>
+
+#include "proto/messages.hpp"
+
+namespace luxodus {
+
+namespace {
+
+/// The longest frame: an envelope and a message, or a chunk, which is no longer.
+constexpr int64_t frame_bytes_most = limits::envelope_bytes + limits::message_bytes;
+constexpr Nanoseconds reminder_interval = seconds(60);
+
+std::optional<NodeId> node_of(std::string_view name) {
+  uint16_t number = 0;
+  if (name.size() < 2 || name[0] != 'n') return std::nullopt;
+  const auto read = std::from_chars(name.data() + 1, name.data() + name.size(), number);
+  if (read.ec != std::errc() || read.ptr != name.data() + name.size()) return std::nullopt;
+  return NodeId{number};
+}
+
+bool is_inproc(const std::string& endpoint) {
+  return endpoint.starts_with("inproc://");
+}
+
+}  // namespace
+
+bool stays_on_host(const std::string& endpoint) {
+  for (const char* local :
+       {"inproc://", "ipc://", "tcp://127.", "tcp://localhost:", "tcp://[::1]:"})
+    if (endpoint.starts_with(local)) return true;
+  return false;
+}
+
+struct ZmqTransport::LaneSockets {
+  LaneSockets(zmq::context_t& context, const char* lane_name)
+      : name(lane_name),
+        router(context, zmq::socket_type::router),
+        monitor(context, zmq::socket_type::pair) {}
+
+  const char* name;
+  zmq::socket_t router;
+  zmq::socket_t monitor;  // tells of connections made and lost
+  zmq::message_t sender;
+  zmq::message_t frame;  // what the last arrival points into
+};
+
+ZmqTransport::ZmqTransport(ZmqContext& context, const ZmqConfig& config, const Clock& clock)
+    : context_(context), config_(config), clock_(clock) {
+  wake_descriptor_ = ::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
+  if (wake_descriptor_ < 0) throw std::runtime_error("zmq transport: no descriptor left");
+  constexpr const char* lane_names[lanes] = {"control", "bulk"};
+  for (size_t i = 0; i < lanes; ++i) {
+    lanes_[i] = std::make_unique<LaneSockets>(context.context(), lane_names[i]);
+    set_options(*lanes_[i]);
+  }
+}
+
+ZmqTransport::~ZmqTransport() {
+  for (auto& lane : lanes_) zmq_socket_monitor(lane->router.handle(), nullptr, 0);
+  ::close(wake_descriptor_);
+}
+
+void ZmqTransport::set_options(LaneSockets& lane) {
+  zmq::socket_t& s = lane.router;
+  s.set(zmq::sockopt::routing_id, routing_id(config_.self));
+  s.set(zmq::sockopt::router_mandatory, true);
+  s.set(zmq::sockopt::router_handover, true);
+  s.set(zmq::sockopt::immediate, true);
+  s.set(zmq::sockopt::linger, 0);
+  s.set(zmq::sockopt::sndhwm, config_.high_water_frames);
+  s.set(zmq::sockopt::rcvhwm, config_.high_water_frames);
+  s.set(zmq::sockopt::maxmsgsize, frame_bytes_most);
+  s.set(zmq::sockopt::handshake_ivl, 2000);  // [ms], as all below
+  s.set(zmq::sockopt::heartbeat_ivl, 500);
+  s.set(zmq::sockopt::heartbeat_timeout, 1500);
+  s.set(zmq::sockopt::reconnect_ivl, 100);
+  s.set(zmq::sockopt::reconnect_ivl_max, 5000);
+
+  // Sockets of one context share the names of inproc endpoints.
+  const std::string told = "inproc://monitor-" + routing_id(config_.self) + "-" + lane.name;
+  constexpr int events = ZMQ_EVENT_HANDSHAKE_SUCCEEDED | ZMQ_EVENT_DISCONNECTED |
+                         ZMQ_EVENT_HANDSHAKE_FAILED_NO_DETAIL |
+                         ZMQ_EVENT_HANDSHAKE_FAILED_PROTOCOL | ZMQ_EVENT_HANDSHAKE_FAILED_AUTH;
+  if (zmq_socket_monitor(s.handle(), told.c_str(), events) != 0) throw zmq::error_t();
+  lane.monitor.set(zmq::sockopt::linger, 0);
+  lane.monitor.connect(told);
+
+  spdlog::debug(
+      "zmq=options node={} lane={} mandatory=1 handover=1 immediate=1 linger_ms=0 "
+      "hwm_frames={} frame_bytes_most={} handshake_ms=2000 heartbeat_ms=500/1500 "
+      "reconnect_ms=100..5000 curve={}",
+      config_.self.value, lane.name, config_.high_water_frames, frame_bytes_most,
+      config_.keys.has_value());
+}
+
+Result<std::string> ZmqTransport::secure(LaneSockets& lane, const std::string& endpoint,
+                                         bool server, const std::string& server_key) {
+  zmq::socket_t& s = lane.router;
+  // Not always: an IPv6 socket calls 127.0.0.1 by another name.
+  s.set(zmq::sockopt::ipv6, endpoint.starts_with("tcp://["));
+  const bool curve = config_.keys && !config_.insecure && !is_inproc(endpoint);
+  if (!curve) {
+    if (!stays_on_host(endpoint)) {
+      if (!config_.insecure)
+        return Problem{{endpoint, 0},
+                       "leads beyond this host and there are no keys: make them "
+                       "with `luxodus keygen`, or say insecure"};
+      open_to_all_ = true;
+    }
+    s.set(zmq::sockopt::curve_server, false);  // back to no mechanism
+    return endpoint;
+  }
+  // Options hold for endpoints bound or connected from now on, so one socket can be both.
+  if (server) {
+    s.set(zmq::sockopt::curve_server, true);
+    s.set(zmq::sockopt::curve_secretkey, config_.keys->secret_key);
+  } else {
+    if (server_key.size() != 40)
+      return Problem{{endpoint, 0}, "the neighbour's public key is none"};
+    s.set(zmq::sockopt::curve_serverkey, server_key);
+    s.set(zmq::sockopt::curve_publickey, config_.keys->public_key);
+    s.set(zmq::sockopt::curve_secretkey, config_.keys->secret_key);
+  }
+  return endpoint;
+}
+
+Result<Endpoints> ZmqTransport::listen(const Endpoints& where) {
+  Endpoints bound = where;
+  for (const auto& [lane, endpoint] :
+       {std::pair{Lane::control, &bound.control}, std::pair{Lane::bulk, &bound.bulk}}) {
+    LaneSockets& sockets = *lanes_[static_cast<size_t>(lane)];
+    try {
+      const auto secured = secure(sockets, *endpoint, true, {});
+      if (!secured) return secured.problem();
+      sockets.router.bind(*endpoint);
+      *endpoint = sockets.router.get(zmq::sockopt::last_endpoint);
+    } catch (const zmq::error_t& e) {
+      return Problem{{*endpoint, 0}, std::string("cannot listen there: ") + e.what()};
+    }
+  }
+  return bound;
+}
+
+Result<Endpoints> ZmqTransport::connect(NodeId neighbour, const Endpoints& where,
+                                        const std::string& server_key) {
+  for (const auto& [lane, endpoint] :
+       {std::pair{Lane::control, &where.control}, std::pair{Lane::bulk, &where.bulk}}) {
+    LaneSockets& sockets = *lanes_[static_cast<size_t>(lane)];
+    try {
+      const auto secured = secure(sockets, *endpoint, false, server_key);
+      if (!secured) return secured.problem();
+      // inproc takes the name from here; the others from the neighbour, who says it on connection.
+      if (is_inproc(*endpoint))
+        sockets.router.set(zmq::sockopt::connect_routing_id, routing_id(neighbour));
+      sockets.router.connect(*endpoint);
+    } catch (const zmq::error_t& e) {
+      return Problem{{*endpoint, 0}, std::string("cannot connect there: ") + e.what()};
+    }
+  }
+  return where;
+}
+
+Sent ZmqTransport::send(NodeId neighbour, Lane lane, std::span<const std::byte> head,
+                        std::span<const std::byte> body) {
+  while (names_.size() <= neighbour.value)
+    names_.push_back(routing_id({static_cast<uint16_t>(names_.size())}));
+  const std::string& name = names_[neighbour.value];
+  void* router = lanes_[static_cast<size_t>(lane)]->router.handle();
+  if (zmq_send(router, name.data(), name.size(), ZMQ_SNDMORE | ZMQ_DONTWAIT) < 0)
+    return zmq_errno() == EHOSTUNREACH ? Sent::unreachable : Sent::full;
+  zmq::message_t frame(head.size() + body.size());
+  std::memcpy(frame.data(), head.data(), head.size());
+  if (!body.empty())
+    std::memcpy(static_cast<std::byte*>(frame.data()) + head.size(), body.data(), body.size());
+  // Room was made sure of with the name; what can still happen is that the connection has gone.
+  if (zmq_msg_send(frame.handle(), router, ZMQ_DONTWAIT) < 0) return Sent::unreachable;
+  return Sent::taken;
+}
+
+std::optional<Arrival> ZmqTransport::receive() {
+  if (auto arrival = receive_from(Lane::control)) return arrival;
+  if (auto arrival = receive_from(Lane::bulk)) return arrival;
+  context_.answer_door();
+  watch_connections();
+  remind_of_insecurity();
+  return std::nullopt;
+}
+
+std::optional<Arrival> ZmqTransport::receive_from(Lane lane) {
+  LaneSockets& sockets = *lanes_[static_cast<size_t>(lane)];
+  void* router = sockets.router.handle();
+  while (zmq_msg_recv(sockets.sender.handle(), router, ZMQ_DONTWAIT) >= 0) {
+    size_t parts = 0;
+    for (bool more = sockets.sender.more(); more; more = sockets.frame.more()) {
+      if (zmq_msg_recv(sockets.frame.handle(), router, ZMQ_DONTWAIT) < 0) return std::nullopt;
+      ++parts;
+    }
+    const std::string_view name = sockets.sender.to_string_view();
+    const auto node = node_of(name);
+    // By CURVE the door has said whose key it was; a key may speak for its own node alone.
+    const char* proven = parts == 1 ? zmq_msg_gets(sockets.frame.handle(), "User-Id") : nullptr;
+    const bool honest = proven == nullptr || *proven == '\0' || name == proven;
+    if (parts == 1 && node && honest)
+      return Arrival{
+          *node, lane, {static_cast<const std::byte*>(sockets.frame.data()), sockets.frame.size()}};
+    ++counters_.strangers;
+  }
+  return std::nullopt;
+}
+
+void ZmqTransport::wait_until(Nanoseconds until) {
+  const Nanoseconds left = std::max<Nanoseconds>(0, until - clock_.now());
+  const auto timeout_ms = static_cast<long>(std::min<Nanoseconds>(
+      (left + milliseconds(1) - 1) / milliseconds(1), seconds(1) / milliseconds(1)));
+  zmq_pollitem_t items[] = {
+      {lanes_[0]->router.handle(), 0, ZMQ_POLLIN, 0},
+      {lanes_[1]->router.handle(), 0, ZMQ_POLLIN, 0},
+      {lanes_[0]->monitor.handle(), 0, ZMQ_POLLIN, 0},
+      {lanes_[1]->monitor.handle(), 0, ZMQ_POLLIN, 0},
+      {nullptr, context_.door_descriptor(), ZMQ_POLLIN, 0},
+      {nullptr, wake_descriptor_, ZMQ_POLLIN, 0},
+  };
+  zmq_poll(items, static_cast<int>(std::size(items)), timeout_ms);  // a signal ends a wait, too
+  if ((items[5].revents & ZMQ_POLLIN) != 0) {
+    uint64_t wakes = 0;
+    (void)!::read(wake_descriptor_, &wakes, sizeof wakes);  // nothing to read is as good
+  }
+  context_.answer_door();
+}
+
+void ZmqTransport::wake() noexcept {
+  const uint64_t one = 1;
+  (void)!::write(wake_descriptor_, &one, sizeof one);  // full: it is awake already
+}
+
+void ZmqTransport::watch_connections() {
+  for (const Lane lane : {Lane::control, Lane::bulk}) take_event(lane);
+}
+
+void ZmqTransport::take_event(Lane lane) {
+  LaneSockets& sockets = *lanes_[static_cast<size_t>(lane)];
+  zmq::message_t event, where;
+  while (sockets.monitor.recv(event, zmq::recv_flags::dontwait)) {
+    if (!event.more() || !sockets.monitor.recv(where, zmq::recv_flags::dontwait)) return;
+    uint16_t kind = 0;
+    if (event.size() < sizeof kind) continue;
+    std::memcpy(&kind, event.data(), sizeof kind);
+    const auto say = [&](const char* what, const char* why) {
+      spdlog::warn("zmq={} node={} lane={} endpoint={} text=\"{}\"", what, config_.self.value,
+                   sockets.name, where.to_string_view(), why);
+    };
+    switch (kind) {
+      case ZMQ_EVENT_HANDSHAKE_SUCCEEDED:
+        ++counters_.connected;
+        break;
+      case ZMQ_EVENT_DISCONNECTED:
+        ++counters_.disconnected;
+        break;
+      case ZMQ_EVENT_HANDSHAKE_FAILED_AUTH:
+        if (counters_.refused_us++ == 0) say("refused_us", "the neighbour does not list our key");
+        break;
+      case ZMQ_EVENT_HANDSHAKE_FAILED_NO_DETAIL:
+      case ZMQ_EVENT_HANDSHAKE_FAILED_PROTOCOL:
+        if (counters_.handshake_failed++ == 0)
+          say("handshake_failed",
+              "the neighbour's public key is not the one configured, or only "
+              "one end has keys");
+        break;
+      default:
+        break;
+    }
+  }
+}
+
+void ZmqTransport::remind_of_insecurity() {
+  if (!open_to_all_ || clock_.now() < remind_at_) return;
+  remind_at_ = clock_.now() + reminder_interval;
+  spdlog::warn(
+      "zmq=insecure node={} text=\"links beyond this host are neither encrypted nor "
+      "proven: anybody may send, and read\"",
+      config_.self.value);
+}
+
+}  // namespace luxodus

@@ -1,0 +1,93 @@
+// Frames over ZeroMQ: one ROUTER for what is urgent and one for bulk, over inproc, ipc and tcp.
+// Beyond loopback links are encrypted and both ends proven by CURVE keys; without keys such an
+// endpoint is refused, unless `insecure` is spelled out, which is then logged every minute.
+// Of two neighbours the one with the larger number connects; libzmq connects again by itself, but
+// not over inproc, whose nodes live and die together.
+// Thread rule: one node's thread, but for wake().
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "runtime/core/clock.hpp"
+#include "runtime/net/keys.hpp"
+#include "runtime/net/transport.hpp"
+#include "runtime/net/zmq_context.hpp"
+
+namespace luxodus {
+
+/// Where a node listens: an endpoint per lane, as ZeroMQ writes them.
+struct Endpoints {
+  std::string control;
+  std::string bulk;
+};
+
+/// Whether frames to this endpoint stay on this host.
+bool stays_on_host(const std::string& endpoint);
+
+struct ZmqConfig {
+  NodeId self;
+  std::optional<KeyPair> keys = std::nullopt;
+  bool insecure = false;
+  /// Frames that a neighbour's queue holds; credit must end first. The most that credit allows is
+  /// bulk made of the smallest frames: 5 classes x 2 kinds x 262656 B / 128 B = 20 520.
+  int high_water_frames = 32768;
+};
+
+struct ZmqCounters {
+  uint64_t connected = 0;
+  uint64_t disconnected = 0;
+  uint64_t refused_us = 0;        // the other end does not list our key
+  uint64_t handshake_failed = 0;  // not our protocol, or a wrong server key
+  uint64_t strangers = 0;         // frames of senders that are no nodes, or not who they say
+};
+
+class ZmqTransport final : public Transport {
+ public:
+  /// Requires: the context outlives this. Errors (exception): no descriptors left.
+  ZmqTransport(ZmqContext& context, const ZmqConfig& config, const Clock& clock);
+  ~ZmqTransport() override;
+
+  /// Listens; several times if a node has links of several kinds. Ports may be "*".
+  /// Errors: an endpoint that is taken or none; one beyond the host without keys.
+  Result<Endpoints> listen(const Endpoints& where);
+  /// Connects to a neighbour with a smaller number, now or when it is there.
+  /// Requires: its public key where it has keys. Errors: as listen().
+  Result<Endpoints> connect(NodeId neighbour, const Endpoints& where,
+                            const std::string& server_key = {});
+
+  Sent send(NodeId neighbour, Lane lane, std::span<const std::byte> head,
+            std::span<const std::byte> body) override;
+  std::optional<Arrival> receive() override;
+  void wait_until(Nanoseconds until) override;
+  void wake() noexcept override;
+
+  const ZmqCounters& counters() const { return counters_; }
+
+ private:
+  struct LaneSockets;
+
+  void set_options(LaneSockets& lane);
+  Result<std::string> secure(LaneSockets& lane, const std::string& endpoint, bool server,
+                             const std::string& server_key);
+  std::optional<Arrival> receive_from(Lane lane);
+  void watch_connections();
+  void take_event(Lane lane);
+  void remind_of_insecurity();
+
+  ZmqContext& context_;
+  ZmqConfig config_;
+  const Clock& clock_;
+  std::array<std::unique_ptr<LaneSockets>, lanes> lanes_;
+  std::vector<std::string> names_;  // routing ids of nodes met, by number
+  ZmqCounters counters_;
+  int wake_descriptor_ = -1;
+  bool open_to_all_ = false;  // listens or connects beyond the host without keys
+  Nanoseconds remind_at_ = 0;
+};
+
+}  // namespace luxodus

@@ -1,0 +1,41 @@
+#include "tests/fuzz/fuzz_codec.hpp"
+
+#include <cstdio>
+#include <cstdlib>
+#include <vector>
+
+#include "proto/codec.hpp"
+
+namespace luxodus::test {
+
+namespace {
+
+void must(bool holds, const char* what) {
+  if (holds) return;
+  std::fprintf(stderr, "fuzz_one: %s\n", what);
+  std::abort();
+}
+
+}  // namespace
+
+bool fuzz_one(std::span<const std::byte> bytes) {
+  Codec codec;
+  const auto frame = codec.open_frame(bytes);
+  if (!frame) return false;
+  std::vector<std::byte> again(limits::envelope_bytes);
+  again.resize(codec.encode(frame->envelope, again));
+  const auto envelope = codec.open_frame(again);
+  must(envelope.ok() && envelope->envelope == frame->envelope, "an envelope changed its meaning");
+
+  const auto message = codec.open_message(frame->body);
+  if (!message) return false;
+  must(message->payload.size() <= frame->body.size(), "a payload is longer than its frame");
+  again.resize(limits::message_bytes);
+  const auto encoded = codec.encode(message->message, again);
+  must(encoded.ok(), "what was understood cannot be said");
+  const auto decoded = codec.open_message(std::span(again).first(encoded.value()));
+  must(decoded.ok() && decoded->message == message->message, "a message changed its meaning");
+  return true;
+}
+
+}  // namespace luxodus::test

@@ -1,0 +1,80 @@
+// The short run of the fuzzer that every test run makes: the codec alone, then a whole node. The
+// seed is LUXODUS_SEED, or 1; a failure prints it.
+#include <catch2/catch.hpp>
+#include <cstdlib>
+
+#include "tests/fuzz/fuzz_codec.hpp"
+#include "tests/fuzz/mutate.hpp"
+#include "tests/fuzz/samples.hpp"
+#include "tests/unit/runtime/net/net_kit.hpp"
+
+using namespace luxodus;
+using namespace luxodus::test;
+
+namespace {
+
+uint64_t seed() {
+  const char* text = std::getenv("LUXODUS_SEED");
+  return text != nullptr ? std::strtoull(text, nullptr, 0) : 1;
+}
+
+Random numbers() {
+  Random random(seed(), RandomStream::test);
+  random.start(0);
+  return random;
+}
+
+const Bytes& any(const std::vector<Bytes>& corpus, Random& random) {
+  return corpus[random.bits() % corpus.size()];
+}
+
+}  // namespace
+
+TEST_CASE("the codec understands or refuses whatever bytes it is given", "[fuzz]") {
+  Codec codec;
+  std::vector<Bytes> corpus;
+  for (const Message& message : sample_messages()) corpus.push_back(sample_frame(codec, message));
+  for (const Bytes& frame : corpus) REQUIRE(fuzz_one(frame));
+  Random random = numbers();
+  INFO("seed " << seed());
+  int understood = 0;
+  constexpr int tries = 60'000;
+  for (int i = 0; i < tries; ++i)
+    understood += fuzz_one(mutated(any(corpus, random), any(corpus, random), random));
+  CHECK(understood > tries / 100);  // mutations that reach deep, not only the segment table
+  CHECK(understood < tries);
+}
+
+TEST_CASE("harmed frames leave a node up and working", "[fuzz]") {
+  INFO("seed " << seed());
+  Cluster trio(3, ring(3));
+  trio.net.record_most = 400;
+  trio.bring_up();
+  trio[0].network.send({1}, trio[0].network.next_id(), FetchObject{{1}, 2, 3});
+  trio[2].network.send({1}, trio[2].network.next_id(), Flush{1, 2, {3, 4, 5}},
+                       share(pattern(100'000)));
+  trio.run(seconds(1));
+  const std::vector<Bytes> corpus = trio.net.recorded;
+  REQUIRE(corpus.size() > 50);
+  trio.net.record_most = 0;
+
+  Random random = numbers();
+  for (int i = 0; i < 30'000; ++i) {
+    const NodeId from{static_cast<uint16_t>(random.bits() % 3)};
+    const Lane lane = random.bits() % 2 == 0 ? Lane::control : Lane::bulk;
+    trio.net.send(from, {1}, lane, mutated(any(corpus, random), any(corpus, random), random), {});
+    if (i % 100 == 99) trio.turn(milliseconds(10));
+  }
+  CHECK(trio[1].network.counters().dropped_malformed > 3'000);
+
+  // What was forged has refused links, granted too much and told of links that are down: all of
+  // that heals without a restart.
+  trio.run(seconds(70));
+  for (const uint16_t other : {uint16_t{0}, uint16_t{2}})
+    CHECK(trio[1].network.phase({other}) == LinkPhase::up);
+  const size_t before = trio[1].handler.count<AskStatus>();
+  trio[0].network.send({1}, trio[0].network.next_id(), AskStatus{});
+  trio[2].network.send({1}, trio[2].network.next_id(), AskStatus{});
+  trio.run(seconds(1));
+  CHECK(trio[1].handler.count<AskStatus>() == before + 2);
+}

@@ -1,0 +1,135 @@
+// The steady path takes no memory: two nodes ask and answer over a transport that takes none
+// itself, while every call of operator new is counted.
+#include <array>
+#include <atomic>
+#include <catch2/catch.hpp>
+#include <cstdlib>
+#include <new>
+
+#include "tests/unit/runtime/net/net_kit.hpp"
+
+namespace {
+std::atomic<size_t> allocations{0};
+}
+
+void* operator new(size_t bytes) {
+  ++allocations;
+  if (void* memory = std::malloc(bytes)) return memory;
+  throw std::bad_alloc();
+}
+void* operator new(size_t bytes, const std::nothrow_t&) noexcept {
+  ++allocations;
+  return std::malloc(bytes);
+}
+void operator delete(void* memory) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, size_t) noexcept {
+  std::free(memory);
+}
+
+using namespace luxodus;
+using namespace luxodus::test;
+
+namespace {
+
+/// Frames between two nodes, in memory taken once.
+struct Wire {
+  struct Queue {
+    Queue() : frames(64) {
+      for (auto& frame : frames) frame.reserve(defaults::bulk_chunk_bytes + limits::envelope_bytes);
+    }
+    std::vector<std::vector<std::byte>> frames;
+    size_t first = 0, count = 0;
+  };
+  std::array<Queue, 2 * lanes> queues;  // by receiver and lane
+  Queue& to(NodeId node, Lane lane) {
+    return queues[node.value * lanes + static_cast<size_t>(lane)];
+  }
+};
+
+class WireTransport final : public Transport {
+ public:
+  WireTransport(Wire& wire, NodeId self) : wire_(wire), self_(self) {}
+  Sent send(NodeId to, Lane lane, std::span<const std::byte> head,
+            std::span<const std::byte> body) override {
+    auto& queue = wire_.to(to, lane);
+    if (queue.count == queue.frames.size()) return Sent::full;
+    auto& frame = queue.frames[(queue.first + queue.count++) % queue.frames.size()];
+    frame.assign(head.begin(), head.end());
+    frame.insert(frame.end(), body.begin(), body.end());
+    return Sent::taken;
+  }
+  std::optional<Arrival> receive() override {
+    for (const Lane lane : {Lane::control, Lane::bulk}) {
+      auto& queue = wire_.to(self_, lane);
+      if (queue.count == 0) continue;
+      const auto& frame = queue.frames[queue.first];
+      queue.first = (queue.first + 1) % queue.frames.size();
+      --queue.count;
+      const NodeId other{static_cast<uint16_t>(1 - self_.value)};
+      return Arrival{other, lane, frame};
+    }
+    return std::nullopt;
+  }
+  void wait_until(Nanoseconds) override {}
+  void wake() noexcept override {}
+
+ private:
+  Wire& wire_;
+  NodeId self_;
+};
+
+/// Answers every question with an object of several chunks; keeps nothing.
+struct Holder final : NetHandler {
+  explicit Holder(SharedBytes bytes)
+      : object(std::move(bytes)), room(object.bytes.size() / 8 + 9) {}
+  bool deliver(const Delivery& d) override {
+    if (std::holds_alternative<FetchObject>(d.message))
+      return network->send(d.source, d.id, ObjectFound{}, object) == SendOutcome::taken;
+    ++answers;
+    return true;
+  }
+  std::span<std::byte> room_for(const MessageId&, NodeId, Kind, size_t) override {
+    return std::as_writable_bytes(std::span(room));
+  }
+  void abandoned(const MessageId&, Kind) override {}
+  bool intercept(const Delivery&) override { return false; }
+  void link_changed(NodeId, LinkPhase) override {}
+  NextHops reroute(std::span<const Edge>) override { return {{{0}, {1}}}; }
+
+  SharedBytes object;
+  std::vector<uint64_t> room;
+  Network* network = nullptr;
+  size_t answers = 0;
+};
+
+}  // namespace
+
+TEST_CASE("asking, answering in chunks and beating take no memory", "[runtime][network]") {
+  spdlog::set_level(spdlog::level::off);
+  Wire wire;
+  ManualClock clock;
+  const SharedBytes object = share(pattern(200'000));
+  Holder handlers[] = {Holder(object), Holder(object)};
+  WireTransport transports[] = {WireTransport(wire, {0}), WireTransport(wire, {1})};
+  Network asker(config_of(0, 2, ring(2), 1000), transports[0], handlers[0], clock.now());
+  Network holder(config_of(1, 2, ring(2), 1001), transports[1], handlers[1], clock.now());
+  handlers[0].network = &asker;
+  handlers[1].network = &holder;
+  const auto run = [&](int turns) {
+    for (int i = 0; i < turns; ++i) {
+      if (i % 4 == 0) asker.send({1}, asker.next_id(), FetchObject{{1}, 2, 3});
+      asker.poll(clock.now());
+      holder.poll(clock.now());
+      clock.advance(milliseconds(10));
+    }
+  };
+  run(200);
+  REQUIRE(handlers[0].answers > 10);
+  const size_t answers_before = handlers[0].answers;
+  const size_t before = allocations;
+  run(1000);
+  CHECK(allocations == before);
+  CHECK(handlers[0].answers > answers_before + 200);
+}

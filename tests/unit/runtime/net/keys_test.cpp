@@ -1,0 +1,76 @@
+#include "runtime/net/keys.hpp"
+
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <fstream>
+
+using namespace luxodus;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A folder of its own for each test, gone at its end.
+struct Folder {
+  fs::path path = fs::temp_directory_path() / ("luxodus-keys-" + std::to_string(::getpid()));
+  Folder() {
+    fs::remove_all(path);
+    fs::create_directories(path);
+  }
+  ~Folder() { fs::remove_all(path); }
+};
+
+}  // namespace
+
+TEST_CASE("keys are read back as they were written", "[runtime][keys]") {
+  const Folder folder;
+  const KeyPair keys = make_keypair();
+  REQUIRE(write_keys(keys, folder.path / "n1.key").ok());
+  const auto read = read_keys(folder.path / "n1.key");
+  REQUIRE(read.ok());
+  CHECK(read->secret_key == keys.secret_key);
+  CHECK(read->public_key == keys.public_key);
+  const auto open = read_public_key(folder.path / "n1.key.pub");
+  REQUIRE(open.ok());
+  CHECK(open.value() == keys.public_key);
+}
+
+TEST_CASE("two pairs are never the same", "[runtime][keys]") {
+  CHECK(make_keypair().secret_key != make_keypair().secret_key);
+}
+
+TEST_CASE("a secret key's file is for its owner alone", "[runtime][keys]") {
+  const Folder folder;
+  const fs::path path = folder.path / "n1.key";
+  REQUIRE(write_keys(make_keypair(), path).ok());
+  CHECK(fs::status(path).permissions() == (fs::perms::owner_read | fs::perms::owner_write));
+  fs::permissions(path, fs::perms::others_read, fs::perm_options::add);
+  const auto refused = read_keys(path);
+  REQUIRE_FALSE(refused.ok());
+  CHECK(refused.problem().what.find("chmod 600") != std::string::npos);
+}
+
+TEST_CASE("a key that is there already is not overwritten", "[runtime][keys]") {
+  const Folder folder;
+  const fs::path path = folder.path / "n1.key";
+  const KeyPair first = make_keypair();
+  REQUIRE(write_keys(first, path).ok());
+  CHECK_FALSE(write_keys(make_keypair(), path).ok());
+  CHECK(read_keys(path)->secret_key == first.secret_key);
+  size_t files = 0;
+  for ([[maybe_unused]] const auto& entry : fs::directory_iterator(folder.path)) ++files;
+  CHECK(files == 2);  // nothing half-written is left
+}
+
+TEST_CASE("a file that holds no key is refused with the reason", "[runtime][keys]") {
+  const Folder folder;
+  const fs::path path = folder.path / "n1.key";
+  CHECK_FALSE(read_keys(path).ok());
+  for (const std::string& text : {std::string(), std::string("short\n"), std::string(10'000, 'x'),
+                                  std::string(39, 'a') + "\"\n"}) {
+    std::ofstream(path) << text;
+    fs::permissions(path, fs::perms::owner_read | fs::perms::owner_write);
+    INFO(text.substr(0, 50));
+    CHECK_FALSE(read_keys(path).ok());
+  }
+}

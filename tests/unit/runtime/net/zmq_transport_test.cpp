@@ -1,0 +1,218 @@
+// Real sockets on this machine. Nothing here waits for a time: nodes are polled until what is
+// expected has happened; a bound on polls makes a failure end.
+#include "runtime/net/zmq_transport.hpp"
+
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <thread>
+
+#include "tests/unit/runtime/net/net_kit.hpp"
+
+using namespace luxodus;
+using namespace luxodus::test;
+
+namespace {
+
+constexpr NodeId a{0}, b{1};
+const SystemClock system_clock;
+
+/// A node on real sockets.
+struct RealNode {
+  RealNode(ZmqContext& context, const ZmqConfig& zmq, const NetConfig& net)
+      : transport(context, zmq, system_clock),
+        handler(net),
+        network(net, transport, handler, system_clock.now()) {}
+  ZmqTransport transport;
+  Handler handler;
+  Network network;
+};
+
+/// Polls until `done`, waiting for frames in between; false if it takes thousands of turns.
+bool poll_until(std::vector<RealNode*> nodes, const std::function<bool()>& done) {
+  spdlog::set_level(spdlog::level::off);
+  for (int turn = 0; turn < 20'000; ++turn) {
+    for (RealNode* node : nodes) node->network.poll(system_clock.now());
+    if (done()) return true;
+    nodes[static_cast<size_t>(turn) % nodes.size()]->transport.wait_until(system_clock.now() +
+                                                                          milliseconds(1));
+  }
+  return false;
+}
+
+bool both_up(RealNode& one, RealNode& other) {
+  return poll_until({&one, &other}, [&] {
+    return one.network.phase(b) == LinkPhase::up && other.network.phase(a) == LinkPhase::up;
+  });
+}
+
+/// A question, and an answer of several chunks.
+void exchange(RealNode& one, RealNode& other) {
+  const auto object = pattern(300'001);
+  other.handler.on_deliver = [&](const Delivery& d) {
+    if (!std::holds_alternative<FetchObject>(d.message)) return true;
+    return other.network.send(d.source, d.id, ObjectFound{{7}, b}, share(object)) ==
+           SendOutcome::taken;
+  };
+  REQUIRE(one.network.send(b, one.network.next_id(), FetchObject{{7}, 0, 1}) == SendOutcome::taken);
+  REQUIRE(poll_until({&one, &other}, [&] { return one.handler.count<ObjectFound>() == 1; }));
+  CHECK(one.handler.taken[0].payload == object);
+}
+
+Endpoints tcp() {
+  return {"tcp://127.0.0.1:*", "tcp://127.0.0.1:*"};
+}
+
+/// A pair over TCP with CURVE: two contexts, as in two processes.
+struct CurvePair {
+  CurvePair(const std::vector<Admitted>& listed_at_a, const KeyPair& keys_of_a,
+            const KeyPair& keys_of_b, const std::string& expected_of_a)
+      : context_a(listed_at_a),
+        context_b({}),
+        one(context_a, {a, keys_of_a}, config_of(0, 2, ring(2), 1000)),
+        other(context_b, {b, keys_of_b}, config_of(1, 2, ring(2), 1001)) {
+    const auto where = one.transport.listen(tcp());
+    REQUIRE(where.ok());
+    REQUIRE(other.transport.connect(a, where.value(), expected_of_a).ok());
+  }
+  ZmqContext context_a, context_b;
+  RealNode one, other;
+};
+
+}  // namespace
+
+TEST_CASE("nodes exchange frames over inproc, ipc and tcp", "[runtime][zmq]") {
+  const std::string path =
+      (std::filesystem::temp_directory_path() / ("luxodus-" + std::to_string(::getpid()))).string();
+  const Endpoints table[] = {
+      {"inproc://a", "inproc://a-bulk"},
+      {"ipc://" + path + ".control", "ipc://" + path + ".bulk"},
+      tcp(),
+  };
+  for (const Endpoints& where : table) {
+    INFO(where.control);
+    ZmqContext context({});
+    RealNode one(context, {a}, config_of(0, 2, ring(2), 1000));
+    RealNode other(context, {b}, config_of(1, 2, ring(2), 1001));
+    const auto bound = one.transport.listen(where);
+    REQUIRE(bound.ok());
+    REQUIRE(other.transport.connect(a, bound.value()).ok());
+    REQUIRE(both_up(one, other));
+    exchange(one, other);
+  }
+}
+
+TEST_CASE("nodes whose keys are listed exchange frames over CURVE", "[runtime][zmq]") {
+  const KeyPair keys_a = make_keypair(), keys_b = make_keypair();
+  CurvePair pair({{b, keys_b.public_key}}, keys_a, keys_b, keys_a.public_key);
+  REQUIRE(both_up(pair.one, pair.other));
+  exchange(pair.one, pair.other);
+  CHECK(pair.context_a.let_in() == 2);  // one for each lane
+  CHECK(pair.context_a.turned_away() == 0);
+}
+
+TEST_CASE("a key that is not listed is turned away, and both ends count it", "[runtime][zmq]") {
+  const KeyPair keys_a = make_keypair(), keys_b = make_keypair();
+  CurvePair pair({{b, make_keypair().public_key}}, keys_a, keys_b, keys_a.public_key);
+  CHECK(poll_until({&pair.one, &pair.other}, [&] {
+    return pair.context_a.turned_away() >= 2 && pair.other.transport.counters().refused_us >= 2;
+  }));
+  CHECK(pair.one.network.counters().frames_received == 0);
+}
+
+TEST_CASE("a wrong server key ends the handshake, and both ends count it", "[runtime][zmq]") {
+  const KeyPair keys_a = make_keypair(), keys_b = make_keypair();
+  CurvePair pair({{b, keys_b.public_key}}, keys_a, keys_b, make_keypair().public_key);
+  CHECK(poll_until({&pair.one, &pair.other}, [&] {
+    return pair.one.transport.counters().handshake_failed >= 1 &&
+           pair.other.transport.counters().handshake_failed >= 1;
+  }));
+  CHECK(pair.one.network.counters().frames_received == 0);
+  CHECK(pair.other.network.phase(a) != LinkPhase::up);
+}
+
+TEST_CASE("a node without keys does not get in where keys are asked for", "[runtime][zmq]") {
+  const KeyPair keys_a = make_keypair();
+  ZmqContext context_a({}), context_b({});
+  RealNode one(context_a, {a, keys_a}, config_of(0, 2, ring(2), 1000));
+  RealNode other(context_b, {b}, config_of(1, 2, ring(2), 1001));
+  const auto where = one.transport.listen(tcp());
+  REQUIRE(where.ok());
+  REQUIRE(other.transport.connect(a, where.value()).ok());
+  CHECK(poll_until({&one, &other}, [&] { return one.transport.counters().handshake_failed >= 1; }));
+  CHECK(one.network.counters().frames_received == 0);
+}
+
+TEST_CASE("a listed key speaks for its own node alone", "[runtime][zmq]") {
+  const KeyPair keys_a = make_keypair(), keys_b = make_keypair();
+  // The key of node 2, used by who calls itself node 1.
+  CurvePair pair({{{2}, keys_b.public_key}}, keys_a, keys_b, keys_a.public_key);
+  CHECK(poll_until({&pair.one, &pair.other},
+                   [&] { return pair.one.transport.counters().strangers >= 1; }));
+  CHECK(pair.one.network.counters().frames_received == 0);
+}
+
+TEST_CASE("endpoints beyond the host need keys, or the word insecure", "[runtime][zmq]") {
+  ZmqContext context({});
+  ZmqTransport without(context, {a}, system_clock);
+  const auto refused = without.listen({"tcp://*:*", "tcp://*:*"});
+  REQUIRE_FALSE(refused.ok());
+  CHECK(refused.problem().what.find("keygen") != std::string::npos);
+  CHECK_FALSE(without.connect(b, {"tcp://192.0.2.1:7000", "tcp://192.0.2.1:7001"}).ok());
+  ZmqConfig spelled_out{b};
+  spelled_out.insecure = true;
+  ZmqTransport insecure(context, spelled_out, system_clock);
+  CHECK(insecure.listen({"tcp://*:*", "tcp://*:*"}).ok());
+
+  CHECK(stays_on_host("tcp://127.0.0.1:7000"));
+  CHECK(stays_on_host("ipc:///run/luxodus/n1"));
+  CHECK_FALSE(stays_on_host("tcp://*:7000"));
+  CHECK_FALSE(stays_on_host("tcp://10.0.0.1:7000"));
+}
+
+TEST_CASE("an endpoint that is taken is a problem in words", "[runtime][zmq]") {
+  ZmqContext context({});
+  ZmqTransport one(context, {a}, system_clock), other(context, {b}, system_clock);
+  const auto where = one.listen(tcp());
+  REQUIRE(where.ok());
+  const auto taken = other.listen(where.value());
+  REQUIRE_FALSE(taken.ok());
+  CHECK(taken.problem().text().find("cannot listen") != std::string::npos);
+}
+
+TEST_CASE("a neighbour that nobody hears is unreachable, not silently lost", "[runtime][zmq]") {
+  ZmqContext context({});
+  ZmqTransport alone(context, {b}, system_clock);
+  REQUIRE(alone.connect(a, {"tcp://127.0.0.1:9", "tcp://127.0.0.1:9"}).ok());
+  const std::array<std::byte, 8> frame{};
+  CHECK(alone.send(a, Lane::control, frame, {}) == Sent::unreachable);
+}
+
+TEST_CASE("a process that starts again is taken in over the same sockets", "[runtime][zmq]") {
+  ZmqContext context_a({});
+  RealNode one(context_a, {a}, config_of(0, 2, ring(2), 1000));
+  const auto where = one.transport.listen(tcp());
+  REQUIRE(where.ok());
+  for (const uint64_t life : {1001u, 2001u}) {
+    ZmqContext context_b({});
+    RealNode other(context_b, {b}, config_of(1, 2, ring(2), life));
+    REQUIRE(other.transport.connect(a, where.value()).ok());
+    REQUIRE(both_up(one, other));
+    one.handler.taken.clear();
+    exchange(one, other);
+  }
+  CHECK(one.network.counters().links_up == 2);
+}
+
+TEST_CASE("a wait ends when another thread wakes the node", "[runtime][zmq]") {
+  ZmqContext context({});
+  ZmqTransport alone(context, {a}, system_clock);
+  alone.wake();
+  alone.wait_until(system_clock.now() + seconds(1000));  // a wake before the wait counts
+  std::thread other([&] { alone.wake(); });
+  alone.wait_until(system_clock.now() + seconds(1000));
+  other.join();
+  SUCCEED("both waits ended");
+}
