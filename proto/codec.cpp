@@ -26,7 +26,7 @@ constexpr uint64_t spare_words = 16;
 
 constexpr auto last_kind = static_cast<uint8_t>(Kind::commit);
 constexpr auto last_level = static_cast<uint8_t>(Level::statistical);
-constexpr auto last_phase = static_cast<uint8_t>(ShutdownPhase::leave);
+constexpr auto last_phase = static_cast<uint8_t>(EndPhase::leave);
 
 Problem malformed(std::string what) {
   return {{}, "malformed frame: " + std::move(what)};
@@ -322,7 +322,7 @@ Message read(wire::Message::Reader in) {
       return StatusAnswered{};
     case wire::Message::ENTER_PHASE: {
       const auto enter = in.getEnterPhase();
-      return EnterPhase{read_enum<ShutdownPhase>(enter.getPhase(), last_phase, "phase"),
+      return EnterPhase{read_enum<EndPhase>(enter.getPhase(), last_phase, "phase"),
                         enter.getDurationMs()};
     }
   }

@@ -226,9 +226,9 @@ struct StatusAnswered {
   friend bool operator==(const StatusAnswered&, const StatusAnswered&) = default;
 };
 
-enum class ShutdownPhase : uint8_t { stop_admitting = 0, finish_fibers, flush_commits, leave };
+enum class EndPhase : uint8_t { stop_admitting = 0, finish_fibers, flush_commits, leave };
 struct EnterPhase {
-  ShutdownPhase phase = ShutdownPhase::stop_admitting;
+  EndPhase phase = EndPhase::stop_admitting;
   uint32_t duration_ms = 0;
   friend bool operator==(const EnterPhase&, const EnterPhase&) = default;
 };

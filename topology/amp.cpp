@@ -203,7 +203,7 @@ class AmpSearch {
     consider(shape.turns, shortest.links());
   }
 
-  void consider(uint32_t turns, std::vector<Link> links) {
+  void consider(uint32_t turns, std::vector<GraphLink> links) {
     const ControllerRole role =
         request_.controller_links > 0 ? ControllerRole::endpoint : ControllerRole::none;
     GraphPlan plan{request_.nodes, request_.links, role, turns, std::move(links)};

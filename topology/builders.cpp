@@ -19,9 +19,9 @@ std::optional<Problem> size_problem(uint32_t nodes) {
 }
 
 /// The graph of these links, with as many links a node as the busiest has.
-Result<Graph> graph_of(uint32_t nodes, uint32_t rotation, std::vector<Link> links) {
+Result<Graph> graph_of(uint32_t nodes, uint32_t rotation, std::vector<GraphLink> links) {
   std::vector<uint32_t> degree(nodes);
-  for (const Link& link : links) {
+  for (const GraphLink& link : links) {
     ++degree[link.a];
     ++degree[link.b];
   }
@@ -32,8 +32,8 @@ Result<Graph> graph_of(uint32_t nodes, uint32_t rotation, std::vector<Link> link
 }
 
 /// Links from node 0 to these distances, turned all the way round.
-std::vector<Link> circulant(uint32_t nodes, const std::vector<uint32_t>& distances) {
-  std::vector<Link> once;
+std::vector<GraphLink> circulant(uint32_t nodes, const std::vector<uint32_t>& distances) {
+  std::vector<GraphLink> once;
   for (const uint32_t distance : distances) {
     if (distance % nodes != 0) once.push_back({0, distance % nodes});
   }
@@ -49,8 +49,8 @@ uint32_t rows_of(uint32_t nodes) {
   return rows;
 }
 
-std::vector<Link> grid(uint32_t rows, uint32_t columns, bool joined) {
-  std::set<Link> links;
+std::vector<GraphLink> grid(uint32_t rows, uint32_t columns, bool joined) {
+  std::set<GraphLink> links;
   for (uint32_t r = 0; r < rows; ++r) {
     for (uint32_t c = 0; c < columns; ++c) {
       const Vertex here = r * columns + c;
@@ -87,7 +87,7 @@ Result<Graph> make_hypercube(uint32_t nodes) {
   if (!std::has_single_bit(nodes)) {
     return Problem{{}, fmt::format("{} is no power of two, and a hypercube is one", nodes)};
   }
-  std::vector<Link> links;
+  std::vector<GraphLink> links;
   for (Vertex v = 0; v < nodes; ++v) {
     for (Vertex bit = 1; bit < nodes; bit *= 2) {
       if ((v & bit) == 0) links.push_back({v, v | bit});
@@ -99,7 +99,7 @@ Result<Graph> make_hypercube(uint32_t nodes) {
 
 Result<Graph> make_ternary_tree(uint32_t nodes) {
   if (auto problem = size_problem(nodes)) return *problem;
-  std::vector<Link> links;
+  std::vector<GraphLink> links;
   for (Vertex v = 1; v < nodes; ++v) links.push_back({(v - 1) / 3, v});
   return graph_of(nodes, 1, std::move(links));
 }
@@ -107,9 +107,9 @@ Result<Graph> make_ternary_tree(uint32_t nodes) {
 Result<Graph> make_chordal_ring(uint32_t nodes) {
   if (auto problem = size_problem(nodes)) return *problem;
   uint64_t fewest = UINT64_MAX;
-  std::vector<Link> best = circulant(nodes, {1});
+  std::vector<GraphLink> best = circulant(nodes, {1});
   for (uint32_t chord = 2; chord <= nodes / 2; ++chord) {
-    std::vector<Link> links = circulant(nodes, {1, chord});
+    std::vector<GraphLink> links = circulant(nodes, {1, chord});
     const uint64_t hops = path_lengths(Adjacency(nodes, links)).hops;
     if (hops >= fewest) continue;
     fewest = hops;
@@ -130,18 +130,18 @@ Result<Graph> make_random_regular(uint32_t nodes, uint32_t links, uint64_t seed)
   std::vector<uint32_t> distances;
   for (uint32_t d = 1; d <= links / 2; ++d) distances.push_back(d);
   if (links % 2 == 1) distances.push_back(nodes / 2);
-  std::vector<Link> list = circulant(nodes, distances);
-  std::set<Link> present(list.begin(), list.end());
+  std::vector<GraphLink> list = circulant(nodes, distances);
+  std::set<GraphLink> present(list.begin(), list.end());
 
   Random random(seed, RandomStream::graph);
   for (uint64_t attempt = 0; attempt < attempts_most; ++attempt) {
     random.start(attempt);
     for (uint64_t i = 0; i < exchanges_per_link * list.size(); ++i) {
-      Link& one = list[random.bits() % list.size()];
-      Link& other = list[random.bits() % list.size()];
+      GraphLink& one = list[random.bits() % list.size()];
+      GraphLink& other = list[random.bits() % list.size()];
       const bool crossed = (random.bits() & 1) == 1;
-      const auto [c, d] = crossed ? Link{other.b, other.a} : other;
-      const Link first = link_between(one.a, c), second = link_between(one.b, d);
+      const auto [c, d] = crossed ? GraphLink{other.b, other.a} : other;
+      const GraphLink first = link_between(one.a, c), second = link_between(one.b, d);
       if (first.a == first.b || second.a == second.b) continue;
       if (present.contains(first) || present.contains(second)) continue;
       present.erase(one);

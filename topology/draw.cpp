@@ -18,10 +18,10 @@ constexpr double border_px = 60;
 /// Colours of the links, by the family of turned copies each belongs to.
 std::vector<std::string> link_colours(const Graph& graph) {
   if (graph.rotation() == 1) return std::vector<std::string>(graph.links().size(), "#7a8aa0");
-  std::map<Link, size_t> families;
+  std::map<GraphLink, size_t> families;
   std::vector<size_t> family;
-  for (const Link& link : graph.links()) {
-    const Link first = turned(graph.workers(), graph.rotation(), {&link, 1}).front();
+  for (const GraphLink& link : graph.links()) {
+    const GraphLink first = turned(graph.workers(), graph.rotation(), {&link, 1}).front();
     family.push_back(families.try_emplace(first, families.size()).first->second);
   }
   std::vector<std::string> colours;

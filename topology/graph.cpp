@@ -10,15 +10,15 @@
 
 namespace luxodus {
 
-Adjacency::Adjacency(uint32_t vertices, std::span<const Link> links)
+Adjacency::Adjacency(uint32_t vertices, std::span<const GraphLink> links)
     : first_(vertices + 1), to_(2 * links.size()) {
-  for (const Link& link : links) {
+  for (const GraphLink& link : links) {
     ++first_[link.a + 1];
     ++first_[link.b + 1];
   }
   for (Vertex v = 0; v < vertices; ++v) first_[v + 1] += first_[v];
   std::vector<uint32_t> next(first_.begin(), first_.end() - 1);
-  for (const Link& link : links) {
+  for (const GraphLink& link : links) {
     to_[next[link.a]++] = link.b;
     to_[next[link.b]++] = link.a;
   }
@@ -91,8 +91,8 @@ std::optional<GraphFault> fault_of_links(const GraphPlan& plan, uint32_t vertice
   return std::nullopt;
 }
 
-std::vector<Link> ordered(std::vector<Link> links) {
-  for (Link& link : links) link = link_between(link.a, link.b);
+std::vector<GraphLink> ordered(std::vector<GraphLink> links) {
+  for (GraphLink& link : links) link = link_between(link.a, link.b);
   std::sort(links.begin(), links.end());
   return links;
 }
@@ -120,22 +120,22 @@ std::optional<GraphFault> fault_of(const GraphPlan& plan) {
   return std::nullopt;
 }
 
-std::vector<Link> links_among(uint32_t workers, std::span<const Link> links) {
-  std::vector<Link> among;
-  for (const Link& link : links) {
+std::vector<GraphLink> links_among(uint32_t workers, std::span<const GraphLink> links) {
+  std::vector<GraphLink> among;
+  for (const GraphLink& link : links) {
     if (std::max(link.a, link.b) < workers) among.push_back(link);
   }
   return among;
 }
 
-std::vector<Link> turned(uint32_t workers, uint32_t rotation, std::span<const Link> links) {
+std::vector<GraphLink> turned(uint32_t workers, uint32_t rotation, std::span<const GraphLink> links) {
   const uint32_t step = workers / rotation;
   const auto turn = [&](Vertex v, uint32_t by) {
     return v < workers ? (v + by * step) % workers : v;
   };
-  std::vector<Link> all;
+  std::vector<GraphLink> all;
   all.reserve(links.size() * rotation);
-  for (const Link& link : links) {
+  for (const GraphLink& link : links) {
     for (uint32_t by = 0; by < rotation; ++by) {
       all.push_back(link_between(turn(link.a, by), turn(link.b, by)));
     }
@@ -168,7 +168,7 @@ uint64_t Graph::hash() const {
         uint64_t{rotation()}, uint64_t{links().size()}}) {
     hasher.add(number);
   }
-  for (const Link& link : links()) hasher.add(uint64_t{link.a} << 32 | link.b);
+  for (const GraphLink& link : links()) hasher.add(uint64_t{link.a} << 32 | link.b);
   return hasher.value();
 }
 

@@ -26,16 +26,16 @@ inline constexpr uint32_t vertex_links = 64;
 using Vertex = uint32_t;
 
 /// A link in both directions; a < b.
-struct Link {
+struct GraphLink {
   Vertex a = 0;
   Vertex b = 0;
 
-  friend auto operator<=>(const Link&, const Link&) = default;
+  friend auto operator<=>(const GraphLink&, const GraphLink&) = default;
 };
 
 /// The link between two vertices, whichever is named first.
-constexpr Link link_between(Vertex a, Vertex b) {
-  return a < b ? Link{a, b} : Link{b, a};
+constexpr GraphLink link_between(Vertex a, Vertex b) {
+  return a < b ? GraphLink{a, b} : GraphLink{b, a};
 }
 
 /// Neighbours of every vertex, in ascending order, without any further meaning. The place of a
@@ -44,7 +44,7 @@ constexpr Link link_between(Vertex a, Vertex b) {
 class Adjacency {
  public:
   /// Requires: every link between two different vertices < vertices, none twice.
-  Adjacency(uint32_t vertices, std::span<const Link> links);
+  Adjacency(uint32_t vertices, std::span<const GraphLink> links);
 
   uint32_t vertices() const { return static_cast<uint32_t>(first_.size() - 1); }
   uint32_t arcs() const { return first_.back(); }
@@ -71,7 +71,7 @@ struct GraphPlan {
   uint32_t links_most = 0;  // of a worker; the controller may have more or fewer
   ControllerRole controller = ControllerRole::none;
   uint32_t rotation = 1;
-  std::vector<Link> links;
+  std::vector<GraphLink> links;
 };
 
 /// Why a plan is no graph, and the first link that is wrong, where it is a link's fault.
@@ -92,7 +92,7 @@ class Graph {
   uint32_t links_most() const { return plan_.links_most; }
   uint32_t rotation() const { return plan_.rotation; }
   /// Sorted.
-  const std::vector<Link>& links() const { return plan_.links; }
+  const std::vector<GraphLink>& links() const { return plan_.links; }
 
   ControllerRole controller_role() const { return plan_.controller; }
   bool has_controller() const { return plan_.controller != ControllerRole::none; }
@@ -118,10 +118,10 @@ class Graph {
 };
 
 /// The links among the workers of a plan or graph, that is, without the controller.
-std::vector<Link> links_among(uint32_t workers, std::span<const Link> links);
+std::vector<GraphLink> links_among(uint32_t workers, std::span<const GraphLink> links);
 
 /// `links` and all their turned copies: worker v goes to v + workers / rotation, modulo workers,
 /// and the controller stays. Sorted, none twice. Requires: rotation divides workers.
-std::vector<Link> turned(uint32_t workers, uint32_t rotation, std::span<const Link> links);
+std::vector<GraphLink> turned(uint32_t workers, uint32_t rotation, std::span<const GraphLink> links);
 
 }  // namespace luxodus

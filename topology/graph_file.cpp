@@ -45,7 +45,7 @@ std::string graph_text(const Graph& graph) {
       graph.has_controller() ? fmt::format("  # vertex {}", graph.controller()) : "",
       graph.rotation(), graph.rotation(), graph.workers() / graph.rotation(), graph.links().size());
   std::string line = " ";
-  for (const Link& link : graph.links()) {
+  for (const GraphLink& link : graph.links()) {
     const std::string item = fmt::format(" [{}, {}],", link.a, link.b);
     if (line.size() + item.size() > columns) {
       text += line + "\n";

@@ -20,7 +20,7 @@ class CircleOrder {
  public:
   explicit CircleOrder(const Graph& graph)
       : nodes_(graph.workers()), base_(nodes_ / graph.rotation()), links_of_(base_) {
-    for (const Link& link : links_among(nodes_, graph.links())) {
+    for (const GraphLink& link : links_among(nodes_, graph.links())) {
       // Every copy of a link is as long: those at the first part stand for all.
       if (link.a < base_) links_of_[link.a].push_back(link);
       if (link.b < base_ || (link.b % base_ != link.a % base_ && link.a < base_))
@@ -51,9 +51,9 @@ class CircleOrder {
     return ((v / base_ + part_[v % base_]) * base_ + slot_[v % base_]) % nodes_;
   }
 
-  uint64_t length(const std::vector<Link>& links) const {
+  uint64_t length(const std::vector<GraphLink>& links) const {
     uint64_t sum = 0;
-    for (const Link& link : links) {
+    for (const GraphLink& link : links) {
       const uint32_t apart = (place(link.a) + nodes_ - place(link.b)) % nodes_;
       sum += std::min(apart, nodes_ - apart);
     }
@@ -91,7 +91,7 @@ class CircleOrder {
   }
 
   uint32_t nodes_, base_;
-  std::vector<std::vector<Link>> links_of_;  // by base vertex
+  std::vector<std::vector<GraphLink>> links_of_;  // by base vertex
   std::vector<uint32_t> slot_, part_;
   Random random_{0, RandomStream::graph};
 };

@@ -77,8 +77,8 @@ void Lift::take_back() {
   }
 }
 
-std::vector<Link> Lift::links() const {
-  std::vector<Link> once;
+std::vector<GraphLink> Lift::links() const {
+  std::vector<GraphLink> once;
   for (Dart a = 0; a < darts(); ++a) {
     const auto [mate, base, turn] = joints_[a];
     const Vertex from = a / shape_.links;

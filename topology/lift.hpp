@@ -55,7 +55,7 @@ class Lift {
   void take_back();
 
   /// All links, each once, as a Graph numbers them: (b, i) is i * base + b.
-  std::vector<Link> links() const;
+  std::vector<GraphLink> links() const;
 
  private:
   struct Former {

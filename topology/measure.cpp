@@ -7,8 +7,8 @@
 namespace luxodus {
 namespace {
 
-std::vector<Link> links_of(const Adjacency& graph) {
-  std::vector<Link> links;
+std::vector<GraphLink> links_of(const Adjacency& graph) {
+  std::vector<GraphLink> links;
   for (Vertex v = 0; v < graph.vertices(); ++v) {
     for (const Vertex to : graph.of(v)) {
       if (v < to) links.push_back({v, to});
@@ -27,10 +27,10 @@ void take_worse(FailureHarm& harm, const PathLengths& left) {
 
 FailureHarm harm_of_any_link(const Adjacency& graph) {
   FailureHarm harm;
-  std::vector<Link> links = links_of(graph);
+  std::vector<GraphLink> links = links_of(graph);
   for (size_t i = 0; i < links.size(); ++i) {
     // The last link stands in for the one that fails.
-    const Link failed = links[i];
+    const GraphLink failed = links[i];
     links[i] = links.back();
     take_worse(harm, path_lengths(Adjacency(graph.vertices(), {links.data(), links.size() - 1})));
     links[i] = failed;
@@ -41,10 +41,10 @@ FailureHarm harm_of_any_link(const Adjacency& graph) {
 FailureHarm harm_of_any_vertex(const Adjacency& graph) {
   FailureHarm harm;
   if (graph.vertices() < 2) return harm;
-  const std::vector<Link> links = links_of(graph);
+  const std::vector<GraphLink> links = links_of(graph);
   for (Vertex failed = 0; failed < graph.vertices(); ++failed) {
-    std::vector<Link> left;
-    for (const Link& link : links) {
+    std::vector<GraphLink> left;
+    for (const GraphLink& link : links) {
       if (link.a == failed || link.b == failed) continue;
       left.push_back({link.a - (link.a > failed ? 1 : 0), link.b - (link.b > failed ? 1 : 0)});
     }

@@ -16,7 +16,7 @@ namespace luxodus {
 /// What does not work at present.
 struct Failures {
   std::vector<Vertex> vertices;
-  std::vector<Link> links;
+  std::vector<GraphLink> links;
 };
 
 class Routes {

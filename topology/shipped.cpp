@@ -10,7 +10,7 @@ namespace {
 struct Row {
   ShippedSize size;
   uint32_t rotation;
-  std::vector<Link> families;
+  std::vector<GraphLink> families;
 };
 
 std::vector<Row> rows() {

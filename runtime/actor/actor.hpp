@@ -41,7 +41,7 @@ class Actor : public ControlReceiver {
 
   /// Sends without waiting; `rejected` where the kind is full and does not coalesce.
   template <class Message>
-  [[nodiscard]] Sent offer(const Message& message) {
+  [[nodiscard]] Offered offer(const Message& message) {
     if constexpr (is_control<Message>) {
       scheduler_.call_for_control(*this);
       return control_.offer(message);
@@ -53,7 +53,7 @@ class Actor : public ControlReceiver {
   /// Sends, after a wait where the kind is full and waits; `cancelled` where the sender should end
   /// instead. Requires: on a fiber. Suspends.
   template <class Message>
-  [[nodiscard]] Sent send(const Message& message) {
+  [[nodiscard]] Offered send(const Message& message) {
     if constexpr (is_control<Message>)
       return offer(message);
     else
@@ -100,8 +100,8 @@ class Actor : public ControlReceiver {
         any);
   }
 
-  Sent announced(Sent sent) {
-    if (sent == Sent::taken) scheduler_.fibers().wake_one(idle_);
+  Offered announced(Offered sent) {
+    if (sent == Offered::taken) scheduler_.fibers().wake_one(idle_);
     return sent;
   }
 

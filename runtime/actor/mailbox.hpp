@@ -23,7 +23,7 @@ enum class WhenFull {
   fail,      // our own arithmetic forbids it: the process ends
 };
 
-enum class Sent { taken, rejected, cancelled };
+enum class Offered { taken, rejected, cancelled };
 
 /// A kind of message, as an actor declares it: at most `most` wait in the mailbox.
 template <class MessageType, size_t most, WhenFull reaction>
@@ -52,34 +52,34 @@ class MailboxLane {
 
   /// Takes `message` in without waiting: a kind whose reaction is `wait` rejects instead.
   template <class Message>
-  [[nodiscard]] Sent offer(const Message& message) {
+  [[nodiscard]] Offered offer(const Message& message) {
     constexpr size_t kind = kind_of<Message>();
     if (counts_[kind].held < limits[kind]) {
       ++counts_[kind].held;
       append(kind, message);
-      return Sent::taken;
+      return Offered::taken;
     }
     constexpr WhenFull reaction = reactions[kind];
     if constexpr (reaction == WhenFull::coalesce) {
       slots_[counts_[kind].last % capacity] = message;
-      return Sent::taken;
+      return Offered::taken;
     } else {
       LUX_CHECK(reaction != WhenFull::fail, "a mailbox is full of a kind that may not wait");
-      return Sent::rejected;
+      return Offered::rejected;
     }
   }
 
   /// Takes `message` in, after a wait if need be. Requires: on a fiber. Suspends where the kind's
   /// reaction is `wait`.
   template <class Message>
-  [[nodiscard]] Sent send(Fibers& fibers, const Message& message) {
+  [[nodiscard]] Offered send(Fibers& fibers, const Message& message) {
     constexpr size_t kind = kind_of<Message>();
     if constexpr (reactions[kind] == WhenFull::wait) {
       if (counts_[kind].held == limits[kind]) {
         if (fibers.wait(counts_[kind].senders, "mailbox full") != Wake::woken)
-          return Sent::cancelled;
+          return Offered::cancelled;
         append(kind, message);  // in the place that take() left to us
-        return Sent::taken;
+        return Offered::taken;
       }
     }
     return offer(message);

@@ -128,9 +128,13 @@ EmissionPoint emission_point(const CompiledEmitter& e, float u, float v, double 
     case EmitterKind::point:
     case EmitterKind::volume:
       return {e.origin, down};
-    case EmitterKind::rectangle:
-      return {e.origin + e.axes[0] * ((u - 0.5f) * e.size.x) + e.axes[1] * ((v - 0.5f) * e.size.y),
+    case EmitterKind::rectangle: {
+      // A millionth off its edges: on one that touches a wall, a start would lie in that wall.
+      constexpr float inside = 1 - 0x1p-20f;
+      return {e.origin + e.axes[0] * ((u - 0.5f) * inside * e.size.x) +
+                  e.axes[1] * ((v - 0.5f) * inside * e.size.y),
               down};
+    }
     case EmitterKind::disc: {
       const glm::vec2 p = uniform_disc(u, v) * (0.5f * e.size.x);
       return {e.origin + e.axes[0] * p.x + e.axes[1] * p.y, down};

@@ -109,14 +109,14 @@ void print_messages(int repeats) {
   print_cost("data message sent and handled, mailbox of 64", repeats, messages, [&] {
     const auto sender = scheduler.fibers().start("sender", [&counter] {
       for (uint64_t i = 0; i < messages; ++i)
-        if (counter.send(Ping{i}) != Sent::taken) return;
+        if (counter.send(Ping{i}) != Offered::taken) return;
     });
     LUX_CHECK(sender.has_value(), "the sender before has ended");
     while (scheduler.fibers().live() > 1 || counter.waiting() > 0) scheduler.turn();
   });
   print_cost("control message sent and handled, 64 a turn", repeats, messages, [&] {
     for (uint64_t i = 0; i < messages; ++i)
-      if (counter.offer(Nudge{i}) == Sent::rejected || i % 64 == 63) scheduler.turn();
+      if (counter.offer(Nudge{i}) == Offered::rejected || i % 64 == 63) scheduler.turn();
   });
   end_all(scheduler.fibers());
 }

@@ -39,7 +39,7 @@ inline std::vector<Message> sample_messages() {
       ProfileCounted{36, 37},
       AskStatus{},
       StatusAnswered{},
-      EnterPhase{ShutdownPhase::flush_commits, 38},
+      EnterPhase{EndPhase::flush_commits, 38},
   };
 }
 

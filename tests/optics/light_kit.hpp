@@ -1,7 +1,7 @@
 // What the tests of light share: scenes made in a few lines, runs with a fixed seed, reference
 // tables, and the one comparison that counts: an estimate lies within its standard errors of a
 // reference, and those are small. Scenes are grey and radiometric (one band, watts), so results are
-// plain fluxes. One thread.
+// plain fluxes, and the same bits for any number of threads.
 #pragma once
 
 #include <catch2/catch.hpp>
@@ -65,24 +65,49 @@ struct Face {
   glm::dvec3 inward;
 };
 std::vector<Face> faces_of_box(const glm::dvec3& low, const glm::dvec3& high);
-/// A Lambertian rectangle that covers the face, `inset` inside of it.
+/// Perfect mirrors upright around a box: whatever is level between them is infinite.
+void add_mirror_walls(SceneDescription& scene, const glm::dvec3& low, const glm::dvec3& high);
+/// A Lambertian rectangle that covers the face, `inset` [m] in front of it and within its edges: it
+/// touches no wall.
 Emitter& add_face_emitter(SceneDescription& scene, const Face& face, double flux_w,
                           double inset = 1e-5);
 
 // ---- runs --------------------------------------------------------------------------------------
 
+/// Sanitizers are after memory and arithmetic, and a program under them is some ten times slower:
+/// there runs have fewer particles by this factor, and errors may be larger by its root and a
+/// quarter, since few batches know their own error less well.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+inline constexpr int64_t thrift = 64;
+inline constexpr double root_of_thrift = 10;
+#else
+inline constexpr int64_t thrift = 1;
+inline constexpr double root_of_thrift = 1;
+#endif
+
 struct RunOptions {
-  int64_t particles = 1 << 20;
+  int64_t particles = 1 << 20;  // divided by `thrift`
   uint64_t seed = 1;
   int threads = 2;
   int cells = 1;
   int64_t batch_particles = 4096;
 };
 
+/// Bins of one block that are judged as one: equal by symmetry, or integrated over by the
+/// reference. They are added batch by batch, like the tracer's own aggregates, so that the standard
+/// error is that of the sum, however its parts are correlated.
+struct BinSum {
+  uint32_t TallyBlocks::*block;
+  std::vector<uint32_t> bins;
+};
+/// All that leaves the scene.
+BinSum every_side();
+
 /// A scene compiled and traced. Checks that the ledger closes and that no history was lost.
 class Run {
  public:
-  explicit Run(SceneDescription scene, const RunOptions& options = {});
+  explicit Run(SceneDescription scene, const RunOptions& options = {},
+               const std::vector<BinSum>& sums = {});
 
   const CompiledScene& scene() const { return run_->scene(); }
   const TallyBlocks& blocks() const { return scene().blocks; }
@@ -102,10 +127,13 @@ class Run {
   Estimate track_length(uint32_t volume_group) const;
   Estimate absorbed_in(uint32_t volume_group) const;
   Estimate absorbed_by_medium(uint32_t medium) const;
+  /// The BinSum of that number, in the unit of its bins.
+  Estimate sum(uint32_t number, uint32_t quantity = 0) const;
 
  private:
   uint32_t surface_index(const std::string& name) const;
   std::unique_ptr<LocalRun> run_;
+  std::vector<uint32_t> sum_blocks_;
 };
 
 std::shared_ptr<const CompiledScene> compile(SceneDescription scene, int cells = 1);
@@ -113,6 +141,12 @@ std::shared_ptr<const CompiledScene> compile(SceneDescription scene, int cells =
 // ---- comparisons -------------------------------------------------------------------------------
 
 inline constexpr double four_standard_errors = 4;
+/// The relative standard error at which a comparison means something: four of them are 2 %.
+inline constexpr double half_percent = 5e-3 * root_of_thrift;
+
+/// How many particles make the relative standard error of a share of them half a percent, before
+/// they are divided by `thrift`.
+int64_t particles_for(double share);
 
 /// The estimate is within `standard_errors` of the reference, plus what is known to be biased
 /// (`slack`, in the reference's unit), and its standard error is at most `error_most` (in the
@@ -122,6 +156,11 @@ void check_near(const Estimate& estimate, double reference, double error_most, d
 /// The same with the standard error bounded relative to the reference.
 void check_within(const Estimate& estimate, double reference, double relative_error_most,
                   double relative_slack = 0, double standard_errors = four_standard_errors);
+/// A mean of something of which each of `particles` brings `most` or less. Its standard error is at
+/// most half a percent or, for what is too rare to be counted that well, what chance allows: the
+/// variance of one particle is at most most * mean.
+void check_share(const Estimate& estimate, double reference, int64_t particles, double most = 1,
+                 double slack = 0);
 /// Two independent estimates of one thing.
 void check_agree(const Estimate& a, const Estimate& b, double relative_error_most,
                  double standard_errors = four_standard_errors);

@@ -24,7 +24,7 @@ TEST_CASE("hops counted for all sources at once are those of a search from each"
 }
 
 TEST_CASE("pairs without a way are counted apart", "[topology]") {
-  const std::vector<Link> two_parts{{0, 1}, {1, 2}, {3, 4}};
+  const std::vector<GraphLink> two_parts{{0, 1}, {1, 2}, {3, 4}};
   const PathLengths lengths = path_lengths(Adjacency(5, two_parts));
   CHECK(lengths.unconnected == 12);
   CHECK(lengths.hops == 2 * (1 + 1 + 2 + 1));

@@ -61,7 +61,7 @@ TEST_CASE("a ring is drawn as a ring, whatever its numbers", "[topology][draw]")
 TEST_CASE("neighbours in a mesh are drawn nearer than its corners", "[topology][draw]") {
   const Graph mesh = make_mesh(36).value();
   const std::vector<DrawnPlace> places = layout(mesh);
-  for (const Link& link : mesh.links()) {
+  for (const GraphLink& link : mesh.links()) {
     CHECK(apart(places[link.a], places[link.b]) < 0.4 * apart(places[0], places[35]));
   }
 }

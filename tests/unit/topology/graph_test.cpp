@@ -14,7 +14,7 @@ std::string fault(GraphPlan plan) {
   return fault ? fault->what : "";
 }
 
-const std::vector<Link> triangle{{0, 1}, {1, 2}, {0, 2}};
+const std::vector<GraphLink> triangle{{0, 1}, {1, 2}, {0, 2}};
 
 }  // namespace
 
@@ -24,7 +24,7 @@ TEST_CASE("a graph names the neighbours of each vertex in ascending order", "[to
         std::vector<Vertex>{1, 2, 3});
   CHECK(g.all().degree(1) == 1);
   CHECK(g.all().target(g.all().arc(3, 1)) == 2);
-  CHECK(g.links() == std::vector<Link>{{0, 1}, {0, 2}, {0, 3}, {2, 3}});
+  CHECK(g.links() == std::vector<GraphLink>{{0, 1}, {0, 2}, {0, 3}, {2, 3}});
 }
 
 TEST_CASE("what is no graph is refused with the reason", "[topology]") {
@@ -51,7 +51,7 @@ TEST_CASE("a fault of a link names the first that is wrong", "[topology]") {
 }
 
 TEST_CASE("a controller that forwards nothing connects nothing", "[topology]") {
-  const std::vector<Link> star{{0, 2}, {1, 2}};
+  const std::vector<GraphLink> star{{0, 2}, {1, 2}};
   CHECK(fault({2, 1, ControllerRole::forwards, 1, star}).empty());
   CHECK_THAT(fault({2, 1, ControllerRole::endpoint, 1, star}), Catch::Contains("fall apart"));
   const Graph g = test::graph(2, 2, {{0, 1}, {0, 2}, {1, 2}}, ControllerRole::endpoint);
@@ -64,11 +64,11 @@ TEST_CASE("a controller that forwards nothing connects nothing", "[topology]") {
 }
 
 TEST_CASE("links turn around the workers while the controller stays", "[topology]") {
-  CHECK(turned(6, 3, std::vector<Link>{{0, 1}}) == std::vector<Link>{{0, 1}, {2, 3}, {4, 5}});
-  CHECK(turned(4, 2, std::vector<Link>{{0, 2}, {1, 4}}) ==
-        std::vector<Link>{{0, 2}, {1, 4}, {3, 4}});
+  CHECK(turned(6, 3, std::vector<GraphLink>{{0, 1}}) == std::vector<GraphLink>{{0, 1}, {2, 3}, {4, 5}});
+  CHECK(turned(4, 2, std::vector<GraphLink>{{0, 2}, {1, 4}}) ==
+        std::vector<GraphLink>{{0, 2}, {1, 4}, {3, 4}});
   const GraphPlan plan{4, 3, ControllerRole::endpoint, 2,
-                       turned(4, 2, std::vector<Link>{{0, 1}, {1, 2}, {0, 4}})};
+                       turned(4, 2, std::vector<GraphLink>{{0, 1}, {1, 2}, {0, 4}})};
   CHECK(Graph(plan).rotation() == 2);
 }
 
@@ -77,7 +77,7 @@ TEST_CASE("the hash follows the graph and not the order of its links", "[topolog
   CHECK(g.hash() == test::graph(3, 2, {{2, 0}, {2, 1}, {1, 0}}).hash());
   CHECK(g.hash() != test::graph(3, 2, {{0, 1}, {1, 2}}).hash());
   CHECK(g.hash() != test::graph(3, 3, triangle).hash());
-  const std::vector<Link> three{{0, 1}, {0, 2}, {1, 2}};
+  const std::vector<GraphLink> three{{0, 1}, {0, 2}, {1, 2}};
   CHECK(test::graph(2, 2, three, ControllerRole::endpoint).hash() !=
         test::graph(2, 2, three, ControllerRole::forwards).hash());
 }

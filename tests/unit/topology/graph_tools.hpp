@@ -10,7 +10,7 @@
 
 namespace luxodus::test {
 
-inline Graph graph(uint32_t workers, uint32_t links_most, std::vector<Link> links,
+inline Graph graph(uint32_t workers, uint32_t links_most, std::vector<GraphLink> links,
                    ControllerRole role = ControllerRole::none) {
   return Graph({workers, links_most, role, 1, std::move(links)});
 }

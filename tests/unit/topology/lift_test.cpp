@@ -32,10 +32,10 @@ TEST_CASE("a lift of any shape stays within its links and keeps its rotation, wh
     Lift lift(shapes[s], random);
     for (int i = 0; i < 200; ++i) {
       lift.change(random);
-      const std::vector<Link> links = lift.links();
+      const std::vector<GraphLink> links = lift.links();
       REQUIRE(turned(shapes[s].workers(), shapes[s].turns, links) == links);
       std::vector<uint32_t> degree(shapes[s].workers() + 1);
-      for (const Link& link : links) {
+      for (const GraphLink& link : links) {
         ++degree[link.a];
         ++degree[link.b];
       }
@@ -51,7 +51,7 @@ TEST_CASE("a change that is taken back leaves no trace", "[topology][lift]") {
   for (const LiftShape& shape : shapes) {
     Lift lift(shape, random);
     for (int i = 0; i < 100; ++i) {
-      const std::vector<Link> before = lift.links();
+      const std::vector<GraphLink> before = lift.links();
       lift.change(random);
       lift.take_back();
       REQUIRE(lift.links() == before);

@@ -29,8 +29,8 @@ TEST_CASE("harm is the worst over all links and vertices", "[topology][measure]"
   const Graph graph = *shipped_graph({32, 4, 0});
   uint32_t diameter = 0;
   double average = 0;
-  for (const Link& failed : graph.links()) {
-    std::vector<Link> left = graph.links();
+  for (const GraphLink& failed : graph.links()) {
+    std::vector<GraphLink> left = graph.links();
     std::erase(left, failed);
     const PathLengths paths = test::plain_path_lengths(test::graph(32, 4, left));
     diameter = std::max(diameter, paths.diameter);
@@ -50,7 +50,7 @@ TEST_CASE("classes of buffers are as many as the longest route has hops, and a s
 TEST_CASE("nodes are measured without a controller's help, and the controller to them",
           "[topology][measure]") {
   // A path of 4 with a controller at its ends: it makes a ring only where it forwards.
-  const std::vector<Link> links{{0, 1}, {1, 2}, {2, 3}, {0, 4}, {3, 4}};
+  const std::vector<GraphLink> links{{0, 1}, {1, 2}, {2, 3}, {0, 4}, {3, 4}};
   const Measures m = measure(test::graph(4, 2, links, ControllerRole::endpoint));
   CHECK(m.all.paths.diameter == 2);
   CHECK(m.workers->paths.diameter == 3);

@@ -20,8 +20,8 @@ Graph amp32_with_controller(ControllerRole role = ControllerRole::endpoint) {
 
 /// The graph as it is without what failed, vertices kept.
 Graph without(const Graph& graph, const Failures& failures) {
-  std::vector<Link> left;
-  for (const Link& link : graph.links()) {
+  std::vector<GraphLink> left;
+  for (const GraphLink& link : graph.links()) {
     if (std::count(failures.links.begin(), failures.links.end(), link) == 0) left.push_back(link);
   }
   return Graph({graph.workers(), graph.links_most(), graph.controller_role(), 1, left});

@@ -37,7 +37,7 @@ TEST_CASE("known graphs have their known connectivity, girth and bisection", "[t
 }
 
 TEST_CASE("the Petersen graph has connectivity 3 and girth 5", "[topology]") {
-  std::vector<Link> links;
+  std::vector<GraphLink> links;
   for (Vertex v = 0; v < 5; ++v) {
     links.push_back({v, (v + 1) % 5});
     links.push_back({v, v + 5});

@@ -78,7 +78,7 @@ TEST_CASE("data is handled in the order it was sent", "[runtime][actor]") {
   Worker worker(node);
   worker.start();
   node.settle();
-  for (int i = 1; i <= 4; ++i) CHECK(worker.offer(Work{i}) == Sent::taken);
+  for (int i = 1; i <= 4; ++i) CHECK(worker.offer(Work{i}) == Offered::taken);
   node.settle();
   CHECK(worker.done == numbers(1, 4));
   node.scheduler.fibers().cancel_all();
@@ -92,11 +92,11 @@ TEST_CASE("a full mailbox makes the sender wait and loses nothing", "[runtime][m
   worker.start();
   node.start([&worker] {
     for (int i = 1; i <= 20; ++i)
-      if (worker.send(Work{i}) != Sent::taken) return;
+      if (worker.send(Work{i}) != Offered::taken) return;
   });
   node.settle();
   CHECK(worker.waiting() == 4);
-  CHECK(worker.offer(Work{99}) == Sent::rejected);
+  CHECK(worker.offer(Work{99}) == Offered::rejected);
   for (int i = 0; i < 20; ++i) {
     CHECK(worker.waiting() <= 4);
     node.scheduler.fibers().wake_all(worker.gate);
@@ -117,7 +117,7 @@ TEST_CASE("waiting senders are served in the order they came, and none overtakes
   // One message is at the gate and four are in the mailbox when the others begin to wait.
   for (int i = 1; i <= 8; ++i) {
     node.start([&node, &worker, i] {
-      if (worker.send(Work{i}) == Sent::taken) node.note("sent" + std::to_string(i));
+      if (worker.send(Work{i}) == Offered::taken) node.note("sent" + std::to_string(i));
     });
     node.settle();
   }
@@ -127,7 +127,7 @@ TEST_CASE("waiting senders are served in the order they came, and none overtakes
     node.scheduler.fibers().wake_one(worker.gate);
     // Runs after a place was freed and before its sender: the place is that sender's.
     node.start([&node, &worker] {
-      if (worker.offer(Work{99}) == Sent::rejected) node.note("kept");
+      if (worker.offer(Work{99}) == Offered::rejected) node.note("kept");
     });
     node.settle();
   }
@@ -146,8 +146,8 @@ TEST_CASE("control overtakes data, even while a data handler waits", "[runtime][
   Worker worker(node);
   worker.busy = true;
   worker.start();
-  for (int i = 1; i <= 3; ++i) CHECK(worker.offer(Work{i}) == Sent::taken);
-  CHECK(worker.offer(Stop{}) == Sent::taken);
+  for (int i = 1; i <= 3; ++i) CHECK(worker.offer(Work{i}) == Offered::taken);
+  CHECK(worker.offer(Stop{}) == Offered::taken);
   node.settle();
   CHECK(node.noted == "stop ");
   CHECK(worker.done.empty());
@@ -158,12 +158,12 @@ TEST_CASE("control overtakes data, even while a data handler waits", "[runtime][
 TEST_CASE("control has a place of its own however full the data lane is", "[runtime][mailbox]") {
   Node node;
   Worker worker(node);
-  for (int i = 1; i <= 4; ++i) CHECK(worker.offer(Work{i}) == Sent::taken);
-  for (int i = 1; i <= 2; ++i) CHECK(worker.offer(Hint{i}) == Sent::taken);
-  CHECK(worker.offer(Hint{3}) == Sent::rejected);
-  CHECK(worker.offer(Work{5}) == Sent::rejected);
-  CHECK(worker.offer(Stop{}) == Sent::taken);
-  CHECK(worker.offer(Beat{1}) == Sent::taken);
+  for (int i = 1; i <= 4; ++i) CHECK(worker.offer(Work{i}) == Offered::taken);
+  for (int i = 1; i <= 2; ++i) CHECK(worker.offer(Hint{i}) == Offered::taken);
+  CHECK(worker.offer(Hint{3}) == Offered::rejected);
+  CHECK(worker.offer(Work{5}) == Offered::rejected);
+  CHECK(worker.offer(Stop{}) == Offered::taken);
+  CHECK(worker.offer(Beat{1}) == Offered::taken);
   node.settle();
   CHECK(node.noted == "stop beat1 ");
 }
@@ -171,10 +171,10 @@ TEST_CASE("control has a place of its own however full the data lane is", "[runt
 TEST_CASE("a kind that coalesces keeps its place and its last content", "[runtime][mailbox]") {
   Node node;
   Worker worker(node);
-  CHECK(worker.offer(Beat{1}) == Sent::taken);
-  CHECK(worker.offer(Stop{}) == Sent::taken);
-  CHECK(worker.offer(Beat{2}) == Sent::taken);
-  CHECK(worker.offer(Beat{3}) == Sent::taken);
+  CHECK(worker.offer(Beat{1}) == Offered::taken);
+  CHECK(worker.offer(Stop{}) == Offered::taken);
+  CHECK(worker.offer(Beat{2}) == Offered::taken);
+  CHECK(worker.offer(Beat{3}) == Offered::taken);
   CHECK(worker.waiting() == 2);
   node.settle();
   CHECK(node.noted == "beat3 stop ");
@@ -184,7 +184,7 @@ TEST_CASE("a kind that may not be full ends the process when it is", "[runtime][
   const test::End end = test::end_of([] {
     Node node;
     Worker worker(node);
-    if (worker.offer(Stop{}) == Sent::taken && worker.offer(Stop{}) == Sent::taken) return;
+    if (worker.offer(Stop{}) == Offered::taken && worker.offer(Stop{}) == Offered::taken) return;
   });
   CHECK(end.signal == SIGABRT);
   CHECK(end.standard_error.find("full of a kind that may not wait") != std::string::npos);
@@ -193,9 +193,9 @@ TEST_CASE("a kind that may not be full ends the process when it is", "[runtime][
 TEST_CASE("a sender that is cancelled while it waits has sent nothing", "[runtime][mailbox]") {
   Node node;
   Worker worker(node);
-  for (int i = 1; i <= 4; ++i) CHECK(worker.offer(Work{i}) == Sent::taken);
+  for (int i = 1; i <= 4; ++i) CHECK(worker.offer(Work{i}) == Offered::taken);
   const FiberId sender = node.start([&] {
-    if (worker.send(Work{5}) == Sent::cancelled) node.note("cancelled");
+    if (worker.send(Work{5}) == Offered::cancelled) node.note("cancelled");
   });
   node.settle();
   node.scheduler.fibers().cancel(sender);
@@ -204,7 +204,7 @@ TEST_CASE("a sender that is cancelled while it waits has sent nothing", "[runtim
   worker.start();
   node.settle();
   CHECK(worker.done == numbers(1, 4));
-  CHECK(worker.offer(Work{6}) == Sent::taken);
+  CHECK(worker.offer(Work{6}) == Offered::taken);
   node.settle();
   CHECK(worker.done.back() == 6);
   node.scheduler.fibers().cancel_all();
@@ -218,9 +218,9 @@ TEST_CASE("an actor may have one lane only", "[runtime][actor]") {
   sink.start();
   node.start([&sink] {
     for (int i = 1; i <= 10; ++i)
-      if (sink.send(Work{i}) != Sent::taken) return;
+      if (sink.send(Work{i}) != Offered::taken) return;
   });
-  CHECK(bell.offer(Beat{7}) == Sent::taken);
+  CHECK(bell.offer(Beat{7}) == Offered::taken);
   node.settle();
   CHECK(sink.sum == 55);
   CHECK(bell.last == 7);
@@ -239,7 +239,7 @@ TEST_CASE("an actor with a long queue lets other fibers run in between", "[runti
   });
   node.start([&] {
     for (int i = 1; i <= 1000; ++i)
-      if (sink.send(Work{1}) != Sent::taken) return;
+      if (sink.send(Work{1}) != Offered::taken) return;
     stop = true;
   });
   node.settle();

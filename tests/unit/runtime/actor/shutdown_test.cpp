@@ -97,7 +97,7 @@ TEST_CASE("all pools are full again after a shutdown in the midst of work", "[ru
         if (i % 4 == 0) how = scheduler.sleep_until(scheduler.clock().now() + microseconds(50 * i));
         if (i % 4 == 1) how = scheduler.wait_until(nothing, scheduler.clock().now() + 999, "x");
         if (i % 4 == 2) how = scheduler.fibers().wait(nothing, "y");
-        if (i % 4 == 3 && slow.send(Work{i}) == Sent::cancelled) how = Wake::cancelled;
+        if (i % 4 == 3 && slow.send(Work{i}) == Offered::cancelled) how = Wake::cancelled;
       }
     });
   for (int i = 0; i < 20; ++i) {
