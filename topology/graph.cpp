@@ -128,7 +128,8 @@ std::vector<GraphLink> links_among(uint32_t workers, std::span<const GraphLink> 
   return among;
 }
 
-std::vector<GraphLink> turned(uint32_t workers, uint32_t rotation, std::span<const GraphLink> links) {
+std::vector<GraphLink> turned(uint32_t workers, uint32_t rotation,
+                              std::span<const GraphLink> links) {
   const uint32_t step = workers / rotation;
   const auto turn = [&](Vertex v, uint32_t by) {
     return v < workers ? (v + by * step) % workers : v;

@@ -122,6 +122,7 @@ std::vector<GraphLink> links_among(uint32_t workers, std::span<const GraphLink> 
 
 /// `links` and all their turned copies: worker v goes to v + workers / rotation, modulo workers,
 /// and the controller stays. Sorted, none twice. Requires: rotation divides workers.
-std::vector<GraphLink> turned(uint32_t workers, uint32_t rotation, std::span<const GraphLink> links);
+std::vector<GraphLink> turned(uint32_t workers, uint32_t rotation,
+                              std::span<const GraphLink> links);
 
 }  // namespace luxodus

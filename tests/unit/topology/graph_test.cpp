@@ -64,7 +64,8 @@ TEST_CASE("a controller that forwards nothing connects nothing", "[topology]") {
 }
 
 TEST_CASE("links turn around the workers while the controller stays", "[topology]") {
-  CHECK(turned(6, 3, std::vector<GraphLink>{{0, 1}}) == std::vector<GraphLink>{{0, 1}, {2, 3}, {4, 5}});
+  CHECK(turned(6, 3, std::vector<GraphLink>{{0, 1}}) ==
+        std::vector<GraphLink>{{0, 1}, {2, 3}, {4, 5}});
   CHECK(turned(4, 2, std::vector<GraphLink>{{0, 2}, {1, 4}}) ==
         std::vector<GraphLink>{{0, 2}, {1, 4}, {3, 4}});
   const GraphPlan plan{4, 3, ControllerRole::endpoint, 2,

@@ -44,7 +44,8 @@ struct Stage {
     if (scheduler.fibers().wait(objects, "object") != Wake::woken) return;
     const Wake answer = scheduler.wait_until(answers, start + milliseconds(2), "answer");
     if (answer == Wake::cancelled || scheduler.fibers().yield() == Wake::cancelled) return;
-    if (tally.send(Score{particle, 3}) != Offered::taken || tally.offer(Beat{}) != Offered::taken) return;
+    if (tally.send(Score{particle, 3}) != Offered::taken || tally.offer(Beat{}) != Offered::taken)
+      return;
     latency.add(scheduler.clock().now() - start);
   }
   void go_on() {
