@@ -88,9 +88,8 @@ unsigned count(size_t n) {
 }
 
 void write_lease(wire::LeaseGranted::Builder out, const LeaseGranted& m) {
-  out.setLease(m.lease);
+  out.setFirstLease(m.first_lease);
   out.setRound(m.round);
-  out.setGroup(m.group);
   out.setFirstBatch(m.first_batch);
   out.setBatches(m.batches);
   out.setDurationMs(m.duration_ms);
@@ -262,7 +261,7 @@ Refuse read_refuse(wire::Refuse::Reader in) {
 }
 
 LeaseGranted read_lease(wire::LeaseGranted::Reader in) {
-  return {in.getLease(),      in.getRound(),   in.getGroup(),
+  return {in.getFirstLease(), in.getRound(),
           in.getFirstBatch(), in.getBatches(), in.getDurationMs()};
 }
 

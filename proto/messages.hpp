@@ -170,12 +170,12 @@ struct RequestLease {
   uint32_t batches = 0;
   friend bool operator==(const RequestLease&, const RequestLease&) = default;
 };
+/// Leases first_lease, first_lease + 1, ... for batches first_batch, first_batch + 1, ...: one each.
 struct LeaseGranted {
-  uint64_t lease = 0;
+  uint64_t first_lease = 0;
   uint32_t round = 0;
-  uint32_t group = 0;  // of sources
   uint64_t first_batch = 0;
-  uint32_t batches = 0;
+  uint32_t batches = 0;  // 0: none is left in this round
   uint32_t duration_ms = 0;
   friend bool operator==(const LeaseGranted&, const LeaseGranted&) = default;
 };

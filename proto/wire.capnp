@@ -105,12 +105,11 @@ struct RequestLease {
 }
 
 struct LeaseGranted {
-  lease @0 :UInt64;
+  firstLease @0 :UInt64;
   round @1 :UInt32;
-  group @2 :UInt32;
-  firstBatch @3 :UInt64;
-  batches @4 :UInt32;
-  durationMs @5 :UInt32;
+  firstBatch @2 :UInt64;
+  batches @3 :UInt32;
+  durationMs @4 :UInt32;
 }
 
 struct Flush {

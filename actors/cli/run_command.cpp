@@ -7,6 +7,7 @@
 #include "actors/display/pictures.hpp"
 #include "actors/display/report.hpp"
 #include "actors/source/flux_store.hpp"
+#include "actors/supervise/in_process.hpp"
 #include "scenes/transport/compile.hpp"
 
 namespace luxodus::cli {
@@ -23,6 +24,8 @@ struct RunOptions {
   std::optional<uint64_t> seed;
   int threads = default_threads();
   int cells = 1;
+  int nodes = 0;  // 0: the plain loop
+  size_t fibers = 1;
   bool resume = false;
   bool no_views = false;
   bool json = false;
@@ -78,6 +81,18 @@ Result<Done> write_all(const fs::path& folder, const LocalRun& run, const RunRec
   return render_views(folder, run, "", picture, [&](double share) { line.show_share(share); });
 }
 
+/// Traces with the plain loop, or on nodes.
+Result<StopReason> trace(LocalRun& run, const Scenario& scenario, const RunOptions& options,
+                         const StopRule& rule) {
+  ProgressLine line(scenario.name);
+  const auto show = [&](const Progress& p) { line.show(p); };
+  if (options.nodes == 0) return run.run(rule, interrupt_flag(), show);
+  NodesOptions nodes;
+  nodes.nodes = options.nodes;
+  nodes.fibers = options.fibers;
+  return run_on_nodes(run, nodes, rule, interrupt_flag(), show);
+}
+
 /// One scenario into one folder.
 Result<StopReason> run_scenario(std::shared_ptr<const SceneDescription> description,
                                 const Scenario& scenario, const fs::path& folder,
@@ -93,14 +108,11 @@ Result<StopReason> run_scenario(std::shared_ptr<const SceneDescription> descript
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) return Problem{{folder.string(), 0}, "cannot make this folder: " + error.message()};
-  StopReason reason = StopReason::particles;
-  {
-    ProgressLine line(scenario.name);
-    reason = run.run(rule, interrupt_flag(), [&](const Progress& p) { line.show(p); });
-  }
+  auto reason = trace(run, scenario, options, rule);
+  if (!reason.ok()) return reason.problem();
   RunRecord record;
   record.scene_file = fs::absolute(options.scene).string();
-  record.stopped_by = reason_word(reason);
+  record.stopped_by = reason_word(reason.value());
   record.cells = options.cells;
   if (auto ok = write_all(folder, run, record, options); !ok.ok()) return ok.problem();
   const Json result = result_json(run, record);
@@ -175,6 +187,13 @@ void add_run(CLI::App& app, int& exit_code) {
   command->add_option("--threads", options->threads, "[all cores]")->check(CLI::Range(1, 1024));
   command->add_option("--cells", options->cells, "geometry cells; 1 is one merged scene [1]")
       ->check(CLI::Range(1, 1'000'000));
+  command
+      ->add_option("--nodes", options->nodes,
+                   "trace on so many nodes, a thread each, linked as a minimum-path graph [0: the "
+                   "plain loop]")
+      ->check(CLI::Range(0, limits::nodes_in_process));
+  command->add_option("--fibers", options->fibers, "photon-threads of a node [1]")
+      ->check(CLI::Range(size_t{1}, size_t{16384}));
   command
       ->add_option("--picture-paths", options->picture_paths, "paths per pixel of the views [32]")
       ->check(CLI::Range(1, 100'000));

@@ -44,21 +44,26 @@ void LocalRun::resume(int64_t batches) {
   plan_.skip(batches);
 }
 
-Progress LocalRun::progress(const StopRule& stop, double seconds) const {
+int64_t LocalRun::target_batches(const StopRule& stop) const {
+  if (!stop.particles) return std::numeric_limits<int64_t>::max();
+  return (*stop.particles + scene_->batch_particles - 1) / scene_->batch_particles;
+}
+
+Progress progress_of(const StopRule& stop, int64_t batch_particles, int64_t at_start,
+                     int64_t batches, double seconds, double error) {
   Progress p;
-  p.particles = plan_.given() * scene_->batch_particles;
+  p.particles = batches * batch_particles;
   p.seconds = seconds;
-  const auto here =
-      static_cast<double>((plan_.given() - batches_at_start_) * scene_->batch_particles);
+  const auto here = static_cast<double>((batches - at_start) * batch_particles);
   p.particles_per_second = seconds > 0 ? here / seconds : 0;
-  p.relative_error = error_;
+  p.relative_error = error;
   double left = std::numeric_limits<double>::infinity();
   if (stop.seconds) left = std::min(left, *stop.seconds - seconds);
   if (stop.particles && p.particles_per_second > 0)
     left =
         std::min(left, static_cast<double>(*stop.particles - p.particles) / p.particles_per_second);
-  if (stop.relative_error && std::isfinite(error_) && error_ > 0) {
-    const double ratio = error_ / *stop.relative_error;
+  if (stop.relative_error && std::isfinite(error) && error > 0) {
+    const double ratio = error / *stop.relative_error;
     left = std::min(left, seconds * std::max(0.0, ratio * ratio - 1));
   }
   p.seconds_left =
@@ -105,9 +110,7 @@ StopReason LocalRun::run(const StopRule& stop, const std::atomic<bool>& interrup
   const double before = seconds_;
   batches_at_start_ = plan_.given();
   time_is_up_ = false;
-  int64_t target = std::numeric_limits<int64_t>::max();
-  if (stop.particles)
-    target = (*stop.particles + scene_->batch_particles - 1) / scene_->batch_particles;
+  const int64_t target = target_batches(stop);
   StopReason reason = StopReason::particles;
   while (plan_.given() < target) {
     // Rounds end where threads wait for one another: only an error target needs them.

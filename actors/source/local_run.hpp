@@ -31,6 +31,10 @@ struct Progress {
   double seconds_left = 0;    // NaN where no rule gives one
 };
 
+/// Progress after `batches` in all, of which `at_start` were there before these `seconds`.
+Progress progress_of(const StopRule& stop, int64_t batch_particles, int64_t at_start,
+                     int64_t batches, double seconds, double error);
+
 enum class StopReason { particles, error, time, interrupted };
 
 class LocalRun {
@@ -43,8 +47,15 @@ class LocalRun {
   StopReason run(const StopRule& stop, const std::atomic<bool>& interrupt,
                  const std::function<void(const Progress&)>& report);
 
-  /// Goes on from totals that hold the first `batches` batches. Requires: nothing traced yet.
+  /// Goes on from totals that hold the first `batches` batches.
   void resume(int64_t batches);
+  /// Adds time that somebody else has traced into the totals.
+  void add_seconds(double seconds) { seconds_ += seconds; }
+
+  /// Batches that a rule asks for by particles; unreachably many where it does not.
+  int64_t target_batches(const StopRule& stop) const;
+  /// Where the round ends that begins with `batches` done.
+  int64_t round_end(int64_t batches) const { return plan_.round_end(batches); }
 
   const CompiledScene& scene() const { return *scene_; }
   const SceneIndex& index() const { return *index_; }
@@ -61,7 +72,10 @@ class LocalRun {
   class Clock;
   void trace_until(int64_t end, const StopRule& stop, const std::atomic<bool>& interrupt,
                    const std::function<void(const Progress&)>& report, const Clock& clock);
-  Progress progress(const StopRule& stop, double seconds) const;
+  Progress progress(const StopRule& stop, double seconds) const {
+    return progress_of(stop, scene_->batch_particles, batches_at_start_, plan_.given(), seconds,
+                       error_);
+  }
 
   std::shared_ptr<const CompiledScene> scene_;
   uint64_t seed_;

@@ -97,6 +97,34 @@ void Totals::merge(BatchScores& batch, int group) {
   ++to.batches;
 }
 
+TotalsGain Totals::take() {
+  TotalsGain gain;
+  for (GroupState& group : groups_) {
+    TotalsGain::GroupGain& out = gain.groups.emplace_back();
+    out.batches = std::exchange(group.batches, 0);
+    for (size_t i = 0; i < group.totals.size(); ++i) {
+      Total& total = group.totals[i];
+      if (total.sum == 0 && total.squares == 0) continue;
+      out.bins.push_back({static_cast<int64_t>(i), std::exchange(total, {})});
+    }
+  }
+  gain.ledger = std::exchange(ledger_, {});
+  return gain;
+}
+
+void Totals::add(const TotalsGain& gain) {
+  for (size_t g = 0; g < gain.groups.size(); ++g) {
+    GroupState& group = groups_[g];
+    group.batches += gain.groups[g].batches;
+    for (const TotalsGain::Bin& bin : gain.groups[g].bins) {
+      Total& total = group.totals[static_cast<size_t>(bin.index)];
+      total.sum += bin.total.sum;
+      total.squares += bin.total.squares;
+    }
+  }
+  ledger_.add(gain.ledger);
+}
+
 namespace {
 
 BatchMean mean_of(const Total& total, int64_t batches) {

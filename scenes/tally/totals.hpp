@@ -34,6 +34,21 @@ struct Total {
   UInt128 squares = 0;  // of (batch score >> square_shift, rounded)
 };
 
+/// What batches have added to totals: bins that are not zero, in ascending order, and the ledger. It
+/// travels where totals of one place are merged into those of another.
+struct TotalsGain {
+  struct Bin {
+    int64_t index = 0;  // into the totals
+    Total total;
+  };
+  struct GroupGain {
+    int64_t batches = 0;
+    std::vector<Bin> bins;
+  };
+  std::vector<GroupGain> groups;  // one for each source group
+  Ledger ledger;
+};
+
 /// Mean and standard error of a score per batch.
 struct BatchMean {
   double mean = 0;
@@ -55,6 +70,12 @@ class Totals {
   /// Fills the aggregate bins of the batch, then adds its scores and their squares to group's
   /// totals.
   void merge(BatchScores& batch, int group);
+
+  /// Takes everything out, as after construction. Not beside other calls.
+  TotalsGain take();
+  /// Adds what was taken from totals of the same layout. Requires: as many groups, indices within
+  /// the layout. Not beside other calls.
+  void add(const TotalsGain& gain);
 
   int groups() const { return static_cast<int>(groups_.size()); }
   int64_t batches(int group) const { return groups_[static_cast<size_t>(group)].batches; }

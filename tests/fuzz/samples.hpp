@@ -29,7 +29,7 @@ inline std::vector<Message> sample_messages() {
       ObjectFound{{14}, {15}},
       ObjectNotHere{{16}, {17}},
       RequestLease{18},
-      LeaseGranted{19, 20, 21, 22, 23, 24},
+      LeaseGranted{19, 20, 22, 23, 24},
       LeasesFenced{{25, 26}},
       Flush{27, 28, {29, 30, 31}},
       FlushTaken{},

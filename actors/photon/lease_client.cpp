@@ -1,0 +1,133 @@
+#include "actors/photon/lease_client.hpp"
+
+#include "actors/tally/flush_codec.hpp"
+#include "runtime/core/hash.hpp"
+
+namespace luxodus {
+
+LeaseClient::LeaseClient(const LeaseClientConfig& config, Scheduler& scheduler, Network& network)
+    : config_(config), scheduler_(scheduler), network_(network) {}
+
+void LeaseClient::start(PhotonThreads& photons) {
+  photons_ = &photons;
+  set_timer();
+}
+
+// ---- asking for work -------------------------------------------------------------------------
+
+void LeaseClient::want_leases(size_t count) {
+  wanted_ = count;
+  ask();
+}
+
+void LeaseClient::ask() {
+  if (asking_ || ended_ || round_empty_ || wanted_ == 0) return;
+  asking_ = Question{network_.next_id(), RequestLease{static_cast<uint32_t>(wanted_)}, nullptr};
+  wanted_ = 0;
+  put(*asking_);
+}
+
+void LeaseClient::granted(const MessageId& answered, const LeaseGranted& grant) {
+  if (!asking_ || asking_->id != answered) return;  // an answer that came twice
+  asking_.reset();
+  wanted_ = 0;  // said before this answer
+  counters_.leases += grant.batches;
+  for (uint32_t i = 0; i < grant.batches; ++i) {
+    photons_->add(grant.first_lease + i, static_cast<int64_t>(grant.first_batch + i));
+  }
+  if (grant.batches > 0) return;
+  round_empty_ = true;
+  emptied_ = scheduler_.clock().now();
+  flush_when_idle();
+}
+
+/// The next round is open, or may be: the word of it can be lost.
+void LeaseClient::begin_round() {
+  round_empty_ = false;
+  photons_->look_again();
+}
+
+// ---- giving results --------------------------------------------------------------------------
+
+void LeaseClient::lease_done(uint64_t lease) {
+  if (done_.empty()) first_done_ = scheduler_.clock().now();
+  done_.push_back(lease);
+  const bool long_enough = scheduler_.clock().now() - first_done_ >= config_.flush_every;
+  if (long_enough || done_.size() == limits::leases) flush();
+  flush_when_idle();
+}
+
+/// Nothing more is to be had in this round: the controller waits for what is here.
+void LeaseClient::flush_when_idle() {
+  if (round_empty_ && photons_->at_hand() == 0) flush();
+}
+
+void LeaseClient::flush() {
+  if (flushing_ || done_.empty()) return;  // the answer to the one on its way sends the next
+  auto payload = std::make_shared<const std::vector<std::byte>>(encode_gain(photons_->take()));
+  Hasher hash;
+  hash.add(payload->data(), payload->size());
+  flushing_ = Question{network_.next_id(), Flush{0, hash.value(), std::move(done_)}, payload};
+  done_.clear();
+  ++counters_.flushes;
+  counters_.flush_bytes += payload->size();
+  put(*flushing_);
+}
+
+void LeaseClient::flush_answered(const MessageId& answered, bool taken) {
+  if (!flushing_ || flushing_->id != answered) return;
+  flushing_.reset();
+  if (!taken) ++counters_.flushes_refused;  // its leases are lent again: nothing to mend here
+  flush_when_idle();
+}
+
+// ---- questions and answers -------------------------------------------------------------------
+
+void LeaseClient::put(Question& question) {
+  SharedBytes payload;
+  if (question.payload) payload = {std::span(*question.payload), question.payload};
+  // Full or unreachable: the timer asks again.
+  network_.send(config_.controller, question.id, question.message, payload);
+  question.asked = scheduler_.clock().now();
+}
+
+void LeaseClient::set_timer() {
+  scheduler_.timers().set(scheduler_.clock().now() + config_.answer_patience / 4,
+                          [this] { on_timer(); });
+}
+
+void LeaseClient::on_timer() {
+  const Nanoseconds now = scheduler_.clock().now();
+  for (std::optional<Question>* question : {&asking_, &flushing_}) {
+    if (!*question || now - (*question)->asked < config_.answer_patience) continue;
+    ++counters_.asked_again;
+    put(**question);
+  }
+  if (!done_.empty() && now - first_done_ >= config_.flush_every) flush();
+  if (round_empty_ && !ended_ && now - emptied_ >= config_.answer_patience) begin_round();
+  set_timer();
+}
+
+bool LeaseClient::deliver(const Delivery& delivery) {
+  if (delivery.source != config_.controller) return false;
+  if (const auto* grant = std::get_if<LeaseGranted>(&delivery.message)) {
+    granted(delivery.id, *grant);
+  } else if (std::holds_alternative<FlushTaken>(delivery.message)) {
+    flush_answered(delivery.id, true);
+  } else if (std::holds_alternative<FlushRefused>(delivery.message)) {
+    flush_answered(delivery.id, false);
+  } else if (const auto* fenced = std::get_if<LeasesFenced>(&delivery.message)) {
+    for (const uint64_t lease : fenced->leases) photons_->drop(lease);
+  } else if (std::holds_alternative<RoundOpened>(delivery.message)) {
+    begin_round();
+  } else if (std::holds_alternative<RunEnded>(delivery.message)) {
+    if (!ended_) photons_->end();
+    ended_ = true;
+    network_.send(config_.controller, network_.next_id(), RequestLease{0});
+  } else {
+    return false;
+  }
+  return true;
+}
+
+}  // namespace luxodus

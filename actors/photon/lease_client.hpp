@@ -1,0 +1,80 @@
+// A worker's side of leases and flushes: asks the controller for batches, tells the photon-threads,
+// and sends what they have merged, until the run ends. What gets no answer is asked again under the
+// same id; the controller answers a repeated question as it did before.
+// Thread rule: the node's thread.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "actors/photon/photon_threads.hpp"
+#include "runtime/net/network.hpp"
+
+namespace luxodus {
+
+struct LeaseClientConfig {
+  NodeId controller;
+  Nanoseconds answer_patience = seconds(2);  // then a question is asked again
+  /// Merged batches rest here for so long at most: a flush costs a pass over all bins.
+  Nanoseconds flush_every = seconds(5);
+};
+
+class LeaseClient final : public LeasePort {
+ public:
+  LeaseClient(const LeaseClientConfig& config, Scheduler& scheduler, Network& network);
+
+  /// Requires: once, before the photon-threads start.
+  void start(PhotonThreads& photons);
+
+  void want_leases(size_t count) override;
+  void lease_done(uint64_t lease) override;
+
+  /// A message of the controller; false where it is none of these.
+  bool deliver(const Delivery& delivery);
+  /// Whether the run has ended.
+  bool ended() const { return ended_; }
+
+  struct Counters {
+    uint64_t leases = 0;
+    uint64_t flushes = 0;
+    uint64_t flushes_refused = 0;
+    uint64_t flush_bytes = 0;
+    uint64_t asked_again = 0;
+  };
+  const Counters& counters() const { return counters_; }
+
+ private:
+  struct Question {
+    MessageId id;
+    Message message;
+    std::shared_ptr<const std::vector<std::byte>> payload;  // null: none
+    Nanoseconds asked = 0;
+  };
+
+  void ask();
+  void flush();
+  void put(Question& question);
+  void set_timer();
+  void on_timer();
+  void granted(const MessageId& answered, const LeaseGranted& grant);
+  void begin_round();
+  void flush_when_idle();
+  void flush_answered(const MessageId& answered, bool taken);
+
+  LeaseClientConfig config_;
+  Scheduler& scheduler_;
+  Network& network_;
+  PhotonThreads* photons_ = nullptr;
+  std::optional<Question> asking_;    // for leases
+  std::optional<Question> flushing_;  // one at a time
+  std::vector<uint64_t> done_;        // merged, in no flush yet
+  Nanoseconds first_done_ = 0;        // when the oldest of them was merged
+  size_t wanted_ = 0;
+  bool round_empty_ = false;  // the controller had none: flush, and wait for the next round
+  Nanoseconds emptied_ = 0;
+  bool ended_ = false;
+  Counters counters_;
+};
+
+}  // namespace luxodus

@@ -1,0 +1,151 @@
+// A fiber takes a portion, traces it, and looks for the next; with none left it rests in work_.
+// Portions of one batch go to whoever asks, so a batch ends with its slowest portion; meanwhile the
+// next batch is open. A batch is closed by the fiber that ends its last portion.
+#include "actors/photon/photon_threads.hpp"
+
+#include <algorithm>
+
+#include "runtime/core/check.hpp"
+#include "scenes/transport/readout.hpp"
+
+namespace luxodus {
+
+/// A batch in work.
+struct PhotonThreads::OpenBatch {
+  bool used = false;
+  bool dropped = false;
+  uint64_t lease = 0;
+  Batch batch;
+  BatchScores scores;
+  int64_t next_particle = 0;  // of the batch, not yet given out
+  uint32_t next_unit = 0;     // of the eye paths
+  uint32_t portions_out = 0;
+};
+
+struct PhotonThreads::Portion {
+  OpenBatch* batch;
+  int64_t first;  // particle within the batch
+  int64_t count;  // 0: the eye unit below
+  uint32_t unit;
+};
+
+PhotonThreads::PhotonThreads(const CompiledScene& scene, const GeometryAccess& access,
+                             uint64_t seed, const PhotonConfig& config, Scheduler& scheduler,
+                             LeasePort& port)
+    : scene_(scene),
+      config_(config),
+      scheduler_(scheduler),
+      port_(port),
+      open_(config.open_batches),
+      totals_(scene.layout, static_cast<int>(scene.groups.size()), photopic_weights(scene)),
+      plan_(scene) {
+  for (size_t i = 0; i < config.fibers; ++i)
+    tracers_.push_back(make_batch_tracer(scene, access, seed));
+  for (OpenBatch& batch : open_) batch.scores.reset(scene.layout);
+}
+
+PhotonThreads::~PhotonThreads() = default;
+
+void PhotonThreads::start() {
+  for (const auto& tracer : tracers_) {
+    const auto body = [this, tracer = tracer.get()] { trace_portions(*tracer); };
+    LUX_CHECK(scheduler_.fibers().start("photon", body), "the plan counts a fiber for each");
+  }
+}
+
+void PhotonThreads::add(uint64_t lease, int64_t batch) {
+  leases_.push_back({lease, batch});
+  scheduler_.fibers().wake_all(work_);
+}
+
+void PhotonThreads::drop(uint64_t lease) {
+  std::erase_if(leases_, [&](const WaitingLease& waiting) { return waiting.id == lease; });
+  for (OpenBatch& open : open_)
+    if (open.used && open.lease == lease) open.dropped = true;
+}
+
+void PhotonThreads::end() {
+  ending_ = true;
+  scheduler_.fibers().wake_all(work_);
+}
+
+size_t PhotonThreads::at_hand() const {
+  const auto used = [](const OpenBatch& open) { return open.used; };
+  return leases_.size() + static_cast<size_t>(std::count_if(open_.begin(), open_.end(), used));
+}
+
+void PhotonThreads::trace_portions(BatchTracer& tracer) {
+  Fibers& fibers = scheduler_.fibers();
+  while (!ending_) {
+    const std::optional<Portion> portion = next_portion();
+    if (!portion) {
+      if (fibers.wait(work_, "work") == Wake::cancelled) return;
+      continue;
+    }
+    OpenBatch& open = *portion->batch;
+    const Batch& batch = open.batch;
+    fibers.set_subject(batch.first_particle + static_cast<uint64_t>(portion->first));
+    if (portion->count > 0) {
+      tracer.trace(batch.group, batch.first_particle + static_cast<uint64_t>(portion->first),
+                   portion->count, open.scores);
+    } else {
+      tracer.look(batch.number, portion->unit, open.scores);
+    }
+    --open.portions_out;
+    const bool given_out =
+        open.next_particle == scene_.batch_particles && open.next_unit == tracer.look_units();
+    if (given_out && open.portions_out == 0) close(open);
+    if (fibers.yield() == Wake::cancelled) return;
+  }
+}
+
+std::optional<PhotonThreads::Portion> PhotonThreads::next_portion() {
+  const uint32_t units = tracers_.front()->look_units();
+  OpenBatch* oldest = nullptr;  // it should end
+  for (OpenBatch& open : open_) {
+    const bool left = open.next_particle < scene_.batch_particles || open.next_unit < units;
+    if (open.used && left && (oldest == nullptr || open.batch.number < oldest->batch.number))
+      oldest = &open;
+  }
+  if (oldest == nullptr) oldest = open_next();
+  if (oldest == nullptr) return std::nullopt;
+  OpenBatch& open = *oldest;
+  ++open.portions_out;
+  if (open.next_particle == scene_.batch_particles) return Portion{&open, 0, 0, open.next_unit++};
+  const int64_t first = open.next_particle;
+  const int64_t count = std::min(config_.portion, scene_.batch_particles - first);
+  open.next_particle += count;
+  return Portion{&open, first, count, 0};
+}
+
+PhotonThreads::OpenBatch* PhotonThreads::open_next() {
+  if (at_hand() < 2 * open_.size()) port_.want_leases(2 * open_.size() - at_hand());
+  const auto free =
+      std::find_if(open_.begin(), open_.end(), [](const OpenBatch& open) { return !open.used; });
+  if (free == open_.end() || leases_.empty()) return nullptr;
+  const WaitingLease lease = leases_.front();
+  leases_.pop_front();
+  free->used = true;
+  free->dropped = false;
+  free->lease = lease.id;
+  free->batch = planned(lease.batch);
+  free->next_particle = 0;
+  free->next_unit = 0;
+  free->scores.reset(scene_.layout);
+  scheduler_.fibers().wake_all(work_);  // there is work for more than who asked
+  return &*free;
+}
+
+const Batch& PhotonThreads::planned(int64_t number) {
+  while (static_cast<int64_t>(planned_.size()) <= number) planned_.push_back(plan_.next());
+  return planned_[static_cast<size_t>(number)];
+}
+
+void PhotonThreads::close(OpenBatch& open) {
+  open.used = false;
+  if (open.dropped) return;  // fenced meanwhile: somebody else traces it
+  totals_.merge(open.scores, open.batch.group);
+  port_.lease_done(open.lease);
+}
+
+}  // namespace luxodus

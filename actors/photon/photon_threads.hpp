@@ -1,0 +1,95 @@
+// The photon-threads of a node: fibers that trace particles of the batches it has leased. A batch's
+// particles are shared out in small portions, so that many fibers work on one batch and wait for
+// different objects; its scores are one array, since all fibers of a node run on one thread and
+// integers do not mind the order. Finished batches are merged into the node's own totals, which
+// leave as a flush.
+// It knows no messages: LeasePort asks for leases and sends flushes.
+// Thread rule: the node's thread.
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "actors/source/batch_plan.hpp"
+#include "runtime/actor/scheduler.hpp"
+#include "scenes/transport/trace.hpp"
+
+namespace luxodus {
+
+struct PhotonConfig {
+  /// Photon-threads. One is enough where everything is resident; what waits for objects takes as
+  /// many as hide the wait.
+  size_t fibers = 1;
+  /// Batches in work at once, each with an array of scores: the second one fills the time in which
+  /// the last particles of the first end.
+  size_t open_batches = 2;
+  /// Particles of one portion. At 0.3 us a ray a portion is some 0.2 ms: short against a turn of
+  /// 1 ms, long against the 60 ns of a switch.
+  int64_t portion = 128;
+};
+
+/// How photon-threads get work. Called on the node's thread, from within a fiber or not.
+class LeasePort {
+ public:
+  virtual ~LeasePort() = default;
+  /// Fewer leases are at hand than shall be: ask for so many.
+  virtual void want_leases(size_t count) = 0;
+  /// The batch of this lease is merged into the node's totals.
+  virtual void lease_done(uint64_t lease) = 0;
+};
+
+class PhotonThreads {
+ public:
+  /// All that is referred to must outlive it.
+  PhotonThreads(const CompiledScene& scene, const GeometryAccess& access, uint64_t seed,
+                const PhotonConfig& config, Scheduler& scheduler, LeasePort& port);
+  ~PhotonThreads();
+
+  /// Starts the fibers.
+  void start();
+  /// Adds work. A lease is of one batch, so that what is merged is always whole leases.
+  void add(uint64_t lease, int64_t batch);
+  /// Forgets a lease that has not been merged yet.
+  void drop(uint64_t lease);
+  /// There may be leases to ask for again.
+  void look_again() { scheduler_.fibers().wake_all(work_); }
+  /// Lets every fiber return at its next chance.
+  void end();
+
+  /// What merged batches have scored since the last call.
+  TotalsGain take() { return totals_.take(); }
+  /// Leases not merged yet.
+  size_t at_hand() const;
+
+ private:
+  struct OpenBatch;
+  struct Portion;
+  struct Tracing;
+
+  void trace_portions(BatchTracer& tracer);
+  std::optional<Portion> next_portion();
+  OpenBatch* open_next();
+  const Batch& planned(int64_t number);
+  void close(OpenBatch& batch);
+
+  const CompiledScene& scene_;
+  const PhotonConfig config_;
+  Scheduler& scheduler_;
+  LeasePort& port_;
+  std::vector<std::unique_ptr<BatchTracer>> tracers_;  // one a fiber
+  std::vector<OpenBatch> open_;
+  Totals totals_;
+  BatchPlan plan_;
+  std::vector<Batch> planned_;  // by number, as far as asked: a batch may be lent twice
+  struct WaitingLease {
+    uint64_t id;
+    int64_t batch;
+  };
+  std::deque<WaitingLease> leases_;  // not begun
+  WaitList work_;                    // fibers that found nothing to do
+  bool ending_ = false;
+};
+
+}  // namespace luxodus

@@ -1,0 +1,91 @@
+// The controller of a run on nodes: lends batches, takes flushes whole or refuses them, decides
+// when a round and the run are over. It holds the run's totals and traces nothing itself. Thread
+// rule: its node's thread.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <map>
+#include <set>
+
+#include "actors/source/lease_book.hpp"
+#include "actors/source/local_run.hpp"
+#include "runtime/actor/scheduler.hpp"
+#include "runtime/net/network.hpp"
+
+namespace luxodus {
+
+struct ControllerConfig {
+  std::vector<NodeId> workers;
+  /// A batch that is not back by then is lent to another: long against the slowest batch.
+  Nanoseconds lease_time = seconds(120);
+  Nanoseconds look_every = milliseconds(250);  // at time, interrupt and late leases
+};
+
+class Controller {
+ public:
+  /// Goes on from the batches that `run` holds. All that is referred to must outlive it.
+  Controller(const ControllerConfig& config, LocalRun& run, const StopRule& stop,
+             const std::atomic<bool>& interrupt, std::function<void(const Progress&)> report,
+             Scheduler& scheduler, Network& network);
+
+  /// Opens the first round.
+  void start();
+  /// A message of a worker; false where it is none of these.
+  bool deliver(const Delivery& delivery);
+
+  /// All batches are counted and every worker has been told, or has been silent for too long.
+  bool ended() const;
+  StopReason reason() const { return reason_; }
+
+  struct Counters {
+    uint64_t leases = 0;
+    uint64_t fenced = 0;
+    uint64_t flushes_taken = 0;
+    uint64_t flushes_refused = 0;
+    uint64_t flush_bytes = 0;
+  };
+  const Counters& counters() const { return counters_; }
+
+ private:
+  void open_round();
+  void look();
+  void set_timer();
+  void lend(const Delivery& delivery, const RequestLease& request);
+  void take_flush(const Delivery& delivery, const Flush& flush);
+  bool count_flush(const Delivery& delivery, const Flush& flush, std::string& why);
+  void end_round();
+  void end_run(StopReason reason);
+  void tell_end();
+  Progress progress() const;
+  void send(NodeId worker, const MessageId& id, const Message& message);
+
+  ControllerConfig config_;
+  LocalRun& run_;
+  StopRule stop_;
+  const std::atomic<bool>& interrupt_;
+  std::function<void(const Progress&)> report_;
+  Scheduler& scheduler_;
+  Network& network_;
+  LeaseBook book_;
+  int64_t target_;
+  uint32_t round_ = 0;
+  int64_t batches_at_start_;
+  Nanoseconds began_;
+  double error_;
+  bool closing_ = false;  // no further lease: time is up or somebody interrupts
+  bool over_ = false;
+  Nanoseconds over_since_ = 0;
+  StopReason reason_ = StopReason::particles;
+  std::set<NodeId> told_;  // workers that know of the end
+  /// The last answer to each worker's question of each kind, by the question's sequence: a question
+  /// that comes twice is answered alike.
+  struct Answered {
+    MessageId question;
+    Message answer;
+  };
+  std::map<NodeId, Answered> last_grant_, last_flush_;
+  Counters counters_;
+};
+
+}  // namespace luxodus

@@ -1,0 +1,76 @@
+// Who works on which batches. A lease lends one batch to a node until a deadline; a lease that is
+// late, or whose node is gone, is fenced before its batch is lent again, so that nothing is counted
+// twice. Batches are lent up to the end of the open round and no farther. A pure state
+// machine of calls and time. Thread rule: one node's thread.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "runtime/core/clock.hpp"
+#include "runtime/core/ids.hpp"
+
+namespace luxodus {
+
+struct Lease {
+  uint64_t id = 0;
+  NodeId node;
+  int64_t batch = 0;  // its number
+  Nanoseconds deadline = 0;
+};
+
+/// Leases of consecutive numbers for batches of consecutive numbers, one each.
+struct LentBatches {
+  uint64_t first_lease = 0;
+  int64_t first_batch = 0;
+  int64_t count = 0;
+};
+
+class LeaseBook {
+ public:
+  /// `done` batches are committed already: a run that goes on.
+  explicit LeaseBook(int64_t done) : next_(done), end_(done), committed_(done) {}
+
+  /// Batches may be lent up to number `end`. Requires: end is not before an earlier one.
+  void open_until(int64_t end) { end_ = end; }
+
+  /// Lends up to `most` batches; none where none is left in the round.
+  LentBatches lend(NodeId node, int64_t most, Nanoseconds deadline);
+
+  /// Whether all of these leases stand, and are this node's: then a flush of them may be counted.
+  bool stand(NodeId node, const std::vector<uint64_t>& leases) const;
+  /// Their batches are counted. Requires: stand(node, leases).
+  void commit(const std::vector<uint64_t>& leases);
+
+  /// Fences what is late, and gives the leases that were; their batches are lent again first.
+  std::vector<Lease> fence_late(Nanoseconds now);
+  /// Fences all leases of a node that is gone, or has begun another life.
+  std::vector<Lease> fence_node(NodeId node);
+
+  /// Everything up to the end of the round is counted.
+  bool round_done() const { return committed_ == end_; }
+  int64_t committed() const { return committed_; }
+  /// Batches lent at least once so far: with all leases committed, these are 0..lent_end() - 1.
+  int64_t lent_end() const { return next_; }
+  /// Ends the round with what has been lent.
+  void close() { end_ = next_; }
+  size_t standing() const { return leases_.size(); }
+  /// When fence_late() may have something to do; nothing without leases.
+  std::optional<Nanoseconds> next_deadline() const;
+
+ private:
+  template <class Which>
+  std::vector<Lease> fence(Which&& which);
+
+  std::map<uint64_t, Lease> leases_;
+  std::set<int64_t> again_;  // fenced, to be lent before new ones
+  uint64_t last_id_ = 0;
+  int64_t next_;
+  int64_t end_;
+  int64_t committed_;
+};
+
+}  // namespace luxodus

@@ -1,0 +1,120 @@
+#include "actors/supervise/node_shell.hpp"
+
+#include <spdlog/spdlog.h>
+
+namespace luxodus {
+
+namespace {
+
+/// Between the end of a node's work and its leaving: others' farewells still pass through it.
+constexpr Nanoseconds linger = milliseconds(100);
+
+}  // namespace
+
+std::vector<Edge> edges_of(const Graph& graph) {
+  std::vector<Edge> edges;
+  for (const GraphLink& link : graph.links()) {
+    edges.push_back({NodeId{static_cast<uint16_t>(link.a)}, NodeId{static_cast<uint16_t>(link.b)}});
+  }
+  return edges;
+}
+
+NextHops next_hops(const Graph& graph, NodeId self, std::span<const Edge> down) {
+  Failures failures;
+  for (const Edge& edge : down) failures.links.push_back({edge.a.value, edge.b.value});
+  const Routes routes = balanced_routes(graph, failures);
+  NextHops out;
+  for (Vertex to = 0; to < routes.vertices(); ++to) {
+    const auto hop = to == self.value ? std::nullopt : routes.next_hop(self.value, to);
+    out.next.push_back(hop ? NodeId{static_cast<uint16_t>(*hop)} : no_node);
+  }
+  return out;
+}
+
+/// The network as what the scheduler polls and waits in.
+class NodeShell::Source final : public EventSource {
+ public:
+  Source(const Clock& clock, Network& network, Transport& transport)
+      : clock_(clock), network_(network), transport_(transport) {}
+
+  bool poll() override { return network_.poll(clock_.now()); }
+  void wait_until(Nanoseconds deadline) override {
+    transport_.wait_until(std::min(deadline, network_.next_deadline()));
+  }
+  void wake() noexcept override { transport_.wake(); }
+
+ private:
+  const Clock& clock_;
+  Network& network_;
+  Transport& transport_;
+};
+
+/// Brings what the network delivers to the node's actors, and makes its routes.
+class NodeShell::Handler final : public NetHandler {
+ public:
+  explicit Handler(NodeShell& shell) : shell_(shell) {}
+
+  bool deliver(const Delivery& delivery) override {
+    for (const Deliver& actor : shell_.actors_)
+      if (actor(delivery)) break;
+    rooms_.erase(key_of(delivery.id));
+    return true;
+  }
+  std::span<std::byte> room_for(const MessageId& id, NodeId, Kind, size_t bytes) override {
+    size_t taken = 0;
+    for (const auto& [key, room] : rooms_) taken += room.size() * sizeof(uint64_t);
+    if (taken + bytes > shell_.config_.room_bytes_most) return {};
+    auto& room = rooms_[key_of(id)];
+    room.resize((bytes + 7) / 8);
+    return std::as_writable_bytes(std::span(room));
+  }
+  void abandoned(const MessageId& id, Kind) override { rooms_.erase(key_of(id)); }
+  bool intercept(const Delivery&) override { return false; }
+  void link_changed(NodeId neighbour, LinkPhase phase) override {
+    spdlog::debug("link node={} neighbour={} phase={}", shell_.config_.net.self.value,
+                  neighbour.value, name_of(phase));
+  }
+  NextHops reroute(std::span<const Edge> down) override {
+    return next_hops(shell_.graph_, shell_.config_.net.self, down);
+  }
+
+ private:
+  using Key = std::pair<uint64_t, uint64_t>;
+  static Key key_of(const MessageId& id) { return {id.incarnation.value, id.sequence}; }
+
+  NodeShell& shell_;
+  std::map<Key, std::vector<uint64_t>> rooms_;  // of messages that come in pieces
+};
+
+NodeShell::NodeShell(const ShellConfig& config, const Graph& graph, const Clock& clock,
+                     Transport& transport)
+    : config_(config),
+      graph_(graph),
+      clock_(clock),
+      transport_(transport),
+      handler_(std::make_unique<Handler>(*this)),
+      network_(config.net, transport, *handler_, clock.now()),
+      source_(std::make_unique<Source>(clock, network_, transport)),
+      scheduler_(config.scheduler, clock, *source_) {}
+
+NodeShell::~NodeShell() = default;
+
+void NodeShell::run_until(const std::function<bool()>& ended) {
+  Shutdown& shutdown = scheduler_.shutdown();
+  shutdown.add(scheduler_.end_all_fibers(seconds(5)));
+  Nanoseconds left_at = never;
+  shutdown.add({"pass on farewells", seconds(5), [&] { left_at = clock_.now() + linger; },
+                [&] { return clock_.now() >= left_at; }, [] { return "others to hear of it"; }});
+  shutdown.add({"leave", milliseconds(100), [&] { network_.say_bye(); }, [] { return true; },
+                [] { return ""; }});
+  std::function<void()> watch = [&] {
+    if (ended())
+      shutdown.begin("the run has ended");
+    else
+      scheduler_.timers().set(clock_.now() + milliseconds(5), [w = &watch] { (*w)(); });
+  };
+  watch();
+  scheduler_.run();
+}
+
+}  // namespace luxodus

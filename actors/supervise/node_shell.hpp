@@ -1,0 +1,61 @@
+// A node put together: clock, network, scheduler, and the one actor that decides what it is (worker
+// or controller). It brings messages to that actor and keeps the routes. One OS thread runs it.
+// Thread rule: made and run on one thread; wake() from any.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <vector>
+
+#include "runtime/actor/scheduler.hpp"
+#include "runtime/net/network.hpp"
+#include "topology/routes.hpp"
+
+namespace luxodus {
+
+/// Next hops of a vertex, for the network. `down` are links that do not work.
+NextHops next_hops(const Graph& graph, NodeId self, std::span<const Edge> down);
+/// All links of a graph.
+std::vector<Edge> edges_of(const Graph& graph);
+
+struct ShellConfig {
+  NetConfig net;
+  SchedulerLimits scheduler;
+  /// Bytes of one message in pieces that is taken in at once, and of all of them.
+  size_t room_bytes_most = 1 << 30;
+};
+
+class NodeShell {
+ public:
+  /// True: the message was for this actor.
+  using Deliver = std::function<bool(const Delivery&)>;
+
+  /// Requires: graph and transport outlive this.
+  NodeShell(const ShellConfig& config, const Graph& graph, const Clock& clock,
+            Transport& transport);
+  ~NodeShell();
+
+  Scheduler& scheduler() { return scheduler_; }
+  Network& network() { return network_; }
+  /// Adds an actor that messages are offered to.
+  void add(Deliver deliver) { actors_.push_back(std::move(deliver)); }
+
+  /// Runs until `ended` says so, then leaves: fibers end, neighbours are told.
+  void run_until(const std::function<bool()>& ended);
+
+ private:
+  class Source;
+  class Handler;
+
+  const ShellConfig config_;
+  const Graph& graph_;
+  const Clock& clock_;
+  Transport& transport_;
+  std::vector<Deliver> actors_;
+  std::unique_ptr<Handler> handler_;
+  Network network_;
+  std::unique_ptr<Source> source_;
+  Scheduler scheduler_;
+};
+
+}  // namespace luxodus
