@@ -1,9 +1,15 @@
 #include "actors/photon/lease_client.hpp"
 
 #include "actors/tally/flush_codec.hpp"
+#include "runtime/core/check.hpp"
 #include "runtime/core/hash.hpp"
 
 namespace luxodus {
+
+namespace {
+/// At some 20 ns a bin this is half a turn of fibers.
+constexpr int64_t bins_of_a_step = 16384;
+}  // namespace
 
 LeaseClient::LeaseClient(const LeaseClientConfig& config, Scheduler& scheduler, Network& network)
     : config_(config), scheduler_(scheduler), network_(network) {}
@@ -63,12 +69,25 @@ void LeaseClient::flush_when_idle() {
 }
 
 void LeaseClient::flush() {
-  if (flushing_ || done_.empty()) return;  // the answer to the one on its way sends the next
-  auto payload = std::make_shared<const std::vector<std::byte>>(encode_gain(photons_->take()));
+  if (packing_ || flushing_ || done_.empty()) return;  // the answer to that one sends the next
+  packing_ = true;
+  packed_leases_ = std::move(done_);
+  done_.clear();
+  const auto body = [this, totals = &photons_->give_totals()] { pack(*totals); };
+  LUX_CHECK(scheduler_.fibers().start("flush", body), "the plan counts a fiber for it");
+}
+
+/// On a fiber of its own, between the turns of the photon-threads.
+void LeaseClient::pack(Totals& totals) {
+  FlushEncoder encoder(totals);
+  while (!encoder.step(bins_of_a_step))
+    if (scheduler_.fibers().yield() == Wake::cancelled) return;
+  auto payload = std::make_shared<const std::vector<std::byte>>(encoder.take_bytes());
   Hasher hash;
   hash.add(payload->data(), payload->size());
-  flushing_ = Question{network_.next_id(), Flush{0, hash.value(), std::move(done_)}, payload};
-  done_.clear();
+  packing_ = false;
+  flushing_ =
+      Question{network_.next_id(), Flush{0, hash.value(), std::move(packed_leases_)}, payload};
   ++counters_.flushes;
   counters_.flush_bytes += payload->size();
   put(*flushing_);

@@ -54,6 +54,7 @@ class LeaseClient final : public LeasePort {
 
   void ask();
   void flush();
+  void pack(Totals& totals);
   void put(Question& question);
   void set_timer();
   void on_timer();
@@ -69,7 +70,9 @@ class LeaseClient final : public LeasePort {
   std::optional<Question> asking_;    // for leases
   std::optional<Question> flushing_;  // one at a time
   std::vector<uint64_t> done_;        // merged, in no flush yet
-  Nanoseconds first_done_ = 0;        // when the oldest of them was merged
+  std::vector<uint64_t> packed_leases_;
+  bool packing_ = false;
+  Nanoseconds first_done_ = 0;  // when the oldest of them was merged
   size_t wanted_ = 0;
   bool round_empty_ = false;  // the controller had none: flush, and wait for the next round
   Nanoseconds emptied_ = 0;

@@ -37,7 +37,8 @@ PhotonThreads::PhotonThreads(const CompiledScene& scene, const GeometryAccess& a
       scheduler_(scheduler),
       port_(port),
       open_(config.open_batches),
-      totals_(scene.layout, static_cast<int>(scene.groups.size()), photopic_weights(scene)),
+      totals_{{scene.layout, static_cast<int>(scene.groups.size()), photopic_weights(scene)},
+              {scene.layout, static_cast<int>(scene.groups.size()), photopic_weights(scene)}},
       plan_(scene) {
   for (size_t i = 0; i < config.fibers; ++i)
     tracers_.push_back(make_batch_tracer(scene, access, seed));
@@ -67,6 +68,11 @@ void PhotonThreads::drop(uint64_t lease) {
 void PhotonThreads::end() {
   ending_ = true;
   scheduler_.fibers().wake_all(work_);
+}
+
+Totals& PhotonThreads::give_totals() {
+  merging_ = 1 - merging_;
+  return totals_[1 - merging_];
 }
 
 size_t PhotonThreads::at_hand() const {
@@ -144,7 +150,7 @@ const Batch& PhotonThreads::planned(int64_t number) {
 void PhotonThreads::close(OpenBatch& open) {
   open.used = false;
   if (open.dropped) return;  // fenced meanwhile: somebody else traces it
-  totals_.merge(open.scores, open.batch.group);
+  totals_[merging_].merge(open.scores, open.batch.group);
   port_.lease_done(open.lease);
 }
 

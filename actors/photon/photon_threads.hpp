@@ -58,8 +58,9 @@ class PhotonThreads {
   /// Lets every fiber return at its next chance.
   void end();
 
-  /// What merged batches have scored since the last call.
-  TotalsGain take() { return totals_.take(); }
+  /// What has been merged so far, to be emptied at leisure; what is merged from now on goes
+  /// elsewhere. Requires: what was given before is empty.
+  Totals& give_totals();
   /// Leases not merged yet.
   size_t at_hand() const;
 
@@ -80,7 +81,8 @@ class PhotonThreads {
   LeasePort& port_;
   std::vector<std::unique_ptr<BatchTracer>> tracers_;  // one a fiber
   std::vector<OpenBatch> open_;
-  Totals totals_;
+  Totals totals_[2];  // one is merged into while the other is emptied
+  size_t merging_ = 0;
   BatchPlan plan_;
   std::vector<Batch> planned_;  // by number, as far as asked: a batch may be lent twice
   struct WaitingLease {

@@ -180,7 +180,7 @@ bool Controller::count_flush(const Delivery& delivery, const Flush& flush, std::
     return false;
   }
   const auto gain =
-      decode_gain(delivery.payload, run_.totals().groups(), run_.scene().layout.totals());
+      decode_flush(delivery.payload, run_.totals().groups(), run_.scene().layout.totals());
   if (!gain.ok()) {
     why = gain.problem().what;
     return false;

@@ -99,7 +99,7 @@ class Worker {
  private:
   static SchedulerLimits scheduler_limits(const NodesOptions& options) {
     SchedulerLimits limits;
-    limits.fibers.count = options.fibers;
+    limits.fibers.count = options.fibers + 1;  // and the one that packs flushes
     return limits;
   }
   static PhotonConfig photon_config(const NodesOptions& options) {

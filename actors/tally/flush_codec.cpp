@@ -12,23 +12,16 @@ constexpr int fast = 1;  // of zstd's levels: a flush is packed on the node's ow
 constexpr size_t longest_number = 19;  // bytes of 128 bits, seven at a time
 constexpr size_t numbers_of_ledger = 11;
 
-class Writer {
- public:
-  void put(UInt128 v) {
-    while (v >= 0x80) {
-      bytes_.push_back(static_cast<std::byte>(static_cast<uint8_t>(v) | 0x80));
-      v >>= 7;
-    }
-    bytes_.push_back(static_cast<std::byte>(static_cast<uint8_t>(v)));
+void put(std::vector<std::byte>& out, UInt128 v) {
+  while (v >= 0x80) {
+    out.push_back(static_cast<std::byte>(static_cast<uint8_t>(v) | 0x80));
+    v >>= 7;
   }
-  void put_signed(Int128 v) {
-    put((static_cast<UInt128>(v) << 1) ^ static_cast<UInt128>(v >> 127));
-  }
-  const std::vector<std::byte>& bytes() const { return bytes_; }
-
- private:
-  std::vector<std::byte> bytes_;
-};
+  out.push_back(static_cast<std::byte>(static_cast<uint8_t>(v)));
+}
+void put_signed(std::vector<std::byte>& out, Int128 v) {
+  put(out, (static_cast<UInt128>(v) << 1) ^ static_cast<UInt128>(v >> 127));
+}
 
 /// Reads numbers; once one is missing or too long, all that follow are 0 and ok() is false.
 class Reader {
@@ -64,11 +57,11 @@ class Reader {
   bool ok_ = true;
 };
 
-void put_ledger(Writer& out, const Ledger& l) {
+void put_ledger(std::vector<std::byte>& out, const Ledger& l) {
   for (const Int128 v : {l.emitted, l.roulette_gain, l.absorbed_surfaces, l.absorbed_media,
                          l.escaped, l.roulette_loss, l.lost_too_long})
-    out.put_signed(v);
-  for (const uint64_t v : {l.particles, l.rays, l.hits, l.collisions}) out.put(v);
+    put_signed(out, v);
+  for (const uint64_t v : {l.particles, l.rays, l.hits, l.collisions}) put(out, v);
 }
 
 Ledger get_ledger(Reader& in) {
@@ -86,42 +79,88 @@ size_t bytes_most(int groups, int64_t totals) {
   return (bins * 3 + static_cast<size_t>(groups) * 2 + numbers_of_ledger + 1) * longest_number;
 }
 
+/// Unpacks frames whose size nobody has told, up to `most` bytes.
 Result<std::vector<std::byte>> unpack(std::span<const std::byte> bytes, size_t most) {
-  const unsigned long long size = ZSTD_getFrameContentSize(bytes.data(), bytes.size());
-  if (size == ZSTD_CONTENTSIZE_UNKNOWN || size == ZSTD_CONTENTSIZE_ERROR || size > most)
-    return Problem{{}, "the flush is no packed totals of this scene"};
-  std::vector<std::byte> out(size);
-  if (ZSTD_decompress(out.data(), out.size(), bytes.data(), bytes.size()) != size)
-    return Problem{{}, "the flush is damaged"};
+  const std::unique_ptr<ZSTD_DCtx, decltype(&ZSTD_freeDCtx)> context(ZSTD_createDCtx(),
+                                                                     ZSTD_freeDCtx);
+  std::vector<std::byte> out;
+  std::vector<std::byte> piece(ZSTD_DStreamOutSize());
+  ZSTD_inBuffer in{bytes.data(), bytes.size(), 0};
+  size_t hint = 1;
+  while (in.pos < in.size) {
+    ZSTD_outBuffer to{piece.data(), piece.size(), 0};
+    hint = ZSTD_decompressStream(context.get(), &to, &in);
+    if (ZSTD_isError(hint) || out.size() + to.pos > most)
+      return Problem{{}, "the flush is no packed totals of this scene"};
+    out.insert(out.end(), piece.begin(), piece.begin() + static_cast<std::ptrdiff_t>(to.pos));
+  }
+  if (hint != 0) return Problem{{}, "the flush is cut short"};
   return out;
 }
 
 }  // namespace
 
-std::vector<std::byte> encode_gain(const TotalsGain& gain) {
-  Writer out;
-  out.put(gain.groups.size());
-  for (const TotalsGain::GroupGain& group : gain.groups) {
-    out.put(static_cast<uint64_t>(group.batches));
-    out.put(group.bins.size());
-    int64_t next = 0;
-    for (const TotalsGain::Bin& bin : group.bins) {
-      out.put(static_cast<uint64_t>(bin.index - next));
-      out.put_signed(bin.total.sum);
-      out.put(bin.total.squares);
-      next = bin.index + 1;
-    }
-  }
-  put_ledger(out, gain.ledger);
-  std::vector<std::byte> packed(ZSTD_compressBound(out.bytes().size()));
-  const size_t size =
-      ZSTD_compress(packed.data(), packed.size(), out.bytes().data(), out.bytes().size(), fast);
-  if (ZSTD_isError(size)) throw std::runtime_error("flush: zstd could not pack it");
-  packed.resize(size);
-  return packed;
+struct FlushEncoder::Zstd {
+  std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> context{ZSTD_createCCtx(), ZSTD_freeCCtx};
+};
+
+FlushEncoder::FlushEncoder(Totals& totals) : totals_(totals), zstd_(std::make_unique<Zstd>()) {
+  ZSTD_CCtx_setParameter(zstd_->context.get(), ZSTD_c_compressionLevel, fast);
+  ZSTD_CCtx_setParameter(zstd_->context.get(), ZSTD_c_checksumFlag, 1);
+  put(raw_, static_cast<uint64_t>(totals.groups()));
+  put(raw_, static_cast<uint64_t>(totals.take_batches(0)));
 }
 
-Result<TotalsGain> decode_gain(std::span<const std::byte> bytes, int groups, int64_t totals) {
+FlushEncoder::~FlushEncoder() = default;
+
+/// A group is its batches, its bins (each the distance from the last one plus one), and a zero.
+bool FlushEncoder::step(int64_t bins) {
+  const int64_t end = std::min(next_ + bins, totals_.layout().totals());
+  totals_.take_bins(group_, next_, end, [&](int64_t index, const Total& total) {
+    put(raw_, static_cast<uint64_t>(index - after_last_ + 1));
+    put_signed(raw_, total.sum);
+    put(raw_, total.squares);
+    after_last_ = index + 1;
+  });
+  next_ = end;
+  const bool group_done = next_ == totals_.layout().totals();
+  bool done = false;
+  if (group_done) {
+    put(raw_, 0);
+    next_ = after_last_ = 0;
+    done = ++group_ == totals_.groups();
+    if (done)
+      put_ledger(raw_, totals_.take_ledger());
+    else
+      put(raw_, static_cast<uint64_t>(totals_.take_batches(group_)));
+  }
+  pack(done);
+  return done;
+}
+
+void FlushEncoder::pack(bool last) {
+  ZSTD_inBuffer in{raw_.data(), raw_.size(), 0};
+  size_t left = 1;
+  while (in.pos < in.size || (last && left != 0)) {
+    const size_t before = packed_.size();
+    packed_.resize(before + ZSTD_CStreamOutSize());
+    ZSTD_outBuffer out{packed_.data() + before, packed_.size() - before, 0};
+    left =
+        ZSTD_compressStream2(zstd_->context.get(), &out, &in, last ? ZSTD_e_end : ZSTD_e_continue);
+    packed_.resize(before + out.pos);
+    if (ZSTD_isError(left)) throw std::runtime_error("flush: zstd could not pack it");
+  }
+  raw_.clear();
+}
+
+std::vector<std::byte> encode_flush(Totals& totals) {
+  FlushEncoder encoder(totals);
+  while (!encoder.step(totals.layout().totals())) {
+  }
+  return encoder.take_bytes();
+}
+
+Result<TotalsGain> decode_flush(std::span<const std::byte> bytes, int groups, int64_t totals) {
   auto raw = unpack(bytes, bytes_most(groups, totals));
   if (!raw.ok()) return raw.problem();
   Reader in(raw.value());
@@ -131,14 +170,13 @@ Result<TotalsGain> decode_gain(std::span<const std::byte> bytes, int groups, int
   for (int g = 0; g < groups; ++g) {
     TotalsGain::GroupGain& group = gain.groups.emplace_back();
     group.batches = static_cast<int64_t>(in.get_up_to(uint64_t{1} << 40));
-    const uint64_t bins = in.get_up_to(static_cast<uint64_t>(totals));
     uint64_t next = 0;
-    for (uint64_t i = 0; i < bins && in.ok(); ++i) {
+    while (const uint64_t distance = in.get_up_to(static_cast<uint64_t>(totals))) {
       TotalsGain::Bin bin;
-      const uint64_t index = next + in.get_up_to(static_cast<uint64_t>(totals));
+      const uint64_t index = next + distance - 1;
       bin.total.sum = in.get_signed();
       bin.total.squares = in.get();
-      if (index >= static_cast<uint64_t>(totals)) return wrong;
+      if (!in.ok() || index >= static_cast<uint64_t>(totals)) return wrong;
       bin.index = static_cast<int64_t>(index);
       next = index + 1;
       group.bins.push_back(bin);

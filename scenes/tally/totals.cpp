@@ -97,21 +97,6 @@ void Totals::merge(BatchScores& batch, int group) {
   ++to.batches;
 }
 
-TotalsGain Totals::take() {
-  TotalsGain gain;
-  for (GroupState& group : groups_) {
-    TotalsGain::GroupGain& out = gain.groups.emplace_back();
-    out.batches = std::exchange(group.batches, 0);
-    for (size_t i = 0; i < group.totals.size(); ++i) {
-      Total& total = group.totals[i];
-      if (total.sum == 0 && total.squares == 0) continue;
-      out.bins.push_back({static_cast<int64_t>(i), std::exchange(total, {})});
-    }
-  }
-  gain.ledger = std::exchange(ledger_, {});
-  return gain;
-}
-
 void Totals::add(const TotalsGain& gain) {
   for (size_t g = 0; g < gain.groups.size(); ++g) {
     GroupState& group = groups_[g];

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <mutex>
+#include <utility>
 #include <vector>
 
 #include "runtime/core/wide.hpp"
@@ -34,8 +35,8 @@ struct Total {
   UInt128 squares = 0;  // of (batch score >> square_shift, rounded)
 };
 
-/// What batches have added to totals: bins that are not zero, in ascending order, and the ledger. It
-/// travels where totals of one place are merged into those of another.
+/// What batches have added to totals: bins that are not zero, in ascending order, and the ledger.
+/// It travels where totals of one place are merged into those of another.
 struct TotalsGain {
   struct Bin {
     int64_t index = 0;  // into the totals
@@ -71,8 +72,22 @@ class Totals {
   /// totals.
   void merge(BatchScores& batch, int group);
 
-  /// Takes everything out, as after construction. Not beside other calls.
-  TotalsGain take();
+  /// Takes bins [first, end) of a group out, leaving zero: calls visit(index, total) for those that
+  /// are not zero. With take_batches and take_ledger this empties totals piece by piece. Not beside
+  /// other calls.
+  template <class Visit>
+  void take_bins(int group, int64_t first, int64_t end, Visit&& visit) {
+    std::vector<Total>& totals = groups_[static_cast<size_t>(group)].totals;
+    for (int64_t i = first; i < end; ++i) {
+      Total& total = totals[static_cast<size_t>(i)];
+      if (total.sum == 0 && total.squares == 0) continue;
+      visit(i, std::exchange(total, {}));
+    }
+  }
+  int64_t take_batches(int group) {
+    return std::exchange(groups_[static_cast<size_t>(group)].batches, 0);
+  }
+  Ledger take_ledger() { return std::exchange(ledger_, {}); }
   /// Adds what was taken from totals of the same layout. Requires: as many groups, indices within
   /// the layout. Not beside other calls.
   void add(const TotalsGain& gain);

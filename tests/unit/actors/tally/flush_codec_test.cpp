@@ -11,6 +11,14 @@ namespace {
 constexpr int groups = 2;
 constexpr int64_t totals = 1000;
 
+TallyLayout layout_of(int64_t bins) {
+  TallyLayout layout(1);
+  layout.add_block({"patches", static_cast<uint32_t>(bins), 1, ScoreUnit::weight});
+  return layout;
+}
+const std::vector<std::vector<int64_t>> photopic(groups, {1 << 24});
+
+/// Sums and squares of all sizes, some bins zero.
 TotalsGain some_gain() {
   Random random(3, RandomStream::test);
   random.start(0);
@@ -31,6 +39,16 @@ TotalsGain some_gain() {
   return gain;
 }
 
+std::vector<std::byte> some_flush(int64_t step) {
+  const TallyLayout layout = layout_of(totals);
+  Totals holder(layout, groups, photopic);
+  holder.add(some_gain());
+  FlushEncoder encoder(holder);
+  while (!encoder.step(step)) {
+  }
+  return encoder.take_bytes();
+}
+
 bool same(const TotalsGain& a, const TotalsGain& b) {
   if (a.groups.size() != b.groups.size()) return false;
   for (size_t g = 0; g < a.groups.size(); ++g) {
@@ -49,26 +67,27 @@ bool same(const TotalsGain& a, const TotalsGain& b) {
 
 }  // namespace
 
-TEST_CASE("a flush comes back as it was made", "[flush]") {
-  const TotalsGain gain = some_gain();
-  const auto back = decode_gain(encode_gain(gain), groups, totals);
-  REQUIRE(back.ok());
-  CHECK(same(gain, back.value()));
+TEST_CASE("a flush comes back as it was made, in steps of any length", "[flush]") {
+  for (const int64_t step : {1, 7, 999, 1000, 5000}) {
+    const auto back = decode_flush(some_flush(step), groups, totals);
+    REQUIRE(back.ok());
+    CHECK(same(some_gain(), back.value()));
+  }
 }
 
 TEST_CASE("a flush of another layout, cut short or damaged is refused whole", "[flush]") {
-  const auto bytes = encode_gain(some_gain());
-  CHECK_FALSE(decode_gain(bytes, groups + 1, totals).ok());
-  CHECK_FALSE(decode_gain(bytes, groups, totals - 10).ok());
-  CHECK_FALSE(decode_gain({}, groups, totals).ok());
+  const auto bytes = some_flush(100);
+  CHECK_FALSE(decode_flush(bytes, groups + 1, totals).ok());
+  CHECK_FALSE(decode_flush(bytes, groups, totals - 10).ok());
+  CHECK_FALSE(decode_flush({}, groups, totals).ok());
   for (size_t n = 0; n < bytes.size(); n += 97)
-    CHECK_FALSE(decode_gain(std::span(bytes).first(n), groups, totals).ok());
+    CHECK_FALSE(decode_flush(std::span(bytes).first(n), groups, totals).ok());
   Random random(4, RandomStream::test);
   random.start(0);
   for (int i = 0; i < 2000; ++i) {
     auto harmed = bytes;
     harmed[random.bits() % harmed.size()] ^= static_cast<std::byte>(1u << (random.bits() % 8));
-    const auto read = decode_gain(harmed, groups, totals);
+    const auto read = decode_flush(harmed, groups, totals);
     if (!read.ok()) continue;
     for (const auto& group : read.value().groups)
       for (const auto& bin : group.bins) REQUIRE((bin.index >= 0 && bin.index < totals));
@@ -78,8 +97,8 @@ TEST_CASE("a flush of another layout, cut short or damaged is refused whole", "[
 TEST_CASE("totals that take the gains of others are the totals of all batches", "[flush]") {
   TallyLayout layout(1);
   layout.add_block({"patches", 50, 2, ScoreUnit::weight});
-  const std::vector<std::vector<int64_t>> photopic{{1 << 24}};
-  Totals whole(layout, 1, photopic), here(layout, 1, photopic), there(layout, 1, photopic);
+  const std::vector<std::vector<int64_t>> one{{1 << 24}};
+  Totals whole(layout, 1, one), here(layout, 1, one), there(layout, 1, one);
   Random random(5, RandomStream::test);
   random.start(0);
   for (int batch = 0; batch < 20; ++batch) {
@@ -90,11 +109,10 @@ TEST_CASE("totals that take the gains of others are the totals of all batches", 
     BatchScores copy = scores;
     whole.merge(scores, 0);
     (batch % 3 == 0 ? here : there).merge(copy, 0);
-    if (batch % 7 == 6)
-      here.add(decode_gain(encode_gain(there.take()), 1, layout.totals()).value());
+    if (batch % 7 == 6) here.add(decode_flush(encode_flush(there), 1, layout.totals()).value());
   }
-  here.add(there.take());
-  CHECK(there.take().groups[0].bins.empty());
+  here.add(decode_flush(encode_flush(there), 1, layout.totals()).value());
+  CHECK(decode_flush(encode_flush(there), 1, layout.totals()).value().groups[0].bins.empty());
   REQUIRE(here.batches(0) == 20);
   for (size_t i = 0; i < whole.state(0).totals.size(); ++i) {
     CHECK(here.state(0).totals[i].sum == whole.state(0).totals[i].sum);
