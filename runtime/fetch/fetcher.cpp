@@ -1,0 +1,375 @@
+// A fetch is a flight through its holders: each has `tries` questions, which a timeout, wrong bytes
+// or a holder out of reach use up one by one, and "not here" all at once. The flight goes round
+// from holder to holder while any of them has a try left, so it ends after a bounded number of
+// questions whatever the network does. All questions of a flight bear one id, so that pieces of
+// several answers fill one room; after wrong bytes it takes another, so that what is left of them
+// on the way is not mixed in.
+#include "runtime/fetch/fetcher.hpp"
+
+#include <fmt/core.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "runtime/core/check.hpp"
+
+namespace luxodus {
+
+namespace {
+
+/// What a reply has beside the object [bytes]: two numbers in Cap'n Proto, and room for fields of
+/// later versions. Too small, and objects of several pieces would be refused.
+constexpr size_t reply_head_bytes_most = 256;
+
+/// How soon to try an outbox again that was full: after a turn or two of the node's loop.
+constexpr Nanoseconds outbox_patience = microseconds(100);
+
+std::shared_ptr<uint64_t[]> room_of(size_t bytes) {
+  return std::make_shared_for_overwrite<uint64_t[]>((bytes + 7) / 8);  // whole words, aligned
+}
+
+size_t nodes_of(const std::vector<ObjectPlace>& objects) {
+  size_t nodes = 0;
+  for (const ObjectPlace& object : objects)
+    for (const NodeId holder : object.holders) nodes = std::max<size_t>(nodes, holder.value + 1u);
+  return nodes;
+}
+
+void check(const FetchConfig& config, const std::vector<ObjectPlace>& objects) {
+  if (config.tries == 0 || config.flights == 0)
+    throw std::invalid_argument("fetch: without a try or a flight nothing is fetched");
+  for (const ObjectPlace& object : objects) {
+    if (object.holders.size() > limits::holders)
+      throw std::invalid_argument("fetch: an object has more holders than can be asked");
+    if (object.wire_bytes == 0) throw std::invalid_argument("fetch: an object has no bytes");
+    if (object.wire_bytes > config.receive_bytes)
+      throw std::invalid_argument(fmt::format(
+          "fetch: an object of {} bytes is longer than receive_bytes, {}: raise it, or pack "
+          "smaller objects",
+          object.wire_bytes, config.receive_bytes));
+  }
+}
+
+}  // namespace
+
+Fetcher::Fetcher(const FetchConfig& config, const std::vector<ObjectPlace>& objects,
+                 ObjectStore& store, Network& network, Timers& timers, const Clock& clock,
+                 const Random& jitter)
+    : config_((check(config, objects), config)),
+      objects_(objects),
+      store_(store),
+      network_(network),
+      timers_(timers),
+      clock_(clock),
+      jitter_(jitter),
+      routes_(nodes_of(objects)),
+      waiting_(objects.size()),
+      flights_("flights", config.flights, WhenEmpty::wait) {}
+
+Fetcher::~Fetcher() {
+  if (begins_soon_) timers_.cancel(begin_timer_);
+  for (size_t i = 0; i < flights_.capacity(); ++i) {
+    Flight& flight = flights_.at(i);
+    if (flight.id.sequence == 0) continue;
+    timers_.cancel(flight.timer);
+    network_.forget(flight.id, Kind::reply);
+  }
+}
+
+void Fetcher::plan_memory(MemoryPlan& plan, const FetchConfig& config, size_t objects) {
+  plan.add("objects received", config.receive_bytes, "receive_bytes: asked for and not yet built");
+  const size_t flight_bytes = sizeof(Flight) + FixedPool<Flight>::bytes_beside;
+  plan.add("fetches", config.flights * flight_bytes + objects * sizeof(Wish) + sizeof(Fetcher),
+           fmt::format("{} flights x {} B + {} objects x {} B + {} B, mostly histograms",
+                       config.flights, flight_bytes, objects, sizeof(Wish), sizeof(Fetcher)));
+}
+
+void Fetcher::add_metrics(Metrics& metrics) const {
+  const Counters& c = counters_;
+  metrics.add_counter({"fetches", "", "Fetches begun.", ""}, c.fetches);
+  metrics.add_counter({"fetch_retries", "", "Questions asked again.", ""}, c.retries);
+  metrics.add_counter({"fetch_timeouts", "", "Questions not answered in time.", ""}, c.timeouts);
+  metrics.add_counter({"fetch_not_here", "", "Holders that did not have it.", ""}, c.not_here);
+  metrics.add_counter({"fetch_wrong_hash", "", "Bytes that were not the object's.", ""},
+                      c.wrong_hash);
+  metrics.add_counter({"fetch_late", "", "Answers nobody waited for any more.", ""}, c.late);
+  metrics.add_counter({"fetch_outbox_full", "", "Questions that waited for the network.", ""},
+                      c.outbox_full);
+  metrics.add_counter({"fetch_unobtainable", "", "Fetches in vain.", ""}, c.unobtainable);
+  metrics.add_counter({"fetch_in", "bytes", "Bytes of objects that came.", ""}, c.bytes_in);
+  metrics.add_counter({"fetch_out", "bytes", "Bytes of objects given to others.", ""}, c.bytes_out);
+  metrics.add_counter({"objects_served", "", "Objects given to others.", ""}, c.served);
+  metrics.add_counter({"objects_refused", "", "Requests for what is not here.", ""}, c.refused);
+  metrics.add_counter({"objects_intercepted", "", "Requests answered on their way.", ""},
+                      c.intercepted);
+  metrics.add_gauge({"receive_held", "bytes", "Bytes asked for and not yet built.", ""},
+                    c.receive_bytes_held);
+  for (size_t hops = 0; hops < delay_.size(); ++hops)
+    metrics.add_histogram({"fetch_delay", "seconds", "From the wish to the bytes, by links passed.",
+                           fmt::format("hops=\"{}\"", hops)},
+                          delay_[hops]);
+}
+
+// ---- flights begin and end
+
+void Fetcher::fetch(uint32_t object, FetchClient& client) {
+  LUX_CHECK(object < objects_.size(), "fetched an object that the run does not have");
+  LUX_CHECK(waiting_.push({object, &client, clock_.now()}), "fetched an object twice at once");
+  begin_soon();
+}
+
+void Fetcher::release(uint32_t object) {
+  counters_.receive_bytes_held -= objects_[object].wire_bytes;
+  begin_soon();
+}
+
+void Fetcher::begin_soon() {
+  if (begins_soon_ || waiting_.empty()) return;
+  begins_soon_ = true;
+  begin_timer_ = timers_.set(clock_.now(), [this] { begin_flights(); });
+}
+
+void Fetcher::begin_flights() {
+  begins_soon_ = false;
+  while (!waiting_.empty() && flights_.in_use() < flights_.capacity()) {
+    const uint64_t bytes = objects_[waiting_[0].object].wire_bytes;
+    if (counters_.receive_bytes_held + bytes > config_.receive_bytes) return;
+    counters_.receive_bytes_held += bytes;
+    begin(waiting_.pop());
+  }
+}
+
+void Fetcher::begin(const Wish& wish) {
+  Flight& flight = *flights_.take();
+  flight.wish = wish;
+  flight.id = network_.next_id();
+  flight.timer = {};
+  flight.questions = 0;
+  flight.holder = 0;
+  flight.tries.fill(0);
+  ++counters_.fetches;
+  ask(flight);
+}
+
+void Fetcher::end(Flight& flight) {
+  timers_.cancel(flight.timer);
+  network_.forget(flight.id, Kind::reply);
+  flight.id = {};
+  flight.room.reset();
+  flights_.give(flight);
+  begin_soon();
+}
+
+Fetcher::Flight* Fetcher::flight_of(const MessageId& id) {
+  if (id.sequence == 0) return nullptr;
+  for (size_t i = 0; i < flights_.capacity(); ++i)
+    if (flights_.at(i).id == id) return &flights_.at(i);
+  return nullptr;
+}
+
+// ---- asking
+
+/// Asks the next holder that has tries left and can be reached, and so on round.
+void Fetcher::ask(Flight& flight) {
+  const std::vector<NodeId>& holders = objects_[flight.wish.object].holders;
+  bool ways_missing = false;
+  for (size_t n = 0; n < holders.size(); ++n) {
+    const size_t at = flight.holder;
+    if (flight.tries[at] < config_.tries) {
+      if (holders[at] == config_.self) {
+        if (take_from_store(flight)) return;
+        flight.tries[at] = config_.tries;
+      } else {
+        if (ask_holder(flight, holders[at])) return;
+        ways_missing = true;
+      }
+    }
+    flight.holder = (at + 1) % holders.size();
+  }
+  if (ways_missing) return wait_for_ways(flight);
+  if (!take_from_store(flight)) give_up(flight);
+}
+
+/// Asks now, or once the network has room for the question; false where no way leads there.
+bool Fetcher::ask_holder(Flight& flight, NodeId holder) {
+  const RouteDelay& route = routes_[holder.value];
+  const unsigned nth = flight.tries[flight.holder] + 1u;
+  const Nanoseconds patience = with_jitter(route.timeout(config_.timeouts, nth));
+  const FetchObject question{objects_[flight.wish.object].id,
+                             static_cast<uint64_t>(patience / microseconds(1)),
+                             static_cast<uint16_t>(flight.questions + 1)};
+  const SendOutcome outcome = network_.send(holder, flight.id, question);
+  if (outcome == SendOutcome::unreachable) return false;
+  if (outcome == SendOutcome::full) {
+    ++counters_.outbox_full;
+    set_timer(flight, outbox_patience, false);
+    return true;
+  }
+  ++flight.tries[flight.holder];
+  if (++flight.questions > 1) ++counters_.retries;
+  flight.asked_at = clock_.now();
+  set_timer(flight, patience, true);
+  return true;
+}
+
+/// No holder that has a try left can be reached: that costs each of them one, and as much time as
+/// a question on a route of which nothing is known; meanwhile routes may be made anew.
+void Fetcher::wait_for_ways(Flight& flight) {
+  uint8_t used = 0;
+  for (size_t at = 0; at < objects_[flight.wish.object].holders.size(); ++at)
+    if (flight.tries[at] < config_.tries) used = std::max(used, ++flight.tries[at]);
+  set_timer(flight, with_jitter(RouteDelay().timeout(config_.timeouts, used)), false);
+}
+
+bool Fetcher::take_from_store(Flight& flight) {
+  SharedBytes bytes = store_.find(objects_[flight.wish.object].id);
+  return !bytes.bytes.empty() && accept(flight, std::move(bytes), 0, config_.self);
+}
+
+void Fetcher::give_up(Flight& flight) {
+  const Wish wish = flight.wish;
+  ++counters_.unobtainable;
+  if (log_unobtainable_.may(clock_.now()))
+    spdlog::warn("fetch=unobtainable node={} object={:#x} questions={} total={}",
+                 config_.self.value, objects_[wish.object].id.value, flight.questions,
+                 counters_.unobtainable);
+  end(flight);
+  release(wish.object);
+  wish.client->unobtainable(wish.object);
+}
+
+void Fetcher::set_timer(Flight& flight, Nanoseconds span, bool answer_due) {
+  timers_.cancel(flight.timer);
+  flight.answer_due = answer_due;
+  flight.timer = timers_.set(clock_.now() + span, [this, &flight] { timer_fired(flight); });
+}
+
+void Fetcher::timer_fired(Flight& flight) {
+  if (flight.answer_due) {
+    ++counters_.timeouts;
+    const NodeId holder = objects_[flight.wish.object].holders[flight.holder];
+    routes_[holder.value].timed_out(flight.asked_at, clock_.now());
+  }
+  ask(flight);
+}
+
+/// Up to a quarter more, so that nodes which lost the same holder do not ask again as one.
+Nanoseconds Fetcher::with_jitter(Nanoseconds span) {
+  return span + static_cast<Nanoseconds>(jitter_.uniform_double() * static_cast<double>(span / 4));
+}
+
+// ---- answers
+
+bool Fetcher::deliver(const Delivery& delivery) {
+  if (const auto* wanted = std::get_if<FetchObject>(&delivery.message))
+    return serve(delivery, *wanted);
+  if (const auto* answer = std::get_if<ObjectFound>(&delivery.message)) found(delivery, *answer);
+  if (const auto* answer = std::get_if<ObjectNotHere>(&delivery.message))
+    not_here(delivery, *answer);
+  return true;
+}
+
+std::span<std::byte> Fetcher::room_for(const MessageId& id, Kind kind, size_t bytes) {
+  Flight* flight = kind == Kind::reply ? flight_of(id) : nullptr;
+  if (flight == nullptr) return {};
+  const size_t most = objects_[flight->wish.object].wire_bytes + reply_head_bytes_most;
+  if (bytes > most) return {};
+  if (flight->room == nullptr) flight->room = room_of(most);
+  // The answer has begun: its pieces take turns with those of all others that are under way.
+  if (flight->answer_due) set_timer(*flight, config_.timeouts.most, true);
+  return std::as_writable_bytes(std::span(flight->room.get(), (most + 7) / 8)).first(most);
+}
+
+void Fetcher::found(const Delivery& delivery, const ObjectFound& answer) {
+  counters_.bytes_in += delivery.payload.size();
+  Flight* flight = flight_of(delivery.id);
+  if (flight == nullptr) {
+    ++counters_.late;
+    return;
+  }
+  const std::vector<NodeId>& holders = objects_[flight->wish.object].holders;
+  if (flight->questions == 1)
+    routes_[holders[flight->holder].value].answered(clock_.now() - flight->asked_at);
+  if (accept(*flight, kept(*flight, delivery.payload), delivery.hops, answer.answered_by)) return;
+  network_.forget(flight->id, Kind::reply);
+  flight->id = network_.next_id();
+  flight->holder = (flight->holder + 1) % holders.size();
+  ask(*flight);
+}
+
+/// In pieces it lies in the room that was set aside; else it is the network's for this call.
+SharedBytes Fetcher::kept(const Flight& flight, std::span<const std::byte> payload) {
+  const auto* room = reinterpret_cast<const std::byte*>(flight.room.get());
+  const size_t room_bytes =
+      room == nullptr ? 0 : objects_[flight.wish.object].wire_bytes + reply_head_bytes_most;
+  if (payload.data() >= room && payload.data() < room + room_bytes) return {payload, flight.room};
+  const auto copy = room_of(std::max<size_t>(payload.size(), 1));
+  const std::span to = std::as_writable_bytes(std::span(copy.get(), (payload.size() + 7) / 8));
+  std::copy(payload.begin(), payload.end(), to.begin());
+  return {to.first(payload.size()), copy};
+}
+
+void Fetcher::not_here(const Delivery& delivery, const ObjectNotHere& answer) {
+  Flight* flight = flight_of(delivery.id);
+  if (flight == nullptr ||
+      answer.answered_by != objects_[flight->wish.object].holders[flight->holder]) {
+    ++counters_.late;
+    return;
+  }
+  ++counters_.not_here;
+  flight->tries[flight->holder] = config_.tries;
+  ask(*flight);
+}
+
+/// Ends the flight with these bytes, if they are the object's.
+bool Fetcher::accept(Flight& flight, SharedBytes bytes, uint8_t hops, NodeId from) {
+  const Wish wish = flight.wish;
+  const ObjectPlace& place = objects_[wish.object];
+  if (bytes.bytes.size() != place.wire_bytes || object_id_of(bytes.bytes) != place.id) {
+    ++counters_.wrong_hash;
+    if (log_wrong_.may(clock_.now()))
+      spdlog::warn("fetch=wrong_bytes node={} object={:#x} answered_by={} total={}",
+                   config_.self.value, place.id.value, from.value, counters_.wrong_hash);
+    return false;
+  }
+  delay_[hops].add(clock_.now() - wish.since);
+  end(flight);
+  wish.client->fetched(wish.object, std::move(bytes));
+  return true;
+}
+
+// ---- others' requests
+
+bool Fetcher::serve(const Delivery& request, const FetchObject& wanted) {
+  if (request.source == config_.self) return true;  // a forgery: this node does not ask itself
+  SharedBytes bytes = store_.find(wanted.object);
+  const size_t size = bytes.bytes.size();
+  const SendOutcome outcome =
+      size > 0
+          ? network_.send(request.source, request.id, ObjectFound{wanted.object, config_.self},
+                          std::move(bytes))
+          : network_.send(request.source, request.id, ObjectNotHere{wanted.object, config_.self});
+  if (outcome == SendOutcome::full) return false;
+  if (outcome == SendOutcome::unreachable) return true;  // it will ask again, or has gone
+  ++(size > 0 ? counters_.served : counters_.refused);
+  counters_.bytes_out += size;
+  return true;
+}
+
+bool Fetcher::intercept(const Delivery& request) {
+  const auto* wanted = std::get_if<FetchObject>(&request.message);
+  if (wanted == nullptr || request.source == config_.self) return false;
+  SharedBytes bytes = store_.find(wanted->object);
+  const size_t size = bytes.bytes.size();
+  if (size == 0) return false;
+  const ObjectFound answer{wanted->object, config_.self};
+  if (network_.send(request.source, request.id, answer, std::move(bytes)) != SendOutcome::taken)
+    return false;
+  ++counters_.served;
+  ++counters_.intercepted;
+  counters_.bytes_out += size;
+  return true;
+}
+
+}  // namespace luxodus

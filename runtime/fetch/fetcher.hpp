@@ -1,0 +1,174 @@
+// Brings the bytes of objects from wherever they are, and gives others what this node holds. An
+// object is asked of its holders in their order, each several times with growing patience, then of
+// this node's own store; only when all of them have said no or nothing is it unobtainable, for now.
+// Bytes are checked against the object's name: wrong ones are dropped and asked for elsewhere.
+// It keeps nothing: who keeps objects, and sees that each is fetched once, is the ObjectCache.
+//
+// Memory: a fetch begins when the object's bytes, known beforehand, find room under receive_bytes,
+// and holds that room until release(); fetches beyond it wait in turn. The bytes themselves are the
+// one piece of memory that is taken for a fetch.
+//
+// Thread rule: the node's thread. fetch() may be called from a fiber: it only notes the wish;
+// everything else happens on the scheduler's stack.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "runtime/actor/timers.hpp"
+#include "runtime/core/fixed_pool.hpp"
+#include "runtime/core/memory_plan.hpp"
+#include "runtime/core/random.hpp"
+#include "runtime/core/ring.hpp"
+#include "runtime/fetch/objects.hpp"
+#include "runtime/fetch/once_a_minute.hpp"
+#include "runtime/fetch/route_delay.hpp"
+#include "runtime/net/network.hpp"
+#include "runtime/observe/histogram.hpp"
+#include "runtime/observe/metrics.hpp"
+
+namespace luxodus {
+
+struct FetchConfig {
+  NodeId self;
+  /// Under way at once: as many messages as a network puts together at once
+  /// (NetConfig::assemblies).
+  size_t flights = 64;
+  /// Bytes asked for and not yet released: 16 objects of 1 MB, ten times what 1 Gb/s brings in
+  /// 10 ms. Smaller, and the link idles; larger takes from the objects that are kept.
+  size_t receive_bytes = 16 << 20;
+  /// Questions to one holder. If it is silent from the start it has 1, 2, 4 and 5 s for them: long
+  /// enough for routes to be made anew (2 s), short enough for a batch to be leased again.
+  uint8_t tries = 4;
+  TimeoutLimits timeouts;
+};
+
+/// Who wants an object. Called on the scheduler's stack.
+class FetchClient {
+ public:
+  virtual ~FetchClient() = default;
+  /// The object's bytes, which are right. Their room is taken until Fetcher::release().
+  virtual void fetched(uint32_t object, SharedBytes bytes) = 0;
+  /// Nobody gave it; it may be fetched again.
+  virtual void unobtainable(uint32_t object) = 0;
+};
+
+class Fetcher {
+ public:
+  /// Takes all memory there will be but for objects' bytes. `jitter` is a stream of its own.
+  /// Requires: all references outlive this; `objects` does not change.
+  /// Errors (exception): an object without bytes, or longer than receive_bytes; too many holders.
+  Fetcher(const FetchConfig& config, const std::vector<ObjectPlace>& objects, ObjectStore& store,
+          Network& network, Timers& timers, const Clock& clock, const Random& jitter);
+  ~Fetcher();
+  Fetcher(const Fetcher&) = delete;
+  Fetcher& operator=(const Fetcher&) = delete;
+
+  /// Adds what a fetcher of this configuration takes.
+  static void plan_memory(MemoryPlan& plan, const FetchConfig& config, size_t objects);
+  /// Timers that it may have set at once, for SchedulerLimits::timers_beside_fibers.
+  static size_t timers_most(const FetchConfig& config) { return config.flights + 1; }
+
+  /// Has `client` told of this object's bytes, or that nobody has them; never within the call.
+  /// Requires: it is not under way, and its room was released; `client` outlives the fetch.
+  void fetch(uint32_t object, FetchClient& client);
+  /// The bytes of a fetched object are no longer needed: their room is free for others.
+  void release(uint32_t object);
+
+  // ---- what the node's NetHandler passes on ------------------------------------------------
+  // All requests and replies are of fetches. NetHandler::abandoned() has nothing to pass on: the
+  // room for a reply stays with its fetch, which asks again.
+
+  /// Answers a request from the store; takes a reply in. False: no room to send the answer now.
+  /// Requires: a message of kind request or reply.
+  bool deliver(const Delivery& delivery);
+  /// Room for a reply that is awaited, of its object's size; empty for all others.
+  std::span<std::byte> room_for(const MessageId& id, Kind kind, size_t bytes);
+  /// Answers a request that passes, where the store holds the object.
+  bool intercept(const Delivery& request);
+
+  // ---- counts ------------------------------------------------------------------------------
+
+  struct Counters {
+    uint64_t fetches = 0;       // begun
+    uint64_t retries = 0;       // questions asked beyond the first of a fetch
+    uint64_t timeouts = 0;      // questions without an answer in time
+    uint64_t not_here = 0;      // answers that the holder does not have it
+    uint64_t wrong_hash = 0;    // bytes that were not the object's
+    uint64_t late = 0;          // answers that nobody waited for any more
+    uint64_t outbox_full = 0;   // questions that had to wait for the network
+    uint64_t unobtainable = 0;  // fetches in vain
+    uint64_t bytes_in = 0;      // of objects, wrong and late ones included
+    uint64_t bytes_out = 0;
+    uint64_t served = 0;       // objects given to others
+    uint64_t refused = 0;      // requests for what this node does not hold
+    uint64_t intercepted = 0;  // of those served: on their way to another node
+    uint64_t receive_bytes_held = 0;
+  };
+  const Counters& counters() const { return counters_; }
+  /// From the wish to the bytes, by the links that the answer passed; 0: from the own store.
+  const Histogram& delay(uint8_t hops) const { return delay_[hops]; }
+  const RouteDelay& route(NodeId holder) const { return routes_[holder.value]; }
+  void add_metrics(Metrics& metrics) const;
+
+ private:
+  struct Wish {
+    uint32_t object = 0;
+    FetchClient* client = nullptr;
+    Nanoseconds since = 0;
+  };
+  struct Flight {
+    Wish wish;
+    MessageId id;  // sequence 0 while it rests
+    TimerId timer;
+    bool answer_due = false;  // what the timer ends: the wait for an answer, or for asking again
+    Nanoseconds asked_at = 0;
+    uint16_t questions = 0;
+    size_t holder = 0;                             // that was asked, or is to be asked next
+    std::array<uint8_t, limits::holders> tries{};  // by holder, used up
+    std::shared_ptr<uint64_t[]> room;              // of a reply in pieces
+  };
+
+  void begin_soon();
+  void begin_flights();
+  void begin(const Wish& wish);
+  void end(Flight& flight);
+  Flight* flight_of(const MessageId& id);
+
+  void ask(Flight& flight);
+  bool ask_holder(Flight& flight, NodeId holder);
+  void wait_for_ways(Flight& flight);
+  bool take_from_store(Flight& flight);
+  void give_up(Flight& flight);
+  void set_timer(Flight& flight, Nanoseconds span, bool answer_due);
+  void timer_fired(Flight& flight);
+  Nanoseconds with_jitter(Nanoseconds span);
+
+  void found(const Delivery& delivery, const ObjectFound& answer);
+  SharedBytes kept(const Flight& flight, std::span<const std::byte> payload);
+  void not_here(const Delivery& delivery, const ObjectNotHere& answer);
+  bool accept(Flight& flight, SharedBytes bytes, uint8_t hops, NodeId from);
+  bool serve(const Delivery& request, const FetchObject& wanted);
+
+  FetchConfig config_;
+  const std::vector<ObjectPlace>& objects_;
+  ObjectStore& store_;
+  Network& network_;
+  Timers& timers_;
+  const Clock& clock_;
+  Random jitter_;
+  std::vector<RouteDelay> routes_;  // by holder
+  Ring<Wish> waiting_;              // for room: every object at most once
+  FixedPool<Flight> flights_;
+  TimerId begin_timer_;
+  bool begins_soon_ = false;
+  Counters counters_;
+  std::array<Histogram, limits::hops + 1> delay_;
+  OnceAMinute log_wrong_, log_unobtainable_;
+};
+
+}  // namespace luxodus

@@ -1,0 +1,39 @@
+// The seam between bytes and what is made of them: a search tree, a table. A simulation puts builds
+// of known cost here.
+// Thread rule: everything here is called on the node's thread, outside of any fiber, whose stack
+// would be too small: committing a search tree takes 45 KB. A builder may work on other threads and
+// hand its answer over (Handoff).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+
+#include "runtime/core/result.hpp"
+#include "runtime/fetch/objects.hpp"
+
+namespace luxodus {
+
+/// An object ready for use. It does not change.
+class BuiltObject {
+ public:
+  virtual ~BuiltObject() = default;
+  /// What it takes in memory, everything that it keeps alive included: what a cache is charged.
+  virtual size_t bytes() const = 0;
+};
+
+class ObjectBuilder {
+ public:
+  /// Who wants to know.
+  class Client {
+   public:
+    virtual ~Client() = default;
+    virtual void built(uint32_t object, Result<std::unique_ptr<BuiltObject>> result) = 0;
+  };
+
+  virtual ~ObjectBuilder() = default;
+  /// Makes an object of bytes, and tells `client` once: before this returns, or later.
+  virtual void build(uint32_t object, SharedBytes bytes, Client& client) = 0;
+};
+
+}  // namespace luxodus

@@ -1,0 +1,202 @@
+// Memory never passes the budget: residents stay below it by one build's peak, one object is built
+// or waits built at a time, and it comes in only after others have made room. The next build may
+// start only then, so a builder on another thread works while the fibers woken last are running.
+#include "runtime/fetch/object_cache.hpp"
+
+#include <fmt/core.h>
+#include <spdlog/spdlog.h>
+
+#include <stdexcept>
+#include <utility>
+
+namespace luxodus {
+
+namespace {
+
+void check(const CacheConfig& config) {
+  if (config.largest_build_bytes == 0 || !(config.pinned_share >= 0) || config.pinned_share > 1)
+    throw std::invalid_argument("cache: a build's size and a share of 0 to 1 are needed");
+  if (config.budget_bytes < 2 * config.largest_build_bytes + config.pinned_bytes_most())
+    throw std::invalid_argument(
+        fmt::format("cache: a budget of {} bytes has no room for one object and one build of {} "
+                    "bytes beside {} that may be pinned",
+                    config.budget_bytes, config.largest_build_bytes, config.pinned_bytes_most()));
+}
+
+}  // namespace
+
+ObjectCache::ObjectCache(const CacheConfig& config, size_t objects, Fetcher& fetcher,
+                         ObjectBuilder& builder, Fibers& fibers, Timers& timers, const Clock& clock)
+    : config_((check(config), config)),
+      fetcher_(fetcher),
+      builder_(builder),
+      fibers_(fibers),
+      timers_(timers),
+      clock_(clock),
+      entries_(objects) {}
+
+ObjectCache::~ObjectCache() {
+  LUX_CHECK(!in_builder_, "a cache ended before its builder had answered");
+  if (steps_soon_) timers_.cancel(step_timer_);
+}
+
+void ObjectCache::plan_memory(MemoryPlan& plan, const CacheConfig& config, size_t objects) {
+  plan.add("objects", config.budget_bytes,
+           fmt::format("{} B resident + {} B for a build", config.resident_bytes_most(),
+                       config.largest_build_bytes));
+  plan.add("table of objects", objects * sizeof(Entry),
+           fmt::format("{} objects x {} B", objects, sizeof(Entry)));
+}
+
+void ObjectCache::add_metrics(Metrics& metrics) const {
+  const Counters& c = counters_;
+  metrics.add_counter({"cache_hits", "", "Objects found resident.", ""}, c.hits);
+  metrics.add_counter({"cache_misses", "", "Objects found absent.", ""}, c.misses);
+  metrics.add_counter({"cache_joined", "", "Objects found under way.", ""}, c.joined);
+  metrics.add_counter({"builds", "", "Objects built.", ""}, c.builds);
+  metrics.add_counter({"build_failures", "", "Objects that could not be built.", ""},
+                      c.build_failures);
+  metrics.add_counter({"evictions", "", "Objects that made room.", ""}, c.evictions);
+  metrics.add_counter({"pins_refused", "", "Pins beyond their share of the budget.", ""},
+                      c.pins_refused);
+  metrics.add_counter({"objects_oversized", "", "Objects larger than builds were planned for.", ""},
+                      c.oversized);
+  metrics.add_gauge({"objects_resident", "bytes", "Bytes of resident objects.", ""},
+                    c.resident_bytes);
+  metrics.add_gauge({"objects_pinned", "bytes", "Bytes of pinned objects.", ""}, c.pinned_bytes);
+}
+
+// ---- asking for objects
+
+Got ObjectCache::get(uint32_t object) {
+  if (const BuiltObject* built = find(object)) return {Got::How::resident, built};
+  Entry& entry = entries_[object];
+  if (entry.state == ObjectState::absent) {
+    ++counters_.misses;
+    request(object);
+  } else {
+    ++counters_.joined;
+  }
+  if (fibers_.wait(entry.waiters, "fetch") != Wake::woken) return {Got::How::cancelled};
+  if (--to_run_ == 0 && ready_ != nullptr) step_soon();
+  if (entry.built == nullptr) return {Got::How::unobtainable};
+  return {Got::How::resident, entry.built.get()};
+}
+
+void ObjectCache::prefetch(std::span<const uint32_t> objects) {
+  for (const uint32_t object : objects)
+    if (state(object) == ObjectState::absent) request(object);
+}
+
+void ObjectCache::pin(std::span<const uint32_t> objects) {
+  for (const uint32_t object : objects) {
+    Entry& entry = entries_[object];
+    if (entry.pin != Pin::none) continue;
+    entry.pin = Pin::wanted;
+    if (entry.state == ObjectState::resident) keep(entry);
+  }
+  prefetch(objects);
+}
+
+void ObjectCache::request(uint32_t object) {
+  entries_[object].state = ObjectState::requested;
+  fetcher_.fetch(object, *this);
+}
+
+// ---- objects come
+
+void ObjectCache::fetched(uint32_t object, SharedBytes bytes) {
+  Entry& entry = entries_[object];
+  entry.state = ObjectState::building;
+  entry.bytes = std::move(bytes);
+  to_build_.push_back(entry);
+  step_soon();
+}
+
+void ObjectCache::unobtainable(uint32_t object) {
+  Entry& entry = entries_[object];
+  entry.state = ObjectState::absent;
+  wake_waiters(entry);
+}
+
+void ObjectCache::built(uint32_t object, Result<std::unique_ptr<BuiltObject>> result) {
+  LUX_CHECK(in_builder_ && entries_[object].state == ObjectState::building,
+            "a builder answered what it was not asked");
+  LUX_CHECK(!result || result.value() != nullptr, "a builder said that nothing is an object");
+  in_builder_ = false;
+  ready_ = &entries_[object];
+  ready_result_ = std::move(result);
+  fetcher_.release(object);
+  step_soon();
+}
+
+// A step does at most one build, and the next comes a nanosecond later: a timer set for now would
+// be due in the same turn, and a builder that answers at once would keep arrivals and fibers
+// waiting.
+void ObjectCache::step_soon() {
+  if (std::exchange(steps_soon_, true)) return;
+  step_timer_ = timers_.set(clock_.now() + 1, [this] { step(); });
+}
+
+void ObjectCache::step() {
+  steps_soon_ = false;
+  if (ready_ != nullptr && to_run_ == 0) {
+    Entry& entry = *std::exchange(ready_, nullptr);
+    if (ready_result_) {
+      come_in(entry, std::move(ready_result_).value());
+    } else {
+      ++counters_.build_failures;
+      if (log_failure_.may(clock_.now()))
+        spdlog::error("fetch=build_failed object={} total={} text=\"{}\"", number_of(entry),
+                      counters_.build_failures, ready_result_.problem().text());
+      unobtainable(number_of(entry));
+    }
+  }
+  if (ready_ == nullptr && !in_builder_ && !to_build_.empty()) start_build(*to_build_.pop_front());
+}
+
+void ObjectCache::start_build(Entry& entry) {
+  ++counters_.builds;
+  in_builder_ = true;
+  builder_.build(number_of(entry), std::exchange(entry.bytes, {}), *this);
+}
+
+void ObjectCache::come_in(Entry& entry, std::unique_ptr<BuiltObject> built) {
+  entry.charge = built->bytes();
+  if (entry.charge > config_.largest_build_bytes) ++counters_.oversized;
+  while (counters_.resident_bytes + entry.charge > config_.resident_bytes_most() &&
+         !unpinned_.empty())
+    evict(*unpinned_.pop_front());
+  entry.built = std::move(built);
+  entry.state = ObjectState::resident;
+  counters_.resident_bytes += entry.charge;
+  unpinned_.push_back(entry);
+  keep(entry);
+  wake_waiters(entry);
+}
+
+/// Pins a resident object that shall be, if there is room.
+void ObjectCache::keep(Entry& entry) {
+  if (entry.pin != Pin::wanted) return;
+  if (counters_.pinned_bytes + entry.charge > config_.pinned_bytes_most()) {
+    entry.pin = Pin::none;
+    ++counters_.pins_refused;
+    return;
+  }
+  entry.pin = Pin::pinned;
+  entry.unlink();
+  counters_.pinned_bytes += entry.charge;
+}
+
+void ObjectCache::evict(Entry& entry) {
+  ++counters_.evictions;
+  counters_.resident_bytes -= entry.charge;
+  entry.state = ObjectState::absent;
+  entry.built.reset();
+}
+
+void ObjectCache::wake_waiters(Entry& entry) {
+  while (fibers_.wake_one(entry.waiters)) ++to_run_;
+}
+
+}  // namespace luxodus

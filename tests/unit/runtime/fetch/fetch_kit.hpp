@@ -1,0 +1,232 @@
+// Nodes that fetch, for tests: network in memory, time by hand, stores that hold what they are told
+// to, a builder that answers at once, on demand, or with a problem. One thread.
+#pragma once
+
+#include <catch2/catch.hpp>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "runtime/fetch/object_cache.hpp"
+#include "tests/unit/runtime/net/net_kit.hpp"
+
+namespace luxodus::test {
+
+/// Objects of a test, known by number: bytes that look like chance, and who holds them.
+struct Objects {
+  std::vector<ObjectPlace> places;
+  std::vector<SharedBytes> bytes;
+
+  uint32_t add(size_t size, std::vector<NodeId> holders) {
+    const auto number = static_cast<uint32_t>(places.size());
+    bytes.push_back(share(pattern(size, number + 1)));
+    places.push_back({object_id_of(bytes.back().bytes), size, std::move(holders)});
+    return number;
+  }
+  ObjectId id(uint32_t object) const { return places[object].id; }
+};
+
+struct MapStore final : ObjectStore {
+  SharedBytes find(ObjectId object) override {
+    const auto found = held.find(object.value);
+    return found == held.end() ? SharedBytes{} : found->second;
+  }
+  std::map<uint64_t, SharedBytes> held;
+};
+
+struct TestObject final : BuiltObject {
+  TestObject(uint32_t n, size_t charged, int& alive) : number(n), charge(charged), alive_(alive) {
+    ++alive_;
+  }
+  ~TestObject() override { --alive_; }
+  size_t bytes() const override { return charge; }
+  uint32_t number;
+  size_t charge;
+
+ private:
+  int& alive_;
+};
+
+/// Objects of `charge` bytes each, unless told otherwise. Answers at once, or when told to.
+class TestBuilder final : public ObjectBuilder {
+ public:
+  void build(uint32_t object, SharedBytes bytes, Client& client) override {
+    CHECK_FALSE(bytes.bytes.empty());
+    if (on_build) on_build(object);
+    built.push_back(object);
+    pending_ = {object, &client};
+    if (at_once) answer();
+  }
+  void answer() {
+    REQUIRE(pending_.second != nullptr);
+    const auto [object, client] = std::exchange(pending_, {});
+    if (problem) return client->built(object, Problem{{}, "no such thing"});
+    const size_t size = charges.contains(object) ? charges[object] : charge;
+    client->built(object, {std::make_unique<TestObject>(object, size, alive)});
+  }
+  bool pending() const { return pending_.second != nullptr; }
+
+  bool at_once = true;
+  bool problem = false;
+  size_t charge = 100;
+  std::map<uint32_t, size_t> charges;
+  std::vector<uint32_t> built;  // in order
+  std::function<void(uint32_t)> on_build;
+  int alive = 0;
+
+ private:
+  std::pair<uint32_t, Client*> pending_{0, nullptr};
+};
+
+/// What a test node is made of, where it matters.
+struct FetchSetup {
+  FetchConfig fetch;
+  CacheConfig cache{.budget_bytes = 1'000'000, .largest_build_bytes = 100, .pinned_share = 0.5};
+  size_t fibers = 16;
+  uint64_t seed = 1;
+};
+
+class FetchNode final : public NetHandler {
+ public:
+  FetchNode(SimNet& net, const NetConfig& net_config, const Objects& objects, FetchSetup setup,
+            const ManualClock& clock)
+      : config(net_config),
+        transport(net, config.self),
+        network(config, transport, *this, clock.now()),
+        fibers({.count = setup.fibers, .maps_most = 1000}),
+        timers(200, clock.now()),
+        fetcher(on(config.self, setup.fetch), objects.places, store, network, timers, clock,
+                chance(setup.seed, config.self)),
+        cache(setup.cache, objects.places.size(), fetcher, builder, fibers, timers, clock),
+        clock_(clock) {}
+
+  NetConfig config;
+  SimTransport transport;
+  Network network;
+  Fibers fibers;
+  Timers timers;
+  MapStore store;
+  TestBuilder builder;
+  Fetcher fetcher;
+  ObjectCache cache;
+  std::function<void(const Delivery&)> on_deliver;
+  bool mute = false;  // takes requests, and answers none
+  bool intercepts = true;
+
+  FiberId start(const Task& body) {
+    const auto id = fibers.start("test", body);
+    REQUIRE(id.has_value());
+    return *id;
+  }
+  void run_fibers() {
+    while (fibers.any_ready()) fibers.run_next();
+  }
+  void turn() {
+    timers.run_due(clock_.now(), 256);
+    network.poll(clock_.now());
+    run_fibers();
+  }
+
+  bool deliver(const Delivery& d) override {
+    if (on_deliver) on_deliver(d);
+    return mute || fetcher.deliver(d);
+  }
+  std::span<std::byte> room_for(const MessageId& id, NodeId, Kind kind, size_t bytes) override {
+    return fetcher.room_for(id, kind, bytes);
+  }
+  void abandoned(const MessageId&, Kind) override {}
+  bool intercept(const Delivery& d) override { return intercepts && fetcher.intercept(d); }
+  void link_changed(NodeId, LinkPhase) override {}
+  NextHops reroute(std::span<const Edge> down) override {
+    return shortest(config.self, config.nodes, config.edges, down);
+  }
+
+ private:
+  static FetchConfig on(NodeId self, FetchConfig fetch) {
+    fetch.self = self;
+    return fetch;
+  }
+  static Random chance(uint64_t seed, NodeId self) {
+    Random out(seed, RandomStream::test);
+    out.start(self.value);
+    return out;
+  }
+  const ManualClock& clock_;
+};
+
+/// Nodes in a row, each linked to the next: node 0 asks, mostly.
+class FetchCluster {
+ public:
+  FetchCluster(uint16_t nodes, const Objects& objects, const FetchSetup& setup = {},
+               const Cluster::Change& change = {})
+      : net(setup.seed) {
+    spdlog::set_level(spdlog::level::off);
+    std::vector<Edge> row;
+    for (uint16_t i = 0; i + 1 < nodes; ++i) row.push_back({{i}, {static_cast<uint16_t>(i + 1)}});
+    for (uint16_t i = 0; i < nodes; ++i) {
+      NetConfig config = config_of(i, nodes, row, 1000u + i);
+      if (change) change(config);
+      nodes_.push_back(std::make_unique<FetchNode>(net, config, objects, setup, clock));
+    }
+    for (const ObjectPlace& place : objects.places)
+      for (const NodeId holder : place.holders) give(holder, objects, place.id);
+    run(seconds(1));
+  }
+
+  SimNet net;
+  ManualClock clock{seconds(1)};
+
+  FetchNode& operator[](size_t i) { return *nodes_[i]; }
+
+  void give(NodeId node, const Objects& objects, ObjectId id) {
+    for (size_t i = 0; i < objects.places.size(); ++i)
+      if (objects.places[i].id == id) nodes_[node.value]->store.held[id.value] = objects.bytes[i];
+  }
+  void turn(Nanoseconds by = milliseconds(1)) {
+    for (int round = 0; round < 3; ++round) {
+      for (const auto& node : nodes_)
+        if (node) node->turn();
+      net.arrive();
+    }
+    clock.advance(by);
+  }
+  void run(Nanoseconds span, Nanoseconds step = milliseconds(10)) {
+    for (Nanoseconds t = 0; t < span; t += step) turn(step);
+  }
+  /// Turns until it holds, or `most` has passed: then the test fails.
+  void until(const std::function<bool()>& holds, Nanoseconds most = seconds(100)) {
+    const Nanoseconds end = clock.now() + most;
+    while (!holds()) {
+      REQUIRE(clock.now() < end);
+      turn();
+    }
+  }
+  void stop(uint16_t i) {
+    net.leave({i});
+    nodes_[i].reset();
+  }
+
+ private:
+  std::vector<std::unique_ptr<FetchNode>> nodes_;
+};
+
+/// What became of one get().
+struct Asking {
+  FetchNode& node;
+  uint32_t object;
+  bool done = false;
+  Got got{};
+  uint32_t number = 0;  // of the object, read while it was there
+
+  Task body() {
+    return [this] {
+      got = node.cache.get(object);
+      if (got.object != nullptr) number = static_cast<const TestObject*>(got.object)->number;
+      done = true;
+    };
+  }
+};
+
+}  // namespace luxodus::test
