@@ -98,6 +98,9 @@ void print(const Json& s) {
               s["surfaces"].get<size_t>(), short_number(s["triangles"].get<double>()).c_str(),
               s["area"]["value"].get<double>(), s["patches"].get<size_t>(),
               s["voxels"].get<size_t>());
+  if (const auto dropped = s["degenerate_triangles_dropped"].get<int64_t>(); dropped > 0)
+    std::printf("             %lld degenerate triangles dropped\n",
+                static_cast<long long>(dropped));
   const auto& low = s["bounds"]["low"];
   const auto& high = s["bounds"]["high"];
   std::printf("  bounds     x %.4g .. %.4g, y %.4g .. %.4g, z %.4g .. %.4g m; floors at",
@@ -111,9 +114,9 @@ void print(const Json& s) {
     std::printf("    %-32s %10.4g lm\n", e["name"].get<std::string>().c_str(),
                 e["luminous_flux"]["value"].get<double>());
   }
-  std::printf("  media      ");
-  for (const Json& m : s["media"]) std::printf("%s ", m.get<std::string>().c_str());
-  std::printf("%s\n  bands      ", s["media"].empty() ? "none" : "");
+  std::string media;
+  for (const Json& m : s["media"]) media += (media.empty() ? "" : ", ") + m.get<std::string>();
+  std::printf("  media      %s\n  bands      ", media.empty() ? "none" : media.c_str());
   for (const Json& b : s["bands_nm"])
     std::printf("%.0f-%.0f ", b[0].get<double>(), b[1].get<double>());
   std::printf("nm\n  kernel     %s\n", s["kernel"].get<std::string>().c_str());

@@ -147,6 +147,12 @@ void add_converge(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<ConvergeOptions>();
   CLI::App* command = app.add_subcommand(
       "converge", "Error against particles and seconds: table, CSV, plots, slope");
+  command->footer(
+      "Doubles the particles of one run until --particles, and writes down the error that `run` "
+      "stops at.\n"
+      "The slope is -0.5 for Monte Carlo: half the error costs four times the particles. The "
+      "merit\n"
+      "1 / (error^2 x seconds) stays level and compares machines and methods.");
   command->add_option("scene", options->scene, "scene file (TOML)")->required();
   command->add_option("--scenario", options->scenario, "name of a scenario [the first]");
   command->add_option("--particles", options->particles, "where to end [8M]");

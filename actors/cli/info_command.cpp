@@ -54,6 +54,7 @@ void print(const Json& j, int indent) {
 void add_info(CLI::App& app, int& exit_code) {
   auto json = std::make_shared<bool>(false);
   CLI::App* command = app.add_subcommand("info", "Version, build, packages, instruction set");
+  command->footer("Compare flux files bit for bit between machines whose instruction sets agree.");
   command->add_flag("--json", *json, "machine-readable");
   command->callback([json, &exit_code] {
     const Json j = info();

@@ -206,3 +206,17 @@ TEST_CASE("converge writes its table and plots, and the error falls like one ove
   // Seven doublings; each standard error is itself known to about 1 / sqrt(2 n) of n >= 8 batches.
   CHECK(json["slope_particles"].get<double>() == Approx(-0.5).margin(0.12));
 }
+
+TEST_CASE("check counts the triangles without area that it drops", "[program]") {
+  const Folder folder;
+  std::ofstream(folder.path / "scrap.obj")
+      << "v 0 0 1\nv 1 0 1\nv 0 1 1\nv 2 0 1\nf 1 2 3\nf 1 2 4\nf 1 1 3\n";
+  const std::string scene =
+      write_scene(folder, readme_scene() +
+                              "[[import]]\nname = \"scrap\"\nfile = \"scrap.obj\"\n"
+                              "units = \"m\"\nup = \"z\"\nmaterial = \"white\"\n");
+  const Outcome check = luxodus(folder, "check " + scene);
+  REQUIRE(check.code == 0);
+  CHECK(check.out.find("13 triangles") != std::string::npos);
+  CHECK(check.out.find("2 degenerate triangles dropped") != std::string::npos);
+}
