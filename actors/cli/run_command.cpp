@@ -26,6 +26,7 @@ struct RunOptions {
   int cells = 1;
   int nodes = 0;  // 0: the plain loop
   size_t fibers = 1;
+  double object_mib = 0;
   bool resume = false;
   bool no_views = false;
   bool json = false;
@@ -90,6 +91,7 @@ Result<StopReason> trace(LocalRun& run, const Scenario& scenario, const RunOptio
   NodesOptions nodes;
   nodes.nodes = options.nodes;
   nodes.fibers = options.fibers;
+  nodes.object_bytes = static_cast<size_t>(options.object_mib * 1024 * 1024);
   return run_on_nodes(run, nodes, rule, interrupt_flag(), show);
 }
 
@@ -196,6 +198,11 @@ void add_run(CLI::App& app, int& exit_code) {
       ->check(CLI::Range(0, limits::nodes_in_process));
   command->add_option("--fibers", options->fibers, "photon-threads of a node [1]")
       ->check(CLI::Range(size_t{1}, size_t{16384}));
+  command
+      ->add_option("--object-mib", options->object_mib,
+                   "budget of a node for geometry cells; what does not fit is fetched from others "
+                   "[0: everything is resident]")
+      ->check(CLI::Range(0.0, 1048576.0));
   command
       ->add_option("--picture-paths", options->picture_paths, "paths per pixel of the views [32]")
       ->check(CLI::Range(1, 100'000));

@@ -63,6 +63,12 @@ void LeaseClient::lease_done(uint64_t lease) {
   flush_when_idle();
 }
 
+/// A loss of the moment: the batch is traced anew, the lease stands until its deadline.
+void LeaseClient::lease_failed(uint64_t lease, int64_t batch) {
+  ++counters_.leases_failed;
+  if (!ended_) photons_->add(lease, batch);
+}
+
 /// Nothing more is to be had in this round: the controller waits for what is here.
 void LeaseClient::flush_when_idle() {
   if (round_empty_ && photons_->at_hand() == 0) flush();

@@ -29,6 +29,7 @@ class LeaseClient final : public LeasePort {
 
   void want_leases(size_t count) override;
   void lease_done(uint64_t lease) override;
+  void lease_failed(uint64_t lease, int64_t batch) override;
 
   /// A message of the controller; false where it is none of these.
   bool deliver(const Delivery& delivery);
@@ -41,6 +42,7 @@ class LeaseClient final : public LeasePort {
     uint64_t flushes_refused = 0;
     uint64_t flush_bytes = 0;
     uint64_t asked_again = 0;
+    uint64_t leases_failed = 0;
   };
   const Counters& counters() const { return counters_; }
 

@@ -13,7 +13,8 @@ namespace luxodus {
 /// A batch in work.
 struct PhotonThreads::OpenBatch {
   bool used = false;
-  bool dropped = false;
+  bool dropped = false;  // its lease was fenced
+  bool failed = false;   // an object was not to be had
   uint64_t lease = 0;
   Batch batch;
   BatchScores scores;
@@ -33,6 +34,7 @@ PhotonThreads::PhotonThreads(const CompiledScene& scene, const GeometryAccess& a
                              uint64_t seed, const PhotonConfig& config, Scheduler& scheduler,
                              LeasePort& port)
     : scene_(scene),
+      source_(access.source),
       config_(config),
       scheduler_(scheduler),
       port_(port),
@@ -98,6 +100,7 @@ void PhotonThreads::trace_portions(BatchTracer& tracer) {
       tracer.look(batch.number, portion->unit, open.scores);
     }
     --open.portions_out;
+    if (source_ != nullptr && source_->spoilt()) open.failed = true;
     const bool given_out =
         open.next_particle == scene_.batch_particles && open.next_unit == tracer.look_units();
     if (given_out && open.portions_out == 0) close(open);
@@ -132,7 +135,7 @@ PhotonThreads::OpenBatch* PhotonThreads::open_next() {
   const WaitingLease lease = leases_.front();
   leases_.pop_front();
   free->used = true;
-  free->dropped = false;
+  free->dropped = free->failed = false;
   free->lease = lease.id;
   free->batch = planned(lease.batch);
   free->next_particle = 0;
@@ -149,7 +152,8 @@ const Batch& PhotonThreads::planned(int64_t number) {
 
 void PhotonThreads::close(OpenBatch& open) {
   open.used = false;
-  if (open.dropped) return;  // fenced meanwhile: somebody else traces it
+  if (open.dropped) return;  // somebody else traces it
+  if (open.failed) return port_.lease_failed(open.lease, open.batch.number);
   totals_[merging_].merge(open.scores, open.batch.group);
   port_.lease_done(open.lease);
 }

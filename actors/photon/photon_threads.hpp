@@ -38,6 +38,8 @@ class LeasePort {
   virtual void want_leases(size_t count) = 0;
   /// The batch of this lease is merged into the node's totals.
   virtual void lease_done(uint64_t lease) = 0;
+  /// The batch of this lease could not be traced here: an object was not to be had.
+  virtual void lease_failed(uint64_t lease, int64_t batch) = 0;
 };
 
 class PhotonThreads {
@@ -76,6 +78,7 @@ class PhotonThreads {
   void close(OpenBatch& batch);
 
   const CompiledScene& scene_;
+  ObjectSource* const source_;  // null where everything is resident
   const PhotonConfig config_;
   Scheduler& scheduler_;
   LeasePort& port_;

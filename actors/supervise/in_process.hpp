@@ -21,6 +21,10 @@ struct NodesOptions {
   int links = 4;         // of a node at most
   size_t fibers = 1;     // photon-threads of a node
   size_t portion = 128;  // particles a fiber takes at once
+  /// For built geometry cells, of each node. 0: everything is resident, and shared. With a budget
+  /// each node holds its share of the cells' bytes for all, and fetches and builds what it needs.
+  size_t object_bytes = 0;
+  uint32_t replicas = 1;  // nodes that hold a cell's bytes
 };
 
 /// What the nodes of a run did, for a line to people and for tests.
@@ -30,6 +34,14 @@ struct NodesReport {
   uint64_t leases = 0;
   uint64_t leases_fenced = 0;
   uint64_t frames = 0;
+  // Of all workers, where they fetch:
+  uint64_t hits = 0;
+  uint64_t fetches = 0;
+  uint64_t joined = 0;
+  uint64_t builds = 0;
+  uint64_t evictions = 0;
+  uint64_t fetched_bytes = 0;
+  uint64_t largest_resident_bytes = 0;  // of one node
 };
 
 /// Traces until `stop` holds, into `run`'s totals; as LocalRun::run.

@@ -55,12 +55,18 @@ class NodeShell::Handler final : public NetHandler {
   explicit Handler(NodeShell& shell) : shell_(shell) {}
 
   bool deliver(const Delivery& delivery) override {
+    if (is_of_objects(kind_of(delivery.message)))
+      return shell_.fetcher_ == nullptr || shell_.fetcher_->deliver(delivery);
     for (const Deliver& actor : shell_.actors_)
       if (actor(delivery)) break;
     rooms_.erase(key_of(delivery.id));
     return true;
   }
-  std::span<std::byte> room_for(const MessageId& id, NodeId, Kind, size_t bytes) override {
+  std::span<std::byte> room_for(const MessageId& id, NodeId, Kind kind, size_t bytes) override {
+    if (is_of_objects(kind)) {
+      return shell_.fetcher_ == nullptr ? std::span<std::byte>{}
+                                        : shell_.fetcher_->room_for(id, kind, bytes);
+    }
     size_t taken = 0;
     for (const auto& [key, room] : rooms_) taken += room.size() * sizeof(uint64_t);
     if (taken + bytes > shell_.config_.room_bytes_most) return {};
@@ -69,7 +75,9 @@ class NodeShell::Handler final : public NetHandler {
     return std::as_writable_bytes(std::span(room));
   }
   void abandoned(const MessageId& id, Kind) override { rooms_.erase(key_of(id)); }
-  bool intercept(const Delivery&) override { return false; }
+  bool intercept(const Delivery& request) override {
+    return shell_.fetcher_ != nullptr && shell_.fetcher_->intercept(request);
+  }
   void link_changed(NodeId neighbour, LinkPhase phase) override {
     spdlog::debug("link node={} neighbour={} phase={}", shell_.config_.net.self.value,
                   neighbour.value, name_of(phase));
@@ -79,6 +87,7 @@ class NodeShell::Handler final : public NetHandler {
   }
 
  private:
+  static bool is_of_objects(Kind kind) { return kind == Kind::request || kind == Kind::reply; }
   using Key = std::pair<uint64_t, uint64_t>;
   static Key key_of(const MessageId& id) { return {id.incarnation.value, id.sequence}; }
 

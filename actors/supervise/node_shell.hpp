@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "runtime/actor/scheduler.hpp"
+#include "runtime/fetch/fetcher.hpp"
 #include "runtime/net/network.hpp"
 #include "topology/routes.hpp"
 
@@ -40,6 +41,9 @@ class NodeShell {
   /// Adds an actor that messages are offered to.
   void add(Deliver deliver) { actors_.push_back(std::move(deliver)); }
 
+  /// Has requests and replies for objects go through `fetcher`. Requires: it outlives the run.
+  void use(Fetcher& fetcher) { fetcher_ = &fetcher; }
+
   /// Runs until `ended` says so, then leaves: fibers end, neighbours are told.
   void run_until(const std::function<bool()>& ended);
 
@@ -52,6 +56,7 @@ class NodeShell {
   const Clock& clock_;
   Transport& transport_;
   std::vector<Deliver> actors_;
+  Fetcher* fetcher_ = nullptr;
   std::unique_ptr<Handler> handler_;
   Network network_;
   std::unique_ptr<Source> source_;

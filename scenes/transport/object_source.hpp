@@ -3,17 +3,23 @@
 // Thread rule: as the tracer that asks.
 #pragma once
 
-#include "scenes/intersect/embree_scene.hpp"
+#include <cstdint>
 
 namespace luxodus {
+
+class CellScene;
 
 class ObjectSource {
  public:
   virtual ~ObjectSource() = default;
 
-  /// The search structure of a geometry cell, good until the caller next asks for anything.
+  /// The search structure of a geometry cell, good until the caller next asks for anything; null
+  /// where it cannot be had, and then what the caller traces is worth nothing: see spoilt().
   /// Suspends: until it is resident.
-  virtual const CellScene& cell(uint32_t cell) = 0;
+  virtual const CellScene* cell(uint32_t cell) = 0;
+
+  /// Whether the fiber that calls was refused anything since it last asked this.
+  virtual bool spoilt() = 0;
 };
 
 }  // namespace luxodus

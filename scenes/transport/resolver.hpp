@@ -100,7 +100,9 @@ class SourcedResolver : public ResidentData {
     Hit best;
     for (const Candidate& c : candidates_) {
       if (c.entry > best.distance) break;
-      const Hit hit = source_->cell(c.cell).nearest(ray);
+      const CellScene* cell = source_->cell(c.cell);
+      if (cell == nullptr) return {};
+      const Hit hit = cell->nearest(ray);
       if (is_nearer(hit, best)) best = keep(hit);
     }
     return best;
@@ -108,7 +110,8 @@ class SourcedResolver : public ResidentData {
   bool occluded(const Ray& ray) {
     proxies_->candidates(ray, candidates_);
     for (const Candidate& c : candidates_) {
-      if (source_->cell(c.cell).occluded(ray)) return true;
+      const CellScene* cell = source_->cell(c.cell);
+      if (cell == nullptr || cell->occluded(ray)) return true;
     }
     return false;
   }

@@ -1,0 +1,77 @@
+#include "scenes/transport/cell_object.hpp"
+
+#include <cmath>
+#include <cstring>
+
+namespace luxodus {
+
+namespace {
+
+constexpr uint64_t magic = 0x316c6c6563'78756c;  // "luxcell1"
+
+struct Header {
+  uint64_t magic;
+  uint32_t triangles;
+  uint32_t texture_uvs;
+  glm::vec3 low, high;
+};
+static_assert(sizeof(Header) == 40);
+static_assert(sizeof(GeometryCell::TriangleUv) == 28);
+
+bool finite(const glm::vec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+bool fits(const TriangleRecord& t, const CellLimits& limits) {
+  const uint64_t bins = 2 * uint64_t{t.subdivision} * t.subdivision;
+  return t.surface < limits.surfaces && t.subdivision > 0 && t.subdivision <= 0xFFFF &&
+         uint64_t{t.first_patch} + bins <= limits.patches && finite(t.corner[0]) &&
+         finite(t.corner[1]) && finite(t.corner[2]) && finite(t.normal);
+}
+
+}  // namespace
+
+std::vector<std::byte> encode_cell(const GeometryCell& cell) {
+  const Header header{magic, static_cast<uint32_t>(cell.triangles.size()),
+                      static_cast<uint32_t>(cell.texture_uv.size()), cell.low, cell.high};
+  const size_t triangle_bytes = cell.triangles.size() * sizeof(TriangleRecord);
+  const size_t uv_bytes = cell.texture_uv.size() * sizeof(GeometryCell::TriangleUv);
+  std::vector<std::byte> out(sizeof header + triangle_bytes + uv_bytes);
+  std::memcpy(out.data(), &header, sizeof header);
+  if (triangle_bytes > 0)
+    std::memcpy(out.data() + sizeof header, cell.triangles.data(), triangle_bytes);
+  if (uv_bytes > 0)
+    std::memcpy(out.data() + sizeof header + triangle_bytes, cell.texture_uv.data(), uv_bytes);
+  return out;
+}
+
+Result<GeometryCell> decode_cell(std::span<const std::byte> bytes, const CellLimits& limits) {
+  Header header{};
+  if (bytes.size() < sizeof header) return Problem{{}, "a geometry cell is cut short"};
+  std::memcpy(&header, bytes.data(), sizeof header);
+  bytes = bytes.subspan(sizeof header);
+  if (header.magic != magic) return Problem{{}, "these bytes are no geometry cell"};
+  const size_t triangle_bytes = size_t{header.triangles} * sizeof(TriangleRecord);
+  const size_t uv_bytes = size_t{header.texture_uvs} * sizeof(GeometryCell::TriangleUv);
+  if (bytes.size() != triangle_bytes + uv_bytes)
+    return Problem{{}, "a geometry cell has not the length that it says"};
+  GeometryCell cell;
+  cell.low = header.low;
+  cell.high = header.high;
+  cell.triangles.resize(header.triangles);
+  cell.texture_uv.resize(header.texture_uvs);
+  if (triangle_bytes > 0) std::memcpy(cell.triangles.data(), bytes.data(), triangle_bytes);
+  if (uv_bytes > 0) std::memcpy(cell.texture_uv.data(), bytes.data() + triangle_bytes, uv_bytes);
+  for (const TriangleRecord& t : cell.triangles) {
+    if (!fits(t, limits)) return Problem{{}, "a geometry cell does not belong to this scene"};
+  }
+  uint32_t next = 0;
+  for (const GeometryCell::TriangleUv& uv : cell.texture_uv) {
+    if (uv.triangle < next || uv.triangle >= header.triangles)
+      return Problem{{}, "texture coordinates of a geometry cell are out of order"};
+    next = uv.triangle + 1;
+  }
+  return cell;
+}
+
+}  // namespace luxodus
