@@ -1,0 +1,181 @@
+// A cluster as its file says it (cluster_file.hpp reads one): machines, nodes, processes, who is
+// linked to whom, what each may hold; and what follows from that, such as where a node listens.
+// It is whole: names are unique, ports do not clash, there is one controller. It opens nothing:
+// that files, keys and addresses exist is found where they are used. What graph the topology names
+// is for others to make. Plain values; any thread.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "runtime/core/clock.hpp"
+#include "runtime/net/net_config.hpp"
+#include "runtime/net/zmq_transport.hpp"
+
+namespace luxodus {
+
+namespace limits {
+/// Machines of a cluster; every one costs a connection of whoever deploys to it.
+inline constexpr size_t cluster_hosts = 256;
+/// Nodes of a cluster, the controller included: as many as a graph has vertices.
+inline constexpr size_t cluster_nodes = 1024;
+/// Characters of a name. A local socket's name holds that of the run and that of the node, and the
+/// system allows 107 in all.
+inline constexpr size_t cluster_name_chars = 32;
+}  // namespace limits
+
+struct ClusterHost {
+  std::string name;
+  std::string address;  // that others connect to
+  std::string listen;   // address of its own to listen on, or "*"
+  uint16_t first_port = 0;
+};
+
+/// What a node may hold.
+struct NodeBudget {
+  uint64_t object_bytes = 0;
+  uint64_t tally_bytes = 0;
+  uint32_t fibers = 0;
+  uint32_t stack_bytes = 0;  // of one fiber
+  uint32_t maps_most = 0;    // 0: its part of process_maps_most()
+};
+
+enum class NodeRole : uint8_t { worker, controller };
+
+/// Its number is its place among ClusterConfig::nodes.
+struct ClusterNode {
+  std::string name;
+  NodeRole role = NodeRole::worker;
+  bool traces = true;
+  size_t host = 0;     // among ClusterConfig::hosts
+  size_t process = 0;  // among ClusterConfig::processes
+  uint16_t port = 0;   // TCP, of the control lane; bulk has the next
+  NodeBudget budget;
+};
+
+/// Nodes that share memory, started by one command.
+struct ClusterProcess {
+  std::string name;
+  size_t host = 0;
+  std::vector<NodeId> nodes;
+  uint16_t metrics_port = 0;  // 0: none
+};
+
+/// Who is linked to whom: named, not yet made.
+struct TopologyChoice {
+  enum class Kind : uint8_t { amp, file, links };
+  enum class Controller : uint8_t {
+    endpoint,  // the graph's controller, which passes nothing on
+    forwards,  // the graph's controller, which does
+    node       // a vertex as all others: the graph has no controller
+  };
+
+  Kind kind = Kind::amp;
+  std::filesystem::path file;  // of kind file, which says itself what follows
+  std::vector<Edge> edges;     // of kind links
+  uint32_t links_most = 0;     // of a worker
+  Controller controller = Controller::endpoint;
+  uint32_t controller_links_most = 0;  // not above the number of workers; 0 for `node`
+};
+
+struct RunChoice {
+  std::string name;
+  uint64_t id = 0;
+  Level level = Level::bit;
+  std::filesystem::path scene;
+  std::string scenario;  // "": the scene's first
+  std::filesystem::path out;
+  std::optional<uint64_t> particles;
+  std::optional<double> relative_error;
+  std::optional<double> time_s;
+};
+
+struct LeaseChoice {
+  uint32_t batches = 0;
+  Nanoseconds duration = 0;
+};
+
+struct Timeouts {
+  Nanoseconds start = 0;  // until all nodes have a link
+  Nanoseconds fetch_floor = 0;
+  uint32_t fetch_attempts = 0;  // at one holder
+  Nanoseconds shutdown_phase = 0;
+  Nanoseconds stall = 0;
+};
+
+struct KeysChoice {
+  std::filesystem::path folder;  // empty: no keys
+  bool insecure = false;
+};
+
+struct ObserveChoice {
+  std::string metrics_address;
+  uint64_t trace_every = 0;  // 0: none
+  std::string log_level;     // debug, info, warn, error
+};
+
+struct ClusterConfig {
+  std::filesystem::path file;
+  RunChoice run;
+  std::vector<ClusterHost> hosts;
+  std::vector<ClusterNode> nodes;  // by number; the controller is the last
+  std::vector<ClusterProcess> processes;
+  TopologyChoice topology;
+  bool tcp_within_host = false;
+  /// What the nodes' network has in common; see net_config().
+  NetConfig links;
+  LeaseChoice lease;
+  Timeouts timeouts;
+  KeysChoice keys;
+  ObserveChoice observe;
+
+  const ClusterNode& node(NodeId id) const { return nodes[id.value]; }
+  const ClusterHost& host_of(NodeId id) const { return hosts[node(id).host]; }
+  NodeId controller() const { return NodeId{static_cast<uint16_t>(nodes.size() - 1)}; }
+  size_t workers() const { return nodes.size() - 1; }
+};
+
+/// The node of this name.
+std::optional<NodeId> find_node(const ClusterConfig& cluster, std::string_view name);
+
+/// Why this cannot be the name of a run, host, node or process; "" where it can. Names become parts
+/// of files', units' and sockets' names.
+std::string name_fault(std::string_view name);
+/// Why this is neither an IPv4 address nor a host's name; "" where it is.
+std::string address_fault(const std::string& address);
+bool is_ipv4(const std::string& address);
+
+/// A node's network but for what a start adds: incarnation, edges, what is hashed and built.
+NetConfig net_config(const ClusterConfig& cluster, NodeId self);
+
+/// What carries a link.
+enum class Carrier : uint8_t {
+  memory,  // within a process
+  local,   // a socket of the host, by name (no file: it ends with its owner)
+  tcp
+};
+Carrier carrier_between(const ClusterConfig& cluster, NodeId a, NodeId b);
+
+/// Whether any two nodes might be linked by TCP, and whether that may leave their host.
+bool uses_tcp(const ClusterConfig& cluster);
+bool leaves_host(const ClusterConfig& cluster);
+
+/// Where a node listens, and whom it connects to: of two neighbours the larger number connects.
+struct NodeLinks {
+  std::vector<Endpoints> listen;  // one for each carrier that is needed
+  std::vector<std::pair<NodeId, Endpoints>> connect;
+};
+/// Requires: edges between nodes of the cluster.
+NodeLinks links_of(const ClusterConfig& cluster, NodeId self, std::span<const Edge> edges);
+
+/// The files of a node's keys, as `luxodus keygen` writes them.
+std::filesystem::path key_path(const std::filesystem::path& folder, std::string_view node);
+std::filesystem::path public_key_path(const std::filesystem::path& folder, std::string_view node);
+
+}  // namespace luxodus

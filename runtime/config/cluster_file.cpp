@@ -1,0 +1,170 @@
+#include "runtime/config/cluster_file.hpp"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+
+#include "runtime/config/cluster_reading.hpp"
+#include "runtime/core/hash.hpp"
+
+namespace luxodus {
+
+namespace {
+
+using config::ClusterReading;
+using config::TableReader;
+
+/// What ZeroMQ and the envelope add to a chunk; net_config.hpp counts the same.
+constexpr size_t chunk_overhead_bytes = 128;
+
+Nanoseconds span_of(double seconds_said) {
+  return static_cast<Nanoseconds>(std::llround(seconds_said * 1e9));
+}
+
+TableReader reader_of(TableReader& top, std::string_view key, ClusterReading& reading) {
+  return TableReader(top.table(key), {key}, reading.findings, top.place(key));
+}
+
+void read_run(TableReader& top, ClusterReading& reading) {
+  TableReader keys = reader_of(top, "run", reading);
+  RunChoice& run = reading.cluster.run;
+  if (!top.has("run")) return;
+  run.name = keys.name("name");
+  Hasher hash;
+  hash.add(std::string_view(run.name));
+  run.id = keys.maybe_integer("id").value_or(hash.value());
+  run.scene = keys.path("scene");
+  run.scenario = keys.text("scenario");
+  run.out = keys.path("out");
+  if (!keys.has("out")) run.out = reading.cluster.file.parent_path() / "out" / run.name;
+  run.particles = keys.maybe_integer("particles");
+  run.relative_error = keys.maybe_number("relative_error");
+  run.time_s = keys.maybe_number("time_s");
+  run.level = keys.choice("level") == "bit" ? Level::bit : Level::statistical;
+}
+
+void read_links(TableReader& top, ClusterReading& reading) {
+  TableReader keys = reader_of(top, "links", reading);
+  reading.cluster.tcp_within_host = keys.choice("same_host") == "tcp";
+  NetConfig& net = reading.cluster.links;
+  net.hop_limit = static_cast<uint8_t>(keys.integer("hop_limit"));
+  net.small_chunk_bytes = keys.size("small_chunk_bytes");
+  net.bulk_chunk_bytes = keys.size("bulk_chunk_bytes");
+  net.small_window_bytes =
+      keys.integer("small_window_chunks") * (net.small_chunk_bytes + chunk_overhead_bytes);
+  net.bulk_window_bytes =
+      keys.integer("bulk_window_chunks") * (net.bulk_chunk_bytes + chunk_overhead_bytes);
+  net.outbox_messages = keys.integer("outbox_messages");
+  net.assemblies = keys.integer("assemblies");
+  net.message_bytes_most = keys.size("message_most");
+  net.assembly_patience = span_of(keys.number("assembly_s"));
+  net.times.beat = milliseconds(static_cast<Nanoseconds>(keys.integer("beat_ms")));
+  net.times.suspect_after_beats = static_cast<int>(keys.integer("suspect_after"));
+  net.times.down_after_beats = static_cast<int>(keys.integer("down_after"));
+  net.times.patience = span_of(keys.number("greeting_s"));
+  if (net.times.suspect_after_beats >= net.times.down_after_beats)
+    keys.problem("suspect_after", "'suspect_after' must be less than 'down_after'");
+}
+
+void read_services(TableReader& top, ClusterReading& reading) {
+  TableReader lease = reader_of(top, "lease", reading);
+  reading.cluster.lease = {static_cast<uint32_t>(lease.integer("batches")),
+                           span_of(lease.number("duration_s"))};
+
+  TableReader timeouts = reader_of(top, "timeouts", reading);
+  Timeouts& t = reading.cluster.timeouts;
+  t.start = span_of(timeouts.number("start_s"));
+  t.fetch_floor = span_of(timeouts.number("fetch_floor_ms") / 1e3);
+  t.fetch_attempts = static_cast<uint32_t>(timeouts.integer("fetch_attempts"));
+  t.shutdown_phase = span_of(timeouts.number("shutdown_phase_s"));
+  t.stall = span_of(timeouts.number("stall_ms") / 1e3);
+
+  TableReader keys = reader_of(top, "keys", reading);
+  reading.cluster.keys = {keys.path("folder"), keys.flag("insecure")};
+  if (keys.has("folder") && reading.cluster.keys.insecure)
+    keys.problem("insecure", "'folder' names keys and 'insecure' forgoes them; keep one of them");
+}
+
+/// Returns the port of each host's first process.
+uint16_t read_observe(TableReader& top, ClusterReading& reading) {
+  TableReader keys = reader_of(top, "observe", reading);
+  ObserveChoice& observe = reading.cluster.observe;
+  observe.metrics_address = keys.address("metrics_address");
+  if (!observe.metrics_address.empty() && !is_ipv4(observe.metrics_address))
+    keys.problem("metrics_address", "'metrics_address' must be an IPv4 address");
+  observe.trace_every = keys.integer("trace_every");
+  observe.log_level = keys.choice("log_level");
+  return static_cast<uint16_t>(keys.integer("metrics_port"));
+}
+
+void check_keys(ClusterReading& reading) {
+  const KeysChoice& keys = reading.cluster.keys;
+  if (!leaves_host(reading.cluster) || !keys.folder.empty() || keys.insecure) return;
+  reading.findings.add(
+      reading.host_places.back(),
+      "links leave their host and there are no keys: say folder = \"keys\" in [keys] and run "
+      "`luxodus keygen --cluster FILE`, or, on a network where everybody is trusted, insecure = "
+      "true");
+}
+
+void read_tables(const toml::table& document, ClusterReading& reading) {
+  TableReader top(document, {"cluster"}, reading.findings, reading.start);
+  read_run(top, reading);
+  read_hosts(top, reading);
+  read_nodes(top, reading);
+  read_topology(top, reading);
+  read_links(top, reading);
+  read_services(top, reading);
+  const uint16_t metrics_port = read_observe(top, reading);
+  if (!reading.findings.empty()) return;
+  form_processes(reading, metrics_port);
+  if (!reading.findings.empty()) return;
+  give_ports(reading);
+  connect_nodes(reading);
+  check_keys(reading);
+}
+
+ReadCluster refused(const std::filesystem::path& file, int line, std::string what) {
+  ReadCluster read;
+  read.problems.add({file.string(), line}, std::move(what));
+  return read;
+}
+
+}  // namespace
+
+ReadCluster parse_cluster(std::string_view text, const std::filesystem::path& file) {
+  if (text.size() > limits::cluster_file_bytes) {
+    return refused(file, 0,
+                   fmt::format("this file is longer than {} bytes, the most a cluster takes",
+                               limits::cluster_file_bytes));
+  }
+  ClusterReading reading;
+  reading.cluster.file = file;
+  reading.start = {file.string(), 1};
+  try {
+    read_tables(toml::parse(text, file.string()), reading);
+  } catch (const toml::parse_error& e) {
+    return refused(file, static_cast<int>(e.source().begin.line),
+                   fmt::format("this is not TOML: {}", e.description()));
+  }
+  if (!reading.findings.empty()) return {std::nullopt, reading.findings.take()};
+  return {std::move(reading.cluster), {}};
+}
+
+ReadCluster read_cluster(const std::filesystem::path& file) {
+  std::error_code failed;
+  if (std::filesystem::is_directory(file, failed)) return refused(file, 0, "is a folder");
+  std::ifstream in(file, std::ios::binary);
+  if (!in) return refused(file, 0, fmt::format("cannot be read: {}", std::strerror(errno)));
+  // One byte more than is allowed shows that there is too much, whatever the file says of its size.
+  std::string text(limits::cluster_file_bytes + 1, '\0');
+  in.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (in.bad()) return refused(file, 0, "cannot be read to its end");
+  text.resize(static_cast<size_t>(in.gcount()));
+  return parse_cluster(text, file);
+}
+
+}  // namespace luxodus

@@ -1,0 +1,267 @@
+// Machines, nodes, the processes that nodes share, and their ports.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "runtime/config/cluster_reading.hpp"
+
+namespace luxodus::config {
+
+namespace {
+
+/// A node as one [[node]] says it, before all are known.
+struct Draft {
+  ClusterNode node;
+  std::string process;
+  std::optional<uint64_t> port;
+  SourcePlace place;
+};
+
+std::string listen_address(const std::string& address) {
+  if (address == "localhost") return "127.0.0.1";
+  return is_ipv4(address) ? address : "*";  // only numbers can be listened on
+}
+
+NodeBudget read_budget(const toml::table& table, Findings& findings, const SourcePlace& where,
+                       const NodeBudget* base) {
+  TableReader keys(table, {"budget"}, findings, where);
+  const auto otherwise = [&](auto said) {
+    return base ? std::optional<uint64_t>(base->*said) : std::nullopt;
+  };
+  const auto stack_kb = base ? std::optional<uint64_t>(base->stack_bytes / 1024) : std::nullopt;
+  NodeBudget budget;
+  budget.object_bytes = keys.size("object_bytes", otherwise(&NodeBudget::object_bytes));
+  budget.tally_bytes = keys.size("tally_bytes", otherwise(&NodeBudget::tally_bytes));
+  budget.fibers = static_cast<uint32_t>(keys.integer("fibers", otherwise(&NodeBudget::fibers)));
+  budget.stack_bytes = static_cast<uint32_t>(keys.integer("stack_kb", stack_kb) * 1024);
+  budget.maps_most =
+      static_cast<uint32_t>(keys.integer("maps_most", otherwise(&NodeBudget::maps_most)));
+  return budget;
+}
+
+/// The number of the host that a node names, or of the only one.
+size_t read_host(TableReader& keys, const ClusterReading& reading) {
+  const std::string name = keys.text("host");
+  const auto& hosts = reading.cluster.hosts;
+  for (size_t i = 0; i < hosts.size(); ++i) {
+    if (hosts[i].name == name) return i;
+  }
+  if (keys.has("host") && !name.empty()) {
+    std::vector<std::string_view> known;
+    for (const ClusterHost& host : hosts) known.push_back(host.name);
+    const auto near = nearest_word(name, known);
+    keys.problem("host", fmt::format("there is no host \"{}\"{}", name,
+                                     near ? fmt::format("; did you mean \"{}\"?", *near) : ""));
+  } else if (hosts.size() > 1) {
+    keys.problem("host", "there are several hosts: say on which this node runs");
+  }
+  return 0;
+}
+
+/// What one [[node]] says: a node, or `count` of them.
+void read_node(const toml::table& table, const NodeBudget& usual, ClusterReading& reading,
+               std::vector<Draft>& drafts) {
+  std::vector<std::string_view> specs{"node"};
+  if (table["role"].value_or(std::string_view("worker")) != "worker")
+    specs.push_back("node.controller");
+  TableReader keys(table, specs, reading.findings, reading.start);
+  Draft draft;
+  draft.place = keys.place("name");
+  const std::string name = keys.name("name");
+  const uint64_t count = keys.integer("count");
+  const bool controller = keys.choice("role") == "controller";
+  draft.node.role = controller ? NodeRole::controller : NodeRole::worker;
+  draft.node.traces = controller ? keys.flag("traces") : true;
+  draft.node.host = read_host(keys, reading);
+  draft.node.budget =
+      read_budget(keys.table("budget"), reading.findings, keys.place("budget"), &usual);
+  draft.process = keys.name("process");
+  const auto port = keys.maybe_integer("port");
+  if (port && *port + 2 * (count - 1) > 65534)
+    keys.problem("port",
+                 fmt::format("{} nodes from port {} on need ports above 65535", count, *port));
+  const uint64_t room = limits::cluster_nodes - drafts.size();
+  if (count > room)
+    keys.problem("count", fmt::format("a cluster has at most {} nodes", limits::cluster_nodes));
+  for (uint64_t i = 0; i < std::min(count, room); ++i) {
+    draft.node.name = count == 1 ? name : name + std::to_string(i);
+    if (port) draft.port = *port + 2 * i;
+    drafts.push_back(draft);
+    if (const auto fault = name_fault(draft.node.name); !name.empty() && !fault.empty()) {
+      keys.problem("name", fmt::format("\"{}\" is no name: {}", draft.node.name, fault));
+      return;
+    }
+  }
+}
+
+void check_roles(const std::vector<Draft>& drafts, ClusterReading& reading) {
+  const Draft* controller = nullptr;
+  bool somebody_traces = false;
+  for (const Draft& draft : drafts) {
+    somebody_traces = somebody_traces || draft.node.traces;
+    if (draft.node.role != NodeRole::controller) continue;
+    if (controller) {
+      reading.findings.add(draft.place,
+                           fmt::format("\"{}\" is a second controller; line {} has the first",
+                                       draft.node.name, controller->place.line));
+    } else {
+      controller = &draft;
+    }
+  }
+  if (!controller) {
+    reading.findings.add(reading.start,
+                         "there is no controller: one [[node]] needs role = \"controller\"");
+  } else if (!somebody_traces) {
+    reading.findings.add(controller->place,
+                         "nobody traces: there are no workers; add some, or say traces = true");
+  }
+}
+
+void check_names(const std::vector<Draft>& drafts, ClusterReading& reading) {
+  std::map<std::string_view, int> lines;
+  for (const Draft& draft : drafts) {
+    if (draft.node.name.empty()) continue;
+    const auto [it, fresh] = lines.emplace(draft.node.name, draft.place.line);
+    if (!fresh) {
+      reading.findings.add(draft.place, fmt::format("there is a node \"{}\" already, in line {}",
+                                                    draft.node.name, it->second));
+    }
+  }
+}
+
+}  // namespace
+
+void read_hosts(TableReader& top, ClusterReading& reading) {
+  const auto tables = top.tables("host", limits::cluster_hosts);
+  for (const toml::table* table : tables) {
+    TableReader keys(*table, {"host"}, reading.findings, top.place("host"));
+    ClusterHost host;
+    host.name = keys.name("name");
+    host.address = keys.address("address");
+    const std::string listen = keys.address("listen");
+    host.listen = keys.has("listen") ? listen : listen_address(host.address);
+    if (keys.has("listen") && !listen.empty() && !is_ipv4(listen))
+      keys.problem("listen", "'listen' must be an IPv4 address");
+    host.first_port = static_cast<uint16_t>(keys.integer("first_port"));
+    if (tables.size() > 1 && !keys.has("address")) {
+      keys.problem("address",
+                   fmt::format("there are several hosts: say the address of \"{}\"", host.name));
+    }
+    for (size_t i = 0; i < reading.cluster.hosts.size(); ++i) {
+      if (host.name.empty() || reading.cluster.hosts[i].name != host.name) continue;
+      keys.problem("name", fmt::format("there is a host \"{}\" already, in line {}", host.name,
+                                       reading.host_places[i].line));
+    }
+    reading.cluster.hosts.push_back(std::move(host));
+    reading.host_places.push_back(keys.place("name"));
+  }
+}
+
+void read_nodes(TableReader& top, ClusterReading& reading) {
+  const NodeBudget usual =
+      read_budget(top.table("budget"), reading.findings, top.place("budget"), nullptr);
+  std::vector<Draft> drafts;
+  for (const toml::table* table : top.tables("node", limits::cluster_nodes)) {
+    read_node(*table, usual, reading, drafts);
+  }
+  if (drafts.empty()) return;  // which was told
+  check_names(drafts, reading);
+  check_roles(drafts, reading);
+  std::stable_partition(drafts.begin(), drafts.end(),
+                        [](const Draft& d) { return d.node.role == NodeRole::worker; });
+  for (Draft& draft : drafts) {
+    if (draft.port)
+      reading.ports[reading.cluster.nodes.size()] = static_cast<uint16_t>(*draft.port);
+    reading.process_names.push_back(draft.process.empty() ? draft.node.name : draft.process);
+    reading.node_places.push_back(draft.place);
+    reading.cluster.nodes.push_back(std::move(draft.node));
+  }
+}
+
+void form_processes(ClusterReading& reading, uint16_t metrics_port) {
+  ClusterConfig& cluster = reading.cluster;
+  std::map<std::string, size_t> numbers;
+  std::vector<uint32_t> on_host(cluster.hosts.size());
+  for (size_t i = 0; i < cluster.nodes.size(); ++i) {
+    ClusterNode& node = cluster.nodes[i];
+    const std::string& name = reading.process_names[i];
+    const auto [it, fresh] = numbers.emplace(name, cluster.processes.size());
+    if (fresh) {
+      const uint32_t port = metrics_port == 0 ? 0 : metrics_port + on_host[node.host]++;
+      if (port > 65535) {
+        return reading.findings.add(
+            reading.node_places[i],
+            fmt::format("the process of \"{}\" would give metrics on port {}: begin with a lower "
+                        "metrics_port",
+                        node.name, port));
+      }
+      cluster.processes.push_back({name, node.host, {}, static_cast<uint16_t>(port)});
+    }
+    ClusterProcess& process = cluster.processes[it->second];
+    if (process.host != node.host) {
+      reading.findings.add(
+          reading.node_places[i],
+          fmt::format("process \"{}\" runs on host \"{}\", and node \"{}\" on \"{}\"", name,
+                      cluster.hosts[process.host].name, node.name, cluster.hosts[node.host].name));
+    }
+    process.nodes.push_back(NodeId{static_cast<uint16_t>(i)});
+    node.process = it->second;
+  }
+}
+
+namespace {
+
+/// TCP ports in use, by address: hosts of one address share them.
+class PortBook {
+ public:
+  explicit PortBook(ClusterReading& reading) : reading_(reading) {}
+
+  void take(const ClusterHost& host, uint32_t port, std::string who, const SourcePlace& place) {
+    const auto [it, fresh] = taken_.emplace(std::pair(host.address, port), who);
+    if (fresh) return;
+    reading_.findings.add(place, fmt::format("{} and {} both use port {} of {}; give one another "
+                                             "port, or its host another first_port",
+                                             it->second, who, port, host.address));
+  }
+
+ private:
+  ClusterReading& reading_;
+  std::map<std::pair<std::string, uint32_t>, std::string> taken_;
+};
+
+}  // namespace
+
+void give_ports(ClusterReading& reading) {
+  ClusterConfig& cluster = reading.cluster;
+  PortBook book(reading);
+  std::vector<uint32_t> next;
+  for (const ClusterHost& host : cluster.hosts) next.push_back(host.first_port);
+  const bool tcp = uses_tcp(cluster);
+  for (size_t i = 0; i < cluster.nodes.size(); ++i) {
+    ClusterNode& node = cluster.nodes[i];
+    const ClusterHost& host = cluster.hosts[node.host];
+    const auto said = reading.ports.find(i);
+    const uint32_t port = said != reading.ports.end() ? said->second : next[node.host];
+    next[node.host] += 2;
+    if (port > 65534) {
+      return reading.findings.add(
+          reading.node_places[i],
+          fmt::format("no port is left for \"{}\": host \"{}\" needs a lower "
+                      "first_port",
+                      node.name, host.name));
+    }
+    node.port = static_cast<uint16_t>(port);
+    if (!tcp) continue;
+    const std::string who = fmt::format("node \"{}\"", node.name);
+    book.take(host, port, who, reading.node_places[i]);
+    book.take(host, port + 1, who, reading.node_places[i]);
+  }
+  for (const ClusterProcess& process : cluster.processes) {
+    if (process.metrics_port == 0) continue;
+    book.take(cluster.hosts[process.host], process.metrics_port,
+              fmt::format("metrics of \"{}\"", process.name),
+              reading.node_places[process.nodes.front().value]);
+  }
+}
+
+}  // namespace luxodus::config

@@ -1,0 +1,104 @@
+// Who is linked to whom, as far as the cluster's file says it.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "runtime/config/cluster_reading.hpp"
+
+namespace luxodus::config {
+
+namespace {
+
+/// Links that all nodes of the largest cluster may have.
+constexpr size_t pairs_most = limits::cluster_nodes * 64 / 2;
+
+void read_sizes(TableReader& keys, TopologyChoice& choice) {
+  using Controller = TopologyChoice::Controller;
+  choice.links_most = static_cast<uint32_t>(keys.integer("links"));
+  const std::string controller = keys.choice("controller");
+  choice.controller = controller == "node"       ? Controller::node
+                      : controller == "forwards" ? Controller::forwards
+                                                 : Controller::endpoint;
+  choice.controller_links_most = static_cast<uint32_t>(keys.integer("controller_links"));
+  if (choice.controller != Controller::node) return;
+  choice.controller_links_most = 0;
+  if (keys.has("controller_links")) {
+    keys.problem("controller_links",
+                 "a controller that is wired as a node has 'links'; leave this out");
+  }
+}
+
+NodeId named(const std::string& name, const SourcePlace& place, ClusterReading& reading) {
+  if (const auto id = find_node(reading.cluster, name)) return *id;
+  std::vector<std::string_view> known;
+  for (const ClusterNode& node : reading.cluster.nodes) known.push_back(node.name);
+  const auto near = nearest_word(name, known);
+  reading.findings.add(place,
+                       fmt::format("there is no node \"{}\"{}", name.substr(0, 40),
+                                   near ? fmt::format("; did you mean \"{}\"?", *near) : ""));
+  return no_node;
+}
+
+}  // namespace
+
+void read_topology(TableReader& top, ClusterReading& reading) {
+  const toml::table& table = top.table("topology");
+  const std::string_view said = table["kind"].value_or(std::string_view("amp"));
+  TopologyChoice& choice = reading.cluster.topology;
+  const auto reader = [&](std::string_view kind) {
+    return TableReader(table, {"topology", kind}, reading.findings, top.place("topology"));
+  };
+  if (said == "file") {
+    TableReader keys = reader("topology.file");
+    choice.kind = TopologyChoice::Kind::file;
+    choice.file = keys.path("file");
+  } else if (said == "links") {
+    TableReader keys = reader("topology.links");
+    choice.kind = TopologyChoice::Kind::links;
+    reading.links = keys.pairs("pairs", pairs_most);
+    read_sizes(keys, choice);
+  } else {
+    TableReader keys = reader("topology.amp");
+    keys.choice("kind");  // told, where it is no kind
+    read_sizes(keys, choice);
+  }
+}
+
+void connect_nodes(ClusterReading& reading) {
+  const ClusterConfig& cluster = reading.cluster;
+  TopologyChoice& choice = reading.cluster.topology;
+  choice.controller_links_most =
+      std::min(choice.controller_links_most, static_cast<uint32_t>(cluster.workers()));
+  std::set<Edge> seen;
+  std::vector<uint32_t> links(cluster.nodes.size());
+  for (const TableReader::Pair& pair : reading.links) {
+    const NodeId one = named(pair.first, pair.place, reading);
+    const NodeId other = named(pair.second, pair.place, reading);
+    if (one == no_node || other == no_node) continue;
+    if (one == other) {
+      reading.findings.add(pair.place, fmt::format("this links node \"{}\" to itself", pair.first));
+      continue;
+    }
+    const Edge edge = edge_between(one, other);
+    if (!seen.insert(edge).second) {
+      reading.findings.add(
+          pair.place, fmt::format("\"{}\" and \"{}\" are linked already", pair.first, pair.second));
+      continue;
+    }
+    choice.edges.push_back(edge);
+    for (const NodeId end : {one, other}) {
+      const bool special =
+          end == cluster.controller() && choice.controller != TopologyChoice::Controller::node;
+      const uint32_t most = special ? choice.controller_links_most : choice.links_most;
+      if (++links[end.value] == most + 1) {
+        reading.findings.add(
+            pair.place,
+            fmt::format("\"{}\" has more than the {} links that '{}' allows",
+                        cluster.node(end).name, most, special ? "controller_links" : "links"));
+      }
+    }
+  }
+}
+
+}  // namespace luxodus::config

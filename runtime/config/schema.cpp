@@ -1,0 +1,282 @@
+#include "runtime/config/schema.hpp"
+
+#include <charconv>
+#include <stdexcept>
+
+namespace luxodus::config {
+
+namespace {
+
+using Keys = std::vector<KeySpec>;
+
+std::vector<TableSpec> run_tables() {
+  return {
+      {"cluster",
+       "Top of the file",
+       {
+           {"run", "table", "", "required", "", "what is computed, and where results go"},
+           {"host", "tables", "", "required", "", "the machines"},
+           {"node", "tables", "", "required", "", "the nodes, exactly one of them the controller"},
+           {"budget", "table", "", "", "", "what every node may hold"},
+           {"topology", "table", "", "", "", "who has a link to whom"},
+           {"links", "table", "", "", "", "how links work"},
+           {"lease", "table", "", "", "", "how work is given out"},
+           {"timeouts", "table", "", "", "", "how long is waited for what"},
+           {"keys", "table", "", "", "", "by which nodes know each other"},
+           {"observe", "table", "", "", "", "what can be seen of a run"},
+       }},
+      {"run",
+       "`[run]`",
+       {
+           {"name", "name", "", "required", "",
+            "of the run: in logs, results, names of local sockets"},
+           {"id", "integer", "", "", "[0, 9e18]",
+            "nodes of another run are refused; follows from the name unless said"},
+           {"scene", "path", "", "required", "", "scene file or pack"},
+           {"scenario", "text", "", "\"\"", "",
+            "state of the building; the scene's first if empty"},
+           {"out", "path", "", "", "",
+            "folder of the results, on the controller's host; `out/NAME` beside this file unless "
+            "said"},
+           {"particles", "integer", "", "", "[1, 9e18]",
+            "the run ends after so many; the first that is reached of this and the next two ends "
+            "it"},
+           {"relative_error", "number", "", "", "(0, 1]", "... at this relative standard error"},
+           {"time_s", "number", "s", "", "(0, 1e8]", "... after this time"},
+           {"level", "choice", "", "\"bit\"", "bit, statistical",
+            "results are equal to the bit (all processors then have the same instruction set), or "
+            "within their errors"},
+       }},
+  };
+}
+
+std::vector<TableSpec> node_tables() {
+  return {
+      {"host",
+       "`[[host]]`: a machine",
+       {
+           {"name", "name", "", "required", "",
+            "of the machine; Slurm's name of it, if Slurm is used"},
+           {"address", "address", "", "\"127.0.0.1\"", "",
+            "IPv4 address or host name that others connect to; mandatory with several hosts"},
+           {"listen", "address", "", "", "",
+            "IPv4 address to listen on; `address` where that is one, else all of the machine"},
+           {"first_port", "integer", "", "27600", "[1024, 65534]",
+            "its nodes use two TCP ports each from here on, in their order"},
+       }},
+      {"node",
+       "`[[node]]`: one thread with its share of memory; numbered as they stand, the controller "
+       "last",
+       {
+           {"name", "name", "", "required", "", "of the node, and of its key file"},
+           {"count", "integer", "", "1", "[1, 1024]",
+            "with more than one these are nodes NAME0, NAME1, ..."},
+           {"host", "text", "", "", "", "where it runs; mandatory with several hosts"},
+           {"role", "choice", "", "\"worker\"", "worker, controller",
+            "traces, or gives out work and collects results"},
+           {"process", "name", "", "", "",
+            "nodes of one host that name the same process share it; its own unless said"},
+           {"port", "integer", "", "", "[1024, 65534]",
+            "TCP port for what is urgent, and the next for bulk; from `first_port` unless said"},
+           {"budget", "table", "", "", "", "what this node may hold, where it differs"},
+       }},
+      {"node.controller",
+       "`[[node]]` with `role = \"controller\"`",
+       {{"traces", "flag", "", "false", "", "it traces particles too"}}},
+      {"budget",
+       "`[budget]` for all nodes, `[node.budget]` for one, which says what differs",
+       {
+           {"object_bytes", "size", "B", "\"1 GiB\"", "[1048576, 1e14]",
+            "geometry, media and textures held at once, as built; a scene that fits is resident"},
+           {"tally_bytes", "size", "B", "\"256 MiB\"", "[1048576, 1e14]",
+            "scores of batches held until they are sent"},
+           {"fibers", "integer", "", "4096", "[1, 100000]",
+            "particles followed at once; more hide more delay and share more fetches"},
+           {"stack_kb", "integer", "KiB", "32", "[16, 1024]", "stack of one fiber"},
+           {"maps_most", "integer", "", "0", "[0, 1e7]",
+            "memory maps for guards between stacks; 0: its part of the system's limit"},
+       }},
+  };
+}
+
+TableSpec link_table() {
+  return {
+      "links",
+      "`[links]`",
+      {
+          {"same_host", "choice", "", "\"ipc\"", "ipc, tcp",
+           "between processes of one host; within a process it is memory, between hosts TCP"},
+          {"hop_limit", "integer", "", "5", "[1, 15]", "links that a message may pass"},
+          {"small_chunk_bytes", "size", "B", "4096", "[1024, 1048576]",
+           "longest piece of control messages and requests"},
+          {"bulk_chunk_bytes", "size", "B", "65536", "[4096, 16777216]",
+           "longest piece of objects and results"},
+          {"small_window_chunks", "integer", "", "4", "[1, 1024]",
+           "pieces of a kind and hop class on their way over one link"},
+          {"bulk_window_chunks", "integer", "", "4", "[1, 1024]",
+           "the same for bulk: bandwidth x round trip x 2, in pieces, at least 4"},
+          {"outbox_messages", "integer", "", "64", "[1, 65536]",
+           "messages of a kind made by a node that wait for the network"},
+          {"assemblies", "integer", "", "64", "[1, 65536]",
+           "messages in several pieces that come in at once"},
+          {"message_most", "size", "B", "\"64 MiB\"", "[65536, 1e9]", "longest message"},
+          {"beat_ms", "integer", "ms", "250", "[10, 60000]", "between signs of life"},
+          {"suspect_after", "integer", "", "3", "[1, 100]", "missed beats"},
+          {"down_after", "integer", "", "8", "[2, 1000]",
+           "missed beats, more than `suspect_after`"},
+          {"greeting_s", "number", "s", "10", "(0, 3600]", "patience with a neighbour's greeting"},
+          {"assembly_s", "number", "s", "10", "(0, 3600]",
+           "patience with the next piece of a message"},
+      }};
+}
+
+std::vector<TableSpec> topology_tables() {
+  const KeySpec links_most = {"links", "integer", "", "4", "[1, 64]", "of a node, at most"};
+  const KeySpec controller = {
+      "controller",
+      "choice",
+      "",
+      "\"endpoint\"",
+      "endpoint, forwards, node",
+      "passes no messages on; passes them on; is wired as all other nodes are"};
+  const KeySpec controller_links = {"controller_links",
+                                    "integer",
+                                    "",
+                                    "4",
+                                    "[1, 64]",
+                                    "of the controller, at most, unless it is wired as a node"};
+  return {
+      {"topology",
+       "`[topology]`",
+       {{"kind", "choice", "", "\"amp\"", "amp, file, links",
+         "a minimum-path graph of as many nodes; a graph's file; links one by one"}}},
+      {"topology.amp",
+       "`[topology]` with `kind = \"amp\"`",
+       {links_most, controller, controller_links}},
+      {"topology.file",
+       "`[topology]` with `kind = \"file\"`",
+       {{"file", "path", "", "required", "", "as `luxodus topology` writes it"}}},
+      {"topology.links",
+       "`[topology]` with `kind = \"links\"`",
+       {{"pairs", "pairs", "", "required", "", "`[[\"n0\", \"n1\"], ...]`: names of nodes"},
+        links_most,
+        controller,
+        controller_links}},
+      link_table(),
+  };
+}
+
+std::vector<TableSpec> service_tables() {
+  return {
+      {"lease",
+       "`[lease]`",
+       {
+           {"batches", "integer", "", "8", "[1, 1024]", "batches given to a node at once"},
+           {"duration_s", "number", "s", "60", "(0, 86400]",
+            "after which they are given to another"},
+       }},
+      {"timeouts",
+       "`[timeouts]`",
+       {
+           {"start_s", "number", "s", "60", "(0, 86400]", "until all nodes have a link"},
+           {"fetch_floor_ms", "number", "ms", "50", "(0, 60000]",
+            "for an object, at least; else three times the usual"},
+           {"fetch_attempts", "integer", "", "4", "[1, 100]", "at one holder, before the next"},
+           {"shutdown_phase_s", "number", "s", "10", "(0, 3600]", "for each step of an end"},
+           {"stall_ms", "number", "ms", "20", "(0, 60000]", "a fiber that runs longer is reported"},
+       }},
+      {"keys",
+       "`[keys]`",
+       {
+           {"folder", "path", "", "", "",
+            "NAME.key and NAME.key.pub of each node, made by `luxodus keygen`; encrypts all links "
+            "but those within a process"},
+           {"insecure", "flag", "", "false", "",
+            "links beyond a host need keys, or this; anybody can then read and forge what they "
+            "carry"},
+       }},
+      {"observe",
+       "`[observe]`",
+       {
+           {"metrics_port", "integer", "", "0", "[0, 65535]",
+            "of a host's first process, the next port of its second, ...; 0: none"},
+           {"metrics_address", "address", "", "\"127.0.0.1\"", "", "IPv4 address to answer on"},
+           {"trace_every", "integer", "", "0", "[0, 1e12]",
+            "particles of which one is traced; 0: none"},
+           {"log_level", "choice", "", "\"info\"", "debug, info, warn, error", "what is logged"},
+       }},
+  };
+}
+
+std::string_view trimmed(std::string_view s) {
+  while (!s.empty() && s.front() == ' ') s.remove_prefix(1);
+  while (!s.empty() && s.back() == ' ') s.remove_suffix(1);
+  return s;
+}
+
+std::optional<double> number_of(std::string_view s) {
+  s = trimmed(s);
+  double v = 0;
+  const auto [end, error] = std::from_chars(s.data(), s.data() + s.size(), v);
+  if (error != std::errc() || end != s.data() + s.size()) return std::nullopt;
+  return v;
+}
+
+}  // namespace
+
+const std::vector<TableSpec>& cluster_schema() {
+  static const std::vector<TableSpec> all = [] {
+    std::vector<TableSpec> tables;
+    for (auto part : {run_tables(), node_tables(), topology_tables(), service_tables()}) {
+      for (auto& table : part) tables.push_back(std::move(table));
+    }
+    return tables;
+  }();
+  return all;
+}
+
+const TableSpec& table_spec(std::string_view name) {
+  for (const TableSpec& table : cluster_schema()) {
+    if (table.name == name) return table;
+  }
+  throw std::logic_error("no table '" + std::string(name) + "' in the cluster schema");
+}
+
+std::optional<Interval> interval_of(std::string_view range) {
+  const size_t comma = range.find(',');
+  if (range.size() < 5 || comma == std::string_view::npos || range.back() != ']')
+    return std::nullopt;
+  if (range.front() != '[' && range.front() != '(') return std::nullopt;
+  const auto low = number_of(range.substr(1, comma - 1));
+  const auto high = number_of(range.substr(comma + 1, range.size() - comma - 2));
+  if (!low || !high) return std::nullopt;
+  return Interval{*low, *high, range.front() == '('};
+}
+
+std::vector<std::string_view> words_of(std::string_view range) {
+  std::vector<std::string_view> words;
+  while (!range.empty()) {
+    const size_t comma = range.find(',');
+    words.push_back(trimmed(range.substr(0, comma)));
+    range = comma == std::string_view::npos ? std::string_view() : range.substr(comma + 1);
+  }
+  return words;
+}
+
+std::string schema_markdown() {
+  std::string out;
+  for (const TableSpec& table : cluster_schema()) {
+    out += "### " + std::string(table.heading) + "\n\n";
+    out += "| key | type | unit | default | range | meaning |\n|---|---|---|---|---|---|\n";
+    for (const KeySpec& k : table.keys) {
+      out += "| `" + std::string(k.name) + "` | ";
+      for (const auto cell : {k.type, k.unit, k.fallback, k.range})
+        out += std::string(cell) + " | ";
+      out += std::string(k.meaning) + " |\n";
+    }
+    out += "\n";
+  }
+  return out;
+}
+
+}  // namespace luxodus::config

@@ -1,0 +1,295 @@
+// Keys and deployments as a person makes them: what `luxodus keygen` and `luxodus deploy` write,
+// and that those who read it accept it.
+#include <catch2/catch.hpp>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <vector>
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A folder of its own for one test, gone afterwards.
+class Folder {
+ public:
+  Folder() {
+    std::string name = (fs::temp_directory_path() / "luxodus_cluster_XXXXXX").string();
+    REQUIRE(mkdtemp(name.data()) != nullptr);
+    path = name;
+  }
+  ~Folder() { fs::remove_all(path); }
+  fs::path path;
+};
+
+std::string slurp(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream out;
+  out << in.rdbuf();
+  return out.str();
+}
+
+struct Outcome {
+  int code;
+  std::string out;
+  std::string err;
+};
+
+Outcome shell(const Folder& folder, const std::string& command) {
+  const int status = std::system(("{ " + command + "; } >" + (folder.path / "stdout").string() +
+                                  " 2>" + (folder.path / "stderr").string())
+                                     .c_str());
+  return {WEXITSTATUS(status), slurp(folder.path / "stdout"), slurp(folder.path / "stderr")};
+}
+
+Outcome luxodus(const Folder& folder, const std::string& arguments) {
+  return shell(folder, std::string(LUX_PROGRAM) + " " + arguments);
+}
+
+std::string example(const std::string& name) {
+  return (fs::path(LUX_SOURCE_DIR) / "actors/cli/examples" / name).string();
+}
+constexpr const char* examples[] = {"one_host.toml", "three_hosts.toml", "eight_hosts.toml"};
+
+bool is_there(const std::string& tool) {
+  return std::system(("command -v " + tool + " >/dev/null 2>&1").c_str()) == 0;
+}
+
+std::vector<fs::path> files_in(const fs::path& folder) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (entry.is_regular_file()) files.push_back(entry.path());
+  }
+  return files;
+}
+
+/// Two workers and a controller on this machine.
+std::string small_cluster(const Folder& folder) {
+  const fs::path file = folder.path / "it's 100% small.toml";
+  std::ofstream(file) << "[run]\nname = \"small\"\nscene = \"s.toml\"\n[[host]]\nname = \"here\"\n"
+                         "[[node]]\nname = \"n\"\ncount = 2\n"
+                         "[[node]]\nname = \"c\"\nrole = \"controller\"\n";
+  return "\"" + file.string() + "\"";
+}
+
+/// A program that stands in for luxodus: `body` in a shell, with a node's command line.
+std::string stand_in(const Folder& folder, const std::string& body) {
+  const fs::path file = folder.path / "stand in";
+  std::ofstream(file) << "#!/bin/bash\n" << body;
+  fs::permissions(file, fs::perms::owner_all);
+  return "\"" + file.string() + "\"";
+}
+
+size_t lines_with(const std::string& text, const std::string& words) {
+  size_t count = 0;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) count += line.find(words) != line.npos ? 1 : 0;
+  return count;
+}
+
+}  // namespace
+
+TEST_CASE("keygen makes a pair for each node of a cluster, secret to its owner", "[program]") {
+  const Folder folder;
+  const fs::path keys = folder.path / "keys";
+  const Outcome made = luxodus(
+      folder, "keygen --cluster " + example("three_hosts.toml") + " --out " + keys.string());
+  INFO(made.err);
+  REQUIRE(made.code == 0);
+  CHECK(lines_with(made.out, "") == 7);
+  CHECK(files_in(keys).size() == 14);
+  const auto mode = [](const fs::path& file) { return fs::status(file).permissions(); };
+  CHECK(mode(keys / "a0.key") == (fs::perms::owner_read | fs::perms::owner_write));
+  CHECK(mode(keys) == fs::perms::owner_all);
+  const std::string open = slurp(keys / "controller.key.pub");
+  CHECK(made.out.find(open.substr(0, 40) + "  controller\n") != std::string::npos);
+  CHECK(made.out.find(slurp(keys / "controller.key").substr(0, 40)) == std::string::npos);
+}
+
+TEST_CASE("keygen replaces no key unless it is told to", "[program]") {
+  const Folder folder;
+  const fs::path keys = folder.path / "keys";
+  const std::string arguments = "keygen n0 n1 --out " + keys.string();
+  REQUIRE(luxodus(folder, arguments).code == 0);
+  const std::string before = slurp(keys / "n0.key");
+  const Outcome refused = luxodus(folder, arguments + " n2");
+  CHECK(refused.code == 2);
+  CHECK(refused.err.find("n0.key") != std::string::npos);
+  CHECK_FALSE(fs::exists(keys / "n2.key"));
+  CHECK(slurp(keys / "n0.key") == before);
+  REQUIRE(luxodus(folder, arguments + " --force").code == 0);
+  CHECK(slurp(keys / "n0.key") != before);
+}
+
+TEST_CASE("keygen says why it makes no keys", "[program]") {
+  const Folder folder;
+  const std::string out = " --out " + (folder.path / "keys").string();
+  const auto refused = [&](const std::string& arguments, const std::string& words) {
+    const Outcome outcome = luxodus(folder, "keygen " + arguments);
+    INFO(arguments << "\n" << outcome.err);
+    CHECK(outcome.code == 2);
+    CHECK(outcome.err.find(words) != std::string::npos);
+    CHECK_FALSE(fs::exists(folder.path / "keys"));
+  };
+  refused("n0", "say where keys go");
+  refused(out, "name nodes, or a cluster");
+  refused("../n0" + out, "is no node's name");
+  refused("x9 --cluster " + example("three_hosts.toml") + out, "there is no node \"x9\"");
+  refused("--cluster /nowhere.toml" + out, "cannot be read");
+  refused("--cluster " + example("one_host.toml"), "say where keys go");
+  fs::permissions(folder.path, fs::perms::all);
+  const Outcome open = luxodus(folder, "keygen n0 --out " + folder.path.string());
+  CHECK(open.code == 2);
+  CHECK(open.err.find("others may write here") != std::string::npos);
+}
+
+TEST_CASE("a deployment of each example starts each node once, on its host", "[program]") {
+  const Folder folder;
+  for (const std::string file : examples) {
+    for (const std::string means : {"systemd", "slurm", "ssh"}) {
+      const fs::path out = folder.path / (file + means);
+      const Outcome made =
+          luxodus(folder, "deploy " + example(file) + " --for " + means + " --out " + out.string());
+      INFO(file << " " << means << "\n" << made.err);
+      REQUIRE(made.code == 0);
+      std::string text;
+      for (const fs::path& path : files_in(out)) {
+        CHECK(made.out.find(path.string()) != std::string::npos);
+        text += slurp(path);
+      }
+      const std::string quote = means == "systemd" ? "\"" : "";
+      CHECK(lines_with(text, " --name " + quote + "controller" + quote) == 1);
+    }
+  }
+  const fs::path birch = folder.path / "three_hosts.tomlsystemd" / "birch";
+  CHECK(fs::exists(birch / "luxodus-theatre-b0.service"));
+  CHECK_FALSE(fs::exists(birch / "luxodus-theatre-a0.service"));
+}
+
+TEST_CASE("units pass systemd's own check", "[program]") {
+  if (!is_there("systemd-analyze")) {
+    WARN("skipped: there is no systemd-analyze here");
+    return;
+  }
+  const Folder folder;
+  for (const std::string& cluster :
+       {example(examples[0]), example(examples[1]), example(examples[2]), small_cluster(folder)}) {
+    const fs::path out = folder.path / "units";
+    fs::remove_all(out);
+    REQUIRE(luxodus(folder, "deploy " + cluster + " --for systemd --out " + out.string()).code ==
+            0);
+    for (const auto& host : fs::directory_iterator(out)) {
+      const Outcome checked =
+          shell(folder, "systemd-analyze verify '" + host.path().string() + "'/*");
+      INFO(cluster << "\n" << checked.err);
+      CHECK(checked.code == 0);
+      CHECK(checked.err.find("luxodus-") == std::string::npos);  // warnings name the unit
+    }
+  }
+}
+
+TEST_CASE("scripts parse, and shellcheck has nothing to say", "[program]") {
+  const Folder folder;
+  const bool checks = is_there("shellcheck");
+  if (!checks) WARN("there is no shellcheck here: only bash looks at the scripts");
+  for (const std::string& cluster : {example(examples[1]), small_cluster(folder)}) {
+    for (const std::string means : {"slurm", "ssh"}) {
+      const fs::path out = folder.path / means;
+      REQUIRE(luxodus(folder, "deploy " + cluster + " --for " + means + " --out " + out.string())
+                  .code == 0);
+      for (const fs::path& script : files_in(out)) {
+        CHECK(shell(folder, "bash -n " + script.string()).code == 0);
+        if (!checks) continue;
+        const Outcome checked = shell(folder, "shellcheck --severity=warning " + script.string());
+        INFO(checked.out);
+        CHECK(checked.code == 0);
+      }
+    }
+  }
+}
+
+TEST_CASE("the script over ssh starts every process, and ends well when all do", "[program]") {
+  const Folder folder;
+  const std::string program = stand_in(folder, "echo \"started: $*\"\n");
+  REQUIRE(luxodus(folder, "deploy " + small_cluster(folder) + " --for ssh --program " + program +
+                              " --out " + folder.path.string())
+              .code == 0);
+  const std::string home = "export HOME=" + folder.path.string() + "; ";
+  const Outcome run = shell(folder, home + (folder.path / "small.sh").string());
+  INFO(run.out << run.err);
+  CHECK(run.code == 0);
+  const std::string config = "it's 100% small.toml";
+  for (const std::string name : {"n0", "n1", "c"}) {
+    CHECK(lines_with(run.out, name + ": started: node --config ") == 1);
+    CHECK(lines_with(run.out, config + " --name " + name) == 1);
+  }
+  CHECK(files_in(folder.path / ".luxodus").empty());
+}
+
+TEST_CASE("the script over ssh stops all when one fails, and says which", "[program]") {
+  const Folder folder;
+  // The controller fails once the others wait, which they do until they are stopped.
+  const std::string program = stand_in(folder, R"(
+case $* in
+  *"--name c") for n in n0 n1; do read -r _ <"$HOME/$n"; done; exit 3 ;;
+esac
+trap 'echo stopped; exit 0' TERM
+echo ready >"$HOME/${*: -1}"
+while :; do read -r _ <>"$HOME/never"; done
+)");
+  REQUIRE(luxodus(folder, "deploy " + small_cluster(folder) + " --for ssh --program " + program +
+                              " --out " + folder.path.string())
+              .code == 0);
+  const std::string home = "export HOME=" + folder.path.string() + "; cd; mkfifo n0 n1 never; ";
+  const Outcome run = shell(folder, home + (folder.path / "small.sh").string());
+  INFO(run.out << run.err);
+  CHECK(run.code == 3);
+  CHECK(run.err.find("c: ended with 3") != std::string::npos);
+  CHECK(lines_with(run.out, "n0: stopped") == 1);
+  CHECK(lines_with(run.out, "n1: stopped") == 1);
+}
+
+TEST_CASE("the batch job gives each task its nodes and its host", "[program]") {
+  const Folder folder;
+  // In Slurm's place: every task here, after the name of its host.
+  std::ofstream(folder.path / "srun") << R"sh(#!/bin/bash
+while [ "$1" != bash ]; do shift; done
+rank=0
+while read -r host; do
+  echo "$host: $(SLURM_PROCID=$rank "$@")"
+  rank=$((rank + 1))
+done <"$SLURM_HOSTFILE"
+)sh";
+  fs::permissions(folder.path / "srun", fs::perms::owner_all);
+  const std::string program = stand_in(folder, "echo \"$@\"\n");
+  REQUIRE(luxodus(folder, "deploy " + example("eight_hosts.toml") + " --for slurm --program " +
+                              program + " --out " + folder.path.string())
+              .code == 0);
+  const Outcome run = shell(
+      folder, "PATH=" + folder.path.string() + ":$PATH " + (folder.path / "tower.sbatch").string());
+  INFO(run.out << run.err);
+  CHECK(run.code == 0);
+  CHECK(lines_with(run.out, "") == 9);
+  CHECK(lines_with(run.out, "lux3: node --config") == 1);
+  CHECK(lines_with(run.out, "--name c0 --name c1 --name c2 --name c3") == 1);
+  CHECK(lines_with(run.out, "lux1: node --config") == 2);
+}
+
+TEST_CASE("deploy tells every problem of a cluster and writes nothing then", "[program]") {
+  const Folder folder;
+  const fs::path file = folder.path / "bad.toml";
+  std::ofstream(file) << "[run]\nname = \"bad\"\nscene = \"s\"\n[[host]]\nnam = \"h\"\n"
+                         "[[node]]\nname = \"n\"\n";
+  const fs::path out = folder.path / "out";
+  const Outcome bad =
+      luxodus(folder, "deploy " + file.string() + " --for ssh --out " + out.string());
+  CHECK(bad.code == 2);
+  CHECK(bad.err.find(file.string() + ":5: ") != std::string::npos);
+  CHECK(bad.err.find("no controller") != std::string::npos);
+  CHECK_FALSE(fs::exists(out));
+  const std::string good = "deploy " + example("one_host.toml") + " --out " + out.string();
+  CHECK(luxodus(folder, good + " --for cron").code == 2);
+  CHECK(luxodus(folder, good + " --for systemd --user 'a b'").code == 2);
+  CHECK_FALSE(fs::exists(out));
+}
