@@ -170,7 +170,8 @@ struct RequestLease {
   uint32_t batches = 0;
   friend bool operator==(const RequestLease&, const RequestLease&) = default;
 };
-/// Leases first_lease, first_lease + 1, ... for batches first_batch, first_batch + 1, ...: one each.
+/// Leases first_lease, first_lease + 1, ... for batches first_batch, first_batch + 1, ...: one
+/// each.
 struct LeaseGranted {
   uint64_t first_lease = 0;
   uint32_t round = 0;

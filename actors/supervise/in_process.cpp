@@ -133,7 +133,7 @@ class FetchingCells {
     return config;
   }
   static Random jitter_of(NodeId self) {
-    Random random(self.value, RandomStream::test);
+    Random random(self.value, RandomStream::fetch);
     random.start(0);
     return random;
   }

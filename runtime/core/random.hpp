@@ -22,7 +22,8 @@ enum class RandomStream : uint32_t {
   picture = 2,
   layout = 3,
   test = 4,
-  graph = 5
+  graph = 5,
+  fetch = 6
 };
 
 /// One Philox 4x32-10 block, the definition that every other form must equal.

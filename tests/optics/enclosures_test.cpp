@@ -145,7 +145,7 @@ TEST_CASE("walls and their parts in an evenly glowing cube receive one and the s
 }
 
 TEST_CASE("a wall that glows up to its edges loses no light at them") {
-  // Particles are born a millionth off the edges: on them they would start in the neighbouring wall.
+  // Particles are born a millionth off the edges: on them they would start in the next wall.
   SceneDescription scene;
   const int wall = add_grey(scene, 0.5);
   const std::vector<Face> faces = faces_of_box({0, 0, 0}, {1, 1, 1});
