@@ -81,10 +81,14 @@ class CachedCells final : public ObjectSource {
   std::vector<FiberId> refused_;  // fibers that did not get what they asked for
 };
 
-/// What a cell takes once it is built [bytes], guessed from its bytes on the wire: for a plan
-/// before anything is built. Measured: 64 a triangle travel, 64 and 111 of Embree's stay.
+/// What a cell takes once it is built [bytes], from its bytes on the wire, for a plan before
+/// anything is built: of a triangle 64 travel; 64 and Embree's 111 stay (`luxodus_bench memory`).
 constexpr uint64_t built_bytes_of(uint64_t wire_bytes) {
   return wire_bytes * 3;
+}
+/// And the most while it is built: Embree's builder takes up to 1.6 times the result.
+constexpr uint64_t peak_build_bytes_of(uint64_t wire_bytes) {
+  return built_bytes_of(wire_bytes) * 8 / 5;
 }
 
 }  // namespace luxodus

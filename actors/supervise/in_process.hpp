@@ -5,8 +5,11 @@
 
 #include <atomic>
 #include <functional>
+#include <mutex>
+#include <thread>
 
 #include "actors/source/local_run.hpp"
+#include "actors/supervise/worker.hpp"
 #include "runtime/core/result.hpp"
 
 namespace luxodus {
@@ -27,22 +30,50 @@ struct NodesOptions {
   uint32_t replicas = 1;  // nodes that hold a cell's bytes
 };
 
-/// What the nodes of a run did, for a line to people and for tests.
+/// What the nodes of a run did.
 struct NodesReport {
   uint64_t flushes = 0;
   uint64_t flush_bytes = 0;
   uint64_t leases = 0;
   uint64_t leases_fenced = 0;
   uint64_t frames = 0;
-  // Of all workers, where they fetch:
-  uint64_t hits = 0;
-  uint64_t fetches = 0;
-  uint64_t joined = 0;
-  uint64_t builds = 0;
-  uint64_t evictions = 0;
-  uint64_t fetched_bytes = 0;
-  uint64_t largest_resident_bytes = 0;  // of one node
+  WorkerReport workers;  // of all together
 };
+
+/// Threads that run workers, each in one, and the first problem of any of them.
+class WorkerThreads {
+ public:
+  /// Starts them. Requires: `run` and `nodes` outlive this; `stop` may be called by all.
+  WorkerThreads(const RunSetup& run, const std::vector<NodeSetup>& nodes,
+                const std::function<bool()>& stop);
+  ~WorkerThreads() { join(); }
+  WorkerThreads(const WorkerThreads&) = delete;
+  WorkerThreads& operator=(const WorkerThreads&) = delete;
+
+  void join();
+  bool failed() const { return failed_; }
+  /// Requires: failed().
+  Problem problem() const;
+  /// Requires: joined.
+  const WorkerReport& report() const { return report_; }
+
+ private:
+  void work(const RunSetup& run, const NodeSetup& node, const std::function<bool()>& stop);
+
+  mutable std::mutex mutex_;
+  WorkerReport report_;
+  Problem problem_;
+  std::atomic<bool> failed_{false};
+  std::vector<std::thread> threads_;
+};
+
+/// Runs the controller's node on the calling thread until the run has ended or `broken` says that
+/// it cannot go on. Errors: as join_links.
+Result<StopReason> run_controller(const RunSetup& setup, const NodeSetup& node, LocalRun& run,
+                                  const StopRule& stop, const std::atomic<bool>& interrupt,
+                                  const std::function<void(const Progress&)>& report,
+                                  const std::function<bool()>& broken,
+                                  NodesReport* counted = nullptr);
 
 /// Traces until `stop` holds, into `run`'s totals; as LocalRun::run.
 /// Errors: no graph of so few links, no sockets left.

@@ -15,6 +15,13 @@ namespace {
 const std::atomic<bool> nobody{false};
 void ignore(const Progress&) {}
 
+NodesOptions nodes_of(int nodes, size_t fibers) {
+  NodesOptions options;
+  options.nodes = nodes;
+  options.fibers = fibers;
+  return options;
+}
+
 std::shared_ptr<const CompiledScene> scene_of(const char* name, const char* scenario, int cells) {
   auto read = read_scene(std::string(LUX_SOURCE_DIR) + "/scenes/library/" + name + ".toml");
   REQUIRE(read.scene);
@@ -65,19 +72,20 @@ void check_same_bits(const std::shared_ptr<const CompiledScene>& scene, const St
 TEST_CASE("1, 2, 8 and 32 nodes give the bits of the plain loop", "[nodes]") {
   StopRule stop;
   stop.particles = 200'000;
-  check_same_bits(scene_of("smoke_tank", "", 1), stop, {{1}, {2, 4, 5}, {8}, {32, 4, 3, 50}});
+  check_same_bits(scene_of("smoke_tank", "", 1), stop,
+                  {nodes_of(1, 1), nodes_of(2, 5), nodes_of(8, 1), nodes_of(32, 3)});
 }
 
 TEST_CASE("a partitioned scene with signs, probes and bands is the same on nodes", "[nodes]") {
   StopRule stop;
   stop.particles = 60'000;
-  check_same_bits(scene_of("office_floor", "smoke_emergency", 6), stop, {{3, 4, 7}});
+  check_same_bits(scene_of("office_floor", "smoke_emergency", 6), stop, {nodes_of(3, 7)});
 }
 
 TEST_CASE("nodes stop at the same round as the plain loop for an error", "[nodes]") {
   StopRule stop;
   stop.relative_error = 0.02;
-  check_same_bits(scene_of("smoke_tank", "", 1), stop, {{2, 4, 2}});
+  check_same_bits(scene_of("smoke_tank", "", 1), stop, {nodes_of(2, 2)});
 }
 
 TEST_CASE("a run on nodes goes on where another ended, as if it were one", "[nodes]") {
@@ -89,8 +97,8 @@ TEST_CASE("a run on nodes goes on where another ended, as if it were one", "[nod
   LocalRun plain(scene, 1, 1);
   plain.run(all, nobody, ignore);
   LocalRun run(scene, 1, 1);
-  REQUIRE(run_on_nodes(run, {2}, half, nobody, ignore).ok());
-  REQUIRE(run_on_nodes(run, {3}, all, nobody, ignore).ok());
+  REQUIRE(run_on_nodes(run, nodes_of(2, 1), half, nobody, ignore).ok());
+  REQUIRE(run_on_nodes(run, nodes_of(3, 1), all, nobody, ignore).ok());
   CHECK(differences(plain, run) == 0);
 }
 
@@ -102,8 +110,8 @@ TEST_CASE("an interrupted run on nodes ends with whole batches that can be gone 
   LocalRun run(scene, 1, 1);
   StopRule endless;
   endless.particles = int64_t{1} << 40;
-  const auto ended =
-      run_on_nodes(run, {2}, endless, interrupt, [&](const Progress&) { interrupt = true; });
+  const auto ended = run_on_nodes(run, nodes_of(2, 1), endless, interrupt,
+                                  [&](const Progress&) { interrupt = true; });
   REQUIRE(ended.ok());
   CHECK(ended.value() == StopReason::interrupted);
   REQUIRE(run.batches() > 0);
@@ -112,4 +120,42 @@ TEST_CASE("an interrupted run on nodes ends with whole batches that can be gone 
   LocalRun plain(scene, 1, 1);
   plain.run(stop, nobody, ignore);
   CHECK(differences(plain, run) == 0);
+}
+
+TEST_CASE("nodes whose budget holds a part of the cells fetch the others and give the same bits",
+          "[nodes]") {
+  spdlog::set_level(spdlog::level::err);
+  const auto scene = scene_of("office_floor", "smoke_emergency", 64);
+  StopRule stop;
+  stop.particles = 12'000;
+  LocalRun plain(scene, 1, 2);
+  plain.run(stop, nobody, ignore);
+  uint64_t bytes = 0;
+  for (const GeometryCell& cell : scene->cells) bytes += built_bytes_of(encode_cell(cell).size());
+  for (const auto& [nodes, replicas] : {std::pair(2, 1u), std::pair(5, 2u)}) {
+    INFO(nodes << " nodes, " << replicas << " holders of each cell");
+    NodesOptions options = nodes_of(nodes, 40);
+    options.object_bytes = bytes / 8;
+    options.replicas = replicas;
+    LocalRun run(scene, 1, 1);
+    NodesReport report;
+    REQUIRE(run_on_nodes(run, options, stop, nobody, ignore, &report).ok());
+    CHECK(differences(plain, run) == 0);
+    CHECK(report.workers.evictions > 0);
+    CHECK(report.workers.fetches > scene->cells.size());
+    CHECK(report.workers.joined > 0);
+    CHECK(report.workers.largest_resident_bytes <= options.object_bytes);
+  }
+}
+
+TEST_CASE("a budget without a partition, or more holders than nodes, is refused", "[nodes]") {
+  StopRule stop;
+  stop.particles = 1;
+  NodesOptions options = nodes_of(2, 1);
+  options.object_bytes = 1 << 20;
+  LocalRun merged(scene_of("smoke_tank", "", 1), 1, 1);
+  CHECK_FALSE(run_on_nodes(merged, options, stop, nobody, ignore).ok());
+  options.replicas = 3;
+  LocalRun cells(scene_of("smoke_tank", "", 4), 1, 1);
+  CHECK_FALSE(run_on_nodes(cells, options, stop, nobody, ignore).ok());
 }

@@ -1,0 +1,40 @@
+#include "actors/supervise/node_setup.hpp"
+
+#include "actors/supervise/fingerprint.hpp"
+#include "actors/supervise/node_shell.hpp"
+
+namespace luxodus {
+
+namespace {
+/// A flush of ten million bins has a third of it.
+constexpr size_t longest_message = 1u << 30;
+}  // namespace
+
+Result<bool> join_links(ZmqTransport& transport, const NodeSetup& node) {
+  for (const Endpoints& where : node.links.listen) {
+    if (auto at = transport.listen(where); !at.ok()) return at.problem();
+  }
+  for (const auto& [neighbour, where] : node.links.connect) {
+    const auto key = node.public_keys.find(neighbour);
+    auto to = transport.connect(neighbour, where,
+                                key == node.public_keys.end() ? std::string() : key->second);
+    if (!to.ok()) return to.problem();
+  }
+  return true;
+}
+
+void complete(NetConfig& net, const RunSetup& run) {
+  net.identity.scene_hash = run.scene.scene_hash;
+  net.identity.topology_hash = balanced_routes(run.graph).hash();
+  net.identity.build = LUX_VERSION;
+  net.identity.isa = isa_in_use();
+  net.identity.fingerprint = numeric_fingerprint();
+  net.nodes = run.graph.vertices();
+  net.edges = edges_of(run.graph);
+  const uint32_t hops = balanced_routes(run.graph).longest() + 2;  // a detour around one failure
+  net.hop_limit =
+      std::max(net.hop_limit, static_cast<uint8_t>(std::min<uint32_t>(limits::hops, hops)));
+  net.message_bytes_most = std::max(net.message_bytes_most, longest_message);
+}
+
+}  // namespace luxodus

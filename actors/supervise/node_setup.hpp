@@ -1,0 +1,48 @@
+// What a node of a run is made from, whoever decides it: options of one process, or the file of a
+// cluster. Plain values and references; immutable while the nodes run.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "actors/objects/scene_objects.hpp"
+#include "actors/photon/photon_threads.hpp"
+#include "runtime/config/cluster_config.hpp"
+#include "runtime/net/zmq_transport.hpp"
+#include "topology/graph.hpp"
+
+namespace luxodus {
+
+/// What all nodes of one process have in common. All that is referred to outlives the nodes.
+struct RunSetup {
+  const CompiledScene& scene;
+  const SceneIndex* index = nullptr;      // where everything is resident
+  const ProxyScene* proxies = nullptr;    // where cells are fetched
+  const SceneObjects* objects = nullptr;  // likewise
+  uint64_t seed = 0;
+  const Graph& graph;
+  const Clock& clock;
+  ZmqContext& context;
+};
+
+/// What is a node's own.
+struct NodeSetup {
+  NetConfig net;
+  NodeLinks links;
+  std::optional<KeyPair> keys;
+  std::map<NodeId, std::string> public_keys;  // of neighbours, where there are keys
+  bool insecure = false;
+  NodeId controller;
+  PhotonConfig photons;
+  size_t object_bytes = 0;  // for built cells, where cells are fetched
+};
+
+/// Listens and connects as the setup says.
+/// Errors: an endpoint that is taken, is none, or asks for keys that there are not.
+Result<bool> join_links(ZmqTransport& transport, const NodeSetup& node);
+
+/// The identity that all nodes of a run share, and limits that follow from its graph.
+void complete(NetConfig& net, const RunSetup& run);
+
+}  // namespace luxodus
