@@ -49,6 +49,8 @@ int main(int argc, char** argv) {
   add_converge(app, exit_code);
   add_info(app, exit_code);
   add_topology(app, exit_code);
+  add_node(app, exit_code);
+  add_cluster(app, exit_code);
   add_keygen(app, exit_code);
   add_deploy(app, exit_code);
   try {

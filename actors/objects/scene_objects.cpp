@@ -21,6 +21,12 @@ SharedBytes SceneObjects::bytes(uint32_t cell) const {
   return {std::span(*bytes_[cell]), bytes_[cell]};
 }
 
+std::vector<ProxyScene::Box> boxes_of(const CompiledScene& scene) {
+  std::vector<ProxyScene::Box> boxes;
+  for (const GeometryCell& cell : scene.cells) boxes.push_back({cell.low, cell.high});
+  return boxes;
+}
+
 HeldCells::HeldCells(const SceneObjects& objects, NodeId self) : objects_(objects) {
   for (uint32_t cell = 0; cell < objects.places().size(); ++cell) {
     const auto& holders = objects.places()[cell].holders;

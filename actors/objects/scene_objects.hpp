@@ -32,6 +32,9 @@ class SceneObjects {
   uint64_t largest_wire_bytes_ = 0;
 };
 
+/// The boxes of a scene's cells, by which rays find candidates.
+std::vector<ProxyScene::Box> boxes_of(const CompiledScene& scene);
+
 /// The cells that one node holds for all.
 class HeldCells final : public ObjectStore {
  public:

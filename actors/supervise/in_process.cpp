@@ -40,12 +40,6 @@ std::optional<std::string> fault_of(const NodesOptions& options, const CompiledS
   return std::nullopt;
 }
 
-std::vector<ProxyScene::Box> boxes_of(const CompiledScene& scene) {
-  std::vector<ProxyScene::Box> boxes;
-  for (const GeometryCell& cell : scene.cells) boxes.push_back({cell.low, cell.high});
-  return boxes;
-}
-
 /// In memory: every node listens under its own name.
 Endpoints endpoints_of(NodeId node) {
   const std::string name = "inproc://node-" + std::to_string(node.value);

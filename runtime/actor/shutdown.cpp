@@ -24,7 +24,7 @@ void Shutdown::add(ShutdownPhase phase) {
 void Shutdown::begin(const std::string& why) {
   if (begun_) return;
   begun_ = true;
-  spdlog::info("event=shutdown phases={} why=\"{}\"", phases_.size(), why);
+  spdlog::debug("event=shutdown phases={} why=\"{}\"", phases_.size(), why);
 }
 
 void Shutdown::start_phase(Nanoseconds now) {
@@ -32,7 +32,7 @@ void Shutdown::start_phase(Nanoseconds now) {
   started_ = now;
   next_word_ = now + between_words;
   phase_started_ = true;
-  spdlog::info("event=shutdown_phase phase=\"{}\"", phase.name);
+  spdlog::debug("event=shutdown_phase phase=\"{}\"", phase.name);
   if (phase.begin) phase.begin();
 }
 

@@ -326,7 +326,7 @@ void Network::watch_links() {
     last.usable = state.usable();
     last.sessions = links_[i].sessions();
     last.phase = state.phase();
-    spdlog::info("link={} node={} neighbour={}", name_of(state.phase()), config_.self.value,
+    spdlog::debug("link={} node={} neighbour={}", name_of(state.phase()), config_.self.value,
                  links_[i].neighbour().value);
     handler_.link_changed(links_[i].neighbour(), state.phase());
 

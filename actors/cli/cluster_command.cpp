@@ -1,0 +1,129 @@
+// luxodus cluster up: all processes of a cluster that belong on this machine, as children of this
+// one. When it ends, they have ended.
+#include <signal.h>
+#include <spawn.h>
+#include <spdlog/spdlog.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "actors/cli/command.hpp"
+#include "runtime/config/cluster_file.hpp"
+
+namespace luxodus::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ClusterOptions {
+  std::string config;
+  std::string host;
+};
+
+/// Child processes; those that still live when this ends are stopped.
+class Children {
+ public:
+  ~Children() { stop(); }
+
+  /// Errors: the system starts no more.
+  Result<bool> start(const ClusterConfig& cluster, const ClusterProcess& process) {
+    std::vector<std::string> words{"luxodus", "node", "--config",
+                                   fs::absolute(cluster.file).string()};
+    for (const NodeId node : process.nodes) {
+      words.emplace_back("--name");
+      words.push_back(cluster.node(node).name);
+    }
+    std::vector<char*> arguments;
+    for (std::string& word : words) arguments.push_back(word.data());
+    arguments.push_back(nullptr);
+    pid_t pid = 0;
+    const int failed =
+        ::posix_spawn(&pid, "/proc/self/exe", nullptr, nullptr, arguments.data(), environ);
+    if (failed != 0) return Problem{{process.name, 0}, "cannot be started"};
+    living_.push_back({pid, process.name});
+    return true;
+  }
+
+  /// Waits until all have ended; the first that fails ends the others. Its exit code, or 0.
+  int wait() {
+    int worst = 0;
+    while (!living_.empty()) {
+      int status = 0;
+      const pid_t pid = ::waitpid(-1, &status, 0);
+      if (pid < 0 && errno == EINTR) continue;  // the signal went to the children as well
+      if (pid < 0) break;
+      const auto child = std::find_if(living_.begin(), living_.end(),
+                                      [&](const Child& c) { return c.pid == pid; });
+      if (child == living_.end()) continue;
+      const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+      if (code != 0 && worst == 0) {
+        spdlog::error("process {} ended with {}", child->name, code);
+        worst = code;
+        for (const Child& other : living_) ::kill(other.pid, SIGTERM);
+      }
+      living_.erase(child);
+    }
+    return worst;
+  }
+
+ private:
+  struct Child {
+    pid_t pid;
+    std::string name;
+  };
+
+  void stop() {
+    for (const Child& child : living_) ::kill(child.pid, SIGTERM);
+    for (const Child& child : living_) ::waitpid(child.pid, nullptr, 0);
+    living_.clear();
+  }
+
+  std::vector<Child> living_;
+};
+
+int cluster_up(const ClusterOptions& options) {
+  const ReadCluster read = read_cluster(options.config);
+  for (const Problem& problem : read.problems.list()) tell(problem);
+  if (!read.cluster) return ExitCode::bad_input;
+  const ClusterConfig& cluster = *read.cluster;
+  const auto host = std::find_if(
+      cluster.hosts.begin(), cluster.hosts.end(),
+      [&](const ClusterHost& h) { return options.host.empty() || h.name == options.host; });
+  if (host == cluster.hosts.end() || (options.host.empty() && cluster.hosts.size() > 1)) {
+    tell({{options.config, 0},
+          options.host.empty() ? "the cluster has several hosts: say which is this, --host"
+                               : "there is no host \"" + options.host + "\""});
+    return ExitCode::bad_input;
+  }
+  install_interrupt_handler();  // Ctrl-C reaches the children; this waits for them
+  Children children;
+  for (const ClusterProcess& process : cluster.processes) {
+    if (&cluster.hosts[process.host] != &*host) continue;
+    if (auto ok = children.start(cluster, process); !ok.ok()) {
+      tell(ok.problem());
+      return ExitCode::failure;
+    }
+  }
+  return children.wait();
+}
+
+}  // namespace
+
+void add_cluster(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand("cluster", "Start the nodes of a cluster");
+  command->require_subcommand(1);
+  auto options = std::make_shared<ClusterOptions>();
+  CLI::App* up = command->add_subcommand("up", "Start all nodes that belong on this machine");
+  up->footer(
+      "Starts a process of `luxodus node` for each process of the file's host, waits, and stops "
+      "all\nwhen one fails or Ctrl-C is pressed.\n"
+      "  luxodus cluster up actors/cli/examples/one_host.toml");
+  up->add_option("config", options->config, "the cluster's file")->required();
+  up->add_option("--host", options->host, "which of the file's hosts this is [the only one]");
+  up->callback([options, &exit_code] { exit_code = cluster_up(*options); });
+}
+
+}  // namespace luxodus::cli

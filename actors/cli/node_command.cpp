@@ -1,0 +1,108 @@
+// luxodus node: the nodes of one process of a cluster, started on the machine where they belong.
+#include <spdlog/spdlog.h>
+
+#include <filesystem>
+
+#include "actors/cli/command.hpp"
+#include "actors/display/pictures.hpp"
+#include "actors/display/report.hpp"
+#include "actors/source/flux_store.hpp"
+#include "actors/supervise/cluster_process.hpp"
+#include "runtime/config/cluster_file.hpp"
+
+namespace luxodus::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct NodeOptions {
+  std::string config;
+  std::vector<std::string> names;
+};
+
+const char* reason_word(StopReason reason) {
+  constexpr const char* words[] = {"particles", "error", "time", "interrupted"};
+  return words[static_cast<size_t>(reason)];
+}
+
+/// What the controller leaves, as `luxodus run` does, but for pictures: `luxodus render` makes
+/// them.
+Result<Done> write_results(const ClusterConfig& cluster, const ClusterProcessRun& process,
+                           StopReason reason) {
+  const fs::path folder =
+      cluster.run.out.empty() ? fs::path("out") / cluster.run.name : cluster.run.out;
+  std::error_code failed;
+  fs::create_directories(folder, failed);
+  if (failed) return Problem{{folder.string(), 0}, "cannot make this folder: " + failed.message()};
+  RunRecord record;
+  record.scene_file = fs::absolute(cluster.run.scene).string();
+  record.stopped_by = reason_word(reason);
+  record.cells = process.cells();
+  const LocalRun& run = process.local_run();
+  if (auto ok = save_flux(folder / "flux.lux", run); !ok.ok()) return ok.problem();
+  if (auto ok = write_report(folder, run, record); !ok.ok()) return ok.problem();
+  std::printf("%s in %s\n%s", cluster.run.name.c_str(), folder.string().c_str(),
+              summary_text(run, result_json(run, record)).c_str());
+  return Done{};
+}
+
+int run_nodes(const NodeOptions& options) {
+  const ReadCluster read = read_cluster(options.config);
+  for (const Problem& problem : read.problems.list()) tell(problem);
+  if (!read.cluster) return ExitCode::bad_input;
+  const ClusterConfig& cluster = *read.cluster;
+  spdlog::set_level(spdlog::level::from_str(cluster.observe.log_level));
+  std::vector<NodeId> nodes;
+  for (const std::string& name : options.names) {
+    const auto node = find_node(cluster, name);
+    if (!node) {
+      tell({{options.config, 0}, "there is no node \"" + name + "\""});
+      return ExitCode::bad_input;
+    }
+    if (!nodes.empty() && cluster.node(*node).process != cluster.node(nodes.front()).process) {
+      tell({{options.config, 0},
+            "\"" + name + "\" belongs to another process than \"" + options.names.front() + "\""});
+      return ExitCode::bad_input;
+    }
+    nodes.push_back(*node);
+  }
+  auto process = ClusterProcessRun::prepare(cluster, nodes);
+  if (!process.ok()) {
+    tell(process.problem());
+    return ExitCode::bad_input;
+  }
+  install_interrupt_handler();
+  ProgressLine line(cluster.run.name);
+  auto ended = process.value()->run(interrupt_flag(), [&](const Progress& p) { line.show(p); });
+  if (!ended.ok()) {
+    tell(ended.problem());
+    return ExitCode::failure;
+  }
+  if (!ended.value()) return ExitCode::success;
+  if (auto ok = write_results(cluster, *process.value(), *ended.value()); !ok.ok()) {
+    tell(ok.problem());
+    return ExitCode::failure;
+  }
+  return *ended.value() == StopReason::interrupted ? ExitCode::interrupted : ExitCode::success;
+}
+
+}  // namespace
+
+void add_node(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<NodeOptions>();
+  CLI::App* command = app.add_subcommand("node", "Run nodes of a cluster on this machine");
+  command->footer(
+      "One call for each process of the cluster, in any order, on any machine; all wait for each "
+      "other.\n"
+      "  luxodus node --config cluster.toml --name n3\n"
+      "  luxodus node --config cluster.toml --name n0 --name n1     two that share a process\n"
+      "The process of the controller writes the results. `luxodus cluster up` starts all that\n"
+      "belong to this machine, `luxodus deploy` writes what starts them on many.");
+  command->add_option("--config", options->config, "the cluster's file")->required();
+  command->add_option("--name", options->names, "a node of the process; may be repeated")
+      ->required();
+  command->callback([options, &exit_code] { exit_code = run_nodes(*options); });
+}
+
+}  // namespace luxodus::cli

@@ -1,0 +1,209 @@
+#include "actors/supervise/cluster_process.hpp"
+
+#include <sys/random.h>
+
+#include <algorithm>
+
+#include "actors/supervise/node_shell.hpp"
+#include "runtime/config/cluster_file.hpp"
+#include "scenes/format/atomic_file.hpp"
+#include "scenes/format/scene_file.hpp"
+#include "scenes/transport/compile.hpp"
+#include "topology/amp.hpp"
+#include "topology/graph_file.hpp"
+#include "topology/shipped.hpp"
+
+namespace luxodus {
+
+namespace {
+
+/// A cell is at most this part of a budget, so that a cache holds several and a build finds room.
+constexpr uint64_t cells_of_a_budget = 16;
+
+Incarnation fresh_incarnation() {
+  Incarnation life{};
+  while (life.value == 0) {
+    if (::getrandom(&life.value, sizeof life.value, 0) != sizeof life.value)
+      throw std::runtime_error("the system gives no random number for a node's incarnation");
+  }
+  return life;
+}
+
+ControllerRole role_of(TopologyChoice::Controller controller) {
+  return controller == TopologyChoice::Controller::forwards ? ControllerRole::forwards
+                                                            : ControllerRole::endpoint;
+}
+
+Result<Graph> found_graph(const ClusterConfig& cluster) {
+  const TopologyChoice& choice = cluster.topology;
+  const auto workers = static_cast<uint32_t>(cluster.workers());
+  const ControllerRole role = role_of(choice.controller);
+  const uint32_t controller_links = std::min(choice.controller_links_most, workers);
+  if (auto shipped = shipped_graph({workers, choice.links_most, controller_links}, role))
+    return *shipped;
+  AmpRequest request;
+  request.nodes = workers;
+  request.links = choice.links_most;
+  request.controller_links = controller_links;
+  request.controller_forwards = role == ControllerRole::forwards;
+  auto found = find_amp(request, [] { return false; });
+  if (!found.ok()) return Problem{{cluster.file.string(), 0}, found.problem().what};
+  return std::move(found).value().graph;
+}
+
+Result<Graph> listed_graph(const ClusterConfig& cluster) {
+  GraphPlan plan;
+  plan.workers = static_cast<uint32_t>(cluster.workers());
+  plan.links_most = cluster.topology.links_most;
+  plan.controller = role_of(cluster.topology.controller);
+  for (const Edge& edge : cluster.topology.edges)
+    plan.links.push_back({edge.a.value, edge.b.value});
+  std::sort(plan.links.begin(), plan.links.end());
+  if (auto fault = fault_of(plan)) return Problem{{cluster.file.string(), 0}, fault->what};
+  return Graph(std::move(plan));
+}
+
+Result<Graph> graph_in_file(const ClusterConfig& cluster) {
+  auto text = read_whole_file(cluster.topology.file, limits::cluster_file_bytes);
+  if (!text.ok()) return text.problem();
+  const auto& bytes = text.value();
+  return parse_graph({reinterpret_cast<const char*>(bytes.data()), bytes.size()},
+                     cluster.topology.file.string());
+}
+
+}  // namespace
+
+Result<Graph> graph_of(const ClusterConfig& cluster) {
+  if (cluster.topology.controller == TopologyChoice::Controller::node)
+    return Problem{{cluster.file.string(), 0},
+                   "a controller that is a vertex as all others is not supported: say "
+                   "controller = \"forwards\" or \"endpoint\""};
+  auto graph = cluster.topology.kind == TopologyChoice::Kind::amp     ? found_graph(cluster)
+               : cluster.topology.kind == TopologyChoice::Kind::links ? listed_graph(cluster)
+                                                                      : graph_in_file(cluster);
+  if (graph.ok() &&
+      (graph.value().workers() != cluster.workers() || !graph.value().has_controller())) {
+    return Problem{{cluster.file.string(), 0},
+                   "the graph has " + std::to_string(graph.value().workers()) + " workers" +
+                       (graph.value().has_controller() ? "" : " and no controller") +
+                       ", the cluster " + std::to_string(cluster.workers()) + " and one"};
+  }
+  return graph;
+}
+
+int cells_for(const ClusterConfig& cluster, uint64_t built_bytes) {
+  uint64_t smallest = UINT64_MAX;
+  for (const ClusterNode& node : cluster.nodes) {
+    if (node.role == NodeRole::worker) smallest = std::min(smallest, node.budget.object_bytes);
+  }
+  if (built_bytes <= smallest) return 1;
+  return static_cast<int>(std::min<uint64_t>(
+      built_bytes / std::max<uint64_t>(smallest / cells_of_a_budget, 1) + 1, 1'000'000));
+}
+
+ClusterProcessRun::~ClusterProcessRun() = default;
+
+Result<std::unique_ptr<ClusterProcessRun>> ClusterProcessRun::prepare(
+    const ClusterConfig& cluster, const std::vector<NodeId>& nodes) {
+  auto graph = graph_of(cluster);
+  if (!graph.ok()) return graph.problem();
+  std::unique_ptr<ClusterProcessRun> process(
+      new ClusterProcessRun(cluster, std::move(graph).value()));
+  process->nodes_ = nodes;
+  if (auto ok = process->load_keys(nodes); !ok.ok()) return ok.problem();
+  if (auto ok = process->load_scene(); !ok.ok()) return ok.problem();
+  return process;
+}
+
+Result<bool> ClusterProcessRun::load_keys(const std::vector<NodeId>& nodes) {
+  if (cluster_.keys.folder.empty()) return true;
+  for (const NodeId node : nodes) {
+    auto keys = read_keys(key_path(cluster_.keys.folder, cluster_.node(node).name));
+    if (!keys.ok()) return keys.problem();
+    keys_.emplace(node, std::move(keys).value());
+  }
+  for (uint16_t i = 0; i < cluster_.nodes.size(); ++i) {
+    auto key = read_public_key(public_key_path(cluster_.keys.folder, cluster_.node({i}).name));
+    if (!key.ok()) return key.problem();
+    public_keys_.emplace(NodeId{i}, std::move(key).value());
+  }
+  return true;
+}
+
+Result<bool> ClusterProcessRun::load_scene() {
+  auto read = read_scene(cluster_.run.scene.string());
+  if (!read.scene) return read.problems.list().front();
+  const auto description = std::make_shared<const SceneDescription>(std::move(*read.scene));
+  auto scenario = find_scenario(*description, cluster_.run.scenario);
+  if (!scenario.ok()) return scenario.problem();
+  auto scene = compile_scene(description, scenario.value(), {1});
+  if (!scene.ok()) return scene.problem();
+  cells_ = cells_for(cluster_, built_bytes_of(scene.value()->triangles * sizeof(TriangleRecord)));
+  if (cells_ > 1) scene = compile_scene(description, scenario.value(), {cells_});
+  if (!scene.ok()) return scene.problem();
+  run_ = std::make_unique<LocalRun>(scene.value(), description->run.seed, 1);
+  return true;
+}
+
+Result<NodeSetup> ClusterProcessRun::setup_of(NodeId self, const RunSetup& run) const {
+  NodeSetup node;
+  node.net = net_config(cluster_, self);
+  node.net.incarnation = fresh_incarnation();
+  complete(node.net, run);
+  node.links = links_of(cluster_, self, node.net.edges);
+  if (const auto own = keys_.find(self); own != keys_.end()) node.keys = own->second;
+  node.public_keys = public_keys_;
+  node.insecure = cluster_.keys.insecure;
+  node.controller = cluster_.controller();
+  const NodeBudget& budget = cluster_.node(self).budget;
+  node.photons.fibers = cells_ == 1 ? 1 : budget.fibers;
+  node.object_bytes = budget.object_bytes;
+  return node;
+}
+
+Result<std::optional<StopReason>> ClusterProcessRun::run(
+    const std::atomic<bool>& interrupt, const std::function<void(const Progress&)>& report) {
+  const SystemClock clock;
+  std::vector<Admitted> admitted;
+  for (const auto& [node, key] : public_keys_) admitted.push_back({node, key});
+  ZmqContext context(admitted);
+  const EmbreeDevice device;
+  std::optional<SceneObjects> objects;
+  std::optional<ProxyScene> proxies;
+  RunSetup setup{run_->scene(), &run_->index(), nullptr, nullptr,
+                 run_->seed(),  graph_,         clock,   context};
+  if (cells_ > 1) {
+    const auto workers = static_cast<uint32_t>(cluster_.workers());
+    objects.emplace(run_->scene(), workers, std::min<uint32_t>(2, workers));
+    proxies.emplace(device, boxes_of(run_->scene()));
+    setup.objects = &*objects;
+    setup.proxies = &*proxies;
+  }
+  std::vector<NodeSetup> workers;
+  std::optional<NodeSetup> controller;
+  for (const NodeId node : nodes_) {
+    auto own = setup_of(node, setup);
+    if (!own.ok()) return own.problem();
+    if (node == cluster_.controller())
+      controller = std::move(own).value();
+    else
+      workers.push_back(std::move(own).value());
+  }
+  WorkerThreads threads(setup, workers, [&] { return !controller && interrupt.load(); });
+  std::optional<StopReason> reason;
+  if (controller) {
+    StopRule stop;
+    if (cluster_.run.particles) stop.particles = static_cast<int64_t>(*cluster_.run.particles);
+    stop.relative_error = cluster_.run.relative_error;
+    stop.seconds = cluster_.run.time_s;
+    auto ended = run_controller(setup, *controller, *run_, stop, interrupt, report,
+                                [&] { return threads.failed(); });
+    if (!ended.ok()) return ended.problem();
+    reason = ended.value();
+  }
+  threads.join();
+  if (threads.failed()) return threads.problem();
+  return reason;
+}
+
+}  // namespace luxodus

@@ -1,0 +1,62 @@
+// One process of a cluster: reads the scene that the cluster's file names, makes the graph, and
+// runs those nodes that belong to the process; where the controller is among them, the results are
+// left with it. Every process reads the same files and comes to the same setup; the handshake
+// between nodes checks that. Thread rule: called from one thread, which becomes the controller's
+// where it is here.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "actors/supervise/in_process.hpp"
+#include "runtime/config/cluster_config.hpp"
+
+namespace luxodus {
+
+/// The graph that a cluster's file names or asks for.
+/// Errors: a graph that is none, or not of this cluster's size.
+Result<Graph> graph_of(const ClusterConfig& cluster);
+
+/// Cells of the partition: 1 where every worker's budget holds the whole scene, else so many that a
+/// sixteenth of the smallest budget holds one. A pure function of file and scene, so all nodes
+/// agree.
+int cells_for(const ClusterConfig& cluster, uint64_t built_bytes);
+
+/// What a process of a cluster is about to do; kept while it runs.
+class ClusterProcessRun {
+ public:
+  /// Reads keys, scene and graph for `nodes` (all of one process).
+  /// Errors: files that are missing or wrong; keys that are missing.
+  static Result<std::unique_ptr<ClusterProcessRun>> prepare(const ClusterConfig& cluster,
+                                                            const std::vector<NodeId>& nodes);
+  ~ClusterProcessRun();
+
+  /// Runs the nodes until the run has ended; with the controller here, says why it ended.
+  /// Errors: as join_links; a worker that failed.
+  Result<std::optional<StopReason>> run(const std::atomic<bool>& interrupt,
+                                        const std::function<void(const Progress&)>& report);
+
+  /// The totals, where the controller is here.
+  const LocalRun& local_run() const { return *run_; }
+  int cells() const { return cells_; }
+
+ private:
+  ClusterProcessRun(const ClusterConfig& cluster, Graph graph)
+      : cluster_(cluster), graph_(std::move(graph)) {}
+
+  Result<bool> load_scene();
+  Result<bool> load_keys(const std::vector<NodeId>& nodes);
+  Result<NodeSetup> setup_of(NodeId self, const RunSetup& run) const;
+
+  const ClusterConfig cluster_;
+  const Graph graph_;
+  int cells_ = 1;
+  std::vector<NodeId> nodes_;
+  std::map<NodeId, KeyPair> keys_;
+  std::map<NodeId, std::string> public_keys_;
+  std::unique_ptr<LocalRun> run_;
+};
+
+}  // namespace luxodus

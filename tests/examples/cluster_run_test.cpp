@@ -1,0 +1,86 @@
+// Whole clusters as a person starts them: processes that meet over sockets, and leave what the
+// plain program leaves, to the bit.
+#include <catch2/catch.hpp>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+namespace fs = std::filesystem;
+
+namespace {
+
+class Folder {
+ public:
+  Folder() {
+    std::string name = (fs::temp_directory_path() / "luxodus_nodes_XXXXXX").string();
+    REQUIRE(mkdtemp(name.data()) != nullptr);
+    path = name;
+  }
+  ~Folder() { fs::remove_all(path); }
+  fs::path path;
+};
+
+int luxodus(const Folder& folder, const std::string& arguments) {
+  const std::string log = (folder.path / "log").string();
+  const int status =
+      std::system((std::string(LUX_PROGRAM) + " " + arguments + " >" + log + " 2>&1").c_str());
+  return WEXITSTATUS(status);
+}
+
+std::string slurp(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+std::string smoke_tank() {
+  return (fs::path(LUX_SOURCE_DIR) / "scenes/library/smoke_tank.toml").string();
+}
+
+/// A controller and three workers, each a process; `more` is added to the file.
+fs::path cluster_file(const Folder& folder, const std::string& more) {
+  const fs::path file = folder.path / "cluster.toml";
+  std::ofstream(file) << "[run]\nname = \"test\"\nscene = \"" << smoke_tank()
+                      << "\"\nparticles = 100_000\nout = \"" << (folder.path / "out").string()
+                      << "\"\n[[host]]\nname = \"here\"\n[[node]]\nname = \"n\"\ncount = 3\n"
+                         "[[node]]\nname = \"controller\"\nrole = \"controller\"\n"
+                      << more;
+  return file;
+}
+
+void check_same_flux(const Folder& folder, const fs::path& cluster) {
+  INFO(slurp(folder.path / "log"));
+  REQUIRE(luxodus(folder, "cluster up " + cluster.string()) == 0);
+  REQUIRE(luxodus(folder, "run " + smoke_tank() + " --particles 100k --no-views --out " +
+                              (folder.path / "plain").string()) == 0);
+  const std::string flux = slurp(folder.path / "out" / "flux.lux");
+  CHECK(!flux.empty());
+  CHECK(flux == slurp(folder.path / "plain" / "flux.lux"));
+  CHECK(fs::exists(folder.path / "out" / "result.json"));
+}
+
+}  // namespace
+
+TEST_CASE("four processes over local sockets leave the flux file of the plain loop", "[cluster]") {
+  const Folder folder;
+  check_same_flux(folder, cluster_file(folder, ""));
+}
+
+TEST_CASE("four processes over TCP with keys leave the flux file of the plain loop", "[cluster]") {
+  const Folder folder;
+  const fs::path cluster =
+      cluster_file(folder, "[links]\nsame_host = \"tcp\"\n[keys]\nfolder = \"keys\"\n");
+  REQUIRE(luxodus(folder, "keygen --cluster " + cluster.string()) == 0);
+  check_same_flux(folder, cluster);
+}
+
+TEST_CASE("a cluster whose keys or scene are missing says which, and starts nothing", "[cluster]") {
+  const Folder folder;
+  const fs::path cluster = cluster_file(folder, "[keys]\nfolder = \"keys\"\n");
+  CHECK(luxodus(folder, "node --config " + cluster.string() + " --name n0") == 2);
+  CHECK(slurp(folder.path / "log").find("n0") != std::string::npos);
+  CHECK(luxodus(folder, "node --config " + cluster.string() + " --name nobody") == 2);
+  CHECK(slurp(folder.path / "log").find("nobody") != std::string::npos);
+  CHECK(luxodus(folder, "node --config " + cluster.string() + " --name n0 --name n1") == 2);
+  CHECK_FALSE(fs::exists(folder.path / "out"));
+}
