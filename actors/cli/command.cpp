@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <csignal>
@@ -99,6 +100,19 @@ Result<double> parse_seconds(const std::string& text) {
     return problem;
   if (!(value > 0 && value < 1e8)) return problem;
   return value;
+}
+
+CLI::Validator seed_number() {
+  const auto check = [](std::string& text) -> std::string {
+    uint64_t value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size())
+      return Problem{{}, "\"" + text + "\" is no whole number from 0 to 18446744073709551615"}
+          .text();
+    text = std::to_string(value);
+    return "";
+  };
+  return CLI::Validator(check, "");
 }
 
 int default_threads() {

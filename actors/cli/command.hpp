@@ -43,6 +43,10 @@ Result<int64_t> parse_count(const std::string& text);
 Result<double> parse_share(const std::string& text);
 Result<double> parse_seconds(const std::string& text);
 
+/// For --seed: whole decimal numbers of 64 bits pass, all else is refused with a sentence. By
+/// itself CLI11 takes -1 and 99999999999999999999 for 2^64 - 1, and 010 for 8.
+CLI::Validator seed_number();
+
 /// Threads to use when the caller names none.
 int default_threads();
 

@@ -1,6 +1,9 @@
 // luxodus converge: how the error falls with particles and with seconds.
+#include <spdlog/spdlog.h>
+
 #include <cmath>
 #include <filesystem>
+#include <limits>
 
 #include "actors/cli/command.hpp"
 #include "scenes/format/csv.hpp"
@@ -41,21 +44,44 @@ double slope(const std::vector<Point>& points, double Point::*x) {
   return (n * sxy - sx * sy) / (n * sxx - sx * sx);
 }
 
+struct Course {
+  std::vector<Point> points;  // those with an error above 0
+  double last_error = std::numeric_limits<double>::infinity();
+  int looks = 0;
+  bool interrupted = false;
+};
+
 /// One run that doubles, looked at after each doubling: every point is a run of its own would-be
 /// length.
-std::vector<Point> trace_points(LocalRun& run, int64_t most) {
-  std::vector<Point> points;
+Course trace_course(LocalRun& run, int64_t most) {
+  Course course;
   ProgressLine line("converge");
   for (int64_t n = 8 * run.scene().batch_particles;; n *= 2) {
     StopRule rule;
     rule.particles = std::min(n, most);
-    run.run(rule, interrupt_flag(), [&](const Progress& p) { line.show(p); });
+    const StopReason reason =
+        run.run(rule, interrupt_flag(), [&](const Progress& p) { line.show(p); });
+    course.interrupted = reason == StopReason::interrupted;
+    if (course.interrupted) return course;
     const double error = Readout(run.scene(), run.totals()).worst_relative_error();
+    course.last_error = error;
+    ++course.looks;
     if (std::isfinite(error) && error > 0)
-      points.push_back({static_cast<double>(run.particles()), run.seconds(), error,
-                        1 / (error * error * run.seconds())});
-    if (n >= most || interrupt_flag().load()) return points;
+      course.points.push_back({static_cast<double>(run.particles()), run.seconds(), error,
+                               1 / (error * error * run.seconds())});
+    if (n >= most) return course;
   }
+}
+
+/// Why a course that ran to its end has fewer than two points.
+std::string why_no_slope(const Course& course) {
+  if (course.last_error == 0)
+    return "the error is exactly 0: all that this scene measures is computed without chance, and "
+           "nothing is left to converge";
+  if (course.looks >= 2 && course.points.empty())
+    return "no light reached what this scene measures, so there is no error: ask for more with "
+           "--particles, or look at the scene with `luxodus check`";
+  return "too few particles for a slope: ask for more with --particles";
 }
 
 SvgPlot plot_of(const std::vector<Point>& points, double Point::*x, const std::string& scene,
@@ -95,29 +121,11 @@ Result<Done> write_points(const fs::path& out, const std::vector<Point>& points,
                         plot_of(points, &Point::seconds, name, "time [s]"));
 }
 
-Result<Done> converge(const ConvergeOptions& options) {
-  auto most = parse_count(options.particles);
-  if (!most.ok()) return most.problem();
-  const auto description = load_scene(options.scene);
-  if (!description) return Problem{{options.scene, 0}, "the scene has problems, told above"};
-  auto scenario = find_scenario(*description, options.scenario);
-  if (!scenario.ok()) return scenario.problem();
-  auto scene = compile_scene(description, scenario.value(), {});
-  if (!scene.ok()) return scene.problem();
-  install_interrupt_handler();
-  LocalRun run(scene.value(), options.seed.value_or(description->run.seed), options.threads);
-  const std::vector<Point> points = trace_points(run, most.value());
-  if (points.size() < 2)
-    return Problem{{options.scene, 0},
-                   "too few particles for a slope: ask for more with --particles"};
-  const fs::path out =
-      options.out.empty()
-          ? fs::path("out") / (fs::path(options.scene).stem().string() + "_converge")
-          : fs::path(options.out);
-  if (auto ok = write_points(out, points, description->name); !ok.ok()) return ok.problem();
+/// The table and slopes on standard output, as text or JSON.
+void print_points(const std::vector<Point>& points, bool json, const fs::path& out) {
   const double by_particles = slope(points, &Point::particles);
   const double by_seconds = slope(points, &Point::seconds);
-  if (options.json) {
+  if (json) {
     Json rows = Json::array();
     for (const Point& p : points)
       rows.push_back({{"particles", p.particles},
@@ -129,7 +137,7 @@ Result<Done> converge(const ConvergeOptions& options) {
             {{"points", rows}, {"slope_particles", by_particles}, {"slope_seconds", by_seconds}})
             .c_str(),
         stdout);
-    return Done{};
+    return;
   }
   std::printf("%14s %10s %12s %16s\n", "particles", "seconds", "error", "merit 1/(e2 s)");
   for (const Point& p : points)
@@ -138,7 +146,35 @@ Result<Done> converge(const ConvergeOptions& options) {
   std::printf(
       "slope of error: %.3f over particles, %.3f over seconds (Monte Carlo: -0.5)\nwritten to %s\n",
       by_particles, by_seconds, out.string().c_str());
-  return Done{};
+}
+
+Result<ExitCode> converge(const ConvergeOptions& options) {
+  auto most = parse_count(options.particles);
+  if (!most.ok()) return most.problem();
+  const auto description = load_scene(options.scene);
+  if (!description) return Problem{{options.scene, 0}, "the scene has problems, told above"};
+  auto scenario = find_scenario(*description, options.scenario);
+  if (!scenario.ok()) return scenario.problem();
+  auto scene = compile_scene(description, scenario.value(), {});
+  if (!scene.ok()) return scene.problem();
+  install_interrupt_handler();
+  LocalRun run(scene.value(), options.seed.value_or(description->run.seed), options.threads);
+  const Course course = trace_course(run, most.value());
+  const bool enough = course.points.size() >= 2;
+  if (!enough && !course.interrupted) return Problem{{options.scene, 0}, why_no_slope(course)};
+  const fs::path out =
+      options.out.empty()
+          ? fs::path("out") / (fs::path(options.scene).stem().string() + "_converge")
+          : fs::path(options.out);
+  if (enough) {
+    if (auto ok = write_points(out, course.points, description->name); !ok.ok())
+      return ok.problem();
+    print_points(course.points, options.json, out);
+  }
+  if (!course.interrupted) return ExitCode::success;
+  spdlog::warn(enough ? "interrupted; the points measured until then were written"
+                      : "interrupted before there were two points; nothing was written");
+  return ExitCode::interrupted;
 }
 
 }  // namespace
@@ -158,14 +194,14 @@ void add_converge(CLI::App& app, int& exit_code) {
   command->add_option("--particles", options->particles, "where to end [8M]");
   command->add_option("--out", options->out,
                       "folder for converge.csv and the plots [out/NAME_converge]");
-  command->add_option("--seed", options->seed, "of the random numbers [the scene's]");
+  command->add_option("--seed", options->seed, "of the random numbers [the scene's]")
+      ->transform(seed_number());
   command->add_option("--threads", options->threads, "[all cores]")->check(CLI::Range(1, 1024));
   command->add_flag("--json", options->json, "machine-readable");
   command->callback([options, &exit_code] {
     auto done = converge(*options);
-    if (done.ok()) return;
-    tell(done.problem());
-    exit_code = ExitCode::bad_input;
+    if (!done.ok()) tell(done.problem());
+    exit_code = done.ok() ? done.value() : ExitCode::bad_input;
   });
 }
 

@@ -187,7 +187,8 @@ void add_run(CLI::App& app, int& exit_code) {
                       "how many, e.g. 1e6, 250k, 10M (whole batches)");
   command->add_option("--error", options->error, "relative standard error to reach, e.g. 1%");
   command->add_option("--time", options->time, "how long, e.g. 60s, 5m");
-  command->add_option("--seed", options->seed, "of the random numbers [the scene's]");
+  command->add_option("--seed", options->seed, "of the random numbers [the scene's]")
+      ->transform(seed_number());
   command->add_option("--threads", options->threads, "[all cores]")->check(CLI::Range(1, 1024));
   command->add_option("--cells", options->cells, "geometry cells; 1 is one merged scene [1]")
       ->check(CLI::Range(1, 1'000'000));

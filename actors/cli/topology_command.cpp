@@ -161,7 +161,8 @@ void add_sizes(CLI::App* command, const OptionsPtr& options) {
   command->add_option("--nodes", options->amp.nodes, "nodes, the controller not counted")
       ->required();
   command->add_option("--links", options->amp.links, "links a node, at most [4]");
-  command->add_option("--seed", options->amp.seed, "seed of searches and random graphs [0]");
+  command->add_option("--seed", options->amp.seed, "seed of searches and random graphs [0]")
+      ->transform(seed_number());
 }
 
 void add_outputs(CLI::App* command, const OptionsPtr& options) {

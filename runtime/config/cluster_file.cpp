@@ -9,6 +9,7 @@
 
 #include "runtime/config/cluster_reading.hpp"
 #include "runtime/core/hash.hpp"
+#include "runtime/core/toml_nesting.hpp"
 
 namespace luxodus {
 
@@ -141,6 +142,8 @@ ReadCluster parse_cluster(std::string_view text, const std::filesystem::path& fi
                    fmt::format("this file is longer than {} bytes, the most a cluster takes",
                                limits::cluster_file_bytes));
   }
+  if (const auto deep = too_deep_toml(text, file.string()))
+    return refused(file, deep->where.line, deep->what);
   ClusterReading reading;
   reading.cluster.file = file;
   reading.start = {file.string(), 1};

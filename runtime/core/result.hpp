@@ -21,12 +21,9 @@ struct Problem {
   SourcePlace where;
   std::string what;
 
-  /// "file:line: what", the form editors understand.
-  std::string text() const {
-    std::string out = where.file;
-    if (where.line > 0) out += ":" + std::to_string(where.line);
-    return out.empty() ? what : out + ": " + what;
-  }
+  /// "file:line: what", the form editors understand, in one line: control characters, which a name
+  /// or a file's content may carry here and a terminal would obey, stand as \xNN.
+  std::string text() const;
 };
 
 /// A value, or the problem that kept us from having it.

@@ -51,17 +51,29 @@ std::string ending_of(const std::string& path) {
   return ending;
 }
 
+struct Range {
+  float most;
+  const char* words;
+};
+
+/// What values a field may have; soot density is extinction by then.
+Range range_of(const Field& field) {
+  if (field.name == "albedo") return {1.0f, "0 to 1"};
+  if (field.name == "emission") return {3e38f, "a finite value of 0 or more"};
+  return {limits::extinction_per_m,
+          field.name == "extinction" ? "0 to 1e9 1/m" : "what makes an extinction of 0 to 1e9 1/m"};
+}
+
 /// Every value a number that its field can have; the first that is not is named by its cell.
 std::optional<Problem> bad_value(const std::string& path, const Grid& grid, const Field& field) {
-  const float most = field.name == "albedo" ? 1.0f : 3e38f;
+  const Range range = range_of(field);
   for (size_t i = 0; i < field.value.size(); ++i) {
     const float v = field.value[i];
-    if (v >= 0 && v <= most) continue;  // NaN fails
+    if (v >= 0 && v <= range.most) continue;  // NaN fails
     const uint64_t x = i % grid.nx, y = i / grid.nx % grid.ny, z = i / grid.nx / grid.ny;
-    const char* const rule = field.name == "albedo" ? "0 to 1" : "a finite value of 0 or more";
     return fault(path, 0,
                  fmt::format("{} of cell ({}, {}, {}), index {}, is {}: give {}", field.name, x, y,
-                             z, i, v, rule));
+                             z, i, v, range.words));
   }
   return std::nullopt;
 }

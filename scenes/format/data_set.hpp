@@ -22,6 +22,9 @@ namespace limits {
 inline constexpr uint64_t data_set_cells = 1ull << 31;  // 8 GiB per field
 inline constexpr uint64_t data_set_side = 1ull << 20;
 inline constexpr size_t nrrd_header_bytes = 64 * 1024;
+/// A mean free path of a nanometre [1/m]. Solid soot, 1800 kg/m3 of 8700 m2/kg, would have 1.6e7:
+/// what says more than 1e9 is damaged or in other units.
+inline constexpr float extinction_per_m = 1e9f;
 /// A .vti file is held whole while it is read.
 inline constexpr uint64_t vti_file_bytes = 16ull << 30;
 }  // namespace limits
@@ -45,7 +48,8 @@ struct LoadedDataSet {
 /// fields along the first, named by `fields:=a b c`; 8-bit samples are mapped to [old min, old max]
 /// where stated. Errors, with the line where the file has lines: what is not this format, more or
 /// fewer values than claimed, negative, infinite or undefined values (with their cell), albedo
-/// above 1, no known field, a grid that is turned or mirrored, more than the limits.
+/// above 1, extinction above limits::extinction_per_m, no known field, a grid that is turned or
+/// mirrored, more than the limits.
 Result<LoadedDataSet> read_data_set(const std::string& path, const DataSetOptions& options = {});
 
 }  // namespace luxodus

@@ -96,7 +96,7 @@ class LdtReader {
 
   void read_head() {
     out_.manufacturer = text("the manufacturer");
-    text("the type indicator");
+    read_type();
     symmetry_ = whole("the symmetry indicator (Isym)", 0, 4);
     c_count_ = whole("the number of C planes (Mc)", 1, limits::c_planes);
     mc_line_ = line_;
@@ -108,6 +108,16 @@ class LdtReader {
     text("the luminaire's number");
     text("the file name");
     text("the date");
+  }
+
+  /// Ityp says point, line or other, which the light of the file does not depend on; but what is
+  /// not 0 to 3 hints at lines that were lost.
+  void read_type() {
+    const std::string_view type = text("the type indicator");
+    const std::optional<double> value = decimal(type, true);
+    if (fault_ || (value && (*value == 0 || *value == 1 || *value == 2 || *value == 3))) return;
+    warn(line_, "the type indicator (Ityp) should be 0, 1, 2 or 3, not \"" +
+                    std::string(type.substr(0, 40)) + "\"; it is not used");
   }
 
   void read_dimensions() {

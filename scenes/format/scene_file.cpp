@@ -7,6 +7,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "runtime/core/toml_nesting.hpp"
 #include "scenes/format/scene_readers.hpp"
 
 namespace luxodus {
@@ -84,6 +85,10 @@ class Loader {
 
   std::unique_ptr<Document> parse(const std::string& text, const fs::path& path) {
     reading_.hash_bytes(text);
+    if (auto deep = too_deep_toml(text, path.string())) {
+      reading_.problem(std::move(deep->where), std::move(deep->what));
+      return nullptr;
+    }
     try {
       auto document = std::make_unique<Document>();
       document->table = toml::parse(std::string_view(text), path.string());

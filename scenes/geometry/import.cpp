@@ -16,6 +16,9 @@
 #include <cmath>
 #include <exception>
 #include <filesystem>
+#include <fstream>
+#include <optional>
+#include <string_view>
 #include <unordered_map>
 #include <utility>
 
@@ -52,11 +55,48 @@ class GuardedFiles : public Assimp::DefaultIOSystem {
   std::vector<std::string> opened_;
 };
 
-bool has_known_ending(const std::string& path) {
+std::string ending_of(const std::string& path) {
   std::string ending = fs::path(path).extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending == ".obj" || ending == ".gltf" || ending == ".glb";
+  return ending;
+}
+
+/// Takes the first word off a line; "" where there is none.
+std::string_view take_word(std::string_view& line) {
+  constexpr std::string_view blanks = " \t\r";
+  line.remove_prefix(std::min(line.find_first_not_of(blanks), line.size()));
+  const std::string_view word = line.substr(0, line.find_first_of(blanks));
+  line.remove_prefix(word.size());
+  return word;
+}
+
+/// Whether a word could be a number, NaN and infinity included.
+bool starts_like_number(std::string_view word) {
+  if (word.front() == '-' || word.front() == '+') word.remove_prefix(1);
+  return word.find_first_of("0123456789.nNiI") == 0;
+}
+
+/// The first vertex of an OBJ whose position has a word for a number. Assimp passes over such a
+/// line, and every face after it would mean other vertices than the file does.
+std::optional<Problem> vertex_of_words(const std::string& path) {
+  std::error_code error;
+  if (fs::file_size(path, error) > limits::mesh_file_bytes || error) return std::nullopt;
+  std::ifstream in(path, std::ios::binary);
+  std::string line;
+  for (int number = 1; std::getline(in, line); ++number) {
+    std::string_view rest = line;
+    if (take_word(rest) != "v") continue;
+    for (int axis = 0; axis < 3; ++axis) {
+      const std::string_view word = take_word(rest);
+      if (word.empty() || word == "\\") break;  // goes on in the next line, or Assimp's to judge
+      if (starts_like_number(word)) continue;
+      return Problem{
+          {path, number},
+          fmt::format("a coordinate of this vertex is \"{:.40}\": give three numbers", word)};
+    }
+  }
+  return std::nullopt;
 }
 
 std::string text_of(const aiString& text) {
@@ -102,6 +142,10 @@ class Collector {
       }
       // Reversed, so that the stack gives children in the file's order.
       for (unsigned i = node->mNumChildren; i-- > 0;) open.push_back({node->mChildren[i], here});
+    }
+    if (parts_.empty() && homeless_degenerates_ > 0) {
+      return problem(
+          fmt::format("all {} triangles are degenerate: none has an area", homeless_degenerates_));
     }
     if (parts_.empty()) {
       return problem("the file holds no triangles: points, lines and empty objects are not read");
@@ -279,12 +323,16 @@ Result<std::vector<ImportedPart>> import_mesh(const std::string& path, double me
   if (!(metres_per_unit > 0) || !std::isfinite(metres_per_unit)) {
     return refusal(fmt::format("a unit of {} m: give a length above 0", metres_per_unit), path);
   }
-  if (!has_known_ending(path)) {
+  const std::string ending = ending_of(path);
+  if (ending != ".obj" && ending != ".gltf" && ending != ".glb") {
     return refusal("unknown kind of mesh: .obj, .gltf and .glb are read", path);
   }
   std::error_code error;
   if (!fs::is_regular_file(path, error)) return refusal("there is no such file", path);
   try {
+    if (ending == ".obj") {
+      if (auto bad = vertex_of_words(path)) return *bad;
+    }
     return import_checked(path, metres_per_unit, up, files_read);
   } catch (const std::exception& e) {
     return refusal(fmt::format("cannot be read: {}", e.what()), path);

@@ -16,8 +16,6 @@
 namespace luxodus {
 
 namespace limits {
-inline constexpr int64_t patches =
-    200'000'000;  // 16 GB of totals; ten times as many do not fit 32 bits
 inline constexpr int64_t voxels = 50'000'000;
 inline constexpr int64_t default_voxels =
     20'000;  // of the grid a scene gets unless it says an edge
@@ -449,12 +447,7 @@ Result<std::shared_ptr<const CompiledScene>> compile_scene(
   }
   compile_materials(*scene);
   compile_sign_faces(*scene);
-  compile_triangles(*scene, options.cells);
-  if (int64_t{scene->patch_count} > limits::patches) {
-    return Problem{{description->file, 0},
-                   "the scene has " + std::to_string(scene->patch_count) +
-                       " flux patches: make patch_edge larger"};
-  }
+  if (auto ok = compile_triangles(*scene, options.cells); !ok.ok()) return ok.problem();
   compile_emitters(*scene, sources);
   if (auto ok = compile_media(*scene); !ok.ok()) return ok.problem();
   scatter_volume_points(*scene);

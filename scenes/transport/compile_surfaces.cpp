@@ -11,6 +11,11 @@
 
 namespace luxodus {
 
+namespace limits {
+/// 16 GB of totals; ten times as many do not fit 32 bits.
+inline constexpr uint64_t patches = 200'000'000;
+}  // namespace limits
+
 namespace {
 
 SurfaceKind surface_kind(MaterialKind kind) {
@@ -117,17 +122,28 @@ class TriangleBuilder {
  public:
   explicit TriangleBuilder(CompiledScene& scene) : scene_(scene) {}
 
-  void add(CompiledSurface surface, const Mesh& mesh, double patch_edge_m) {
-    surface.first_patch = patches_;
+  /// Errors: with this surface the scene has more than limits::patches; `place` is where it is
+  /// described.
+  Result<bool> add(CompiledSurface surface, const SourcePlace& place, const Mesh& mesh,
+                   double patch_edge_m) {
+    surface.first_patch = patches();
     const auto index = static_cast<uint32_t>(scene_.surfaces.size());
-    for (const glm::uvec3& t : mesh.triangles) add_triangle(surface, index, mesh, t, patch_edge_m);
-    surface.patches = patches_ - surface.first_patch;
+    for (const glm::uvec3& t : mesh.triangles) {
+      add_triangle(surface, index, mesh, t, patch_edge_m);
+      if (patches_ > limits::patches) {
+        return Problem{place, "with \"" + surface.name + "\" the scene has more than " +
+                                  std::to_string(limits::patches) +
+                                  " flux patches: make patch_edge_m larger"};
+      }
+    }
+    surface.patches = patches() - surface.first_patch;
     scene_.total_area_m2 += surface.area_m2;
     scene_.surfaces.push_back(std::move(surface));
+    return true;
   }
 
   int64_t degenerate() const { return degenerate_; }
-  uint32_t patches() const { return patches_; }
+  uint32_t patches() const { return static_cast<uint32_t>(patches_); }
   std::vector<TriangleRecord>& records() { return records_; }
   std::vector<GeometryCell::TriangleUv>& uv() { return uv_; }
 
@@ -150,10 +166,10 @@ class TriangleBuilder {
     }
     r.normal = glm::vec3(cross / twice_area);
     r.subdivision = patch_edge_m > 0 ? subdivision_for(longest, patch_edge_m) : 1;
-    r.first_patch = patches_;
+    r.first_patch = patches();
     r.surface = index;
     r.global_triangle = static_cast<uint32_t>(records_.size());
-    patches_ += 2 * r.subdivision * r.subdivision;
+    patches_ += 2 * uint64_t{r.subdivision} * r.subdivision;
     surface.area_m2 += twice_area / 2;
     if (!mesh.texture_uv.empty()) {
       uv_.push_back({r.global_triangle,
@@ -165,7 +181,8 @@ class TriangleBuilder {
   CompiledScene& scene_;
   std::vector<TriangleRecord> records_;
   std::vector<GeometryCell::TriangleUv> uv_;
-  uint32_t patches_ = 0;
+  // One triangle has up to 2^31: wide enough for the one that breaks the limit.
+  uint64_t patches_ = 0;
   int64_t degenerate_ = 0;
 };
 
@@ -209,6 +226,43 @@ void cut_into_cells(CompiledScene& scene, TriangleBuilder& builder, int cells) {
   for (const auto& members : partition_triangles(centroids, cells)) {
     scene.cells.push_back(make_cell(builder.records(), builder.uv(), members));
   }
+}
+
+/// Adds what the scenario has: objects, then signs, then bodies of emitters.
+Result<bool> add_surfaces(CompiledScene& scene, TriangleBuilder& builder) {
+  const auto dark = static_cast<uint32_t>(scene.materials.size() - 1);
+  for (const Object& object : scene.description->objects) {
+    CompiledSurface s;
+    s.name = object.name;
+    s.material[0] = static_cast<uint32_t>(object.material);
+    s.material[1] = static_cast<uint32_t>(object.back_material);
+    const Mesh mesh = mesh_in(object, scene.scenario);
+    if (auto ok = builder.add(std::move(s), object.place, mesh, object.patch_edge_m); !ok.ok())
+      return ok;
+  }
+  for (uint32_t i = 0; i < scene.signs.size(); ++i) {
+    const Sign& sign = scene.description->signs[scene.signs[i].sign];
+    CompiledSurface s;
+    s.name = sign.name + (scene.signs[i].back ? " back" : "");
+    s.material[0] = s.material[1] = dark;
+    s.sign = i;
+    scene.signs[i].surface = static_cast<uint32_t>(scene.surfaces.size());
+    const Mesh face = face_mesh(scene.signs[i].frame, sign.width_m, sign.height_m);
+    if (auto ok = builder.add(std::move(s), sign.place, face, 0); !ok.ok()) return ok;
+  }
+  for (uint32_t i = 0; i < scene.description->emitters.size(); ++i) {
+    const Emitter& e = scene.description->emitters[i];
+    if (e.body_material.empty()) continue;
+    CompiledSurface s;
+    s.name = e.name + " body";
+    s.body_emitter = i;
+    s.material[0] = s.material[1] = dark;
+    for (uint32_t m = 0; m < scene.materials.size(); ++m) {
+      if (scene.materials[m].name == e.body_material) s.material[0] = s.material[1] = m;
+    }
+    if (auto ok = builder.add(std::move(s), e.place, body_mesh(e), 0); !ok.ok()) return ok;
+  }
+  return true;
 }
 
 /// Back sides of signs and of emitter bodies: matt, dark.
@@ -276,37 +330,9 @@ void compile_sign_faces(CompiledScene& scene) {
   }
 }
 
-void compile_triangles(CompiledScene& scene, int cells) {
+Result<bool> compile_triangles(CompiledScene& scene, int cells) {
   TriangleBuilder builder(scene);
-  const auto dark = static_cast<uint32_t>(scene.materials.size() - 1);
-  for (const Object& object : scene.description->objects) {
-    CompiledSurface s;
-    s.name = object.name;
-    s.material[0] = static_cast<uint32_t>(object.material);
-    s.material[1] = static_cast<uint32_t>(object.back_material);
-    builder.add(std::move(s), mesh_in(object, scene.scenario), object.patch_edge_m);
-  }
-  for (uint32_t i = 0; i < scene.signs.size(); ++i) {
-    const Sign& sign = scene.description->signs[scene.signs[i].sign];
-    CompiledSurface s;
-    s.name = sign.name + (scene.signs[i].back ? " back" : "");
-    s.material[0] = s.material[1] = dark;
-    s.sign = i;
-    scene.signs[i].surface = static_cast<uint32_t>(scene.surfaces.size());
-    builder.add(std::move(s), face_mesh(scene.signs[i].frame, sign.width_m, sign.height_m), 0);
-  }
-  for (uint32_t i = 0; i < scene.description->emitters.size(); ++i) {
-    const Emitter& e = scene.description->emitters[i];
-    if (e.body_material.empty()) continue;
-    CompiledSurface s;
-    s.name = e.name + " body";
-    s.body_emitter = i;
-    s.material[0] = s.material[1] = dark;
-    for (uint32_t m = 0; m < scene.materials.size(); ++m) {
-      if (scene.materials[m].name == e.body_material) s.material[0] = s.material[1] = m;
-    }
-    builder.add(std::move(s), body_mesh(e), 0);
-  }
+  if (auto ok = add_surfaces(scene, builder); !ok.ok()) return ok.problem();
   if (builder.degenerate() > 0) {
     scene.warnings.push_back({{scene.description->file, 0},
                               std::to_string(builder.degenerate()) +
@@ -326,6 +352,7 @@ void compile_triangles(CompiledScene& scene, int cells) {
       }
     }
   }
+  return true;
 }
 
 Bounds solid_bounds(const SceneDescription& description, const Scenario& scenario) {

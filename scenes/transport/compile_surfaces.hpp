@@ -17,7 +17,8 @@ void compile_sign_faces(CompiledScene& scene);
 /// Surfaces of objects (doors moved as the scenario says), sign faces and emitter bodies.
 /// Degenerate triangles were dropped on reading; what single precision makes degenerate is dropped
 /// here and counted in the warnings.
-void compile_triangles(CompiledScene& scene, int cells);
+/// Errors: more flux patches than are counted; nothing was taken for them.
+Result<bool> compile_triangles(CompiledScene& scene, int cells);
 
 /// The meshes as the scenario has them, in scene coordinates: bounds of everything solid.
 Bounds solid_bounds(const SceneDescription& description, const Scenario& scenario);

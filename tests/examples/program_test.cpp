@@ -36,8 +36,9 @@ struct Outcome {
   std::string err;
 };
 
-Outcome luxodus(const Folder& folder, const std::string& arguments) {
-  const std::string command = std::string(LUX_PROGRAM) + " " + arguments + " >" +
+/// `under`: a program that starts ours.
+Outcome luxodus(const Folder& folder, const std::string& arguments, const std::string& under = "") {
+  const std::string command = under + LUX_PROGRAM + " " + arguments + " >" +
                               (folder.path / "stdout").string() + " 2>" +
                               (folder.path / "stderr").string();
   const int status = std::system(command.c_str());
@@ -205,6 +206,70 @@ TEST_CASE("converge writes its table and plots, and the error falls like one ove
   const auto json = nlohmann::json::parse(run.out);
   // Seven doublings; each standard error is itself known to about 1 / sqrt(2 n) of n >= 8 batches.
   CHECK(json["slope_particles"].get<double>() == Approx(-0.5).margin(0.12));
+}
+
+TEST_CASE("a seed that 64 bits do not hold is refused in one line of words", "[program]") {
+  const Folder folder;
+  const std::string scene = write_scene(folder, readme_scene());
+  for (const char* command : {"run", "converge"}) {
+    for (const char* seed : {"-1", "99999999999999999999", "1.5", "0x10", "one"}) {
+      const Outcome run = luxodus(
+          folder, command + (" " + scene) + " --out " + out(folder, "never") + " --seed " + seed);
+      INFO(command << " " << seed << "\n" << run.err);
+      CHECK(run.code == 2);
+      CHECK(run.err.find("--seed") != std::string::npos);
+      CHECK(run.err.find("\"" + std::string(seed) + "\" is no whole number") != std::string::npos);
+      CHECK_FALSE(fs::exists(folder.path / "never"));
+    }
+  }
+  const std::string common = "run " + scene + " --no-views --particles 20k --out ";
+  CHECK(luxodus(folder, common + out(folder, "most") + " --seed 18446744073709551615").code == 0);
+  REQUIRE(luxodus(folder, common + out(folder, "ten") + " --seed 10").code == 0);
+  REQUIRE(luxodus(folder, common + out(folder, "padded") + " --seed 010").code == 0);
+  CHECK(flux(folder, "ten") == flux(folder, "padded"));
+}
+
+TEST_CASE("converge says that a scene measured without chance has no error", "[program]") {
+  const Folder folder;
+  const std::string scene = write_scene(
+      folder,
+      "[[object]]\nname = \"floor\"\nshape = \"quad\"\ncorner = [0, 0, 0]\n"
+      "edge_u = [1, 0, 0]\nedge_v = [0, 1, 0]\nmaterial = \"black0\"\n"
+      "[[emitter]]\nname = \"lamp\"\nshape = \"point\"\nposition = [0.5, 0.5, 1]\n"
+      "distribution = \"isotropic\"\nflux_lm = 100\n"
+      "[[plane]]\nname = \"floor\"\ncorner = [0, 0, 0]\nedge_u = [1, 0, 0]\nedge_v = [0, 1, 0]\n"
+      "cells = [2, 2]\n");
+  const Outcome run = luxodus(folder, "converge " + scene + " --out " + out(folder, "never"));
+  INFO(run.err);
+  CHECK(run.code == 2);
+  CHECK(run.err.find("exactly 0") != std::string::npos);
+  CHECK_FALSE(fs::exists(folder.path / "never"));
+}
+
+TEST_CASE("an interrupted converge says so and ends with 130", "[program]") {
+  const Folder folder;
+  const std::string scene = write_scene(folder, readme_scene());
+  // `timeout` sends the signal of Ctrl-C; the particles asked for would take days.
+  const Outcome run =
+      luxodus(folder, "converge " + scene + " --particles 1000G --out " + out(folder, "converge"),
+              "timeout --preserve-status --signal=INT 1 ");
+  INFO(run.err);
+  CHECK(run.code == 130);
+  CHECK(run.err.find("interrupted") != std::string::npos);
+}
+
+TEST_CASE("a scene with more patches than are counted is refused before memory is taken",
+          "[program]") {
+  const Folder folder;
+  std::string text = readme_scene();
+  // At this edge each triangle has 2^31 patches: two of them are none in 32 bits.
+  const size_t edge = text.find("patch_edge_m");
+  REQUIRE(edge != std::string::npos);
+  text.replace(edge, text.find('\n', edge) - edge, "patch_edge_m = 1e-4");
+  const Outcome check = luxodus(folder, "check " + write_scene(folder, text));
+  INFO(check.err);
+  CHECK(check.code == 2);
+  CHECK(check.err.find("patch_edge_m larger") != std::string::npos);
 }
 
 TEST_CASE("check counts the triangles without area that it drops", "[program]") {

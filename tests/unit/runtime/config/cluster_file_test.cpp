@@ -63,8 +63,11 @@ TEST_CASE("what is wrong with a key is told once, with its line", "[runtime][con
   };
   const std::string hosts = two_hosts("10.0.0.1", "10.0.0.2");
   const std::string insecure = "[keys]\ninsecure = true\n";
+  std::string deep_key = "a";
+  for (int i = 0; i < 50'000; ++i) deep_key += ".a";
   const std::vector<Row> rows{
       {"a = ", 1, "this is not TOML"},
+      {small_cluster + deep_key + " = 1\n", 11, "do not nest so deep"},
       {host_part + controller_part + worker_part, 1, "'run' is missing"},
       {"[run]\nname = \"r\"\n" + host_part + controller_part + worker_part, 1,
        "'scene' is missing"},

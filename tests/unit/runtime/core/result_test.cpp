@@ -11,6 +11,16 @@ TEST_CASE("a problem prints as file:line: sentence, and without a line as file: 
   CHECK(Problem{{}, "no scene given"}.text() == "no scene given");
 }
 
+TEST_CASE("a problem's text is one line without characters that a terminal obeys", "[core]") {
+  const std::string nul(1, '\0');
+  CHECK(Problem{{"a.toml", 1}, "no '\x1b[31m" + nul + "\n\x7f'"}.text() ==
+        "a.toml:1: no '\\x1B[31m\\x00\\x0A\\x7F'");
+  CHECK(Problem{{"evil\nname", 0}, "x"}.text() == "evil\\x0Aname: x");
+  CHECK(Problem{{}, "\xC2\x9B[2J"}.text() == "\\xC2\\x9B[2J");
+  const std::string umlauts = "\xC3\xA4 \xC2\xB0 \xE2\x82\xAC \xC2";  // the last is cut off
+  CHECK(Problem{{}, umlauts}.text() == umlauts);
+}
+
 TEST_CASE("a result holds either its value or its problem", "[core]") {
   Result<int> good = 3;
   Result<int> bad = Problem{{}, "no"};

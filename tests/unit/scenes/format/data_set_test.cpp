@@ -449,6 +449,20 @@ TEST_CASE("malformed VTI files are refused with the line and what to do", "[form
   CHECK(result.problem().where.line == 4);
 }
 
+TEST_CASE("an extinction that no matter has is refused with its cell", "[format][data_set]") {
+  const TemporaryFolder folder;
+  const auto ascii = [](const std::string& name, const std::string& first) {
+    return vti(cell_array(name, "Float64", "ascii", first + " 0 0 0 0 0"));
+  };
+  CHECK(read_data_set(folder.write("a.vti", ascii("extinction", "1e9"))).ok());
+  CHECK(read_data_set(folder.write("a.vti", ascii("emission", "1e30"))).ok());
+  for (const char* name : {"extinction", "soot_density"}) {
+    check_refused(folder, "a.vti", {name, ascii(name, "2e9"), "cell (0, 0, 0)"});
+  }
+  const std::string nrrd = nrrd_head + "\n" + bytes_of<float>({0, 2e9f, 0, 0, 0, 0});
+  check_refused(folder, "a.nrrd", {"nrrd", nrrd, "cell (1, 0, 0)"});
+}
+
 TEST_CASE("a data set of another kind, or that is not there, is refused", "[format][data_set]") {
   const TemporaryFolder folder;
   CHECK_FALSE(read_data_set(folder.write("a.vdb", "x")).ok());

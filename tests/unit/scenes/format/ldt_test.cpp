@@ -23,6 +23,7 @@ struct Ldt {
   std::string end = "\r\n";
   std::string manufacturer = "Maker";
   std::string name = "Lamp";
+  std::string type = "1";
   int symmetry = 1;
   std::vector<std::string> c = {"0"};
   std::string c_step = "0";
@@ -42,7 +43,7 @@ struct Ldt {
     const auto all = [&](const std::vector<std::string>& list) {
       for (const auto& field : list) line(field);
     };
-    all({manufacturer, "1", std::to_string(symmetry), std::to_string(c.size()), c_step,
+    all({manufacturer, type, std::to_string(symmetry), std::to_string(c.size()), c_step,
          std::to_string(gamma.size()), gamma_step, "report", name, "number", "file", "date"});
     all(sizes);
     all({"50", lorl, factor, tilt, std::to_string(lamps.size())});
@@ -323,6 +324,13 @@ TEST_CASE("what looks odd is read and said with its line", "[format][ldt]") {
   ldt.gamma_step = "45";
   CHECK(warns(read(ldt), "stated step of 45"));
   ldt.gamma_step = "90";
+  for (const char* type : {"4", "-1", "1.5", "point", ""}) {
+    ldt.type = type;
+    INFO(type);
+    CHECK(warns(read(ldt), "Ityp"));
+  }
+  ldt.type = "3";
+  CHECK(read(ldt).warnings.empty());
   ldt.tail = "more\r\n";
   CHECK(warns(read(ldt), "not used"));
 }

@@ -52,6 +52,18 @@ void check(const std::vector<Mistake>& mistakes) {
 
 }  // namespace
 
+TEST_CASE("a scene file that nests without measure is one problem, not the end of the program",
+          "[format][scene]") {
+  std::string key;
+  for (int i = 0; i < 100'000; ++i) key += "a.";
+  const std::string list(100'000, '[');
+  check({
+      {"\n" + key + "a = 1\n", 2, "do not nest so deep"},
+      {"[" + key + "a]\n", 1, "do not nest so deep"},
+      {"x = " + list + "\n", 1, "do not nest so deep"},
+  });
+}
+
 TEST_CASE("a slip of the pen is one problem that names the word that was meant",
           "[format][scene]") {
   check({

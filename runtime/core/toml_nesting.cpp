@@ -1,0 +1,103 @@
+#include "runtime/core/toml_nesting.hpp"
+
+#include <algorithm>
+
+namespace luxodus {
+
+namespace {
+
+bool ends_line(char c) {
+  return c == '\n' || c == '\r';
+}
+
+/// Where a comment that starts at `at` ends: at its line's end.
+size_t after_comment(std::string_view text, size_t at) {
+  while (at < text.size() && !ends_line(text[at])) ++at;
+  return at;
+}
+
+/// Behind the string of several lines whose three opening quotes stand at `at`. The last of its
+/// content may be one or two quotes: five in a row end it as well as three.
+size_t after_long_string(std::string_view text, size_t at) {
+  const char quote = text[at];
+  const bool escapes = quote == '"';
+  size_t quotes = 0;
+  for (at += 3; at < text.size(); ++at) {
+    if (text[at] == quote) {
+      if (++quotes == 5) return at + 1;
+      continue;
+    }
+    if (quotes >= 3) return at;
+    quotes = 0;
+    if (escapes && text[at] == '\\') ++at;
+  }
+  return text.size();
+}
+
+/// Behind the string that starts at `at`; one that is not closed ends with its line.
+size_t after_string(std::string_view text, size_t at) {
+  const char quote = text[at];
+  if (text.substr(at, 3) == std::string_view(quote == '"' ? "\"\"\"" : "'''"))
+    return after_long_string(text, at);
+  const bool escapes = quote == '"';
+  for (++at; at < text.size() && !ends_line(text[at]); ++at) {
+    if (text[at] == quote) return at + 1;
+    if (escapes && text[at] == '\\' && at + 1 < text.size() && !ends_line(text[at + 1])) ++at;
+  }
+  return at;
+}
+
+/// Counts the dots since the last sign that ends a key, and the brackets that are open.
+class Nesting {
+ public:
+  /// Takes one character from outside strings and comments; false where it goes too deep.
+  bool take(char c) {
+    switch (c) {
+      case '.':
+        return ++dots_ <= limits::toml_nesting;
+      case '[':
+      case '{':
+        dots_ = 0;
+        return ++open_ <= limits::toml_nesting;
+      case ']':
+      case '}':
+        if (open_ > 0) --open_;
+        [[fallthrough]];
+      case '=':
+      case ',':
+      case '\n':
+      case '\r':
+        dots_ = 0;
+        return true;
+      default:
+        return true;
+    }
+  }
+
+ private:
+  size_t dots_ = 0, open_ = 0;
+};
+
+}  // namespace
+
+std::optional<Problem> too_deep_toml(std::string_view text, const std::string& file) {
+  Nesting nesting;
+  for (size_t at = 0; at < text.size();) {
+    const char c = text[at];
+    if (c == '#') {
+      at = after_comment(text, at);
+    } else if (c == '"' || c == '\'') {
+      at = after_string(text, at);
+    } else if (nesting.take(c)) {
+      ++at;
+    } else {
+      const auto lines = std::count(text.begin(), text.begin() + static_cast<ptrdiff_t>(at), '\n');
+      return Problem{{file, 1 + static_cast<int>(lines)},
+                     "a key of more than " + std::to_string(limits::toml_nesting) +
+                         " dots, or as many brackets one in another: tables do not nest so deep"};
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace luxodus

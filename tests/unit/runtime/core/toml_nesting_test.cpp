@@ -1,0 +1,68 @@
+#include "runtime/core/toml_nesting.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace luxodus;
+
+namespace {
+
+std::string repeated(const std::string& part, size_t times) {
+  std::string out;
+  for (size_t i = 0; i < times; ++i) out += part;
+  return out;
+}
+
+/// The line that is refused, 0 where none is.
+int refused_line(const std::string& text) {
+  const auto problem = too_deep_toml(text, "deep.toml");
+  return problem ? problem->where.line : 0;
+}
+
+/// A key with so many dots.
+std::string key(size_t dots) {
+  return repeated("a.", dots) + "a";
+}
+
+std::string list(size_t brackets) {
+  return "x = " + repeated("[", brackets) + repeated("]", brackets) + "\n";
+}
+
+}  // namespace
+
+TEST_CASE("keys and brackets nest up to the limit and no deeper, and the line is told",
+          "[core][toml]") {
+  const size_t most = limits::toml_nesting;
+  CHECK(refused_line(key(most) + " = 1\n" + list(most)) == 0);
+  CHECK(refused_line("x = 1\n\n" + key(most + 1) + " = 1\n") == 3);
+  CHECK(refused_line("x = 1\r\n[" + key(most + 1) + "]\n") == 2);
+  CHECK(refused_line("[[" + key(most + 1) + "]]\n") == 1);
+  CHECK(refused_line("x = { y = 1, " + key(most + 1) + " = 1 }\n") == 1);
+  CHECK(refused_line(repeated("'a' . \"b\" . ", most) + "a = 1\n") == 1);
+  CHECK(refused_line(list(most + 1)) == 1);
+  CHECK(refused_line("x = " + repeated("{a=", most + 1)) == 1);
+}
+
+TEST_CASE("width is not depth: long lists of fractions and many keys pass", "[core][toml]") {
+  CHECK(refused_line("x = [" + repeated("1.5, ", 1000) + "]\n") == 0);
+  CHECK(refused_line("x = [" + repeated("[1.5, 2.5], ", 1000) + "]\n") == 0);
+  CHECK(refused_line(repeated("[[t]]\na.b = 1.5\n", 1000)) == 0);
+}
+
+TEST_CASE("strings and comments do not count, and what follows them does", "[core][toml]") {
+  const std::string noise = repeated(".", 99) + repeated("[", 99);
+  for (const std::string& quiet : {
+           "# " + noise + " \" ' \"\"\"\n",
+           "x = \"\\\"" + noise + "\\\\\"\n",
+           "x = '" + noise + "\\'\n",
+           "x = \"\"\"" + noise + "\\\"\"\" \"\"\"\"\"\n",
+           "x = '''" + noise + "\n''" + noise + "'''''\n",
+           std::string("x = \"\"\ny = ''\nz = \"\"\"\"\"\"\n"),
+           "x = 'not closed " + noise + "\n",
+       }) {
+    INFO(quiet);
+    CHECK(refused_line(quiet) == 0);
+    CHECK(refused_line(quiet + key(limits::toml_nesting + 1) + " = 1\n") > 0);
+  }
+  CHECK(refused_line("x = \"\"\" never closed " + noise) == 0);
+  CHECK(refused_line("\"\\") == 0);
+}

@@ -1,0 +1,53 @@
+// What compiling makes of surfaces, seen where it must refuse.
+#include "scenes/transport/compile_surfaces.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace luxodus;
+
+namespace {
+
+/// A scene of equal squares, one object each, in one place.
+CompiledScene squares(int count, double edge_m, double patch_edge_m) {
+  auto description = std::make_shared<SceneDescription>();
+  description->materials.resize(1);
+  for (int i = 0; i < count; ++i) {
+    Object square;
+    square.name = "square " + std::to_string(i);
+    square.place = {"squares.toml", 10 * i + 1};
+    square.mesh = {{{0, 0, 0}, {edge_m, 0, 0}, {edge_m, edge_m, 0}, {0, edge_m, 0}},
+                   {{0, 1, 2}, {0, 2, 3}},
+                   {}};
+    square.patch_edge_m = patch_edge_m;
+    description->objects.push_back(square);
+  }
+  CompiledScene scene;
+  scene.description = description;
+  compile_materials(scene);
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("patches are counted without wrapping, and too many are refused with the surface",
+          "[transport][compile]") {
+  // Finest cut: 2^31 patches a triangle, so that a square has 2^32, which is 0 in 32 bits.
+  CompiledScene wraps = squares(1, 1e7, 1e-4);
+  const auto refused = compile_triangles(wraps, 1);
+  REQUIRE_FALSE(refused.ok());
+  CHECK(refused.problem().where.file == "squares.toml");
+  CHECK(refused.problem().what.find("\"square 0\"") != std::string::npos);
+  CHECK(refused.problem().what.find("patch_edge_m larger") != std::string::npos);
+}
+
+TEST_CASE("the surface that breaks the limit of patches is the one that is named",
+          "[transport][compile]") {
+  // sqrt(2) / 2.5e-4 is cut in 5657: 128 million patches a square, so the second is one too many.
+  CompiledScene fits = squares(1, 1, 2.5e-4);
+  REQUIRE(compile_triangles(fits, 1).ok());
+  CHECK(fits.patch_count == 4u * 5657 * 5657);
+  CompiledScene breaks = squares(2, 1, 2.5e-4);
+  const auto refused = compile_triangles(breaks, 1);
+  REQUIRE_FALSE(refused.ok());
+  CHECK(refused.problem().where.line == 11);
+}
