@@ -139,8 +139,8 @@ FalseColourPicture luminance_map(const LocalRun& run, const Camera& camera,
                run.scene().scenario.name + "\"";
   p.quantity = "Luminance";
   p.unit = "cd/m2";
-  p.label_u = "column";
-  p.label_v = "row from below";
+  p.label_u = "from the left edge";
+  p.label_v = "from the lower edge";
   p.length_unit = "px";
   p.cells_u = camera.width;
   p.cells_v = camera.height;
