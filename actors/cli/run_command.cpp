@@ -122,7 +122,7 @@ Result<StopReason> run_scenario(std::shared_ptr<const SceneDescription> descript
     std::fputs(json_text(result).c_str(), stdout);
   else
     std::printf("%s, scenario %s, in %s\n%s", description->name.c_str(), scenario.name.c_str(),
-                folder.string().c_str(), summary_text(run, result).c_str());
+                folder.string().c_str(), summary_text(result).c_str());
   return reason;
 }
 
