@@ -95,16 +95,23 @@ Result<StopReason> trace(LocalRun& run, const Scenario& scenario, const RunOptio
   return run_on_nodes(run, nodes, rule, interrupt_flag(), show);
 }
 
+struct Traced {
+  StopReason reason;
+  Json result;
+};
+
 /// One scenario into one folder.
-Result<StopReason> run_scenario(std::shared_ptr<const SceneDescription> description,
-                                const Scenario& scenario, const fs::path& folder,
-                                const RunOptions& options, const StopRule& rule) {
+Result<Traced> run_scenario(std::shared_ptr<const SceneDescription> description,
+                            const Scenario& scenario, const fs::path& folder,
+                            const RunOptions& options, const StopRule& rule) {
   auto scene = compile_scene(description, scenario, {options.cells});
   if (!scene.ok()) return scene.problem();
   for (const Problem& w : scene.value()->warnings) spdlog::warn("{}", w.text());
   const uint64_t seed = options.seed.value_or(description->run.seed);
   LocalRun run(scene.value(), seed, options.threads);
-  if (options.resume) {
+  // Of several scenarios the later ones may not have been begun when the run was stopped.
+  const bool begun = options.scenario != "all" || fs::exists(folder / "flux.lux");
+  if (options.resume && begun) {
     if (auto ok = load_flux(folder / "flux.lux", run); !ok.ok()) return ok.problem();
   }
   std::error_code error;
@@ -117,13 +124,35 @@ Result<StopReason> run_scenario(std::shared_ptr<const SceneDescription> descript
   record.stopped_by = reason_word(reason.value());
   record.cells = options.cells;
   if (auto ok = write_all(folder, run, record, options); !ok.ok()) return ok.problem();
-  const Json result = result_json(run, record);
-  if (options.json)
-    std::fputs(json_text(result).c_str(), stdout);
-  else
+  Json result = result_json(run, record);
+  if (!options.json) {
     std::printf("%s, scenario %s, in %s\n%s", description->name.c_str(), scenario.name.c_str(),
-                folder.string().c_str(), summary_text(run, result).c_str());
-  return reason;
+                folder.string().c_str(), summary_text(result).c_str());
+  }
+  return Traced{reason.value(), std::move(result)};
+}
+
+/// The scenarios one after another, their results appended to `results`; an exit code.
+int run_scenarios(const std::shared_ptr<const SceneDescription>& description,
+                  const std::vector<Scenario>& scenarios, const RunOptions& options,
+                  const StopRule& rule, Json& results) {
+  const fs::path out = options.out.empty() ? fs::path("out") / fs::path(options.scene).stem()
+                                           : fs::path(options.out);
+  const bool several = options.scenario == "all" && description->scenarios.size() > 0;
+  for (const Scenario& scenario : scenarios) {
+    const fs::path folder = several ? out / scenario.name : out;
+    auto traced = run_scenario(description, scenario, folder, options, rule);
+    if (!traced.ok()) {
+      tell(traced.problem());
+      return ExitCode::bad_input;
+    }
+    results.push_back(std::move(traced.value().result));
+    if (traced.value().reason == StopReason::interrupted) {
+      spdlog::warn("interrupted; what there is was written; go on with --resume");
+      return ExitCode::interrupted;
+    }
+  }
+  return ExitCode::success;
 }
 
 int run_scene(const RunOptions& options) {
@@ -140,22 +169,13 @@ int run_scene(const RunOptions& options) {
     return ExitCode::bad_input;
   }
   install_interrupt_handler();
-  const fs::path out = options.out.empty() ? fs::path("out") / fs::path(options.scene).stem()
-                                           : fs::path(options.out);
-  const bool several = options.scenario == "all" && description->scenarios.size() > 0;
-  for (const Scenario& scenario : scenarios.value()) {
-    const fs::path folder = several ? out / scenario.name : out;
-    auto reason = run_scenario(description, scenario, folder, options, rule.value());
-    if (!reason.ok()) {
-      tell(reason.problem());
-      return ExitCode::bad_input;
-    }
-    if (reason.value() == StopReason::interrupted) {
-      spdlog::warn("interrupted; what there is was written; go on with --resume");
-      return ExitCode::interrupted;
-    }
-  }
-  return ExitCode::success;
+  Json results = Json::array();
+  const int code = run_scenarios(description, scenarios.value(), options, rule.value(), results);
+  if (options.json && options.scenario == "all")
+    std::fputs(json_text(results).c_str(), stdout);
+  else if (options.json && !results.empty())
+    std::fputs(json_text(results.front()).c_str(), stdout);
+  return code;
 }
 
 }  // namespace
@@ -207,9 +227,11 @@ void add_run(CLI::App& app, int& exit_code) {
   command
       ->add_option("--picture-paths", options->picture_paths, "paths per pixel of the views [32]")
       ->check(CLI::Range(1, 100'000));
-  command->add_flag("--resume", options->resume, "go on from DIR's flux file");
+  command->add_flag("--resume", options->resume,
+                    "go on from DIR's flux file; with --scenario all those not begun start");
   command->add_flag("--no-views", options->no_views, "make no pictures");
-  command->add_flag("--json", options->json, "print result.json instead of a summary");
+  command->add_flag("--json", options->json,
+                    "print result.json instead of a summary; an array of them with --scenario all");
   command->callback([options, &exit_code] { exit_code = run_scene(*options); });
 }
 

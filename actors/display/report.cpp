@@ -1,8 +1,11 @@
 #include "actors/display/report.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "actors/display/maps.hpp"
+#include "actors/display/result_files.hpp"
 #include "scenes/emergency/sign_face.hpp"
 #include "scenes/emergency/sign_geometry.hpp"
 
@@ -248,6 +251,38 @@ Json views_json(const CompiledScene& scene, const Readout& readout) {
   return out;
 }
 
+/// Median and worst of the relative standard errors of one kind of values that are above 0, which
+/// are those a run is judged by. Null where there is none, or where a value has no error yet.
+Json spread_json(std::vector<double> errors) {
+  if (errors.empty())
+    return {{"median", exact_json(std::nan(""), "1")}, {"worst", exact_json(std::nan(""), "1")}};
+  std::sort(errors.begin(), errors.end());
+  const size_t n = errors.size();
+  return {{"median", exact_json((errors[(n - 1) / 2] + errors[n / 2]) / 2, "1")},
+          {"worst", exact_json(errors.back(), "1")}};
+}
+
+/// The parts of worst_relative_error: far signs in smoke must not hide how good the planes are.
+Json relative_errors_json(const Json& result) {
+  const auto of = [&](const char* list, const auto& judged) {
+    std::vector<double> errors;
+    for (const Json& item : result[list]) {
+      const Json& value = judged(item);
+      if (!value["value"].is_number() || value["value"].get<double>() <= 0) continue;
+      const Json& error = value["standard_error"];
+      errors.push_back(error.is_number() ? error.get<double>() / value["value"].get<double>()
+                                         : std::numeric_limits<double>::infinity());
+    }
+    return spread_json(std::move(errors));
+  };
+  return {
+      {"planes", of("planes", [](const Json& p) -> const Json& { return p["mean_illuminance"]; })},
+      {"probes",
+       of("probes", [](const Json& p) -> const Json& { return p["indirect_illuminance"]; })},
+      {"signs",
+       of("signs", [](const Json& s) -> const Json& { return s["white"]["luminance_at_eye"]; })}};
+}
+
 Json result_of(const LocalRun& run, const RunRecord& record, const PlaneMaps& maps) {
   const CompiledScene& scene = run.scene();
   const Readout readout(scene, run.totals());
@@ -292,6 +327,9 @@ Json result_of(const LocalRun& run, const RunRecord& record, const PlaneMaps& ma
   out["media"] = media_json(scene, readout);
   out["counting_planes"] = counting_json(scene, readout);
   out["escape"] = escape_json(scene, readout);
+  out["relative_errors"] = relative_errors_json(out);
+  out["cameras"] = Json::array();
+  for (const Camera& c : scene.description->cameras) out["cameras"].push_back({{"name", c.name}});
   return out;
 }
 
@@ -303,6 +341,7 @@ Json result_json(const LocalRun& run, const RunRecord& record) {
 
 Result<Done> write_report(const std::filesystem::path& folder, const LocalRun& run,
                           const RunRecord& record) {
+  if (auto ok = remove_old_maps(folder); !ok.ok()) return ok.problem();
   std::error_code error;
   std::filesystem::create_directories(folder / "planes", error);
   if (error) return Problem{{folder.string(), 0}, "cannot make this folder: " + error.message()};
@@ -310,37 +349,6 @@ Result<Done> write_report(const std::filesystem::path& folder, const LocalRun& r
   if (auto ok = write_plane_maps(folder / "planes", run, maps); !ok.ok()) return ok.problem();
   if (auto ok = write_flux_maps(folder, run); !ok.ok()) return ok.problem();
   return write_json(folder / "result.json", result_of(run, record, maps));
-}
-
-std::string summary_text(const LocalRun& run, const Json& result) {
-  std::string text;
-  char line[256];
-  const auto number = [](const Json& j) { return j.is_number() ? j.get<double>() : std::nan(""); };
-  for (const Json& p : result["planes"]) {
-    std::snprintf(line, sizeof line, "  plane %-24s min %8.3g  mean %8.3g +- %.2g lx\n",
-                  p["name"].get<std::string>().c_str(), number(p["minimum"]["value"]),
-                  number(p["mean_illuminance"]["value"]),
-                  number(p["mean_illuminance"]["standard_error"]));
-    text += line;
-  }
-  for (const Json& s : result["signs"]) {
-    std::snprintf(line, sizeof line,
-                  "  sign %-16s from %-14s %5.1f m  white %8.3g +- %-7.2g green %8.3g +- %-7.2g "
-                  "surround %8.3g cd/m2\n",
-                  s["sign"].get<std::string>().c_str(), s["observer"].get<std::string>().c_str(),
-                  number(s["distance"]["value"]), number(s["white"]["luminance_at_eye"]["value"]),
-                  number(s["white"]["luminance_at_eye"]["standard_error"]),
-                  number(s["green"]["luminance_at_eye"]["value"]),
-                  number(s["green"]["luminance_at_eye"]["standard_error"]),
-                  number(s["surround"]["luminance_at_eye"]["value"]));
-    text += line;
-  }
-  std::snprintf(line, sizeof line, "  ledger %s; %lld particles, worst relative error %.2g\n",
-                run.totals().ledger().closes() ? "closes exactly" : "DOES NOT CLOSE",
-                static_cast<long long>(run.particles()),
-                number(result["worst_relative_error"]["value"]));
-  text += line;
-  return text;
 }
 
 }  // namespace luxodus

@@ -20,11 +20,12 @@ struct RunRecord {
 Json result_json(const LocalRun& run, const RunRecord& record);
 
 /// Writes result.json, planes/*.csv and *.png, patches.vtp and volume.vti into `folder` (made if
-/// missing).
+/// missing). Maps and pictures of an earlier run are removed first; nothing else in the folder is.
 Result<Done> write_report(const std::filesystem::path& folder, const LocalRun& run,
                           const RunRecord& record);
 
-/// A few lines for the terminal: planes, signs, what to look at.
-std::string summary_text(const LocalRun& run, const Json& result);
+/// The values asked for, a line each, and the errors, for the terminal: planes, probes, groups of
+/// surfaces, counting planes and signs. Requires: `result` is the run's result_json.
+std::string summary_text(const Json& result);
 
 }  // namespace luxodus

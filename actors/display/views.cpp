@@ -63,31 +63,59 @@ ExrImage exr_of(const LocalRun& run, const Camera& camera, const TracedPicture& 
   return image;
 }
 
-/// The picture with each pixel's chromaticity averaged over its neighbourhood of 7 x 7, luminance
-/// untouched. A path carries one band, so few paths give right luminance in wrong colours; eyes
-/// resolve colour coarsely. For pictures on a screen only: the data of the EXR file stays as
-/// traced.
-XyzPicture with_calm_colour(const XyzPicture& in) {
-  XyzPicture out = in;
-  constexpr int reach = 3;
-  for (int y = 0; y < in.height; ++y) {
-    for (int x = 0; x < in.width; ++x) {
-      float sum[3] = {0, 0, 0};
-      for (int j = std::max(0, y - reach); j <= std::min(in.height - 1, y + reach); ++j) {
-        for (int i = std::max(0, x - reach); i <= std::min(in.width - 1, x + reach); ++i) {
-          const float* near = &in.xyz[3 * static_cast<size_t>(j * in.width + i)];
-          // Bright neighbours (a lamp, a flame) must not colour what is beside them: equal weight
-          // each.
-          const float total = near[0] + near[1] + near[2];
-          if (!(total > 0)) continue;
-          const float weight = 1 / (total + in.xyz[3 * static_cast<size_t>(y * in.width + x) + 1]);
-          for (int c = 0; c < 3; ++c) sum[c] += weight * near[c];
-        }
-      }
-      if (!(sum[1] > 0)) continue;
-      float* pixel = &out.xyz[3 * static_cast<size_t>(y * in.width + x)];
-      pixel[0] = pixel[1] * sum[0] / sum[1];
-      pixel[2] = pixel[1] * sum[2] / sum[1];
+/// Pixels as far as this are asked for a colour [px], and differ from the one that asks by at most
+/// this many standard errors: beyond it they show something else, the legend of a sign beside its
+/// background.
+constexpr int calm_reach_px = 3;
+constexpr double calm_errors_most = 3;
+
+/// Calls `with` with the index of every pixel near (x, y), itself included.
+template <class With>
+void for_each_near(const XyzPicture& in, int x, int y, const With& with) {
+  for (int j = std::max(0, y - calm_reach_px); j <= std::min(in.height - 1, y + calm_reach_px); ++j)
+    for (int i = std::max(0, x - calm_reach_px); i <= std::min(in.width - 1, x + calm_reach_px);
+         ++i)
+      with(static_cast<size_t>(j * in.width + i));
+}
+
+/// X, Y and Z summed over the pixels near (x, y) that show the same luminance within the errors,
+/// each of equal weight: bright neighbours must not colour what is beside them.
+glm::dvec3 colour_near(const TracedPicture& traced, int x, int y) {
+  const XyzPicture& in = traced.light;
+  const auto light = [&](size_t i) {
+    return glm::dvec3(in.xyz[3 * i], in.xyz[3 * i + 1], in.xyz[3 * i + 2]);
+  };
+  // A single pixel that has missed all rare paths does not know its error; its surroundings do.
+  double variance = 0, pixels = 0;
+  for_each_near(in, x, y, [&](size_t i) {
+    variance += std::pow(static_cast<double>(traced.standard_error_y[i]), 2);
+    pixels += 1;
+  });
+  const auto self = static_cast<size_t>(y * in.width + x);
+  const auto own_error = static_cast<double>(traced.standard_error_y[self]);
+  const double most = calm_errors_most * std::hypot(own_error, std::sqrt(variance / pixels));
+  const double own = light(self).y;
+  glm::dvec3 sum(0);
+  for_each_near(in, x, y, [&](size_t i) {
+    const glm::dvec3 near = light(i);
+    const double total = near.x + near.y + near.z;
+    if (total > 0 && std::abs(near.y - own) <= most) sum += near / (total + own);
+  });
+  return sum;
+}
+
+/// The picture with each pixel's chromaticity averaged over its neighbourhood, luminance untouched.
+/// A path carries one band, so few paths give right luminance in wrong colours; eyes resolve colour
+/// coarsely. For pictures on a screen only: the data of the EXR file stays as traced.
+XyzPicture with_calm_colour(const TracedPicture& traced) {
+  XyzPicture out = traced.light;
+  for (int y = 0; y < out.height; ++y) {
+    for (int x = 0; x < out.width; ++x) {
+      const glm::dvec3 sum = colour_near(traced, x, y);
+      if (!(sum.y > 0)) continue;
+      float* pixel = &out.xyz[3 * static_cast<size_t>(y * out.width + x)];
+      pixel[0] = static_cast<float>(static_cast<double>(pixel[1]) * sum.x / sum.y);
+      pixel[2] = static_cast<float>(static_cast<double>(pixel[1]) * sum.z / sum.y);
     }
   }
   return out;
@@ -139,8 +167,8 @@ FalseColourPicture luminance_map(const LocalRun& run, const Camera& camera,
                run.scene().scenario.name + "\"";
   p.quantity = "Luminance";
   p.unit = "cd/m2";
-  p.label_u = "column";
-  p.label_v = "row from below";
+  p.label_u = "from the left edge";
+  p.label_v = "from the lower edge";
   p.length_unit = "px";
   p.cells_u = camera.width;
   p.cells_v = camera.height;
@@ -167,7 +195,7 @@ Result<Done> write_view(const std::filesystem::path& folder, const LocalRun& run
   const auto path = [&](const char* ending) { return folder / (camera.name + ending); };
   if (auto ok = write_exr(path(".exr"), exr_of(run, camera, traced, options)); !ok.ok()) return ok;
   const auto texts = texts_of(run, camera);
-  const XyzPicture balanced = white_balanced(run.scene(), with_calm_colour(traced.light));
+  const XyzPicture balanced = white_balanced(run.scene(), with_calm_colour(traced));
   const PngImage plain = png_of(
       tone_plain(balanced, {}), texts,
       "One exposure, white balanced, as a camera takes it; luminance data is in the EXR file");

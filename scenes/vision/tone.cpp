@@ -1,6 +1,6 @@
-// Both operators work on luminance alone and carry the colour along: a pixel's XYZ is divided by
-// its luminance, multiplied by the display's, and brought into the monitor's gamut at constant
-// luminance.
+// Both operators carry a pixel's colour along: its XYZ is divided by its luminance and multiplied
+// by the display's. Where a channel would pass the monitor's white all three are scaled alike, so
+// that hue and saturation stay and luminance gives way.
 #include "scenes/vision/tone.hpp"
 
 #include <algorithm>
@@ -35,24 +35,27 @@ Pixel pixel(const XyzPicture& picture, size_t i) {
   return p;
 }
 
-// Linear sRGB of display luminance `shown` (0..1) with the colour of `xyz`. What the monitor cannot
-// show moves towards the grey of the same luminance, just as far as it must.
-std::array<double, 3> into_gamut(const Xyz& xyz, double shown) {
+double leading(const std::array<double, 3>& rgb) {
+  return std::max({rgb[0], rgb[1], rgb[2]});
+}
+
+// Linear sRGB of luminance `shown` with the colour of `xyz`, unbounded above. A colour more
+// saturated than the monitor's moves towards the grey of its luminance, just as far as it must.
+std::array<double, 3> shown_colour(const Xyz& xyz, double shown) {
   const double k = shown / xyz[1];
   std::array<double, 3> rgb = linear_srgb_from_xyz({k * xyz[0], shown, k * xyz[2]});
   double saturation = 1;
   for (const double v : rgb) {
-    if (v > 1) saturation = std::min(saturation, (1 - shown) / (v - shown));
     if (v < 0) saturation = std::min(saturation, shown / (shown - v));
   }
   for (double& v : rgb) v = shown + saturation * (v - shown);
   return rgb;
 }
 
-void put(SrgbPicture& out, const Pixel& p, double shown) {
-  std::array<double, 3> rgb{};
-  if (p.luminance > 0) rgb = into_gamut(p.xyz, std::clamp(shown, 0.0, 1.0));
-  for (const double v : rgb) out.rgb.push_back(srgb_byte(v));
+// The colour with all channels scaled alike, so that the leading one becomes `to`.
+void put_scaled(SrgbPicture& out, const std::array<double, 3>& rgb, double to) {
+  const double most = leading(rgb);
+  for (const double v : rgb) out.rgb.push_back(srgb_byte(most > 0 ? v / most * to : 0));
 }
 
 SrgbPicture empty_like(const XyzPicture& picture) {
@@ -255,7 +258,11 @@ SrgbPicture tone_plain(const XyzPicture& picture, const PlainTone& tone) {
   SrgbPicture out = empty_like(picture);
   for (size_t i = 0; i < picture.pixels(); ++i) {
     const Pixel p = pixel(picture, i);
-    put(out, p, shoulder(exposure.factor * p.luminance, exposure.white));
+    std::array<double, 3> rgb{};
+    if (p.luminance > 0) rgb = shown_colour(p.xyz, exposure.factor * p.luminance);
+    // The leading channel meets the shoulder, not the luminance: a green that is as bright as white
+    // would have to be white, and a sign's legend would be lost on it.
+    put_scaled(out, rgb, shoulder(leading(rgb), exposure.white));
   }
   return out;
 }
@@ -335,7 +342,11 @@ SrgbPicture tone_human(const XyzPicture& picture, const HumanTone& tone) {
         for (size_t k = 0; k < 3; ++k)
           p.xyz[k] = p.luminance * (m * p.xyz[k] / p.luminance + (1 - m) * d65_white[k]);
       }
-      put(out, p, (curve.display(l) - black) / range);
+      std::array<double, 3> rgb{};
+      if (p.luminance > 0) {
+        rgb = shown_colour(p.xyz, std::clamp((curve.display(l) - black) / range, 0.0, 1.0));
+      }
+      put_scaled(out, rgb, std::min(leading(rgb), 1.0));
     }
   return out;
 }

@@ -17,8 +17,9 @@ namespace luxodus {
 // ---- plain --------------------------------------------------------------------------------------
 
 struct PlainTone {
-  /// Luminance shown as white [cd/m2]: below it the picture is linear, above it is white. Pictures
-  /// with the same white can be compared. Absent: exposed by the picture's own log-average.
+  /// Luminance of white light shown as white [cd/m2]: below it the picture is linear, above it
+  /// burns out. Pictures with the same white can be compared. Absent: exposed by the picture's own
+  /// log-average.
   std::optional<double> white_cd_m2;
   /// Display value of the log-average luminance (middle grey), when no white is given.
   double key = 0.18;
@@ -30,8 +31,9 @@ struct PlainTone {
 double shoulder(double exposed, double white);
 inline constexpr double shoulder_knee = 0.7;
 
-/// Pixels that are not finite or not positive are black. Colours that the monitor cannot show keep
-/// their luminance and lose saturation. Requires: xyz.size() == 3 * width * height.
+/// Pixels that are not finite or not positive are black. A colour too bright for the monitor keeps
+/// hue and saturation and gives up luminance: only white light burns out to white. One too
+/// saturated keeps hue and luminance. Requires: xyz.size() == 3 * width * height.
 SrgbPicture tone_plain(const XyzPicture& picture, const PlainTone& tone);
 
 // ---- human --------------------------------------------------------------------------------------

@@ -1,5 +1,6 @@
 // The program as a person uses it: exit codes, files, and the promises that only whole runs can
 // show.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstdlib>
 #include <filesystem>
@@ -51,6 +52,12 @@ std::string readme_scene() {
   const std::string fence = "```toml\n";
   const size_t first = readme.find(fence) + fence.size();
   return readme.substr(first, readme.find("```", first) - first);
+}
+
+/// The same with its haze and without.
+std::string two_scenarios() {
+  return readme_scene() +
+         "[[scenario]]\nname = \"clear\"\nmedia = { haze = 0 }\n[[scenario]]\nname = \"hazy\"\n";
 }
 
 std::string write_scene(const Folder& folder, const std::string& text) {
@@ -122,6 +129,64 @@ TEST_CASE("another seed is another flux, and resuming with it is refused by name
   const Outcome refused = luxodus(folder, common + out(folder, "a") + " --seed 2 --resume");
   CHECK(refused.code == 2);
   CHECK(refused.err.find("seed") != std::string::npos);
+}
+
+TEST_CASE("resuming all scenarios keeps the finished and starts those that were not begun",
+          "[program]") {
+  const Folder folder;
+  const std::string scene = write_scene(folder, two_scenarios());
+  const std::string common = "run " + scene + " --no-views --particles 20k --out ";
+  REQUIRE(luxodus(folder, common + out(folder, "all/clear") + " --scenario clear").code == 0);
+  const std::string finished = flux(folder, "all/clear");
+  REQUIRE(luxodus(folder, common + out(folder, "all") + " --scenario all --resume").code == 0);
+  CHECK(flux(folder, "all/clear") == finished);
+  REQUIRE(luxodus(folder, common + out(folder, "hazy") + " --scenario hazy").code == 0);
+  CHECK(flux(folder, "all/hazy") == flux(folder, "hazy"));
+  // One scenario that was never begun is more likely a wrong folder.
+  CHECK(luxodus(folder, common + out(folder, "never") + " --scenario hazy --resume").code == 2);
+}
+
+TEST_CASE("the results of all scenarios are printed as one JSON array", "[program]") {
+  const Folder folder;
+  const std::string scene = write_scene(folder, two_scenarios());
+  const Outcome run =
+      luxodus(folder, "run " + scene + " --no-views --json --scenario all --particles 20k --out " +
+                          out(folder, "all"));
+  REQUIRE(run.code == 0);
+  const auto results = nlohmann::json::parse(run.out);
+  REQUIRE(results.size() == 2);
+  CHECK(results[0]["scenario"] == "clear");
+  CHECK(results[1]["scenario"] == "hazy");
+}
+
+TEST_CASE("a run clears away the maps and pictures of the one before, and only these",
+          "[program]") {
+  const Folder folder;
+  const std::string scene = write_scene(folder, readme_scene());
+  const fs::path room = folder.path / "room";
+  const std::string common =
+      "run " + scene + " --particles 20k --picture-paths 1 --out " + room.string();
+  REQUIRE(luxodus(folder, common).code == 0);
+  const fs::path mine[] = {room / "views" / "mine.png", room / "planes" / "mine.csv",
+                           room / "notes.txt"};
+  for (const fs::path& file : mine) std::ofstream(file) << "mine";
+  const std::string before = flux(folder, "room");
+  CHECK(luxodus(folder, common + " --resume --seed 77").code == 2);
+  CHECK(flux(folder, "room") == before);
+  CHECK(fs::exists(room / "views" / "door.png"));
+
+  std::string renamed = readme_scene();
+  renamed.replace(renamed.find("name = \"floor\""), 14, "name = \"below\"");
+  write_scene(folder, renamed);
+  REQUIRE(luxodus(folder, common + " --no-views").code == 0);
+  std::vector<std::string> left;
+  for (const auto& entry : fs::recursive_directory_iterator(room))
+    if (entry.is_regular_file()) left.push_back(fs::relative(entry.path(), room).string());
+  std::sort(left.begin(), left.end());
+  CHECK(left == std::vector<std::string>{"flux.lux", "notes.txt", "patches.vtp", "planes/below.csv",
+                                         "planes/below.png", "planes/below_direct_clear_air.png",
+                                         "planes/mine.csv", "result.json", "views/mine.png",
+                                         "volume.vti"});
 }
 
 TEST_CASE("a finished run is rendered again without tracing", "[program]") {

@@ -84,7 +84,7 @@ TEST_CASE("the shoulder is monotone, smooth at the knee and ends at white", "[vi
   CHECK(shoulder(std::nan(""), 2) == 0);
 }
 
-TEST_CASE("colours beyond the monitor keep their luminance and hue's leading channel",
+TEST_CASE("colours more saturated than the monitor keep their luminance and leading channel",
           "[vision][tone]") {
   // Monochromatic 520 nm: far outside sRGB.
   XyzPicture p;
@@ -95,9 +95,39 @@ TEST_CASE("colours beyond the monitor keep their luminance and hue's leading cha
   CHECK(luminance(c) == Approx(0.3).margin(0.005));
   CHECK(c.g > c.r);
   CHECK(c.g > c.b);
-  // A saturated red as bright as white must lose its colour, not its luminance.
-  const Rgb8 red = at(tone_plain(row({90}, {1, 0, 0}), white_at(100)), 0);
-  CHECK(luminance(red) == Approx(0.9).margin(0.01));
+}
+
+TEST_CASE("the colour of a light is the same at every exposure, also far beyond white",
+          "[vision][tone]") {
+  // The green of a sign, the orange of a flame, a blue lamp; all but the darkest are overexposed.
+  for (const std::array<double, 3>& colour :
+       {std::array<double, 3>{0.05, 1, 0.4}, {1, 0.35, 0.05}, {0.1, 0.2, 1}}) {
+    const SrgbPicture p = tone_plain(row({20, 100, 1000, 1e6}, colour), white_at(100));
+    for (size_t i = 0; i < 4; ++i) {
+      const Rgb8 c = at(p, i);
+      const std::array<double, 3> rgb{linear_of_srgb_byte(c.r), linear_of_srgb_byte(c.g),
+                                      linear_of_srgb_byte(c.b)};
+      const double most = *std::max_element(rgb.begin(), rgb.end());
+      for (size_t k = 0; k < 3; ++k) CHECK(rgb[k] / most == Approx(colour[k]).margin(0.01));
+    }
+    CHECK(luminance(at(p, 1)) > luminance(at(p, 0)));
+  }
+}
+
+TEST_CASE("the white legend of an overexposed sign is readable on its green", "[vision][tone]") {
+  // A dark corridor of 0.1 cd/m2; the sign has 75 and 15.
+  XyzPicture p = row(std::vector<double>(900, 0.1));
+  const XyzPicture white = row(std::vector<double>(20, 75));
+  const XyzPicture green = row(std::vector<double>(80, 15), {0.05, 1, 0.4});
+  p.xyz.insert(p.xyz.end(), white.xyz.begin(), white.xyz.end());
+  p.xyz.insert(p.xyz.end(), green.xyz.begin(), green.xyz.end());
+  p.width = 1000;
+  for (const SrgbPicture& out : {tone_plain(p, {}), tone_human(p, {})}) {
+    const Rgb8 legend = at(out, 910), background = at(out, 950);
+    CHECK(spread(legend) <= 2);
+    CHECK(spread(background) > 100);
+    CHECK(luminance(legend) - luminance(background) > 0.2);
+  }
 }
 
 TEST_CASE("pixels that are no light are black and disturb nothing", "[vision][tone]") {

@@ -1,0 +1,95 @@
+// The lines that a run ends with on the terminal. They read result.json, not the run: what a person
+// sees is what the file says.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "actors/display/report.hpp"
+
+namespace luxodus {
+
+namespace {
+
+double number(const Json& j) {
+  return j.is_number() ? j.get<double>() : std::nan("");
+}
+
+/// "  12.3 +- 0.4 lx"
+std::string measured_text(const Json& m) {
+  return fmt::format("{:8.4g} +- {:<7.2g} {}", number(m["value"]), number(m["standard_error"]),
+                     m["unit"].get<std::string>());
+}
+
+std::string name_of(const Json& item) {
+  return item["name"].get<std::string>();
+}
+
+std::string illuminances(const Json& result) {
+  std::string text;
+  for (const Json& p : result["planes"]) {
+    text += fmt::format("  plane {:<24} min {:8.3g}  mean {}\n", name_of(p),
+                        number(p["minimum"]["value"]), measured_text(p["mean_illuminance"]));
+  }
+  for (const Json& p : result["probes"])
+    text += fmt::format("  probe {:<24} {}\n", name_of(p), measured_text(p["illuminance"]));
+  return text;
+}
+
+std::string fluxes(const Json& result) {
+  std::string text;
+  for (const Json& g : result["surface_groups"]) {
+    text += fmt::format("  surfaces {:<21} in {}  absorbed {}\n", name_of(g),
+                        measured_text(g["incident"]), measured_text(g["absorbed"]));
+  }
+  for (const Json& c : result["counting_planes"]) {
+    const Json& along = c["along_normal"];
+    text += fmt::format("  through {:<22} straight {}  after collisions {}\n", name_of(c),
+                        measured_text(along["uncollided"]), measured_text(along["collided"]));
+  }
+  return text;
+}
+
+std::string signs(const Json& result) {
+  std::string text;
+  for (const Json& s : result["signs"]) {
+    text +=
+        fmt::format("  sign {:<26} from {:<18} {:5.1f} m  white {}  green {}  surround {:.3g}\n",
+                    s["sign"].get<std::string>(), s["observer"].get<std::string>(),
+                    number(s["distance"]["value"]), measured_text(s["white"]["luminance_at_eye"]),
+                    measured_text(s["green"]["luminance_at_eye"]),
+                    number(s["surround"]["luminance_at_eye"]["value"]));
+  }
+  return text;
+}
+
+std::string percent(const Json& error) {
+  return error["value"].is_number() ? fmt::format("{:.2g} %", 100 * number(error["value"]))
+                                    : std::string("not known yet");
+}
+
+/// The errors of each kind of value, and where there is none, of what the run was judged by.
+std::string errors(const Json& result) {
+  const Json& of = result["relative_errors"];
+  std::string text;
+  if (!result["planes"].empty()) text += ", planes at most " + percent(of["planes"]["worst"]);
+  if (!result["probes"].empty())
+    text += ", indirect light at probes at most " + percent(of["probes"]["worst"]);
+  if (!result["signs"].empty()) {
+    text += fmt::format(", signs {} in the median, {} for the worst seen",
+                        percent(of["signs"]["median"]), percent(of["signs"]["worst"]));
+  }
+  if (text.empty()) text = ", surfaces at most " + percent(result["worst_relative_error"]);
+  return "  standard errors: " + text.substr(2) + "\n";
+}
+
+}  // namespace
+
+std::string summary_text(const Json& result) {
+  return illuminances(result) + fluxes(result) + signs(result) +
+         fmt::format("  ledger {}; {} particles\n",
+                     result["ledger"]["closes"].get<bool>() ? "closes exactly" : "DOES NOT CLOSE",
+                     result["particles"].get<int64_t>()) +
+         errors(result);
+}
+
+}  // namespace luxodus
