@@ -43,7 +43,7 @@ Result<Done> write_results(const ClusterConfig& cluster, const ClusterProcessRun
   if (auto ok = save_flux(folder / "flux.lux", run); !ok.ok()) return ok.problem();
   if (auto ok = write_report(folder, run, record); !ok.ok()) return ok.problem();
   std::printf("%s in %s\n%s", cluster.run.name.c_str(), folder.string().c_str(),
-              summary_text(run, result_json(run, record)).c_str());
+              summary_text(result_json(run, record)).c_str());
   return Done{};
 }
 
