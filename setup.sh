@@ -15,7 +15,7 @@ packages=(
   # nodes: fibers, links, messages
   libboost-context-dev libzmq3-dev cppzmq-dev libcapnp-dev capnproto
   # tests and formatting
-  catch2 python3 clang-format
+  catch2 python3 clang-format iproute2
 )
 
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then

@@ -17,6 +17,7 @@ namespace luxodus {
 
 namespace limits {
 inline constexpr int64_t voxels = 50'000'000;
+inline constexpr int64_t all_plane_cells = 1 << 28;  // 17 GB of totals; bins are told by 32 bits
 inline constexpr int64_t default_voxels =
     20'000;  // of the grid a scene gets unless it says an edge
 inline constexpr int64_t smallest_batch = 1 << 13;
@@ -190,8 +191,10 @@ void choose_voxels(CompiledScene& scene) {
     const double volume = std::max(size.x, 1e-6) * std::max(size.y, 1e-6) * std::max(size.z, 1e-6);
     edge = std::cbrt(volume / static_cast<double>(limits::default_voxels));
   }
+  // Beyond the limit a side's cells need not be told apart: the grid is refused anyway.
   const auto cells = [&](double length) {
-    return std::max(1, static_cast<int>(std::ceil(length / edge)));
+    const double count = std::ceil(length / edge);
+    return static_cast<int>(std::clamp(count, 1.0, static_cast<double>(limits::voxels) + 1));
   };
   scene.voxels.edge = static_cast<float>(edge);
   scene.voxels.low = scene.local_low;
@@ -451,10 +454,18 @@ Result<std::shared_ptr<const CompiledScene>> compile_scene(
   compile_emitters(*scene, sources);
   if (auto ok = compile_media(*scene); !ok.ok()) return ok.problem();
   scatter_volume_points(*scene);
+  int64_t plane_cells = 0;
+  for (const PlaneMeasure& p : description->planes) plane_cells += int64_t{p.cells_u} * p.cells_v;
+  if (plane_cells > limits::all_plane_cells) {
+    return Problem{{description->file, 0},
+                   "the planes have " + std::to_string(plane_cells) +
+                       " cells in all: make their cells larger"};
+  }
   compile_detectors(*scene);
   if (auto ok = resolve_surface_groups(*scene); !ok.ok()) return ok.problem();
   choose_voxels(*scene);
-  if (int64_t{scene->voxels.nx} * scene->voxels.ny * scene->voxels.nz > limits::voxels) {
+  if (1.0 * scene->voxels.nx * scene->voxels.ny * scene->voxels.nz >
+      static_cast<double>(limits::voxels)) {
     return Problem{{description->file, 0},
                    "the voxel grid would have more than 50 million voxels: "
                    "make voxel_edge larger"};

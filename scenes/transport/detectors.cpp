@@ -114,25 +114,24 @@ using FourScores [[gnu::vector_size(32)]] = int64_t;
 }  // namespace
 
 void score_voxels(const CompiledScene& scene, const FlightPiece& piece, BatchScores& batch) {
+  const VoxelPoints points = points_in_grid(scene.voxels, piece);
   // Fluence and its three components along the axes, of one point.
-  const double spacing_m = static_cast<double>(scene.voxels.edge * voxel_point_spacing);
-  const double length = to_double(piece.weight) * (spacing_m * scene.scores_per_metre);
+  const double length =
+      to_double(piece.weight) * (static_cast<double>(points.length) * scene.scores_per_metre);
   const glm::dvec3 along = length * glm::dvec3(piece.direction);
   const FourScores share = {nearest_integer(length), nearest_integer(along.x),
                             nearest_integer(along.y), nearest_integer(along.z)};
   int64_t* scores =
       batch.scores.data() + scene.layout.score_index(scene.blocks.voxels, 0, piece.band, 0);
   const auto stride = static_cast<size_t>(4 * scene.bands.count());
-  for_each_voxel_point(scene.voxels, piece, [&](uint32_t voxel) {
+  for_each_voxel_point(scene.voxels, points, [&](uint32_t voxel) {
     int64_t* score = scores + voxel * stride;
     FourScores sum;
     std::memcpy(&sum, score, sizeof sum);
     sum += share;
     std::memcpy(score, &sum, sizeof sum);
   });
-  batch.length_score_sum += to_double(piece.weight) *
-                            (static_cast<double>(piece.length) + spacing_m) *
-                            scene.scores_per_metre;
+  batch.length_score_sum += length * static_cast<double>(points.count);
 }
 
 void score_collision(const CompiledScene& scene, const glm::vec3& place, int band, uint32_t medium,

@@ -74,6 +74,26 @@ TEST_CASE("four processes over TCP with keys leave the flux file of the plain lo
   check_same_flux(folder, cluster);
 }
 
+TEST_CASE("four hosts with addresses of their own leave the flux file of the plain loop",
+          "[cluster]") {
+  const Folder folder;
+  const std::string script = std::string(LUX_SOURCE_DIR) + "/tests/tools/four_hosts.sh";
+  const int status =
+      std::system((script + " " + LUX_PROGRAM + " " + smoke_tank() + " " + folder.path.string() +
+                   " >" + (folder.path / "hosts").string() + " 2>&1")
+                      .c_str());
+  constexpr int not_here = 77;
+  if (WEXITSTATUS(status) == not_here) {
+    WARN("skipped: network namespaces need root and iproute2");
+    return;
+  }
+  INFO(slurp(folder.path / "hosts"));
+  REQUIRE(WEXITSTATUS(status) == 0);
+  REQUIRE(luxodus(folder, "run " + smoke_tank() + " --particles 100k --no-views --out " +
+                              (folder.path / "plain").string()) == 0);
+  CHECK(slurp(folder.path / "out" / "flux.lux") == slurp(folder.path / "plain" / "flux.lux"));
+}
+
 TEST_CASE("a cluster whose keys or scene are missing says which, and starts nothing", "[cluster]") {
   const Folder folder;
   const fs::path cluster = cluster_file(folder, "[keys]\nfolder = \"keys\"\n");

@@ -43,12 +43,13 @@ double clipped(const glm::dvec3& low, const glm::dvec3& high, const FlightPiece&
 /// Mean length that points give to each voxel, over `starts` evenly spaced chances.
 std::map<uint32_t, double> mean_lengths(const VoxelGrid& grid, FlightPiece piece, int starts) {
   std::map<uint32_t, double> out;
-  const double spacing = static_cast<double>(grid.edge * voxel_point_spacing);
   for (int i = 0; i < starts; ++i) {
     piece.chance = (static_cast<float>(i) + 0.5f) / static_cast<float>(starts);
-    for_each_voxel_point(grid, piece, [&](uint32_t voxel) {
+    const VoxelPoints points = points_in_grid(grid, piece);
+    CHECK(points.length <= grid.edge * voxel_point_spacing * 1.0001f);
+    for_each_voxel_point(grid, points, [&](uint32_t voxel) {
       REQUIRE(voxel < grid.count());
-      out[voxel] += spacing / starts;
+      out[voxel] += static_cast<double>(points.length) / starts;
     });
   }
   return out;
@@ -99,13 +100,18 @@ TEST_CASE("a flight along an axis stays in its row of voxels, and in a face in t
 TEST_CASE("points of a flight from far outside are only made where the voxels are",
           "[transport][detectors]") {
   const VoxelGrid grid = small_grid();
-  int points = 0;
-  for_each_voxel_point(grid, piece_of({-1e6f, -1, 1}, {1, 0, 0}, 2e6f),
-                       [&](uint32_t) { ++points; });
-  CHECK(points <= 11);  // 2.5 m at a quarter of a metre
-  CHECK(points >= 9);
-  for_each_voxel_point(grid, piece_of({-1e6f, -1, 5}, {1, 0, 0}, 2e6f),
-                       [&](uint32_t) { FAIL("this one passes above"); });
+  const VoxelPoints points = points_in_grid(grid, piece_of({-1e3f, -1, 1}, {1, 0, 0}, 2e3f));
+  CHECK(points.count <= 11);  // 2.5 m at a quarter of a metre
+  CHECK(static_cast<float>(points.count) * points.length == Approx(2.5f).epsilon(1e-3));
+  CHECK(points_in_grid(grid, piece_of({-1e6f, -1, 5}, {1, 0, 0}, 2e6f)).count == 0);
+}
+
+TEST_CASE("a flight much shorter than a voxel is one point that counts all of it",
+          "[transport][detectors]") {
+  const VoxelGrid grid = small_grid();
+  const VoxelPoints points = points_in_grid(grid, piece_of({0.1f, 0.1f, 1.1f}, {0, 1, 0}, 1e-3f));
+  CHECK(points.count == 1);
+  CHECK(points.length == Approx(1e-3f));
 }
 
 TEST_CASE("layers that touch share a flight between them without gap or overlap",
