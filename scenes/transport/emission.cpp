@@ -23,12 +23,18 @@ EmissionPoint point_on_sign(const CompiledEmitter& e, float u, float v, double w
   return {p, e.axes[2]};
 }
 
+/// Of an emitter's extent, so much of it emits: a millionth off its edges, since on one that
+/// touches a wall a start would lie in that wall.
+constexpr float off_the_edges = 1 - 0x1p-20f;
+
 EmissionPoint point_on_mesh(const CompiledEmitter& e, float u, float v, double w) {
   const size_t triangle = find_interval(e.texel_cdf, w);
   const glm::vec3* corner = &e.corners[3 * triangle];
   const glm::vec3 b = uniform_triangle(u, v);
   const glm::vec3 p = corner[0] * b.x + corner[1] * b.y + corner[2] * b.z;
-  return {p, glm::normalize(glm::cross(corner[1] - corner[0], corner[2] - corner[0]))};
+  const glm::vec3 centre = (corner[0] + corner[1] + corner[2]) / 3.0f;
+  return {centre + (p - centre) * off_the_edges,
+          glm::normalize(glm::cross(corner[1] - corner[0], corner[2] - corner[0]))};
 }
 
 /// Distance along the ray to a triangle's front, infinity if none (Moeller and Trumbore 1997).
@@ -128,13 +134,10 @@ EmissionPoint emission_point(const CompiledEmitter& e, float u, float v, double 
     case EmitterKind::point:
     case EmitterKind::volume:
       return {e.origin, down};
-    case EmitterKind::rectangle: {
-      // A millionth off its edges: on one that touches a wall, a start would lie in that wall.
-      constexpr float inside = 1 - 0x1p-20f;
-      return {e.origin + e.axes[0] * ((u - 0.5f) * inside * e.size.x) +
-                  e.axes[1] * ((v - 0.5f) * inside * e.size.y),
+    case EmitterKind::rectangle:
+      return {e.origin + e.axes[0] * ((u - 0.5f) * off_the_edges * e.size.x) +
+                  e.axes[1] * ((v - 0.5f) * off_the_edges * e.size.y),
               down};
-    }
     case EmitterKind::disc: {
       const glm::vec2 p = uniform_disc(u, v) * (0.5f * e.size.x);
       return {e.origin + e.axes[0] * p.x + e.axes[1] * p.y, down};
