@@ -210,4 +210,14 @@ std::optional<Graph> shipped_graph(const ShippedSize& size, ControllerRole role)
   return std::nullopt;
 }
 
+Result<Graph> minimum_path_graph(const AmpRequest& request) {
+  const ControllerRole role =
+      request.controller_forwards ? ControllerRole::forwards : ControllerRole::endpoint;
+  if (auto shipped = shipped_graph({request.nodes, request.links, request.controller_links}, role))
+    return *shipped;
+  auto found = find_amp(request, [] { return false; });
+  if (!found.ok()) return found.problem();
+  return std::move(found).value().graph;
+}
+
 }  // namespace luxodus

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "topology/amp.hpp"
 #include "topology/graph.hpp"
 
 namespace luxodus {
@@ -25,5 +26,9 @@ std::vector<ShippedSize> shipped_sizes();
 /// is not `none`.
 std::optional<Graph> shipped_graph(const ShippedSize& size,
                                    ControllerRole role = ControllerRole::endpoint);
+
+/// The graph that ships for this request, else one that is searched for.
+/// Errors: as find_amp.
+Result<Graph> minimum_path_graph(const AmpRequest& request);
 
 }  // namespace luxodus

@@ -37,6 +37,7 @@ void LeaseClient::granted(const MessageId& answered, const LeaseGranted& grant) 
   if (!asking_ || asking_->id != answered) return;  // an answer that came twice
   asking_.reset();
   wanted_ = 0;  // said before this answer
+  round_ = grant.round;
   counters_.leases += grant.batches;
   for (uint32_t i = 0; i < grant.batches; ++i) {
     photons_->add(grant.first_lease + i, static_cast<int64_t>(grant.first_batch + i));
@@ -93,7 +94,7 @@ void LeaseClient::pack(Totals& totals) {
   hash.add(payload->data(), payload->size());
   packing_ = false;
   flushing_ =
-      Question{network_.next_id(), Flush{0, hash.value(), std::move(packed_leases_)}, payload};
+      Question{network_.next_id(), Flush{round_, hash.value(), std::move(packed_leases_)}, payload};
   ++counters_.flushes;
   counters_.flush_bytes += payload->size();
   put(*flushing_);

@@ -76,6 +76,7 @@ class LeaseClient final : public LeasePort {
   bool packing_ = false;
   Nanoseconds first_done_ = 0;  // when the oldest of them was merged
   size_t wanted_ = 0;
+  uint32_t round_ = 0;        // of the last grant: a round begins when all before is counted
   bool round_empty_ = false;  // the controller had none: flush, and wait for the next round
   Nanoseconds emptied_ = 0;
   bool ended_ = false;

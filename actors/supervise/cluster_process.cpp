@@ -6,10 +6,10 @@
 
 #include "actors/supervise/node_shell.hpp"
 #include "runtime/config/cluster_file.hpp"
+#include "runtime/fiber/sanitizers.hpp"
 #include "scenes/format/atomic_file.hpp"
 #include "scenes/format/scene_file.hpp"
 #include "scenes/transport/compile.hpp"
-#include "topology/amp.hpp"
 #include "topology/graph_file.hpp"
 #include "topology/shipped.hpp"
 
@@ -29,33 +29,25 @@ Incarnation fresh_incarnation() {
   return life;
 }
 
-ControllerRole role_of(TopologyChoice::Controller controller) {
-  return controller == TopologyChoice::Controller::forwards ? ControllerRole::forwards
-                                                            : ControllerRole::endpoint;
-}
-
 Result<Graph> found_graph(const ClusterConfig& cluster) {
   const TopologyChoice& choice = cluster.topology;
-  const auto workers = static_cast<uint32_t>(cluster.workers());
-  const ControllerRole role = role_of(choice.controller);
-  const uint32_t controller_links = std::min(choice.controller_links_most, workers);
-  if (auto shipped = shipped_graph({workers, choice.links_most, controller_links}, role))
-    return *shipped;
   AmpRequest request;
-  request.nodes = workers;
+  request.nodes = static_cast<uint32_t>(cluster.workers());
   request.links = choice.links_most;
-  request.controller_links = controller_links;
-  request.controller_forwards = role == ControllerRole::forwards;
-  auto found = find_amp(request, [] { return false; });
-  if (!found.ok()) return Problem{{cluster.file.string(), 0}, found.problem().what};
-  return std::move(found).value().graph;
+  request.controller_links = std::min(choice.controller_links_most, request.nodes);
+  request.controller_forwards = choice.controller == TopologyChoice::Controller::forwards;
+  auto graph = minimum_path_graph(request);
+  if (!graph.ok()) return Problem{{cluster.file.string(), 0}, graph.problem().what};
+  return graph;
 }
 
 Result<Graph> listed_graph(const ClusterConfig& cluster) {
   GraphPlan plan;
   plan.workers = static_cast<uint32_t>(cluster.workers());
   plan.links_most = cluster.topology.links_most;
-  plan.controller = role_of(cluster.topology.controller);
+  plan.controller = cluster.topology.controller == TopologyChoice::Controller::forwards
+                        ? ControllerRole::forwards
+                        : ControllerRole::endpoint;
   for (const Edge& edge : cluster.topology.edges)
     plan.links.push_back({edge.a.value, edge.b.value});
   std::sort(plan.links.begin(), plan.links.end());
@@ -105,6 +97,8 @@ ClusterProcessRun::~ClusterProcessRun() = default;
 
 Result<std::unique_ptr<ClusterProcessRun>> ClusterProcessRun::prepare(
     const ClusterConfig& cluster, const std::vector<NodeId>& nodes) {
+  if (cluster.node(cluster.controller()).traces)
+    return Problem{{cluster.file.string(), 0}, "a controller that traces is not supported yet"};
   auto graph = graph_of(cluster);
   if (!graph.ok()) return graph.problem();
   std::unique_ptr<ClusterProcessRun> process(
@@ -158,6 +152,12 @@ Result<NodeSetup> ClusterProcessRun::setup_of(NodeId self, const RunSetup& run) 
   const NodeBudget& budget = cluster_.node(self).budget;
   node.photons.fibers = cells_ == 1 ? 1 : budget.fibers;
   node.object_bytes = budget.object_bytes;
+  node.fibers.stack_bytes = budget.stack_bytes * sanitizers::stack_factor;
+  if (budget.maps_most > 0) node.fibers.maps_most = budget.maps_most;
+  node.stall = cluster_.timeouts.stall;
+  node.lease_time = cluster_.lease.duration;
+  node.fetch.tries = static_cast<uint8_t>(cluster_.timeouts.fetch_attempts);
+  node.fetch.timeouts.floor = cluster_.timeouts.fetch_floor;
   return node;
 }
 

@@ -5,7 +5,6 @@
 #include <exception>
 
 #include "actors/source/controller.hpp"
-#include "topology/amp.hpp"
 #include "topology/shipped.hpp"
 
 namespace luxodus {
@@ -14,19 +13,12 @@ namespace {
 
 constexpr uint32_t controller_links_most = 4;
 
-/// A shipped graph where there is one, else one that is searched for.
 Result<Graph> graph_for(const NodesOptions& options) {
-  const auto nodes = static_cast<uint32_t>(options.nodes);
-  const auto links = static_cast<uint32_t>(options.links);
-  const uint32_t controller_links = std::min(nodes, controller_links_most);
-  if (auto shipped = shipped_graph({nodes, links, controller_links})) return *shipped;
   AmpRequest request;
-  request.nodes = nodes;
-  request.links = links;
-  request.controller_links = controller_links;
-  auto found = find_amp(request, [] { return false; });
-  if (!found.ok()) return found.problem();
-  return std::move(found).value().graph;
+  request.nodes = static_cast<uint32_t>(options.nodes);
+  request.links = static_cast<uint32_t>(options.links);
+  request.controller_links = std::min(request.nodes, controller_links_most);
+  return minimum_path_graph(request);
 }
 
 std::optional<std::string> fault_of(const NodesOptions& options, const CompiledScene& scene) {
@@ -112,6 +104,7 @@ Result<StopReason> run_controller(const RunSetup& setup, const NodeSetup& node, 
   ZmqTransport transport(setup.context, {node.net.self, node.keys, node.insecure}, setup.clock);
   NodeShell shell({node.net, {}}, setup.graph, setup.clock, transport);
   ControllerConfig config;
+  config.lease_time = node.lease_time;
   for (uint16_t i = 0; i < setup.graph.workers(); ++i) config.workers.push_back({i});
   Controller controller(config, run, stop, interrupt, report, shell.scheduler(), shell.network());
   shell.add([&](const Delivery& d) { return controller.deliver(d); });

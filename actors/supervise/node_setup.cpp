@@ -24,14 +24,15 @@ Result<bool> join_links(ZmqTransport& transport, const NodeSetup& node) {
 }
 
 void complete(NetConfig& net, const RunSetup& run) {
+  const Routes routes = balanced_routes(run.graph);
   net.identity.scene_hash = run.scene.scene_hash;
-  net.identity.topology_hash = balanced_routes(run.graph).hash();
+  net.identity.topology_hash = routes.hash();
   net.identity.build = LUX_VERSION;
   net.identity.isa = isa_in_use();
   net.identity.fingerprint = numeric_fingerprint();
   net.nodes = run.graph.vertices();
   net.edges = edges_of(run.graph);
-  const uint32_t hops = balanced_routes(run.graph).longest() + 2;  // a detour around one failure
+  const uint32_t hops = routes.longest() + 2;  // a detour around one failure
   net.hop_limit =
       std::max(net.hop_limit, static_cast<uint8_t>(std::min<uint32_t>(limits::hops, hops)));
   net.message_bytes_most = std::max(net.message_bytes_most, longest_message);

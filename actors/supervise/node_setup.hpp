@@ -8,6 +8,7 @@
 
 #include "actors/objects/scene_objects.hpp"
 #include "actors/photon/photon_threads.hpp"
+#include "actors/source/controller.hpp"
 #include "runtime/config/cluster_config.hpp"
 #include "runtime/net/zmq_transport.hpp"
 #include "topology/graph.hpp"
@@ -35,6 +36,10 @@ struct NodeSetup {
   bool insecure = false;
   NodeId controller;
   PhotonConfig photons;
+  FiberLimits fibers;  // stacks and guards; how many follows from `photons`
+  Nanoseconds stall = SchedulerLimits{}.stall;
+  Nanoseconds lease_time = ControllerConfig{}.lease_time;
+  FetchConfig fetch;
   size_t object_bytes = 0;  // for built cells, where cells are fetched
 };
 

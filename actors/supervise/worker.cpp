@@ -37,7 +37,7 @@ class Worker::FetchingCells {
 
  private:
   static FetchConfig fetch_config(const NodeSetup& node) {
-    FetchConfig config;
+    FetchConfig config = node.fetch;
     config.self = node.net.self;
     return config;
   }
@@ -65,9 +65,11 @@ namespace {
 
 SchedulerLimits scheduler_limits(const NodeSetup& node) {
   SchedulerLimits limits;
+  limits.fibers = node.fibers;
   limits.fibers.count = node.photons.fibers + 1;  // and the one that packs flushes
+  limits.stall = node.stall;
   // Leases, the watch for the end, and a few to spare.
-  limits.timers_beside_fibers = 16 + Fetcher::timers_most({}) + ObjectCache::timers_most;
+  limits.timers_beside_fibers = 16 + Fetcher::timers_most(node.fetch) + ObjectCache::timers_most;
   return limits;
 }
 

@@ -16,7 +16,7 @@ struct WorkerReport {
   uint64_t builds = 0;
   uint64_t evictions = 0;
   uint64_t fetched_bytes = 0;
-  uint64_t largest_resident_bytes = 0;  // of one node
+  uint64_t largest_resident_bytes = 0;  // of one node, when it ended
 
   void add(const WorkerReport& other);
 };

@@ -9,6 +9,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -114,19 +115,34 @@ inline bool is_nearer(const Hit& hit, const Hit& best) {
   return best.found() && hit.triangle->global_triangle < best.triangle->global_triangle;
 }
 
-/// Nearest hit over cells, front to back: `enter(cell)` gives the CellScene. A cell is entered only
-/// while it can hold something nearer.
-template <class Enter>
+/// Nearest hit over cells, front to back. `enter(cell)` gives a pointer to the CellScene and may
+/// wait for it; null where it cannot be had, and then nothing is hit. `keep(hit)` is what stands
+/// for a hit whose cell may be gone when the next one is entered. A cell is entered only while it
+/// can hold something nearer.
+template <class Enter, class Keep = std::identity>
 Hit nearest_in_cells(const ProxyScene& proxies, const Ray& ray, std::vector<Candidate>& scratch,
-                     Enter&& enter) {
+                     Enter&& enter, Keep keep = {}) {
   proxies.candidates(ray, scratch);
   Hit best;
   for (const Candidate& c : scratch) {
     if (c.entry > best.distance) break;
-    const Hit hit = enter(c.cell).nearest(ray);
-    if (is_nearer(hit, best)) best = hit;
+    const CellScene* cell = enter(c.cell);
+    if (cell == nullptr) return {};
+    const Hit hit = cell->nearest(ray);
+    if (is_nearer(hit, best)) best = keep(hit);
   }
   return best;
+}
+
+/// Whether anything in the cells lies on the ray; so it is said too where a cell cannot be had.
+template <class Enter>
+bool occluded_in_cells(const ProxyScene& proxies, const Ray& ray, std::vector<Candidate>& scratch,
+                       Enter&& enter) {
+  proxies.candidates(ray, scratch);
+  return std::any_of(scratch.begin(), scratch.end(), [&](const Candidate& c) {
+    const CellScene* cell = enter(c.cell);
+    return cell == nullptr || cell->occluded(ray);
+  });
 }
 
 }  // namespace luxodus

@@ -71,16 +71,12 @@ class PartitionResolver : public ResidentData {
       : ResidentData(scene), index_(&index) {}
 
   Hit nearest(const Ray& ray) {
-    return nearest_in_cells(
-        index_->proxies(), ray, candidates_,
-        [this](uint32_t cell) -> const CellScene& { return index_->cell(cell); });
+    return nearest_in_cells(index_->proxies(), ray, candidates_,
+                            [this](uint32_t cell) { return &index_->cell(cell); });
   }
   bool occluded(const Ray& ray) {
-    index_->proxies().candidates(ray, candidates_);
-    for (const Candidate& c : candidates_) {
-      if (index_->cell(c.cell).occluded(ray)) return true;
-    }
-    return false;
+    return occluded_in_cells(index_->proxies(), ray, candidates_,
+                             [this](uint32_t cell) { return &index_->cell(cell); });
   }
 
  private:
@@ -96,24 +92,13 @@ class SourcedResolver : public ResidentData {
       : ResidentData(scene), proxies_(&proxies), source_(&source) {}
 
   Hit nearest(const Ray& ray) {
-    proxies_->candidates(ray, candidates_);
-    Hit best;
-    for (const Candidate& c : candidates_) {
-      if (c.entry > best.distance) break;
-      const CellScene* cell = source_->cell(c.cell);
-      if (cell == nullptr) return {};
-      const Hit hit = cell->nearest(ray);
-      if (is_nearer(hit, best)) best = keep(hit);
-    }
-    return best;
+    const auto enter = [this](uint32_t cell) { return source_->cell(cell); };
+    return nearest_in_cells(*proxies_, ray, candidates_, enter,
+                            [this](const Hit& hit) { return keep(hit); });
   }
   bool occluded(const Ray& ray) {
-    proxies_->candidates(ray, candidates_);
-    for (const Candidate& c : candidates_) {
-      const CellScene* cell = source_->cell(c.cell);
-      if (cell == nullptr || cell->occluded(ray)) return true;
-    }
-    return false;
+    return occluded_in_cells(*proxies_, ray, candidates_,
+                             [this](uint32_t cell) { return source_->cell(cell); });
   }
 
  private:

@@ -4,48 +4,13 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 #include <vector>
 
-namespace fs = std::filesystem;
+#include "tests/examples/program_kit.hpp"
+
+using namespace luxodus::program;
 
 namespace {
-
-/// A folder of its own for one test, gone afterwards.
-class Folder {
- public:
-  Folder() {
-    std::string name = (fs::temp_directory_path() / "luxodus_cluster_XXXXXX").string();
-    REQUIRE(mkdtemp(name.data()) != nullptr);
-    path = name;
-  }
-  ~Folder() { fs::remove_all(path); }
-  fs::path path;
-};
-
-std::string slurp(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream out;
-  out << in.rdbuf();
-  return out.str();
-}
-
-struct Outcome {
-  int code;
-  std::string out;
-  std::string err;
-};
-
-Outcome shell(const Folder& folder, const std::string& command) {
-  const int status = std::system(("{ " + command + "; } >" + (folder.path / "stdout").string() +
-                                  " 2>" + (folder.path / "stderr").string())
-                                     .c_str());
-  return {WEXITSTATUS(status), slurp(folder.path / "stdout"), slurp(folder.path / "stderr")};
-}
-
-Outcome luxodus(const Folder& folder, const std::string& arguments) {
-  return shell(folder, std::string(LUX_PROGRAM) + " " + arguments);
-}
 
 std::string example(const std::string& name) {
   return (fs::path(LUX_SOURCE_DIR) / "actors/cli/examples" / name).string();

@@ -6,45 +6,12 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
-namespace fs = std::filesystem;
+#include "tests/examples/program_kit.hpp"
+
+using namespace luxodus::program;
 
 namespace {
-
-/// A folder of its own for one test, gone afterwards.
-class Folder {
- public:
-  Folder() {
-    std::string name = (fs::temp_directory_path() / "luxodus_program_XXXXXX").string();
-    REQUIRE(mkdtemp(name.data()) != nullptr);
-    path = name;
-  }
-  ~Folder() { fs::remove_all(path); }
-  fs::path path;
-};
-
-std::string slurp(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream out;
-  out << in.rdbuf();
-  return out.str();
-}
-
-struct Outcome {
-  int code;
-  std::string out;
-  std::string err;
-};
-
-/// `under`: a program that starts ours.
-Outcome luxodus(const Folder& folder, const std::string& arguments, const std::string& under = "") {
-  const std::string command = under + LUX_PROGRAM + " " + arguments + " >" +
-                              (folder.path / "stdout").string() + " 2>" +
-                              (folder.path / "stderr").string();
-  const int status = std::system(command.c_str());
-  return {WEXITSTATUS(status), slurp(folder.path / "stdout"), slurp(folder.path / "stderr")};
-}
 
 /// The first scene of the README, which a newcomer copies.
 std::string readme_scene() {

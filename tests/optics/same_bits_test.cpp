@@ -186,14 +186,11 @@ class MissingPartitionResolver : public MissingData {
     // A ray visits a cell at most once, so the copy that holds its nearest hit stays until the next
     // ray.
     return nearest_in_cells(index_->proxies(), ray, candidates_,
-                            [this](uint32_t i) -> const CellScene& { return cell(i); });
+                            [this](uint32_t i) { return &cell(i); });
   }
   bool occluded(const Ray& ray) {
-    index_->proxies().candidates(ray, candidates_);
-    for (const Candidate& c : candidates_) {
-      if (cell(c.cell).occluded(ray)) return true;
-    }
-    return false;
+    return occluded_in_cells(index_->proxies(), ray, candidates_,
+                             [this](uint32_t i) { return &cell(i); });
   }
 
  private:

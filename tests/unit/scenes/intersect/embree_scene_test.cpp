@@ -94,8 +94,7 @@ struct Partition {
     proxies = std::make_unique<ProxyScene>(device, boxes);
   }
   Hit nearest(const Ray& ray, std::vector<Candidate>& scratch) const {
-    return nearest_in_cells(*proxies, ray, scratch,
-                            [&](uint32_t i) -> const CellScene& { return *scenes[i]; });
+    return nearest_in_cells(*proxies, ray, scratch, [&](uint32_t i) { return scenes[i].get(); });
   }
 };
 
@@ -217,9 +216,8 @@ TEST_CASE("of triangles at one distance in two cells the smaller number wins", "
   std::vector<Candidate> scratch;
   const Ray ray{{1, 1, 0}, {0, 0, 1}};
   for (const bool swapped : {false, true}) {
-    const Hit hit = nearest_in_cells(proxies, ray, scratch, [&](uint32_t i) -> const CellScene& {
-      return (i == 0) != swapped ? a : b;
-    });
+    const Hit hit = nearest_in_cells(proxies, ray, scratch,
+                                     [&](uint32_t i) { return (i == 0) != swapped ? &a : &b; });
     REQUIRE(hit.found());
     CHECK(hit.triangle->global_triangle == 3);
   }
