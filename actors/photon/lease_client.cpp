@@ -35,14 +35,19 @@ void LeaseClient::ask() {
 
 void LeaseClient::granted(const MessageId& answered, const LeaseGranted& grant) {
   if (!asking_ || asking_->id != answered) return;  // an answer that came twice
+  const uint32_t asked_for = std::get<RequestLease>(asking_->message).batches;
   asking_.reset();
-  wanted_ = 0;  // said before this answer
   round_ = grant.round;
   counters_.leases += grant.batches;
   for (uint32_t i = 0; i < grant.batches; ++i) {
     photons_->add(grant.first_lease + i, static_cast<int64_t>(grant.first_batch + i));
   }
-  if (grant.batches > 0) return;
+  wanted_ = 0;  // said before this answer
+  if (grant.batches > 0) {
+    // Batches that this node prefers are seldom neighbours, and come in several answers.
+    if (grant.batches < asked_for) want_leases(asked_for - grant.batches);
+    return;
+  }
   round_empty_ = true;
   emptied_ = scheduler_.clock().now();
   flush_when_idle();

@@ -25,6 +25,8 @@ class BatchPlan {
   /// Skips to where `count` batches have been given out.
   void skip(int64_t count);
   int64_t given() const { return given_; }
+  /// Of all batches, those of each group [1].
+  const std::vector<double>& shares() const { return share_; }
 
   /// Batches of the first round, and after that the end of the round that `done` batches lie in:
   /// rounds grow by a quarter, so that a run oversteps its target by little.

@@ -28,7 +28,8 @@ Controller::Controller(const ControllerConfig& config, LocalRun& run, const Stop
       report_(std::move(report)),
       scheduler_(scheduler),
       network_(network),
-      book_(run.batches()),
+      book_(run.batches(), config.look_ahead * static_cast<int64_t>(config.workers.size())),
+      plan_(run.scene()),
       target_(run.target_batches(stop)),
       batches_at_start_(run.batches()),
       began_(scheduler.clock().now()),
@@ -139,7 +140,8 @@ void Controller::lend(const Delivery& delivery, const RequestLease& request) {
   if (last.question != delivery.id) {
     const Nanoseconds deadline = scheduler_.clock().now() + config_.lease_time;
     const LentBatches lent =
-        book_.lend(delivery.source, std::min(request.batches, leases_per_question), deadline);
+        book_.lend(delivery.source, std::min(request.batches, leases_per_question), deadline,
+                   rank_of(delivery.source));
     counters_.leases += static_cast<uint64_t>(lent.count);
     last = {delivery.id,
             LeaseGranted{lent.first_lease, round_, static_cast<uint64_t>(lent.first_batch),
@@ -147,6 +149,19 @@ void Controller::lend(const Delivery& delivery, const RequestLease& request) {
                          static_cast<uint32_t>(config_.lease_time / milliseconds(1))}};
   }
   send(delivery.source, delivery.id, last.answer);
+}
+
+LeaseBook::Rank Controller::rank_of(NodeId worker) {
+  if (worker.value >= config_.group_ranks.size()) return {};
+  return [this, &ranks = config_.group_ranks[worker.value]](int64_t batch) {
+    return ranks[group_of(batch)];
+  };
+}
+
+size_t Controller::group_of(int64_t batch) {
+  while (static_cast<int64_t>(groups_.size()) <= batch)
+    groups_.push_back(static_cast<uint32_t>(plan_.next().group));
+  return groups_[static_cast<size_t>(batch)];
 }
 
 void Controller::take_flush(const Delivery& delivery, const Flush& flush) {

@@ -17,6 +17,13 @@ namespace luxodus {
 
 struct ControllerConfig {
   std::vector<NodeId> workers;
+  /// By worker, its rank of each source group, the least the most liked: near what the node holds.
+  /// Empty: all batches are lent in their order.
+  std::vector<std::vector<uint32_t>> group_ranks;
+  /// Batches before their turn that may be lent so, for each worker. Of eight, one is of the eighth
+  /// of the work that a node of eight prefers; ten times as many are what a run that is stopped has
+  /// yet to trace.
+  int64_t look_ahead = 8;
   /// A batch that is not back by then is lent to another: long against the slowest batch.
   Nanoseconds lease_time = seconds(120);
   Nanoseconds look_every = milliseconds(250);  // at time, interrupt and late leases
@@ -52,6 +59,8 @@ class Controller {
   void look();
   void set_timer();
   void lend(const Delivery& delivery, const RequestLease& request);
+  LeaseBook::Rank rank_of(NodeId worker);
+  size_t group_of(int64_t batch);
   void take_flush(const Delivery& delivery, const Flush& flush);
   bool count_flush(const Delivery& delivery, const Flush& flush, std::string& why);
   void end_round();
@@ -68,12 +77,14 @@ class Controller {
   Scheduler& scheduler_;
   Network& network_;
   LeaseBook book_;
+  BatchPlan plan_;
+  std::vector<uint32_t> groups_;  // of batches, as far as asked; where groups are ranked
   int64_t target_;
   uint32_t round_ = 0;
   int64_t batches_at_start_;
   Nanoseconds began_;
   double error_;
-  bool closing_ = false;  // no further lease: time is up or somebody interrupts
+  bool closing_ = false;  // no lease beyond the last: time is up or somebody interrupts
   bool over_ = false;
   Nanoseconds over_since_ = 0;
   StopReason reason_ = StopReason::particles;

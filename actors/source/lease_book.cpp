@@ -5,13 +5,35 @@
 
 namespace luxodus {
 
-LentBatches LeaseBook::lend(NodeId node, int64_t most, Nanoseconds deadline) {
-  LentBatches lent{last_id_ + 1, again_.empty() ? next_ : *again_.begin(), 0};
+bool LeaseBook::open(int64_t batch) const {
+  return batch >= next_ && batch < end_ && batch < next_ + look_ahead_ && ahead_.count(batch) == 0;
+}
+
+int64_t LeaseBook::first_choice(const Rank& rank) const {
+  if (!again_.empty()) return *again_.begin();
+  if (!rank) return next_;
+  int64_t best = next_;
+  for (int64_t batch = next_ + 1; batch < std::min(end_, next_ + look_ahead_); ++batch)
+    if (ahead_.count(batch) == 0 && rank(batch) < rank(best)) best = batch;
+  return best;
+}
+
+void LeaseBook::take(int64_t batch) {
+  ahead_.insert(batch);
+  while (!ahead_.empty() && *ahead_.begin() == next_) {
+    ahead_.erase(ahead_.begin());
+    ++next_;
+  }
+}
+
+LentBatches LeaseBook::lend(NodeId node, int64_t most, Nanoseconds deadline, const Rank& rank) {
+  LentBatches lent{last_id_ + 1, first_choice(rank), 0};
   while (lent.count < most) {
     const int64_t batch = lent.first_batch + lent.count;
     const bool again = again_.erase(batch) > 0;
-    if (!again && (batch != next_ || next_ == end_)) break;
-    if (!again) ++next_;
+    if (!again && !open(batch)) break;
+    if (!again && rank && lent.count > 0 && rank(batch) != rank(lent.first_batch)) break;
+    if (!again) take(batch);
     leases_.emplace(++last_id_, Lease{last_id_, node, batch, deadline});
     ++lent.count;
   }

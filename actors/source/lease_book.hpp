@@ -1,10 +1,12 @@
 // Who works on which batches. A lease lends one batch to a node until a deadline; a lease that is
 // late, or whose node is gone, is fenced before its batch is lent again, so that nothing is counted
-// twice. Batches are lent up to the end of the open round and no farther. A pure state
-// machine of calls and time. Thread rule: one node's thread.
+// twice. Batches are lent up to the end of the open round and no farther, in their order or, to
+// nodes that prefer some, a little out of it: which batches a round holds never changes. A pure
+// state machine of calls and time. Thread rule: one node's thread.
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -31,14 +33,22 @@ struct LentBatches {
 
 class LeaseBook {
  public:
-  /// `done` batches are committed already: a run that goes on.
-  explicit LeaseBook(int64_t done) : next_(done), end_(done), committed_(done) {}
+  /// How little a node likes a batch: it is lent one of the least rank.
+  using Rank = std::function<uint32_t(int64_t batch)>;
+
+  /// `done` batches are committed already: a run that goes on. A preferred batch is lent at most
+  /// `look_ahead` numbers before its turn, for all that was skipped must be done when a run is
+  /// stopped. Requires: look_ahead >= 1.
+  explicit LeaseBook(int64_t done, int64_t look_ahead = 1)
+      : look_ahead_(look_ahead), next_(done), end_(done), committed_(done) {}
 
   /// Batches may be lent up to number `end`. Requires: end is not before an earlier one.
   void open_until(int64_t end) { end_ = end; }
 
-  /// Lends up to `most` batches; none where none is left in the round.
-  LentBatches lend(NodeId node, int64_t most, Nanoseconds deadline);
+  /// Lends up to `most` batches; none where none is left in the round. What was fenced goes first,
+  /// then what `rank` ranks least, of equals the first; without `rank` all are equal. Batches of
+  /// different ranks, or with others between them, are not lent together.
+  LentBatches lend(NodeId node, int64_t most, Nanoseconds deadline, const Rank& rank = {});
 
   /// Whether all of these leases stand, and are this node's: then a flush of them may be counted.
   bool stand(NodeId node, const std::vector<uint64_t>& leases) const;
@@ -53,10 +63,10 @@ class LeaseBook {
   /// Everything up to the end of the round is counted.
   bool round_done() const { return committed_ == end_; }
   int64_t committed() const { return committed_; }
-  /// Batches lent at least once so far: with all leases committed, these are 0..lent_end() - 1.
-  int64_t lent_end() const { return next_; }
-  /// Ends the round with what has been lent.
-  void close() { end_ = next_; }
+  /// Beyond the last batch that was lent at least once.
+  int64_t lent_end() const { return ahead_.empty() ? next_ : *ahead_.rbegin() + 1; }
+  /// Ends the round with what has been lent, and what was skipped on the way.
+  void close() { end_ = lent_end(); }
   size_t standing() const { return leases_.size(); }
   /// When fence_late() may have something to do; nothing without leases.
   std::optional<Nanoseconds> next_deadline() const;
@@ -64,11 +74,16 @@ class LeaseBook {
  private:
   template <class Which>
   std::vector<Lease> fence(Which&& which);
+  int64_t first_choice(const Rank& rank) const;
+  bool open(int64_t batch) const;
+  void take(int64_t batch);
 
   std::map<uint64_t, Lease> leases_;
   std::set<int64_t> again_;  // fenced, to be lent before new ones
+  std::set<int64_t> ahead_;  // lent before their turn: beyond next_
   uint64_t last_id_ = 0;
-  int64_t next_;
+  int64_t look_ahead_;
+  int64_t next_;  // the first that was never lent
   int64_t end_;
   int64_t committed_;
 };

@@ -1,6 +1,7 @@
 #include "actors/source/lease_book.hpp"
 
 #include <catch2/catch.hpp>
+#include <set>
 
 using namespace luxodus;
 
@@ -65,4 +66,75 @@ TEST_CASE("a round that is closed ends with what was lent", "[lease]") {
   book.commit({lent.first_lease, lent.first_lease + 1});
   CHECK(book.round_done());
   CHECK(book.lent_end() == 2);
+}
+
+namespace {
+/// Batches of two groups in turn, of which a node likes one.
+LeaseBook::Rank likes(int64_t group) {
+  return [group](int64_t batch) { return batch % 2 == group ? 0u : 1u; };
+}
+}  // namespace
+
+TEST_CASE("a node is lent what it prefers while there is some within reach, then the rest",
+          "[lease]") {
+  LeaseBook book(0, 6);
+  book.open_until(8);
+  const auto next = [&](int64_t group) {
+    const LentBatches lent = book.lend(ann, 4, 100, likes(group));
+    CHECK(lent.count == 1);  // its neighbours are of the other group
+    return lent.first_batch;
+  };
+  CHECK(next(1) == 1);
+  CHECK(next(1) == 3);
+  CHECK(next(1) == 5);
+  CHECK(next(1) == 0);  // 7 is too far ahead of 0
+  CHECK(next(1) == 7);
+  CHECK(next(0) == 2);
+  CHECK(next(1) == 4);
+  CHECK(next(1) == 6);
+  CHECK(book.lend(ann, 1, 100, likes(0)).count == 0);
+}
+
+TEST_CASE("preferences change who traces a batch, never which batches a round holds", "[lease]") {
+  LeaseBook book(5, 8);
+  book.open_until(25);
+  std::set<int64_t> seen;
+  for (int turn = 0; seen.size() < 20; ++turn) {
+    const bool first = turn % 3 == 0;
+    const LentBatches lent = book.lend(first ? ann : bob, 1, 100, likes(first ? 0 : 1));
+    REQUIRE(lent.count == 1);
+    CHECK(lent.first_batch < 25);
+    CHECK(seen.insert(lent.first_batch).second);
+    book.commit({lent.first_lease});
+  }
+  CHECK(*seen.begin() == 5);
+  CHECK(book.round_done());
+  CHECK(book.lend(bob, 1, 100, likes(0)).count == 0);
+}
+
+TEST_CASE("a round that is closed holds no gaps: what was skipped is still lent", "[lease]") {
+  LeaseBook book(0, 10);
+  book.open_until(100);
+  const uint64_t first = book.lend(ann, 1, 100, likes(1)).first_lease;   // 1
+  const uint64_t second = book.lend(ann, 1, 100, likes(1)).first_lease;  // 3
+  book.close();
+  CHECK(book.lent_end() == 4);
+  book.commit({first, second});
+  CHECK_FALSE(book.round_done());
+  const LentBatches zero = book.lend(bob, 9, 100);
+  const LentBatches two = book.lend(bob, 9, 100, likes(1));
+  CHECK(zero.first_batch == 0);
+  CHECK(two.first_batch == 2);
+  CHECK(book.lend(bob, 9, 100).count == 0);
+  book.commit({zero.first_lease, two.first_lease});
+  CHECK(book.round_done());
+}
+
+TEST_CASE("what was fenced is lent again before what a node prefers", "[lease]") {
+  LeaseBook book(0, 10);
+  book.open_until(10);
+  book.lend(ann, 1, 100, likes(0));
+  book.fence_late(100);
+  CHECK(book.lend(bob, 1, 200, likes(1)).first_batch == 0);
+  CHECK(book.lend(bob, 1, 200, likes(1)).first_batch == 1);
 }
