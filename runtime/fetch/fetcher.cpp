@@ -146,10 +146,19 @@ void Fetcher::begin(const Wish& wish) {
   flight.id = network_.next_id();
   flight.timer = {};
   flight.questions = 0;
-  flight.holder = 0;
+  flight.holder = nearest_holder(wish.object);
   flight.tries.fill(0);
   ++counters_.fetches;
   ask(flight);
+}
+
+size_t Fetcher::nearest_holder(uint32_t object) const {
+  if (config_.hops.empty()) return 0;
+  const std::vector<NodeId>& holders = objects_[object].holders;
+  const auto nearest = std::min_element(holders.begin(), holders.end(), [this](NodeId a, NodeId b) {
+    return config_.hops[a.value] < config_.hops[b.value];
+  });
+  return static_cast<size_t>(nearest - holders.begin());
 }
 
 void Fetcher::end(Flight& flight) {

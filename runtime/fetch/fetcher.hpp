@@ -45,6 +45,9 @@ struct FetchConfig {
   /// enough for routes to be made anew (2 s), short enough for a batch to be leased again.
   uint8_t tries = 4;
   TimeoutLimits timeouts;
+  /// Links to each node, by number: of an object's holders the nearest is asked first, then those
+  /// that follow it. Empty: in the order of ObjectPlace.
+  std::vector<uint32_t> hops;
 };
 
 /// Who wants an object. Called on the scheduler's stack.
@@ -136,6 +139,7 @@ class Fetcher {
   void begin_soon();
   void begin_flights();
   void begin(const Wish& wish);
+  size_t nearest_holder(uint32_t object) const;
   void end(Flight& flight);
   Flight* flight_of(const MessageId& id);
 

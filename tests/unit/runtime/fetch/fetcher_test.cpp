@@ -67,6 +67,24 @@ TEST_CASE("a holder without the object is asked once, then the replica", "[runti
   CHECK(cluster[2].fetcher.counters().served == 1);
 }
 
+TEST_CASE("the nearest holder is asked first where distances are known, then the others",
+          "[runtime][fetch]") {
+  Objects objects;
+  const uint32_t object = objects.add(small, {c, b});
+  FetchSetup setup;
+  setup.fetch.hops = {0, 1, 2};
+  FetchCluster near(3, objects, setup);
+  CHECK(fetch(near, object).how == Got::How::resident);
+  CHECK(near[0].fetcher.counters().retries == 0);
+  CHECK(near[1].fetcher.counters().served == 1);
+  CHECK(near[1].fetcher.counters().intercepted == 0);
+  FetchCluster gone(3, objects, setup);
+  gone[1].store.held.clear();
+  CHECK(fetch(gone, object).how == Got::How::resident);
+  CHECK(gone[1].fetcher.counters().refused == 1);
+  CHECK(gone[2].fetcher.counters().served == 1);
+}
+
 TEST_CASE("a holder that is gone costs no time where a replica can be reached",
           "[runtime][fetch]") {
   Objects objects;
