@@ -25,6 +25,7 @@ void add_topology(CLI::App& app, int& exit_code);
 void add_node(CLI::App& app, int& exit_code);
 void add_cluster(CLI::App& app, int& exit_code);
 void add_keygen(CLI::App& app, int& exit_code);
+void add_profile(CLI::App& app, int& exit_code);
 void add_deploy(CLI::App& app, int& exit_code);
 
 /// One line "file:line: sentence" on standard error.

@@ -52,6 +52,7 @@ int main(int argc, char** argv) {
   add_node(app, exit_code);
   add_cluster(app, exit_code);
   add_keygen(app, exit_code);
+  add_profile(app, exit_code);
   add_deploy(app, exit_code);
   try {
     app.parse(argc, argv);

@@ -92,6 +92,7 @@ int run_nodes(const NodeOptions& options) {
     tell(ended.problem());
     return ExitCode::failure;
   }
+  for (const std::string& text : process.value()->residency_lines()) spdlog::info("{}", text);
   if (!ended.value()) return ExitCode::success;
   if (auto ok = write_results(cluster, *process.value(), *ended.value()); !ok.ok()) {
     tell(ok.problem());

@@ -8,6 +8,7 @@
 #include "actors/display/report.hpp"
 #include "actors/source/flux_store.hpp"
 #include "actors/supervise/in_process.hpp"
+#include "actors/supervise/residency_setup.hpp"
 #include "scenes/transport/compile.hpp"
 
 namespace luxodus::cli {
@@ -27,6 +28,7 @@ struct RunOptions {
   int nodes = 0;  // 0: the plain loop
   size_t fibers = 1;
   double object_mib = 0;
+  std::string profile = "1%";
   bool resume = false;
   bool no_views = false;
   bool json = false;
@@ -85,14 +87,28 @@ Result<Done> write_all(const fs::path& folder, const LocalRun& run, const RunRec
 /// Traces with the plain loop, or on nodes.
 Result<StopReason> trace(LocalRun& run, const Scenario& scenario, const RunOptions& options,
                          const StopRule& rule) {
-  ProgressLine line(scenario.name);
-  const auto show = [&](const Progress& p) { line.show(p); };
+  std::optional<ProgressLine> line(scenario.name);
+  const auto show = [&](const Progress& p) { line->show(p); };
   if (options.nodes == 0) return run.run(rule, interrupt_flag(), show);
   NodesOptions nodes;
+  if (options.profile == "0") {
+    nodes.profile_share = 0;
+  } else if (auto share = parse_share(options.profile); share.ok()) {
+    nodes.profile_share = share.value();
+  } else {
+    return Problem{
+        {}, "--profile \"" + options.profile + "\" is no share: write 1% or 0.01, or 0 for none"};
+  }
   nodes.nodes = options.nodes;
   nodes.fibers = options.fibers;
   nodes.object_bytes = static_cast<size_t>(options.object_mib * 1024 * 1024);
-  return run_on_nodes(run, nodes, rule, interrupt_flag(), show);
+  NodesReport report;
+  auto reason = run_on_nodes(run, nodes, rule, interrupt_flag(), show, &report);
+  line.reset();
+  if (report.residency && !options.json)
+    for (const std::string& text : residency_table(*report.residency, report.by_node))
+      std::printf("%s\n", text.c_str());
+  return reason;
 }
 
 struct Traced {
@@ -224,6 +240,10 @@ void add_run(CLI::App& app, int& exit_code) {
                    "budget of a node for geometry cells; what does not fit is fetched from others "
                    "[0: everything is resident]")
       ->check(CLI::Range(0.0, 1048576.0));
+  command->add_option(
+      "--profile", options->profile,
+      "with --object-mib: share of the particles that is traced beforehand, to plan "
+      "which node traces, holds and keeps what; 0: none [1%]");
   command
       ->add_option("--picture-paths", options->picture_paths, "paths per pixel of the views [32]")
       ->check(CLI::Range(1, 100'000));

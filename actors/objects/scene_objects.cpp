@@ -17,6 +17,10 @@ SceneObjects::SceneObjects(const CompiledScene& scene, uint32_t nodes, uint32_t 
   }
 }
 
+void SceneObjects::place(const std::vector<std::vector<NodeId>>& holders) {
+  for (size_t cell = 0; cell < places_.size(); ++cell) places_[cell].holders = holders[cell];
+}
+
 SharedBytes SceneObjects::bytes(uint32_t cell) const {
   return {std::span(*bytes_[cell]), bytes_[cell]};
 }

@@ -20,6 +20,9 @@ class SceneObjects {
   /// Requires: 1 <= replicas <= nodes.
   SceneObjects(const CompiledScene& scene, uint32_t nodes, uint32_t replicas);
 
+  /// Other holders, by cell. Requires: before any node is made; 1 to limits::holders of each.
+  void place(const std::vector<std::vector<NodeId>>& holders);
+
   const std::vector<ObjectPlace>& places() const { return places_; }
   SharedBytes bytes(uint32_t cell) const;
   uint64_t wire_bytes() const { return wire_bytes_; }

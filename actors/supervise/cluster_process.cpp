@@ -4,7 +4,9 @@
 
 #include <algorithm>
 
+#include "actors/objects/profile_file.hpp"
 #include "actors/supervise/node_shell.hpp"
+#include "actors/supervise/residency_setup.hpp"
 #include "runtime/config/cluster_file.hpp"
 #include "runtime/fiber/sanitizers.hpp"
 #include "scenes/format/atomic_file.hpp"
@@ -19,6 +21,8 @@ namespace {
 
 /// A cell is at most this part of a budget, so that a cache holds several and a build finds room.
 constexpr uint64_t cells_of_a_budget = 16;
+/// Of a budget, what a plan may pin.
+constexpr double pinned_share = CacheConfig{}.pinned_share;
 
 Incarnation fresh_incarnation() {
   Incarnation life{};
@@ -139,6 +143,34 @@ Result<bool> ClusterProcessRun::load_scene() {
   return true;
 }
 
+Result<ReferenceProfile> ClusterProcessRun::profile(double share) const {
+  if (cells_ == 1)
+    return Problem{{cluster_.file.string(), 0},
+                   "every worker's budget holds the whole scene: nothing is fetched, and a profile "
+                   "would change nothing"};
+  uint64_t budget = 0;
+  for (const ClusterNode& node : cluster_.nodes)
+    budget = std::max(budget, node.budget.object_bytes);
+  const CompiledScene& scene = run_->scene();
+  const SceneObjects objects(scene, 1, 1);
+  const EmbreeDevice device;
+  const ProxyScene proxies(device, boxes_of(scene));
+  const auto of_run = static_cast<double>(cluster_.run.particles.value_or(usual_particles));
+  const auto particles = static_cast<int64_t>(share * of_run);
+  return count_references(scene, objects, proxies, run_->seed(),
+                          profile_particles(BatchPlan(scene).shares(), particles), budget);
+}
+
+Result<std::optional<Residency>> ClusterProcessRun::planned_residency(const RunSetup& run) const {
+  if (cluster_.run.profile.empty()) return std::optional<Residency>();
+  auto profile = read_profile(cluster_.run.profile, run.scene);
+  if (!profile.ok()) return profile.problem();
+  ResidencyBudgets budgets{{}, pinned_share, replicas()};
+  for (const ClusterNode& node : cluster_.nodes)
+    if (node.role == NodeRole::worker) budgets.object_bytes.push_back(node.budget.object_bytes);
+  return std::optional(residency_for(profile.value(), run.scene, *run.objects, graph_, budgets));
+}
+
 Result<NodeSetup> ClusterProcessRun::setup_of(NodeId self, const RunSetup& run) const {
   NodeSetup node;
   node.net = net_config(cluster_, self);
@@ -152,6 +184,7 @@ Result<NodeSetup> ClusterProcessRun::setup_of(NodeId self, const RunSetup& run) 
   const NodeBudget& budget = cluster_.node(self).budget;
   node.photons.fibers = cells_ == 1 ? 1 : budget.fibers;
   node.object_bytes = budget.object_bytes;
+  node.pinned_share = cluster_.run.profile.empty() ? 0 : pinned_share;
   node.fibers.stack_bytes = budget.stack_bytes * sanitizers::stack_factor;
   if (budget.maps_most > 0) node.fibers.maps_most = budget.maps_most;
   node.stall = cluster_.timeouts.stall;
@@ -172,18 +205,23 @@ Result<std::optional<StopReason>> ClusterProcessRun::run(
   std::optional<ProxyScene> proxies;
   RunSetup setup{run_->scene(), &run_->index(), nullptr, nullptr,
                  run_->seed(),  graph_,         clock,   context};
+  std::optional<Residency> residency;
   if (cells_ > 1) {
-    const auto workers = static_cast<uint32_t>(cluster_.workers());
-    objects.emplace(run_->scene(), workers, std::min<uint32_t>(2, workers));
+    objects.emplace(run_->scene(), static_cast<uint32_t>(cluster_.workers()), replicas());
     proxies.emplace(device, boxes_of(run_->scene()));
     setup.objects = &*objects;
     setup.proxies = &*proxies;
+    auto planned = planned_residency(setup);
+    if (!planned.ok()) return planned.problem();
+    residency = std::move(planned).value();
+    if (residency) objects->place(residency->holders);
   }
   std::vector<NodeSetup> workers;
   std::optional<NodeSetup> controller;
   for (const NodeId node : nodes_) {
     auto own = setup_of(node, setup);
     if (!own.ok()) return own.problem();
+    if (residency) settle(own.value(), *residency);
     if (node == cluster_.controller())
       controller = std::move(own).value();
     else
@@ -203,6 +241,7 @@ Result<std::optional<StopReason>> ClusterProcessRun::run(
   }
   threads.join();
   if (threads.failed()) return threads.problem();
+  if (residency) residency_lines_ = residency_table(*residency, threads.by_node());
   return reason;
 }
 

@@ -5,6 +5,7 @@
 // where it is here.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <functional>
 #include <memory>
@@ -38,6 +39,12 @@ class ClusterProcessRun {
   Result<std::optional<StopReason>> run(const std::atomic<bool>& interrupt,
                                         const std::function<void(const Progress&)>& report);
 
+  /// What nodes ask of cells, counted with this share of the run's particles.
+  /// Errors: budgets that hold the whole scene, so that nothing is fetched.
+  Result<ReferenceProfile> profile(double share) const;
+  /// After run(), of a run with a profile: lines of residency_table() for the nodes that are here.
+  const std::vector<std::string>& residency_lines() const { return residency_lines_; }
+
   /// The totals, where the controller is here.
   const LocalRun& local_run() const { return *run_; }
   int cells() const { return cells_; }
@@ -46,8 +53,13 @@ class ClusterProcessRun {
   ClusterProcessRun(const ClusterConfig& cluster, Graph graph)
       : cluster_(cluster), graph_(std::move(graph)) {}
 
+  /// Nodes that hold a cell: one may be lost.
+  uint32_t replicas() const {
+    return std::min<uint32_t>(2, static_cast<uint32_t>(cluster_.workers()));
+  }
   Result<bool> load_scene();
   Result<bool> load_keys(const std::vector<NodeId>& nodes);
+  Result<std::optional<Residency>> planned_residency(const RunSetup& run) const;
   Result<NodeSetup> setup_of(NodeId self, const RunSetup& run) const;
 
   const ClusterConfig cluster_;
@@ -57,6 +69,7 @@ class ClusterProcessRun {
   std::map<NodeId, KeyPair> keys_;
   std::map<NodeId, std::string> public_keys_;
   std::unique_ptr<LocalRun> run_;
+  std::vector<std::string> residency_lines_;
 };
 
 }  // namespace luxodus

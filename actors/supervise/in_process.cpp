@@ -2,9 +2,13 @@
 
 #include <xmmintrin.h>
 
+#include <algorithm>
+#include <cmath>
 #include <exception>
+#include <limits>
 
 #include "actors/source/controller.hpp"
+#include "actors/supervise/residency_setup.hpp"
 #include "topology/shipped.hpp"
 
 namespace luxodus {
@@ -54,7 +58,27 @@ NodeSetup setup_of(const RunSetup& run, NodeId self, const NodesOptions& options
   node.photons.fibers = options.fibers;
   node.photons.portion = static_cast<int64_t>(options.portion);
   node.object_bytes = options.object_bytes;
+  node.pinned_share = options.pinned_share;
   return node;
+}
+
+/// Particles of the profile: the share of those that the run will trace, as far as that is known.
+int64_t profile_size(const LocalRun& run, const StopRule& stop, const NodesOptions& options) {
+  const int64_t left =
+      stop.particles ? std::max<int64_t>(0, *stop.particles - run.particles()) : usual_particles;
+  return std::llround(options.profile_share * static_cast<double>(left));
+}
+
+Result<std::optional<Residency>> planned_residency(const RunSetup& run, const NodesOptions& options,
+                                                   int64_t particles) {
+  if (options.profile_share <= 0) return std::optional<Residency>();
+  const auto size = profile_particles(BatchPlan(run.scene).shares(), particles);
+  auto profile = count_references(run.scene, *run.objects, *run.proxies, run.seed, size,
+                                  std::numeric_limits<uint64_t>::max());
+  if (!profile.ok()) return profile.problem();
+  const std::vector<size_t> budgets(static_cast<size_t>(options.nodes), options.object_bytes);
+  return std::optional(residency_for(profile.value(), run.scene, *run.objects, run.graph,
+                                     {budgets, options.pinned_share, options.replicas}));
 }
 
 }  // namespace
@@ -75,7 +99,7 @@ void WorkerThreads::work(const RunSetup& run, const NodeSetup& node,
     Worker worker(run, node);
     auto done = worker.run(stop);
     const std::lock_guard lock(mutex_);
-    if (done.ok()) return report_.add(done.value());
+    if (done.ok()) return reports_.push_back(done.value());
     wrong = done.problem();
   } catch (const std::exception& e) {
     wrong = {{}, "node " + std::to_string(node.net.self.value) + ": " + e.what()};
@@ -88,6 +112,14 @@ void WorkerThreads::work(const RunSetup& run, const NodeSetup& node,
 void WorkerThreads::join() {
   for (std::thread& thread : threads_)
     if (thread.joinable()) thread.join();
+  std::sort(reports_.begin(), reports_.end(),
+            [](const WorkerReport& a, const WorkerReport& b) { return a.node < b.node; });
+}
+
+WorkerReport WorkerThreads::report() const {
+  WorkerReport all;
+  for (const WorkerReport& one : reports_) all.add(one);
+  return all;
 }
 
 Problem WorkerThreads::problem() const {
@@ -105,6 +137,7 @@ Result<StopReason> run_controller(const RunSetup& setup, const NodeSetup& node, 
   NodeShell shell({node.net, {}}, setup.graph, setup.clock, transport);
   ControllerConfig config;
   config.lease_time = node.lease_time;
+  config.group_ranks = node.group_ranks;
   for (uint16_t i = 0; i < setup.graph.workers(); ++i) config.workers.push_back({i});
   Controller controller(config, run, stop, interrupt, report, shell.scheduler(), shell.network());
   shell.add([&](const Delivery& d) { return controller.deliver(d); });
@@ -120,7 +153,9 @@ Result<StopReason> run_controller(const RunSetup& setup, const NodeSetup& node, 
                 c.leases,
                 c.fenced,
                 shell.network().counters().frames_received,
-                {}};
+                {},
+                {},
+                std::nullopt};
   }
   return controller.reason();
 }
@@ -137,6 +172,7 @@ Result<StopReason> run_on_nodes(LocalRun& run, const NodesOptions& options, cons
   const EmbreeDevice device;
   std::optional<SceneObjects> objects;
   std::optional<ProxyScene> proxies;
+  std::optional<Residency> residency;
   RunSetup setup{run.scene(), &run.index(),  nullptr, nullptr,
                  run.seed(),  graph.value(), clock,   context};
   if (options.object_bytes > 0) {
@@ -144,11 +180,17 @@ Result<StopReason> run_on_nodes(LocalRun& run, const NodesOptions& options, cons
     proxies.emplace(device, boxes_of(run.scene()));
     setup.objects = &*objects;
     setup.proxies = &*proxies;
+    auto planned = planned_residency(setup, options, profile_size(run, stop, options));
+    if (!planned.ok()) return planned.problem();
+    residency = std::move(planned).value();
+    if (residency) objects->place(residency->holders);
   }
   const uint64_t run_id = static_cast<uint64_t>(clock.now()) | 1;
   std::vector<NodeSetup> nodes;
   for (uint16_t i = 0; i <= options.nodes; ++i)
     nodes.push_back(setup_of(setup, {i}, options, run_id));
+  if (residency)
+    for (NodeSetup& node : nodes) settle(node, *residency);
   const NodeSetup controller = nodes.back();
   nodes.pop_back();
   WorkerThreads workers(setup, nodes, [] { return false; });
@@ -156,7 +198,11 @@ Result<StopReason> run_on_nodes(LocalRun& run, const NodesOptions& options, cons
       setup, controller, run, stop, interrupt, report, [&] { return workers.failed(); }, counted);
   workers.join();
   if (workers.failed()) return workers.problem();
-  if (counted != nullptr) counted->workers = workers.report();
+  if (counted != nullptr) {
+    counted->workers = workers.report();
+    counted->by_node = workers.by_node();
+    counted->residency = std::move(residency);
+  }
   return reason;
 }
 

@@ -6,8 +6,10 @@
 #include <atomic>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <thread>
 
+#include "actors/objects/residency.hpp"
 #include "actors/source/local_run.hpp"
 #include "actors/supervise/worker.hpp"
 #include "runtime/core/result.hpp"
@@ -19,6 +21,9 @@ namespace limits {
 inline constexpr int nodes_in_process = 64;
 }  // namespace limits
 
+/// Particles of a run that ends by error or by time, for the size of its profile.
+inline constexpr int64_t usual_particles = 4'000'000;
+
 struct NodesOptions {
   int nodes = 2;         // workers; the controller comes on top and traces nothing
   int links = 4;         // of a node at most
@@ -28,6 +33,10 @@ struct NodesOptions {
   /// each node holds its share of the cells' bytes for all, and fetches and builds what it needs.
   size_t object_bytes = 0;
   uint32_t replicas = 1;  // nodes that hold a cell's bytes
+  /// With a budget: the share of the run's particles that is traced beforehand, to plan who traces,
+  /// holds and keeps what. 0: no plan.
+  double profile_share = 0.01;
+  double pinned_share = 0.5;  // of a budget, for cells that the plan has kept for good
 };
 
 /// What the nodes of a run did.
@@ -38,6 +47,8 @@ struct NodesReport {
   uint64_t leases_fenced = 0;
   uint64_t frames = 0;
   WorkerReport workers;  // of all together
+  std::vector<WorkerReport> by_node;
+  std::optional<Residency> residency;  // where there was a plan
 };
 
 /// Threads that run workers, each in one, and the first problem of any of them.
@@ -55,13 +66,15 @@ class WorkerThreads {
   /// Requires: failed().
   Problem problem() const;
   /// Requires: joined.
-  const WorkerReport& report() const { return report_; }
+  WorkerReport report() const;
+  /// By number. Requires: joined.
+  const std::vector<WorkerReport>& by_node() const { return reports_; }
 
  private:
   void work(const RunSetup& run, const NodeSetup& node, const std::function<bool()>& stop);
 
   mutable std::mutex mutex_;
-  WorkerReport report_;
+  std::vector<WorkerReport> reports_;
   Problem problem_;
   std::atomic<bool> failed_{false};
   std::vector<std::thread> threads_;

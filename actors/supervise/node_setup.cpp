@@ -2,10 +2,23 @@
 
 #include "actors/supervise/fingerprint.hpp"
 #include "actors/supervise/node_shell.hpp"
+#include "runtime/core/hash.hpp"
 
 namespace luxodus {
 
 namespace {
+/// Nodes that look for objects in different places do not belong together.
+uint64_t hash_of(const CompiledScene& scene, const SceneObjects* objects) {
+  if (objects == nullptr) return scene.scene_hash;
+  Hasher hash;
+  hash.add(scene.scene_hash);
+  for (const ObjectPlace& place : objects->places()) {
+    hash.add(place.id.value);
+    for (const NodeId holder : place.holders) hash.add(uint64_t{holder.value});
+  }
+  return hash.value();
+}
+
 /// A flush of ten million bins has a third of it.
 constexpr size_t longest_message = 1u << 30;
 }  // namespace
@@ -25,7 +38,7 @@ Result<bool> join_links(ZmqTransport& transport, const NodeSetup& node) {
 
 void complete(NetConfig& net, const RunSetup& run) {
   const Routes routes = balanced_routes(run.graph);
-  net.identity.scene_hash = run.scene.scene_hash;
+  net.identity.scene_hash = hash_of(run.scene, run.objects);
   net.identity.topology_hash = routes.hash();
   net.identity.build = LUX_VERSION;
   net.identity.isa = isa_in_use();

@@ -41,6 +41,10 @@ struct NodeSetup {
   Nanoseconds lease_time = ControllerConfig{}.lease_time;
   FetchConfig fetch;
   size_t object_bytes = 0;  // for built cells, where cells are fetched
+  double pinned_share = 0;  // of these for pinned cells, at most
+  std::vector<uint32_t> pins;
+  /// The controller's: see ControllerConfig::group_ranks.
+  std::vector<std::vector<uint32_t>> group_ranks;
 };
 
 /// Listens and connects as the setup says.

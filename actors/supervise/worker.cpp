@@ -2,50 +2,52 @@
 
 #include <algorithm>
 
+#include "actors/supervise/residency_setup.hpp"
+
 namespace luxodus {
 
 void WorkerReport::add(const WorkerReport& other) {
   hits += other.hits;
+  misses += other.misses;
   fetches += other.fetches;
   joined += other.joined;
   builds += other.builds;
   evictions += other.evictions;
   fetched_bytes += other.fetched_bytes;
   largest_resident_bytes = std::max(largest_resident_bytes, other.largest_resident_bytes);
+  pinned_bytes += other.pinned_bytes;
 }
 
 /// What a worker needs where it does not hold everything: a store for others, a cache for itself.
 class Worker::FetchingCells {
  public:
   FetchingCells(const RunSetup& run, const NodeSetup& node, NodeShell& shell)
-      : store_(*run.objects, node.net.self),
+      : self_(node.net.self),
+        store_(*run.objects, node.net.self),
         builder_(run.scene),
-        fetcher_(fetch_config(node), run.objects->places(), store_, shell.network(),
+        fetcher_(fetch_config(run, node), run.objects->places(), store_, shell.network(),
                  shell.scheduler().timers(), run.clock, jitter_of(node.net.self)),
-        cache_(cache_config(*run.objects, node), run.objects->places().size(), fetcher_, builder_,
-               shell.scheduler().fibers(), shell.scheduler().timers(), run.clock),
+        cache_(cell_cache(*run.objects, node.object_bytes, node.pinned_share),
+               run.objects->places().size(), fetcher_, builder_, shell.scheduler().fibers(),
+               shell.scheduler().timers(), run.clock),
         source_(cache_, shell.scheduler().fibers()) {
     shell.use(fetcher_);
   }
 
   ObjectSource& source() { return source_; }
+  void pin(std::span<const uint32_t> cells) { cache_.pin(cells); }
   WorkerReport report() const {
     const ObjectCache::Counters& c = cache_.counters();
     const Fetcher::Counters& f = fetcher_.counters();
-    return {c.hits, f.fetches, c.joined, c.builds, c.evictions, f.bytes_in, c.resident_bytes};
+    return {self_,    c.hits,      c.misses,   f.fetches,        c.joined,
+            c.builds, c.evictions, f.bytes_in, c.resident_bytes, c.pinned_bytes};
   }
 
  private:
-  static FetchConfig fetch_config(const NodeSetup& node) {
+  static FetchConfig fetch_config(const RunSetup& run, const NodeSetup& node) {
     FetchConfig config = node.fetch;
     config.self = node.net.self;
-    return config;
-  }
-  static CacheConfig cache_config(const SceneObjects& objects, const NodeSetup& node) {
-    CacheConfig config;
-    config.budget_bytes = node.object_bytes;
-    config.largest_build_bytes = peak_build_bytes_of(objects.largest_wire_bytes());
-    config.pinned_share = 0;  // nothing is pinned without a profile
+    config.hops = hops_from(run.graph, node.net.self.value);
     return config;
   }
   static Random jitter_of(NodeId self) {
@@ -54,6 +56,7 @@ class Worker::FetchingCells {
     return random;
   }
 
+  const NodeId self_;
   HeldCells store_;
   CellBuilder builder_;
   Fetcher fetcher_;
@@ -92,6 +95,7 @@ Result<WorkerReport> Worker::run(const std::function<bool()>& stop) {
   if (auto joined = join_links(transport_, node_); !joined.ok()) return joined.problem();
   shell_.add([this](const Delivery& d) { return leases_.deliver(d); });
   leases_.start(photons_);
+  if (cells_) cells_->pin(node_.pins);
   photons_.start();
   shell_.run_until([&] { return leases_.ended() || stop(); });
   return cells_ ? cells_->report() : WorkerReport{};

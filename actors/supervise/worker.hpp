@@ -10,15 +10,23 @@ namespace luxodus {
 
 /// What a worker did, for a line to people and for tests.
 struct WorkerReport {
+  NodeId node;
   uint64_t hits = 0;
+  uint64_t misses = 0;  // that began a fetch
   uint64_t fetches = 0;
   uint64_t joined = 0;  // fibers that found a fetch under way
   uint64_t builds = 0;
   uint64_t evictions = 0;
   uint64_t fetched_bytes = 0;
   uint64_t largest_resident_bytes = 0;  // of one node, when it ended
+  uint64_t pinned_bytes = 0;
 
   void add(const WorkerReport& other);
+  /// Of all references to cells, those that found the cell resident; 1 where there was none.
+  double hit_rate() const {
+    const uint64_t all = hits + misses + joined;
+    return all == 0 ? 1 : static_cast<double>(hits) / static_cast<double>(all);
+  }
 };
 
 class Worker {

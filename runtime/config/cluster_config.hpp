@@ -91,6 +91,7 @@ struct RunChoice {
   std::filesystem::path scene;
   std::string scenario;  // "": the scene's first
   std::filesystem::path out;
+  std::filesystem::path profile;  // empty: none
   std::optional<uint64_t> particles;
   std::optional<double> relative_error;
   std::optional<double> time_s;

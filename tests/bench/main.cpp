@@ -1,5 +1,5 @@
-// luxodus_bench [--repeats N] [speed|threads|memory|pieces|switch ...]: prints the tables named, or
-// all.
+// luxodus_bench [--repeats N] [speed|threads|memory|pieces|switch|residency ...]: prints the tables
+// named, or all.
 #include <xmmintrin.h>
 
 #include <charconv>
@@ -21,12 +21,13 @@ int main(int argc, char** argv) {
       if (read.ec == std::errc() && repeats >= 1 && repeats <= 1000) continue;
     }
     if (word == "speed" || word == "threads" || word == "memory" || word == "pieces" ||
-        word == "switch") {
+        word == "switch" || word == "residency") {
       wanted.insert(word);
       continue;
     }
     std::fprintf(stderr,
-                 "luxodus_bench [--repeats 1..1000] [speed|threads|memory|pieces|switch ...]\n");
+                 "luxodus_bench [--repeats 1..1000] "
+                 "[speed|threads|memory|pieces|switch|residency ...]\n");
     return 2;
   }
   const auto asked = [&](const char* table) { return wanted.empty() || wanted.count(table) > 0; };
@@ -36,4 +37,5 @@ int main(int argc, char** argv) {
   if (asked("threads")) luxodus::bench::print_threads(repeats);
   if (asked("pieces")) luxodus::bench::print_pieces(repeats);
   if (asked("switch")) luxodus::bench::print_switch(repeats);
+  if (asked("residency")) luxodus::bench::print_residency();
 }

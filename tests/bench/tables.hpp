@@ -15,5 +15,7 @@ void print_memory(int n);
 void print_pieces(int repeats);
 /// Nanoseconds of the runtime's own steps: switches, messages, timers.
 void print_switch(int repeats);
+/// How often nodes find cells resident, and what they fetch, with and without a profile.
+void print_residency();
 
 }  // namespace luxodus::bench

@@ -66,6 +66,31 @@ TEST_CASE("four processes over local sockets leave the flux file of the plain lo
   check_same_flux(folder, cluster_file(folder, ""));
 }
 
+TEST_CASE("processes that plan by a profile leave the flux file of the plain loop", "[cluster]") {
+  const Folder folder;
+  const fs::path cluster = folder.path / "cluster.toml";
+  const std::string office =
+      (fs::path(LUX_SOURCE_DIR) / "scenes/library/office_floor.toml").string();
+  std::ofstream(cluster) << "[run]\nname = \"planned\"\nscene = \"" << office
+                         << "\"\nparticles = 60_000\nprofile = \"its.profile\"\nout = \""
+                         << (folder.path / "out").string()
+                         << "\"\n[[host]]\nname = \"here\"\n[[node]]\nname = \"n\"\ncount = 2\n"
+                            "[[node]]\nname = \"controller\"\nrole = \"controller\"\n"
+                            "[budget]\nobject_bytes = \"1 MiB\"\nfibers = 256\n";
+  CHECK(luxodus(folder, "cluster up " + cluster.string()) != 0);  // there is no profile yet
+  CHECK(slurp(folder.path / "log").find("its.profile") != std::string::npos);
+  REQUIRE(luxodus(folder, "profile " + cluster.string()) == 0);
+  const std::string said = slurp(folder.path / "log");
+  CHECK(fs::exists(folder.path / "its.profile"));
+  REQUIRE(luxodus(folder, "cluster up " + cluster.string()) == 0);
+  const std::string cells = said.substr(0, said.find(' '));  // "N cells, ..."
+  REQUIRE(luxodus(folder, "run " + office + " --particles 60k --no-views --cells " + cells +
+                              " --out " + (folder.path / "plain").string()) == 0);
+  const std::string flux = slurp(folder.path / "out" / "flux.lux");
+  CHECK(!flux.empty());
+  CHECK(flux == slurp(folder.path / "plain" / "flux.lux"));
+}
+
 TEST_CASE("four processes over TCP with keys leave the flux file of the plain loop", "[cluster]") {
   const Folder folder;
   const fs::path cluster =

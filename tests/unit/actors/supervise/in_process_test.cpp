@@ -5,6 +5,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "actors/supervise/residency_setup.hpp"
 #include "scenes/format/scene_file.hpp"
 #include "scenes/transport/compile.hpp"
 
@@ -145,6 +146,40 @@ TEST_CASE("nodes whose budget holds a part of the cells fetch the others and giv
     CHECK(report.workers.fetches > scene->cells.size());
     CHECK(report.workers.joined > 0);
     CHECK(report.workers.largest_resident_bytes <= options.object_bytes);
+  }
+}
+
+TEST_CASE("with a profile and without one, pinned or not, nodes give the same bits", "[nodes]") {
+  spdlog::set_level(spdlog::level::err);
+  const auto scene = scene_of("office_floor", "smoke_emergency", 64);
+  StopRule stop;
+  stop.particles = 8192;
+  LocalRun plain(scene, 1, 2);
+  plain.run(stop, nobody, ignore);
+  uint64_t bytes = 0;
+  for (const GeometryCell& cell : scene->cells) bytes += built_bytes_of(encode_cell(cell).size());
+  struct Case {
+    double profile_share, pinned_share;
+    uint32_t replicas;
+  };
+  for (const Case& c : {Case{0, 0, 1}, Case{0.2, 0, 2}, Case{0.2, 0.5, 1}}) {
+    INFO("profile of " << c.profile_share << ", pinned " << c.pinned_share);
+    NodesOptions options = nodes_of(3, 16);
+    options.object_bytes = bytes / 4;
+    options.profile_share = c.profile_share;
+    options.pinned_share = c.pinned_share;
+    options.replicas = c.replicas;
+    LocalRun run(scene, 1, 1);
+    NodesReport report;
+    REQUIRE(run_on_nodes(run, options, stop, nobody, ignore, &report).ok());
+    CHECK(differences(plain, run) == 0);
+    CHECK(report.residency.has_value() == (c.profile_share > 0));
+    CHECK(report.by_node.size() == 3);
+    CHECK((report.workers.pinned_bytes > 0) == (c.pinned_share > 0));
+    CHECK(report.workers.largest_resident_bytes <= options.object_bytes);
+    if (!report.residency) continue;
+    CHECK(report.residency->expected_hit_rate > 0.5);
+    CHECK(residency_table(*report.residency, report.by_node).size() == 5);
   }
 }
 

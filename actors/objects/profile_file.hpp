@@ -1,0 +1,22 @@
+// A profile as a file, so that all processes of a cluster plan from the same counts without tracing
+// them again: `luxodus profile` writes it, `profile` in [run] names it. The container is that of
+// flux files (scenes/format/flux_file.hpp): whole and checked, or refused. Plain values; any
+// thread.
+#pragma once
+
+#include <filesystem>
+
+#include "actors/objects/reference_profile.hpp"
+#include "scenes/format/atomic_file.hpp"
+
+namespace luxodus {
+
+/// Errors: as write_flux_file.
+Result<Done> write_profile(const std::filesystem::path& path, const ReferenceProfile& profile);
+
+/// Errors: as read_flux_file; a file that is no profile; one of another scene, scenario or
+/// partition.
+Result<ReferenceProfile> read_profile(const std::filesystem::path& path,
+                                      const CompiledScene& scene);
+
+}  // namespace luxodus

@@ -1,0 +1,137 @@
+#include "actors/objects/reference_profile.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <list>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "scenes/transport/trace.hpp"
+
+namespace luxodus {
+
+namespace {
+
+/// Of a group that has next to no share: enough to see where its light goes.
+constexpr int64_t particles_least = 256;
+/// Added to the seed: the profile's histories are none of the run's.
+constexpr uint64_t other_histories = 0x9E3779B97F4A7C15;
+
+/// All cells of a scene for one tracer, built when they are asked for; counts who asks.
+class CountingCells final : public ObjectSource {
+ public:
+  CountingCells(const CompiledScene& scene, const SceneObjects& objects, uint64_t budget_bytes)
+      : objects_(objects),
+        limits_{static_cast<uint32_t>(scene.surfaces.size()), scene.patch_count},
+        budget_bytes_(budget_bytes),
+        built_(objects.places().size()),
+        visited_in_(built_.size(), 0),
+        bytes_of_(built_.size(), 0) {}
+
+  /// What is entered from now on counts here.
+  void count_into(ReferenceCounts& counts) {
+    counts_ = &counts;
+    counts.references.assign(built_.size(), 0);
+    counts.visits.assign(built_.size(), 0);
+  }
+  void begin_history() { ++history_; }
+
+  const CellScene* cell(uint32_t cell) override {
+    ++counts_->references[cell];
+    if (visited_in_[cell] != history_) {
+      visited_in_[cell] = history_;
+      ++counts_->visits[cell];
+    }
+    Built& built = built_[cell];
+    if (built.object == nullptr) return build(cell);
+    used_.splice(used_.end(), used_, built.place);
+    return &built.object->scene();
+  }
+  bool spoilt() override { return problem_.has_value(); }
+  const std::optional<Problem>& problem() const { return problem_; }
+  const std::vector<uint64_t>& bytes_of() const { return bytes_of_; }
+
+ private:
+  struct Built {
+    std::unique_ptr<BuiltCell> object;
+    std::list<uint32_t>::iterator place;
+  };
+
+  const CellScene* build(uint32_t cell) {
+    auto decoded = decode_cell(objects_.bytes(cell).bytes, limits_);
+    if (!decoded.ok()) {
+      problem_ = decoded.problem();
+      return nullptr;
+    }
+    auto object = std::make_unique<BuiltCell>(device_, std::move(decoded).value());
+    bytes_of_[cell] = object->bytes();
+    resident_bytes_ += object->bytes();
+    while (resident_bytes_ > budget_bytes_ && !used_.empty()) {
+      Built& oldest = built_[used_.front()];
+      resident_bytes_ -= oldest.object->bytes();
+      oldest.object.reset();
+      used_.pop_front();
+    }
+    built_[cell] = {std::move(object), used_.insert(used_.end(), cell)};
+    return &built_[cell].object->scene();
+  }
+
+  const SceneObjects& objects_;
+  CellLimits limits_;
+  uint64_t budget_bytes_;
+  EmbreeDevice device_;
+  std::vector<Built> built_;
+  std::list<uint32_t> used_;  // the one unused for the longest first
+  uint64_t resident_bytes_ = 0;
+  std::vector<uint64_t> visited_in_;  // by cell: the last history that entered it
+  uint64_t history_ = 0;
+  ReferenceCounts* counts_ = nullptr;
+  std::vector<uint64_t> bytes_of_;
+  std::optional<Problem> problem_;
+};
+
+}  // namespace
+
+std::vector<int64_t> profile_particles(const std::vector<double>& group_share, int64_t particles) {
+  const int64_t all = std::min(particles, limits::profile_particles);
+  std::vector<int64_t> by_group;
+  for (const double share : group_share)
+    by_group.push_back(
+        std::max<int64_t>(particles_least, std::llround(share * static_cast<double>(all))));
+  return by_group;
+}
+
+Result<ReferenceProfile> count_references(const CompiledScene& scene, const SceneObjects& objects,
+                                          const ProxyScene& proxies, uint64_t seed,
+                                          const std::vector<int64_t>& particles,
+                                          uint64_t budget_bytes) {
+  CountingCells cells(scene, objects, budget_bytes);
+  const auto tracer =
+      make_batch_tracer(scene, GeometryAccess::through(proxies, cells), seed + other_histories);
+  BatchScores scores;
+  scores.reset(scene.layout);
+  ReferenceProfile profile;
+  profile.scene_hash = scene.scene_hash;
+  profile.groups.resize(particles.size());
+  for (size_t g = 0; g < particles.size(); ++g) {
+    profile.groups[g].units = particles[g];
+    cells.count_into(profile.groups[g]);
+    for (int64_t particle = 0; particle < particles[g]; ++particle) {
+      cells.begin_history();
+      tracer->trace(static_cast<int>(g), static_cast<uint64_t>(particle), 1, scores);
+      if (cells.problem()) return *cells.problem();
+    }
+  }
+  profile.eyes.units = 1;
+  cells.count_into(profile.eyes);
+  for (uint32_t unit = 0; unit < tracer->look_units(); ++unit) {
+    cells.begin_history();
+    tracer->look(0, unit, scores);
+    if (cells.problem()) return *cells.problem();
+  }
+  profile.built_bytes = cells.bytes_of();
+  return profile;
+}
+
+}  // namespace luxodus
