@@ -45,6 +45,7 @@ int main(int argc, char** argv) {
   int exit_code = ExitCode::success;
   add_run(app, exit_code);
   add_check(app, exit_code);
+  add_pack(app, exit_code);
   add_render(app, exit_code);
   add_converge(app, exit_code);
   add_info(app, exit_code);

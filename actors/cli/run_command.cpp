@@ -4,10 +4,11 @@
 #include <filesystem>
 
 #include "actors/cli/command.hpp"
-#include "actors/display/pictures.hpp"
+#include "actors/display/preview.hpp"
 #include "actors/display/report.hpp"
 #include "actors/source/flux_store.hpp"
 #include "actors/supervise/in_process.hpp"
+#include "actors/supervise/stored_rows.hpp"
 #include "scenes/transport/compile.hpp"
 
 namespace luxodus::cli {
@@ -21,6 +22,7 @@ struct RunOptions {
   std::string out;
   std::string scenario;
   std::string particles, error, time;
+  std::string preview;
   std::optional<uint64_t> seed;
   int threads = default_threads();
   int cells = 1;
@@ -31,9 +33,13 @@ struct RunOptions {
   bool no_views = false;
   bool json = false;
   int picture_paths = 32;
+
+  size_t object_bytes() const { return static_cast<size_t>(object_mib * 1024 * 1024); }
 };
 
 constexpr int64_t default_particles = 4'000'000;
+/// Of a pixel in a preview: grainy, and there in seconds.
+constexpr int preview_paths = 4;
 
 Result<StopRule> stop_rule(const RunOptions& o) {
   StopRule rule;
@@ -91,8 +97,32 @@ Result<StopReason> trace(LocalRun& run, const Scenario& scenario, const RunOptio
   NodesOptions nodes;
   nodes.nodes = options.nodes;
   nodes.fibers = options.fibers;
-  nodes.object_bytes = static_cast<size_t>(options.object_mib * 1024 * 1024);
+  nodes.object_bytes = options.object_bytes();
   return run_on_nodes(run, nodes, rule, interrupt_flag(), show);
+}
+
+/// What shows the run while it goes on; null where nobody asks.
+Result<std::unique_ptr<Preview>> preview_of(LocalRun& run, const fs::path& folder,
+                                            const RunOptions& options) {
+  if (options.preview.empty()) return std::unique_ptr<Preview>();
+  const auto every = parse_seconds(options.preview);
+  if (!every.ok()) return every.problem();
+  install_preview_handler();
+  PictureOptions picture;
+  picture.paths_per_pixel = preview_paths;
+  return std::make_unique<Preview>(folder, run, every.value(), preview_flag(), picture);
+}
+
+/// With a budget for objects, nothing else is to hold geometry either.
+std::unique_ptr<LocalRun> prepare(std::shared_ptr<const CompiledScene> scene, uint64_t seed,
+                                  const RunOptions& options) {
+  if (options.nodes == 0 || options.object_mib == 0)
+    return std::make_unique<LocalRun>(std::move(scene), seed, options.threads);
+  StoredRowsConfig config;
+  config.threads = options.threads;
+  config.object_bytes = options.object_bytes() * static_cast<size_t>(options.threads);
+  auto rows = std::make_unique<StoredRows>(scene, config);
+  return std::make_unique<LocalRun>(std::move(scene), seed, options.threads, std::move(rows));
 }
 
 struct Traced {
@@ -108,7 +138,8 @@ Result<Traced> run_scenario(std::shared_ptr<const SceneDescription> description,
   if (!scene.ok()) return scene.problem();
   for (const Problem& w : scene.value()->warnings) spdlog::warn("{}", w.text());
   const uint64_t seed = options.seed.value_or(description->run.seed);
-  LocalRun run(scene.value(), seed, options.threads);
+  const auto prepared = prepare(scene.value(), seed, options);
+  LocalRun& run = *prepared;
   // Of several scenarios the later ones may not have been begun when the run was stopped.
   const bool begun = options.scenario != "all" || fs::exists(folder / "flux.lux");
   if (options.resume && begun) {
@@ -117,7 +148,10 @@ Result<Traced> run_scenario(std::shared_ptr<const SceneDescription> description,
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) return Problem{{folder.string(), 0}, "cannot make this folder: " + error.message()};
+  auto preview = preview_of(run, folder, options);
+  if (!preview.ok()) return preview.problem();
   auto reason = trace(run, scenario, options, rule);
+  preview.value().reset();
   if (!reason.ok()) return reason.problem();
   RunRecord record;
   record.scene_file = fs::absolute(options.scene).string();
@@ -199,7 +233,9 @@ void add_run(CLI::App& app, int& exit_code) {
       "cells give\n"
       "the same flux file, bit for bit, for any number of threads.\n\n"
       "DIR then holds result.json, flux.lux, planes/, views/, patches.vtp and volume.vti.");
-  command->add_option("scene", options->scene, "scene file (TOML; see scenes/format/README.md)")
+  command
+      ->add_option("scene", options->scene,
+                   "scene file (TOML; see scenes/format/README.md), or a pack")
       ->required();
   command->add_option("--out", options->out, "folder for the results [out/NAME]");
   command->add_option("--scenario", options->scenario, "name of a scenario, or 'all' [the first]");
@@ -227,6 +263,9 @@ void add_run(CLI::App& app, int& exit_code) {
   command
       ->add_option("--picture-paths", options->picture_paths, "paths per pixel of the views [32]")
       ->check(CLI::Range(1, 100'000));
+  command->add_option("--preview", options->preview,
+                      "pictures of the run while it goes on, into DIR/preview, so often: 60s; and "
+                      "whenever the process gets SIGUSR1");
   command->add_flag("--resume", options->resume,
                     "go on from DIR's flux file; with --scenario all those not begun start");
   command->add_flag("--no-views", options->no_views, "make no pictures");

@@ -92,6 +92,7 @@ void Controller::look() {
   set_timer();
   if (over_) return tell_end();
   report_(progress());
+  run_.pause_if_due();
   for (const Lease& lease : book_.fence_late(now)) {
     ++counters_.fenced;
     spdlog::warn("lease late lease={} node={} batch={}: lent again", lease.id, lease.node.value,

@@ -7,6 +7,8 @@
 #include <limits>
 #include <thread>
 
+#include "runtime/core/check.hpp"
+
 namespace luxodus {
 
 namespace {
@@ -36,6 +38,17 @@ LocalRun::LocalRun(std::shared_ptr<const CompiledScene> scene, uint64_t seed, in
       seed_(seed),
       threads_(threads),
       index_(std::make_unique<SceneIndex>(device_, *scene_)),
+      rows_(std::make_unique<ResidentRows>(*index_, threads)),
+      totals_(scene_->layout, static_cast<int>(scene_->groups.size()), photopic_weights(*scene_)),
+      plan_(*scene_),
+      error_(std::numeric_limits<double>::quiet_NaN()) {}
+
+LocalRun::LocalRun(std::shared_ptr<const CompiledScene> scene, uint64_t seed, int threads,
+                   std::unique_ptr<RowRunner> rows)
+    : scene_(std::move(scene)),
+      seed_(seed),
+      threads_(threads),
+      rows_(std::move(rows)),
       totals_(scene_->layout, static_cast<int>(scene_->groups.size()), photopic_weights(*scene_)),
       plan_(*scene_),
       error_(std::numeric_limits<double>::quiet_NaN()) {}
@@ -85,6 +98,7 @@ void LocalRun::trace_until(int64_t end, const StopRule& stop, const std::atomic<
         const double now = clock.seconds();
         if (stop.seconds && now >= *stop.seconds) time_is_up_ = true;
         if (interrupt.load() || time_is_up_ || plan_.given() >= end) return;
+        if (pause_due_ && pause_due_()) return;
         if (now - last_report >= report_every_s) {
           last_report = now;
           report(progress(stop, now));
@@ -106,6 +120,7 @@ void LocalRun::trace_until(int64_t end, const StopRule& stop, const std::atomic<
 
 StopReason LocalRun::run(const StopRule& stop, const std::atomic<bool>& interrupt,
                          const std::function<void(const Progress&)>& report) {
+  LUX_CHECK(resident(), "threads trace only what is resident");
   const Clock clock;
   const double before = seconds_;
   batches_at_start_ = plan_.given();
@@ -117,6 +132,8 @@ StopReason LocalRun::run(const StopRule& stop, const std::atomic<bool>& interrup
     const int64_t end =
         stop.relative_error ? std::min(target, plan_.round_end(plan_.given())) : target;
     trace_until(end, stop, interrupt, report, clock);
+    pause_if_due();
+    if (plan_.given() < end && !interrupt.load() && !time_is_up_) continue;
     error_ = Readout(*scene_, totals_).worst_relative_error();
     if (interrupt.load())
       reason = StopReason::interrupted;

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "actors/source/batch_plan.hpp"
+#include "actors/source/rows.hpp"
 #include "scenes/transport/readout.hpp"
 #include "scenes/transport/trace.hpp"
 
@@ -39,13 +40,29 @@ enum class StopReason { particles, error, time, interrupted };
 
 class LocalRun {
  public:
-  /// Requires: threads >= 1.
+  /// Takes all geometry into memory. Requires: threads >= 1.
+  /// Errors (exception): a packed scene whose triangles cannot be read.
   LocalRun(std::shared_ptr<const CompiledScene> scene, uint64_t seed, int threads);
+  /// Leaves geometry where it is: others trace, and what is computed of the result reaches geometry
+  /// through `rows`.
+  LocalRun(std::shared_ptr<const CompiledScene> scene, uint64_t seed, int threads,
+           std::unique_ptr<RowRunner> rows);
 
   /// Traces until `stop` holds or `interrupt` is set; batches in flight are finished. May be called
   /// again to go on. `report` is called about four times a second, from one thread at a time.
+  /// Requires: resident().
   StopReason run(const StopRule& stop, const std::atomic<bool>& interrupt,
                  const std::function<void(const Progress&)>& report);
+
+  /// Has `pause` called between batches, while nobody adds to the totals, whenever `due` says so:
+  /// by run() on its thread, by a controller on its. Both functions outlive the run.
+  void set_pause(std::function<bool()> due, std::function<void()> pause) {
+    pause_due_ = std::move(due);
+    pause_ = std::move(pause);
+  }
+  void pause_if_due() {
+    if (pause_due_ && pause_due_()) pause_();
+  }
 
   /// Goes on from totals that hold the first `batches` batches.
   void resume(int64_t batches);
@@ -58,7 +75,12 @@ class LocalRun {
   int64_t round_end(int64_t batches) const { return plan_.round_end(batches); }
 
   const CompiledScene& scene() const { return *scene_; }
+  const std::shared_ptr<const CompiledScene>& shared_scene() const { return scene_; }
+  bool resident() const { return index_ != nullptr; }
+  /// Requires: resident().
   const SceneIndex& index() const { return *index_; }
+  /// For work beside tracing that needs geometry.
+  const RowRunner& rows() const { return *rows_; }
   Totals& totals() { return totals_; }
   const Totals& totals() const { return totals_; }
   const EmbreeDevice& device() const { return device_; }
@@ -82,6 +104,7 @@ class LocalRun {
   int threads_;
   EmbreeDevice device_;
   std::unique_ptr<SceneIndex> index_;
+  std::unique_ptr<RowRunner> rows_;
   Totals totals_;
   BatchPlan plan_;
   std::mutex plan_mutex_;
@@ -89,6 +112,8 @@ class LocalRun {
   double seconds_ = 0;
   double error_ = 0;
   int64_t batches_at_start_ = 0;
+  std::function<bool()> pause_due_;
+  std::function<void()> pause_;
 };
 
 }  // namespace luxodus

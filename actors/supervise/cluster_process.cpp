@@ -5,10 +5,12 @@
 #include <algorithm>
 
 #include "actors/supervise/node_shell.hpp"
+#include "actors/supervise/stored_rows.hpp"
 #include "runtime/config/cluster_file.hpp"
 #include "runtime/fiber/sanitizers.hpp"
 #include "scenes/format/atomic_file.hpp"
 #include "scenes/format/scene_file.hpp"
+#include "scenes/pack/scene_pack.hpp"
 #include "scenes/transport/compile.hpp"
 #include "topology/graph_file.hpp"
 #include "topology/shipped.hpp"
@@ -93,6 +95,13 @@ int cells_for(const ClusterConfig& cluster, uint64_t built_bytes) {
       built_bytes / std::max<uint64_t>(smallest / cells_of_a_budget, 1) + 1, 1'000'000));
 }
 
+std::vector<NodeId> holders_of(const ClusterConfig& cluster) {
+  std::vector<NodeId> holders;
+  for (uint16_t i = 0; i < cluster.workers(); ++i)
+    if (cluster.node({i}).stores) holders.push_back({i});
+  return holders;
+}
+
 ClusterProcessRun::~ClusterProcessRun() = default;
 
 Result<std::unique_ptr<ClusterProcessRun>> ClusterProcessRun::prepare(
@@ -124,18 +133,46 @@ Result<bool> ClusterProcessRun::load_keys(const std::vector<NodeId>& nodes) {
   return true;
 }
 
-Result<bool> ClusterProcessRun::load_scene() {
-  auto read = read_scene(cluster_.run.scene.string());
+namespace {
+
+Result<std::shared_ptr<const SceneDescription>> described(const std::filesystem::path& scene) {
+  if (is_pack(scene)) return read_pack(scene);
+  auto read = read_scene(scene.string());
   if (!read.scene) return read.problems.list().front();
-  const auto description = std::make_shared<const SceneDescription>(std::move(*read.scene));
-  auto scenario = find_scenario(*description, cluster_.run.scenario);
+  return std::make_shared<const SceneDescription>(std::move(*read.scene));
+}
+
+}  // namespace
+
+Result<bool> ClusterProcessRun::load_scene() {
+  auto description = described(cluster_.run.scene);
+  if (!description.ok()) return description.problem();
+  auto scenario = find_scenario(*description.value(), cluster_.run.scenario);
   if (!scenario.ok()) return scenario.problem();
-  auto scene = compile_scene(description, scenario.value(), {1});
+  auto scene = compile_scene(description.value(), scenario.value(), {1});
   if (!scene.ok()) return scene.problem();
-  cells_ = cells_for(cluster_, built_bytes_of(scene.value()->triangles * sizeof(TriangleRecord)));
-  if (cells_ > 1) scene = compile_scene(description, scenario.value(), {cells_});
+  const uint64_t built = built_bytes_of(scene.value()->triangles * sizeof(TriangleRecord));
+  const int wanted = cells_for(cluster_, built);
+  fetches_ = wanted > 1;
+  const PackedGeometry* packed = description.value()->packed.get();
+  cells_ = packed != nullptr ? packed->partition : wanted;
+  if (packed == nullptr && fetches_)
+    scene = compile_scene(description.value(), scenario.value(), {cells_});
   if (!scene.ok()) return scene.problem();
-  run_ = std::make_unique<LocalRun>(scene.value(), description->run.seed, 1);
+  const uint64_t seed = description.value()->run.seed;
+  if (!fetches_) {
+    run_ = std::make_unique<LocalRun>(scene.value(), seed, 1);
+    return true;
+  }
+  if (scene.value()->cell_boxes.size() < 2) {
+    return Problem{{cluster_.run.scene.string(), 0},
+                   "this pack is of one cell, which is more than a node's object_bytes: pack the "
+                   "scene with a smaller --cell-kib"};
+  }
+  StoredRowsConfig rows;
+  rows.object_bytes = cluster_.node(cluster_.controller()).budget.object_bytes;
+  run_ = std::make_unique<LocalRun>(scene.value(), seed, 1,
+                                    std::make_unique<StoredRows>(scene.value(), rows));
   return true;
 }
 
@@ -150,7 +187,7 @@ Result<NodeSetup> ClusterProcessRun::setup_of(NodeId self, const RunSetup& run) 
   node.insecure = cluster_.keys.insecure;
   node.controller = cluster_.controller();
   const NodeBudget& budget = cluster_.node(self).budget;
-  node.photons.fibers = cells_ == 1 ? 1 : budget.fibers;
+  node.photons.fibers = fetches_ ? budget.fibers : 1;
   node.object_bytes = budget.object_bytes;
   node.fibers.stack_bytes = budget.stack_bytes * sanitizers::stack_factor;
   if (budget.maps_most > 0) node.fibers.maps_most = budget.maps_most;
@@ -170,12 +207,12 @@ Result<std::optional<StopReason>> ClusterProcessRun::run(
   const EmbreeDevice device;
   std::optional<SceneObjects> objects;
   std::optional<ProxyScene> proxies;
-  RunSetup setup{run_->scene(), &run_->index(), nullptr, nullptr,
-                 run_->seed(),  graph_,         clock,   context};
-  if (cells_ > 1) {
-    const auto workers = static_cast<uint32_t>(cluster_.workers());
-    objects.emplace(run_->scene(), workers, std::min<uint32_t>(2, workers));
-    proxies.emplace(device, boxes_of(run_->scene()));
+  const SceneIndex* index = fetches_ ? nullptr : &run_->index();
+  RunSetup setup{run_->scene(), index, nullptr, nullptr, run_->seed(), graph_, clock, context};
+  if (fetches_) {
+    const std::vector<NodeId> holders = holders_of(cluster_);
+    objects.emplace(run_->scene(), holders, std::min<size_t>(2, holders.size()));
+    proxies.emplace(device, run_->scene().cell_boxes);
     setup.objects = &*objects;
     setup.proxies = &*proxies;
   }

@@ -21,10 +21,15 @@ Result<Graph> graph_for(const NodesOptions& options) {
   return minimum_path_graph(request);
 }
 
-std::optional<std::string> fault_of(const NodesOptions& options, const CompiledScene& scene) {
-  if (options.object_bytes == 0) return std::nullopt;
-  if (scene.cells.size() < 2)
-    return "nodes with a budget need a partition of the geometry: add --cells";
+std::optional<std::string> fault_of(const NodesOptions& options, const CompiledScene& scene,
+                                    bool resident) {
+  if (options.object_bytes == 0) {
+    if (resident) return std::nullopt;
+    return "nodes that do not hold the whole scene need a budget for objects";
+  }
+  if (scene.cell_boxes.size() < 2)
+    return "nodes with a budget need a partition of the geometry: add --cells, or pack the scene "
+           "with more than one";
   if (options.replicas < 1 || options.replicas > static_cast<uint32_t>(options.nodes) ||
       options.replicas > limits::holders)
     return "a cell can be held by 1 to " + std::to_string(limits::holders) +
@@ -129,7 +134,7 @@ Result<StopReason> run_on_nodes(LocalRun& run, const NodesOptions& options, cons
                                 const std::atomic<bool>& interrupt,
                                 const std::function<void(const Progress&)>& report,
                                 NodesReport* counted) {
-  if (auto fault = fault_of(options, run.scene())) return Problem{{}, *fault};
+  if (auto fault = fault_of(options, run.scene(), run.resident())) return Problem{{}, *fault};
   auto graph = graph_for(options);
   if (!graph.ok()) return graph.problem();
   const SystemClock clock;
@@ -137,11 +142,13 @@ Result<StopReason> run_on_nodes(LocalRun& run, const NodesOptions& options, cons
   const EmbreeDevice device;
   std::optional<SceneObjects> objects;
   std::optional<ProxyScene> proxies;
-  RunSetup setup{run.scene(), &run.index(),  nullptr, nullptr,
-                 run.seed(),  graph.value(), clock,   context};
+  const SceneIndex* index = run.resident() ? &run.index() : nullptr;
+  RunSetup setup{run.scene(), index, nullptr, nullptr, run.seed(), graph.value(), clock, context};
   if (options.object_bytes > 0) {
-    objects.emplace(run.scene(), static_cast<uint32_t>(options.nodes), options.replicas);
-    proxies.emplace(device, boxes_of(run.scene()));
+    std::vector<NodeId> holders;
+    for (uint16_t i = 0; i < options.nodes; ++i) holders.push_back({i});
+    objects.emplace(run.scene(), holders, options.replicas);
+    proxies.emplace(device, run.scene().cell_boxes);
     setup.objects = &*objects;
     setup.proxies = &*proxies;
   }

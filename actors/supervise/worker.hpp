@@ -3,23 +3,9 @@
 #pragma once
 
 #include "actors/photon/lease_client.hpp"
-#include "actors/supervise/node_setup.hpp"
-#include "actors/supervise/node_shell.hpp"
+#include "actors/supervise/fetching_cells.hpp"
 
 namespace luxodus {
-
-/// What a worker did, for a line to people and for tests.
-struct WorkerReport {
-  uint64_t hits = 0;
-  uint64_t fetches = 0;
-  uint64_t joined = 0;  // fibers that found a fetch under way
-  uint64_t builds = 0;
-  uint64_t evictions = 0;
-  uint64_t fetched_bytes = 0;
-  uint64_t largest_resident_bytes = 0;  // of one node, when it ended
-
-  void add(const WorkerReport& other);
-};
 
 class Worker {
  public:
@@ -31,8 +17,6 @@ class Worker {
   Result<WorkerReport> run(const std::function<bool()>& stop);
 
  private:
-  class FetchingCells;
-
   const NodeSetup& node_;
   ZmqTransport transport_;
   NodeShell shell_;

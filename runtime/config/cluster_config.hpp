@@ -53,6 +53,7 @@ struct ClusterNode {
   std::string name;
   NodeRole role = NodeRole::worker;
   bool traces = true;
+  bool stores = true;  // its host has the scene's objects, so it holds its part of them for all
   size_t host = 0;     // among ClusterConfig::hosts
   size_t process = 0;  // among ClusterConfig::processes
   uint16_t port = 0;   // TCP, of the control lane; bulk has the next

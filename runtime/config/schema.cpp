@@ -78,6 +78,9 @@ std::vector<TableSpec> node_tables() {
             "nodes of one host that name the same process share it; its own unless said"},
            {"port", "integer", "", "", "[1024, 65534]",
             "TCP port for what is urgent, and the next for bulk; from `first_port` unless said"},
+           {"stores", "flag", "", "true", "",
+            "its host has the scene's objects, and it holds its part of them for all; without, it "
+            "gets all from others, and the skeleton of a pack is enough"},
            {"budget", "table", "", "", "", "what this node may hold, where it differs"},
        }},
       {"node.controller",

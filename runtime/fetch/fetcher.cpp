@@ -187,8 +187,9 @@ void Fetcher::ask(Flight& flight) {
     }
     flight.holder = (at + 1) % holders.size();
   }
+  if (take_from_store(flight)) return;
   if (ways_missing) return wait_for_ways(flight);
-  if (!take_from_store(flight)) give_up(flight);
+  give_up(flight);
 }
 
 /// Asks now, or once the network has room for the question; false where no way leads there.
@@ -224,6 +225,7 @@ void Fetcher::wait_for_ways(Flight& flight) {
 
 bool Fetcher::take_from_store(Flight& flight) {
   SharedBytes bytes = store_.find(objects_[flight.wish.object].id);
+  if (bytes.bytes.empty()) bytes = store_.find_in_storage(flight.wish.object);
   return !bytes.bytes.empty() && accept(flight, std::move(bytes), 0, config_.self);
 }
 

@@ -321,3 +321,34 @@ TEST_CASE("check counts the triangles without area that it drops", "[program]") 
   CHECK(check.out.find("13 triangles") != std::string::npos);
   CHECK(check.out.find("2 degenerate triangles dropped") != std::string::npos);
 }
+
+TEST_CASE("a packed scene runs as its scene file does, resident and on nodes with a budget",
+          "[program]") {
+  const Folder folder;
+  const std::string scene = write_scene(folder, readme_scene());
+  const std::string pack = out(folder, "room.luxpack");
+  REQUIRE(run_luxodus(folder, "pack " + scene + " --cell-kib 1 --out " + pack).code == 0);
+  const Outcome told = run_luxodus(folder, "check --json " + pack);
+  REQUIRE(told.code == 0);
+  const auto checked = nlohmann::json::parse(told.out);
+  const int cells = checked["scenarios"][0]["cells"].get<int>();
+  REQUIRE(cells > 1);
+  const std::string common = " --no-views --particles 40k --out ";
+  REQUIRE(run_luxodus(folder, "run " + scene + " --cells " + std::to_string(cells) + common +
+                                  out(folder, "plain"))
+              .code == 0);
+  REQUIRE(run_luxodus(folder, "run " + pack + common + out(folder, "packed")).code == 0);
+  REQUIRE(run_luxodus(folder, "run " + pack + " --nodes 2 --fibers 32 --object-mib 0.05" + common +
+                                  out(folder, "nodes"))
+              .code == 0);
+  CHECK(flux(folder, "packed") == flux(folder, "plain"));
+  CHECK(flux(folder, "nodes") == flux(folder, "plain"));
+  CHECK(run_luxodus(folder, "render " + out(folder, "nodes") + " --paths 1").code == 0);
+
+  const std::string skeleton = out(folder, "skeleton.luxpack");
+  REQUIRE(run_luxodus(folder, "pack " + pack + " --skeleton-only --out " + skeleton).code == 0);
+  const Outcome bare = run_luxodus(folder, "run " + skeleton + common + out(folder, "bare"));
+  CHECK(bare.code != 0);
+  CHECK(bare.err.find("holds no objects") != std::string::npos);
+  CHECK(run_luxodus(folder, "pack " + pack + " --out " + skeleton).code == 2);
+}
