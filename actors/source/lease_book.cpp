@@ -54,6 +54,17 @@ std::vector<Lease> LeaseBook::fence_node(NodeId node) {
   return fence([&](const Lease& lease) { return lease.node == node; });
 }
 
+std::vector<Lease> LeaseBook::fence_leases(NodeId node, const std::vector<uint64_t>& leases) {
+  const std::set<uint64_t> named(leases.begin(), leases.end());
+  return fence([&](const Lease& lease) { return lease.node == node && named.count(lease.id) > 0; });
+}
+
+std::vector<int64_t> LeaseBook::missing() const {
+  std::set<int64_t> batches = again_;
+  for (const auto& [id, lease] : leases_) batches.insert(lease.batch);
+  return {batches.begin(), batches.end()};
+}
+
 std::optional<Nanoseconds> LeaseBook::next_deadline() const {
   std::optional<Nanoseconds> first;
   for (const auto& [id, lease] : leases_)
