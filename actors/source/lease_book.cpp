@@ -12,7 +12,8 @@ LentBatches LeaseBook::lend(NodeId node, int64_t most, Nanoseconds deadline) {
     const bool again = again_.erase(batch) > 0;
     if (!again && (batch != next_ || next_ == end_)) break;
     if (!again) ++next_;
-    leases_.emplace(++last_id_, Lease{last_id_, node, batch, deadline});
+    const uint64_t id = ++last_id_;
+    leases_.emplace(id, Lease{id, node, batch, deadline});
     ++lent.count;
   }
   return lent;

@@ -20,7 +20,7 @@ machine=$(hostname -s)
 
 clean_up() {
   local id
-  scancel --quiet --user=root 2>/dev/null && until_true none_runs || true
+  if scancel --quiet --user=root 2>/dev/null; then until_true none_runs || true; fi
   for id in "$folder"/slurm/*.pid; do kill "$(cat "$id")" 2>/dev/null || true; done
 }
 trap clean_up EXIT
