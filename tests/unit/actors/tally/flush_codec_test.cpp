@@ -62,10 +62,10 @@ TotalsGain joined(const std::vector<TotalsGain>& pieces) {
   return whole;
 }
 
-void add(Totals& totals, const std::vector<std::byte>& flush, int64_t size) {
+void add(Totals& to, const std::vector<std::byte>& flush, int64_t size) {
   const auto pieces = decode_flush(flush, 1, size);
   REQUIRE(pieces.ok());
-  for (const TotalsGain& piece : pieces.value()) totals.add(piece);
+  for (const TotalsGain& piece : pieces.value()) to.add(piece);
 }
 
 bool same(const TotalsGain& a, const TotalsGain& b) {
