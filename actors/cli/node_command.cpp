@@ -21,11 +21,6 @@ struct NodeOptions {
   std::vector<std::string> names;
 };
 
-const char* reason_word(StopReason reason) {
-  constexpr const char* words[] = {"particles", "error", "time", "interrupted"};
-  return words[static_cast<size_t>(reason)];
-}
-
 /// What the controller leaves, as `luxodus run` does, but for pictures: `luxodus render` makes
 /// them.
 Result<Done> write_results(const ClusterConfig& cluster, const ClusterProcessRun& process,
@@ -37,7 +32,7 @@ Result<Done> write_results(const ClusterConfig& cluster, const ClusterProcessRun
   if (failed) return Problem{{folder.string(), 0}, "cannot make this folder: " + failed.message()};
   RunRecord record;
   record.scene_file = fs::absolute(cluster.run.scene).string();
-  record.stopped_by = reason_word(reason);
+  record.stopped_by = name_of(reason);
   record.cells = process.cells();
   const LocalRun& run = process.local_run();
   if (auto ok = save_flux(folder / "flux.lux", run); !ok.ok()) return ok.problem();
@@ -95,6 +90,12 @@ int run_nodes(const NodeOptions& options) {
   if (!ended.value()) return ExitCode::success;
   if (auto ok = write_results(cluster, *process.value(), *ended.value()); !ok.ok()) {
     tell(ok.problem());
+    return ExitCode::failure;
+  }
+  if (*ended.value() == StopReason::workers_lost) {
+    tell({{options.config, 0},
+          "all workers were lost; what they had counted was written: go on with "
+          "luxodus run --resume, or see to the workers and start anew"});
     return ExitCode::failure;
   }
   return *ended.value() == StopReason::interrupted ? ExitCode::interrupted : ExitCode::success;

@@ -62,20 +62,6 @@ Result<StopRule> stop_rule(const RunOptions& o) {
   return rule;
 }
 
-const char* reason_word(StopReason reason) {
-  switch (reason) {
-    case StopReason::particles:
-      return "particles";
-    case StopReason::error:
-      return "error";
-    case StopReason::time:
-      return "time";
-    case StopReason::interrupted:
-      return "interrupted";
-  }
-  return "";
-}
-
 Result<Done> write_all(const fs::path& folder, const LocalRun& run, const RunRecord& record,
                        const RunOptions& options) {
   if (auto ok = save_flux(folder / "flux.lux", run); !ok.ok()) return ok.problem();
@@ -155,7 +141,7 @@ Result<Traced> run_scenario(std::shared_ptr<const SceneDescription> description,
   if (!reason.ok()) return reason.problem();
   RunRecord record;
   record.scene_file = fs::absolute(options.scene).string();
-  record.stopped_by = reason_word(reason.value());
+  record.stopped_by = name_of(reason.value());
   record.cells = options.cells;
   if (auto ok = write_all(folder, run, record, options); !ok.ok()) return ok.problem();
   Json result = result_json(run, record);

@@ -318,7 +318,7 @@ Json result_of(const LocalRun& run, const RunRecord& record, const PlaneMaps& ma
       {"kernel", describe_kernel(scene)},
       {"seed", run.seed()},
       {"particles", run.particles()},
-      {"batches", run.batches()},
+      {"batches", run.traced()},
       {"batch_particles", scene.batch_particles},
       {"stopped_by", record.stopped_by},
       {"threads", run.threads()},

@@ -1,5 +1,7 @@
 #include "actors/photon/lease_client.hpp"
 
+#include <fmt/format.h>
+
 #include "actors/tally/flush_codec.hpp"
 #include "runtime/core/check.hpp"
 #include "runtime/core/hash.hpp"
@@ -12,10 +14,11 @@ constexpr int64_t bins_of_a_step = 16384;
 }  // namespace
 
 LeaseClient::LeaseClient(const LeaseClientConfig& config, Scheduler& scheduler, Network& network)
-    : config_(config), scheduler_(scheduler), network_(network) {}
+    : config_(config), scheduler_(scheduler), network_(network), began_(scheduler.clock().now()) {}
 
 void LeaseClient::start(PhotonThreads& photons) {
   photons_ = &photons;
+  began_ = scheduler_.clock().now();
   set_timer();
 }
 
@@ -27,7 +30,7 @@ void LeaseClient::want_leases(size_t count) {
 }
 
 void LeaseClient::ask() {
-  if (asking_ || ended_ || round_empty_ || wanted_ == 0) return;
+  if (asking_ || ended_ || draining_ || round_empty_ || wanted_ == 0) return;
   asking_ = Question{network_.next_id(), RequestLease{static_cast<uint32_t>(wanted_)}, nullptr};
   wanted_ = 0;
   put(*asking_);
@@ -72,7 +75,7 @@ void LeaseClient::lease_failed(uint64_t lease, int64_t batch) {
 
 /// Nothing more is to be had in this round: the controller waits for what is here.
 void LeaseClient::flush_when_idle() {
-  if (round_empty_ && photons_->at_hand() == 0) flush();
+  if ((round_empty_ || draining_) && photons_->at_hand() == 0) flush();
 }
 
 void LeaseClient::flush() {
@@ -107,6 +110,40 @@ void LeaseClient::flush_answered(const MessageId& answered, bool taken) {
   flush_when_idle();
 }
 
+// ---- the end ---------------------------------------------------------------------------------
+
+void LeaseClient::drain() {
+  draining_ = true;
+  flush_when_idle();
+}
+
+bool LeaseClient::drained() const {
+  return !asking_ && !packing_ && !flushing_ && done_.empty() && photons_->at_hand() == 0;
+}
+
+void LeaseClient::end(std::optional<Problem> fault) {
+  if (ended_) return;
+  ended_ = true;
+  fault_ = std::move(fault);
+  photons_->end();
+}
+
+void LeaseClient::watch_controller(Nanoseconds now) {
+  if (ended_) return;
+  if (network_.reaches(config_.controller))
+    unreachable_since_.reset();
+  else if (!unreachable_since_)
+    unreachable_since_ = now;
+  const auto give_up = [&](const char* what, Nanoseconds after, const char* key) {
+    end(Problem{{},
+                fmt::format("{} for {:g} s ({})", what, static_cast<double>(after) * 1e-9, key)});
+  };
+  if (!heard_ && now - began_ >= config_.start)
+    give_up("the controller has not been heard of", config_.start, "start_s");
+  else if (heard_ && unreachable_since_ && now - *unreachable_since_ >= config_.lost)
+    give_up("no way has led to the controller", config_.lost, "lost_s");
+}
+
 // ---- questions and answers -------------------------------------------------------------------
 
 void LeaseClient::put(Question& question) {
@@ -131,11 +168,13 @@ void LeaseClient::on_timer() {
   }
   if (!done_.empty() && now - first_done_ >= config_.flush_every) flush();
   if (round_empty_ && !ended_ && now - emptied_ >= config_.answer_patience) begin_round();
+  watch_controller(now);
   set_timer();
 }
 
 bool LeaseClient::deliver(const Delivery& delivery) {
   if (delivery.source != config_.controller) return false;
+  heard_ = true;
   if (const auto* grant = std::get_if<LeaseGranted>(&delivery.message)) {
     granted(delivery.id, *grant);
   } else if (std::holds_alternative<FlushTaken>(delivery.message)) {
@@ -146,9 +185,11 @@ bool LeaseClient::deliver(const Delivery& delivery) {
     for (const uint64_t lease : fenced->leases) photons_->drop(lease);
   } else if (std::holds_alternative<RoundOpened>(delivery.message)) {
     begin_round();
-  } else if (std::holds_alternative<RunEnded>(delivery.message)) {
-    if (!ended_) photons_->end();
-    ended_ = true;
+  } else if (const auto* over = std::get_if<RunEnded>(&delivery.message)) {
+    if (over->text.empty())
+      end(std::nullopt);
+    else
+      end(Problem{{}, "the controller says: " + over->text});
     network_.send(config_.controller, network_.next_id(), RequestLease{0});
   } else {
     return false;

@@ -1,6 +1,7 @@
 // A worker's side of leases and flushes: asks the controller for batches, tells the photon-threads,
-// and sends what they have merged, until the run ends. What gets no answer is asked again under the
-// same id; the controller answers a repeated question as it did before.
+// and sends what they have merged, until the run ends or the controller is given up. What gets no
+// answer is asked again under the same id; the controller answers a repeated question as it did
+// before.
 // Thread rule: the node's thread.
 #pragma once
 
@@ -18,6 +19,10 @@ struct LeaseClientConfig {
   Nanoseconds answer_patience = seconds(2);  // then a question is asked again
   /// Merged batches rest here for so long at most: a flush costs a pass over all bins.
   Nanoseconds flush_every = seconds(5);
+  /// Until the controller is heard for the first time, and then without a way to it: after that it
+  /// is given up.
+  Nanoseconds start = seconds(60);
+  Nanoseconds lost = seconds(30);
 };
 
 class LeaseClient final : public LeasePort {
@@ -33,8 +38,15 @@ class LeaseClient final : public LeasePort {
 
   /// A message of the controller; false where it is none of these.
   bool deliver(const Delivery& delivery);
-  /// Whether the run has ended.
+  /// Whether the run has ended, or the controller was given up.
   bool ended() const { return ended_; }
+  /// Why the run ended without this node, or could not begin.
+  const std::optional<Problem>& fault() const { return fault_; }
+
+  /// Asks for no more, and flushes what is at hand once it is traced: this node is to leave.
+  void drain();
+  /// Whether all that was at hand is with the controller.
+  bool drained() const;
 
   struct Counters {
     uint64_t leases = 0;
@@ -63,6 +75,8 @@ class LeaseClient final : public LeasePort {
   void granted(const MessageId& answered, const LeaseGranted& grant);
   void begin_round();
   void flush_when_idle();
+  void watch_controller(Nanoseconds now);
+  void end(std::optional<Problem> fault);
   void flush_answered(const MessageId& answered, bool taken);
 
   LeaseClientConfig config_;
@@ -80,6 +94,11 @@ class LeaseClient final : public LeasePort {
   bool round_empty_ = false;  // the controller had none: flush, and wait for the next round
   Nanoseconds emptied_ = 0;
   bool ended_ = false;
+  bool draining_ = false;
+  std::optional<Problem> fault_;
+  bool heard_ = false;  // of the controller
+  Nanoseconds began_;
+  std::optional<Nanoseconds> unreachable_since_;
   Counters counters_;
 };
 

@@ -12,7 +12,8 @@ LentBatches LeaseBook::lend(NodeId node, int64_t most, Nanoseconds deadline) {
     const bool again = again_.erase(batch) > 0;
     if (!again && (batch != next_ || next_ == end_)) break;
     if (!again) ++next_;
-    leases_.emplace(++last_id_, Lease{last_id_, node, batch, deadline});
+    const uint64_t id = ++last_id_;
+    leases_.emplace(id, Lease{id, node, batch, deadline});
     ++lent.count;
   }
   return lent;
@@ -52,6 +53,17 @@ std::vector<Lease> LeaseBook::fence_late(Nanoseconds now) {
 
 std::vector<Lease> LeaseBook::fence_node(NodeId node) {
   return fence([&](const Lease& lease) { return lease.node == node; });
+}
+
+std::vector<Lease> LeaseBook::fence_leases(NodeId node, const std::vector<uint64_t>& leases) {
+  const std::set<uint64_t> named(leases.begin(), leases.end());
+  return fence([&](const Lease& lease) { return lease.node == node && named.count(lease.id) > 0; });
+}
+
+std::vector<int64_t> LeaseBook::missing() const {
+  std::set<int64_t> batches = again_;
+  for (const auto& [id, lease] : leases_) batches.insert(lease.batch);
+  return {batches.begin(), batches.end()};
 }
 
 std::optional<Nanoseconds> LeaseBook::next_deadline() const {

@@ -31,8 +31,16 @@ struct LentBatches {
 
 class LeaseBook {
  public:
-  /// `done` batches are committed already: a run that goes on.
-  explicit LeaseBook(int64_t done) : next_(done), end_(done), committed_(done) {}
+  /// Batches up to number `next` are committed already, but for those `missing`: a run that goes
+  /// on. Leases are numbered from `first_lease`: where that is random, a lease of an earlier life
+  /// of the book is never taken for one of this.
+  explicit LeaseBook(int64_t next, const std::vector<int64_t>& missing = {},
+                     uint64_t first_lease = 1)
+      : again_(missing.begin(), missing.end()),
+        last_id_(first_lease - 1),
+        next_(next),
+        end_(next),
+        committed_(next - static_cast<int64_t>(missing.size())) {}
 
   /// Batches may be lent up to number `end`. Requires: end is not before an earlier one.
   void open_until(int64_t end) { end_ = end; }
@@ -49,12 +57,15 @@ class LeaseBook {
   std::vector<Lease> fence_late(Nanoseconds now);
   /// Fences all leases of a node that is gone, or has begun another life.
   std::vector<Lease> fence_node(NodeId node);
+  /// Fences those of these leases that stand and are this node's: what it did with them is gone.
+  std::vector<Lease> fence_leases(NodeId node, const std::vector<uint64_t>& leases);
 
   /// Everything up to the end of the round is counted.
   bool round_done() const { return committed_ == end_; }
   int64_t committed() const { return committed_; }
-  /// Batches lent at least once so far: with all leases committed, these are 0..lent_end() - 1.
+  /// Batches lent at least once so far are 0..lent_end() - 1; of these, those not committed.
   int64_t lent_end() const { return next_; }
+  std::vector<int64_t> missing() const;
   /// Ends the round with what has been lent.
   void close() { end_ = next_; }
   size_t standing() const { return leases_.size(); }
@@ -67,7 +78,7 @@ class LeaseBook {
 
   std::map<uint64_t, Lease> leases_;
   std::set<int64_t> again_;  // fenced, to be lent before new ones
-  uint64_t last_id_ = 0;
+  uint64_t last_id_;
   int64_t next_;
   int64_t end_;
   int64_t committed_;

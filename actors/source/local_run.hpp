@@ -36,7 +36,10 @@ struct Progress {
 Progress progress_of(const StopRule& stop, int64_t batch_particles, int64_t at_start,
                      int64_t batches, double seconds, double error);
 
-enum class StopReason { particles, error, time, interrupted };
+enum class StopReason { particles, error, time, interrupted, workers_lost };
+
+/// The word of a reason in results and logs.
+const char* name_of(StopReason reason);
 
 class LocalRun {
  public:
@@ -64,8 +67,9 @@ class LocalRun {
     if (pause_due_ && pause_due_()) pause_();
   }
 
-  /// Goes on from totals that hold the first `batches` batches.
-  void resume(int64_t batches);
+  /// Goes on from totals that hold the first `batches` batches, but for those `missing`: these are
+  /// traced before others. Requires: `missing` ascend and are among them.
+  void resume(int64_t batches, std::vector<int64_t> missing = {});
   /// Adds time that somebody else has traced into the totals.
   void add_seconds(double seconds) { seconds_ += seconds; }
 
@@ -84,19 +88,22 @@ class LocalRun {
   Totals& totals() { return totals_; }
   const Totals& totals() const { return totals_; }
   const EmbreeDevice& device() const { return device_; }
+  /// Batches given out so far; of these, those that the totals lack: of nodes that were lost.
   int64_t batches() const { return plan_.given(); }
-  int64_t particles() const { return plan_.given() * scene_->batch_particles; }
+  const std::vector<int64_t>& missing() const { return missing_; }
+  int64_t traced() const { return plan_.given() - static_cast<int64_t>(missing_.size()); }
+  int64_t particles() const { return traced() * scene_->batch_particles; }
   double seconds() const { return seconds_; }
   uint64_t seed() const { return seed_; }
   int threads() const { return threads_; }
 
  private:
   class Clock;
+  Batch next_batch();
   void trace_until(int64_t end, const StopRule& stop, const std::atomic<bool>& interrupt,
                    const std::function<void(const Progress&)>& report, const Clock& clock);
   Progress progress(const StopRule& stop, double seconds) const {
-    return progress_of(stop, scene_->batch_particles, batches_at_start_, plan_.given(), seconds,
-                       error_);
+    return progress_of(stop, scene_->batch_particles, batches_at_start_, traced(), seconds, error_);
   }
 
   std::shared_ptr<const CompiledScene> scene_;
@@ -107,6 +114,7 @@ class LocalRun {
   std::unique_ptr<RowRunner> rows_;
   Totals totals_;
   BatchPlan plan_;
+  std::vector<int64_t> missing_;
   std::mutex plan_mutex_;
   std::atomic<bool> time_is_up_{false};
   double seconds_ = 0;

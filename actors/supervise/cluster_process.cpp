@@ -192,6 +192,10 @@ Result<NodeSetup> ClusterProcessRun::setup_of(NodeId self, const RunSetup& run) 
   node.fibers.stack_bytes = budget.stack_bytes * sanitizers::stack_factor;
   if (budget.maps_most > 0) node.fibers.maps_most = budget.maps_most;
   node.stall = cluster_.timeouts.stall;
+  node.start = cluster_.timeouts.start;
+  node.lost = cluster_.timeouts.lost;
+  node.leave = cluster_.timeouts.shutdown_phase;
+  for (const ClusterNode& one : cluster_.nodes) node.names.push_back(one.name);
   node.lease_time = cluster_.lease.duration;
   node.fetch.tries = static_cast<uint8_t>(cluster_.timeouts.fetch_attempts);
   node.fetch.timeouts.floor = cluster_.timeouts.fetch_floor;

@@ -110,6 +110,10 @@ Result<StopReason> run_controller(const RunSetup& setup, const NodeSetup& node, 
   NodeShell shell({node.net, {}}, setup.graph, setup.clock, transport);
   ControllerConfig config;
   config.lease_time = node.lease_time;
+  config.start = node.start;
+  config.lost = node.lost;
+  config.names = node.names;
+  config.first_lease = node.net.incarnation.value;
   for (uint16_t i = 0; i < setup.graph.workers(); ++i) config.workers.push_back({i});
   Controller controller(config, run, stop, interrupt, report, shell.scheduler(), shell.network());
   shell.add([&](const Delivery& d) { return controller.deliver(d); });
@@ -118,6 +122,10 @@ Result<StopReason> run_controller(const RunSetup& setup, const NodeSetup& node, 
   controller.start();
   shell.run_until([&] { return controller.ended() || broken(); });
   run.add_seconds(static_cast<double>(setup.clock.now() - began) * 1e-9);
+  if (controller.fault())
+    return Problem{{},
+                   node.name() + ": " + controller.fault()->what +
+                       meeting_trouble(transport, setup.context, shell.network())};
   if (counted != nullptr) {
     const Controller::Counters& c = controller.counters();
     *counted = {c.flushes_taken,

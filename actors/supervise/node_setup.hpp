@@ -38,14 +38,29 @@ struct NodeSetup {
   PhotonConfig photons;
   FiberLimits fibers;  // stacks and guards; how many follows from `photons`
   Nanoseconds stall = SchedulerLimits{}.stall;
+  Nanoseconds start = ControllerConfig{}.start;
+  Nanoseconds lost = ControllerConfig{}.lost;
+  Nanoseconds leave = seconds(10);  // for what is at hand, when the node is told to leave
+  std::vector<std::string> names;   // of all nodes, by number; empty: they have none
   Nanoseconds lease_time = ControllerConfig{}.lease_time;
   FetchConfig fetch;
   size_t object_bytes = 0;  // for built cells, where cells are fetched
+
+  /// Of the node itself, for people.
+  std::string name() const {
+    const size_t number = net.self.value;
+    return number < names.size() ? names[number] : "node " + std::to_string(number);
+  }
 };
 
 /// Listens and connects as the setup says.
 /// Errors: an endpoint that is taken, is none, or asks for keys that there are not.
 Result<bool> join_links(ZmqTransport& transport, const NodeSetup& node);
+
+/// What went wrong between this node and others while they met, to add to a sentence; "" if nothing
+/// did: who was turned away, by whom this node was, which links are refused and why.
+std::string meeting_trouble(const ZmqTransport& transport, const ZmqContext& context,
+                            const Network& network);
 
 /// The identity that all nodes of a run share, and limits that follow from its graph.
 void complete(NetConfig& net, const RunSetup& run);

@@ -12,12 +12,14 @@ class Worker {
   Worker(const RunSetup& run, const NodeSetup& node);
   ~Worker();
 
-  /// Traces until the controller says that the run has ended, or `stop` does.
-  /// Errors: as join_links.
+  /// Traces until the controller says that the run has ended; or until `stop` says so, when what is
+  /// at hand is traced and given to the controller before this node leaves.
+  /// Errors: as join_links; a controller that never came, was lost, or could not begin.
   Result<WorkerReport> run(const std::function<bool()>& stop);
 
  private:
   const NodeSetup& node_;
+  const ZmqContext& context_;
   ZmqTransport transport_;
   NodeShell shell_;
   std::unique_ptr<FetchingCells> cells_;  // where the node does not hold everything

@@ -11,6 +11,9 @@ namespace {
 constexpr int fast = 1;  // of zstd's levels: a flush is packed on the node's own thread
 constexpr size_t longest_number = 19;  // bytes of 128 bits, seven at a time
 constexpr size_t numbers_of_ledger = 11;
+/// What is read at once: a number, a bin, or the ledger, which is the longest.
+constexpr size_t longest_item = numbers_of_ledger * longest_number;
+constexpr size_t bins_of_a_piece = 16384;
 
 void put(std::vector<std::byte>& out, UInt128 v) {
   while (v >= 0x80) {
@@ -23,8 +26,10 @@ void put_signed(std::vector<std::byte>& out, Int128 v) {
   put(out, (static_cast<UInt128>(v) << 1) ^ static_cast<UInt128>(v >> 127));
 }
 
+}  // namespace
+
 /// Reads numbers; once one is missing or too long, all that follow are 0 and ok() is false.
-class Reader {
+class FlushDecoder::Reader {
  public:
   explicit Reader(std::span<const std::byte> bytes) : bytes_(bytes) {}
 
@@ -50,12 +55,14 @@ class Reader {
     return static_cast<Int128>(v >> 1) ^ -static_cast<Int128>(v & 1);
   }
   bool ok() const { return ok_; }
-  bool at_end() const { return bytes_.empty(); }
+  size_t left() const { return bytes_.size(); }
 
  private:
   std::span<const std::byte> bytes_;
   bool ok_ = true;
 };
+
+namespace {
 
 void put_ledger(std::vector<std::byte>& out, const Ledger& l) {
   for (const Int128 v : {l.emitted, l.roulette_gain, l.absorbed_surfaces, l.absorbed_media,
@@ -64,6 +71,7 @@ void put_ledger(std::vector<std::byte>& out, const Ledger& l) {
   for (const uint64_t v : {l.particles, l.rays, l.hits, l.collisions}) put(out, v);
 }
 
+template <class Reader>
 Ledger get_ledger(Reader& in) {
   Ledger l;
   for (Int128* v : {&l.emitted, &l.roulette_gain, &l.absorbed_surfaces, &l.absorbed_media,
@@ -71,31 +79,6 @@ Ledger get_ledger(Reader& in) {
     *v = in.get_signed();
   for (uint64_t* v : {&l.particles, &l.rays, &l.hits, &l.collisions}) *v = in.get_up_to(UINT64_MAX);
   return l;
-}
-
-/// The most bytes that totals of this size can take.
-size_t bytes_most(int groups, int64_t totals) {
-  const auto bins = static_cast<size_t>(groups) * static_cast<size_t>(totals);
-  return (bins * 3 + static_cast<size_t>(groups) * 2 + numbers_of_ledger + 1) * longest_number;
-}
-
-/// Unpacks frames whose size nobody has told, up to `most` bytes.
-Result<std::vector<std::byte>> unpack(std::span<const std::byte> bytes, size_t most) {
-  const std::unique_ptr<ZSTD_DCtx, decltype(&ZSTD_freeDCtx)> context(ZSTD_createDCtx(),
-                                                                     ZSTD_freeDCtx);
-  std::vector<std::byte> out;
-  std::vector<std::byte> piece(ZSTD_DStreamOutSize());
-  ZSTD_inBuffer in{bytes.data(), bytes.size(), 0};
-  size_t hint = 1;
-  while (in.pos < in.size) {
-    ZSTD_outBuffer to{piece.data(), piece.size(), 0};
-    hint = ZSTD_decompressStream(context.get(), &to, &in);
-    if (ZSTD_isError(hint) || out.size() + to.pos > most)
-      return Problem{{}, "the flush is no packed totals of this scene"};
-    out.insert(out.end(), piece.begin(), piece.begin() + static_cast<std::ptrdiff_t>(to.pos));
-  }
-  if (hint != 0) return Problem{{}, "the flush is cut short"};
-  return out;
 }
 
 }  // namespace
@@ -160,31 +143,119 @@ std::vector<std::byte> encode_flush(Totals& totals) {
   return encoder.take_bytes();
 }
 
-Result<TotalsGain> decode_flush(std::span<const std::byte> bytes, int groups, int64_t totals) {
-  auto raw = unpack(bytes, bytes_most(groups, totals));
-  if (!raw.ok()) return raw.problem();
-  Reader in(raw.value());
-  const Problem wrong{{}, "the flush does not fit this scene's totals"};
-  if (in.get_up_to(static_cast<uint64_t>(groups)) != static_cast<uint64_t>(groups)) return wrong;
-  TotalsGain gain;
-  for (int g = 0; g < groups; ++g) {
-    TotalsGain::GroupGain& group = gain.groups.emplace_back();
-    group.batches = static_cast<int64_t>(in.get_up_to(uint64_t{1} << 40));
-    uint64_t next = 0;
-    while (const uint64_t distance = in.get_up_to(static_cast<uint64_t>(totals))) {
-      TotalsGain::Bin bin;
-      const uint64_t index = next + distance - 1;
-      bin.total.sum = in.get_signed();
-      bin.total.squares = in.get();
-      if (!in.ok() || index >= static_cast<uint64_t>(totals)) return wrong;
-      bin.index = static_cast<int64_t>(index);
-      next = index + 1;
-      group.bins.push_back(bin);
+// ---- decoding --------------------------------------------------------------------------------
+
+/// What has been unpacked and not read is a part of an item: the buffer stays as small as a piece
+/// of zstd's output, whatever the bytes claim.
+struct FlushDecoder::Zstd {
+  std::unique_ptr<ZSTD_DCtx, decltype(&ZSTD_freeDCtx)> context{ZSTD_createDCtx(), ZSTD_freeDCtx};
+  ZSTD_inBuffer in;
+  bool ended = false;  // all frames are whole, and unpacked
+};
+
+FlushDecoder::FlushDecoder(std::span<const std::byte> bytes, int groups, int64_t totals)
+    : groups_(groups), totals_(totals), zstd_(std::make_unique<Zstd>()) {
+  zstd_->in = {bytes.data(), bytes.size(), 0};
+  last_.groups.resize(static_cast<size_t>(groups));
+}
+
+FlushDecoder::~FlushDecoder() = default;
+
+bool FlushDecoder::step() {
+  if (state_ == State::failed || zstd_->ended) return true;
+  if (!unpack()) return true;
+  Reader in(buffer_);
+  while (state_ < State::done && (in.left() >= longest_item || zstd_->ended)) {
+    if (!read_item(in)) {
+      fail("the flush does not fit this scene's totals");
+      return true;
     }
   }
-  gain.ledger = get_ledger(in);
-  if (!in.ok() || !in.at_end()) return wrong;
-  return gain;
+  if (state_ == State::done && in.left() > 0) fail("the flush goes on after its end");
+  buffer_.erase(buffer_.begin(), buffer_.end() - static_cast<std::ptrdiff_t>(in.left()));
+  return state_ == State::failed || zstd_->ended;
+}
+
+bool FlushDecoder::unpack() {
+  const size_t before = buffer_.size();
+  buffer_.resize(before + ZSTD_DStreamOutSize());
+  ZSTD_outBuffer out{buffer_.data(), buffer_.size(), before};
+  const size_t hint = ZSTD_decompressStream(zstd_->context.get(), &out, &zstd_->in);
+  buffer_.resize(out.pos);
+  if (ZSTD_isError(hint)) return fail("the flush is no packed totals of this scene");
+  const bool all_in = zstd_->in.pos == zstd_->in.size;
+  zstd_->ended = all_in && hint == 0;
+  if (all_in && hint != 0 && out.pos < out.size) return fail("the flush is cut short");
+  return true;
+}
+
+bool FlushDecoder::fail(const char* why) {
+  state_ = State::failed;
+  problem_ = {{}, why};
+  return false;
+}
+
+/// In order: the number of groups; for each its batches, bins and a zero; the ledger.
+bool FlushDecoder::read_item(Reader& in) {
+  switch (state_) {
+    case State::count:
+      if (in.get_up_to(static_cast<uint64_t>(groups_)) != static_cast<uint64_t>(groups_))
+        return false;
+      state_ = State::batches;
+      return in.ok();
+    case State::batches:
+      last_.groups[group_].batches = static_cast<int64_t>(in.get_up_to(uint64_t{1} << 40));
+      next_ = 0;
+      state_ = State::bins;
+      return in.ok();
+    case State::bins:
+      return read_bin(in);
+    case State::ledger:
+      last_.ledger = get_ledger(in);
+      pieces_.push_back(std::move(last_));
+      state_ = State::done;
+      return in.ok();
+    case State::done:
+    case State::failed:
+      break;
+  }
+  return false;
+}
+
+bool FlushDecoder::read_bin(Reader& in) {
+  const uint64_t distance = in.get_up_to(static_cast<uint64_t>(totals_));
+  if (distance == 0) {
+    ++group_;
+    state_ = group_ == static_cast<size_t>(groups_) ? State::ledger : State::batches;
+    return in.ok();
+  }
+  TotalsGain::Bin bin;
+  const uint64_t index = next_ + distance - 1;
+  bin.index = static_cast<int64_t>(index);
+  bin.total.sum = in.get_signed();
+  bin.total.squares = in.get();
+  if (!in.ok() || index >= static_cast<uint64_t>(totals_)) return false;
+  next_ = index + 1;
+  if (pieces_.empty() || pieces_.back().groups[group_].bins.size() == bins_of_a_piece ||
+      group_of_piece_ != group_) {
+    pieces_.emplace_back().groups.resize(static_cast<size_t>(groups_));
+    group_of_piece_ = group_;
+  }
+  pieces_.back().groups[group_].bins.push_back(bin);
+  return true;
+}
+
+Result<std::vector<TotalsGain>> FlushDecoder::take() {
+  if (state_ == State::failed) return problem_;
+  return std::move(pieces_);
+}
+
+Result<std::vector<TotalsGain>> decode_flush(std::span<const std::byte> bytes, int groups,
+                                             int64_t totals) {
+  FlushDecoder decoder(bytes, groups, totals);
+  while (!decoder.step()) {
+  }
+  return decoder.take();
 }
 
 }  // namespace luxodus

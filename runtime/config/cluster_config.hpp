@@ -103,7 +103,8 @@ struct LeaseChoice {
 };
 
 struct Timeouts {
-  Nanoseconds start = 0;  // until all nodes have a link
+  Nanoseconds start = 0;  // until all nodes are there
+  Nanoseconds lost = 0;   // without a way to a node, until it is given up
   Nanoseconds fetch_floor = 0;
   uint32_t fetch_attempts = 0;  // at one holder
   Nanoseconds shutdown_phase = 0;

@@ -181,7 +181,11 @@ std::vector<TableSpec> service_tables() {
       {"timeouts",
        "`[timeouts]`",
        {
-           {"start_s", "number", "s", "60", "(0, 86400]", "until all nodes have a link"},
+           {"start_s", "number", "s", "60", "(0, 86400]",
+            "until all nodes are there: a run begins with all its workers, or ends without"},
+           {"lost_s", "number", "s", "30", "(0, 86400]",
+            "a worker that no way leads to for so long is lost, and its batches are lent again; a "
+            "worker whose controller is lost ends"},
            {"fetch_floor_ms", "number", "ms", "50", "(0, 60000]",
             "for an object, at least; else three times the usual"},
            {"fetch_attempts", "integer", "", "4", "[1, 100]", "at one holder, before the next"},

@@ -175,6 +175,7 @@ void Link::meet(const Envelope& envelope, const Identity& theirs, bool welcomed,
     spdlog::error("link=refused node={} neighbour={} reason={} text=\"{}\"",
                   around_.config.self.value, neighbour_.value, name_of(no->reason), no->text);
     state_.refuse(now);
+    refusal_ = no->text;
     (void)say(Message{*no}, Lane::control);  // a peer that does not hear it asks again
     return;
   }
@@ -193,6 +194,7 @@ void Link::be_refused(const Refuse& refuse, Nanoseconds now) {
                   around_.config.self.value, neighbour_.value, name_of(refuse.reason), refuse.text);
   ++around_.counters.refused_by_peer[static_cast<size_t>(refuse.reason)];
   state_.refuse(now);
+  refusal_ = refuse.text;
 }
 
 void Link::note_rise(bool was_usable, Nanoseconds now) {

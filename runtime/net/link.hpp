@@ -5,6 +5,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <vector>
 
 #include "proto/codec.hpp"
@@ -36,6 +37,10 @@ class Link {
 
   NodeId neighbour() const { return neighbour_; }
   const LinkState& state() const { return state_; }
+  /// Why it is refused, for people; "" where it is not.
+  std::string refusal_text() const {
+    return state_.phase() == LinkPhase::refused ? refusal_ : std::string();
+  }
   /// Times that it came up: tells a link that fell and rose from one that stood.
   uint64_t sessions() const { return sessions_; }
 
@@ -98,6 +103,7 @@ class Link {
   std::vector<Pool> pools_;
   size_t grant_cursor_ = 0;
   uint64_t sessions_ = 0;
+  std::string refusal_;  // the last one
 };
 
 }  // namespace luxodus

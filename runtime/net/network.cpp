@@ -111,6 +111,18 @@ LinkPhase Network::phase(NodeId neighbour) const {
   throw std::invalid_argument("network: no such neighbour");
 }
 
+std::string Network::refusal_of(NodeId neighbour) const {
+  for (const Link& link : links_)
+    if (link.neighbour() == neighbour) return link.refusal_text();
+  return "";
+}
+
+std::vector<NodeId> Network::neighbours() const {
+  std::vector<NodeId> nodes;
+  for (const Link& link : links_) nodes.push_back(link.neighbour());
+  return nodes;
+}
+
 size_t Network::memory_bytes() const {
   size_t sum = scratch_.size();
   for (const Link& link : links_) sum += link.memory_bytes();
@@ -327,7 +339,7 @@ void Network::watch_links() {
     last.sessions = links_[i].sessions();
     last.phase = state.phase();
     spdlog::debug("link={} node={} neighbour={}", name_of(state.phase()), config_.self.value,
-                 links_[i].neighbour().value);
+                  links_[i].neighbour().value);
     handler_.link_changed(links_[i].neighbour(), state.phase());
 
     const bool gone = state.phase() == LinkPhase::down || state.phase() == LinkPhase::refused;

@@ -98,6 +98,12 @@ class Network {
 
   const NetCounters& counters() const { return counters_; }
   LinkPhase phase(NodeId neighbour) const;
+  /// Whether a way leads to a node, as far as is known here: at the start all links are taken to
+  /// work, until they have been tried for LinkTimes::patience.
+  bool reaches(NodeId node) const { return router_.reaches(node); }
+  /// Why the link to a neighbour is refused, in the words of who refused it; "" where it is not.
+  std::string refusal_of(NodeId neighbour) const;
+  std::vector<NodeId> neighbours() const;
   uint64_t epoch() const { return view_.epoch(); }
   /// Bytes of the fixed buffers, for the memory plan.
   size_t memory_bytes() const;

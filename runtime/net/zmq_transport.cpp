@@ -272,14 +272,17 @@ void ZmqTransport::take_event(Lane lane) {
         ++counters_.disconnected;
         break;
       case ZMQ_EVENT_HANDSHAKE_FAILED_AUTH:
-        if (counters_.refused_us++ == 0) say("refused_us", "the neighbour does not list our key");
+        if (counters_.refused_us++ == 0)
+          say("refused_us",
+              "the neighbour does not list our key: give it this "
+              "node's public key, and start it again");
         break;
       case ZMQ_EVENT_HANDSHAKE_FAILED_NO_DETAIL:
       case ZMQ_EVENT_HANDSHAKE_FAILED_PROTOCOL:
         if (counters_.handshake_failed++ == 0)
           say("handshake_failed",
-              "the neighbour's public key is not the one configured, or only "
-              "one end has keys");
+              "the neighbour's public key is not the one listed here, or only "
+              "one end has keys: give all nodes one folder of public keys");
         break;
       default:
         break;

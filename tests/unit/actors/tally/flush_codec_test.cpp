@@ -49,6 +49,25 @@ std::vector<std::byte> some_flush(int64_t step) {
   return encoder.take_bytes();
 }
 
+/// The pieces of a flush as one.
+TotalsGain joined(const std::vector<TotalsGain>& pieces) {
+  TotalsGain whole = pieces.back();
+  for (size_t g = 0; g < whole.groups.size(); ++g) {
+    whole.groups[g].bins.clear();
+    for (const TotalsGain& piece : pieces) {
+      const auto& bins = piece.groups[g].bins;
+      whole.groups[g].bins.insert(whole.groups[g].bins.end(), bins.begin(), bins.end());
+    }
+  }
+  return whole;
+}
+
+void add(Totals& to, const std::vector<std::byte>& flush, int64_t size) {
+  const auto pieces = decode_flush(flush, 1, size);
+  REQUIRE(pieces.ok());
+  for (const TotalsGain& piece : pieces.value()) to.add(piece);
+}
+
 bool same(const TotalsGain& a, const TotalsGain& b) {
   if (a.groups.size() != b.groups.size()) return false;
   for (size_t g = 0; g < a.groups.size(); ++g) {
@@ -71,8 +90,36 @@ TEST_CASE("a flush comes back as it was made, in steps of any length", "[flush]"
   for (const int64_t step : {1, 7, 999, 1000, 5000}) {
     const auto back = decode_flush(some_flush(step), groups, totals);
     REQUIRE(back.ok());
-    CHECK(same(some_gain(), back.value()));
+    CHECK(same(some_gain(), joined(back.value())));
   }
+}
+
+TEST_CASE("a long flush is read in steps, and its pieces are as long as steps", "[flush]") {
+  constexpr int64_t many = 100'000;
+  const TallyLayout layout = layout_of(many);
+  Totals holder(layout, groups, photopic), taken(layout, groups, photopic);
+  TotalsGain gain;
+  gain.groups.resize(groups);
+  for (int64_t i = 0; i < many; ++i) gain.groups[1].bins.push_back({i, {i + 1, 7}});
+  gain.groups[1].batches = 3;
+  gain.ledger.rays = 5;
+  holder.add(gain);
+  const auto bytes = encode_flush(holder);
+  FlushDecoder decoder(bytes, groups, many);
+  int steps = 1;
+  while (!decoder.step()) ++steps;
+  CHECK(steps >= 4);
+  const auto pieces = decoder.take();
+  REQUIRE(pieces.ok());
+  CHECK(pieces.value().size() > 4);
+  CHECK(same(gain, joined(pieces.value())));
+}
+
+TEST_CASE("a flush with more after its end is refused", "[flush]") {
+  auto bytes = some_flush(100);
+  const auto twice = bytes;
+  bytes.insert(bytes.end(), twice.begin(), twice.end());
+  CHECK_FALSE(decode_flush(bytes, groups, totals).ok());
 }
 
 TEST_CASE("a flush of another layout, cut short or damaged is refused whole", "[flush]") {
@@ -89,7 +136,7 @@ TEST_CASE("a flush of another layout, cut short or damaged is refused whole", "[
     harmed[random.bits() % harmed.size()] ^= static_cast<std::byte>(1u << (random.bits() % 8));
     const auto read = decode_flush(harmed, groups, totals);
     if (!read.ok()) continue;
-    for (const auto& group : read.value().groups)
+    for (const auto& group : joined(read.value()).groups)
       for (const auto& bin : group.bins) REQUIRE((bin.index >= 0 && bin.index < totals));
   }
 }
@@ -109,10 +156,10 @@ TEST_CASE("totals that take the gains of others are the totals of all batches", 
     BatchScores copy = scores;
     whole.merge(scores, 0);
     (batch % 3 == 0 ? here : there).merge(copy, 0);
-    if (batch % 7 == 6) here.add(decode_flush(encode_flush(there), 1, layout.totals()).value());
+    if (batch % 7 == 6) add(here, encode_flush(there), layout.totals());
   }
-  here.add(decode_flush(encode_flush(there), 1, layout.totals()).value());
-  CHECK(decode_flush(encode_flush(there), 1, layout.totals()).value().groups[0].bins.empty());
+  add(here, encode_flush(there), layout.totals());
+  CHECK(decode_flush(encode_flush(there), 1, layout.totals()).value().size() == 1);
   REQUIRE(here.batches(0) == 20);
   for (size_t i = 0; i < whole.state(0).totals.size(); ++i) {
     CHECK(here.state(0).totals[i].sum == whole.state(0).totals[i].sum);
