@@ -54,6 +54,7 @@ NodeSetup setup_of(const RunSetup& run, NodeId self, const NodesOptions& options
   node.photons.fibers = options.fibers;
   node.photons.portion = static_cast<int64_t>(options.portion);
   node.object_bytes = options.object_bytes;
+  node.link_delay = options.link_delay;
   return node;
 }
 
@@ -101,14 +102,14 @@ Result<StopReason> run_controller(const RunSetup& setup, const NodeSetup& node, 
                                   const StopRule& stop, const std::atomic<bool>& interrupt,
                                   const std::function<void(const Progress&)>& report,
                                   const std::function<bool()>& broken, NodesReport* counted) {
-  ZmqTransport transport(setup.context, {node.net.self, node.keys, node.insecure}, setup.clock);
-  NodeShell shell({node.net, {}}, setup.graph, setup.clock, transport);
+  NodeTransport transport(setup, node);
+  NodeShell shell({node.net, {}}, setup.graph, setup.clock, transport.transport());
   ControllerConfig config;
   config.lease_time = node.lease_time;
   for (uint16_t i = 0; i < setup.graph.workers(); ++i) config.workers.push_back({i});
   Controller controller(config, run, stop, interrupt, report, shell.scheduler(), shell.network());
   shell.add([&](const Delivery& d) { return controller.deliver(d); });
-  if (auto joined = join_links(transport, node); !joined.ok()) return joined.problem();
+  if (auto joined = join_links(transport.sockets(), node); !joined.ok()) return joined.problem();
   const Nanoseconds began = setup.clock.now();
   controller.start();
   shell.run_until([&] { return controller.ended() || broken(); });

@@ -28,6 +28,8 @@ struct NodesOptions {
   /// each node holds its share of the cells' bytes for all, and fetches and builds what it needs.
   size_t object_bytes = 0;
   uint32_t replicas = 1;  // nodes that hold a cell's bytes
+  /// Of every link, on purpose: what a distance would cost, and how many fibers hide it.
+  Nanoseconds link_delay = 0;
 };
 
 /// What the nodes of a run did.

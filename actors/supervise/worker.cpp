@@ -10,6 +10,7 @@ void WorkerReport::add(const WorkerReport& other) {
   joined += other.joined;
   builds += other.builds;
   evictions += other.evictions;
+  waited += other.waited;
   fetched_bytes += other.fetched_bytes;
   largest_resident_bytes = std::max(largest_resident_bytes, other.largest_resident_bytes);
 }
@@ -32,7 +33,7 @@ class Worker::FetchingCells {
   WorkerReport report() const {
     const ObjectCache::Counters& c = cache_.counters();
     const Fetcher::Counters& f = fetcher_.counters();
-    return {c.hits, f.fetches, c.joined, c.builds, c.evictions, f.bytes_in, c.resident_bytes};
+    return {c.hits, f.fetches, c.joined, c.builds, c.evictions, f.bytes_in, 0, c.resident_bytes};
   }
 
  private:
@@ -77,8 +78,8 @@ SchedulerLimits scheduler_limits(const NodeSetup& node) {
 
 Worker::Worker(const RunSetup& run, const NodeSetup& node)
     : node_(node),
-      transport_(run.context, {node.net.self, node.keys, node.insecure}, run.clock),
-      shell_({node.net, scheduler_limits(node)}, run.graph, run.clock, transport_),
+      transport_(run, node),
+      shell_({node.net, scheduler_limits(node)}, run.graph, run.clock, transport_.transport()),
       cells_(run.objects == nullptr ? nullptr : std::make_unique<FetchingCells>(run, node, shell_)),
       leases_({node.controller}, shell_.scheduler(), shell_.network()),
       photons_(run.scene,
@@ -89,12 +90,14 @@ Worker::Worker(const RunSetup& run, const NodeSetup& node)
 Worker::~Worker() = default;
 
 Result<WorkerReport> Worker::run(const std::function<bool()>& stop) {
-  if (auto joined = join_links(transport_, node_); !joined.ok()) return joined.problem();
+  if (auto joined = join_links(transport_.sockets(), node_); !joined.ok()) return joined.problem();
   shell_.add([this](const Delivery& d) { return leases_.deliver(d); });
   leases_.start(photons_);
   photons_.start();
   shell_.run_until([&] { return leases_.ended() || stop(); });
-  return cells_ ? cells_->report() : WorkerReport{};
+  WorkerReport report = cells_ ? cells_->report() : WorkerReport{};
+  report.waited = shell_.scheduler().counters().waited;
+  return report;
 }
 
 }  // namespace luxodus

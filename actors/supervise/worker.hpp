@@ -16,6 +16,7 @@ struct WorkerReport {
   uint64_t builds = 0;
   uint64_t evictions = 0;
   uint64_t fetched_bytes = 0;
+  uint64_t waited = 0;                  // [ns] with nothing to do
   uint64_t largest_resident_bytes = 0;  // of one node, when it ended
 
   void add(const WorkerReport& other);
@@ -34,7 +35,7 @@ class Worker {
   class FetchingCells;
 
   const NodeSetup& node_;
-  ZmqTransport transport_;
+  NodeTransport transport_;
   NodeShell shell_;
   std::unique_ptr<FetchingCells> cells_;  // where the node does not hold everything
   LeaseClient leases_;
