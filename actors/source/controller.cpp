@@ -4,8 +4,10 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "actors/tally/flush_codec.hpp"
+#include "runtime/core/check.hpp"
 #include "runtime/core/hash.hpp"
 
 namespace luxodus {
@@ -102,7 +104,7 @@ void Controller::look() {
   if (!closing_ && (interrupt_.load() || (stop_.seconds && passed >= *stop_.seconds))) {
     closing_ = true;
     book_.close();
-    if (book_.round_done()) end_round();
+    end_round_if_done();
   }
 }
 
@@ -146,54 +148,77 @@ void Controller::lend(const Delivery& delivery, const RequestLease& request) {
                          static_cast<uint32_t>(lent.count),
                          static_cast<uint32_t>(config_.lease_time / milliseconds(1))}};
   }
-  send(delivery.source, delivery.id, last.answer);
+  send(delivery.source, delivery.id, *last.answer);
 }
 
 void Controller::take_flush(const Delivery& delivery, const Flush& flush) {
   Answered& last = last_flush_[delivery.source];
-  const bool again = last.question == delivery.id;
-  if (!again) {
-    std::string why;
-    const bool taken = count_flush(delivery, flush, why);
-    last.question = delivery.id;
-    if (taken)
-      last.answer = FlushTaken{};
-    else
-      last.answer = FlushRefused{{}, why};
-    ++(taken ? counters_.flushes_taken : counters_.flushes_refused);
-    counters_.flush_bytes += delivery.payload.size();
-    if (!taken) spdlog::warn("flush refused node={}: {}", delivery.source.value, why);
+  if (last.question == delivery.id) {
+    if (last.answer) send(delivery.source, delivery.id, *last.answer);
+    return;
   }
-  send(delivery.source, delivery.id, last.answer);
-  if (!again && !over_ && book_.round_done()) end_round();
+  if (last.question.sequence != 0 && !last.answer) return;  // one at a time: it will ask again
+  last = {delivery.id, std::nullopt};
+  counters_.flush_bytes += delivery.payload.size();
+  arrived_.push_back(
+      {delivery.source, delivery.id, flush, {delivery.payload.begin(), delivery.payload.end()}});
+  if (std::exchange(counting_, true)) return;
+  LUX_CHECK(scheduler_.fibers().start("count", [this] { count_flushes(); }),
+            "a controller has fibers to spare");
 }
 
-bool Controller::count_flush(const Delivery& delivery, const Flush& flush, std::string& why) {
+/// On a fiber of its own. What follows from the last one is done on the scheduler's stack.
+void Controller::count_flushes() {
+  while (!arrived_.empty()) {
+    const ArrivedFlush arrived = std::move(arrived_.front());
+    arrived_.pop_front();
+    answer_flush(arrived, count_flush(arrived));
+  }
+  counting_ = false;
+  scheduler_.timers().set(scheduler_.clock().now(), [this] { end_round_if_done(); });
+}
+
+bool Controller::rest() const {
+  return scheduler_.fibers().yield() != Wake::cancelled;
+}
+
+/// Takes a flush whole, or tells why not.
+Result<bool> Controller::count_flush(const ArrivedFlush& arrived) {
   Hasher hash;
-  hash.add(delivery.payload.data(), delivery.payload.size());
-  if (hash.value() != flush.payload_hash) {
-    why = "the payload is not what its hash says";
-    return false;
-  }
-  if (!book_.stand(delivery.source, flush.leases)) {
-    why = "a lease was fenced";
-    return false;
-  }
-  const auto gain =
-      decode_flush(delivery.payload, run_.totals().groups(), run_.scene().layout.totals());
-  if (!gain.ok()) {
-    why = gain.problem().what;
-    return false;
-  }
-  int64_t batches = 0;
-  for (const auto& group : gain.value().groups) batches += group.batches;
-  if (batches != static_cast<int64_t>(flush.leases.size()) || !gain.value().ledger.closes()) {
-    why = "its batches or its ledger do not add up";
-    return false;
-  }
-  run_.totals().add(gain.value());
-  book_.commit(flush.leases);
+  hash.add(arrived.payload.data(), arrived.payload.size());
+  if (hash.value() != arrived.flush.payload_hash)
+    return Problem{{}, "the payload is not what its hash says"};
+  const Problem fenced{{}, "a lease was fenced"};
+  if (!book_.stand(arrived.from, arrived.flush.leases)) return fenced;
+  const auto gain = decode_flush(arrived.payload, run_.totals().groups(),
+                                 run_.scene().layout.totals(), [this] { return rest(); });
+  if (!gain.ok()) return gain.problem();
+  if (gain->batches() != static_cast<int64_t>(arrived.flush.leases.size()) ||
+      !gain->ledger().closes())
+    return Problem{{}, "its batches or its ledger do not add up"};
+  // Committed before anything is added, so that no lease of it can be fenced between two rests.
+  if (!book_.stand(arrived.from, arrived.flush.leases)) return fenced;
+  book_.commit(arrived.flush.leases);
+  gain->add_to(run_.totals(), [this] { return rest(); });
   return true;
+}
+
+void Controller::answer_flush(const ArrivedFlush& arrived, const Result<bool>& taken) {
+  Answered& last = last_flush_[arrived.from];
+  if (taken.ok()) {
+    ++counters_.flushes_taken;
+    last.answer = FlushTaken{};
+  } else {
+    ++counters_.flushes_refused;
+    last.answer = FlushRefused{{}, taken.problem().what};
+    spdlog::warn("flush refused node={}: {}", arrived.from.value, taken.problem().what);
+  }
+  send(arrived.from, arrived.id, *last.answer);
+}
+
+/// A round is over when all of it is committed and added.
+void Controller::end_round_if_done() {
+  if (!over_ && !counting_ && book_.round_done()) end_round();
 }
 
 }  // namespace luxodus

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <atomic>
+#include <deque>
 #include <functional>
 #include <map>
 #include <set>
@@ -52,8 +53,13 @@ class Controller {
   void look();
   void set_timer();
   void lend(const Delivery& delivery, const RequestLease& request);
+  struct ArrivedFlush;
   void take_flush(const Delivery& delivery, const Flush& flush);
-  bool count_flush(const Delivery& delivery, const Flush& flush, std::string& why);
+  void count_flushes();
+  Result<bool> count_flush(const ArrivedFlush& arrived);
+  void answer_flush(const ArrivedFlush& arrived, const Result<bool>& taken);
+  bool rest() const;
+  void end_round_if_done();
   void end_round();
   void end_run(StopReason reason);
   void tell_end();
@@ -82,9 +88,19 @@ class Controller {
   /// that comes twice is answered alike.
   struct Answered {
     MessageId question;
-    Message answer;
+    std::optional<Message> answer;  // none yet: it is being found
   };
   std::map<NodeId, Answered> last_grant_, last_flush_;
+  /// Flushes are counted one by one on a fiber that rests now and then, since a large one takes
+  /// longer than a beat may be late.
+  struct ArrivedFlush {
+    NodeId from;
+    MessageId id;
+    Flush flush;
+    std::vector<std::byte> payload;
+  };
+  std::deque<ArrivedFlush> arrived_;  // one of each worker at most
+  bool counting_ = false;
   Counters counters_;
 };
 

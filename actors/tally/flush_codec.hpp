@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -43,8 +44,38 @@ class FlushEncoder {
 /// All at once.
 std::vector<std::byte> encode_flush(Totals& totals);
 
+/// Called now and then while a long flush is read or added; false: break off. On a fiber it yields.
+using FlushRest = std::function<bool()>;
+inline bool no_rest() {
+  return true;
+}
+
+/// What a flush adds, read and found right. A bin is read twice, and never kept: a million of them
+/// would be 48 MB.
+class FlushGain {
+ public:
+  /// Of all groups.
+  int64_t batches() const;
+  int64_t bins() const { return bins_; }
+  const Ledger& ledger() const { return ledger_; }
+
+  /// Adds all of it; `rest` cannot break this off. Requires: totals of the layout it was read for.
+  void add_to(Totals& totals, const FlushRest& rest = no_rest) const;
+
+ private:
+  friend Result<FlushGain> decode_flush(std::span<const std::byte>, int, int64_t, const FlushRest&);
+
+  std::vector<std::byte> raw_;
+  std::vector<size_t> begins_;  // of each group's bins, in raw_
+  std::vector<int64_t> batches_;
+  uint64_t totals_ = 0;
+  int64_t bins_ = 0;
+  Ledger ledger_;
+};
+
 /// Errors: not such bytes; more groups than `groups` or an index beyond `totals`; indices that do
-/// not ascend; more bytes than such totals can have.
-Result<TotalsGain> decode_flush(std::span<const std::byte> bytes, int groups, int64_t totals);
+/// not ascend; more bytes than such totals can have; `rest` said so.
+Result<FlushGain> decode_flush(std::span<const std::byte> bytes, int groups, int64_t totals,
+                               const FlushRest& rest = no_rest);
 
 }  // namespace luxodus

@@ -71,10 +71,9 @@ void take(const std::vector<std::byte>& bytes, Totals& totals, Flushed& flushed)
   const double start = thread_seconds();
   auto gain = decode_flush(bytes, totals.groups(), totals.layout().totals());
   if (!gain.ok()) throw std::runtime_error(gain.problem().what);
-  for (const auto& group : gain.value().groups)
-    flushed.bins += static_cast<double>(group.bins.size());
-  totals.add(gain.value());
+  gain->add_to(totals);
   flushed.taken_s = thread_seconds() - start;
+  flushed.bins = static_cast<double>(gain->bins());
 }
 
 }  // namespace
