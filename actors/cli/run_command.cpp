@@ -59,6 +59,7 @@ Result<StopRule> stop_rule(const RunOptions& o) {
 
 /// Errors: no span of time, longer than links can bear, or no links.
 Result<Nanoseconds> link_delay_of(const RunOptions& options) {
+  if (options.link_delay.empty()) return Nanoseconds{0};
   auto delay_s = parse_seconds(options.link_delay);
   if (!delay_s.ok()) return delay_s.problem();
   if (options.nodes == 0) return Problem{{}, "links are those of nodes: say --nodes, too"};
@@ -99,16 +100,14 @@ Result<StopReason> trace(LocalRun& run, const Scenario& scenario, const RunOptio
                          const StopRule& rule) {
   ProgressLine line(scenario.name);
   const auto show = [&](const Progress& p) { line.show(p); };
+  const auto delay = link_delay_of(options);
+  if (!delay.ok()) return delay.problem();
   if (options.nodes == 0) return run.run(rule, interrupt_flag(), show);
   NodesOptions nodes;
   nodes.nodes = options.nodes;
   nodes.fibers = options.fibers;
   nodes.object_bytes = static_cast<size_t>(options.object_mib * 1024 * 1024);
-  if (!options.link_delay.empty()) {
-    auto delay = link_delay_of(options);
-    if (!delay.ok()) return delay.problem();
-    nodes.link_delay = delay.value();
-  }
+  nodes.link_delay = delay.value();
   return run_on_nodes(run, nodes, rule, interrupt_flag(), show);
 }
 

@@ -38,13 +38,15 @@ Endpoints endpoints_of(NodeId node) {
   return {name, name + "-bulk"};
 }
 
-NodeSetup setup_of(const RunSetup& run, NodeId self, const NodesOptions& options, uint64_t run_id) {
+/// `common` is what all nodes' networks have in common.
+NodeSetup setup_of(const RunSetup& run, const NetConfig& common, NodeId self,
+                   const NodesOptions& options, uint64_t run_id) {
   NodeSetup node;
+  node.net = common;
   node.net.self = self;
   node.net.incarnation = {run_id + self.value + 1};
   node.net.identity.node = self;
   node.net.identity.run_id = run_id;
-  complete(node.net, run);
   node.links.listen.push_back(endpoints_of(self));
   for (const Vertex neighbour : run.graph.all().of(self.value)) {
     const NodeId other{static_cast<uint16_t>(neighbour)};
@@ -147,9 +149,11 @@ Result<StopReason> run_on_nodes(LocalRun& run, const NodesOptions& options, cons
     setup.proxies = &*proxies;
   }
   const uint64_t run_id = static_cast<uint64_t>(clock.now()) | 1;
+  NetConfig common;
+  complete(common, setup);
   std::vector<NodeSetup> nodes;
   for (uint16_t i = 0; i <= options.nodes; ++i)
-    nodes.push_back(setup_of(setup, {i}, options, run_id));
+    nodes.push_back(setup_of(setup, common, {i}, options, run_id));
   const NodeSetup controller = nodes.back();
   nodes.pop_back();
   WorkerThreads workers(setup, nodes, [] { return false; });
