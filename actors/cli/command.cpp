@@ -95,11 +95,13 @@ Result<double> parse_share(const std::string& text) {
 }
 
 Result<double> parse_seconds(const std::string& text) {
-  const Problem problem = not_understood("the time", text, "90, 60s, 5m or 1h");
+  const Problem problem = not_understood("the time", text, "90, 60s, 5m, 1h or 1ms");
   double value = 0;
   std::string rest;
   if (!split_number(text, value, rest)) return problem;
-  if (rest == "m")
+  if (rest == "ms")
+    value *= 1e-3;
+  else if (rest == "m")
     value *= 60;
   else if (rest == "h")
     value *= 3600;

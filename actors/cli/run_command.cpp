@@ -29,6 +29,7 @@ struct RunOptions {
   int nodes = 0;  // 0: the plain loop
   size_t fibers = 1;
   double object_mib = 0;
+  std::string link_delay;
   bool resume = false;
   bool no_views = false;
   bool json = false;
@@ -62,6 +63,18 @@ Result<StopRule> stop_rule(const RunOptions& o) {
   return rule;
 }
 
+/// Errors: no span of time, longer than links can bear, or no links.
+Result<Nanoseconds> link_delay_of(const RunOptions& options) {
+  if (options.link_delay.empty()) return Nanoseconds{0};
+  auto delay_s = parse_seconds(options.link_delay);
+  if (!delay_s.ok()) return delay_s.problem();
+  if (options.nodes == 0) return Problem{{}, "links are those of nodes: say --nodes, too"};
+  const double most_s = static_cast<double>(limits::link_delay) * 1e-9;
+  if (delay_s.value() > most_s)
+    return Problem{{}, "a link's delay must not be longer than 100 ms: beats count time"};
+  return static_cast<Nanoseconds>(delay_s.value() * 1e9);
+}
+
 Result<Done> write_all(const fs::path& folder, const LocalRun& run, const RunRecord& record,
                        const RunOptions& options) {
   if (auto ok = save_flux(folder / "flux.lux", run); !ok.ok()) return ok.problem();
@@ -79,11 +92,14 @@ Result<StopReason> trace(LocalRun& run, const Scenario& scenario, const RunOptio
                          const StopRule& rule) {
   ProgressLine line(scenario.name);
   const auto show = [&](const Progress& p) { line.show(p); };
+  const auto delay = link_delay_of(options);
+  if (!delay.ok()) return delay.problem();
   if (options.nodes == 0) return run.run(rule, interrupt_flag(), show);
   NodesOptions nodes;
   nodes.nodes = options.nodes;
   nodes.fibers = options.fibers;
   nodes.object_bytes = options.object_bytes();
+  nodes.link_delay = delay.value();
   return run_on_nodes(run, nodes, rule, interrupt_flag(), show);
 }
 
@@ -246,6 +262,9 @@ void add_run(CLI::App& app, int& exit_code) {
                    "budget of a node for geometry cells; what does not fit is fetched from others "
                    "[0: everything is resident]")
       ->check(CLI::Range(0.0, 1048576.0));
+  command->add_option("--link-delay", options->link_delay,
+                      "hold back what nodes send each other for so long on every link, to see what "
+                      "a distance costs and how many fibers hide it, e.g. 1ms [0]");
   command
       ->add_option("--picture-paths", options->picture_paths, "paths per pixel of the views [32]")
       ->check(CLI::Range(1, 100'000));

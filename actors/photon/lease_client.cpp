@@ -14,7 +14,11 @@ constexpr int64_t bins_of_a_step = 16384;
 }  // namespace
 
 LeaseClient::LeaseClient(const LeaseClientConfig& config, Scheduler& scheduler, Network& network)
-    : config_(config), scheduler_(scheduler), network_(network), began_(scheduler.clock().now()) {}
+    : config_(config),
+      scheduler_(scheduler),
+      network_(network),
+      interval_(config.flush_every),
+      began_(scheduler.clock().now()) {}
 
 void LeaseClient::start(PhotonThreads& photons) {
   photons_ = &photons;
@@ -41,6 +45,7 @@ void LeaseClient::granted(const MessageId& answered, const LeaseGranted& grant) 
   asking_.reset();
   wanted_ = 0;  // said before this answer
   round_ = grant.round;
+  lease_time_ = milliseconds(grant.duration_ms);
   counters_.leases += grant.batches;
   for (uint32_t i = 0; i < grant.batches; ++i) {
     photons_->add(grant.first_lease + i, static_cast<int64_t>(grant.first_batch + i));
@@ -62,7 +67,7 @@ void LeaseClient::begin_round() {
 void LeaseClient::lease_done(uint64_t lease) {
   if (done_.empty()) first_done_ = scheduler_.clock().now();
   done_.push_back(lease);
-  const bool long_enough = scheduler_.clock().now() - first_done_ >= config_.flush_every;
+  const bool long_enough = scheduler_.clock().now() - first_done_ >= interval_;
   if (long_enough || done_.size() == limits::leases) flush();
   flush_when_idle();
 }
@@ -90,8 +95,13 @@ void LeaseClient::flush() {
 /// On a fiber of its own, between the turns of the photon-threads.
 void LeaseClient::pack(Totals& totals) {
   FlushEncoder encoder(totals);
-  while (!encoder.step(bins_of_a_step))
-    if (scheduler_.fibers().yield() == Wake::cancelled) return;
+  packing_took_ = 0;
+  for (bool done = false; !done;) {
+    const Nanoseconds begun = scheduler_.clock().now();
+    done = encoder.step(bins_of_a_step);
+    packing_took_ += scheduler_.clock().now() - begun;
+    if (!done && scheduler_.fibers().yield() == Wake::cancelled) return;
+  }
   auto payload = std::make_shared<const std::vector<std::byte>>(encoder.take_bytes());
   Hasher hash;
   hash.add(payload->data(), payload->size());
@@ -105,6 +115,8 @@ void LeaseClient::pack(Totals& totals) {
 
 void LeaseClient::flush_answered(const MessageId& answered, bool taken) {
   if (!flushing_ || flushing_->id != answered) return;
+  const Nanoseconds answer_took = scheduler_.clock().now() - flushing_->asked;
+  interval_ = flush_interval(config_.flush_every, packing_took_ + answer_took, lease_time_);
   flushing_.reset();
   if (!taken) ++counters_.flushes_refused;  // its leases are lent again: nothing to mend here
   flush_when_idle();
@@ -166,7 +178,7 @@ void LeaseClient::on_timer() {
     ++counters_.asked_again;
     put(**question);
   }
-  if (!done_.empty() && now - first_done_ >= config_.flush_every) flush();
+  if (!done_.empty() && now - first_done_ >= interval_) flush();
   if (round_empty_ && !ended_ && now - emptied_ >= config_.answer_patience) begin_round();
   watch_controller(now);
   set_timer();

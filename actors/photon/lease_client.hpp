@@ -5,6 +5,7 @@
 // Thread rule: the node's thread.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -17,13 +18,20 @@ namespace luxodus {
 struct LeaseClientConfig {
   NodeId controller;
   Nanoseconds answer_patience = seconds(2);  // then a question is asked again
-  /// Merged batches rest here for so long at most: a flush costs a pass over all bins.
+  /// Merged batches rest here for so long at least, unless there is no more to do.
   Nanoseconds flush_every = seconds(5);
   /// Until the controller is heard for the first time, and then without a way to it: after that it
   /// is given up.
   Nanoseconds start = seconds(60);
   Nanoseconds lost = seconds(30);
 };
+
+/// How long merged batches rest, when a flush lately took `cost` (packing it here, and waiting for
+/// the answer of a controller that may be busy with others'): so long that flushes take a fiftieth
+/// of the time, but never a quarter of the leases' time, lest they be lent again.
+constexpr Nanoseconds flush_interval(Nanoseconds least, Nanoseconds cost, Nanoseconds lease_time) {
+  return std::max(least, std::min(50 * cost, lease_time / 4));
+}
 
 class LeaseClient final : public LeasePort {
  public:
@@ -88,6 +96,9 @@ class LeaseClient final : public LeasePort {
   std::vector<uint64_t> done_;        // merged, in no flush yet
   std::vector<uint64_t> packed_leases_;
   bool packing_ = false;
+  Nanoseconds packing_took_ = 0;  // of the last flush
+  Nanoseconds interval_;          // between flushes
+  Nanoseconds lease_time_ = 0;
   Nanoseconds first_done_ = 0;  // when the oldest of them was merged
   size_t wanted_ = 0;
   uint32_t round_ = 0;        // of the last grant: a round begins when all before is counted

@@ -30,12 +30,24 @@ struct PhotonThreads::Portion {
   uint32_t unit;
 };
 
+namespace {
+
+/// So many particles that every fiber finds a few portions in the open batches: with fewer
+/// portions than fibers the rest would wait for work, and hide nothing.
+int64_t portion_for(const PhotonConfig& config, int64_t batch_particles) {
+  const auto open = static_cast<int64_t>(config.open_batches) * batch_particles;
+  return std::clamp<int64_t>(open / (4 * static_cast<int64_t>(config.fibers)), 1, config.portion);
+}
+
+}  // namespace
+
 PhotonThreads::PhotonThreads(const CompiledScene& scene, const GeometryAccess& access,
                              uint64_t seed, const PhotonConfig& config, Scheduler& scheduler,
                              LeasePort& port)
     : scene_(scene),
       source_(access.source),
       config_(config),
+      portion_(portion_for(config, scene.batch_particles)),
       scheduler_(scheduler),
       port_(port),
       open_(config.open_batches),
@@ -122,7 +134,7 @@ std::optional<PhotonThreads::Portion> PhotonThreads::next_portion() {
   ++open.portions_out;
   if (open.next_particle == scene_.batch_particles) return Portion{&open, 0, 0, open.next_unit++};
   const int64_t first = open.next_particle;
-  const int64_t count = std::min(config_.portion, scene_.batch_particles - first);
+  const int64_t count = std::min(portion_, scene_.batch_particles - first);
   open.next_particle += count;
   return Portion{&open, first, count, 0};
 }

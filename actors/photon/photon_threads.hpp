@@ -25,8 +25,8 @@ struct PhotonConfig {
   /// Batches in work at once, each with an array of scores: the second one fills the time in which
   /// the last particles of the first end.
   size_t open_batches = 2;
-  /// Particles of one portion. At 0.3 us a ray a portion is some 0.2 ms: short against a turn of
-  /// 1 ms, long against the 60 ns of a switch.
+  /// Particles of one portion at most. At 0.3 us a ray a portion is some 0.2 ms: short against a
+  /// turn of 1 ms, long against the 60 ns of a switch.
   int64_t portion = 128;
 };
 
@@ -80,6 +80,7 @@ class PhotonThreads {
   const CompiledScene& scene_;
   ObjectSource* const source_;  // null where everything is resident
   const PhotonConfig config_;
+  const int64_t portion_;
   Scheduler& scheduler_;
   LeasePort& port_;
   std::vector<std::unique_ptr<BatchTracer>> tracers_;  // one a fiber

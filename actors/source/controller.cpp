@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "actors/tally/flush_codec.hpp"
+#include "runtime/core/check.hpp"
 #include "runtime/core/hash.hpp"
 
 namespace luxodus {
@@ -270,7 +272,7 @@ void Controller::lend(const Delivery& delivery, const RequestLease& request) {
                          static_cast<uint32_t>(lent.count),
                          static_cast<uint32_t>(config_.lease_time / milliseconds(1))}};
   }
-  send(delivery.source, delivery.id, last.answer);
+  send(delivery.source, delivery.id, *last.answer);
 }
 
 void Controller::take_flush(const Delivery& delivery, const Flush& flush) {
@@ -320,22 +322,9 @@ void Controller::answer_flush(const Arrived& arrived, const std::string& why) {
 }
 
 /// Lets others have their turn. A node that is to end goes on: what is begun is whole in the end.
-void Controller::take_turns() {
+bool Controller::take_turns() {
   (void)scheduler_.fibers().yield();
-}
-
-Result<std::vector<TotalsGain>> Controller::unpack(const Arrived& arrived) {
-  Hasher hash;
-  for (std::span<const std::byte> left = arrived.payload; !left.empty(); take_turns()) {
-    const auto piece = left.first(std::min(left.size(), bytes_of_a_step));
-    hash.add(piece.data(), piece.size());
-    left = left.subspan(piece.size());
-  }
-  if (hash.value() != arrived.flush.payload_hash)
-    return Problem{{}, "the payload is not what its hash says"};
-  FlushDecoder decoder(arrived.payload, run_.totals().groups(), run_.scene().layout.totals());
-  while (!decoder.step()) take_turns();
-  return decoder.take();
+  return true;
 }
 
 /// Takes a flush whole, or says why not.
@@ -343,21 +332,25 @@ std::string Controller::count_flush(const Arrived& arrived) {
   const std::vector<uint64_t>& leases = arrived.flush.leases;
   const char* const fenced = "a lease was fenced";
   if (!book_.stand(arrived.worker, leases)) return fenced;
-  auto unpacked = unpack(arrived);
-  if (!unpacked.ok()) return unpacked.problem().what;
-  const std::vector<TotalsGain>& pieces = unpacked.value();
-  int64_t batches = 0;
-  for (const auto& group : pieces.back().groups) batches += group.batches;
-  if (batches != static_cast<int64_t>(leases.size()) || !pieces.back().ledger.closes())
+  Hasher hash;
+  for (std::span<const std::byte> left = arrived.payload; !left.empty(); take_turns()) {
+    const auto piece = left.first(std::min(left.size(), bytes_of_a_step));
+    hash.add(piece.data(), piece.size());
+    left = left.subspan(piece.size());
+  }
+  if (hash.value() != arrived.flush.payload_hash) return "the payload is not what its hash says";
+  const auto rest = [this] { return take_turns(); };
+  const auto gain = decode_flush(arrived.payload, run_.totals().groups(),
+                                 run_.scene().layout.totals(), rest);
+  if (!gain.ok()) return gain.problem().what;
+  if (gain->batches() != static_cast<int64_t>(leases.size()) || !gain->ledger().closes())
     return "its batches or its ledger do not add up";
   if (over_) return "the run has ended";
-  if (!book_.stand(arrived.worker, leases)) return fenced;  // others had their turn
+  // Committed before anything is added, so that no lease of it is fenced while others have turns.
+  if (!book_.stand(arrived.worker, leases)) return fenced;
   book_.commit(leases);
   adding_ = true;
-  for (const TotalsGain& piece : pieces) {
-    run_.totals().add(piece);
-    take_turns();
-  }
+  gain->add_to(run_.totals(), rest);
   adding_ = false;
   return "";
 }

@@ -86,8 +86,7 @@ class Controller {
   void count_flushes();
   void answer_flush(const Arrived& arrived, const std::string& why);
   std::string count_flush(const Arrived& arrived);
-  Result<std::vector<TotalsGain>> unpack(const Arrived& arrived);
-  void take_turns();
+  bool take_turns();
   void end_round();
   void end_run(StopReason reason);
   void tell_end();

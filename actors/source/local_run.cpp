@@ -147,7 +147,8 @@ StopReason LocalRun::run(const StopRule& stop, const std::atomic<bool>& interrup
         stop.relative_error ? std::min(target, plan_.round_end(plan_.given())) : target;
     trace_until(end, stop, interrupt, report, clock);
     pause_if_due();
-    if (plan_.given() < end && !interrupt.load() && !time_is_up_) continue;
+    const bool left = plan_.given() < end || !missing_.empty();
+    if (left && !interrupt.load() && !time_is_up_) continue;
     error_ = Readout(*scene_, totals_).worst_relative_error();
     if (interrupt.load())
       reason = StopReason::interrupted;

@@ -34,6 +34,7 @@ void WorkerReport::add(const WorkerReport& other) {
   joined += other.joined;
   builds += other.builds;
   evictions += other.evictions;
+  waited += other.waited;
   fetched_bytes += other.fetched_bytes;
   largest_resident_bytes = std::max(largest_resident_bytes, other.largest_resident_bytes);
 }
@@ -52,7 +53,7 @@ FetchingCells::FetchingCells(const RunSetup& run, const NodeSetup& node, NodeShe
 WorkerReport FetchingCells::report() const {
   const ObjectCache::Counters& c = cache_.counters();
   const Fetcher::Counters& f = fetcher_.counters();
-  return {c.hits, f.fetches, c.joined, c.builds, c.evictions, f.bytes_in, c.resident_bytes};
+  return {c.hits, f.fetches, c.joined, c.builds, c.evictions, 0, f.bytes_in, c.resident_bytes};
 }
 
 SchedulerLimits scheduler_limits_of(const NodeSetup& node) {

@@ -14,6 +14,7 @@ struct WorkerReport {
   uint64_t joined = 0;  // fibers that found a fetch under way
   uint64_t builds = 0;
   uint64_t evictions = 0;
+  uint64_t waited = 0;  // [ns] with nothing to do
   uint64_t fetched_bytes = 0;
   uint64_t largest_resident_bytes = 0;  // of one node, when it ended
 

@@ -43,13 +43,15 @@ Endpoints endpoints_of(NodeId node) {
   return {name, name + "-bulk"};
 }
 
-NodeSetup setup_of(const RunSetup& run, NodeId self, const NodesOptions& options, uint64_t run_id) {
+/// `common` is what all nodes' networks have in common.
+NodeSetup setup_of(const RunSetup& run, const NetConfig& common, NodeId self,
+                   const NodesOptions& options, uint64_t run_id) {
   NodeSetup node;
+  node.net = common;
   node.net.self = self;
   node.net.incarnation = {run_id + self.value + 1};
   node.net.identity.node = self;
   node.net.identity.run_id = run_id;
-  complete(node.net, run);
   node.links.listen.push_back(endpoints_of(self));
   for (const Vertex neighbour : run.graph.all().of(self.value)) {
     const NodeId other{static_cast<uint16_t>(neighbour)};
@@ -59,6 +61,7 @@ NodeSetup setup_of(const RunSetup& run, NodeId self, const NodesOptions& options
   node.photons.fibers = options.fibers;
   node.photons.portion = static_cast<int64_t>(options.portion);
   node.object_bytes = options.object_bytes;
+  node.link_delay = options.link_delay;
   return node;
 }
 
@@ -106,8 +109,8 @@ Result<StopReason> run_controller(const RunSetup& setup, const NodeSetup& node, 
                                   const StopRule& stop, const std::atomic<bool>& interrupt,
                                   const std::function<void(const Progress&)>& report,
                                   const std::function<bool()>& broken, NodesReport* counted) {
-  ZmqTransport transport(setup.context, {node.net.self, node.keys, node.insecure}, setup.clock);
-  NodeShell shell({node.net, {}}, setup.graph, setup.clock, transport);
+  NodeTransport transport(setup, node);
+  NodeShell shell({node.net, {}}, setup.graph, setup.clock, transport.transport());
   ControllerConfig config;
   config.lease_time = node.lease_time;
   config.start = node.start;
@@ -117,7 +120,7 @@ Result<StopReason> run_controller(const RunSetup& setup, const NodeSetup& node, 
   for (uint16_t i = 0; i < setup.graph.workers(); ++i) config.workers.push_back({i});
   Controller controller(config, run, stop, interrupt, report, shell.scheduler(), shell.network());
   shell.add([&](const Delivery& d) { return controller.deliver(d); });
-  if (auto joined = join_links(transport, node); !joined.ok()) return joined.problem();
+  if (auto joined = join_links(transport.sockets(), node); !joined.ok()) return joined.problem();
   const Nanoseconds began = setup.clock.now();
   controller.start();
   shell.run_until([&] { return controller.ended() || broken(); });
@@ -125,7 +128,7 @@ Result<StopReason> run_controller(const RunSetup& setup, const NodeSetup& node, 
   if (controller.fault())
     return Problem{{},
                    node.name() + ": " + controller.fault()->what +
-                       meeting_trouble(transport, setup.context, shell.network())};
+                       meeting_trouble(transport.sockets(), setup.context, shell.network())};
   if (counted != nullptr) {
     const Controller::Counters& c = controller.counters();
     *counted = {c.flushes_taken,
@@ -161,9 +164,11 @@ Result<StopReason> run_on_nodes(LocalRun& run, const NodesOptions& options, cons
     setup.proxies = &*proxies;
   }
   const uint64_t run_id = static_cast<uint64_t>(clock.now()) | 1;
+  NetConfig common;
+  complete(common, setup);
   std::vector<NodeSetup> nodes;
   for (uint16_t i = 0; i <= options.nodes; ++i)
-    nodes.push_back(setup_of(setup, {i}, options, run_id));
+    nodes.push_back(setup_of(setup, common, {i}, options, run_id));
   const NodeSetup controller = nodes.back();
   nodes.pop_back();
   WorkerThreads workers(setup, nodes, [] { return false; });

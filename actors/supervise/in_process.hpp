@@ -23,11 +23,13 @@ struct NodesOptions {
   int nodes = 2;         // workers; the controller comes on top and traces nothing
   int links = 4;         // of a node at most
   size_t fibers = 1;     // photon-threads of a node
-  size_t portion = 128;  // particles a fiber takes at once
+  size_t portion = 128;  // particles a fiber takes at once, at most
   /// For built geometry cells, of each node. 0: everything is resident, and shared. With a budget
   /// each node holds its share of the cells' bytes for all, and fetches and builds what it needs.
   size_t object_bytes = 0;
   uint32_t replicas = 1;  // nodes that hold a cell's bytes
+  /// Of every link, on purpose: what a distance would cost, and how many fibers hide it.
+  Nanoseconds link_delay = 0;
 };
 
 /// What the nodes of a run did.

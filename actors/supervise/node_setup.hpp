@@ -10,6 +10,7 @@
 #include "actors/photon/photon_threads.hpp"
 #include "actors/source/controller.hpp"
 #include "runtime/config/cluster_config.hpp"
+#include "runtime/net/delayed_transport.hpp"
 #include "runtime/net/zmq_transport.hpp"
 #include "topology/graph.hpp"
 
@@ -45,12 +46,30 @@ struct NodeSetup {
   Nanoseconds lease_time = ControllerConfig{}.lease_time;
   FetchConfig fetch;
   size_t object_bytes = 0;  // for built cells, where cells are fetched
+  /// Of every link, on purpose. Requires: the same at all nodes, and one clock: one process.
+  Nanoseconds link_delay = 0;
 
   /// Of the node itself, for people.
   std::string name() const {
     const size_t number = net.self.value;
     return number < names.size() ? names[number] : "node " + std::to_string(number);
   }
+};
+
+/// A node's way to its neighbours: its sockets, behind the delay that the setup asks for.
+class NodeTransport {
+ public:
+  NodeTransport(const RunSetup& run, const NodeSetup& node)
+      : sockets_(run.context, {node.net.self, node.keys, node.insecure}, run.clock) {
+    if (node.link_delay > 0) delayed_.emplace(sockets_, node.link_delay, run.clock);
+  }
+
+  ZmqTransport& sockets() { return sockets_; }
+  Transport& transport() { return delayed_ ? static_cast<Transport&>(*delayed_) : sockets_; }
+
+ private:
+  ZmqTransport sockets_;
+  std::optional<DelayedTransport> delayed_;
 };
 
 /// Listens and connects as the setup says.

@@ -17,8 +17,8 @@ LeaseClientConfig lease_config(const NodeSetup& node) {
 Worker::Worker(const RunSetup& run, const NodeSetup& node)
     : node_(node),
       context_(run.context),
-      transport_(run.context, {node.net.self, node.keys, node.insecure}, run.clock),
-      shell_({node.net, scheduler_limits_of(node)}, run.graph, run.clock, transport_),
+      transport_(run, node),
+      shell_({node.net, scheduler_limits_of(node)}, run.graph, run.clock, transport_.transport()),
       cells_(run.objects == nullptr ? nullptr : std::make_unique<FetchingCells>(run, node, shell_)),
       leases_(lease_config(node), shell_.scheduler(), shell_.network()),
       photons_(run.scene,
@@ -29,7 +29,7 @@ Worker::Worker(const RunSetup& run, const NodeSetup& node)
 Worker::~Worker() = default;
 
 Result<WorkerReport> Worker::run(const std::function<bool()>& stop) {
-  if (auto joined = join_links(transport_, node_); !joined.ok()) return joined.problem();
+  if (auto joined = join_links(transport_.sockets(), node_); !joined.ok()) return joined.problem();
   shell_.add([this](const Delivery& d) { return leases_.deliver(d); });
   leases_.start(photons_);
   photons_.start();
@@ -47,8 +47,10 @@ Result<WorkerReport> Worker::run(const std::function<bool()>& stop) {
   if (leases_.fault())
     return Problem{{},
                    node_.name() + ": " + leases_.fault()->what +
-                       meeting_trouble(transport_, context_, shell_.network())};
-  return cells_ ? cells_->report() : WorkerReport{};
+                       meeting_trouble(transport_.sockets(), context_, shell_.network())};
+  WorkerReport report = cells_ ? cells_->report() : WorkerReport{};
+  report.waited = shell_.scheduler().counters().waited;
+  return report;
 }
 
 }  // namespace luxodus

@@ -20,7 +20,7 @@ class Worker {
  private:
   const NodeSetup& node_;
   const ZmqContext& context_;
-  ZmqTransport transport_;
+  NodeTransport transport_;
   NodeShell shell_;
   std::unique_ptr<FetchingCells> cells_;  // where the node does not hold everything
   LeaseClient leases_;

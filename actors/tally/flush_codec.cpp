@@ -2,6 +2,8 @@
 
 #include <zstd.h>
 
+#include <array>
+#include <numeric>
 #include <stdexcept>
 
 namespace luxodus {
@@ -11,67 +13,110 @@ namespace {
 constexpr int fast = 1;  // of zstd's levels: a flush is packed on the node's own thread
 constexpr size_t longest_number = 19;  // bytes of 128 bits, seven at a time
 constexpr size_t numbers_of_ledger = 11;
-/// What is read at once: a number, a bin, or the ledger, which is the longest.
-constexpr size_t longest_item = numbers_of_ledger * longest_number;
-constexpr size_t bins_of_a_piece = 16384;
+
+/// Between two rests: about half a millisecond of either.
+constexpr size_t unpacked_between_rests = 512 << 10;
+constexpr int64_t bins_between_rests = 16384;
+constexpr const char* abandoned = "the reading of the flush was broken off";
+
+/// Numbers on their way out: written where they fit for sure, then taken over at once.
+class Numbers {
+ public:
+  void put(UInt128 v) {
+    while (v >> 64 != 0) {
+      bytes_[size_++] = static_cast<std::byte>(static_cast<uint8_t>(v) | 0x80);
+      v >>= 7;
+    }
+    auto low = static_cast<uint64_t>(v);
+    for (; low >= 0x80; low >>= 7)
+      bytes_[size_++] = static_cast<std::byte>(static_cast<uint8_t>(low) | 0x80);
+    bytes_[size_++] = static_cast<std::byte>(static_cast<uint8_t>(low));
+  }
+  void put_signed(Int128 v) {
+    put((static_cast<UInt128>(v) << 1) ^ static_cast<UInt128>(v >> 127));
+  }
+  void move_to(std::vector<std::byte>& out) {
+    out.insert(out.end(), bytes_.begin(), bytes_.begin() + static_cast<std::ptrdiff_t>(size_));
+    size_ = 0;
+  }
+
+ private:
+  std::array<std::byte, numbers_of_ledger * longest_number> bytes_;
+  size_t size_ = 0;
+};
 
 void put(std::vector<std::byte>& out, UInt128 v) {
-  while (v >= 0x80) {
-    out.push_back(static_cast<std::byte>(static_cast<uint8_t>(v) | 0x80));
-    v >>= 7;
-  }
-  out.push_back(static_cast<std::byte>(static_cast<uint8_t>(v)));
-}
-void put_signed(std::vector<std::byte>& out, Int128 v) {
-  put(out, (static_cast<UInt128>(v) << 1) ^ static_cast<UInt128>(v >> 127));
+  Numbers numbers;
+  numbers.put(v);
+  numbers.move_to(out);
 }
 
-}  // namespace
+void put_ledger(std::vector<std::byte>& out, const Ledger& l) {
+  Numbers numbers;
+  for (const Int128 v : {l.emitted, l.roulette_gain, l.absorbed_surfaces, l.absorbed_media,
+                         l.escaped, l.roulette_loss, l.lost_too_long})
+    numbers.put_signed(v);
+  for (const uint64_t v : {l.particles, l.rays, l.hits, l.collisions}) numbers.put(v);
+  numbers.move_to(out);
+}
 
 /// Reads numbers; once one is missing or too long, all that follow are 0 and ok() is false.
-class FlushDecoder::Reader {
+class Reader {
  public:
-  explicit Reader(std::span<const std::byte> bytes) : bytes_(bytes) {}
+  explicit Reader(std::span<const std::byte> bytes)
+      : at_(bytes.data()), end_(bytes.data() + bytes.size()) {}
 
   UInt128 get() {
-    UInt128 v = 0;
-    for (size_t i = 0; i < longest_number; ++i) {
-      if (bytes_.empty()) break;
-      const auto byte = static_cast<uint8_t>(bytes_.front());
-      bytes_ = bytes_.subspan(1);
+    uint64_t low = 0;  // most numbers have less than 63 bits
+    for (unsigned shift = 0; shift < 63; shift += 7) {
+      if (at_ == end_) return fail();
+      const auto byte = static_cast<uint8_t>(*at_++);
+      low |= static_cast<uint64_t>(byte & 0x7f) << shift;
+      if (byte < 0x80) return low;
+    }
+    UInt128 v = low;
+    for (size_t i = 9; i < longest_number && at_ != end_; ++i) {
+      const auto byte = static_cast<uint8_t>(*at_++);
       v |= static_cast<UInt128>(byte & 0x7f) << (7 * i);
       if (byte < 0x80) return v;
     }
-    ok_ = false;
-    return 0;
+    return fail();
   }
   uint64_t get_up_to(uint64_t most) {
     const UInt128 v = get();
-    if (v > most) ok_ = false;
-    return ok_ ? static_cast<uint64_t>(v) : 0;
+    return v <= most ? static_cast<uint64_t>(v) : static_cast<uint64_t>(fail());
   }
   Int128 get_signed() {
     const UInt128 v = get();
     return static_cast<Int128>(v >> 1) ^ -static_cast<Int128>(v & 1);
   }
+  UInt128 fail() {
+    ok_ = false;
+    at_ = end_;
+    return 0;
+  }
   bool ok() const { return ok_; }
-  size_t left() const { return bytes_.size(); }
+  bool at_end() const { return at_ == end_; }
+  const std::byte* at() const { return at_; }
 
  private:
-  std::span<const std::byte> bytes_;
+  const std::byte* at_;
+  const std::byte* end_;
   bool ok_ = true;
 };
 
-namespace {
-
-void put_ledger(std::vector<std::byte>& out, const Ledger& l) {
-  for (const Int128 v : {l.emitted, l.roulette_gain, l.absorbed_surfaces, l.absorbed_media,
-                         l.escaped, l.roulette_loss, l.lost_too_long})
-    put_signed(out, v);
-  for (const uint64_t v : {l.particles, l.rays, l.hits, l.collisions}) put(out, v);
+/// The group's next bin, which lies at or behind `after_last`; false where there is none.
+bool next_bin(Reader& in, uint64_t& after_last, uint64_t totals, TotalsGain::Bin& bin) {
+  const uint64_t distance = in.get_up_to(totals);
+  if (distance == 0) return false;
+  after_last += distance;
+  if (after_last > totals) in.fail();
+  bin.index = static_cast<int64_t>(after_last - 1);
+  bin.total.sum = in.get_signed();
+  bin.total.squares = in.get();
+  return in.ok();
 }
 
-template <class Reader>
 Ledger get_ledger(Reader& in) {
   Ledger l;
   for (Int128* v : {&l.emitted, &l.roulette_gain, &l.absorbed_surfaces, &l.absorbed_media,
@@ -79,6 +124,36 @@ Ledger get_ledger(Reader& in) {
     *v = in.get_signed();
   for (uint64_t* v : {&l.particles, &l.rays, &l.hits, &l.collisions}) *v = in.get_up_to(UINT64_MAX);
   return l;
+}
+
+/// The most bytes that totals of this size can take.
+size_t bytes_most(int groups, int64_t totals) {
+  const auto bins = static_cast<size_t>(groups) * static_cast<size_t>(totals);
+  return (bins * 3 + static_cast<size_t>(groups) * 2 + numbers_of_ledger + 1) * longest_number;
+}
+
+/// Unpacks frames whose size nobody has told, up to `most` bytes.
+Result<std::vector<std::byte>> unpack(std::span<const std::byte> bytes, size_t most,
+                                      const FlushRest& rest) {
+  const std::unique_ptr<ZSTD_DCtx, decltype(&ZSTD_freeDCtx)> context(ZSTD_createDCtx(),
+                                                                     ZSTD_freeDCtx);
+  std::vector<std::byte> out;
+  std::vector<std::byte> piece(ZSTD_DStreamOutSize());
+  ZSTD_inBuffer in{bytes.data(), bytes.size(), 0};
+  size_t hint = 1;
+  size_t rest_at = unpacked_between_rests;
+  while (in.pos < in.size) {
+    ZSTD_outBuffer to{piece.data(), piece.size(), 0};
+    hint = ZSTD_decompressStream(context.get(), &to, &in);
+    if (ZSTD_isError(hint) || out.size() + to.pos > most)
+      return Problem{{}, "the flush is no packed totals of this scene"};
+    out.insert(out.end(), piece.begin(), piece.begin() + static_cast<std::ptrdiff_t>(to.pos));
+    if (out.size() < rest_at) continue;
+    rest_at = out.size() + unpacked_between_rests;
+    if (!rest()) return Problem{{}, abandoned};
+  }
+  if (hint != 0) return Problem{{}, "the flush is cut short"};
+  return out;
 }
 
 }  // namespace
@@ -98,11 +173,13 @@ FlushEncoder::~FlushEncoder() = default;
 
 /// A group is its batches, its bins (each the distance from the last one plus one), and a zero.
 bool FlushEncoder::step(int64_t bins) {
+  Numbers numbers;
   const int64_t end = std::min(next_ + bins, totals_.layout().totals());
   totals_.take_bins(group_, next_, end, [&](int64_t index, const Total& total) {
-    put(raw_, static_cast<uint64_t>(index - after_last_ + 1));
-    put_signed(raw_, total.sum);
-    put(raw_, total.squares);
+    numbers.put(static_cast<uint64_t>(index - after_last_ + 1));
+    numbers.put_signed(total.sum);
+    numbers.put(total.squares);
+    numbers.move_to(raw_);
     after_last_ = index + 1;
   });
   next_ = end;
@@ -143,119 +220,59 @@ std::vector<std::byte> encode_flush(Totals& totals) {
   return encoder.take_bytes();
 }
 
-// ---- decoding --------------------------------------------------------------------------------
+// ---- reading ---------------------------------------------------------------------------------
 
-/// What has been unpacked and not read is a part of an item: the buffer stays as small as a piece
-/// of zstd's output, whatever the bytes claim.
-struct FlushDecoder::Zstd {
-  std::unique_ptr<ZSTD_DCtx, decltype(&ZSTD_freeDCtx)> context{ZSTD_createDCtx(), ZSTD_freeDCtx};
-  ZSTD_inBuffer in;
-  bool ended = false;  // all frames are whole, and unpacked
-};
-
-FlushDecoder::FlushDecoder(std::span<const std::byte> bytes, int groups, int64_t totals)
-    : groups_(groups), totals_(totals), zstd_(std::make_unique<Zstd>()) {
-  zstd_->in = {bytes.data(), bytes.size(), 0};
-  last_.groups.resize(static_cast<size_t>(groups));
-}
-
-FlushDecoder::~FlushDecoder() = default;
-
-bool FlushDecoder::step() {
-  if (state_ == State::failed || zstd_->ended) return true;
-  if (!unpack()) return true;
-  Reader in(buffer_);
-  while (state_ < State::done && (in.left() >= longest_item || zstd_->ended)) {
-    if (!read_item(in)) {
-      fail("the flush does not fit this scene's totals");
-      return true;
-    }
-  }
-  if (state_ == State::done && in.left() > 0) fail("the flush goes on after its end");
-  buffer_.erase(buffer_.begin(), buffer_.end() - static_cast<std::ptrdiff_t>(in.left()));
-  return state_ == State::failed || zstd_->ended;
-}
-
-bool FlushDecoder::unpack() {
-  const size_t before = buffer_.size();
-  buffer_.resize(before + ZSTD_DStreamOutSize());
-  ZSTD_outBuffer out{buffer_.data(), buffer_.size(), before};
-  const size_t hint = ZSTD_decompressStream(zstd_->context.get(), &out, &zstd_->in);
-  buffer_.resize(out.pos);
-  if (ZSTD_isError(hint)) return fail("the flush is no packed totals of this scene");
-  const bool all_in = zstd_->in.pos == zstd_->in.size;
-  zstd_->ended = all_in && hint == 0;
-  if (all_in && hint != 0 && out.pos < out.size) return fail("the flush is cut short");
-  return true;
-}
-
-bool FlushDecoder::fail(const char* why) {
-  state_ = State::failed;
-  problem_ = {{}, why};
-  return false;
-}
-
-/// In order: the number of groups; for each its batches, bins and a zero; the ledger.
-bool FlushDecoder::read_item(Reader& in) {
-  switch (state_) {
-    case State::count:
-      if (in.get_up_to(static_cast<uint64_t>(groups_)) != static_cast<uint64_t>(groups_))
-        return false;
-      state_ = State::batches;
-      return in.ok();
-    case State::batches:
-      last_.groups[group_].batches = static_cast<int64_t>(in.get_up_to(uint64_t{1} << 40));
-      next_ = 0;
-      state_ = State::bins;
-      return in.ok();
-    case State::bins:
-      return read_bin(in);
-    case State::ledger:
-      last_.ledger = get_ledger(in);
-      pieces_.push_back(std::move(last_));
-      state_ = State::done;
-      return in.ok();
-    case State::done:
-    case State::failed:
-      break;
-  }
-  return false;
-}
-
-bool FlushDecoder::read_bin(Reader& in) {
-  const uint64_t distance = in.get_up_to(static_cast<uint64_t>(totals_));
-  if (distance == 0) {
-    ++group_;
-    state_ = group_ == static_cast<size_t>(groups_) ? State::ledger : State::batches;
-    return in.ok();
-  }
+Result<FlushGain> decode_flush(std::span<const std::byte> bytes, int groups, int64_t totals,
+                               const FlushRest& rest) {
+  auto raw = unpack(bytes, bytes_most(groups, totals), rest);
+  if (!raw.ok()) return raw.problem();
+  FlushGain gain;
+  gain.raw_ = std::move(raw).value();
+  gain.totals_ = static_cast<uint64_t>(totals);
+  Reader in(gain.raw_);
+  const Problem wrong{{}, "the flush does not fit this scene's totals"};
+  if (in.get_up_to(static_cast<uint64_t>(groups)) != static_cast<uint64_t>(groups)) return wrong;
   TotalsGain::Bin bin;
-  const uint64_t index = next_ + distance - 1;
-  bin.index = static_cast<int64_t>(index);
-  bin.total.sum = in.get_signed();
-  bin.total.squares = in.get();
-  if (!in.ok() || index >= static_cast<uint64_t>(totals_)) return false;
-  next_ = index + 1;
-  if (pieces_.empty() || pieces_.back().groups[group_].bins.size() == bins_of_a_piece ||
-      group_of_piece_ != group_) {
-    pieces_.emplace_back().groups.resize(static_cast<size_t>(groups_));
-    group_of_piece_ = group_;
+  int64_t bins = 0;
+  for (int g = 0; g < groups; ++g) {
+    gain.batches_.push_back(static_cast<int64_t>(in.get_up_to(uint64_t{1} << 40)));
+    gain.begins_.push_back(static_cast<size_t>(in.at() - gain.raw_.data()));
+    uint64_t after_last = 0;
+    while (next_bin(in, after_last, gain.totals_, bin))
+      if (++bins % bins_between_rests == 0 && !rest()) return Problem{{}, abandoned};
   }
-  pieces_.back().groups[group_].bins.push_back(bin);
-  return true;
+  gain.bins_ = bins;
+  gain.ledger_ = get_ledger(in);
+  if (!in.ok() || !in.at_end()) return wrong;
+  return gain;
 }
 
-Result<std::vector<TotalsGain>> FlushDecoder::take() {
-  if (state_ == State::failed) return problem_;
-  return std::move(pieces_);
+int64_t FlushGain::batches() const {
+  return std::accumulate(batches_.begin(), batches_.end(), int64_t{0});
 }
 
-Result<std::vector<TotalsGain>> decode_flush(std::span<const std::byte> bytes, int groups,
-                                             int64_t totals) {
-  FlushDecoder decoder(bytes, groups, totals);
-  while (!decoder.step()) {
+void FlushGain::add_to(Totals& totals, const FlushRest& rest) const {
+  TotalsGain piece;
+  piece.groups.resize(batches_.size());
+  for (size_t g = 0; g < batches_.size(); ++g) piece.groups[g].batches = batches_[g];
+  piece.ledger = ledger_;
+  totals.add(piece);
+  piece = {};
+  piece.groups.resize(batches_.size());
+  for (size_t g = 0; g < batches_.size(); ++g) {
+    Reader in({raw_.data() + begins_[g], raw_.size() - begins_[g]});
+    auto& bins = piece.groups[g].bins;
+    uint64_t after_last = 0;
+    TotalsGain::Bin bin;
+    for (bool more = true; more;) {
+      bins.clear();
+      while (bins.size() < bins_between_rests && (more = next_bin(in, after_last, totals_, bin)))
+        bins.push_back(bin);
+      totals.add(piece);
+      rest();
+    }
+    bins.clear();
   }
-  return decoder.take();
 }
 
 }  // namespace luxodus

@@ -1,12 +1,12 @@
 // A flush on its way: what a node's batches have added to its totals, as bytes. Numbers are LEB128
 // (signed ones zigzag), indices as differences, the whole packed by zstd. A million bins take tens
-// of milliseconds, so they are packed and unpacked in steps, between which the node does other
-// things. Bytes come from other machines: they are read into a value first, and taken or refused
-// whole.
-// Thread rule: an encoder and a decoder belong to one thread each.
+// of milliseconds, so they are packed in steps, between which the node does other things. Bytes
+// come from other machines: they are read into a value first, and taken or refused whole.
+// Thread rule: a FlushEncoder belongs to one thread; decoding is pure.
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -44,46 +44,38 @@ class FlushEncoder {
 /// All at once.
 std::vector<std::byte> encode_flush(Totals& totals);
 
-/// Reads what a FlushEncoder wrote, step by step.
-class FlushDecoder {
+/// Called now and then while a long flush is read or added; false: break off. On a fiber it yields.
+using FlushRest = std::function<bool()>;
+inline bool no_rest() {
+  return true;
+}
+
+/// What a flush adds, read and found right. A bin is read twice, and never kept: a million of them
+/// would be 48 MB.
+class FlushGain {
  public:
-  /// Requires: `bytes` outlive this; so many source groups, of so many totals each.
-  FlushDecoder(std::span<const std::byte> bytes, int groups, int64_t totals);
-  ~FlushDecoder();
+  /// Of all groups.
+  int64_t batches() const;
+  int64_t bins() const { return bins_; }
+  const Ledger& ledger() const { return ledger_; }
 
-  /// Unpacks and reads some ten thousand bins; true when there are no more, or they are wrong.
-  bool step();
-
-  /// What is to be added, in pieces of as many bins as a step has; batches and ledger are in the
-  /// last. Requires: step() has returned true. Errors: not such bytes; more groups, or an index
-  /// beyond the totals.
-  Result<std::vector<TotalsGain>> take();
+  /// Adds all of it; `rest` cannot break this off. Requires: totals of the layout it was read for.
+  void add_to(Totals& totals, const FlushRest& rest = no_rest) const;
 
  private:
-  enum class State : uint8_t { count, batches, bins, ledger, done, failed };
-  class Reader;
+  friend Result<FlushGain> decode_flush(std::span<const std::byte>, int, int64_t, const FlushRest&);
 
-  bool unpack();
-  bool read_item(Reader& in);
-  bool read_bin(Reader& in);
-  bool fail(const char* why);
-
-  const int groups_;
-  const int64_t totals_;
-  State state_ = State::count;
-  Problem problem_;
-  std::vector<std::byte> buffer_;  // unpacked, not read
-  size_t group_ = 0;
-  size_t group_of_piece_ = 0;
-  uint64_t next_ = 0;  // bin of the group
-  std::vector<TotalsGain> pieces_;
-  TotalsGain last_;
-  struct Zstd;
-  std::unique_ptr<Zstd> zstd_;
+  std::vector<std::byte> raw_;
+  std::vector<size_t> begins_;  // of each group's bins, in raw_
+  std::vector<int64_t> batches_;
+  uint64_t totals_ = 0;
+  int64_t bins_ = 0;
+  Ledger ledger_;
 };
 
-/// All at once. Errors: as FlushDecoder::take.
-Result<std::vector<TotalsGain>> decode_flush(std::span<const std::byte> bytes, int groups,
-                                             int64_t totals);
+/// Errors: not such bytes; more groups than `groups` or an index beyond `totals`; indices that do
+/// not ascend; more bytes than such totals can have; `rest` said so.
+Result<FlushGain> decode_flush(std::span<const std::byte> bytes, int groups, int64_t totals,
+                               const FlushRest& rest = no_rest);
 
 }  // namespace luxodus

@@ -15,5 +15,11 @@ void print_memory(int n);
 void print_pieces(int repeats);
 /// Nanoseconds of the runtime's own steps: switches, messages, timers.
 void print_switch(int repeats);
+/// Runs on nodes against the plain loop, everything resident.
+void print_nodes(int repeats);
+/// Runs on nodes that fetch, with and without a delay on their links, by fibers.
+void print_delay(int repeats);
+/// What flushes of a large scene send and cost, by their interval.
+void print_flushes(int repeats);
 
 }  // namespace luxodus::bench

@@ -151,6 +151,24 @@ TEST_CASE("nodes whose budget holds a part of the cells fetch the others and giv
   }
 }
 
+TEST_CASE("a delay on all links changes no bit", "[nodes]") {
+  spdlog::set_level(spdlog::level::err);
+  const auto scene = scene_of("office_floor", "smoke_emergency", 64);
+  StopRule stop;
+  stop.particles = 4096;
+  LocalRun plain(scene, 1, 1);
+  plain.run(stop, nobody, ignore);
+  NodesOptions options = nodes_of(2, 300);
+  for (const GeometryCell& cell : scene->cells)
+    options.object_bytes += built_bytes_of(encode_cell(cell).size()) / 4;
+  options.link_delay = microseconds(300);
+  LocalRun run(scene, 1, 1);
+  NodesReport report;
+  REQUIRE(run_on_nodes(run, options, stop, nobody, ignore, &report).ok());
+  CHECK(differences(plain, run) == 0);
+  CHECK(report.workers.fetches > 0);
+}
+
 TEST_CASE("a budget without a partition, or more holders than nodes, is refused", "[nodes]") {
   StopRule stop;
   stop.particles = 1;
