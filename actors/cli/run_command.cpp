@@ -27,6 +27,8 @@ struct RunOptions {
   int nodes = 0;  // 0: the plain loop
   size_t fibers = 1;
   double object_mib = 0;
+  std::optional<uint16_t> metrics_port;
+  bool plan = false;
   bool resume = false;
   bool no_views = false;
   bool json = false;
@@ -82,17 +84,29 @@ Result<Done> write_all(const fs::path& folder, const LocalRun& run, const RunRec
   return render_views(folder, run, "", picture, [&](double share) { line.show_share(share); });
 }
 
+NodesOptions nodes_options(const RunOptions& options, Observation* observation) {
+  NodesOptions nodes;
+  nodes.nodes = options.nodes;
+  nodes.fibers = options.fibers;
+  nodes.object_bytes = static_cast<size_t>(options.object_mib * 1024 * 1024);
+  nodes.observation = observation;
+  return nodes;
+}
+
 /// Traces with the plain loop, or on nodes.
 Result<StopReason> trace(LocalRun& run, const Scenario& scenario, const RunOptions& options,
                          const StopRule& rule) {
   ProgressLine line(scenario.name);
   const auto show = [&](const Progress& p) { line.show(p); };
   if (options.nodes == 0) return run.run(rule, interrupt_flag(), show);
-  NodesOptions nodes;
-  nodes.nodes = options.nodes;
-  nodes.fibers = options.fibers;
-  nodes.object_bytes = static_cast<size_t>(options.object_mib * 1024 * 1024);
-  return run_on_nodes(run, nodes, rule, interrupt_flag(), show);
+  ObserveOptions observe;
+  observe.metrics_port = options.metrics_port;
+  auto seen = Observation::start(observe);
+  if (!seen.ok()) return seen.problem();
+  const auto port = seen.value()->port();
+  if (port) spdlog::info("metrics at http://{}:{}/metrics", observe.address, *port);
+  return run_on_nodes(run, nodes_options(options, port ? seen.value().get() : nullptr), rule,
+                      interrupt_flag(), show);
 }
 
 struct Traced {
@@ -109,6 +123,12 @@ Result<Traced> run_scenario(std::shared_ptr<const SceneDescription> description,
   for (const Problem& w : scene.value()->warnings) spdlog::warn("{}", w.text());
   const uint64_t seed = options.seed.value_or(description->run.seed);
   LocalRun run(scene.value(), seed, options.threads);
+  if (options.plan) {
+    auto plan = plan_on_nodes(run, nodes_options(options, nullptr));
+    if (!plan.ok()) return plan.problem();
+    std::printf("%s\n%s", scenario.name.c_str(), plan.value().c_str());
+    return Traced{StopReason::particles, {}};
+  }
   // Of several scenarios the later ones may not have been begun when the run was stopped.
   const bool begun = options.scenario != "all" || fs::exists(folder / "flux.lux");
   if (options.resume && begun) {
@@ -156,6 +176,10 @@ int run_scenarios(const std::shared_ptr<const SceneDescription>& description,
 }
 
 int run_scene(const RunOptions& options) {
+  if (options.nodes == 0 && (options.plan || options.metrics_port)) {
+    tell({{}, "--plan and --metrics are about nodes: say how many, --nodes N"});
+    return ExitCode::bad_input;
+  }
   auto rule = stop_rule(options);
   if (!rule.ok()) {
     tell(rule.problem());
@@ -171,11 +195,32 @@ int run_scene(const RunOptions& options) {
   install_interrupt_handler();
   Json results = Json::array();
   const int code = run_scenarios(description, scenarios.value(), options, rule.value(), results);
+  if (options.plan) return code;
   if (options.json && options.scenario == "all")
     std::fputs(json_text(results).c_str(), stdout);
   else if (options.json && !results.empty())
     std::fputs(json_text(results.front()).c_str(), stdout);
   return code;
+}
+
+void add_node_options(CLI::App& command, const std::shared_ptr<RunOptions>& options) {
+  command
+      .add_option("--nodes", options->nodes,
+                  "trace on so many nodes, a thread each, linked as a minimum-path graph [0: the "
+                  "plain loop]")
+      ->check(CLI::Range(0, limits::nodes_in_process));
+  command.add_option("--metrics", options->metrics_port,
+                     "serve the nodes' numbers on this port of 127.0.0.1 while they run, for "
+                     "`luxodus status` and Prometheus; 0: any that is free");
+  command.add_flag("--plan", options->plan,
+                   "print what each of the nodes may take in memory, and trace nothing");
+  command.add_option("--fibers", options->fibers, "photon-threads of a node [1]")
+      ->check(CLI::Range(size_t{1}, size_t{16384}));
+  command
+      .add_option("--object-mib", options->object_mib,
+                  "budget of a node for geometry cells; what does not fit is fetched from others "
+                  "[0: everything is resident]")
+      ->check(CLI::Range(0.0, 1048576.0));
 }
 
 }  // namespace
@@ -212,18 +257,7 @@ void add_run(CLI::App& app, int& exit_code) {
   command->add_option("--threads", options->threads, "[all cores]")->check(CLI::Range(1, 1024));
   command->add_option("--cells", options->cells, "geometry cells; 1 is one merged scene [1]")
       ->check(CLI::Range(1, 1'000'000));
-  command
-      ->add_option("--nodes", options->nodes,
-                   "trace on so many nodes, a thread each, linked as a minimum-path graph [0: the "
-                   "plain loop]")
-      ->check(CLI::Range(0, limits::nodes_in_process));
-  command->add_option("--fibers", options->fibers, "photon-threads of a node [1]")
-      ->check(CLI::Range(size_t{1}, size_t{16384}));
-  command
-      ->add_option("--object-mib", options->object_mib,
-                   "budget of a node for geometry cells; what does not fit is fetched from others "
-                   "[0: everything is resident]")
-      ->check(CLI::Range(0.0, 1048576.0));
+  add_node_options(*command, options);
   command
       ->add_option("--picture-paths", options->picture_paths, "paths per pixel of the views [32]")
       ->check(CLI::Range(1, 100'000));

@@ -19,6 +19,19 @@ void LeaseClient::start(PhotonThreads& photons) {
   set_timer();
 }
 
+void LeaseClient::add_metrics(Metrics& metrics) const {
+  const Counters& c = counters_;
+  metrics.add_counter({"leases", "", "Batches lent to this node.", ""}, c.leases);
+  metrics.add_counter({"leases_failed", "", "Leases whose batch is traced anew.", ""},
+                      c.leases_failed);
+  metrics.add_counter({"flushes", "", "Flushes made.", ""}, c.flushes);
+  metrics.add_counter({"flushes_refused", "", "Flushes that the controller refused.", ""},
+                      c.flushes_refused);
+  metrics.add_counter({"flush", "bytes", "Bytes of flushes made.", ""}, c.flush_bytes);
+  metrics.add_counter({"asked_again", "", "Questions to the controller asked again.", ""},
+                      c.asked_again);
+}
+
 // ---- asking for work -------------------------------------------------------------------------
 
 void LeaseClient::want_leases(size_t count) {

@@ -45,6 +45,7 @@ class LeaseClient final : public LeasePort {
     uint64_t leases_failed = 0;
   };
   const Counters& counters() const { return counters_; }
+  void add_metrics(Metrics& metrics) const;
 
  private:
   struct Question {

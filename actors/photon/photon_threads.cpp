@@ -21,6 +21,7 @@ struct PhotonThreads::OpenBatch {
   int64_t next_particle = 0;  // of the batch, not yet given out
   uint32_t next_unit = 0;     // of the eye paths
   uint32_t portions_out = 0;
+  Nanoseconds since = 0;
 };
 
 struct PhotonThreads::Portion {
@@ -38,7 +39,7 @@ PhotonThreads::PhotonThreads(const CompiledScene& scene, const GeometryAccess& a
       config_(config),
       scheduler_(scheduler),
       port_(port),
-      open_(config.open_batches),
+      open_(std::min(config.open_batches, config.leases)),
       totals_{{scene.layout, static_cast<int>(scene.groups.size()), photopic_weights(scene)},
               {scene.layout, static_cast<int>(scene.groups.size()), photopic_weights(scene)}},
       plan_(scene) {
@@ -59,6 +60,23 @@ void PhotonThreads::start() {
 void PhotonThreads::add(uint64_t lease, int64_t batch) {
   leases_.push_back({lease, batch});
   scheduler_.fibers().wake_all(work_);
+}
+
+void PhotonThreads::add_metrics(Metrics& metrics) const {
+  const Counters& c = counters_;
+  metrics.add_counter({"particles", "", "Particles traced.", ""}, c.particles);
+  metrics.add_counter({"eye_units", "", "Parts of signs, and probes, looked at.", ""}, c.eye_units);
+  metrics.add_counter({"batches", "", "Batches merged here.", ""}, c.batches);
+  metrics.add_counter({"batches_failed", "", "Batches traced in vain, for want of an object.", ""},
+                      c.batches_failed);
+  metrics.add_counter({"batches_dropped", "", "Batches whose lease was fenced.", ""},
+                      c.batches_dropped);
+  metrics.add_counter({"rays", "", "Rays of merged batches.", ""}, c.rays);
+  metrics.add_counter({"collisions", "", "Collisions with media, of merged batches.", ""},
+                      c.collisions);
+  metrics.add_gauge({"batches_open", "", "Batches in work.", ""}, c.batches_open);
+  metrics.add_gauge({"fibers_idle", "", "Photon-threads that wait for work.", ""}, c.fibers_idle);
+  metrics.add_histogram({"batch", "", "From a batch's opening to its merging.", ""}, batch_time_);
 }
 
 void PhotonThreads::drop(uint64_t lease) {
@@ -87,7 +105,10 @@ void PhotonThreads::trace_portions(BatchTracer& tracer) {
   while (!ending_) {
     const std::optional<Portion> portion = next_portion();
     if (!portion) {
-      if (fibers.wait(work_, "work") == Wake::cancelled) return;
+      ++counters_.fibers_idle;
+      const Wake how = fibers.wait(work_, "work");
+      --counters_.fibers_idle;
+      if (how == Wake::cancelled) return;
       continue;
     }
     OpenBatch& open = *portion->batch;
@@ -96,7 +117,9 @@ void PhotonThreads::trace_portions(BatchTracer& tracer) {
     if (portion->count > 0) {
       tracer.trace(batch.group, batch.first_particle + static_cast<uint64_t>(portion->first),
                    portion->count, open.scores);
+      counters_.particles += static_cast<uint64_t>(portion->count);
     } else {
+      ++counters_.eye_units;
       tracer.look(batch.number, portion->unit, open.scores);
     }
     --open.portions_out;
@@ -128,7 +151,7 @@ std::optional<PhotonThreads::Portion> PhotonThreads::next_portion() {
 }
 
 PhotonThreads::OpenBatch* PhotonThreads::open_next() {
-  if (at_hand() < 2 * open_.size()) port_.want_leases(2 * open_.size() - at_hand());
+  if (at_hand() < config_.leases) port_.want_leases(config_.leases - at_hand());
   const auto free =
       std::find_if(open_.begin(), open_.end(), [](const OpenBatch& open) { return !open.used; });
   if (free == open_.end() || leases_.empty()) return nullptr;
@@ -141,6 +164,8 @@ PhotonThreads::OpenBatch* PhotonThreads::open_next() {
   free->next_particle = 0;
   free->next_unit = 0;
   free->scores.reset(scene_.layout);
+  free->since = scheduler_.clock().now();
+  ++counters_.batches_open;
   scheduler_.fibers().wake_all(work_);  // there is work for more than who asked
   return &*free;
 }
@@ -152,9 +177,20 @@ const Batch& PhotonThreads::planned(int64_t number) {
 
 void PhotonThreads::close(OpenBatch& open) {
   open.used = false;
-  if (open.dropped) return;  // somebody else traces it
-  if (open.failed) return port_.lease_failed(open.lease, open.batch.number);
+  --counters_.batches_open;
+  if (open.dropped) {  // somebody else traces it
+    ++counters_.batches_dropped;
+    return;
+  }
+  if (open.failed) {
+    ++counters_.batches_failed;
+    return port_.lease_failed(open.lease, open.batch.number);
+  }
   totals_[merging_].merge(open.scores, open.batch.group);
+  ++counters_.batches;
+  counters_.rays += open.scores.ledger.rays;
+  counters_.collisions += open.scores.ledger.collisions;
+  batch_time_.add(scheduler_.clock().now() - open.since);
   port_.lease_done(open.lease);
 }
 

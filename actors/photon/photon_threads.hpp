@@ -25,6 +25,9 @@ struct PhotonConfig {
   /// Batches in work at once, each with an array of scores: the second one fills the time in which
   /// the last particles of the first end.
   size_t open_batches = 2;
+  /// Leases at hand, those of open batches included: when one is opened, others are asked for. Two
+  /// beside the open ones cover the time to an answer; more only wait here while others idle.
+  size_t leases = 4;
   /// Particles of one portion. At 0.3 us a ray a portion is some 0.2 ms: short against a turn of
   /// 1 ms, long against the 60 ns of a switch.
   int64_t portion = 128;
@@ -66,6 +69,20 @@ class PhotonThreads {
   /// Leases not merged yet.
   size_t at_hand() const;
 
+  struct Counters {
+    uint64_t particles = 0;
+    uint64_t eye_units = 0;        // parts of signs, and probes, looked at
+    uint64_t batches = 0;          // merged
+    uint64_t batches_failed = 0;   // for want of an object
+    uint64_t batches_dropped = 0;  // their lease was fenced
+    uint64_t rays = 0;             // of merged batches
+    uint64_t collisions = 0;
+    uint64_t batches_open = 0;
+    uint64_t fibers_idle = 0;  // that wait for work
+  };
+  const Counters& counters() const { return counters_; }
+  void add_metrics(Metrics& metrics) const;
+
  private:
   struct OpenBatch;
   struct Portion;
@@ -95,6 +112,8 @@ class PhotonThreads {
   std::deque<WaitingLease> leases_;  // not begun
   WaitList work_;                    // fibers that found nothing to do
   bool ending_ = false;
+  Counters counters_;
+  Histogram batch_time_;  // from opening to merging
 };
 
 }  // namespace luxodus

@@ -10,13 +10,6 @@
 
 namespace luxodus {
 
-namespace {
-/// A worker that does not answer to the end is given up after this.
-constexpr Nanoseconds farewell = seconds(5);
-/// Leases for one question: two open batches and as many at hand need four.
-constexpr uint32_t leases_per_question = 64;
-}  // namespace
-
 Controller::Controller(const ControllerConfig& config, LocalRun& run, const StopRule& stop,
                        const std::atomic<bool>& interrupt,
                        std::function<void(const Progress&)> report, Scheduler& scheduler,
@@ -35,11 +28,32 @@ Controller::Controller(const ControllerConfig& config, LocalRun& run, const Stop
       error_(std::numeric_limits<double>::quiet_NaN()) {}
 
 void Controller::start() {
+  note_book();
   if (book_.committed() >= target_)
     end_run(StopReason::particles);
   else
     open_round();
   set_timer();
+}
+
+void Controller::add_metrics(Metrics& metrics) const {
+  const Counters& c = counters_;
+  metrics.add_counter({"leases_lent", "", "Batches lent.", ""}, c.leases);
+  metrics.add_counter({"leases_fenced", "", "Leases that were late, or whose node was gone.", ""},
+                      c.fenced);
+  metrics.add_counter({"flushes_taken", "", "Flushes counted.", ""}, c.flushes_taken);
+  metrics.add_counter({"flushes_not_taken", "", "Flushes refused.", ""}, c.flushes_refused);
+  metrics.add_counter({"flush_in", "bytes", "Bytes of flushes that came.", ""}, c.flush_bytes);
+  metrics.add_counter({"batches_counted", "", "Batches counted.", ""}, c.batches);
+  metrics.add_counter({"particles_counted", "", "Particles of batches counted.", ""}, c.particles);
+  metrics.add_gauge({"round", "", "Rounds begun.", ""}, c.round);
+  metrics.add_gauge({"leases_out", "", "Leases that stand.", ""}, c.leases_out);
+}
+
+void Controller::note_book() {
+  counters_.batches = static_cast<uint64_t>(book_.committed());
+  counters_.leases_out = book_.standing();
+  counters_.particles = counters_.batches * static_cast<uint64_t>(run_.scene().batch_particles);
 }
 
 // ---- rounds ----------------------------------------------------------------------------------
@@ -49,9 +63,9 @@ void Controller::open_round() {
   const int64_t end =
       stop_.relative_error ? std::min(target_, run_.round_end(book_.committed())) : target_;
   book_.open_until(end);
-  ++round_;
+  ++counters_.round;
   for (const NodeId worker : config_.workers)
-    send(worker, network_.next_id(), RoundOpened{round_, static_cast<uint64_t>(end)});
+    send(worker, network_.next_id(), RoundOpened{round(), static_cast<uint64_t>(end)});
 }
 
 void Controller::end_round() {
@@ -72,13 +86,13 @@ void Controller::end_run(StopReason reason) {
 
 void Controller::tell_end() {
   for (const NodeId worker : config_.workers)
-    if (told_.count(worker) == 0) send(worker, network_.next_id(), RunEnded{round_, ""});
+    if (told_.count(worker) == 0) send(worker, network_.next_id(), RunEnded{round(), ""});
 }
 
 bool Controller::ended() const {
   if (!over_) return false;
   return told_.size() == config_.workers.size() ||
-         scheduler_.clock().now() - over_since_ >= farewell;
+         scheduler_.clock().now() - over_since_ >= config_.farewell;
 }
 
 // ---- what passes with time -------------------------------------------------------------------
@@ -98,6 +112,7 @@ void Controller::look() {
                  lease.batch);
     send(lease.node, network_.next_id(), LeasesFenced{{lease.id}});
   }
+  note_book();
   const double passed = static_cast<double>(now - began_) * 1e-9;
   if (!closing_ && (interrupt_.load() || (stop_.seconds && passed >= *stop_.seconds))) {
     closing_ = true;
@@ -139,10 +154,11 @@ void Controller::lend(const Delivery& delivery, const RequestLease& request) {
   if (last.question != delivery.id) {
     const Nanoseconds deadline = scheduler_.clock().now() + config_.lease_time;
     const LentBatches lent =
-        book_.lend(delivery.source, std::min(request.batches, leases_per_question), deadline);
+        book_.lend(delivery.source, std::min(request.batches, config_.leases_most), deadline);
     counters_.leases += static_cast<uint64_t>(lent.count);
+    note_book();
     last = {delivery.id,
-            LeaseGranted{lent.first_lease, round_, static_cast<uint64_t>(lent.first_batch),
+            LeaseGranted{lent.first_lease, round(), static_cast<uint64_t>(lent.first_batch),
                          static_cast<uint32_t>(lent.count),
                          static_cast<uint32_t>(config_.lease_time / milliseconds(1))}};
   }
@@ -193,6 +209,7 @@ bool Controller::count_flush(const Delivery& delivery, const Flush& flush, std::
   }
   run_.totals().add(gain.value());
   book_.commit(flush.leases);
+  note_book();
   return true;
 }
 

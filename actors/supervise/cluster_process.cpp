@@ -1,10 +1,11 @@
 #include "actors/supervise/cluster_process.hpp"
 
+#include <spdlog/spdlog.h>
 #include <sys/random.h>
 
 #include <algorithm>
 
-#include "actors/supervise/node_shell.hpp"
+#include "actors/supervise/node_plan.hpp"
 #include "runtime/config/cluster_file.hpp"
 #include "runtime/fiber/sanitizers.hpp"
 #include "scenes/format/atomic_file.hpp"
@@ -156,9 +157,20 @@ Result<NodeSetup> ClusterProcessRun::setup_of(NodeId self, const RunSetup& run) 
   if (budget.maps_most > 0) node.fibers.maps_most = budget.maps_most;
   node.stall = cluster_.timeouts.stall;
   node.lease_time = cluster_.lease.duration;
+  node.photons.leases = cluster_.lease.batches;
+  node.tally_bytes = budget.tally_bytes;
+  node.shutdown_phase = cluster_.timeouts.shutdown_phase;
   node.fetch.tries = static_cast<uint8_t>(cluster_.timeouts.fetch_attempts);
   node.fetch.timeouts.floor = cluster_.timeouts.fetch_floor;
   return node;
+}
+
+ObserveOptions ClusterProcessRun::observe_options() const {
+  ObserveOptions options;
+  options.address = cluster_.observe.metrics_address;
+  const uint16_t port = cluster_.processes[cluster_.node(nodes_.front()).process].metrics_port;
+  if (port != 0) options.metrics_port = port;
+  return options;
 }
 
 Result<std::optional<StopReason>> ClusterProcessRun::run(
@@ -170,8 +182,9 @@ Result<std::optional<StopReason>> ClusterProcessRun::run(
   const EmbreeDevice device;
   std::optional<SceneObjects> objects;
   std::optional<ProxyScene> proxies;
-  RunSetup setup{run_->scene(), &run_->index(), nullptr, nullptr,
-                 run_->seed(),  graph_,         clock,   context};
+  RunSetup setup{run_->scene(), &run_->index(), nullptr, nullptr, run_->seed(),
+                 graph_,        clock,          context, {},      nullptr};
+  for (const ClusterNode& node : cluster_.nodes) setup.names.push_back(node.name);
   if (cells_ > 1) {
     const auto workers = static_cast<uint32_t>(cluster_.workers());
     objects.emplace(run_->scene(), workers, std::min<uint32_t>(2, workers));
@@ -179,6 +192,9 @@ Result<std::optional<StopReason>> ClusterProcessRun::run(
     setup.objects = &*objects;
     setup.proxies = &*proxies;
   }
+  auto seen = Observation::start(observe_options());
+  if (!seen.ok()) return seen.problem();
+  setup.observation = seen.value()->port() ? seen.value().get() : nullptr;
   std::vector<NodeSetup> workers;
   std::optional<NodeSetup> controller;
   for (const NodeId node : nodes_) {
@@ -189,6 +205,9 @@ Result<std::optional<StopReason>> ClusterProcessRun::run(
     else
       workers.push_back(std::move(own).value());
   }
+  for (const NodeSetup& node : workers)
+    if (auto fault = budget_fault(setup, node)) return Problem{{cluster_.file.string(), 0}, *fault};
+  spdlog::info("memory plan\n{}", plan_text(setup, workers, controller));
   WorkerThreads threads(setup, workers, [&] { return !controller && interrupt.load(); });
   std::optional<StopReason> reason;
   if (controller) {

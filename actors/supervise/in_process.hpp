@@ -27,7 +27,8 @@ struct NodesOptions {
   /// For built geometry cells, of each node. 0: everything is resident, and shared. With a budget
   /// each node holds its share of the cells' bytes for all, and fetches and builds what it needs.
   size_t object_bytes = 0;
-  uint32_t replicas = 1;  // nodes that hold a cell's bytes
+  uint32_t replicas = 1;               // nodes that hold a cell's bytes
+  Observation* observation = nullptr;  // where somebody watches
 };
 
 /// What the nodes of a run did.
@@ -75,8 +76,11 @@ Result<StopReason> run_controller(const RunSetup& setup, const NodeSetup& node, 
                                   const std::function<bool()>& broken,
                                   NodesReport* counted = nullptr);
 
+/// What each node of such a run may take, in tables. Errors: as run_on_nodes.
+Result<std::string> plan_on_nodes(const LocalRun& run, const NodesOptions& options);
+
 /// Traces until `stop` holds, into `run`'s totals; as LocalRun::run.
-/// Errors: no graph of so few links, no sockets left.
+/// Errors: no graph of so few links, no sockets left, a budget that is too small.
 Result<StopReason> run_on_nodes(LocalRun& run, const NodesOptions& options, const StopRule& stop,
                                 const std::atomic<bool>& interrupt,
                                 const std::function<void(const Progress&)>& report,

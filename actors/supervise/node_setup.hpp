@@ -9,6 +9,8 @@
 #include "actors/objects/scene_objects.hpp"
 #include "actors/photon/photon_threads.hpp"
 #include "actors/source/controller.hpp"
+#include "actors/supervise/node_shell.hpp"
+#include "actors/supervise/observation.hpp"
 #include "runtime/config/cluster_config.hpp"
 #include "runtime/net/zmq_transport.hpp"
 #include "topology/graph.hpp"
@@ -25,6 +27,8 @@ struct RunSetup {
   const Graph& graph;
   const Clock& clock;
   ZmqContext& context;
+  std::vector<std::string> names;      // of nodes, by number
+  Observation* observation = nullptr;  // where somebody watches
 };
 
 /// What is a node's own.
@@ -40,7 +44,9 @@ struct NodeSetup {
   Nanoseconds stall = SchedulerLimits{}.stall;
   Nanoseconds lease_time = ControllerConfig{}.lease_time;
   FetchConfig fetch;
-  size_t object_bytes = 0;  // for built cells, where cells are fetched
+  size_t object_bytes = 0;            // for built cells, where cells are fetched
+  uint64_t tally_bytes = UINT64_MAX;  // for scores, totals and a flush
+  Nanoseconds shutdown_phase = ShellConfig{}.shutdown_phase;
 };
 
 /// Listens and connects as the setup says.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "actors/supervise/node_plan.hpp"
+
 namespace luxodus {
 
 void WorkerReport::add(const WorkerReport& other) {
@@ -29,6 +31,10 @@ class Worker::FetchingCells {
   }
 
   ObjectSource& source() { return source_; }
+  void add_metrics(Metrics& metrics) const {
+    fetcher_.add_metrics(metrics);
+    cache_.add_metrics(metrics);
+  }
   WorkerReport report() const {
     const ObjectCache::Counters& c = cache_.counters();
     const Fetcher::Counters& f = fetcher_.counters();
@@ -39,13 +45,6 @@ class Worker::FetchingCells {
   static FetchConfig fetch_config(const NodeSetup& node) {
     FetchConfig config = node.fetch;
     config.self = node.net.self;
-    return config;
-  }
-  static CacheConfig cache_config(const SceneObjects& objects, const NodeSetup& node) {
-    CacheConfig config;
-    config.budget_bytes = node.object_bytes;
-    config.largest_build_bytes = peak_build_bytes_of(objects.largest_wire_bytes());
-    config.pinned_share = 0;  // nothing is pinned without a profile
     return config;
   }
   static Random jitter_of(NodeId self) {
@@ -61,24 +60,12 @@ class Worker::FetchingCells {
   CachedCells source_;
 };
 
-namespace {
-
-SchedulerLimits scheduler_limits(const NodeSetup& node) {
-  SchedulerLimits limits;
-  limits.fibers = node.fibers;
-  limits.fibers.count = node.photons.fibers + 1;  // and the one that packs flushes
-  limits.stall = node.stall;
-  // Leases, the watch for the end, and a few to spare.
-  limits.timers_beside_fibers = 16 + Fetcher::timers_most(node.fetch) + ObjectCache::timers_most;
-  return limits;
-}
-
-}  // namespace
-
 Worker::Worker(const RunSetup& run, const NodeSetup& node)
-    : node_(node),
+    : run_(run),
+      node_(node),
       transport_(run.context, {node.net.self, node.keys, node.insecure}, run.clock),
-      shell_({node.net, scheduler_limits(node)}, run.graph, run.clock, transport_),
+      shell_({node.net, worker_limits(node), ShellConfig{}.room_bytes_most, node.shutdown_phase},
+             run.graph, run.clock, transport_),
       cells_(run.objects == nullptr ? nullptr : std::make_unique<FetchingCells>(run, node, shell_)),
       leases_({node.controller}, shell_.scheduler(), shell_.network()),
       photons_(run.scene,
@@ -88,11 +75,22 @@ Worker::Worker(const RunSetup& run, const NodeSetup& node)
 
 Worker::~Worker() = default;
 
+void Worker::show_to(Observation& seen) {
+  metrics_.emplace(run_.names, node_.net.self, "worker", shell_.scheduler(), shell_.network());
+  leases_.add_metrics(metrics_->registry());
+  photons_.add_metrics(metrics_->registry());
+  if (cells_) cells_->add_metrics(metrics_->registry());
+  metrics_->add_rate({"particles_per_second", "", "Particles traced in a second.", ""},
+                     photons_.counters().particles);
+  metrics_->start(seen);
+}
+
 Result<WorkerReport> Worker::run(const std::function<bool()>& stop) {
   if (auto joined = join_links(transport_, node_); !joined.ok()) return joined.problem();
   shell_.add([this](const Delivery& d) { return leases_.deliver(d); });
   leases_.start(photons_);
   photons_.start();
+  if (run_.observation != nullptr) show_to(*run_.observation);
   shell_.run_until([&] { return leases_.ended() || stop(); });
   return cells_ ? cells_->report() : WorkerReport{};
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "actors/photon/lease_client.hpp"
+#include "actors/supervise/node_metrics.hpp"
 #include "actors/supervise/node_setup.hpp"
 #include "actors/supervise/node_shell.hpp"
 
@@ -23,6 +24,7 @@ struct WorkerReport {
 
 class Worker {
  public:
+  /// Requires: both outlive this.
   Worker(const RunSetup& run, const NodeSetup& node);
   ~Worker();
 
@@ -32,13 +34,16 @@ class Worker {
 
  private:
   class FetchingCells;
+  void show_to(Observation& seen);
 
+  const RunSetup& run_;
   const NodeSetup& node_;
   ZmqTransport transport_;
   NodeShell shell_;
   std::unique_ptr<FetchingCells> cells_;  // where the node does not hold everything
   LeaseClient leases_;
   PhotonThreads photons_;
+  std::optional<NodeMetrics> metrics_;
 };
 
 }  // namespace luxodus

@@ -15,6 +15,10 @@
 
 namespace luxodus {
 
+/// The most that one bin of totals takes in a flush before it is packed [B]: a distance below 2^40,
+/// a sum below 2^90 (2^26 batches of 2^63, signed) and squares of 128 bits, seven bits a byte.
+inline constexpr uint64_t flush_bytes_of_bin = 6 + 13 + 19;
+
 /// Empties totals into bytes, step by step.
 class FlushEncoder {
  public:

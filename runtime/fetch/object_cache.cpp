@@ -64,6 +64,8 @@ void ObjectCache::add_metrics(Metrics& metrics) const {
   metrics.add_gauge({"objects_resident", "bytes", "Bytes of resident objects.", ""},
                     c.resident_bytes);
   metrics.add_gauge({"objects_pinned", "bytes", "Bytes of pinned objects.", ""}, c.pinned_bytes);
+  metrics.add_histogram({"build", "", "From a builder's beginning to its answer.", ""},
+                        build_time_);
 }
 
 // ---- asking for objects
@@ -124,6 +126,7 @@ void ObjectCache::built(uint32_t object, Result<std::unique_ptr<BuiltObject>> re
             "a builder answered what it was not asked");
   LUX_CHECK(!result || result.value() != nullptr, "a builder said that nothing is an object");
   in_builder_ = false;
+  build_time_.add(clock_.now() - build_began_);
   ready_ = &entries_[object];
   ready_result_ = std::move(result);
   fetcher_.release(object);
@@ -158,6 +161,7 @@ void ObjectCache::step() {
 void ObjectCache::start_build(Entry& entry) {
   ++counters_.builds;
   in_builder_ = true;
+  build_began_ = clock_.now();
   builder_.build(number_of(entry), std::exchange(entry.bytes, {}), *this);
 }
 

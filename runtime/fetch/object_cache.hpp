@@ -165,6 +165,8 @@ class ObjectCache final : private FetchClient, private ObjectBuilder::Client {
   TimerId step_timer_;
   bool steps_soon_ = false;
   Counters counters_;
+  Nanoseconds build_began_ = 0;
+  Histogram build_time_;  // from the builder's beginning to its answer
   OnceAMinute log_failure_;
 };
 

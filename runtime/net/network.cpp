@@ -323,7 +323,7 @@ void Network::watch_links() {
     last.sessions = links_[i].sessions();
     last.phase = state.phase();
     spdlog::debug("link={} node={} neighbour={}", name_of(state.phase()), config_.self.value,
-                 links_[i].neighbour().value);
+                  links_[i].neighbour().value);
     handler_.link_changed(links_[i].neighbour(), state.phase());
 
     const bool gone = state.phase() == LinkPhase::down || state.phase() == LinkPhase::refused;

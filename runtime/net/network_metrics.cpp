@@ -27,9 +27,9 @@ size_t chunks_most(const NetConfig& config) {
 void Network::add_metrics(Metrics& metrics,
                           const std::function<std::string(NodeId)>& name_of_node) {
   for (const NetCounterName& counter : net_counter_names)
-    metrics.add_counter({std::string("net_") + counter.name, "",
-                         std::string("Network: ") + counter.help + ".", ""},
-                        counters_.*counter.value);
+    metrics.add_counter(
+        {std::string("net_") + counter.name, "", std::string("Network: ") + counter.help + ".", ""},
+        counters_.*counter.value);
   for (size_t i = 0; i < refusal_reasons; ++i) {
     const std::string reason =
         fmt::format("reason=\"{}\"", luxodus::name_of(static_cast<RefusalReason>(i)));
@@ -41,9 +41,9 @@ void Network::add_metrics(Metrics& metrics,
   for (size_t i = 0; i < links_.size(); ++i) {
     const LinkSample& link = link_samples_[i];
     const std::string to = fmt::format("neighbour=\"{}\"", name_of_node(links_[i].neighbour()));
-    metrics.add_gauge({"link_phase", "",
-                       "0 connecting, 1 greeting, 2 up, 3 suspect, 4 down, 5 refused.", to},
-                      link.phase);
+    metrics.add_gauge(
+        {"link_phase", "", "0 connecting, 1 greeting, 2 up, 3 suspect, 4 down, 5 refused.", to},
+        link.phase);
     metrics.add_counter({"link_sent", "bytes", "Sent over the link.", to}, link.bytes_sent);
     metrics.add_counter({"link_received", "bytes", "Received over it.", to}, link.bytes_received);
     metrics.add_gauge({"link_credit", "bytes", "What the neighbour still allows.", to},

@@ -109,9 +109,10 @@ std::string HttpUrl::text() const {
 }
 
 Result<HttpUrl> parse_http_url(const std::string& text) {
-  const Problem wrong{{}, fmt::format("\"{}\" is no address such as 127.0.0.1:9464 or "
-                                      "http://host:9464/metrics",
-                                      text)};
+  const Problem wrong{{},
+                      fmt::format("\"{}\" is no address such as 127.0.0.1:9464 or "
+                                  "http://host:9464/metrics",
+                                  text)};
   std::string_view rest = text;
   constexpr std::string_view scheme = "http://";
   if (rest.starts_with(scheme)) rest.remove_prefix(scheme.size());
@@ -139,9 +140,8 @@ Result<std::string> http_get(const HttpUrl& url, Nanoseconds patience) {
   };
   Connection connection(patience);
   std::string answer;
-  const std::string question =
-      fmt::format("GET {} HTTP/1.1\r\nHost: {}:{}\r\nConnection: close\r\n\r\n", url.path, url.host,
-                  url.port);
+  const std::string question = fmt::format(
+      "GET {} HTTP/1.1\r\nHost: {}:{}\r\nConnection: close\r\n\r\n", url.path, url.host, url.port);
   if (!connection.open(url) || !connection.send_all(question) || !connection.receive_all(answer))
     return refused(connection.why());
   const size_t head = answer.find("\r\n\r\n");
