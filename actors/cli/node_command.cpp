@@ -53,8 +53,6 @@ int run_nodes(const NodeOptions& options) {
   if (!read.cluster) return ExitCode::bad_input;
   const ClusterConfig& cluster = *read.cluster;
   spdlog::set_level(spdlog::level::from_str(cluster.observe.log_level));
-  if (cluster.observe.trace_every != 0)
-    spdlog::warn("trace_every is not in force yet: no trace is written");
   std::vector<NodeId> nodes;
   for (const std::string& name : options.names) {
     const auto node = find_node(cluster, name);

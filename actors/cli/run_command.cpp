@@ -28,6 +28,7 @@ struct RunOptions {
   size_t fibers = 1;
   double object_mib = 0;
   std::optional<uint16_t> metrics_port;
+  uint64_t trace_every = 0;
   bool plan = false;
   bool resume = false;
   bool no_views = false;
@@ -94,19 +95,23 @@ NodesOptions nodes_options(const RunOptions& options, Observation* observation) 
 }
 
 /// Traces with the plain loop, or on nodes.
-Result<StopReason> trace(LocalRun& run, const Scenario& scenario, const RunOptions& options,
-                         const StopRule& rule) {
+Result<StopReason> trace(LocalRun& run, const Scenario& scenario, const fs::path& folder,
+                         const RunOptions& options, const StopRule& rule) {
   ProgressLine line(scenario.name);
   const auto show = [&](const Progress& p) { line.show(p); };
   if (options.nodes == 0) return run.run(rule, interrupt_flag(), show);
   ObserveOptions observe;
   observe.metrics_port = options.metrics_port;
+  observe.trace_every = options.trace_every;
   auto seen = Observation::start(observe);
   if (!seen.ok()) return seen.problem();
   const auto port = seen.value()->port();
   if (port) spdlog::info("metrics at http://{}:{}/metrics", observe.address, *port);
-  return run_on_nodes(run, nodes_options(options, port ? seen.value().get() : nullptr), rule,
-                      interrupt_flag(), show);
+  Observation* const watched = seen.value()->watches() ? seen.value().get() : nullptr;
+  auto reason = run_on_nodes(run, nodes_options(options, watched), rule, interrupt_flag(), show);
+  if (!reason.ok()) return reason;
+  if (auto ok = seen.value()->write_trace(folder / "trace.json"); !ok.ok()) return ok.problem();
+  return reason;
 }
 
 struct Traced {
@@ -137,7 +142,7 @@ Result<Traced> run_scenario(std::shared_ptr<const SceneDescription> description,
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) return Problem{{folder.string(), 0}, "cannot make this folder: " + error.message()};
-  auto reason = trace(run, scenario, options, rule);
+  auto reason = trace(run, scenario, folder, options, rule);
   if (!reason.ok()) return reason.problem();
   RunRecord record;
   record.scene_file = fs::absolute(options.scene).string();
@@ -176,8 +181,8 @@ int run_scenarios(const std::shared_ptr<const SceneDescription>& description,
 }
 
 int run_scene(const RunOptions& options) {
-  if (options.nodes == 0 && (options.plan || options.metrics_port)) {
-    tell({{}, "--plan and --metrics are about nodes: say how many, --nodes N"});
+  if (options.nodes == 0 && (options.plan || options.metrics_port || options.trace_every != 0)) {
+    tell({{}, "--plan, --metrics and --trace-every are about nodes: say how many, --nodes N"});
     return ExitCode::bad_input;
   }
   auto rule = stop_rule(options);
@@ -212,6 +217,11 @@ void add_node_options(CLI::App& command, const std::shared_ptr<RunOptions>& opti
   command.add_option("--metrics", options->metrics_port,
                      "serve the nodes' numbers on this port of 127.0.0.1 while they run, for "
                      "`luxodus status` and Prometheus; 0: any that is free");
+  command
+      .add_option("--trace-every", options->trace_every,
+                  "write what becomes of each N-th particle on the nodes into trace.json, for "
+                  "ui.perfetto.dev [0: nothing]")
+      ->check(CLI::Range(uint64_t{0}, uint64_t{1'000'000'000'000}));
   command.add_flag("--plan", options->plan,
                    "print what each of the nodes may take in memory, and trace nothing");
   command.add_option("--fibers", options->fibers, "photon-threads of a node [1]")

@@ -1,6 +1,5 @@
 #include "actors/photon/lease_client.hpp"
 
-#include "actors/tally/flush_codec.hpp"
 #include "runtime/core/check.hpp"
 #include "runtime/core/hash.hpp"
 
@@ -16,6 +15,10 @@ LeaseClient::LeaseClient(const LeaseClientConfig& config, Scheduler& scheduler, 
 
 void LeaseClient::start(PhotonThreads& photons) {
   photons_ = &photons;
+  const Totals& totals = photons.totals();
+  encoder_ = std::make_shared<FlushEncoder>(totals.groups(), totals.layout().totals());
+  done_.reserve(limits::leases);
+  packed_leases_.reserve(limits::leases);
   set_timer();
 }
 
@@ -41,7 +44,7 @@ void LeaseClient::want_leases(size_t count) {
 
 void LeaseClient::ask() {
   if (asking_ || ended_ || round_empty_ || wanted_ == 0) return;
-  asking_ = Question{network_.next_id(), RequestLease{static_cast<uint32_t>(wanted_)}, nullptr};
+  asking_ = Question{network_.next_id(), RequestLease{static_cast<uint32_t>(wanted_)}, {}};
   wanted_ = 0;
   put(*asking_);
 }
@@ -90,31 +93,42 @@ void LeaseClient::flush_when_idle() {
 
 void LeaseClient::flush() {
   if (packing_ || flushing_ || done_.empty()) return;  // the answer to that one sends the next
+  flush_due_ = !encoder_is_free();
+  if (flush_due_) return;
   packing_ = true;
-  packed_leases_ = std::move(done_);
-  done_.clear();
+  packed_leases_.swap(done_);
   const auto body = [this, totals = &photons_->give_totals()] { pack(*totals); };
   LUX_CHECK(scheduler_.fibers().start("flush", body), "the plan counts a fiber for it");
 }
 
+bool LeaseClient::encoder_is_free() const {
+  return encoder_.use_count() == 1;
+}
+
 /// On a fiber of its own, between the turns of the photon-threads.
 void LeaseClient::pack(Totals& totals) {
-  FlushEncoder encoder(totals);
-  while (!encoder.step(bins_of_a_step))
+  encoder_->begin(totals);
+  while (!encoder_->step(bins_of_a_step))
     if (scheduler_.fibers().yield() == Wake::cancelled) return;
-  auto payload = std::make_shared<const std::vector<std::byte>>(encoder.take_bytes());
+  const std::span<const std::byte> payload = encoder_->bytes();
   Hasher hash;
-  hash.add(payload->data(), payload->size());
+  hash.add(payload.data(), payload.size());
   packing_ = false;
-  flushing_ =
-      Question{network_.next_id(), Flush{round_, hash.value(), std::move(packed_leases_)}, payload};
+  flushing_ = Question{network_.next_id(),
+                       Flush{round_, hash.value(), std::move(packed_leases_)},
+                       {payload, encoder_}};
+  if (config_.trace != nullptr)
+    config_.trace->begin(TraceKind::flush, trace_id(flushing_->id), payload.size());
   ++counters_.flushes;
-  counters_.flush_bytes += payload->size();
+  counters_.flush_bytes += payload.size();
   put(*flushing_);
 }
 
 void LeaseClient::flush_answered(const MessageId& answered, bool taken) {
   if (!flushing_ || flushing_->id != answered) return;
+  packed_leases_ = std::move(std::get<Flush>(flushing_->message).leases);  // its memory
+  packed_leases_.clear();
+  if (config_.trace != nullptr) config_.trace->end(TraceKind::flush, trace_id(answered), taken);
   flushing_.reset();
   if (!taken) ++counters_.flushes_refused;  // its leases are lent again: nothing to mend here
   flush_when_idle();
@@ -123,10 +137,8 @@ void LeaseClient::flush_answered(const MessageId& answered, bool taken) {
 // ---- questions and answers -------------------------------------------------------------------
 
 void LeaseClient::put(Question& question) {
-  SharedBytes payload;
-  if (question.payload) payload = {std::span(*question.payload), question.payload};
   // Full or unreachable: the timer asks again.
-  network_.send(config_.controller, question.id, question.message, payload);
+  network_.send(config_.controller, question.id, question.message, question.payload);
   question.asked = scheduler_.clock().now();
 }
 
@@ -142,7 +154,8 @@ void LeaseClient::on_timer() {
     ++counters_.asked_again;
     put(**question);
   }
-  if (!done_.empty() && now - first_done_ >= config_.flush_every) flush();
+  const bool rested = !done_.empty() && now - first_done_ >= config_.flush_every;
+  if (rested || flush_due_) flush();
   if (round_empty_ && !ended_ && now - emptied_ >= config_.answer_patience) begin_round();
   set_timer();
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "actors/photon/photon_threads.hpp"
+#include "actors/tally/flush_codec.hpp"
 #include "runtime/net/network.hpp"
 
 namespace luxodus {
@@ -18,6 +19,7 @@ struct LeaseClientConfig {
   Nanoseconds answer_patience = seconds(2);  // then a question is asked again
   /// Merged batches rest here for so long at most: a flush costs a pass over all bins.
   Nanoseconds flush_every = seconds(5);
+  NodeTrace* trace = nullptr;  // null: nothing is traced
 };
 
 class LeaseClient final : public LeasePort {
@@ -51,12 +53,13 @@ class LeaseClient final : public LeasePort {
   struct Question {
     MessageId id;
     Message message;
-    std::shared_ptr<const std::vector<std::byte>> payload;  // null: none
+    SharedBytes payload;  // of a flush
     Nanoseconds asked = 0;
   };
 
   void ask();
   void flush();
+  bool encoder_is_free() const;
   void pack(Totals& totals);
   void put(Question& question);
   void set_timer();
@@ -74,7 +77,9 @@ class LeaseClient final : public LeasePort {
   std::optional<Question> flushing_;  // one at a time
   std::vector<uint64_t> done_;        // merged, in no flush yet
   std::vector<uint64_t> packed_leases_;
+  std::shared_ptr<FlushEncoder> encoder_;  // shared with the network while it sends
   bool packing_ = false;
+  bool flush_due_ = false;      // it waits for the network to let go of the last one
   Nanoseconds first_done_ = 0;  // when the oldest of them was merged
   size_t wanted_ = 0;
   uint32_t round_ = 0;        // of the last grant: a round begins when all before is counted

@@ -170,7 +170,21 @@ ObserveOptions ClusterProcessRun::observe_options() const {
   options.address = cluster_.observe.metrics_address;
   const uint16_t port = cluster_.processes[cluster_.node(nodes_.front()).process].metrics_port;
   if (port != 0) options.metrics_port = port;
+  options.trace_every = cluster_.observe.trace_every;
   return options;
+}
+
+/// Beside the results, under the name of the process: several may share the folder.
+Result<Done> ClusterProcessRun::write_trace(const Observation& seen) const {
+  if (!seen.traces()) return Done{};
+  std::error_code failed;
+  std::filesystem::create_directories(cluster_.run.out, failed);
+  if (failed)
+    return Problem{{cluster_.run.out.string(), 0},
+                   "cannot make this folder for the trace: " + failed.message()};
+  const size_t process = cluster_.node(nodes_.front()).process;
+  return seen.write_trace(cluster_.run.out /
+                          ("trace-" + cluster_.processes[process].name + ".json"));
 }
 
 Result<std::optional<StopReason>> ClusterProcessRun::run(
@@ -194,7 +208,7 @@ Result<std::optional<StopReason>> ClusterProcessRun::run(
   }
   auto seen = Observation::start(observe_options());
   if (!seen.ok()) return seen.problem();
-  setup.observation = seen.value()->port() ? seen.value().get() : nullptr;
+  if (seen.value()->watches()) setup.observation = seen.value().get();
   std::vector<NodeSetup> workers;
   std::optional<NodeSetup> controller;
   for (const NodeId node : nodes_) {
@@ -222,6 +236,7 @@ Result<std::optional<StopReason>> ClusterProcessRun::run(
   }
   threads.join();
   if (threads.failed()) return threads.problem();
+  if (auto ok = write_trace(*seen.value()); !ok.ok()) return ok.problem();
   return reason;
 }
 

@@ -207,7 +207,7 @@ Result<StopReason> run_on_nodes(LocalRun& run, const NodesOptions& options, cons
   auto made = InProcess::prepare(run, options);
   if (!made.ok()) return made.problem();
   const InProcess& nodes = *made.value();
-  WorkerThreads workers(nodes.setup, nodes.workers, [] { return false; });
+  WorkerThreads workers(nodes.setup, nodes.workers, options.stop);
   auto reason = run_controller(
       nodes.setup, nodes.controller, run, stop, interrupt, report, [&] { return workers.failed(); },
       counted);

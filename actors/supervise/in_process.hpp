@@ -29,6 +29,9 @@ struct NodesOptions {
   size_t object_bytes = 0;
   uint32_t replicas = 1;               // nodes that hold a cell's bytes
   Observation* observation = nullptr;  // where somebody watches
+  /// Asked by each worker every few milliseconds, on its own thread: whether it shall end before
+  /// the run does.
+  std::function<bool()> stop = [] { return false; };
 };
 
 /// What the nodes of a run did.

@@ -84,8 +84,9 @@ SchedulerLimits controller_limits(const NodeSetup& node) {
   return limits;
 }
 
-CacheConfig cache_config(const SceneObjects& objects, const NodeSetup& node) {
+CacheConfig cache_config(const SceneObjects& objects, const NodeSetup& node, NodeTrace* trace) {
   CacheConfig config;
+  config.trace = trace;
   config.budget_bytes = node.object_bytes;
   config.largest_build_bytes = peak_build_bytes_of(objects.largest_wire_bytes());
   config.pinned_share = 0;  // nothing is pinned without a profile
@@ -117,6 +118,9 @@ MemoryPlan worker_plan(const RunSetup& run, const NodeSetup& node) {
   }
   plan.add("histograms", histogram_bytes(run), "of batches, and of builds where cells are fetched");
   add_metrics(plan, run, histograms);
+  if (run.observation != nullptr && run.observation->traces())
+    plan.add("trace", limits::trace_events * sizeof(TraceEvent),
+             fmt::format("{} events x {} B", limits::trace_events, sizeof(TraceEvent)));
   return plan;
 }
 

@@ -9,7 +9,7 @@
 namespace luxodus {
 
 Result<std::unique_ptr<Observation>> Observation::start(const ObserveOptions& options) {
-  std::unique_ptr<Observation> seen(new Observation());
+  std::unique_ptr<Observation> seen(new Observation(options.trace_every));
   if (!options.metrics_port) return seen;
   auto server = MetricsServer::start(options.address, *options.metrics_port,
                                      [page_of = seen.get()] { return page_of->page(); });
@@ -46,6 +46,25 @@ std::string Observation::page() const {
                     "# TYPE luxodus_process_resident_bytes gauge\n"
                     "luxodus_process_resident_bytes {}\n",
                     resident_bytes_of_process());
+}
+
+NodeTrace* Observation::trace_of(NodeId node) {
+  if (trace_every_ == 0) return nullptr;
+  auto trace = std::make_unique<NodeTrace>(node, limits::trace_events, trace_every_, clock_);
+  const std::lock_guard lock(mutex_);
+  const auto before = std::find_if(traces_.begin(), traces_.end(),
+                                   [&](const auto& other) { return other->node() == node; });
+  if (before == traces_.end()) return traces_.emplace_back(std::move(trace)).get();
+  *before = std::move(trace);
+  return before->get();
+}
+
+Result<Done> Observation::write_trace(const std::filesystem::path& file) const {
+  if (trace_every_ == 0) return Done{};
+  const std::lock_guard lock(mutex_);
+  std::vector<TraceTrack> tracks;
+  for (const auto& trace : traces_) tracks.push_back({trace->node(), trace->ring().kept()});
+  return write_file_atomically(file, chrome_trace(tracks, trace_kind_names()));
 }
 
 uint64_t resident_bytes_of_process() {

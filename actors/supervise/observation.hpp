@@ -4,6 +4,7 @@
 // Thread rule: start() and the end on one thread; show() and page() on any.
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -12,12 +13,20 @@
 
 #include "runtime/observe/metrics.hpp"
 #include "runtime/observe/metrics_server.hpp"
+#include "runtime/observe/node_trace.hpp"
+#include "scenes/format/atomic_file.hpp"
 
 namespace luxodus {
+
+namespace limits {
+/// Events that a node's trace keeps, the last ones: 2 MiB of memory, 10 MB of the file.
+inline constexpr size_t trace_events = 65'536;
+}  // namespace limits
 
 struct ObserveOptions {
   std::string address = "127.0.0.1";
   std::optional<uint16_t> metrics_port;  // 0: any that is free; nothing: no page
+  uint64_t trace_every = 0;              // particles of which one is traced; 0: none
 };
 
 class Observation {
@@ -34,11 +43,24 @@ class Observation {
 
   std::string page() const;
 
+  /// Where a node tells what becomes of sampled particles; null where none are sampled. Its memory
+  /// is taken here, and kept when the node ends. A later node of that number begins anew.
+  NodeTrace* trace_of(NodeId node);
+  bool traces() const { return trace_every_ != 0; }
+  /// Whether nodes have anything to tell it.
+  bool watches() const { return server_ != nullptr || traces(); }
+  /// Writes what all nodes have told as Chrome's trace format, whole or not at all; nothing where
+  /// nothing is traced. Requires: the nodes have ended. Errors: as write_file_atomically.
+  Result<Done> write_trace(const std::filesystem::path& file) const;
+
  private:
-  Observation() = default;
+  explicit Observation(uint64_t trace_every) : trace_every_(trace_every) {}
 
   mutable std::mutex mutex_;
+  const uint64_t trace_every_;
+  const SystemClock clock_;
   std::vector<std::unique_ptr<Metrics>> nodes_;
+  std::vector<std::unique_ptr<NodeTrace>> traces_;
   std::unique_ptr<MetricsServer> server_;  // the last: it ends before what it reads
 };
 

@@ -19,14 +19,14 @@ void WorkerReport::add(const WorkerReport& other) {
 /// What a worker needs where it does not hold everything: a store for others, a cache for itself.
 class Worker::FetchingCells {
  public:
-  FetchingCells(const RunSetup& run, const NodeSetup& node, NodeShell& shell)
+  FetchingCells(const RunSetup& run, const NodeSetup& node, NodeShell& shell, NodeTrace* trace)
       : store_(*run.objects, node.net.self),
         builder_(run.scene),
-        fetcher_(fetch_config(node), run.objects->places(), store_, shell.network(),
+        fetcher_(fetch_config(node, trace), run.objects->places(), store_, shell.network(),
                  shell.scheduler().timers(), run.clock, jitter_of(node.net.self)),
-        cache_(cache_config(*run.objects, node), run.objects->places().size(), fetcher_, builder_,
-               shell.scheduler().fibers(), shell.scheduler().timers(), run.clock),
-        source_(cache_, shell.scheduler().fibers()) {
+        cache_(cache_config(*run.objects, node, trace), run.objects->places().size(), fetcher_,
+               builder_, shell.scheduler().fibers(), shell.scheduler().timers(), run.clock),
+        source_(cache_, shell.scheduler().fibers(), trace) {
     shell.use(fetcher_);
   }
 
@@ -42,8 +42,9 @@ class Worker::FetchingCells {
   }
 
  private:
-  static FetchConfig fetch_config(const NodeSetup& node) {
+  static FetchConfig fetch_config(const NodeSetup& node, NodeTrace* trace) {
     FetchConfig config = node.fetch;
+    config.trace = trace;
     config.self = node.net.self;
     return config;
   }
@@ -60,18 +61,37 @@ class Worker::FetchingCells {
   CachedCells source_;
 };
 
+namespace {
+
+LeaseClientConfig lease_config(const NodeSetup& node, NodeTrace* trace) {
+  LeaseClientConfig config;
+  config.controller = node.controller;
+  config.trace = trace;
+  return config;
+}
+
+PhotonConfig photon_config(const NodeSetup& node, NodeTrace* trace) {
+  PhotonConfig config = node.photons;
+  config.trace = trace;
+  return config;
+}
+
+}  // namespace
+
 Worker::Worker(const RunSetup& run, const NodeSetup& node)
     : run_(run),
       node_(node),
+      trace_(run.observation == nullptr ? nullptr : run.observation->trace_of(node.net.self)),
       transport_(run.context, {node.net.self, node.keys, node.insecure}, run.clock),
       shell_({node.net, worker_limits(node), ShellConfig{}.room_bytes_most, node.shutdown_phase},
              run.graph, run.clock, transport_),
-      cells_(run.objects == nullptr ? nullptr : std::make_unique<FetchingCells>(run, node, shell_)),
-      leases_({node.controller}, shell_.scheduler(), shell_.network()),
+      cells_(run.objects == nullptr ? nullptr
+                                    : std::make_unique<FetchingCells>(run, node, shell_, trace_)),
+      leases_(lease_config(node, trace_), shell_.scheduler(), shell_.network()),
       photons_(run.scene,
                cells_ ? GeometryAccess::through(*run.proxies, cells_->source())
                       : GeometryAccess::resident(*run.index),
-               run.seed, node.photons, shell_.scheduler(), leases_) {}
+               run.seed, photon_config(node, trace_), shell_.scheduler(), leases_) {}
 
 Worker::~Worker() = default;
 
@@ -91,6 +111,7 @@ Result<WorkerReport> Worker::run(const std::function<bool()>& stop) {
   leases_.start(photons_);
   photons_.start();
   if (run_.observation != nullptr) show_to(*run_.observation);
+  shell_.scheduler().seal();
   shell_.run_until([&] { return leases_.ended() || stop(); });
   return cells_ ? cells_->report() : WorkerReport{};
 }

@@ -38,6 +38,7 @@ class Worker {
 
   const RunSetup& run_;
   const NodeSetup& node_;
+  NodeTrace* const trace_;  // null where nothing is traced
   ZmqTransport transport_;
   NodeShell shell_;
   std::unique_ptr<FetchingCells> cells_;  // where the node does not hold everything

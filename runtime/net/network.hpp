@@ -36,6 +36,11 @@ struct Delivery {
   std::span<const std::byte> payload;  // during the call; for messages in pieces, in their room
 };
 
+/// Under which a question and its answer are known in a trace, on whichever node.
+constexpr uint64_t trace_id(const MessageId& id) {
+  return id.incarnation.value ^ (uint64_t{id.node.value} << 48) ^ id.sequence;
+}
+
 /// What the node does with what the network brings. Thread rule: called from Network::poll().
 class NetHandler {
  public:

@@ -73,7 +73,7 @@ TEST_CASE("while nodes trace, their page tells what each of them does", "[nodes]
     const NodeStatus& row = rows[static_cast<size_t>(worker)];
     CHECK(row.role == "worker");
     CHECK(row.state == NodeState::up);
-    CHECK(row.fibers == 20.0);
+    CHECK(row.fibers.value_or(0) >= 20);  // and one that packs flushes
     CHECK(row.hit_rate.value_or(0) > 0.5);
     CHECK(row.resident_bytes.value_or(0) > 0);
     CHECK(row.resident_bytes.value_or(0) <= static_cast<double>(options.object_bytes));
@@ -112,7 +112,8 @@ TEST_CASE("what a plan says of a flush, no flush passes", "[nodes][plan]") {
   stop.particles = 200'000;
   run.run(stop, std::atomic<bool>{false}, [](const Progress&) {});
   uint64_t planned = 0;
-  for (const MemoryPlan::Term& term : tally_plan(*scene, {}).terms())
+  const MemoryPlan plan = tally_plan(*scene, {});
+  for (const MemoryPlan::Term& term : plan.terms())
     if (term.name == "flush") planned = term.bytes;
   const size_t packed = encode_flush(run.totals()).size();
   CHECK(packed > 0);
