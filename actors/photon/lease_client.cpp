@@ -111,12 +111,10 @@ void LeaseClient::pack(Totals& totals) {
   while (!encoder_->step(bins_of_a_step))
     if (scheduler_.fibers().yield() == Wake::cancelled) return;
   const std::span<const std::byte> payload = encoder_->bytes();
-  Hasher hash;
-  hash.add(payload.data(), payload.size());
+  const uint64_t hash = XXH3_64bits(payload.data(), payload.size());  // as Hasher, in no memory
   packing_ = false;
-  flushing_ = Question{network_.next_id(),
-                       Flush{round_, hash.value(), std::move(packed_leases_)},
-                       {payload, encoder_}};
+  flushing_ = Question{
+      network_.next_id(), Flush{round_, hash, std::move(packed_leases_)}, {payload, encoder_}};
   if (config_.trace != nullptr)
     config_.trace->begin(TraceKind::flush, trace_id(flushing_->id), payload.size());
   ++counters_.flushes;
