@@ -25,6 +25,7 @@ void add_info(CLI::App& app, int& exit_code);
 void add_topology(CLI::App& app, int& exit_code);
 void add_node(CLI::App& app, int& exit_code);
 void add_cluster(CLI::App& app, int& exit_code);
+void add_status(CLI::App& app, int& exit_code);
 void add_keygen(CLI::App& app, int& exit_code);
 void add_deploy(CLI::App& app, int& exit_code);
 

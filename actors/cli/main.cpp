@@ -52,6 +52,7 @@ int main(int argc, char** argv) {
   add_topology(app, exit_code);
   add_node(app, exit_code);
   add_cluster(app, exit_code);
+  add_status(app, exit_code);
   add_keygen(app, exit_code);
   add_deploy(app, exit_code);
   try {

@@ -42,25 +42,12 @@ Result<Done> write_results(const ClusterConfig& cluster, const ClusterProcessRun
   return Done{};
 }
 
-/// Keys that are read and checked, and change nothing yet: said where they are set.
-void warn_of_idle_keys(const ClusterConfig& cluster) {
-  const auto any_metrics = [&] {
-    for (const ClusterProcess& process : cluster.processes)
-      if (process.metrics_port != 0) return true;
-    return false;
-  };
-  if (any_metrics()) spdlog::warn("metrics_port is not in force yet: no metrics are served");
-  if (cluster.observe.trace_every != 0)
-    spdlog::warn("trace_every is not in force yet: no trace is written");
-}
-
 int run_nodes(const NodeOptions& options) {
   const ReadCluster read = read_cluster(options.config);
   for (const Problem& problem : read.problems.list()) tell(problem);
   if (!read.cluster) return ExitCode::bad_input;
   const ClusterConfig& cluster = *read.cluster;
   spdlog::set_level(spdlog::level::from_str(cluster.observe.log_level));
-  warn_of_idle_keys(cluster);
   std::vector<NodeId> nodes;
   for (const std::string& name : options.names) {
     const auto node = find_node(cluster, name);

@@ -30,6 +30,9 @@ struct RunOptions {
   size_t fibers = 1;
   double object_mib = 0;
   std::string link_delay;
+  std::optional<uint16_t> metrics_port;
+  uint64_t trace_every = 0;
+  bool plan = false;
   bool resume = false;
   bool no_views = false;
   bool json = false;
@@ -87,20 +90,38 @@ Result<Done> write_all(const fs::path& folder, const LocalRun& run, const RunRec
   return render_views(folder, run, "", picture, [&](double share) { line.show_share(share); });
 }
 
+NodesOptions nodes_options(const RunOptions& options, Nanoseconds link_delay,
+                           Observation* observation) {
+  NodesOptions nodes;
+  nodes.nodes = options.nodes;
+  nodes.fibers = options.fibers;
+  nodes.object_bytes = options.object_bytes();
+  nodes.link_delay = link_delay;
+  nodes.observation = observation;
+  return nodes;
+}
+
 /// Traces with the plain loop, or on nodes.
-Result<StopReason> trace(LocalRun& run, const Scenario& scenario, const RunOptions& options,
-                         const StopRule& rule) {
+Result<StopReason> trace(LocalRun& run, const Scenario& scenario, const fs::path& folder,
+                         const RunOptions& options, const StopRule& rule) {
   ProgressLine line(scenario.name);
   const auto show = [&](const Progress& p) { line.show(p); };
   const auto delay = link_delay_of(options);
   if (!delay.ok()) return delay.problem();
   if (options.nodes == 0) return run.run(rule, interrupt_flag(), show);
-  NodesOptions nodes;
-  nodes.nodes = options.nodes;
-  nodes.fibers = options.fibers;
-  nodes.object_bytes = options.object_bytes();
-  nodes.link_delay = delay.value();
-  return run_on_nodes(run, nodes, rule, interrupt_flag(), show);
+  ObserveOptions observe;
+  observe.metrics_port = options.metrics_port;
+  observe.trace_every = options.trace_every;
+  auto seen = Observation::start(observe);
+  if (!seen.ok()) return seen.problem();
+  const auto port = seen.value()->port();
+  if (port) spdlog::info("metrics at http://{}:{}/metrics", observe.address, *port);
+  Observation* const watched = seen.value()->watches() ? seen.value().get() : nullptr;
+  auto reason = run_on_nodes(run, nodes_options(options, delay.value(), watched), rule,
+                             interrupt_flag(), show);
+  if (!reason.ok()) return reason;
+  if (auto ok = seen.value()->write_trace(folder / "trace.json"); !ok.ok()) return ok.problem();
+  return reason;
 }
 
 /// What shows the run while it goes on; null where nobody asks.
@@ -142,6 +163,12 @@ Result<Traced> run_scenario(std::shared_ptr<const SceneDescription> description,
   const uint64_t seed = options.seed.value_or(description->run.seed);
   const auto prepared = prepare(scene.value(), seed, options);
   LocalRun& run = *prepared;
+  if (options.plan) {
+    auto plan = plan_on_nodes(run, nodes_options(options, 0, nullptr));
+    if (!plan.ok()) return plan.problem();
+    std::printf("%s\n%s", scenario.name.c_str(), plan.value().c_str());
+    return Traced{StopReason::particles, {}};
+  }
   // Of several scenarios the later ones may not have been begun when the run was stopped.
   const bool begun = options.scenario != "all" || fs::exists(folder / "flux.lux");
   if (options.resume && begun) {
@@ -152,7 +179,7 @@ Result<Traced> run_scenario(std::shared_ptr<const SceneDescription> description,
   if (error) return Problem{{folder.string(), 0}, "cannot make this folder: " + error.message()};
   auto preview = preview_of(run, folder, options);
   if (!preview.ok()) return preview.problem();
-  auto reason = trace(run, scenario, options, rule);
+  auto reason = trace(run, scenario, folder, options, rule);
   preview.value().reset();
   if (!reason.ok()) return reason.problem();
   RunRecord record;
@@ -192,6 +219,10 @@ int run_scenarios(const std::shared_ptr<const SceneDescription>& description,
 }
 
 int run_scene(const RunOptions& options) {
+  if (options.nodes == 0 && (options.plan || options.metrics_port || options.trace_every != 0)) {
+    tell({{}, "--plan, --metrics and --trace-every are about nodes: say how many, --nodes N"});
+    return ExitCode::bad_input;
+  }
   auto rule = stop_rule(options);
   if (!rule.ok()) {
     tell(rule.problem());
@@ -207,11 +238,37 @@ int run_scene(const RunOptions& options) {
   install_interrupt_handler();
   Json results = Json::array();
   const int code = run_scenarios(description, scenarios.value(), options, rule.value(), results);
+  if (options.plan) return code;
   if (options.json && options.scenario == "all")
     std::fputs(json_text(results).c_str(), stdout);
   else if (options.json && !results.empty())
     std::fputs(json_text(results.front()).c_str(), stdout);
   return code;
+}
+
+void add_node_options(CLI::App& command, const std::shared_ptr<RunOptions>& options) {
+  command
+      .add_option("--nodes", options->nodes,
+                  "trace on so many nodes, a thread each, linked as a minimum-path graph [0: the "
+                  "plain loop]")
+      ->check(CLI::Range(0, limits::nodes_in_process));
+  command.add_option("--metrics", options->metrics_port,
+                     "serve the nodes' numbers on this port of 127.0.0.1 while they run, for "
+                     "`luxodus status` and Prometheus; 0: any that is free");
+  command
+      .add_option("--trace-every", options->trace_every,
+                  "write what becomes of each N-th particle on the nodes into trace.json, for "
+                  "ui.perfetto.dev [0: nothing]")
+      ->check(CLI::Range(uint64_t{0}, uint64_t{1'000'000'000'000}));
+  command.add_flag("--plan", options->plan,
+                   "print what each of the nodes may take in memory, and trace nothing");
+  command.add_option("--fibers", options->fibers, "photon-threads of a node [1]")
+      ->check(CLI::Range(size_t{1}, size_t{16384}));
+  command
+      .add_option("--object-mib", options->object_mib,
+                  "budget of a node for geometry cells; what does not fit is fetched from others "
+                  "[0: everything is resident]")
+      ->check(CLI::Range(0.0, 1048576.0));
 }
 
 }  // namespace
@@ -250,21 +307,7 @@ void add_run(CLI::App& app, int& exit_code) {
   command->add_option("--threads", options->threads, "[all cores]")->check(CLI::Range(1, 1024));
   command->add_option("--cells", options->cells, "geometry cells; 1 is one merged scene [1]")
       ->check(CLI::Range(1, 1'000'000));
-  command
-      ->add_option("--nodes", options->nodes,
-                   "trace on so many nodes, a thread each, linked as a minimum-path graph [0: the "
-                   "plain loop]")
-      ->check(CLI::Range(0, limits::nodes_in_process));
-  command->add_option("--fibers", options->fibers, "photon-threads of a node [1]")
-      ->check(CLI::Range(size_t{1}, size_t{16384}));
-  command
-      ->add_option("--object-mib", options->object_mib,
-                   "budget of a node for geometry cells; what does not fit is fetched from others "
-                   "[0: everything is resident]")
-      ->check(CLI::Range(0.0, 1048576.0));
-  command->add_option("--link-delay", options->link_delay,
-                      "hold back what nodes send each other for so long on every link, to see what "
-                      "a distance costs and how many fibers hide it, e.g. 1ms [0]");
+  add_node_options(*command, options);
   command
       ->add_option("--picture-paths", options->picture_paths, "paths per pixel of the views [32]")
       ->check(CLI::Range(1, 100'000));

@@ -70,7 +70,11 @@ void CellBuilder::build(uint32_t object, SharedBytes bytes, Client& client) {
 const CellScene* CachedCells::cell(uint32_t cell) {
   const BuiltObject* object = cache_.find(cell);
   if (object == nullptr) {
-    const Got got = cache_.get(cell);
+    const uint64_t particle = fibers_.current()->subject();
+    const bool traced = trace_ != nullptr && trace_->wants(particle);
+    if (traced) trace_->begin(TraceKind::wait, particle, cell);
+    const Got got = cache_.get(cell, traced);
+    if (traced) trace_->end(TraceKind::wait, particle, cell);
     if (got.how != Got::How::resident) {
       refused_.push_back(fibers_.current()->id());
       return nullptr;

@@ -77,7 +77,9 @@ class CellBuilder final : public ObjectBuilder {
 /// What a node's tracers ask for cells.
 class CachedCells final : public ObjectSource {
  public:
-  CachedCells(ObjectCache& cache, const Fibers& fibers) : cache_(cache), fibers_(fibers) {}
+  /// `trace` is told of waits of sampled particles; null: of none.
+  CachedCells(ObjectCache& cache, const Fibers& fibers, NodeTrace* trace = nullptr)
+      : cache_(cache), fibers_(fibers), trace_(trace) {}
 
   const CellScene* cell(uint32_t cell) override;
   bool spoilt() override;
@@ -85,6 +87,7 @@ class CachedCells final : public ObjectSource {
  private:
   ObjectCache& cache_;
   const Fibers& fibers_;
+  NodeTrace* const trace_;
   std::vector<FiberId> refused_;  // fibers that did not get what they asked for
 };
 

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "actors/tally/flush_codec.hpp"
 #include "runtime/core/check.hpp"
 #include "runtime/core/hash.hpp"
 
@@ -23,7 +22,24 @@ LeaseClient::LeaseClient(const LeaseClientConfig& config, Scheduler& scheduler, 
 void LeaseClient::start(PhotonThreads& photons) {
   photons_ = &photons;
   began_ = scheduler_.clock().now();
+  const Totals& totals = photons.totals();
+  encoder_ = std::make_shared<FlushEncoder>(totals.groups(), totals.layout().totals());
+  done_.reserve(limits::leases);
+  packed_leases_.reserve(limits::leases);
   set_timer();
+}
+
+void LeaseClient::add_metrics(Metrics& metrics) const {
+  const Counters& c = counters_;
+  metrics.add_counter({"leases", "", "Batches lent to this node.", ""}, c.leases);
+  metrics.add_counter({"leases_failed", "", "Leases whose batch is traced anew.", ""},
+                      c.leases_failed);
+  metrics.add_counter({"flushes", "", "Flushes made.", ""}, c.flushes);
+  metrics.add_counter({"flushes_refused", "", "Flushes that the controller refused.", ""},
+                      c.flushes_refused);
+  metrics.add_counter({"flush", "bytes", "Bytes of flushes made.", ""}, c.flush_bytes);
+  metrics.add_counter({"asked_again", "", "Questions to the controller asked again.", ""},
+                      c.asked_again);
 }
 
 // ---- asking for work -------------------------------------------------------------------------
@@ -35,7 +51,7 @@ void LeaseClient::want_leases(size_t count) {
 
 void LeaseClient::ask() {
   if (asking_ || ended_ || draining_ || round_empty_ || wanted_ == 0) return;
-  asking_ = Question{network_.next_id(), RequestLease{static_cast<uint32_t>(wanted_)}, nullptr};
+  asking_ = Question{network_.next_id(), RequestLease{static_cast<uint32_t>(wanted_)}, {}};
   wanted_ = 0;
   put(*asking_);
 }
@@ -85,31 +101,37 @@ void LeaseClient::flush_when_idle() {
 
 void LeaseClient::flush() {
   if (packing_ || flushing_ || done_.empty()) return;  // the answer to that one sends the next
+  flush_due_ = !encoder_is_free();
+  if (flush_due_) return;
   packing_ = true;
-  packed_leases_ = std::move(done_);
-  done_.clear();
+  packed_leases_.swap(done_);
   const auto body = [this, totals = &photons_->give_totals()] { pack(*totals); };
   LUX_CHECK(scheduler_.fibers().start("flush", body), "the plan counts a fiber for it");
 }
 
+bool LeaseClient::encoder_is_free() const {
+  return encoder_.use_count() == 1;
+}
+
 /// On a fiber of its own, between the turns of the photon-threads.
 void LeaseClient::pack(Totals& totals) {
-  FlushEncoder encoder(totals);
+  encoder_->begin(totals);
   packing_took_ = 0;
   for (bool done = false; !done;) {
     const Nanoseconds begun = scheduler_.clock().now();
-    done = encoder.step(bins_of_a_step);
+    done = encoder_->step(bins_of_a_step);
     packing_took_ += scheduler_.clock().now() - begun;
     if (!done && scheduler_.fibers().yield() == Wake::cancelled) return;
   }
-  auto payload = std::make_shared<const std::vector<std::byte>>(encoder.take_bytes());
-  Hasher hash;
-  hash.add(payload->data(), payload->size());
+  const std::span<const std::byte> payload = encoder_->bytes();
+  const uint64_t hash = XXH3_64bits(payload.data(), payload.size());  // as Hasher, in no memory
   packing_ = false;
-  flushing_ =
-      Question{network_.next_id(), Flush{round_, hash.value(), std::move(packed_leases_)}, payload};
+  flushing_ = Question{
+      network_.next_id(), Flush{round_, hash, std::move(packed_leases_)}, {payload, encoder_}};
+  if (config_.trace != nullptr)
+    config_.trace->begin(TraceKind::flush, trace_id(flushing_->id), payload.size());
   ++counters_.flushes;
-  counters_.flush_bytes += payload->size();
+  counters_.flush_bytes += payload.size();
   put(*flushing_);
 }
 
@@ -117,6 +139,9 @@ void LeaseClient::flush_answered(const MessageId& answered, bool taken) {
   if (!flushing_ || flushing_->id != answered) return;
   const Nanoseconds answer_took = scheduler_.clock().now() - flushing_->asked;
   interval_ = flush_interval(config_.flush_every, packing_took_ + answer_took, lease_time_);
+  packed_leases_ = std::move(std::get<Flush>(flushing_->message).leases);  // its memory
+  packed_leases_.clear();
+  if (config_.trace != nullptr) config_.trace->end(TraceKind::flush, trace_id(answered), taken);
   flushing_.reset();
   if (!taken) ++counters_.flushes_refused;  // its leases are lent again: nothing to mend here
   flush_when_idle();
@@ -159,10 +184,8 @@ void LeaseClient::watch_controller(Nanoseconds now) {
 // ---- questions and answers -------------------------------------------------------------------
 
 void LeaseClient::put(Question& question) {
-  SharedBytes payload;
-  if (question.payload) payload = {std::span(*question.payload), question.payload};
   // Full or unreachable: the timer asks again.
-  network_.send(config_.controller, question.id, question.message, payload);
+  network_.send(config_.controller, question.id, question.message, question.payload);
   question.asked = scheduler_.clock().now();
 }
 
@@ -178,7 +201,8 @@ void LeaseClient::on_timer() {
     ++counters_.asked_again;
     put(**question);
   }
-  if (!done_.empty() && now - first_done_ >= interval_) flush();
+  const bool rested = !done_.empty() && now - first_done_ >= interval_;
+  if (rested || flush_due_) flush();
   if (round_empty_ && !ended_ && now - emptied_ >= config_.answer_patience) begin_round();
   watch_controller(now);
   set_timer();

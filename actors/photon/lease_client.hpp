@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "actors/photon/photon_threads.hpp"
+#include "actors/tally/flush_codec.hpp"
 #include "runtime/net/network.hpp"
 
 namespace luxodus {
@@ -24,6 +25,7 @@ struct LeaseClientConfig {
   /// is given up.
   Nanoseconds start = seconds(60);
   Nanoseconds lost = seconds(30);
+  NodeTrace* trace = nullptr;  // null: nothing is traced
 };
 
 /// How long merged batches rest, when a flush lately took `cost` (packing it here, and waiting for
@@ -65,17 +67,19 @@ class LeaseClient final : public LeasePort {
     uint64_t leases_failed = 0;
   };
   const Counters& counters() const { return counters_; }
+  void add_metrics(Metrics& metrics) const;
 
  private:
   struct Question {
     MessageId id;
     Message message;
-    std::shared_ptr<const std::vector<std::byte>> payload;  // null: none
+    SharedBytes payload;  // of a flush
     Nanoseconds asked = 0;
   };
 
   void ask();
   void flush();
+  bool encoder_is_free() const;
   void pack(Totals& totals);
   void put(Question& question);
   void set_timer();
@@ -95,7 +99,9 @@ class LeaseClient final : public LeasePort {
   std::optional<Question> flushing_;  // one at a time
   std::vector<uint64_t> done_;        // merged, in no flush yet
   std::vector<uint64_t> packed_leases_;
+  std::shared_ptr<FlushEncoder> encoder_;  // shared with the network while it sends
   bool packing_ = false;
+  bool flush_due_ = false;        // it waits for the network to let go of the last one
   Nanoseconds packing_took_ = 0;  // of the last flush
   Nanoseconds interval_;          // between flushes
   Nanoseconds lease_time_ = 0;

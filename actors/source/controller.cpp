@@ -15,10 +15,6 @@
 namespace luxodus {
 
 namespace {
-/// A worker that does not answer to the end is given up after this.
-constexpr Nanoseconds farewell = seconds(5);
-/// Leases for one question: two open batches and as many at hand need four.
-constexpr uint32_t leases_per_question = 64;
 /// Hashed at once: some 0.1 ms.
 constexpr size_t bytes_of_a_step = 1 << 20;
 /// Between lines about who is waited for.
@@ -81,6 +77,7 @@ void Controller::begin() {
   begun_ = true;
   began_ = scheduler_.clock().now();
   spdlog::info("run=begun workers={}", peers_.size());
+  note_book();
   if (book_.committed() >= target_)
     end_run(StopReason::particles);
   else
@@ -162,6 +159,26 @@ void Controller::fence(const std::vector<Lease>& leases, const char* why) {
   }
 }
 
+void Controller::add_metrics(Metrics& metrics) const {
+  const Counters& c = counters_;
+  metrics.add_counter({"leases_lent", "", "Batches lent.", ""}, c.leases);
+  metrics.add_counter({"leases_fenced", "", "Leases that were late, or whose node was gone.", ""},
+                      c.fenced);
+  metrics.add_counter({"flushes_taken", "", "Flushes counted.", ""}, c.flushes_taken);
+  metrics.add_counter({"flushes_not_taken", "", "Flushes refused.", ""}, c.flushes_refused);
+  metrics.add_counter({"flush_in", "bytes", "Bytes of flushes that came.", ""}, c.flush_bytes);
+  metrics.add_counter({"batches_counted", "", "Batches counted.", ""}, c.batches);
+  metrics.add_counter({"particles_counted", "", "Particles of batches counted.", ""}, c.particles);
+  metrics.add_gauge({"round", "", "Rounds begun.", ""}, c.round);
+  metrics.add_gauge({"leases_out", "", "Leases that stand.", ""}, c.leases_out);
+}
+
+void Controller::note_book() {
+  counters_.batches = static_cast<uint64_t>(book_.committed());
+  counters_.leases_out = book_.standing();
+  counters_.particles = counters_.batches * static_cast<uint64_t>(run_.scene().batch_particles);
+}
+
 // ---- rounds ----------------------------------------------------------------------------------
 
 /// Rounds end where workers wait for one another: only an error target needs them.
@@ -170,9 +187,9 @@ void Controller::open_round() {
       stop_.relative_error ? std::min(target_, run_.round_end(book_.committed())) : target_;
   const int64_t end = std::max(round, book_.lent_end());  // of an earlier run, that lacks some
   book_.open_until(end);
-  ++round_;
+  ++counters_.round;
   for (const NodeId worker : config_.workers)
-    send(worker, network_.next_id(), RoundOpened{round_, static_cast<uint64_t>(end)});
+    send(worker, network_.next_id(), RoundOpened{round(), static_cast<uint64_t>(end)});
 }
 
 void Controller::end_round() {
@@ -194,7 +211,7 @@ void Controller::end_run(StopReason reason) {
 void Controller::tell_end() {
   const std::string text = fault_ ? fault_->what.substr(0, limits::text_bytes) : "";
   for (const auto& [worker, peer] : peers_)
-    if (peer.here && !peer.told) send(worker, network_.next_id(), RunEnded{round_, text});
+    if (peer.here && !peer.told) send(worker, network_.next_id(), RunEnded{round(), text});
 }
 
 bool Controller::ended() const {
@@ -204,7 +221,7 @@ bool Controller::ended() const {
     return !peer.here || peer.told || (closing_ && peer.unreachable_since);
   };
   return std::all_of(peers_.begin(), peers_.end(), done) ||
-         scheduler_.clock().now() - over_since_ >= farewell;
+         scheduler_.clock().now() - over_since_ >= config_.farewell;
 }
 
 // ---- what passes with time -------------------------------------------------------------------
@@ -222,6 +239,7 @@ void Controller::look() {
   report_(progress());
   run_.pause_if_due();
   fence(book_.fence_late(now), "late");
+  note_book();
   const double passed = static_cast<double>(now - began_) * 1e-9;
   if (!closing_ && (interrupt_.load() || (stop_.seconds && passed >= *stop_.seconds))) {
     closing_ = true;
@@ -265,10 +283,11 @@ void Controller::lend(const Delivery& delivery, const RequestLease& request) {
   if (last.question != delivery.id) {
     const Nanoseconds deadline = scheduler_.clock().now() + config_.lease_time;
     const LentBatches lent =
-        book_.lend(delivery.source, std::min(request.batches, leases_per_question), deadline);
+        book_.lend(delivery.source, std::min(request.batches, config_.leases_most), deadline);
     counters_.leases += static_cast<uint64_t>(lent.count);
+    note_book();
     last = {delivery.id,
-            LeaseGranted{lent.first_lease, round_, static_cast<uint64_t>(lent.first_batch),
+            LeaseGranted{lent.first_lease, round(), static_cast<uint64_t>(lent.first_batch),
                          static_cast<uint32_t>(lent.count),
                          static_cast<uint32_t>(config_.lease_time / milliseconds(1))}};
   }
@@ -340,8 +359,8 @@ std::string Controller::count_flush(const Arrived& arrived) {
   }
   if (hash.value() != arrived.flush.payload_hash) return "the payload is not what its hash says";
   const auto rest = [this] { return take_turns(); };
-  const auto gain = decode_flush(arrived.payload, run_.totals().groups(),
-                                 run_.scene().layout.totals(), rest);
+  const auto gain =
+      decode_flush(arrived.payload, run_.totals().groups(), run_.scene().layout.totals(), rest);
   if (!gain.ok()) return gain.problem().what;
   if (gain->batches() != static_cast<int64_t>(leases.size()) || !gain->ledger().closes())
     return "its batches or its ledger do not add up";
@@ -351,6 +370,7 @@ std::string Controller::count_flush(const Arrived& arrived) {
   book_.commit(leases);
   adding_ = true;
   gain->add_to(run_.totals(), rest);
+  note_book();
   adding_ = false;
   return "";
 }

@@ -29,6 +29,8 @@ struct ControllerConfig {
   /// A batch that is not back by then is lent to another: long against the slowest batch.
   Nanoseconds lease_time = seconds(120);
   Nanoseconds look_every = milliseconds(250);  // at time, interrupt and late leases
+  uint32_t leases_most = 64;                   // for one question
+  Nanoseconds farewell = seconds(5);  // a worker that does not answer to the end is given up then
 };
 
 class Controller {
@@ -56,8 +58,13 @@ class Controller {
     uint64_t flushes_taken = 0;
     uint64_t flushes_refused = 0;
     uint64_t flush_bytes = 0;
+    uint64_t round = 0;
+    uint64_t batches = 0;  // counted, those of an earlier run included
+    uint64_t leases_out = 0;
+    uint64_t particles = 0;  // of counted batches
   };
   const Counters& counters() const { return counters_; }
+  void add_metrics(Metrics& metrics) const;
 
  private:
   /// What is known of a worker.
@@ -90,6 +97,8 @@ class Controller {
   void end_round();
   void end_run(StopReason reason);
   void tell_end();
+  void note_book();
+  uint32_t round() const { return static_cast<uint32_t>(counters_.round); }
   Progress progress() const;
   void send(NodeId worker, const MessageId& id, const Message& message);
 
@@ -102,7 +111,6 @@ class Controller {
   Network& network_;
   LeaseBook book_;
   int64_t target_;
-  uint32_t round_ = 0;
   int64_t batches_at_start_;
   Nanoseconds began_;
   double error_;

@@ -1,10 +1,11 @@
 #include "actors/supervise/cluster_process.hpp"
 
+#include <spdlog/spdlog.h>
 #include <sys/random.h>
 
 #include <algorithm>
 
-#include "actors/supervise/node_shell.hpp"
+#include "actors/supervise/node_plan.hpp"
 #include "actors/supervise/stored_rows.hpp"
 #include "runtime/config/cluster_file.hpp"
 #include "runtime/fiber/sanitizers.hpp"
@@ -194,12 +195,36 @@ Result<NodeSetup> ClusterProcessRun::setup_of(NodeId self, const RunSetup& run) 
   node.stall = cluster_.timeouts.stall;
   node.start = cluster_.timeouts.start;
   node.lost = cluster_.timeouts.lost;
-  node.leave = cluster_.timeouts.shutdown_phase;
   for (const ClusterNode& one : cluster_.nodes) node.names.push_back(one.name);
   node.lease_time = cluster_.lease.duration;
+  node.photons.leases = cluster_.lease.batches;
+  node.tally_bytes = budget.tally_bytes;
+  node.shutdown_phase = cluster_.timeouts.shutdown_phase;
   node.fetch.tries = static_cast<uint8_t>(cluster_.timeouts.fetch_attempts);
   node.fetch.timeouts.floor = cluster_.timeouts.fetch_floor;
   return node;
+}
+
+ObserveOptions ClusterProcessRun::observe_options() const {
+  ObserveOptions options;
+  options.address = cluster_.observe.metrics_address;
+  const uint16_t port = cluster_.processes[cluster_.node(nodes_.front()).process].metrics_port;
+  if (port != 0) options.metrics_port = port;
+  options.trace_every = cluster_.observe.trace_every;
+  return options;
+}
+
+/// Beside the results, under the name of the process: several may share the folder.
+Result<Done> ClusterProcessRun::write_trace(const Observation& seen) const {
+  if (!seen.traces()) return Done{};
+  std::error_code failed;
+  std::filesystem::create_directories(cluster_.run.out, failed);
+  if (failed)
+    return Problem{{cluster_.run.out.string(), 0},
+                   "cannot make this folder for the trace: " + failed.message()};
+  const size_t process = cluster_.node(nodes_.front()).process;
+  return seen.write_trace(cluster_.run.out /
+                          ("trace-" + cluster_.processes[process].name + ".json"));
 }
 
 Result<std::optional<StopReason>> ClusterProcessRun::run(
@@ -212,7 +237,9 @@ Result<std::optional<StopReason>> ClusterProcessRun::run(
   std::optional<SceneObjects> objects;
   std::optional<ProxyScene> proxies;
   const SceneIndex* index = fetches_ ? nullptr : &run_->index();
-  RunSetup setup{run_->scene(), index, nullptr, nullptr, run_->seed(), graph_, clock, context};
+  RunSetup setup{run_->scene(), index, nullptr, nullptr, run_->seed(),
+                 graph_,        clock, context, {},      nullptr};
+  for (const ClusterNode& node : cluster_.nodes) setup.names.push_back(node.name);
   if (fetches_) {
     const std::vector<NodeId> holders = holders_of(cluster_);
     objects.emplace(run_->scene(), holders, std::min<size_t>(2, holders.size()));
@@ -220,6 +247,9 @@ Result<std::optional<StopReason>> ClusterProcessRun::run(
     setup.objects = &*objects;
     setup.proxies = &*proxies;
   }
+  auto seen = Observation::start(observe_options());
+  if (!seen.ok()) return seen.problem();
+  if (seen.value()->watches()) setup.observation = seen.value().get();
   std::vector<NodeSetup> workers;
   std::optional<NodeSetup> controller;
   for (const NodeId node : nodes_) {
@@ -230,6 +260,9 @@ Result<std::optional<StopReason>> ClusterProcessRun::run(
     else
       workers.push_back(std::move(own).value());
   }
+  for (const NodeSetup& node : workers)
+    if (auto fault = budget_fault(setup, node)) return Problem{{cluster_.file.string(), 0}, *fault};
+  spdlog::info("memory plan\n{}", plan_text(setup, workers, controller));
   WorkerThreads threads(setup, workers, [&] { return !controller && interrupt.load(); });
   std::optional<StopReason> reason;
   if (controller) {
@@ -244,6 +277,7 @@ Result<std::optional<StopReason>> ClusterProcessRun::run(
   }
   threads.join();
   if (threads.failed()) return threads.problem();
+  if (auto ok = write_trace(*seen.value()); !ok.ok()) return ok.problem();
   return reason;
 }
 

@@ -52,6 +52,8 @@ class ClusterProcessRun {
   Result<bool> load_scene();
   Result<bool> load_keys(const std::vector<NodeId>& nodes);
   Result<NodeSetup> setup_of(NodeId self, const RunSetup& run) const;
+  ObserveOptions observe_options() const;
+  Result<Done> write_trace(const Observation& seen) const;
 
   const ClusterConfig cluster_;
   const Graph graph_;

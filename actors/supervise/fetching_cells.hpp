@@ -24,9 +24,11 @@ struct WorkerReport {
 class FetchingCells {
  public:
   /// Requires: run.objects is not null; all outlive this.
-  FetchingCells(const RunSetup& run, const NodeSetup& node, NodeShell& shell);
+  FetchingCells(const RunSetup& run, const NodeSetup& node, NodeShell& shell,
+                NodeTrace* trace = nullptr);
 
   ObjectSource& source() { return source_; }
+  void add_metrics(Metrics& metrics) const;
   WorkerReport report() const;
 
  private:
@@ -36,8 +38,5 @@ class FetchingCells {
   ObjectCache cache_;
   CachedCells source_;
 };
-
-/// Of a node with its photon-threads and one fiber more.
-SchedulerLimits scheduler_limits_of(const NodeSetup& node);
 
 }  // namespace luxodus

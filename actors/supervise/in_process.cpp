@@ -5,6 +5,8 @@
 #include <exception>
 
 #include "actors/source/controller.hpp"
+#include "actors/supervise/node_metrics.hpp"
+#include "actors/supervise/node_plan.hpp"
 #include "topology/shipped.hpp"
 
 namespace luxodus {
@@ -110,9 +112,13 @@ Result<StopReason> run_controller(const RunSetup& setup, const NodeSetup& node, 
                                   const std::function<void(const Progress&)>& report,
                                   const std::function<bool()>& broken, NodesReport* counted) {
   NodeTransport transport(setup, node);
-  NodeShell shell({node.net, {}}, setup.graph, setup.clock, transport.transport());
+  const ShellConfig shell_config{node.net, controller_limits(node), ShellConfig{}.room_bytes_most,
+                                 node.shutdown_phase};
+  NodeShell shell(shell_config, setup.graph, setup.clock, transport.transport());
   ControllerConfig config;
   config.lease_time = node.lease_time;
+  config.leases_most = static_cast<uint32_t>(node.photons.leases);
+  config.farewell = node.shutdown_phase;
   config.start = node.start;
   config.lost = node.lost;
   config.names = node.names;
@@ -123,6 +129,14 @@ Result<StopReason> run_controller(const RunSetup& setup, const NodeSetup& node, 
   if (auto joined = join_links(transport.sockets(), node); !joined.ok()) return joined.problem();
   const Nanoseconds began = setup.clock.now();
   controller.start();
+  std::optional<NodeMetrics> metrics;
+  if (setup.observation != nullptr) {
+    metrics.emplace(setup.names, node.net.self, "controller", shell.scheduler(), shell.network());
+    controller.add_metrics(metrics->registry());
+    metrics->add_rate({"particles_per_second", "", "Particles counted in a second.", ""},
+                      controller.counters().particles);
+    metrics->start(*setup.observation);
+  }
   shell.run_until([&] { return controller.ended() || broken(); });
   run.add_seconds(static_cast<double>(setup.clock.now() - began) * 1e-9);
   if (controller.fault())
@@ -141,39 +155,82 @@ Result<StopReason> run_controller(const RunSetup& setup, const NodeSetup& node, 
   return controller.reason();
 }
 
+namespace {
+
+/// All that the nodes of such a run are made from.
+class InProcess {
+ public:
+  /// Errors: no graph of so few links, options that contradict each other or the scene.
+  static Result<std::unique_ptr<InProcess>> prepare(const LocalRun& run,
+                                                    const NodesOptions& options) {
+    if (auto fault = fault_of(options, run.scene(), run.resident())) return Problem{{}, *fault};
+    auto graph = graph_for(options);
+    if (!graph.ok()) return graph.problem();
+    auto made = std::unique_ptr<InProcess>(new InProcess(run, options, std::move(graph).value()));
+    for (const NodeSetup& node : made->workers)
+      if (auto fault = budget_fault(made->setup, node)) return Problem{{}, *fault};
+    return made;
+  }
+
+ private:
+  InProcess(const LocalRun& run, const NodesOptions& options, Graph of_nodes)
+      : graph(std::move(of_nodes)), setup{run.scene(), run.resident() ? &run.index() : nullptr,
+                                          nullptr,     nullptr,
+                                          run.seed(),  graph,
+                                          clock,       context,
+                                          {},          options.observation} {
+    for (int i = 0; i < options.nodes; ++i) setup.names.push_back("n" + std::to_string(i));
+    setup.names.push_back("controller");
+    if (options.object_bytes > 0) {
+      std::vector<NodeId> holders;
+      for (uint16_t i = 0; i < options.nodes; ++i) holders.push_back({i});
+      objects.emplace(run.scene(), holders, options.replicas);
+      proxies.emplace(device, run.scene().cell_boxes);
+      setup.objects = &*objects;
+      setup.proxies = &*proxies;
+    }
+    const uint64_t run_id = static_cast<uint64_t>(clock.now()) | 1;
+    NetConfig common;
+    complete(common, setup);
+    for (uint16_t i = 0; i <= options.nodes; ++i)
+      workers.push_back(setup_of(setup, common, {i}, options, run_id));
+    controller = workers.back();
+    workers.pop_back();
+  }
+
+  const Graph graph;
+  const SystemClock clock;
+  ZmqContext context{{}};
+  const EmbreeDevice device;
+  std::optional<SceneObjects> objects;
+  std::optional<ProxyScene> proxies;
+
+ public:
+  RunSetup setup;
+  std::vector<NodeSetup> workers;
+  NodeSetup controller;
+};
+
+}  // namespace
+
+Result<std::string> plan_on_nodes(const LocalRun& run, const NodesOptions& options) {
+  auto made = InProcess::prepare(run, options);
+  if (!made.ok()) return made.problem();
+  const InProcess& nodes = *made.value();
+  return plan_text(nodes.setup, nodes.workers, nodes.controller);
+}
+
 Result<StopReason> run_on_nodes(LocalRun& run, const NodesOptions& options, const StopRule& stop,
                                 const std::atomic<bool>& interrupt,
                                 const std::function<void(const Progress&)>& report,
                                 NodesReport* counted) {
-  if (auto fault = fault_of(options, run.scene(), run.resident())) return Problem{{}, *fault};
-  auto graph = graph_for(options);
-  if (!graph.ok()) return graph.problem();
-  const SystemClock clock;
-  ZmqContext context({});
-  const EmbreeDevice device;
-  std::optional<SceneObjects> objects;
-  std::optional<ProxyScene> proxies;
-  const SceneIndex* index = run.resident() ? &run.index() : nullptr;
-  RunSetup setup{run.scene(), index, nullptr, nullptr, run.seed(), graph.value(), clock, context};
-  if (options.object_bytes > 0) {
-    std::vector<NodeId> holders;
-    for (uint16_t i = 0; i < options.nodes; ++i) holders.push_back({i});
-    objects.emplace(run.scene(), holders, options.replicas);
-    proxies.emplace(device, run.scene().cell_boxes);
-    setup.objects = &*objects;
-    setup.proxies = &*proxies;
-  }
-  const uint64_t run_id = static_cast<uint64_t>(clock.now()) | 1;
-  NetConfig common;
-  complete(common, setup);
-  std::vector<NodeSetup> nodes;
-  for (uint16_t i = 0; i <= options.nodes; ++i)
-    nodes.push_back(setup_of(setup, common, {i}, options, run_id));
-  const NodeSetup controller = nodes.back();
-  nodes.pop_back();
-  WorkerThreads workers(setup, nodes, [] { return false; });
+  auto made = InProcess::prepare(run, options);
+  if (!made.ok()) return made.problem();
+  const InProcess& nodes = *made.value();
+  WorkerThreads workers(nodes.setup, nodes.workers, options.stop);
   auto reason = run_controller(
-      setup, controller, run, stop, interrupt, report, [&] { return workers.failed(); }, counted);
+      nodes.setup, nodes.controller, run, stop, interrupt, report, [&] { return workers.failed(); },
+      counted);
   workers.join();
   if (workers.failed()) return workers.problem();
   if (counted != nullptr) counted->workers = workers.report();

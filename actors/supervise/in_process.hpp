@@ -30,6 +30,10 @@ struct NodesOptions {
   uint32_t replicas = 1;  // nodes that hold a cell's bytes
   /// Of every link, on purpose: what a distance would cost, and how many fibers hide it.
   Nanoseconds link_delay = 0;
+  Observation* observation = nullptr;  // where somebody watches
+  /// Asked by each worker every few milliseconds, on its own thread: whether it shall end before
+  /// the run does.
+  std::function<bool()> stop = [] { return false; };
 };
 
 /// What the nodes of a run did.
@@ -77,8 +81,11 @@ Result<StopReason> run_controller(const RunSetup& setup, const NodeSetup& node, 
                                   const std::function<bool()>& broken,
                                   NodesReport* counted = nullptr);
 
+/// What each node of such a run may take, in tables. Errors: as run_on_nodes.
+Result<std::string> plan_on_nodes(const LocalRun& run, const NodesOptions& options);
+
 /// Traces until `stop` holds, into `run`'s totals; as LocalRun::run.
-/// Errors: no graph of so few links, no sockets left.
+/// Errors: no graph of so few links, no sockets left, a budget that is too small.
 Result<StopReason> run_on_nodes(LocalRun& run, const NodesOptions& options, const StopRule& stop,
                                 const std::atomic<bool>& interrupt,
                                 const std::function<void(const Progress&)>& report,

@@ -9,6 +9,8 @@
 #include "actors/objects/scene_objects.hpp"
 #include "actors/photon/photon_threads.hpp"
 #include "actors/source/controller.hpp"
+#include "actors/supervise/node_shell.hpp"
+#include "actors/supervise/observation.hpp"
 #include "runtime/config/cluster_config.hpp"
 #include "runtime/net/delayed_transport.hpp"
 #include "runtime/net/zmq_transport.hpp"
@@ -26,6 +28,8 @@ struct RunSetup {
   const Graph& graph;
   const Clock& clock;
   ZmqContext& context;
+  std::vector<std::string> names;      // of nodes, by number
+  Observation* observation = nullptr;  // where somebody watches
 };
 
 /// What is a node's own.
@@ -41,11 +45,12 @@ struct NodeSetup {
   Nanoseconds stall = SchedulerLimits{}.stall;
   Nanoseconds start = ControllerConfig{}.start;
   Nanoseconds lost = ControllerConfig{}.lost;
-  Nanoseconds leave = seconds(10);  // for what is at hand, when the node is told to leave
-  std::vector<std::string> names;   // of all nodes, by number; empty: they have none
+  std::vector<std::string> names;  // of all nodes, by number; empty: they have none
   Nanoseconds lease_time = ControllerConfig{}.lease_time;
   FetchConfig fetch;
-  size_t object_bytes = 0;  // for built cells, where cells are fetched
+  size_t object_bytes = 0;            // for built cells, where cells are fetched
+  uint64_t tally_bytes = UINT64_MAX;  // for scores, totals and a flush
+  Nanoseconds shutdown_phase = ShellConfig{}.shutdown_phase;
   /// Of every link, on purpose. Requires: the same at all nodes, and one clock: one process.
   Nanoseconds link_delay = 0;
 

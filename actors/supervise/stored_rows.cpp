@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "actors/supervise/fetching_cells.hpp"
+#include "actors/supervise/node_plan.hpp"
 #include "topology/graph.hpp"
 
 namespace luxodus {
@@ -82,7 +83,7 @@ void work(const RunSetup& run, const NodeSetup& node, const RowRunner::MakeWorke
           Rows& rows) {
   _mm_setcsr(_mm_getcsr() | 0x8040);  // denormals to zero, as in the tracing of particles
   NoTransport transport(run.clock);
-  NodeShell shell({node.net, scheduler_limits_of(node)}, run.graph, run.clock, transport);
+  NodeShell shell({node.net, worker_limits(node)}, run.graph, run.clock, transport);
   FetchingCells cells(run, node, shell);
   const GeometryAccess access = GeometryAccess::through(*run.proxies, cells.source());
   std::vector<RowRunner::Worker> workers;
@@ -105,7 +106,8 @@ void StoredRows::run(int64_t rows, const MakeWorker& make, const Finished& finis
   if (rows == 0) return;
   ZmqContext context({});
   const RunSetup run{*scene_, nullptr,        &stored_->proxies, &stored_->objects,
-                     0,       stored_->graph, stored_->clock,    context};
+                     0,       stored_->graph, stored_->clock,    context,
+                     {},      nullptr};
   NodeSetup node;
   node.net.self = {0};
   node.net.incarnation = {1};

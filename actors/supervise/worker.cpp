@@ -1,45 +1,69 @@
 #include "actors/supervise/worker.hpp"
 
+#include "actors/supervise/node_plan.hpp"
+
 namespace luxodus {
 
 namespace {
 
-LeaseClientConfig lease_config(const NodeSetup& node) {
+LeaseClientConfig lease_config(const NodeSetup& node, NodeTrace* trace) {
   LeaseClientConfig config;
   config.controller = node.controller;
   config.start = node.start;
   config.lost = node.lost;
+  config.trace = trace;
+  return config;
+}
+
+PhotonConfig photon_config(const NodeSetup& node, NodeTrace* trace) {
+  PhotonConfig config = node.photons;
+  config.trace = trace;
   return config;
 }
 
 }  // namespace
 
 Worker::Worker(const RunSetup& run, const NodeSetup& node)
-    : node_(node),
-      context_(run.context),
+    : run_(run),
+      node_(node),
+      trace_(run.observation == nullptr ? nullptr : run.observation->trace_of(node.net.self)),
       transport_(run, node),
-      shell_({node.net, scheduler_limits_of(node)}, run.graph, run.clock, transport_.transport()),
-      cells_(run.objects == nullptr ? nullptr : std::make_unique<FetchingCells>(run, node, shell_)),
-      leases_(lease_config(node), shell_.scheduler(), shell_.network()),
+      shell_({node.net, worker_limits(node), ShellConfig{}.room_bytes_most, node.shutdown_phase},
+             run.graph, run.clock, transport_.transport()),
+      cells_(run.objects == nullptr ? nullptr
+                                    : std::make_unique<FetchingCells>(run, node, shell_, trace_)),
+      leases_(lease_config(node, trace_), shell_.scheduler(), shell_.network()),
       photons_(run.scene,
                cells_ ? GeometryAccess::through(*run.proxies, cells_->source())
                       : GeometryAccess::resident(*run.index),
-               run.seed, node.photons, shell_.scheduler(), leases_) {}
+               run.seed, photon_config(node, trace_), shell_.scheduler(), leases_) {}
 
 Worker::~Worker() = default;
+
+void Worker::show_to(Observation& seen) {
+  metrics_.emplace(run_.names, node_.net.self, "worker", shell_.scheduler(), shell_.network());
+  leases_.add_metrics(metrics_->registry());
+  photons_.add_metrics(metrics_->registry());
+  if (cells_) cells_->add_metrics(metrics_->registry());
+  metrics_->add_rate({"particles_per_second", "", "Particles traced in a second.", ""},
+                     photons_.counters().particles);
+  metrics_->start(seen);
+}
 
 Result<WorkerReport> Worker::run(const std::function<bool()>& stop) {
   if (auto joined = join_links(transport_.sockets(), node_); !joined.ok()) return joined.problem();
   shell_.add([this](const Delivery& d) { return leases_.deliver(d); });
   leases_.start(photons_);
   photons_.start();
+  if (run_.observation != nullptr) show_to(*run_.observation);
+  shell_.scheduler().seal();
   Nanoseconds leave_at = never;
   shell_.run_until([&] {
     if (leases_.ended()) return true;
     if (!stop()) return false;
     const Nanoseconds now = shell_.scheduler().clock().now();
     if (leave_at == never) {
-      leave_at = now + node_.leave;
+      leave_at = now + node_.shutdown_phase;
       leases_.drain();
     }
     return leases_.drained() || now >= leave_at;
@@ -47,7 +71,7 @@ Result<WorkerReport> Worker::run(const std::function<bool()>& stop) {
   if (leases_.fault())
     return Problem{{},
                    node_.name() + ": " + leases_.fault()->what +
-                       meeting_trouble(transport_.sockets(), context_, shell_.network())};
+                       meeting_trouble(transport_.sockets(), run_.context, shell_.network())};
   WorkerReport report = cells_ ? cells_->report() : WorkerReport{};
   report.waited = shell_.scheduler().counters().waited;
   return report;

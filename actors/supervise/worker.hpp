@@ -4,11 +4,13 @@
 
 #include "actors/photon/lease_client.hpp"
 #include "actors/supervise/fetching_cells.hpp"
+#include "actors/supervise/node_metrics.hpp"
 
 namespace luxodus {
 
 class Worker {
  public:
+  /// Requires: both outlive this.
   Worker(const RunSetup& run, const NodeSetup& node);
   ~Worker();
 
@@ -18,13 +20,17 @@ class Worker {
   Result<WorkerReport> run(const std::function<bool()>& stop);
 
  private:
+  void show_to(Observation& seen);
+
+  const RunSetup& run_;
   const NodeSetup& node_;
-  const ZmqContext& context_;
+  NodeTrace* const trace_;  // null where nothing is traced
   NodeTransport transport_;
   NodeShell shell_;
   std::unique_ptr<FetchingCells> cells_;  // where the node does not hold everything
   LeaseClient leases_;
   PhotonThreads photons_;
+  std::optional<NodeMetrics> metrics_;
 };
 
 }  // namespace luxodus

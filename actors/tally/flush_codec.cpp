@@ -2,6 +2,7 @@
 
 #include <zstd.h>
 
+#include <algorithm>
 #include <array>
 #include <numeric>
 #include <stdexcept>
@@ -13,6 +14,9 @@ namespace {
 constexpr int fast = 1;  // of zstd's levels: a flush is packed on the node's own thread
 constexpr size_t longest_number = 19;  // bytes of 128 bits, seven at a time
 constexpr size_t numbers_of_ledger = 11;
+/// A flush is packed to a fraction of what it may be; one that is longer takes memory as it grows.
+constexpr uint64_t reserved_bytes_most = 64 << 20;
+constexpr uint64_t reserved_step_bins = 16384;
 
 /// Between two rests: about half a millisecond of either.
 constexpr size_t unpacked_between_rests = 512 << 10;
@@ -162,9 +166,23 @@ struct FlushEncoder::Zstd {
   std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> context{ZSTD_createCCtx(), ZSTD_freeCCtx};
 };
 
-FlushEncoder::FlushEncoder(Totals& totals) : totals_(totals), zstd_(std::make_unique<Zstd>()) {
+FlushEncoder::FlushEncoder(int groups, int64_t totals) : zstd_(std::make_unique<Zstd>()) {
   ZSTD_CCtx_setParameter(zstd_->context.get(), ZSTD_c_compressionLevel, fast);
   ZSTD_CCtx_setParameter(zstd_->context.get(), ZSTD_c_checksumFlag, 1);
+  const uint64_t bins = static_cast<uint64_t>(groups) * static_cast<uint64_t>(totals);
+  packed_.reserve(std::min(bins * flush_bytes_of_bin, reserved_bytes_most) + ZSTD_CStreamOutSize());
+  raw_.reserve(reserved_step_bins * flush_bytes_of_bin);
+  raw_.push_back({});
+  pack(false);  // zstd takes its own memory with the first byte of a stream
+}
+
+void FlushEncoder::begin(Totals& totals) {
+  totals_ = &totals;
+  group_ = 0;
+  next_ = after_last_ = 0;
+  raw_.clear();
+  packed_.clear();
+  ZSTD_CCtx_reset(zstd_->context.get(), ZSTD_reset_session_only);
   put(raw_, static_cast<uint64_t>(totals.groups()));
   put(raw_, static_cast<uint64_t>(totals.take_batches(0)));
 }
@@ -174,8 +192,8 @@ FlushEncoder::~FlushEncoder() = default;
 /// A group is its batches, its bins (each the distance from the last one plus one), and a zero.
 bool FlushEncoder::step(int64_t bins) {
   Numbers numbers;
-  const int64_t end = std::min(next_ + bins, totals_.layout().totals());
-  totals_.take_bins(group_, next_, end, [&](int64_t index, const Total& total) {
+  const int64_t end = std::min(next_ + bins, totals_->layout().totals());
+  totals_->take_bins(group_, next_, end, [&](int64_t index, const Total& total) {
     numbers.put(static_cast<uint64_t>(index - after_last_ + 1));
     numbers.put_signed(total.sum);
     numbers.put(total.squares);
@@ -183,41 +201,48 @@ bool FlushEncoder::step(int64_t bins) {
     after_last_ = index + 1;
   });
   next_ = end;
-  const bool group_done = next_ == totals_.layout().totals();
+  const bool group_done = next_ == totals_->layout().totals();
   bool done = false;
   if (group_done) {
     put(raw_, 0);
     next_ = after_last_ = 0;
-    done = ++group_ == totals_.groups();
+    done = ++group_ == totals_->groups();
     if (done)
-      put_ledger(raw_, totals_.take_ledger());
+      put_ledger(raw_, totals_->take_ledger());
     else
-      put(raw_, static_cast<uint64_t>(totals_.take_batches(group_)));
+      put(raw_, static_cast<uint64_t>(totals_->take_batches(group_)));
   }
   pack(done);
   return done;
 }
 
+/// A stream's length is never known beforehand, so that zstd finds its memory as it left it.
 void FlushEncoder::pack(bool last) {
   ZSTD_inBuffer in{raw_.data(), raw_.size(), 0};
-  size_t left = 1;
-  while (in.pos < in.size || (last && left != 0)) {
-    const size_t before = packed_.size();
-    packed_.resize(before + ZSTD_CStreamOutSize());
-    ZSTD_outBuffer out{packed_.data() + before, packed_.size() - before, 0};
-    left =
-        ZSTD_compressStream2(zstd_->context.get(), &out, &in, last ? ZSTD_e_end : ZSTD_e_continue);
-    packed_.resize(before + out.pos);
-    if (ZSTD_isError(left)) throw std::runtime_error("flush: zstd could not pack it");
+  while (in.pos < in.size) pack_more(in, ZSTD_e_continue);
+  while (last && pack_more(in, ZSTD_e_end) != 0) {
   }
   raw_.clear();
 }
 
+/// What zstd still has to write.
+size_t FlushEncoder::pack_more(ZSTD_inBuffer_s& in, int how) {
+  const size_t before = packed_.size();
+  packed_.resize(before + ZSTD_CStreamOutSize());
+  ZSTD_outBuffer out{packed_.data() + before, packed_.size() - before, 0};
+  const size_t left =
+      ZSTD_compressStream2(zstd_->context.get(), &out, &in, static_cast<ZSTD_EndDirective>(how));
+  packed_.resize(before + out.pos);
+  if (ZSTD_isError(left)) throw std::runtime_error("flush: zstd could not pack it");
+  return left;
+}
+
 std::vector<std::byte> encode_flush(Totals& totals) {
-  FlushEncoder encoder(totals);
+  FlushEncoder encoder(totals.groups(), totals.layout().totals());
+  encoder.begin(totals);
   while (!encoder.step(totals.layout().totals())) {
   }
-  return encoder.take_bytes();
+  return encoder.bytes();
 }
 
 // ---- reading ---------------------------------------------------------------------------------

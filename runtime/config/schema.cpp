@@ -92,7 +92,9 @@ std::vector<TableSpec> node_tables() {
            {"object_bytes", "size", "B", "\"1 GiB\"", "[1048576, 1e14]",
             "geometry, media and textures held at once, as built; a scene that fits is resident"},
            {"tally_bytes", "size", "B", "\"256 MiB\"", "[1048576, 1e14]",
-            "scores of batches held until they are sent"},
+            "scores of batches in work, totals until they are sent, and the sending; a run that "
+            "needs "
+            "more is refused"},
            {"fibers", "integer", "", "4096", "[1, 100000]",
             "particles followed at once; more hide more delay and share more fetches"},
            {"stack_kb", "integer", "KiB", "32", "[16, 1024]", "stack of one fiber"},
@@ -174,7 +176,8 @@ std::vector<TableSpec> service_tables() {
       {"lease",
        "`[lease]`",
        {
-           {"batches", "integer", "", "8", "[1, 1024]", "batches given to a node at once"},
+           {"batches", "integer", "", "4", "[1, 1024]",
+            "batches lent to a node at once: two in work, the others at hand"},
            {"duration_s", "number", "s", "60", "(0, 86400]",
             "after which they are given to another"},
        }},

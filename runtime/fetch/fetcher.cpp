@@ -113,9 +113,10 @@ void Fetcher::add_metrics(Metrics& metrics) const {
 
 // ---- flights begin and end
 
-void Fetcher::fetch(uint32_t object, FetchClient& client) {
+void Fetcher::fetch(uint32_t object, FetchClient& client, bool traced) {
   LUX_CHECK(object < objects_.size(), "fetched an object that the run does not have");
-  LUX_CHECK(waiting_.push({object, &client, clock_.now()}), "fetched an object twice at once");
+  LUX_CHECK(waiting_.push({object, &client, clock_.now(), traced}),
+            "fetched an object twice at once");
   begin_soon();
 }
 
@@ -148,11 +149,15 @@ void Fetcher::begin(const Wish& wish) {
   flight.questions = 0;
   flight.holder = 0;
   flight.tries.fill(0);
+  flight.trace_id = wish.traced && config_.trace != nullptr ? trace_id(flight.id) : 0;
+  if (flight.trace_id != 0) config_.trace->begin(TraceKind::fetch, flight.trace_id, wish.object);
   ++counters_.fetches;
   ask(flight);
 }
 
 void Fetcher::end(Flight& flight) {
+  if (flight.trace_id != 0)
+    config_.trace->end(TraceKind::fetch, flight.trace_id, flight.wish.object);
   timers_.cancel(flight.timer);
   network_.forget(flight.id, Kind::reply);
   flight.id = {};

@@ -28,6 +28,26 @@ size_t Link::memory_bytes() const {
   return sum;
 }
 
+size_t Link::memory_bytes(const NetConfig& config) {
+  size_t sum = 0;
+  for (const Kind kind : routed_kinds)
+    sum += config.hop_limit *
+           FrameRing::memory_bytes(config.window_bytes(kind), config.chunk_bytes(kind));
+  return sum;
+}
+
+uint64_t Link::credit_bytes() const {
+  uint64_t sum = 0;
+  for (const Pool& pool : pools_) sum += pool.out.left();
+  return sum;
+}
+
+uint64_t Link::held_bytes() const {
+  uint64_t sum = 0;
+  for (const Pool& pool : pools_) sum += pool.in.held();
+  return sum;
+}
+
 // ---- what is said
 
 Sent Link::give(const Envelope& envelope, std::span<const std::byte> body, Lane lane) {
@@ -38,6 +58,7 @@ Sent Link::give(const Envelope& envelope, std::span<const std::byte> body, Lane 
     case Sent::taken:
       ++around_.counters.frames_sent;
       around_.counters.bytes_sent += head_bytes + body.size();
+      bytes_sent_ += head_bytes + body.size();
       break;
     case Sent::full:
       ++around_.counters.transport_full;

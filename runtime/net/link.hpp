@@ -74,7 +74,18 @@ class Link {
   /// Requires: the pool is not empty.
   void release(Kind kind, uint8_t hop_class);
 
+  // What has passed over it, and what may: for those who watch.
+  void count_arrival(size_t frame_bytes) { bytes_received_ += frame_bytes; }
+  uint64_t bytes_sent() const { return bytes_sent_; }
+  uint64_t bytes_received() const { return bytes_received_; }
+  /// Credit of all pools that this node may still use up.
+  uint64_t credit_bytes() const;
+  /// What came and waits here, in all pools.
+  uint64_t held_bytes() const;
+
   size_t memory_bytes() const;
+  /// The same, before a link is made.
+  static size_t memory_bytes(const NetConfig& config);
 
  private:
   struct Pool {
@@ -104,6 +115,8 @@ class Link {
   size_t grant_cursor_ = 0;
   uint64_t sessions_ = 0;
   std::string refusal_;  // the last one
+  uint64_t bytes_sent_ = 0;
+  uint64_t bytes_received_ = 0;
 };
 
 }  // namespace luxodus

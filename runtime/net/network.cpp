@@ -76,6 +76,7 @@ Network::Network(const NetConfig& config, Transport& transport, NetHandler& hand
     if (edge.b == config_.self) links_.emplace_back(around, edge.a, now);
   }
   watched_.resize(links_.size());
+  link_samples_.resize(links_.size());
   router_.use(handler_.reroute({}));
 }
 
@@ -121,12 +122,6 @@ std::vector<NodeId> Network::neighbours() const {
   std::vector<NodeId> nodes;
   for (const Link& link : links_) nodes.push_back(link.neighbour());
   return nodes;
-}
-
-size_t Network::memory_bytes() const {
-  size_t sum = scratch_.size();
-  for (const Link& link : links_) sum += link.memory_bytes();
-  return sum;
 }
 
 Link* Network::link_to(NodeId neighbour) {
@@ -187,6 +182,7 @@ void Network::take_frame(const Arrival& arrival, Nanoseconds now) {
     ++counters_.dropped_stranger;
     return;
   }
+  link->count_arrival(arrival.bytes.size());
   const auto frame = codec_.open_frame(arrival.bytes);
   if (!frame) return malformed(arrival.neighbour, frame.problem().what, now);
   if (frame->envelope.from != arrival.neighbour)

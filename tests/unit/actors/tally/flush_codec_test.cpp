@@ -43,10 +43,11 @@ std::vector<std::byte> some_flush(int64_t step) {
   const TallyLayout layout = layout_of(totals);
   Totals holder(layout, groups, photopic);
   holder.add(some_gain());
-  FlushEncoder encoder(holder);
+  FlushEncoder encoder(holder.groups(), holder.layout().totals());
+  encoder.begin(holder);
   while (!encoder.step(step)) {
   }
-  return encoder.take_bytes();
+  return encoder.bytes();
 }
 
 bool same(const Totals& a, const Totals& b) {
