@@ -183,9 +183,9 @@ void Controller::note_book() {
 
 /// Rounds end where workers wait for one another: only an error target needs them.
 void Controller::open_round() {
-  const int64_t round =
+  const int64_t planned =
       stop_.relative_error ? std::min(target_, run_.round_end(book_.committed())) : target_;
-  const int64_t end = std::max(round, book_.lent_end());  // of an earlier run, that lacks some
+  const int64_t end = std::max(planned, book_.lent_end());  // of an earlier run, that lacks some
   book_.open_until(end);
   ++counters_.round;
   for (const NodeId worker : config_.workers)
@@ -291,7 +291,7 @@ void Controller::lend(const Delivery& delivery, const RequestLease& request) {
                          static_cast<uint32_t>(lent.count),
                          static_cast<uint32_t>(config_.lease_time / milliseconds(1))}};
   }
-  send(delivery.source, delivery.id, *last.answer);
+  send(delivery.source, delivery.id, last.answer);
 }
 
 void Controller::take_flush(const Delivery& delivery, const Flush& flush) {

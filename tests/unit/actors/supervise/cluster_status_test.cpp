@@ -97,7 +97,7 @@ TEST_CASE("a cluster without a metrics port is told which key it lacks", "[super
   ClusterConfig cluster;
   cluster.file = "c.toml";
   cluster.hosts.push_back({"here", "10.0.0.1", "*", 27600});
-  cluster.nodes.push_back({"a", NodeRole::worker, true, 0, 0, 27600, {}});
+  cluster.nodes.push_back({"a", NodeRole::worker, true, true, 0, 0, 27600, {}});
   cluster.processes.push_back({"a", 0, {NodeId{0}}, 0});
   cluster.observe.metrics_address = "0.0.0.0";
   const auto none = processes_of(cluster);

@@ -2,6 +2,7 @@
 // before it begins.
 #include <spdlog/spdlog.h>
 
+#include <array>
 #include <catch2/catch.hpp>
 
 #include "actors/supervise/cluster_status.hpp"
@@ -145,7 +146,7 @@ TEST_CASE("a budget that is too small is refused with the key and what it must b
   CHECK(fault->find("raise tally_bytes") != std::string::npos);
 
   const auto parts = scene_of("office_floor", "smoke_emergency", 8);
-  const SceneObjects objects(*parts, 2, 1);
+  const SceneObjects objects(*parts, std::array{NodeId{0}, NodeId{1}}, 1);
   RunSetup fetching{*parts,        nullptr, nullptr, &objects,     1,
                     graph.value(), clock,   context, {"n0", "n1"}, nullptr};
   NodeSetup small;

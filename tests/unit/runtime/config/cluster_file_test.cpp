@@ -74,7 +74,7 @@ TEST_CASE("what is wrong with a key is told once, with its line", "[runtime][con
       {small_cluster + "port = \"x\"\n", 11, "'port' must be a whole number, not a text"},
       {small_cluster + "port = 80\n", 11, "'port' is 80 but must lie in [1024, 65534]"},
       {small_cluster + "prot = 2000\n", 11, "did you mean 'port'?"},
-      {small_cluster + "colour = 3\n", 11, "known are: name count host role process port budget"},
+      {small_cluster + "colour = 3\n", 11, "known are: name count host role process port stores budget"},
       {small_cluster + "traces = true\n", 11, "no key 'traces'"},
       {small_cluster + "role = \"workr\"\n", 11, "perhaps \"worker\""},
       {small_cluster + "process = \"-x\"\n", 11, "'process' is no name"},
