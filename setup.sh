@@ -10,6 +10,8 @@ packages=(
   libembree-dev libtbb-dev libassimp-dev libglm-dev
   # text: scene files, options, logs, reports
   libtomlplusplus-dev libcli11-dev libspdlog-dev libfmt-dev nlohmann-json3-dev
+  # values as bytes
+  libcereal-dev
   # pictures, drawings, data
   libopenexr-dev libpng-dev librsvg2-dev libcairo2-dev fonts-dejavu-core libzstd-dev libxxhash-dev
   # nodes: fibers, links, messages

@@ -4,6 +4,7 @@
 #include "actors/cli/command.hpp"
 #include "scenes/format/json_out.hpp"
 #include "scenes/transport/compile.hpp"
+#include "scenes/transport/packed_geometry.hpp"
 #include "scenes/transport/trace.hpp"
 
 namespace luxodus::cli {
@@ -24,7 +25,7 @@ Json point_json(const glm::dvec3& p) {
 /// Heights at which horizontal, upward-facing surfaces of at least a square metre lie: the floors.
 std::vector<double> floor_heights(const CompiledScene& scene) {
   std::map<int64_t, double> area_at;  // by millimetre
-  for (const GeometryCell& cell : scene.cells) {
+  const auto read = for_each_cell(scene, [&](const GeometryCell& cell) {
     for (const TriangleRecord& t : cell.triangles) {
       if (t.normal.z < 0.999f) continue;
       const float area =
@@ -32,7 +33,8 @@ std::vector<double> floor_heights(const CompiledScene& scene) {
       const double z = static_cast<double>(t.corner[0].z) + scene.local_origin.z;
       area_at[std::llround(z * 1000)] += static_cast<double>(area);
     }
-  }
+  });
+  if (!read.ok()) tell(read.problem());
   double most = 0;
   for (const auto& [z, area] : area_at) most = std::max(most, area);
   std::vector<double> out;
@@ -83,7 +85,7 @@ Json describe(const CompiledScene& scene) {
       {"media", scene.media_names},
       {"bands_nm", bands},
       {"kernel", describe_kernel(scene)},
-      {"cells", scene.cells.size()},
+      {"cells", scene.cell_boxes.size()},
       {"batch_particles", scene.batch_particles},
       {"eye_paths_per_batch", scene.eye_paths_per_batch},
       {"memory", memory_json(scene)}};
@@ -162,7 +164,7 @@ void add_check(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand(
       "check", "Read everything a scene names and say what was found, without tracing");
   command->footer("Every problem is told with its file and line; exit code 2 if there is any.");
-  command->add_option("scene", options->scene, "scene file (TOML)")->required();
+  command->add_option("scene", options->scene, "scene file (TOML), or a pack")->required();
   command->add_option("--scenario", options->scenario, "name of a scenario, or 'all' [all]");
   command->add_option("--cells", options->cells, "geometry cells [1]")
       ->check(CLI::Range(1, 1'000'000));

@@ -47,9 +47,11 @@ class Children {
     return true;
   }
 
-  /// Waits until all have ended; the first that fails ends the others. Its exit code, or 0.
-  int wait() {
-    int worst = 0;
+  /// Waits until all have ended. The process of the controller decides: where it fails, the others
+  /// are ended, and its exit code is returned; where it does not, the run went on without those
+  /// that failed. Without it (it is on another host), the first that fails says the code.
+  int wait(const std::string& controller) {
+    int result = 0;
     while (!living_.empty()) {
       int status = 0;
       const pid_t pid = ::waitpid(-1, &status, 0);
@@ -59,14 +61,14 @@ class Children {
                                       [&](const Child& c) { return c.pid == pid; });
       if (child == living_.end()) continue;
       const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-      if (code != 0 && worst == 0) {
-        spdlog::error("process {} ended with {}", child->name, code);
-        worst = code;
+      const bool decides = controller.empty() ? result == 0 : child->name == controller;
+      if (code != 0) spdlog::error("process {} ended with {}", child->name, code);
+      if (decides) result = code;
+      if (code != 0 && child->name == controller)
         for (const Child& other : living_) ::kill(other.pid, SIGTERM);
-      }
       living_.erase(child);
     }
-    return worst;
+    return result;
   }
 
  private:
@@ -100,14 +102,16 @@ int cluster_up(const ClusterOptions& options) {
   }
   install_interrupt_handler();  // Ctrl-C reaches the children; this waits for them
   Children children;
+  std::string controller;
   for (const ClusterProcess& process : cluster.processes) {
     if (&cluster.hosts[process.host] != &*host) continue;
+    if (process.nodes.back() == cluster.controller()) controller = process.name;
     if (auto ok = children.start(cluster, process); !ok.ok()) {
       tell(ok.problem());
       return ExitCode::failure;
     }
   }
-  return children.wait();
+  return children.wait(controller);
 }
 
 }  // namespace
@@ -118,8 +122,9 @@ void add_cluster(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<ClusterOptions>();
   CLI::App* up = command->add_subcommand("up", "Start all nodes that belong on this machine");
   up->footer(
-      "Starts a process of `luxodus node` for each process of the file's host, waits, and stops "
-      "all\nwhen one fails or Ctrl-C is pressed.\n"
+      "Starts a process of `luxodus node` for each process of the file's host, and waits. The "
+      "controller's\nprocess decides how it ends: all stop when that fails or Ctrl-C is pressed; a "
+      "worker that\nfails is told of, and the run goes on without it.\n"
       "  luxodus cluster up actors/cli/examples/one_host.toml");
   up->add_option("config", options->config, "the cluster's file")->required();
   up->add_option("--host", options->host, "which of the file's hosts this is [the only one]");

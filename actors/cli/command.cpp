@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "scenes/format/scene_file.hpp"
+#include "scenes/pack/scene_pack.hpp"
 #include "scenes/transport/compile.hpp"
 
 namespace luxodus::cli {
@@ -21,6 +22,12 @@ void tell(const Problem& problem) {
 }
 
 std::shared_ptr<const SceneDescription> load_scene(const std::string& file) {
+  if (is_pack(file)) {
+    auto packed = read_pack(file);
+    if (packed.ok()) return packed.value();
+    tell(packed.problem());
+    return nullptr;
+  }
   ReadScene read = read_scene(file);
   for (const Problem& p : read.problems.list()) tell(p);
   if (!read.scene) return nullptr;
@@ -88,11 +95,13 @@ Result<double> parse_share(const std::string& text) {
 }
 
 Result<double> parse_seconds(const std::string& text) {
-  const Problem problem = not_understood("the time", text, "90, 60s, 5m or 1h");
+  const Problem problem = not_understood("the time", text, "90, 60s, 5m, 1h or 1ms");
   double value = 0;
   std::string rest;
   if (!split_number(text, value, rest)) return problem;
-  if (rest == "m")
+  if (rest == "ms")
+    value *= 1e-3;
+  else if (rest == "m")
     value *= 60;
   else if (rest == "h")
     value *= 3600;
@@ -128,6 +137,25 @@ void on_interrupt(int) {
 }
 
 }  // namespace
+
+namespace {
+
+std::atomic<bool> preview_wanted{false};
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+void on_preview(int) {
+  preview_wanted = true;
+}
+
+}  // namespace
+
+std::atomic<bool>& preview_flag() {
+  return preview_wanted;
+}
+
+void install_preview_handler() {
+  std::signal(SIGUSR1, on_preview);
+}
 
 const std::atomic<bool>& interrupt_flag() {
   return interrupted_flag;

@@ -18,12 +18,14 @@ enum ExitCode : int { success = 0, failure = 1, bad_input = 2, interrupted = 130
 /// Adds a subcommand to the program; its action sets `exit_code`.
 void add_run(CLI::App& app, int& exit_code);
 void add_check(CLI::App& app, int& exit_code);
+void add_pack(CLI::App& app, int& exit_code);
 void add_render(CLI::App& app, int& exit_code);
 void add_converge(CLI::App& app, int& exit_code);
 void add_info(CLI::App& app, int& exit_code);
 void add_topology(CLI::App& app, int& exit_code);
 void add_node(CLI::App& app, int& exit_code);
 void add_cluster(CLI::App& app, int& exit_code);
+void add_status(CLI::App& app, int& exit_code);
 void add_keygen(CLI::App& app, int& exit_code);
 void add_profile(CLI::App& app, int& exit_code);
 void add_deploy(CLI::App& app, int& exit_code);
@@ -31,7 +33,7 @@ void add_deploy(CLI::App& app, int& exit_code);
 /// One line "file:line: sentence" on standard error.
 void tell(const Problem& problem);
 
-/// The scene, or null after every problem was told.
+/// The scene of a scene file or a pack, or null after every problem was told.
 std::shared_ptr<const SceneDescription> load_scene(const std::string& file);
 
 /// The scenarios that a name stands for: one, all of them for "all", the first for "".
@@ -54,6 +56,9 @@ int default_threads();
 /// Set by Ctrl-C (and SIGTERM) once installed; the second Ctrl-C ends the program at once.
 const std::atomic<bool>& interrupt_flag();
 void install_interrupt_handler();
+/// Set by SIGUSR1 once installed: somebody wants to see pictures now.
+std::atomic<bool>& preview_flag();
+void install_preview_handler();
 
 /// A line that is rewritten on a terminal, and logged every ten seconds elsewhere.
 class ProgressLine {

@@ -45,12 +45,14 @@ int main(int argc, char** argv) {
   int exit_code = ExitCode::success;
   add_run(app, exit_code);
   add_check(app, exit_code);
+  add_pack(app, exit_code);
   add_render(app, exit_code);
   add_converge(app, exit_code);
   add_info(app, exit_code);
   add_topology(app, exit_code);
   add_node(app, exit_code);
   add_cluster(app, exit_code);
+  add_status(app, exit_code);
   add_keygen(app, exit_code);
   add_profile(app, exit_code);
   add_deploy(app, exit_code);

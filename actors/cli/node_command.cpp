@@ -21,11 +21,6 @@ struct NodeOptions {
   std::vector<std::string> names;
 };
 
-const char* reason_word(StopReason reason) {
-  constexpr const char* words[] = {"particles", "error", "time", "interrupted"};
-  return words[static_cast<size_t>(reason)];
-}
-
 /// What the controller leaves, as `luxodus run` does, but for pictures: `luxodus render` makes
 /// them.
 Result<Done> write_results(const ClusterConfig& cluster, const ClusterProcessRun& process,
@@ -37,7 +32,7 @@ Result<Done> write_results(const ClusterConfig& cluster, const ClusterProcessRun
   if (failed) return Problem{{folder.string(), 0}, "cannot make this folder: " + failed.message()};
   RunRecord record;
   record.scene_file = fs::absolute(cluster.run.scene).string();
-  record.stopped_by = reason_word(reason);
+  record.stopped_by = name_of(reason);
   record.cells = process.cells();
   const LocalRun& run = process.local_run();
   if (auto ok = save_flux(folder / "flux.lux", run); !ok.ok()) return ok.problem();
@@ -47,25 +42,12 @@ Result<Done> write_results(const ClusterConfig& cluster, const ClusterProcessRun
   return Done{};
 }
 
-/// Keys that are read and checked, and change nothing yet: said where they are set.
-void warn_of_idle_keys(const ClusterConfig& cluster) {
-  const auto any_metrics = [&] {
-    for (const ClusterProcess& process : cluster.processes)
-      if (process.metrics_port != 0) return true;
-    return false;
-  };
-  if (any_metrics()) spdlog::warn("metrics_port is not in force yet: no metrics are served");
-  if (cluster.observe.trace_every != 0)
-    spdlog::warn("trace_every is not in force yet: no trace is written");
-}
-
 int run_nodes(const NodeOptions& options) {
   const ReadCluster read = read_cluster(options.config);
   for (const Problem& problem : read.problems.list()) tell(problem);
   if (!read.cluster) return ExitCode::bad_input;
   const ClusterConfig& cluster = *read.cluster;
   spdlog::set_level(spdlog::level::from_str(cluster.observe.log_level));
-  warn_of_idle_keys(cluster);
   std::vector<NodeId> nodes;
   for (const std::string& name : options.names) {
     const auto node = find_node(cluster, name);
@@ -96,6 +78,12 @@ int run_nodes(const NodeOptions& options) {
   if (!ended.value()) return ExitCode::success;
   if (auto ok = write_results(cluster, *process.value(), *ended.value()); !ok.ok()) {
     tell(ok.problem());
+    return ExitCode::failure;
+  }
+  if (*ended.value() == StopReason::workers_lost) {
+    tell({{options.config, 0},
+          "all workers were lost; what they had counted was written: go on with "
+          "luxodus run --resume, or see to the workers and start anew"});
     return ExitCode::failure;
   }
   return *ended.value() == StopReason::interrupted ? ExitCode::interrupted : ExitCode::success;

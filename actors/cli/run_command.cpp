@@ -4,11 +4,12 @@
 #include <filesystem>
 
 #include "actors/cli/command.hpp"
-#include "actors/display/pictures.hpp"
+#include "actors/display/preview.hpp"
 #include "actors/display/report.hpp"
 #include "actors/source/flux_store.hpp"
 #include "actors/supervise/in_process.hpp"
 #include "actors/supervise/residency_setup.hpp"
+#include "actors/supervise/stored_rows.hpp"
 #include "scenes/transport/compile.hpp"
 
 namespace luxodus::cli {
@@ -22,6 +23,7 @@ struct RunOptions {
   std::string out;
   std::string scenario;
   std::string particles, error, time;
+  std::string preview;
   std::optional<uint64_t> seed;
   int threads = default_threads();
   int cells = 1;
@@ -29,13 +31,21 @@ struct RunOptions {
   size_t fibers = 1;
   double object_mib = 0;
   std::string profile = "1%";
+  std::string link_delay;
+  std::optional<uint16_t> metrics_port;
+  uint64_t trace_every = 0;
+  bool plan = false;
   bool resume = false;
   bool no_views = false;
   bool json = false;
   int picture_paths = 32;
+
+  size_t object_bytes() const { return static_cast<size_t>(object_mib * 1024 * 1024); }
 };
 
 constexpr int64_t default_particles = 4'000'000;
+/// Of a pixel in a preview: grainy, and there in seconds.
+constexpr int preview_paths = 4;
 
 Result<StopRule> stop_rule(const RunOptions& o) {
   StopRule rule;
@@ -58,18 +68,16 @@ Result<StopRule> stop_rule(const RunOptions& o) {
   return rule;
 }
 
-const char* reason_word(StopReason reason) {
-  switch (reason) {
-    case StopReason::particles:
-      return "particles";
-    case StopReason::error:
-      return "error";
-    case StopReason::time:
-      return "time";
-    case StopReason::interrupted:
-      return "interrupted";
-  }
-  return "";
+/// Errors: no span of time, longer than links can bear, or no links.
+Result<Nanoseconds> link_delay_of(const RunOptions& options) {
+  if (options.link_delay.empty()) return Nanoseconds{0};
+  auto delay_s = parse_seconds(options.link_delay);
+  if (!delay_s.ok()) return delay_s.problem();
+  if (options.nodes == 0) return Problem{{}, "links are those of nodes: say --nodes, too"};
+  const double most_s = static_cast<double>(limits::link_delay) * 1e-9;
+  if (delay_s.value() > most_s)
+    return Problem{{}, "a link's delay must not be longer than 100 ms: beats count time"};
+  return static_cast<Nanoseconds>(delay_s.value() * 1e9);
 }
 
 Result<Done> write_all(const fs::path& folder, const LocalRun& run, const RunRecord& record,
@@ -84,12 +92,8 @@ Result<Done> write_all(const fs::path& folder, const LocalRun& run, const RunRec
   return render_views(folder, run, "", picture, [&](double share) { line.show_share(share); });
 }
 
-/// Traces with the plain loop, or on nodes.
-Result<StopReason> trace(LocalRun& run, const Scenario& scenario, const RunOptions& options,
-                         const StopRule& rule) {
-  std::optional<ProgressLine> line(scenario.name);
-  const auto show = [&](const Progress& p) { line->show(p); };
-  if (options.nodes == 0) return run.run(rule, interrupt_flag(), show);
+Result<NodesOptions> nodes_options(const RunOptions& options, Nanoseconds link_delay,
+                                   Observation* observation) {
   NodesOptions nodes;
   if (options.profile == "0") {
     nodes.profile_share = 0;
@@ -101,14 +105,63 @@ Result<StopReason> trace(LocalRun& run, const Scenario& scenario, const RunOptio
   }
   nodes.nodes = options.nodes;
   nodes.fibers = options.fibers;
-  nodes.object_bytes = static_cast<size_t>(options.object_mib * 1024 * 1024);
+  nodes.object_bytes = options.object_bytes();
+  nodes.link_delay = link_delay;
+  nodes.observation = observation;
+  return nodes;
+}
+
+/// Traces with the plain loop, or on nodes.
+Result<StopReason> trace(LocalRun& run, const Scenario& scenario, const fs::path& folder,
+                         const RunOptions& options, const StopRule& rule) {
+  std::optional<ProgressLine> line(scenario.name);
+  const auto show = [&](const Progress& p) { line->show(p); };
+  const auto delay = link_delay_of(options);
+  if (!delay.ok()) return delay.problem();
+  if (options.nodes == 0) return run.run(rule, interrupt_flag(), show);
+  ObserveOptions observe;
+  observe.metrics_port = options.metrics_port;
+  observe.trace_every = options.trace_every;
+  auto seen = Observation::start(observe);
+  if (!seen.ok()) return seen.problem();
+  const auto port = seen.value()->port();
+  if (port) spdlog::info("metrics at http://{}:{}/metrics", observe.address, *port);
+  Observation* const watched = seen.value()->watches() ? seen.value().get() : nullptr;
+  const auto nodes = nodes_options(options, delay.value(), watched);
+  if (!nodes.ok()) return nodes.problem();
   NodesReport report;
-  auto reason = run_on_nodes(run, nodes, rule, interrupt_flag(), show, &report);
+  auto reason = run_on_nodes(run, nodes.value(), rule, interrupt_flag(), show, &report);
+  if (!reason.ok()) return reason;
   line.reset();
   if (report.residency && !options.json)
     for (const std::string& text : residency_table(*report.residency, report.by_node))
       std::printf("%s\n", text.c_str());
+  if (auto ok = seen.value()->write_trace(folder / "trace.json"); !ok.ok()) return ok.problem();
   return reason;
+}
+
+/// What shows the run while it goes on; null where nobody asks.
+Result<std::unique_ptr<Preview>> preview_of(LocalRun& run, const fs::path& folder,
+                                            const RunOptions& options) {
+  if (options.preview.empty()) return std::unique_ptr<Preview>();
+  const auto every = parse_seconds(options.preview);
+  if (!every.ok()) return every.problem();
+  install_preview_handler();
+  PictureOptions picture;
+  picture.paths_per_pixel = preview_paths;
+  return std::make_unique<Preview>(folder, run, every.value(), preview_flag(), picture);
+}
+
+/// With a budget for objects, nothing else is to hold geometry either.
+std::unique_ptr<LocalRun> prepare(std::shared_ptr<const CompiledScene> scene, uint64_t seed,
+                                  const RunOptions& options) {
+  if (options.nodes == 0 || options.object_mib == 0)
+    return std::make_unique<LocalRun>(std::move(scene), seed, options.threads);
+  StoredRowsConfig config;
+  config.threads = options.threads;
+  config.object_bytes = options.object_bytes() * static_cast<size_t>(options.threads);
+  auto rows = std::make_unique<StoredRows>(scene, config);
+  return std::make_unique<LocalRun>(std::move(scene), seed, options.threads, std::move(rows));
 }
 
 struct Traced {
@@ -124,7 +177,16 @@ Result<Traced> run_scenario(std::shared_ptr<const SceneDescription> description,
   if (!scene.ok()) return scene.problem();
   for (const Problem& w : scene.value()->warnings) spdlog::warn("{}", w.text());
   const uint64_t seed = options.seed.value_or(description->run.seed);
-  LocalRun run(scene.value(), seed, options.threads);
+  const auto prepared = prepare(scene.value(), seed, options);
+  LocalRun& run = *prepared;
+  if (options.plan) {
+    const auto nodes = nodes_options(options, 0, nullptr);
+    if (!nodes.ok()) return nodes.problem();
+    auto plan = plan_on_nodes(run, nodes.value());
+    if (!plan.ok()) return plan.problem();
+    std::printf("%s\n%s", scenario.name.c_str(), plan.value().c_str());
+    return Traced{StopReason::particles, {}};
+  }
   // Of several scenarios the later ones may not have been begun when the run was stopped.
   const bool begun = options.scenario != "all" || fs::exists(folder / "flux.lux");
   if (options.resume && begun) {
@@ -133,11 +195,14 @@ Result<Traced> run_scenario(std::shared_ptr<const SceneDescription> description,
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) return Problem{{folder.string(), 0}, "cannot make this folder: " + error.message()};
-  auto reason = trace(run, scenario, options, rule);
+  auto preview = preview_of(run, folder, options);
+  if (!preview.ok()) return preview.problem();
+  auto reason = trace(run, scenario, folder, options, rule);
+  preview.value().reset();
   if (!reason.ok()) return reason.problem();
   RunRecord record;
   record.scene_file = fs::absolute(options.scene).string();
-  record.stopped_by = reason_word(reason.value());
+  record.stopped_by = name_of(reason.value());
   record.cells = options.cells;
   if (auto ok = write_all(folder, run, record, options); !ok.ok()) return ok.problem();
   Json result = result_json(run, record);
@@ -172,6 +237,10 @@ int run_scenarios(const std::shared_ptr<const SceneDescription>& description,
 }
 
 int run_scene(const RunOptions& options) {
+  if (options.nodes == 0 && (options.plan || options.metrics_port || options.trace_every != 0)) {
+    tell({{}, "--plan, --metrics and --trace-every are about nodes: say how many, --nodes N"});
+    return ExitCode::bad_input;
+  }
   auto rule = stop_rule(options);
   if (!rule.ok()) {
     tell(rule.problem());
@@ -187,11 +256,43 @@ int run_scene(const RunOptions& options) {
   install_interrupt_handler();
   Json results = Json::array();
   const int code = run_scenarios(description, scenarios.value(), options, rule.value(), results);
+  if (options.plan) return code;
   if (options.json && options.scenario == "all")
     std::fputs(json_text(results).c_str(), stdout);
   else if (options.json && !results.empty())
     std::fputs(json_text(results.front()).c_str(), stdout);
   return code;
+}
+
+void add_node_options(CLI::App& command, const std::shared_ptr<RunOptions>& options) {
+  command
+      .add_option("--nodes", options->nodes,
+                  "trace on so many nodes, a thread each, linked as a minimum-path graph [0: the "
+                  "plain loop]")
+      ->check(CLI::Range(0, limits::nodes_in_process));
+  command.add_option("--metrics", options->metrics_port,
+                     "serve the nodes' numbers on this port of 127.0.0.1 while they run, for "
+                     "`luxodus status` and Prometheus; 0: any that is free");
+  command
+      .add_option("--trace-every", options->trace_every,
+                  "write what becomes of each N-th particle on the nodes into trace.json, for "
+                  "ui.perfetto.dev [0: nothing]")
+      ->check(CLI::Range(uint64_t{0}, uint64_t{1'000'000'000'000}));
+  command.add_flag("--plan", options->plan,
+                   "print what each of the nodes may take in memory, and trace nothing");
+  command.add_option("--fibers", options->fibers, "photon-threads of a node [1]")
+      ->check(CLI::Range(size_t{1}, size_t{16384}));
+  command
+      .add_option("--object-mib", options->object_mib,
+                  "budget of a node for geometry cells; what does not fit is fetched from others "
+                  "[0: everything is resident]")
+      ->check(CLI::Range(0.0, 1048576.0));
+  command.add_option("--profile", options->profile,
+                     "with --object-mib: share of the particles that is traced beforehand, to plan "
+                     "which node traces, holds and keeps what; 0: none [1%]");
+  command.add_option("--link-delay", options->link_delay,
+                     "hold back what nodes send each other for so long on every link, to see what "
+                     "a distance costs and how many fibers hide it, e.g. 1ms [0]");
 }
 
 }  // namespace
@@ -215,7 +316,9 @@ void add_run(CLI::App& app, int& exit_code) {
       "cells give\n"
       "the same flux file, bit for bit, for any number of threads.\n\n"
       "DIR then holds result.json, flux.lux, planes/, views/, patches.vtp and volume.vti.");
-  command->add_option("scene", options->scene, "scene file (TOML; see scenes/format/README.md)")
+  command
+      ->add_option("scene", options->scene,
+                   "scene file (TOML; see scenes/format/README.md), or a pack")
       ->required();
   command->add_option("--out", options->out, "folder for the results [out/NAME]");
   command->add_option("--scenario", options->scenario, "name of a scenario, or 'all' [the first]");
@@ -228,25 +331,13 @@ void add_run(CLI::App& app, int& exit_code) {
   command->add_option("--threads", options->threads, "[all cores]")->check(CLI::Range(1, 1024));
   command->add_option("--cells", options->cells, "geometry cells; 1 is one merged scene [1]")
       ->check(CLI::Range(1, 1'000'000));
-  command
-      ->add_option("--nodes", options->nodes,
-                   "trace on so many nodes, a thread each, linked as a minimum-path graph [0: the "
-                   "plain loop]")
-      ->check(CLI::Range(0, limits::nodes_in_process));
-  command->add_option("--fibers", options->fibers, "photon-threads of a node [1]")
-      ->check(CLI::Range(size_t{1}, size_t{16384}));
-  command
-      ->add_option("--object-mib", options->object_mib,
-                   "budget of a node for geometry cells; what does not fit is fetched from others "
-                   "[0: everything is resident]")
-      ->check(CLI::Range(0.0, 1048576.0));
-  command->add_option(
-      "--profile", options->profile,
-      "with --object-mib: share of the particles that is traced beforehand, to plan "
-      "which node traces, holds and keeps what; 0: none [1%]");
+  add_node_options(*command, options);
   command
       ->add_option("--picture-paths", options->picture_paths, "paths per pixel of the views [32]")
       ->check(CLI::Range(1, 100'000));
+  command->add_option("--preview", options->preview,
+                      "pictures of the run while it goes on, into DIR/preview, so often: 60s; and "
+                      "whenever the process gets SIGUSR1");
   command->add_flag("--resume", options->resume,
                     "go on from DIR's flux file; with --scenario all those not begun start");
   command->add_flag("--no-views", options->no_views, "make no pictures");

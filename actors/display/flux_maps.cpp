@@ -1,11 +1,14 @@
 // What the run has counted on surfaces and in the air, as ParaView reads it. Values are means over
 // a patch or a voxel, with the standard error of that bin; bins are never combined, so whole
 // triangles, which are sums of patches, have none.
+#include <spdlog/spdlog.h>
+
 #include <cmath>
 
 #include "actors/display/maps.hpp"
 #include "scenes/format/write_vtk.hpp"
 #include "scenes/geometry/patches.hpp"
+#include "scenes/transport/packed_geometry.hpp"
 
 namespace luxodus {
 
@@ -41,11 +44,6 @@ void add_patches(const TriangleRecord& t, uint32_t n, const glm::dvec3& origin, 
   }
 }
 
-double area_of(const TriangleRecord& t) {
-  const glm::dvec3 a(t.corner[0]);
-  return glm::length(glm::cross(glm::dvec3(t.corner[1]) - a, glm::dvec3(t.corner[2]) - a)) / 2;
-}
-
 class SurfaceCollector {
  public:
   SurfaceCollector(const CompiledScene& scene, const Readout& readout, bool whole_triangles)
@@ -55,13 +53,13 @@ class SurfaceCollector {
     const uint32_t patches = t.subdivision * t.subdivision;
     const uint32_t shown = whole_ ? 1 : patches;
     add_patches(t, whole_ ? 1 : t.subdivision, scene_.local_origin, surface_);
-    const double per_area = shown / area_of(t);
+    const uint32_t summed = whole_ ? patches : 1;
+    const double per_area = 1 / (summed * scene_.surfaces[t.surface].patch_area_m2(t));
     for (uint32_t k = 0; k < shown; ++k) {
       for (uint32_t side = 0; side < 2; ++side) {
         const uint32_t first = t.first_patch + side * patches + k;
-        const uint32_t count = whole_ ? patches : 1;
-        put(first, count, 0, per_area, arrays_.incident[side], arrays_.incident_error[side]);
-        put(first, count, 1, per_area, arrays_.outgoing[side], arrays_.outgoing_error[side]);
+        put(first, summed, 0, per_area, arrays_.incident[side], arrays_.incident_error[side]);
+        put(first, summed, 1, per_area, arrays_.outgoing[side], arrays_.outgoing_error[side]);
       }
       arrays_.surface.push_back(static_cast<int32_t>(t.surface));
       arrays_.triangle.push_back(static_cast<int32_t>(t.global_triangle));
@@ -152,10 +150,16 @@ Result<Done> write_flux_maps(const std::filesystem::path& folder, const LocalRun
   const CompiledScene& scene = run.scene();
   const Readout readout(scene, run.totals());
   SurfaceCollector collector(scene, readout, scene.patch_count / 2 > limits::patches_drawn);
-  for (const GeometryCell& cell : scene.cells) {
-    for (const TriangleRecord& t : cell.triangles) collector.add(t);
+  if (scene.triangles > limits::triangles_drawn) {
+    spdlog::info("patches.vtp is left out: {} triangles are more than a viewer takes ({})",
+                 scene.triangles, limits::triangles_drawn);
+  } else {
+    const auto read = for_each_cell(scene, [&](const GeometryCell& cell) {
+      for (const TriangleRecord& t : cell.triangles) collector.add(t);
+    });
+    if (!read.ok()) return read.problem();
+    if (auto ok = write_vtp(folder / "patches.vtp", collector.take()); !ok.ok()) return ok;
   }
-  if (auto ok = write_vtp(folder / "patches.vtp", collector.take()); !ok.ok()) return ok;
   if (!(scene.voxels.edge > 0)) return Done{};
   return write_vti(folder / "volume.vti", volume_of(scene, readout));
 }

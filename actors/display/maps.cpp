@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "actors/display/rows.hpp"
+#include "actors/source/rows.hpp"
 #include "scenes/format/csv.hpp"
 #include "scenes/format/false_colour_png.hpp"
 
@@ -37,17 +37,17 @@ void fill_direct(const LocalRun& run, size_t index, PlaneMap& map) {
   map.direct_lx.resize(rows * columns);
   map.direct_in_clear_lx.resize(rows * columns);
   std::vector<double> direct_sums(rows * groups, 0), clear_sums(rows * groups, 0);
-  const auto do_row = [&](int64_t row) {
+  const auto do_row = [&](const GeometryAccess& access, int64_t row) {
     const auto v = static_cast<size_t>(row);
     for (size_t u = 0; u < columns; ++u) {
       const size_t cell = v * columns + u;
       map.centres[cell] = centre_of_cell(plane, static_cast<int>(u), static_cast<int>(v));
       const glm::vec3 place(map.centres[cell] - scene.local_origin);
-      const DirectLight direct = direct_light_at(scene, run.index(), place, normal, {});
+      const DirectLight direct = direct_light_at(scene, access, place, normal, {});
       DirectOptions in_clear_air;
       in_clear_air.media = false;
       const DirectLight clear =
-          has_media ? direct_light_at(scene, run.index(), place, normal, in_clear_air) : direct;
+          has_media ? direct_light_at(scene, access, place, normal, in_clear_air) : direct;
       map.direct_lx[cell] = direct.total_lx();
       map.direct_in_clear_lx[cell] = clear.total_lx();
       for (size_t g = 0; g < groups; ++g) {
@@ -56,7 +56,9 @@ void fill_direct(const LocalRun& run, size_t index, PlaneMap& map) {
       }
     }
   };
-  for_each_row(plane.cells_v, run.threads(), [&] { return do_row; });
+  run.rows().run(plane.cells_v, [&](const GeometryAccess& access) {
+    return [&, access](int64_t row) { do_row(access, row); };
+  });
   map.group_direct_lx.assign(groups, 0);
   map.group_in_clear_lx.assign(groups, 0);
   const double share = 1 / static_cast<double>(rows * columns);

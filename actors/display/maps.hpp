@@ -16,6 +16,8 @@ namespace luxodus {
 namespace limits {
 /// Patches (of one side) up to which patches.vtp shows each; above it shows whole triangles.
 inline constexpr uint64_t patches_drawn = 2'000'000;
+/// Triangles up to which there is a patches.vtp: more take viewers and this program gigabytes.
+inline constexpr uint64_t triangles_drawn = 4'000'000;
 }  // namespace limits
 
 /// Illuminance in the cells of one plane [lx], index v * cells_u + u.

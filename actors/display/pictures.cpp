@@ -7,10 +7,12 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
-#include "actors/display/rows.hpp"
+#include "actors/source/rows.hpp"
 #include "scenes/geometry/patches.hpp"
 #include "scenes/optics/sampling.hpp"
+#include "scenes/transport/packed_geometry.hpp"
 
 namespace luxodus {
 
@@ -24,27 +26,26 @@ constexpr glm::dvec3 r3_step{1 / plastic, 1 / (plastic * plastic),
 constexpr int camera_shift = 48;
 constexpr int pixel_shift = 17;
 
-double area_of(const TriangleRecord& t) {
-  const glm::dvec3 a(t.corner[0]);
-  return glm::length(glm::cross(glm::dvec3(t.corner[1]) - a, glm::dvec3(t.corner[2]) - a)) / 2;
-}
-
 class FluxRadiance final : public PatchRadiance {
  public:
   explicit FluxRadiance(const LocalRun& run)
       : bands_(static_cast<size_t>(run.scene().bands.count())),
         table_(size_t{run.scene().patch_count} * bands_) {
-    const Readout readout(run.scene(), run.totals());
+    const CompiledScene& scene = run.scene();
+    const Readout readout(scene, run.totals());
+    for (const CompiledSurface& s : scene.surfaces)
+      if (s.one_patch) fill(scene, readout, s.first_patch, s.patches, s.area_m2);
     constexpr int64_t per_row = 1024;  // triangles
-    for (const GeometryCell& cell : run.scene().cells) {
+    const auto read = for_each_cell(scene, [&](const GeometryCell& cell) {
       const auto count = static_cast<int64_t>(cell.triangles.size());
-      const auto fill = [&](int64_t row) {
+      const auto fill_row = [&](int64_t row) {
         for (int64_t i = row * per_row; i < std::min(count, (row + 1) * per_row); ++i) {
-          fill_triangle(run.scene(), readout, cell.triangles[static_cast<size_t>(i)]);
+          fill_triangle(scene, readout, cell.triangles[static_cast<size_t>(i)]);
         }
       };
-      for_each_row((count + per_row - 1) / per_row, run.threads(), [&] { return fill; });
-    }
+      for_each_row((count + per_row - 1) / per_row, run.threads(), [&] { return fill_row; });
+    });
+    if (!read.ok()) throw std::runtime_error(read.problem().text());
   }
 
   double radiance(const Hit& hit, bool front, int band) const override {
@@ -56,9 +57,15 @@ class FluxRadiance final : public PatchRadiance {
 
  private:
   void fill_triangle(const CompiledScene& scene, const Readout& readout, const TriangleRecord& t) {
-    const uint32_t patches = t.subdivision * t.subdivision;
-    const double per_watt = patches / (static_cast<double>(pi_f) * area_of(t));
-    for (uint32_t patch = t.first_patch; patch < t.first_patch + 2 * patches; ++patch) {
+    const CompiledSurface& surface = scene.surfaces[t.surface];
+    if (surface.one_patch) return;
+    fill(scene, readout, t.first_patch, 2 * t.subdivision * t.subdivision,
+         surface.patch_area_m2(t));
+  }
+  void fill(const CompiledScene& scene, const Readout& readout, uint32_t first, uint32_t count,
+            double area_m2) {
+    const double per_watt = 1 / (static_cast<double>(pi_f) * area_m2);
+    for (uint32_t patch = first; patch < first + count; ++patch) {
       for (size_t b = 0; b < bands_; ++b) {
         const Estimate out = readout.watts(scene.blocks.patches, patch, static_cast<int>(b), 1);
         table_[patch * bands_ + b] = static_cast<float>(out.value * per_watt);
@@ -100,6 +107,9 @@ class Pinhole {
   double width_, height_;
 };
 
+/// Pixels that one fiber traces in one go.
+constexpr int columns_at_once = 32;
+
 double wrapped(double x) {
   return x - std::floor(x);
 }
@@ -126,10 +136,10 @@ struct PixelSums {
 /// Traces the pixels of one picture; one per thread.
 class PixelTracer {
  public:
-  PixelTracer(const LocalRun& run, size_t camera, const PictureOptions& options,
-              const PatchRadiance* flux)
+  PixelTracer(const LocalRun& run, const GeometryAccess& access, size_t camera,
+              const PictureOptions& options, const PatchRadiance* flux)
       : scene_(run.scene()),
-        tracer_(make_picture_tracer(run.scene(), run.index(), run.seed())),
+        tracer_(make_picture_tracer(run.scene(), access, run.seed())),
         pinhole_(run.scene().description->cameras[camera], run.scene().local_origin),
         first_path_(static_cast<uint64_t>(camera) << camera_shift),
         paths_(options.paths_per_pixel),
@@ -177,12 +187,16 @@ TracedPicture trace_picture(const LocalRun& run, size_t camera, const PictureOpt
   out.light.scotopic.resize(out.light.pixels());
   out.standard_error_y.resize(out.light.pixels());
   const double paths = options.paths_per_pixel;
-  const auto make = [&] {
-    auto tracer = std::make_shared<PixelTracer>(run, camera, options, flux);
-    return [&, tracer](int64_t row) {
-      for (int column = 0; column < view.width; ++column) {
-        const auto pixel = static_cast<size_t>(row * view.width + column);
-        const PixelSums sums = tracer->trace(column, static_cast<int>(row), pixel);
+  // Parts of a row, so that there is work for many fibers.
+  const int parts = (view.width + columns_at_once - 1) / columns_at_once;
+  const auto make = [&](const GeometryAccess& access) {
+    auto tracer = std::make_shared<PixelTracer>(run, access, camera, options, flux);
+    return [&, tracer](int64_t unit) {
+      const int row = static_cast<int>(unit / parts);
+      const int first = static_cast<int>(unit % parts) * columns_at_once;
+      for (int column = first; column < std::min(first + columns_at_once, view.width); ++column) {
+        const auto pixel = static_cast<size_t>(int64_t{row} * view.width + column);
+        const PixelSums sums = tracer->trace(column, row, pixel);
         out.light.xyz[3 * pixel] = static_cast<float>(sums.x / paths);
         out.light.xyz[3 * pixel + 1] = static_cast<float>(sums.y / paths);
         out.light.xyz[3 * pixel + 2] = static_cast<float>(sums.z / paths);
@@ -191,8 +205,9 @@ TracedPicture trace_picture(const LocalRun& run, size_t camera, const PictureOpt
       }
     };
   };
-  for_each_row(view.height, run.threads(), make, [&](int64_t done) {
-    if (progress) progress(static_cast<double>(done) / view.height);
+  const int64_t units = int64_t{view.height} * parts;
+  run.rows().run(units, make, [&](int64_t done) {
+    if (progress) progress(static_cast<double>(done) / static_cast<double>(units));
   });
   return out;
 }

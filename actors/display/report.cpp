@@ -127,14 +127,28 @@ Estimate probe_of_group(const CompiledScene& scene, const Readout& readout, uint
   return readout.value(scene.blocks.probes_by_group, probe * groups + group, quantity);
 }
 
+/// Direct light at every probe.
+std::vector<DirectLight> direct_at_probes(const LocalRun& run) {
+  const CompiledScene& scene = run.scene();
+  std::vector<DirectLight> out(scene.description->probes.size());
+  run.rows().run(static_cast<int64_t>(out.size()), [&](const GeometryAccess& access) {
+    return [&, access](int64_t i) {
+      const ProbeMeasure& probe = scene.description->probes[static_cast<size_t>(i)];
+      out[static_cast<size_t>(i)] =
+          direct_light_at(scene, access, glm::vec3(probe.position - scene.local_origin),
+                          glm::vec3(probe.normal), {});
+    };
+  });
+  return out;
+}
+
 Json probes_json(const LocalRun& run, const Readout& readout) {
   const CompiledScene& scene = run.scene();
+  const std::vector<DirectLight> direct_light = direct_at_probes(run);
   Json out = Json::array();
   for (uint32_t p = 0; p < scene.description->probes.size(); ++p) {
     const ProbeMeasure& probe = scene.description->probes[p];
-    const DirectLight direct =
-        direct_light_at(scene, run.index(), glm::vec3(probe.position - scene.local_origin),
-                        glm::vec3(probe.normal), {});
+    const DirectLight& direct = direct_light[p];
     const Estimate indirect = readout.value(scene.blocks.probes, p, 0);
     const Estimate fluence = readout.value(scene.blocks.probes, p, 1);
     Json groups;
@@ -304,7 +318,7 @@ Json result_of(const LocalRun& run, const RunRecord& record, const PlaneMaps& ma
       {"kernel", describe_kernel(scene)},
       {"seed", run.seed()},
       {"particles", run.particles()},
-      {"batches", run.batches()},
+      {"batches", run.traced()},
       {"batch_particles", scene.batch_particles},
       {"stopped_by", record.stopped_by},
       {"threads", run.threads()},

@@ -12,7 +12,7 @@ namespace luxodus {
 /// How the run came to its end, for the record.
 struct RunRecord {
   std::string scene_file;
-  std::string stopped_by;  // "particles", "error", "time", "interrupted"
+  std::string stopped_by;  // name_of(StopReason)
   int cells = 1;
 };
 

@@ -94,11 +94,11 @@ Result<ReferenceProfile> read_profile(const std::filesystem::path& path,
                    "`luxodus profile`"};
   ReferenceProfile profile;
   profile.scene_hash = scene.scene_hash;
-  Blocks blocks(file.value(), scene.cells.size());
+  Blocks blocks(file.value(), scene.cell_boxes.size());
   for (size_t g = 0; g < scene.groups.size(); ++g)
     profile.groups.push_back(blocks.take_counts(name_of_group(g)));
   profile.eyes = blocks.take_counts("eyes");
-  profile.built_bytes = blocks.take("built bytes", scene.cells.size());
+  profile.built_bytes = blocks.take("built bytes", scene.cell_boxes.size());
   if (!blocks.wrong().empty())
     return Problem{place, "this profile lacks \"" + blocks.wrong() + "\", or has another size"};
   return profile;

@@ -4,15 +4,28 @@
 
 namespace luxodus {
 
-SceneObjects::SceneObjects(const CompiledScene& scene, uint32_t nodes, uint32_t replicas) {
-  for (uint32_t cell = 0; cell < scene.cells.size(); ++cell) {
-    auto bytes = std::make_shared<const std::vector<std::byte>>(encode_cell(scene.cells[cell]));
-    ObjectPlace place{object_id_of(*bytes), bytes->size(), {}};
+SceneObjects::SceneObjects(const CompiledScene& scene, std::span<const NodeId> holders,
+                           uint32_t replicas)
+    : packed_(scene.description->packed) {
+  if (packed_ == nullptr) {
+    encode(scene);
+  } else {
+    for (const PackedGeometry::Cell& cell : packed_->cells)
+      places_.push_back({cell.object, cell.wire_bytes, {}});
+  }
+  for (size_t cell = 0; cell < places_.size(); ++cell) {
+    ObjectPlace& place = places_[cell];
     for (uint32_t r = 0; r < replicas; ++r)
-      place.holders.push_back(NodeId{static_cast<uint16_t>((cell + r) % nodes)});
-    wire_bytes_ += bytes->size();
-    largest_wire_bytes_ = std::max<uint64_t>(largest_wire_bytes_, bytes->size());
-    places_.push_back(std::move(place));
+      place.holders.push_back(holders[(cell + r) % holders.size()]);
+    wire_bytes_ += place.wire_bytes;
+    largest_wire_bytes_ = std::max(largest_wire_bytes_, place.wire_bytes);
+  }
+}
+
+void SceneObjects::encode(const CompiledScene& scene) {
+  for (const GeometryCell& cell : scene.cells) {
+    auto bytes = std::make_shared<const std::vector<std::byte>>(encode_cell(cell));
+    places_.push_back({object_id_of(*bytes), bytes->size(), {}});
     bytes_.push_back(std::move(bytes));
   }
 }
@@ -22,13 +35,8 @@ void SceneObjects::place(const std::vector<std::vector<NodeId>>& holders) {
 }
 
 SharedBytes SceneObjects::bytes(uint32_t cell) const {
+  if (packed_ != nullptr) return {packed_->file->object(cell), packed_};
   return {std::span(*bytes_[cell]), bytes_[cell]};
-}
-
-std::vector<ProxyScene::Box> boxes_of(const CompiledScene& scene) {
-  std::vector<ProxyScene::Box> boxes;
-  for (const GeometryCell& cell : scene.cells) boxes.push_back({cell.low, cell.high});
-  return boxes;
 }
 
 HeldCells::HeldCells(const SceneObjects& objects, NodeId self) : objects_(objects) {
@@ -66,7 +74,11 @@ void CellBuilder::build(uint32_t object, SharedBytes bytes, Client& client) {
 const CellScene* CachedCells::cell(uint32_t cell) {
   const BuiltObject* object = cache_.find(cell);
   if (object == nullptr) {
-    const Got got = cache_.get(cell);
+    const uint64_t particle = fibers_.current()->subject();
+    const bool traced = trace_ != nullptr && trace_->wants(particle);
+    if (traced) trace_->begin(TraceKind::wait, particle, cell);
+    const Got got = cache_.get(cell, traced);
+    if (traced) trace_->end(TraceKind::wait, particle, cell);
     if (got.how != Got::How::resident) {
       refused_.push_back(fibers_.current()->id());
       return nullptr;

@@ -5,44 +5,48 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "runtime/fetch/object_cache.hpp"
 #include "scenes/transport/cell_object.hpp"
 #include "scenes/transport/compiled_scene.hpp"
 #include "scenes/transport/object_source.hpp"
+#include "scenes/transport/packed_geometry.hpp"
 
 namespace luxodus {
 
 class SceneObjects {
  public:
-  /// Cell i is held by node i modulo `nodes`, and by `replicas - 1` that follow.
-  /// Requires: 1 <= replicas <= nodes.
-  SceneObjects(const CompiledScene& scene, uint32_t nodes, uint32_t replicas);
+  /// Cell i is held by the i-th of `holders`, modulo their number, and by `replicas - 1` that
+  /// follow. Requires: 1 <= replicas <= holders.size(); `scene` outlives this.
+  SceneObjects(const CompiledScene& scene, std::span<const NodeId> holders, uint32_t replicas);
 
   /// Other holders, by cell. Requires: before any node is made; 1 to limits::holders of each.
   void place(const std::vector<std::vector<NodeId>>& holders);
 
   const std::vector<ObjectPlace>& places() const { return places_; }
+  /// Of a packed scene out of its file, and empty where that holds no objects.
   SharedBytes bytes(uint32_t cell) const;
   uint64_t wire_bytes() const { return wire_bytes_; }
   uint64_t largest_wire_bytes() const { return largest_wire_bytes_; }
 
  private:
+  void encode(const CompiledScene& scene);
+
+  std::shared_ptr<const PackedGeometry> packed_;  // null: the bytes are below
   std::vector<std::shared_ptr<const std::vector<std::byte>>> bytes_;
   std::vector<ObjectPlace> places_;
   uint64_t wire_bytes_ = 0;
   uint64_t largest_wire_bytes_ = 0;
 };
 
-/// The boxes of a scene's cells, by which rays find candidates.
-std::vector<ProxyScene::Box> boxes_of(const CompiledScene& scene);
-
-/// The cells that one node holds for all.
+/// The cells that one node holds for all; beyond them what its process has stored, for itself.
 class HeldCells final : public ObjectStore {
  public:
   HeldCells(const SceneObjects& objects, NodeId self);
   SharedBytes find(ObjectId object) override;
+  SharedBytes find_in_storage(uint32_t object) override { return objects_.bytes(object); }
 
  private:
   const SceneObjects& objects_;
@@ -76,7 +80,9 @@ class CellBuilder final : public ObjectBuilder {
 /// What a node's tracers ask for cells.
 class CachedCells final : public ObjectSource {
  public:
-  CachedCells(ObjectCache& cache, const Fibers& fibers) : cache_(cache), fibers_(fibers) {}
+  /// `trace` is told of waits of sampled particles; null: of none.
+  CachedCells(ObjectCache& cache, const Fibers& fibers, NodeTrace* trace = nullptr)
+      : cache_(cache), fibers_(fibers), trace_(trace) {}
 
   const CellScene* cell(uint32_t cell) override;
   bool spoilt() override;
@@ -84,6 +90,7 @@ class CachedCells final : public ObjectSource {
  private:
   ObjectCache& cache_;
   const Fibers& fibers_;
+  NodeTrace* const trace_;
   std::vector<FiberId> refused_;  // fibers that did not get what they asked for
 };
 

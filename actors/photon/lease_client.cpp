@@ -1,6 +1,7 @@
 #include "actors/photon/lease_client.hpp"
 
-#include "actors/tally/flush_codec.hpp"
+#include <fmt/format.h>
+
 #include "runtime/core/check.hpp"
 #include "runtime/core/hash.hpp"
 
@@ -12,11 +13,33 @@ constexpr int64_t bins_of_a_step = 16384;
 }  // namespace
 
 LeaseClient::LeaseClient(const LeaseClientConfig& config, Scheduler& scheduler, Network& network)
-    : config_(config), scheduler_(scheduler), network_(network) {}
+    : config_(config),
+      scheduler_(scheduler),
+      network_(network),
+      interval_(config.flush_every),
+      began_(scheduler.clock().now()) {}
 
 void LeaseClient::start(PhotonThreads& photons) {
   photons_ = &photons;
+  began_ = scheduler_.clock().now();
+  const Totals& totals = photons.totals();
+  encoder_ = std::make_shared<FlushEncoder>(totals.groups(), totals.layout().totals());
+  done_.reserve(limits::leases);
+  packed_leases_.reserve(limits::leases);
   set_timer();
+}
+
+void LeaseClient::add_metrics(Metrics& metrics) const {
+  const Counters& c = counters_;
+  metrics.add_counter({"leases", "", "Batches lent to this node.", ""}, c.leases);
+  metrics.add_counter({"leases_failed", "", "Leases whose batch is traced anew.", ""},
+                      c.leases_failed);
+  metrics.add_counter({"flushes", "", "Flushes made.", ""}, c.flushes);
+  metrics.add_counter({"flushes_refused", "", "Flushes that the controller refused.", ""},
+                      c.flushes_refused);
+  metrics.add_counter({"flush", "bytes", "Bytes of flushes made.", ""}, c.flush_bytes);
+  metrics.add_counter({"asked_again", "", "Questions to the controller asked again.", ""},
+                      c.asked_again);
 }
 
 // ---- asking for work -------------------------------------------------------------------------
@@ -27,8 +50,8 @@ void LeaseClient::want_leases(size_t count) {
 }
 
 void LeaseClient::ask() {
-  if (asking_ || ended_ || round_empty_ || wanted_ == 0) return;
-  asking_ = Question{network_.next_id(), RequestLease{static_cast<uint32_t>(wanted_)}, nullptr};
+  if (asking_ || ended_ || draining_ || round_empty_ || wanted_ == 0) return;
+  asking_ = Question{network_.next_id(), RequestLease{static_cast<uint32_t>(wanted_)}, {}};
   wanted_ = 0;
   put(*asking_);
 }
@@ -38,6 +61,7 @@ void LeaseClient::granted(const MessageId& answered, const LeaseGranted& grant) 
   const uint32_t asked_for = std::get<RequestLease>(asking_->message).batches;
   asking_.reset();
   round_ = grant.round;
+  lease_time_ = milliseconds(grant.duration_ms);
   counters_.leases += grant.batches;
   for (uint32_t i = 0; i < grant.batches; ++i) {
     photons_->add(grant.first_lease + i, static_cast<int64_t>(grant.first_batch + i));
@@ -64,7 +88,7 @@ void LeaseClient::begin_round() {
 void LeaseClient::lease_done(uint64_t lease) {
   if (done_.empty()) first_done_ = scheduler_.clock().now();
   done_.push_back(lease);
-  const bool long_enough = scheduler_.clock().now() - first_done_ >= config_.flush_every;
+  const bool long_enough = scheduler_.clock().now() - first_done_ >= interval_;
   if (long_enough || done_.size() == limits::leases) flush();
   flush_when_idle();
 }
@@ -77,48 +101,96 @@ void LeaseClient::lease_failed(uint64_t lease, int64_t batch) {
 
 /// Nothing more is to be had in this round: the controller waits for what is here.
 void LeaseClient::flush_when_idle() {
-  if (round_empty_ && photons_->at_hand() == 0) flush();
+  if ((round_empty_ || draining_) && photons_->at_hand() == 0) flush();
 }
 
 void LeaseClient::flush() {
   if (packing_ || flushing_ || done_.empty()) return;  // the answer to that one sends the next
+  flush_due_ = !encoder_is_free();
+  if (flush_due_) return;
   packing_ = true;
-  packed_leases_ = std::move(done_);
-  done_.clear();
+  packed_leases_.swap(done_);
   const auto body = [this, totals = &photons_->give_totals()] { pack(*totals); };
   LUX_CHECK(scheduler_.fibers().start("flush", body), "the plan counts a fiber for it");
 }
 
+bool LeaseClient::encoder_is_free() const {
+  return encoder_.use_count() == 1;
+}
+
 /// On a fiber of its own, between the turns of the photon-threads.
 void LeaseClient::pack(Totals& totals) {
-  FlushEncoder encoder(totals);
-  while (!encoder.step(bins_of_a_step))
-    if (scheduler_.fibers().yield() == Wake::cancelled) return;
-  auto payload = std::make_shared<const std::vector<std::byte>>(encoder.take_bytes());
-  Hasher hash;
-  hash.add(payload->data(), payload->size());
+  encoder_->begin(totals);
+  packing_took_ = 0;
+  for (bool done = false; !done;) {
+    const Nanoseconds begun = scheduler_.clock().now();
+    done = encoder_->step(bins_of_a_step);
+    packing_took_ += scheduler_.clock().now() - begun;
+    if (!done && scheduler_.fibers().yield() == Wake::cancelled) return;
+  }
+  const std::span<const std::byte> payload = encoder_->bytes();
+  const uint64_t hash = XXH3_64bits(payload.data(), payload.size());  // as Hasher, in no memory
   packing_ = false;
-  flushing_ =
-      Question{network_.next_id(), Flush{round_, hash.value(), std::move(packed_leases_)}, payload};
+  flushing_ = Question{
+      network_.next_id(), Flush{round_, hash, std::move(packed_leases_)}, {payload, encoder_}};
+  if (config_.trace != nullptr)
+    config_.trace->begin(TraceKind::flush, trace_id(flushing_->id), payload.size());
   ++counters_.flushes;
-  counters_.flush_bytes += payload->size();
+  counters_.flush_bytes += payload.size();
   put(*flushing_);
 }
 
 void LeaseClient::flush_answered(const MessageId& answered, bool taken) {
   if (!flushing_ || flushing_->id != answered) return;
+  const Nanoseconds answer_took = scheduler_.clock().now() - flushing_->asked;
+  interval_ = flush_interval(config_.flush_every, packing_took_ + answer_took, lease_time_);
+  packed_leases_ = std::move(std::get<Flush>(flushing_->message).leases);  // its memory
+  packed_leases_.clear();
+  if (config_.trace != nullptr) config_.trace->end(TraceKind::flush, trace_id(answered), taken);
   flushing_.reset();
   if (!taken) ++counters_.flushes_refused;  // its leases are lent again: nothing to mend here
   flush_when_idle();
 }
 
+// ---- the end ---------------------------------------------------------------------------------
+
+void LeaseClient::drain() {
+  draining_ = true;
+  flush_when_idle();
+}
+
+bool LeaseClient::drained() const {
+  return !asking_ && !packing_ && !flushing_ && done_.empty() && photons_->at_hand() == 0;
+}
+
+void LeaseClient::end(std::optional<Problem> fault) {
+  if (ended_) return;
+  ended_ = true;
+  fault_ = std::move(fault);
+  photons_->end();
+}
+
+void LeaseClient::watch_controller(Nanoseconds now) {
+  if (ended_) return;
+  if (network_.reaches(config_.controller))
+    unreachable_since_.reset();
+  else if (!unreachable_since_)
+    unreachable_since_ = now;
+  const auto give_up = [&](const char* what, Nanoseconds after, const char* key) {
+    end(Problem{{},
+                fmt::format("{} for {:g} s ({})", what, static_cast<double>(after) * 1e-9, key)});
+  };
+  if (!heard_ && now - began_ >= config_.start)
+    give_up("the controller has not been heard of", config_.start, "start_s");
+  else if (heard_ && unreachable_since_ && now - *unreachable_since_ >= config_.lost)
+    give_up("no way has led to the controller", config_.lost, "lost_s");
+}
+
 // ---- questions and answers -------------------------------------------------------------------
 
 void LeaseClient::put(Question& question) {
-  SharedBytes payload;
-  if (question.payload) payload = {std::span(*question.payload), question.payload};
   // Full or unreachable: the timer asks again.
-  network_.send(config_.controller, question.id, question.message, payload);
+  network_.send(config_.controller, question.id, question.message, question.payload);
   question.asked = scheduler_.clock().now();
 }
 
@@ -134,13 +206,16 @@ void LeaseClient::on_timer() {
     ++counters_.asked_again;
     put(**question);
   }
-  if (!done_.empty() && now - first_done_ >= config_.flush_every) flush();
+  const bool rested = !done_.empty() && now - first_done_ >= interval_;
+  if (rested || flush_due_) flush();
   if (round_empty_ && !ended_ && now - emptied_ >= config_.answer_patience) begin_round();
+  watch_controller(now);
   set_timer();
 }
 
 bool LeaseClient::deliver(const Delivery& delivery) {
   if (delivery.source != config_.controller) return false;
+  heard_ = true;
   if (const auto* grant = std::get_if<LeaseGranted>(&delivery.message)) {
     granted(delivery.id, *grant);
   } else if (std::holds_alternative<FlushTaken>(delivery.message)) {
@@ -151,9 +226,11 @@ bool LeaseClient::deliver(const Delivery& delivery) {
     for (const uint64_t lease : fenced->leases) photons_->drop(lease);
   } else if (std::holds_alternative<RoundOpened>(delivery.message)) {
     begin_round();
-  } else if (std::holds_alternative<RunEnded>(delivery.message)) {
-    if (!ended_) photons_->end();
-    ended_ = true;
+  } else if (const auto* over = std::get_if<RunEnded>(&delivery.message)) {
+    if (over->text.empty())
+      end(std::nullopt);
+    else
+      end(Problem{{}, "the controller says: " + over->text});
     network_.send(config_.controller, network_.next_id(), RequestLease{0});
   } else {
     return false;

@@ -1,14 +1,17 @@
 // A worker's side of leases and flushes: asks the controller for batches, tells the photon-threads,
-// and sends what they have merged, until the run ends. What gets no answer is asked again under the
-// same id; the controller answers a repeated question as it did before.
+// and sends what they have merged, until the run ends or the controller is given up. What gets no
+// answer is asked again under the same id; the controller answers a repeated question as it did
+// before.
 // Thread rule: the node's thread.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "actors/photon/photon_threads.hpp"
+#include "actors/tally/flush_codec.hpp"
 #include "runtime/net/network.hpp"
 
 namespace luxodus {
@@ -16,9 +19,21 @@ namespace luxodus {
 struct LeaseClientConfig {
   NodeId controller;
   Nanoseconds answer_patience = seconds(2);  // then a question is asked again
-  /// Merged batches rest here for so long at most: a flush costs a pass over all bins.
+  /// Merged batches rest here for so long at least, unless there is no more to do.
   Nanoseconds flush_every = seconds(5);
+  /// Until the controller is heard for the first time, and then without a way to it: after that it
+  /// is given up.
+  Nanoseconds start = seconds(60);
+  Nanoseconds lost = seconds(30);
+  NodeTrace* trace = nullptr;  // null: nothing is traced
 };
+
+/// How long merged batches rest, when a flush lately took `cost` (packing it here, and waiting for
+/// the answer of a controller that may be busy with others'): so long that flushes take a fiftieth
+/// of the time, but never a quarter of the leases' time, lest they be lent again.
+constexpr Nanoseconds flush_interval(Nanoseconds least, Nanoseconds cost, Nanoseconds lease_time) {
+  return std::max(least, std::min(50 * cost, lease_time / 4));
+}
 
 class LeaseClient final : public LeasePort {
  public:
@@ -33,8 +48,15 @@ class LeaseClient final : public LeasePort {
 
   /// A message of the controller; false where it is none of these.
   bool deliver(const Delivery& delivery);
-  /// Whether the run has ended.
+  /// Whether the run has ended, or the controller was given up.
   bool ended() const { return ended_; }
+  /// Why the run ended without this node, or could not begin.
+  const std::optional<Problem>& fault() const { return fault_; }
+
+  /// Asks for no more, and flushes what is at hand once it is traced: this node is to leave.
+  void drain();
+  /// Whether all that was at hand is with the controller.
+  bool drained() const;
 
   struct Counters {
     uint64_t leases = 0;
@@ -45,17 +67,19 @@ class LeaseClient final : public LeasePort {
     uint64_t leases_failed = 0;
   };
   const Counters& counters() const { return counters_; }
+  void add_metrics(Metrics& metrics) const;
 
  private:
   struct Question {
     MessageId id;
     Message message;
-    std::shared_ptr<const std::vector<std::byte>> payload;  // null: none
+    SharedBytes payload;  // of a flush
     Nanoseconds asked = 0;
   };
 
   void ask();
   void flush();
+  bool encoder_is_free() const;
   void pack(Totals& totals);
   void put(Question& question);
   void set_timer();
@@ -63,6 +87,8 @@ class LeaseClient final : public LeasePort {
   void granted(const MessageId& answered, const LeaseGranted& grant);
   void begin_round();
   void flush_when_idle();
+  void watch_controller(Nanoseconds now);
+  void end(std::optional<Problem> fault);
   void flush_answered(const MessageId& answered, bool taken);
 
   LeaseClientConfig config_;
@@ -73,13 +99,23 @@ class LeaseClient final : public LeasePort {
   std::optional<Question> flushing_;  // one at a time
   std::vector<uint64_t> done_;        // merged, in no flush yet
   std::vector<uint64_t> packed_leases_;
+  std::shared_ptr<FlushEncoder> encoder_;  // shared with the network while it sends
   bool packing_ = false;
+  bool flush_due_ = false;        // it waits for the network to let go of the last one
+  Nanoseconds packing_took_ = 0;  // of the last flush
+  Nanoseconds interval_;          // between flushes
+  Nanoseconds lease_time_ = 0;
   Nanoseconds first_done_ = 0;  // when the oldest of them was merged
   size_t wanted_ = 0;
   uint32_t round_ = 0;        // of the last grant: a round begins when all before is counted
   bool round_empty_ = false;  // the controller had none: flush, and wait for the next round
   Nanoseconds emptied_ = 0;
   bool ended_ = false;
+  bool draining_ = false;
+  std::optional<Problem> fault_;
+  bool heard_ = false;  // of the controller
+  Nanoseconds began_;
+  std::optional<Nanoseconds> unreachable_since_;
   Counters counters_;
 };
 

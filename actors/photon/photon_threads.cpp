@@ -5,10 +5,17 @@
 
 #include <algorithm>
 
+#include "proto/messages.hpp"
 #include "runtime/core/check.hpp"
 #include "scenes/transport/readout.hpp"
 
 namespace luxodus {
+
+namespace {
+/// Batches whose plan is remembered: a lease that is late is lent again while some hundred others
+/// are out.
+constexpr size_t recent_batches = 1024;
+}  // namespace
 
 /// A batch in work.
 struct PhotonThreads::OpenBatch {
@@ -21,6 +28,7 @@ struct PhotonThreads::OpenBatch {
   int64_t next_particle = 0;  // of the batch, not yet given out
   uint32_t next_unit = 0;     // of the eye paths
   uint32_t portions_out = 0;
+  Nanoseconds since = 0;
 };
 
 struct PhotonThreads::Portion {
@@ -30,21 +38,35 @@ struct PhotonThreads::Portion {
   uint32_t unit;
 };
 
+namespace {
+
+/// So many particles that every fiber finds a few portions in the open batches: with fewer
+/// portions than fibers the rest would wait for work, and hide nothing.
+int64_t portion_for(const PhotonConfig& config, int64_t batch_particles) {
+  const auto open = static_cast<int64_t>(config.open_batches) * batch_particles;
+  return std::clamp<int64_t>(open / (4 * static_cast<int64_t>(config.fibers)), 1, config.portion);
+}
+
+}  // namespace
+
 PhotonThreads::PhotonThreads(const CompiledScene& scene, const GeometryAccess& access,
                              uint64_t seed, const PhotonConfig& config, Scheduler& scheduler,
                              LeasePort& port)
     : scene_(scene),
       source_(access.source),
       config_(config),
+      portion_(portion_for(config, scene.batch_particles)),
       scheduler_(scheduler),
       port_(port),
-      open_(config.open_batches),
+      open_(std::min(config.open_batches, config.leases)),
       totals_{{scene.layout, static_cast<int>(scene.groups.size()), photopic_weights(scene)},
               {scene.layout, static_cast<int>(scene.groups.size()), photopic_weights(scene)}},
-      plan_(scene) {
+      plan_(scene),
+      recent_(recent_batches) {
   for (size_t i = 0; i < config.fibers; ++i)
     tracers_.push_back(make_batch_tracer(scene, access, seed));
   for (OpenBatch& batch : open_) batch.scores.reset(scene.layout);
+  leases_.reserve(config.leases + limits::leases);
 }
 
 PhotonThreads::~PhotonThreads() = default;
@@ -59,6 +81,23 @@ void PhotonThreads::start() {
 void PhotonThreads::add(uint64_t lease, int64_t batch) {
   leases_.push_back({lease, batch});
   scheduler_.fibers().wake_all(work_);
+}
+
+void PhotonThreads::add_metrics(Metrics& metrics) const {
+  const Counters& c = counters_;
+  metrics.add_counter({"particles", "", "Particles traced.", ""}, c.particles);
+  metrics.add_counter({"eye_units", "", "Parts of signs, and probes, looked at.", ""}, c.eye_units);
+  metrics.add_counter({"batches", "", "Batches merged here.", ""}, c.batches);
+  metrics.add_counter({"batches_failed", "", "Batches traced in vain, for want of an object.", ""},
+                      c.batches_failed);
+  metrics.add_counter({"batches_dropped", "", "Batches whose lease was fenced.", ""},
+                      c.batches_dropped);
+  metrics.add_counter({"rays", "", "Rays of merged batches.", ""}, c.rays);
+  metrics.add_counter({"collisions", "", "Collisions with media, of merged batches.", ""},
+                      c.collisions);
+  metrics.add_gauge({"batches_open", "", "Batches in work.", ""}, c.batches_open);
+  metrics.add_gauge({"fibers_idle", "", "Photon-threads that wait for work.", ""}, c.fibers_idle);
+  metrics.add_histogram({"batch", "", "From a batch's opening to its merging.", ""}, batch_time_);
 }
 
 void PhotonThreads::drop(uint64_t lease) {
@@ -87,16 +126,20 @@ void PhotonThreads::trace_portions(BatchTracer& tracer) {
   while (!ending_) {
     const std::optional<Portion> portion = next_portion();
     if (!portion) {
-      if (fibers.wait(work_, "work") == Wake::cancelled) return;
+      ++counters_.fibers_idle;
+      const Wake how = fibers.wait(work_, "work");
+      --counters_.fibers_idle;
+      if (how == Wake::cancelled) return;
       continue;
     }
     OpenBatch& open = *portion->batch;
     const Batch& batch = open.batch;
-    fibers.set_subject(batch.first_particle + static_cast<uint64_t>(portion->first));
     if (portion->count > 0) {
-      tracer.trace(batch.group, batch.first_particle + static_cast<uint64_t>(portion->first),
-                   portion->count, open.scores);
+      trace_particles(tracer, *portion);
+      counters_.particles += static_cast<uint64_t>(portion->count);
     } else {
+      ++counters_.eye_units;
+      fibers.set_subject(NodeTrace::nobody);
       tracer.look(batch.number, portion->unit, open.scores);
     }
     --open.portions_out;
@@ -105,6 +148,26 @@ void PhotonThreads::trace_portions(BatchTracer& tracer) {
         open.next_particle == scene_.batch_particles && open.next_unit == tracer.look_units();
     if (given_out && open.portions_out == 0) close(open);
     if (fibers.yield() == Wake::cancelled) return;
+  }
+}
+
+/// Up to the next sampled particle in one go, and that one alone.
+void PhotonThreads::trace_particles(BatchTracer& tracer, const Portion& portion) {
+  Fibers& fibers = scheduler_.fibers();
+  OpenBatch& open = *portion.batch;
+  NodeTrace* const trace = config_.trace;
+  uint64_t first = open.batch.first_particle + static_cast<uint64_t>(portion.first);
+  const uint64_t end = first + static_cast<uint64_t>(portion.count);
+  while (first < end) {
+    const uint64_t sampled = trace == nullptr ? end : trace->next_wanted(first);
+    const uint64_t stop = sampled == first ? first + 1 : std::min(sampled, end);
+    fibers.set_subject(first);
+    if (sampled == first)
+      trace->begin(TraceKind::particle, first, static_cast<uint64_t>(open.batch.number));
+    tracer.trace(open.batch.group, first, static_cast<int64_t>(stop - first), open.scores);
+    if (sampled == first)
+      trace->end(TraceKind::particle, first, static_cast<uint64_t>(open.batch.number));
+    first = stop;
   }
 }
 
@@ -122,18 +185,24 @@ std::optional<PhotonThreads::Portion> PhotonThreads::next_portion() {
   ++open.portions_out;
   if (open.next_particle == scene_.batch_particles) return Portion{&open, 0, 0, open.next_unit++};
   const int64_t first = open.next_particle;
-  const int64_t count = std::min(config_.portion, scene_.batch_particles - first);
+  const int64_t count = std::min(portion_, scene_.batch_particles - first);
   open.next_particle += count;
   return Portion{&open, first, count, 0};
 }
 
+bool PhotonThreads::holds_sampled(const OpenBatch& open) const {
+  const uint64_t first = open.batch.first_particle;
+  return config_.trace != nullptr &&
+         config_.trace->next_wanted(first) < first + static_cast<uint64_t>(scene_.batch_particles);
+}
+
 PhotonThreads::OpenBatch* PhotonThreads::open_next() {
-  if (at_hand() < 2 * open_.size()) port_.want_leases(2 * open_.size() - at_hand());
+  if (at_hand() < config_.leases) port_.want_leases(config_.leases - at_hand());
   const auto free =
       std::find_if(open_.begin(), open_.end(), [](const OpenBatch& open) { return !open.used; });
   if (free == open_.end() || leases_.empty()) return nullptr;
   const WaitingLease lease = leases_.front();
-  leases_.pop_front();
+  leases_.erase(leases_.begin());
   free->used = true;
   free->dropped = free->failed = false;
   free->lease = lease.id;
@@ -141,20 +210,44 @@ PhotonThreads::OpenBatch* PhotonThreads::open_next() {
   free->next_particle = 0;
   free->next_unit = 0;
   free->scores.reset(scene_.layout);
+  free->since = scheduler_.clock().now();
+  ++counters_.batches_open;
+  if (holds_sampled(*free))
+    config_.trace->begin(TraceKind::batch, free->lease, static_cast<uint64_t>(free->batch.number));
   scheduler_.fibers().wake_all(work_);  // there is work for more than who asked
   return &*free;
 }
 
-const Batch& PhotonThreads::planned(int64_t number) {
-  while (static_cast<int64_t>(planned_.size()) <= number) planned_.push_back(plan_.next());
-  return planned_[static_cast<size_t>(number)];
+Batch PhotonThreads::planned(int64_t number) {
+  const auto place = [&](int64_t n) { return static_cast<size_t>(n) % recent_.size(); };
+  while (plan_.given() <= number) {
+    const Batch next = plan_.next();
+    recent_[place(next.number)] = next;
+  }
+  if (recent_[place(number)].number == number) return recent_[place(number)];
+  BatchPlan again(scene_);  // of a lease that was late, long ago
+  again.skip(number);
+  return again.next();
 }
 
 void PhotonThreads::close(OpenBatch& open) {
   open.used = false;
-  if (open.dropped) return;  // somebody else traces it
-  if (open.failed) return port_.lease_failed(open.lease, open.batch.number);
+  --counters_.batches_open;
+  if (holds_sampled(open))
+    config_.trace->end(TraceKind::batch, open.lease, static_cast<uint64_t>(open.batch.number));
+  if (open.dropped) {  // somebody else traces it
+    ++counters_.batches_dropped;
+    return;
+  }
+  if (open.failed) {
+    ++counters_.batches_failed;
+    return port_.lease_failed(open.lease, open.batch.number);
+  }
   totals_[merging_].merge(open.scores, open.batch.group);
+  ++counters_.batches;
+  counters_.rays += open.scores.ledger.rays;
+  counters_.collisions += open.scores.ledger.collisions;
+  batch_time_.add(scheduler_.clock().now() - open.since);
   port_.lease_done(open.lease);
 }
 

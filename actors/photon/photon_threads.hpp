@@ -7,13 +7,13 @@
 // Thread rule: the node's thread.
 #pragma once
 
-#include <deque>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "actors/source/batch_plan.hpp"
 #include "runtime/actor/scheduler.hpp"
+#include "runtime/observe/node_trace.hpp"
 #include "scenes/transport/trace.hpp"
 
 namespace luxodus {
@@ -25,9 +25,14 @@ struct PhotonConfig {
   /// Batches in work at once, each with an array of scores: the second one fills the time in which
   /// the last particles of the first end.
   size_t open_batches = 2;
-  /// Particles of one portion. At 0.3 us a ray a portion is some 0.2 ms: short against a turn of
-  /// 1 ms, long against the 60 ns of a switch.
+  /// Leases at hand, those of open batches included: when one is opened, others are asked for. Two
+  /// beside the open ones cover the time to an answer; more only wait here while others idle.
+  size_t leases = 4;
+  /// Particles of one portion at most. At 0.3 us a ray a portion is some 0.2 ms: short against a
+  /// turn of 1 ms, long against the 60 ns of a switch.
   int64_t portion = 128;
+  /// Sampled particles are traced by themselves, which changes no bit. Null: none.
+  NodeTrace* trace = nullptr;
 };
 
 /// How photon-threads get work. Called on the node's thread, from within a fiber or not.
@@ -63,8 +68,24 @@ class PhotonThreads {
   /// What has been merged so far, to be emptied at leisure; what is merged from now on goes
   /// elsewhere. Requires: what was given before is empty.
   Totals& give_totals();
+  /// Both kinds are of this size.
+  const Totals& totals() const { return totals_[0]; }
   /// Leases not merged yet.
   size_t at_hand() const;
+
+  struct Counters {
+    uint64_t particles = 0;
+    uint64_t eye_units = 0;        // parts of signs, and probes, looked at
+    uint64_t batches = 0;          // merged
+    uint64_t batches_failed = 0;   // for want of an object
+    uint64_t batches_dropped = 0;  // their lease was fenced
+    uint64_t rays = 0;             // of merged batches
+    uint64_t collisions = 0;
+    uint64_t batches_open = 0;
+    uint64_t fibers_idle = 0;  // that wait for work
+  };
+  const Counters& counters() const { return counters_; }
+  void add_metrics(Metrics& metrics) const;
 
  private:
   struct OpenBatch;
@@ -72,14 +93,17 @@ class PhotonThreads {
   struct Tracing;
 
   void trace_portions(BatchTracer& tracer);
+  void trace_particles(BatchTracer& tracer, const Portion& portion);
   std::optional<Portion> next_portion();
   OpenBatch* open_next();
-  const Batch& planned(int64_t number);
+  Batch planned(int64_t number);
   void close(OpenBatch& batch);
+  bool holds_sampled(const OpenBatch& open) const;
 
   const CompiledScene& scene_;
   ObjectSource* const source_;  // null where everything is resident
   const PhotonConfig config_;
+  const int64_t portion_;
   Scheduler& scheduler_;
   LeasePort& port_;
   std::vector<std::unique_ptr<BatchTracer>> tracers_;  // one a fiber
@@ -87,14 +111,16 @@ class PhotonThreads {
   Totals totals_[2];  // one is merged into while the other is emptied
   size_t merging_ = 0;
   BatchPlan plan_;
-  std::vector<Batch> planned_;  // by number, as far as asked: a batch may be lent twice
+  std::vector<Batch> recent_;  // what was planned last, by number modulo its size
   struct WaitingLease {
     uint64_t id;
     int64_t batch;
   };
-  std::deque<WaitingLease> leases_;  // not begun
-  WaitList work_;                    // fibers that found nothing to do
+  std::vector<WaitingLease> leases_;  // not begun, the oldest first
+  WaitList work_;                     // fibers that found nothing to do
   bool ending_ = false;
+  Counters counters_;
+  Histogram batch_time_;  // from opening to merging
 };
 
 }  // namespace luxodus

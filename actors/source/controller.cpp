@@ -1,20 +1,28 @@
 #include "actors/source/controller.hpp"
 
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "actors/tally/flush_codec.hpp"
+#include "runtime/core/check.hpp"
 #include "runtime/core/hash.hpp"
 
 namespace luxodus {
 
 namespace {
-/// A worker that does not answer to the end is given up after this.
-constexpr Nanoseconds farewell = seconds(5);
-/// Leases for one question: two open batches and as many at hand need four.
-constexpr uint32_t leases_per_question = 64;
+/// Hashed at once: some 0.1 ms.
+constexpr size_t bytes_of_a_step = 1 << 20;
+/// Between lines about who is waited for.
+constexpr Nanoseconds waiting_word = seconds(10);
+
+double seconds_of(Nanoseconds span) {
+  return static_cast<double>(span) * 1e-9;
+}
 }  // namespace
 
 Controller::Controller(const ControllerConfig& config, LocalRun& run, const StopRule& stop,
@@ -28,31 +36,162 @@ Controller::Controller(const ControllerConfig& config, LocalRun& run, const Stop
       report_(std::move(report)),
       scheduler_(scheduler),
       network_(network),
-      book_(run.batches(), config.look_ahead * static_cast<int64_t>(config.workers.size())),
+      book_(run.batches(), run.missing(), config.first_lease,
+            config.look_ahead * static_cast<int64_t>(config.workers.size())),
       plan_(run.scene()),
       target_(run.target_batches(stop)),
-      batches_at_start_(run.batches()),
+      batches_at_start_(run.traced()),
       began_(scheduler.clock().now()),
-      error_(std::numeric_limits<double>::quiet_NaN()) {}
+      error_(std::numeric_limits<double>::quiet_NaN()) {
+  for (const NodeId worker : config_.workers) peers_[worker];
+}
 
 void Controller::start() {
+  began_ = scheduler_.clock().now();
+  next_word_ = began_ + waiting_word;
+  set_timer();
+}
+
+// ---- workers that come and go ------------------------------------------------------------------
+
+/// A message of a worker says that it is here, in this life. False: it is of a life that has ended.
+bool Controller::meet(const Delivery& delivery) {
+  const auto at = peers_.find(delivery.source);
+  if (at == peers_.end()) return false;
+  Peer& peer = at->second;
+  const Incarnation life = delivery.id.incarnation;
+  if (std::count(peer.former.begin(), peer.former.end(), life) > 0) return false;
+  if (peer.life != life) {
+    if (peer.life != Incarnation{}) {
+      peer.former.push_back(peer.life);
+      fence(book_.fence_node(delivery.source), "its worker began anew");
+    }
+    peer.life = life;
+    peer.told = false;
+  }
+  peer.here = true;
+  const auto here = [](const auto& entry) { return entry.second.here; };
+  if (!begun_ && !over_ && std::all_of(peers_.begin(), peers_.end(), here)) begin();
+  return true;
+}
+
+void Controller::begin() {
+  begun_ = true;
+  began_ = scheduler_.clock().now();
+  spdlog::info("run=begun workers={}", peers_.size());
+  note_book();
   if (book_.committed() >= target_)
     end_run(StopReason::particles);
   else
     open_round();
-  set_timer();
+}
+
+void Controller::await_workers(Nanoseconds now) {
+  if (interrupt_.load()) {
+    closing_ = true;
+    return end_run(StopReason::interrupted);
+  }
+  if (now - began_ < config_.start) {
+    if (now < next_word_) return;
+    next_word_ = now + waiting_word;
+    spdlog::info("run=waiting text=\"{}\"", missing_workers());
+    return;
+  }
+  fault_ = Problem{{},
+                   fmt::format("the run did not begin: after {:g} s (start_s) {}",
+                               seconds_of(config_.start), missing_workers())};
+  end_run(StopReason::workers_lost);
+}
+
+std::string Controller::name_of(NodeId node) const {
+  return node.value < config_.names.size() ? config_.names[node.value]
+                                           : fmt::format("node {}", node.value);
+}
+
+/// Who is not here, and why as far as this node can know: of its own links, that is.
+std::string Controller::missing_workers() const {
+  const std::vector<NodeId> own = network_.neighbours();
+  std::string text;
+  for (const auto& [worker, peer] : peers_) {
+    if (peer.here) continue;
+    const std::string refusal = network_.refusal_of(worker);
+    const bool linked = std::count(own.begin(), own.end(), worker) > 0;
+    text += fmt::format("{}{} has not come ({})", text.empty() ? "" : "; ", name_of(worker),
+                        !refusal.empty() ? refusal
+                        : linked         ? "there is no link to it: see its log"
+                                         : "it has no link to this node: see its log");
+  }
+  return text;
+}
+
+void Controller::watch_workers(Nanoseconds now) {
+  for (auto& [worker, peer] : peers_) {
+    if (network_.reaches(worker)) {
+      peer.unreachable_since.reset();
+      continue;
+    }
+    if (!peer.unreachable_since) peer.unreachable_since = now;
+    if (!begun_ || !peer.here || now - *peer.unreachable_since < config_.lost) continue;
+    peer.here = false;
+    ++counters_.workers_lost;
+    spdlog::error(
+        "worker=lost node={} text=\"no way has led to {} for {:g} s: its batches are lent "
+        "again\"",
+        worker.value, name_of(worker), seconds_of(config_.lost));
+    fence(book_.fence_node(worker), "its worker is lost");
+  }
+  if (!begun_ || over_ || adding_ || !all_gone()) return;
+  if (!closing_) return end_run(StopReason::workers_lost);
+  end_run(interrupt_.load() ? StopReason::interrupted : StopReason::time);
+}
+
+/// Whether nobody is left to trace: all are lost, or out of reach when the run is ending anyway.
+bool Controller::all_gone() const {
+  return std::all_of(peers_.begin(), peers_.end(), [&](const auto& entry) {
+    return !entry.second.here || (closing_ && entry.second.unreachable_since);
+  });
+}
+
+void Controller::fence(const std::vector<Lease>& leases, const char* why) {
+  for (const Lease& lease : leases) {
+    ++counters_.fenced;
+    spdlog::warn("lease=fenced lease={} node={} batch={} text=\"{}: lent again\"", lease.id,
+                 lease.node.value, lease.batch, why);
+    send(lease.node, network_.next_id(), LeasesFenced{{lease.id}});
+  }
+}
+
+void Controller::add_metrics(Metrics& metrics) const {
+  const Counters& c = counters_;
+  metrics.add_counter({"leases_lent", "", "Batches lent.", ""}, c.leases);
+  metrics.add_counter({"leases_fenced", "", "Leases that were late, or whose node was gone.", ""},
+                      c.fenced);
+  metrics.add_counter({"flushes_taken", "", "Flushes counted.", ""}, c.flushes_taken);
+  metrics.add_counter({"flushes_not_taken", "", "Flushes refused.", ""}, c.flushes_refused);
+  metrics.add_counter({"flush_in", "bytes", "Bytes of flushes that came.", ""}, c.flush_bytes);
+  metrics.add_counter({"batches_counted", "", "Batches counted.", ""}, c.batches);
+  metrics.add_counter({"particles_counted", "", "Particles of batches counted.", ""}, c.particles);
+  metrics.add_gauge({"round", "", "Rounds begun.", ""}, c.round);
+  metrics.add_gauge({"leases_out", "", "Leases that stand.", ""}, c.leases_out);
+}
+
+void Controller::note_book() {
+  counters_.batches = static_cast<uint64_t>(book_.committed());
+  counters_.leases_out = book_.standing();
+  counters_.particles = counters_.batches * static_cast<uint64_t>(run_.scene().batch_particles);
 }
 
 // ---- rounds ----------------------------------------------------------------------------------
 
 /// Rounds end where workers wait for one another: only an error target needs them.
 void Controller::open_round() {
-  const int64_t end =
+  const int64_t planned =
       stop_.relative_error ? std::min(target_, run_.round_end(book_.committed())) : target_;
+  const int64_t end = std::max(planned, book_.lent_end());  // of an earlier run, that lacks some
   book_.open_until(end);
-  ++round_;
+  ++counters_.round;
   for (const NodeId worker : config_.workers)
-    send(worker, network_.next_id(), RoundOpened{round_, static_cast<uint64_t>(end)});
+    send(worker, network_.next_id(), RoundOpened{round(), static_cast<uint64_t>(end)});
 }
 
 void Controller::end_round() {
@@ -67,19 +206,24 @@ void Controller::end_run(StopReason reason) {
   reason_ = reason;
   over_ = true;
   over_since_ = scheduler_.clock().now();
-  run_.resume(book_.committed());
+  run_.resume(book_.lent_end(), book_.missing());
   tell_end();
 }
 
 void Controller::tell_end() {
-  for (const NodeId worker : config_.workers)
-    if (told_.count(worker) == 0) send(worker, network_.next_id(), RunEnded{round_, ""});
+  const std::string text = fault_ ? fault_->what.substr(0, limits::text_bytes) : "";
+  for (const auto& [worker, peer] : peers_)
+    if (peer.here && !peer.told) send(worker, network_.next_id(), RunEnded{round(), text});
 }
 
 bool Controller::ended() const {
   if (!over_) return false;
-  return told_.size() == config_.workers.size() ||
-         scheduler_.clock().now() - over_since_ >= farewell;
+  const auto done = [&](const auto& entry) {
+    const Peer& peer = entry.second;
+    return !peer.here || peer.told || (closing_ && peer.unreachable_since);
+  };
+  return std::all_of(peers_.begin(), peers_.end(), done) ||
+         scheduler_.clock().now() - over_since_ >= config_.farewell;
 }
 
 // ---- what passes with time -------------------------------------------------------------------
@@ -91,19 +235,18 @@ void Controller::set_timer() {
 void Controller::look() {
   const Nanoseconds now = scheduler_.clock().now();
   set_timer();
+  watch_workers(now);
   if (over_) return tell_end();
+  if (!begun_) return await_workers(now);
   report_(progress());
-  for (const Lease& lease : book_.fence_late(now)) {
-    ++counters_.fenced;
-    spdlog::warn("lease late lease={} node={} batch={}: lent again", lease.id, lease.node.value,
-                 lease.batch);
-    send(lease.node, network_.next_id(), LeasesFenced{{lease.id}});
-  }
+  run_.pause_if_due();
+  fence(book_.fence_late(now), "late");
+  note_book();
   const double passed = static_cast<double>(now - began_) * 1e-9;
   if (!closing_ && (interrupt_.load() || (stop_.seconds && passed >= *stop_.seconds))) {
     closing_ = true;
     book_.close();
-    if (book_.round_done()) end_round();
+    if (book_.round_done() && !adding_) end_round();
   }
 }
 
@@ -121,30 +264,33 @@ void Controller::send(NodeId worker, const MessageId& id, const Message& message
 }
 
 bool Controller::deliver(const Delivery& delivery) {
+  const bool of_a_worker = std::holds_alternative<RequestLease>(delivery.message) ||
+                           std::holds_alternative<Flush>(delivery.message);
+  if (!of_a_worker) return false;
+  if (!meet(delivery)) return true;
   if (const auto* request = std::get_if<RequestLease>(&delivery.message)) {
     lend(delivery, *request);
   } else if (const auto* flush = std::get_if<Flush>(&delivery.message)) {
     take_flush(delivery, *flush);
-  } else {
-    return false;
   }
   return true;
 }
 
 void Controller::lend(const Delivery& delivery, const RequestLease& request) {
   if (over_ && request.batches == 0) {
-    told_.insert(delivery.source);
+    peers_[delivery.source].told = true;
     return;
   }
   Answered& last = last_grant_[delivery.source];
   if (last.question != delivery.id) {
     const Nanoseconds deadline = scheduler_.clock().now() + config_.lease_time;
     const LentBatches lent =
-        book_.lend(delivery.source, std::min(request.batches, leases_per_question), deadline,
+        book_.lend(delivery.source, std::min(request.batches, config_.leases_most), deadline,
                    rank_of(delivery.source));
     counters_.leases += static_cast<uint64_t>(lent.count);
+    note_book();
     last = {delivery.id,
-            LeaseGranted{lent.first_lease, round_, static_cast<uint64_t>(lent.first_batch),
+            LeaseGranted{lent.first_lease, round(), static_cast<uint64_t>(lent.first_batch),
                          static_cast<uint32_t>(lent.count),
                          static_cast<uint32_t>(config_.lease_time / milliseconds(1))}};
   }
@@ -165,50 +311,84 @@ size_t Controller::group_of(int64_t batch) {
 }
 
 void Controller::take_flush(const Delivery& delivery, const Flush& flush) {
-  Answered& last = last_flush_[delivery.source];
-  const bool again = last.question == delivery.id;
-  if (!again) {
-    std::string why;
-    const bool taken = count_flush(delivery, flush, why);
-    last.question = delivery.id;
-    if (taken)
-      last.answer = FlushTaken{};
-    else
-      last.answer = FlushRefused{{}, why};
-    ++(taken ? counters_.flushes_taken : counters_.flushes_refused);
-    counters_.flush_bytes += delivery.payload.size();
-    if (!taken) spdlog::warn("flush refused node={}: {}", delivery.source.value, why);
-  }
-  send(delivery.source, delivery.id, last.answer);
-  if (!again && !over_ && book_.round_done()) end_round();
+  const Answered& last = last_flush_[delivery.source];
+  if (last.question == delivery.id) return send(delivery.source, delivery.id, last.answer);
+  const auto same = [&](const Arrived& arrived) { return arrived.id == delivery.id; };
+  if (std::any_of(arrived_.begin(), arrived_.end(), same)) return;  // it is being counted
+  // Who asks anew has given up what it asked before.
+  if (arrived_.size() >= 2 * peers_.size()) return;
+  arrived_.push_back(
+      {delivery.source, delivery.id, flush, {delivery.payload.begin(), delivery.payload.end()}});
+  if (counting_) return;
+  counting_ = scheduler_.fibers().start("tally", [this] { count_flushes(); }).has_value();
+  if (!counting_) arrived_.pop_back();  // it is sent again
 }
 
-bool Controller::count_flush(const Delivery& delivery, const Flush& flush, std::string& why) {
-  Hasher hash;
-  hash.add(delivery.payload.data(), delivery.payload.size());
-  if (hash.value() != flush.payload_hash) {
-    why = "the payload is not what its hash says";
-    return false;
+/// On a fiber of its own.
+void Controller::count_flushes() {
+  while (!arrived_.empty()) {
+    answer_flush(arrived_.front(), count_flush(arrived_.front()));
+    arrived_.pop_front();
+    // Not here: what ends a round reads all totals, and needs more stack than a fiber has.
+    scheduler_.timers().set(scheduler_.clock().now(), [this] {
+      if (begun_ && !over_ && !adding_ && book_.round_done()) end_round();
+    });
   }
-  if (!book_.stand(delivery.source, flush.leases)) {
-    why = "a lease was fenced";
-    return false;
+  counting_ = false;
+}
+
+/// `why` it is refused; "" where it was counted.
+void Controller::answer_flush(const Arrived& arrived, const std::string& why) {
+  Answered& last = last_flush_[arrived.worker];
+  last.question = arrived.id;
+  if (why.empty()) {
+    ++counters_.flushes_taken;
+    last.answer = FlushTaken{};
+    spdlog::debug("flush=taken node={} leases={}", arrived.worker.value,
+                  arrived.flush.leases.size());
+  } else {
+    ++counters_.flushes_refused;
+    last.answer = FlushRefused{{}, why};
+    spdlog::warn("flush=refused node={} text=\"{}\"", arrived.worker.value, why);
+    fence(book_.fence_leases(arrived.worker, arrived.flush.leases), "its flush was refused");
   }
-  const auto gain =
-      decode_flush(delivery.payload, run_.totals().groups(), run_.scene().layout.totals());
-  if (!gain.ok()) {
-    why = gain.problem().what;
-    return false;
-  }
-  int64_t batches = 0;
-  for (const auto& group : gain.value().groups) batches += group.batches;
-  if (batches != static_cast<int64_t>(flush.leases.size()) || !gain.value().ledger.closes()) {
-    why = "its batches or its ledger do not add up";
-    return false;
-  }
-  run_.totals().add(gain.value());
-  book_.commit(flush.leases);
+  counters_.flush_bytes += arrived.payload.size();
+  send(arrived.worker, arrived.id, last.answer);
+}
+
+/// Lets others have their turn. A node that is to end goes on: what is begun is whole in the end.
+bool Controller::take_turns() {
+  (void)scheduler_.fibers().yield();
   return true;
+}
+
+/// Takes a flush whole, or says why not.
+std::string Controller::count_flush(const Arrived& arrived) {
+  const std::vector<uint64_t>& leases = arrived.flush.leases;
+  const char* const fenced = "a lease was fenced";
+  if (!book_.stand(arrived.worker, leases)) return fenced;
+  Hasher hash;
+  for (std::span<const std::byte> left = arrived.payload; !left.empty(); take_turns()) {
+    const auto piece = left.first(std::min(left.size(), bytes_of_a_step));
+    hash.add(piece.data(), piece.size());
+    left = left.subspan(piece.size());
+  }
+  if (hash.value() != arrived.flush.payload_hash) return "the payload is not what its hash says";
+  const auto rest = [this] { return take_turns(); };
+  const auto gain =
+      decode_flush(arrived.payload, run_.totals().groups(), run_.scene().layout.totals(), rest);
+  if (!gain.ok()) return gain.problem().what;
+  if (gain->batches() != static_cast<int64_t>(leases.size()) || !gain->ledger().closes())
+    return "its batches or its ledger do not add up";
+  if (over_) return "the run has ended";
+  // Committed before anything is added, so that no lease of it is fenced while others have turns.
+  if (!book_.stand(arrived.worker, leases)) return fenced;
+  book_.commit(leases);
+  adding_ = true;
+  gain->add_to(run_.totals(), rest);
+  note_book();
+  adding_ = false;
+  return "";
 }
 
 }  // namespace luxodus

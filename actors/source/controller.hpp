@@ -1,12 +1,15 @@
 // The controller of a run on nodes: lends batches, takes flushes whole or refuses them, decides
-// when a round and the run are over. It holds the run's totals and traces nothing itself. Thread
-// rule: its node's thread.
+// when a round and the run are over. It holds the run's totals and traces nothing itself. A run
+// begins with all its workers or not at all; once begun it goes on as long as one is left.
+// Thread rule: its node's thread.
 #pragma once
 
 #include <atomic>
+#include <deque>
 #include <functional>
 #include <map>
-#include <set>
+#include <optional>
+#include <string>
 
 #include "actors/source/lease_book.hpp"
 #include "actors/source/local_run.hpp"
@@ -24,9 +27,17 @@ struct ControllerConfig {
   /// of the work that a node of eight prefers; ten times as many are what a run that is stopped has
   /// yet to trace.
   int64_t look_ahead = 8;
+  std::vector<std::string> names;  // of nodes, by number, for people; empty: they have none
+  /// Until every worker has been heard of; else the run does not begin.
+  Nanoseconds start = seconds(60);
+  /// A worker that no way leads to for so long is lost: long against a link that is made anew.
+  Nanoseconds lost = seconds(30);
+  uint64_t first_lease = 1;  // random, where a controller may be started again
   /// A batch that is not back by then is lent to another: long against the slowest batch.
   Nanoseconds lease_time = seconds(120);
   Nanoseconds look_every = milliseconds(250);  // at time, interrupt and late leases
+  uint32_t leases_most = 64;                   // for one question
+  Nanoseconds farewell = seconds(5);  // a worker that does not answer to the end is given up then
 };
 
 class Controller {
@@ -36,7 +47,7 @@ class Controller {
              const std::atomic<bool>& interrupt, std::function<void(const Progress&)> report,
              Scheduler& scheduler, Network& network);
 
-  /// Opens the first round.
+  /// Waits for the workers from now on.
   void start();
   /// A message of a worker; false where it is none of these.
   bool deliver(const Delivery& delivery);
@@ -44,17 +55,42 @@ class Controller {
   /// All batches are counted and every worker has been told, or has been silent for too long.
   bool ended() const;
   StopReason reason() const { return reason_; }
+  /// Why the run could not begin.
+  const std::optional<Problem>& fault() const { return fault_; }
 
   struct Counters {
     uint64_t leases = 0;
     uint64_t fenced = 0;
+    uint64_t workers_lost = 0;
     uint64_t flushes_taken = 0;
     uint64_t flushes_refused = 0;
     uint64_t flush_bytes = 0;
+    uint64_t round = 0;
+    uint64_t batches = 0;  // counted, those of an earlier run included
+    uint64_t leases_out = 0;
+    uint64_t particles = 0;  // of counted batches
   };
   const Counters& counters() const { return counters_; }
+  void add_metrics(Metrics& metrics) const;
 
  private:
+  /// What is known of a worker.
+  struct Peer {
+    bool here = false;  // it was heard of, and has not been lost since
+    Incarnation life;   // of which leases stand
+    std::vector<Incarnation> former;
+    std::optional<Nanoseconds> unreachable_since;
+    bool told = false;  // it knows of the end
+  };
+
+  bool meet(const Delivery& delivery);
+  void begin();
+  void await_workers(Nanoseconds now);
+  void watch_workers(Nanoseconds now);
+  bool all_gone() const;
+  std::string name_of(NodeId node) const;
+  std::string missing_workers() const;
+  void fence(const std::vector<Lease>& leases, const char* why);
   void open_round();
   void look();
   void set_timer();
@@ -62,10 +98,16 @@ class Controller {
   LeaseBook::Rank rank_of(NodeId worker);
   size_t group_of(int64_t batch);
   void take_flush(const Delivery& delivery, const Flush& flush);
-  bool count_flush(const Delivery& delivery, const Flush& flush, std::string& why);
+  struct Arrived;
+  void count_flushes();
+  void answer_flush(const Arrived& arrived, const std::string& why);
+  std::string count_flush(const Arrived& arrived);
+  bool take_turns();
   void end_round();
   void end_run(StopReason reason);
   void tell_end();
+  void note_book();
+  uint32_t round() const { return static_cast<uint32_t>(counters_.round); }
   Progress progress() const;
   void send(NodeId worker, const MessageId& id, const Message& message);
 
@@ -80,15 +122,17 @@ class Controller {
   BatchPlan plan_;
   std::vector<uint32_t> groups_;  // of batches, as far as asked; where groups are ranked
   int64_t target_;
-  uint32_t round_ = 0;
   int64_t batches_at_start_;
   Nanoseconds began_;
   double error_;
+  std::map<NodeId, Peer> peers_;  // all workers
+  bool begun_ = false;
+  Nanoseconds next_word_ = 0;  // of whom it waits for
+  std::optional<Problem> fault_;
   bool closing_ = false;  // no lease beyond the last: time is up or somebody interrupts
   bool over_ = false;
   Nanoseconds over_since_ = 0;
   StopReason reason_ = StopReason::particles;
-  std::set<NodeId> told_;  // workers that know of the end
   /// The last answer to each worker's question of each kind, by the question's sequence: a question
   /// that comes twice is answered alike.
   struct Answered {
@@ -96,6 +140,17 @@ class Controller {
     Message answer;
   };
   std::map<NodeId, Answered> last_grant_, last_flush_;
+  /// Flushes not counted yet, one of a worker at most. They are counted on a fiber, in steps: a
+  /// million bins take a second, in which beats must go on.
+  struct Arrived {
+    NodeId worker;
+    MessageId id;
+    Flush flush;
+    std::vector<std::byte> payload;
+  };
+  std::deque<Arrived> arrived_;
+  bool counting_ = false;  // the fiber runs
+  bool adding_ = false;    // the totals hold a part of a flush
   Counters counters_;
 };
 

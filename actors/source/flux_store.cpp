@@ -50,16 +50,34 @@ Json describe_run(const LocalRun& run) {
     groups.push_back({{"name", scene.groups[static_cast<size_t>(g)].name},
                       {"batches", run.totals().batches(g)}});
   }
-  return {{"schema", limits::flux_schema_version},
-          {"scene_hash", hex(scene.scene_hash)},
-          {"scenario", scene.scenario.name},
-          {"seed", run.seed()},
-          {"batches", run.batches()},
-          {"batch_particles", scene.batch_particles},
-          {"bands_nm", bands},
-          {"groups", groups},
-          {"total", "128-bit sum, 128-bit sum of squares of (batch score / 2^12), little endian"},
-          {"layout", describe_layout(scene.layout)}};
+  Json header = {
+      {"schema", limits::flux_schema_version},
+      {"scene_hash", hex(scene.scene_hash)},
+      {"scenario", scene.scenario.name},
+      {"seed", run.seed()},
+      {"batches", run.batches()},
+      {"batch_particles", scene.batch_particles},
+      {"bands_nm", bands},
+      {"groups", groups},
+      {"total", "128-bit sum, 128-bit sum of squares of (batch score / 2^12), little endian"},
+      {"layout", describe_layout(scene.layout)}};
+  if (!run.missing().empty()) header["missing"] = run.missing();
+  return header;
+}
+
+/// Batches that the totals lack. Errors: no numbers of batches that ascend.
+Result<std::vector<int64_t>> missing_of(const Json& header, int64_t batches,
+                                        const SourcePlace& place) {
+  std::vector<int64_t> missing;
+  for (const Json& number : header.value("missing", Json::array())) {
+    const int64_t batch = number.is_number_integer() ? number.get<int64_t>() : -1;
+    if (batch < 0 || batch >= batches || (!missing.empty() && batch <= missing.back()))
+      return Problem{place,
+                     "the flux file's missing batches are no ascending numbers below its "
+                     "batches: it is damaged"};
+    missing.push_back(batch);
+  }
+  return missing;
 }
 
 Result<bool> same(const Json& header, const Json& wanted, const char* key,
@@ -117,7 +135,10 @@ Result<Done> load_flux(const std::filesystem::path& path, LocalRun& run) {
     totals.restore(g, std::move(state));
   }
   totals.restore_ledger(ledger);
-  run.resume(header.value("batches", int64_t{0}));
+  const auto batches = header.value("batches", int64_t{0});
+  auto missing = missing_of(header, batches, place);
+  if (!missing.ok()) return missing.problem();
+  run.resume(batches, std::move(missing).value());
   return Done{};
 }
 

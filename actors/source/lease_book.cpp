@@ -34,7 +34,8 @@ LentBatches LeaseBook::lend(NodeId node, int64_t most, Nanoseconds deadline, con
     if (!again && !open(batch)) break;
     if (!again && rank && lent.count > 0 && rank(batch) != rank(lent.first_batch)) break;
     if (!again) take(batch);
-    leases_.emplace(++last_id_, Lease{last_id_, node, batch, deadline});
+    const uint64_t id = ++last_id_;
+    leases_.emplace(id, Lease{id, node, batch, deadline});
     ++lent.count;
   }
   return lent;
@@ -74,6 +75,19 @@ std::vector<Lease> LeaseBook::fence_late(Nanoseconds now) {
 
 std::vector<Lease> LeaseBook::fence_node(NodeId node) {
   return fence([&](const Lease& lease) { return lease.node == node; });
+}
+
+std::vector<Lease> LeaseBook::fence_leases(NodeId node, const std::vector<uint64_t>& leases) {
+  const std::set<uint64_t> named(leases.begin(), leases.end());
+  return fence([&](const Lease& lease) { return lease.node == node && named.count(lease.id) > 0; });
+}
+
+std::vector<int64_t> LeaseBook::missing() const {
+  std::set<int64_t> batches = again_;
+  for (const auto& [id, lease] : leases_) batches.insert(lease.batch);
+  for (int64_t batch = next_; batch < lent_end(); ++batch)
+    if (ahead_.count(batch) == 0) batches.insert(batch);
+  return {batches.begin(), batches.end()};
 }
 
 std::optional<Nanoseconds> LeaseBook::next_deadline() const {

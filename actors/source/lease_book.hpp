@@ -36,11 +36,19 @@ class LeaseBook {
   /// How little a node likes a batch: it is lent one of the least rank.
   using Rank = std::function<uint32_t(int64_t batch)>;
 
-  /// `done` batches are committed already: a run that goes on. A preferred batch is lent at most
-  /// `look_ahead` numbers before its turn, for all that was skipped must be done when a run is
-  /// stopped. Requires: look_ahead >= 1.
-  explicit LeaseBook(int64_t done, int64_t look_ahead = 1)
-      : look_ahead_(look_ahead), next_(done), end_(done), committed_(done) {}
+  /// Batches up to number `next` are committed already, but for those `missing`: a run that goes
+  /// on. Leases are numbered from `first_lease`: where that is random, a lease of an earlier life
+  /// of the book is never taken for one of this. A preferred batch is lent at most `look_ahead`
+  /// numbers before its turn, for all that was skipped must be done when a run is stopped.
+  /// Requires: look_ahead >= 1.
+  explicit LeaseBook(int64_t next, const std::vector<int64_t>& missing = {},
+                     uint64_t first_lease = 1, int64_t look_ahead = 1)
+      : again_(missing.begin(), missing.end()),
+        last_id_(first_lease - 1),
+        look_ahead_(look_ahead),
+        next_(next),
+        end_(next),
+        committed_(next - static_cast<int64_t>(missing.size())) {}
 
   /// Batches may be lent up to number `end`. Requires: end is not before an earlier one.
   void open_until(int64_t end) { end_ = end; }
@@ -59,12 +67,16 @@ class LeaseBook {
   std::vector<Lease> fence_late(Nanoseconds now);
   /// Fences all leases of a node that is gone, or has begun another life.
   std::vector<Lease> fence_node(NodeId node);
+  /// Fences those of these leases that stand and are this node's: what it did with them is gone.
+  std::vector<Lease> fence_leases(NodeId node, const std::vector<uint64_t>& leases);
 
   /// Everything up to the end of the round is counted.
   bool round_done() const { return committed_ == end_; }
   int64_t committed() const { return committed_; }
   /// Beyond the last batch that was lent at least once.
   int64_t lent_end() const { return ahead_.empty() ? next_ : *ahead_.rbegin() + 1; }
+  /// Batches 0..lent_end() - 1 that are not committed.
+  std::vector<int64_t> missing() const;
   /// Ends the round with what has been lent, and what was skipped on the way.
   void close() { end_ = lent_end(); }
   size_t standing() const { return leases_.size(); }
@@ -81,7 +93,7 @@ class LeaseBook {
   std::map<uint64_t, Lease> leases_;
   std::set<int64_t> again_;  // fenced, to be lent before new ones
   std::set<int64_t> ahead_;  // lent before their turn: beyond next_
-  uint64_t last_id_ = 0;
+  uint64_t last_id_;
   int64_t look_ahead_;
   int64_t next_;  // the first that was never lent
   int64_t end_;

@@ -7,6 +7,8 @@
 #include <limits>
 #include <thread>
 
+#include "runtime/core/check.hpp"
+
 namespace luxodus {
 
 namespace {
@@ -36,12 +38,37 @@ LocalRun::LocalRun(std::shared_ptr<const CompiledScene> scene, uint64_t seed, in
       seed_(seed),
       threads_(threads),
       index_(std::make_unique<SceneIndex>(device_, *scene_)),
+      rows_(std::make_unique<ResidentRows>(*index_, threads)),
       totals_(scene_->layout, static_cast<int>(scene_->groups.size()), photopic_weights(*scene_)),
       plan_(*scene_),
       error_(std::numeric_limits<double>::quiet_NaN()) {}
 
-void LocalRun::resume(int64_t batches) {
+LocalRun::LocalRun(std::shared_ptr<const CompiledScene> scene, uint64_t seed, int threads,
+                   std::unique_ptr<RowRunner> rows)
+    : scene_(std::move(scene)),
+      seed_(seed),
+      threads_(threads),
+      rows_(std::move(rows)),
+      totals_(scene_->layout, static_cast<int>(scene_->groups.size()), photopic_weights(*scene_)),
+      plan_(*scene_),
+      error_(std::numeric_limits<double>::quiet_NaN()) {}
+
+const char* name_of(StopReason reason) {
+  constexpr const char* names[] = {"particles", "error", "time", "interrupted", "workers lost"};
+  return names[static_cast<size_t>(reason)];
+}
+
+void LocalRun::resume(int64_t batches, std::vector<int64_t> missing) {
   plan_.skip(batches);
+  missing_ = std::move(missing);
+}
+
+Batch LocalRun::next_batch() {
+  if (missing_.empty()) return plan_.next();
+  BatchPlan from_the_first(*scene_);
+  from_the_first.skip(missing_.back());
+  missing_.pop_back();
+  return from_the_first.next();
 }
 
 int64_t LocalRun::target_batches(const StopRule& stop) const {
@@ -84,12 +111,13 @@ void LocalRun::trace_until(int64_t end, const StopRule& stop, const std::atomic<
         const std::lock_guard lock(plan_mutex_);
         const double now = clock.seconds();
         if (stop.seconds && now >= *stop.seconds) time_is_up_ = true;
-        if (interrupt.load() || time_is_up_ || plan_.given() >= end) return;
+        if (interrupt.load() || time_is_up_ || (missing_.empty() && plan_.given() >= end)) return;
+        if (pause_due_ && pause_due_()) return;
         if (now - last_report >= report_every_s) {
           last_report = now;
           report(progress(stop, now));
         }
-        batch = plan_.next();
+        batch = next_batch();
       }
       scores.reset(scene_->layout);
       tracer->trace(batch.group, batch.first_particle, scene_->batch_particles, scores);
@@ -106,17 +134,21 @@ void LocalRun::trace_until(int64_t end, const StopRule& stop, const std::atomic<
 
 StopReason LocalRun::run(const StopRule& stop, const std::atomic<bool>& interrupt,
                          const std::function<void(const Progress&)>& report) {
+  LUX_CHECK(resident(), "threads trace only what is resident");
   const Clock clock;
   const double before = seconds_;
-  batches_at_start_ = plan_.given();
+  batches_at_start_ = traced();
   time_is_up_ = false;
   const int64_t target = target_batches(stop);
   StopReason reason = StopReason::particles;
-  while (plan_.given() < target) {
+  while (plan_.given() < target || !missing_.empty()) {
     // Rounds end where threads wait for one another: only an error target needs them.
     const int64_t end =
         stop.relative_error ? std::min(target, plan_.round_end(plan_.given())) : target;
     trace_until(end, stop, interrupt, report, clock);
+    pause_if_due();
+    const bool left = plan_.given() < end || !missing_.empty();
+    if (left && !interrupt.load() && !time_is_up_) continue;
     error_ = Readout(*scene_, totals_).worst_relative_error();
     if (interrupt.load())
       reason = StopReason::interrupted;

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "actors/source/batch_plan.hpp"
+#include "actors/source/rows.hpp"
 #include "scenes/transport/readout.hpp"
 #include "scenes/transport/trace.hpp"
 
@@ -35,20 +36,40 @@ struct Progress {
 Progress progress_of(const StopRule& stop, int64_t batch_particles, int64_t at_start,
                      int64_t batches, double seconds, double error);
 
-enum class StopReason { particles, error, time, interrupted };
+enum class StopReason { particles, error, time, interrupted, workers_lost };
+
+/// The word of a reason in results and logs.
+const char* name_of(StopReason reason);
 
 class LocalRun {
  public:
-  /// Requires: threads >= 1.
+  /// Takes all geometry into memory. Requires: threads >= 1.
+  /// Errors (exception): a packed scene whose triangles cannot be read.
   LocalRun(std::shared_ptr<const CompiledScene> scene, uint64_t seed, int threads);
+  /// Leaves geometry where it is: others trace, and what is computed of the result reaches geometry
+  /// through `rows`.
+  LocalRun(std::shared_ptr<const CompiledScene> scene, uint64_t seed, int threads,
+           std::unique_ptr<RowRunner> rows);
 
   /// Traces until `stop` holds or `interrupt` is set; batches in flight are finished. May be called
   /// again to go on. `report` is called about four times a second, from one thread at a time.
+  /// Requires: resident().
   StopReason run(const StopRule& stop, const std::atomic<bool>& interrupt,
                  const std::function<void(const Progress&)>& report);
 
-  /// Goes on from totals that hold the first `batches` batches.
-  void resume(int64_t batches);
+  /// Has `pause` called between batches, while nobody adds to the totals, whenever `due` says so:
+  /// by run() on its thread, by a controller on its. Both functions outlive the run.
+  void set_pause(std::function<bool()> due, std::function<void()> pause) {
+    pause_due_ = std::move(due);
+    pause_ = std::move(pause);
+  }
+  void pause_if_due() {
+    if (pause_due_ && pause_due_()) pause_();
+  }
+
+  /// Goes on from totals that hold the first `batches` batches, but for those `missing`: these are
+  /// traced before others. Requires: `missing` ascend and are among them.
+  void resume(int64_t batches, std::vector<int64_t> missing = {});
   /// Adds time that somebody else has traced into the totals.
   void add_seconds(double seconds) { seconds_ += seconds; }
 
@@ -58,23 +79,31 @@ class LocalRun {
   int64_t round_end(int64_t batches) const { return plan_.round_end(batches); }
 
   const CompiledScene& scene() const { return *scene_; }
+  const std::shared_ptr<const CompiledScene>& shared_scene() const { return scene_; }
+  bool resident() const { return index_ != nullptr; }
+  /// Requires: resident().
   const SceneIndex& index() const { return *index_; }
+  /// For work beside tracing that needs geometry.
+  const RowRunner& rows() const { return *rows_; }
   Totals& totals() { return totals_; }
   const Totals& totals() const { return totals_; }
   const EmbreeDevice& device() const { return device_; }
+  /// Batches given out so far; of these, those that the totals lack: of nodes that were lost.
   int64_t batches() const { return plan_.given(); }
-  int64_t particles() const { return plan_.given() * scene_->batch_particles; }
+  const std::vector<int64_t>& missing() const { return missing_; }
+  int64_t traced() const { return plan_.given() - static_cast<int64_t>(missing_.size()); }
+  int64_t particles() const { return traced() * scene_->batch_particles; }
   double seconds() const { return seconds_; }
   uint64_t seed() const { return seed_; }
   int threads() const { return threads_; }
 
  private:
   class Clock;
+  Batch next_batch();
   void trace_until(int64_t end, const StopRule& stop, const std::atomic<bool>& interrupt,
                    const std::function<void(const Progress&)>& report, const Clock& clock);
   Progress progress(const StopRule& stop, double seconds) const {
-    return progress_of(stop, scene_->batch_particles, batches_at_start_, plan_.given(), seconds,
-                       error_);
+    return progress_of(stop, scene_->batch_particles, batches_at_start_, traced(), seconds, error_);
   }
 
   std::shared_ptr<const CompiledScene> scene_;
@@ -82,13 +111,17 @@ class LocalRun {
   int threads_;
   EmbreeDevice device_;
   std::unique_ptr<SceneIndex> index_;
+  std::unique_ptr<RowRunner> rows_;
   Totals totals_;
   BatchPlan plan_;
+  std::vector<int64_t> missing_;
   std::mutex plan_mutex_;
   std::atomic<bool> time_is_up_{false};
   double seconds_ = 0;
   double error_ = 0;
   int64_t batches_at_start_ = 0;
+  std::function<bool()> pause_due_;
+  std::function<void()> pause_;
 };
 
 }  // namespace luxodus

@@ -1,16 +1,20 @@
 #include "actors/supervise/cluster_process.hpp"
 
+#include <spdlog/spdlog.h>
 #include <sys/random.h>
 
 #include <algorithm>
+#include <array>
 
 #include "actors/objects/profile_file.hpp"
-#include "actors/supervise/node_shell.hpp"
+#include "actors/supervise/node_plan.hpp"
 #include "actors/supervise/residency_setup.hpp"
+#include "actors/supervise/stored_rows.hpp"
 #include "runtime/config/cluster_file.hpp"
 #include "runtime/fiber/sanitizers.hpp"
 #include "scenes/format/atomic_file.hpp"
 #include "scenes/format/scene_file.hpp"
+#include "scenes/pack/scene_pack.hpp"
 #include "scenes/transport/compile.hpp"
 #include "topology/graph_file.hpp"
 #include "topology/shipped.hpp"
@@ -97,6 +101,13 @@ int cells_for(const ClusterConfig& cluster, uint64_t built_bytes) {
       built_bytes / std::max<uint64_t>(smallest / cells_of_a_budget, 1) + 1, 1'000'000));
 }
 
+std::vector<NodeId> holders_of(const ClusterConfig& cluster) {
+  std::vector<NodeId> holders;
+  for (uint16_t i = 0; i < cluster.workers(); ++i)
+    if (cluster.node({i}).stores) holders.push_back({i});
+  return holders;
+}
+
 ClusterProcessRun::~ClusterProcessRun() = default;
 
 Result<std::unique_ptr<ClusterProcessRun>> ClusterProcessRun::prepare(
@@ -128,18 +139,46 @@ Result<bool> ClusterProcessRun::load_keys(const std::vector<NodeId>& nodes) {
   return true;
 }
 
-Result<bool> ClusterProcessRun::load_scene() {
-  auto read = read_scene(cluster_.run.scene.string());
+namespace {
+
+Result<std::shared_ptr<const SceneDescription>> described(const std::filesystem::path& scene) {
+  if (is_pack(scene)) return read_pack(scene);
+  auto read = read_scene(scene.string());
   if (!read.scene) return read.problems.list().front();
-  const auto description = std::make_shared<const SceneDescription>(std::move(*read.scene));
-  auto scenario = find_scenario(*description, cluster_.run.scenario);
+  return std::make_shared<const SceneDescription>(std::move(*read.scene));
+}
+
+}  // namespace
+
+Result<bool> ClusterProcessRun::load_scene() {
+  auto description = described(cluster_.run.scene);
+  if (!description.ok()) return description.problem();
+  auto scenario = find_scenario(*description.value(), cluster_.run.scenario);
   if (!scenario.ok()) return scenario.problem();
-  auto scene = compile_scene(description, scenario.value(), {1});
+  auto scene = compile_scene(description.value(), scenario.value(), {1});
   if (!scene.ok()) return scene.problem();
-  cells_ = cells_for(cluster_, built_bytes_of(scene.value()->triangles * sizeof(TriangleRecord)));
-  if (cells_ > 1) scene = compile_scene(description, scenario.value(), {cells_});
+  const uint64_t built = built_bytes_of(scene.value()->triangles * sizeof(TriangleRecord));
+  const int wanted = cells_for(cluster_, built);
+  fetches_ = wanted > 1;
+  const PackedGeometry* packed = description.value()->packed.get();
+  cells_ = packed != nullptr ? packed->partition : wanted;
+  if (packed == nullptr && fetches_)
+    scene = compile_scene(description.value(), scenario.value(), {cells_});
   if (!scene.ok()) return scene.problem();
-  run_ = std::make_unique<LocalRun>(scene.value(), description->run.seed, 1);
+  const uint64_t seed = description.value()->run.seed;
+  if (!fetches_) {
+    run_ = std::make_unique<LocalRun>(scene.value(), seed, 1);
+    return true;
+  }
+  if (scene.value()->cell_boxes.size() < 2) {
+    return Problem{{cluster_.run.scene.string(), 0},
+                   "this pack is of one cell, which is more than a node's object_bytes: pack the "
+                   "scene with a smaller --cell-kib"};
+  }
+  StoredRowsConfig rows;
+  rows.object_bytes = cluster_.node(cluster_.controller()).budget.object_bytes;
+  run_ = std::make_unique<LocalRun>(scene.value(), seed, 1,
+                                    std::make_unique<StoredRows>(scene.value(), rows));
   return true;
 }
 
@@ -152,9 +191,9 @@ Result<ReferenceProfile> ClusterProcessRun::profile(double share) const {
   for (const ClusterNode& node : cluster_.nodes)
     budget = std::max(budget, node.budget.object_bytes);
   const CompiledScene& scene = run_->scene();
-  const SceneObjects objects(scene, 1, 1);
+  const SceneObjects objects(scene, std::array{NodeId{0}}, 1);
   const EmbreeDevice device;
-  const ProxyScene proxies(device, boxes_of(scene));
+  const ProxyScene proxies(device, scene.cell_boxes);
   const auto of_run = static_cast<double>(cluster_.run.particles.value_or(usual_particles));
   const auto particles = static_cast<int64_t>(share * of_run);
   return count_references(scene, objects, proxies, run_->seed(),
@@ -182,16 +221,44 @@ Result<NodeSetup> ClusterProcessRun::setup_of(NodeId self, const RunSetup& run) 
   node.insecure = cluster_.keys.insecure;
   node.controller = cluster_.controller();
   const NodeBudget& budget = cluster_.node(self).budget;
-  node.photons.fibers = cells_ == 1 ? 1 : budget.fibers;
+  node.photons.fibers = fetches_ ? budget.fibers : 1;
   node.object_bytes = budget.object_bytes;
   node.pinned_share = cluster_.run.profile.empty() ? 0 : pinned_share;
   node.fibers.stack_bytes = budget.stack_bytes * sanitizers::stack_factor;
   if (budget.maps_most > 0) node.fibers.maps_most = budget.maps_most;
   node.stall = cluster_.timeouts.stall;
+  node.start = cluster_.timeouts.start;
+  node.lost = cluster_.timeouts.lost;
+  for (const ClusterNode& one : cluster_.nodes) node.names.push_back(one.name);
   node.lease_time = cluster_.lease.duration;
+  node.photons.leases = cluster_.lease.batches;
+  node.tally_bytes = budget.tally_bytes;
+  node.shutdown_phase = cluster_.timeouts.shutdown_phase;
   node.fetch.tries = static_cast<uint8_t>(cluster_.timeouts.fetch_attempts);
   node.fetch.timeouts.floor = cluster_.timeouts.fetch_floor;
   return node;
+}
+
+ObserveOptions ClusterProcessRun::observe_options() const {
+  ObserveOptions options;
+  options.address = cluster_.observe.metrics_address;
+  const uint16_t port = cluster_.processes[cluster_.node(nodes_.front()).process].metrics_port;
+  if (port != 0) options.metrics_port = port;
+  options.trace_every = cluster_.observe.trace_every;
+  return options;
+}
+
+/// Beside the results, under the name of the process: several may share the folder.
+Result<Done> ClusterProcessRun::write_trace(const Observation& seen) const {
+  if (!seen.traces()) return Done{};
+  std::error_code failed;
+  std::filesystem::create_directories(cluster_.run.out, failed);
+  if (failed)
+    return Problem{{cluster_.run.out.string(), 0},
+                   "cannot make this folder for the trace: " + failed.message()};
+  const size_t process = cluster_.node(nodes_.front()).process;
+  return seen.write_trace(cluster_.run.out /
+                          ("trace-" + cluster_.processes[process].name + ".json"));
 }
 
 Result<std::optional<StopReason>> ClusterProcessRun::run(
@@ -203,19 +270,27 @@ Result<std::optional<StopReason>> ClusterProcessRun::run(
   const EmbreeDevice device;
   std::optional<SceneObjects> objects;
   std::optional<ProxyScene> proxies;
-  RunSetup setup{run_->scene(), &run_->index(), nullptr, nullptr,
-                 run_->seed(),  graph_,         clock,   context};
+  const SceneIndex* index = fetches_ ? nullptr : &run_->index();
+  RunSetup setup{run_->scene(), index, nullptr, nullptr, run_->seed(),
+                 graph_,        clock, context, {},      nullptr};
+  for (const ClusterNode& node : cluster_.nodes) setup.names.push_back(node.name);
   std::optional<Residency> residency;
-  if (cells_ > 1) {
-    objects.emplace(run_->scene(), static_cast<uint32_t>(cluster_.workers()), replicas());
-    proxies.emplace(device, boxes_of(run_->scene()));
+  if (fetches_) {
+    const std::vector<NodeId> holders = holders_of(cluster_);
+    objects.emplace(run_->scene(), holders, std::min<size_t>(replicas(), holders.size()));
+    proxies.emplace(device, run_->scene().cell_boxes);
     setup.objects = &*objects;
     setup.proxies = &*proxies;
     auto planned = planned_residency(setup);
     if (!planned.ok()) return planned.problem();
     residency = std::move(planned).value();
-    if (residency) objects->place(residency->holders);
+    // Where some workers have no storage, the plan's holders would be asked in vain.
+    if (residency && holders_of(cluster_).size() == cluster_.workers())
+      objects->place(residency->holders);
   }
+  auto seen = Observation::start(observe_options());
+  if (!seen.ok()) return seen.problem();
+  if (seen.value()->watches()) setup.observation = seen.value().get();
   std::vector<NodeSetup> workers;
   std::optional<NodeSetup> controller;
   for (const NodeId node : nodes_) {
@@ -227,6 +302,9 @@ Result<std::optional<StopReason>> ClusterProcessRun::run(
     else
       workers.push_back(std::move(own).value());
   }
+  for (const NodeSetup& node : workers)
+    if (auto fault = budget_fault(setup, node)) return Problem{{cluster_.file.string(), 0}, *fault};
+  spdlog::info("memory plan\n{}", plan_text(setup, workers, controller));
   WorkerThreads threads(setup, workers, [&] { return !controller && interrupt.load(); });
   std::optional<StopReason> reason;
   if (controller) {
@@ -242,6 +320,7 @@ Result<std::optional<StopReason>> ClusterProcessRun::run(
   threads.join();
   if (threads.failed()) return threads.problem();
   if (residency) residency_lines_ = residency_table(*residency, threads.by_node());
+  if (auto ok = write_trace(*seen.value()); !ok.ok()) return ok.problem();
   return reason;
 }
 

@@ -25,6 +25,9 @@ Result<Graph> graph_of(const ClusterConfig& cluster);
 /// agree.
 int cells_for(const ClusterConfig& cluster, uint64_t built_bytes);
 
+/// The workers among which objects are shared out.
+std::vector<NodeId> holders_of(const ClusterConfig& cluster);
+
 /// What a process of a cluster is about to do; kept while it runs.
 class ClusterProcessRun {
  public:
@@ -61,10 +64,13 @@ class ClusterProcessRun {
   Result<bool> load_keys(const std::vector<NodeId>& nodes);
   Result<std::optional<Residency>> planned_residency(const RunSetup& run) const;
   Result<NodeSetup> setup_of(NodeId self, const RunSetup& run) const;
+  ObserveOptions observe_options() const;
+  Result<Done> write_trace(const Observation& seen) const;
 
   const ClusterConfig cluster_;
   const Graph graph_;
   int cells_ = 1;
+  bool fetches_ = false;  // the scene is more than a node's budget
   std::vector<NodeId> nodes_;
   std::map<NodeId, KeyPair> keys_;
   std::map<NodeId, std::string> public_keys_;

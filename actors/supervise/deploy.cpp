@@ -168,6 +168,8 @@ std::vector<std::string> used_hosts(const ClusterConfig& cluster) {
   return names;
 }
 
+// The job ends as its controller does: a worker that fails is told of, and the run goes on without
+// it. A shell that has a trap ends after its child, which has got the signal as well.
 // Whole machines, since nodes are counted by the cluster's file and not by Slurm; each task goes to
 // the host that the file says, by SLURM_HOSTFILE and an arbitrary distribution.
 constexpr std::string_view slurm_script = R"(#!/bin/bash
@@ -180,6 +182,7 @@ constexpr std::string_view slurm_script = R"(#!/bin/bash
 #SBATCH --nodes={hosts}
 #SBATCH --exclusive
 #SBATCH --mem=0
+#SBATCH --no-kill
 #SBATCH --output={run}-%j.log
 # A minute before its time is over, nodes are asked to end and keep what they have.
 #SBATCH --signal=TERM@60
@@ -192,6 +195,7 @@ cat >"$host_file" <<'END'
 export SLURM_HOSTFILE=$host_file
 
 read -r -d '' task <<'END' || true
+trap : TERM
 case $SLURM_PROCID in
 {cases}esac
 END
@@ -202,12 +206,14 @@ srun --ntasks={tasks} --distribution=arbitrary --overcommit --cpu-bind=none --la
 constexpr std::string_view ssh_head = R"(#!/bin/bash
 # Run {run}. Written by `luxodus deploy`; change the cluster's file instead.
 #   {run}.sh         starts all processes, shows what they say, ends when they have ended
-#   {run}.sh stop    stops them, from anywhere; as does Ctrl-C, or one of them that fails
+#   {run}.sh stop    stops them, from anywhere; as does Ctrl-C
+# It ends as the controller's process does, and stops all when that fails; it tells of others.
 # Hosts are reached by ssh without a password, loopback addresses without ssh.
 set -euo pipefail
 
 run={run}
 names=({names})
+controller={controller}
 addresses=({addresses})
 commands=(
 {commands})
@@ -262,7 +268,7 @@ stop_all() {
 }
 
 start_all() {
-  local i ended status worst=0 interrupted='' stopping=''
+  local i ended status result=0 interrupted='' stopping=''
   local -A running=()
   trap 'interrupted=1' INT TERM
   for i in "${!names[@]}"; do
@@ -275,15 +281,15 @@ start_all() {
     wait -n -p ended "${!running[@]}" || status=$?
     if [ -n "${ended:-}" ]; then # and not a signal
       [ "$status" -eq 0 ] || echo "${running[$ended]}: ended with $status" >&2
-      [ "$worst" -ne 0 ] || worst=$status
+      [ "${running[$ended]}" != "$controller" ] || result=$status
       unset "running[$ended]"
     fi
-    if [ -z "$stopping" ] && { [ -n "$interrupted" ] || [ "$worst" -ne 0 ]; }; then
+    if [ -z "$stopping" ] && { [ -n "$interrupted" ] || [ "$result" -ne 0 ]; }; then
       stopping=1
       stop_all
     fi
   done
-  exit "$worst"
+  exit "$result"
 }
 
 case ${1:-start} in
@@ -326,7 +332,11 @@ std::vector<DeployFile> slurm_files(const ClusterConfig& cluster, const DeployOp
   for (size_t i = 0; i < cluster.processes.size(); ++i) {
     const ClusterProcess& process = cluster.processes[i];
     host_lines += cluster.hosts[process.host].name + "\n";
-    cases += fmt::format("  {}) exec {} ;;\n", i, shell_command(cluster, process, options));
+    const std::string command = shell_command(cluster, process, options);
+    cases += hosts_controller(cluster, process)
+                 ? fmt::format("  {}) exec {} ;;\n", i, command)
+                 : fmt::format("  {}) {} || echo \"{} ended with $?\" >&2 ;;\n", i, command,
+                               process.name);
   }
   const auto hosts = used_hosts(cluster);
   for (const std::string& host : hosts) nodelist += (nodelist.empty() ? "" : ",") + host;
@@ -339,16 +349,18 @@ std::vector<DeployFile> slurm_files(const ClusterConfig& cluster, const DeployOp
 }
 
 std::vector<DeployFile> ssh_files(const ClusterConfig& cluster, const DeployOptions& options) {
-  std::string names, addresses, commands;
+  std::string names, addresses, commands, controller;
   for (const ClusterProcess& process : cluster.processes) {
     const std::string blank = names.empty() ? "" : " ";
     names += blank + shell_word(process.name);
+    if (hosts_controller(cluster, process)) controller = shell_word(process.name);
     addresses += blank + shell_word(cluster.hosts[process.host].address);
     commands += "  " + shell_word(shell_command(cluster, process, options)) + "\n";
   }
   return {{cluster.run.name + ".sh",
            fmt::format(ssh_head, fmt::arg("run", cluster.run.name), fmt::arg("names", names),
-                       fmt::arg("addresses", addresses), fmt::arg("commands", commands)) +
+                       fmt::arg("controller", controller), fmt::arg("addresses", addresses),
+                       fmt::arg("commands", commands)) +
                std::string(ssh_body),
            true}};
 }

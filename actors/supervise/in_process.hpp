@@ -28,7 +28,7 @@ struct NodesOptions {
   int nodes = 2;         // workers; the controller comes on top and traces nothing
   int links = 4;         // of a node at most
   size_t fibers = 1;     // photon-threads of a node
-  size_t portion = 128;  // particles a fiber takes at once
+  size_t portion = 128;  // particles a fiber takes at once, at most
   /// For built geometry cells, of each node. 0: everything is resident, and shared. With a budget
   /// each node holds its share of the cells' bytes for all, and fetches and builds what it needs.
   size_t object_bytes = 0;
@@ -37,6 +37,12 @@ struct NodesOptions {
   /// holds and keeps what. 0: no plan.
   double profile_share = 0.01;
   double pinned_share = 0.5;  // of a budget, for cells that the plan has kept for good
+  /// Of every link, on purpose: what a distance would cost, and how many fibers hide it.
+  Nanoseconds link_delay = 0;
+  Observation* observation = nullptr;  // where somebody watches
+  /// Asked by each worker every few milliseconds, on its own thread: whether it shall end before
+  /// the run does.
+  std::function<bool()> stop = [] { return false; };
 };
 
 /// What the nodes of a run did.
@@ -88,8 +94,11 @@ Result<StopReason> run_controller(const RunSetup& setup, const NodeSetup& node, 
                                   const std::function<bool()>& broken,
                                   NodesReport* counted = nullptr);
 
+/// What each node of such a run may take, in tables. Errors: as run_on_nodes.
+Result<std::string> plan_on_nodes(const LocalRun& run, const NodesOptions& options);
+
 /// Traces until `stop` holds, into `run`'s totals; as LocalRun::run.
-/// Errors: no graph of so few links, no sockets left.
+/// Errors: no graph of so few links, no sockets left, a budget that is too small.
 Result<StopReason> run_on_nodes(LocalRun& run, const NodesOptions& options, const StopRule& stop,
                                 const std::atomic<bool>& interrupt,
                                 const std::function<void(const Progress&)>& report,

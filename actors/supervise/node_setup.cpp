@@ -1,5 +1,7 @@
 #include "actors/supervise/node_setup.hpp"
 
+#include <fmt/format.h>
+
 #include "actors/supervise/fingerprint.hpp"
 #include "actors/supervise/node_shell.hpp"
 #include "runtime/core/hash.hpp"
@@ -34,6 +36,23 @@ Result<bool> join_links(ZmqTransport& transport, const NodeSetup& node) {
     if (!to.ok()) return to.problem();
   }
   return true;
+}
+
+std::string meeting_trouble(const ZmqTransport& transport, const ZmqContext& context,
+                            const Network& network) {
+  std::string text;
+  if (context.turned_away() > 0)
+    text += fmt::format("; {} connections were turned away, since their keys are not listed here",
+                        context.turned_away());
+  if (transport.counters().refused_us > 0)
+    text += "; a neighbour turned this node away, since it does not list this node's key";
+  if (transport.counters().handshake_failed > 0)
+    text += "; a neighbour has another key than the one listed here";
+  for (const NodeId neighbour : network.neighbours()) {
+    const std::string refusal = network.refusal_of(neighbour);
+    if (!refusal.empty()) text += "; " + refusal;
+  }
+  return text;
 }
 
 void complete(NetConfig& net, const RunSetup& run) {

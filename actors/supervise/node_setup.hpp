@@ -9,7 +9,10 @@
 #include "actors/objects/scene_objects.hpp"
 #include "actors/photon/photon_threads.hpp"
 #include "actors/source/controller.hpp"
+#include "actors/supervise/node_shell.hpp"
+#include "actors/supervise/observation.hpp"
 #include "runtime/config/cluster_config.hpp"
+#include "runtime/net/delayed_transport.hpp"
 #include "runtime/net/zmq_transport.hpp"
 #include "topology/graph.hpp"
 
@@ -25,6 +28,8 @@ struct RunSetup {
   const Graph& graph;
   const Clock& clock;
   ZmqContext& context;
+  std::vector<std::string> names;      // of nodes, by number
+  Observation* observation = nullptr;  // where somebody watches
 };
 
 /// What is a node's own.
@@ -38,6 +43,9 @@ struct NodeSetup {
   PhotonConfig photons;
   FiberLimits fibers;  // stacks and guards; how many follows from `photons`
   Nanoseconds stall = SchedulerLimits{}.stall;
+  Nanoseconds start = ControllerConfig{}.start;
+  Nanoseconds lost = ControllerConfig{}.lost;
+  std::vector<std::string> names;  // of all nodes, by number; empty: they have none
   Nanoseconds lease_time = ControllerConfig{}.lease_time;
   FetchConfig fetch;
   size_t object_bytes = 0;  // for built cells, where cells are fetched
@@ -45,11 +53,42 @@ struct NodeSetup {
   std::vector<uint32_t> pins;
   /// The controller's: see ControllerConfig::group_ranks.
   std::vector<std::vector<uint32_t>> group_ranks;
+  uint64_t tally_bytes = UINT64_MAX;  // for scores, totals and a flush
+  Nanoseconds shutdown_phase = ShellConfig{}.shutdown_phase;
+  /// Of every link, on purpose. Requires: the same at all nodes, and one clock: one process.
+  Nanoseconds link_delay = 0;
+
+  /// Of the node itself, for people.
+  std::string name() const {
+    const size_t number = net.self.value;
+    return number < names.size() ? names[number] : "node " + std::to_string(number);
+  }
+};
+
+/// A node's way to its neighbours: its sockets, behind the delay that the setup asks for.
+class NodeTransport {
+ public:
+  NodeTransport(const RunSetup& run, const NodeSetup& node)
+      : sockets_(run.context, {node.net.self, node.keys, node.insecure}, run.clock) {
+    if (node.link_delay > 0) delayed_.emplace(sockets_, node.link_delay, run.clock);
+  }
+
+  ZmqTransport& sockets() { return sockets_; }
+  Transport& transport() { return delayed_ ? static_cast<Transport&>(*delayed_) : sockets_; }
+
+ private:
+  ZmqTransport sockets_;
+  std::optional<DelayedTransport> delayed_;
 };
 
 /// Listens and connects as the setup says.
 /// Errors: an endpoint that is taken, is none, or asks for keys that there are not.
 Result<bool> join_links(ZmqTransport& transport, const NodeSetup& node);
+
+/// What went wrong between this node and others while they met, to add to a sentence; "" if nothing
+/// did: who was turned away, by whom this node was, which links are refused and why.
+std::string meeting_trouble(const ZmqTransport& transport, const ZmqContext& context,
+                            const Network& network);
 
 /// The identity that all nodes of a run share, and limits that follow from its graph.
 void complete(NetConfig& net, const RunSetup& run);

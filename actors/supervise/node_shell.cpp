@@ -110,10 +110,11 @@ NodeShell::~NodeShell() = default;
 
 void NodeShell::run_until(const std::function<bool()>& ended) {
   Shutdown& shutdown = scheduler_.shutdown();
-  shutdown.add(scheduler_.end_all_fibers(seconds(5)));
+  shutdown.add(scheduler_.end_all_fibers(config_.shutdown_phase));
   Nanoseconds left_at = never;
-  shutdown.add({"pass on farewells", seconds(5), [&] { left_at = clock_.now() + linger; },
-                [&] { return clock_.now() >= left_at; }, [] { return "others to hear of it"; }});
+  shutdown.add({"pass on farewells", config_.shutdown_phase,
+                [&] { left_at = clock_.now() + linger; }, [&] { return clock_.now() >= left_at; },
+                [] { return "others to hear of it"; }});
   shutdown.add({"leave", milliseconds(100), [&] { network_.say_bye(); }, [] { return true; },
                 [] { return ""; }});
   std::function<void()> watch = [&] {

@@ -24,6 +24,7 @@ struct ShellConfig {
   SchedulerLimits scheduler;
   /// Bytes of one message in pieces that is taken in at once, and of all of them.
   size_t room_bytes_most = 1 << 30;
+  Nanoseconds shutdown_phase = seconds(5);  // for each step of its end
 };
 
 class NodeShell {

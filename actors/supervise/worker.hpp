@@ -3,50 +3,34 @@
 #pragma once
 
 #include "actors/photon/lease_client.hpp"
-#include "actors/supervise/node_setup.hpp"
-#include "actors/supervise/node_shell.hpp"
+#include "actors/supervise/fetching_cells.hpp"
+#include "actors/supervise/node_metrics.hpp"
 
 namespace luxodus {
 
-/// What a worker did, for a line to people and for tests.
-struct WorkerReport {
-  NodeId node;
-  uint64_t hits = 0;
-  uint64_t misses = 0;  // that began a fetch
-  uint64_t fetches = 0;
-  uint64_t joined = 0;  // fibers that found a fetch under way
-  uint64_t builds = 0;
-  uint64_t evictions = 0;
-  uint64_t fetched_bytes = 0;
-  uint64_t largest_resident_bytes = 0;  // of one node, when it ended
-  uint64_t pinned_bytes = 0;
-
-  void add(const WorkerReport& other);
-  /// Of all references to cells, those that found the cell resident; 1 where there was none.
-  double hit_rate() const {
-    const uint64_t all = hits + misses + joined;
-    return all == 0 ? 1 : static_cast<double>(hits) / static_cast<double>(all);
-  }
-};
-
 class Worker {
  public:
+  /// Requires: both outlive this.
   Worker(const RunSetup& run, const NodeSetup& node);
   ~Worker();
 
-  /// Traces until the controller says that the run has ended, or `stop` does.
-  /// Errors: as join_links.
+  /// Traces until the controller says that the run has ended; or until `stop` says so, when what is
+  /// at hand is traced and given to the controller before this node leaves.
+  /// Errors: as join_links; a controller that never came, was lost, or could not begin.
   Result<WorkerReport> run(const std::function<bool()>& stop);
 
  private:
-  class FetchingCells;
+  void show_to(Observation& seen);
 
+  const RunSetup& run_;
   const NodeSetup& node_;
-  ZmqTransport transport_;
+  NodeTrace* const trace_;  // null where nothing is traced
+  NodeTransport transport_;
   NodeShell shell_;
   std::unique_ptr<FetchingCells> cells_;  // where the node does not hold everything
   LeaseClient leases_;
   PhotonThreads photons_;
+  std::optional<NodeMetrics> metrics_;
 };
 
 }  // namespace luxodus

@@ -2,6 +2,9 @@
 
 #include <zstd.h>
 
+#include <algorithm>
+#include <array>
+#include <numeric>
 #include <stdexcept>
 
 namespace luxodus {
@@ -11,57 +14,111 @@ namespace {
 constexpr int fast = 1;  // of zstd's levels: a flush is packed on the node's own thread
 constexpr size_t longest_number = 19;  // bytes of 128 bits, seven at a time
 constexpr size_t numbers_of_ledger = 11;
+/// A flush is packed to a fraction of what it may be; one that is longer takes memory as it grows.
+constexpr uint64_t reserved_bytes_most = 64 << 20;
+constexpr uint64_t reserved_step_bins = 16384;
+
+/// Between two rests: about half a millisecond of either.
+constexpr size_t unpacked_between_rests = 512 << 10;
+constexpr int64_t bins_between_rests = 16384;
+constexpr const char* abandoned = "the reading of the flush was broken off";
+
+/// Numbers on their way out: written where they fit for sure, then taken over at once.
+class Numbers {
+ public:
+  void put(UInt128 v) {
+    while (v >> 64 != 0) {
+      bytes_[size_++] = static_cast<std::byte>(static_cast<uint8_t>(v) | 0x80);
+      v >>= 7;
+    }
+    auto low = static_cast<uint64_t>(v);
+    for (; low >= 0x80; low >>= 7)
+      bytes_[size_++] = static_cast<std::byte>(static_cast<uint8_t>(low) | 0x80);
+    bytes_[size_++] = static_cast<std::byte>(static_cast<uint8_t>(low));
+  }
+  void put_signed(Int128 v) {
+    put((static_cast<UInt128>(v) << 1) ^ static_cast<UInt128>(v >> 127));
+  }
+  void move_to(std::vector<std::byte>& out) {
+    out.insert(out.end(), bytes_.begin(), bytes_.begin() + static_cast<std::ptrdiff_t>(size_));
+    size_ = 0;
+  }
+
+ private:
+  std::array<std::byte, numbers_of_ledger * longest_number> bytes_;
+  size_t size_ = 0;
+};
 
 void put(std::vector<std::byte>& out, UInt128 v) {
-  while (v >= 0x80) {
-    out.push_back(static_cast<std::byte>(static_cast<uint8_t>(v) | 0x80));
-    v >>= 7;
-  }
-  out.push_back(static_cast<std::byte>(static_cast<uint8_t>(v)));
+  Numbers numbers;
+  numbers.put(v);
+  numbers.move_to(out);
 }
-void put_signed(std::vector<std::byte>& out, Int128 v) {
-  put(out, (static_cast<UInt128>(v) << 1) ^ static_cast<UInt128>(v >> 127));
+
+void put_ledger(std::vector<std::byte>& out, const Ledger& l) {
+  Numbers numbers;
+  for (const Int128 v : {l.emitted, l.roulette_gain, l.absorbed_surfaces, l.absorbed_media,
+                         l.escaped, l.roulette_loss, l.lost_too_long})
+    numbers.put_signed(v);
+  for (const uint64_t v : {l.particles, l.rays, l.hits, l.collisions}) numbers.put(v);
+  numbers.move_to(out);
 }
 
 /// Reads numbers; once one is missing or too long, all that follow are 0 and ok() is false.
 class Reader {
  public:
-  explicit Reader(std::span<const std::byte> bytes) : bytes_(bytes) {}
+  explicit Reader(std::span<const std::byte> bytes)
+      : at_(bytes.data()), end_(bytes.data() + bytes.size()) {}
 
   UInt128 get() {
-    UInt128 v = 0;
-    for (size_t i = 0; i < longest_number; ++i) {
-      if (bytes_.empty()) break;
-      const auto byte = static_cast<uint8_t>(bytes_.front());
-      bytes_ = bytes_.subspan(1);
+    uint64_t low = 0;  // most numbers have less than 63 bits
+    for (unsigned shift = 0; shift < 63; shift += 7) {
+      if (at_ == end_) return fail();
+      const auto byte = static_cast<uint8_t>(*at_++);
+      low |= static_cast<uint64_t>(byte & 0x7f) << shift;
+      if (byte < 0x80) return low;
+    }
+    UInt128 v = low;
+    for (size_t i = 9; i < longest_number && at_ != end_; ++i) {
+      const auto byte = static_cast<uint8_t>(*at_++);
       v |= static_cast<UInt128>(byte & 0x7f) << (7 * i);
       if (byte < 0x80) return v;
     }
-    ok_ = false;
-    return 0;
+    return fail();
   }
   uint64_t get_up_to(uint64_t most) {
     const UInt128 v = get();
-    if (v > most) ok_ = false;
-    return ok_ ? static_cast<uint64_t>(v) : 0;
+    return v <= most ? static_cast<uint64_t>(v) : static_cast<uint64_t>(fail());
   }
   Int128 get_signed() {
     const UInt128 v = get();
     return static_cast<Int128>(v >> 1) ^ -static_cast<Int128>(v & 1);
   }
+  UInt128 fail() {
+    ok_ = false;
+    at_ = end_;
+    return 0;
+  }
   bool ok() const { return ok_; }
-  bool at_end() const { return bytes_.empty(); }
+  bool at_end() const { return at_ == end_; }
+  const std::byte* at() const { return at_; }
 
  private:
-  std::span<const std::byte> bytes_;
+  const std::byte* at_;
+  const std::byte* end_;
   bool ok_ = true;
 };
 
-void put_ledger(std::vector<std::byte>& out, const Ledger& l) {
-  for (const Int128 v : {l.emitted, l.roulette_gain, l.absorbed_surfaces, l.absorbed_media,
-                         l.escaped, l.roulette_loss, l.lost_too_long})
-    put_signed(out, v);
-  for (const uint64_t v : {l.particles, l.rays, l.hits, l.collisions}) put(out, v);
+/// The group's next bin, which lies at or behind `after_last`; false where there is none.
+bool next_bin(Reader& in, uint64_t& after_last, uint64_t totals, TotalsGain::Bin& bin) {
+  const uint64_t distance = in.get_up_to(totals);
+  if (distance == 0) return false;
+  after_last += distance;
+  if (after_last > totals) in.fail();
+  bin.index = static_cast<int64_t>(after_last - 1);
+  bin.total.sum = in.get_signed();
+  bin.total.squares = in.get();
+  return in.ok();
 }
 
 Ledger get_ledger(Reader& in) {
@@ -80,19 +137,24 @@ size_t bytes_most(int groups, int64_t totals) {
 }
 
 /// Unpacks frames whose size nobody has told, up to `most` bytes.
-Result<std::vector<std::byte>> unpack(std::span<const std::byte> bytes, size_t most) {
+Result<std::vector<std::byte>> unpack(std::span<const std::byte> bytes, size_t most,
+                                      const FlushRest& rest) {
   const std::unique_ptr<ZSTD_DCtx, decltype(&ZSTD_freeDCtx)> context(ZSTD_createDCtx(),
                                                                      ZSTD_freeDCtx);
   std::vector<std::byte> out;
   std::vector<std::byte> piece(ZSTD_DStreamOutSize());
   ZSTD_inBuffer in{bytes.data(), bytes.size(), 0};
   size_t hint = 1;
+  size_t rest_at = unpacked_between_rests;
   while (in.pos < in.size) {
     ZSTD_outBuffer to{piece.data(), piece.size(), 0};
     hint = ZSTD_decompressStream(context.get(), &to, &in);
     if (ZSTD_isError(hint) || out.size() + to.pos > most)
       return Problem{{}, "the flush is no packed totals of this scene"};
     out.insert(out.end(), piece.begin(), piece.begin() + static_cast<std::ptrdiff_t>(to.pos));
+    if (out.size() < rest_at) continue;
+    rest_at = out.size() + unpacked_between_rests;
+    if (!rest()) return Problem{{}, abandoned};
   }
   if (hint != 0) return Problem{{}, "the flush is cut short"};
   return out;
@@ -104,9 +166,23 @@ struct FlushEncoder::Zstd {
   std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> context{ZSTD_createCCtx(), ZSTD_freeCCtx};
 };
 
-FlushEncoder::FlushEncoder(Totals& totals) : totals_(totals), zstd_(std::make_unique<Zstd>()) {
+FlushEncoder::FlushEncoder(int groups, int64_t totals) : zstd_(std::make_unique<Zstd>()) {
   ZSTD_CCtx_setParameter(zstd_->context.get(), ZSTD_c_compressionLevel, fast);
   ZSTD_CCtx_setParameter(zstd_->context.get(), ZSTD_c_checksumFlag, 1);
+  const uint64_t bins = static_cast<uint64_t>(groups) * static_cast<uint64_t>(totals);
+  packed_.reserve(std::min(bins * flush_bytes_of_bin, reserved_bytes_most) + ZSTD_CStreamOutSize());
+  raw_.reserve(reserved_step_bins * flush_bytes_of_bin);
+  raw_.push_back({});
+  pack(false);  // zstd takes its own memory with the first byte of a stream
+}
+
+void FlushEncoder::begin(Totals& totals) {
+  totals_ = &totals;
+  group_ = 0;
+  next_ = after_last_ = 0;
+  raw_.clear();
+  packed_.clear();
+  ZSTD_CCtx_reset(zstd_->context.get(), ZSTD_reset_session_only);
   put(raw_, static_cast<uint64_t>(totals.groups()));
   put(raw_, static_cast<uint64_t>(totals.take_batches(0)));
 }
@@ -115,76 +191,113 @@ FlushEncoder::~FlushEncoder() = default;
 
 /// A group is its batches, its bins (each the distance from the last one plus one), and a zero.
 bool FlushEncoder::step(int64_t bins) {
-  const int64_t end = std::min(next_ + bins, totals_.layout().totals());
-  totals_.take_bins(group_, next_, end, [&](int64_t index, const Total& total) {
-    put(raw_, static_cast<uint64_t>(index - after_last_ + 1));
-    put_signed(raw_, total.sum);
-    put(raw_, total.squares);
+  Numbers numbers;
+  const int64_t end = std::min(next_ + bins, totals_->layout().totals());
+  totals_->take_bins(group_, next_, end, [&](int64_t index, const Total& total) {
+    numbers.put(static_cast<uint64_t>(index - after_last_ + 1));
+    numbers.put_signed(total.sum);
+    numbers.put(total.squares);
+    numbers.move_to(raw_);
     after_last_ = index + 1;
   });
   next_ = end;
-  const bool group_done = next_ == totals_.layout().totals();
+  const bool group_done = next_ == totals_->layout().totals();
   bool done = false;
   if (group_done) {
     put(raw_, 0);
     next_ = after_last_ = 0;
-    done = ++group_ == totals_.groups();
+    done = ++group_ == totals_->groups();
     if (done)
-      put_ledger(raw_, totals_.take_ledger());
+      put_ledger(raw_, totals_->take_ledger());
     else
-      put(raw_, static_cast<uint64_t>(totals_.take_batches(group_)));
+      put(raw_, static_cast<uint64_t>(totals_->take_batches(group_)));
   }
   pack(done);
   return done;
 }
 
+/// A stream's length is never known beforehand, so that zstd finds its memory as it left it.
 void FlushEncoder::pack(bool last) {
   ZSTD_inBuffer in{raw_.data(), raw_.size(), 0};
-  size_t left = 1;
-  while (in.pos < in.size || (last && left != 0)) {
-    const size_t before = packed_.size();
-    packed_.resize(before + ZSTD_CStreamOutSize());
-    ZSTD_outBuffer out{packed_.data() + before, packed_.size() - before, 0};
-    left =
-        ZSTD_compressStream2(zstd_->context.get(), &out, &in, last ? ZSTD_e_end : ZSTD_e_continue);
-    packed_.resize(before + out.pos);
-    if (ZSTD_isError(left)) throw std::runtime_error("flush: zstd could not pack it");
+  while (in.pos < in.size) pack_more(in, ZSTD_e_continue);
+  while (last && pack_more(in, ZSTD_e_end) != 0) {
   }
   raw_.clear();
 }
 
-std::vector<std::byte> encode_flush(Totals& totals) {
-  FlushEncoder encoder(totals);
-  while (!encoder.step(totals.layout().totals())) {
-  }
-  return encoder.take_bytes();
+/// What zstd still has to write.
+size_t FlushEncoder::pack_more(ZSTD_inBuffer_s& in, int how) {
+  const size_t before = packed_.size();
+  packed_.resize(before + ZSTD_CStreamOutSize());
+  ZSTD_outBuffer out{packed_.data() + before, packed_.size() - before, 0};
+  const size_t left =
+      ZSTD_compressStream2(zstd_->context.get(), &out, &in, static_cast<ZSTD_EndDirective>(how));
+  packed_.resize(before + out.pos);
+  if (ZSTD_isError(left)) throw std::runtime_error("flush: zstd could not pack it");
+  return left;
 }
 
-Result<TotalsGain> decode_flush(std::span<const std::byte> bytes, int groups, int64_t totals) {
-  auto raw = unpack(bytes, bytes_most(groups, totals));
+std::vector<std::byte> encode_flush(Totals& totals) {
+  FlushEncoder encoder(totals.groups(), totals.layout().totals());
+  encoder.begin(totals);
+  while (!encoder.step(totals.layout().totals())) {
+  }
+  return encoder.bytes();
+}
+
+// ---- reading ---------------------------------------------------------------------------------
+
+Result<FlushGain> decode_flush(std::span<const std::byte> bytes, int groups, int64_t totals,
+                               const FlushRest& rest) {
+  auto raw = unpack(bytes, bytes_most(groups, totals), rest);
   if (!raw.ok()) return raw.problem();
-  Reader in(raw.value());
+  FlushGain gain;
+  gain.raw_ = std::move(raw).value();
+  gain.totals_ = static_cast<uint64_t>(totals);
+  Reader in(gain.raw_);
   const Problem wrong{{}, "the flush does not fit this scene's totals"};
   if (in.get_up_to(static_cast<uint64_t>(groups)) != static_cast<uint64_t>(groups)) return wrong;
-  TotalsGain gain;
+  TotalsGain::Bin bin;
+  int64_t bins = 0;
   for (int g = 0; g < groups; ++g) {
-    TotalsGain::GroupGain& group = gain.groups.emplace_back();
-    group.batches = static_cast<int64_t>(in.get_up_to(uint64_t{1} << 40));
-    uint64_t next = 0;
-    while (const uint64_t distance = in.get_up_to(static_cast<uint64_t>(totals))) {
-      TotalsGain::Bin bin;
-      const uint64_t index = next + distance - 1;
-      bin.total.sum = in.get_signed();
-      bin.total.squares = in.get();
-      if (!in.ok() || index >= static_cast<uint64_t>(totals)) return wrong;
-      bin.index = static_cast<int64_t>(index);
-      next = index + 1;
-      group.bins.push_back(bin);
-    }
+    gain.batches_.push_back(static_cast<int64_t>(in.get_up_to(uint64_t{1} << 40)));
+    gain.begins_.push_back(static_cast<size_t>(in.at() - gain.raw_.data()));
+    uint64_t after_last = 0;
+    while (next_bin(in, after_last, gain.totals_, bin))
+      if (++bins % bins_between_rests == 0 && !rest()) return Problem{{}, abandoned};
   }
-  gain.ledger = get_ledger(in);
+  gain.bins_ = bins;
+  gain.ledger_ = get_ledger(in);
   if (!in.ok() || !in.at_end()) return wrong;
   return gain;
+}
+
+int64_t FlushGain::batches() const {
+  return std::accumulate(batches_.begin(), batches_.end(), int64_t{0});
+}
+
+void FlushGain::add_to(Totals& totals, const FlushRest& rest) const {
+  TotalsGain piece;
+  piece.groups.resize(batches_.size());
+  for (size_t g = 0; g < batches_.size(); ++g) piece.groups[g].batches = batches_[g];
+  piece.ledger = ledger_;
+  totals.add(piece);
+  piece = {};
+  piece.groups.resize(batches_.size());
+  for (size_t g = 0; g < batches_.size(); ++g) {
+    Reader in({raw_.data() + begins_[g], raw_.size() - begins_[g]});
+    auto& bins = piece.groups[g].bins;
+    uint64_t after_last = 0;
+    TotalsGain::Bin bin;
+    for (bool more = true; more;) {
+      bins.clear();
+      while (bins.size() < bins_between_rests && (more = next_bin(in, after_last, totals_, bin)))
+        bins.push_back(bin);
+      totals.add(piece);
+      rest();
+    }
+    bins.clear();
+  }
 }
 
 }  // namespace luxodus

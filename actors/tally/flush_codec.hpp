@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -13,24 +14,36 @@
 #include "runtime/core/result.hpp"
 #include "scenes/tally/totals.hpp"
 
+struct ZSTD_inBuffer_s;  // of zstd.h
+
 namespace luxodus {
 
-/// Empties totals into bytes, step by step.
+/// The most that one bin of totals takes in a flush before it is packed [B]: a distance below 2^40,
+/// a sum below 2^90 (2^26 batches of 2^63, signed) and squares of 128 bits, seven bits a byte.
+inline constexpr uint64_t flush_bytes_of_bin = 6 + 13 + 19;
+
+/// Empties totals into bytes, step by step, one flush after another in the same memory.
 class FlushEncoder {
  public:
-  /// Requires: nobody else touches `totals` until the last step.
-  explicit FlushEncoder(Totals& totals);
+  /// Takes room for flushes of so many source groups and totals each: address space, which becomes
+  /// memory as it is used.
+  FlushEncoder(int groups, int64_t totals);
   ~FlushEncoder();
+
+  /// Begins a flush; the bytes of the one before are gone. Requires: `totals` are of that size, and
+  /// nobody else touches them until the last step.
+  void begin(Totals& totals);
 
   /// Goes through the next `bins` bins; true when there are no more.
   bool step(int64_t bins);
-  /// Requires: step() has returned true.
-  std::vector<std::byte> take_bytes() { return std::move(packed_); }
+  /// The whole flush, until begin(). Requires: step() has returned true.
+  const std::vector<std::byte>& bytes() const { return packed_; }
 
  private:
   void pack(bool last);
+  size_t pack_more(ZSTD_inBuffer_s& in, int how);
 
-  Totals& totals_;
+  Totals* totals_ = nullptr;
   int group_ = 0;
   int64_t next_ = 0;        // bin of the group
   int64_t after_last_ = 0;  // the index behind the last bin that was written
@@ -43,8 +56,38 @@ class FlushEncoder {
 /// All at once.
 std::vector<std::byte> encode_flush(Totals& totals);
 
+/// Called now and then while a long flush is read or added; false: break off. On a fiber it yields.
+using FlushRest = std::function<bool()>;
+inline bool no_rest() {
+  return true;
+}
+
+/// What a flush adds, read and found right. A bin is read twice, and never kept: a million of them
+/// would be 48 MB.
+class FlushGain {
+ public:
+  /// Of all groups.
+  int64_t batches() const;
+  int64_t bins() const { return bins_; }
+  const Ledger& ledger() const { return ledger_; }
+
+  /// Adds all of it; `rest` cannot break this off. Requires: totals of the layout it was read for.
+  void add_to(Totals& totals, const FlushRest& rest = no_rest) const;
+
+ private:
+  friend Result<FlushGain> decode_flush(std::span<const std::byte>, int, int64_t, const FlushRest&);
+
+  std::vector<std::byte> raw_;
+  std::vector<size_t> begins_;  // of each group's bins, in raw_
+  std::vector<int64_t> batches_;
+  uint64_t totals_ = 0;
+  int64_t bins_ = 0;
+  Ledger ledger_;
+};
+
 /// Errors: not such bytes; more groups than `groups` or an index beyond `totals`; indices that do
-/// not ascend; more bytes than such totals can have.
-Result<TotalsGain> decode_flush(std::span<const std::byte> bytes, int groups, int64_t totals);
+/// not ascend; more bytes than such totals can have; `rest` said so.
+Result<FlushGain> decode_flush(std::span<const std::byte> bytes, int groups, int64_t totals,
+                               const FlushRest& rest = no_rest);
 
 }  // namespace luxodus

@@ -48,6 +48,7 @@ void Scheduler::add_metrics(Metrics& metrics) const {
   metrics.add_counter({"control_calls", "", "Times an actor handled control.", ""}, c.controls);
   metrics.add_counter({"timers_fired", "", "Timers that came due.", ""}, c.timers_fired);
   metrics.add_counter({"handed_over", "", "Results of other threads.", ""}, c.handed_over);
+  metrics.add_counter({"waited", "nanoseconds", "Time with nothing to do.", ""}, c.waited);
   metrics.add_counter({"stalls", "", "Fibers that ran for too long at once.", ""}, c.stalls);
   metrics.add_gauge({"fibers_live", "", "Fibers that have work.", ""}, c.fibers_live);
   metrics.add_gauge({"fibers_suspended", "", "Fibers that wait.", ""}, c.fibers_suspended);
@@ -134,7 +135,10 @@ void Scheduler::run() {
   for (;;) {
     const Nanoseconds due = turn();
     if (shutdown_.finished()) return;
-    if (due > clock_.now()) source_.wait_until(due);
+    const Nanoseconds now = clock_.now();
+    if (due <= now) continue;
+    source_.wait_until(due);
+    counters_.waited += static_cast<uint64_t>(clock_.now() - now);
   }
 }
 

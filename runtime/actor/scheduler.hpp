@@ -101,6 +101,7 @@ class Scheduler {
     uint64_t timers_fired = 0;
     uint64_t handed_over = 0;
     uint64_t stalls = 0;
+    uint64_t waited = 0;            // [ns] with nothing to do
     uint64_t fibers_live = 0;       // at the end of the last turn
     uint64_t fibers_suspended = 0;  // of those
   };

@@ -53,6 +53,7 @@ struct ClusterNode {
   std::string name;
   NodeRole role = NodeRole::worker;
   bool traces = true;
+  bool stores = true;  // its host has the scene's objects, so it holds its part of them for all
   size_t host = 0;     // among ClusterConfig::hosts
   size_t process = 0;  // among ClusterConfig::processes
   uint16_t port = 0;   // TCP, of the control lane; bulk has the next
@@ -103,7 +104,8 @@ struct LeaseChoice {
 };
 
 struct Timeouts {
-  Nanoseconds start = 0;  // until all nodes have a link
+  Nanoseconds start = 0;  // until all nodes are there
+  Nanoseconds lost = 0;   // without a way to a node, until it is given up
   Nanoseconds fetch_floor = 0;
   uint32_t fetch_attempts = 0;  // at one holder
   Nanoseconds shutdown_phase = 0;

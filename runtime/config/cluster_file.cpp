@@ -79,6 +79,7 @@ void read_services(TableReader& top, ClusterReading& reading) {
   TableReader timeouts = reader_of(top, "timeouts", reading);
   Timeouts& t = reading.cluster.timeouts;
   t.start = span_of(timeouts.number("start_s"));
+  t.lost = span_of(timeouts.number("lost_s"));
   t.fetch_floor = span_of(timeouts.number("fetch_floor_ms") / 1e3);
   t.fetch_attempts = static_cast<uint32_t>(timeouts.integer("fetch_attempts"));
   t.shutdown_phase = span_of(timeouts.number("shutdown_phase_s"));

@@ -72,6 +72,7 @@ void read_node(const toml::table& table, const NodeBudget& usual, ClusterReading
   const bool controller = keys.choice("role") == "controller";
   draft.node.role = controller ? NodeRole::controller : NodeRole::worker;
   draft.node.traces = controller ? keys.flag("traces") : true;
+  draft.node.stores = keys.flag("stores");
   draft.node.host = read_host(keys, reading);
   draft.node.budget =
       read_budget(keys.table("budget"), reading.findings, keys.place("budget"), &usual);
@@ -96,10 +97,14 @@ void read_node(const toml::table& table, const NodeBudget& usual, ClusterReading
 
 void check_roles(const std::vector<Draft>& drafts, ClusterReading& reading) {
   const Draft* controller = nullptr;
-  bool somebody_traces = false;
+  bool somebody_traces = false, a_worker_stores = false, a_worker = false;
   for (const Draft& draft : drafts) {
     somebody_traces = somebody_traces || draft.node.traces;
-    if (draft.node.role != NodeRole::controller) continue;
+    if (draft.node.role != NodeRole::controller) {
+      a_worker = true;
+      a_worker_stores = a_worker_stores || draft.node.stores;
+      continue;
+    }
     if (controller) {
       reading.findings.add(draft.place,
                            fmt::format("\"{}\" is a second controller; line {} has the first",
@@ -115,6 +120,9 @@ void check_roles(const std::vector<Draft>& drafts, ClusterReading& reading) {
     reading.findings.add(controller->place,
                          "nobody traces: there are no workers; add some, or say traces = true");
   }
+  if (a_worker && !a_worker_stores)
+    reading.findings.add(reading.start,
+                         "no worker has the scene's objects: leave stores = true on one at least");
 }
 
 void check_names(const std::vector<Draft>& drafts, ClusterReading& reading) {

@@ -81,6 +81,9 @@ std::vector<TableSpec> node_tables() {
             "nodes of one host that name the same process share it; its own unless said"},
            {"port", "integer", "", "", "[1024, 65534]",
             "TCP port for what is urgent, and the next for bulk; from `first_port` unless said"},
+           {"stores", "flag", "", "true", "",
+            "its host has the scene's objects, and it holds its part of them for all; without, it "
+            "gets all from others, and the skeleton of a pack is enough"},
            {"budget", "table", "", "", "", "what this node may hold, where it differs"},
        }},
       {"node.controller",
@@ -92,7 +95,9 @@ std::vector<TableSpec> node_tables() {
            {"object_bytes", "size", "B", "\"1 GiB\"", "[1048576, 1e14]",
             "geometry, media and textures held at once, as built; a scene that fits is resident"},
            {"tally_bytes", "size", "B", "\"256 MiB\"", "[1048576, 1e14]",
-            "scores of batches held until they are sent"},
+            "scores of batches in work, totals until they are sent, and the sending; a run that "
+            "needs "
+            "more is refused"},
            {"fibers", "integer", "", "4096", "[1, 100000]",
             "particles followed at once; more hide more delay and share more fetches"},
            {"stack_kb", "integer", "KiB", "32", "[16, 1024]", "stack of one fiber"},
@@ -174,14 +179,19 @@ std::vector<TableSpec> service_tables() {
       {"lease",
        "`[lease]`",
        {
-           {"batches", "integer", "", "8", "[1, 1024]", "batches given to a node at once"},
+           {"batches", "integer", "", "4", "[1, 1024]",
+            "batches lent to a node at once: two in work, the others at hand"},
            {"duration_s", "number", "s", "60", "(0, 86400]",
             "after which they are given to another"},
        }},
       {"timeouts",
        "`[timeouts]`",
        {
-           {"start_s", "number", "s", "60", "(0, 86400]", "until all nodes have a link"},
+           {"start_s", "number", "s", "60", "(0, 86400]",
+            "until all nodes are there: a run begins with all its workers, or ends without"},
+           {"lost_s", "number", "s", "30", "(0, 86400]",
+            "a worker that no way leads to for so long is lost, and its batches are lent again; a "
+            "worker whose controller is lost ends"},
            {"fetch_floor_ms", "number", "ms", "50", "(0, 60000]",
             "for an object, at least; else three times the usual"},
            {"fetch_attempts", "integer", "", "4", "[1, 100]", "at one holder, before the next"},

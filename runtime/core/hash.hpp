@@ -6,7 +6,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string_view>
+
+#include "runtime/core/ids.hpp"
 
 namespace luxodus {
 
@@ -26,5 +29,10 @@ class Hasher {
  private:
   std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state_;
 };
+
+/// The name of a data object with these bytes, by which they are known to be right.
+inline ObjectId object_id_of(std::span<const std::byte> bytes) {
+  return {XXH3_64bits(bytes.data(), bytes.size())};
+}
 
 }  // namespace luxodus

@@ -24,6 +24,10 @@ void MemoryPlan::add(std::string name, uint64_t bytes, std::string derivation) {
   terms_.push_back({std::move(name), bytes, std::move(derivation)});
 }
 
+void MemoryPlan::add(const MemoryPlan& other) {
+  terms_.insert(terms_.end(), other.terms_.begin(), other.terms_.end());
+}
+
 uint64_t MemoryPlan::total_bytes() const {
   uint64_t sum = 0;
   for (const Term& term : terms_) sum += term.bytes;
@@ -42,13 +46,20 @@ std::optional<Problem> MemoryPlan::against(uint64_t budget_bytes) const {
                   largest.name, mebibytes(largest.bytes), largest.derivation)};
 }
 
-std::string MemoryPlan::table(uint64_t budget_bytes) const {
+std::string MemoryPlan::rows() const {
   std::string out = fmt::format("{:<24} {:>10}  {}\n", "memory plan", "MiB", "derived from");
   for (const Term& term : largest_first(terms_))
     out += fmt::format("{:<24} {:>10.2f}  {}\n", term.name, mebibytes(term.bytes), term.derivation);
-  out += fmt::format("{:<24} {:>10.2f}  of a budget of {:.2f}\n", "sum", mebibytes(total_bytes()),
-                     mebibytes(budget_bytes));
   return out;
+}
+
+std::string MemoryPlan::table() const {
+  return rows() + fmt::format("{:<24} {:>10.2f}\n", "sum", mebibytes(total_bytes()));
+}
+
+std::string MemoryPlan::table(uint64_t budget_bytes) const {
+  return rows() + fmt::format("{:<24} {:>10.2f}  of a budget of {:.2f}\n", "sum",
+                              mebibytes(total_bytes()), mebibytes(budget_bytes));
 }
 
 }  // namespace luxodus

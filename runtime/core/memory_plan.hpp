@@ -23,16 +23,23 @@ class MemoryPlan {
 
   void add(std::string name, uint64_t bytes, std::string derivation);
 
+  /// Adds all terms of another.
+  void add(const MemoryPlan& other);
+
   const std::vector<Term>& terms() const { return terms_; }
   uint64_t total_bytes() const;
 
   /// What is wrong where the sum passes the budget: by how much, and the largest term.
   std::optional<Problem> against(uint64_t budget_bytes) const;
 
-  /// One line per term, the largest first, and the sum beside the budget.
+  /// One line per term, the largest first, and the sum.
+  std::string table() const;
+  /// The same, with the sum beside the budget.
   std::string table(uint64_t budget_bytes) const;
 
  private:
+  std::string rows() const;
+
   std::vector<Term> terms_;
 };
 

@@ -113,9 +113,10 @@ void Fetcher::add_metrics(Metrics& metrics) const {
 
 // ---- flights begin and end
 
-void Fetcher::fetch(uint32_t object, FetchClient& client) {
+void Fetcher::fetch(uint32_t object, FetchClient& client, bool traced) {
   LUX_CHECK(object < objects_.size(), "fetched an object that the run does not have");
-  LUX_CHECK(waiting_.push({object, &client, clock_.now()}), "fetched an object twice at once");
+  LUX_CHECK(waiting_.push({object, &client, clock_.now(), traced}),
+            "fetched an object twice at once");
   begin_soon();
 }
 
@@ -148,6 +149,8 @@ void Fetcher::begin(const Wish& wish) {
   flight.questions = 0;
   flight.holder = nearest_holder(wish.object);
   flight.tries.fill(0);
+  flight.trace_id = wish.traced && config_.trace != nullptr ? trace_id(flight.id) : 0;
+  if (flight.trace_id != 0) config_.trace->begin(TraceKind::fetch, flight.trace_id, wish.object);
   ++counters_.fetches;
   ask(flight);
 }
@@ -162,6 +165,8 @@ size_t Fetcher::nearest_holder(uint32_t object) const {
 }
 
 void Fetcher::end(Flight& flight) {
+  if (flight.trace_id != 0)
+    config_.trace->end(TraceKind::fetch, flight.trace_id, flight.wish.object);
   timers_.cancel(flight.timer);
   network_.forget(flight.id, Kind::reply);
   flight.id = {};
@@ -196,8 +201,9 @@ void Fetcher::ask(Flight& flight) {
     }
     flight.holder = (at + 1) % holders.size();
   }
+  if (take_from_store(flight)) return;
   if (ways_missing) return wait_for_ways(flight);
-  if (!take_from_store(flight)) give_up(flight);
+  give_up(flight);
 }
 
 /// Asks now, or once the network has room for the question; false where no way leads there.
@@ -233,6 +239,7 @@ void Fetcher::wait_for_ways(Flight& flight) {
 
 bool Fetcher::take_from_store(Flight& flight) {
   SharedBytes bytes = store_.find(objects_[flight.wish.object].id);
+  if (bytes.bytes.empty()) bytes = store_.find_in_storage(flight.wish.object);
   return !bytes.bytes.empty() && accept(flight, std::move(bytes), 0, config_.self);
 }
 

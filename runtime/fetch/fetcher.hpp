@@ -30,6 +30,7 @@
 #include "runtime/net/network.hpp"
 #include "runtime/observe/histogram.hpp"
 #include "runtime/observe/metrics.hpp"
+#include "runtime/observe/node_trace.hpp"
 
 namespace luxodus {
 
@@ -48,6 +49,7 @@ struct FetchConfig {
   /// Links to each node, by number: of an object's holders the nearest is asked first, then those
   /// that follow it. Empty: in the order of ObjectPlace.
   std::vector<uint32_t> hops;
+  NodeTrace* trace = nullptr;  // null: nothing is traced
 };
 
 /// Who wants an object. Called on the scheduler's stack.
@@ -78,7 +80,8 @@ class Fetcher {
 
   /// Has `client` told of this object's bytes, or that nobody has them; never within the call.
   /// Requires: it is not under way, and its room was released; `client` outlives the fetch.
-  void fetch(uint32_t object, FetchClient& client);
+  /// `traced`: its time is told to the trace.
+  void fetch(uint32_t object, FetchClient& client, bool traced = false);
   /// The bytes of a fetched object are no longer needed: their room is free for others.
   void release(uint32_t object);
 
@@ -123,10 +126,12 @@ class Fetcher {
     uint32_t object = 0;
     FetchClient* client = nullptr;
     Nanoseconds since = 0;
+    bool traced = false;
   };
   struct Flight {
     Wish wish;
-    MessageId id;  // sequence 0 while it rests
+    MessageId id;           // sequence 0 while it rests
+    uint64_t trace_id = 0;  // of its first question; 0: it is not traced
     TimerId timer;
     bool answer_due = false;  // what the timer ends: the wait for an answer, or for asking again
     Nanoseconds asked_at = 0;

@@ -64,16 +64,18 @@ void ObjectCache::add_metrics(Metrics& metrics) const {
   metrics.add_gauge({"objects_resident", "bytes", "Bytes of resident objects.", ""},
                     c.resident_bytes);
   metrics.add_gauge({"objects_pinned", "bytes", "Bytes of pinned objects.", ""}, c.pinned_bytes);
+  metrics.add_histogram({"build", "", "From a builder's beginning to its answer.", ""},
+                        build_time_);
 }
 
 // ---- asking for objects
 
-Got ObjectCache::get(uint32_t object) {
+Got ObjectCache::get(uint32_t object, bool traced) {
   if (const BuiltObject* built = find(object)) return {Got::How::resident, built};
   Entry& entry = entries_[object];
   if (entry.state == ObjectState::absent) {
     ++counters_.misses;
-    request(object);
+    request(object, traced);
   } else {
     ++counters_.joined;
   }
@@ -98,9 +100,10 @@ void ObjectCache::pin(std::span<const uint32_t> objects) {
   prefetch(objects);
 }
 
-void ObjectCache::request(uint32_t object) {
+void ObjectCache::request(uint32_t object, bool traced) {
   entries_[object].state = ObjectState::requested;
-  fetcher_.fetch(object, *this);
+  entries_[object].traced = traced && config_.trace != nullptr;
+  fetcher_.fetch(object, *this, entries_[object].traced);
 }
 
 // ---- objects come
@@ -124,6 +127,8 @@ void ObjectCache::built(uint32_t object, Result<std::unique_ptr<BuiltObject>> re
             "a builder answered what it was not asked");
   LUX_CHECK(!result || result.value() != nullptr, "a builder said that nothing is an object");
   in_builder_ = false;
+  build_time_.add(clock_.now() - build_began_);
+  if (entries_[object].traced) config_.trace->end(TraceKind::build, object, object);
   ready_ = &entries_[object];
   ready_result_ = std::move(result);
   fetcher_.release(object);
@@ -158,6 +163,9 @@ void ObjectCache::step() {
 void ObjectCache::start_build(Entry& entry) {
   ++counters_.builds;
   in_builder_ = true;
+  build_began_ = clock_.now();
+  const uint32_t object = number_of(entry);
+  if (entry.traced) config_.trace->begin(TraceKind::build, object, object);
   builder_.build(number_of(entry), std::exchange(entry.bytes, {}), *this);
 }
 

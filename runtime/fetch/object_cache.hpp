@@ -43,6 +43,7 @@ struct CacheConfig {
   size_t largest_build_bytes = 0;
   /// Of the budget, what pinned objects may take at most: the rest serves what was not foreseen.
   double pinned_share = 0.5;
+  NodeTrace* trace = nullptr;  // null: nothing is traced
 
   /// For resident objects: what the budget leaves beside one build.
   size_t resident_bytes_most() const { return budget_bytes - largest_build_bytes; }
@@ -92,7 +93,8 @@ class ObjectCache final : private FetchClient, private ObjectBuilder::Client {
   }
 
   /// The object, after a wait if need be. Requires: on a fiber. Suspends where it is not resident.
-  [[nodiscard]] Got get(uint32_t object);
+  /// `traced`: if this begins a fetch, its times are told to the trace.
+  [[nodiscard]] Got get(uint32_t object, bool traced = false);
 
   /// Has those fetched that are absent, and waits for none.
   void prefetch(std::span<const uint32_t> objects);
@@ -128,7 +130,8 @@ class ObjectCache final : private FetchClient, private ObjectBuilder::Client {
     std::unique_ptr<BuiltObject> built;  // while resident
     ObjectState state = ObjectState::absent;
     Pin pin = Pin::none;
-    size_t charge = 0;  // bytes while resident
+    bool traced = false;  // the fetch that is under way
+    size_t charge = 0;    // bytes while resident
     WaitList waiters;
     SharedBytes bytes;  // from arrival until they are given to the builder
   };
@@ -137,7 +140,7 @@ class ObjectCache final : private FetchClient, private ObjectBuilder::Client {
   void unobtainable(uint32_t object) override;
   void built(uint32_t object, Result<std::unique_ptr<BuiltObject>> result) override;
 
-  void request(uint32_t object);
+  void request(uint32_t object, bool traced = false);
   void step_soon();
   void step();
   void start_build(Entry& entry);
@@ -165,6 +168,8 @@ class ObjectCache final : private FetchClient, private ObjectBuilder::Client {
   TimerId step_timer_;
   bool steps_soon_ = false;
   Counters counters_;
+  Nanoseconds build_began_ = 0;
+  Histogram build_time_;  // from the builder's beginning to its answer
   OnceAMinute log_failure_;
 };
 

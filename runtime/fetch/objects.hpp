@@ -27,11 +27,6 @@ struct ObjectPlace {
   std::vector<NodeId> holders;  // in the order in which to ask; perhaps this node itself
 };
 
-/// The name of an object with these bytes, by which they are known to be right.
-inline ObjectId object_id_of(std::span<const std::byte> bytes) {
-  return {XXH3_64bits(bytes.data(), bytes.size())};
-}
-
 /// What this node has of the run's objects, in memory or in a file.
 class ObjectStore {
  public:
@@ -39,6 +34,9 @@ class ObjectStore {
   /// The object's bytes; empty where this node does not hold it. Asked at every fetch that comes or
   /// passes here: it must not take long.
   virtual SharedBytes find(ObjectId object) = 0;
+  /// The bytes of the object at this place of the run's list, for this node itself when nobody else
+  /// gives them; empty where there is no storage.
+  virtual SharedBytes find_in_storage([[maybe_unused]] uint32_t object) { return {}; }
 };
 
 }  // namespace luxodus

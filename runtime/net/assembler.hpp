@@ -20,6 +20,11 @@ class Assembler {
   /// Requires: `chunks_most` chunks are the longest message.
   Assembler(size_t messages, size_t chunks_most);
 
+  /// What one takes, for a memory plan; the room for messages is that of whoever waits for them.
+  static size_t memory_bytes(size_t messages, size_t chunks_most) {
+    return messages * (sizeof(Slot) + (chunks_most + 63) / 64 * sizeof(uint64_t));
+  }
+
   /// Whether some of this message has come, so that more of it is expected.
   bool open(const Envelope& envelope) const { return find(envelope) != nullptr; }
   bool full() const { return free_ == 0; }

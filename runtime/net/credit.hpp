@@ -18,6 +18,8 @@ class CreditOut {
   void spend(uint64_t bytes) { sent_ += bytes; }
   void grant(uint64_t limit) { limit_ = std::max(limit_, limit); }
   uint64_t sent() const { return sent_; }
+  /// What may still be sent.
+  uint64_t left() const { return limit_ - sent_; }
 
  private:
   uint64_t sent_ = 0;

@@ -15,7 +15,7 @@ struct FrameRing::Record {
 };
 
 FrameRing::FrameRing(size_t window, size_t body_most)
-    : capacity_(window / 8 * 8 + frame_charge(body_most)),
+    : capacity_(memory_bytes(window, body_most)),
       // Not written here: memory of a queue that is never used is never taken from the system.
       memory_(new std::byte[capacity_]) {
   static_assert(sizeof(Record) <= limits::frame_overhead_bytes);

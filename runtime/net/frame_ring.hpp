@@ -42,6 +42,10 @@ class FrameRing {
   void pop();
 
   size_t memory_bytes() const { return capacity_; }
+  /// The same, before a ring is made.
+  static constexpr size_t memory_bytes(size_t window, size_t body_most) {
+    return window / 8 * 8 + frame_charge(body_most);
+  }
 
  private:
   struct Record;

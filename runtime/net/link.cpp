@@ -28,6 +28,26 @@ size_t Link::memory_bytes() const {
   return sum;
 }
 
+size_t Link::memory_bytes(const NetConfig& config) {
+  size_t sum = 0;
+  for (const Kind kind : routed_kinds)
+    sum += config.hop_limit *
+           FrameRing::memory_bytes(config.window_bytes(kind), config.chunk_bytes(kind));
+  return sum;
+}
+
+uint64_t Link::credit_bytes() const {
+  uint64_t sum = 0;
+  for (const Pool& pool : pools_) sum += pool.out.left();
+  return sum;
+}
+
+uint64_t Link::held_bytes() const {
+  uint64_t sum = 0;
+  for (const Pool& pool : pools_) sum += pool.in.held();
+  return sum;
+}
+
 // ---- what is said
 
 Sent Link::give(const Envelope& envelope, std::span<const std::byte> body, Lane lane) {
@@ -38,6 +58,7 @@ Sent Link::give(const Envelope& envelope, std::span<const std::byte> body, Lane 
     case Sent::taken:
       ++around_.counters.frames_sent;
       around_.counters.bytes_sent += head_bytes + body.size();
+      bytes_sent_ += head_bytes + body.size();
       break;
     case Sent::full:
       ++around_.counters.transport_full;
@@ -175,6 +196,7 @@ void Link::meet(const Envelope& envelope, const Identity& theirs, bool welcomed,
     spdlog::error("link=refused node={} neighbour={} reason={} text=\"{}\"",
                   around_.config.self.value, neighbour_.value, name_of(no->reason), no->text);
     state_.refuse(now);
+    refusal_ = no->text;
     (void)say(Message{*no}, Lane::control);  // a peer that does not hear it asks again
     return;
   }
@@ -193,6 +215,7 @@ void Link::be_refused(const Refuse& refuse, Nanoseconds now) {
                   around_.config.self.value, neighbour_.value, name_of(refuse.reason), refuse.text);
   ++around_.counters.refused_by_peer[static_cast<size_t>(refuse.reason)];
   state_.refuse(now);
+  refusal_ = refuse.text;
 }
 
 void Link::note_rise(bool was_usable, Nanoseconds now) {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <vector>
 
 #include "proto/codec.hpp"
@@ -36,6 +37,10 @@ class Link {
 
   NodeId neighbour() const { return neighbour_; }
   const LinkState& state() const { return state_; }
+  /// Why it is refused, for people; "" where it is not.
+  std::string refusal_text() const {
+    return state_.phase() == LinkPhase::refused ? refusal_ : std::string();
+  }
   /// Times that it came up: tells a link that fell and rose from one that stood.
   uint64_t sessions() const { return sessions_; }
 
@@ -69,7 +74,18 @@ class Link {
   /// Requires: the pool is not empty.
   void release(Kind kind, uint8_t hop_class);
 
+  // What has passed over it, and what may: for those who watch.
+  void count_arrival(size_t frame_bytes) { bytes_received_ += frame_bytes; }
+  uint64_t bytes_sent() const { return bytes_sent_; }
+  uint64_t bytes_received() const { return bytes_received_; }
+  /// Credit of all pools that this node may still use up.
+  uint64_t credit_bytes() const;
+  /// What came and waits here, in all pools.
+  uint64_t held_bytes() const;
+
   size_t memory_bytes() const;
+  /// The same, before a link is made.
+  static size_t memory_bytes(const NetConfig& config);
 
  private:
   struct Pool {
@@ -98,6 +114,9 @@ class Link {
   std::vector<Pool> pools_;
   size_t grant_cursor_ = 0;
   uint64_t sessions_ = 0;
+  std::string refusal_;  // the last one
+  uint64_t bytes_sent_ = 0;
+  uint64_t bytes_received_ = 0;
 };
 
 }  // namespace luxodus

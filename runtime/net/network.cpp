@@ -76,6 +76,7 @@ Network::Network(const NetConfig& config, Transport& transport, NetHandler& hand
     if (edge.b == config_.self) links_.emplace_back(around, edge.a, now);
   }
   watched_.resize(links_.size());
+  link_samples_.resize(links_.size());
   router_.use(handler_.reroute({}));
 }
 
@@ -111,10 +112,16 @@ LinkPhase Network::phase(NodeId neighbour) const {
   throw std::invalid_argument("network: no such neighbour");
 }
 
-size_t Network::memory_bytes() const {
-  size_t sum = scratch_.size();
-  for (const Link& link : links_) sum += link.memory_bytes();
-  return sum;
+std::string Network::refusal_of(NodeId neighbour) const {
+  for (const Link& link : links_)
+    if (link.neighbour() == neighbour) return link.refusal_text();
+  return "";
+}
+
+std::vector<NodeId> Network::neighbours() const {
+  std::vector<NodeId> nodes;
+  for (const Link& link : links_) nodes.push_back(link.neighbour());
+  return nodes;
 }
 
 Link* Network::link_to(NodeId neighbour) {
@@ -175,6 +182,7 @@ void Network::take_frame(const Arrival& arrival, Nanoseconds now) {
     ++counters_.dropped_stranger;
     return;
   }
+  link->count_arrival(arrival.bytes.size());
   const auto frame = codec_.open_frame(arrival.bytes);
   if (!frame) return malformed(arrival.neighbour, frame.problem().what, now);
   if (frame->envelope.from != arrival.neighbour)
@@ -327,7 +335,7 @@ void Network::watch_links() {
     last.sessions = links_[i].sessions();
     last.phase = state.phase();
     spdlog::debug("link={} node={} neighbour={}", name_of(state.phase()), config_.self.value,
-                 links_[i].neighbour().value);
+                  links_[i].neighbour().value);
     handler_.link_changed(links_[i].neighbour(), state.phase());
 
     const bool gone = state.phase() == LinkPhase::down || state.phase() == LinkPhase::refused;

@@ -6,12 +6,15 @@
 // Thread rule: one node's thread. The handler is called from poll() alone, and may call send().
 #pragma once
 
+#include <array>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "proto/codec.hpp"
+#include "runtime/core/memory_plan.hpp"
 #include "runtime/core/result.hpp"
 #include "runtime/net/assembler.hpp"
 #include "runtime/net/counters.hpp"
@@ -20,6 +23,7 @@
 #include "runtime/net/net_config.hpp"
 #include "runtime/net/router.hpp"
 #include "runtime/net/transport.hpp"
+#include "runtime/observe/metrics.hpp"
 
 namespace luxodus {
 
@@ -31,6 +35,11 @@ struct Delivery {
   const Message& message;
   std::span<const std::byte> payload;  // during the call; for messages in pieces, in their room
 };
+
+/// Under which a question and its answer are known in a trace, on whichever node.
+constexpr uint64_t trace_id(const MessageId& id) {
+  return id.incarnation.value ^ (uint64_t{id.node.value} << 48) ^ id.sequence;
+}
 
 /// What the node does with what the network brings. Thread rule: called from Network::poll().
 class NetHandler {
@@ -96,15 +105,38 @@ class Network {
   /// Tells the neighbours that this node leaves.
   void say_bye();
 
+  // ---- seen from outside
+
   const NetCounters& counters() const { return counters_; }
+  /// Registers all that is counted; `name_of_node` says under which name a neighbour is known.
+  void add_metrics(Metrics& metrics, const std::function<std::string(NodeId)>& name_of_node);
+  /// Brings what is told of single links and outboxes up to date: before metrics are published.
+  void sample();
+  /// Adds what the network of this node takes.
+  static void plan_memory(MemoryPlan& plan, const NetConfig& config);
+
   LinkPhase phase(NodeId neighbour) const;
+  /// Whether a way leads to a node, as far as is known here: at the start all links are taken to
+  /// work, until they have been tried for LinkTimes::patience.
+  bool reaches(NodeId node) const { return router_.reaches(node); }
+  /// Why the link to a neighbour is refused, in the words of who refused it; "" where it is not.
+  std::string refusal_of(NodeId neighbour) const;
+  std::vector<NodeId> neighbours() const;
   uint64_t epoch() const { return view_.epoch(); }
-  /// Bytes of the fixed buffers, for the memory plan.
+  /// Bytes of the fixed buffers.
   size_t memory_bytes() const;
 
  private:
   struct Watched;
   class Here;
+  /// What metrics tell of a link.
+  struct LinkSample {
+    uint64_t phase = 0;  // as LinkPhase numbers them
+    uint64_t bytes_sent = 0;
+    uint64_t bytes_received = 0;
+    uint64_t credit_bytes = 0;
+    uint64_t held_bytes = 0;
+  };
 
   void own_lag(Nanoseconds now);
   bool receive(Nanoseconds now);
@@ -130,6 +162,8 @@ class Network {
   std::vector<std::byte> scratch_;  // of a message being made
   std::vector<Link> links_;
   std::vector<Watched> watched_;  // by link: what was last seen of it
+  std::vector<LinkSample> link_samples_;
+  std::array<uint64_t, routed_kinds.size()> outbox_samples_{};  // messages that wait, by kind
   LinkView view_;
   Assembler assembler_;
   std::unique_ptr<Router::Destination> here_;

@@ -19,6 +19,10 @@ Outbox::Outbox(size_t messages, size_t chunk_bytes)
   waiting_.reserve(messages);
 }
 
+size_t Outbox::memory_bytes(size_t messages, size_t chunk_bytes) {
+  return messages * (sizeof(Slot) + usual_head_bytes + 2 * sizeof(size_t)) + chunk_bytes;
+}
+
 void Outbox::add(NodeId destination, const MessageId& id, std::span<const std::byte> head,
                  SharedBytes payload) {
   const size_t at = free_.back();

@@ -23,6 +23,9 @@ class Outbox {
  public:
   Outbox(size_t messages, size_t chunk_bytes);
 
+  /// What one takes before heads longer than usual come, for a memory plan.
+  static size_t memory_bytes(size_t messages, size_t chunk_bytes);
+
   bool full() const { return waiting_.size() == slots_.size(); }
   size_t size() const { return waiting_.size(); }
 

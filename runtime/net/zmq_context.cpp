@@ -75,8 +75,8 @@ bool ZmqContext::answer_one() {
     ++let_in_;
   } else if (turned_away_++ % logged_every == 0) {
     spdlog::warn(
-        "zmq=turned_away address={} mechanism={} key={} total={} text=\"its key is not in "
-        "the allow-list\"",
+        "zmq=turned_away address={} mechanism={} key={} total={} text=\"its key is none "
+        "of those listed here: give all nodes one folder of public keys\"",
         parts[3], parts[5], curve ? text_key(parts[6]) : "none", turned_away_.load());
   }
   const std::array<std::string, 6> answer{"1.0",

@@ -6,6 +6,7 @@
 
 #include <spdlog/spdlog.h>
 #include <sys/eventfd.h>
+#include <sys/timerfd.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -62,7 +63,9 @@ struct ZmqTransport::LaneSockets {
 ZmqTransport::ZmqTransport(ZmqContext& context, const ZmqConfig& config, const Clock& clock)
     : context_(context), config_(config), clock_(clock) {
   wake_descriptor_ = ::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
-  if (wake_descriptor_ < 0) throw std::runtime_error("zmq transport: no descriptor left");
+  timer_descriptor_ = ::timerfd_create(CLOCK_MONOTONIC, TFD_NONBLOCK | TFD_CLOEXEC);
+  if (wake_descriptor_ < 0 || timer_descriptor_ < 0)
+    throw std::runtime_error("zmq transport: no descriptor left");
   constexpr const char* lane_names[lanes] = {"control", "bulk"};
   for (size_t i = 0; i < lanes; ++i) {
     lanes_[i] = std::make_unique<LaneSockets>(context.context(), lane_names[i]);
@@ -73,6 +76,7 @@ ZmqTransport::ZmqTransport(ZmqContext& context, const ZmqConfig& config, const C
 ZmqTransport::~ZmqTransport() {
   for (auto& lane : lanes_) zmq_socket_monitor(lane->router.handle(), nullptr, 0);
   ::close(wake_descriptor_);
+  ::close(timer_descriptor_);
 }
 
 void ZmqTransport::set_options(LaneSockets& lane) {
@@ -224,9 +228,11 @@ std::optional<Arrival> ZmqTransport::receive_from(Lane lane) {
 }
 
 void ZmqTransport::wait_until(Nanoseconds until) {
-  const Nanoseconds left = std::max<Nanoseconds>(0, until - clock_.now());
-  const auto timeout_ms = static_cast<long>(std::min<Nanoseconds>(
-      (left + milliseconds(1) - 1) / milliseconds(1), seconds(1) / milliseconds(1)));
+  // A second at most, so that nobody's word is waited for when no frame comes. Setting the timer
+  // forgets that it fired before.
+  const Nanoseconds left = std::clamp<Nanoseconds>(until - clock_.now(), 0, seconds(1));
+  const itimerspec timer{{}, {left / seconds(1), left % seconds(1)}};
+  if (left > 0) ::timerfd_settime(timer_descriptor_, 0, &timer, nullptr);
   zmq_pollitem_t items[] = {
       {lanes_[0]->router.handle(), 0, ZMQ_POLLIN, 0},
       {lanes_[1]->router.handle(), 0, ZMQ_POLLIN, 0},
@@ -234,8 +240,10 @@ void ZmqTransport::wait_until(Nanoseconds until) {
       {lanes_[1]->monitor.handle(), 0, ZMQ_POLLIN, 0},
       {nullptr, context_.door_descriptor(), ZMQ_POLLIN, 0},
       {nullptr, wake_descriptor_, ZMQ_POLLIN, 0},
+      {nullptr, timer_descriptor_, ZMQ_POLLIN, 0},
   };
-  zmq_poll(items, static_cast<int>(std::size(items)), timeout_ms);  // a signal ends a wait, too
+  zmq_poll(items, static_cast<int>(std::size(items)),
+           left > 0 ? -1 : 0);  // a signal ends a wait, too
   if ((items[5].revents & ZMQ_POLLIN) != 0) {
     uint64_t wakes = 0;
     (void)!::read(wake_descriptor_, &wakes, sizeof wakes);  // nothing to read is as good
@@ -272,14 +280,17 @@ void ZmqTransport::take_event(Lane lane) {
         ++counters_.disconnected;
         break;
       case ZMQ_EVENT_HANDSHAKE_FAILED_AUTH:
-        if (counters_.refused_us++ == 0) say("refused_us", "the neighbour does not list our key");
+        if (counters_.refused_us++ == 0)
+          say("refused_us",
+              "the neighbour does not list our key: give it this "
+              "node's public key, and start it again");
         break;
       case ZMQ_EVENT_HANDSHAKE_FAILED_NO_DETAIL:
       case ZMQ_EVENT_HANDSHAKE_FAILED_PROTOCOL:
         if (counters_.handshake_failed++ == 0)
           say("handshake_failed",
-              "the neighbour's public key is not the one configured, or only "
-              "one end has keys");
+              "the neighbour's public key is not the one listed here, or only "
+              "one end has keys: give all nodes one folder of public keys");
         break;
       default:
         break;

@@ -86,7 +86,8 @@ class ZmqTransport final : public Transport {
   std::vector<std::string> names_;  // routing ids of nodes met, by number
   ZmqCounters counters_;
   int wake_descriptor_ = -1;
-  bool open_to_all_ = false;  // listens or connects beyond the host without keys
+  int timer_descriptor_ = -1;  // waits end on time: a poll counts whole milliseconds
+  bool open_to_all_ = false;   // listens or connects beyond the host without keys
   Nanoseconds remind_at_ = 0;
 };
 

@@ -28,6 +28,8 @@ class Metrics {
   /// `node` is the value of the label that tells the nodes of a run apart.
   explicit Metrics(std::string node);
 
+  const std::string& node() const { return node_; }
+
   /// A number that only grows. The references must outlive this.
   void add_counter(MetricInfo info, const uint64_t& value);
   /// A number that goes up and down.

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "runtime/core/check.hpp"
+#include "runtime/observe/node_trace.hpp"
 
 namespace luxodus {
 
@@ -31,6 +32,12 @@ std::string event_json(NodeId node, const TraceEvent& event, const std::string& 
 }
 
 }  // namespace
+
+const std::vector<std::string>& trace_kind_names() {
+  static const std::vector<std::string> names{"particle", "wait",  "fetch",
+                                              "build",    "batch", "flush"};
+  return names;
+}
 
 std::vector<TraceEvent> TraceRing::kept() const {
   if (recorded_ < events_.size())

@@ -36,6 +36,8 @@ class Descriptor {
 
   int get() const { return fd_; }
   bool valid() const { return fd_ >= 0; }
+  /// Requires: !valid().
+  void adopt(int fd) { fd_ = fd; }
   /// Closes now and tells whether that went well: network file systems report a full disk here.
   bool close() {
     const int fd = fd_;
@@ -101,6 +103,21 @@ int write_all(int fd, std::span<const std::byte> bytes) {
   return 0;
 }
 
+/// The same at a place of the file; what was written in order goes on where it was.
+int write_all_at(int fd, uint64_t offset, std::span<const std::byte> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t n = ::pwrite(fd, bytes.data(), std::min(bytes.size(), transfer_bytes),
+                               static_cast<off_t>(offset));
+    if (n < 0) {
+      if (errno == EINTR) continue;
+      return errno;
+    }
+    offset += static_cast<uint64_t>(n);
+    bytes = bytes.subspan(static_cast<size_t>(n));
+  }
+  return 0;
+}
+
 /// Where the bytes really go: behind symbolic links. `mode` is set when a file is there already.
 struct Target {
   std::filesystem::path path;
@@ -144,22 +161,29 @@ int create_temporary(int folder, std::string& name) {
   return -1;
 }
 
-/// Steps 3 and 4; 0 or the errno of what failed.
-int fill_and_rename(int folder, Descriptor& file, const std::string& temporary,
-                    const Target& target, std::span<const std::byte> bytes) {
-  if (const int error = write_all(file.get(), bytes)) return error;
-  if (target.exists && ::fchmod(file.get(), target.mode) != 0) return errno;
-  if (::fsync(file.get()) != 0) return errno;
-  if (!file.close()) return errno;
-  const std::string name = target.path.filename().string();
-  if (::renameat(folder, temporary.c_str(), folder, name.c_str()) != 0) return errno;
-  return 0;
-}
-
 }  // namespace
 
-Result<Done> write_file_atomically(const std::filesystem::path& path,
-                                   std::span<const std::byte> bytes) {
+/// Everything that is open while a file is being written.
+struct AtomicFile::State {
+  State(std::filesystem::path path, Target found, int folder_fd)
+      : asked_for(std::move(path)), target(std::move(found)), folder(folder_fd), file(-1) {}
+  ~State() {
+    if (!temporary.empty()) ::unlinkat(folder.get(), temporary.c_str(), 0);
+  }
+
+  std::filesystem::path asked_for;
+  Target target;
+  Descriptor folder;
+  Descriptor file;
+  std::string temporary;  // "" once it has the target's name
+  int failed = 0;         // errno of the first piece that could not be written
+};
+
+AtomicFile::AtomicFile(std::unique_ptr<State> state) : state_(std::move(state)) {}
+AtomicFile::AtomicFile(AtomicFile&&) noexcept = default;
+AtomicFile::~AtomicFile() = default;
+
+Result<AtomicFile> AtomicFile::create(const std::filesystem::path& path) {
   if (path.empty() || path.filename().empty()) {
     return problem_of(path, "no file is named here; add a file name to the path");
   }
@@ -169,21 +193,56 @@ Result<Done> write_file_atomically(const std::filesystem::path& path,
 
   std::filesystem::path parent = target->path.parent_path();
   if (parent.empty()) parent = ".";
-  Descriptor folder(::open(parent.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (!folder.valid()) return write_problem(path, errno);
+  const int folder = ::open(parent.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (folder < 0) return write_problem(path, errno);
+  auto state = std::make_unique<State>(path, std::move(target).value(), folder);
+  std::string name;
+  const int fd = create_temporary(folder, name);
+  if (fd < 0) return write_problem(path, errno);
+  state->file.adopt(fd);
+  state->temporary = std::move(name);
+  return AtomicFile(std::move(state));
+}
 
-  std::string temporary;
-  Descriptor file(create_temporary(folder.get(), temporary));
-  if (!file.valid()) return write_problem(path, errno);
-  if (const int error = fill_and_rename(folder.get(), file, temporary, target.value(), bytes)) {
-    ::unlinkat(folder.get(), temporary.c_str(), 0);
-    return write_problem(path, error);
+void AtomicFile::write(std::span<const std::byte> bytes) {
+  if (state_->failed == 0) state_->failed = write_all(state_->file.get(), bytes);
+}
+
+void AtomicFile::write_at(uint64_t offset, std::span<const std::byte> bytes) {
+  if (state_->failed == 0) state_->failed = write_all_at(state_->file.get(), offset, bytes);
+}
+
+Result<Done> AtomicFile::commit() {
+  State& s = *state_;
+  if (const int error = s.failed != 0 ? s.failed : finish(s)) {
+    return write_problem(s.asked_for, error);
   }
+  s.temporary.clear();
   // EINVAL: the file system has no notion of syncing a folder, and nothing better can be done.
-  if (::fsync(folder.get()) != 0 && errno != EINVAL) {
-    return system_problem(path, "the file is written, but its folder could not be synced", errno);
+  if (::fsync(s.folder.get()) != 0 && errno != EINVAL) {
+    return system_problem(s.asked_for, "the file is written, but its folder could not be synced",
+                          errno);
   }
   return Done{};
+}
+
+/// Steps 3 and 4; 0 or the errno of what failed.
+int AtomicFile::finish(State& s) {
+  if (s.target.exists && ::fchmod(s.file.get(), s.target.mode) != 0) return errno;
+  if (::fsync(s.file.get()) != 0) return errno;
+  if (!s.file.close()) return errno;
+  const std::string name = s.target.path.filename().string();
+  if (::renameat(s.folder.get(), s.temporary.c_str(), s.folder.get(), name.c_str()) != 0)
+    return errno;
+  return 0;
+}
+
+Result<Done> write_file_atomically(const std::filesystem::path& path,
+                                   std::span<const std::byte> bytes) {
+  auto file = AtomicFile::create(path);
+  if (!file) return file.problem();
+  file->write(bytes);
+  return file->commit();
 }
 
 Result<Done> write_file_atomically(const std::filesystem::path& path, std::string_view text) {

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -18,6 +19,30 @@ namespace luxodus {
 
 /// The value of a Result that carries nothing but success.
 struct Done {};
+
+/// A file that is written piece by piece, and is there only once it is whole: without commit() it
+/// leaves no trace. The first piece that cannot be written is told by commit().
+class AtomicFile {
+ public:
+  /// Errors: as write_file_atomically.
+  static Result<AtomicFile> create(const std::filesystem::path& path);
+  AtomicFile(AtomicFile&&) noexcept;
+  ~AtomicFile();
+
+  /// Behind what was written last by this.
+  void write(std::span<const std::byte> bytes);
+  /// At a place of the file, such as a head that is known at the end.
+  void write_at(uint64_t offset, std::span<const std::byte> bytes);
+  /// Makes it the target. To be called once, and nothing after it.
+  Result<Done> commit();
+
+ private:
+  struct State;
+  explicit AtomicFile(std::unique_ptr<State> state);
+  static int finish(State& state);
+
+  std::unique_ptr<State> state_;
+};
 
 /// Replaces or makes the file `path`. The target's permissions are kept where it exists; a symbolic
 /// link is followed; anything that is not a regular file (a folder, a device, a pipe) is refused.

@@ -139,7 +139,7 @@ Result<Shape> shape_of(KeyReader& keys, const std::string& kind) {
 
 /// A room: six objects that share everything but mesh and material.
 void read_room(KeyReader& keys, const Object& common, const SurfaceWords& words,
-               const Transform& transform) {
+               const Transform& transform, std::span<const glm::dvec3> copies) {
   const glm::dvec3 low = keys.point("low"), high = keys.point("high");
   const auto omit = keys.texts("omit");
   std::map<std::string, SurfaceWords> faces;
@@ -175,6 +175,7 @@ void read_room(KeyReader& keys, const Object& common, const SurfaceWords& words,
     object.mesh = *meshes.at(face);
     move_by(object.mesh, sound ? low : glm::dvec3(0));
     apply(transform, object.mesh);
+    repeat_mesh(keys, copies, object.mesh);
     keys.reading().declare("object", object.name, object.place);
     add_object(std::move(object), own, keys.reading());
   }
@@ -194,13 +195,17 @@ void read_object(const toml::table& table, SceneReading& reading) {
   words.material_place = keys.place("material");
   read_surface(keys, object, words);
   const Transform transform = read_transform(keys);
-  if (kind == "room") return read_room(keys, object, words, transform);
+  const auto copies = read_repeat(keys);
+  if (kind == "room") return read_room(keys, object, words, transform, copies);
   read_door(keys, object);
+  if (object.door && copies.size() > 1)
+    keys.problem("repeat", "a door turns about one hinge: write each door down by itself");
   if (!kind.empty()) {
     auto shape = shape_of(keys, kind);
     if (shape) {
       object.mesh = std::move(shape->mesh);
       apply(transform, object.mesh);
+      repeat_mesh(keys, copies, object.mesh);
       reading.scene.degenerate_triangles += clean_mesh(object.mesh);
       if (object.mesh.triangles.empty()) keys.problem("'" + object.name + "' has no area left");
     } else if (!shape.problem().what.empty()) {

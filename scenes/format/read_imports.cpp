@@ -38,6 +38,7 @@ struct PartRule {
   bool omit = false;
   Object object;  // patch edge, tags, group, door
   bool own_patch_edge = false;
+  bool own_one_patch = false;
   SurfaceWords words;
   bool used = false;
 };
@@ -54,6 +55,7 @@ PartRule read_rule(const toml::table& table, KeyReader& of) {
   }
   read_surface(keys, rule.object, rule.words);
   rule.own_patch_edge = keys.has("patch_edge_m");
+  rule.own_one_patch = keys.has("one_patch");
   read_door(keys, rule.object);
   rule.used = !keys.clean();  // a broken rule is not also reported as matching nothing
   return rule;
@@ -149,6 +151,7 @@ void add_part(ImportedPart& part, Object object, SurfaceWords words, std::vector
       words.back_place = rule.words.back_place;
     }
     if (rule.own_patch_edge) object.patch_edge_m = rule.object.patch_edge_m;
+    if (rule.own_one_patch) object.one_patch = rule.object.one_patch;
     if (!rule.object.group.empty()) object.group = rule.object.group;
     for (const auto& tag : rule.object.tags) object.tags.push_back(tag);
     if (rule.object.door) object.door = rule.object.door;
@@ -174,6 +177,7 @@ void read_import(const toml::table& table, SceneReading& reading) {
   read_surface(keys, common, words);
   Materials materials(keys, common.name);
   const Transform transform = read_transform(keys);
+  const auto copies = read_repeat(keys);
   const auto scale = metres_per_unit(keys.choice("units"));
   const auto up = up_axis_named(keys.choice("up"));
   std::vector<PartRule> rules;
@@ -194,6 +198,7 @@ void read_import(const toml::table& table, SceneReading& reading) {
   reading.note("object or tag", common.name, common.place);
   for (ImportedPart& part : parts.value()) {
     apply(transform, part.mesh);
+    repeat_mesh(keys, copies, part.mesh);
     add_part(part, common, words, rules, materials, reading);
   }
   materials.report_unused();

@@ -189,6 +189,21 @@ double read_flux(KeyReader& keys, Emitter& e) {
   return pi * value * area_of(e);  // Lambert's law
 }
 
+/// Adds the emitter, and its copies as NAME.2, NAME.3 and so on.
+void add_emitter(KeyReader& keys, const Emitter& e, std::span<const glm::dvec3> copies) {
+  SceneReading& reading = keys.reading();
+  for (size_t i = 0; i < copies.size(); ++i) {
+    Emitter copy = e;
+    copy.frame.origin += copies[i];
+    for (glm::dvec3& p : copy.mesh.positions) p += copies[i];
+    if (i > 0) {
+      copy.name += "." + std::to_string(i + 1);
+      reading.declare("luminaire or emitter", copy.name, e.place);
+    }
+    reading.scene.emitters.push_back(std::move(copy));
+  }
+}
+
 }  // namespace
 
 void read_luminaire(const toml::table& table, SceneReading& reading) {
@@ -209,7 +224,7 @@ void read_luminaire(const toml::table& table, SceneReading& reading) {
   }
   read_operation(keys, e, rated);
   read_body(keys, e);
-  reading.scene.emitters.push_back(std::move(e));
+  add_emitter(keys, e, read_repeat(keys));
 }
 
 void read_emitter(const toml::table& table, SceneReading& reading) {
@@ -230,7 +245,7 @@ void read_emitter(const toml::table& table, SceneReading& reading) {
     read_operation(keys, e, flux);
   }
   read_body(keys, e);
-  reading.scene.emitters.push_back(std::move(e));
+  add_emitter(keys, e, read_repeat(keys));
 }
 
 }  // namespace luxodus

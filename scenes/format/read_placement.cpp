@@ -23,6 +23,39 @@ Transform read_transform(KeyReader& keys) {
   return t;
 }
 
+std::vector<glm::dvec3> read_repeat(KeyReader& keys) {
+  std::vector<glm::dvec3> offsets{glm::dvec3(0)};
+  for (const toml::table* table : keys.tables("repeat")) {
+    KeyReader row(*table, {"repeat"}, keys.reading(), keys.place());
+    const int64_t count = row.integer("count");
+    const glm::dvec3 step = row.point("step");
+    if (!row.clean()) return {glm::dvec3(0)};
+    if (offsets.size() * static_cast<size_t>(count) > scene_limits::copies) {
+      row.problem("count", "with this row there are more than " +
+                               std::to_string(scene_limits::copies) + " copies");
+      return {glm::dvec3(0)};
+    }
+    const std::vector<glm::dvec3> so_far = offsets;
+    for (int64_t i = 1; i < count; ++i) {
+      for (const glm::dvec3& offset : so_far)
+        offsets.push_back(offset + static_cast<double>(i) * step);
+    }
+  }
+  return offsets;
+}
+
+void repeat_mesh(KeyReader& keys, std::span<const glm::dvec3> offsets, Mesh& mesh) {
+  if (offsets.size() < 2) return;
+  if (mesh.triangles.size() > scene_limits::triangles / offsets.size()) {
+    keys.problem("repeat", std::to_string(offsets.size()) + " copies of " +
+                               std::to_string(mesh.triangles.size()) +
+                               " triangles are more than a scene may have (" +
+                               std::to_string(scene_limits::triangles) + ")");
+    return;
+  }
+  mesh = copies_of(mesh, offsets);
+}
+
 Frame read_aim(KeyReader& keys) {
   const glm::dvec3 position = keys.point("position");
   glm::dvec3 direction(0, 0, -1);
@@ -60,6 +93,9 @@ void read_surface(KeyReader& keys, Object& object, SurfaceWords& words) {
     words.back_place = keys.place("back_material");
   }
   if (const auto edge = keys.maybe_number("patch_edge_m")) object.patch_edge_m = *edge;
+  if (keys.has("one_patch")) object.one_patch = keys.flag("one_patch");
+  if (object.one_patch && keys.has("patch_edge_m"))
+    keys.problem("patch_edge_m", "'patch_edge_m' and 'one_patch = true' exclude each other");
   for (auto& tag : keys.texts("tags")) object.tags.push_back(std::move(tag));
   if (const auto group = keys.maybe_text("group")) object.group = *group;
 }

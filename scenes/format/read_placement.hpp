@@ -2,6 +2,9 @@
 // scene.
 #pragma once
 
+#include <span>
+#include <vector>
+
 #include "scenes/format/key_reader.hpp"
 #include "scenes/geometry/transform.hpp"
 
@@ -13,6 +16,12 @@ Transform read_transform(KeyReader& keys);
 glm::dmat3 turn_about_axes(const glm::dvec3& degrees);
 /// Of `position`, `direction` or `target`, `rotation_deg`.
 Frame read_aim(KeyReader& keys);
+
+/// Of `repeat`: the offset of every copy, the first of which is none; just that where it is not
+/// given or wrong.
+std::vector<glm::dvec3> read_repeat(KeyReader& keys);
+/// Makes the mesh all of its copies. A problem where that is more than a scene may have.
+void repeat_mesh(KeyReader& keys, std::span<const glm::dvec3> offsets, Mesh& mesh);
 
 /// Takes a problem that knows no place (a shape's measures) as one of this table.
 void adopt_problem(KeyReader& keys, const Problem& problem);

@@ -26,6 +26,8 @@ inline constexpr size_t included_files = 256;
 inline constexpr size_t tables_per_kind = 100'000;
 /// Values in one list.
 inline constexpr size_t list_values = 100'000;
+/// Copies of one object or luminaire.
+inline constexpr size_t copies = 100'000;
 /// Characters of a name or a title.
 inline constexpr size_t name_chars = 200;
 /// Problems kept; after this many a file is broken as a whole and more sentences help nobody.

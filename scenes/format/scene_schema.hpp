@@ -52,6 +52,9 @@ std::vector<std::string_view> words_of(std::string_view range);
 /// The schema as the README shows it: a heading and a table of keys for each table.
 std::string schema_markdown();
 
+/// The key `repeat`, wherever things are placed.
+KeySpec repeat_key();
+
 // Pieces of the schema, one per source file.
 std::vector<TableSpec> geometry_schema();
 std::vector<TableSpec> object_schema();    // part of geometry_schema

@@ -26,6 +26,9 @@ Keys surface_keys() {
       {"back_material", "text", "", "", "", "material seen from behind the triangles"},
       {"patch_edge_m", "number", "m", "", "[0, 1e4]",
        "longest edge of a flux patch; 0: one patch per triangle; the scene's default unless said"},
+      {"one_patch", "flag", "", "false", "",
+       "count flux for all of it together, a patch a side: for the many small things whose own "
+       "brightness nobody asks for; instead of `patch_edge_m`"},
       {"tags", "texts", "", "", "", "words that surface groups may name, such as \"furniture\""},
       {"group", "name", "", "", "", "surface group it belongs to"},
   };
@@ -159,7 +162,7 @@ std::vector<TableSpec> object_schema() {
                    {"material", "text", "", "required", "", "name of a material, or a named grey"}},
                   surface_keys()),
            joined(transform_keys(),
-                  {{"door", "table", "", "", "", "makes it a leaf that turns"}}))},
+                  {repeat_key(), {"door", "table", "", "", "", "makes it a leaf that turns"}}))},
   };
   for (auto& t : flat_shapes()) all.push_back(std::move(t));
   for (auto& t : round_shapes()) all.push_back(std::move(t));
@@ -192,8 +195,9 @@ std::vector<TableSpec> object_schema() {
                 {"file_colours", "flag", "", "false", "",
                  "parts that neither names are Lambertian in the colour of the file"}},
                surface_keys()),
-           joined(transform_keys(),
-                  {{"part", "tables", "", "", "", "what is said of single parts"}}))});
+           joined(
+               transform_keys(),
+               {repeat_key(), {"part", "tables", "", "", "", "what is said of single parts"}}))});
   all.push_back({"import.part", "`[[import.part]]`: replaces for some parts what the import says",
                  joined({{"match", "text", "", "required", "",
                           "name of a part in the file; `*` stands for any characters"},
@@ -201,7 +205,19 @@ std::vector<TableSpec> object_schema() {
                          {"material", "text", "", "", "", "material"}},
                         joined(surface_keys(),
                                {{"door", "table", "", "", "", "makes it a leaf that turns"}}))});
+  all.push_back(
+      {"repeat",
+       "`[[object.repeat]]`, `[[import.repeat]]`, `[[luminaire.repeat]]`, `[[emitter.repeat]]`: a "
+       "row of copies; each further one repeats all that the ones before have made",
+       {
+           {"count", "integer", "", "required", "[1, 100000]", "how many, the original included"},
+           {"step", "point", "m", "required", "[-1e7, 1e7]", "from one to the next"},
+       }});
   return all;
+}
+
+KeySpec repeat_key() {
+  return {"repeat", "tables", "", "", "", "copies in a row, or in rows of rows; see below"};
 }
 
 }  // namespace luxodus

@@ -102,6 +102,20 @@ void append(Mesh& to, const Mesh& from) {
   for (const glm::uvec3& triangle : from.triangles) to.triangles.push_back(triangle + first);
 }
 
+Mesh copies_of(const Mesh& mesh, std::span<const glm::dvec3> offsets) {
+  Mesh out;
+  out.positions.reserve(mesh.positions.size() * offsets.size());
+  out.triangles.reserve(mesh.triangles.size() * offsets.size());
+  out.texture_uv.reserve(mesh.texture_uv.size() * offsets.size());
+  for (const glm::dvec3& offset : offsets) {
+    const auto first = static_cast<uint32_t>(out.positions.size());
+    for (const glm::dvec3& p : mesh.positions) out.positions.push_back(p + offset);
+    for (const glm::uvec3& t : mesh.triangles) out.triangles.push_back(t + first);
+    out.texture_uv.insert(out.texture_uv.end(), mesh.texture_uv.begin(), mesh.texture_uv.end());
+  }
+  return out;
+}
+
 void join_identical_vertices(Mesh& mesh) {
   const bool with_uv = !mesh.texture_uv.empty();
   const auto key = [&](uint32_t i) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "scenes/geometry/mesh.hpp"
@@ -30,6 +31,9 @@ void flip(Mesh& mesh);
 /// Adds the triangles of `from`. Where only one of the two has texture coordinates, the other gets
 /// (0, 0).
 void append(Mesh& to, const Mesh& from);
+
+/// The mesh once at each offset.
+Mesh copies_of(const Mesh& mesh, std::span<const glm::dvec3> offsets);
 
 /// Makes vertices with equal position and texture coordinate one; order of first appearance.
 void join_identical_vertices(Mesh& mesh);

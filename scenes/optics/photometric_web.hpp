@@ -44,6 +44,7 @@ class PhotometricWeb {
   const std::vector<double>& azimuth_deg() const { return azimuth_deg_; }
   const std::vector<double>& polar_deg() const { return polar_deg_; }
   const std::vector<double>& candela() const { return candela_; }
+  const glm::dmat3& to_luminaire() const { return to_luminaire_; }
   size_t bytes() const;
 
  private:

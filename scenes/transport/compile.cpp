@@ -12,6 +12,7 @@
 #include "runtime/core/random.hpp"
 #include "scenes/transport/compile_surfaces.hpp"
 #include "scenes/transport/emission.hpp"
+#include "scenes/transport/packed_geometry.hpp"
 
 namespace luxodus {
 
@@ -450,7 +451,11 @@ Result<std::shared_ptr<const CompiledScene>> compile_scene(
   }
   compile_materials(*scene);
   compile_sign_faces(*scene);
-  if (auto ok = compile_triangles(*scene, options.cells); !ok.ok()) return ok.problem();
+  const PackedGeometry* packed = description->packed.get();
+  auto solid =
+      packed != nullptr ? adopt_packed_geometry(*scene) : compile_triangles(*scene, options.cells);
+  if (!solid.ok()) return solid.problem();
+  compile_lambert_fractions(*scene);
   compile_emitters(*scene, sources);
   if (auto ok = compile_media(*scene); !ok.ok()) return ok.problem();
   scatter_volume_points(*scene);
@@ -474,7 +479,7 @@ Result<std::shared_ptr<const CompiledScene>> compile_scene(
   choose_features(*scene);
   lay_out_tally(*scene);
   choose_batch(*scene);
-  scene->scene_hash = hash_scene(*scene, options.cells);
+  scene->scene_hash = hash_scene(*scene, packed != nullptr ? packed->partition : options.cells);
   return std::shared_ptr<const CompiledScene>(std::move(scene));
 }
 

@@ -10,7 +10,7 @@
 namespace luxodus {
 
 struct CompileOptions {
-  int cells = 1;  // geometry cells; 1 is one merged scene
+  int cells = 1;  // geometry cells; 1 is one merged scene; a packed scene has been cut already
 };
 
 /// The scenario of that name; with an empty name the first, or plain mains where a scene has none.

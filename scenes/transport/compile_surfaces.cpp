@@ -8,6 +8,7 @@
 #include "scenes/geometry/primitives.hpp"
 #include "scenes/geometry/transform.hpp"
 #include "scenes/tally/fixed_point.hpp"
+#include "scenes/transport/packed_geometry.hpp"
 
 namespace luxodus {
 
@@ -127,6 +128,7 @@ class TriangleBuilder {
   Result<bool> add(CompiledSurface surface, const SourcePlace& place, const Mesh& mesh,
                    double patch_edge_m) {
     surface.first_patch = patches();
+    if (surface.one_patch && !mesh.triangles.empty()) patches_ += 2;
     const auto index = static_cast<uint32_t>(scene_.surfaces.size());
     for (const glm::uvec3& t : mesh.triangles) {
       add_triangle(surface, index, mesh, t, patch_edge_m);
@@ -165,11 +167,12 @@ class TriangleBuilder {
       return;
     }
     r.normal = glm::vec3(cross / twice_area);
-    r.subdivision = patch_edge_m > 0 ? subdivision_for(longest, patch_edge_m) : 1;
-    r.first_patch = patches();
+    const bool cut = patch_edge_m > 0 && !surface.one_patch;
+    r.subdivision = cut ? subdivision_for(longest, patch_edge_m) : 1;
+    r.first_patch = surface.one_patch ? surface.first_patch : patches();
     r.surface = index;
     r.global_triangle = static_cast<uint32_t>(records_.size());
-    patches_ += 2 * uint64_t{r.subdivision} * r.subdivision;
+    if (!surface.one_patch) patches_ += 2 * uint64_t{r.subdivision} * r.subdivision;
     surface.area_m2 += twice_area / 2;
     if (!mesh.texture_uv.empty()) {
       uv_.push_back({r.global_triangle,
@@ -208,6 +211,40 @@ GeometryCell make_cell(const std::vector<TriangleRecord>& records,
   return cell;
 }
 
+/// Numbers of the triangles, those apart that are longer than the side of a cell: where a floor's
+/// two triangles share a cell with a chair, the cell's box spans the floor, and every ray above it
+/// has to look inside. One list where all are of a kind.
+std::vector<std::vector<uint32_t>> split_by_size(const CompiledScene& scene,
+                                                 const std::vector<TriangleRecord>& records,
+                                                 int cells) {
+  const glm::dvec3 size = glm::max(scene.bounds.high - scene.bounds.low, glm::dvec3(1e-3));
+  const double side = std::cbrt(size.x * size.y * size.z / cells);
+  std::vector<std::vector<uint32_t>> out(2);
+  for (uint32_t i = 0; i < records.size(); ++i) {
+    const auto& c = records[i].corner;
+    const float longest =
+        std::max({glm::distance(c[0], c[1]), glm::distance(c[1], c[2]), glm::distance(c[2], c[0])});
+    out[static_cast<double>(longest) > side ? 0 : 1].push_back(i);
+  }
+  std::erase_if(out, [](const auto& list) { return list.empty(); });
+  return out;
+}
+
+/// Cells of neighbours among these triangles.
+void add_cells(CompiledScene& scene, TriangleBuilder& builder,
+               const std::vector<uint32_t>& triangles, int cells) {
+  std::vector<glm::dvec3> centroids;
+  for (const uint32_t t : triangles) {
+    const auto& c = builder.records()[t].corner;
+    centroids.push_back((glm::dvec3(c[0]) + glm::dvec3(c[1]) + glm::dvec3(c[2])) / 3.0);
+  }
+  for (std::vector<uint32_t>& members : partition_triangles(centroids, cells)) {
+    for (uint32_t& member : members) member = triangles[member];
+    scene.cells.push_back(make_cell(builder.records(), builder.uv(), members));
+    scene.cell_boxes.push_back({scene.cells.back().low, scene.cells.back().high});
+  }
+}
+
 void cut_into_cells(CompiledScene& scene, TriangleBuilder& builder, int cells) {
   if (cells <= 1) {
     GeometryCell cell;
@@ -215,16 +252,20 @@ void cut_into_cells(CompiledScene& scene, TriangleBuilder& builder, int cells) {
     cell.texture_uv = std::move(builder.uv());
     cell.low = scene.local_low;
     cell.high = scene.local_high;
+    scene.cell_boxes.push_back({cell.low, cell.high});
     scene.cells.push_back(std::move(cell));
     return;
   }
-  std::vector<glm::dvec3> centroids;
-  for (const TriangleRecord& r : builder.records()) {
-    centroids.push_back(
-        (glm::dvec3(r.corner[0]) + glm::dvec3(r.corner[1]) + glm::dvec3(r.corner[2])) / 3.0);
-  }
-  for (const auto& members : partition_triangles(centroids, cells)) {
-    scene.cells.push_back(make_cell(builder.records(), builder.uv(), members));
+  const auto sizes = split_by_size(scene, builder.records(), cells);
+  const auto all = static_cast<double>(builder.records().size());
+  int left = cells;
+  for (size_t i = 0; i < sizes.size(); ++i) {
+    const auto share = static_cast<double>(sizes[i].size()) / all;
+    const bool last = i + 1 == sizes.size();
+    const int own =
+        last ? left : std::clamp(static_cast<int>(std::lround(cells * share)), 1, left - 1);
+    left -= own;
+    add_cells(scene, builder, sizes[i], own);
   }
 }
 
@@ -236,6 +277,7 @@ Result<bool> add_surfaces(CompiledScene& scene, TriangleBuilder& builder) {
     s.name = object.name;
     s.material[0] = static_cast<uint32_t>(object.material);
     s.material[1] = static_cast<uint32_t>(object.back_material);
+    s.one_patch = object.one_patch;
     const Mesh mesh = mesh_in(object, scene.scenario);
     if (auto ok = builder.add(std::move(s), object.place, mesh, object.patch_edge_m); !ok.ok())
       return ok;
@@ -341,6 +383,40 @@ Result<bool> compile_triangles(CompiledScene& scene, int cells) {
   scene.triangles = builder.records().size();
   scene.patch_count = builder.patches();
   cut_into_cells(scene, builder, cells);
+  return true;
+}
+
+std::vector<std::string> open_doors(const SceneDescription& description, const Scenario& scenario) {
+  std::vector<std::string> open;
+  for (const Object& object : description.objects) {
+    if (object.door && door_is_open(object, scenario)) open.push_back(object.name);
+  }
+  return open;
+}
+
+Result<bool> adopt_packed_geometry(CompiledScene& scene) {
+  const PackedGeometry& packed = *scene.description->packed;
+  if (open_doors(*scene.description, scene.scenario) != packed.open_doors) {
+    return Problem{{packed.file->name(), 0},
+                   "in scenario \"" + scene.scenario.name +
+                       "\" other doors are open than in the one that was packed: pack that one"};
+  }
+  scene.surfaces = packed.surfaces;
+  scene.triangles = packed.triangles;
+  scene.patch_count = packed.patch_count;
+  scene.total_area_m2 = packed.total_area_m2;
+  for (uint32_t i = 0; i < scene.surfaces.size(); ++i) {
+    const uint32_t sign = scene.surfaces[i].sign;
+    if (sign != none_index) scene.signs[sign].surface = i;
+  }
+  for (const PackedGeometry::Cell& cell : packed.cells)
+    scene.cell_boxes.push_back({cell.low, cell.high});
+  for (const std::string& warning : packed.warnings)
+    scene.warnings.push_back({{packed.file->name(), 0}, warning});
+  return true;
+}
+
+void compile_lambert_fractions(CompiledScene& scene) {
   const auto bands = static_cast<size_t>(scene.bands.count());
   scene.lambert_fraction.resize(scene.surfaces.size() * 2 * bands);
   for (size_t i = 0; i < scene.surfaces.size(); ++i) {
@@ -352,10 +428,10 @@ Result<bool> compile_triangles(CompiledScene& scene, int cells) {
       }
     }
   }
-  return true;
 }
 
 Bounds solid_bounds(const SceneDescription& description, const Scenario& scenario) {
+  if (description.packed != nullptr) return description.packed->bounds;
   Bounds bounds;
   const auto extend = [&](const Mesh& mesh) {
     for (const glm::dvec3& p : mesh.positions) bounds.extend(p);

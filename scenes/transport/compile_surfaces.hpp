@@ -20,6 +20,13 @@ void compile_sign_faces(CompiledScene& scene);
 /// Errors: more flux patches than are counted; nothing was taken for them.
 Result<bool> compile_triangles(CompiledScene& scene, int cells);
 
+/// The same of a scene whose triangles are in a pack.
+/// Errors: a scenario whose doors stand otherwise than where it was packed.
+Result<bool> adopt_packed_geometry(CompiledScene& scene);
+
+/// Shares of a diffuse reflection by surface, side and band, as integers.
+void compile_lambert_fractions(CompiledScene& scene);
+
 /// The meshes as the scenario has them, in scene coordinates: bounds of everything solid.
 Bounds solid_bounds(const SceneDescription& description, const Scenario& scenario);
 

@@ -33,6 +33,15 @@ struct CompiledSurface {
   uint32_t first_patch = 0;            // of all its patches, both sides
   uint32_t patches = 0;
   double area_m2 = 0;  // of one side
+  bool one_patch = false;
+
+  /// Area [m2] of one patch of a triangle of it.
+  double patch_area_m2(const TriangleRecord& t) const {
+    if (one_patch) return area_m2;
+    const glm::dvec3 a(t.corner[0]);
+    const glm::dvec3 u = glm::dvec3(t.corner[1]) - a, v = glm::dvec3(t.corner[2]) - a;
+    return glm::length(glm::cross(u, v)) / 2 / (double(t.subdivision) * t.subdivision);
+  }
 };
 
 struct CompiledMaterial {
@@ -214,7 +223,8 @@ struct CompiledScene {
   Features features;
   TallyLayout layout;
   TallyBlocks blocks;
-  std::vector<GeometryCell> cells;  // one when merged
+  std::vector<ProxyScene::Box> cell_boxes;  // one when merged
+  std::vector<GeometryCell> cells;          // by box; none where the triangles are in a pack
 
   int64_t batch_particles = 0;
   int eye_paths_per_batch = 0;  // per eye target part and per probe

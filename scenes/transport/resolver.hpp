@@ -20,20 +20,16 @@ namespace luxodus {
 /// The search structures over a scene's cells, built once and shared by all threads.
 class SceneIndex {
  public:
-  SceneIndex(const EmbreeDevice& device, const CompiledScene& scene) {
-    std::vector<ProxyScene::Box> boxes;
-    for (const GeometryCell& cell : scene.cells) {
-      cells_.push_back(std::make_unique<CellScene>(device, cell));
-      boxes.push_back({cell.low, cell.high});
-    }
-    if (cells_.size() > 1) proxies_ = std::make_unique<ProxyScene>(device, std::move(boxes));
-  }
+  /// Requires: `scene` outlives this.
+  /// Errors (exception): a packed scene whose triangles cannot be read.
+  SceneIndex(const EmbreeDevice& device, const CompiledScene& scene);
   const CellScene& cell(uint32_t i) const { return *cells_[i]; }
   size_t cells() const { return cells_.size(); }
   /// Requires: cells() > 1.
   const ProxyScene& proxies() const { return *proxies_; }
 
  private:
+  std::vector<GeometryCell> loaded_;  // of a packed scene
   std::vector<std::unique_ptr<CellScene>> cells_;
   std::unique_ptr<ProxyScene> proxies_;
 };

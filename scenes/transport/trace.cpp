@@ -55,15 +55,12 @@ std::unique_ptr<BatchTracer> make_batch_tracer(const CompiledScene& scene,
   });
 }
 
-DirectLight direct_light_at(const CompiledScene& scene, const SceneIndex& index,
+DirectLight direct_light_at(const CompiledScene& scene, const GeometryAccess& access,
                             const glm::vec3& point, const glm::vec3& normal,
                             const DirectOptions& options) {
-  if (index.cells() > 1) {
-    PartitionResolver resolver(scene, index);
+  return with_resolver(scene, access, [&](auto resolver) {
     return direct_light(scene, point, normal, options, resolver);
-  }
-  MergedResolver resolver(scene, index);
-  return direct_light(scene, point, normal, options, resolver);
+  });
 }
 
 namespace {
@@ -71,8 +68,8 @@ namespace {
 template <class Resolver>
 class ResolverPictureTracer final : public PictureTracer {
  public:
-  ResolverPictureTracer(const CompiledScene& scene, const SceneIndex& index, uint64_t seed)
-      : resolver_(scene, index),
+  ResolverPictureTracer(const CompiledScene& scene, Resolver resolver, uint64_t seed)
+      : resolver_(std::move(resolver)),
         eye_(scene, resolver_, seed, RandomStream::picture),
         light_(scene.groups.size()) {}
 
@@ -95,10 +92,11 @@ class ResolverPictureTracer final : public PictureTracer {
 }  // namespace
 
 std::unique_ptr<PictureTracer> make_picture_tracer(const CompiledScene& scene,
-                                                   const SceneIndex& index, uint64_t seed) {
-  if (index.cells() > 1)
-    return std::make_unique<ResolverPictureTracer<PartitionResolver>>(scene, index, seed);
-  return std::make_unique<ResolverPictureTracer<MergedResolver>>(scene, index, seed);
+                                                   const GeometryAccess& access, uint64_t seed) {
+  return with_resolver(scene, access, [&](auto resolver) -> std::unique_ptr<PictureTracer> {
+    return std::make_unique<ResolverPictureTracer<decltype(resolver)>>(scene, std::move(resolver),
+                                                                       seed);
+  });
 }
 
 std::string describe_kernel(const CompiledScene& scene) {

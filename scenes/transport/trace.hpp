@@ -26,8 +26,8 @@ class BatchTracer {
 std::unique_ptr<BatchTracer> make_batch_tracer(const CompiledScene& scene,
                                                const GeometryAccess& access, uint64_t seed);
 
-/// Direct light through whichever resolver the index needs; one thread at a time.
-DirectLight direct_light_at(const CompiledScene& scene, const SceneIndex& index,
+/// Direct light through whichever resolver the access needs; one thread or fiber at a time.
+DirectLight direct_light_at(const CompiledScene& scene, const GeometryAccess& access,
                             const glm::vec3& point, const glm::vec3& normal,
                             const DirectOptions& options);
 
@@ -42,7 +42,7 @@ class PictureTracer {
   virtual double radiance(const Ray& ray, int band, const PatchRadiance* gather) = 0;
 };
 std::unique_ptr<PictureTracer> make_picture_tracer(const CompiledScene& scene,
-                                                   const SceneIndex& index, uint64_t seed);
+                                                   const GeometryAccess& access, uint64_t seed);
 
 /// "layered media, 8 bands, ...": what the chosen kernel contains, and what it leaves out.
 std::string describe_kernel(const CompiledScene& scene);

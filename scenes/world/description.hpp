@@ -65,6 +65,7 @@ struct Object {
   int material = 0;
   int back_material = 0;    // seen from behind the triangles; same as material unless said
   double patch_edge_m = 0;  // maximum edge of a flux patch; 0: one patch per triangle
+  bool one_patch = false;   // one patch a side for all of it
   std::vector<std::string> tags;
   std::string group;  // surface group, "" for none
   std::optional<Door> door;
@@ -248,6 +249,9 @@ struct RunSettings {
   double eye_share = 1.0;  // paths from the eye per batch, relative to the default
 };
 
+/// Of a scene out of a pack: see scenes/transport/packed_geometry.hpp.
+struct PackedGeometry;
+
 struct SceneDescription {
   std::string name;
   std::string title;
@@ -269,6 +273,8 @@ struct SceneDescription {
   uint64_t content_hash = 0;         // of every file read
   int64_t degenerate_triangles = 0;  // dropped on reading
   std::vector<Problem> warnings;     // said by `check`, not fatal
+  /// Where the triangles are, if not in the objects; null where they are.
+  std::shared_ptr<const PackedGeometry> packed;
 };
 
 }  // namespace luxodus

@@ -1,5 +1,4 @@
-// luxodus_bench [--repeats N] [speed|threads|memory|pieces|switch|residency ...]: prints the tables
-// named, or all.
+// luxodus_bench [--repeats N] [TABLE ...]: prints the tables named, or all.
 #include <xmmintrin.h>
 
 #include <charconv>
@@ -8,6 +7,34 @@
 #include <string>
 
 #include "tests/bench/tables.hpp"
+
+namespace {
+
+struct Table {
+  const char* name;
+  void (*print)(int repeats);
+};
+
+// Memory first: the highest resident size is of the whole process.
+constexpr Table tables[] = {
+    {"memory", [](int) { luxodus::bench::print_memory(708); }},
+    {"speed", luxodus::bench::print_speed},
+    {"threads", luxodus::bench::print_threads},
+    {"pieces", luxodus::bench::print_pieces},
+    {"switch", luxodus::bench::print_switch},
+    {"nodes", luxodus::bench::print_nodes},
+    {"delay", luxodus::bench::print_delay},
+    {"flushes", luxodus::bench::print_flushes},
+    {"residency", [](int) { luxodus::bench::print_residency(); }},
+};
+
+bool is_table(const std::string& word) {
+  for (const Table& table : tables)
+    if (word == table.name) return true;
+  return false;
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   _mm_setcsr(_mm_getcsr() | 0x8040);  // denormals to zero, as in a run
@@ -20,22 +47,15 @@ int main(int argc, char** argv) {
       const auto read = std::from_chars(number.data(), number.data() + number.size(), repeats);
       if (read.ec == std::errc() && repeats >= 1 && repeats <= 1000) continue;
     }
-    if (word == "speed" || word == "threads" || word == "memory" || word == "pieces" ||
-        word == "switch" || word == "residency") {
+    if (is_table(word)) {
       wanted.insert(word);
       continue;
     }
-    std::fprintf(stderr,
-                 "luxodus_bench [--repeats 1..1000] "
-                 "[speed|threads|memory|pieces|switch|residency ...]\n");
+    std::fprintf(stderr, "luxodus_bench [--repeats 1..1000] [TABLE ...]; tables:");
+    for (const Table& table : tables) std::fprintf(stderr, " %s", table.name);
+    std::fprintf(stderr, "\n");
     return 2;
   }
-  const auto asked = [&](const char* table) { return wanted.empty() || wanted.count(table) > 0; };
-  // Memory first: the highest resident size is of the whole process.
-  if (asked("memory")) luxodus::bench::print_memory(708);
-  if (asked("speed")) luxodus::bench::print_speed(repeats);
-  if (asked("threads")) luxodus::bench::print_threads(repeats);
-  if (asked("pieces")) luxodus::bench::print_pieces(repeats);
-  if (asked("switch")) luxodus::bench::print_switch(repeats);
-  if (asked("residency")) luxodus::bench::print_residency();
+  for (const Table& table : tables)
+    if (wanted.empty() || wanted.count(table.name) > 0) table.print(repeats);
 }

@@ -17,5 +17,11 @@ void print_pieces(int repeats);
 void print_switch(int repeats);
 /// How often nodes find cells resident, and what they fetch, with and without a profile.
 void print_residency();
+/// Runs on nodes against the plain loop, everything resident.
+void print_nodes(int repeats);
+/// Runs on nodes that fetch, with and without a delay on their links, by fibers.
+void print_delay(int repeats);
+/// What flushes of a large scene send and cost, by their interval.
+void print_flushes(int repeats);
 
 }  // namespace luxodus::bench

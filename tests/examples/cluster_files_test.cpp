@@ -58,7 +58,7 @@ size_t lines_with(const std::string& text, const std::string& words) {
 TEST_CASE("keygen makes a pair for each node of a cluster, secret to its owner", "[program]") {
   const Folder folder;
   const fs::path keys = folder.path / "keys";
-  const Outcome made = luxodus(
+  const Outcome made = run_luxodus(
       folder, "keygen --cluster " + example("three_hosts.toml") + " --out " + keys.string());
   INFO(made.err);
   REQUIRE(made.code == 0);
@@ -76,14 +76,14 @@ TEST_CASE("keygen replaces no key unless it is told to", "[program]") {
   const Folder folder;
   const fs::path keys = folder.path / "keys";
   const std::string arguments = "keygen n0 n1 --out " + keys.string();
-  REQUIRE(luxodus(folder, arguments).code == 0);
+  REQUIRE(run_luxodus(folder, arguments).code == 0);
   const std::string before = slurp(keys / "n0.key");
-  const Outcome refused = luxodus(folder, arguments + " n2");
+  const Outcome refused = run_luxodus(folder, arguments + " n2");
   CHECK(refused.code == 2);
   CHECK(refused.err.find("n0.key") != std::string::npos);
   CHECK_FALSE(fs::exists(keys / "n2.key"));
   CHECK(slurp(keys / "n0.key") == before);
-  REQUIRE(luxodus(folder, arguments + " --force").code == 0);
+  REQUIRE(run_luxodus(folder, arguments + " --force").code == 0);
   CHECK(slurp(keys / "n0.key") != before);
 }
 
@@ -91,7 +91,7 @@ TEST_CASE("keygen says why it makes no keys", "[program]") {
   const Folder folder;
   const std::string out = " --out " + (folder.path / "keys").string();
   const auto refused = [&](const std::string& arguments, const std::string& words) {
-    const Outcome outcome = luxodus(folder, "keygen " + arguments);
+    const Outcome outcome = run_luxodus(folder, "keygen " + arguments);
     INFO(arguments << "\n" << outcome.err);
     CHECK(outcome.code == 2);
     CHECK(outcome.err.find(words) != std::string::npos);
@@ -104,7 +104,7 @@ TEST_CASE("keygen says why it makes no keys", "[program]") {
   refused("--cluster /nowhere.toml" + out, "cannot be read");
   refused("--cluster " + example("one_host.toml"), "say where keys go");
   fs::permissions(folder.path, fs::perms::all);
-  const Outcome open = luxodus(folder, "keygen n0 --out " + folder.path.string());
+  const Outcome open = run_luxodus(folder, "keygen n0 --out " + folder.path.string());
   CHECK(open.code == 2);
   CHECK(open.err.find("others may write here") != std::string::npos);
 }
@@ -114,8 +114,8 @@ TEST_CASE("a deployment of each example starts each node once, on its host", "[p
   for (const std::string file : examples) {
     for (const std::string means : {"systemd", "slurm", "ssh"}) {
       const fs::path out = folder.path / (file + means);
-      const Outcome made =
-          luxodus(folder, "deploy " + example(file) + " --for " + means + " --out " + out.string());
+      const Outcome made = run_luxodus(
+          folder, "deploy " + example(file) + " --for " + means + " --out " + out.string());
       INFO(file << " " << means << "\n" << made.err);
       REQUIRE(made.code == 0);
       std::string text;
@@ -142,8 +142,9 @@ TEST_CASE("units pass systemd's own check", "[program]") {
        {example(examples[0]), example(examples[1]), example(examples[2]), small_cluster(folder)}) {
     const fs::path out = folder.path / "units";
     fs::remove_all(out);
-    REQUIRE(luxodus(folder, "deploy " + cluster + " --for systemd --out " + out.string()).code ==
-            0);
+    REQUIRE(
+        run_luxodus(folder, "deploy " + cluster + " --for systemd --out " + out.string()).code ==
+        0);
     for (const auto& host : fs::directory_iterator(out)) {
       const Outcome checked =
           shell(folder, "systemd-analyze verify '" + host.path().string() + "'/*");
@@ -161,8 +162,9 @@ TEST_CASE("scripts parse, and shellcheck has nothing to say", "[program]") {
   for (const std::string& cluster : {example(examples[1]), small_cluster(folder)}) {
     for (const std::string means : {"slurm", "ssh"}) {
       const fs::path out = folder.path / means;
-      REQUIRE(luxodus(folder, "deploy " + cluster + " --for " + means + " --out " + out.string())
-                  .code == 0);
+      REQUIRE(
+          run_luxodus(folder, "deploy " + cluster + " --for " + means + " --out " + out.string())
+              .code == 0);
       for (const fs::path& script : files_in(out)) {
         CHECK(shell(folder, "bash -n " + script.string()).code == 0);
         if (!checks) continue;
@@ -177,8 +179,8 @@ TEST_CASE("scripts parse, and shellcheck has nothing to say", "[program]") {
 TEST_CASE("the script over ssh starts every process, and ends well when all do", "[program]") {
   const Folder folder;
   const std::string program = stand_in(folder, "echo \"started: $*\"\n");
-  REQUIRE(luxodus(folder, "deploy " + small_cluster(folder) + " --for ssh --program " + program +
-                              " --out " + folder.path.string())
+  REQUIRE(run_luxodus(folder, "deploy " + small_cluster(folder) + " --for ssh --program " +
+                                  program + " --out " + folder.path.string())
               .code == 0);
   const std::string home = "export HOME=" + folder.path.string() + "; ";
   const Outcome run = shell(folder, home + (folder.path / "small.sh").string());
@@ -203,8 +205,8 @@ trap 'echo stopped; exit 0' TERM
 echo ready >"$HOME/${*: -1}"
 while :; do read -r _ <>"$HOME/never"; done
 )");
-  REQUIRE(luxodus(folder, "deploy " + small_cluster(folder) + " --for ssh --program " + program +
-                              " --out " + folder.path.string())
+  REQUIRE(run_luxodus(folder, "deploy " + small_cluster(folder) + " --for ssh --program " +
+                                  program + " --out " + folder.path.string())
               .code == 0);
   const std::string home = "export HOME=" + folder.path.string() + "; cd; mkfifo n0 n1 never; ";
   const Outcome run = shell(folder, home + (folder.path / "small.sh").string());
@@ -228,8 +230,8 @@ done <"$SLURM_HOSTFILE"
 )sh";
   fs::permissions(folder.path / "srun", fs::perms::owner_all);
   const std::string program = stand_in(folder, "echo \"$@\"\n");
-  REQUIRE(luxodus(folder, "deploy " + example("eight_hosts.toml") + " --for slurm --program " +
-                              program + " --out " + folder.path.string())
+  REQUIRE(run_luxodus(folder, "deploy " + example("eight_hosts.toml") + " --for slurm --program " +
+                                  program + " --out " + folder.path.string())
               .code == 0);
   const Outcome run = shell(
       folder, "PATH=" + folder.path.string() + ":$PATH " + (folder.path / "tower.sbatch").string());
@@ -248,13 +250,13 @@ TEST_CASE("deploy tells every problem of a cluster and writes nothing then", "[p
                          "[[node]]\nname = \"n\"\n";
   const fs::path out = folder.path / "out";
   const Outcome bad =
-      luxodus(folder, "deploy " + file.string() + " --for ssh --out " + out.string());
+      run_luxodus(folder, "deploy " + file.string() + " --for ssh --out " + out.string());
   CHECK(bad.code == 2);
   CHECK(bad.err.find(file.string() + ":5: ") != std::string::npos);
   CHECK(bad.err.find("no controller") != std::string::npos);
   CHECK_FALSE(fs::exists(out));
   const std::string good = "deploy " + example("one_host.toml") + " --out " + out.string();
-  CHECK(luxodus(folder, good + " --for cron").code == 2);
-  CHECK(luxodus(folder, good + " --for systemd --user 'a b'").code == 2);
+  CHECK(run_luxodus(folder, good + " --for cron").code == 2);
+  CHECK(run_luxodus(folder, good + " --for systemd --user 'a b'").code == 2);
   CHECK_FALSE(fs::exists(out));
 }

@@ -1,37 +1,10 @@
 // Whole clusters as a person starts them: processes that meet over sockets, and leave what the
 // plain program leaves, to the bit.
-#include <catch2/catch.hpp>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
+#include "tests/examples/program_kit.hpp"
 
-namespace fs = std::filesystem;
+using namespace luxodus::program;
 
 namespace {
-
-class Folder {
- public:
-  Folder() {
-    std::string name = (fs::temp_directory_path() / "luxodus_nodes_XXXXXX").string();
-    REQUIRE(mkdtemp(name.data()) != nullptr);
-    path = name;
-  }
-  ~Folder() { fs::remove_all(path); }
-  fs::path path;
-};
-
-int luxodus(const Folder& folder, const std::string& arguments) {
-  const std::string log = (folder.path / "log").string();
-  const int status =
-      std::system((std::string(LUX_PROGRAM) + " " + arguments + " >" + log + " 2>&1").c_str());
-  return WEXITSTATUS(status);
-}
-
-std::string slurp(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 std::string smoke_tank() {
   return (fs::path(LUX_SOURCE_DIR) / "scenes/library/smoke_tank.toml").string();
@@ -49,10 +22,12 @@ fs::path cluster_file(const Folder& folder, const std::string& more) {
 }
 
 void check_same_flux(const Folder& folder, const fs::path& cluster) {
-  INFO(slurp(folder.path / "log"));
-  REQUIRE(luxodus(folder, "cluster up " + cluster.string()) == 0);
-  REQUIRE(luxodus(folder, "run " + smoke_tank() + " --particles 100k --no-views --out " +
-                              (folder.path / "plain").string()) == 0);
+  const Outcome up = run_luxodus(folder, "cluster up " + cluster.string());
+  INFO(up.err);
+  REQUIRE(up.code == 0);
+  REQUIRE(run_luxodus(folder, "run " + smoke_tank() + " --particles 100k --no-views --out " +
+                                  (folder.path / "plain").string())
+              .code == 0);
   const std::string flux = slurp(folder.path / "out" / "flux.lux");
   CHECK(!flux.empty());
   CHECK(flux == slurp(folder.path / "plain" / "flux.lux"));
@@ -95,7 +70,7 @@ TEST_CASE("four processes over TCP with keys leave the flux file of the plain lo
   const Folder folder;
   const fs::path cluster =
       cluster_file(folder, "[links]\nsame_host = \"tcp\"\n[keys]\nfolder = \"keys\"\n");
-  REQUIRE(luxodus(folder, "keygen --cluster " + cluster.string()) == 0);
+  REQUIRE(run_luxodus(folder, "keygen --cluster " + cluster.string()).code == 0);
   check_same_flux(folder, cluster);
 }
 
@@ -114,18 +89,22 @@ TEST_CASE("four hosts with addresses of their own leave the flux file of the pla
   }
   INFO(slurp(folder.path / "hosts"));
   REQUIRE(WEXITSTATUS(status) == 0);
-  REQUIRE(luxodus(folder, "run " + smoke_tank() + " --particles 100k --no-views --out " +
-                              (folder.path / "plain").string()) == 0);
+  REQUIRE(run_luxodus(folder, "run " + smoke_tank() + " --particles 100k --no-views --out " +
+                                  (folder.path / "plain").string())
+              .code == 0);
   CHECK(slurp(folder.path / "out" / "flux.lux") == slurp(folder.path / "plain" / "flux.lux"));
 }
 
 TEST_CASE("a cluster whose keys or scene are missing says which, and starts nothing", "[cluster]") {
   const Folder folder;
-  const fs::path cluster = cluster_file(folder, "[keys]\nfolder = \"keys\"\n");
-  CHECK(luxodus(folder, "node --config " + cluster.string() + " --name n0") == 2);
-  CHECK(slurp(folder.path / "log").find("n0") != std::string::npos);
-  CHECK(luxodus(folder, "node --config " + cluster.string() + " --name nobody") == 2);
-  CHECK(slurp(folder.path / "log").find("nobody") != std::string::npos);
-  CHECK(luxodus(folder, "node --config " + cluster.string() + " --name n0 --name n1") == 2);
+  const std::string node =
+      "node --config " + cluster_file(folder, "[keys]\nfolder = \"keys\"\n").string() + " --name ";
+  const Outcome keyless = run_luxodus(folder, node + "n0");
+  CHECK(keyless.code == 2);
+  CHECK(keyless.err.find("n0") != std::string::npos);
+  const Outcome unknown = run_luxodus(folder, node + "nobody");
+  CHECK(unknown.code == 2);
+  CHECK(unknown.err.find("nobody") != std::string::npos);
+  CHECK(run_luxodus(folder, node + "n0 --name n1").code == 2);
   CHECK_FALSE(fs::exists(folder.path / "out"));
 }

@@ -48,8 +48,8 @@ inline Outcome shell(const Folder& folder, const std::string& command) {
 }
 
 /// Runs the program. `under`: a program that starts it.
-inline Outcome luxodus(const Folder& folder, const std::string& arguments,
-                       const std::string& under = "") {
+inline Outcome run_luxodus(const Folder& folder, const std::string& arguments,
+                           const std::string& under = "") {
   return shell(folder, under + LUX_PROGRAM + " " + arguments);
 }
 

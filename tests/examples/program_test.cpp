@@ -48,8 +48,8 @@ std::string flux(const Folder& folder, const char* name) {
 TEST_CASE("the README's first scene runs and leaves what the README lists", "[program]") {
   const Folder folder;
   const std::string scene = write_scene(folder, readme_scene());
-  const Outcome run = luxodus(folder, "run " + scene + " --out " + out(folder, "room") +
-                                          " --particles 50k --picture-paths 1");
+  const Outcome run = run_luxodus(folder, "run " + scene + " --out " + out(folder, "room") +
+                                              " --particles 50k --picture-paths 1");
   INFO(run.err);
   REQUIRE(run.code == 0);
   for (const char* file : {"result.json", "flux.lux", "planes/floor.csv", "planes/floor.png",
@@ -67,8 +67,8 @@ TEST_CASE("the flux file has the same bits for one, two and three threads", "[pr
   const Folder folder;
   const std::string scene = write_scene(folder, readme_scene());
   for (const char* threads : {"1", "2", "3"}) {
-    REQUIRE(luxodus(folder, "run " + scene + " --no-views --particles 100k --out " +
-                                out(folder, threads) + " --threads " + threads)
+    REQUIRE(run_luxodus(folder, "run " + scene + " --no-views --particles 100k --out " +
+                                    out(folder, threads) + " --threads " + threads)
                 .code == 0);
   }
   CHECK(flux(folder, "1") == flux(folder, "2"));
@@ -79,10 +79,11 @@ TEST_CASE("a resumed run equals an uninterrupted one bit for bit", "[program]") 
   const Folder folder;
   const std::string scene = write_scene(folder, readme_scene());
   const std::string common = "run " + scene + " --no-views --cells 4 --out ";
-  REQUIRE(luxodus(folder, common + out(folder, "whole") + " --particles 120k").code == 0);
-  REQUIRE(luxodus(folder, common + out(folder, "parts") + " --particles 40k").code == 0);
+  REQUIRE(run_luxodus(folder, common + out(folder, "whole") + " --particles 120k").code == 0);
+  REQUIRE(run_luxodus(folder, common + out(folder, "parts") + " --particles 40k").code == 0);
   CHECK(flux(folder, "whole") != flux(folder, "parts"));
-  REQUIRE(luxodus(folder, common + out(folder, "parts") + " --particles 120k --resume").code == 0);
+  REQUIRE(run_luxodus(folder, common + out(folder, "parts") + " --particles 120k --resume").code ==
+          0);
   CHECK(flux(folder, "whole") == flux(folder, "parts"));
 }
 
@@ -90,10 +91,10 @@ TEST_CASE("another seed is another flux, and resuming with it is refused by name
   const Folder folder;
   const std::string scene = write_scene(folder, readme_scene());
   const std::string common = "run " + scene + " --no-views --particles 20k --out ";
-  REQUIRE(luxodus(folder, common + out(folder, "a") + " --seed 1").code == 0);
-  REQUIRE(luxodus(folder, common + out(folder, "b") + " --seed 2").code == 0);
+  REQUIRE(run_luxodus(folder, common + out(folder, "a") + " --seed 1").code == 0);
+  REQUIRE(run_luxodus(folder, common + out(folder, "b") + " --seed 2").code == 0);
   CHECK(flux(folder, "a") != flux(folder, "b"));
-  const Outcome refused = luxodus(folder, common + out(folder, "a") + " --seed 2 --resume");
+  const Outcome refused = run_luxodus(folder, common + out(folder, "a") + " --seed 2 --resume");
   CHECK(refused.code == 2);
   CHECK(refused.err.find("seed") != std::string::npos);
 }
@@ -103,22 +104,22 @@ TEST_CASE("resuming all scenarios keeps the finished and starts those that were 
   const Folder folder;
   const std::string scene = write_scene(folder, two_scenarios());
   const std::string common = "run " + scene + " --no-views --particles 20k --out ";
-  REQUIRE(luxodus(folder, common + out(folder, "all/clear") + " --scenario clear").code == 0);
+  REQUIRE(run_luxodus(folder, common + out(folder, "all/clear") + " --scenario clear").code == 0);
   const std::string finished = flux(folder, "all/clear");
-  REQUIRE(luxodus(folder, common + out(folder, "all") + " --scenario all --resume").code == 0);
+  REQUIRE(run_luxodus(folder, common + out(folder, "all") + " --scenario all --resume").code == 0);
   CHECK(flux(folder, "all/clear") == finished);
-  REQUIRE(luxodus(folder, common + out(folder, "hazy") + " --scenario hazy").code == 0);
+  REQUIRE(run_luxodus(folder, common + out(folder, "hazy") + " --scenario hazy").code == 0);
   CHECK(flux(folder, "all/hazy") == flux(folder, "hazy"));
   // One scenario that was never begun is more likely a wrong folder.
-  CHECK(luxodus(folder, common + out(folder, "never") + " --scenario hazy --resume").code == 2);
+  CHECK(run_luxodus(folder, common + out(folder, "never") + " --scenario hazy --resume").code == 2);
 }
 
 TEST_CASE("the results of all scenarios are printed as one JSON array", "[program]") {
   const Folder folder;
   const std::string scene = write_scene(folder, two_scenarios());
-  const Outcome run =
-      luxodus(folder, "run " + scene + " --no-views --json --scenario all --particles 20k --out " +
-                          out(folder, "all"));
+  const Outcome run = run_luxodus(
+      folder, "run " + scene + " --no-views --json --scenario all --particles 20k --out " +
+                  out(folder, "all"));
   REQUIRE(run.code == 0);
   const auto results = nlohmann::json::parse(run.out);
   REQUIRE(results.size() == 2);
@@ -133,19 +134,19 @@ TEST_CASE("a run clears away the maps and pictures of the one before, and only t
   const fs::path room = folder.path / "room";
   const std::string common =
       "run " + scene + " --particles 20k --picture-paths 1 --out " + room.string();
-  REQUIRE(luxodus(folder, common).code == 0);
+  REQUIRE(run_luxodus(folder, common).code == 0);
   const fs::path mine[] = {room / "views" / "mine.png", room / "planes" / "mine.csv",
                            room / "notes.txt"};
   for (const fs::path& file : mine) std::ofstream(file) << "mine";
   const std::string before = flux(folder, "room");
-  CHECK(luxodus(folder, common + " --resume --seed 77").code == 2);
+  CHECK(run_luxodus(folder, common + " --resume --seed 77").code == 2);
   CHECK(flux(folder, "room") == before);
   CHECK(fs::exists(room / "views" / "door.png"));
 
   std::string renamed = readme_scene();
   renamed.replace(renamed.find("name = \"floor\""), 14, "name = \"below\"");
   write_scene(folder, renamed);
-  REQUIRE(luxodus(folder, common + " --no-views").code == 0);
+  REQUIRE(run_luxodus(folder, common + " --no-views").code == 0);
   std::vector<std::string> left;
   for (const auto& entry : fs::recursive_directory_iterator(room))
     if (entry.is_regular_file()) left.push_back(fs::relative(entry.path(), room).string());
@@ -159,18 +160,20 @@ TEST_CASE("a run clears away the maps and pictures of the one before, and only t
 TEST_CASE("a finished run is rendered again without tracing", "[program]") {
   const Folder folder;
   const std::string scene = write_scene(folder, readme_scene());
-  REQUIRE(
-      luxodus(folder, "run " + scene + " --particles 20k --no-views --out " + out(folder, "room"))
-          .code == 0);
+  REQUIRE(run_luxodus(folder,
+                      "run " + scene + " --particles 20k --no-views --out " + out(folder, "room"))
+              .code == 0);
   const std::string before = flux(folder, "room");
   CHECK_FALSE(fs::exists(folder.path / "room" / "views"));
-  REQUIRE(luxodus(folder, "render " + out(folder, "room") + " --view door --paths 1").code == 0);
+  REQUIRE(run_luxodus(folder, "render " + out(folder, "room") + " --view door --paths 1").code ==
+          0);
   const std::string gathered = slurp(folder.path / "room" / "views" / "door.exr");
   CHECK(fs::exists(folder.path / "room" / "views" / "door.png"));
-  REQUIRE(luxodus(folder, "render " + out(folder, "room") + " --paths 1 --full-paths").code == 0);
+  REQUIRE(run_luxodus(folder, "render " + out(folder, "room") + " --paths 1 --full-paths").code ==
+          0);
   CHECK(slurp(folder.path / "room" / "views" / "door.exr") != gathered);
   CHECK(flux(folder, "room") == before);
-  CHECK(luxodus(folder, "render " + out(folder, "room") + " --view nowhere").code == 2);
+  CHECK(run_luxodus(folder, "render " + out(folder, "room") + " --view nowhere").code == 2);
 }
 
 TEST_CASE("bad input is one line with file and line, exit code 2, and nothing written",
@@ -191,7 +194,7 @@ TEST_CASE("bad input is one line with file and line, exit code 2, and nothing wr
     std::string text = good;
     text.replace(text.find(m.from), m.from.size(), m.to);
     const std::string scene = write_scene(folder, text);
-    const Outcome run = luxodus(folder, "run " + scene + " --out " + out(folder, "never"));
+    const Outcome run = run_luxodus(folder, "run " + scene + " --out " + out(folder, "never"));
     INFO(m.to << "\n" << run.err);
     CHECK(run.code == 2);
     CHECK(run.err.find("room.toml:") != std::string::npos);
@@ -203,25 +206,25 @@ TEST_CASE("bad input is one line with file and line, exit code 2, and nothing wr
 
 TEST_CASE("wrong words on the command line are exit code 2 and explained", "[program]") {
   const Folder folder;
-  CHECK(luxodus(folder, "").code == 2);
-  CHECK(luxodus(folder, "simulate").code == 2);
-  CHECK(luxodus(folder, "run").code == 2);
+  CHECK(run_luxodus(folder, "").code == 2);
+  CHECK(run_luxodus(folder, "simulate").code == 2);
+  CHECK(run_luxodus(folder, "run").code == 2);
   const std::string scene = write_scene(folder, readme_scene());
-  const Outcome wrong = luxodus(folder, "run " + scene + " --particles many");
+  const Outcome wrong = run_luxodus(folder, "run " + scene + " --particles many");
   CHECK(wrong.code == 2);
   CHECK(wrong.err.find("many") != std::string::npos);
-  CHECK(luxodus(folder, "run " + scene + " --scenario nowhere").code == 2);
-  CHECK(luxodus(folder, "run " + out(folder, "absent.toml")).code == 2);
-  CHECK(luxodus(folder, "run --help").out.find("--particles") != std::string::npos);
+  CHECK(run_luxodus(folder, "run " + scene + " --scenario nowhere").code == 2);
+  CHECK(run_luxodus(folder, "run " + out(folder, "absent.toml")).code == 2);
+  CHECK(run_luxodus(folder, "run --help").out.find("--particles") != std::string::npos);
 }
 
 TEST_CASE("check and info speak JSON on request", "[program]") {
   const Folder folder;
   const std::string scene = write_scene(folder, readme_scene());
-  const auto check = nlohmann::json::parse(luxodus(folder, "check --json " + scene).out);
+  const auto check = nlohmann::json::parse(run_luxodus(folder, "check --json " + scene).out);
   CHECK(check["scenarios"][0]["luminous_flux"]["value"].get<double>() == Approx(3000));
   CHECK(check["scenarios"][0]["bands_nm"].size() == 1);
-  const auto info = nlohmann::json::parse(luxodus(folder, "info --json").out);
+  const auto info = nlohmann::json::parse(run_luxodus(folder, "info --json").out);
   CHECK(info["packages"]["Embree"].get<std::string>().rfind("3.", 0) == 0);
 }
 
@@ -229,7 +232,7 @@ TEST_CASE("converge writes its table and plots, and the error falls like one ove
           "[program]") {
   const Folder folder;
   const std::string scene = write_scene(folder, readme_scene());
-  const Outcome run = luxodus(
+  const Outcome run = run_luxodus(
       folder, "converge " + scene + " --particles 2M --json --out " + out(folder, "converge"));
   INFO(run.err);
   REQUIRE(run.code == 0);
@@ -245,7 +248,7 @@ TEST_CASE("a seed that 64 bits do not hold is refused in one line of words", "[p
   const std::string scene = write_scene(folder, readme_scene());
   for (const char* command : {"run", "converge"}) {
     for (const char* seed : {"-1", "99999999999999999999", "1.5", "0x10", "one"}) {
-      const Outcome run = luxodus(
+      const Outcome run = run_luxodus(
           folder, command + (" " + scene) + " --out " + out(folder, "never") + " --seed " + seed);
       INFO(command << " " << seed << "\n" << run.err);
       CHECK(run.code == 2);
@@ -255,9 +258,10 @@ TEST_CASE("a seed that 64 bits do not hold is refused in one line of words", "[p
     }
   }
   const std::string common = "run " + scene + " --no-views --particles 20k --out ";
-  CHECK(luxodus(folder, common + out(folder, "most") + " --seed 18446744073709551615").code == 0);
-  REQUIRE(luxodus(folder, common + out(folder, "ten") + " --seed 10").code == 0);
-  REQUIRE(luxodus(folder, common + out(folder, "padded") + " --seed 010").code == 0);
+  CHECK(run_luxodus(folder, common + out(folder, "most") + " --seed 18446744073709551615").code ==
+        0);
+  REQUIRE(run_luxodus(folder, common + out(folder, "ten") + " --seed 10").code == 0);
+  REQUIRE(run_luxodus(folder, common + out(folder, "padded") + " --seed 010").code == 0);
   CHECK(flux(folder, "ten") == flux(folder, "padded"));
 }
 
@@ -271,7 +275,7 @@ TEST_CASE("converge says that a scene measured without chance has no error", "[p
       "distribution = \"isotropic\"\nflux_lm = 100\n"
       "[[plane]]\nname = \"floor\"\ncorner = [0, 0, 0]\nedge_u = [1, 0, 0]\nedge_v = [0, 1, 0]\n"
       "cells = [2, 2]\n");
-  const Outcome run = luxodus(folder, "converge " + scene + " --out " + out(folder, "never"));
+  const Outcome run = run_luxodus(folder, "converge " + scene + " --out " + out(folder, "never"));
   INFO(run.err);
   CHECK(run.code == 2);
   CHECK(run.err.find("exactly 0") != std::string::npos);
@@ -282,9 +286,9 @@ TEST_CASE("an interrupted converge says so and ends with 130", "[program]") {
   const Folder folder;
   const std::string scene = write_scene(folder, readme_scene());
   // `timeout` sends the signal of Ctrl-C; the particles asked for would take days.
-  const Outcome run =
-      luxodus(folder, "converge " + scene + " --particles 1000G --out " + out(folder, "converge"),
-              "timeout --preserve-status --signal=INT 1 ");
+  const Outcome run = run_luxodus(
+      folder, "converge " + scene + " --particles 1000G --out " + out(folder, "converge"),
+      "timeout --preserve-status --signal=INT 1 ");
   INFO(run.err);
   CHECK(run.code == 130);
   CHECK(run.err.find("interrupted") != std::string::npos);
@@ -298,7 +302,7 @@ TEST_CASE("a scene with more patches than are counted is refused before memory i
   const size_t edge = text.find("patch_edge_m");
   REQUIRE(edge != std::string::npos);
   text.replace(edge, text.find('\n', edge) - edge, "patch_edge_m = 1e-4");
-  const Outcome check = luxodus(folder, "check " + write_scene(folder, text));
+  const Outcome check = run_luxodus(folder, "check " + write_scene(folder, text));
   INFO(check.err);
   CHECK(check.code == 2);
   CHECK(check.err.find("patch_edge_m larger") != std::string::npos);
@@ -312,8 +316,39 @@ TEST_CASE("check counts the triangles without area that it drops", "[program]") 
       write_scene(folder, readme_scene() +
                               "[[import]]\nname = \"scrap\"\nfile = \"scrap.obj\"\n"
                               "units = \"m\"\nup = \"z\"\nmaterial = \"white\"\n");
-  const Outcome check = luxodus(folder, "check " + scene);
+  const Outcome check = run_luxodus(folder, "check " + scene);
   REQUIRE(check.code == 0);
   CHECK(check.out.find("13 triangles") != std::string::npos);
   CHECK(check.out.find("2 degenerate triangles dropped") != std::string::npos);
+}
+
+TEST_CASE("a packed scene runs as its scene file does, resident and on nodes with a budget",
+          "[program]") {
+  const Folder folder;
+  const std::string scene = write_scene(folder, readme_scene());
+  const std::string pack = out(folder, "room.luxpack");
+  REQUIRE(run_luxodus(folder, "pack " + scene + " --cell-kib 1 --out " + pack).code == 0);
+  const Outcome told = run_luxodus(folder, "check --json " + pack);
+  REQUIRE(told.code == 0);
+  const auto checked = nlohmann::json::parse(told.out);
+  const int cells = checked["scenarios"][0]["cells"].get<int>();
+  REQUIRE(cells > 1);
+  const std::string common = " --no-views --particles 40k --out ";
+  REQUIRE(run_luxodus(folder, "run " + scene + " --cells " + std::to_string(cells) + common +
+                                  out(folder, "plain"))
+              .code == 0);
+  REQUIRE(run_luxodus(folder, "run " + pack + common + out(folder, "packed")).code == 0);
+  REQUIRE(run_luxodus(folder, "run " + pack + " --nodes 2 --fibers 32 --object-mib 0.05" + common +
+                                  out(folder, "nodes"))
+              .code == 0);
+  CHECK(flux(folder, "packed") == flux(folder, "plain"));
+  CHECK(flux(folder, "nodes") == flux(folder, "plain"));
+  CHECK(run_luxodus(folder, "render " + out(folder, "nodes") + " --paths 1").code == 0);
+
+  const std::string skeleton = out(folder, "skeleton.luxpack");
+  REQUIRE(run_luxodus(folder, "pack " + pack + " --skeleton-only --out " + skeleton).code == 0);
+  const Outcome bare = run_luxodus(folder, "run " + skeleton + common + out(folder, "bare"));
+  CHECK(bare.code != 0);
+  CHECK(bare.err.find("holds no objects") != std::string::npos);
+  CHECK(run_luxodus(folder, "pack " + pack + " --out " + skeleton).code == 2);
 }

@@ -163,7 +163,7 @@ TEST_CASE("direct light along shadow rays is the direct light that tracing count
     for (int k = 0; k < per_side * per_side; ++k) {
       const glm::dvec3 at = plane.corner + plane.edge_u * ((k % per_side + 0.5) / per_side) +
                             plane.edge_v * ((k / per_side + 0.5) / per_side);
-      sum += direct_light_at(run.scene(), run.local().index(),
+      sum += direct_light_at(run.scene(), GeometryAccess::resident(run.local().index()),
                              glm::vec3(at - run.scene().local_origin),
                              glm::vec3(glm::normalize(glm::cross(plane.edge_u, plane.edge_v))), {})
                  .total_lx();

@@ -30,7 +30,9 @@ struct Lamp {
 
 double lux_at(const LocalRun& run, const glm::dvec3& point, const glm::dvec3& normal) {
   const glm::vec3 local(point - run.scene().local_origin);
-  return direct_light_at(run.scene(), run.index(), local, glm::vec3(normal), {}).total_lx();
+  return direct_light_at(run.scene(), GeometryAccess::resident(run.index()), local,
+                         glm::vec3(normal), {})
+      .total_lx();
 }
 
 void check_relative(double value, double reference, double most) {

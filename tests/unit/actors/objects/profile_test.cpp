@@ -1,6 +1,7 @@
 // Profiles of a real scene: what they count, and that a file gives them back or refuses.
 #include <unistd.h>
 
+#include <array>
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
@@ -27,7 +28,7 @@ std::shared_ptr<const CompiledScene> tank(int cells) {
 }
 
 ReferenceProfile profile_of(const CompiledScene& scene, uint64_t budget_bytes) {
-  const SceneObjects objects(scene, 1, 1);
+  const SceneObjects objects(scene, std::array{NodeId{0}}, 1);
   const EmbreeDevice device;
   const ProxyScene proxies(device, boxes_of(scene));
   auto profile = count_references(scene, objects, proxies, 1,

@@ -9,6 +9,26 @@ namespace {
 constexpr NodeId ann{1}, bob{2};
 }
 
+TEST_CASE("a book that goes on lends the batches that are missing first, and tells them",
+          "[lease]") {
+  LeaseBook book(10, {3, 7}, 1000);
+  CHECK(book.committed() == 8);
+  CHECK(book.missing() == std::vector<int64_t>{3, 7});
+  book.open_until(12);
+  const LentBatches first = book.lend(NodeId{1}, 5, 100);
+  CHECK(first.first_lease == 1000);
+  CHECK(first.first_batch == 3);
+  CHECK(first.count == 1);
+  CHECK(book.lend(NodeId{1}, 5, 100).first_batch == 7);
+  const LentBatches fresh = book.lend(NodeId{2}, 5, 100);
+  CHECK(fresh.first_batch == 10);
+  CHECK(fresh.count == 2);
+  book.commit({1000});
+  CHECK(book.missing() == std::vector<int64_t>{7, 10, 11});
+  CHECK(book.fence_leases(NodeId{2}, {1001, 1002}).size() == 1);  // the other is of node 1
+  CHECK(book.lend(NodeId{1}, 1, 100).first_batch == 10);
+}
+
 TEST_CASE("a lease book lends every batch of a round once and none beyond it", "[lease]") {
   LeaseBook book(3);
   CHECK(book.lend(ann, 4, 100).count == 0);

@@ -6,8 +6,11 @@
 #include <catch2/catch.hpp>
 
 #include "actors/supervise/residency_setup.hpp"
+#include "actors/supervise/stored_rows.hpp"
 #include "scenes/format/scene_file.hpp"
+#include "scenes/pack/scene_pack.hpp"
 #include "scenes/transport/compile.hpp"
+#include "tests/unit/scenes/format/scratch_folder.hpp"
 
 using namespace luxodus;
 
@@ -183,6 +186,24 @@ TEST_CASE("with a profile and without one, pinned or not, nodes give the same bi
   }
 }
 
+TEST_CASE("a delay on all links changes no bit", "[nodes]") {
+  spdlog::set_level(spdlog::level::err);
+  const auto scene = scene_of("office_floor", "smoke_emergency", 64);
+  StopRule stop;
+  stop.particles = 4096;
+  LocalRun plain(scene, 1, 1);
+  plain.run(stop, nobody, ignore);
+  NodesOptions options = nodes_of(2, 300);
+  for (const GeometryCell& cell : scene->cells)
+    options.object_bytes += built_bytes_of(encode_cell(cell).size()) / 4;
+  options.link_delay = microseconds(300);
+  LocalRun run(scene, 1, 1);
+  NodesReport report;
+  REQUIRE(run_on_nodes(run, options, stop, nobody, ignore, &report).ok());
+  CHECK(differences(plain, run) == 0);
+  CHECK(report.workers.fetches > 0);
+}
+
 TEST_CASE("a budget without a partition, or more holders than nodes, is refused", "[nodes]") {
   StopRule stop;
   stop.particles = 1;
@@ -193,4 +214,43 @@ TEST_CASE("a budget without a partition, or more holders than nodes, is refused"
   options.replicas = 3;
   LocalRun cells(scene_of("smoke_tank", "", 4), 1, 1);
   CHECK_FALSE(run_on_nodes(cells, options, stop, nobody, ignore).ok());
+}
+
+TEST_CASE("nodes of a packed scene that nobody holds whole give the bits of the plain loop",
+          "[nodes]") {
+  const auto scene = scene_of("office_floor", "smoke_emergency", 64);
+  const ScratchFolder folder;
+  const auto file = folder / "floor.luxpack";
+  REQUIRE(write_pack(file, *scene, 64).ok());
+  const auto description = read_pack(file).value();
+  const auto packed = compile_scene(description, scene->scenario, {}).value();
+  StopRule stop;
+  stop.particles = 40'000;
+  LocalRun plain(scene, 1, 2);
+  plain.run(stop, nobody, ignore);
+  StoredRowsConfig rows;
+  rows.object_bytes = 400'000;
+  rows.threads = 2;
+  LocalRun run(packed, 1, 2, std::make_unique<StoredRows>(packed, rows));
+  CHECK_FALSE(run.resident());
+  NodesOptions nodes = nodes_of(3, 64);
+  nodes.object_bytes = 400'000;
+  NodesReport report;
+  REQUIRE(run_on_nodes(run, nodes, stop, nobody, ignore, &report).ok());
+  CHECK(differences(plain, run) == 0);
+  CHECK(report.workers.fetches > 0);
+  CHECK(report.workers.evictions > 0);
+  // What is computed of the result reaches the same geometry, on fibers.
+  const auto direct = [](const LocalRun& of) {
+    std::vector<double> out(40);
+    of.rows().run(40, [&](const GeometryAccess& access) {
+      return [&, access](int64_t i) {
+        const glm::vec3 at(0.7 * static_cast<double>(i - 20), 1, -0.6);
+        out[static_cast<size_t>(i)] =
+            direct_light_at(of.scene(), access, at, {0, 0, 1}, {}).total_lx();
+      };
+    });
+    return out;
+  };
+  CHECK(direct(plain) == direct(run));
 }

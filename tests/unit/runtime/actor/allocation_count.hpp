@@ -12,4 +12,7 @@ bool allocations_are_counted();
 /// Calls of malloc, calloc, realloc and the aligned ones on this thread so far.
 uint64_t allocations_of_this_thread();
 
+/// Those of them that libzmq made: it takes memory for each message longer than 33 bytes.
+uint64_t allocations_by_zmq();
+
 }  // namespace luxodus::test

@@ -110,7 +110,7 @@ TEST_CASE("the nearest triangle is found from both of its sides, at its distance
   const Hit up = scene.nearest({{1, 2, 0}, {0, 0, 1}});
   REQUIRE(up.found());
   CHECK(up.index == 0);
-  CHECK(up.distance == 1);
+  CHECK(up.distance == Approx(1));
   CHECK(up.u == Approx(0.25));
   CHECK(up.v == Approx(0.5));
   CHECK(up.cell == &cell);
@@ -118,7 +118,7 @@ TEST_CASE("the nearest triangle is found from both of its sides, at its distance
   const Hit down = scene.nearest({{1, 2, 5}, {0, 0, -1}});
   REQUIRE(down.found());
   CHECK(down.index == 1);
-  CHECK(down.distance == 2);
+  CHECK(down.distance == Approx(2));
   CHECK_FALSE(scene.nearest({{3, 3, 0}, {0, 0, 1}}).found());
 }
 

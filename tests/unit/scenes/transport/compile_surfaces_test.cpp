@@ -8,7 +8,7 @@ using namespace luxodus;
 namespace {
 
 /// A scene of equal squares, one object each, in one place.
-CompiledScene squares(int count, double edge_m, double patch_edge_m) {
+CompiledScene squares(int count, double edge_m, double patch_edge_m, bool one_patch = false) {
   auto description = std::make_shared<SceneDescription>();
   description->materials.resize(1);
   for (int i = 0; i < count; ++i) {
@@ -19,6 +19,7 @@ CompiledScene squares(int count, double edge_m, double patch_edge_m) {
                    {{0, 1, 2}, {0, 2, 3}},
                    {}};
     square.patch_edge_m = patch_edge_m;
+    square.one_patch = one_patch;
     description->objects.push_back(square);
   }
   CompiledScene scene;
@@ -50,4 +51,23 @@ TEST_CASE("the surface that breaks the limit of patches is the one that is named
   const auto refused = compile_triangles(breaks, 1);
   REQUIRE_FALSE(refused.ok());
   CHECK(refused.problem().where.line == 11);
+}
+
+TEST_CASE("an object of one patch has two bins and its whole area", "[transport][compile]") {
+  CompiledScene scene = squares(3, 2, 0.1, true);
+  REQUIRE(compile_triangles(scene, 1).ok());
+  CHECK(scene.patch_count == 6);
+  for (const TriangleRecord& t : scene.cells[0].triangles) {
+    CHECK(t.first_patch == 2 * t.surface);
+    CHECK(t.subdivision == 1);
+    CHECK(scene.surfaces[t.surface].patches == 2);
+    CHECK(scene.surfaces[t.surface].patch_area_m2(t) == Approx(4));
+  }
+  const CompiledScene cut = [] {
+    CompiledScene s = squares(1, 2, 1);
+    REQUIRE(compile_triangles(s, 1).ok());
+    return s;
+  }();
+  const TriangleRecord& t = cut.cells[0].triangles[0];
+  CHECK(cut.surfaces[0].patch_area_m2(t) * t.subdivision * t.subdivision == Approx(2));
 }

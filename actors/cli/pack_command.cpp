@@ -1,0 +1,112 @@
+// luxodus pack: a scene as one file that many machines can share.
+#include <filesystem>
+
+#include "actors/cli/command.hpp"
+#include "scenes/format/json_out.hpp"
+#include "scenes/pack/scene_pack.hpp"
+#include "scenes/transport/compile.hpp"
+
+namespace luxodus::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct PackOptions {
+  std::string scene;
+  std::string out;
+  std::string scenario;
+  double cell_kib = 1024;
+  bool skeleton_only = false;
+  bool json = false;
+};
+
+/// As many cells as keep each at `cell_kib` or below; cells differ by one triangle.
+int cells_for(uint64_t triangles, double cell_kib) {
+  const double per_cell = cell_kib * 1024 / sizeof(TriangleRecord);
+  return static_cast<int>(std::max(1.0, std::ceil(static_cast<double>(triangles) / per_cell)));
+}
+
+Result<PackReport> pack_scene(const PackOptions& options) {
+  if (is_pack(options.scene)) {
+    if (options.skeleton_only) return write_skeleton_pack(options.out, options.scene);
+    return Problem{{options.scene, 0},
+                   "this is a pack already: pack the scene file, or add --skeleton-only"};
+  }
+  if (options.skeleton_only) {
+    return Problem{{options.scene, 0},
+                   "--skeleton-only copies from a pack, so that both are of the same cells: pack "
+                   "the scene first"};
+  }
+  const auto description = load_scene(options.scene);
+  if (!description) return Problem{{options.scene, 0}, "the scene has problems, told above"};
+  auto scenario = find_scenario(*description, options.scenario);
+  if (!scenario.ok()) return scenario.problem();
+  // Compiling tells how many triangles there are, and only then how many cells that makes.
+  auto scene = compile_scene(description, scenario.value(), {});
+  if (!scene.ok()) return scene.problem();
+  const int cells = cells_for(scene.value()->triangles, options.cell_kib);
+  if (cells > 1) scene = compile_scene(description, scenario.value(), {cells});
+  if (!scene.ok()) return scene.problem();
+  ProgressLine line("pack");
+  return write_pack(options.out, *scene.value(), cells,
+                    [&](double share) { line.show_share(share); });
+}
+
+int pack(PackOptions options) {
+  if (options.out.empty()) options.out = fs::path(options.scene).stem().string() + ".luxpack";
+  const auto report = pack_scene(options);
+  if (!report.ok()) {
+    tell(report.problem());
+    return ExitCode::bad_input;
+  }
+  if (options.json) {
+    std::fputs(json_text({{"file", options.out},
+                          {"file_bytes", report->file_bytes},
+                          {"skeleton_bytes", report->skeleton_bytes},
+                          {"objects", report->objects},
+                          {"object_bytes", report->object_bytes},
+                          {"largest_object_bytes", report->largest_object_bytes}})
+                   .c_str(),
+               stdout);
+    return ExitCode::success;
+  }
+  std::printf("%s: %sB; %zu objects of %sB in all, the largest %sB; skeleton %sB\n",
+              options.out.c_str(), short_number(static_cast<double>(report->file_bytes)).c_str(),
+              report->objects, short_number(static_cast<double>(report->object_bytes)).c_str(),
+              short_number(static_cast<double>(report->largest_object_bytes)).c_str(),
+              short_number(static_cast<double>(report->skeleton_bytes)).c_str());
+  return ExitCode::success;
+}
+
+}  // namespace
+
+void add_pack(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<PackOptions>();
+  CLI::App* command = app.add_subcommand(
+      "pack", "Write a scene as one file of data objects that many machines can share");
+  command->footer(
+      "Examples:\n"
+      "  luxodus pack scenes/library/office_floor.toml --scenario smoke_emergency --out f.luxpack\n"
+      "  luxodus run f.luxpack --nodes 2 --fibers 1024 --object-mib 64\n"
+      "  luxodus pack f.luxpack --skeleton-only --out f.skeleton.luxpack\n\n"
+      "Every command that takes a scene takes a pack. It is read by the pages that are looked at, "
+      "so a\n"
+      "scene may be larger than a machine's memory. All scenarios that leave the doors as the "
+      "packed one\n"
+      "does can be run from it. Machines that get all objects from others need the skeleton only.");
+  command->add_option("scene", options->scene, "scene file (TOML), or a pack with --skeleton-only")
+      ->required();
+  command->add_option("--out", options->out, "the file to write [NAME.luxpack]");
+  command->add_option("--scenario", options->scenario,
+                      "whose doors count: name of a scenario [the first]");
+  command
+      ->add_option("--cell-kib", options->cell_kib,
+                   "size of a geometry cell; built it takes three times as much [1024]")
+      ->check(CLI::Range(1.0, 65536.0));
+  command->add_flag("--skeleton-only", options->skeleton_only, "leave the objects out");
+  command->add_flag("--json", options->json, "machine-readable");
+  command->callback([options, &exit_code] { exit_code = pack(*options); });
+}
+
+}  // namespace luxodus::cli

@@ -1,0 +1,70 @@
+#include "actors/display/preview.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <exception>
+
+namespace luxodus {
+
+namespace {
+
+/// Another run's way to geometry.
+class RowsOf final : public RowRunner {
+ public:
+  explicit RowsOf(const RowRunner& rows) : rows_(rows) {}
+  void run(int64_t rows, const MakeWorker& make, const Finished& finished) const override {
+    rows_.run(rows, make, finished);
+  }
+
+ private:
+  const RowRunner& rows_;
+};
+
+}  // namespace
+
+Preview::Preview(std::filesystem::path folder, LocalRun& run, double every_s,
+                 std::atomic<bool>& requested, const PictureOptions& options)
+    : folder_(std::move(folder)),
+      run_(run),
+      copy_(run.shared_scene(), run.seed(), run.threads(), std::make_unique<RowsOf>(run.rows())),
+      every_(every_s),
+      requested_(requested),
+      options_(options) {
+  run_.set_pause([this] { return due(); }, [this] { take(); });
+}
+
+Preview::~Preview() {
+  run_.set_pause({}, {});
+  if (thread_.joinable()) thread_.join();
+}
+
+bool Preview::due() const {
+  if (rendering_) return false;
+  return requested_ || (every_.count() > 0 && Clock::now() - last_ >= every_);
+}
+
+void Preview::take() {
+  requested_ = false;
+  last_ = Clock::now();
+  if (run_.totals().ledger().rays == 0) return;
+  if (thread_.joinable()) thread_.join();
+  int64_t batches = 0;
+  for (int g = 0; g < run_.totals().groups(); ++g) {
+    copy_.totals().restore(g, run_.totals().state(g));
+    batches += run_.totals().batches(g);
+  }
+  copy_.resume(batches);
+  rendering_ = true;
+  ++taken_;
+  thread_ = std::thread([this] {
+    try {
+      const auto done = render_views(folder_ / "preview", copy_, "", options_, {});
+      if (!done.ok()) spdlog::warn("preview: {}", done.problem().text());
+    } catch (const std::exception& e) {
+      spdlog::warn("preview: {}", e.what());
+    }
+    rendering_ = false;
+  });
+}
+
+}  // namespace luxodus

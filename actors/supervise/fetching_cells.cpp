@@ -1,0 +1,66 @@
+#include "actors/supervise/fetching_cells.hpp"
+
+#include <algorithm>
+
+#include "actors/supervise/node_plan.hpp"
+#include "actors/supervise/residency_setup.hpp"
+
+namespace luxodus {
+
+namespace {
+
+FetchConfig fetch_config(const RunSetup& run, const NodeSetup& node, NodeTrace* trace) {
+  FetchConfig config = node.fetch;
+  config.hops = hops_from(run.graph, node.net.self.value);
+  config.self = node.net.self;
+  config.trace = trace;
+  return config;
+}
+
+Random jitter_of(NodeId self) {
+  Random random(self.value, RandomStream::fetch);
+  random.start(0);
+  return random;
+}
+
+}  // namespace
+
+void WorkerReport::add(const WorkerReport& other) {
+  hits += other.hits;
+  misses += other.misses;
+  fetches += other.fetches;
+  joined += other.joined;
+  builds += other.builds;
+  evictions += other.evictions;
+  waited += other.waited;
+  fetched_bytes += other.fetched_bytes;
+  largest_resident_bytes = std::max(largest_resident_bytes, other.largest_resident_bytes);
+  pinned_bytes += other.pinned_bytes;
+}
+
+FetchingCells::FetchingCells(const RunSetup& run, const NodeSetup& node, NodeShell& shell,
+                             NodeTrace* trace)
+    : self_(node.net.self),
+      store_(*run.objects, node.net.self),
+      builder_(run.scene),
+      fetcher_(fetch_config(run, node, trace), run.objects->places(), store_, shell.network(),
+               shell.scheduler().timers(), run.clock, jitter_of(node.net.self)),
+      cache_(cache_config(*run.objects, node, trace), run.objects->places().size(), fetcher_,
+             builder_, shell.scheduler().fibers(), shell.scheduler().timers(), run.clock),
+      source_(cache_, shell.scheduler().fibers(), trace) {
+  shell.use(fetcher_);
+}
+
+void FetchingCells::add_metrics(Metrics& metrics) const {
+  fetcher_.add_metrics(metrics);
+  cache_.add_metrics(metrics);
+}
+
+WorkerReport FetchingCells::report() const {
+  const ObjectCache::Counters& c = cache_.counters();
+  const Fetcher::Counters& f = fetcher_.counters();
+  return {self_,       c.hits, c.misses,   f.fetches,        c.joined,      c.builds,
+          c.evictions, 0,      f.bytes_in, c.resident_bytes, c.pinned_bytes};
+}
+
+}  // namespace luxodus

@@ -1,0 +1,199 @@
+#include "actors/supervise/node_plan.hpp"
+
+#include <fmt/format.h>
+
+#include "actors/supervise/node_shell.hpp"
+#include "actors/supervise/residency_setup.hpp"
+#include "actors/tally/flush_codec.hpp"
+
+namespace luxodus {
+
+namespace {
+
+std::string mebibytes(uint64_t bytes) {
+  return fmt::format("{:.1f} MiB", static_cast<double>(bytes) / (1024.0 * 1024.0));
+}
+
+uint64_t bins_of(const CompiledScene& scene) {
+  return static_cast<uint64_t>(scene.layout.totals()) * scene.groups.size();
+}
+
+void add_totals(MemoryPlan& plan, const CompiledScene& scene, uint64_t copies) {
+  const uint64_t bytes = bins_of(scene) * sizeof(Total);
+  plan.add("totals", copies * bytes,
+           fmt::format("{} x {} bins x {} source groups x {} B", copies, scene.layout.totals(),
+                       scene.groups.size(), sizeof(Total)));
+}
+
+uint64_t histogram_bytes(const RunSetup& run) {
+  const uint64_t own = 1;  // of batches; those of fetches are counted with the fetcher
+  return (own + (run.objects != nullptr ? 1 : 0)) * sizeof(Histogram);
+}
+
+/// The most that its readers are given: a second copy of each number and histogram.
+void add_metrics(MemoryPlan& plan, const RunSetup& run, uint64_t histograms) {
+  if (run.observation == nullptr) return;
+  plan.add("published numbers", histograms * sizeof(Histogram) + 512 * sizeof(uint64_t),
+           fmt::format("a copy of {} histograms and some 500 numbers", histograms));
+}
+
+MemoryPlan common_plan(const NodeSetup& node, const SchedulerLimits& limits) {
+  MemoryPlan plan;
+  Scheduler::plan_memory(plan, limits);
+  Network::plan_memory(plan, node.net);
+  return plan;
+}
+
+bool equal(const MemoryPlan& a, const MemoryPlan& b) {
+  const auto same = [](const MemoryPlan::Term& x, const MemoryPlan::Term& y) {
+    return x.name == y.name && x.bytes == y.bytes && x.derivation == y.derivation;
+  };
+  return std::equal(a.terms().begin(), a.terms().end(), b.terms().begin(), b.terms().end(), same);
+}
+
+MemoryPlan process_plan(const RunSetup& run) {
+  MemoryPlan plan;
+  const uint64_t cells = run.scene.triangles * sizeof(TriangleRecord);
+  const bool mapped = run.scene.description->packed != nullptr;
+  if (!mapped || run.index != nullptr)
+    plan.add("geometry", cells,
+             fmt::format("{} triangles x {} B", run.scene.triangles, sizeof(TriangleRecord)));
+  if (run.index != nullptr)
+    plan.add("search structures", built_bytes_of(cells) - cells,
+             "about 111 B a triangle of a cell that is whole here");
+  if (run.objects != nullptr && !mapped)
+    plan.add("objects to serve", run.objects->wire_bytes(),
+             fmt::format("{} cells as they travel", run.objects->places().size()));
+  return plan;
+}
+
+}  // namespace
+
+SchedulerLimits worker_limits(const NodeSetup& node) {
+  SchedulerLimits limits;
+  limits.fibers = node.fibers;
+  limits.fibers.count = node.photons.fibers + 1;  // and the one that packs flushes
+  limits.stall = node.stall;
+  // Leases, the watch for the end, publishing, and a few to spare.
+  limits.timers_beside_fibers = 16 + Fetcher::timers_most(node.fetch) + ObjectCache::timers_most;
+  return limits;
+}
+
+SchedulerLimits controller_limits(const NodeSetup& node) {
+  SchedulerLimits limits;
+  limits.fibers = node.fibers;
+  limits.fibers.count = 1;  // that counts flushes
+  limits.stall = node.stall;
+  return limits;
+}
+
+CacheConfig cache_config(const SceneObjects& objects, const NodeSetup& node, NodeTrace* trace) {
+  CacheConfig config = cell_cache(objects, node.object_bytes, node.pinned_share);
+  config.trace = trace;
+  return config;
+}
+
+MemoryPlan tally_plan(const CompiledScene& scene, const PhotonConfig& photons) {
+  MemoryPlan plan;
+  const uint64_t open = std::min(photons.open_batches, photons.leases);
+  const auto scores = static_cast<uint64_t>(scene.layout.scores());
+  plan.add("scores", open * scores * sizeof(int64_t),
+           fmt::format("{} open batches x {} scores x {} B", open, scores, sizeof(int64_t)));
+  add_totals(plan, scene, 2);
+  plan.add("flush", bins_of(scene) * flush_bytes_of_bin,
+           fmt::format("{} bins x {} source groups x {} B at most, packed less",
+                       scene.layout.totals(), scene.groups.size(), flush_bytes_of_bin));
+  return plan;
+}
+
+MemoryPlan worker_plan(const RunSetup& run, const NodeSetup& node) {
+  MemoryPlan plan = common_plan(node, worker_limits(node));
+  plan.add(tally_plan(run.scene, node.photons));
+  uint64_t histograms = 2;
+  if (run.objects != nullptr) {
+    const size_t cells = run.objects->places().size();
+    Fetcher::plan_memory(plan, node.fetch, cells);
+    ObjectCache::plan_memory(plan, cache_config(*run.objects, node), cells);
+    histograms += limits::hops + 1;
+  }
+  plan.add("histograms", histogram_bytes(run), "of batches, and of builds where cells are fetched");
+  add_metrics(plan, run, histograms);
+  if (run.observation != nullptr && run.observation->traces())
+    plan.add("trace", limits::trace_events * sizeof(TraceEvent),
+             fmt::format("{} events x {} B", limits::trace_events, sizeof(TraceEvent)));
+  return plan;
+}
+
+MemoryPlan controller_plan(const RunSetup& run, const NodeSetup& node) {
+  MemoryPlan plan = common_plan(node, controller_limits(node));
+  add_totals(plan, run.scene, 1);
+  const uint64_t flush = bins_of(run.scene) * (flush_bytes_of_bin + sizeof(TotalsGain::Bin));
+  plan.add("flush being counted", flush,
+           fmt::format("{} bins x {} source groups x ({} B packed + {} B read)",
+                       run.scene.layout.totals(), run.scene.groups.size(), flush_bytes_of_bin,
+                       sizeof(TotalsGain::Bin)));
+  const size_t workers = run.graph.workers();
+  plan.add("flushes coming in",
+           std::min<uint64_t>(ShellConfig{}.room_bytes_most,
+                              workers * bins_of(run.scene) * flush_bytes_of_bin),
+           fmt::format("of {} workers at once, at most {} B of all", workers,
+                       ShellConfig{}.room_bytes_most));
+  add_metrics(plan, run, 0);
+  return plan;
+}
+
+std::optional<std::string> budget_fault(const RunSetup& run, const NodeSetup& node) {
+  const std::string name = run.names[node.net.self.value];
+  const MemoryPlan tally = tally_plan(run.scene, node.photons);
+  if (tally.total_bytes() > node.tally_bytes) {
+    std::string parts;
+    for (const MemoryPlan::Term& term : tally.terms())
+      parts += (parts.empty() ? "" : ", ") + term.name + " " + mebibytes(term.bytes);
+    return fmt::format(
+        "node {}: its tally needs {} ({}), and tally_bytes is {}: raise tally_bytes in [budget], "
+        "or ask for fewer patches, voxels, bands or source groups",
+        name, mebibytes(tally.total_bytes()), parts, mebibytes(node.tally_bytes));
+  }
+  if (run.objects == nullptr) return std::nullopt;
+  const CacheConfig cache = cache_config(*run.objects, node);
+  const uint64_t needed = 2 * cache.largest_build_bytes + cache.pinned_bytes_most();
+  if (cache.budget_bytes < needed)
+    return fmt::format(
+        "node {}: its cache needs {}, room for the largest cell and one more being built, and "
+        "object_bytes is {}: raise object_bytes in [budget], or cut the scene into more cells",
+        name, mebibytes(needed), mebibytes(cache.budget_bytes));
+  if (run.objects->largest_wire_bytes() > node.fetch.receive_bytes)
+    return fmt::format(
+        "node {}: the largest cell has {}, and {} are received at once: cut the scene into more "
+        "cells",
+        name, mebibytes(run.objects->largest_wire_bytes()), mebibytes(node.fetch.receive_bytes));
+  return std::nullopt;
+}
+
+std::string plan_text(const RunSetup& run, const std::vector<NodeSetup>& workers,
+                      const std::optional<NodeSetup>& controller) {
+  struct Alike {
+    MemoryPlan plan;
+    std::vector<std::string> names;
+  };
+  std::vector<Alike> plans;
+  const auto add = [&](const NodeSetup& node, MemoryPlan plan) {
+    const std::string& name = run.names[node.net.self.value];
+    for (Alike& alike : plans)
+      if (equal(alike.plan, plan)) return alike.names.push_back(name);
+    plans.push_back({std::move(plan), {name}});
+  };
+  for (const NodeSetup& node : workers) add(node, worker_plan(run, node));
+  if (controller) add(*controller, controller_plan(run, *controller));
+  std::string text = "process, shared by its nodes:\n" + process_plan(run).table();
+  for (const Alike& alike : plans) {
+    const bool several = alike.names.size() > 1;
+    text += several ? fmt::format("nodes {} to {}, each of {}:\n", alike.names.front(),
+                                  alike.names.back(), alike.names.size())
+                    : fmt::format("node {}:\n", alike.names.front());
+    text += alike.plan.table();
+  }
+  return text;
+}
+
+}  // namespace luxodus

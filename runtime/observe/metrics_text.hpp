@@ -1,0 +1,34 @@
+// Reads pages of numbers as metrics.hpp writes them, in Prometheus' text format 0.0.4. A page comes
+// from another machine: lines that are no samples are passed over, a number is a number or is
+// not there, and nothing is believed beyond that. Plain values; any thread.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace luxodus {
+
+namespace limits {
+/// Samples of one page: a node has some 150 and 10 for each link, a process at most 64 nodes.
+inline constexpr size_t metric_samples = 200'000;
+}  // namespace limits
+
+struct MetricSample {
+  std::string name;
+  std::map<std::string, std::string, std::less<>> labels;
+  double value = 0;
+
+  /// The label's value; "" where it has none.
+  std::string_view label(std::string_view key) const;
+};
+
+/// One line; nothing where it is a comment, blank, or no sample.
+std::optional<MetricSample> parse_metric(std::string_view line);
+
+/// All samples of a page, up to the limit.
+std::vector<MetricSample> parse_metrics(std::string_view page);
+
+}  // namespace luxodus

@@ -1,0 +1,251 @@
+#include "scenes/pack/scene_pack.hpp"
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <numeric>
+#include <system_error>
+
+#include "runtime/core/hash.hpp"
+#include "scenes/format/atomic_file.hpp"
+#include "scenes/pack/skeleton.hpp"
+#include "scenes/transport/cell_object.hpp"
+
+namespace luxodus {
+
+namespace {
+
+constexpr std::array<char, 8> magic{'L', 'U', 'X', 'P', 'A', 'C', 'K', '\n'};
+constexpr uint64_t alignment = 64;
+
+struct Head {
+  std::array<char, 8> magic;
+  uint32_t version;
+  uint32_t holds_objects;  // 0 or 1
+  uint64_t file_bytes;
+  uint64_t skeleton_offset;
+  uint64_t skeleton_bytes;
+  uint64_t skeleton_hash;
+  std::array<uint64_t, 9> unused;
+  uint64_t head_hash;  // of all before it
+};
+static_assert(sizeof(Head) == 128);
+
+uint64_t hash_of(std::span<const std::byte> bytes) {
+  return object_id_of(bytes).value;
+}
+uint64_t hash_of(const Head& head) {
+  return hash_of(std::as_bytes(std::span(&head, 1)).first(offsetof(Head, head_hash)));
+}
+constexpr uint64_t aligned(uint64_t offset) {
+  return (offset + alignment - 1) / alignment * alignment;
+}
+
+/// Counts what it writes, so that offsets are known.
+class Writer {
+ public:
+  explicit Writer(AtomicFile file) : file_(std::move(file)) {}
+
+  uint64_t at() const { return at_; }
+  void write(std::span<const std::byte> bytes) {
+    file_.write(bytes);
+    at_ += bytes.size();
+  }
+  void align() {
+    static constexpr std::array<std::byte, alignment> zeros{};
+    write(std::span(zeros).first(aligned(at_) - at_));
+  }
+  /// The skeleton behind the objects, the head before them.
+  Result<uint64_t> end(std::span<const std::byte> skeleton, bool holds_objects) {
+    Head head{magic, limits::pack_version, holds_objects ? 1u : 0u, 0,
+              at_,   skeleton.size(),      hash_of(skeleton),       {},
+              0};
+    write(skeleton);
+    head.file_bytes = at_;
+    head.head_hash = hash_of(head);
+    file_.write_at(0, std::as_bytes(std::span(&head, 1)));
+    auto done = file_.commit();
+    if (!done.ok()) return done.problem();
+    return at_;
+  }
+
+ private:
+  AtomicFile file_;
+  uint64_t at_ = 0;
+};
+
+Result<Writer> begin(const std::filesystem::path& path) {
+  auto file = AtomicFile::create(path);
+  if (!file.ok()) return file.problem();
+  Writer writer(std::move(file).value());
+  const Head empty{};
+  writer.write(std::as_bytes(std::span(&empty, 1)));
+  return writer;
+}
+
+/// A file in memory, read by the pages that are looked at.
+class MappedPack final : public ObjectFile {
+ public:
+  static Result<std::shared_ptr<MappedPack>> open(const std::filesystem::path& path) {
+    const auto failed = [&](const char* doing) {
+      return Problem{{path.string(), 0},
+                     std::string(doing) + ": " + std::generic_category().message(errno)};
+    };
+    const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (fd < 0) return failed("cannot read this file");
+    struct stat about {};
+    void* at = MAP_FAILED;
+    const bool known = ::fstat(fd, &about) == 0;
+    const auto bytes = static_cast<uint64_t>(about.st_size);
+    if (known && bytes >= sizeof(Head)) at = ::mmap(nullptr, bytes, PROT_READ, MAP_SHARED, fd, 0);
+    const int error = errno;
+    ::close(fd);
+    errno = error;
+    if (!known) return failed("cannot read this file");
+    if (bytes < sizeof(Head))
+      return Problem{{path.string(), 0}, "this is no pack: it is too short"};
+    if (at == MAP_FAILED) return failed("cannot map this file");
+    return std::shared_ptr<MappedPack>(
+        new MappedPack(path.string(), {static_cast<const std::byte*>(at), bytes}));
+  }
+  ~MappedPack() override { ::munmap(const_cast<std::byte*>(bytes_.data()), bytes_.size()); }
+
+  const std::string& name() const override { return name_; }
+  std::span<const std::byte> object(uint32_t index) const override {
+    if (places_.empty()) return {};
+    return bytes_.subspan(places_[index].first, places_[index].second);
+  }
+  std::span<const std::byte> bytes() const { return bytes_; }
+  /// Errors: objects that do not end where the skeleton begins.
+  Result<bool> place_objects(const PackedGeometry& geometry, const Head& head) {
+    uint64_t at = sizeof(Head);
+    for (const PackedGeometry::Cell& cell : geometry.cells) {
+      if (cell.wire_bytes == 0 || cell.wire_bytes > head.skeleton_offset - at)
+        return Problem{{name_, 0}, "the objects of this pack are not where they should be"};
+      places_.emplace_back(at, cell.wire_bytes);
+      at = aligned(at + cell.wire_bytes);
+      if (at > head.skeleton_offset)
+        return Problem{{name_, 0}, "the objects of this pack are not where they should be"};
+    }
+    return true;
+  }
+
+ private:
+  MappedPack(std::string name, std::span<const std::byte> bytes)
+      : name_(std::move(name)), bytes_(bytes) {}
+
+  std::string name_;
+  std::span<const std::byte> bytes_;
+  std::vector<std::pair<uint64_t, uint64_t>> places_;  // offset and length; none without objects
+};
+
+/// The head of a mapped file, held against its size.
+Result<Head> head_of(const MappedPack& pack) {
+  Head head{};
+  std::memcpy(&head, pack.bytes().data(), sizeof head);
+  const SourcePlace place{pack.name(), 0};
+  if (head.magic != magic) return Problem{place, "this is no pack of a scene"};
+  if (head.version != limits::pack_version) {
+    return Problem{place, "this pack has format " + std::to_string(head.version) +
+                              ", this program reads " + std::to_string(limits::pack_version) +
+                              ": pack the scene again"};
+  }
+  if (head.head_hash != hash_of(head) || head.holds_objects > 1)
+    return Problem{place, "the head of this pack is damaged: pack the scene again"};
+  if (head.file_bytes != pack.bytes().size()) {
+    return Problem{place, "this pack has " + std::to_string(pack.bytes().size()) +
+                              " bytes and should have " + std::to_string(head.file_bytes) +
+                              ": copy it again"};
+  }
+  if (head.skeleton_offset < sizeof(Head) || head.skeleton_offset > head.file_bytes ||
+      head.skeleton_bytes != head.file_bytes - head.skeleton_offset ||
+      head.skeleton_bytes > limits::skeleton_bytes_most)
+    return Problem{place, "the head of this pack is damaged: pack the scene again"};
+  return head;
+}
+
+/// Errors: bytes that are not those of the head's hash.
+Result<std::span<const std::byte>> skeleton_of(const MappedPack& pack, const Head& head) {
+  const auto bytes = pack.bytes().subspan(head.skeleton_offset, head.skeleton_bytes);
+  if (hash_of(bytes) != head.skeleton_hash)
+    return Problem{{pack.name(), 0}, "the skeleton of this pack is damaged: copy it again"};
+  return bytes;
+}
+
+}  // namespace
+
+Result<PackReport> write_pack(const std::filesystem::path& path, const CompiledScene& scene,
+                              int partition, const std::function<void(double)>& progress) {
+  if (scene.triangles == 0)
+    return Problem{{scene.description->file, 0}, "the scene has no triangles to pack"};
+  auto writer = begin(path);
+  if (!writer.ok()) return writer.problem();
+  PackedGeometry geometry = summary_of(scene, partition);
+  PackReport report;
+  report.objects = geometry.cells.size();
+  for (size_t i = 0; i < scene.cells.size(); ++i) {
+    const std::vector<std::byte> bytes = encode_cell(scene.cells[i]);
+    geometry.cells[i].object = object_id_of(bytes);
+    geometry.cells[i].wire_bytes = bytes.size();
+    writer->write(bytes);
+    writer->align();
+    report.object_bytes += bytes.size();
+    report.largest_object_bytes = std::max<uint64_t>(report.largest_object_bytes, bytes.size());
+    if (progress) progress(static_cast<double>(i + 1) / static_cast<double>(scene.cells.size()));
+  }
+  const std::vector<std::byte> skeleton = encode_skeleton(*scene.description, geometry);
+  auto bytes = writer->end(skeleton, true);
+  if (!bytes.ok()) return bytes.problem();
+  report.skeleton_bytes = skeleton.size();
+  report.file_bytes = bytes.value();
+  return report;
+}
+
+Result<PackReport> write_skeleton_pack(const std::filesystem::path& path,
+                                       const std::filesystem::path& from) {
+  auto pack = MappedPack::open(from);
+  if (!pack.ok()) return pack.problem();
+  auto head = head_of(*pack.value());
+  if (!head.ok()) return head.problem();
+  auto skeleton = skeleton_of(*pack.value(), head.value());
+  if (!skeleton.ok()) return skeleton.problem();
+  auto writer = begin(path);
+  if (!writer.ok()) return writer.problem();
+  auto bytes = writer->end(skeleton.value(), false);
+  if (!bytes.ok()) return bytes.problem();
+  return PackReport{bytes.value(), skeleton.value().size(), 0, 0, 0};
+}
+
+bool is_pack(const std::filesystem::path& path) {
+  std::array<char, 8> begin{};
+  std::ifstream file(path, std::ios::binary);
+  return file.read(begin.data(), begin.size()) && begin == magic;
+}
+
+Result<std::shared_ptr<const SceneDescription>> read_pack(const std::filesystem::path& path) {
+  auto pack = MappedPack::open(path);
+  if (!pack.ok()) return pack.problem();
+  const auto head = head_of(*pack.value());
+  if (!head.ok()) return head.problem();
+  const auto bytes = skeleton_of(*pack.value(), head.value());
+  if (!bytes.ok()) return bytes.problem();
+  auto skeleton = decode_skeleton(bytes.value());
+  if (!skeleton.ok()) return Problem{{path.string(), 0}, skeleton.problem().what};
+  auto geometry = std::make_shared<PackedGeometry>(std::move(skeleton->geometry));
+  if (head->holds_objects == 1) {
+    if (auto placed = pack.value()->place_objects(*geometry, head.value()); !placed.ok())
+      return placed.problem();
+  }
+  geometry->file = std::move(pack).value();
+  auto description = std::make_shared<SceneDescription>(std::move(skeleton->description));
+  description->packed = std::move(geometry);
+  return std::shared_ptr<const SceneDescription>(std::move(description));
+}
+
+}  // namespace luxodus

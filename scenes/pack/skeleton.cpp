@@ -1,0 +1,357 @@
+// Every struct's fields are listed once, for both directions; their order is the format, and a
+// change of it is a new pack_version. What is shared (photometric webs, pictures) is written once
+// and named by its place in a list.
+#include "scenes/pack/skeleton.hpp"
+
+#include <algorithm>
+
+#include "scenes/pack/archive.hpp"
+
+namespace luxodus {
+
+// ---- fields ------------------------------------------------------------------------------------
+
+template <class A>
+void serialize(A& a, SourcePlace& x) {
+  a(x.file, x.line);
+}
+template <class A>
+void serialize(A& a, Problem& x) {
+  a(x.where, x.what);
+}
+template <class A>
+void serialize(A& a, ObjectId& x) {
+  a(x.value);
+}
+template <class A>
+void serialize(A& a, Frame& x) {
+  a(x.origin, x.axes);
+}
+template <class A>
+void serialize(A& a, Bounds& x) {
+  a(x.low, x.high);
+}
+template <class A>
+void serialize(A& a, Mesh& x) {
+  a(x.positions, x.triangles, x.texture_uv);
+}
+template <class A>
+void serialize(A& a, Spectrum& x) {
+  a(x.value);
+}
+template <class A>
+void serialize(A& a, Image& x) {
+  a(x.width, x.height, x.channels, x.texels);
+}
+template <class A>
+void serialize(A& a, Material& x) {
+  a(x.name, x.place, choice(x.kind, MaterialKind::open), x.reflectance, x.specular, x.roughness,
+    x.ior, x.internal_transmittance);
+}
+template <class A>
+void serialize(A& a, Door& x) {
+  a(x.open, x.hinge, x.axis, x.open_angle_deg);
+}
+/// Without its triangles.
+template <class A>
+void serialize(A& a, Object& x) {
+  a(x.name, x.place, x.material, x.back_material, x.patch_edge_m, x.one_patch, x.tags, x.group,
+    x.door);
+}
+template <class A>
+void serialize(A& a, Emitter& x) {
+  a(x.name, x.place, x.circuit, x.group, choice(x.shape, EmitterShape::mesh), x.frame, x.size,
+    x.mesh, choice(x.distribution, Distribution::web), x.cosine_power, x.spot_inner_deg,
+    x.spot_outer_deg, x.spectrum, x.radiometric, x.mains_flux, x.emergency_flux, x.body_material);
+}
+template <class A>
+void serialize(A& a, SignFace& x) {
+  uint64_t texels = x.colour.size();
+  a(x.width, x.height, texels);
+  if constexpr (A::is_loading::value) {
+    if (texels > a.left()) throw DamagedArchive("it holds a list longer than itself");
+    x.colour.resize(texels);
+  }
+  for (SignColour& colour : x.colour) a(choice(colour, SignColour::other));
+  a(x.relative_luminance, choice(x.legend, SignColour::other));
+}
+template <class A>
+void serialize(A& a, SignState& x) {
+  a(x.white_cd_m2, x.green_cd_m2);
+}
+template <class A>
+void serialize(A& a, Sign& x) {
+  a(x.name, x.place, x.circuit, x.group, x.frame, x.width_m, x.height_m, x.smallest_detail_m,
+    x.double_sided, x.thickness_m, x.face, choice(x.lighting, SignLighting::photoluminescent),
+    x.mains, x.emergency, x.angular_exponent, x.decay, x.white_shape, x.green_shape,
+    x.white_reflectance, x.green_reflectance);
+}
+template <class A>
+void serialize(A& a, PlaneMeasure& x) {
+  a(x.name, x.place, x.corner, x.edge_u, x.edge_v, x.cells_u, x.cells_v);
+}
+template <class A>
+void serialize(A& a, ProbeMeasure& x) {
+  a(x.name, x.place, x.position, x.normal);
+}
+template <class A>
+void serialize(A& a, SurfaceGroupMeasure& x) {
+  a(x.name, x.place, x.objects);
+}
+template <class A>
+void serialize(A& a, VolumeGroupMeasure& x) {
+  a(x.name, x.place, choice(x.shape, VolumeGroupMeasure::Shape::layer), x.low, x.high, x.centre,
+    x.radius, x.inner_radius);
+}
+template <class A>
+void serialize(A& a, CountingPlaneMeasure& x) {
+  a(x.name, x.place, x.corner, x.edge_u, x.edge_v);
+}
+template <class A>
+void serialize(A& a, Observer& x) {
+  a(x.name, x.place, x.eye, x.gaze);
+}
+template <class A>
+void serialize(A& a, Camera& x) {
+  a(x.name, x.place, x.eye, x.target, x.up, x.vertical_fov_deg, x.width, x.height);
+}
+template <class A>
+void serialize(A& a, Scenario::Factor& x) {
+  a(x.name, x.factor);
+}
+template <class A>
+void serialize(A& a, Scenario& x) {
+  a(x.name, x.place, choice(x.operation, Operation::dark), x.seconds_after_failure, x.circuits,
+    x.media, x.smoke_factor, x.emission_factor, x.doors_open, x.doors_closed);
+}
+template <class A>
+void serialize(A& a, RunSettings& x) {
+  a(x.seed, x.bands_most, x.band_edges_nm, x.band_tolerance, x.batch_particles, x.voxel_edge_m,
+    x.voxels, x.analogue, choice(x.groups, GroupRule::by_emitter), x.eye_share);
+}
+template <class A>
+void serialize(A& a, Phase& x) {
+  a(choice(x.kind, PhaseKind::tabulated), x.g, x.table_cos, x.table_value);
+}
+template <class A>
+void serialize(A& a, Extinction& x) {
+  a(x.sigma_t, x.wavelength_nm, x.angstrom, x.table);
+}
+template <class A>
+void serialize(A& a, SmokeOptics& x) {
+  a(x.extinction, x.albedo, x.phase);
+}
+template <class A>
+void serialize(A& a, Footprint& x) {
+  a(x.polygon, x.z_low, x.z_high);
+}
+template <class A>
+void serialize(A& a, Layer& x) {
+  a(x.z_low, x.z_high, x.optics);
+}
+template <class A>
+void serialize(A& a, Quadric::Clip& x) {
+  a(x.normal, x.offset);
+}
+template <class A>
+void serialize(A& a, Quadric& x) {
+  a(x.a, x.b, x.c, x.clips);
+}
+template <class A>
+void serialize(A& a, DataSet& x) {
+  a(x.nx, x.ny, x.nz, x.extent, x.extinction, x.albedo, x.emission, x.interpolate_emission);
+}
+template <class A>
+void serialize(A& a, MediumEmission& x) {
+  a(x.power_w, x.visible_fraction, x.spectrum, x.group, x.circuit);
+}
+template <class A>
+void serialize(A& a, Medium& x) {
+  a(x.name, x.place, choice(x.kind, MediumKind::data_set), x.optics, x.layers, x.footprint, x.frame,
+    x.quadric, x.local_bounds, x.data, x.emission);
+}
+template <class A>
+void serialize(A& a, SceneDescription& x) {
+  a(x.name, x.title, x.file, x.run, x.materials, x.objects, x.emitters, x.media, x.signs);
+  a(x.planes, x.probes, x.surface_groups, x.volume_groups, x.counting_planes, x.observers,
+    x.cameras, x.scenarios, x.content_hash, x.degenerate_triangles, x.warnings);
+}
+template <class A>
+void serialize(A& a, CompiledSurface& x) {
+  a(x.name, x.material[0], x.material[1], x.sign, x.body_emitter, x.first_patch, x.patches,
+    x.area_m2, x.one_patch);
+}
+template <class A>
+void serialize(A& a, PackedGeometry::Cell& x) {
+  a(x.low, x.high, x.triangles, x.object, x.wire_bytes);
+}
+template <class A>
+void serialize(A& a, PackedGeometry& x) {
+  a(x.partition, x.open_doors, x.bounds, x.surfaces, x.triangles, x.patch_count, x.total_area_m2,
+    x.cells, x.warnings);
+}
+
+namespace {
+
+// ---- what is shared ----------------------------------------------------------------------------
+
+/// The tables of a photometric web, of which it is made again.
+struct WebTables {
+  std::vector<double> azimuth_deg, polar_deg, candela;
+  glm::dmat3 to_luminaire{1.0};
+
+  template <class A>
+  void serialize(A& a) {
+    a(azimuth_deg, polar_deg, candela, to_luminaire);
+  }
+};
+
+/// Things that several hold, by their place in a list.
+struct Shared {
+  std::vector<WebTables> webs;
+  std::vector<uint32_t> web_of_emitter;  // none_index: none
+  std::vector<Image> images;
+  std::vector<uint32_t> image_of_material;
+
+  template <class A>
+  void serialize(A& a) {
+    a(webs, web_of_emitter, images, image_of_material);
+  }
+};
+
+/// The place of a pointer among those seen, none_index for null. True in `is_new` the first time.
+template <class T>
+uint32_t place_among(std::vector<const T*>& seen, const T* thing, bool& is_new) {
+  is_new = false;
+  if (thing == nullptr) return none_index;
+  const auto at = std::find(seen.begin(), seen.end(), thing);
+  is_new = at == seen.end();
+  const auto place = static_cast<uint32_t>(at - seen.begin());
+  if (is_new) seen.push_back(thing);
+  return place;
+}
+
+Shared shared_of(const SceneDescription& description) {
+  Shared out;
+  bool is_new = false;
+  std::vector<const PhotometricWeb*> webs;
+  for (const Emitter& emitter : description.emitters) {
+    out.web_of_emitter.push_back(place_among(webs, emitter.web.get(), is_new));
+    if (!is_new) continue;
+    const PhotometricWeb& web = *emitter.web;
+    out.webs.push_back({web.azimuth_deg(), web.polar_deg(), web.candela(), web.to_luminaire()});
+  }
+  std::vector<const Image*> images;
+  for (const Material& material : description.materials) {
+    out.image_of_material.push_back(place_among(images, material.reflectance_image.get(), is_new));
+    if (is_new) out.images.push_back(*material.reflectance_image);
+  }
+  return out;
+}
+
+bool sound(const Image& image) {
+  const bool sized =
+      image.width > 0 && image.height > 0 && image.channels > 0 && image.channels <= 4;
+  return sized && image.texels.size() == static_cast<size_t>(image.width) *
+                                             static_cast<size_t>(image.height) *
+                                             static_cast<size_t>(image.channels);
+}
+
+/// The things a list names by place, each `none_index` or within it.
+void check_places(const std::vector<uint32_t>& places, size_t wanted, size_t count) {
+  if (places.size() != wanted) throw DamagedArchive("a list of places has another length");
+  for (const uint32_t place : places)
+    if (place != none_index && place >= count) throw DamagedArchive("a place lies beyond its list");
+}
+
+void give_shared(Shared& shared, SceneDescription& description) {
+  check_places(shared.web_of_emitter, description.emitters.size(), shared.webs.size());
+  check_places(shared.image_of_material, description.materials.size(), shared.images.size());
+  std::vector<std::shared_ptr<const PhotometricWeb>> webs;
+  for (WebTables& t : shared.webs) {
+    auto web = PhotometricWeb::make(std::move(t.azimuth_deg), std::move(t.polar_deg),
+                                    std::move(t.candela), t.to_luminaire);
+    if (!web.ok()) throw DamagedArchive(web.problem().what);
+    webs.push_back(std::make_shared<const PhotometricWeb>(std::move(web).value()));
+  }
+  std::vector<std::shared_ptr<const Image>> images;
+  for (Image& image : shared.images) {
+    if (!sound(image)) throw DamagedArchive("a picture has not the size that it says");
+    images.push_back(std::make_shared<const Image>(std::move(image)));
+  }
+  for (size_t i = 0; i < description.emitters.size(); ++i) {
+    const uint32_t web = shared.web_of_emitter[i];
+    if (web != none_index) description.emitters[i].web = webs[web];
+  }
+  for (size_t i = 0; i < description.materials.size(); ++i) {
+    const uint32_t image = shared.image_of_material[i];
+    if (image != none_index) description.materials[i].reflectance_image = images[image];
+  }
+}
+
+/// What the compiler takes for granted of a description that a reader has made.
+void check_references(const Skeleton& skeleton) {
+  const SceneDescription& d = skeleton.description;
+  const auto within = [](int64_t i, size_t count) {
+    return i >= 0 && static_cast<size_t>(i) < count;
+  };
+  for (const Object& o : d.objects) {
+    if (!within(o.material, d.materials.size()) || !within(o.back_material, d.materials.size()))
+      throw DamagedArchive("an object has no material");
+  }
+  for (const Sign& s : d.signs) {
+    const auto texels = static_cast<size_t>(std::max(s.face.width, 0)) *
+                        static_cast<size_t>(std::max(s.face.height, 0));
+    if (texels == 0 || s.face.colour.size() != texels ||
+        (!s.face.relative_luminance.empty() && s.face.relative_luminance.size() != texels))
+      throw DamagedArchive("a sign's face has not the size that it says");
+  }
+  for (const Emitter& e : d.emitters) {
+    for (const glm::uvec3& t : e.mesh.triangles)
+      if (std::max({t.x, t.y, t.z}) >= e.mesh.positions.size())
+        throw DamagedArchive("an emitter's triangle has no corner");
+    if ((e.distribution == Distribution::web) != (e.web != nullptr))
+      throw DamagedArchive("a luminaire has no photometric web");
+  }
+  size_t faces = 0;
+  for (const Sign& s : d.signs) faces += s.double_sided ? 2 : 1;
+  const PackedGeometry& g = skeleton.geometry;
+  for (const CompiledSurface& s : g.surfaces) {
+    // One more material than described: the dark back of signs.
+    if (std::max(s.material[0], s.material[1]) > d.materials.size() ||
+        (s.sign != none_index && s.sign >= faces) ||
+        (s.body_emitter != none_index && s.body_emitter >= d.emitters.size()) ||
+        uint64_t{s.first_patch} + s.patches > g.patch_count)
+      throw DamagedArchive("a surface refers to what there is not");
+  }
+  if (g.partition < 1 || g.cells.empty() || g.surfaces.size() < d.objects.size())
+    throw DamagedArchive("its geometry is not whole");
+}
+
+}  // namespace
+
+std::vector<std::byte> encode_skeleton(const SceneDescription& description,
+                                       const PackedGeometry& geometry) {
+  BytesOut out;
+  out(description, shared_of(description), geometry);
+  return out.take();
+}
+
+Result<Skeleton> decode_skeleton(std::span<const std::byte> bytes) {
+  try {
+    Skeleton skeleton;
+    Shared shared;
+    BytesIn in(bytes);
+    in(skeleton.description, shared, skeleton.geometry);
+    if (in.left() != 0) throw DamagedArchive("there is more behind its end");
+    give_shared(shared, skeleton.description);
+    check_references(skeleton);
+    return skeleton;
+  } catch (const DamagedArchive& damage) {
+    return Problem{{}, std::string("the skeleton of this pack is damaged: ") + damage.what()};
+  } catch (const cereal::Exception& damage) {
+    return Problem{{}, std::string("the skeleton of this pack is damaged: ") + damage.what()};
+  }
+}
+
+}  // namespace luxodus

@@ -1,0 +1,78 @@
+// The geometry of a scene whose triangles are not in its description: what remains in memory, and a
+// way to the rest. It belongs to one scenario's doors, cut into cells once and for all. Immutable;
+// any thread.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "runtime/core/ids.hpp"
+#include "runtime/core/result.hpp"
+#include "scenes/transport/compiled_scene.hpp"
+
+namespace luxodus {
+
+/// Data objects by their place, wherever they lie.
+class ObjectFile {
+ public:
+  virtual ~ObjectFile() = default;
+  /// The bytes of an object, good as long as this is; empty where they are not here.
+  virtual std::span<const std::byte> object(uint32_t index) const = 0;
+  /// What its messages call it.
+  virtual const std::string& name() const = 0;
+};
+
+/// What compiling leaves of geometry beside the triangles.
+struct PackedGeometry {
+  struct Cell {
+    glm::vec3 low{0}, high{0};
+    uint32_t triangles = 0;
+    ObjectId object;  // the hash of its bytes
+    uint64_t wire_bytes = 0;
+  };
+
+  int partition = 1;                    // cells that were asked for
+  std::vector<std::string> open_doors;  // of those that can be open or closed
+  Bounds bounds;
+  std::vector<CompiledSurface> surfaces;
+  uint64_t triangles = 0;
+  uint32_t patch_count = 0;
+  double total_area_m2 = 0;
+  std::vector<Cell> cells;
+  std::vector<std::string> warnings;
+
+  std::shared_ptr<const ObjectFile> file;  // object i is cell i
+};
+
+/// The doors that a scenario has open, by name.
+std::vector<std::string> open_doors(const SceneDescription& description, const Scenario& scenario);
+
+/// What there is of a scene compiled from a description with triangles; its cells' objects are for
+/// whoever writes them to say. `partition`: as it was compiled with.
+PackedGeometry summary_of(const CompiledScene& scene, int partition);
+
+/// A cell of the scene with its triangles, out of memory or of its file.
+/// Errors: bytes that are not here, or not what their name says.
+Result<GeometryCell> load_cell(const CompiledScene& scene, uint32_t cell);
+
+/// Calls `visit(const GeometryCell&)` for every cell in turn, one of a packed scene at a time in
+/// memory. Errors: as load_cell; the first ends it.
+template <class Visit>
+Result<bool> for_each_cell(const CompiledScene& scene, Visit&& visit) {
+  for (uint32_t i = 0; i < scene.cell_boxes.size(); ++i) {
+    if (scene.description->packed == nullptr) {
+      visit(scene.cells[i]);
+      continue;
+    }
+    auto cell = load_cell(scene, i);
+    if (!cell.ok()) return cell.problem();
+    visit(cell.value());
+  }
+  return true;
+}
+
+}  // namespace luxodus

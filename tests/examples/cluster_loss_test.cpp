@@ -1,0 +1,142 @@
+// Processes that vanish in the middle of a run: the others finish with the same bits, or end with
+// what there is, which can be gone on from.
+#include "tests/examples/cluster_kit.hpp"
+
+using namespace luxodus::program;
+
+namespace {
+
+struct Running {
+  std::vector<std::unique_ptr<Process>> workers;
+  std::unique_ptr<Process> controller;
+};
+
+/// All nodes of a cluster, once the run has begun.
+Running start(const std::string& cluster, int workers) {
+  Running nodes;
+  nodes.controller = node(cluster, "controller");
+  for (int i = 0; i < workers; ++i) nodes.workers.push_back(node(cluster, "n" + std::to_string(i)));
+  REQUIRE(nodes.controller->says("run=begun"));
+  return nodes;
+}
+
+ClusterText workers(int count, const std::string& run) {
+  ClusterText text;
+  text.workers = count;
+  text.run = run;
+  text.more = "[timeouts]\nlost_s = 1\n";
+  return text;
+}
+
+constexpr const char* endless = "particles = 1_000_000_000_000\n";
+
+/// Whether OUT holds the flux of as many particles of the plain loop.
+void check_plain_flux(const Folder& folder, const std::string& particles) {
+  REQUIRE(run_luxodus(folder, "run " + smoke_tank() + " --no-views --particles " + particles +
+                                  " --out " + (folder.path / "plain").string())
+              .code == 0);
+  const std::string flux = slurp(folder.path / "out" / "flux.lux");
+  CHECK_FALSE(flux.empty());
+  CHECK(flux == slurp(folder.path / "plain" / "flux.lux"));
+}
+
+/// Goes on from OUT, somewhat farther than it is, and compares.
+void check_goes_on(const Folder& folder) {
+  const std::string result = slurp(folder.path / "out" / "result.json");
+  const size_t at = result.find("\"particles\": ");
+  REQUIRE(at != std::string::npos);
+  const std::string particles = std::to_string(std::stoll(result.substr(at + 13)) + 500'000);
+  REQUIRE(run_luxodus(folder, "run " + smoke_tank() + " --resume --no-views --particles " +
+                                  particles + " --out " + (folder.path / "out").string())
+              .code == 0);
+  check_plain_flux(folder, particles);
+}
+
+}  // namespace
+
+TEST_CASE("a worker that is killed is done without: the others leave the same bits", "[cluster]") {
+  const Folder folder;
+  const Running nodes = start(write_cluster(folder, workers(3, "particles = 1_500_000\n")), 3);
+  nodes.workers[1]->kill(SIGKILL);
+  CHECK(nodes.controller->wait() == 0);
+  INFO(nodes.controller->text());
+  CHECK(nodes.workers[0]->wait() == 0);
+  CHECK(nodes.workers[2]->wait() == 0);
+  check_plain_flux(folder, "1500k");
+}
+
+TEST_CASE("a worker that is killed and started again is taken in, with the same bits",
+          "[cluster]") {
+  const Folder folder;
+  const std::string cluster = write_cluster(folder, workers(2, "particles = 1_500_000\n"));
+  Running nodes = start(cluster, 2);
+  nodes.workers[0]->kill(SIGKILL);
+  CHECK(nodes.workers[0]->wait() == 128 + SIGKILL);
+  nodes.workers[0] = node(cluster, "n0");
+  CHECK(nodes.controller->wait() == 0);
+  INFO(nodes.controller->text());
+  CHECK(nodes.workers[0]->wait() == 0);
+  CHECK(nodes.workers[1]->wait() == 0);
+  check_plain_flux(folder, "1500k");
+}
+
+TEST_CASE("a controller that is killed and started again begins anew, with the same bits",
+          "[cluster]") {
+  const Folder folder;
+  ClusterText text = workers(2, "particles = 1_500_000\n");
+  text.more = "[timeouts]\nlost_s = 60\n";
+  const std::string cluster = write_cluster(folder, text);
+  Running nodes = start(cluster, 2);
+  nodes.controller->kill(SIGKILL);
+  CHECK(nodes.controller->wait() == 128 + SIGKILL);
+  nodes.controller = node(cluster, "controller");
+  CHECK(nodes.controller->wait() == 0);
+  INFO(nodes.controller->text());
+  CHECK(nodes.workers[0]->wait() == 0);
+  CHECK(nodes.workers[1]->wait() == 0);
+  check_plain_flux(folder, "1500k");
+}
+
+TEST_CASE("a worker whose controller has vanished ends and says so", "[cluster]") {
+  const Folder folder;
+  ClusterText text = workers(2, endless);
+  text.more += "[observe]\nlog_level = \"debug\"\n";
+  const Running nodes = start(write_cluster(folder, text), 2);
+  REQUIRE(nodes.controller->says("flush=taken node=0"));  // so they have heard of it
+  REQUIRE(nodes.controller->says("flush=taken node=1"));
+  nodes.controller->kill(SIGKILL);
+  for (const auto& worker : nodes.workers) {
+    CHECK(worker->wait() == 1);
+    CHECK(worker->said("no way has led to the controller for 1 s (lost_s)"));
+  }
+}
+
+TEST_CASE("a controller whose workers have all vanished leaves what can be gone on from",
+          "[cluster]") {
+  const Folder folder;
+  ClusterText text = workers(2, endless);
+  text.more += "[observe]\nlog_level = \"debug\"\n";
+  const Running nodes = start(write_cluster(folder, text), 2);
+  REQUIRE(nodes.controller->says("flush=taken"));
+  for (const auto& worker : nodes.workers) worker->kill(SIGKILL);
+  CHECK(nodes.controller->wait() == 1);
+  INFO(nodes.controller->text());
+  CHECK(nodes.controller->said("all workers were lost"));
+  CHECK(slurp(folder.path / "out" / "result.json").find("workers lost") != std::string::npos);
+  check_goes_on(folder);
+}
+
+TEST_CASE("a cluster that is told to end leaves whole batches that can be gone on from",
+          "[cluster]") {
+  const Folder folder;
+  ClusterText text = workers(2, endless);
+  text.more += "[observe]\nlog_level = \"debug\"\n";
+  const Running nodes = start(write_cluster(folder, text), 2);
+  REQUIRE(nodes.controller->says("flush=taken"));
+  for (const auto& worker : nodes.workers) worker->kill(SIGTERM);
+  nodes.controller->kill(SIGTERM);
+  CHECK(nodes.controller->wait() == 130);
+  INFO(nodes.controller->text());
+  for (const auto& worker : nodes.workers) CHECK(worker->wait() == 0);
+  check_goes_on(folder);
+}

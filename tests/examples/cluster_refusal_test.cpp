@@ -1,0 +1,146 @@
+// Processes that must not work together: each is told by both ends, with the reason, and the run
+// ends in bounded time with the names of those who are missing.
+#include "tests/examples/cluster_kit.hpp"
+
+using namespace luxodus::program;
+
+namespace {
+
+/// A controller with one file and a worker with another: both end, and both say why.
+void check_refused(const std::string& of_controller, const std::string& of_worker,
+                   const std::string& reason) {
+  const auto controller = node(of_controller, "controller");
+  const auto worker = node(of_worker, "n0");
+  const int controller_code = controller->wait();
+  const int worker_code = worker->wait();
+  INFO(reason << "\n" << controller->text() << "\n" << worker->text());
+  CHECK(controller_code == 1);
+  CHECK(worker_code == 1);
+  CHECK(controller->said("reason=" + reason));
+  CHECK(worker->said("reason=" + reason));
+  CHECK(controller->said("controller: the run did not begin"));
+  CHECK(controller->said("n0 has not come (node "));
+  CHECK(worker->said("n0: the controller has not been heard of for 2 s (start_s); node "));
+}
+
+std::string other_scene(const Folder& folder) {
+  const fs::path path = folder.path / "another_scene.toml";
+  std::string text = slurp(smoke_tank());
+  const size_t at = text.find("albedo = 0.3");
+  REQUIRE(at != std::string::npos);
+  std::ofstream(path) << text.replace(at, 12, "albedo = 0.4");
+  return path.string();
+}
+
+}  // namespace
+
+TEST_CASE("another scene is refused at both ends, with the reason", "[cluster]") {
+  const Folder folder;
+  const std::string one = write_cluster(folder, {}, "one");
+  ClusterText text;
+  text.scene = other_scene(folder);
+  check_refused(one, write_cluster(folder, text, "other"), "scene");
+  CHECK_FALSE(fs::exists(folder.path / "out"));
+}
+
+TEST_CASE("another level is refused at both ends, with the reason", "[cluster]") {
+  const Folder folder;
+  const std::string one = write_cluster(folder, {}, "one");
+  ClusterText text;
+  text.run += "level = \"statistical\"\n";
+  check_refused(one, write_cluster(folder, text, "other"), "level");
+}
+
+TEST_CASE("another topology is refused at both ends, with the reason", "[cluster]") {
+  const Folder folder;
+  const auto linked = [&](const std::string& pairs, const std::string& file) {
+    ClusterText text;
+    text.workers = 3;
+    text.more += "[topology]\nkind = \"links\"\npairs = [" + pairs + "]\n";
+    return write_cluster(folder, text, file);
+  };
+  const std::string star = R"(["n0", "controller"], ["n0", "n1"], ["n0", "n2"])";
+  const std::string chain = R"(["n0", "controller"], ["n0", "n1"], ["n1", "n2"])";
+  check_refused(linked(star, "star"), linked(chain, "chain"), "topology");
+}
+
+TEST_CASE("another protocol, instruction set, build or fingerprint is refused at both ends",
+          "[cluster]") {
+  for (const std::string what : {"protocol", "isa", "build", "fingerprint"}) {
+    const Folder folder;
+    const std::string cluster = write_cluster(folder, {});
+    const auto controller = node(cluster, "controller");
+    Process odd(LUX_ODD_NODE, {cluster, "n0", what});
+    const int controller_code = controller->wait();
+    const int odd_code = odd.wait();
+    INFO(what << "\n" << controller->text() << "\n" << odd.text());
+    CHECK(controller_code == 1);
+    CHECK(odd_code == 1);
+    CHECK(controller->said("reason=" + what));
+    CHECK(odd.said("reason=" + what));
+    CHECK(controller->said("n0 has not come (node "));
+  }
+}
+
+TEST_CASE("a node whose key the other end does not list is turned away, and both ends say so",
+          "[cluster]") {
+  const Folder folder;
+  const auto keyed = [&](const std::string& keys) {
+    ClusterText text;
+    text.more += "[links]\nsame_host = \"tcp\"\n[[host]]\n[keys]\nfolder = \"" + keys + "\"\n";
+    text.more.erase(text.more.find("[[host]]\n"), 9);
+    return write_cluster(folder, text, keys);
+  };
+  const std::string ours = keyed("ours");
+  const std::string theirs = keyed("theirs");
+  REQUIRE(run_luxodus(folder, "keygen --cluster " + ours).code == 0);
+  REQUIRE(run_luxodus(folder, "keygen --cluster " + theirs).code == 0);
+  SECTION("the controller's key is not listed at the worker") {
+    // All else of the controller's agrees: it knows the worker.
+    for (const std::string name : {"n0.key", "n0.key.pub"})
+      fs::copy_file(folder.path / "ours" / name, folder.path / "theirs" / name,
+                    fs::copy_options::overwrite_existing);
+    const auto controller = node(theirs, "controller");
+    const auto worker = node(ours, "n0");
+    const int controller_code = controller->wait();
+    const int worker_code = worker->wait();
+    INFO(controller->text() << "\n" << worker->text());
+    CHECK(controller_code == 1);
+    CHECK(worker_code == 1);
+    CHECK(worker->said("zmq=turned_away"));
+    CHECK(worker->said("connections were turned away"));
+    CHECK(controller->said("zmq=refused_us"));
+    CHECK(controller->said("does not list this node's key"));
+  }
+  SECTION("the worker has another key than the controller lists") {
+    const auto controller = node(ours, "controller");
+    const auto worker = node(theirs, "n0");
+    const int controller_code = controller->wait();
+    const int worker_code = worker->wait();
+    INFO(controller->text() << "\n" << worker->text());
+    CHECK(controller_code == 1);
+    CHECK(worker_code == 1);
+    CHECK(controller->said("n0 has not come"));
+    CHECK(controller->said("zmq=handshake_failed"));
+    CHECK(worker->said("zmq=handshake_failed"));
+  }
+}
+
+TEST_CASE("a run without one of its workers does not begin, and names it", "[cluster]") {
+  const Folder folder;
+  ClusterText text;
+  text.workers = 2;
+  const std::string cluster = write_cluster(folder, text);
+  const auto controller = node(cluster, "controller");
+  const auto worker = node(cluster, "n0");
+  const int controller_code = controller->wait();
+  const int worker_code = worker->wait();
+  INFO(controller->text() << "\n" << worker->text());
+  CHECK(controller_code == 1);
+  CHECK(controller->said("after 2 s (start_s) n1 has not come"));
+  CHECK_FALSE(controller->said("n0 has not come"));
+  CHECK(worker_code == 1);
+  CHECK(worker->said("n0: the controller says: the run did not begin"));
+  CHECK(worker->said("n1 has not come"));
+  CHECK_FALSE(fs::exists(folder.path / "out"));
+}
