@@ -183,7 +183,7 @@ Result<bool> ClusterProcessRun::load_scene() {
 }
 
 Result<ReferenceProfile> ClusterProcessRun::profile(double share) const {
-  if (cells_ == 1)
+  if (!fetches_)
     return Problem{{cluster_.file.string(), 0},
                    "every worker's budget holds the whole scene: nothing is fetched, and a profile "
                    "would change nothing"};

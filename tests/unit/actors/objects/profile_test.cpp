@@ -30,7 +30,7 @@ std::shared_ptr<const CompiledScene> tank(int cells) {
 ReferenceProfile profile_of(const CompiledScene& scene, uint64_t budget_bytes) {
   const SceneObjects objects(scene, std::array{NodeId{0}}, 1);
   const EmbreeDevice device;
-  const ProxyScene proxies(device, boxes_of(scene));
+  const ProxyScene proxies(device, scene.cell_boxes);
   auto profile = count_references(scene, objects, proxies, 1,
                                   profile_particles(BatchPlan(scene).shares(), 2000), budget_bytes);
   REQUIRE(profile.ok());
