@@ -269,6 +269,9 @@ void add_node_options(CLI::App& command, const std::shared_ptr<RunOptions>& opti
                   "budget of a node for geometry cells; what does not fit is fetched from others "
                   "[0: everything is resident]")
       ->check(CLI::Range(0.0, 1048576.0));
+  command.add_option("--link-delay", options->link_delay,
+                     "hold back what nodes send each other for so long on every link, to see what "
+                     "a distance costs and how many fibers hide it, e.g. 1ms [0]");
 }
 
 }  // namespace
