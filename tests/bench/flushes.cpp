@@ -49,10 +49,10 @@ class Worker {
       flushed.particles += static_cast<double>(scene_.batch_particles);
     }
     const double traced = thread_seconds();
-    FlushEncoder encoder(totals_);
-    while (!encoder.step(bins_of_a_step)) {
+    encoder_.begin(totals_);
+    while (!encoder_.step(bins_of_a_step)) {
     }
-    std::vector<std::byte> bytes = encoder.take_bytes();
+    const std::vector<std::byte> bytes = encoder_.bytes();
     flushed.traced_s = traced - start;
     flushed.packed_s = thread_seconds() - traced;
     flushed.bytes = static_cast<double>(bytes.size());
@@ -63,6 +63,7 @@ class Worker {
   const CompiledScene& scene_;
   std::unique_ptr<BatchTracer> tracer_;
   Totals totals_;
+  FlushEncoder encoder_{totals_.groups(), totals_.layout().totals()};
   BatchScores scores_;
   uint64_t next_ = 0;
 };

@@ -44,8 +44,8 @@ int run(const std::string& file, const std::string& name, const std::string& wha
   const LocalRun local(compiled.value(), description->run.seed, 1);
   const SystemClock clock;
   ZmqContext context({});
-  const RunSetup setup{local.scene(), &local.index(), nullptr, nullptr,
-                       local.seed(),  graph.value(),  clock,   context};
+  const RunSetup setup{local.scene(), &local.index(), nullptr, nullptr, local.seed(),
+                       graph.value(), clock,          context, {},      nullptr};
   NodeSetup node;
   node.net = net_config(cluster, *self);
   node.net.incarnation = {static_cast<uint64_t>(::getpid())};
