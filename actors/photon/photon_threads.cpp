@@ -7,6 +7,7 @@
 
 #include "proto/messages.hpp"
 #include "runtime/core/check.hpp"
+#include "scenes/transport/birth_order.hpp"
 #include "scenes/transport/readout.hpp"
 
 namespace luxodus {
@@ -25,8 +26,9 @@ struct PhotonThreads::OpenBatch {
   uint64_t lease = 0;
   Batch batch;
   BatchScores scores;
-  int64_t next_particle = 0;  // of the batch, not yet given out
-  uint32_t next_unit = 0;     // of the eye paths
+  int64_t next_particle = 0;    // of the batch, not yet given out
+  std::vector<uint32_t> order;  // of its particles; empty: as they are numbered
+  uint32_t next_unit = 0;       // of the eye paths
   uint32_t portions_out = 0;
   Nanoseconds since = 0;
 };
@@ -54,6 +56,8 @@ PhotonThreads::PhotonThreads(const CompiledScene& scene, const GeometryAccess& a
                              LeasePort& port)
     : scene_(scene),
       source_(access.source),
+      seed_(seed),
+      places_(source_ == nullptr ? std::vector<uint32_t>() : places_of_emitters(scene)),
       config_(config),
       portion_(portion_for(config, scene.batch_particles)),
       scheduler_(scheduler),
@@ -151,13 +155,20 @@ void PhotonThreads::trace_portions(BatchTracer& tracer) {
   }
 }
 
-/// Up to the next sampled particle in one go, and that one alone.
 void PhotonThreads::trace_particles(BatchTracer& tracer, const Portion& portion) {
-  Fibers& fibers = scheduler_.fibers();
   OpenBatch& open = *portion.batch;
+  const uint64_t of_batch = open.batch.first_particle;
+  if (open.order.empty())
+    return trace_row(tracer, open, of_batch + static_cast<uint64_t>(portion.first), portion.count);
+  for (int64_t i = portion.first; i < portion.first + portion.count; ++i)
+    trace_row(tracer, open, of_batch + open.order[static_cast<size_t>(i)], 1);
+}
+
+/// Up to the next sampled particle in one go, and that one alone.
+void PhotonThreads::trace_row(BatchTracer& tracer, OpenBatch& open, uint64_t first, int64_t count) {
+  Fibers& fibers = scheduler_.fibers();
   NodeTrace* const trace = config_.trace;
-  uint64_t first = open.batch.first_particle + static_cast<uint64_t>(portion.first);
-  const uint64_t end = first + static_cast<uint64_t>(portion.count);
+  const uint64_t end = first + static_cast<uint64_t>(count);
   while (first < end) {
     const uint64_t sampled = trace == nullptr ? end : trace->next_wanted(first);
     const uint64_t stop = sampled == first ? first + 1 : std::min(sampled, end);
@@ -209,6 +220,10 @@ PhotonThreads::OpenBatch* PhotonThreads::open_next() {
   free->batch = planned(lease.batch);
   free->next_particle = 0;
   free->next_unit = 0;
+  if (source_ != nullptr) {
+    order_by_emitter(scene_, places_, seed_, free->batch.group, free->batch.first_particle,
+                     static_cast<uint32_t>(scene_.batch_particles), free->order);
+  }
   free->scores.reset(scene_.layout);
   free->since = scheduler_.clock().now();
   ++counters_.batches_open;

@@ -94,6 +94,7 @@ class PhotonThreads {
 
   void trace_portions(BatchTracer& tracer);
   void trace_particles(BatchTracer& tracer, const Portion& portion);
+  void trace_row(BatchTracer& tracer, OpenBatch& open, uint64_t first, int64_t count);
   std::optional<Portion> next_portion();
   OpenBatch* open_next();
   Batch planned(int64_t number);
@@ -102,6 +103,8 @@ class PhotonThreads {
 
   const CompiledScene& scene_;
   ObjectSource* const source_;  // null where everything is resident
+  const uint64_t seed_;
+  const std::vector<uint32_t> places_;  // of emitters, where cells are waited for
   const PhotonConfig config_;
   const int64_t portion_;
   Scheduler& scheduler_;
