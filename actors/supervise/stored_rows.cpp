@@ -113,6 +113,7 @@ void StoredRows::run(int64_t rows, const MakeWorker& make, const Finished& finis
   node.net.incarnation = {1};
   node.net.nodes = 1;
   node.photons.fibers = config_.fibers;
+  node.stall = seconds(10);  // no beats wait for a row, which may be long
   node.object_bytes = config_.object_bytes / static_cast<size_t>(config_.threads);
   Rows shared(rows, finished);
   std::string wrong;

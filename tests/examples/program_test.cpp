@@ -325,7 +325,11 @@ TEST_CASE("check counts the triangles without area that it drops", "[program]") 
 TEST_CASE("a packed scene runs as its scene file does, resident and on nodes with a budget",
           "[program]") {
   const Folder folder;
-  const std::string scene = write_scene(folder, readme_scene());
+  const std::string scene = write_scene(
+      folder, readme_scene() +
+                  "[[object]]\nname = \"blocks\"\nshape = \"box\"\nlow = [1, 1, 0]\n"
+                  "high = [1.1, 1.1, 0.1]\nmaterial = \"white\"\nrepeat = [{ count = 10, step = "
+                  "[0.2, 0, 0] }, { count = 5, step = [0, 0.2, 0] }]\n");
   const std::string pack = out(folder, "room.luxpack");
   REQUIRE(run_luxodus(folder, "pack " + scene + " --cell-kib 1 --out " + pack).code == 0);
   const Outcome told = run_luxodus(folder, "check --json " + pack);

@@ -97,7 +97,7 @@ LeaseBook::Rank likes(int64_t group) {
 
 TEST_CASE("a node is lent what it prefers while there is some within reach, then the rest",
           "[lease]") {
-  LeaseBook book(0, 6);
+  LeaseBook book(0, {}, 1, 6);
   book.open_until(8);
   const auto next = [&](int64_t group) {
     const LentBatches lent = book.lend(ann, 4, 100, likes(group));
@@ -116,7 +116,7 @@ TEST_CASE("a node is lent what it prefers while there is some within reach, then
 }
 
 TEST_CASE("preferences change who traces a batch, never which batches a round holds", "[lease]") {
-  LeaseBook book(5, 8);
+  LeaseBook book(5, {}, 1, 8);
   book.open_until(25);
   std::set<int64_t> seen;
   for (int turn = 0; seen.size() < 20; ++turn) {
@@ -133,7 +133,7 @@ TEST_CASE("preferences change who traces a batch, never which batches a round ho
 }
 
 TEST_CASE("a round that is closed holds no gaps: what was skipped is still lent", "[lease]") {
-  LeaseBook book(0, 10);
+  LeaseBook book(0, {}, 1, 10);
   book.open_until(100);
   const uint64_t first = book.lend(ann, 1, 100, likes(1)).first_lease;   // 1
   const uint64_t second = book.lend(ann, 1, 100, likes(1)).first_lease;  // 3
@@ -151,7 +151,7 @@ TEST_CASE("a round that is closed holds no gaps: what was skipped is still lent"
 }
 
 TEST_CASE("what was fenced is lent again before what a node prefers", "[lease]") {
-  LeaseBook book(0, 10);
+  LeaseBook book(0, {}, 1, 10);
   book.open_until(10);
   book.lend(ann, 1, 100, likes(0));
   book.fence_late(100);
