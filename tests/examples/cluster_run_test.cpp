@@ -52,15 +52,20 @@ TEST_CASE("processes that plan by a profile leave the flux file of the plain loo
                          << "\"\n[[host]]\nname = \"here\"\n[[node]]\nname = \"n\"\ncount = 2\n"
                             "[[node]]\nname = \"controller\"\nrole = \"controller\"\n"
                             "[budget]\nobject_bytes = \"1 MiB\"\nfibers = 256\n";
-  CHECK(luxodus(folder, "cluster up " + cluster.string()) != 0);  // there is no profile yet
-  CHECK(slurp(folder.path / "log").find("its.profile") != std::string::npos);
-  REQUIRE(luxodus(folder, "profile " + cluster.string()) == 0);
-  const std::string said = slurp(folder.path / "log");
+  const Outcome without = run_luxodus(folder, "cluster up " + cluster.string());
+  CHECK(without.code != 0);
+  CHECK((without.out + without.err).find("its.profile") != std::string::npos);
+  const Outcome profiled = run_luxodus(folder, "profile " + cluster.string());
+  INFO(profiled.err);
+  REQUIRE(profiled.code == 0);
   CHECK(fs::exists(folder.path / "its.profile"));
-  REQUIRE(luxodus(folder, "cluster up " + cluster.string()) == 0);
-  const std::string cells = said.substr(0, said.find(' '));  // "N cells, ..."
-  REQUIRE(luxodus(folder, "run " + office + " --particles 60k --no-views --cells " + cells +
-                              " --out " + (folder.path / "plain").string()) == 0);
+  const Outcome up = run_luxodus(folder, "cluster up " + cluster.string());
+  INFO(up.err);
+  REQUIRE(up.code == 0);
+  const std::string cells = profiled.out.substr(0, profiled.out.find(' '));  // "N cells, ..."
+  REQUIRE(run_luxodus(folder, "run " + office + " --particles 60k --no-views --cells " + cells +
+                                  " --out " + (folder.path / "plain").string())
+              .code == 0);
   const std::string flux = slurp(folder.path / "out" / "flux.lux");
   CHECK(!flux.empty());
   CHECK(flux == slurp(folder.path / "plain" / "flux.lux"));

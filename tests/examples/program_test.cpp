@@ -356,3 +356,16 @@ TEST_CASE("a packed scene runs as its scene file does, resident and on nodes wit
   CHECK(bare.err.find("holds no objects") != std::string::npos);
   CHECK(run_luxodus(folder, "pack " + pack + " --out " + skeleton).code == 2);
 }
+
+TEST_CASE("a run shows pictures of itself while it goes on, and its result does not notice",
+          "[program]") {
+  const Folder folder;
+  const std::string scene = write_scene(folder, readme_scene());
+  const std::string common = "run " + scene + " --no-views --particles 300k --out ";
+  REQUIRE(run_luxodus(folder, common + out(folder, "plain")).code == 0);
+  REQUIRE(run_luxodus(folder, common + out(folder, "shown") + " --preview 0.1s").code == 0);
+  CHECK(fs::exists(folder.path / "shown" / "preview" / "views" / "door.exr"));
+  CHECK(fs::exists(folder.path / "shown" / "preview" / "views" / "door.png"));
+  CHECK(flux(folder, "shown") == flux(folder, "plain"));
+  CHECK(run_luxodus(folder, common + out(folder, "never") + " --preview soon").code == 2);
+}
