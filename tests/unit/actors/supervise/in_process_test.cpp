@@ -7,9 +7,8 @@
 
 #include "actors/supervise/residency_setup.hpp"
 #include "actors/supervise/stored_rows.hpp"
-#include "scenes/format/scene_file.hpp"
 #include "scenes/pack/scene_pack.hpp"
-#include "scenes/transport/compile.hpp"
+#include "tests/unit/actors/supervise/library_scene.hpp"
 #include "tests/unit/scenes/format/scratch_folder.hpp"
 
 using namespace luxodus;
@@ -24,17 +23,6 @@ NodesOptions nodes_of(int nodes, size_t fibers) {
   options.nodes = nodes;
   options.fibers = fibers;
   return options;
-}
-
-std::shared_ptr<const CompiledScene> scene_of(const char* name, const char* scenario, int cells) {
-  auto read = read_scene(std::string(LUX_SOURCE_DIR) + "/scenes/library/" + name + ".toml");
-  REQUIRE(read.scene);
-  auto description = std::make_shared<SceneDescription>(*read.scene);
-  description->run.batch_particles = 4096;
-  auto compiled =
-      compile_scene(description, find_scenario(*description, scenario).value(), {cells});
-  REQUIRE(compiled.ok());
-  return compiled.value();
 }
 
 /// Bins of the totals that differ in any bit; every one where batches do.

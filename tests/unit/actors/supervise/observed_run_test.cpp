@@ -10,24 +10,12 @@
 #include "actors/supervise/node_plan.hpp"
 #include "actors/tally/flush_codec.hpp"
 #include "runtime/observe/metrics_text.hpp"
-#include "scenes/format/scene_file.hpp"
-#include "scenes/transport/compile.hpp"
+#include "tests/unit/actors/supervise/library_scene.hpp"
 #include "topology/shipped.hpp"
 
 using namespace luxodus;
 
 namespace {
-
-std::shared_ptr<const CompiledScene> scene_of(const char* name, const char* scenario, int cells) {
-  auto read = read_scene(std::string(LUX_SOURCE_DIR) + "/scenes/library/" + name + ".toml");
-  REQUIRE(read.scene);
-  auto description = std::make_shared<SceneDescription>(*read.scene);
-  description->run.batch_particles = 4096;
-  auto compiled =
-      compile_scene(description, find_scenario(*description, scenario).value(), {cells});
-  REQUIRE(compiled.ok());
-  return compiled.value();
-}
 
 std::unique_ptr<Observation> watching() {
   ObserveOptions options;

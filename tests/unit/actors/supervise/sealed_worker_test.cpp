@@ -7,24 +7,12 @@
 
 #include "actors/supervise/in_process.hpp"
 #include "runtime/observe/metrics_text.hpp"
-#include "scenes/format/scene_file.hpp"
-#include "scenes/transport/compile.hpp"
+#include "tests/unit/actors/supervise/library_scene.hpp"
 #include "tests/unit/runtime/actor/allocation_count.hpp"
 
 using namespace luxodus;
 
 namespace {
-
-std::shared_ptr<const CompiledScene> scene_of(const char* name, const char* scenario, int cells) {
-  auto read = read_scene(std::string(LUX_SOURCE_DIR) + "/scenes/library/" + name + ".toml");
-  REQUIRE(read.scene);
-  auto description = std::make_shared<SceneDescription>(*read.scene);
-  description->run.batch_particles = 4096;
-  auto compiled =
-      compile_scene(description, find_scenario(*description, scenario).value(), {cells});
-  REQUIRE(compiled.ok());
-  return compiled.value();
-}
 
 uint64_t so_far() {
   return test::allocations_of_this_thread() - test::allocations_by_zmq();
