@@ -229,7 +229,6 @@ Result<NodeSetup> ClusterProcessRun::setup_of(NodeId self, const RunSetup& run) 
   node.stall = cluster_.timeouts.stall;
   node.start = cluster_.timeouts.start;
   node.lost = cluster_.timeouts.lost;
-  for (const ClusterNode& one : cluster_.nodes) node.names.push_back(one.name);
   node.lease_time = cluster_.lease.duration;
   node.photons.leases = cluster_.lease.batches;
   node.tally_bytes = budget.tally_bytes;

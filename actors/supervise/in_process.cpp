@@ -154,7 +154,7 @@ Result<StopReason> run_controller(const RunSetup& setup, const NodeSetup& node, 
   config.farewell = node.shutdown_phase;
   config.start = node.start;
   config.lost = node.lost;
-  config.names = node.names;
+  config.names = setup.names;
   config.first_lease = node.net.incarnation.value;
   for (uint16_t i = 0; i < setup.graph.workers(); ++i) config.workers.push_back({i});
   Controller controller(config, run, stop, interrupt, report, shell.scheduler(), shell.network());
@@ -174,7 +174,7 @@ Result<StopReason> run_controller(const RunSetup& setup, const NodeSetup& node, 
   run.add_seconds(static_cast<double>(setup.clock.now() - began) * 1e-9);
   if (controller.fault())
     return Problem{{},
-                   node.name() + ": " + controller.fault()->what +
+                   setup.name_of(node.net.self) + ": " + controller.fault()->what +
                        meeting_trouble(transport.sockets(), setup.context, shell.network())};
   if (counted != nullptr) {
     const Controller::Counters& c = controller.counters();

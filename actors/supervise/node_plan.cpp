@@ -143,7 +143,7 @@ MemoryPlan controller_plan(const RunSetup& run, const NodeSetup& node) {
 }
 
 std::optional<std::string> budget_fault(const RunSetup& run, const NodeSetup& node) {
-  const std::string name = run.names[node.net.self.value];
+  const std::string name = run.name_of(node.net.self);
   const MemoryPlan tally = tally_plan(run.scene, node.photons);
   if (tally.total_bytes() > node.tally_bytes) {
     std::string parts;
@@ -178,7 +178,7 @@ std::string plan_text(const RunSetup& run, const std::vector<NodeSetup>& workers
   };
   std::vector<Alike> plans;
   const auto add = [&](const NodeSetup& node, MemoryPlan plan) {
-    const std::string& name = run.names[node.net.self.value];
+    const std::string name = run.name_of(node.net.self);
     for (Alike& alike : plans)
       if (equal(alike.plan, plan)) return alike.names.push_back(name);
     plans.push_back({std::move(plan), {name}});

@@ -30,6 +30,11 @@ struct RunSetup {
   ZmqContext& context;
   std::vector<std::string> names;      // of nodes, by number
   Observation* observation = nullptr;  // where somebody watches
+
+  /// Of a node, for people.
+  std::string name_of(NodeId node) const {
+    return node.value < names.size() ? names[node.value] : "node " + std::to_string(node.value);
+  }
 };
 
 /// What is a node's own.
@@ -45,7 +50,6 @@ struct NodeSetup {
   Nanoseconds stall = SchedulerLimits{}.stall;
   Nanoseconds start = ControllerConfig{}.start;
   Nanoseconds lost = ControllerConfig{}.lost;
-  std::vector<std::string> names;  // of all nodes, by number; empty: they have none
   Nanoseconds lease_time = ControllerConfig{}.lease_time;
   FetchConfig fetch;
   size_t object_bytes = 0;  // for built cells, where cells are fetched
@@ -57,12 +61,6 @@ struct NodeSetup {
   Nanoseconds shutdown_phase = ShellConfig{}.shutdown_phase;
   /// Of every link, on purpose. Requires: the same at all nodes, and one clock: one process.
   Nanoseconds link_delay = 0;
-
-  /// Of the node itself, for people.
-  std::string name() const {
-    const size_t number = net.self.value;
-    return number < names.size() ? names[number] : "node " + std::to_string(number);
-  }
 };
 
 /// A node's way to its neighbours: its sockets, behind the delay that the setup asks for.

@@ -72,7 +72,7 @@ Result<WorkerReport> Worker::run(const std::function<bool()>& stop) {
   });
   if (leases_.fault())
     return Problem{{},
-                   node_.name() + ": " + leases_.fault()->what +
+                   run_.name_of(node_.net.self) + ": " + leases_.fault()->what +
                        meeting_trouble(transport_.sockets(), run_.context, shell_.network())};
   WorkerReport report = cells_ ? cells_->report() : WorkerReport{};
   report.waited = shell_.scheduler().counters().waited;

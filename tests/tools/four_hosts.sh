@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# four_hosts.sh PROGRAM SCENE FOLDER: runs SCENE (100 000 particles) on four hosts of this machine, each
-# a network namespace with an address of its own, joined by a bridge; TCP with keys between them.
+# four_hosts.sh PROGRAM SCENE FOLDER: runs SCENE (100 000 particles) on four hosts of this machine,
+# each a network namespace with an address of its own, joined by a bridge; TCP with keys between
+# them.
 # Results are left in FOLDER/out. Needs root and iproute2; exits with 77 where these are missing.
 set -euo pipefail
 
