@@ -261,8 +261,8 @@ Refuse read_refuse(wire::Refuse::Reader in) {
 }
 
 LeaseGranted read_lease(wire::LeaseGranted::Reader in) {
-  return {in.getFirstLease(), in.getRound(),
-          in.getFirstBatch(), in.getBatches(), in.getDurationMs()};
+  return {in.getFirstLease(), in.getRound(), in.getFirstBatch(), in.getBatches(),
+          in.getDurationMs()};
 }
 
 FetchObject read_fetch(wire::FetchObject::Reader in) {
@@ -433,8 +433,29 @@ Codec::Codec()
     : aligned_(std::make_unique<uint64_t[]>(scratch_words)),
       building_(std::make_unique<uint64_t[]>(scratch_words)) {}
 
-size_t Codec::encode(const Envelope& envelope, std::span<std::byte> out) {
-  return encode_segment<wire::Envelope>(envelope, {building_.get(), scratch_words}, out).value();
+size_t Codec::encode(const Envelope& envelope, std::span<const std::byte> body,
+                     std::span<std::byte> out) {
+  const std::span<std::byte> room = out.subspan(limits::check_bytes);
+  const size_t bytes =
+      encode_segment<wire::Envelope>(envelope, {building_.get(), scratch_words}, room).value();
+  check_.reset();
+  check_.add(room.data(), bytes);
+  check_.add(body.data(), body.size());
+  const uint64_t check = check_.value();
+  std::memcpy(out.data(), &check, sizeof check);
+  return limits::check_bytes + bytes;
+}
+
+namespace {
+uint64_t check_of(std::span<const std::byte> frame) {
+  const auto checked = frame.subspan(limits::check_bytes);
+  return XXH3_64bits(checked.data(), checked.size());  // as Hasher
+}
+}  // namespace
+
+void Codec::seal(std::span<std::byte> frame) {
+  const uint64_t check = check_of(frame);
+  std::memcpy(frame.data(), &check, sizeof check);
 }
 
 Result<size_t> Codec::encode(const Message& message, std::span<std::byte> out) {
@@ -456,6 +477,11 @@ Result<Codec::Segment> Codec::first_segment(std::span<const std::byte> bytes, si
 }
 
 Result<OpenedFrame> Codec::open_frame(std::span<const std::byte> frame) {
+  uint64_t check = 0;
+  if (frame.size() < limits::check_bytes) return malformed("shorter than a check");
+  std::memcpy(&check, frame.data(), sizeof check);
+  if (check != check_of(frame)) return malformed("harmed on its way: its check does not hold");
+  frame = frame.subspan(limits::check_bytes);
   const auto segment = first_segment(frame, limits::envelope_bytes);
   if (!segment) return segment.problem();
   auto envelope = decode_segment<wire::Envelope>(segment->begin, segment->bytes);

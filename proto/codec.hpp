@@ -10,6 +10,7 @@
 #include <span>
 
 #include "proto/messages.hpp"
+#include "runtime/core/hash.hpp"
 #include "runtime/core/result.hpp"
 
 namespace luxodus {
@@ -30,15 +31,18 @@ class Codec {
  public:
   Codec();
 
-  /// Writes an envelope to the front of `out` and returns its bytes, a multiple of 8.
-  /// Requires: room for limits::envelope_bytes.
-  size_t encode(const Envelope& envelope, std::span<std::byte> out);
+  /// Writes what goes before `body` in a frame, the check and the envelope, to the front of `out`,
+  /// and returns its bytes, a multiple of 8. Requires: room for limits::frame_head_bytes.
+  size_t encode(const Envelope& envelope, std::span<const std::byte> body,
+                std::span<std::byte> out);
+  /// Writes the check of a frame anew, over its first word. Requires: at least that.
+  static void seal(std::span<std::byte> frame);
 
   /// Writes a message to the front of `out` and returns its bytes, a multiple of 8.
   /// Errors: longer than `out` or than limits::message_bytes, or a list or text over its limit.
   Result<size_t> encode(const Message& message, std::span<std::byte> out);
 
-  /// Errors: anything but one envelope within the limits, followed by any bytes.
+  /// Errors: anything but a check of what follows, one envelope within the limits, and any bytes.
   Result<OpenedFrame> open_frame(std::span<const std::byte> frame);
 
   /// Errors: anything but one message within the limits, followed by any payload.
@@ -54,6 +58,7 @@ class Codec {
 
   std::unique_ptr<uint64_t[]> aligned_;   // copies of what came misaligned
   std::unique_ptr<uint64_t[]> building_;  // all zero between calls
+  Hasher check_;
 };
 
 }  // namespace luxodus

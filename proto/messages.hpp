@@ -16,7 +16,7 @@
 namespace luxodus {
 
 /// Changes when a node of the old version would misunderstand a node of the new one.
-inline constexpr uint16_t protocol_version = 1;
+inline constexpr uint16_t protocol_version = 2;
 
 namespace limits {
 /// Links a frame may pass. AMP graphs of 256 nodes have diameter 6; 15 leaves room for detours
@@ -26,6 +26,10 @@ inline constexpr uint8_t hops = 15;
 inline constexpr size_t message_bytes = 65536;
 /// The schema's envelope has 96 bytes; the rest is for fields of later versions.
 inline constexpr size_t envelope_bytes = 256;
+/// The check in front of it.
+inline constexpr size_t check_bytes = 8;
+/// All that may stand before the piece of message.
+inline constexpr size_t frame_head_bytes = check_bytes + envelope_bytes;
 /// Leases in one flush or fence: 8 bytes each, an eighth of a message.
 inline constexpr size_t leases = 1024;
 /// Links of a graph that can be told of in one message: 1000 nodes of 4 links have 2000.

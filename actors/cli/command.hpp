@@ -29,6 +29,7 @@ void add_status(CLI::App& app, int& exit_code);
 void add_keygen(CLI::App& app, int& exit_code);
 void add_profile(CLI::App& app, int& exit_code);
 void add_deploy(CLI::App& app, int& exit_code);
+void add_sim(CLI::App& app, int& exit_code);
 
 /// One line "file:line: sentence" on standard error.
 void tell(const Problem& problem);

@@ -56,6 +56,7 @@ int main(int argc, char** argv) {
   add_keygen(app, exit_code);
   add_profile(app, exit_code);
   add_deploy(app, exit_code);
+  add_sim(app, exit_code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

@@ -13,11 +13,7 @@ constexpr int64_t bins_of_a_step = 16384;
 }  // namespace
 
 LeaseClient::LeaseClient(const LeaseClientConfig& config, Scheduler& scheduler, Network& network)
-    : config_(config),
-      scheduler_(scheduler),
-      network_(network),
-      interval_(config.flush_every),
-      began_(scheduler.clock().now()) {}
+    : config_(config), scheduler_(scheduler), network_(network), began_(scheduler.clock().now()) {}
 
 void LeaseClient::start(PhotonThreads& photons) {
   photons_ = &photons;
@@ -88,9 +84,14 @@ void LeaseClient::begin_round() {
 void LeaseClient::lease_done(uint64_t lease) {
   if (done_.empty()) first_done_ = scheduler_.clock().now();
   done_.push_back(lease);
-  const bool long_enough = scheduler_.clock().now() - first_done_ >= interval_;
-  if (long_enough || done_.size() == limits::leases) flush();
+  if (rested(scheduler_.clock().now()) || done_.size() == limits::leases) flush();
   flush_when_idle();
+}
+
+/// Whether the oldest merged batch has waited for as long as it may.
+bool LeaseClient::rested(Nanoseconds now) const {
+  const Nanoseconds most = flush_interval(config_.flush_every, flush_cost_, lease_time_);
+  return !done_.empty() && now - first_done_ >= most;
 }
 
 /// A loss of the moment: the batch is traced anew, the lease stands until its deadline.
@@ -143,7 +144,7 @@ void LeaseClient::pack(Totals& totals) {
 void LeaseClient::flush_answered(const MessageId& answered, bool taken) {
   if (!flushing_ || flushing_->id != answered) return;
   const Nanoseconds answer_took = scheduler_.clock().now() - flushing_->asked;
-  interval_ = flush_interval(config_.flush_every, packing_took_ + answer_took, lease_time_);
+  flush_cost_ = packing_took_ + answer_took;
   packed_leases_ = std::move(std::get<Flush>(flushing_->message).leases);  // its memory
   packed_leases_.clear();
   if (config_.trace != nullptr) config_.trace->end(TraceKind::flush, trace_id(answered), taken);
@@ -206,8 +207,7 @@ void LeaseClient::on_timer() {
     ++counters_.asked_again;
     put(**question);
   }
-  const bool rested = !done_.empty() && now - first_done_ >= interval_;
-  if (rested || flush_due_) flush();
+  if (rested(now) || flush_due_) flush();
   if (round_empty_ && !ended_ && now - emptied_ >= config_.answer_patience) begin_round();
   watch_controller(now);
   set_timer();

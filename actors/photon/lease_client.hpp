@@ -30,9 +30,9 @@ struct LeaseClientConfig {
 
 /// How long merged batches rest, when a flush lately took `cost` (packing it here, and waiting for
 /// the answer of a controller that may be busy with others'): so long that flushes take a fiftieth
-/// of the time, but never a quarter of the leases' time, lest they be lent again.
+/// of the time, but never more than a quarter of the leases' time, lest they be lent again.
 constexpr Nanoseconds flush_interval(Nanoseconds least, Nanoseconds cost, Nanoseconds lease_time) {
-  return std::max(least, std::min(50 * cost, lease_time / 4));
+  return std::min(std::max(least, 50 * cost), lease_time / 4);
 }
 
 class LeaseClient final : public LeasePort {
@@ -80,6 +80,7 @@ class LeaseClient final : public LeasePort {
   void ask();
   void flush();
   bool encoder_is_free() const;
+  bool rested(Nanoseconds now) const;
   void pack(Totals& totals);
   void put(Question& question);
   void set_timer();
@@ -103,7 +104,7 @@ class LeaseClient final : public LeasePort {
   bool packing_ = false;
   bool flush_due_ = false;        // it waits for the network to let go of the last one
   Nanoseconds packing_took_ = 0;  // of the last flush
-  Nanoseconds interval_;          // between flushes
+  Nanoseconds flush_cost_ = 0;    // of the last one that was answered
   Nanoseconds lease_time_ = 0;
   Nanoseconds first_done_ = 0;  // when the oldest of them was merged
   size_t wanted_ = 0;

@@ -53,7 +53,7 @@ int64_t portion_for(const PhotonConfig& config, int64_t batch_particles) {
 
 PhotonThreads::PhotonThreads(const CompiledScene& scene, const GeometryAccess& access,
                              uint64_t seed, const PhotonConfig& config, Scheduler& scheduler,
-                             LeasePort& port)
+                             LeasePort& port, const TracerMaker& make_tracer)
     : scene_(scene),
       source_(access.source),
       seed_(seed),
@@ -67,8 +67,7 @@ PhotonThreads::PhotonThreads(const CompiledScene& scene, const GeometryAccess& a
               {scene.layout, static_cast<int>(scene.groups.size()), photopic_weights(scene)}},
       plan_(scene),
       recent_(recent_batches) {
-  for (size_t i = 0; i < config.fibers; ++i)
-    tracers_.push_back(make_batch_tracer(scene, access, seed));
+  for (size_t i = 0; i < config.fibers; ++i) tracers_.push_back(make_tracer(scene, access, seed));
   for (OpenBatch& batch : open_) batch.scores.reset(scene.layout);
   leases_.reserve(config.leases + limits::leases);
 }

@@ -7,6 +7,7 @@
 // Thread rule: the node's thread.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -47,11 +48,16 @@ class LeasePort {
   virtual void lease_failed(uint64_t lease, int64_t batch) = 0;
 };
 
+/// Makes what traces for one photon-thread: make_batch_tracer, but in a simulation.
+using TracerMaker = std::function<std::unique_ptr<BatchTracer>(
+    const CompiledScene& scene, const GeometryAccess& access, uint64_t seed)>;
+
 class PhotonThreads {
  public:
   /// All that is referred to must outlive it.
   PhotonThreads(const CompiledScene& scene, const GeometryAccess& access, uint64_t seed,
-                const PhotonConfig& config, Scheduler& scheduler, LeasePort& port);
+                const PhotonConfig& config, Scheduler& scheduler, LeasePort& port,
+                const TracerMaker& make_tracer = make_batch_tracer);
   ~PhotonThreads();
 
   /// Starts the fibers.

@@ -283,10 +283,9 @@ void Controller::lend(const Delivery& delivery, const RequestLease& request) {
   }
   Answered& last = last_grant_[delivery.source];
   if (last.question != delivery.id) {
-    const Nanoseconds deadline = scheduler_.clock().now() + config_.lease_time;
     const LentBatches lent =
-        book_.lend(delivery.source, std::min(request.batches, config_.leases_most), deadline,
-                   rank_of(delivery.source));
+        book_.lend(delivery.source, std::min(request.batches, config_.leases_most),
+                   scheduler_.clock().now(), config_.lease_time, rank_of(delivery.source));
     counters_.leases += static_cast<uint64_t>(lent.count);
     note_book();
     last = {delivery.id,

@@ -55,6 +55,8 @@ class Controller {
   /// All batches are counted and every worker has been told, or has been silent for too long.
   bool ended() const;
   StopReason reason() const { return reason_; }
+  /// The totals hold a part of a flush.
+  bool adding() const { return adding_; }
   /// Why the run could not begin.
   const std::optional<Problem>& fault() const { return fault_; }
 

@@ -26,7 +26,14 @@ void LeaseBook::take(int64_t batch) {
   }
 }
 
-LentBatches LeaseBook::lend(NodeId node, int64_t most, Nanoseconds deadline, const Rank& rank) {
+Nanoseconds LeaseBook::patience(int64_t batch, Nanoseconds span) const {
+  constexpr int doublings_most = 10;
+  const auto late = late_.find(batch);
+  return late == late_.end() ? span : span << std::min(late->second, doublings_most);
+}
+
+LentBatches LeaseBook::lend(NodeId node, int64_t most, Nanoseconds now, Nanoseconds span,
+                            const Rank& rank) {
   LentBatches lent{last_id_ + 1, first_choice(rank), 0};
   while (lent.count < most) {
     const int64_t batch = lent.first_batch + lent.count;
@@ -35,7 +42,7 @@ LentBatches LeaseBook::lend(NodeId node, int64_t most, Nanoseconds deadline, con
     if (!again && rank && lent.count > 0 && rank(batch) != rank(lent.first_batch)) break;
     if (!again) take(batch);
     const uint64_t id = ++last_id_;
-    leases_.emplace(id, Lease{id, node, batch, deadline});
+    leases_.emplace(id, Lease{id, node, batch, now + patience(batch, span)});
     ++lent.count;
   }
   return lent;
@@ -50,7 +57,11 @@ bool LeaseBook::stand(NodeId node, const std::vector<uint64_t>& leases) const {
 }
 
 void LeaseBook::commit(const std::vector<uint64_t>& leases) {
-  for (const uint64_t id : leases) leases_.erase(id);
+  for (const uint64_t id : leases) {
+    const auto at = leases_.find(id);
+    late_.erase(at->second.batch);
+    leases_.erase(at);
+  }
   committed_ += static_cast<int64_t>(leases.size());
 }
 
@@ -70,7 +81,9 @@ std::vector<Lease> LeaseBook::fence(Which&& which) {
 }
 
 std::vector<Lease> LeaseBook::fence_late(Nanoseconds now) {
-  return fence([&](const Lease& lease) { return lease.deadline <= now; });
+  const auto fenced = fence([&](const Lease& lease) { return lease.deadline <= now; });
+  for (const Lease& lease : fenced) ++late_[lease.batch];
+  return fenced;
 }
 
 std::vector<Lease> LeaseBook::fence_node(NodeId node) {

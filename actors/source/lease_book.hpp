@@ -55,8 +55,11 @@ class LeaseBook {
 
   /// Lends up to `most` batches; none where none is left in the round. What was fenced goes first,
   /// then what `rank` ranks least, of equals the first; without `rank` all are equal. Batches of
-  /// different ranks, or with others between them, are not lent together.
-  LentBatches lend(NodeId node, int64_t most, Nanoseconds deadline, const Rank& rank = {});
+  /// different ranks, or with others between them, are not lent together. They shall be back after
+  /// `span`, doubled for each time that the batch was late before: however slow a node is, in the
+  /// end its work is in time.
+  LentBatches lend(NodeId node, int64_t most, Nanoseconds now, Nanoseconds span,
+                   const Rank& rank = {});
 
   /// Whether all of these leases stand, and are this node's: then a flush of them may be counted.
   bool stand(NodeId node, const std::vector<uint64_t>& leases) const;
@@ -89,10 +92,12 @@ class LeaseBook {
   int64_t first_choice(const Rank& rank) const;
   bool open(int64_t batch) const;
   void take(int64_t batch);
+  Nanoseconds patience(int64_t batch, Nanoseconds span) const;
 
   std::map<uint64_t, Lease> leases_;
-  std::set<int64_t> again_;  // fenced, to be lent before new ones
-  std::set<int64_t> ahead_;  // lent before their turn: beyond next_
+  std::set<int64_t> again_;      // fenced, to be lent before new ones
+  std::map<int64_t, int> late_;  // how often batches were, while they are not counted
+  std::set<int64_t> ahead_;      // lent before their turn: beyond next_
   uint64_t last_id_;
   int64_t look_ahead_;
   int64_t next_;  // the first that was never lent

@@ -270,8 +270,8 @@ Result<std::optional<StopReason>> ClusterProcessRun::run(
   std::optional<SceneObjects> objects;
   std::optional<ProxyScene> proxies;
   const SceneIndex* index = fetches_ ? nullptr : &run_->index();
-  RunSetup setup{run_->scene(), index, nullptr, nullptr, run_->seed(),
-                 graph_,        clock, context, {},      nullptr};
+  const Machine machine{clock, context};
+  RunSetup setup{run_->scene(), index, nullptr, nullptr, run_->seed(), graph_, {}, nullptr};
   for (const ClusterNode& node : cluster_.nodes) setup.names.push_back(node.name);
   std::optional<Residency> residency;
   if (fetches_) {
@@ -304,14 +304,14 @@ Result<std::optional<StopReason>> ClusterProcessRun::run(
   for (const NodeSetup& node : workers)
     if (auto fault = budget_fault(setup, node)) return Problem{{cluster_.file.string(), 0}, *fault};
   spdlog::info("memory plan\n{}", plan_text(setup, workers, controller));
-  WorkerThreads threads(setup, workers, [&] { return !controller && interrupt.load(); });
+  WorkerThreads threads(setup, machine, workers, [&] { return !controller && interrupt.load(); });
   std::optional<StopReason> reason;
   if (controller) {
     StopRule stop;
     if (cluster_.run.particles) stop.particles = static_cast<int64_t>(*cluster_.run.particles);
     stop.relative_error = cluster_.run.relative_error;
     stop.seconds = cluster_.run.time_s;
-    auto ended = run_controller(setup, *controller, *run_, stop, interrupt, report,
+    auto ended = run_controller(setup, machine, *controller, *run_, stop, interrupt, report,
                                 [&] { return threads.failed(); });
     if (!ended.ok()) return ended.problem();
     reason = ended.value();

@@ -44,9 +44,10 @@ FetchingCells::FetchingCells(const RunSetup& run, const NodeSetup& node, NodeShe
       store_(*run.objects, node.net.self),
       builder_(run.scene),
       fetcher_(fetch_config(run, node, trace), run.objects->places(), store_, shell.network(),
-               shell.scheduler().timers(), run.clock, jitter_of(node.net.self)),
+               shell.scheduler().timers(), shell.scheduler().clock(), jitter_of(node.net.self)),
       cache_(cache_config(*run.objects, node, trace), run.objects->places().size(), fetcher_,
-             builder_, shell.scheduler().fibers(), shell.scheduler().timers(), run.clock),
+             builder_, shell.scheduler().fibers(), shell.scheduler().timers(),
+             shell.scheduler().clock()),
       source_(cache_, shell.scheduler().fibers(), trace) {
   shell.use(fetcher_);
 }

@@ -36,6 +36,7 @@ class FetchingCells {
                 NodeTrace* trace = nullptr);
 
   ObjectSource& source() { return source_; }
+  const ObjectCache& cache() const { return cache_; }
   /// Keeps these for good, as far as their share of the budget goes.
   void pin(std::span<const uint32_t> cells) { cache_.pin(cells); }
   void add_metrics(Metrics& metrics) const;

@@ -38,15 +38,14 @@ Result<bool> join_links(ZmqTransport& transport, const NodeSetup& node) {
   return true;
 }
 
-std::string meeting_trouble(const ZmqTransport& transport, const ZmqContext& context,
-                            const Network& network) {
+std::string NodeTransport::meeting_trouble(const Network& network) const {
   std::string text;
-  if (context.turned_away() > 0)
+  if (machine_.context.turned_away() > 0)
     text += fmt::format("; {} connections were turned away, since their keys are not listed here",
-                        context.turned_away());
-  if (transport.counters().refused_us > 0)
+                        machine_.context.turned_away());
+  if (sockets_.counters().refused_us > 0)
     text += "; a neighbour turned this node away, since it does not list this node's key";
-  if (transport.counters().handshake_failed > 0)
+  if (sockets_.counters().handshake_failed > 0)
     text += "; a neighbour has another key than the one listed here";
   for (const NodeId neighbour : network.neighbours()) {
     const std::string refusal = network.refusal_of(neighbour);

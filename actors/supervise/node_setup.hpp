@@ -26,8 +26,6 @@ struct RunSetup {
   const SceneObjects* objects = nullptr;  // likewise
   uint64_t seed = 0;
   const Graph& graph;
-  const Clock& clock;
-  ZmqContext& context;
   std::vector<std::string> names;      // of nodes, by number
   Observation* observation = nullptr;  // where somebody watches
 
@@ -63,18 +61,38 @@ struct NodeSetup {
   Nanoseconds link_delay = 0;
 };
 
+/// What stands between a node and its machine: a simulation puts its own here, and nothing else.
+struct NodeSeams {
+  const Clock& clock;
+  Transport& transport;
+  /// Of photon-threads.
+  TracerMaker make_tracer = make_batch_tracer;
+};
+
+/// What the real nodes of one process share of their machine.
+struct Machine {
+  const Clock& clock;
+  ZmqContext& context;
+};
+
 /// A node's way to its neighbours: its sockets, behind the delay that the setup asks for.
 class NodeTransport {
  public:
-  NodeTransport(const RunSetup& run, const NodeSetup& node)
-      : sockets_(run.context, {node.net.self, node.keys, node.insecure}, run.clock) {
-    if (node.link_delay > 0) delayed_.emplace(sockets_, node.link_delay, run.clock);
+  NodeTransport(const Machine& machine, const NodeSetup& node)
+      : machine_(machine),
+        sockets_(machine.context, {node.net.self, node.keys, node.insecure}, machine.clock) {
+    if (node.link_delay > 0) delayed_.emplace(sockets_, node.link_delay, machine.clock);
   }
 
   ZmqTransport& sockets() { return sockets_; }
   Transport& transport() { return delayed_ ? static_cast<Transport&>(*delayed_) : sockets_; }
+  NodeSeams seams() { return {machine_.clock, transport()}; }
+  /// What went wrong between this node and others while they met, to add to a sentence; "" if
+  /// nothing did: who was turned away, by whom this node was, which links are refused and why.
+  std::string meeting_trouble(const Network& network) const;
 
  private:
+  Machine machine_;
   ZmqTransport sockets_;
   std::optional<DelayedTransport> delayed_;
 };
@@ -82,11 +100,6 @@ class NodeTransport {
 /// Listens and connects as the setup says.
 /// Errors: an endpoint that is taken, is none, or asks for keys that there are not.
 Result<bool> join_links(ZmqTransport& transport, const NodeSetup& node);
-
-/// What went wrong between this node and others while they met, to add to a sentence; "" if nothing
-/// did: who was turned away, by whom this node was, which links are refused and why.
-std::string meeting_trouble(const ZmqTransport& transport, const ZmqContext& context,
-                            const Network& network);
 
 /// The identity that all nodes of a run share, and limits that follow from its graph.
 void complete(NetConfig& net, const RunSetup& run);

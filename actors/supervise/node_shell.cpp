@@ -8,6 +8,8 @@ namespace {
 
 /// Between the end of a node's work and its leaving: others' farewells still pass through it.
 constexpr Nanoseconds linger = milliseconds(100);
+/// At what may have changed from outside.
+constexpr Nanoseconds look_every = milliseconds(5);
 
 }  // namespace
 
@@ -108,22 +110,37 @@ NodeShell::NodeShell(const ShellConfig& config, const Graph& graph, const Clock&
 
 NodeShell::~NodeShell() = default;
 
-void NodeShell::run_until(const std::function<bool()>& ended) {
+void NodeShell::begin(std::function<bool()> ended) {
+  ended_ = std::move(ended);
   Shutdown& shutdown = scheduler_.shutdown();
   shutdown.add(scheduler_.end_all_fibers(config_.shutdown_phase));
-  Nanoseconds left_at = never;
-  shutdown.add({"pass on farewells", config_.shutdown_phase,
-                [&] { left_at = clock_.now() + linger; }, [&] { return clock_.now() >= left_at; },
-                [] { return "others to hear of it"; }});
-  shutdown.add({"leave", milliseconds(100), [&] { network_.say_bye(); }, [] { return true; },
+  shutdown.add(
+      {"pass on farewells", config_.shutdown_phase, [this] { left_at_ = clock_.now() + linger; },
+       [this] { return clock_.now() >= left_at_; }, [] { return "others to hear of it"; }});
+  shutdown.add({"leave", milliseconds(100), [this] { network_.say_bye(); }, [] { return true; },
                 [] { return ""; }});
-  std::function<void()> watch = [&] {
-    if (ended())
-      shutdown.begin("the run has ended");
-    else
-      scheduler_.timers().set(clock_.now() + milliseconds(5), [w = &watch] { (*w)(); });
+}
+
+void NodeShell::leave_if_ended() {
+  if (leaving_ || !ended_()) return;
+  leaving_ = true;
+  scheduler_.shutdown().begin("the run has ended");
+}
+
+Nanoseconds NodeShell::turn() {
+  const Nanoseconds due = scheduler_.turn();
+  const bool stayed = !leaving_;
+  leave_if_ended();
+  if (stayed && leaving_) return clock_.now();
+  return std::min(due, network_.next_deadline());
+}
+
+void NodeShell::run() {
+  std::function<void()> look = [&] {
+    leave_if_ended();
+    if (!leaving_) scheduler_.timers().set(clock_.now() + look_every, [l = &look] { (*l)(); });
   };
-  watch();
+  look();
   scheduler_.run();
 }
 

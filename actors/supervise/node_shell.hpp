@@ -1,6 +1,6 @@
 // A node put together: clock, network, scheduler, and the one actor that decides what it is (worker
-// or controller). It brings messages to that actor and keeps the routes. One OS thread runs it.
-// Thread rule: made and run on one thread; wake() from any.
+// or controller). It brings messages to that actor and keeps the routes. One OS thread runs it, or
+// a simulation gives it its turns. Thread rule: made and run on one thread; wake() from any.
 #pragma once
 
 #include <functional>
@@ -38,6 +38,7 @@ class NodeShell {
   ~NodeShell();
 
   Scheduler& scheduler() { return scheduler_; }
+  const Scheduler& scheduler() const { return scheduler_; }
   Network& network() { return network_; }
   /// Adds an actor that messages are offered to.
   void add(Deliver deliver) { actors_.push_back(std::move(deliver)); }
@@ -45,12 +46,23 @@ class NodeShell {
   /// Has requests and replies for objects go through `fetcher`. Requires: it outlives the run.
   void use(Fetcher& fetcher) { fetcher_ = &fetcher; }
 
-  /// Runs until `ended` says so, then leaves: fibers end, neighbours are told.
-  void run_until(const std::function<bool()>& ended);
+  /// Says when this node's work is over: then it leaves, fibers end, neighbours are told. `ended`
+  /// is asked after every turn. Requires: once, before the first turn.
+  void begin(std::function<bool()> ended);
+  /// One turn, which never waits. Returns when the next is due, if nothing arrives before.
+  Nanoseconds turn();
+  /// Whether the node has left.
+  bool finished() const { return scheduler_.shutdown().finished(); }
+
+  /// All turns and the waits between them. What `ended` asks may change while nothing arrives: it
+  /// is looked at every few milliseconds. Requires: begin().
+  void run();
 
  private:
   class Source;
   class Handler;
+
+  void leave_if_ended();
 
   const ShellConfig config_;
   const Graph& graph_;
@@ -62,6 +74,9 @@ class NodeShell {
   Network network_;
   std::unique_ptr<Source> source_;
   Scheduler scheduler_;
+  std::function<bool()> ended_;
+  bool leaving_ = false;
+  Nanoseconds left_at_ = never;
 };
 
 }  // namespace luxodus

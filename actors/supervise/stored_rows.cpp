@@ -79,11 +79,11 @@ StoredRows::~StoredRows() = default;
 namespace {
 
 /// One thread's work: fibers on a node of its own, until the rows are done.
-void work(const RunSetup& run, const NodeSetup& node, const RowRunner::MakeWorker& make,
-          Rows& rows) {
+void work(const RunSetup& run, const NodeSetup& node, const Clock& clock,
+          const RowRunner::MakeWorker& make, Rows& rows) {
   _mm_setcsr(_mm_getcsr() | 0x8040);  // denormals to zero, as in the tracing of particles
-  NoTransport transport(run.clock);
-  NodeShell shell({node.net, worker_limits(node)}, run.graph, run.clock, transport);
+  NoTransport transport(clock);
+  NodeShell shell({node.net, worker_limits(node)}, run.graph, clock, transport);
   FetchingCells cells(run, node, shell);
   const GeometryAccess access = GeometryAccess::through(*run.proxies, cells.source());
   std::vector<RowRunner::Worker> workers;
@@ -97,16 +97,15 @@ void work(const RunSetup& run, const NodeSetup& node, const RowRunner::MakeWorke
     };
     LUX_CHECK(shell.scheduler().fibers().start("rows", body), "the plan counts a fiber for each");
   }
-  shell.run_until([&] { return running == 0; });
+  shell.begin([&] { return running == 0; });
+  shell.run();
 }
 
 }  // namespace
 
 void StoredRows::run(int64_t rows, const MakeWorker& make, const Finished& finished) const {
   if (rows == 0) return;
-  ZmqContext context({});
-  const RunSetup run{*scene_, nullptr,        &stored_->proxies, &stored_->objects,
-                     0,       stored_->graph, stored_->clock,    context,
+  const RunSetup run{*scene_, nullptr, &stored_->proxies, &stored_->objects, 0, stored_->graph,
                      {},      nullptr};
   NodeSetup node;
   node.net.self = {0};
@@ -119,7 +118,7 @@ void StoredRows::run(int64_t rows, const MakeWorker& make, const Finished& finis
   std::string wrong;
   const auto guarded = [&] {
     try {
-      work(run, node, make, shared);
+      work(run, node, stored_->clock, make, shared);
     } catch (const std::exception& e) {
       shared.failed = true;
       const std::lock_guard lock(shared.mutex);

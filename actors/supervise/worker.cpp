@@ -24,20 +24,20 @@ PhotonConfig photon_config(const NodeSetup& node, NodeTrace* trace) {
 
 }  // namespace
 
-Worker::Worker(const RunSetup& run, const NodeSetup& node)
+Worker::Worker(const RunSetup& run, const NodeSetup& node, const NodeSeams& seams)
     : run_(run),
       node_(node),
       trace_(run.observation == nullptr ? nullptr : run.observation->trace_of(node.net.self)),
-      transport_(run, node),
       shell_({node.net, worker_limits(node), ShellConfig{}.room_bytes_most, node.shutdown_phase},
-             run.graph, run.clock, transport_.transport()),
+             run.graph, seams.clock, seams.transport),
       cells_(run.objects == nullptr ? nullptr
                                     : std::make_unique<FetchingCells>(run, node, shell_, trace_)),
       leases_(lease_config(node, trace_), shell_.scheduler(), shell_.network()),
       photons_(run.scene,
                cells_ ? GeometryAccess::through(*run.proxies, cells_->source())
                       : GeometryAccess::resident(*run.index),
-               run.seed, photon_config(node, trace_), shell_.scheduler(), leases_) {}
+               run.seed, photon_config(node, trace_), shell_.scheduler(), leases_,
+               seams.make_tracer) {}
 
 Worker::~Worker() = default;
 
@@ -51,29 +51,30 @@ void Worker::show_to(Observation& seen) {
   metrics_->start(seen);
 }
 
-Result<WorkerReport> Worker::run(const std::function<bool()>& stop) {
-  if (auto joined = join_links(transport_.sockets(), node_); !joined.ok()) return joined.problem();
+void Worker::start(std::function<bool()> stop) {
+  stop_ = std::move(stop);
   shell_.add([this](const Delivery& d) { return leases_.deliver(d); });
   leases_.start(photons_);
   if (cells_) cells_->pin(node_.pins);
   photons_.start();
   if (run_.observation != nullptr) show_to(*run_.observation);
+  shell_.begin([this] { return may_leave(); });
   shell_.scheduler().seal();
-  Nanoseconds leave_at = never;
-  shell_.run_until([&] {
-    if (leases_.ended()) return true;
-    if (!stop()) return false;
-    const Nanoseconds now = shell_.scheduler().clock().now();
-    if (leave_at == never) {
-      leave_at = now + node_.shutdown_phase;
-      leases_.drain();
-    }
-    return leases_.drained() || now >= leave_at;
-  });
-  if (leases_.fault())
-    return Problem{{},
-                   run_.name_of(node_.net.self) + ": " + leases_.fault()->what +
-                       meeting_trouble(transport_.sockets(), run_.context, shell_.network())};
+}
+
+bool Worker::may_leave() {
+  if (leases_.ended()) return true;
+  if (!stop_()) return false;
+  const Nanoseconds now = shell_.scheduler().clock().now();
+  if (leave_at_ == never) {
+    leave_at_ = now + node_.shutdown_phase;
+    leases_.drain();
+  }
+  return leases_.drained() || now >= leave_at_;
+}
+
+Result<WorkerReport> Worker::result() const {
+  if (leases_.fault()) return *leases_.fault();
   WorkerReport report = cells_ ? cells_->report() : WorkerReport{};
   report.waited = shell_.scheduler().counters().waited;
   return report;

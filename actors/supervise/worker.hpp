@@ -10,27 +10,40 @@ namespace luxodus {
 
 class Worker {
  public:
-  /// Requires: both outlive this.
-  Worker(const RunSetup& run, const NodeSetup& node);
+  /// Requires: all outlive this.
+  Worker(const RunSetup& run, const NodeSetup& node, const NodeSeams& seams);
   ~Worker();
 
-  /// Traces until the controller says that the run has ended; or until `stop` says so, when what is
-  /// at hand is traced and given to the controller before this node leaves.
-  /// Errors: as join_links; a controller that never came, was lost, or could not begin.
-  Result<WorkerReport> run(const std::function<bool()>& stop);
+  /// From the shell's next turn on this traces until the controller says that the run has ended; or
+  /// until `stop` says so, when what is at hand is traced and given to the controller before this
+  /// node leaves.
+  void start(std::function<bool()> stop);
+
+  /// Runs it, or gives it its turns.
+  NodeShell& shell() { return shell_; }
+  const NodeShell& shell() const { return shell_; }
+  const LeaseClient& leases() const { return leases_; }
+  /// Null where the node holds everything.
+  const FetchingCells* cells() const { return cells_.get(); }
+
+  /// What it did. Errors: a controller that never came, was lost, or could not begin.
+  /// Requires: shell().finished().
+  Result<WorkerReport> result() const;
 
  private:
   void show_to(Observation& seen);
+  bool may_leave();
 
   const RunSetup& run_;
   const NodeSetup& node_;
   NodeTrace* const trace_;  // null where nothing is traced
-  NodeTransport transport_;
   NodeShell shell_;
   std::unique_ptr<FetchingCells> cells_;  // where the node does not hold everything
   LeaseClient leases_;
   PhotonThreads photons_;
   std::optional<NodeMetrics> metrics_;
+  std::function<bool()> stop_;
+  Nanoseconds leave_at_ = never;
 };
 
 }  // namespace luxodus

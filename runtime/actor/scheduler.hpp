@@ -61,9 +61,11 @@ class Scheduler {
   // ---- the node's parts --------------------------------------------------------------------
 
   Fibers& fibers() { return fibers_; }
+  const Fibers& fibers() const { return fibers_; }
   Timers& timers() { return timers_; }
   Handoff& handoff() { return handoff_; }
   Shutdown& shutdown() { return shutdown_; }
+  const Shutdown& shutdown() const { return shutdown_; }
   const Clock& clock() const { return clock_; }
 
   /// Registers the scheduler's own numbers.

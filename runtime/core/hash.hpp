@@ -15,7 +15,10 @@ namespace luxodus {
 
 class Hasher {
  public:
-  Hasher() : state_(XXH3_createState(), XXH3_freeState) { XXH3_64bits_reset(state_.get()); }
+  Hasher() : state_(XXH3_createState(), XXH3_freeState) { reset(); }
+
+  /// Forgets what was added.
+  void reset() { XXH3_64bits_reset(state_.get()); }
 
   void add(const void* bytes, size_t count) { XXH3_64bits_update(state_.get(), bytes, count); }
   void add(uint64_t v) { add(&v, sizeof v); }

@@ -23,7 +23,9 @@ enum class RandomStream : uint32_t {
   layout = 3,
   test = 4,
   graph = 5,
-  fetch = 6
+  fetch = 6,
+  faults = 7,
+  simulation = 8
 };
 
 /// One Philox 4x32-10 block, the definition that every other form must equal.

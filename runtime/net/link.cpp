@@ -51,8 +51,8 @@ uint64_t Link::held_bytes() const {
 // ---- what is said
 
 Sent Link::give(const Envelope& envelope, std::span<const std::byte> body, Lane lane) {
-  alignas(8) std::array<std::byte, limits::envelope_bytes> head;
-  const size_t head_bytes = around_.codec.encode(envelope, head);
+  alignas(8) std::array<std::byte, limits::frame_head_bytes> head;
+  const size_t head_bytes = around_.codec.encode(envelope, body, head);
   const Sent sent = around_.transport.send(neighbour_, lane, {head.data(), head_bytes}, body);
   switch (sent) {
     case Sent::taken:

@@ -23,7 +23,7 @@ namespace luxodus {
 namespace {
 
 /// The longest frame: an envelope and a message, or a chunk, which is no longer.
-constexpr int64_t frame_bytes_most = limits::envelope_bytes + limits::message_bytes;
+constexpr int64_t frame_bytes_most = limits::frame_head_bytes + limits::message_bytes;
 constexpr Nanoseconds reminder_interval = seconds(60);
 
 std::optional<NodeId> node_of(std::string_view name) {

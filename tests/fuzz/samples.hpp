@@ -65,12 +65,13 @@ inline Envelope sample_envelope() {
 /// A whole frame: envelope, message, payload.
 inline std::vector<std::byte> sample_frame(Codec& codec, const Message& message,
                                            std::span<const std::byte> payload = {}) {
-  std::vector<std::byte> out(limits::envelope_bytes + limits::message_bytes);
-  size_t bytes = codec.encode(sample_envelope(), out);
-  bytes += codec.encode(message, std::span(out).subspan(bytes)).value();
-  out.resize(bytes);
-  out.insert(out.end(), payload.begin(), payload.end());
-  return out;
+  std::vector<std::byte> body(limits::message_bytes);
+  body.resize(codec.encode(message, body).value());
+  body.insert(body.end(), payload.begin(), payload.end());
+  std::vector<std::byte> frame(limits::frame_head_bytes);
+  frame.resize(codec.encode(sample_envelope(), body, frame));
+  frame.insert(frame.end(), body.begin(), body.end());
+  return frame;
 }
 
 }  // namespace luxodus::test

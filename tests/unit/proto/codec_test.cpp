@@ -37,9 +37,9 @@ TEST_CASE("every message is read as it was written", "[proto][codec]") {
 TEST_CASE("an envelope is read as it was written, and has the bytes it is said to have",
           "[proto][codec]") {
   Codec codec;
-  Bytes out(limits::envelope_bytes);
-  const size_t bytes = codec.encode(sample_envelope(), out);
-  CHECK(bytes == 96);
+  Bytes out(limits::frame_head_bytes);
+  const size_t bytes = codec.encode(sample_envelope(), {}, out);
+  CHECK(bytes == limits::check_bytes + 96);
   const auto read = codec.open_frame(std::span(out).first(bytes));
   REQUIRE(read.ok());
   CHECK(read->envelope == sample_envelope());
@@ -63,6 +63,18 @@ TEST_CASE("a frame is read at any address, and its payload behind its message", 
     REQUIRE(read.ok());
     CHECK(read->message == message);
     CHECK(Bytes(read->payload.begin(), read->payload.end()) == payload);
+  }
+}
+
+TEST_CASE("a frame of which any bit has changed is refused", "[proto][codec]") {
+  Codec codec;
+  Bytes frame = sample_frame(codec, Flush{1, 2, {3, 4}}, Bytes(20, std::byte{7}));
+  REQUIRE(codec.open_frame(frame).ok());
+  for (size_t bit = 0; bit < 8 * frame.size(); ++bit) {
+    const std::byte turned{static_cast<uint8_t>(1u << (bit % 8))};
+    frame[bit / 8] ^= turned;
+    CHECK_FALSE(codec.open_frame(frame).ok());
+    frame[bit / 8] ^= turned;
   }
 }
 

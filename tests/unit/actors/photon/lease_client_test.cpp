@@ -16,5 +16,5 @@ TEST_CASE("flushes that cost much come seldom, so that they take a fiftieth of t
 TEST_CASE("merged batches are flushed long before their leases end, whatever that costs",
           "[lease client]") {
   CHECK(flush_interval(seconds(5), seconds(10), seconds(120)) == seconds(30));
-  CHECK(flush_interval(seconds(5), seconds(10), 0) == seconds(5));
+  CHECK(flush_interval(seconds(5), 0, seconds(8)) == seconds(2));
 }

@@ -9,38 +9,55 @@ namespace {
 constexpr NodeId ann{1}, bob{2};
 }
 
+TEST_CASE("a batch that was late is given twice the time, until it is counted", "[leases]") {
+  LeaseBook book(0);
+  book.open_until(1);
+  Nanoseconds now = 0;
+  for (const Nanoseconds span : {100, 200, 400, 800}) {
+    REQUIRE(book.lend(NodeId{1}, 1, now, 100).count == 1);
+    CHECK(book.fence_late(now + span - 1).empty());
+    now += span;
+    REQUIRE(book.fence_late(now).size() == 1);
+  }
+  const uint64_t lease = book.lend(NodeId{1}, 1, now, 100).first_lease;
+  book.commit({lease});
+  book.open_until(2);
+  REQUIRE(book.lend(NodeId{1}, 1, now, 100).count == 1);
+  CHECK(book.fence_late(now + 100).size() == 1);
+}
+
 TEST_CASE("a book that goes on lends the batches that are missing first, and tells them",
           "[lease]") {
   LeaseBook book(10, {3, 7}, 1000);
   CHECK(book.committed() == 8);
   CHECK(book.missing() == std::vector<int64_t>{3, 7});
   book.open_until(12);
-  const LentBatches first = book.lend(NodeId{1}, 5, 100);
+  const LentBatches first = book.lend(NodeId{1}, 5, 0, 100);
   CHECK(first.first_lease == 1000);
   CHECK(first.first_batch == 3);
   CHECK(first.count == 1);
-  CHECK(book.lend(NodeId{1}, 5, 100).first_batch == 7);
-  const LentBatches fresh = book.lend(NodeId{2}, 5, 100);
+  CHECK(book.lend(NodeId{1}, 5, 0, 100).first_batch == 7);
+  const LentBatches fresh = book.lend(NodeId{2}, 5, 0, 100);
   CHECK(fresh.first_batch == 10);
   CHECK(fresh.count == 2);
   book.commit({1000});
   CHECK(book.missing() == std::vector<int64_t>{7, 10, 11});
   CHECK(book.fence_leases(NodeId{2}, {1001, 1002}).size() == 1);  // the other is of node 1
-  CHECK(book.lend(NodeId{1}, 1, 100).first_batch == 10);
+  CHECK(book.lend(NodeId{1}, 1, 0, 100).first_batch == 10);
 }
 
 TEST_CASE("a lease book lends every batch of a round once and none beyond it", "[lease]") {
   LeaseBook book(3);
-  CHECK(book.lend(ann, 4, 100).count == 0);
+  CHECK(book.lend(ann, 4, 0, 100).count == 0);
   book.open_until(10);
-  const LentBatches first = book.lend(ann, 4, 100);
-  const LentBatches second = book.lend(bob, 4, 100);
+  const LentBatches first = book.lend(ann, 4, 0, 100);
+  const LentBatches second = book.lend(bob, 4, 0, 100);
   CHECK(first.first_batch == 3);
   CHECK(first.count == 4);
   CHECK(second.first_batch == 7);
   CHECK(second.count == 3);
   CHECK(second.first_lease == first.first_lease + 4);
-  CHECK(book.lend(ann, 4, 100).count == 0);
+  CHECK(book.lend(ann, 4, 0, 100).count == 0);
   CHECK_FALSE(book.round_done());
   for (uint64_t i = 0; i < 7; ++i) book.commit({first.first_lease + i});
   CHECK(book.round_done());
@@ -50,23 +67,23 @@ TEST_CASE("a lease book lends every batch of a round once and none beyond it", "
 TEST_CASE("a late lease is fenced, lent again first, and can no longer be counted", "[lease]") {
   LeaseBook book(0);
   book.open_until(8);
-  const LentBatches late = book.lend(ann, 2, 100);
-  book.lend(bob, 2, 300);
+  const LentBatches late = book.lend(ann, 2, 0, 100);
+  book.lend(bob, 2, 0, 300);
   CHECK(book.next_deadline() == Nanoseconds{100});
   CHECK(book.fence_late(99).empty());
   CHECK(book.fence_late(100).size() == 2);
   CHECK_FALSE(book.stand(ann, {late.first_lease}));
-  const LentBatches again = book.lend(bob, 3, 200);  // 0 and 1 are no neighbours of 4
+  const LentBatches again = book.lend(bob, 3, 0, 200);  // 0 and 1 are no neighbours of 4
   CHECK(again.first_batch == 0);
   CHECK(again.count == 2);
-  CHECK(book.lend(bob, 8, 200).first_batch == 4);
+  CHECK(book.lend(bob, 8, 0, 200).first_batch == 4);
 }
 
 TEST_CASE("a flush counts only for the node that has all its leases, each named once", "[lease]") {
   LeaseBook book(0);
   book.open_until(8);
-  const uint64_t one = book.lend(ann, 2, 100).first_lease;
-  const uint64_t other = book.lend(bob, 1, 100).first_lease;
+  const uint64_t one = book.lend(ann, 2, 0, 100).first_lease;
+  const uint64_t other = book.lend(bob, 1, 0, 100).first_lease;
   CHECK(book.stand(ann, {one, one + 1}));
   CHECK_FALSE(book.stand(ann, {one, one}));
   CHECK_FALSE(book.stand(ann, {one, other}));
@@ -79,9 +96,9 @@ TEST_CASE("a flush counts only for the node that has all its leases, each named 
 TEST_CASE("a round that is closed ends with what was lent", "[lease]") {
   LeaseBook book(0);
   book.open_until(100);
-  const LentBatches lent = book.lend(ann, 2, 100);
+  const LentBatches lent = book.lend(ann, 2, 0, 100);
   book.close();
-  CHECK(book.lend(ann, 5, 100).count == 0);
+  CHECK(book.lend(ann, 5, 0, 100).count == 0);
   CHECK_FALSE(book.round_done());
   book.commit({lent.first_lease, lent.first_lease + 1});
   CHECK(book.round_done());
@@ -100,7 +117,7 @@ TEST_CASE("a node is lent what it prefers while there is some within reach, then
   LeaseBook book(0, {}, 1, 6);
   book.open_until(8);
   const auto next = [&](int64_t group) {
-    const LentBatches lent = book.lend(ann, 4, 100, likes(group));
+    const LentBatches lent = book.lend(ann, 4, 0, 100, likes(group));
     CHECK(lent.count == 1);  // its neighbours are of the other group
     return lent.first_batch;
   };
@@ -112,7 +129,7 @@ TEST_CASE("a node is lent what it prefers while there is some within reach, then
   CHECK(next(0) == 2);
   CHECK(next(1) == 4);
   CHECK(next(1) == 6);
-  CHECK(book.lend(ann, 1, 100, likes(0)).count == 0);
+  CHECK(book.lend(ann, 1, 0, 100, likes(0)).count == 0);
 }
 
 TEST_CASE("preferences change who traces a batch, never which batches a round holds", "[lease]") {
@@ -121,7 +138,7 @@ TEST_CASE("preferences change who traces a batch, never which batches a round ho
   std::set<int64_t> seen;
   for (int turn = 0; seen.size() < 20; ++turn) {
     const bool first = turn % 3 == 0;
-    const LentBatches lent = book.lend(first ? ann : bob, 1, 100, likes(first ? 0 : 1));
+    const LentBatches lent = book.lend(first ? ann : bob, 1, 0, 100, likes(first ? 0 : 1));
     REQUIRE(lent.count == 1);
     CHECK(lent.first_batch < 25);
     CHECK(seen.insert(lent.first_batch).second);
@@ -129,23 +146,23 @@ TEST_CASE("preferences change who traces a batch, never which batches a round ho
   }
   CHECK(*seen.begin() == 5);
   CHECK(book.round_done());
-  CHECK(book.lend(bob, 1, 100, likes(0)).count == 0);
+  CHECK(book.lend(bob, 1, 0, 100, likes(0)).count == 0);
 }
 
 TEST_CASE("a round that is closed holds no gaps: what was skipped is still lent", "[lease]") {
   LeaseBook book(0, {}, 1, 10);
   book.open_until(100);
-  const uint64_t first = book.lend(ann, 1, 100, likes(1)).first_lease;   // 1
-  const uint64_t second = book.lend(ann, 1, 100, likes(1)).first_lease;  // 3
+  const uint64_t first = book.lend(ann, 1, 0, 100, likes(1)).first_lease;   // 1
+  const uint64_t second = book.lend(ann, 1, 0, 100, likes(1)).first_lease;  // 3
   book.close();
   CHECK(book.lent_end() == 4);
   book.commit({first, second});
   CHECK_FALSE(book.round_done());
-  const LentBatches zero = book.lend(bob, 9, 100);
-  const LentBatches two = book.lend(bob, 9, 100, likes(1));
+  const LentBatches zero = book.lend(bob, 9, 0, 100);
+  const LentBatches two = book.lend(bob, 9, 0, 100, likes(1));
   CHECK(zero.first_batch == 0);
   CHECK(two.first_batch == 2);
-  CHECK(book.lend(bob, 9, 100).count == 0);
+  CHECK(book.lend(bob, 9, 0, 100).count == 0);
   book.commit({zero.first_lease, two.first_lease});
   CHECK(book.round_done());
 }
@@ -153,8 +170,8 @@ TEST_CASE("a round that is closed holds no gaps: what was skipped is still lent"
 TEST_CASE("what was fenced is lent again before what a node prefers", "[lease]") {
   LeaseBook book(0, {}, 1, 10);
   book.open_until(10);
-  book.lend(ann, 1, 100, likes(0));
+  book.lend(ann, 1, 0, 100, likes(0));
   book.fence_late(100);
-  CHECK(book.lend(bob, 1, 200, likes(1)).first_batch == 0);
-  CHECK(book.lend(bob, 1, 200, likes(1)).first_batch == 1);
+  CHECK(book.lend(bob, 1, 0, 200, likes(1)).first_batch == 0);
+  CHECK(book.lend(bob, 1, 0, 200, likes(1)).first_batch == 1);
 }

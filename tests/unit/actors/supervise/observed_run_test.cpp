@@ -112,16 +112,13 @@ TEST_CASE("what a plan says of a flush, no flush passes", "[nodes][plan]") {
 TEST_CASE("a budget that is too small is refused with the key and what it must be",
           "[nodes][plan]") {
   const auto scene = scene_of("smoke_tank", "", 1);
-  const SystemClock clock;
-  ZmqContext context({});
   AmpRequest request;
   request.nodes = 2;
   request.links = 2;
   const auto graph = minimum_path_graph(request);
   REQUIRE(graph.ok());
   const LocalRun local(scene, 1, 1);
-  RunSetup run{*scene,        &local.index(), nullptr, nullptr,      1,
-               graph.value(), clock,          context, {"n0", "n1"}, nullptr};
+  RunSetup run{*scene, &local.index(), nullptr, nullptr, 1, graph.value(), {"n0", "n1"}, nullptr};
   NodeSetup node;
   node.net.self = {1};
   const uint64_t needed = tally_plan(*scene, node.photons).total_bytes();
@@ -135,8 +132,7 @@ TEST_CASE("a budget that is too small is refused with the key and what it must b
 
   const auto parts = scene_of("office_floor", "smoke_emergency", 8);
   const SceneObjects objects(*parts, std::array{NodeId{0}, NodeId{1}}, 1);
-  RunSetup fetching{*parts,        nullptr, nullptr, &objects,     1,
-                    graph.value(), clock,   context, {"n0", "n1"}, nullptr};
+  RunSetup fetching{*parts, nullptr, nullptr, &objects, 1, graph.value(), {"n0", "n1"}, nullptr};
   NodeSetup small;
   small.net.self = {0};
   small.object_bytes = objects.largest_wire_bytes();

@@ -37,7 +37,7 @@ namespace {
 struct Wire {
   struct Queue {
     Queue() : frames(64) {
-      for (auto& frame : frames) frame.reserve(defaults::bulk_chunk_bytes + limits::envelope_bytes);
+      for (auto& frame : frames) frame.reserve(defaults::bulk_chunk_bytes + limits::frame_head_bytes);
     }
     std::vector<std::vector<std::byte>> frames;
     size_t first = 0, count = 0;

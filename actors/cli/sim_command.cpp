@@ -1,0 +1,223 @@
+// luxodus sim: runs on simulated nodes under faults, from seeds.
+#include <spdlog/spdlog.h>
+
+#include <charconv>
+#include <chrono>
+
+#include "actors/cli/command.hpp"
+#include "actors/simulate/simulation.hpp"
+#include "runtime/core/clock.hpp"
+#include "scenes/transport/compile.hpp"
+
+namespace luxodus::cli {
+
+namespace {
+
+struct SimCommandOptions {
+  std::string scene, scenario, seeds;
+  uint64_t seed = 0;
+  int nodes = 4;
+  int links = 4;
+  int cells = 16;
+  std::string particles = "4k";
+  int batches = 40;
+  std::string faults = "swarm";
+  std::string faults_last = "30s";
+  std::string work = "60s";
+  bool twice = false;
+  bool log = false;
+};
+
+/// Seeds [first, end).
+struct SeedRange {
+  uint64_t first = 0, end = 1;
+};
+
+/// "0..200", or one number.
+Result<SeedRange> parse_seeds(const SimCommandOptions& options) {
+  if (options.seeds.empty()) return SeedRange{options.seed, options.seed + 1};
+  const std::string& text = options.seeds;
+  SeedRange range;
+  const char* const end = text.data() + text.size();
+  const auto first = std::from_chars(text.data(), end, range.first);
+  const bool dots =
+      first.ec == std::errc() && end - first.ptr > 2 && first.ptr[0] == '.' && first.ptr[1] == '.';
+  const auto last = dots ? std::from_chars(first.ptr + 2, end, range.end) : first;
+  if (!dots || last.ec != std::errc() || last.ptr != end || range.end <= range.first)
+    return Problem{{}, "--seeds \"" + text + "\" is no range: write 0..200, the last not included"};
+  return range;
+}
+
+Result<Nanoseconds> span_of(const std::string& text) {
+  auto span_s = parse_seconds(text);
+  if (!span_s.ok()) return span_s.problem();
+  return static_cast<Nanoseconds>(span_s.value() * 1e9);
+}
+
+Result<SimOptions> sim_options(const SimCommandOptions& options) {
+  SimOptions sim;
+  sim.nodes = options.nodes;
+  sim.links = options.links;
+  sim.faults = options.faults == "swarm";
+  const auto last = span_of(options.faults_last);
+  if (!last.ok()) return last.problem();
+  const auto work = span_of(options.work);
+  if (!work.ok()) return work.problem();
+  sim.faults_last = last.value();
+  sim.work = work.value();
+  return sim;
+}
+
+/// The scene with batches so small that there are many.
+Result<std::unique_ptr<SimScene>> sim_scene(const SimCommandOptions& options) {
+  const auto particles = parse_count(options.particles);
+  if (!particles.ok()) return particles.problem();
+  const auto loaded = load_scene(options.scene);
+  if (!loaded) return Problem{{options.scene, 0}, "the scene has problems, told above"};
+  const auto description = std::make_shared<SceneDescription>(*loaded);
+  description->run.batch_particles = std::max<int64_t>(1, particles.value() / options.batches);
+  const auto scenario = find_scenario(*description, options.scenario);
+  if (!scenario.ok()) return scenario.problem();
+  auto scene = compile_scene(description, scenario.value(), {options.cells});
+  if (!scene.ok()) return scene.problem();
+  return std::make_unique<SimScene>(scene.value(), description->run.seed, particles.value());
+}
+
+/// The one command that repeats it.
+std::string command_of(const SimCommandOptions& options, uint64_t seed) {
+  std::string text = "luxodus sim " + options.scene + " --seed " + std::to_string(seed);
+  const auto add = [&](const char* option, const std::string& value, const std::string& usual) {
+    if (value != usual) text += std::string(" ") + option + " " + value;
+  };
+  const SimCommandOptions usual;
+  add("--scenario", options.scenario, usual.scenario);
+  add("--nodes", std::to_string(options.nodes), std::to_string(usual.nodes));
+  add("--links", std::to_string(options.links), std::to_string(usual.links));
+  add("--cells", std::to_string(options.cells), std::to_string(usual.cells));
+  add("--particles", options.particles, usual.particles);
+  add("--batches", std::to_string(options.batches), std::to_string(usual.batches));
+  add("--faults", options.faults, usual.faults);
+  add("--faults-last", options.faults_last, usual.faults_last);
+  add("--work", options.work, usual.work);
+  return text;
+}
+
+void print_run(uint64_t seed, const SimReport& report) {
+  const SimWorld::Counters& w = report.world;
+  std::printf(
+      "seed %llu: %s\n", static_cast<unsigned long long>(seed),
+      report.failure.empty() ? "ends as the plain loop, bit for bit" : report.failure.c_str());
+  std::printf("  nodes    %s\n", report.nodes.c_str());
+  std::printf("  time     %.3f s virtual, %llu events, trace %016llx\n",
+              static_cast<double>(report.virtual_time) * 1e-9,
+              static_cast<unsigned long long>(w.events),
+              static_cast<unsigned long long>(report.trace_hash));
+  std::printf(
+      "  frames   %llu, of these lost %llu, doubled %llu, overtaken %llu, harmed %llu, late by "
+      "seconds %llu\n",
+      static_cast<unsigned long long>(w.frames), static_cast<unsigned long long>(w.lost),
+      static_cast<unsigned long long>(w.duplicated), static_cast<unsigned long long>(w.reordered),
+      static_cast<unsigned long long>(w.corrupted), static_cast<unsigned long long>(w.ghosts));
+  std::printf("  faults   %llu, of these crashes %llu\n", static_cast<unsigned long long>(w.faults),
+              static_cast<unsigned long long>(w.crashes));
+  std::printf("  leases   %llu, fenced %llu; flushes refused %llu; fetches %llu\n",
+              static_cast<unsigned long long>(report.leases),
+              static_cast<unsigned long long>(report.leases_fenced),
+              static_cast<unsigned long long>(report.flushes_refused),
+              static_cast<unsigned long long>(report.caches.fetches));
+}
+
+/// Errors: as simulate; with `twice`, a second run that is not the same.
+Result<SimReport> simulated(const SimScene& scene, const SimOptions& options, bool twice) {
+  auto report = simulate(scene, options);
+  if (!report.ok() || !twice || !report->failure.empty()) return report;
+  const auto again = simulate(scene, options);
+  if (again.ok() && again->trace_hash != report->trace_hash)
+    report->failure =
+        "a second run of this seed takes another course: something beside the seed decides";
+  return report;
+}
+
+Result<ExitCode> simulate_seeds(const SimCommandOptions& options) {
+  const auto seeds = parse_seeds(options);
+  if (!seeds.ok()) return seeds.problem();
+  auto sim = sim_options(options);
+  if (!sim.ok()) return sim.problem();
+  const auto scene = sim_scene(options);
+  if (!scene.ok()) return scene.problem();
+  install_interrupt_handler();
+  if (!options.log) spdlog::set_level(spdlog::level::err);
+  const SystemClock clock;
+  const Nanoseconds began = clock.now();
+  const bool single = seeds->end - seeds->first == 1;
+  ProgressLine line("simulate");
+  uint64_t done = 0, failed = 0, events = 0;
+  double virtual_s = 0;
+  for (uint64_t seed = seeds->first; seed < seeds->end && !interrupt_flag(); ++seed, ++done) {
+    sim->seed = seed;
+    const auto report = simulated(*scene.value(), sim.value(), options.twice);
+    if (!report.ok()) return report.problem();
+    events += report->world.events;
+    virtual_s += static_cast<double>(report->virtual_time) * 1e-9;
+    if (single || !report->failure.empty()) print_run(seed, report.value());
+    if (!report->failure.empty()) {
+      ++failed;
+      std::printf("  again    %s\n", command_of(options, seed).c_str());
+    }
+    if (!single)
+      line.show_share(static_cast<double>(done + 1) /
+                      static_cast<double>(seeds->end - seeds->first));
+  }
+  const double passed = static_cast<double>(clock.now() - began) * 1e-9;
+  std::printf(
+      "%llu seeds, %llu failed; %s events in %.1f s: %s events/s, %.0f virtual seconds a second\n",
+      static_cast<unsigned long long>(done), static_cast<unsigned long long>(failed),
+      short_number(static_cast<double>(events)).c_str(), passed,
+      short_number(static_cast<double>(events) / passed).c_str(), virtual_s / passed);
+  if (interrupt_flag()) return ExitCode::interrupted;
+  return failed == 0 ? ExitCode::success : ExitCode::failure;
+}
+
+}  // namespace
+
+void add_sim(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<SimCommandOptions>();
+  CLI::App* command =
+      app.add_subcommand("sim", "Run a scene on simulated nodes, under faults drawn from a seed");
+  command->footer(
+      "All nodes run their real code in one thread, by virtual time, over links that delay, lose,\n"
+      "double, overtake and harm frames, between nodes that crash, pause and begin anew. After "
+      "every\n"
+      "event what must hold is checked; in the end the result must be the plain loop's, bit for "
+      "bit.\n"
+      "One seed, one run. A seed that fails prints the command that repeats it.\n"
+      "  luxodus sim scenes/library/empty_room.toml --seed 7\n"
+      "  luxodus sim scenes/library/empty_room.toml --seeds 0..10000");
+  command->add_option("scene", options->scene, "scene file (TOML)")->required();
+  command->add_option("--scenario", options->scenario, "name of a scenario [the first]");
+  command->add_option("--seed", options->seed, "of faults and nodes [0]")->transform(seed_number());
+  command->add_option("--seeds", options->seeds, "many: 0..200, the last not included");
+  command->add_option("--nodes", options->nodes, "workers [4]")->check(CLI::Range(1, 64));
+  command->add_option("--links", options->links, "of a node, at most [4]")
+      ->check(CLI::Range(1, 16));
+  command->add_option("--cells", options->cells, "parts of the geometry [16]")
+      ->check(CLI::Range(1, 100000));
+  command->add_option("--particles", options->particles, "to trace [4k]");
+  command->add_option("--batches", options->batches, "that they fall into [40]")
+      ->check(CLI::Range(1, 1000000));
+  command->add_option("--faults", options->faults, "swarm: drawn from the seed; none [swarm]")
+      ->check(CLI::IsMember({"swarm", "none"}));
+  command->add_option("--faults-last", options->faults_last,
+                      "virtual time until all is healed [30s]");
+  command->add_option("--work", options->work,
+                      "virtual time that one worker alone would trace for [60s]");
+  command->add_flag("--twice", options->twice, "each seed twice: both runs must be the same");
+  command->add_flag("--log", options->log, "what the nodes log");
+  command->callback([options, &exit_code] {
+    auto done = simulate_seeds(*options);
+    if (!done.ok()) tell(done.problem());
+    exit_code = done.ok() ? done.value() : ExitCode::bad_input;
+  });
+}
+
+}  // namespace luxodus::cli

@@ -1,0 +1,247 @@
+#include "actors/simulate/simulation.hpp"
+
+#include <fmt/format.h>
+
+#include <cstring>
+
+#include "runtime/core/random.hpp"
+
+namespace luxodus {
+
+// ---- the scene ---------------------------------------------------------------------------------
+
+SimScene::SimScene(std::shared_ptr<const CompiledScene> scene, uint64_t seed, int64_t particles)
+    : scene_(std::move(scene)), seed_(seed), particles_(particles), reference_(fresh_run(true)) {
+  StopRule stop;
+  stop.particles = particles;
+  reference_->run(stop, std::atomic<bool>{false}, [](const Progress&) {});
+}
+
+std::unique_ptr<LocalRun> SimScene::fresh_run(bool resident) const {
+  if (resident) return std::make_unique<LocalRun>(scene_, seed_, 1);
+  return std::make_unique<LocalRun>(scene_, seed_, 1, nullptr);
+}
+
+std::string SimScene::difference(const LocalRun& run) const {
+  const Totals &ours = run.totals(), &theirs = reference_->totals();
+  for (int g = 0; g < theirs.groups(); ++g) {
+    if (ours.batches(g) != theirs.batches(g))
+      return fmt::format("source group {} has {} batches, the plain loop {}", g, ours.batches(g),
+                         theirs.batches(g));
+    const auto &a = ours.state(g).totals, &b = theirs.state(g).totals;
+    if (std::memcmp(a.data(), b.data(), b.size() * sizeof(Total)) != 0)
+      return fmt::format("totals of source group {} differ from the plain loop's", g);
+  }
+  if (std::memcmp(&ours.ledger(), &theirs.ledger(), sizeof(Ledger)) != 0)
+    return "the ledger differs from the plain loop's";
+  return "";
+}
+
+// ---- what nodes are like
+// -------------------------------------------------------------------------
+
+namespace {
+
+/// Draws about nodes, in one order.
+class Draw {
+ public:
+  explicit Draw(uint64_t seed) : random_(seed, RandomStream::faults) { random_.start(1); }
+  template <class T>
+  T one_of(std::initializer_list<T> choices) {
+    const auto at =
+        static_cast<size_t>(random_.uniform_double() * static_cast<double>(choices.size()));
+    return choices.begin()[std::min(at, choices.size() - 1)];
+  }
+
+ private:
+  Random random_;
+};
+
+/// Room for the largest cell and one that is built, `more` times over.
+size_t tight_budget(const CompiledScene& scene, size_t more) {
+  const std::array holders{NodeId{0}};
+  const SceneObjects objects(scene, holders, 1);
+  return 2 * more * peak_build_bytes_of(objects.largest_wire_bytes());
+}
+
+NodesOptions drawn_nodes(Draw& draw, const CompiledScene& scene, const SimOptions& options) {
+  NodesOptions nodes = options.fixed;
+  nodes.nodes = options.nodes;
+  nodes.links = options.links;
+  nodes.profile_share = 0;
+  if (!options.draw_nodes) return nodes;
+  nodes.pinned_share = 0;
+  nodes.fibers = draw.one_of<size_t>({1, 2, 4, 16, 64});
+  const auto room = draw.one_of<size_t>({0, 1, 1, 2, 8});
+  if (scene.cell_boxes.size() > 1 && room > 0) nodes.object_bytes = tight_budget(scene, room);
+  nodes.replicas = std::min(draw.one_of<uint32_t>({1, 2, 3}), static_cast<uint32_t>(options.nodes));
+  return nodes;
+}
+
+/// Times and windows so small or so large that seldom ways are taken often.
+void draw_habits(Draw& draw, NodeSetup& node) {
+  node.net.small_chunk_bytes = draw.one_of<size_t>({256, 1024, 4096});
+  node.net.bulk_chunk_bytes = draw.one_of<size_t>({1024, 8192, 65536});
+  const auto chunks = draw.one_of<size_t>({1, 2, 4});
+  node.net.small_window_bytes = chunks * (node.net.small_chunk_bytes + 128);
+  node.net.bulk_window_bytes = chunks * (node.net.bulk_chunk_bytes + 128);
+  node.net.outbox_messages = draw.one_of<size_t>({2, 8, 64});
+  node.lease_time = draw.one_of<Nanoseconds>({seconds(3), seconds(10), seconds(60)});
+  node.photons.leases = draw.one_of<size_t>({1, 2, 4});
+  node.photons.open_batches = draw.one_of<size_t>({1, 2});
+  node.fetch.tries = draw.one_of<uint8_t>({1, 2, 4});
+}
+
+uint64_t draw_life(uint64_t seed, NodeId node, uint32_t life) {
+  Random random(seed, RandomStream::simulation);
+  random.start(1 + (uint64_t{node.value} << 32) + life);
+  return random.bits64() | 1;
+}
+
+// ---- a run
+// ---------------------------------------------------------------------------------------
+
+class Simulation {
+ public:
+  static Result<SimReport> run(const SimScene& scene, const SimOptions& options);
+
+ private:
+  Simulation(const SimScene& scene, const SimOptions& options, std::unique_ptr<LocalRun> run,
+             PlannedNodes& nodes);
+  void set_up(const PlannedNodes& nodes);
+  FaultPlan fault_plan() const;
+  std::unique_ptr<SimNode> make(NodeId node, uint32_t life);
+  void go();
+  std::string ended_well() const;
+  NodeId controller() const { return {static_cast<uint16_t>(setups_.size() - 1)}; }
+  void note_last(const SimController& controller);
+
+  const SimScene& scene_;
+  const SimOptions options_;
+  const std::unique_ptr<LocalRun> run_;
+  const RunSetup& setup_;
+  std::vector<NodeSetup> setups_;  // the controller's is the last
+  StopRule stop_;
+  SimCosts costs_;
+  SimReport report_;
+  std::unique_ptr<SimWorld> world_;
+  std::optional<StopReason> reason_;
+};
+
+Simulation::Simulation(const SimScene& scene, const SimOptions& options,
+                       std::unique_ptr<LocalRun> run, PlannedNodes& nodes)
+    : scene_(scene), options_(options), run_(std::move(run)), setup_(nodes.setup()) {
+  stop_.particles = scene.particles();
+  costs_.particle = options.work / scene.particles();
+  set_up(nodes);
+  SimSetup world;
+  world.seed = options.seed;
+  world.nodes = static_cast<uint16_t>(setups_.size());
+  world.edges = edges_of(setup_.graph);
+  if (options.faults) world.plan = fault_plan();
+  world_ = std::make_unique<SimWorld>(world);
+}
+
+void Simulation::set_up(const PlannedNodes& nodes) {
+  setups_ = nodes.workers();
+  setups_.push_back(nodes.controller());
+  NodeSetup habits = nodes.controller();
+  Draw draw(options_.seed);
+  (void)drawn_nodes(draw, *scene_.scene(), options_);  // these draws come first
+  if (options_.draw_nodes) draw_habits(draw, habits);
+  // A turn shall be short against a beat.
+  const auto portion =
+      std::clamp<int64_t>(milliseconds(5) / std::max<Nanoseconds>(costs_.particle, 1), 1, 128);
+  for (NodeSetup& node : setups_) {
+    const NetConfig own = node.net;
+    node.net = habits.net;
+    node.net.self = own.self;
+    node.net.identity = own.identity;
+    node.lease_time = habits.lease_time;
+    node.fetch.tries = habits.fetch.tries;
+    node.photons.leases = habits.photons.leases;
+    node.photons.open_batches = habits.photons.open_batches;
+    node.photons.portion = std::min(node.photons.portion, portion);
+    // Who waits long enough sees the healing.
+    node.start = node.lost = options_.patience;
+    node.stall = seconds(3600);
+  }
+}
+
+FaultPlan Simulation::fault_plan() const {
+  SwarmFrame frame;
+  frame.edges = edges_of(setup_.graph);
+  frame.nodes = static_cast<uint16_t>(setups_.size());
+  frame.spared = {controller()};  // nothing of it survives
+  frame.lasts = options_.faults_last;
+  return swarm(options_.seed, frame);
+}
+
+std::unique_ptr<SimNode> Simulation::make(NodeId node, uint32_t life) {
+  NodeSetup& setup = setups_[node.value];
+  setup.net.incarnation = {draw_life(options_.seed, node, life)};
+  if (node == controller())
+    return std::make_unique<SimController>(setup_, setup, *run_, stop_, *world_);
+  return std::make_unique<SimWorker>(setup_, setup, *world_, costs_, report_.caches);
+}
+
+void Simulation::note_last(const SimController& controller) {
+  const Controller::Counters& c = controller.controller().counters();
+  report_.leases = c.leases;
+  report_.leases_fenced = c.fenced;
+  report_.flushes_refused = c.flushes_refused;
+  if (controller.controller().ended()) reason_ = controller.controller().reason();
+}
+
+void Simulation::go() {
+  world_->start([this](NodeId node, uint32_t life) { return make(node, life); });
+  const Nanoseconds end = options_.work + options_.faults_last + options_.patience;
+  while (report_.failure.empty() && world_->step()) {
+    const NodeId last = world_->last();
+    if (last == no_node) continue;
+    const auto* node = static_cast<const CheckedNode*>(world_->node(last));
+    if (node == nullptr) continue;
+    if (auto fault = node->fault(); !fault.empty())
+      report_.failure = fmt::format("{}: {}", setup_.name_of(last), fault);
+    if (last == controller()) note_last(*static_cast<const SimController*>(node));
+    if (world_->now() > end)
+      report_.failure =
+          fmt::format("it has not ended {} s after all was healed", options_.patience / seconds(1));
+  }
+  if (report_.failure.empty()) report_.failure = ended_well();
+  report_.virtual_time = world_->now();
+  report_.trace_hash = world_->trace_hash();
+  report_.world = world_->counters();
+  world_.reset();  // its nodes add what they did
+}
+
+std::string Simulation::ended_well() const {
+  if (!reason_) return "nobody has anything to do, and the run has not ended";
+  if (*reason_ != StopReason::particles)
+    return fmt::format("the run ended by {}, not by its particles", name_of(*reason_));
+  return scene_.difference(*run_);
+}
+
+Result<SimReport> Simulation::run(const SimScene& scene, const SimOptions& options) {
+  Draw draw(options.seed);
+  const NodesOptions wanted = drawn_nodes(draw, *scene.scene(), options);
+  std::unique_ptr<LocalRun> run = scene.fresh_run(wanted.object_bytes == 0);
+  StopRule stop;
+  stop.particles = scene.particles();
+  auto nodes = PlannedNodes::make(*run, wanted, stop, options.seed | 1);
+  if (!nodes.ok()) return nodes.problem();
+  Simulation simulation(scene, options, std::move(run), *nodes.value());
+  simulation.go();
+  simulation.report_.nodes =
+      fmt::format("{} nodes, {} fibers, {} replicas, objects {} KiB", wanted.nodes, wanted.fibers,
+                  wanted.replicas, wanted.object_bytes >> 10);
+  return std::move(simulation.report_);
+}
+
+}  // namespace
+
+Result<SimReport> simulate(const SimScene& scene, const SimOptions& options) {
+  return Simulation::run(scene, options);
+}
+
+}  // namespace luxodus

@@ -1,0 +1,49 @@
+#include "actors/supervise/controller_node.hpp"
+
+#include "actors/supervise/node_plan.hpp"
+
+namespace luxodus {
+
+namespace {
+
+ControllerConfig controller_config(const RunSetup& setup, const NodeSetup& node) {
+  ControllerConfig config;
+  config.lease_time = node.lease_time;
+  config.group_ranks = node.group_ranks;
+  config.leases_most = static_cast<uint32_t>(node.photons.leases);
+  config.farewell = node.shutdown_phase;
+  config.start = node.start;
+  config.lost = node.lost;
+  config.names = setup.names;
+  config.first_lease = node.net.incarnation.value;
+  for (uint16_t i = 0; i < setup.graph.workers(); ++i) config.workers.push_back({i});
+  return config;
+}
+
+}  // namespace
+
+ControllerNode::ControllerNode(const RunSetup& setup, const NodeSetup& node, LocalRun& run,
+                               const StopRule& stop, const std::atomic<bool>& interrupt,
+                               std::function<void(const Progress&)> report, const NodeSeams& seams)
+    : setup_(setup),
+      self_(node.net.self),
+      shell_(
+          {node.net, controller_limits(node), ShellConfig{}.room_bytes_most, node.shutdown_phase},
+          setup.graph, seams.clock, seams.transport),
+      controller_(controller_config(setup, node), run, stop, interrupt, std::move(report),
+                  shell_.scheduler(), shell_.network()) {}
+
+void ControllerNode::start(std::function<bool()> broken) {
+  shell_.add([this](const Delivery& d) { return controller_.deliver(d); });
+  controller_.start();
+  if (setup_.observation != nullptr) {
+    metrics_.emplace(setup_.names, self_, "controller", shell_.scheduler(), shell_.network());
+    controller_.add_metrics(metrics_->registry());
+    metrics_->add_rate({"particles_per_second", "", "Particles counted in a second.", ""},
+                       controller_.counters().particles);
+    metrics_->start(*setup_.observation);
+  }
+  shell_.begin([this, broken = std::move(broken)] { return controller_.ended() || broken(); });
+}
+
+}  // namespace luxodus

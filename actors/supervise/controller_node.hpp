@@ -1,0 +1,34 @@
+// The controller's node: lends, counts, ends the run; it passes others' messages on where the graph
+// has it do so. Made and run on one thread.
+#pragma once
+
+#include "actors/source/controller.hpp"
+#include "actors/supervise/node_metrics.hpp"
+#include "actors/supervise/node_setup.hpp"
+
+namespace luxodus {
+
+class ControllerNode {
+ public:
+  /// Goes on from what `run` holds. Requires: all outlive this.
+  ControllerNode(const RunSetup& setup, const NodeSetup& node, LocalRun& run, const StopRule& stop,
+                 const std::atomic<bool>& interrupt, std::function<void(const Progress&)> report,
+                 const NodeSeams& seams);
+
+  /// From the shell's next turn on this waits for the workers and runs the run, until it has ended
+  /// or `broken` says that it cannot go on.
+  void start(std::function<bool()> broken);
+
+  NodeShell& shell() { return shell_; }
+  const NodeShell& shell() const { return shell_; }
+  const Controller& controller() const { return controller_; }
+
+ private:
+  const RunSetup& setup_;
+  const NodeId self_;
+  NodeShell shell_;
+  Controller controller_;
+  std::optional<NodeMetrics> metrics_;
+};
+
+}  // namespace luxodus

@@ -1,0 +1,108 @@
+#include "actors/supervise/node_threads.hpp"
+
+#include <xmmintrin.h>
+
+#include <algorithm>
+#include <exception>
+
+#include "actors/supervise/controller_node.hpp"
+
+namespace luxodus {
+
+// ---- workers ---------------------------------------------------------------------------------
+
+WorkerThreads::WorkerThreads(const RunSetup& run, const Machine& machine,
+                             const std::vector<NodeSetup>& nodes,
+                             const std::function<bool()>& stop) {
+  for (const NodeSetup& node : nodes)
+    threads_.emplace_back([this, &run, &machine, &node, stop] { work(run, machine, node, stop); });
+}
+
+namespace {
+
+Result<WorkerReport> run_worker(const RunSetup& run, const Machine& machine, const NodeSetup& node,
+                                const std::function<bool()>& stop) {
+  NodeTransport transport(machine, node);
+  Worker worker(run, node, transport.seams());
+  if (auto joined = join_links(transport.sockets(), node); !joined.ok()) return joined.problem();
+  worker.start(stop);
+  worker.shell().run();
+  auto result = worker.result();
+  if (result.ok()) return result;
+  return Problem{{},
+                 run.name_of(node.net.self) + ": " + result.problem().what +
+                     transport.meeting_trouble(worker.shell().network())};
+}
+
+}  // namespace
+
+void WorkerThreads::work(const RunSetup& run, const Machine& machine, const NodeSetup& node,
+                         const std::function<bool()>& stop) {
+  _mm_setcsr(_mm_getcsr() | 0x8040);  // denormals to zero, as in the plain loop
+  Problem wrong;
+  try {
+    auto done = run_worker(run, machine, node, stop);
+    const std::lock_guard lock(mutex_);
+    if (done.ok()) return reports_.push_back(done.value());
+    wrong = done.problem();
+  } catch (const std::exception& e) {
+    wrong = {{}, "node " + std::to_string(node.net.self.value) + ": " + e.what()};
+  }
+  const std::lock_guard lock(mutex_);
+  if (!failed_) problem_ = wrong;
+  failed_ = true;
+}
+
+void WorkerThreads::join() {
+  for (std::thread& thread : threads_)
+    if (thread.joinable()) thread.join();
+  std::sort(reports_.begin(), reports_.end(),
+            [](const WorkerReport& a, const WorkerReport& b) { return a.node < b.node; });
+}
+
+WorkerReport WorkerThreads::report() const {
+  WorkerReport all;
+  for (const WorkerReport& one : reports_) all.add(one);
+  return all;
+}
+
+Problem WorkerThreads::problem() const {
+  const std::lock_guard lock(mutex_);
+  return problem_;
+}
+
+// ---- the controller --------------------------------------------------------------------------
+
+Result<StopReason> run_controller(const RunSetup& setup, const Machine& machine,
+                                  const NodeSetup& node, LocalRun& run, const StopRule& stop,
+                                  const std::atomic<bool>& interrupt,
+                                  const std::function<void(const Progress&)>& report,
+                                  const std::function<bool()>& broken, NodesReport* counted) {
+  NodeTransport transport(machine, node);
+  ControllerNode here(setup, node, run, stop, interrupt, report, transport.seams());
+  if (auto joined = join_links(transport.sockets(), node); !joined.ok()) return joined.problem();
+  const Nanoseconds began = machine.clock.now();
+  here.start(broken);
+  here.shell().run();
+  run.add_seconds(static_cast<double>(machine.clock.now() - began) * 1e-9);
+  const Controller& controller = here.controller();
+  const Network& network = here.shell().network();
+  if (controller.fault())
+    return Problem{{},
+                   setup.name_of(node.net.self) + ": " + controller.fault()->what +
+                       transport.meeting_trouble(network)};
+  if (counted != nullptr) {
+    const Controller::Counters& c = controller.counters();
+    *counted = {c.flushes_taken,
+                c.flush_bytes,
+                c.leases,
+                c.fenced,
+                network.counters().frames_received,
+                {},
+                {},
+                std::nullopt};
+  }
+  return controller.reason();
+}
+
+}  // namespace luxodus

@@ -1,0 +1,143 @@
+#include "actors/supervise/planned_nodes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "actors/supervise/node_plan.hpp"
+#include "actors/supervise/residency_setup.hpp"
+#include "topology/shipped.hpp"
+
+namespace luxodus {
+
+namespace {
+
+constexpr uint32_t controller_links_most = 4;
+
+Result<Graph> graph_for(const NodesOptions& options) {
+  AmpRequest request;
+  request.nodes = static_cast<uint32_t>(options.nodes);
+  request.links = static_cast<uint32_t>(options.links);
+  request.controller_links = std::min(request.nodes, controller_links_most);
+  return minimum_path_graph(request);
+}
+
+std::optional<std::string> fault_of(const NodesOptions& options, const CompiledScene& scene,
+                                    bool resident) {
+  if (options.object_bytes == 0) {
+    if (resident) return std::nullopt;
+    return "nodes that do not hold the whole scene need a budget for objects";
+  }
+  if (scene.cell_boxes.size() < 2)
+    return "nodes with a budget need a partition of the geometry: add --cells, or pack the scene "
+           "with more than one";
+  if (options.replicas < 1 || options.replicas > static_cast<uint32_t>(options.nodes) ||
+      options.replicas > limits::holders)
+    return "a cell can be held by 1 to " + std::to_string(limits::holders) +
+           " nodes, and by no more than there are";
+  return std::nullopt;
+}
+
+/// In memory: every node listens under its own name.
+Endpoints endpoints_of(NodeId node) {
+  const std::string name = "inproc://node-" + std::to_string(node.value);
+  return {name, name + "-bulk"};
+}
+
+/// `common` is what all nodes' networks have in common.
+NodeSetup setup_of(const RunSetup& run, const NetConfig& common, NodeId self,
+                   const NodesOptions& options, uint64_t run_id) {
+  NodeSetup node;
+  node.net = common;
+  node.net.self = self;
+  node.net.incarnation = {run_id + self.value + 1};
+  node.net.identity.node = self;
+  node.net.identity.run_id = run_id;
+  node.links.listen.push_back(endpoints_of(self));
+  for (const Vertex neighbour : run.graph.all().of(self.value)) {
+    const NodeId other{static_cast<uint16_t>(neighbour)};
+    if (other < self) node.links.connect.emplace_back(other, endpoints_of(other));
+  }
+  node.controller = {static_cast<uint16_t>(run.graph.controller())};
+  node.photons.fibers = options.fibers;
+  node.photons.portion = static_cast<int64_t>(options.portion);
+  node.object_bytes = options.object_bytes;
+  node.pinned_share = options.pinned_share;
+  node.link_delay = options.link_delay;
+  return node;
+}
+
+/// Particles of the profile: the share of those that the run will trace, as far as that is known.
+int64_t profile_size(const LocalRun& run, const StopRule& stop, const NodesOptions& options) {
+  const int64_t left =
+      stop.particles ? std::max<int64_t>(0, *stop.particles - run.particles()) : usual_particles;
+  return std::llround(options.profile_share * static_cast<double>(left));
+}
+
+Result<std::optional<Residency>> planned_residency(const RunSetup& run, const NodesOptions& options,
+                                                   int64_t particles) {
+  if (options.profile_share <= 0) return std::optional<Residency>();
+  const auto size = profile_particles(BatchPlan(run.scene).shares(), particles);
+  auto profile = count_references(run.scene, *run.objects, *run.proxies, run.seed, size,
+                                  static_cast<uint64_t>(options.nodes) * options.object_bytes);
+  if (!profile.ok()) return profile.problem();
+  const std::vector<size_t> budgets(static_cast<size_t>(options.nodes), options.object_bytes);
+  return std::optional(residency_for(profile.value(), run.scene, *run.objects, run.graph,
+                                     {budgets, options.pinned_share, options.replicas}));
+}
+
+}  // namespace
+
+Result<std::unique_ptr<PlannedNodes>> PlannedNodes::make(const LocalRun& run,
+                                                         const NodesOptions& options,
+                                                         const StopRule& stop, uint64_t run_id) {
+  if (auto fault = fault_of(options, run.scene(), run.resident())) return Problem{{}, *fault};
+  auto graph = graph_for(options);
+  if (!graph.ok()) return graph.problem();
+  std::unique_ptr<PlannedNodes> made(new PlannedNodes(run, options, std::move(graph).value()));
+  if (auto planned = made->plan_residency(run, options, stop); !planned.ok())
+    return planned.problem();
+  made->set_up(options, run_id);
+  for (const NodeSetup& node : made->workers_)
+    if (auto fault = budget_fault(made->setup_, node)) return Problem{{}, *fault};
+  return made;
+}
+
+PlannedNodes::PlannedNodes(const LocalRun& run, const NodesOptions& options, Graph graph)
+    : graph_(std::move(graph)), setup_{run.scene(), run.resident() ? &run.index() : nullptr,
+                                       nullptr,     nullptr,
+                                       run.seed(),  graph_,
+                                       {},          options.observation} {
+  for (int i = 0; i < options.nodes; ++i) setup_.names.push_back("n" + std::to_string(i));
+  setup_.names.push_back("controller");
+  if (options.object_bytes == 0) return;
+  std::vector<NodeId> holders;
+  for (uint16_t i = 0; i < options.nodes; ++i) holders.push_back({i});
+  objects_.emplace(run.scene(), holders, options.replicas);
+  proxies_.emplace(device_, run.scene().cell_boxes);
+  setup_.objects = &*objects_;
+  setup_.proxies = &*proxies_;
+}
+
+/// Who traces, holds and keeps what: before the nodes are set up, whose handshake covers it.
+Result<bool> PlannedNodes::plan_residency(const LocalRun& run, const NodesOptions& options,
+                                          const StopRule& stop) {
+  if (!objects_) return true;
+  auto planned = planned_residency(setup_, options, profile_size(run, stop, options));
+  if (!planned.ok()) return planned.problem();
+  residency_ = std::move(planned).value();
+  if (residency_) objects_->place(residency_->holders);
+  return true;
+}
+
+void PlannedNodes::set_up(const NodesOptions& options, uint64_t run_id) {
+  NetConfig common;
+  complete(common, setup_);
+  for (uint16_t i = 0; i <= options.nodes; ++i) {
+    workers_.push_back(setup_of(setup_, common, {i}, options, run_id));
+    if (residency_) settle(workers_.back(), *residency_);
+  }
+  controller_ = workers_.back();
+  workers_.pop_back();
+}
+
+}  // namespace luxodus

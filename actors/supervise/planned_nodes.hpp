@@ -1,0 +1,78 @@
+// All that the nodes of one process are made from, where options say what there is, and no
+// cluster's file does: their graph, who holds what, what each may take. Threads run them
+// (in_process.hpp), or a simulation does.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "actors/objects/residency.hpp"
+#include "actors/source/local_run.hpp"
+#include "actors/supervise/node_setup.hpp"
+#include "runtime/core/result.hpp"
+
+namespace luxodus {
+
+namespace limits {
+/// Workers of one process: a thread each; more belong on more machines.
+inline constexpr int nodes_in_process = 64;
+}  // namespace limits
+
+/// Particles of a run that ends by error or by time, for the size of its profile.
+inline constexpr int64_t usual_particles = 4'000'000;
+
+struct NodesOptions {
+  int nodes = 2;         // workers; the controller comes on top and traces nothing
+  int links = 4;         // of a node at most
+  size_t fibers = 1;     // photon-threads of a node
+  size_t portion = 128;  // particles a fiber takes at once, at most
+  /// For built geometry cells, of each node. 0: everything is resident, and shared. With a budget
+  /// each node holds its share of the cells' bytes for all, and fetches and builds what it needs.
+  size_t object_bytes = 0;
+  uint32_t replicas = 1;  // nodes that hold a cell's bytes
+  /// With a budget: the share of the run's particles that is traced beforehand, to plan who traces,
+  /// holds and keeps what. 0: no plan.
+  double profile_share = 0.01;
+  double pinned_share = 0.5;  // of a budget, for cells that the plan has kept for good
+  /// Of every link, on purpose: what a distance would cost, and how many fibers hide it.
+  Nanoseconds link_delay = 0;
+  Observation* observation = nullptr;  // where somebody watches
+  /// Asked by each worker every few milliseconds, on its own thread: whether it shall end before
+  /// the run does.
+  std::function<bool()> stop = [] { return false; };
+};
+
+class PlannedNodes {
+ public:
+  /// `run_id` is not 0, and another for every run. Requires: `run` outlives this.
+  /// Errors: no graph of so few links, options that contradict each other or the scene, a budget
+  /// that is too small.
+  static Result<std::unique_ptr<PlannedNodes>> make(const LocalRun& run,
+                                                    const NodesOptions& options,
+                                                    const StopRule& stop, uint64_t run_id);
+
+  const RunSetup& setup() const { return setup_; }
+  const std::vector<NodeSetup>& workers() const { return workers_; }
+  const NodeSetup& controller() const { return controller_; }
+  /// Where a profile has planned who traces, holds and keeps what.
+  std::optional<Residency>& residency() { return residency_; }
+
+ private:
+  PlannedNodes(const LocalRun& run, const NodesOptions& options, Graph graph);
+  Result<bool> plan_residency(const LocalRun& run, const NodesOptions& options,
+                              const StopRule& stop);
+  void set_up(const NodesOptions& options, uint64_t run_id);
+
+  const Graph graph_;
+  const EmbreeDevice device_;
+  std::optional<SceneObjects> objects_;
+  std::optional<ProxyScene> proxies_;
+  RunSetup setup_;
+  std::vector<NodeSetup> workers_;
+  NodeSetup controller_;
+  std::optional<Residency> residency_;
+};
+
+}  // namespace luxodus

@@ -1,0 +1,55 @@
+// Bytes that outlive a node, added at the end only: the seam between a journal and a disk. A
+// simulation puts a disk here that tears writes and fills up. Thread rule: one node's thread.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "runtime/core/result.hpp"
+
+namespace luxodus {
+
+class AppendStore {
+ public:
+  virtual ~AppendStore() = default;
+
+  virtual uint64_t size() const = 0;
+  /// Fills `into` from `offset` on. Errors: not so many bytes there, a failed read.
+  virtual Result<bool> read(uint64_t offset, std::span<std::byte> into) = 0;
+  /// Adds at the end. When this returns true the bytes survive whatever happens. After an error the
+  /// end may hold a part of them. Errors: a full disk, a failed write or sync.
+  virtual Result<bool> append(std::span<const std::byte> bytes) = 0;
+  /// Cuts everything from `size` on, durably. Errors: a failed write or sync.
+  virtual Result<bool> truncate(uint64_t size) = 0;
+};
+
+/// A file. One at a time: it is locked while it is open.
+class FileStore final : public AppendStore {
+ public:
+  /// Opens or makes it. Errors: no such folder, no right to, no regular file, another process has
+  /// it open.
+  static Result<std::unique_ptr<FileStore>> open(const std::filesystem::path& path);
+  ~FileStore() override;
+  FileStore(const FileStore&) = delete;
+  FileStore& operator=(const FileStore&) = delete;
+
+  uint64_t size() const override { return size_; }
+  Result<bool> read(uint64_t offset, std::span<std::byte> into) override;
+  Result<bool> append(std::span<const std::byte> bytes) override;
+  Result<bool> truncate(uint64_t size) override;
+
+ private:
+  FileStore(std::filesystem::path path, int descriptor, uint64_t size)
+      : path_(std::move(path)), descriptor_(descriptor), size_(size) {}
+  Problem problem(const char* what) const;
+
+  const std::filesystem::path path_;
+  const int descriptor_;
+  uint64_t size_;
+};
+
+}  // namespace luxodus

@@ -1,0 +1,120 @@
+#include "runtime/storage/journal.hpp"
+
+#include <array>
+#include <cstring>
+
+#include "runtime/core/hash.hpp"
+
+namespace luxodus {
+
+namespace {
+
+constexpr std::array<char, 8> magic = {'L', 'U', 'X', 'J', 'R', 'N', 'L', '1'};
+
+struct Head {
+  std::array<char, 8> magic;
+  uint64_t identity;
+  uint64_t check;
+};
+static_assert(sizeof(Head) == 24);
+
+struct RecordHead {
+  uint64_t bytes;
+  uint64_t check;
+};
+static_assert(sizeof(RecordHead) == 16);
+
+uint64_t check_of(const Head& head) {
+  return XXH3_64bits(&head, offsetof(Head, check));
+}
+
+/// By its place, so that a record of an earlier life of the file is never taken for one of this.
+uint64_t check_of(uint64_t place, std::span<const std::byte> content) {
+  const std::array<uint64_t, 2> start = {place, content.size()};
+  return XXH3_64bits_withSeed(content.data(), content.size(),
+                              XXH3_64bits(start.data(), sizeof start));
+}
+
+template <class T>
+std::span<std::byte> bytes_of(T& value) {
+  return std::as_writable_bytes(std::span(&value, 1));
+}
+
+}  // namespace
+
+Result<Journal> Journal::open(std::unique_ptr<AppendStore> store, uint64_t identity,
+                              const Visit& visit) {
+  Journal journal(std::move(store));
+  // Less than a head is what a crash has left of a beginning.
+  const bool fresh = journal.store_->size() < sizeof(Head);
+  const auto opened = fresh ? journal.begin(identity) : journal.go_on(identity, visit);
+  if (!opened.ok()) return opened.problem();
+  return journal;
+}
+
+Result<bool> Journal::begin(uint64_t identity) {
+  if (store_->size() > 0)
+    if (auto cut = store_->truncate(0); !cut.ok()) return cut;
+  Head head{magic, identity, 0};
+  head.check = check_of(head);
+  if (auto put = store_->append(bytes_of(head)); !put.ok()) return put;
+  end_ = sizeof head;
+  return true;
+}
+
+Result<bool> Journal::go_on(uint64_t identity, const Visit& visit) {
+  Head head{};
+  if (auto got = store_->read(0, bytes_of(head)); !got.ok()) return got;
+  if (head.magic != magic || head.check != check_of(head))
+    return Problem{{}, "the journal's head is not that of a journal: move the file away"};
+  if (head.identity != identity)
+    return Problem{{},
+                   "the journal is of another run (scene, seed or partition): move it away, or "
+                   "give another --out"};
+  end_ = sizeof head;
+  while (store_->size() - end_ >= sizeof(RecordHead)) {
+    RecordHead record{};
+    if (auto got = store_->read(end_, bytes_of(record)); !got.ok()) return got;
+    const uint64_t begin = end_ + sizeof record;
+    if (record.bytes > limits::journal_record_bytes || record.bytes > store_->size() - begin) break;
+    scratch_.resize(record.bytes);
+    if (auto got = store_->read(begin, scratch_); !got.ok()) return got;
+    if (record.check != check_of(end_, scratch_)) break;
+    if (!visit(scratch_))
+      return Problem{{},
+                     "record " + std::to_string(records_) +
+                         " of the journal is whole, and does not belong to this run"};
+    end_ = begin + record.bytes;
+    ++records_;
+  }
+  torn_bytes_ = store_->size() - end_;
+  return cut_torn();
+}
+
+Result<bool> Journal::cut_torn() {
+  if (store_->size() == end_) return true;
+  return store_->truncate(end_);
+}
+
+Result<bool> Journal::append(std::span<const std::byte> record) {
+  if (record.size() > limits::journal_record_bytes)
+    return Problem{{}, "a record is longer than a journal takes"};
+  if (auto cut = cut_torn(); !cut.ok()) return cut;
+  const RecordHead head{record.size(), check_of(end_, record)};
+  scratch_.resize(sizeof head + record.size());
+  std::memcpy(scratch_.data(), &head, sizeof head);
+  std::memcpy(scratch_.data() + sizeof head, record.data(), record.size());
+  if (auto put = store_->append(scratch_); !put.ok()) return put;
+  end_ += scratch_.size();
+  ++records_;
+  return true;
+}
+
+Result<bool> Journal::restart() {
+  if (auto cut = store_->truncate(sizeof(Head)); !cut.ok()) return cut;
+  end_ = sizeof(Head);
+  records_ = 0;
+  return true;
+}
+
+}  // namespace luxodus

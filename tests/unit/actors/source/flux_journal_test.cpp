@@ -1,0 +1,164 @@
+#include "actors/source/flux_journal.hpp"
+
+#include <catch2/catch.hpp>
+#include <cstring>
+
+#include "actors/tally/flush_codec.hpp"
+#include "tests/unit/actors/supervise/library_scene.hpp"
+
+using namespace luxodus;
+
+namespace {
+
+/// Bytes that outlive the journals over them.
+class MemoryStore final : public AppendStore {
+ public:
+  explicit MemoryStore(std::vector<std::byte>& bytes) : bytes_(bytes) {}
+  uint64_t size() const override { return bytes_.size(); }
+  Result<bool> read(uint64_t offset, std::span<std::byte> into) override {
+    if (offset + into.size() > bytes_.size()) return Problem{{}, "not so many bytes"};
+    std::memcpy(into.data(), bytes_.data() + offset, into.size());
+    return true;
+  }
+  Result<bool> append(std::span<const std::byte> bytes) override {
+    bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
+    return true;
+  }
+  Result<bool> truncate(uint64_t size) override {
+    bytes_.resize(size);
+    return true;
+  }
+
+ private:
+  std::vector<std::byte>& bytes_;
+};
+
+/// Traces single batches, as a worker does, into flushes.
+class Worker {
+ public:
+  explicit Worker(const LocalRun& run)
+      : run_(run),
+        tracer_(make_batch_tracer(run.scene(), GeometryAccess::resident(run.index()), run.seed())) {
+  }
+
+  std::vector<std::byte> flush_of(int64_t number) const {
+    const CompiledScene& scene = run_.scene();
+    BatchPlan plan(scene);
+    plan.skip(number);
+    const Batch batch = plan.next();
+    BatchScores scores;
+    scores.reset(scene.layout);
+    tracer_->trace(batch.group, batch.first_particle, scene.batch_particles, scores);
+    for (uint32_t unit = 0; unit < tracer_->look_units(); ++unit)
+      tracer_->look(batch.number, unit, scores);
+    Totals totals(scene.layout, static_cast<int>(scene.groups.size()), photopic_weights(scene));
+    totals.merge(scores, batch.group);
+    return encode_flush(totals);
+  }
+
+ private:
+  const LocalRun& run_;
+  std::unique_ptr<BatchTracer> tracer_;
+};
+
+void trace(LocalRun& run, int64_t batches) {
+  StopRule stop;
+  stop.particles = batches * run.scene().batch_particles;
+  run.run(stop, std::atomic<bool>{false}, [](const Progress&) {});
+}
+
+bool same(const LocalRun& a, const LocalRun& b) {
+  if (std::memcmp(&a.totals().ledger(), &b.totals().ledger(), sizeof(Ledger)) != 0) return false;
+  for (int g = 0; g < a.totals().groups(); ++g) {
+    const auto &x = a.totals().state(g), &y = b.totals().state(g);
+    if (x.batches != y.batches ||
+        std::memcmp(x.totals.data(), y.totals.data(), x.totals.size() * sizeof(Total)) != 0)
+      return false;
+  }
+  return true;
+}
+
+std::unique_ptr<FluxJournal> opened(std::vector<std::byte>& bytes, LocalRun& run) {
+  auto journal = FluxJournal::open(std::make_unique<MemoryStore>(bytes), run);
+  REQUIRE(journal.ok());
+  return std::move(journal).value();
+}
+
+}  // namespace
+
+TEST_CASE("a run that begins again from its journal, anywhere, ends as one that never stopped",
+          "[journal]") {
+  const auto scene = scene_of("smoke_tank", "", 1);
+  LocalRun whole(scene, 1, 1);
+  trace(whole, 5);
+  const Worker worker(whole);
+  const std::vector<int64_t> order = {1, 0, 4, 2, 3};  // flushes come as they come
+  for (size_t stop = 0; stop <= order.size(); ++stop) {
+    INFO("stopped after " << stop << " flushes");
+    std::vector<std::byte> disk;
+    {
+      LocalRun first(scene, 1, 1);
+      const auto journal = opened(disk, first);
+      for (size_t i = 0; i < stop; ++i)
+        REQUIRE(journal->add(std::array{order[i]}, worker.flush_of(order[i])).ok());
+    }
+    disk.push_back(std::byte{9});  // and a torn end
+    LocalRun second(scene, 1, 1);
+    const auto journal = opened(disk, second);
+    CHECK(journal->recovered() == static_cast<int64_t>(stop));
+    CHECK(journal->torn_bytes() == 1);
+    CHECK(second.traced() == static_cast<int64_t>(stop));
+    trace(second, 5);
+    CHECK(same(whole, second));
+  }
+}
+
+TEST_CASE("a journal that is older than the flux file in part is counted once", "[journal]") {
+  const auto scene = scene_of("smoke_tank", "", 1);
+  LocalRun whole(scene, 1, 1);
+  trace(whole, 3);
+  const Worker worker(whole);
+  std::vector<std::byte> disk;
+  {
+    LocalRun first(scene, 1, 1);
+    const auto journal = opened(disk, first);
+    for (int64_t batch = 0; batch < 3; ++batch)
+      REQUIRE(journal->add(std::array{batch}, worker.flush_of(batch)).ok());
+  }
+  LocalRun second(scene, 1, 1);
+  trace(second, 2);  // as a flux file would have it
+  const auto journal = opened(disk, second);
+  CHECK(journal->recovered() == 1);
+  CHECK(same(whole, second));
+}
+
+TEST_CASE("records that do not belong to a run are refused", "[journal]") {
+  const auto scene = scene_of("smoke_tank", "", 1);
+  LocalRun run(scene, 1, 1);
+  const Worker worker(run);
+  std::vector<std::byte> disk;
+  const std::vector<std::byte> flush = worker.flush_of(0);
+  const auto refused = [&](LocalRun& other) {
+    const auto journal = FluxJournal::open(std::make_unique<MemoryStore>(disk), other);
+    return journal.ok() ? std::string() : journal.problem().what;
+  };
+  SECTION("another seed") {
+    opened(disk, run);
+    LocalRun other(scene, 2, 1);
+    CHECK(refused(other).find("another run") != std::string::npos);
+  }
+  SECTION("one flush for two batches") {
+    REQUIRE(opened(disk, run)->add(std::array<int64_t, 2>{0, 1}, flush).ok());
+    CHECK(refused(run).find("does not belong") != std::string::npos);
+  }
+  SECTION("a flush that is counted in part") {
+    REQUIRE(opened(disk, run)->add(std::array<int64_t, 2>{0, 1}, flush).ok());
+    LocalRun other(scene, 1, 1);
+    trace(other, 1);
+    CHECK(refused(other).find("does not belong") != std::string::npos);
+  }
+  SECTION("no flush") {
+    REQUIRE(opened(disk, run)->add(std::array<int64_t, 1>{0}, {}).ok());
+    CHECK(refused(run).find("does not belong") != std::string::npos);
+  }
+}
