@@ -7,7 +7,10 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
+#include <thread>
+#include <utility>
 
 #include "actors/cli/command.hpp"
 #include "runtime/config/cluster_file.hpp"
@@ -40,23 +43,34 @@ class Children {
     for (std::string& word : words) arguments.push_back(word.data());
     arguments.push_back(nullptr);
     pid_t pid = 0;
+    // In a group of its own, so that Ctrl-C reaches it once, from here.
+    posix_spawnattr_t apart;
+    ::posix_spawnattr_init(&apart);
+    ::posix_spawnattr_setflags(&apart, POSIX_SPAWN_SETPGROUP);
     const int failed =
-        ::posix_spawn(&pid, "/proc/self/exe", nullptr, nullptr, arguments.data(), environ);
+        ::posix_spawn(&pid, "/proc/self/exe", nullptr, &apart, arguments.data(), environ);
+    ::posix_spawnattr_destroy(&apart);
     if (failed != 0) return Problem{{process.name, 0}, "cannot be started"};
     living_.push_back({pid, process.name});
     return true;
   }
 
-  /// Waits until all have ended. The process of the controller decides: where it fails, the others
-  /// are ended, and its exit code is returned; where it does not, the run went on without those
-  /// that failed. Without it (it is on another host), the first that fails says the code.
+  /// Waits until all have ended, and tells them when this shall. The process of the controller
+  /// decides: where it fails, the others are ended, and its exit code is returned; where it does
+  /// not, the run went on without those that failed. Without it (it is on another host), the first
+  /// that fails says the code.
   int wait(const std::string& controller) {
     int result = 0;
+    bool told = false;
     while (!living_.empty()) {
+      if (interrupt_flag() && !std::exchange(told, true)) tell_all();
       int status = 0;
-      const pid_t pid = ::waitpid(-1, &status, 0);
-      if (pid < 0 && errno == EINTR) continue;  // the signal went to the children as well
-      if (pid < 0) break;
+      const pid_t pid = ::waitpid(-1, &status, WNOHANG);
+      if (pid < 0 && errno != EINTR) break;
+      if (pid <= 0) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        continue;
+      }
       const auto child = std::find_if(living_.begin(), living_.end(),
                                       [&](const Child& c) { return c.pid == pid; });
       if (child == living_.end()) continue;
@@ -64,9 +78,9 @@ class Children {
       const bool decides = controller.empty() ? result == 0 : child->name == controller;
       if (code != 0) spdlog::error("process {} ended with {}", child->name, code);
       if (decides) result = code;
-      if (code != 0 && child->name == controller)
-        for (const Child& other : living_) ::kill(other.pid, SIGTERM);
+      const bool all_end = code != 0 && child->name == controller;
       living_.erase(child);
+      if (all_end && !std::exchange(told, true)) tell_all();
     }
     return result;
   }
@@ -77,8 +91,12 @@ class Children {
     std::string name;
   };
 
-  void stop() {
+  void tell_all() const {
     for (const Child& child : living_) ::kill(child.pid, SIGTERM);
+  }
+
+  void stop() {
+    tell_all();
     for (const Child& child : living_) ::waitpid(child.pid, nullptr, 0);
     living_.clear();
   }
@@ -100,7 +118,7 @@ int cluster_up(const ClusterOptions& options) {
                                : "there is no host \"" + options.host + "\""});
     return ExitCode::bad_input;
   }
-  install_interrupt_handler();  // Ctrl-C reaches the children; this waits for them
+  install_interrupt_handler();
   Children children;
   std::string controller;
   for (const ClusterProcess& process : cluster.processes) {

@@ -6,6 +6,7 @@
 
 #include "actors/cli/command.hpp"
 #include "actors/simulate/simulation.hpp"
+#include "runtime/config/cluster_file.hpp"
 #include "runtime/core/clock.hpp"
 #include "scenes/transport/compile.hpp"
 
@@ -54,11 +55,27 @@ Result<Nanoseconds> span_of(const std::string& text) {
   return static_cast<Nanoseconds>(span_s.value() * 1e9);
 }
 
+/// Of a file, for nodes n0, n1, ... and controller.
+Result<FaultPlan> fault_plan_in(const SimCommandOptions& options) {
+  std::vector<std::string> names;
+  for (int i = 0; i < options.nodes; ++i) names.push_back("n" + std::to_string(i));
+  names.push_back("controller");
+  ReadFaults read = read_fault_file(options.faults, names);
+  for (const Problem& problem : read.problems.list()) tell(problem);
+  if (!read.plan) return Problem{{options.faults, 0}, "the faults have problems, told above"};
+  return std::move(*read.plan);
+}
+
 Result<SimOptions> sim_options(const SimCommandOptions& options) {
   SimOptions sim;
   sim.nodes = options.nodes;
   sim.links = options.links;
   sim.faults = options.faults == "swarm";
+  if (!sim.faults && options.faults != "none") {
+    auto plan = fault_plan_in(options);
+    if (!plan.ok()) return plan.problem();
+    sim.plan = std::move(plan).value();
+  }
   const auto last = span_of(options.faults_last);
   if (!last.ok()) return last.problem();
   const auto work = span_of(options.work);
@@ -205,8 +222,9 @@ void add_sim(CLI::App& app, int& exit_code) {
   command->add_option("--particles", options->particles, "to trace [4k]");
   command->add_option("--batches", options->batches, "that they fall into [40]")
       ->check(CLI::Range(1, 1000000));
-  command->add_option("--faults", options->faults, "swarm: drawn from the seed; none [swarm]")
-      ->check(CLI::IsMember({"swarm", "none"}));
+  command->add_option(
+      "--faults", options->faults,
+      "swarm: drawn from the seed; none; or a TOML file with a [faults] table [swarm]");
   command->add_option("--faults-last", options->faults_last,
                       "virtual time until all is healed [30s]");
   command->add_option("--work", options->work,

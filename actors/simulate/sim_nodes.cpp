@@ -89,10 +89,11 @@ std::string SimWorker::fault() const {
 // ---- the controller ----------------------------------------------------------------------------
 
 SimController::SimController(const RunSetup& setup, const NodeSetup& node, LocalRun& run,
-                             const StopRule& stop, SimWorld& world)
+                             const StopRule& stop, SimWorld& world, FlushKeeper& keeper)
     : run_(run),
-      node_(setup, node, run, stop, interrupt_, [](const Progress&) {},
-            {world.clock(node.net.self), world.transport(node.net.self)}) {
+      node_(
+          setup, node, run, stop, interrupt_, [](const Progress&) {},
+          {world.clock(node.net.self), world.transport(node.net.self)}, &keeper) {
   node_.start([] { return false; });
 }
 

@@ -4,7 +4,12 @@
 
 #include <cstring>
 
+#include "actors/source/flux_journal.hpp"
+#include "runtime/core/check.hpp"
 #include "runtime/core/random.hpp"
+#include "runtime/sim/swarm.hpp"
+#include "runtime/storage/faulty_store.hpp"
+#include "runtime/storage/memory_store.hpp"
 
 namespace luxodus {
 
@@ -106,11 +111,11 @@ class Simulation {
   static Result<SimReport> run(const SimScene& scene, const SimOptions& options);
 
  private:
-  Simulation(const SimScene& scene, const SimOptions& options, std::unique_ptr<LocalRun> run,
-             PlannedNodes& nodes);
+  Simulation(const SimScene& scene, const SimOptions& options, PlannedNodes& nodes);
   void set_up(const PlannedNodes& nodes);
   FaultPlan fault_plan() const;
   std::unique_ptr<SimNode> make(NodeId node, uint32_t life);
+  void begin_controller(uint32_t life);
   void go();
   std::string ended_well() const;
   NodeId controller() const { return {static_cast<uint16_t>(setups_.size() - 1)}; }
@@ -118,7 +123,9 @@ class Simulation {
 
   const SimScene& scene_;
   const SimOptions options_;
-  const std::unique_ptr<LocalRun> run_;
+  std::unique_ptr<LocalRun> run_;  // of the controller's present life
+  std::vector<std::byte> disk_;    // of the controller
+  std::unique_ptr<FluxJournal> journal_;
   const RunSetup& setup_;
   std::vector<NodeSetup> setups_;  // the controller's is the last
   StopRule stop_;
@@ -128,17 +135,15 @@ class Simulation {
   std::optional<StopReason> reason_;
 };
 
-Simulation::Simulation(const SimScene& scene, const SimOptions& options,
-                       std::unique_ptr<LocalRun> run, PlannedNodes& nodes)
-    : scene_(scene), options_(options), run_(std::move(run)), setup_(nodes.setup()) {
+Simulation::Simulation(const SimScene& scene, const SimOptions& options, PlannedNodes& nodes)
+    : scene_(scene), options_(options), setup_(nodes.setup()) {
   stop_.particles = scene.particles();
   costs_.particle = options.work / scene.particles();
   set_up(nodes);
   SimSetup world;
-  world.seed = options.seed;
   world.nodes = static_cast<uint16_t>(setups_.size());
   world.edges = edges_of(setup_.graph);
-  if (options.faults) world.plan = fault_plan();
+  world.plan = fault_plan();
   world_ = std::make_unique<SimWorld>(world);
 }
 
@@ -169,10 +174,22 @@ void Simulation::set_up(const PlannedNodes& nodes) {
 }
 
 FaultPlan Simulation::fault_plan() const {
+  if (options_.plan) {
+    FaultPlan plan = *options_.plan;
+    plan.seed ^= options_.seed;  // the same faults, otherwise by chance
+    return plan;
+  }
+  if (!options_.faults) {
+    FaultPlan quiet;  // a rack's network
+    quiet.seed = options_.seed;
+    quiet.links.delay = microseconds(50);
+    quiet.links.jitter = microseconds(20);
+    quiet.links.bytes_per_second = 1e9;
+    return quiet;
+  }
   SwarmFrame frame;
   frame.edges = edges_of(setup_.graph);
   frame.nodes = static_cast<uint16_t>(setups_.size());
-  frame.spared = {controller()};  // nothing of it survives
   frame.lasts = options_.faults_last;
   return swarm(options_.seed, frame);
 }
@@ -180,9 +197,29 @@ FaultPlan Simulation::fault_plan() const {
 std::unique_ptr<SimNode> Simulation::make(NodeId node, uint32_t life) {
   NodeSetup& setup = setups_[node.value];
   setup.net.incarnation = {draw_life(options_.seed, node, life)};
-  if (node == controller())
-    return std::make_unique<SimController>(setup_, setup, *run_, stop_, *world_);
+  if (node == controller()) {
+    begin_controller(life);
+    return std::make_unique<SimController>(setup_, setup, *run_, stop_, *world_, *journal_);
+  }
   return std::make_unique<SimWorker>(setup_, setup, *world_, costs_, report_.caches);
+}
+
+/// Its totals are those of its journal, at the end of which may stand what a crash has torn.
+void Simulation::begin_controller(uint32_t life) {
+  if (life > 0) {
+    Random random(options_.seed, RandomStream::faults);
+    random.start(2 + life);
+    for (uint32_t torn = random.bits() % 64; torn > 0; --torn)
+      disk_.push_back(static_cast<std::byte>(random.bits()));
+  }
+  journal_.reset();
+  run_ = scene_.fresh_run(false);
+  auto store = std::make_unique<FaultyStore>(std::make_unique<MemoryStore>(disk_), controller(),
+                                             fault_plan(), world_->clock(controller()));
+  auto journal = FluxJournal::open(std::move(store), *run_);
+  LUX_CHECK(journal.ok(), "a simulated disk gives back what was kept");
+  journal_ = std::move(journal).value();
+  report_.recovered += journal_->recovered();
 }
 
 void Simulation::note_last(const SimController& controller) {
@@ -225,12 +262,12 @@ std::string Simulation::ended_well() const {
 Result<SimReport> Simulation::run(const SimScene& scene, const SimOptions& options) {
   Draw draw(options.seed);
   const NodesOptions wanted = drawn_nodes(draw, *scene.scene(), options);
-  std::unique_ptr<LocalRun> run = scene.fresh_run(wanted.object_bytes == 0);
+  const std::unique_ptr<LocalRun> run = scene.fresh_run(wanted.object_bytes == 0);
   StopRule stop;
   stop.particles = scene.particles();
   auto nodes = PlannedNodes::make(*run, wanted, stop, options.seed | 1);
   if (!nodes.ok()) return nodes.problem();
-  Simulation simulation(scene, options, std::move(run), *nodes.value());
+  Simulation simulation(scene, options, *nodes.value());
   simulation.go();
   simulation.report_.nodes =
       fmt::format("{} nodes, {} fibers, {} replicas, objects {} KiB", wanted.nodes, wanted.fibers,

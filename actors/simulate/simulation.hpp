@@ -41,8 +41,9 @@ struct SimOptions {
   /// What the nodes are like is drawn from the seed: fibers, budgets, windows, times.
   bool draw_nodes = true;
   NodesOptions fixed;  // otherwise
-  bool faults = true;  // drawn from the seed
+  bool faults = true;  // drawn from the seed, unless there is a plan
   Nanoseconds faults_last = seconds(30);
+  std::optional<FaultPlan> plan;
   /// All particles on one worker take so long.
   Nanoseconds work = seconds(60);
   /// After healing, a run that has not ended is stuck.
@@ -54,6 +55,7 @@ struct SimReport {
   Nanoseconds virtual_time = 0;
   uint64_t trace_hash = 0;
   SimWorld::Counters world;
+  int64_t recovered = 0;  // batches, by controllers that began anew
   uint64_t leases = 0;
   uint64_t leases_fenced = 0;
   uint64_t flushes_refused = 0;

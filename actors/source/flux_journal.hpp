@@ -9,20 +9,21 @@
 #include <span>
 #include <vector>
 
+#include "actors/source/flush_keeper.hpp"
 #include "actors/source/local_run.hpp"
 #include "runtime/storage/journal.hpp"
 
 namespace luxodus {
 
-class FluxJournal {
+class FluxJournal final : public FlushKeeper {
  public:
   /// Counts into `run` what the store holds and the run does not, and has it go on from there.
   /// Errors: as Journal::open; a record that does not belong to this run, or fits it in part only.
   static Result<std::unique_ptr<FluxJournal>> open(std::unique_ptr<AppendStore> store,
                                                    LocalRun& run);
 
-  /// Keeps a flush. Errors: as Journal::append.
-  Result<bool> add(std::span<const int64_t> batches, std::span<const std::byte> flush);
+  /// Errors: as Journal::append.
+  Result<bool> keep(std::span<const int64_t> batches, std::span<const std::byte> flush) override;
   /// The run's flux file holds everything now. Errors: as Journal::restart.
   Result<bool> restart() { return journal_.restart(); }
 

@@ -56,6 +56,12 @@ bool LeaseBook::stand(NodeId node, const std::vector<uint64_t>& leases) const {
   });
 }
 
+std::vector<int64_t> LeaseBook::batches_of(const std::vector<uint64_t>& leases) const {
+  std::vector<int64_t> batches;
+  for (const uint64_t id : leases) batches.push_back(leases_.at(id).batch);
+  return batches;
+}
+
 void LeaseBook::commit(const std::vector<uint64_t>& leases) {
   for (const uint64_t id : leases) {
     const auto at = leases_.find(id);

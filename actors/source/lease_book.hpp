@@ -63,6 +63,8 @@ class LeaseBook {
 
   /// Whether all of these leases stand, and are this node's: then a flush of them may be counted.
   bool stand(NodeId node, const std::vector<uint64_t>& leases) const;
+  /// Their batches. Requires: they stand.
+  std::vector<int64_t> batches_of(const std::vector<uint64_t>& leases) const;
   /// Their batches are counted. Requires: stand(node, leases).
   void commit(const std::vector<uint64_t>& leases);
 

@@ -233,6 +233,8 @@ Result<NodeSetup> ClusterProcessRun::setup_of(NodeId self, const RunSetup& run) 
   node.photons.leases = cluster_.lease.batches;
   node.tally_bytes = budget.tally_bytes;
   node.shutdown_phase = cluster_.timeouts.shutdown_phase;
+  node.faults = cluster_.faults;
+  node.one_clock = cluster_.hosts.size() == 1;
   node.fetch.tries = static_cast<uint8_t>(cluster_.timeouts.fetch_attempts);
   node.fetch.timeouts.floor = cluster_.timeouts.fetch_floor;
   return node;
@@ -245,6 +247,27 @@ ObserveOptions ClusterProcessRun::observe_options() const {
   if (port != 0) options.metrics_port = port;
   options.trace_every = cluster_.observe.trace_every;
   return options;
+}
+
+Result<bool> ClusterProcessRun::open_journal(const Clock& clock) {
+  RunJournalConfig config;
+  config.folder = cluster_.run.out;
+  config.self = cluster_.controller();
+  config.faults = cluster_.faults;
+  auto journal = RunJournal::open(config, *run_, clock);
+  if (!journal.ok()) return journal.problem();
+  journal_ = std::move(journal).value();
+  if (journal_->torn_bytes() > 0)
+    spdlog::warn("journal=torn bytes={} text=\"the end of it was cut: a crash tore it\"",
+                 journal_->torn_bytes());
+  if (journal_->recovered() > 0)
+    spdlog::warn("run=recovered batches={} text=\"an earlier life of this node has counted them\"",
+                 journal_->recovered());
+  return true;
+}
+
+void ClusterProcessRun::forget_journal() const {
+  if (journal_) journal_->remove();
 }
 
 /// Beside the results, under the name of the process: several may share the folder.
@@ -304,6 +327,8 @@ Result<std::optional<StopReason>> ClusterProcessRun::run(
   for (const NodeSetup& node : workers)
     if (auto fault = budget_fault(setup, node)) return Problem{{cluster_.file.string(), 0}, *fault};
   spdlog::info("memory plan\n{}", plan_text(setup, workers, controller));
+  if (controller)
+    if (auto ok = open_journal(clock); !ok.ok()) return ok.problem();
   WorkerThreads threads(setup, machine, workers, [&] { return !controller && interrupt.load(); });
   std::optional<StopReason> reason;
   if (controller) {
@@ -311,8 +336,9 @@ Result<std::optional<StopReason>> ClusterProcessRun::run(
     if (cluster_.run.particles) stop.particles = static_cast<int64_t>(*cluster_.run.particles);
     stop.relative_error = cluster_.run.relative_error;
     stop.seconds = cluster_.run.time_s;
-    auto ended = run_controller(setup, machine, *controller, *run_, stop, interrupt, report,
-                                [&] { return threads.failed(); });
+    auto ended = run_controller(
+        setup, machine, *controller, *run_, stop, interrupt, report,
+        [&] { return threads.failed(); }, nullptr, journal_.get());
     if (!ended.ok()) return ended.problem();
     reason = ended.value();
   }

@@ -12,6 +12,7 @@
 #include <optional>
 
 #include "actors/supervise/in_process.hpp"
+#include "actors/supervise/run_journal.hpp"
 #include "runtime/config/cluster_config.hpp"
 
 namespace luxodus {
@@ -50,6 +51,8 @@ class ClusterProcessRun {
 
   /// The totals, where the controller is here.
   const LocalRun& local_run() const { return *run_; }
+  /// The results are written: what was kept of the run for a crash goes.
+  void forget_journal() const;
   int cells() const { return cells_; }
 
  private:
@@ -64,6 +67,7 @@ class ClusterProcessRun {
   Result<bool> load_keys(const std::vector<NodeId>& nodes);
   Result<std::optional<Residency>> planned_residency(const RunSetup& run) const;
   Result<NodeSetup> setup_of(NodeId self, const RunSetup& run) const;
+  Result<bool> open_journal(const Clock& clock);
   ObserveOptions observe_options() const;
   Result<Done> write_trace(const Observation& seen) const;
 
@@ -75,6 +79,7 @@ class ClusterProcessRun {
   std::map<NodeId, KeyPair> keys_;
   std::map<NodeId, std::string> public_keys_;
   std::unique_ptr<LocalRun> run_;
+  std::unique_ptr<RunJournal> journal_;  // where the controller is here
   std::vector<std::string> residency_lines_;
 };
 

@@ -6,8 +6,10 @@ namespace luxodus {
 
 namespace {
 
-ControllerConfig controller_config(const RunSetup& setup, const NodeSetup& node) {
+ControllerConfig controller_config(const RunSetup& setup, const NodeSetup& node,
+                                   FlushKeeper* keeper) {
   ControllerConfig config;
+  config.keeper = keeper;
   config.lease_time = node.lease_time;
   config.group_ranks = node.group_ranks;
   config.leases_most = static_cast<uint32_t>(node.photons.leases);
@@ -24,13 +26,14 @@ ControllerConfig controller_config(const RunSetup& setup, const NodeSetup& node)
 
 ControllerNode::ControllerNode(const RunSetup& setup, const NodeSetup& node, LocalRun& run,
                                const StopRule& stop, const std::atomic<bool>& interrupt,
-                               std::function<void(const Progress&)> report, const NodeSeams& seams)
+                               std::function<void(const Progress&)> report, const NodeSeams& seams,
+                               FlushKeeper* keeper)
     : setup_(setup),
       self_(node.net.self),
       shell_(
           {node.net, controller_limits(node), ShellConfig{}.room_bytes_most, node.shutdown_phase},
           setup.graph, seams.clock, seams.transport),
-      controller_(controller_config(setup, node), run, stop, interrupt, std::move(report),
+      controller_(controller_config(setup, node, keeper), run, stop, interrupt, std::move(report),
                   shell_.scheduler(), shell_.network()) {}
 
 void ControllerNode::start(std::function<bool()> broken) {

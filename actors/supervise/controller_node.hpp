@@ -10,10 +10,11 @@ namespace luxodus {
 
 class ControllerNode {
  public:
-  /// Goes on from what `run` holds. Requires: all outlive this.
+  /// Goes on from what `run` holds. What is counted is given to `keeper` first. Requires: all
+  /// outlive this.
   ControllerNode(const RunSetup& setup, const NodeSetup& node, LocalRun& run, const StopRule& stop,
                  const std::atomic<bool>& interrupt, std::function<void(const Progress&)> report,
-                 const NodeSeams& seams);
+                 const NodeSeams& seams, FlushKeeper* keeper = nullptr);
 
   /// From the shell's next turn on this waits for the workers and runs the run, until it has ended
   /// or `broken` says that it cannot go on.

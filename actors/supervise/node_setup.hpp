@@ -12,7 +12,7 @@
 #include "actors/supervise/node_shell.hpp"
 #include "actors/supervise/observation.hpp"
 #include "runtime/config/cluster_config.hpp"
-#include "runtime/net/delayed_transport.hpp"
+#include "runtime/net/faulty_transport.hpp"
 #include "runtime/net/zmq_transport.hpp"
 #include "topology/graph.hpp"
 
@@ -57,8 +57,9 @@ struct NodeSetup {
   std::vector<std::vector<uint32_t>> group_ranks;
   uint64_t tally_bytes = UINT64_MAX;  // for scores, totals and a flush
   Nanoseconds shutdown_phase = ShellConfig{}.shutdown_phase;
-  /// Of every link, on purpose. Requires: the same at all nodes, and one clock: one process.
-  Nanoseconds link_delay = 0;
+  /// What shall go wrong, on purpose. Requires: the same at all nodes.
+  FaultPlan faults;
+  bool one_clock = true;  // all nodes are on one host
 };
 
 /// What stands between a node and its machine: a simulation puts its own here, and nothing else.
@@ -75,17 +76,21 @@ struct Machine {
   ZmqContext& context;
 };
 
-/// A node's way to its neighbours: its sockets, behind the delay that the setup asks for.
+/// A node's way to its neighbours: its sockets, behind the faults that the setup asks for.
 class NodeTransport {
  public:
   NodeTransport(const Machine& machine, const NodeSetup& node)
       : machine_(machine),
         sockets_(machine.context, {node.net.self, node.keys, node.insecure}, machine.clock) {
-    if (node.link_delay > 0) delayed_.emplace(sockets_, node.link_delay, machine.clock);
+    if (node.faults.any())
+      faulty_.emplace(
+          sockets_,
+          FaultyConfig{node.net.self, node.faults, node.one_clock, limits::held_back_bytes, {}, {}},
+          machine.clock);
   }
 
   ZmqTransport& sockets() { return sockets_; }
-  Transport& transport() { return delayed_ ? static_cast<Transport&>(*delayed_) : sockets_; }
+  Transport& transport() { return faulty_ ? static_cast<Transport&>(*faulty_) : sockets_; }
   NodeSeams seams() { return {machine_.clock, transport()}; }
   /// What went wrong between this node and others while they met, to add to a sentence; "" if
   /// nothing did: who was turned away, by whom this node was, which links are refused and why.
@@ -94,7 +99,7 @@ class NodeTransport {
  private:
   Machine machine_;
   ZmqTransport sockets_;
-  std::optional<DelayedTransport> delayed_;
+  std::optional<FaultyTransport> faulty_;
 };
 
 /// Listens and connects as the setup says.

@@ -11,15 +11,6 @@ namespace luxodus {
 
 // ---- workers ---------------------------------------------------------------------------------
 
-WorkerThreads::WorkerThreads(const RunSetup& run, const Machine& machine,
-                             const std::vector<NodeSetup>& nodes,
-                             const std::function<bool()>& stop) {
-  for (const NodeSetup& node : nodes)
-    threads_.emplace_back([this, &run, &machine, &node, stop] { work(run, machine, node, stop); });
-}
-
-namespace {
-
 Result<WorkerReport> run_worker(const RunSetup& run, const Machine& machine, const NodeSetup& node,
                                 const std::function<bool()>& stop) {
   NodeTransport transport(machine, node);
@@ -34,7 +25,12 @@ Result<WorkerReport> run_worker(const RunSetup& run, const Machine& machine, con
                      transport.meeting_trouble(worker.shell().network())};
 }
 
-}  // namespace
+WorkerThreads::WorkerThreads(const RunSetup& run, const Machine& machine,
+                             const std::vector<NodeSetup>& nodes,
+                             const std::function<bool()>& stop) {
+  for (const NodeSetup& node : nodes)
+    threads_.emplace_back([this, &run, &machine, &node, stop] { work(run, machine, node, stop); });
+}
 
 void WorkerThreads::work(const RunSetup& run, const Machine& machine, const NodeSetup& node,
                          const std::function<bool()>& stop) {
@@ -77,9 +73,10 @@ Result<StopReason> run_controller(const RunSetup& setup, const Machine& machine,
                                   const NodeSetup& node, LocalRun& run, const StopRule& stop,
                                   const std::atomic<bool>& interrupt,
                                   const std::function<void(const Progress&)>& report,
-                                  const std::function<bool()>& broken, NodesReport* counted) {
+                                  const std::function<bool()>& broken, NodesReport* counted,
+                                  FlushKeeper* keeper) {
   NodeTransport transport(machine, node);
-  ControllerNode here(setup, node, run, stop, interrupt, report, transport.seams());
+  ControllerNode here(setup, node, run, stop, interrupt, report, transport.seams(), keeper);
   if (auto joined = join_links(transport.sockets(), node); !joined.ok()) return joined.problem();
   const Nanoseconds began = machine.clock.now();
   here.start(broken);

@@ -27,6 +27,11 @@ struct NodesReport {
   std::optional<Residency> residency;  // where there was a plan
 };
 
+/// Runs a worker on the calling thread until it has left; see Worker::start.
+/// Errors: as join_links and Worker::result.
+Result<WorkerReport> run_worker(const RunSetup& run, const Machine& machine, const NodeSetup& node,
+                                const std::function<bool()>& stop);
+
 /// Threads that run workers, each in one, and the first problem of any of them.
 class WorkerThreads {
  public:
@@ -64,6 +69,6 @@ Result<StopReason> run_controller(const RunSetup& setup, const Machine& machine,
                                   const std::atomic<bool>& interrupt,
                                   const std::function<void(const Progress&)>& report,
                                   const std::function<bool()>& broken,
-                                  NodesReport* counted = nullptr);
+                                  NodesReport* counted = nullptr, FlushKeeper* keeper = nullptr);
 
 }  // namespace luxodus

@@ -15,12 +15,15 @@
 #include <vector>
 
 #include "runtime/core/clock.hpp"
+#include "runtime/core/faults.hpp"
 #include "runtime/net/net_config.hpp"
 #include "runtime/net/zmq_transport.hpp"
 
 namespace luxodus {
 
 namespace limits {
+/// Things that happen, by a cluster's file.
+inline constexpr size_t cluster_faults = 4096;
 /// Machines of a cluster; every one costs a connection of whoever deploys to it.
 inline constexpr size_t cluster_hosts = 256;
 /// Nodes of a cluster, the controller included: as many as a graph has vertices.
@@ -137,6 +140,7 @@ struct ClusterConfig {
   Timeouts timeouts;
   KeysChoice keys;
   ObserveChoice observe;
+  FaultPlan faults;  // on purpose; none in most files
 
   const ClusterNode& node(NodeId id) const { return nodes[id.value]; }
   const ClusterHost& host_of(NodeId id) const { return hosts[node(id).host]; }

@@ -122,54 +122,95 @@ void read_tables(const toml::table& document, ClusterReading& reading) {
   read_links(top, reading);
   read_services(top, reading);
   const uint16_t metrics_port = read_observe(top, reading);
+  read_faults(top, reading);
   if (!reading.findings.empty()) return;
   form_processes(reading, metrics_port);
   if (!reading.findings.empty()) return;
   give_ports(reading);
   connect_nodes(reading);
+  resolve_fault_events(reading);
   check_keys(reading);
 }
 
-ReadCluster refused(const std::filesystem::path& file, int line, std::string what) {
-  ReadCluster read;
-  read.problems.add({file.string(), line}, std::move(what));
-  return read;
+/// Parses a text and has `read` go through it; what is wrong with it is found by then.
+template <class Read>
+Problems read_document(std::string_view text, ClusterReading& reading, Read&& read) {
+  Problems problems;
+  const SourcePlace& start = reading.start;
+  if (text.size() > limits::cluster_file_bytes) {
+    problems.add({start.file, 0},
+                 fmt::format("this file is longer than {} bytes, the most a cluster takes",
+                             limits::cluster_file_bytes));
+    return problems;
+  }
+  if (const auto deep = too_deep_toml(text, start.file)) {
+    problems.add(deep->where, deep->what);
+    return problems;
+  }
+  try {
+    read(toml::parse(text, start.file));
+  } catch (const toml::parse_error& e) {
+    problems.add({start.file, static_cast<int>(e.source().begin.line)},
+                 fmt::format("this is not TOML: {}", e.description()));
+    return problems;
+  }
+  return reading.findings.take();
+}
+
+/// The text of a file, or why there is none.
+Result<std::string> text_of(const std::filesystem::path& file) {
+  std::error_code failed;
+  if (std::filesystem::is_directory(file, failed))
+    return Problem{{file.string(), 0}, "is a folder"};
+  std::ifstream in(file, std::ios::binary);
+  if (!in)
+    return Problem{{file.string(), 0}, fmt::format("cannot be read: {}", std::strerror(errno))};
+  // One byte more than is allowed shows that there is too much, whatever the file says of its size.
+  std::string text(limits::cluster_file_bytes + 1, '\0');
+  in.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (in.bad()) return Problem{{file.string(), 0}, "cannot be read to its end"};
+  text.resize(static_cast<size_t>(in.gcount()));
+  return text;
+}
+
+Problems only(const Problem& problem) {
+  Problems problems;
+  problems.add(problem);
+  return problems;
 }
 
 }  // namespace
 
 ReadCluster parse_cluster(std::string_view text, const std::filesystem::path& file) {
-  if (text.size() > limits::cluster_file_bytes) {
-    return refused(file, 0,
-                   fmt::format("this file is longer than {} bytes, the most a cluster takes",
-                               limits::cluster_file_bytes));
-  }
-  if (const auto deep = too_deep_toml(text, file.string()))
-    return refused(file, deep->where.line, deep->what);
   ClusterReading reading;
   reading.cluster.file = file;
   reading.start = {file.string(), 1};
-  try {
-    read_tables(toml::parse(text, file.string()), reading);
-  } catch (const toml::parse_error& e) {
-    return refused(file, static_cast<int>(e.source().begin.line),
-                   fmt::format("this is not TOML: {}", e.description()));
-  }
-  if (!reading.findings.empty()) return {std::nullopt, reading.findings.take()};
+  Problems problems = read_document(
+      text, reading, [&](const toml::table& document) { read_tables(document, reading); });
+  if (!problems.list().empty()) return {std::nullopt, std::move(problems)};
   return {std::move(reading.cluster), {}};
 }
 
 ReadCluster read_cluster(const std::filesystem::path& file) {
-  std::error_code failed;
-  if (std::filesystem::is_directory(file, failed)) return refused(file, 0, "is a folder");
-  std::ifstream in(file, std::ios::binary);
-  if (!in) return refused(file, 0, fmt::format("cannot be read: {}", std::strerror(errno)));
-  // One byte more than is allowed shows that there is too much, whatever the file says of its size.
-  std::string text(limits::cluster_file_bytes + 1, '\0');
-  in.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (in.bad()) return refused(file, 0, "cannot be read to its end");
-  text.resize(static_cast<size_t>(in.gcount()));
-  return parse_cluster(text, file);
+  const auto text = text_of(file);
+  if (!text.ok()) return {std::nullopt, only(text.problem())};
+  return parse_cluster(text.value(), file);
+}
+
+ReadFaults read_fault_file(const std::filesystem::path& file,
+                           const std::vector<std::string>& names) {
+  const auto text = text_of(file);
+  if (!text.ok()) return {std::nullopt, only(text.problem())};
+  ClusterReading reading;
+  reading.start = {file.string(), 1};
+  for (const std::string& name : names) reading.cluster.nodes.emplace_back().name = name;
+  Problems problems = read_document(text.value(), reading, [&](const toml::table& document) {
+    TableReader top(document, {"faults.file"}, reading.findings, reading.start);
+    read_faults(top, reading);
+    if (reading.findings.empty()) resolve_fault_events(reading);
+  });
+  if (!problems.list().empty()) return {std::nullopt, std::move(problems)};
+  return {std::move(reading.cluster.faults), {}};
 }
 
 }  // namespace luxodus

@@ -30,4 +30,14 @@ ReadCluster read_cluster(const std::filesystem::path& file);
 /// The same of a text; `file` is named in problems, and paths are relative to its folder.
 ReadCluster parse_cluster(std::string_view text, const std::filesystem::path& file);
 
+/// Either faults, or problems.
+struct ReadFaults {
+  std::optional<FaultPlan> plan;
+  Problems problems;
+};
+
+/// A file that holds the table of faults and nothing else, for nodes of these names, by number.
+ReadFaults read_fault_file(const std::filesystem::path& file,
+                           const std::vector<std::string>& names);
+
 }  // namespace luxodus

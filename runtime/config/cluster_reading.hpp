@@ -22,6 +22,7 @@ struct ClusterReading {
   std::vector<std::string> process_names;  // by node: as said, or the node's own
   std::map<size_t, uint16_t> ports;        // by node: as said
   std::vector<TableReader::Pair> links;    // as said
+  std::vector<const toml::table*> fault_events;
 };
 
 // Each table by itself.
@@ -29,11 +30,14 @@ void read_hosts(TableReader& top, ClusterReading& reading);
 /// Requires: hosts are read.
 void read_nodes(TableReader& top, ClusterReading& reading);
 void read_topology(TableReader& top, ClusterReading& reading);
+void read_faults(TableReader& top, ClusterReading& reading);
 
 // What must fit together. Require: no problem so far.
 void form_processes(ClusterReading& reading, uint16_t metrics_port);
 /// Requires: processes are formed.
 void give_ports(ClusterReading& reading);
 void connect_nodes(ClusterReading& reading);
+/// Requires: nodes have their numbers.
+void resolve_fault_events(ClusterReading& reading);
 
 }  // namespace luxodus::config

@@ -24,6 +24,7 @@ std::vector<TableSpec> run_tables() {
            {"timeouts", "table", "", "", "", "how long is waited for what"},
            {"keys", "table", "", "", "", "by which nodes know each other"},
            {"observe", "table", "", "", "", "what can be seen of a run"},
+           {"faults", "table", "", "", "", "what shall go wrong, on purpose: for rehearsals"},
        }},
       {"run",
        "`[run]`",
@@ -221,6 +222,48 @@ std::vector<TableSpec> service_tables() {
   };
 }
 
+std::vector<TableSpec> fault_tables() {
+  return {
+      {"faults.file",
+       "Top of a file of faults alone, as `luxodus sim --faults FILE` reads it",
+       {{"faults", "table", "", "required", "", "what shall go wrong"}}},
+      {"faults",
+       "`[faults]`: what every link does to frames, each way; without the table, nothing",
+       {
+           {"seed", "integer", "", "1", "[0, 9e18]", "of all that is left to chance"},
+           {"delay_ms", "number", "ms", "0", "[0, 100]", "one way, at least"},
+           {"jitter_ms", "number", "ms", "0", "[0, 1000]", "on top, uniform"},
+           {"tail_share", "number", "", "0", "[0, 1]", "of frames that take longer"},
+           {"tail_ms", "number", "ms", "0", "[0, 10000]", "by up to so much"},
+           {"bytes_per_second", "number", "B/s", "0", "[0, 1e12]", "of each link; 0: no limit"},
+           {"queue_bytes", "size", "B", "\"4 MiB\"", "[65536, 1e9]",
+            "that wait for a link of limited speed"},
+           {"loss", "number", "", "0", "[0, 1]", "share of frames that are lost"},
+           {"duplication", "number", "", "0", "[0, 1]", "that come twice"},
+           {"reordering", "number", "", "0", "[0, 1]",
+            "that are overtaken by what is sent within `tail_ms`"},
+           {"corruption", "number", "", "0", "[0, 1]", "that come with a few bits turned"},
+           {"until_s", "number", "s", "", "(0, 1e8]",
+            "after which links only delay; to the end unless said"},
+           {"event", "tables", "", "", "", "what happens at a moment"},
+       }},
+      {"faults.event",
+       "`[[faults.event]]`: something that happens to a node, or between two",
+       {
+           {"kind", "choice", "", "required",
+            "crash, pause, slow, cut, clog, disconnect, full_disk",
+            "the node's process ends at once; it stands still; its work takes `factor` as long; "
+            "frames from `node` to `peer` are lost; they wait; both ends lose the connection; its "
+            "journal finds no room"},
+           {"at_s", "number", "s", "required", "[0, 1e8]", "since the start of the node"},
+           {"lasts_s", "number", "s", "1", "(0, 1e8]", "how long"},
+           {"node", "text", "", "required", "", "a node's name"},
+           {"peer", "text", "", "", "", "a neighbour's name, for what happens between two"},
+           {"factor", "number", "", "10", "[1, 1e6]", "of `slow`"},
+       }},
+  };
+}
+
 std::string_view trimmed(std::string_view s) {
   while (!s.empty() && s.front() == ' ') s.remove_prefix(1);
   while (!s.empty() && s.back() == ' ') s.remove_suffix(1);
@@ -240,7 +283,8 @@ std::optional<double> number_of(std::string_view s) {
 const std::vector<TableSpec>& cluster_schema() {
   static const std::vector<TableSpec> all = [] {
     std::vector<TableSpec> tables;
-    for (auto part : {run_tables(), node_tables(), topology_tables(), service_tables()}) {
+    for (auto part :
+         {run_tables(), node_tables(), topology_tables(), service_tables(), fault_tables()}) {
       for (auto& table : part) tables.push_back(std::move(table));
     }
     return tables;

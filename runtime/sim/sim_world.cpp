@@ -1,8 +1,6 @@
 #include "runtime/sim/sim_world.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "runtime/actor/timers.hpp"
 #include "runtime/core/check.hpp"
@@ -86,8 +84,7 @@ class SimWorld::Port final : public Transport {
 };
 
 SimWorld::SimWorld(const SimSetup& setup)
-    : setup_(setup), random_(setup.seed, RandomStream::simulation) {
-  random_.start(0);
+    : setup_(setup), troubles_(setup.plan.links, setup.plan.seed, 0) {
   for (uint16_t i = 0; i < setup.nodes; ++i) {
     nodes_.push_back(std::make_unique<Node>());
     nodes_.back()->id = {i};
@@ -205,10 +202,6 @@ SimWorld::Way* SimWorld::way(NodeId from, NodeId to) {
   return ways_[size_t{from.value} * setup_.nodes + to.value].get();
 }
 
-Nanoseconds SimWorld::uniform(Nanoseconds most) {
-  return std::llround(random_.uniform_double() * static_cast<double>(most));
-}
-
 Sent SimWorld::send(NodeId from, NodeId to, Lane lane, std::span<const std::byte> head,
                     std::span<const std::byte> body) {
   Way* const way = this->way(from, to);
@@ -219,8 +212,7 @@ Sent SimWorld::send(NodeId from, NodeId to, Lane lane, std::span<const std::byte
       sent_at < way->connects_at)
     return Sent::unreachable;
   const size_t bytes = head.size() + body.size();
-  const LinkTraits& traits = setup_.plan.links;
-  if (way->queued_bytes + bytes > traits.queue_bytes) {
+  if (way->queued_bytes + bytes > setup_.plan.links.queue_bytes) {
     ++counters_.refused_full;
     return Sent::full;
   }
@@ -232,36 +224,33 @@ Sent SimWorld::send(NodeId from, NodeId to, Lane lane, std::span<const std::byte
   frame.bytes.insert(frame.bytes.end(), body.begin(), body.end());
   trace_.add(frame.bytes.data(), frame.bytes.size());
 
-  way->free_at = std::max(way->free_at, sent_at) +
-                 std::llround(1e9 * static_cast<double>(bytes) / traits.bytes_per_second);
-  Nanoseconds at = way->free_at + traits.delay + uniform(traits.jitter);
-  if (chance(traits.tail_share)) at += uniform(traits.tail);
-  at = std::max(at, way->clogged_until + traits.delay);
-  if (now_ < way->cut_until || (!healed() && chance(traits.loss))) {
+  way->free_at = std::max(way->free_at, sent_at) + troubles_.wire_time(bytes);
+  const FrameFate fate = troubles_.next(healed());
+  const Nanoseconds at = std::max(way->free_at, way->clogged_until) + fate.hold;
+  if (now_ < way->cut_until || fate.lost) {
     ++counters_.lost;
     return Sent::taken;
   }
-  if (!healed()) {
-    if (chance(traits.corruption)) corrupt(frame.bytes);
-    if (chance(traits.duplication)) {
-      ++counters_.duplicated;
-      launch(*way, frame, at + uniform(traits.tail));
-    }
-    if (chance(traits.ghosts)) {
-      ++counters_.ghosts;
-      Frame late = frame;
-      late.ghost = true;
-      launch(*way, std::move(late), at + uniform(seconds(10)));
-    }
-    if (chance(traits.reordering)) {
-      ++counters_.reordered;
-      launch(*way, std::move(frame), at + uniform(traits.tail));
-      return Sent::taken;
-    }
+  if (fate.harmed) {
+    ++counters_.corrupted;
+    troubles_.harm(frame.bytes);
+  }
+  if (fate.again) {
+    ++counters_.duplicated;
+    launch(*way, frame, way->free_at + *fate.again);
+  }
+  if (fate.ghost) {
+    ++counters_.ghosts;
+    Frame late = frame;
+    late.ghost = true;
+    launch(*way, std::move(late), way->free_at + *fate.ghost);
   }
   Nanoseconds& before = way->last[static_cast<size_t>(lane)];
-  before = std::max(before, at);
-  launch(*way, std::move(frame), before);
+  if (fate.overtaken)
+    ++counters_.reordered;
+  else
+    before = std::max(before, at);
+  launch(*way, std::move(frame), fate.overtaken ? at : before);
   return Sent::taken;
 }
 
@@ -277,16 +266,6 @@ void SimWorld::launch(Way& way, Frame frame, Nanoseconds at) {
     frames_[slot] = std::move(frame);
   }
   push({at, 0, Event::Kind::arrival, slot, 0});
-}
-
-void SimWorld::corrupt(std::vector<std::byte>& bytes) {
-  ++counters_.corrupted;
-  if (bytes.empty()) return;
-  const int bits = 1 + static_cast<int>(uniform(3));
-  for (int i = 0; i < bits; ++i) {
-    const auto bit = static_cast<size_t>(uniform(static_cast<Nanoseconds>(8 * bytes.size()) - 1));
-    bytes[bit / 8] ^= std::byte{static_cast<uint8_t>(1u << (bit % 8))};
-  }
 }
 
 void SimWorld::arrive(uint32_t slot) {
@@ -341,6 +320,8 @@ void SimWorld::begin(const Fault& fault) {
       return;
     case Fault::Kind::disconnect:
       return break_connection(fault.node, fault.peer);
+    case Fault::Kind::full_disk:
+      return;  // its store looks at the plan
   }
 }
 

@@ -15,10 +15,10 @@
 #include <memory>
 #include <vector>
 
+#include "runtime/core/faults.hpp"
 #include "runtime/core/hash.hpp"
-#include "runtime/core/random.hpp"
+#include "runtime/net/net_config.hpp"
 #include "runtime/net/transport.hpp"
-#include "runtime/sim/faults.hpp"
 #include "runtime/sim/sim_clock.hpp"
 
 namespace luxodus {
@@ -37,7 +37,6 @@ class SimNode {
 };
 
 struct SimSetup {
-  uint64_t seed = 0;
   uint16_t nodes = 0;
   std::vector<Edge> edges;
   FaultPlan plan;
@@ -105,14 +104,11 @@ class SimWorld {
   Sent send(NodeId from, NodeId to, Lane lane, std::span<const std::byte> head,
             std::span<const std::byte> body);
   void launch(Way& way, Frame frame, Nanoseconds at);
-  void corrupt(std::vector<std::byte>& bytes);
   Way* way(NodeId from, NodeId to);
   bool healed() const { return now_ >= setup_.plan.healed_at; }
-  bool chance(double share) { return share > 0 && random_.uniform_double() < share; }
-  Nanoseconds uniform(Nanoseconds most);
 
   const SimSetup setup_;
-  Random random_;
+  LinkTroubles troubles_;
   MakeNode make_;
   std::vector<std::unique_ptr<Node>> nodes_;
   std::vector<std::unique_ptr<Way>> ways_;  // nodes x nodes, null where there is no link

@@ -148,3 +148,16 @@ TEST_CASE("a cluster that is told to end leaves whole batches that can be gone o
   for (const auto& worker : nodes.workers) CHECK(worker->wait() == 0);
   check_goes_on(folder);
 }
+
+TEST_CASE("who stops cluster up stops all its nodes, and the results are written",
+          "[cluster][loss]") {
+  const Folder folder;
+  const std::string cluster = write_cluster(folder, workers(2, endless));
+  Process up(LUX_PROGRAM, {"cluster", "up", cluster});
+  REQUIRE(up.says("run=begun"));
+  up.kill(SIGTERM);
+  // Its output ends when the last of those who share it has ended.
+  CHECK(up.wait() == 130);
+  INFO(up.text());
+  CHECK(particles_in(folder) > 0);
+}

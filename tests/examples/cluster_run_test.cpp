@@ -71,6 +71,19 @@ TEST_CASE("processes that plan by a profile leave the flux file of the plain loo
   CHECK(flux == slurp(folder.path / "plain" / "flux.lux"));
 }
 
+TEST_CASE("a rehearsal of faults, by the cluster's file, leaves the flux of the plain loop",
+          "[cluster]") {
+  const Folder folder;
+  check_same_flux(folder, cluster_file(folder,
+                                       "[faults]\ndelay_ms = 1\njitter_ms = 0.5\ntail_ms = 20\n"
+                                       "tail_share = 0.02\nloss = 0.02\nduplication = 0.02\n"
+                                       "reordering = 0.02\ncorruption = 0.01\n"
+                                       "[[faults.event]]\nkind = \"pause\"\nnode = \"n1\"\n"
+                                       "at_s = 0.5\nlasts_s = 0.5\n"
+                                       "[[faults.event]]\nkind = \"cut\"\nnode = \"n0\"\n"
+                                       "peer = \"controller\"\nat_s = 0.3\nlasts_s = 1\n"));
+}
+
 TEST_CASE("four processes over TCP with keys leave the flux file of the plain loop", "[cluster]") {
   const Folder folder;
   const fs::path cluster =

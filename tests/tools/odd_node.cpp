@@ -7,7 +7,7 @@
 #include <string>
 
 #include "actors/supervise/cluster_process.hpp"
-#include "actors/supervise/worker.hpp"
+#include "actors/supervise/node_threads.hpp"
 #include "runtime/config/cluster_file.hpp"
 #include "scenes/format/scene_file.hpp"
 #include "scenes/transport/compile.hpp"
@@ -44,8 +44,8 @@ int run(const std::string& file, const std::string& name, const std::string& wha
   const LocalRun local(compiled.value(), description->run.seed, 1);
   const SystemClock clock;
   ZmqContext context({});
-  const RunSetup setup{local.scene(), &local.index(), nullptr, nullptr, local.seed(),
-                       graph.value(), clock,          context, {},      nullptr};
+  const RunSetup setup{local.scene(), &local.index(), nullptr, nullptr,
+                       local.seed(),  graph.value(),  {},      nullptr};
   NodeSetup node;
   node.net = net_config(cluster, *self);
   node.net.incarnation = {static_cast<uint64_t>(::getpid())};
@@ -54,8 +54,7 @@ int run(const std::string& file, const std::string& name, const std::string& wha
   node.links = links_of(cluster, *self, node.net.edges);
   node.controller = cluster.controller();
   node.start = cluster.timeouts.start;
-  Worker worker(setup, node);
-  const auto ended = worker.run([] { return false; });
+  const auto ended = run_worker(setup, {clock, context}, node, [] { return false; });
   if (ended.ok()) return 0;
   std::fprintf(stderr, "%s\n", ended.problem().text().c_str());
   return 1;

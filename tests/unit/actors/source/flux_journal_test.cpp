@@ -4,34 +4,12 @@
 #include <cstring>
 
 #include "actors/tally/flush_codec.hpp"
+#include "runtime/storage/memory_store.hpp"
 #include "tests/unit/actors/supervise/library_scene.hpp"
 
 using namespace luxodus;
 
 namespace {
-
-/// Bytes that outlive the journals over them.
-class MemoryStore final : public AppendStore {
- public:
-  explicit MemoryStore(std::vector<std::byte>& bytes) : bytes_(bytes) {}
-  uint64_t size() const override { return bytes_.size(); }
-  Result<bool> read(uint64_t offset, std::span<std::byte> into) override {
-    if (offset + into.size() > bytes_.size()) return Problem{{}, "not so many bytes"};
-    std::memcpy(into.data(), bytes_.data() + offset, into.size());
-    return true;
-  }
-  Result<bool> append(std::span<const std::byte> bytes) override {
-    bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
-    return true;
-  }
-  Result<bool> truncate(uint64_t size) override {
-    bytes_.resize(size);
-    return true;
-  }
-
- private:
-  std::vector<std::byte>& bytes_;
-};
 
 /// Traces single batches, as a worker does, into flushes.
 class Worker {
@@ -100,7 +78,7 @@ TEST_CASE("a run that begins again from its journal, anywhere, ends as one that 
       LocalRun first(scene, 1, 1);
       const auto journal = opened(disk, first);
       for (size_t i = 0; i < stop; ++i)
-        REQUIRE(journal->add(std::array{order[i]}, worker.flush_of(order[i])).ok());
+        REQUIRE(journal->keep(std::array{order[i]}, worker.flush_of(order[i])).ok());
     }
     disk.push_back(std::byte{9});  // and a torn end
     LocalRun second(scene, 1, 1);
@@ -123,7 +101,7 @@ TEST_CASE("a journal that is older than the flux file in part is counted once", 
     LocalRun first(scene, 1, 1);
     const auto journal = opened(disk, first);
     for (int64_t batch = 0; batch < 3; ++batch)
-      REQUIRE(journal->add(std::array{batch}, worker.flush_of(batch)).ok());
+      REQUIRE(journal->keep(std::array{batch}, worker.flush_of(batch)).ok());
   }
   LocalRun second(scene, 1, 1);
   trace(second, 2);  // as a flux file would have it
@@ -148,17 +126,17 @@ TEST_CASE("records that do not belong to a run are refused", "[journal]") {
     CHECK(refused(other).find("another run") != std::string::npos);
   }
   SECTION("one flush for two batches") {
-    REQUIRE(opened(disk, run)->add(std::array<int64_t, 2>{0, 1}, flush).ok());
+    REQUIRE(opened(disk, run)->keep(std::array<int64_t, 2>{0, 1}, flush).ok());
     CHECK(refused(run).find("does not belong") != std::string::npos);
   }
   SECTION("a flush that is counted in part") {
-    REQUIRE(opened(disk, run)->add(std::array<int64_t, 2>{0, 1}, flush).ok());
+    REQUIRE(opened(disk, run)->keep(std::array<int64_t, 2>{0, 1}, flush).ok());
     LocalRun other(scene, 1, 1);
     trace(other, 1);
     CHECK(refused(other).find("does not belong") != std::string::npos);
   }
   SECTION("no flush") {
-    REQUIRE(opened(disk, run)->add(std::array<int64_t, 1>{0}, {}).ok());
+    REQUIRE(opened(disk, run)->keep(std::array<int64_t, 1>{0}, {}).ok());
     CHECK(refused(run).find("does not belong") != std::string::npos);
   }
 }

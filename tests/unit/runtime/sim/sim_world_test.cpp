@@ -6,6 +6,7 @@
 #include <set>
 
 #include "runtime/actor/timers.hpp"
+#include "runtime/sim/swarm.hpp"
 
 using namespace luxodus;
 
@@ -58,10 +59,10 @@ class Counting final : public SimNode {
 struct Pair {
   explicit Pair(const FaultPlan& plan, int sends = 1000, uint64_t seed = 1) {
     SimSetup setup;
-    setup.seed = seed;
     setup.nodes = 2;
     setup.edges = {{first, second}};
     setup.plan = plan;
+    setup.plan.seed = seed;
     world.emplace(setup);
     world->start([this, sends](NodeId node, uint32_t life) {
       auto made = std::make_unique<Counting>(*world, node, node == first ? sends : 0);
@@ -82,7 +83,8 @@ struct Pair {
 
 FaultPlan quiet() {
   FaultPlan plan;
-  plan.links.jitter = 0;
+  plan.links.delay = microseconds(50);
+  plan.links.tail = milliseconds(50);
   plan.healed_at = seconds(100);
   return plan;
 }

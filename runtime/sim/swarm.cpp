@@ -1,4 +1,4 @@
-#include "runtime/sim/faults.hpp"
+#include "runtime/sim/swarm.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,11 +6,6 @@
 #include "runtime/core/random.hpp"
 
 namespace luxodus {
-
-const char* name_of(Fault::Kind kind) {
-  constexpr const char* names[] = {"crash", "pause", "slow", "cut", "clog", "disconnect"};
-  return names[static_cast<size_t>(kind)];
-}
 
 namespace {
 
@@ -61,7 +56,8 @@ Fault draw_fault(Draw& draw, Fault::Kind kind, const SwarmFrame& frame) {
   fault.at = draw.moment(frame.lasts);
   fault.lasts = draw.span(milliseconds(10), seconds(10));
   fault.factor = draw.between(2, 50);
-  if (kind == Fault::Kind::crash || kind == Fault::Kind::pause || kind == Fault::Kind::slow) {
+  if (kind == Fault::Kind::crash || kind == Fault::Kind::pause || kind == Fault::Kind::slow ||
+      kind == Fault::Kind::full_disk) {
     fault.node = {static_cast<uint16_t>(draw.below(frame.nodes))};
     return fault;
   }
@@ -98,6 +94,7 @@ void draw_partition(Draw& draw, const SwarmFrame& frame, std::vector<Fault>& fau
 FaultPlan swarm(uint64_t seed, const SwarmFrame& frame) {
   Draw draw(seed);
   FaultPlan plan;
+  plan.seed = seed;
   plan.links = draw_links(draw);
   plan.healed_at = frame.lasts;
   for (int k = 0; k < fault_kinds; ++k) {

@@ -1,0 +1,23 @@
+// Who keeps what a controller counts, so that a run survives its controller.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "runtime/core/result.hpp"
+
+namespace luxodus {
+
+class FlushKeeper {
+ public:
+  virtual ~FlushKeeper() = default;
+  /// Keeps a flush and the numbers of its batches, whatever happens after this has returned true.
+  /// Errors: it could not; the controller counts the flush all the same.
+  virtual Result<bool> keep(std::span<const int64_t> batches, std::span<const std::byte> flush) = 0;
+  /// Called now and then, off any fiber, when the run's totals hold all that was kept: the time to
+  /// tidy up.
+  virtual void rest() {}
+};
+
+}  // namespace luxodus

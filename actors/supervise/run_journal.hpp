@@ -1,0 +1,57 @@
+// The journal of a cluster's controller, beside the results: what it has counted survives it. When
+// the node is started again, as by the same command, it goes on from there; when the results are
+// written, the journal goes. A journal that has grown long becomes a snapshot of the totals.
+//
+//   OUT/run.snapshot   a flux file, where there was reason for one
+//   OUT/run.journal    flushes since
+//
+// Thread rule: the controller's thread.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "actors/source/flux_journal.hpp"
+#include "runtime/core/clock.hpp"
+#include "runtime/core/faults.hpp"
+
+namespace luxodus {
+
+struct RunJournalConfig {
+  std::filesystem::path folder;
+  uint64_t bytes_most = 256 << 20;  // then it becomes a snapshot
+  NodeId self;
+  FaultPlan faults;
+};
+
+class RunJournal final : public FlushKeeper {
+ public:
+  /// Makes the folder if need be, and counts into `run` what is kept there. Requires: both outlive
+  /// this. Errors: as FileStore::open, load_flux and FluxJournal::open.
+  static Result<std::unique_ptr<RunJournal>> open(const RunJournalConfig& config, LocalRun& run,
+                                                  const Clock& clock);
+
+  Result<bool> keep(std::span<const int64_t> batches, std::span<const std::byte> flush) override {
+    return journal_->keep(batches, flush);
+  }
+  /// Makes a snapshot where the journal has grown long.
+  void rest() override;
+
+  /// Batches that were counted before this began.
+  int64_t recovered() const { return recovered_; }
+  uint64_t torn_bytes() const { return journal_->torn_bytes(); }
+  /// The results hold everything: removes both files.
+  void remove();
+
+ private:
+  RunJournal(const RunJournalConfig& config, LocalRun& run) : config_(config), run_(run) {}
+  std::filesystem::path snapshot() const { return config_.folder / "run.snapshot"; }
+  std::filesystem::path journal() const { return config_.folder / "run.journal"; }
+
+  const RunJournalConfig config_;
+  LocalRun& run_;
+  std::unique_ptr<FluxJournal> journal_;
+  int64_t recovered_ = 0;
+};
+
+}  // namespace luxodus

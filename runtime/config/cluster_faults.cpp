@@ -1,0 +1,77 @@
+// What of a cluster's file shall go wrong, on purpose.
+#include <cmath>
+
+#include "runtime/config/cluster_reading.hpp"
+
+namespace luxodus::config {
+
+namespace {
+
+Nanoseconds span_of_ms(double ms) {
+  return std::llround(ms * 1e6);
+}
+
+Fault::Kind kind_of(const std::string& word) {
+  for (int k = 0; k < fault_kinds; ++k)
+    if (word == name_of(static_cast<Fault::Kind>(k))) return static_cast<Fault::Kind>(k);
+  return Fault::Kind::pause;  // a word that was reported
+}
+
+bool is_between_two(Fault::Kind kind) {
+  return kind == Fault::Kind::cut || kind == Fault::Kind::clog || kind == Fault::Kind::disconnect;
+}
+
+NodeId named(TableReader& keys, std::string_view key, const ClusterConfig& cluster) {
+  const std::string name = keys.text(key);
+  if (const auto node = find_node(cluster, name)) return *node;
+  if (!name.empty()) keys.problem(key, "there is no node \"" + name + "\"");
+  return {};
+}
+
+Fault read_event(const toml::table& table, ClusterReading& reading) {
+  TableReader keys(table, {"faults.event"}, reading.findings, reading.start);
+  Fault fault;
+  fault.kind = kind_of(keys.choice("kind"));
+  fault.at = span_of_ms(1e3 * keys.number("at_s"));
+  fault.lasts = span_of_ms(1e3 * keys.number("lasts_s"));
+  fault.node = named(keys, "node", reading.cluster);
+  fault.factor = keys.number("factor");
+  if (!is_between_two(fault.kind)) {
+    if (keys.has("peer")) keys.problem("peer", "'peer' is for what happens between two nodes");
+    return fault;
+  }
+  if (!keys.has("peer"))
+    keys.problem("kind", "this happens between two nodes: say 'peer', too");
+  else
+    fault.peer = named(keys, "peer", reading.cluster);
+  return fault;
+}
+
+}  // namespace
+
+void read_faults(TableReader& top, ClusterReading& reading) {
+  TableReader keys(top.table("faults"), {"faults"}, reading.findings, top.place("faults"));
+  FaultPlan& plan = reading.cluster.faults;
+  LinkTraits& links = plan.links;
+  plan.seed = keys.integer("seed");
+  links.delay = span_of_ms(keys.number("delay_ms"));
+  links.jitter = span_of_ms(keys.number("jitter_ms"));
+  links.tail_share = keys.number("tail_share");
+  links.tail = span_of_ms(keys.number("tail_ms"));
+  links.bytes_per_second = keys.number("bytes_per_second");
+  links.queue_bytes = keys.size("queue_bytes");
+  links.loss = keys.number("loss");
+  links.duplication = keys.number("duplication");
+  links.reordering = keys.number("reordering");
+  links.corruption = keys.number("corruption");
+  reading.fault_events = keys.tables("event", limits::cluster_faults);
+  if (const auto until_s = keys.maybe_number("until_s"))
+    plan.healed_at = span_of_ms(1e3 * *until_s);
+}
+
+void resolve_fault_events(ClusterReading& reading) {
+  for (const toml::table* table : reading.fault_events)
+    reading.cluster.faults.faults.push_back(read_event(*table, reading));
+}
+
+}  // namespace luxodus::config

@@ -1,0 +1,47 @@
+// A disk that is full while a plan of faults says so: what is added then is written in part, and
+// fails. Where there is no plan, it is not there at all. Thread rule: one node's thread.
+#pragma once
+
+#include <memory>
+
+#include "runtime/core/clock.hpp"
+#include "runtime/core/faults.hpp"
+#include "runtime/storage/append_store.hpp"
+
+namespace luxodus {
+
+class FaultyStore final : public AppendStore {
+ public:
+  /// The plan's moments count from now. Requires: `clock` outlives this.
+  FaultyStore(std::unique_ptr<AppendStore> below, NodeId self, const FaultPlan& plan,
+              const Clock& clock)
+      : below_(std::move(below)), self_(self), plan_(plan), clock_(clock), began_(clock.now()) {}
+
+  uint64_t size() const override { return below_->size(); }
+  Result<bool> read(uint64_t offset, std::span<std::byte> into) override {
+    return below_->read(offset, into);
+  }
+  Result<bool> append(std::span<const std::byte> bytes) override {
+    if (!full()) return below_->append(bytes);
+    (void)below_->append(bytes.first(bytes.size() / 2));
+    return Problem{{}, "no space is left (a fault on purpose)"};
+  }
+  Result<bool> truncate(uint64_t size) override { return below_->truncate(size); }
+
+ private:
+  bool full() const {
+    const Nanoseconds moment = clock_.now() - began_;
+    for (const Fault& fault : plan_.faults)
+      if (fault.kind == Fault::Kind::full_disk && fault.node == self_ && fault.holds(moment))
+        return true;
+    return false;
+  }
+
+  const std::unique_ptr<AppendStore> below_;
+  const NodeId self_;
+  const FaultPlan plan_;
+  const Clock& clock_;
+  const Nanoseconds began_;
+};
+
+}  // namespace luxodus

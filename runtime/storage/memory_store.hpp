@@ -1,0 +1,37 @@
+// A store in memory, over bytes that others keep: a disk of a simulated world, or of a test.
+// Thread rule: one thread.
+#pragma once
+
+#include <cstring>
+#include <vector>
+
+#include "runtime/storage/append_store.hpp"
+
+namespace luxodus {
+
+class MemoryStore final : public AppendStore {
+ public:
+  /// Requires: `bytes` outlive this.
+  explicit MemoryStore(std::vector<std::byte>& bytes) : bytes_(bytes) {}
+
+  uint64_t size() const override { return bytes_.size(); }
+  Result<bool> read(uint64_t offset, std::span<std::byte> into) override {
+    if (offset > bytes_.size() || into.size() > bytes_.size() - offset)
+      return Problem{{}, "ends before what should be there"};
+    std::memcpy(into.data(), bytes_.data() + offset, into.size());
+    return true;
+  }
+  Result<bool> append(std::span<const std::byte> bytes) override {
+    bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
+    return true;
+  }
+  Result<bool> truncate(uint64_t size) override {
+    bytes_.resize(size);
+    return true;
+  }
+
+ private:
+  std::vector<std::byte>& bytes_;
+};
+
+}  // namespace luxodus

@@ -1,0 +1,126 @@
+// Runs under faults that are drawn from seeds: 200 of them in every test run, each twice, and those
+// that once found a fault of the program (tests/sim/seeds). Many more: `luxodus sim SCENE --seeds
+// 0..10000`.
+#include <spdlog/spdlog.h>
+
+#include <catch2/catch.hpp>
+#include <cstdlib>
+#include <fstream>
+
+#include "actors/simulate/simulation.hpp"
+#include "scenes/format/scene_file.hpp"
+#include "scenes/transport/compile.hpp"
+
+using namespace luxodus;
+
+namespace {
+
+constexpr int64_t particles = 2000;
+constexpr int64_t batches = 40;
+constexpr int cells = 16;
+
+SimScene scene_of(const std::string& name) {
+  spdlog::set_level(spdlog::level::err);
+  auto read = read_scene(std::string(LUX_SOURCE_DIR) + "/scenes/library/" + name + ".toml");
+  REQUIRE(read.scene);
+  auto description = std::make_shared<SceneDescription>(std::move(*read.scene));
+  description->run.batch_particles = particles / batches;
+  const auto scenario = find_scenario(*description, "");
+  REQUIRE(scenario.ok());
+  auto scene = compile_scene(description, scenario.value(), {cells});
+  REQUIRE(scene.ok());
+  return {scene.value(), 1, particles};
+}
+
+SimOptions options_of(uint64_t seed, int nodes) {
+  SimOptions options;
+  options.seed = seed;
+  options.nodes = nodes;
+  options.work = seconds(30);
+  options.faults_last = seconds(15);
+  return options;
+}
+
+/// Twice; what the first was like.
+SimReport checked(const SimScene& scene, const SimOptions& options) {
+  const auto once = simulate(scene, options);
+  const auto twice = simulate(scene, options);
+  REQUIRE(once.ok());
+  REQUIRE(twice.ok());
+  INFO("luxodus sim --seed " << options.seed << " --nodes " << options.nodes
+                             << " --particles 2000 --work 30s --faults-last 15s");
+  CHECK(once->failure == "");
+  CHECK(once->trace_hash == twice->trace_hash);
+  return once.value();
+}
+
+/// What the runs of some seeds went through, together.
+struct Trouble {
+  uint64_t crashes = 0, lost = 0, harmed = 0, fenced = 0, fetches = 0;
+  void add(const SimReport& report) {
+    crashes += report.world.crashes;
+    lost += report.world.lost;
+    harmed += report.world.corrupted;
+    fenced += report.leases_fenced;
+    fetches += report.caches.fetches;
+  }
+};
+
+}  // namespace
+
+TEMPLATE_TEST_CASE_SIG("swarms of faults change no bit, and a seed is one run", "[sim]",
+                       ((uint64_t part), part), 0, 1, 2, 3, 4, 5, 6, 7) {
+  const SimScene scene = scene_of("empty_room");
+  Trouble all;
+  for (uint64_t seed = 25 * part; seed < 25 * (part + 1); ++seed)
+    all.add(checked(scene, options_of(seed, 2 + static_cast<int>(seed % 5))));
+  // They are no mere show.
+  CHECK(all.crashes > 0);
+  CHECK(all.lost > 100);
+  CHECK(all.harmed > 0);
+  CHECK(all.fenced > 0);
+  CHECK(all.fetches > 0);
+}
+
+TEST_CASE("swarms change no bit of a run in smoke", "[sim]") {
+  const SimScene scene = scene_of("smoke_tank");
+  for (uint64_t seed = 1000; seed < 1005; ++seed) checked(scene, options_of(seed, 3));
+}
+
+TEST_CASE("swarms change no bit of a run on 32 nodes", "[sim]") {
+  const SimScene scene = scene_of("empty_room");
+  for (uint64_t seed = 2000; seed < 2002; ++seed) {
+    SimOptions options = options_of(seed, 32);
+    options.work = seconds(240);
+    checked(scene, options);
+  }
+}
+
+TEST_CASE("without faults nothing is lost, lent again or refused", "[sim]") {
+  const SimScene scene = scene_of("empty_room");
+  SimOptions options = options_of(1, 4);
+  options.faults = false;
+  options.draw_nodes = false;
+  const SimReport report = checked(scene, options);
+  CHECK(report.leases == batches);
+  CHECK(report.leases_fenced == 0);
+  CHECK(report.flushes_refused == 0);
+  CHECK(report.world.crashes == 0);
+}
+
+// Each a command that once failed, and what it found.
+TEST_CASE("seeds that found a fault of the program do so no more", "[sim]") {
+  std::ifstream file(std::string(LUX_SOURCE_DIR) + "/tests/sim/seeds");
+  REQUIRE(file);
+  int seeds = 0;
+  for (std::string line; std::getline(file, line);) {
+    const std::string words = line.substr(0, line.find('#'));
+    if (words.find_first_not_of(' ') == std::string::npos) continue;
+    ++seeds;
+    const std::string command =
+        std::string("cd " LUX_SOURCE_DIR " && ") + LUX_PROGRAM + " sim " + words + " > /dev/null";
+    INFO(command);
+    CHECK(std::system(command.c_str()) == 0);
+  }
+  CHECK(seeds > 0);
+}
