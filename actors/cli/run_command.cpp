@@ -30,6 +30,7 @@ struct RunOptions {
   int nodes = 0;  // 0: the plain loop
   size_t fibers = 1;
   double object_mib = 0;
+  double tally_mib = 0;
   std::string profile = "1%";
   std::string link_delay;
   std::optional<uint16_t> metrics_port;
@@ -106,6 +107,8 @@ Result<NodesOptions> nodes_options(const RunOptions& options, Nanoseconds link_d
   nodes.nodes = options.nodes;
   nodes.fibers = options.fibers;
   nodes.object_bytes = options.object_bytes();
+  if (options.tally_mib > 0)
+    nodes.tally_bytes = static_cast<uint64_t>(options.tally_mib * 1024 * 1024);
   nodes.link_delay = link_delay;
   nodes.observation = observation;
   return nodes;
@@ -286,6 +289,11 @@ void add_node_options(CLI::App& command, const std::shared_ptr<RunOptions>& opti
       .add_option("--object-mib", options->object_mib,
                   "budget of a node for geometry cells; what does not fit is fetched from others "
                   "[0: everything is resident]")
+      ->check(CLI::Range(0.0, 1048576.0));
+  command
+      .add_option("--tally-mib", options->tally_mib,
+                  "budget of a node for scores, totals and flushes; a tally that is full flushes "
+                  "[0: what all bins take]")
       ->check(CLI::Range(0.0, 1048576.0));
   command.add_option("--profile", options->profile,
                      "with --object-mib: share of the particles that is traced beforehand, to plan "

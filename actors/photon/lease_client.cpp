@@ -99,6 +99,11 @@ void LeaseClient::lease_failed(uint64_t lease, int64_t batch) {
   if (!ended_) photons_->add(lease, batch);
 }
 
+void LeaseClient::want_room() {
+  room_wanted_ = true;
+  flush();
+}
+
 /// Nothing more is to be had in this round: the controller waits for what is here.
 void LeaseClient::flush_when_idle() {
   if ((round_empty_ || draining_) && photons_->at_hand() == 0) flush();
@@ -108,6 +113,7 @@ void LeaseClient::flush() {
   if (packing_ || flushing_ || done_.empty()) return;  // the answer to that one sends the next
   flush_due_ = !encoder_is_free();
   if (flush_due_) return;
+  room_wanted_ = false;
   packing_ = true;
   packed_leases_.swap(done_);
   const auto body = [this, totals = &photons_->give_totals()] { pack(*totals); };
@@ -138,6 +144,7 @@ void LeaseClient::pack(Totals& totals) {
   ++counters_.flushes;
   counters_.flush_bytes += payload.size();
   put(*flushing_);
+  photons_->look_again();  // the totals that were packed are free
 }
 
 void LeaseClient::flush_answered(const MessageId& answered, bool taken) {
@@ -150,6 +157,8 @@ void LeaseClient::flush_answered(const MessageId& answered, bool taken) {
   flushing_.reset();
   if (!taken) ++counters_.flushes_refused;  // its leases are lent again: nothing to mend here
   flush_when_idle();
+  if (room_wanted_) flush();
+  photons_->look_again();
 }
 
 // ---- the end ---------------------------------------------------------------------------------

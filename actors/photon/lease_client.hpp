@@ -45,6 +45,10 @@ class LeaseClient final : public LeasePort {
   void want_leases(size_t count) override;
   void lease_done(uint64_t lease) override;
   void lease_failed(uint64_t lease, int64_t batch) override;
+  void want_room() override;
+  bool room_to_come() const override { return packing_ || flushing_ || !done_.empty(); }
+  size_t flush_bytes() const override { return encoder_->memory_bytes(); }
+  void give_up(const Problem& why) override { end(why); }
 
   /// A message of the controller; false where it is none of these.
   bool deliver(const Delivery& delivery);
@@ -101,6 +105,7 @@ class LeaseClient final : public LeasePort {
   std::vector<uint64_t> packed_leases_;
   std::shared_ptr<FlushEncoder> encoder_;  // shared with the network while it sends
   bool packing_ = false;
+  bool room_wanted_ = false;      // the tally is full: flush as soon as that can be
   bool flush_due_ = false;        // it waits for the network to let go of the last one
   Nanoseconds packing_took_ = 0;  // of the last flush
   Nanoseconds interval_;          // between flushes

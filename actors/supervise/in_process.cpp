@@ -68,6 +68,7 @@ NodeSetup setup_of(const RunSetup& run, const NetConfig& common, NodeId self,
   node.photons.portion = static_cast<int64_t>(options.portion);
   node.object_bytes = options.object_bytes;
   node.pinned_share = options.pinned_share;
+  node.tally_bytes = options.tally_bytes;
   node.link_delay = options.link_delay;
   return node;
 }

@@ -4,7 +4,6 @@
 
 #include "actors/supervise/node_shell.hpp"
 #include "actors/supervise/residency_setup.hpp"
-#include "actors/tally/flush_codec.hpp"
 
 namespace luxodus {
 
@@ -93,14 +92,21 @@ CacheConfig cache_config(const SceneObjects& objects, const NodeSetup& node, Nod
   return config;
 }
 
-MemoryPlan tally_plan(const CompiledScene& scene, const PhotonConfig& photons) {
+MemoryPlan tally_plan(const CompiledScene& scene, const NodeSetup& node) {
   MemoryPlan plan;
-  const uint64_t open = std::min(photons.open_batches, photons.leases);
-  const auto scores = static_cast<uint64_t>(scene.layout.scores());
-  plan.add("scores", open * scores * sizeof(int64_t),
-           fmt::format("{} open batches x {} scores x {} B", open, scores, sizeof(int64_t)));
+  const uint64_t open = node.photons.batches_in_work();
+  const TallyNeed need = tally_need(scene, open);
+  if (need.all() > node.tally_bytes) {
+    plan.add("tally", node.tally_bytes,
+             fmt::format("tally_bytes; all of it would be {}: it flushes when it is full",
+                         mebibytes(need.all())));
+    return plan;
+  }
+  plan.add("scores", need.scores,
+           fmt::format("{} open batches x {} scores x {} B", open, scene.layout.scores(),
+                       sizeof(int64_t)));
   add_totals(plan, scene, 2);
-  plan.add("flush", bins_of(scene) * flush_bytes_of_bin,
+  plan.add("flush", need.flush,
            fmt::format("{} bins x {} source groups x {} B at most, packed less",
                        scene.layout.totals(), scene.groups.size(), flush_bytes_of_bin));
   return plan;
@@ -108,7 +114,7 @@ MemoryPlan tally_plan(const CompiledScene& scene, const PhotonConfig& photons) {
 
 MemoryPlan worker_plan(const RunSetup& run, const NodeSetup& node) {
   MemoryPlan plan = common_plan(node, worker_limits(node));
-  plan.add(tally_plan(run.scene, node.photons));
+  plan.add(tally_plan(run.scene, node));
   uint64_t histograms = 2;
   if (run.objects != nullptr) {
     const size_t cells = run.objects->places().size();
@@ -144,16 +150,18 @@ MemoryPlan controller_plan(const RunSetup& run, const NodeSetup& node) {
 
 std::optional<std::string> budget_fault(const RunSetup& run, const NodeSetup& node) {
   const std::string name = run.name_of(node.net.self);
-  const MemoryPlan tally = tally_plan(run.scene, node.photons);
-  if (tally.total_bytes() > node.tally_bytes) {
-    std::string parts;
-    for (const MemoryPlan::Term& term : tally.terms())
-      parts += (parts.empty() ? "" : ", ") + term.name + " " + mebibytes(term.bytes);
+  const uint64_t least = least_tally_bytes(run.scene);
+  const uint64_t all = tally_need(run.scene, node.photons.batches_in_work()).all();
+  if (all > node.tally_bytes && !ZeroedMemory::use_is_told())
     return fmt::format(
-        "node {}: its tally needs {} ({}), and tally_bytes is {}: raise tally_bytes in [budget], "
-        "or ask for fewer patches, voxels, bands or source groups",
-        name, mebibytes(tally.total_bytes()), parts, mebibytes(node.tally_bytes));
-  }
+        "node {}: its tally needs {}, and tally_bytes is {}; this system does not tell which pages "
+        "are in use (/proc/self/pagemap), so it must hold all bins: raise tally_bytes in [budget]",
+        name, mebibytes(all), mebibytes(node.tally_bytes));
+  if (least > node.tally_bytes && all > node.tally_bytes)
+    return fmt::format(
+        "node {}: its tally needs {} at least, and tally_bytes is {}: raise tally_bytes in "
+        "[budget], or ask for fewer patches, voxels, bands or source groups",
+        name, mebibytes(least), mebibytes(node.tally_bytes));
   if (run.objects == nullptr) return std::nullopt;
   const CacheConfig cache = cache_config(*run.objects, node);
   const uint64_t needed = 2 * cache.largest_build_bytes + cache.pinned_bytes_most();

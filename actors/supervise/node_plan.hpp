@@ -21,9 +21,9 @@ SchedulerLimits controller_limits(const NodeSetup& node);
 CacheConfig cache_config(const SceneObjects& objects, const NodeSetup& node,
                          NodeTrace* trace = nullptr);
 
-/// What a worker's tally takes, which its key `tally_bytes` bounds: scores of open batches, totals
-/// and a flush.
-MemoryPlan tally_plan(const CompiledScene& scene, const PhotonConfig& photons);
+/// What a worker's tally takes: scores of open batches, totals and a flush, or its key
+/// `tally_bytes` where that is less.
+MemoryPlan tally_plan(const CompiledScene& scene, const NodeSetup& node);
 
 MemoryPlan worker_plan(const RunSetup& run, const NodeSetup& node);
 MemoryPlan controller_plan(const RunSetup& run, const NodeSetup& node);

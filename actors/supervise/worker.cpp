@@ -19,6 +19,7 @@ LeaseClientConfig lease_config(const NodeSetup& node, NodeTrace* trace) {
 PhotonConfig photon_config(const NodeSetup& node, NodeTrace* trace) {
   PhotonConfig config = node.photons;
   config.trace = trace;
+  config.tally_bytes = node.tally_bytes;
   return config;
 }
 
@@ -76,6 +77,8 @@ Result<WorkerReport> Worker::run(const std::function<bool()>& stop) {
                        meeting_trouble(transport_.sockets(), run_.context, shell_.network())};
   WorkerReport report = cells_ ? cells_->report() : WorkerReport{};
   report.waited = shell_.scheduler().counters().waited;
+  report.tally_full = photons_.counters().tally_full;
+  report.tally_bytes_most = photons_.counters().tally_bytes_most;
   return report;
 }
 

@@ -192,6 +192,7 @@ FlushEncoder::~FlushEncoder() = default;
 /// A group is its batches, its bins (each the distance from the last one plus one), and a zero.
 bool FlushEncoder::step(int64_t bins) {
   Numbers numbers;
+  next_ = totals_->next_bin(group_, next_);
   const int64_t end = std::min(next_ + bins, totals_->layout().totals());
   totals_->take_bins(group_, next_, end, [&](int64_t index, const Total& total) {
     numbers.put(static_cast<uint64_t>(index - after_last_ + 1));
@@ -216,12 +217,18 @@ bool FlushEncoder::step(int64_t bins) {
   return done;
 }
 
+size_t FlushEncoder::memory_bytes() const {
+  return longest_raw_ + longest_packed_ + ZSTD_sizeof_CCtx(zstd_->context.get());
+}
+
 /// A stream's length is never known beforehand, so that zstd finds its memory as it left it.
 void FlushEncoder::pack(bool last) {
   ZSTD_inBuffer in{raw_.data(), raw_.size(), 0};
   while (in.pos < in.size) pack_more(in, ZSTD_e_continue);
   while (last && pack_more(in, ZSTD_e_end) != 0) {
   }
+  longest_raw_ = std::max(longest_raw_, raw_.size());
+  longest_packed_ = std::max(longest_packed_, packed_.size());
   raw_.clear();
 }
 

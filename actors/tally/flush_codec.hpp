@@ -38,6 +38,8 @@ class FlushEncoder {
   bool step(int64_t bins);
   /// The whole flush, until begin(). Requires: step() has returned true.
   const std::vector<std::byte>& bytes() const { return packed_; }
+  /// What flushes have taken in memory so far: that of the longest, and what packs it.
+  size_t memory_bytes() const;
 
  private:
   void pack(bool last);
@@ -49,6 +51,8 @@ class FlushEncoder {
   int64_t after_last_ = 0;  // the index behind the last bin that was written
   std::vector<std::byte> raw_;
   std::vector<std::byte> packed_;
+  size_t longest_raw_ = 0;
+  size_t longest_packed_ = 0;
   struct Zstd;
   std::unique_ptr<Zstd> zstd_;
 };

@@ -95,9 +95,8 @@ std::vector<TableSpec> node_tables() {
            {"object_bytes", "size", "B", "\"1 GiB\"", "[1048576, 1e14]",
             "geometry, media and textures held at once, as built; a scene that fits is resident"},
            {"tally_bytes", "size", "B", "\"256 MiB\"", "[1048576, 1e14]",
-            "scores of batches in work, totals until they are sent, and the sending; a run that "
-            "needs "
-            "more is refused"},
+            "scores of batches in work, totals until they are sent, and the sending; a tally that "
+            "is full is sent at once, and a batch that is more by itself ends the run"},
            {"fibers", "integer", "", "4096", "[1, 100000]",
             "particles followed at once; more hide more delay and share more fetches"},
            {"stack_kb", "integer", "KiB", "32", "[16, 1024]", "stack of one fiber"},

@@ -131,8 +131,9 @@ TEST_CASE("totals that take the gains of others are the totals of all batches", 
   for (int batch = 0; batch < 20; ++batch) {
     BatchScores scores;
     scores.reset(layout);
-    for (int i = 0; i < 30; ++i) scores.scores[random.bits() % 100] += random.bits();
+    for (int i = 0; i < 30; ++i) scores.scores.data()[random.bits() % 100] += random.bits();
     scores.ledger.emitted = 5;
+    scores.scores.find_touched();
     BatchScores copy = scores;
     whole.merge(scores, 0);
     (batch % 3 == 0 ? here : there).merge(copy, 0);
