@@ -273,6 +273,7 @@ Result<std::optional<StopReason>> ClusterProcessRun::run(
   RunSetup setup{run_->scene(), index, nullptr, nullptr, run_->seed(),
                  graph_,        clock, context, {},      nullptr};
   for (const ClusterNode& node : cluster_.nodes) setup.names.push_back(node.name);
+  setup.shards.owners = cluster_.tally.shards;
   std::optional<Residency> residency;
   if (fetches_) {
     const std::vector<NodeId> holders = holders_of(cluster_);

@@ -29,6 +29,10 @@ Result<Graph> graph_for(const NodesOptions& options) {
 
 std::optional<std::string> fault_of(const NodesOptions& options, const CompiledScene& scene,
                                     bool resident) {
+  if (options.tally_shards < 1 || options.tally_shards > options.nodes + 1 ||
+      options.tally_shards > static_cast<int>(limits::tally_shards))
+    return "the totals can have 1 to " + std::to_string(options.nodes + 1) +
+           " shards: one of the controller, and one of each node";
   if (options.object_bytes == 0) {
     if (resident) return std::nullopt;
     return "nodes that do not hold the whole scene need a budget for objects";
@@ -156,6 +160,7 @@ Result<StopReason> run_controller(const RunSetup& setup, const NodeSetup& node, 
   config.start = node.start;
   config.lost = node.lost;
   config.names = setup.names;
+  config.shards = setup.shards;
   config.first_lease = node.net.incarnation.value;
   for (uint16_t i = 0; i < setup.graph.workers(); ++i) config.workers.push_back({i});
   Controller controller(config, run, stop, interrupt, report, shell.scheduler(), shell.network());
@@ -184,6 +189,7 @@ Result<StopReason> run_controller(const RunSetup& setup, const NodeSetup& node, 
                 c.leases,
                 c.fenced,
                 shell.network().counters().frames_received,
+                controller.shard_counters(),
                 {},
                 {},
                 std::nullopt};
@@ -220,6 +226,7 @@ class InProcess {
                                           {},          options.observation} {
     for (int i = 0; i < options.nodes; ++i) setup.names.push_back("n" + std::to_string(i));
     setup.names.push_back("controller");
+    for (uint16_t i = 0; i + 1 < options.tally_shards; ++i) setup.shards.owners.push_back({i});
     if (options.object_bytes > 0) {
       std::vector<NodeId> holders;
       for (uint16_t i = 0; i < options.nodes; ++i) holders.push_back({i});

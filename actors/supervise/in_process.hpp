@@ -40,7 +40,8 @@ struct NodesOptions {
   /// Of every link, on purpose: what a distance would cost, and how many fibers hide it.
   Nanoseconds link_delay = 0;
   uint64_t tally_bytes = NodeSetup{}.tally_bytes;  // of each node, for scores, totals and flushes
-  Observation* observation = nullptr;              // where somebody watches
+  int tally_shards = 1;  // of the totals: the controller's, and those of the first workers
+  Observation* observation = nullptr;  // where somebody watches
   /// Asked by each worker every few milliseconds, on its own thread: whether it shall end before
   /// the run does.
   std::function<bool()> stop = [] { return false; };
@@ -53,6 +54,7 @@ struct NodesReport {
   uint64_t leases = 0;
   uint64_t leases_fenced = 0;
   uint64_t frames = 0;
+  ShardControl::Counters shards;
   WorkerReport workers;  // of all together
   std::vector<WorkerReport> by_node;
   std::optional<Residency> residency;  // where there was a plan

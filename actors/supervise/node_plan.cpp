@@ -17,6 +17,23 @@ uint64_t bins_of(const CompiledScene& scene) {
   return static_cast<uint64_t>(scene.layout.totals()) * scene.groups.size();
 }
 
+/// Bins of all groups in the range of a shard.
+uint64_t bins_of(const RunSetup& run, size_t shard) {
+  const BinRange bins = run.shards.range(shard, run.scene.layout.totals());
+  return static_cast<uint64_t>(bins.end - bins.first) * run.scene.groups.size();
+}
+
+/// Of a worker that holds one: a part of each worker's flush, and the totals.
+void add_shard(MemoryPlan& plan, const RunSetup& run, size_t shard) {
+  const uint64_t bins = bins_of(run, shard);
+  const size_t workers = run.graph.workers();
+  plan.add("shard of the totals", bins * sizeof(Total),
+           fmt::format("{} bins x {} B", bins, sizeof(Total)));
+  plan.add(
+      "parts of flushes held", workers * bins * flush_bytes_of_bin,
+      fmt::format("of {} workers, {} bins x {} B at most each", workers, bins, flush_bytes_of_bin));
+}
+
 void add_totals(MemoryPlan& plan, const CompiledScene& scene, uint64_t copies) {
   const uint64_t bytes = bins_of(scene) * sizeof(Total);
   plan.add("totals", copies * bytes,
@@ -68,10 +85,11 @@ MemoryPlan process_plan(const RunSetup& run) {
 
 }  // namespace
 
-SchedulerLimits worker_limits(const NodeSetup& node) {
+SchedulerLimits worker_limits(const RunSetup& run, const NodeSetup& node) {
   SchedulerLimits limits;
   limits.fibers = node.fibers;
   limits.fibers.count = node.photons.fibers + 1;  // and the one that packs flushes
+  if (run.shards.shard_of(node.net.self) != 0) ++limits.fibers.count;  // that adds parts of others'
   limits.stall = node.stall;
   // Leases, the watch for the end, publishing, and a few to spare.
   limits.timers_beside_fibers = 16 + Fetcher::timers_most(node.fetch) + ObjectCache::timers_most;
@@ -113,8 +131,10 @@ MemoryPlan tally_plan(const CompiledScene& scene, const NodeSetup& node) {
 }
 
 MemoryPlan worker_plan(const RunSetup& run, const NodeSetup& node) {
-  MemoryPlan plan = common_plan(node, worker_limits(node));
+  MemoryPlan plan = common_plan(node, worker_limits(run, node));
   plan.add(tally_plan(run.scene, node));
+  if (const size_t shard = run.shards.shard_of(node.net.self); shard != 0)
+    add_shard(plan, run, shard);
   uint64_t histograms = 2;
   if (run.objects != nullptr) {
     const size_t cells = run.objects->places().size();
@@ -133,15 +153,13 @@ MemoryPlan worker_plan(const RunSetup& run, const NodeSetup& node) {
 MemoryPlan controller_plan(const RunSetup& run, const NodeSetup& node) {
   MemoryPlan plan = common_plan(node, controller_limits(node));
   add_totals(plan, run.scene, 1);
-  const uint64_t flush = bins_of(run.scene) * (flush_bytes_of_bin + sizeof(TotalsGain::Bin));
-  plan.add("flush being counted", flush,
-           fmt::format("{} bins x {} source groups x ({} B packed + {} B read)",
-                       run.scene.layout.totals(), run.scene.groups.size(), flush_bytes_of_bin,
+  const uint64_t bins = bins_of(run, 0);  // others' shards have theirs
+  plan.add("flush being counted", bins * (flush_bytes_of_bin + sizeof(TotalsGain::Bin)),
+           fmt::format("{} bins x ({} B packed + {} B read)", bins, flush_bytes_of_bin,
                        sizeof(TotalsGain::Bin)));
   const size_t workers = run.graph.workers();
   plan.add("flushes coming in",
-           std::min<uint64_t>(ShellConfig{}.room_bytes_most,
-                              workers * bins_of(run.scene) * flush_bytes_of_bin),
+           std::min<uint64_t>(ShellConfig{}.room_bytes_most, workers * bins * flush_bytes_of_bin),
            fmt::format("of {} workers at once, at most {} B of all", workers,
                        ShellConfig{}.room_bytes_most));
   add_metrics(plan, run, 0);

@@ -14,7 +14,7 @@
 namespace luxodus {
 
 /// What a node's scheduler is made with.
-SchedulerLimits worker_limits(const NodeSetup& node);
+SchedulerLimits worker_limits(const RunSetup& run, const NodeSetup& node);
 SchedulerLimits controller_limits(const NodeSetup& node);
 
 /// The cache of a worker that fetches cells.

@@ -30,11 +30,14 @@ Worker::Worker(const RunSetup& run, const NodeSetup& node)
       node_(node),
       trace_(run.observation == nullptr ? nullptr : run.observation->trace_of(node.net.self)),
       transport_(run, node),
-      shell_({node.net, worker_limits(node), ShellConfig{}.room_bytes_most, node.shutdown_phase},
-             run.graph, run.clock, transport_.transport()),
+      shell_(
+          {node.net, worker_limits(run, node), ShellConfig{}.room_bytes_most, node.shutdown_phase},
+          run.graph, run.clock, transport_.transport()),
       cells_(run.objects == nullptr ? nullptr
                                     : std::make_unique<FetchingCells>(run, node, shell_, trace_)),
-      leases_(lease_config(node, trace_), shell_.scheduler(), shell_.network()),
+      shard_(own_shard()),
+      parts_(run.shards, post()),
+      leases_(lease_config(node, trace_), shell_.scheduler(), shell_.network(), parts_),
       photons_(run.scene,
                cells_ ? GeometryAccess::through(*run.proxies, cells_->source())
                       : GeometryAccess::resident(*run.index),
@@ -42,10 +45,42 @@ Worker::Worker(const RunSetup& run, const NodeSetup& node)
 
 Worker::~Worker() = default;
 
+/// To this node's own shard and lease client messages come between turns, as from the network.
+Post Worker::post() {
+  return
+      [this](NodeId to, const MessageId& id, const Message& message, const SharedBytes& payload) {
+        if (to != node_.net.self) {
+          shell_.network().send(to, id, message, payload);
+          return;
+        }
+        own_messages_.push_back({id, message, payload});
+        Scheduler& scheduler = shell_.scheduler();
+        scheduler.timers().set(scheduler.clock().now(), [this] { deliver_own(); });
+      };
+}
+
+void Worker::deliver_own() {
+  const OwnMessage own = std::move(own_messages_.front());
+  own_messages_.pop_front();
+  const Delivery delivery{node_.net.self, own.id, 0, own.message, own.payload.bytes};
+  if (!shard_ || !shard_->deliver(delivery)) leases_.deliver(delivery);
+}
+
+std::unique_ptr<TallyShard> Worker::own_shard() {
+  const size_t shard = run_.shards.shard_of(node_.net.self);
+  if (shard == 0) return nullptr;
+  const TallyLayout& layout = run_.scene.layout;
+  const BinRange bins = run_.shards.range(shard, layout.totals());
+  return std::make_unique<TallyShard>(TallyShardConfig{node_.net.self, node_.controller, bins},
+                                      layout, static_cast<int>(run_.scene.groups.size()),
+                                      shell_.scheduler(), post());
+}
+
 void Worker::show_to(Observation& seen) {
   metrics_.emplace(run_.names, node_.net.self, "worker", shell_.scheduler(), shell_.network());
   leases_.add_metrics(metrics_->registry());
   photons_.add_metrics(metrics_->registry());
+  if (shard_) shard_->add_metrics(metrics_->registry());
   if (cells_) cells_->add_metrics(metrics_->registry());
   metrics_->add_rate({"particles_per_second", "", "Particles traced in a second.", ""},
                      photons_.counters().particles);
@@ -55,6 +90,7 @@ void Worker::show_to(Observation& seen) {
 Result<WorkerReport> Worker::run(const std::function<bool()>& stop) {
   if (auto joined = join_links(transport_.sockets(), node_); !joined.ok()) return joined.problem();
   shell_.add([this](const Delivery& d) { return leases_.deliver(d); });
+  if (shard_) shell_.add([this](const Delivery& d) { return shard_->deliver(d); });
   leases_.start(photons_);
   if (cells_) cells_->pin(node_.pins);
   photons_.start();
@@ -69,7 +105,8 @@ Result<WorkerReport> Worker::run(const std::function<bool()>& stop) {
       leave_at = now + node_.shutdown_phase;
       leases_.drain();
     }
-    return leases_.drained() || now >= leave_at;
+    // What it holds of the totals goes with it: it stays until the run ends, if that is soon.
+    return (leases_.drained() && !shard_) || now >= leave_at;
   });
   if (leases_.fault())
     return Problem{{},

@@ -22,6 +22,7 @@ std::vector<TableSpec> run_tables() {
            {"links", "table", "", "", "", "how links work"},
            {"lease", "table", "", "", "", "how work is given out"},
            {"timeouts", "table", "", "", "", "how long is waited for what"},
+           {"tally", "table", "", "", "", "where what is counted lies"},
            {"keys", "table", "", "", "", "by which nodes know each other"},
            {"observe", "table", "", "", "", "what can be seen of a run"},
        }},
@@ -196,6 +197,13 @@ std::vector<TableSpec> service_tables() {
            {"fetch_attempts", "integer", "", "4", "[1, 100]", "at one holder, before the next"},
            {"shutdown_phase_s", "number", "s", "10", "(0, 3600]", "for each step of an end"},
            {"stall_ms", "number", "ms", "20", "(0, 60000]", "a fiber that runs longer is reported"},
+       }},
+      {"tally",
+       "`[tally]`",
+       {
+           {"shards", "names", "", "", "",
+            "workers that hold a share of the totals each, in equal ranges of bins; the first "
+            "share stays with the controller. Losing one of them ends the run without a result"},
        }},
       {"keys",
        "`[keys]`",

@@ -20,6 +20,12 @@ struct Total {
   UInt128 squares = 0;  // of (batch score >> square_shift, rounded)
 };
 
+/// Bins of totals, of all source groups alike: [first, end).
+struct BinRange {
+  int64_t first = 0;
+  int64_t end = 0;
+};
+
 /// What batches have added to totals: bins that are not zero, in ascending order, and the ledger.
 /// It travels where totals of one place are merged into those of another.
 struct TotalsGain {
