@@ -99,6 +99,15 @@ void write_flush(wire::Flush::Builder out, const Flush& m) {
   out.setRound(m.round);
   out.setPayloadHash(m.payload_hash);
   write(out.initLeases(count(m.leases.size())), m.leases);
+  write(out.initPartHashes(count(m.part_hashes.size())), m.part_hashes);
+}
+
+void write_decision(wire::FlushDecided::Builder out, const FlushDecided& m) {
+  out.setNode(m.flush.node.value);
+  out.setIncarnation(m.flush.incarnation.value);
+  out.setSequence(m.flush.sequence);
+  out.setPartHash(m.part_hash);
+  out.setTaken(m.taken);
 }
 
 void write(wire::Message::Builder out, const Message& message) {
@@ -156,6 +165,21 @@ void write(wire::Message::Builder out, const Message& message) {
             enter.setPhase(static_cast<uint8_t>(m.phase));
             enter.setDurationMs(m.duration_ms);
           },
+          [&](const FlushPart& m) { out.initFlushPart().setPayloadHash(m.payload_hash); },
+          [&](const PartHeld&) { out.setPartHeld(); },
+          [&](const FlushDecided& m) { write_decision(out.initFlushDecided(), m); },
+          [&](const FlushSettled& m) { out.initFlushSettled().setWhole(m.whole); },
+          [&](const AskTotals& m) {
+            auto ask = out.initAskTotals();
+            ask.setGather(m.gather);
+            ask.setFirst(m.first);
+          },
+          [&](const TotalsTold& m) {
+            auto told = out.initTotalsTold();
+            told.setGather(m.gather);
+            told.setFirst(m.first);
+            told.setNext(m.next);
+          },
       },
       message);
 }
@@ -174,7 +198,9 @@ bool within_limits(const Message& message) {
           [&](const Refuse& m) { return text_fits(m.text); },
           [&](const LinkChanges& m) { return m.changes.size() <= limits::link_changes; },
           [&](const LeasesFenced& m) { return leases_fit(m.leases); },
-          [&](const Flush& m) { return leases_fit(m.leases); },
+          [&](const Flush& m) {
+            return leases_fit(m.leases) && m.part_hashes.size() <= limits::tally_shards;
+          },
           [&](const FlushRefused& m) { return leases_fit(m.fenced) && text_fits(m.text); },
           [&](const RunEnded& m) { return text_fits(m.text); },
           [&](const auto&) { return true; },
@@ -204,12 +230,17 @@ uint8_t read_class(uint8_t hop_class) {
   return hop_class;
 }
 
-std::vector<uint64_t> read_leases(capnp::List<uint64_t>::Reader list) {
-  if (list.size() > limits::leases) throw malformed("too many leases");
+std::vector<uint64_t> read_numbers(capnp::List<uint64_t>::Reader list, size_t most,
+                                   const char* what) {
+  if (list.size() > most) throw malformed(what);
   std::vector<uint64_t> out;
   out.reserve(list.size());
-  for (const uint64_t lease : list) out.push_back(lease);
+  for (const uint64_t number : list) out.push_back(number);
   return out;
+}
+
+std::vector<uint64_t> read_leases(capnp::List<uint64_t>::Reader list) {
+  return read_numbers(list, limits::leases, "too many leases");
 }
 
 Identity read_identity(wire::Identity::Reader in) {
@@ -247,7 +278,13 @@ LinkChanges read_changes(capnp::List<wire::LinkChange>::Reader in) {
 }
 
 Flush read_flush(wire::Flush::Reader in) {
-  return {in.getRound(), in.getPayloadHash(), read_leases(in.getLeases())};
+  return {in.getRound(), in.getPayloadHash(), read_leases(in.getLeases()),
+          read_numbers(in.getPartHashes(), limits::tally_shards, "too many shards")};
+}
+
+FlushDecided read_decision(wire::FlushDecided::Reader in) {
+  return {
+      {{in.getNode()}, {in.getIncarnation()}, in.getSequence()}, in.getPartHash(), in.getTaken()};
 }
 
 template <class Answer>
@@ -323,6 +360,20 @@ Message read(wire::Message::Reader in) {
       const auto enter = in.getEnterPhase();
       return EnterPhase{read_enum<EndPhase>(enter.getPhase(), last_phase, "phase"),
                         enter.getDurationMs()};
+    }
+    case wire::Message::FLUSH_PART:
+      return FlushPart{in.getFlushPart().getPayloadHash()};
+    case wire::Message::PART_HELD:
+      return PartHeld{};
+    case wire::Message::FLUSH_DECIDED:
+      return read_decision(in.getFlushDecided());
+    case wire::Message::FLUSH_SETTLED:
+      return FlushSettled{in.getFlushSettled().getWhole()};
+    case wire::Message::ASK_TOTALS:
+      return AskTotals{in.getAskTotals().getGather(), in.getAskTotals().getFirst()};
+    case wire::Message::TOTALS_TOLD: {
+      const auto told = in.getTotalsTold();
+      return TotalsTold{told.getGather(), told.getFirst(), told.getNext()};
     }
   }
   throw malformed("no such message");
@@ -422,6 +473,8 @@ Kind kind_of(const Message& message) {
                         [](const ObjectNotHere&) { return Kind::reply; },
                         [](const Flush&) { return Kind::commit; },
                         [](const ProfileCounted&) { return Kind::commit; },
+                        [](const FlushPart&) { return Kind::commit; },
+                        [](const TotalsTold&) { return Kind::commit; },
                         [](const auto&) { return Kind::control; },
                     },
                     message);

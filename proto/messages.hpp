@@ -32,6 +32,8 @@ inline constexpr size_t check_bytes = 8;
 inline constexpr size_t frame_head_bytes = check_bytes + envelope_bytes;
 /// Leases in one flush or fence: 8 bytes each, an eighth of a message.
 inline constexpr size_t leases = 1024;
+/// Shards of the totals: 8 bytes each in a flush, and a worker sends a part to every one.
+inline constexpr size_t tally_shards = 256;
 /// Links of a graph that can be told of in one message: 1000 nodes of 4 links have 2000.
 inline constexpr size_t link_changes = 4096;
 /// A sentence for people, or the name of a build.
@@ -189,11 +191,13 @@ struct LeasesFenced {
   friend bool operator==(const LeasesFenced&, const LeasesFenced&) = default;
 };
 
-/// Bins, squares and counts by fate follow as payload; the id names the flush.
+/// Bins, squares and counts by fate follow as payload; the id names the flush. Where totals are
+/// sharded, the payload has the bins of the first shard, and the others hold their parts already.
 struct Flush {
   uint32_t round = 0;
   uint64_t payload_hash = 0;
   std::vector<uint64_t> leases;
+  std::vector<uint64_t> part_hashes = {};  // of shards 1, 2, ...
   friend bool operator==(const Flush&, const Flush&) = default;
 };
 struct FlushTaken {
@@ -238,10 +242,48 @@ struct EnterPhase {
   friend bool operator==(const EnterPhase&, const EnterPhase&) = default;
 };
 
+/// Part of the flush of this id, for one shard: its bins and squares follow as payload.
+struct FlushPart {
+  uint64_t payload_hash = 0;
+  friend bool operator==(const FlushPart&, const FlushPart&) = default;
+};
+/// The part has been read, found right, and waits for what is decided about the flush.
+struct PartHeld {
+  friend bool operator==(const PartHeld&, const PartHeld&) = default;
+};
+/// What became of a flush. One that was not taken goes for all earlier ones of the same life that
+/// were not decided about, too: they never will be.
+struct FlushDecided {
+  MessageId flush;
+  uint64_t part_hash = 0;  // of the shard's part, where it was taken
+  bool taken = false;
+  friend bool operator==(const FlushDecided&, const FlushDecided&) = default;
+};
+/// The part is added, or dropped.
+struct FlushSettled {
+  bool whole = true;  // false: it should have been added, and is not here
+  friend bool operator==(const FlushSettled&, const FlushSettled&) = default;
+};
+/// For the totals of a shard, from bin `first` on, in the how-manieth gathering. To ask for a piece
+/// is to say that the one before has come.
+struct AskTotals {
+  uint32_t gather = 0;
+  uint64_t first = 0;
+  friend bool operator==(const AskTotals&, const AskTotals&) = default;
+};
+/// Bins [first, next) that are not zero follow as payload; the shard has them no more.
+struct TotalsTold {
+  uint32_t gather = 0;
+  uint64_t first = 0;
+  uint64_t next = 0;
+  friend bool operator==(const TotalsTold&, const TotalsTold&) = default;
+};
+
 using Message = std::variant<Hello, Welcome, Refuse, Bye, Beat, LinkChanges, FetchObject,
                              ObjectFound, ObjectNotHere, RequestLease, LeaseGranted, LeasesFenced,
                              Flush, FlushTaken, FlushRefused, RoundOpened, RunEnded, ProfileCounted,
-                             AskStatus, StatusAnswered, EnterPhase>;
+                             AskStatus, StatusAnswered, EnterPhase, FlushPart, PartHeld,
+                             FlushDecided, FlushSettled, AskTotals, TotalsTold>;
 
 /// The kind whose buffers and credit a message uses.
 Kind kind_of(const Message& message);

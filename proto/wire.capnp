@@ -51,6 +51,12 @@ struct Message {
     askStatus @18 :Void;
     statusAnswered @19 :Void;
     enterPhase @20 :EnterPhase;
+    flushPart @21 :FlushPart;
+    partHeld @22 :Void;
+    flushDecided @23 :FlushDecided;
+    flushSettled @24 :FlushSettled;
+    askTotals @25 :AskTotals;
+    totalsTold @26 :TotalsTold;
   }
 }
 
@@ -116,6 +122,7 @@ struct Flush {
   round @0 :UInt32;
   payloadHash @1 :UInt64;
   leases @2 :List(UInt64);
+  partHashes @3 :List(UInt64);
 }
 
 struct FlushRefused {
@@ -141,4 +148,31 @@ struct ProfileCounted {
 struct EnterPhase {
   phase @0 :UInt8;
   durationMs @1 :UInt32;
+}
+
+struct FlushPart {
+  payloadHash @0 :UInt64;
+}
+
+struct FlushDecided {
+  node @0 :UInt16;              # the id of the flush
+  taken @1 :Bool;
+  incarnation @2 :UInt64;
+  sequence @3 :UInt64;
+  partHash @4 :UInt64;
+}
+
+struct FlushSettled {
+  whole @0 :Bool;
+}
+
+struct AskTotals {
+  gather @0 :UInt32;
+  first @1 :UInt64;
+}
+
+struct TotalsTold {
+  gather @0 :UInt32;
+  first @1 :UInt64;
+  next @2 :UInt64;
 }

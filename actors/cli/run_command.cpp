@@ -30,6 +30,8 @@ struct RunOptions {
   int nodes = 0;  // 0: the plain loop
   size_t fibers = 1;
   double object_mib = 0;
+  double tally_mib = 0;
+  int tally_shards = 1;
   std::string profile = "1%";
   std::string link_delay;
   std::optional<uint16_t> metrics_port;
@@ -106,6 +108,9 @@ Result<NodesOptions> nodes_options(const RunOptions& options, Nanoseconds link_d
   nodes.nodes = options.nodes;
   nodes.fibers = options.fibers;
   nodes.object_bytes = options.object_bytes();
+  if (options.tally_mib > 0)
+    nodes.tally_bytes = static_cast<uint64_t>(options.tally_mib * 1024 * 1024);
+  nodes.tally_shards = options.tally_shards;
   nodes.link_delay = link_delay;
   nodes.observation = observation;
   return nodes;
@@ -241,6 +246,10 @@ int run_scene(const RunOptions& options) {
     tell({{}, "--plan, --metrics and --trace-every are about nodes: say how many, --nodes N"});
     return ExitCode::bad_input;
   }
+  if (options.nodes == 0 && (options.tally_mib > 0 || options.tally_shards > 1)) {
+    tell({{}, "--tally-mib and --tally-shards are about nodes: say how many, --nodes N"});
+    return ExitCode::bad_input;
+  }
   auto rule = stop_rule(options);
   if (!rule.ok()) {
     tell(rule.problem());
@@ -287,6 +296,16 @@ void add_node_options(CLI::App& command, const std::shared_ptr<RunOptions>& opti
                   "budget of a node for geometry cells; what does not fit is fetched from others "
                   "[0: everything is resident]")
       ->check(CLI::Range(0.0, 1048576.0));
+  command
+      .add_option("--tally-mib", options->tally_mib,
+                  "budget of a node for scores, totals and flushes; a tally that is full flushes "
+                  "[0: what all bins take]")
+      ->check(CLI::Range(0.0, 1048576.0));
+  command
+      .add_option("--tally-shards", options->tally_shards,
+                  "shares of the totals: one stays with the controller, the others are held by so "
+                  "many of the nodes [1]")
+      ->check(CLI::Range(1, limits::nodes_in_process + 1));
   command.add_option("--profile", options->profile,
                      "with --object-mib: share of the particles that is traced beforehand, to plan "
                      "which node traces, holds and keeps what; 0: none [1%]");

@@ -12,14 +12,21 @@ namespace {
 constexpr int64_t bins_of_a_step = 16384;
 }  // namespace
 
-LeaseClient::LeaseClient(const LeaseClientConfig& config, Scheduler& scheduler, Network& network)
-    : config_(config), scheduler_(scheduler), network_(network), began_(scheduler.clock().now()) {}
+LeaseClient::LeaseClient(const LeaseClientConfig& config, Scheduler& scheduler, Network& network,
+                         PartSender& parts)
+    : config_(config),
+      scheduler_(scheduler),
+      network_(network),
+      parts_(parts),
+      began_(scheduler.clock().now()) {}
 
 void LeaseClient::start(PhotonThreads& photons) {
   photons_ = &photons;
   began_ = scheduler_.clock().now();
   const Totals& totals = photons.totals();
-  encoder_ = std::make_shared<FlushEncoder>(totals.groups(), totals.layout().totals());
+  parts_.make_room(totals.groups(), totals.layout().totals());
+  const BinRange own = parts_.own_bins();
+  encoder_ = std::make_shared<FlushEncoder>(totals.groups(), own.end - own.first);
   done_.reserve(limits::leases);
   packed_leases_.reserve(limits::leases);
   set_timer();
@@ -100,6 +107,11 @@ void LeaseClient::lease_failed(uint64_t lease, int64_t batch) {
   if (!ended_) photons_->add(lease, batch);
 }
 
+void LeaseClient::want_room() {
+  room_wanted_ = true;
+  flush();
+}
+
 /// Nothing more is to be had in this round: the controller waits for what is here.
 void LeaseClient::flush_when_idle() {
   if ((round_empty_ || draining_) && photons_->at_hand() == 0) flush();
@@ -109,6 +121,7 @@ void LeaseClient::flush() {
   if (packing_ || flushing_ || done_.empty()) return;  // the answer to that one sends the next
   flush_due_ = !encoder_is_free();
   if (flush_due_) return;
+  room_wanted_ = false;
   packing_ = true;
   packed_leases_.swap(done_);
   const auto body = [this, totals = &photons_->give_totals()] { pack(*totals); };
@@ -116,29 +129,56 @@ void LeaseClient::flush() {
 }
 
 bool LeaseClient::encoder_is_free() const {
-  return encoder_.use_count() == 1;
+  return encoder_.use_count() == 1 && parts_.free();
 }
 
 /// On a fiber of its own, between the turns of the photon-threads.
 void LeaseClient::pack(Totals& totals) {
-  encoder_->begin(totals);
   packing_took_ = 0;
-  for (bool done = false; !done;) {
-    const Nanoseconds begun = scheduler_.clock().now();
-    done = encoder_->step(bins_of_a_step);
-    packing_took_ += scheduler_.clock().now() - begun;
-    if (!done && scheduler_.fibers().yield() == Wake::cancelled) return;
+  for (size_t part = 0; part < parts_.parts(); ++part) {
+    if (!pack_bins(parts_.encoder(part), totals, parts_.bins_of(part), FlushCounts::without))
+      return;
   }
+  if (!pack_bins(*encoder_, totals, parts_.own_bins(), FlushCounts::with)) return;
   const std::span<const std::byte> payload = encoder_->bytes();
   const uint64_t hash = XXH3_64bits(payload.data(), payload.size());  // as Hasher, in no memory
   packing_ = false;
   flushing_ = Question{
-      network_.next_id(), Flush{round_, hash, std::move(packed_leases_)}, {payload, encoder_}};
+      network_.next_id(), Flush{round_, hash, std::move(packed_leases_), {}}, {payload, encoder_}};
   if (config_.trace != nullptr)
     config_.trace->begin(TraceKind::flush, trace_id(flushing_->id), payload.size());
   ++counters_.flushes;
   counters_.flush_bytes += payload.size();
+  parts_.send(flushing_->id, scheduler_.clock().now());
+  put_flush();
+  photons_->look_again();  // the totals that were packed are free
+}
+
+/// False: the node is to end.
+bool LeaseClient::pack_bins(FlushEncoder& encoder, Totals& totals, const BinRange& bins,
+                            FlushCounts counts) {
+  encoder.begin(totals, bins, counts);
+  for (bool done = false; !done;) {
+    const Nanoseconds begun = scheduler_.clock().now();
+    done = encoder.step(bins_of_a_step);
+    packing_took_ += scheduler_.clock().now() - begun;
+    if (!done && scheduler_.fibers().yield() == Wake::cancelled) return false;
+  }
+  return true;
+}
+
+/// For the first time when all parts are placed; then as often as no answer comes.
+void LeaseClient::put_flush() {
+  flushing_->asked = scheduler_.clock().now();
+  if (!parts_.placed()) return;
+  std::get<Flush>(flushing_->message).part_hashes = parts_.hashes();
   put(*flushing_);
+}
+
+bool LeaseClient::shard_answered(const Delivery& delivery) {
+  if (!parts_.deliver(delivery.source, delivery.id, delivery.message)) return false;
+  if (flushing_ && flushing_->id == delivery.id && parts_.placed()) put_flush();
+  return true;
 }
 
 void LeaseClient::flush_answered(const MessageId& answered, bool taken) {
@@ -151,6 +191,8 @@ void LeaseClient::flush_answered(const MessageId& answered, bool taken) {
   flushing_.reset();
   if (!taken) ++counters_.flushes_refused;  // its leases are lent again: nothing to mend here
   flush_when_idle();
+  if (room_wanted_) flush();
+  photons_->look_again();
 }
 
 // ---- the end ---------------------------------------------------------------------------------
@@ -205,8 +247,9 @@ void LeaseClient::on_timer() {
   for (std::optional<Question>* question : {&asking_, &flushing_}) {
     if (!*question || now - (*question)->asked < config_.answer_patience) continue;
     ++counters_.asked_again;
-    put(**question);
+    question == &flushing_ ? put_flush() : put(**question);
   }
+  if (flushing_) parts_.ask_again(now, config_.answer_patience);
   if (rested(now) || flush_due_) flush();
   if (round_empty_ && !ended_ && now - emptied_ >= config_.answer_patience) begin_round();
   watch_controller(now);
@@ -214,6 +257,7 @@ void LeaseClient::on_timer() {
 }
 
 bool LeaseClient::deliver(const Delivery& delivery) {
+  if (shard_answered(delivery)) return true;
   if (delivery.source != config_.controller) return false;
   heard_ = true;
   if (const auto* grant = std::get_if<LeaseGranted>(&delivery.message)) {

@@ -1,7 +1,7 @@
 // A worker's side of leases and flushes: asks the controller for batches, tells the photon-threads,
 // and sends what they have merged, until the run ends or the controller is given up. What gets no
 // answer is asked again under the same id; the controller answers a repeated question as it did
-// before.
+// before. Where totals lie in shards, a flush goes to the controller when all shards hold theirs.
 // Thread rule: the node's thread.
 #pragma once
 
@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "actors/photon/photon_threads.hpp"
-#include "actors/tally/flush_codec.hpp"
+#include "actors/tally/part_sender.hpp"
 #include "runtime/net/network.hpp"
 
 namespace luxodus {
@@ -37,7 +37,9 @@ constexpr Nanoseconds flush_interval(Nanoseconds least, Nanoseconds cost, Nanose
 
 class LeaseClient final : public LeasePort {
  public:
-  LeaseClient(const LeaseClientConfig& config, Scheduler& scheduler, Network& network);
+  /// `parts` outlives it.
+  LeaseClient(const LeaseClientConfig& config, Scheduler& scheduler, Network& network,
+              PartSender& parts);
 
   /// Requires: once, before the photon-threads start.
   void start(PhotonThreads& photons);
@@ -45,8 +47,12 @@ class LeaseClient final : public LeasePort {
   void want_leases(size_t count) override;
   void lease_done(uint64_t lease) override;
   void lease_failed(uint64_t lease, int64_t batch) override;
+  void want_room() override;
+  bool room_to_come() const override { return packing_ || flushing_ || !done_.empty(); }
+  size_t flush_bytes() const override { return encoder_->memory_bytes() + parts_.memory_bytes(); }
+  void give_up(const Problem& why) override { end(why); }
 
-  /// A message of the controller; false where it is none of these.
+  /// A message of the controller or a shard; false where it is none of these.
   bool deliver(const Delivery& delivery);
   /// Whether the run has ended, or the controller was given up.
   bool ended() const { return ended_; }
@@ -82,6 +88,9 @@ class LeaseClient final : public LeasePort {
   bool encoder_is_free() const;
   bool rested(Nanoseconds now) const;
   void pack(Totals& totals);
+  bool pack_bins(FlushEncoder& encoder, Totals& totals, const BinRange& bins, FlushCounts counts);
+  void put_flush();
+  bool shard_answered(const Delivery& delivery);
   void put(Question& question);
   void set_timer();
   void on_timer();
@@ -95,13 +104,15 @@ class LeaseClient final : public LeasePort {
   LeaseClientConfig config_;
   Scheduler& scheduler_;
   Network& network_;
+  PartSender& parts_;
   PhotonThreads* photons_ = nullptr;
   std::optional<Question> asking_;    // for leases
-  std::optional<Question> flushing_;  // one at a time
+  std::optional<Question> flushing_;  // one at a time; put when all its parts are held
   std::vector<uint64_t> done_;        // merged, in no flush yet
   std::vector<uint64_t> packed_leases_;
   std::shared_ptr<FlushEncoder> encoder_;  // shared with the network while it sends
   bool packing_ = false;
+  bool room_wanted_ = false;      // the tally is full: flush as soon as that can be
   bool flush_due_ = false;        // it waits for the network to let go of the last one
   Nanoseconds packing_took_ = 0;  // of the last flush
   Nanoseconds flush_cost_ = 0;    // of the last one that was answered

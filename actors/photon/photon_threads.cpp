@@ -1,7 +1,12 @@
 // A fiber takes a portion, traces it, and looks for the next; with none left it rests in work_.
 // Portions of one batch go to whoever asks, so a batch ends with its slowest portion; meanwhile the
 // next batch is open. A batch is closed by the fiber that ends its last portion.
+// Where the tally may not hold all bins, a fiber that has scored or is to merge first looks whether
+// that has room, and rests until a flush has made some. A flush waits for no fiber of these, only
+// for the controller; so either room comes, or the one batch in work is more than the budget.
 #include "actors/photon/photon_threads.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 
@@ -60,15 +65,19 @@ PhotonThreads::PhotonThreads(const CompiledScene& scene, const GeometryAccess& a
       places_(source_ == nullptr ? std::vector<uint32_t>() : places_of_emitters(scene)),
       config_(config),
       portion_(portion_for(config, scene.batch_particles)),
+      tight_(tally_need(scene, config.batches_in_work()).all() > config.tally_bytes),
       scheduler_(scheduler),
       port_(port),
-      open_(std::min(config.open_batches, config.leases)),
-      totals_{{scene.layout, static_cast<int>(scene.groups.size()), photopic_weights(scene)},
-              {scene.layout, static_cast<int>(scene.groups.size()), photopic_weights(scene)}},
+      open_(tight_ ? 1 : config.batches_in_work()),
+      totals_{{scene.layout, static_cast<int>(scene.groups.size()), photopic_weights(scene),
+               tight_ ? Cleared::given_back : Cleared::kept},
+              {scene.layout, static_cast<int>(scene.groups.size()), photopic_weights(scene),
+               tight_ ? Cleared::given_back : Cleared::kept}},
       plan_(scene),
       recent_(recent_batches) {
   for (size_t i = 0; i < config.fibers; ++i) tracers_.push_back(make_tracer(scene, access, seed));
-  for (OpenBatch& batch : open_) batch.scores.reset(scene.layout);
+  for (OpenBatch& batch : open_)
+    batch.scores.reset(scene.layout, tight_ ? Cleared::given_back : Cleared::kept);
   leases_.reserve(config.leases + limits::leases);
 }
 
@@ -100,6 +109,13 @@ void PhotonThreads::add_metrics(Metrics& metrics) const {
                       c.collisions);
   metrics.add_gauge({"batches_open", "", "Batches in work.", ""}, c.batches_open);
   metrics.add_gauge({"fibers_idle", "", "Photon-threads that wait for work.", ""}, c.fibers_idle);
+  metrics.add_counter({"tally_full", "", "Waits of batches for room in the tally.", ""},
+                      c.tally_full);
+  metrics.add_gauge({"tally_most", "bytes",
+                     "The most that the tally has taken, where its budget "
+                     "is less than all bins take.",
+                     ""},
+                    c.tally_bytes_most);
   metrics.add_histogram({"batch", "", "From a batch's opening to its merging.", ""}, batch_time_);
 }
 
@@ -145,11 +161,12 @@ void PhotonThreads::trace_portions(BatchTracer& tracer) {
       fibers.set_subject(NodeTrace::nobody);
       tracer.look(batch.number, portion->unit, open.scores);
     }
-    --open.portions_out;
     if (source_ != nullptr && source_->spoilt()) open.failed = true;
+    if (tight_ && !make_room(open, 0)) return;
+    --open.portions_out;
     const bool given_out =
         open.next_particle == scene_.batch_particles && open.next_unit == tracer.look_units();
-    if (given_out && open.portions_out == 0) close(open);
+    if (given_out && open.portions_out == 0 && !finish(open)) return;
     if (fibers.yield() == Wake::cancelled) return;
   }
 }
@@ -210,7 +227,7 @@ PhotonThreads::OpenBatch* PhotonThreads::open_next() {
   if (at_hand() < config_.leases) port_.want_leases(config_.leases - at_hand());
   const auto free =
       std::find_if(open_.begin(), open_.end(), [](const OpenBatch& open) { return !open.used; });
-  if (free == open_.end() || leases_.empty()) return nullptr;
+  if (free == open_.end() || leases_.empty() || (tight_ && !room_for_batch())) return nullptr;
   const WaitingLease lease = leases_.front();
   leases_.erase(leases_.begin());
   free->used = true;
@@ -242,6 +259,83 @@ Batch PhotonThreads::planned(int64_t number) {
   BatchPlan again(scene_);  // of a lease that was late, long ago
   again.skip(number);
   return again.next();
+}
+
+// ---- a tally that may be full ----------------------------------------------------------------
+
+void PhotonThreads::count_totals() {
+  for (size_t i = 0; i < 2; ++i) totals_bytes_[i] = totals_[i].bytes();
+}
+
+/// Whether the tally with `more` bytes is within its budget. Pages are counted only where what is
+/// known without counting does not tell.
+bool PhotonThreads::fits(OpenBatch& open, size_t more) {
+  const auto with = [&](size_t scores) {
+    tally_bytes_ = port_.flush_bytes() + totals_bytes_[0] + totals_bytes_[1] + scores + more;
+    return tally_bytes_ <= config_.tally_bytes;
+  };
+  if (with(open.scores.scores.size() * sizeof(int64_t) + ZeroedMemory::page_bytes)) return true;
+  count_totals();
+  open.scores.scores.find_touched();
+  return with(open.scores.scores.bytes());
+}
+
+/// Whether to open the next batch now. Half the budget is for what batches leave behind; the other
+/// half for the next one.
+bool PhotonThreads::room_for_batch() {
+  count_totals();
+  const size_t bytes = port_.flush_bytes() + totals_bytes_[0] + totals_bytes_[1];
+  if (!port_.room_to_come() || bytes <= config_.tally_bytes / 2) return true;
+  port_.want_room();
+  return false;
+}
+
+/// Rests until the tally has `more` bytes free. False: the run has ended, or will for want of them.
+bool PhotonThreads::make_room(OpenBatch& open, size_t more) {
+  for (bool waits = false; !open.dropped && !fits(open, more); waits = true) {
+    if (!port_.room_to_come()) {
+      outgrown(open);
+      return false;
+    }
+    if (!waits) ++counters_.tally_full;
+    port_.want_room();
+    if (scheduler_.fibers().wait(work_, "tally") == Wake::cancelled || ending_) return false;
+  }
+  counters_.tally_bytes_most = std::max<uint64_t>(counters_.tally_bytes_most, tally_bytes_);
+  return true;
+}
+
+void PhotonThreads::outgrown(const OpenBatch& open) {
+  const auto mebibytes = [](uint64_t bytes) { return static_cast<double>(bytes) / 0x1p20; };
+  port_.give_up(Problem{
+      {},
+      fmt::format(
+          "batch {} of {} particles takes {:.1f} MiB of tally by itself, and tally_bytes is "
+          "{:.1f} MiB: raise tally_bytes in [budget], or lower batch_particles in the "
+          "scene",
+          open.batch.number, scene_.batch_particles, mebibytes(tally_bytes_),
+          mebibytes(config_.tally_bytes))});
+}
+
+/// Closes a batch of which everything is traced, when the totals have room for it.
+bool PhotonThreads::finish(OpenBatch& open) {
+  if (!tight_) {
+    close(open);
+    return true;
+  }
+  const auto needed = [&] {
+    open.scores.scores.find_touched();
+    return totals_[merging_].bytes_to_merge(open.scores, open.batch.group);
+  };
+  for (size_t more = needed();; more = needed()) {
+    if (!make_room(open, more)) return false;
+    if (needed() <= more) break;  // else the totals were given up meanwhile, and these are empty
+  }
+  close(open);
+  open.scores.scores.clear();
+  totals_bytes_[merging_] = totals_[merging_].bytes();
+  if (totals_bytes_[merging_] > totals_share(config_.tally_bytes)) port_.want_room();
+  return true;
 }
 
 void PhotonThreads::close(OpenBatch& open) {

@@ -7,11 +7,13 @@
 // Thread rule: the node's thread.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
 
+#include "actors/photon/tally_need.hpp"
 #include "actors/source/batch_plan.hpp"
 #include "runtime/actor/scheduler.hpp"
 #include "runtime/observe/node_trace.hpp"
@@ -32,8 +34,14 @@ struct PhotonConfig {
   /// Particles of one portion at most. At 0.3 us a ray a portion is some 0.2 ms: short against a
   /// turn of 1 ms, long against the 60 ns of a switch.
   int64_t portion = 128;
+  /// For scores, totals and a flush [B]. Where that is less than all bins take, one batch is in
+  /// work at a time, memory goes back as soon as it holds nothing, and the tally flushes when it is
+  /// full.
+  uint64_t tally_bytes = UINT64_MAX;
   /// Sampled particles are traced by themselves, which changes no bit. Null: none.
   NodeTrace* trace = nullptr;
+
+  size_t batches_in_work() const { return std::min(open_batches, leases); }
 };
 
 /// How photon-threads get work. Called on the node's thread, from within a fiber or not.
@@ -46,6 +54,16 @@ class LeasePort {
   virtual void lease_done(uint64_t lease) = 0;
   /// The batch of this lease could not be traced here: an object was not to be had.
   virtual void lease_failed(uint64_t lease, int64_t batch) = 0;
+
+  /// The tally is full: what is merged shall leave as soon as it can.
+  virtual void want_room() = 0;
+  /// Whether memory of the tally will become free although no batch ends: of batches that are
+  /// merged and not yet flushed, or of a flush under way.
+  virtual bool room_to_come() const = 0;
+  /// What flushes take in memory.
+  virtual size_t flush_bytes() const = 0;
+  /// This node cannot go on.
+  virtual void give_up(const Problem& why) = 0;
 };
 
 /// Makes what traces for one photon-thread: make_batch_tracer, but in a simulation.
@@ -89,6 +107,8 @@ class PhotonThreads {
     uint64_t collisions = 0;
     uint64_t batches_open = 0;
     uint64_t fibers_idle = 0;  // that wait for work
+    uint64_t tally_full = 0;   // times that a batch waited for room
+    uint64_t tally_bytes_most = 0;
   };
   const Counters& counters() const { return counters_; }
   void add_metrics(Metrics& metrics) const;
@@ -104,6 +124,12 @@ class PhotonThreads {
   std::optional<Portion> next_portion();
   OpenBatch* open_next();
   Batch planned(int64_t number);
+  void count_totals();
+  bool fits(OpenBatch& open, size_t more);
+  bool room_for_batch();
+  bool make_room(OpenBatch& open, size_t more);
+  void outgrown(const OpenBatch& open);
+  bool finish(OpenBatch& open);
   void close(OpenBatch& batch);
   bool holds_sampled(const OpenBatch& open) const;
 
@@ -113,12 +139,15 @@ class PhotonThreads {
   const std::vector<uint32_t> places_;  // of emitters, where cells are waited for
   const PhotonConfig config_;
   const int64_t portion_;
+  const bool tight_;  // the budget is less than all bins take
   Scheduler& scheduler_;
   LeasePort& port_;
   std::vector<std::unique_ptr<BatchTracer>> tracers_;  // one a fiber
   std::vector<OpenBatch> open_;
   Totals totals_[2];  // one is merged into while the other is emptied
   size_t merging_ = 0;
+  size_t totals_bytes_[2] = {0, 0};  // in memory, when last counted: since then less at most
+  size_t tally_bytes_ = 0;           // of all, as fits() has found it, or more
   BatchPlan plan_;
   std::vector<Batch> recent_;  // what was planned last, by number modulo its size
   struct WaitingLease {

@@ -38,6 +38,10 @@ Controller::Controller(const ControllerConfig& config, LocalRun& run, const Stop
       network_(network),
       book_(run.batches(), run.missing(), config.first_lease,
             config.look_ahead * static_cast<int64_t>(config.workers.size())),
+      shards_(
+          config.shards, run.totals(), scheduler.clock(), [&network] { return network.next_id(); },
+          [&network](NodeId to, const MessageId& id, const Message& message,
+                     const SharedBytes& payload) { network.send(to, id, message, payload); }),
       plan_(run.scene()),
       target_(run.target_batches(stop)),
       batches_at_start_(run.traced()),
@@ -65,6 +69,8 @@ bool Controller::meet(const Delivery& delivery) {
     if (peer.life != Incarnation{}) {
       peer.former.push_back(peer.life);
       fence(book_.fence_node(delivery.source), "its worker began anew");
+      shards_.end_life(delivery.source, peer.life);
+      lose_shard(delivery.source, "began anew");
     }
     peer.life = life;
     peer.told = false;
@@ -139,8 +145,10 @@ void Controller::watch_workers(Nanoseconds now) {
         "again\"",
         worker.value, name_of(worker), seconds_of(config_.lost));
     fence(book_.fence_node(worker), "its worker is lost");
+    lose_shard(worker, "is lost");
   }
-  if (!begun_ || over_ || adding_ || !all_gone()) return;
+  // With shards, who is out of reach is waited for until it is lost: then the run has failed.
+  if (!begun_ || over_ || adding_ || !all_gone() || shards_.others() > 0) return;
   if (!closing_) return end_run(StopReason::workers_lost);
   end_run(interrupt_.load() ? StopReason::interrupted : StopReason::time);
 }
@@ -150,6 +158,22 @@ bool Controller::all_gone() const {
   return std::all_of(peers_.begin(), peers_.end(), [&](const auto& entry) {
     return !entry.second.here || (closing_ && entry.second.unreachable_since);
   });
+}
+
+/// What a worker held of the totals is nowhere else.
+void Controller::lose_shard(NodeId worker, const char* how) {
+  if (!begun_ || !shards_.owns(worker)) return;
+  fail(
+      fmt::format("{} {}, and with it a shard of the totals, so that this run has no result: "
+                  "begin anew, with fewer shards or other nodes in [tally] shards",
+                  name_of(worker), how));
+}
+
+void Controller::fail(const std::string& what) {
+  if (over_) return;
+  fault_ = Problem{{}, what};
+  spdlog::error("run=failed text=\"{}\"", what);
+  end_run(StopReason::workers_lost);
 }
 
 void Controller::fence(const std::vector<Lease>& leases, const char* why) {
@@ -168,9 +192,20 @@ void Controller::add_metrics(Metrics& metrics) const {
                       c.fenced);
   metrics.add_counter({"flushes_taken", "", "Flushes counted.", ""}, c.flushes_taken);
   metrics.add_counter({"flushes_not_taken", "", "Flushes refused.", ""}, c.flushes_refused);
+  metrics.add_counter({"flushes_not_kept", "", "Flushes that the journal could not take.", ""},
+                      c.flushes_not_kept);
   metrics.add_counter({"flush_in", "bytes", "Bytes of flushes that came.", ""}, c.flush_bytes);
   metrics.add_counter({"batches_counted", "", "Batches counted.", ""}, c.batches);
   metrics.add_counter({"particles_counted", "", "Particles of batches counted.", ""}, c.particles);
+  if (shards_.others() > 0) {
+    const ShardControl::Counters& s = shards_.counters();
+    metrics.add_counter({"shard_decisions", "", "Decisions to be told to shards.", ""},
+                        s.decisions);
+    metrics.add_counter({"gathers", "", "Times that shards' totals were brought here.", ""},
+                        s.gathers);
+    metrics.add_counter({"gathered", "bytes", "Bytes of totals that shards told.", ""},
+                        s.gathered_bytes);
+  }
   metrics.add_gauge({"round", "", "Rounds begun.", ""}, c.round);
   metrics.add_gauge({"leases_out", "", "Leases that stand.", ""}, c.leases_out);
 }
@@ -192,6 +227,29 @@ void Controller::open_round() {
   ++counters_.round;
   for (const NodeId worker : config_.workers)
     send(worker, network_.next_id(), RoundOpened{round(), static_cast<uint64_t>(end)});
+}
+
+/// Ends the round when everything of it is counted, and lets somebody look at the totals where that
+/// is due. Not on a fiber: what reads all totals needs more stack. With shards the totals are first
+/// brought here, when every decision is answered; meanwhile no flush is counted, so that they fit
+/// together.
+void Controller::look_at_totals() {
+  if (!begun_ || over_) return;
+  if (shards_.fault()) return fail(*shards_.fault());
+  const bool round_done = book_.round_done();
+  if (!round_done && !run_.pause_is_due()) return start_counting();
+  if (adding_ || shards_.gathering()) return;
+  if (shards_.others() > 0 && !gathered_) {
+    if (counting_ || !shards_.settled()) return;  // called again when they are
+    return shards_.gather([this] {
+      gathered_ = true;
+      look_at_totals();
+    });
+  }
+  run_.pause_if_due();
+  gathered_ = false;
+  if (round_done) end_round();
+  if (!over_) start_counting();
 }
 
 void Controller::end_round() {
@@ -239,15 +297,16 @@ void Controller::look() {
   if (over_) return tell_end();
   if (!begun_) return await_workers(now);
   report_(progress());
-  run_.pause_if_due();
+  shards_.look();
   fence(book_.fence_late(now), "late");
   note_book();
+  let_keeper_rest();
   const double passed = static_cast<double>(now - began_) * 1e-9;
   if (!closing_ && (interrupt_.load() || (stop_.seconds && passed >= *stop_.seconds))) {
     closing_ = true;
     book_.close();
-    if (book_.round_done() && !adding_) end_round();
   }
+  look_at_totals();
 }
 
 Progress Controller::progress() const {
@@ -264,6 +323,10 @@ void Controller::send(NodeId worker, const MessageId& id, const Message& message
 }
 
 bool Controller::deliver(const Delivery& delivery) {
+  if (shards_.deliver(delivery)) {
+    look_at_totals();
+    return true;
+  }
   const bool of_a_worker = std::holds_alternative<RequestLease>(delivery.message) ||
                            std::holds_alternative<Flush>(delivery.message);
   if (!of_a_worker) return false;
@@ -318,22 +381,26 @@ void Controller::take_flush(const Delivery& delivery, const Flush& flush) {
   if (arrived_.size() >= 2 * peers_.size()) return;
   arrived_.push_back(
       {delivery.source, delivery.id, flush, {delivery.payload.begin(), delivery.payload.end()}});
-  if (counting_) return;
+  start_counting();
+}
+
+void Controller::start_counting() {
+  if (counting_ || arrived_.empty() || shards_.gathering()) return;
   counting_ = scheduler_.fibers().start("tally", [this] { count_flushes(); }).has_value();
   if (!counting_) arrived_.pop_back();  // it is sent again
 }
 
-/// On a fiber of its own.
+/// On a fiber of its own. Between two flushes somebody may look at the totals; where these lie in
+/// shards, the flushes that have come wait.
 void Controller::count_flushes() {
-  while (!arrived_.empty()) {
+  const auto held_back = [&] { return shards_.others() > 0 && run_.pause_is_due(); };
+  while (!arrived_.empty() && !(held_back() && !over_)) {
     answer_flush(arrived_.front(), count_flush(arrived_.front()));
     arrived_.pop_front();
-    // Not here: what ends a round reads all totals, and needs more stack than a fiber has.
-    scheduler_.timers().set(scheduler_.clock().now(), [this] {
-      if (begun_ && !over_ && !adding_ && book_.round_done()) end_round();
-    });
+    scheduler_.timers().set(scheduler_.clock().now(), [this] { look_at_totals(); });
   }
   counting_ = false;
+  scheduler_.timers().set(scheduler_.clock().now(), [this] { look_at_totals(); });
 }
 
 /// `why` it is refused; "" where it was counted.
@@ -348,6 +415,7 @@ void Controller::answer_flush(const Arrived& arrived, const std::string& why) {
   } else {
     ++counters_.flushes_refused;
     last.answer = FlushRefused{{}, why};
+    shards_.refuse(arrived.id);
     spdlog::warn("flush=refused node={} text=\"{}\"", arrived.worker.value, why);
     fence(book_.fence_leases(arrived.worker, arrived.flush.leases), "its flush was refused");
   }
@@ -361,11 +429,32 @@ bool Controller::take_turns() {
   return true;
 }
 
+/// On a disk, before anybody is told: the run survives this node. Where that fails the run goes on
+/// without, since its totals are right all the same.
+void Controller::keep(const Arrived& arrived) {
+  if (config_.keeper == nullptr) return;
+  const std::vector<int64_t> batches = book_.batches_of(arrived.flush.leases);
+  const auto kept = config_.keeper->keep(batches, arrived.payload);
+  if (kept.ok()) return;
+  ++counters_.flushes_not_kept;
+  spdlog::error(
+      "journal=failed flushes={} text=\"{}: should this node crash, they are traced again\"",
+      counters_.flushes_not_kept, kept.problem().text());
+}
+
+/// Between flushes, when the totals hold all that was kept.
+void Controller::let_keeper_rest() {
+  if (config_.keeper == nullptr || adding_ || counting_) return;
+  run_.resume(book_.lent_end(), book_.missing());
+  config_.keeper->rest();
+}
+
 /// Takes a flush whole, or says why not.
 std::string Controller::count_flush(const Arrived& arrived) {
   const std::vector<uint64_t>& leases = arrived.flush.leases;
   const char* const fenced = "a lease was fenced";
   if (!book_.stand(arrived.worker, leases)) return fenced;
+  if (arrived.flush.part_hashes.size() != shards_.others()) return "shards lack their parts of it";
   Hasher hash;
   for (std::span<const std::byte> left = arrived.payload; !left.empty(); take_turns()) {
     const auto piece = left.first(std::min(left.size(), bytes_of_a_step));
@@ -374,15 +463,18 @@ std::string Controller::count_flush(const Arrived& arrived) {
   }
   if (hash.value() != arrived.flush.payload_hash) return "the payload is not what its hash says";
   const auto rest = [this] { return take_turns(); };
-  const auto gain =
-      decode_flush(arrived.payload, run_.totals().groups(), run_.scene().layout.totals(), rest);
+  const auto gain = decode_flush(arrived.payload, run_.totals().groups(),
+                                 config_.shards.range(0, run_.scene().layout.totals()), rest);
   if (!gain.ok()) return gain.problem().what;
   if (gain->batches() != static_cast<int64_t>(leases.size()) || !gain->ledger().closes())
     return "its batches or its ledger do not add up";
   if (over_) return "the run has ended";
   // Committed before anything is added, so that no lease of it is fenced while others have turns.
   if (!book_.stand(arrived.worker, leases)) return fenced;
+  keep(arrived);
   book_.commit(leases);
+  gathered_ = false;
+  shards_.take(arrived.id, arrived.flush.part_hashes);
   adding_ = true;
   gain->add_to(run_.totals(), rest);
   note_book();

@@ -1,6 +1,8 @@
 // The controller of a run on nodes: lends batches, takes flushes whole or refuses them, decides
 // when a round and the run are over. It holds the run's totals and traces nothing itself. A run
-// begins with all its workers or not at all; once begun it goes on as long as one is left.
+// begins with all its workers or not at all; once begun it goes on as long as one is left. Where
+// workers hold shards of the totals, it tells these of every decision (shard_control.hpp), brings
+// their totals here before a round ends or somebody looks, and ends when one of them is lost.
 // Thread rule: its node's thread.
 #pragma once
 
@@ -11,8 +13,10 @@
 #include <optional>
 #include <string>
 
+#include "actors/source/flush_keeper.hpp"
 #include "actors/source/lease_book.hpp"
 #include "actors/source/local_run.hpp"
+#include "actors/tally/shard_control.hpp"
 #include "runtime/actor/scheduler.hpp"
 #include "runtime/net/network.hpp"
 
@@ -28,6 +32,8 @@ struct ControllerConfig {
   /// yet to trace.
   int64_t look_ahead = 8;
   std::vector<std::string> names;  // of nodes, by number, for people; empty: they have none
+  ShardPlan shards;                // of the totals
+  FlushKeeper* keeper = nullptr;   // of what is counted; null: nobody
   /// Until every worker has been heard of; else the run does not begin.
   Nanoseconds start = seconds(60);
   /// A worker that no way leads to for so long is lost: long against a link that is made anew.
@@ -66,6 +72,7 @@ class Controller {
     uint64_t workers_lost = 0;
     uint64_t flushes_taken = 0;
     uint64_t flushes_refused = 0;
+    uint64_t flushes_not_kept = 0;  // by the journal
     uint64_t flush_bytes = 0;
     uint64_t round = 0;
     uint64_t batches = 0;  // counted, those of an earlier run included
@@ -73,6 +80,7 @@ class Controller {
     uint64_t particles = 0;  // of counted batches
   };
   const Counters& counters() const { return counters_; }
+  const ShardControl::Counters& shard_counters() const { return shards_.counters(); }
   void add_metrics(Metrics& metrics) const;
 
  private:
@@ -101,10 +109,16 @@ class Controller {
   size_t group_of(int64_t batch);
   void take_flush(const Delivery& delivery, const Flush& flush);
   struct Arrived;
+  void start_counting();
   void count_flushes();
   void answer_flush(const Arrived& arrived, const std::string& why);
   std::string count_flush(const Arrived& arrived);
   bool take_turns();
+  void keep(const Arrived& arrived);
+  void let_keeper_rest();
+  void look_at_totals();
+  void fail(const std::string& what);
+  void lose_shard(NodeId worker, const char* how);
   void end_round();
   void end_run(StopReason reason);
   void tell_end();
@@ -121,6 +135,7 @@ class Controller {
   Scheduler& scheduler_;
   Network& network_;
   LeaseBook book_;
+  ShardControl shards_;
   BatchPlan plan_;
   std::vector<uint32_t> groups_;  // of batches, as far as asked; where groups are ranked
   int64_t target_;
@@ -153,6 +168,7 @@ class Controller {
   std::deque<Arrived> arrived_;
   bool counting_ = false;  // the fiber runs
   bool adding_ = false;    // the totals hold a part of a flush
+  bool gathered_ = false;  // the totals are those of all that is counted, shards included
   Counters counters_;
 };
 

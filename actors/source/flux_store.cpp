@@ -129,8 +129,13 @@ Result<Done> load_flux(const std::filesystem::path& path, LocalRun& run) {
       return Problem{place, "the flux file lacks totals of source group " + std::to_string(g)};
     }
     Totals::GroupState state;
-    state.totals.resize(count);
-    std::memcpy(state.totals.data(), block->bytes.data(), block->bytes.size());
+    state.totals = SparseArray<Total>(static_cast<int64_t>(count));
+    for (size_t i = 0; i < count; ++i) {
+      Total total;
+      std::memcpy(&total, block->bytes.data() + i * sizeof total, sizeof total);
+      if (total.sum != 0 || total.squares != 0)
+        *state.totals.touch(static_cast<int64_t>(i)) = total;
+    }
     state.batches = groups[static_cast<size_t>(g)].value("batches", int64_t{0});
     totals.restore(g, std::move(state));
   }

@@ -63,8 +63,9 @@ class LocalRun {
     pause_due_ = std::move(due);
     pause_ = std::move(pause);
   }
+  bool pause_is_due() const { return pause_due_ && pause_due_(); }
   void pause_if_due() {
-    if (pause_due_ && pause_due_()) pause_();
+    if (pause_is_due()) pause_();
   }
 
   /// Goes on from totals that hold the first `batches` batches, but for those `missing`: these are

@@ -296,6 +296,7 @@ Result<std::optional<StopReason>> ClusterProcessRun::run(
   const Machine machine{clock, context};
   RunSetup setup{run_->scene(), index, nullptr, nullptr, run_->seed(), graph_, {}, nullptr};
   for (const ClusterNode& node : cluster_.nodes) setup.names.push_back(node.name);
+  setup.shards.owners = cluster_.tally.shards;
   std::optional<Residency> residency;
   if (fetches_) {
     const std::vector<NodeId> holders = holders_of(cluster_);
@@ -327,7 +328,8 @@ Result<std::optional<StopReason>> ClusterProcessRun::run(
   for (const NodeSetup& node : workers)
     if (auto fault = budget_fault(setup, node)) return Problem{{cluster_.file.string(), 0}, *fault};
   spdlog::info("memory plan\n{}", plan_text(setup, workers, controller));
-  if (controller)
+  // With shards the journal would hold a part of the totals.
+  if (controller && setup.shards.owners.empty())
     if (auto ok = open_journal(clock); !ok.ok()) return ok.problem();
   WorkerThreads threads(setup, machine, workers, [&] { return !controller && interrupt.load(); });
   std::optional<StopReason> reason;

@@ -17,6 +17,7 @@ ControllerConfig controller_config(const RunSetup& setup, const NodeSetup& node,
   config.start = node.start;
   config.lost = node.lost;
   config.names = setup.names;
+  config.shards = setup.shards;
   config.first_lease = node.net.incarnation.value;
   for (uint16_t i = 0; i < setup.graph.workers(); ++i) config.workers.push_back({i});
   return config;

@@ -36,6 +36,8 @@ void WorkerReport::add(const WorkerReport& other) {
   fetched_bytes += other.fetched_bytes;
   largest_resident_bytes = std::max(largest_resident_bytes, other.largest_resident_bytes);
   pinned_bytes += other.pinned_bytes;
+  tally_full += other.tally_full;
+  tally_bytes_most = std::max(tally_bytes_most, other.tally_bytes_most);
 }
 
 FetchingCells::FetchingCells(const RunSetup& run, const NodeSetup& node, NodeShell& shell,
@@ -60,8 +62,8 @@ void FetchingCells::add_metrics(Metrics& metrics) const {
 WorkerReport FetchingCells::report() const {
   const ObjectCache::Counters& c = cache_.counters();
   const Fetcher::Counters& f = fetcher_.counters();
-  return {self_,       c.hits, c.misses,   f.fetches,        c.joined,      c.builds,
-          c.evictions, 0,      f.bytes_in, c.resident_bytes, c.pinned_bytes};
+  return {self_, c.hits,     c.misses,         f.fetches,      c.joined, c.builds, c.evictions,
+          0,     f.bytes_in, c.resident_bytes, c.pinned_bytes, 0,        0};
 }
 
 }  // namespace luxodus

@@ -20,6 +20,8 @@ struct WorkerReport {
   uint64_t fetched_bytes = 0;
   uint64_t largest_resident_bytes = 0;  // of one node, when it ended
   uint64_t pinned_bytes = 0;
+  uint64_t tally_full = 0;        // times that a batch waited for room in the tally
+  uint64_t tally_bytes_most = 0;  // of one node, where its budget is less than all bins take
 
   void add(const WorkerReport& other);
   /// Of all references to cells, those that found the cell resident; 1 where there was none.

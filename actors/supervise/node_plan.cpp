@@ -4,7 +4,6 @@
 
 #include "actors/supervise/node_shell.hpp"
 #include "actors/supervise/residency_setup.hpp"
-#include "actors/tally/flush_codec.hpp"
 
 namespace luxodus {
 
@@ -16,6 +15,23 @@ std::string mebibytes(uint64_t bytes) {
 
 uint64_t bins_of(const CompiledScene& scene) {
   return static_cast<uint64_t>(scene.layout.totals()) * scene.groups.size();
+}
+
+/// Bins of all groups in the range of a shard.
+uint64_t bins_of(const RunSetup& run, size_t shard) {
+  const BinRange bins = run.shards.range(shard, run.scene.layout.totals());
+  return static_cast<uint64_t>(bins.end - bins.first) * run.scene.groups.size();
+}
+
+/// Of a worker that holds one: a part of each worker's flush, and the totals.
+void add_shard(MemoryPlan& plan, const RunSetup& run, size_t shard) {
+  const uint64_t bins = bins_of(run, shard);
+  const size_t workers = run.graph.workers();
+  plan.add("shard of the totals", bins * sizeof(Total),
+           fmt::format("{} bins x {} B", bins, sizeof(Total)));
+  plan.add(
+      "parts of flushes held", workers * bins * flush_bytes_of_bin,
+      fmt::format("of {} workers, {} bins x {} B at most each", workers, bins, flush_bytes_of_bin));
 }
 
 void add_totals(MemoryPlan& plan, const CompiledScene& scene, uint64_t copies) {
@@ -69,10 +85,11 @@ MemoryPlan process_plan(const RunSetup& run) {
 
 }  // namespace
 
-SchedulerLimits worker_limits(const NodeSetup& node) {
+SchedulerLimits worker_limits(const RunSetup& run, const NodeSetup& node) {
   SchedulerLimits limits;
   limits.fibers = node.fibers;
   limits.fibers.count = node.photons.fibers + 1;  // and the one that packs flushes
+  if (run.shards.shard_of(node.net.self) != 0) ++limits.fibers.count;  // that adds parts of others'
   limits.stall = node.stall;
   // Leases, the watch for the end, publishing, and a few to spare.
   limits.timers_beside_fibers = 16 + Fetcher::timers_most(node.fetch) + ObjectCache::timers_most;
@@ -93,22 +110,31 @@ CacheConfig cache_config(const SceneObjects& objects, const NodeSetup& node, Nod
   return config;
 }
 
-MemoryPlan tally_plan(const CompiledScene& scene, const PhotonConfig& photons) {
+MemoryPlan tally_plan(const CompiledScene& scene, const NodeSetup& node) {
   MemoryPlan plan;
-  const uint64_t open = std::min(photons.open_batches, photons.leases);
-  const auto scores = static_cast<uint64_t>(scene.layout.scores());
-  plan.add("scores", open * scores * sizeof(int64_t),
-           fmt::format("{} open batches x {} scores x {} B", open, scores, sizeof(int64_t)));
+  const uint64_t open = node.photons.batches_in_work();
+  const TallyNeed need = tally_need(scene, open);
+  if (need.all() > node.tally_bytes) {
+    plan.add("tally", node.tally_bytes,
+             fmt::format("tally_bytes; all of it would be {}: it flushes when it is full",
+                         mebibytes(need.all())));
+    return plan;
+  }
+  plan.add("scores", need.scores,
+           fmt::format("{} open batches x {} scores x {} B", open, scene.layout.scores(),
+                       sizeof(int64_t)));
   add_totals(plan, scene, 2);
-  plan.add("flush", bins_of(scene) * flush_bytes_of_bin,
+  plan.add("flush", need.flush,
            fmt::format("{} bins x {} source groups x {} B at most, packed less",
                        scene.layout.totals(), scene.groups.size(), flush_bytes_of_bin));
   return plan;
 }
 
 MemoryPlan worker_plan(const RunSetup& run, const NodeSetup& node) {
-  MemoryPlan plan = common_plan(node, worker_limits(node));
-  plan.add(tally_plan(run.scene, node.photons));
+  MemoryPlan plan = common_plan(node, worker_limits(run, node));
+  plan.add(tally_plan(run.scene, node));
+  if (const size_t shard = run.shards.shard_of(node.net.self); shard != 0)
+    add_shard(plan, run, shard);
   uint64_t histograms = 2;
   if (run.objects != nullptr) {
     const size_t cells = run.objects->places().size();
@@ -127,15 +153,13 @@ MemoryPlan worker_plan(const RunSetup& run, const NodeSetup& node) {
 MemoryPlan controller_plan(const RunSetup& run, const NodeSetup& node) {
   MemoryPlan plan = common_plan(node, controller_limits(node));
   add_totals(plan, run.scene, 1);
-  const uint64_t flush = bins_of(run.scene) * (flush_bytes_of_bin + sizeof(TotalsGain::Bin));
-  plan.add("flush being counted", flush,
-           fmt::format("{} bins x {} source groups x ({} B packed + {} B read)",
-                       run.scene.layout.totals(), run.scene.groups.size(), flush_bytes_of_bin,
+  const uint64_t bins = bins_of(run, 0);  // others' shards have theirs
+  plan.add("flush being counted", bins * (flush_bytes_of_bin + sizeof(TotalsGain::Bin)),
+           fmt::format("{} bins x ({} B packed + {} B read)", bins, flush_bytes_of_bin,
                        sizeof(TotalsGain::Bin)));
   const size_t workers = run.graph.workers();
   plan.add("flushes coming in",
-           std::min<uint64_t>(ShellConfig{}.room_bytes_most,
-                              workers * bins_of(run.scene) * flush_bytes_of_bin),
+           std::min<uint64_t>(ShellConfig{}.room_bytes_most, workers * bins * flush_bytes_of_bin),
            fmt::format("of {} workers at once, at most {} B of all", workers,
                        ShellConfig{}.room_bytes_most));
   add_metrics(plan, run, 0);
@@ -144,16 +168,18 @@ MemoryPlan controller_plan(const RunSetup& run, const NodeSetup& node) {
 
 std::optional<std::string> budget_fault(const RunSetup& run, const NodeSetup& node) {
   const std::string name = run.name_of(node.net.self);
-  const MemoryPlan tally = tally_plan(run.scene, node.photons);
-  if (tally.total_bytes() > node.tally_bytes) {
-    std::string parts;
-    for (const MemoryPlan::Term& term : tally.terms())
-      parts += (parts.empty() ? "" : ", ") + term.name + " " + mebibytes(term.bytes);
+  const uint64_t least = least_tally_bytes(run.scene);
+  const uint64_t all = tally_need(run.scene, node.photons.batches_in_work()).all();
+  if (all > node.tally_bytes && !ZeroedMemory::use_is_told())
     return fmt::format(
-        "node {}: its tally needs {} ({}), and tally_bytes is {}: raise tally_bytes in [budget], "
-        "or ask for fewer patches, voxels, bands or source groups",
-        name, mebibytes(tally.total_bytes()), parts, mebibytes(node.tally_bytes));
-  }
+        "node {}: its tally needs {}, and tally_bytes is {}; this system does not tell which pages "
+        "are in use (/proc/self/pagemap), so it must hold all bins: raise tally_bytes in [budget]",
+        name, mebibytes(all), mebibytes(node.tally_bytes));
+  if (least > node.tally_bytes && all > node.tally_bytes)
+    return fmt::format(
+        "node {}: its tally needs {} at least, and tally_bytes is {}: raise tally_bytes in "
+        "[budget], or ask for fewer patches, voxels, bands or source groups",
+        name, mebibytes(least), mebibytes(node.tally_bytes));
   if (run.objects == nullptr) return std::nullopt;
   const CacheConfig cache = cache_config(*run.objects, node);
   const uint64_t needed = 2 * cache.largest_build_bytes + cache.pinned_bytes_most();

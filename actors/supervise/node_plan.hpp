@@ -14,16 +14,16 @@
 namespace luxodus {
 
 /// What a node's scheduler is made with.
-SchedulerLimits worker_limits(const NodeSetup& node);
+SchedulerLimits worker_limits(const RunSetup& run, const NodeSetup& node);
 SchedulerLimits controller_limits(const NodeSetup& node);
 
 /// The cache of a worker that fetches cells.
 CacheConfig cache_config(const SceneObjects& objects, const NodeSetup& node,
                          NodeTrace* trace = nullptr);
 
-/// What a worker's tally takes, which its key `tally_bytes` bounds: scores of open batches, totals
-/// and a flush.
-MemoryPlan tally_plan(const CompiledScene& scene, const PhotonConfig& photons);
+/// What a worker's tally takes: scores of open batches, totals and a flush, or its key
+/// `tally_bytes` where that is less.
+MemoryPlan tally_plan(const CompiledScene& scene, const NodeSetup& node);
 
 MemoryPlan worker_plan(const RunSetup& run, const NodeSetup& node);
 MemoryPlan controller_plan(const RunSetup& run, const NodeSetup& node);

@@ -9,12 +9,14 @@
 namespace luxodus {
 
 namespace {
-/// Nodes that look for objects in different places do not belong together.
-uint64_t hash_of(const CompiledScene& scene, const SceneObjects* objects) {
-  if (objects == nullptr) return scene.scene_hash;
+/// Nodes that look for objects or shards in different places do not belong together.
+uint64_t hash_of(const RunSetup& run) {
+  if (run.objects == nullptr && run.shards.owners.empty()) return run.scene.scene_hash;
   Hasher hash;
-  hash.add(scene.scene_hash);
-  for (const ObjectPlace& place : objects->places()) {
+  hash.add(run.scene.scene_hash);
+  for (const NodeId owner : run.shards.owners) hash.add(uint64_t{owner.value});
+  if (run.objects == nullptr) return hash.value();
+  for (const ObjectPlace& place : run.objects->places()) {
     hash.add(place.id.value);
     for (const NodeId holder : place.holders) hash.add(uint64_t{holder.value});
   }
@@ -56,7 +58,7 @@ std::string NodeTransport::meeting_trouble(const Network& network) const {
 
 void complete(NetConfig& net, const RunSetup& run) {
   const Routes routes = balanced_routes(run.graph);
-  net.identity.scene_hash = hash_of(run.scene, run.objects);
+  net.identity.scene_hash = hash_of(run);
   net.identity.topology_hash = routes.hash();
   net.identity.build = LUX_VERSION;
   net.identity.isa = isa_in_use();

@@ -28,6 +28,7 @@ struct RunSetup {
   const Graph& graph;
   std::vector<std::string> names;      // of nodes, by number
   Observation* observation = nullptr;  // where somebody watches
+  ShardPlan shards = {};               // of the totals
 
   /// Of a node, for people.
   std::string name_of(NodeId node) const {

@@ -95,6 +95,7 @@ Result<StopReason> run_controller(const RunSetup& setup, const Machine& machine,
                 c.leases,
                 c.fenced,
                 network.counters().frames_received,
+                controller.shard_counters(),
                 {},
                 {},
                 std::nullopt};

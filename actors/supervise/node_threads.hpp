@@ -22,6 +22,7 @@ struct NodesReport {
   uint64_t leases = 0;
   uint64_t leases_fenced = 0;
   uint64_t frames = 0;
+  ShardControl::Counters shards;
   WorkerReport workers;  // of all together
   std::vector<WorkerReport> by_node;
   std::optional<Residency> residency;  // where there was a plan

@@ -23,6 +23,10 @@ Result<Graph> graph_for(const NodesOptions& options) {
 
 std::optional<std::string> fault_of(const NodesOptions& options, const CompiledScene& scene,
                                     bool resident) {
+  if (options.tally_shards < 1 || options.tally_shards > options.nodes + 1 ||
+      options.tally_shards > static_cast<int>(limits::tally_shards))
+    return "the totals can have 1 to " + std::to_string(options.nodes + 1) +
+           " shards: one of the controller, and one of each node";
   if (options.object_bytes == 0) {
     if (resident) return std::nullopt;
     return "nodes that do not hold the whole scene need a budget for objects";
@@ -62,6 +66,7 @@ NodeSetup setup_of(const RunSetup& run, const NetConfig& common, NodeId self,
   node.photons.portion = static_cast<int64_t>(options.portion);
   node.object_bytes = options.object_bytes;
   node.pinned_share = options.pinned_share;
+  node.tally_bytes = options.tally_bytes;
   node.faults.links.delay = options.link_delay;
   return node;
 }
@@ -109,6 +114,7 @@ PlannedNodes::PlannedNodes(const LocalRun& run, const NodesOptions& options, Gra
                                        {},          options.observation} {
   for (int i = 0; i < options.nodes; ++i) setup_.names.push_back("n" + std::to_string(i));
   setup_.names.push_back("controller");
+  for (uint16_t i = 0; i + 1 < options.tally_shards; ++i) setup_.shards.owners.push_back({i});
   if (options.object_bytes == 0) return;
   std::vector<NodeId> holders;
   for (uint16_t i = 0; i < options.nodes; ++i) holders.push_back({i});

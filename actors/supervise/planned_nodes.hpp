@@ -38,6 +38,8 @@ struct NodesOptions {
   double pinned_share = 0.5;  // of a budget, for cells that the plan has kept for good
   /// Of every link, on purpose: what a distance would cost, and how many fibers hide it.
   Nanoseconds link_delay = 0;
+  uint64_t tally_bytes = NodeSetup{}.tally_bytes;  // of each node, for scores, totals and flushes
+  int tally_shards = 1;  // of the totals: the controller's, and those of the first workers
   Observation* observation = nullptr;  // where somebody watches
   /// Asked by each worker every few milliseconds, on its own thread: whether it shall end before
   /// the run does.

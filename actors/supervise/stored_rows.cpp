@@ -83,7 +83,7 @@ void work(const RunSetup& run, const NodeSetup& node, const Clock& clock,
           const RowRunner::MakeWorker& make, Rows& rows) {
   _mm_setcsr(_mm_getcsr() | 0x8040);  // denormals to zero, as in the tracing of particles
   NoTransport transport(clock);
-  NodeShell shell({node.net, worker_limits(node)}, run.graph, clock, transport);
+  NodeShell shell({node.net, worker_limits(run, node)}, run.graph, clock, transport);
   FetchingCells cells(run, node, shell);
   const GeometryAccess access = GeometryAccess::through(*run.proxies, cells.source());
   std::vector<RowRunner::Worker> workers;

@@ -19,6 +19,7 @@ LeaseClientConfig lease_config(const NodeSetup& node, NodeTrace* trace) {
 PhotonConfig photon_config(const NodeSetup& node, NodeTrace* trace) {
   PhotonConfig config = node.photons;
   config.trace = trace;
+  config.tally_bytes = node.tally_bytes;
   return config;
 }
 
@@ -28,11 +29,14 @@ Worker::Worker(const RunSetup& run, const NodeSetup& node, const NodeSeams& seam
     : run_(run),
       node_(node),
       trace_(run.observation == nullptr ? nullptr : run.observation->trace_of(node.net.self)),
-      shell_({node.net, worker_limits(node), ShellConfig{}.room_bytes_most, node.shutdown_phase},
-             run.graph, seams.clock, seams.transport),
+      shell_(
+          {node.net, worker_limits(run, node), ShellConfig{}.room_bytes_most, node.shutdown_phase},
+          run.graph, seams.clock, seams.transport),
       cells_(run.objects == nullptr ? nullptr
                                     : std::make_unique<FetchingCells>(run, node, shell_, trace_)),
-      leases_(lease_config(node, trace_), shell_.scheduler(), shell_.network()),
+      shard_(own_shard()),
+      parts_(run.shards, post()),
+      leases_(lease_config(node, trace_), shell_.scheduler(), shell_.network(), parts_),
       photons_(run.scene,
                cells_ ? GeometryAccess::through(*run.proxies, cells_->source())
                       : GeometryAccess::resident(*run.index),
@@ -41,10 +45,42 @@ Worker::Worker(const RunSetup& run, const NodeSetup& node, const NodeSeams& seam
 
 Worker::~Worker() = default;
 
+/// To this node's own shard and lease client messages come between turns, as from the network.
+Post Worker::post() {
+  return
+      [this](NodeId to, const MessageId& id, const Message& message, const SharedBytes& payload) {
+        if (to != node_.net.self) {
+          shell_.network().send(to, id, message, payload);
+          return;
+        }
+        own_messages_.push_back({id, message, payload});
+        Scheduler& scheduler = shell_.scheduler();
+        scheduler.timers().set(scheduler.clock().now(), [this] { deliver_own(); });
+      };
+}
+
+void Worker::deliver_own() {
+  const OwnMessage own = std::move(own_messages_.front());
+  own_messages_.pop_front();
+  const Delivery delivery{node_.net.self, own.id, 0, own.message, own.payload.bytes};
+  if (!shard_ || !shard_->deliver(delivery)) leases_.deliver(delivery);
+}
+
+std::unique_ptr<TallyShard> Worker::own_shard() {
+  const size_t shard = run_.shards.shard_of(node_.net.self);
+  if (shard == 0) return nullptr;
+  const TallyLayout& layout = run_.scene.layout;
+  const BinRange bins = run_.shards.range(shard, layout.totals());
+  return std::make_unique<TallyShard>(TallyShardConfig{node_.net.self, node_.controller, bins},
+                                      layout, static_cast<int>(run_.scene.groups.size()),
+                                      shell_.scheduler(), post());
+}
+
 void Worker::show_to(Observation& seen) {
   metrics_.emplace(run_.names, node_.net.self, "worker", shell_.scheduler(), shell_.network());
   leases_.add_metrics(metrics_->registry());
   photons_.add_metrics(metrics_->registry());
+  if (shard_) shard_->add_metrics(metrics_->registry());
   if (cells_) cells_->add_metrics(metrics_->registry());
   metrics_->add_rate({"particles_per_second", "", "Particles traced in a second.", ""},
                      photons_.counters().particles);
@@ -54,6 +90,7 @@ void Worker::show_to(Observation& seen) {
 void Worker::start(std::function<bool()> stop) {
   stop_ = std::move(stop);
   shell_.add([this](const Delivery& d) { return leases_.deliver(d); });
+  if (shard_) shell_.add([this](const Delivery& d) { return shard_->deliver(d); });
   leases_.start(photons_);
   if (cells_) cells_->pin(node_.pins);
   photons_.start();
@@ -70,13 +107,16 @@ bool Worker::may_leave() {
     leave_at_ = now + node_.shutdown_phase;
     leases_.drain();
   }
-  return leases_.drained() || now >= leave_at_;
+  // What it holds of the totals goes with it: it stays until the run ends, if that is soon.
+  return (leases_.drained() && !shard_) || now >= leave_at_;
 }
 
 Result<WorkerReport> Worker::result() const {
   if (leases_.fault()) return *leases_.fault();
   WorkerReport report = cells_ ? cells_->report() : WorkerReport{};
   report.waited = shell_.scheduler().counters().waited;
+  report.tally_full = photons_.counters().tally_full;
+  report.tally_bytes_most = photons_.counters().tally_bytes_most;
   return report;
 }
 

@@ -2,9 +2,12 @@
 // objects it holds) it does between the turns of its photon-threads.
 #pragma once
 
+#include <deque>
+
 #include "actors/photon/lease_client.hpp"
 #include "actors/supervise/fetching_cells.hpp"
 #include "actors/supervise/node_metrics.hpp"
+#include "actors/tally/tally_shard.hpp"
 
 namespace luxodus {
 
@@ -33,12 +36,23 @@ class Worker {
  private:
   void show_to(Observation& seen);
   bool may_leave();
+  Post post();
+  void deliver_own();
+  std::unique_ptr<TallyShard> own_shard();
 
   const RunSetup& run_;
   const NodeSetup& node_;
   NodeTrace* const trace_;  // null where nothing is traced
   NodeShell shell_;
   std::unique_ptr<FetchingCells> cells_;  // where the node does not hold everything
+  struct OwnMessage {
+    MessageId id;
+    Message message;
+    SharedBytes payload;
+  };
+  std::deque<OwnMessage> own_messages_;
+  std::unique_ptr<TallyShard> shard_;  // where it holds one of the totals
+  PartSender parts_;
   LeaseClient leases_;
   PhotonThreads photons_;
   std::optional<NodeMetrics> metrics_;

@@ -110,11 +110,11 @@ class Reader {
 };
 
 /// The group's next bin, which lies at or behind `after_last`; false where there is none.
-bool next_bin(Reader& in, uint64_t& after_last, uint64_t totals, TotalsGain::Bin& bin) {
-  const uint64_t distance = in.get_up_to(totals);
+bool next_bin(Reader& in, uint64_t& after_last, const BinRange& bins, TotalsGain::Bin& bin) {
+  const uint64_t distance = in.get_up_to(static_cast<uint64_t>(bins.end - bins.first));
   if (distance == 0) return false;
   after_last += distance;
-  if (after_last > totals) in.fail();
+  if (after_last > static_cast<uint64_t>(bins.end)) in.fail();
   bin.index = static_cast<int64_t>(after_last - 1);
   bin.total.sum = in.get_signed();
   bin.total.squares = in.get();
@@ -176,15 +176,26 @@ FlushEncoder::FlushEncoder(int groups, int64_t totals) : zstd_(std::make_unique<
   pack(false);  // zstd takes its own memory with the first byte of a stream
 }
 
-void FlushEncoder::begin(Totals& totals) {
+uint64_t FlushEncoder::batches_of_group() {
+  if (counts_ == FlushCounts::without) return 0;
+  return static_cast<uint64_t>(totals_->take_batches(group_));
+}
+
+Ledger FlushEncoder::ledger() {
+  return counts_ == FlushCounts::without ? Ledger{} : totals_->take_ledger();
+}
+
+void FlushEncoder::begin(Totals& totals, const BinRange& bins, FlushCounts counts) {
   totals_ = &totals;
+  bins_ = bins;
+  counts_ = counts;
   group_ = 0;
-  next_ = after_last_ = 0;
+  next_ = after_last_ = bins.first;
   raw_.clear();
   packed_.clear();
   ZSTD_CCtx_reset(zstd_->context.get(), ZSTD_reset_session_only);
   put(raw_, static_cast<uint64_t>(totals.groups()));
-  put(raw_, static_cast<uint64_t>(totals.take_batches(0)));
+  put(raw_, batches_of_group());
 }
 
 FlushEncoder::~FlushEncoder() = default;
@@ -192,7 +203,8 @@ FlushEncoder::~FlushEncoder() = default;
 /// A group is its batches, its bins (each the distance from the last one plus one), and a zero.
 bool FlushEncoder::step(int64_t bins) {
   Numbers numbers;
-  const int64_t end = std::min(next_ + bins, totals_->layout().totals());
+  next_ = std::min(totals_->next_bin(group_, next_), bins_.end);
+  const int64_t end = std::min(next_ + bins, bins_.end);
   totals_->take_bins(group_, next_, end, [&](int64_t index, const Total& total) {
     numbers.put(static_cast<uint64_t>(index - after_last_ + 1));
     numbers.put_signed(total.sum);
@@ -201,19 +213,23 @@ bool FlushEncoder::step(int64_t bins) {
     after_last_ = index + 1;
   });
   next_ = end;
-  const bool group_done = next_ == totals_->layout().totals();
+  const bool group_done = next_ == bins_.end;
   bool done = false;
   if (group_done) {
     put(raw_, 0);
-    next_ = after_last_ = 0;
+    next_ = after_last_ = bins_.first;
     done = ++group_ == totals_->groups();
     if (done)
-      put_ledger(raw_, totals_->take_ledger());
+      put_ledger(raw_, ledger());
     else
-      put(raw_, static_cast<uint64_t>(totals_->take_batches(group_)));
+      put(raw_, batches_of_group());
   }
   pack(done);
   return done;
+}
+
+size_t FlushEncoder::memory_bytes() const {
+  return longest_raw_ + longest_packed_ + ZSTD_sizeof_CCtx(zstd_->context.get());
 }
 
 /// A stream's length is never known beforehand, so that zstd finds its memory as it left it.
@@ -222,6 +238,8 @@ void FlushEncoder::pack(bool last) {
   while (in.pos < in.size) pack_more(in, ZSTD_e_continue);
   while (last && pack_more(in, ZSTD_e_end) != 0) {
   }
+  longest_raw_ = std::max(longest_raw_, raw_.size());
+  longest_packed_ = std::max(longest_packed_, packed_.size());
   raw_.clear();
 }
 
@@ -247,26 +265,26 @@ std::vector<std::byte> encode_flush(Totals& totals) {
 
 // ---- reading ---------------------------------------------------------------------------------
 
-Result<FlushGain> decode_flush(std::span<const std::byte> bytes, int groups, int64_t totals,
+Result<FlushGain> decode_flush(std::span<const std::byte> bytes, int groups, const BinRange& bins,
                                const FlushRest& rest) {
-  auto raw = unpack(bytes, bytes_most(groups, totals), rest);
+  auto raw = unpack(bytes, bytes_most(groups, bins.end - bins.first), rest);
   if (!raw.ok()) return raw.problem();
   FlushGain gain;
   gain.raw_ = std::move(raw).value();
-  gain.totals_ = static_cast<uint64_t>(totals);
+  gain.range_ = bins;
   Reader in(gain.raw_);
   const Problem wrong{{}, "the flush does not fit this scene's totals"};
   if (in.get_up_to(static_cast<uint64_t>(groups)) != static_cast<uint64_t>(groups)) return wrong;
   TotalsGain::Bin bin;
-  int64_t bins = 0;
+  int64_t count = 0;
   for (int g = 0; g < groups; ++g) {
     gain.batches_.push_back(static_cast<int64_t>(in.get_up_to(uint64_t{1} << 40)));
     gain.begins_.push_back(static_cast<size_t>(in.at() - gain.raw_.data()));
-    uint64_t after_last = 0;
-    while (next_bin(in, after_last, gain.totals_, bin))
-      if (++bins % bins_between_rests == 0 && !rest()) return Problem{{}, abandoned};
+    auto after_last = static_cast<uint64_t>(bins.first);
+    while (next_bin(in, after_last, bins, bin))
+      if (++count % bins_between_rests == 0 && !rest()) return Problem{{}, abandoned};
   }
-  gain.bins_ = bins;
+  gain.bins_ = count;
   gain.ledger_ = get_ledger(in);
   if (!in.ok() || !in.at_end()) return wrong;
   return gain;
@@ -287,11 +305,11 @@ void FlushGain::add_to(Totals& totals, const FlushRest& rest) const {
   for (size_t g = 0; g < batches_.size(); ++g) {
     Reader in({raw_.data() + begins_[g], raw_.size() - begins_[g]});
     auto& bins = piece.groups[g].bins;
-    uint64_t after_last = 0;
+    auto after_last = static_cast<uint64_t>(range_.first);
     TotalsGain::Bin bin;
     for (bool more = true; more;) {
       bins.clear();
-      while (bins.size() < bins_between_rests && (more = next_bin(in, after_last, totals_, bin)))
+      while (bins.size() < bins_between_rests && (more = next_bin(in, after_last, range_, bin)))
         bins.push_back(bin);
       totals.add(piece);
       rest();

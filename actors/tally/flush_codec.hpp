@@ -22,6 +22,9 @@ namespace luxodus {
 /// a sum below 2^90 (2^26 batches of 2^63, signed) and squares of 128 bits, seven bits a byte.
 inline constexpr uint64_t flush_bytes_of_bin = 6 + 13 + 19;
 
+/// Whether a flush carries its batches and their ledger: of several parts one does.
+enum class FlushCounts { with, without };
+
 /// Empties totals into bytes, step by step, one flush after another in the same memory.
 class FlushEncoder {
  public:
@@ -32,23 +35,34 @@ class FlushEncoder {
 
   /// Begins a flush; the bytes of the one before are gone. Requires: `totals` are of that size, and
   /// nobody else touches them until the last step.
-  void begin(Totals& totals);
+  void begin(Totals& totals) { begin(totals, {0, totals.layout().totals()}, FlushCounts::with); }
+  /// The same for some of the bins, of all groups.
+  void begin(Totals& totals, const BinRange& bins, FlushCounts counts);
 
   /// Goes through the next `bins` bins; true when there are no more.
   bool step(int64_t bins);
   /// The whole flush, until begin(). Requires: step() has returned true.
   const std::vector<std::byte>& bytes() const { return packed_; }
+  /// What flushes have taken in memory so far: that of the longest, and what packs it.
+  size_t memory_bytes() const;
 
  private:
   void pack(bool last);
   size_t pack_more(ZSTD_inBuffer_s& in, int how);
 
+  uint64_t batches_of_group();
+  Ledger ledger();
+
   Totals* totals_ = nullptr;
+  BinRange bins_;
+  FlushCounts counts_ = FlushCounts::with;
   int group_ = 0;
   int64_t next_ = 0;        // bin of the group
   int64_t after_last_ = 0;  // the index behind the last bin that was written
   std::vector<std::byte> raw_;
   std::vector<std::byte> packed_;
+  size_t longest_raw_ = 0;
+  size_t longest_packed_ = 0;
   struct Zstd;
   std::unique_ptr<Zstd> zstd_;
 };
@@ -75,19 +89,24 @@ class FlushGain {
   void add_to(Totals& totals, const FlushRest& rest = no_rest) const;
 
  private:
-  friend Result<FlushGain> decode_flush(std::span<const std::byte>, int, int64_t, const FlushRest&);
+  friend Result<FlushGain> decode_flush(std::span<const std::byte>, int, const BinRange&,
+                                        const FlushRest&);
 
   std::vector<std::byte> raw_;
   std::vector<size_t> begins_;  // of each group's bins, in raw_
   std::vector<int64_t> batches_;
-  uint64_t totals_ = 0;
+  BinRange range_;
   int64_t bins_ = 0;
   Ledger ledger_;
 };
 
-/// Errors: not such bytes; more groups than `groups` or an index beyond `totals`; indices that do
+/// Errors: not such bytes; more groups than `groups` or an index outside `bins`; indices that do
 /// not ascend; more bytes than such totals can have; `rest` said so.
-Result<FlushGain> decode_flush(std::span<const std::byte> bytes, int groups, int64_t totals,
+Result<FlushGain> decode_flush(std::span<const std::byte> bytes, int groups, const BinRange& bins,
                                const FlushRest& rest = no_rest);
+inline Result<FlushGain> decode_flush(std::span<const std::byte> bytes, int groups, int64_t totals,
+                                      const FlushRest& rest = no_rest) {
+  return decode_flush(bytes, groups, BinRange{0, totals}, rest);
+}
 
 }  // namespace luxodus

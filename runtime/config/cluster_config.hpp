@@ -115,6 +115,11 @@ struct Timeouts {
   Nanoseconds stall = 0;
 };
 
+/// Where the totals lie.
+struct TallyChoice {
+  std::vector<NodeId> shards;  // workers that hold a share each, beside the controller
+};
+
 struct KeysChoice {
   std::filesystem::path folder;  // empty: no keys
   bool insecure = false;
@@ -138,6 +143,7 @@ struct ClusterConfig {
   NetConfig links;
   LeaseChoice lease;
   Timeouts timeouts;
+  TallyChoice tally;
   KeysChoice keys;
   ObserveChoice observe;
   FaultPlan faults;  // on purpose; none in most files

@@ -85,6 +85,9 @@ void read_services(TableReader& top, ClusterReading& reading) {
   t.shutdown_phase = span_of(timeouts.number("shutdown_phase_s"));
   t.stall = span_of(timeouts.number("stall_ms") / 1e3);
 
+  // As many as a flush names, the controller's aside (proto: limits::tally_shards).
+  reading.shards = reader_of(top, "tally", reading).names("shards", limits::tally_shards);
+
   TableReader keys = reader_of(top, "keys", reading);
   reading.cluster.keys = {keys.path("folder"), keys.flag("insecure")};
   if (keys.has("folder") && reading.cluster.keys.insecure)
@@ -128,6 +131,7 @@ void read_tables(const toml::table& document, ClusterReading& reading) {
   if (!reading.findings.empty()) return;
   give_ports(reading);
   connect_nodes(reading);
+  place_shards(reading);
   resolve_fault_events(reading);
   check_keys(reading);
 }

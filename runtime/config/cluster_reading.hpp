@@ -22,6 +22,7 @@ struct ClusterReading {
   std::vector<std::string> process_names;  // by node: as said, or the node's own
   std::map<size_t, uint16_t> ports;        // by node: as said
   std::vector<TableReader::Pair> links;    // as said
+  std::vector<TableReader::Name> shards;   // as said
   std::vector<const toml::table*> fault_events;
 };
 
@@ -37,7 +38,11 @@ void form_processes(ClusterReading& reading, uint16_t metrics_port);
 /// Requires: processes are formed.
 void give_ports(ClusterReading& reading);
 void connect_nodes(ClusterReading& reading);
+void place_shards(ClusterReading& reading);
 /// Requires: nodes have their numbers.
 void resolve_fault_events(ClusterReading& reading);
+
+/// The node of this name; no_node, and a problem, where there is none.
+NodeId named(const std::string& name, const SourcePlace& place, ClusterReading& reading);
 
 }  // namespace luxodus::config

@@ -29,6 +29,8 @@ void read_sizes(TableReader& keys, TopologyChoice& choice) {
   }
 }
 
+}  // namespace
+
 NodeId named(const std::string& name, const SourcePlace& place, ClusterReading& reading) {
   if (const auto id = find_node(reading.cluster, name)) return *id;
   std::vector<std::string_view> known;
@@ -39,8 +41,6 @@ NodeId named(const std::string& name, const SourcePlace& place, ClusterReading& 
                                    near ? fmt::format("; did you mean \"{}\"?", *near) : ""));
   return no_node;
 }
-
-}  // namespace
 
 void read_topology(TableReader& top, ClusterReading& reading) {
   const toml::table& table = top.table("topology");
@@ -62,6 +62,26 @@ void read_topology(TableReader& top, ClusterReading& reading) {
     TableReader keys = reader("topology.amp");
     keys.choice("kind");  // told, where it is no kind
     read_sizes(keys, choice);
+  }
+}
+
+void place_shards(ClusterReading& reading) {
+  const ClusterConfig& cluster = reading.cluster;
+  std::vector<NodeId>& shards = reading.cluster.tally.shards;
+  for (const TableReader::Name& name : reading.shards) {
+    const NodeId node = named(name.text, name.place, reading);
+    if (node == no_node) continue;
+    if (node == cluster.controller()) {
+      reading.findings.add(name.place,
+                           fmt::format("\"{}\" is the controller, which holds the first "
+                                       "share anyway: name workers",
+                                       name.text));
+    } else if (std::count(shards.begin(), shards.end(), node) > 0) {
+      reading.findings.add(name.place,
+                           fmt::format("\"{}\" holds a share of the totals already", name.text));
+    } else {
+      shards.push_back(node);
+    }
   }
 }
 

@@ -22,6 +22,7 @@ std::vector<TableSpec> run_tables() {
            {"links", "table", "", "", "", "how links work"},
            {"lease", "table", "", "", "", "how work is given out"},
            {"timeouts", "table", "", "", "", "how long is waited for what"},
+           {"tally", "table", "", "", "", "where what is counted lies"},
            {"keys", "table", "", "", "", "by which nodes know each other"},
            {"observe", "table", "", "", "", "what can be seen of a run"},
            {"faults", "table", "", "", "", "what shall go wrong, on purpose: for rehearsals"},
@@ -96,9 +97,8 @@ std::vector<TableSpec> node_tables() {
            {"object_bytes", "size", "B", "\"1 GiB\"", "[1048576, 1e14]",
             "geometry, media and textures held at once, as built; a scene that fits is resident"},
            {"tally_bytes", "size", "B", "\"256 MiB\"", "[1048576, 1e14]",
-            "scores of batches in work, totals until they are sent, and the sending; a run that "
-            "needs "
-            "more is refused"},
+            "scores of batches in work, totals until they are sent, and the sending; a tally that "
+            "is full is sent at once, and a batch that is more by itself ends the run"},
            {"fibers", "integer", "", "4096", "[1, 100000]",
             "particles followed at once; more hide more delay and share more fetches"},
            {"stack_kb", "integer", "KiB", "32", "[16, 1024]", "stack of one fiber"},
@@ -198,6 +198,13 @@ std::vector<TableSpec> service_tables() {
            {"fetch_attempts", "integer", "", "4", "[1, 100]", "at one holder, before the next"},
            {"shutdown_phase_s", "number", "s", "10", "(0, 3600]", "for each step of an end"},
            {"stall_ms", "number", "ms", "20", "(0, 60000]", "a fiber that runs longer is reported"},
+       }},
+      {"tally",
+       "`[tally]`",
+       {
+           {"shards", "names", "", "", "",
+            "workers that hold a share of the totals each, in equal ranges of bins; the first "
+            "share stays with the controller. Losing one of them ends the run without a result"},
        }},
       {"keys",
        "`[keys]`",

@@ -346,6 +346,25 @@ std::vector<TableReader::Pair> TableReader::pairs(std::string_view key, size_t m
   return out;
 }
 
+std::vector<TableReader::Name> TableReader::names(std::string_view key, size_t most) {
+  std::vector<Name> out;
+  const toml::node* node = wanted(spec(key, "names"));
+  if (!node) return out;
+  const toml::array* list = node->as_array();
+  if (!list || list->size() > most) {
+    problem(key,
+            fmt::format("'{}' must be a list of at most {} names: [\"n0\", \"n1\"]", key, most));
+    return out;
+  }
+  for (const toml::node& entry : *list) {
+    if (const auto* text = entry.as_string())
+      out.push_back({text->get(), place_of(entry, place_)});
+    else
+      findings_.add(place_of(entry, place_), fmt::format("'{}' lists names: \"n0\"", key));
+  }
+  return out;
+}
+
 const toml::table& TableReader::table(std::string_view key) {
   static const toml::table empty;
   const KeySpec& s = spec(key, "table");

@@ -72,6 +72,13 @@ class TableReader {
   };
   std::vector<Pair> pairs(std::string_view key, size_t most);
 
+  /// A list of names of nodes; empty where the key is absent.
+  struct Name {
+    std::string text;
+    SourcePlace place;
+  };
+  std::vector<Name> names(std::string_view key, size_t most);
+
   /// An empty table where the key is absent.
   const toml::table& table(std::string_view key);
   std::vector<const toml::table*> tables(std::string_view key, size_t most);

@@ -1,8 +1,9 @@
-// Merging walks the bins in stripes, each behind a lock of its own, so that threads that finish
-// together do not wait for one another. A bin that scored nothing in a batch adds nothing to sum or
-// squares: skipped.
+// Merging walks the bins that the batch's pages hold, in stripes, each behind a lock of its own, so
+// that threads that finish together do not wait for one another. A bin that scored nothing in a
+// batch adds nothing to sum or squares: skipped.
 #include "scenes/tally/totals.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -21,10 +22,26 @@ void add_score(Total& total, int64_t score) {
 }  // namespace
 
 Totals::Totals(const TallyLayout& layout, int groups,
-               std::vector<std::vector<int64_t>> photopic_weights)
+               std::vector<std::vector<int64_t>> photopic_weights, Cleared cleared)
     : layout_(layout), photopic_weights_(std::move(photopic_weights)) {
   groups_.resize(static_cast<size_t>(groups));
-  for (GroupState& g : groups_) g.totals.resize(static_cast<size_t>(layout.totals()));
+  for (GroupState& g : groups_) g.totals = SparseArray<Total>(layout.totals(), cleared);
+}
+
+/// Calls visit(first, end) for runs of bins among [first_bin, end_bin) of a block of which a page
+/// was touched, each bin once: one that lies on two pages belongs to the first run that meets it.
+template <class Visit>
+void Totals::for_each_scored(const BatchScores& batch, const TallyBlock& block, uint32_t first_bin,
+                             uint32_t end_bin, Visit&& visit) const {
+  const int64_t width = (block.banded ? layout_.bands() : 1) * int64_t{block.quantities};
+  int64_t next = first_bin;
+  const auto visit_pages = [&](int64_t begin, int64_t end) {
+    const int64_t first = std::max(next, (begin - block.first_score) / width);
+    next = std::min<int64_t>(end_bin, (end - block.first_score + width - 1) / width);
+    if (first < next) visit(static_cast<uint32_t>(first), static_cast<uint32_t>(next));
+  };
+  batch.scores.for_each_touched(block.first_score + first_bin * width,
+                                block.first_score + end_bin * width, visit_pages);
 }
 
 void Totals::fill_aggregates(BatchScores& batch) const {
@@ -33,19 +50,21 @@ void Totals::fill_aggregates(BatchScores& batch) const {
     const TallyBlock& into = layout_.block(a.to_block);
     const size_t bands = static_cast<size_t>(layout_.bands());
     const size_t width = bands * from.quantities;
-    int64_t* to =
-        &batch.scores[static_cast<size_t>(layout_.score_index(a.to_block, a.to_bin, 0, 0))];
-    const int64_t* source =
-        &batch.scores[static_cast<size_t>(layout_.score_index(a.from_block, a.first_bin, 0, 0))];
-    for (uint32_t bin = 0; bin < a.bin_count; ++bin, source += width) {
-      for (size_t b = 0; b < bands; ++b) {
-        const int64_t* s = source + b * from.quantities;
-        int64_t* t = to + b * into.quantities;
-        for (size_t q = 0; q < from.quantities; ++q) t[q] += s[q];
-        // A third quantity beside (in, out) is what stayed.
-        if (into.quantities > from.quantities) t[from.quantities] += s[0] - s[1];
+    const auto add_bins = [&](uint32_t first, uint32_t end) {
+      int64_t* to = batch.scores.touch(layout_.score_index(a.to_block, a.to_bin, 0, 0),
+                                       static_cast<int64_t>(bands * into.quantities));
+      const int64_t* source = batch.scores.data() + layout_.score_index(a.from_block, first, 0, 0);
+      for (uint32_t bin = first; bin < end; ++bin, source += width) {
+        for (size_t b = 0; b < bands; ++b) {
+          const int64_t* s = source + b * from.quantities;
+          int64_t* t = to + b * into.quantities;
+          for (size_t q = 0; q < from.quantities; ++q) t[q] += s[q];
+          // A third quantity beside (in, out) is what stayed.
+          if (into.quantities > from.quantities) t[from.quantities] += s[0] - s[1];
+        }
       }
-    }
+    };
+    for_each_scored(batch, from, a.first_bin, a.first_bin + a.bin_count, add_bins);
   }
 }
 
@@ -57,39 +76,39 @@ void Totals::merge_bins(const BatchScores& batch, GroupState& to, const TallyBlo
   const size_t quantities = block.quantities;
   const int64_t* score = batch.scores.data() + block.first_score +
                          static_cast<int64_t>(first_bin * bands * quantities);
-  Total* total = to.totals.data() + block.first_total +
-                 static_cast<int64_t>(first_bin * channels * quantities);
-  for (uint32_t bin = first_bin; bin < end_bin; ++bin) {
-    bool any = false;
-    for (size_t i = 0; i < bands * quantities; ++i) {
-      if (score[i] == 0) continue;
-      any = true;
-      add_score(total[i], score[i]);
-    }
-    if (any && channels > bands) {
-      for (size_t q = 0; q < quantities; ++q) {
-        Int128 weighted = 0;
-        for (size_t b = 0; b < bands; ++b) {
-          weighted += static_cast<Int128>(score[b * quantities + q]) * photopic[b];
-        }
-        add_score(total[bands * quantities + q],
-                  static_cast<int64_t>(weighted >> Totals::photopic_shift));
+  const auto scored = [](int64_t s) { return s != 0; };
+  const auto width = static_cast<int64_t>(channels * quantities);
+  int64_t at = block.first_total + first_bin * width;
+  for (uint32_t bin = first_bin; bin < end_bin; ++bin, score += bands * quantities, at += width) {
+    if (std::none_of(score, score + bands * quantities, scored)) continue;
+    Total* const total = to.totals.touch(at, width);
+    for (size_t i = 0; i < bands * quantities; ++i)
+      if (score[i] != 0) add_score(total[i], score[i]);
+    if (channels == bands) continue;
+    for (size_t q = 0; q < quantities; ++q) {
+      Int128 weighted = 0;
+      for (size_t b = 0; b < bands; ++b) {
+        weighted += static_cast<Int128>(score[b * quantities + q]) * photopic[b];
       }
+      add_score(total[bands * quantities + q],
+                static_cast<int64_t>(weighted >> Totals::photopic_shift));
     }
-    score += bands * quantities;
-    total += channels * quantities;
   }
 }
 
 void Totals::merge(BatchScores& batch, int group) {
+  batch.scores.find_touched();
   fill_aggregates(batch);
   GroupState& to = groups_[static_cast<size_t>(group)];
   const auto& photopic = photopic_weights_[static_cast<size_t>(group)];
   uint32_t stripe = 0;
   for (const TallyBlock& block : layout_.blocks()) {
     for (uint32_t first = 0; first < block.bins; first += stripe_bins, ++stripe) {
-      const std::lock_guard lock(stripes_[stripe % stripes_.size()]);
-      merge_bins(batch, to, block, photopic, first, std::min(block.bins, first + stripe_bins));
+      const auto merge_run = [&](uint32_t from, uint32_t end) {
+        const std::lock_guard lock(stripes_[stripe % stripes_.size()]);
+        merge_bins(batch, to, block, photopic, from, end);
+      };
+      for_each_scored(batch, block, first, std::min(block.bins, first + stripe_bins), merge_run);
     }
   }
   const std::lock_guard lock(ledger_mutex_);
@@ -97,12 +116,39 @@ void Totals::merge(BatchScores& batch, int group) {
   ++to.batches;
 }
 
+size_t Totals::bytes() const {
+  size_t bytes = 0;
+  for (const GroupState& g : groups_) bytes += g.totals.bytes();
+  return bytes;
+}
+
+size_t Totals::bytes_to_merge(const BatchScores& batch, int group) const {
+  const SparseArray<Total>& totals = state(group).totals;
+  size_t bytes = 0;
+  for (const TallyBlock& block : layout_.blocks()) {
+    const int64_t width = (block.banded ? layout_.channels() : 1) * int64_t{block.quantities};
+    for_each_scored(batch, block, 0, block.bins, [&](uint32_t first, uint32_t end) {
+      bytes +=
+          totals.bytes_to_touch(block.first_total + first * width, block.first_total + end * width);
+    });
+  }
+  std::vector<bool> counted(layout_.blocks().size());
+  for (const Aggregate& a : layout_.aggregates()) {
+    if (counted[a.to_block]) continue;
+    counted[a.to_block] = true;
+    const TallyBlock& block = layout_.block(a.to_block);
+    const int64_t width = (block.banded ? layout_.channels() : 1) * int64_t{block.quantities};
+    bytes += totals.bytes_to_touch(block.first_total, block.first_total + block.bins * width);
+  }
+  return bytes;
+}
+
 void Totals::add(const TotalsGain& gain) {
   for (size_t g = 0; g < gain.groups.size(); ++g) {
     GroupState& group = groups_[g];
     group.batches += gain.groups[g].batches;
     for (const TotalsGain::Bin& bin : gain.groups[g].bins) {
-      Total& total = group.totals[static_cast<size_t>(bin.index)];
+      Total& total = *group.totals.touch(bin.index);
       total.sum += bin.total.sum;
       total.squares += bin.total.squares;
     }

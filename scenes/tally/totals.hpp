@@ -1,7 +1,7 @@
-// Scores of one batch, and the totals that batches are merged into. All integers, so totals are the
+// The totals that batches are merged into, of one source group each. All integers, so they are the
 // same bits for any order of merging and any number of threads. A batch belongs to one source
-// group. Thread rule: a BatchScores belongs to one thread; Totals::merge may be called from any
-// thread.
+// group. They are sparse arrays: what no batch of a group has scored takes no memory and no time.
+// Thread rule: a BatchScores belongs to one thread; Totals::merge may be called from any thread.
 #pragma once
 
 #include <array>
@@ -11,28 +11,19 @@
 #include <vector>
 
 #include "runtime/core/wide.hpp"
-#include "scenes/tally/layout.hpp"
-#include "scenes/tally/ledger.hpp"
+#include "scenes/tally/batch_scores.hpp"
 
 namespace luxodus {
-
-struct BatchScores {
-  std::vector<int64_t> scores;
-  Ledger ledger;
-  // Sum of all path-length scores of the batch: while it is below 2^63, no single bin can have
-  // wrapped.
-  double length_score_sum = 0;
-
-  void reset(const TallyLayout& layout) {
-    scores.assign(static_cast<size_t>(layout.scores()), 0);
-    ledger = {};
-    length_score_sum = 0;
-  }
-};
 
 struct Total {
   Int128 sum = 0;
   UInt128 squares = 0;  // of (batch score >> square_shift, rounded)
+};
+
+/// Bins of totals, of all source groups alike: [first, end).
+struct BinRange {
+  int64_t first = 0;
+  int64_t end = 0;
 };
 
 /// What batches have added to totals: bins that are not zero, in ascending order, and the ledger.
@@ -66,7 +57,8 @@ class Totals {
   static constexpr int photopic_shift = 24;
 
   /// `photopic_weights[group][band]`: integer weights (<= 2^24) of the photopic channel.
-  Totals(const TallyLayout& layout, int groups, std::vector<std::vector<int64_t>> photopic_weights);
+  Totals(const TallyLayout& layout, int groups, std::vector<std::vector<int64_t>> photopic_weights,
+         Cleared cleared = Cleared::kept);
 
   /// Fills the aggregate bins of the batch, then adds its scores and their squares to group's
   /// totals.
@@ -77,12 +69,21 @@ class Totals {
   /// other calls.
   template <class Visit>
   void take_bins(int group, int64_t first, int64_t end, Visit&& visit) {
-    std::vector<Total>& totals = groups_[static_cast<size_t>(group)].totals;
-    for (int64_t i = first; i < end; ++i) {
-      Total& total = totals[static_cast<size_t>(i)];
-      if (total.sum == 0 && total.squares == 0) continue;
-      visit(i, std::exchange(total, {}));
-    }
+    SparseArray<Total>& totals = groups_[static_cast<size_t>(group)].totals;
+    totals.for_each_touched(first, end, [&](int64_t begin, int64_t behind) {
+      for (int64_t i = begin; i < behind; ++i) {
+        const Total total = std::as_const(totals)[static_cast<size_t>(i)];
+        if (total.sum == 0 && total.squares == 0) continue;
+        visit(i, total);
+        *totals.touch(i) = {};
+      }
+    });
+    totals.clear(first, end);
+  }
+  /// The first bin of a group, at or behind `first`, that may not be zero; the layout's end where
+  /// all are.
+  int64_t next_bin(int group, int64_t first) const {
+    return state(group).totals.next_touched(first, layout_.totals());
   }
   int64_t take_batches(int group) {
     return std::exchange(groups_[static_cast<size_t>(group)].batches, 0);
@@ -97,6 +98,11 @@ class Totals {
   const Ledger& ledger() const { return ledger_; }
   const TallyLayout& layout() const { return layout_; }
 
+  /// Memory in use for bins; how much more merging a batch would take at most. Requires:
+  /// batch.scores.find_touched() was called since the last score.
+  size_t bytes() const;
+  size_t bytes_to_merge(const BatchScores& batch, int group) const;
+
   /// Of one score over the batches of a group; the standard error is NaN for fewer than two
   /// batches.
   BatchMean mean(int group, int64_t total_index) const;
@@ -105,7 +111,7 @@ class Totals {
 
   /// Raw state, for the flux file.
   struct GroupState {
-    std::vector<Total> totals;
+    SparseArray<Total> totals;
     int64_t batches = 0;
   };
   const GroupState& state(int group) const { return groups_[static_cast<size_t>(group)]; }
@@ -116,6 +122,9 @@ class Totals {
   void restore_ledger(const Ledger& ledger) { ledger_ = ledger; }
 
  private:
+  template <class Visit>
+  void for_each_scored(const BatchScores& batch, const TallyBlock& block, uint32_t first_bin,
+                       uint32_t end_bin, Visit&& visit) const;
   void fill_aggregates(BatchScores& batch) const;
   void merge_bins(const BatchScores& batch, GroupState& to, const TallyBlock& block,
                   const std::vector<int64_t>& photopic, uint32_t first_bin, uint32_t end_bin) const;

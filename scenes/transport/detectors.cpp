@@ -85,7 +85,7 @@ void score_crossing(const CompiledScene& scene, size_t index, const FlightPiece&
           ? layout.score_index(scene.blocks.counting, static_cast<uint32_t>(index - planes),
                                piece.band, (along ? 0u : 2u) + (piece.collided ? 1u : 0u))
           : layout.score_index(scene.blocks.plane_cells, cell, piece.band, piece.direct ? 0 : 1);
-  batch.scores[static_cast<size_t>(at)] += static_cast<int64_t>(piece.weight);
+  batch.scores.data()[at] += static_cast<int64_t>(piece.weight);
 }
 
 void score_volumes(const CompiledScene& scene, const FlightPiece& piece, BatchScores& batch) {
@@ -94,7 +94,7 @@ void score_volumes(const CompiledScene& scene, const FlightPiece& piece, BatchSc
     if (length <= 0) continue;
     const int64_t score = length_score(scene, piece.weight, length);
     const auto at = scene.layout.score_index(scene.blocks.volume_length, i, piece.band, 0);
-    batch.scores[static_cast<size_t>(at)] += score;
+    batch.scores.data()[at] += score;
     batch.length_score_sum += static_cast<double>(score);
   }
 }
@@ -137,8 +137,7 @@ void score_voxels(const CompiledScene& scene, const FlightPiece& piece, BatchSco
 void score_collision(const CompiledScene& scene, const glm::vec3& place, int band, uint32_t medium,
                      Weight absorbed, Weight scattered, BatchScores& batch) {
   const auto add = [&](uint32_t block, uint32_t bin) {
-    int64_t* score =
-        &batch.scores[static_cast<size_t>(scene.layout.score_index(block, bin, band, 0))];
+    int64_t* score = batch.scores.data() + scene.layout.score_index(block, bin, band, 0);
     score[0] += static_cast<int64_t>(absorbed);
     score[1] += static_cast<int64_t>(scattered);
   };

@@ -8,7 +8,7 @@
 #include <glm/glm.hpp>
 
 #include "scenes/optics/sampling.hpp"
-#include "scenes/tally/totals.hpp"
+#include "scenes/tally/batch_scores.hpp"
 #include "scenes/transport/compiled_scene.hpp"
 
 namespace luxodus {

@@ -11,7 +11,7 @@
 #include <cmath>
 
 #include "runtime/core/random.hpp"
-#include "scenes/tally/totals.hpp"
+#include "scenes/tally/batch_scores.hpp"
 #include "scenes/transport/connect.hpp"
 #include "scenes/transport/emission.hpp"
 #include "scenes/transport/textures.hpp"

@@ -89,8 +89,7 @@ class EyeScores {
   /// Writes sums over the paths as the means of values `first` and on in a bin of `block`.
   void store(uint32_t block, uint32_t bin, std::initializer_list<double> sums,
              BatchScores& scores) const {
-    int64_t* score =
-        &scores.scores[static_cast<size_t>(scene_.layout.score_index(block, bin, 0, 0))];
+    int64_t* score = scores.scores.data() + scene_.layout.score_index(block, bin, 0, 0);
     for (const double sum : sums) *score++ = value_score(sum / static_cast<double>(paths_));
   }
 

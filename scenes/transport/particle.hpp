@@ -12,7 +12,7 @@
 #include "runtime/core/random.hpp"
 #include "scenes/geometry/patches.hpp"
 #include "scenes/optics/offset_ray.hpp"
-#include "scenes/tally/totals.hpp"
+#include "scenes/tally/batch_scores.hpp"
 #include "scenes/transport/detectors.hpp"
 #include "scenes/transport/emission.hpp"
 #include "scenes/transport/textures.hpp"
@@ -307,7 +307,7 @@ class ParticleTracer {
     const EscapePoint exit = leave_box(p.ray);
     pass_detectors(p, exit.distance, turn);
     const int64_t at = scene_.layout.score_index(scene_.blocks.escape, exit.side, p.band, 0);
-    batch_->scores[static_cast<size_t>(at)] += static_cast<int64_t>(p.weight);
+    batch_->scores.data()[at] += static_cast<int64_t>(p.weight);
     batch_->ledger.escaped += p.weight;
     return false;
   }

@@ -119,6 +119,54 @@ TEST_CASE("a worker whose controller has vanished ends and says so", "[cluster]"
   }
 }
 
+TEST_CASE("a worker that is killed takes the run with it where it holds a shard of the totals",
+          "[cluster][shards]") {
+  const Folder folder;
+  ClusterText text = workers(2, endless);
+  text.more += "[observe]\nlog_level = \"debug\"\n[tally]\nshards = [\"n1\"]\n";
+  const Running nodes = start(write_cluster(folder, text), 2);
+  REQUIRE(nodes.controller->says("flush=taken"));
+  nodes.workers[1]->kill(SIGKILL);
+  CHECK(nodes.controller->wait() == 1);
+  INFO(nodes.controller->text());
+  CHECK(nodes.controller->said("n1 is lost, and with it a shard of the totals"));
+  CHECK(nodes.workers[0]->wait() == 1);
+  CHECK(nodes.workers[0]->said("a shard of the totals"));
+  CHECK_FALSE(fs::exists(folder.path / "out" / "flux.lux"));
+  CHECK_FALSE(fs::exists(folder.path / "out" / "result.json"));
+}
+
+TEST_CASE("a worker that is killed and started again beside shards is taken in, with the same bits",
+          "[cluster][shards]") {
+  const Folder folder;
+  ClusterText text = workers(3, "particles = 1_500_000\n");
+  text.more += "[tally]\nshards = [\"n0\", \"n2\"]\n";
+  const std::string cluster = write_cluster(folder, text);
+  Running nodes = start(cluster, 3);
+  nodes.workers[1]->kill(SIGKILL);
+  CHECK(nodes.workers[1]->wait() == 128 + SIGKILL);
+  nodes.workers[1] = node(cluster, "n1");
+  CHECK(nodes.controller->wait() == 0);
+  INFO(nodes.controller->text());
+  for (const auto& worker : nodes.workers) CHECK(worker->wait() == 0);
+  check_plain_flux(folder, "1500k");
+}
+
+TEST_CASE("a cluster with shards that is told to end leaves what can be gone on from",
+          "[cluster][shards]") {
+  const Folder folder;
+  ClusterText text = workers(2, endless);
+  text.more += "[observe]\nlog_level = \"debug\"\n[tally]\nshards = [\"n0\", \"n1\"]\n";
+  const Running nodes = start(write_cluster(folder, text), 2);
+  REQUIRE(nodes.controller->says("flush=taken"));
+  for (const auto& worker : nodes.workers) worker->kill(SIGTERM);
+  nodes.controller->kill(SIGTERM);
+  CHECK(nodes.controller->wait() == 130);
+  INFO(nodes.controller->text());
+  for (const auto& worker : nodes.workers) CHECK(worker->wait() == 0);
+  check_goes_on(folder);
+}
+
 TEST_CASE("a controller whose workers have all vanished leaves what can be gone on from",
           "[cluster]") {
   const Folder folder;

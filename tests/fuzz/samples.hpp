@@ -31,7 +31,7 @@ inline std::vector<Message> sample_messages() {
       RequestLease{18},
       LeaseGranted{19, 20, 22, 23, 24},
       LeasesFenced{{25, 26}},
-      Flush{27, 28, {29, 30, 31}},
+      Flush{27, 28, {29, 30, 31}, {39, 40}},
       FlushTaken{},
       FlushRefused{{32}, "lease 32 was fenced"},
       RoundOpened{33, 34},
@@ -40,6 +40,12 @@ inline std::vector<Message> sample_messages() {
       AskStatus{},
       StatusAnswered{},
       EnterPhase{EndPhase::flush_commits, 38},
+      FlushPart{41},
+      PartHeld{},
+      FlushDecided{{{42}, {43}, 44}, 45, true},
+      FlushSettled{false},
+      AskTotals{46, 47},
+      TotalsTold{48, 49, 50},
   };
 }
 

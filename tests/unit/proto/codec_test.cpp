@@ -111,6 +111,8 @@ TEST_CASE("lists and texts over their limits are not sent", "[proto][codec]") {
   Bytes out(limits::message_bytes);
   CHECK(codec.encode(LeasesFenced{std::vector<uint64_t>(limits::leases)}, out).ok());
   CHECK_FALSE(codec.encode(LeasesFenced{std::vector<uint64_t>(limits::leases + 1)}, out).ok());
+  CHECK_FALSE(
+      codec.encode(Flush{1, 2, {}, std::vector<uint64_t>(limits::tally_shards + 1)}, out).ok());
   CHECK_FALSE(codec.encode(RunEnded{1, std::string(limits::text_bytes + 1, 'x')}, out).ok());
   CHECK_FALSE(codec.encode(Message{AskStatus{}}, std::span(out).first(8)).ok());
   CHECK(codec.encode(Message{AskStatus{}}, out).ok());  // and the codec still works
@@ -121,7 +123,9 @@ TEST_CASE("the longest messages fit into a message", "[proto][codec]") {
   Beat beat;
   beat.pool_count = static_cast<uint8_t>(beat.pools.size());
   for (const Message& message :
-       {Message{beat}, Message{Flush{1, 2, std::vector<uint64_t>(limits::leases)}},
+       {Message{beat},
+        Message{Flush{1, 2, std::vector<uint64_t>(limits::leases),
+                      std::vector<uint64_t>(limits::tally_shards)}},
         Message{LinkChanges{std::vector<LinkChange>(limits::link_changes)}},
         Message{FlushRefused{std::vector<uint64_t>(limits::leases),
                              std::string(limits::text_bytes, 'x')}}}) {
@@ -150,6 +154,9 @@ TEST_CASE("messages go by the kinds that the protocol names", "[proto][codec]") 
   CHECK(kind_of(ObjectNotHere{}) == Kind::reply);
   CHECK(kind_of(Flush{}) == Kind::commit);
   CHECK(kind_of(ProfileCounted{}) == Kind::commit);
+  CHECK(kind_of(FlushPart{}) == Kind::commit);
+  CHECK(kind_of(TotalsTold{}) == Kind::commit);
+  CHECK(kind_of(FlushDecided{}) == Kind::control);
   CHECK(kind_of(FlushTaken{}) == Kind::control);
   CHECK(kind_of(LeaseGranted{}) == Kind::control);
 }

@@ -74,6 +74,89 @@ TEST_CASE("a partitioned scene with signs, probes and bands is the same on nodes
   check_same_bits(scene_of("office_floor", "smoke_emergency", 6), stop, {nodes_of(3, 7)});
 }
 
+TEST_CASE("totals in shards are those of the plain loop", "[nodes][shards]") {
+  StopRule stop;
+  stop.particles = 100'000;
+  std::vector<NodesOptions> cases{nodes_of(2, 3), nodes_of(3, 1), nodes_of(3, 1)};
+  cases[0].tally_shards = 2;
+  cases[1].tally_shards = 3;
+  cases[2].tally_shards = 4;  // of every worker one
+  cases[2].link_delay = milliseconds(5);
+  check_same_bits(scene_of("smoke_tank", "", 1), stop, cases);
+  stop.particles = 40'000;
+  check_same_bits(scene_of("office_floor", "smoke_emergency", 6), stop, {cases[1]});
+}
+
+TEST_CASE("with shards a run by error has the same rounds, and goes on where another ended",
+          "[nodes][shards]") {
+  NodesOptions shards = nodes_of(2, 2);
+  shards.tally_shards = 3;
+  StopRule stop;
+  stop.relative_error = 0.02;
+  const auto scene = scene_of("smoke_tank", "", 1);
+  check_same_bits(scene, stop, {shards});
+  StopRule half, all;
+  half.particles = 50'000;
+  all.particles = 100'000;
+  LocalRun plain(scene, 1, 1);
+  plain.run(all, nobody, ignore);
+  LocalRun run(scene, 1, 1);
+  REQUIRE(run_on_nodes(run, nodes_of(2, 1), half, nobody, ignore).ok());
+  NodesReport report;
+  REQUIRE(run_on_nodes(run, shards, all, nobody, ignore, &report).ok());
+  CHECK(differences(plain, run) == 0);
+  CHECK(report.shards.gathers == 1);
+  CHECK(report.shards.decisions >= 2 * report.flushes);
+}
+
+TEST_CASE("who looks at totals in shards while a run goes on sees whole flushes",
+          "[nodes][shards]") {
+  spdlog::set_level(spdlog::level::err);
+  const auto scene = scene_of("smoke_tank", "", 1);
+  StopRule stop;
+  stop.particles = 600'000;
+  NodesOptions options = nodes_of(2, 1);
+  options.tally_shards = 3;
+  LocalRun run(scene, 1, 1);
+  int looks = 0;
+  bool due = false;
+  run.set_pause([&] { return due; },
+                [&] {
+                  due = false;
+                  ++looks;
+                  CHECK(run.totals().ledger().closes());
+                  // What patches have kept lies in all shards, and the ledger with the controller.
+                  Int128 absorbed = 0;
+                  const TallyBlock& patches = scene->layout.block(scene->blocks.patches);
+                  for (int64_t i = 0; i < int64_t{patches.bins} * patches.quantities; ++i) {
+                    for (int g = 0; g < run.totals().groups(); ++g) {
+                      const auto at = static_cast<size_t>(patches.first_total + i);
+                      const Int128 sum = run.totals().state(g).totals[at].sum;
+                      absorbed += i % 2 == 0 ? sum : -sum;
+                    }
+                  }
+                  CHECK(absorbed == run.totals().ledger().absorbed_surfaces);
+                });
+  REQUIRE(run_on_nodes(run, options, stop, nobody, [&](const Progress&) { due = true; }).ok());
+  run.set_pause({}, {});
+  CHECK(looks > 0);
+  LocalRun plain(scene, 1, 2);
+  plain.run(stop, nobody, ignore);
+  CHECK(differences(plain, run) == 0);
+}
+
+TEST_CASE("more shards than nodes that could hold them are refused", "[nodes][shards]") {
+  const auto scene = scene_of("smoke_tank", "", 1);
+  for (const int shards : {0, 4}) {
+    NodesOptions options = nodes_of(2, 1);
+    options.tally_shards = shards;
+    LocalRun run(scene, 1, 1);
+    const auto ended = run_on_nodes(run, options, {}, nobody, ignore);
+    REQUIRE_FALSE(ended.ok());
+    CHECK(ended.problem().what.find("1 to 3 shards") != std::string::npos);
+  }
+}
+
 TEST_CASE("nodes stop at the same round as the plain loop for an error", "[nodes]") {
   StopRule stop;
   stop.relative_error = 0.02;

@@ -101,7 +101,7 @@ TEST_CASE("what a plan says of a flush, no flush passes", "[nodes][plan]") {
   stop.particles = 200'000;
   run.run(stop, std::atomic<bool>{false}, [](const Progress&) {});
   uint64_t planned = 0;
-  const MemoryPlan plan = tally_plan(*scene, {});
+  const MemoryPlan plan = tally_plan(*scene, NodeSetup{});
   for (const MemoryPlan::Term& term : plan.terms())
     if (term.name == "flush") planned = term.bytes;
   const size_t packed = encode_flush(run.totals()).size();
@@ -121,9 +121,11 @@ TEST_CASE("a budget that is too small is refused with the key and what it must b
   RunSetup run{*scene, &local.index(), nullptr, nullptr, 1, graph.value(), {"n0", "n1"}, nullptr};
   NodeSetup node;
   node.net.self = {1};
-  const uint64_t needed = tally_plan(*scene, node.photons).total_bytes();
+  const uint64_t needed =
+      std::min(least_tally_bytes(*scene), tally_need(*scene, node.photons.batches_in_work()).all());
   node.tally_bytes = needed;
   CHECK_FALSE(budget_fault(run, node).has_value());
+  CHECK(tally_plan(*scene, node).total_bytes() <= needed);
   node.tally_bytes = needed - 1;
   const auto fault = budget_fault(run, node);
   REQUIRE(fault.has_value());

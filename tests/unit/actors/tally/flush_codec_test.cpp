@@ -81,6 +81,27 @@ TEST_CASE("a flush comes back as it was made, in steps of any length", "[flush]"
   }
 }
 
+TEST_CASE("a flush in parts, each of a range of bins, is the whole flush", "[flush]") {
+  const TallyLayout layout = layout_of(totals);
+  Totals sent(layout, groups, photopic), whole(layout, groups, photopic);
+  Totals taken(layout, groups, photopic);
+  sent.add(some_gain());
+  whole.add(some_gain());
+  FlushEncoder encoder(groups, totals);
+  for (const BinRange& bins : {BinRange{300, 999}, BinRange{999, 1000}, BinRange{0, 300}}) {
+    const bool counts = bins.first == 0;
+    encoder.begin(sent, bins, counts ? FlushCounts::with : FlushCounts::without);
+    while (!encoder.step(100)) {
+    }
+    const auto part = decode_flush(encoder.bytes(), groups, bins);
+    REQUIRE(part.ok());
+    CHECK((part->batches() == 0) == !counts);
+    part->add_to(taken);
+    if (bins.first == 300) CHECK_FALSE(decode_flush(encoder.bytes(), groups, {300, 600}).ok());
+  }
+  CHECK(same(whole, taken));
+}
+
 TEST_CASE("a flush of another layout, cut short or damaged is refused whole", "[flush]") {
   const auto bytes = some_flush(100);
   CHECK_FALSE(decode_flush(bytes, groups + 1, totals).ok());
@@ -131,8 +152,9 @@ TEST_CASE("totals that take the gains of others are the totals of all batches", 
   for (int batch = 0; batch < 20; ++batch) {
     BatchScores scores;
     scores.reset(layout);
-    for (int i = 0; i < 30; ++i) scores.scores[random.bits() % 100] += random.bits();
+    for (int i = 0; i < 30; ++i) scores.scores.data()[random.bits() % 100] += random.bits();
     scores.ledger.emitted = 5;
+    scores.scores.find_touched();
     BatchScores copy = scores;
     whole.merge(scores, 0);
     (batch % 3 == 0 ? here : there).merge(copy, 0);

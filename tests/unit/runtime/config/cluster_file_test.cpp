@@ -43,6 +43,13 @@ TEST_CASE("paths are relative to the folder of the file", "[runtime][config]") {
   CHECK(cluster.topology.file == "/srv/graph.toml");
 }
 
+TEST_CASE("shards of the totals are workers by their names", "[runtime][config]") {
+  CHECK(good(small_cluster).tally.shards.empty());
+  const ClusterConfig cluster =
+      good(small_cluster + "count = 4\n[tally]\nshards = [\"n3\", \"n0\"]\n");
+  CHECK(cluster.tally.shards == std::vector<NodeId>{{3}, {0}});
+}
+
 TEST_CASE("a node's own budget replaces what it names of the common one", "[runtime][config]") {
   const ClusterConfig cluster = good(small_cluster +
                                      "[node.budget]\nfibers = 7\nobject_bytes = \"2 GiB\"\n"
@@ -92,6 +99,12 @@ TEST_CASE("what is wrong with a key is told once, with its line", "[runtime][con
       {small_cluster + "[topology]\ncontroller = \"node\"\ncontroller_links = 2\n", 13,
        "leave this out"},
       {small_cluster + "[keys]\nfolder = \"k\"\ninsecure = true\n", 13, "keep one of them"},
+      {small_cluster + "[tally]\nshards = \"n\"\n", 12, "a list of at most 256 names"},
+      {small_cluster + "[tally]\nshards = [\n1]\n", 13, "'shards' lists names"},
+      {small_cluster + "[tally]\nshards = [\n\"m\"]\n", 13, "did you mean \"n\"?"},
+      {small_cluster + "[tally]\nshards = [\"c\"]\n", 12, "name workers"},
+      {small_cluster + "[tally]\nshards = [\"n\", \"n\"]\n", 12, "a share of the totals already"},
+      {small_cluster + "[tally]\nshard = [\"n\"]\n", 12, "did you mean 'shards'?"},
       {small_cluster + "[node.budget]\nfibers = 0\n", 12, "must lie in [1, 100000]"},
       {small_cluster + "host = \"g\"\n", 11, "there is no host \"g\""},
       {small_cluster + worker_part, 12, "there is a node \"n\" already, in line 10"},

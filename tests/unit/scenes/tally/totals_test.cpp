@@ -31,7 +31,7 @@ struct Layout {
   }
   int64_t& at(BatchScores& scores, uint32_t block, uint32_t bin, int band,
               uint32_t quantity) const {
-    return scores.scores[static_cast<size_t>(layout.score_index(block, bin, band, quantity))];
+    return scores.scores.data()[layout.score_index(block, bin, band, quantity)];
   }
   /// Every score a number of its own, different in every batch.
   BatchScores random_batch(uint64_t number) const {
@@ -208,4 +208,79 @@ TEST_CASE("a value is averaged over the batches of all groups alike", "[tally]")
   const BatchMean m = totals.pooled_mean(l.layout.total_index(l.value, 1, 0, 0));
   CHECK(m.mean / unit == Approx(3));
   CHECK(m.standard_error / unit == Approx(std::sqrt(4.0 / 3)));
+}
+
+TEST_CASE("batches that touch few pages have the totals of a walk over all bins",
+          "[tally][sparse]") {
+  constexpr int bands = 3;
+  constexpr uint32_t bins = 6000;
+  TallyLayout layout(bands);
+  const uint32_t patches = layout.add_block({"patches", bins, 2, ScoreUnit::weight});
+  const uint32_t surfaces = layout.add_block({"surfaces", 3, 3, ScoreUnit::weight});
+  layout.add_block({"values", 70, 7, ScoreUnit::value, false});
+  for (uint32_t s = 0; s < 3; ++s) layout.add_aggregate({patches, 2000 * s, 2000, surfaces, s});
+  const std::vector<std::vector<int64_t>> weights{{1 << 24, 1 << 23, 3 << 20}};
+  Totals sparse(layout, 1, weights, Cleared::given_back);
+  std::vector<Total> plain(static_cast<size_t>(layout.totals()));
+  const auto add = [&](int64_t at, int64_t score) {
+    Total& t = plain[static_cast<size_t>(at)];
+    t.sum += score;
+    const Int128 scaled = (static_cast<Int128>(score) + 2048) >> 12;
+    t.squares += static_cast<UInt128>(scaled * scaled);
+  };
+  Random random(8, RandomStream::test);
+  BatchScores batch;
+  for (uint64_t number = 0; number < 20; ++number) {
+    random.start(number);
+    batch.reset(layout);
+    int64_t of_surface[3][bands][3] = {};
+    for (int i = 0; i < 4; ++i) {
+      const uint32_t bin = (static_cast<uint32_t>(i) * bins + random.bits() % bins) / 4;
+      int64_t score[bands][2];
+      for (int b = 0; b < bands; ++b) {
+        for (uint32_t q = 0; q < 2; ++q) {
+          score[b][q] = random.bits() % 3 == 0 ? 0 : static_cast<int64_t>(random.bits64() >> 8);
+          *batch.scores.touch(layout.score_index(patches, bin, b, q)) = score[b][q];
+        }
+      }
+      for (int b = 0; b < bands; ++b) {
+        for (uint32_t q = 0; q < 2; ++q) {
+          add(layout.total_index(patches, bin, b, q), score[b][q]);
+          of_surface[bin / 2000][b][q] += score[b][q];
+        }
+        of_surface[bin / 2000][b][2] += score[b][0] - score[b][1];
+      }
+      for (uint32_t q = 0; q < 2; ++q) {
+        Int128 weighted = 0;
+        for (int b = 0; b < bands; ++b)
+          weighted += static_cast<Int128>(score[b][q]) * weights[0][static_cast<size_t>(b)];
+        add(layout.total_index(patches, bin, bands, q), static_cast<int64_t>(weighted >> 24));
+      }
+    }
+    for (uint32_t s = 0; s < 3; ++s) {
+      for (uint32_t q = 0; q < 3; ++q) {
+        Int128 weighted = 0;
+        for (int b = 0; b < bands; ++b) {
+          add(layout.total_index(surfaces, s, b, q), of_surface[s][b][q]);
+          weighted += static_cast<Int128>(of_surface[s][b][q]) * weights[0][static_cast<size_t>(b)];
+        }
+        add(layout.total_index(surfaces, s, bands, q), static_cast<int64_t>(weighted >> 24));
+      }
+    }
+    const size_t before = sparse.bytes();
+    batch.scores.find_touched();
+    const size_t room = sparse.bytes_to_merge(batch, 0);
+    sparse.merge(batch, 0);
+    CHECK(sparse.bytes() - before <= room);
+  }
+  int64_t different = 0;
+  for (size_t i = 0; i < plain.size(); ++i)
+    different += sparse.state(0).totals[i].sum != plain[i].sum ||
+                 sparse.state(0).totals[i].squares != plain[i].squares;
+  CHECK(different == 0);
+  int64_t taken = 0;
+  sparse.take_bins(0, 0, layout.totals(), [&](int64_t, const Total&) { ++taken; });
+  CHECK(taken > 0);
+  CHECK(sparse.bytes() == 0);
+  CHECK(sparse.next_bin(0, 0) == layout.totals());
 }

@@ -1,0 +1,91 @@
+// The controller's side of shards: tells every shard what became of each flush, until the shard has
+// answered, and brings the shards' totals here when they are asked for. Decisions go to a shard one
+// by one and in their order; a shard whose range is no longer whole is a fault, and ends the run.
+// What if a message is lost, late, or comes twice? A decision or a question is sent again until its
+// answer comes, under the same id; an answer to anything but what was asked last is old, and passed
+// over; the shard does not do twice what it is told twice. A piece of the totals is added when its
+// answer comes for the first time, since the next question then has another id.
+// Thread rule: the node's thread. deliver() adds totals, so it may not come from a fiber.
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "actors/tally/post.hpp"
+#include "actors/tally/shard_plan.hpp"
+#include "runtime/core/clock.hpp"
+
+namespace luxodus {
+
+class ShardControl {
+ public:
+  /// `next_id` gives questions their names. All that is referred to outlives it.
+  ShardControl(const ShardPlan& plan, Totals& totals, const Clock& clock,
+               std::function<MessageId()> next_id, Post post);
+
+  /// Shards beside the controller's.
+  size_t others() const { return shards_.size(); }
+  bool owns(NodeId worker) const { return plan_.shard_of(worker) != 0; }
+
+  /// Has every shard add its part of a flush, or drop it. Requires: as many hashes as others().
+  void take(const MessageId& flush, const std::vector<uint64_t>& part_hashes);
+  void refuse(const MessageId& flush);
+  /// Of a worker's life that has ended no flush is taken any more.
+  void end_life(NodeId worker, Incarnation life);
+  /// Every shard has answered every decision.
+  bool settled() const;
+
+  /// Adds the shards' totals to those here, and calls `done` from deliver() or from here.
+  /// Requires: settled(), no gather under way; nothing is taken before it is done.
+  void gather(std::function<void()> done);
+  bool gathering() const { return static_cast<bool>(done_); }
+
+  /// An answer of a shard; false where it is none.
+  bool deliver(const Delivery& delivery);
+  /// Sends again what got no answer in time.
+  void look();
+  /// Why the totals cannot be had any more.
+  const std::optional<std::string>& fault() const { return fault_; }
+
+  struct Counters {
+    uint64_t decisions = 0;
+    uint64_t asked_again = 0;
+    uint64_t gathers = 0;
+    uint64_t gathered_bytes = 0;
+  };
+  const Counters& counters() const { return counters_; }
+
+ private:
+  struct Shard {
+    NodeId owner;
+    BinRange bins;
+    std::deque<FlushDecided> decisions;  // the first has been sent
+    MessageId question;                  // the decision's, or that for totals
+    Nanoseconds asked = 0;
+    int64_t next = 0;  // bin to ask for, in a gather
+  };
+
+  void decide(size_t shard, const FlushDecided& decision);
+  void ask(Shard& shard);
+  void put(Shard& shard);
+  void settle(Shard& shard, const FlushSettled& answer);
+  void add(Shard& shard, const TotalsTold& told, std::span<const std::byte> payload);
+  bool waits(const Shard& shard) const;
+  void end_gather();
+
+  const ShardPlan plan_;
+  Totals& totals_;
+  const Clock& clock_;
+  std::function<MessageId()> next_id_;
+  Post post_;
+  std::vector<Shard> shards_;
+  uint32_t gather_ = 0;
+  std::function<void()> done_;  // of the gather under way
+  std::optional<std::string> fault_;
+  Counters counters_;
+};
+
+}  // namespace luxodus

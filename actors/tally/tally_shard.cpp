@@ -1,0 +1,213 @@
+#include "actors/tally/tally_shard.hpp"
+
+#include <algorithm>
+
+#include "runtime/core/check.hpp"
+#include "runtime/core/hash.hpp"
+
+namespace luxodus {
+
+namespace {
+/// Hashed at once: some 0.1 ms.
+constexpr size_t bytes_of_a_step = 1 << 20;
+/// Bins of all source groups that one answer tells: about a millisecond to pack.
+constexpr int64_t bins_of_a_piece = 16384;
+
+/// Of one source group: whole pages, so that those told of go back.
+int64_t piece_of(int groups) {
+  constexpr int64_t page = SparseArray<Total>::page_elements;
+  return std::max<int64_t>(1, bins_of_a_piece / groups / page) * page;
+}
+}  // namespace
+
+TallyShard::TallyShard(const TallyShardConfig& config, const TallyLayout& layout, int groups,
+                       Scheduler& scheduler, Post post)
+    : config_(config),
+      totals_(layout, groups, {}),
+      scheduler_(scheduler),
+      post_(std::move(post)),
+      encoder_(groups, piece_of(groups)) {}
+
+void TallyShard::add_metrics(Metrics& metrics) const {
+  const Counters& c = counters_;
+  metrics.add_counter({"shard_parts", "", "Parts of flushes added to this shard.", ""}, c.parts);
+  metrics.add_counter({"shard_parts_dropped", "", "Parts of flushes that were refused.", ""},
+                      c.parts_dropped);
+  metrics.add_counter({"shard_in", "bytes", "Bytes of parts that came.", ""}, c.part_bytes);
+  metrics.add_gauge({"shard_parts_held", "", "Parts not decided about.", ""}, c.held);
+  metrics.add_gauge({"shard_totals", "bytes", "Memory of this shard's totals.", ""},
+                    c.totals_bytes);
+}
+
+bool TallyShard::deliver(const Delivery& delivery) {
+  if (const auto* part = std::get_if<FlushPart>(&delivery.message)) {
+    // The id is that of the worker's flush: nobody sends parts of another's.
+    if (delivery.id.node == delivery.source) take_part(delivery, *part);
+    return true;
+  }
+  if (delivery.source != config_.controller) return false;
+  if (const auto* decision = std::get_if<FlushDecided>(&delivery.message)) {
+    take_decision(delivery, *decision);
+  } else if (const auto* question = std::get_if<AskTotals>(&delivery.message)) {
+    tell_totals(delivery, *question);
+  } else {
+    return false;
+  }
+  return true;
+}
+
+uint64_t TallyShard::decided(const Life& life) const {
+  const auto at = decided_.find(life);
+  return at == decided_.end() ? 0 : at->second;
+}
+
+// ---- parts -------------------------------------------------------------------------------------
+
+void TallyShard::take_part(const Delivery& delivery, const FlushPart& part) {
+  const Life life{delivery.id.node, delivery.id.incarnation};
+  if (delivery.id.sequence <= decided(life)) return;  // it comes late, and again
+  if (const auto at = parts_.find(life); at != parts_.end()) {
+    const Part& known = *at->second;
+    if (known.flush == delivery.id && known.gain) post_(known.from, known.flush, PartHeld{}, {});
+    return;
+  }
+  auto made = std::make_shared<Part>();
+  made->flush = delivery.id;
+  made->from = delivery.source;
+  made->hash = part.payload_hash;
+  made->payload.assign(delivery.payload.begin(), delivery.payload.end());
+  counters_.part_bytes += delivery.payload.size();
+  counters_.held = parts_.size() + 1;
+  parts_.emplace(life, made);
+  work(std::move(made));
+}
+
+void TallyShard::work(std::shared_ptr<Part> part) {
+  due_.push_back(std::move(part));
+  if (working_) return;
+  working_ = true;
+  LUX_CHECK(scheduler_.fibers().start("shard", [this] { work_off(); }).has_value(),
+            "the plan counts a fiber for it");
+}
+
+/// On a fiber of its own.
+void TallyShard::work_off() {
+  while (!due_.empty()) {
+    const std::shared_ptr<Part> part = due_.front();
+    due_.pop_front();
+    if (part->dropped) continue;
+    if (part->taken)
+      add(*part);
+    else
+      read(*part);
+  }
+  working_ = false;
+}
+
+/// Lets others have their turn. A node that is to end goes on: what is begun is whole in the end.
+bool TallyShard::take_turns() {
+  (void)scheduler_.fibers().yield();
+  return true;
+}
+
+/// "" where the part is right, and then held.
+std::string TallyShard::reading_fault(Part& part) {
+  Hasher hash;
+  for (std::span<const std::byte> left = part.payload; !left.empty(); take_turns()) {
+    const auto piece = left.first(std::min(left.size(), bytes_of_a_step));
+    hash.add(piece.data(), piece.size());
+    left = left.subspan(piece.size());
+  }
+  if (hash.value() != part.hash) return "a part is not what its hash says";
+  auto gain = decode_flush(part.payload, totals_.groups(), config_.bins,
+                           [&] { return take_turns() && !part.dropped; });
+  if (!gain.ok()) return gain.problem().what;
+  // Batches and where their weight went are told to the controller, once.
+  if (gain->batches() != 0 || gain->ledger().particles != 0) return "a part counts batches";
+  part.gain = std::move(gain).value();
+  return "";
+}
+
+void TallyShard::read(Part& part) {
+  const std::string wrong = reading_fault(part);
+  part.payload = {};
+  if (part.dropped) return;
+  if (wrong.empty()) return post_(part.from, part.flush, PartHeld{}, {});
+  post_(part.from, part.flush, FlushRefused{{}, wrong.substr(0, limits::text_bytes)}, {});
+  forget(part);
+}
+
+void TallyShard::forget(const Part& part) {
+  parts_.erase({part.flush.node, part.flush.incarnation});
+  counters_.held = parts_.size();
+}
+
+// ---- decisions ---------------------------------------------------------------------------------
+
+void TallyShard::take_decision(const Delivery& delivery, const FlushDecided& decision) {
+  const Life life{decision.flush.node, decision.flush.incarnation};
+  const auto answer = [&](bool whole) {
+    post_(config_.controller, delivery.id, FlushSettled{whole}, {});
+  };
+  if (decision.flush.sequence <= decided(life)) return answer(true);
+  const auto at = parts_.find(life);
+  const std::shared_ptr<Part> part = at == parts_.end() ? nullptr : at->second;
+  if (!decision.taken) {
+    if (part && part->flush.sequence <= decision.flush.sequence) {
+      part->dropped = true;
+      ++counters_.parts_dropped;
+      forget(*part);
+    }
+    decided_[life] = decision.flush.sequence;
+    return answer(true);
+  }
+  const bool held =
+      part && part->flush == decision.flush && part->gain && part->hash == decision.part_hash;
+  if (!held) return answer(false);  // this shard lacks what was counted
+  if (part->taken) return;          // it is being added; the answer follows
+  part->taken = delivery.id;
+  work(part);
+}
+
+void TallyShard::add(Part& part) {
+  part.gain->add_to(totals_, [this] { return take_turns(); });
+  ++counters_.parts;
+  counters_.totals_bytes = totals_.bytes();
+  decided_[{part.flush.node, part.flush.incarnation}] = part.flush.sequence;
+  const MessageId decision = *part.taken;
+  forget(part);
+  post_(config_.controller, decision, FlushSettled{true}, {});
+}
+
+// ---- totals ------------------------------------------------------------------------------------
+
+void TallyShard::tell_totals(const Delivery& delivery, const AskTotals& question) {
+  const bool again = question.gather == told_.gather && question.first == told_.first;
+  const bool goes_on = question.gather == told_.gather && question.first == told_.next;
+  const bool begins =
+      question.gather > told_.gather && question.first == static_cast<uint64_t>(config_.bins.first);
+  if (!again || told_.gather == 0) {
+    if (!goes_on && !begins) return;  // a question of before, that comes late
+    told_.gather = question.gather;
+    told_.first = question.first;
+    told_bytes_ = next_piece(told_);
+  }
+  post_(config_.controller, delivery.id, told_, told_bytes_);
+}
+
+/// Takes the next bins that are not zero out of the totals.
+SharedBytes TallyShard::next_piece(TotalsTold& told) {
+  int64_t first = config_.bins.end;
+  for (int g = 0; g < totals_.groups(); ++g)
+    first = std::min(first, totals_.next_bin(g, static_cast<int64_t>(told.first)));
+  const int64_t end = std::min(config_.bins.end, first + piece_of(totals_.groups()));
+  encoder_.begin(totals_, {static_cast<int64_t>(told.first), end}, FlushCounts::without);
+  while (!encoder_.step(bins_of_a_piece)) {
+  }
+  told.next = static_cast<uint64_t>(end);
+  counters_.totals_bytes = totals_.bytes();
+  auto bytes = std::make_shared<const std::vector<std::byte>>(encoder_.bytes());
+  return {std::span(*bytes), bytes};
+}
+
+}  // namespace luxodus

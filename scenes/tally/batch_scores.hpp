@@ -1,0 +1,32 @@
+// What one batch has scored: an integer for each place of the layout, and where its weight went. A
+// sparse array, so that what a batch does not reach takes neither memory nor time.
+// Thread rule: belongs to one thread.
+#pragma once
+
+#include "scenes/tally/layout.hpp"
+#include "scenes/tally/ledger.hpp"
+#include "scenes/tally/sparse_array.hpp"
+
+namespace luxodus {
+
+struct BatchScores {
+  SparseArray<int64_t> scores;
+  Ledger ledger;
+  // Sum of all path-length scores of the batch: while it is below 2^63, no single bin can have
+  // wrapped.
+  double length_score_sum = 0;
+
+  /// Makes room for a layout's scores, or sets those of the same layout to zero.
+  void reset(const TallyLayout& layout, Cleared cleared = Cleared::kept) {
+    if (scores.size() == static_cast<size_t>(layout.scores())) {
+      scores.find_touched();
+      scores.clear();
+    } else {
+      scores = SparseArray<int64_t>(layout.scores(), cleared);
+    }
+    ledger = {};
+    length_score_sum = 0;
+  }
+};
+
+}  // namespace luxodus

@@ -1,0 +1,377 @@
+// Shards of the totals, their owners and the controller, on a wire that loses, repeats and delays
+// what is sent: what is taken is counted once, what is refused never.
+#include <catch2/catch.hpp>
+#include <map>
+
+#include "actors/tally/part_sender.hpp"
+#include "actors/tally/shard_control.hpp"
+#include "actors/tally/tally_shard.hpp"
+#include "runtime/core/hash.hpp"
+#include "runtime/core/random.hpp"
+#include "tests/unit/runtime/actor/node_kit.hpp"
+
+using namespace luxodus;
+
+namespace {
+
+constexpr NodeId controller{9};
+constexpr int groups = 2;
+constexpr int64_t bins = 1000;
+
+TallyLayout layout_of_bins() {
+  TallyLayout layout(1);
+  layout.add_block({"patches", bins, 1, ScoreUnit::weight});
+  return layout;
+}
+
+struct Letter {
+  NodeId from, to;
+  MessageId id;
+  Message message;
+  std::vector<std::byte> payload;
+};
+
+/// A controller, workers of which some hold shards, and the wire between them, moved by hand.
+struct Stage {
+  explicit Stage(std::vector<NodeId> owners)
+      : plan{std::move(owners)},
+        totals(layout, groups, {}),
+        expected(layout, groups, {}),
+        control(
+            plan, totals, node.clock,
+            [this] {
+              return MessageId{controller, {1}, ++ids};
+            },
+            post_of(controller)) {
+    for (size_t i = 0; i < plan.owners.size(); ++i) {
+      const NodeId owner = plan.owners[i];
+      shards.emplace(owner, std::make_unique<TallyShard>(
+                                TallyShardConfig{owner, controller, plan.range(i + 1, bins)},
+                                layout, groups, node.scheduler, post_of(owner)));
+    }
+  }
+  Post post_of(NodeId from) {
+    return [this, from](NodeId to, const MessageId& id, const Message& message,
+                        const SharedBytes& bytes) {
+      wire.push_back({from, to, id, message, {bytes.bytes.begin(), bytes.bytes.end()}});
+    };
+  }
+  void deliver(const Letter& sent) {
+    const Delivery delivery{sent.from, sent.id, 0, sent.message, sent.payload};
+    if (sent.to == controller) {
+      control.deliver(delivery);
+    } else if (const auto at = shards.find(sent.to);
+               at == shards.end() || !at->second->deliver(delivery)) {
+      if (const auto sender = senders.find(sent.to); sender != senders.end())
+        sender->second->deliver(sent.from, sent.id, sent.message);
+    }
+    node.settle();
+  }
+  /// Delivers what is sent until nothing is; keeps a copy of everything in `passed`.
+  void pass() {
+    while (!wire.empty()) {
+      const Letter next = wire.front();
+      wire.pop_front();
+      passed.push_back(next);
+      deliver(next);
+    }
+  }
+
+  /// A flush of a worker, packed in parts: adds to what is expected where it will be taken.
+  PartSender& pack(NodeId worker, const MessageId& id, uint64_t seed, bool counts) {
+    auto& sender = senders[worker];
+    if (!sender) {
+      sender = std::make_unique<PartSender>(plan, post_of(worker));
+      sender->make_room(groups, bins);
+    }
+    Totals own(layout, groups, {});
+    TotalsGain gain;
+    Random random(seed, RandomStream::test);
+    random.start(id.sequence);
+    for (int g = 0; g < groups; ++g) {
+      auto& group = gain.groups.emplace_back();
+      group.batches = 1;
+      for (int64_t i = random.bits() % 9; i < bins; i += 1 + random.bits() % 9)
+        group.bins.push_back({i, {static_cast<Int128>(random.bits()), random.bits()}});
+    }
+    own.add(gain);
+    if (counts) expected.add(gain);
+    for (size_t part = 0; part < sender->parts(); ++part) {
+      FlushEncoder& encoder = sender->encoder(part);
+      encoder.begin(own, sender->bins_of(part), FlushCounts::without);
+      while (!encoder.step(100)) {
+      }
+    }
+    FlushEncoder rest(groups, bins);
+    rest.begin(own, sender->own_bins(), FlushCounts::with);
+    while (!rest.step(100)) {
+    }
+    payload = rest.bytes();
+    sender->send(id, node.clock.now());
+    return *sender;
+  }
+  /// What the controller does when it takes the flush that was packed last.
+  void take(const MessageId& id, const std::vector<uint64_t>& hashes) {
+    control.take(id, hashes);
+    decode_flush(payload, groups, plan.range(0, bins)).value().add_to(totals);
+  }
+  bool gather() {
+    bool done = false;
+    control.gather([&] { done = true; });
+    pass();
+    return done;
+  }
+  int64_t differences() const {
+    int64_t count = 0;
+    for (int g = 0; g < groups; ++g) {
+      count += totals.batches(g) != expected.batches(g);
+      for (size_t i = 0; i < bins; ++i) {
+        const Total &a = totals.state(g).totals[i], &b = expected.state(g).totals[i];
+        count += a.sum != b.sum || a.squares != b.squares;
+      }
+    }
+    return count;
+  }
+
+  test::Node node;
+  const TallyLayout layout = layout_of_bins();
+  ShardPlan plan;
+  Totals totals, expected;
+  uint64_t ids = 0;
+  std::deque<Letter> wire;
+  std::vector<Letter> passed;
+  std::map<NodeId, std::unique_ptr<TallyShard>> shards;
+  std::map<NodeId, std::unique_ptr<PartSender>> senders;
+  std::vector<std::byte> payload;
+  ShardControl control;
+};
+
+constexpr NodeId worker{1};
+MessageId flush_of(NodeId node, uint64_t sequence, uint64_t life = 7) {
+  return {node, {life}, sequence};
+}
+
+}  // namespace
+
+TEST_CASE("ranges of shards follow one another and cover all bins", "[shards]") {
+  for (const size_t owners : {0, 1, 2, 6}) {
+    const ShardPlan plan{std::vector<NodeId>(owners)};
+    for (const int64_t totals : {int64_t{0}, int64_t{3}, int64_t{1000}, int64_t{1} << 40}) {
+      int64_t next = 0;
+      for (size_t shard = 0; shard < plan.shards(); ++shard) {
+        CHECK(plan.range(shard, totals).first == next);
+        next = plan.range(shard, totals).end;
+      }
+      CHECK(next == totals);
+    }
+  }
+}
+
+TEST_CASE("a part is held until its flush is decided, then added once or dropped", "[shards]") {
+  Stage stage(std::vector<NodeId>{{0}, {2}});
+  PartSender& sender = stage.pack(worker, flush_of(worker, 1), 5, true);
+  CHECK_FALSE(sender.placed());
+  stage.pass();
+  REQUIRE(sender.placed());
+  CHECK(stage.shards.at({2})->counters().held == 1);
+  CHECK(stage.shards.at({2})->totals().bytes() == 0);
+  stage.take(flush_of(worker, 1), sender.hashes());
+  CHECK_FALSE(stage.control.settled());
+  stage.pass();
+  REQUIRE(stage.control.settled());
+  CHECK(stage.shards.at({2})->counters().parts == 1);
+
+  stage.pack(worker, flush_of(worker, 2), 5, false);
+  stage.pass();
+  stage.control.refuse(flush_of(worker, 2));
+  stage.pass();
+  CHECK(stage.shards.at({2})->counters().held == 0);
+  CHECK(stage.shards.at({2})->counters().parts_dropped == 1);
+  CHECK(stage.gather());
+  CHECK(stage.differences() == 0);
+  CHECK_FALSE(stage.control.fault());
+}
+
+TEST_CASE("what comes again, in any order and however late, adds nothing", "[shards]") {
+  Stage stage(std::vector<NodeId>{{0}, {2}});
+  for (uint64_t flush = 1; flush <= 3; ++flush) {
+    const bool taken = flush != 2;
+    PartSender& sender = stage.pack(worker, flush_of(worker, flush), 6, taken);
+    stage.pass();
+    REQUIRE(sender.placed());
+    if (taken)
+      stage.take(flush_of(worker, flush), sender.hashes());
+    else
+      stage.control.refuse(flush_of(worker, flush));
+    stage.pass();
+    REQUIRE(stage.gather());
+  }
+  const std::vector<Letter> all = stage.passed;
+  for (int round = 0; round < 2; ++round) {
+    for (size_t i = 0; i < all.size(); ++i) stage.deliver(all[round == 0 ? i : all.size() - 1 - i]);
+    stage.pass();
+  }
+  REQUIRE(stage.gather());
+  CHECK(stage.differences() == 0);
+  CHECK(stage.shards.at({0})->counters().parts == 2);
+  CHECK_FALSE(stage.control.fault());
+}
+
+TEST_CASE("a life has one part at a shard: the next waits until the first is decided", "[shards]") {
+  Stage stage(std::vector<NodeId>{{2}});
+  PartSender& sender = stage.pack(worker, flush_of(worker, 1), 7, true);
+  stage.pass();
+  const std::vector<uint64_t> hashes = sender.hashes();
+  stage.take(flush_of(worker, 1), hashes);
+  std::deque<Letter> decision;
+  decision.swap(stage.wire);  // it is late
+  stage.pack(worker, flush_of(worker, 2), 7, true);
+  stage.pass();
+  CHECK_FALSE(sender.placed());
+  stage.wire = decision;
+  stage.pass();
+  sender.ask_again(seconds(100), seconds(1));
+  stage.pass();
+  REQUIRE(sender.placed());
+  stage.take(flush_of(worker, 2), sender.hashes());
+  stage.pass();
+  REQUIRE(stage.gather());
+  CHECK(stage.differences() == 0);
+}
+
+TEST_CASE("what a life that ended has left at shards is dropped, and its next life goes on",
+          "[shards]") {
+  Stage stage(std::vector<NodeId>{{2}});
+  stage.pack(worker, flush_of(worker, 4, 7), 8, false);
+  stage.pass();
+  const std::vector<Letter> late = stage.passed;
+  stage.control.end_life(worker, {7});
+  PartSender& sender = stage.pack(worker, flush_of(worker, 1, 8), 8, true);
+  stage.pass();
+  REQUIRE(sender.placed());
+  CHECK(stage.shards.at({2})->counters().held == 1);
+  stage.take(flush_of(worker, 1, 8), sender.hashes());
+  stage.pass();
+  for (const Letter& sent : late) stage.deliver(sent);
+  stage.pass();
+  CHECK(stage.shards.at({2})->counters().held == 0);
+  REQUIRE(stage.gather());
+  CHECK(stage.differences() == 0);
+}
+
+TEST_CASE("a part that is damaged, of other bins, or counts batches is refused", "[shards]") {
+  Stage stage(std::vector<NodeId>{{2}});
+  stage.pack(worker, flush_of(worker, 1), 9, false);
+  REQUIRE(stage.wire.size() == 1);
+  Letter part = stage.wire.front();
+  stage.wire.clear();
+  const auto answer_to = [&](const Letter& sent) {
+    stage.deliver(sent);
+    REQUIRE(stage.wire.size() == 1);
+    const Message answer = stage.wire.front().message;
+    stage.wire.clear();
+    return std::holds_alternative<FlushRefused>(answer);
+  };
+  Letter damaged = part;
+  damaged.payload.back() ^= std::byte{1};
+  CHECK(answer_to(damaged));
+  Letter other = part;  // the controller's bins, and its batches
+  other.payload = stage.payload;
+  other.message = FlushPart{XXH3_64bits(other.payload.data(), other.payload.size())};
+  CHECK(answer_to(other));
+  CHECK_FALSE(answer_to(part));
+  CHECK(stage.shards.at({2})->counters().held == 1);
+  // Nobody sends parts of somebody else's flush, nor decides but the controller.
+  Letter forged = part;
+  forged.from = {3};
+  stage.deliver(forged);
+  stage.deliver({{3}, {2}, flush_of({3}, 1), FlushDecided{flush_of(worker, 1), 0, false}, {}});
+  CHECK(stage.wire.empty());
+  CHECK(stage.shards.at({2})->counters().held == 1);
+}
+
+TEST_CASE("a sender whose part was refused tells the controller of no parts", "[shards]") {
+  Stage stage(std::vector<NodeId>{{0}, {2}});
+  PartSender& sender = stage.pack(worker, flush_of(worker, 1), 9, false);
+  sender.deliver({2}, flush_of(worker, 1), FlushRefused{{}, "damaged"});
+  CHECK(sender.placed());
+  CHECK(sender.hashes().empty());
+}
+
+TEST_CASE("a shard that lacks a part of a flush that was taken is a fault", "[shards]") {
+  Stage stage(std::vector<NodeId>{{2}});
+  stage.control.take(flush_of(worker, 1), {1});
+  stage.pass();
+  REQUIRE(stage.control.fault());
+}
+
+TEST_CASE("shards of a wire that loses, repeats and delays have counted what was taken",
+          "[shards]") {
+  for (uint64_t seed = 1; seed <= 20; ++seed) {
+    INFO("seed " << seed);
+    Stage stage(std::vector<NodeId>{{0}, {2}, {5}});
+    Random chance(seed, RandomStream::test);
+    chance.start(1);
+    const std::vector<NodeId> workers{{0}, {1}, {2}};
+    std::map<NodeId, uint64_t> flush;
+    std::map<NodeId, std::vector<std::byte>> payloads;
+    std::map<NodeId, bool> taken;
+    for (int step = 0; step < 4000; ++step) {
+      for (const NodeId w : workers) {
+        const auto at = stage.senders.find(w);
+        if (at != stage.senders.end() && !at->second->placed()) continue;
+        if (at != stage.senders.end() && flush[w] > 0 && !payloads[w].empty()) {
+          if (taken[w]) {
+            stage.payload = payloads[w];
+            stage.take(flush_of(w, flush[w]), at->second->hashes());
+          } else {
+            stage.control.refuse(flush_of(w, flush[w]));
+          }
+          payloads[w].clear();
+        }
+        if (flush[w] == 6) continue;
+        taken[w] = chance.bits() % 3 != 0;
+        stage.pack(w, flush_of(w, ++flush[w]), seed, taken[w]);
+        payloads[w] = stage.payload;
+      }
+      if (!stage.wire.empty()) {
+        const size_t which = chance.bits() % stage.wire.size();
+        const Letter sent = stage.wire[which];
+        const uint32_t fate = chance.bits() % 8;
+        if (fate != 0) stage.deliver(sent);  // 0: lost; 1: comes again
+        if (fate != 1) {
+          const auto same =
+              std::find_if(stage.wire.begin(), stage.wire.end(), [&](const Letter& other) {
+                return other.id == sent.id && other.to == sent.to &&
+                       other.message.index() == sent.message.index();
+              });
+          if (same != stage.wire.end()) stage.wire.erase(same);
+        }
+      }
+      if (step % 20 == 0) {
+        stage.node.advance(seconds(2));
+        stage.control.look();
+        for (auto& [w, sender] : stage.senders)
+          sender->ask_again(stage.node.clock.now(), seconds(1));
+      }
+    }
+    REQUIRE(stage.control.settled());
+    bool done = false;
+    stage.control.gather([&] { done = true; });
+    for (int step = 0; step < 4000 && !done; ++step) {
+      if (stage.wire.empty() || step % 20 == 0) {
+        stage.node.advance(seconds(2));
+        stage.control.look();
+      }
+      if (stage.wire.empty()) continue;
+      const Letter sent = stage.wire.front();
+      stage.wire.pop_front();
+      const uint32_t fate = chance.bits() % 8;
+      if (fate == 1) stage.wire.push_back(sent);
+      if (fate != 0) stage.deliver(sent);
+    }
+    REQUIRE(done);
+    CHECK_FALSE(stage.control.fault());
+    CHECK(stage.differences() == 0);
+  }
+}
