@@ -284,7 +284,8 @@ void add_node_options(CLI::App& command, const std::shared_ptr<RunOptions>& opti
       ->check(CLI::Range(size_t{1}, size_t{16384}));
   command
       .add_option("--object-mib", options->object_mib,
-                  "budget of a node for geometry cells; what does not fit is fetched from others "
+                  "budget of a node for geometry cells, bricks of smoke data and tiles of "
+                  "pictures; what does not fit is fetched from others "
                   "[0: everything is resident]")
       ->check(CLI::Range(0.0, 1048576.0));
   command.add_option("--profile", options->profile,
