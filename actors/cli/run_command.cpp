@@ -31,6 +31,7 @@ struct RunOptions {
   size_t fibers = 1;
   double object_mib = 0;
   std::string profile = "1%";
+  bool no_sharing = false;
   std::string link_delay;
   std::optional<uint16_t> metrics_port;
   uint64_t trace_every = 0;
@@ -106,6 +107,7 @@ Result<NodesOptions> nodes_options(const RunOptions& options, Nanoseconds link_d
   nodes.nodes = options.nodes;
   nodes.fibers = options.fibers;
   nodes.object_bytes = options.object_bytes();
+  nodes.sharing = !options.no_sharing;
   nodes.link_delay = link_delay;
   nodes.observation = observation;
   return nodes;
@@ -160,6 +162,7 @@ std::unique_ptr<LocalRun> prepare(std::shared_ptr<const CompiledScene> scene, ui
   StoredRowsConfig config;
   config.threads = options.threads;
   config.object_bytes = options.object_bytes() * static_cast<size_t>(options.threads);
+  config.sharing = !options.no_sharing;
   auto rows = std::make_unique<StoredRows>(scene, config);
   return std::make_unique<LocalRun>(std::move(scene), seed, options.threads, std::move(rows));
 }
@@ -288,6 +291,9 @@ void add_node_options(CLI::App& command, const std::shared_ptr<RunOptions>& opti
                   "pictures; what does not fit is fetched from others "
                   "[0: everything is resident]")
       ->check(CLI::Range(0.0, 1048576.0));
+  command.add_flag("--no-sharing", options->no_sharing,
+                   "with --object-mib: each node builds its own copy of what it needs, as if the "
+                   "nodes were processes");
   command.add_option("--profile", options->profile,
                      "with --object-mib: share of the particles that is traced beforehand, to plan "
                      "which node traces, holds and keeps what; 0: none [1%]");

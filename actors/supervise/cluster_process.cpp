@@ -181,6 +181,7 @@ Result<bool> ClusterProcessRun::load_scene() {
   }
   StoredRowsConfig rows;
   rows.object_bytes = cluster_.node(cluster_.controller()).budget.object_bytes;
+  rows.sharing = cluster_.run.sharing;
   run_ = std::make_unique<LocalRun>(scene.value(), seed, 1,
                                     std::make_unique<StoredRows>(scene.value(), rows));
   return true;
@@ -273,6 +274,7 @@ Result<std::optional<StopReason>> ClusterProcessRun::run(
   const EmbreeDevice device;
   std::optional<SceneObjects> objects;
   std::optional<ProxyScene> proxies;
+  std::optional<SharedObjects> shared;
   const SceneIndex* index = fetches_ ? nullptr : &run_->index();
   RunSetup setup{run_->scene(), index, nullptr, nullptr, run_->seed(),
                  graph_,        clock, context, {},      nullptr};
@@ -284,6 +286,7 @@ Result<std::optional<StopReason>> ClusterProcessRun::run(
     proxies.emplace(device, run_->scene().cell_boxes);
     setup.objects = &*objects;
     setup.proxies = &*proxies;
+    if (cluster_.run.sharing) setup.shared = &shared.emplace(objects->places().size());
     auto planned = planned_residency(setup);
     if (!planned.ok()) return planned.problem();
     residency = std::move(planned).value();

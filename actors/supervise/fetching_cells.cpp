@@ -20,6 +20,7 @@ FetchConfig fetch_config(const RunSetup& run, const NodeSetup& node, NodeTrace* 
 CacheConfig cache_of(const RunSetup& run, const NodeSetup& node, NodeTrace* trace) {
   CacheConfig config = cache_config(*run.objects, node);
   config.trace = trace;
+  config.shared = run.shared;
   return config;
 }
 

@@ -226,6 +226,8 @@ class InProcess {
       proxies.emplace(device, run.scene().cell_boxes);
       setup.objects = &*objects;
       setup.proxies = &*proxies;
+      if (options.sharing) shared.emplace(objects->places().size());
+      setup.shared = shared ? &*shared : nullptr;
     }
   }
 
@@ -256,6 +258,7 @@ class InProcess {
   const EmbreeDevice device;
   std::optional<SceneObjects> objects;
   std::optional<ProxyScene> proxies;
+  std::optional<SharedObjects> shared;
 
  public:
   RunSetup setup;

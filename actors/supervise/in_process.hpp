@@ -33,6 +33,7 @@ struct NodesOptions {
   /// node holds its share of the objects' bytes for all, and fetches and builds what it needs.
   size_t object_bytes = 0;
   uint32_t replicas = 1;  // nodes that hold an object's bytes
+  bool sharing = true;    // an object that several nodes have is built once, and is one copy
   /// With a budget: the share of the run's particles that is traced beforehand, to plan who traces,
   /// holds and keeps what. 0: no plan.
   double profile_share = 0.01;

@@ -30,6 +30,7 @@ struct RunSetup {
   ZmqContext& context;
   std::vector<std::string> names;      // of nodes, by number
   Observation* observation = nullptr;  // where somebody watches
+  SharedObjects* shared = nullptr;  // what nodes of the process have built; null: to each its own
 
   /// Of a node, for people.
   std::string name_of(NodeId node) const {

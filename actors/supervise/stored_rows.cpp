@@ -105,6 +105,7 @@ void work(const RunSetup& run, const NodeSetup& node, const RowRunner::MakeWorke
 void StoredRows::run(int64_t rows, const MakeWorker& make, const Finished& finished) const {
   if (rows == 0) return;
   ZmqContext context({});
+  SharedObjects shared_objects(stored_->objects.places().size());
   const RunSetup run{*scene_,
                      nullptr,
                      &stored_->proxies,
@@ -114,7 +115,8 @@ void StoredRows::run(int64_t rows, const MakeWorker& make, const Finished& finis
                      stored_->clock,
                      context,
                      {},
-                     nullptr};
+                     nullptr,
+                     config_.sharing ? &shared_objects : nullptr};
   NodeSetup node;
   node.net.self = {0};
   node.net.incarnation = {1};

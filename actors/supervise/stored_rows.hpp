@@ -14,6 +14,7 @@ struct StoredRowsConfig {
   int threads = 1;
   size_t fibers = 256;      // of a thread
   size_t object_bytes = 0;  // for built objects, of all threads together
+  bool sharing = true;      // an object that several threads have is built once
 };
 
 class StoredRows final : public RowRunner {
