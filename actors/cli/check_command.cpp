@@ -4,7 +4,7 @@
 #include "actors/cli/command.hpp"
 #include "scenes/format/json_out.hpp"
 #include "scenes/transport/compile.hpp"
-#include "scenes/transport/packed_geometry.hpp"
+#include "scenes/transport/packed_scene.hpp"
 #include "scenes/transport/trace.hpp"
 
 namespace luxodus::cli {

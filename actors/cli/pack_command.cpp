@@ -66,16 +66,21 @@ int pack(PackOptions options) {
                           {"skeleton_bytes", report->skeleton_bytes},
                           {"objects", report->objects},
                           {"object_bytes", report->object_bytes},
+                          {"bricks", report->bricks},
+                          {"tiles", report->tiles},
                           {"largest_object_bytes", report->largest_object_bytes}})
                    .c_str(),
                stdout);
     return ExitCode::success;
   }
-  std::printf("%s: %sB; %zu objects of %sB in all, the largest %sB; skeleton %sB\n",
-              options.out.c_str(), short_number(static_cast<double>(report->file_bytes)).c_str(),
-              report->objects, short_number(static_cast<double>(report->object_bytes)).c_str(),
-              short_number(static_cast<double>(report->largest_object_bytes)).c_str(),
-              short_number(static_cast<double>(report->skeleton_bytes)).c_str());
+  std::printf(
+      "%s: %sB; %zu cells, %zu bricks, %zu tiles of %sB in all, the largest %sB; "
+      "skeleton %sB\n",
+      options.out.c_str(), short_number(static_cast<double>(report->file_bytes)).c_str(),
+      report->objects - report->bricks - report->tiles, report->bricks, report->tiles,
+      short_number(static_cast<double>(report->object_bytes)).c_str(),
+      short_number(static_cast<double>(report->largest_object_bytes)).c_str(),
+      short_number(static_cast<double>(report->skeleton_bytes)).c_str());
   return ExitCode::success;
 }
 
@@ -90,6 +95,8 @@ void add_pack(CLI::App& app, int& exit_code) {
       "  luxodus pack scenes/library/office_floor.toml --scenario smoke_emergency --out f.luxpack\n"
       "  luxodus run f.luxpack --nodes 2 --fibers 1024 --object-mib 64\n"
       "  luxodus pack f.luxpack --skeleton-only --out f.skeleton.luxpack\n\n"
+      "Objects are geometry cells, bricks of smoke data (16^3 cells) and tiles of pictures (64^2 "
+      "texels).\n"
       "Every command that takes a scene takes a pack. It is read by the pages that are looked at, "
       "so a\n"
       "scene may be larger than a machine's memory. All scenarios that leave the doors as the "

@@ -50,7 +50,7 @@ int make_profile(const ProfileOptions& options) {
   }
   int64_t particles = 0;
   for (const ReferenceCounts& group : profile.value().groups) particles += group.units;
-  std::printf("%zu cells, %zu source groups, %lld particles: %s\n", profile.value().cells(),
+  std::printf("%zu objects, %zu source groups, %lld particles: %s\n", profile.value().objects(),
               profile.value().groups.size(), static_cast<long long>(particles), out.c_str());
   return ExitCode::success;
 }
@@ -60,11 +60,11 @@ int make_profile(const ProfileOptions& options) {
 void add_profile(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<ProfileOptions>();
   CLI::App* command =
-      app.add_subcommand("profile", "Count which geometry a cluster's nodes will ask for");
+      app.add_subcommand("profile", "Count which parts of a scene a cluster's nodes will ask for");
   command->footer(
       "For a scene that is larger than a node's budget. With profile = \"FILE\" in the cluster's\n"
       "[run], all nodes read that file and plan alike: who traces which source groups, who holds\n"
-      "and who keeps which cells. Results are the same bits with and without.\n"
+      "and who keeps which objects. Results are the same bits with and without.\n"
       "  luxodus profile cluster.toml\n"
       "  luxodus profile cluster.toml --share 5% --out cluster.profile");
   command->add_option("cluster", options->config, "the cluster's file")->required();

@@ -33,6 +33,7 @@ struct RunOptions {
   double tally_mib = 0;
   int tally_shards = 1;
   std::string profile = "1%";
+  bool no_sharing = false;
   std::string link_delay;
   std::optional<uint16_t> metrics_port;
   uint64_t trace_every = 0;
@@ -111,6 +112,7 @@ Result<NodesOptions> nodes_options(const RunOptions& options, Nanoseconds link_d
   if (options.tally_mib > 0)
     nodes.tally_bytes = static_cast<uint64_t>(options.tally_mib * 1024 * 1024);
   nodes.tally_shards = options.tally_shards;
+  nodes.sharing = !options.no_sharing;
   nodes.link_delay = link_delay;
   nodes.observation = observation;
   return nodes;
@@ -165,6 +167,7 @@ std::unique_ptr<LocalRun> prepare(std::shared_ptr<const CompiledScene> scene, ui
   StoredRowsConfig config;
   config.threads = options.threads;
   config.object_bytes = options.object_bytes() * static_cast<size_t>(options.threads);
+  config.sharing = !options.no_sharing;
   auto rows = std::make_unique<StoredRows>(scene, config);
   return std::make_unique<LocalRun>(std::move(scene), seed, options.threads, std::move(rows));
 }
@@ -293,7 +296,8 @@ void add_node_options(CLI::App& command, const std::shared_ptr<RunOptions>& opti
       ->check(CLI::Range(size_t{1}, size_t{16384}));
   command
       .add_option("--object-mib", options->object_mib,
-                  "budget of a node for geometry cells; what does not fit is fetched from others "
+                  "budget of a node for geometry cells, bricks of smoke data and tiles of "
+                  "pictures; what does not fit is fetched from others "
                   "[0: everything is resident]")
       ->check(CLI::Range(0.0, 1048576.0));
   command
@@ -306,6 +310,9 @@ void add_node_options(CLI::App& command, const std::shared_ptr<RunOptions>& opti
                   "shares of the totals: one stays with the controller, the others are held by so "
                   "many of the nodes [1]")
       ->check(CLI::Range(1, limits::nodes_in_process + 1));
+  command.add_flag("--no-sharing", options->no_sharing,
+                   "with --object-mib: each node builds its own copy of what it needs, as if the "
+                   "nodes were processes");
   command.add_option("--profile", options->profile,
                      "with --object-mib: share of the particles that is traced beforehand, to plan "
                      "which node traces, holds and keeps what; 0: none [1%]");

@@ -8,7 +8,7 @@
 #include "actors/display/maps.hpp"
 #include "scenes/format/write_vtk.hpp"
 #include "scenes/geometry/patches.hpp"
-#include "scenes/transport/packed_geometry.hpp"
+#include "scenes/transport/packed_scene.hpp"
 
 namespace luxodus {
 

@@ -12,7 +12,7 @@
 #include "actors/source/rows.hpp"
 #include "scenes/geometry/patches.hpp"
 #include "scenes/optics/sampling.hpp"
-#include "scenes/transport/packed_geometry.hpp"
+#include "scenes/transport/packed_scene.hpp"
 
 namespace luxodus {
 

@@ -12,7 +12,7 @@ namespace luxodus {
 
 namespace {
 
-constexpr int schema_version = 1;
+constexpr int schema_version = 2;
 
 Block block_of(const std::string& name, const std::vector<uint64_t>& values) {
   static_assert(std::endian::native == std::endian::little);
@@ -34,7 +34,7 @@ std::string name_of_group(size_t group) {
 /// Reads blocks of known sizes; notes the first that is not as it must be.
 class Blocks {
  public:
-  Blocks(const FluxFile& file, size_t cells) : file_(file), cells_(cells) {}
+  Blocks(const FluxFile& file, size_t objects) : file_(file), objects_(objects) {}
 
   std::vector<uint64_t> take(const std::string& name, size_t count) {
     std::vector<uint64_t> values(count, 0);
@@ -49,15 +49,15 @@ class Blocks {
     ReferenceCounts counts;
     // More would be no number of particles, and is none that is divided by.
     counts.units = static_cast<int64_t>(take(name + "/units", 1)[0] & 0xFFFFFFFFFFFF);
-    counts.references = take(name + "/references", cells_);
-    counts.visits = take(name + "/visits", cells_);
+    counts.references = take(name + "/references", objects_);
+    counts.visits = take(name + "/visits", objects_);
     return counts;
   }
   const std::string& wrong() const { return wrong_; }
 
  private:
   const FluxFile& file_;
-  size_t cells_;
+  size_t objects_;
   std::string wrong_;
 };
 
@@ -65,12 +65,11 @@ class Blocks {
 
 Result<Done> write_profile(const std::filesystem::path& path, const ReferenceProfile& profile) {
   FluxFile file;
-  file.header_json = Json{
-      {"profile", schema_version},
-      {"scene_hash", fmt::format("{:016x}", profile.scene_hash)},
-      {"groups", profile.groups.size()},
-      {"cells",
-       profile.cells()}}.dump(1);
+  file.header_json = Json{{"profile", schema_version},
+                          {"scene_hash", fmt::format("{:016x}", profile.scene_hash)},
+                          {"groups", profile.groups.size()},
+                          {"objects", profile.objects()}}
+                         .dump(1);
   for (size_t g = 0; g < profile.groups.size(); ++g)
     add_counts(file, name_of_group(g), profile.groups[g]);
   add_counts(file, "eyes", profile.eyes);
@@ -78,8 +77,8 @@ Result<Done> write_profile(const std::filesystem::path& path, const ReferencePro
   return write_flux_file(path, file);
 }
 
-Result<ReferenceProfile> read_profile(const std::filesystem::path& path,
-                                      const CompiledScene& scene) {
+Result<ReferenceProfile> read_profile(const std::filesystem::path& path, const CompiledScene& scene,
+                                      size_t objects) {
   auto file = read_flux_file(path);
   if (!file.ok()) return file.problem();
   const SourcePlace place{path.string(), 0};
@@ -94,11 +93,11 @@ Result<ReferenceProfile> read_profile(const std::filesystem::path& path,
                    "`luxodus profile`"};
   ReferenceProfile profile;
   profile.scene_hash = scene.scene_hash;
-  Blocks blocks(file.value(), scene.cell_boxes.size());
+  Blocks blocks(file.value(), objects);
   for (size_t g = 0; g < scene.groups.size(); ++g)
     profile.groups.push_back(blocks.take_counts(name_of_group(g)));
   profile.eyes = blocks.take_counts("eyes");
-  profile.built_bytes = blocks.take("built bytes", scene.cell_boxes.size());
+  profile.built_bytes = blocks.take("built bytes", objects);
   if (!blocks.wrong().empty())
     return Problem{place, "this profile lacks \"" + blocks.wrong() + "\", or has another size"};
   return profile;

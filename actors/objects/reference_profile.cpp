@@ -18,18 +18,18 @@ constexpr int64_t particles_least = 256;
 /// Added to the seed: the profile's histories are none of the run's.
 constexpr uint64_t other_histories = 0x9E3779B97F4A7C15;
 
-/// All cells of a scene for one tracer, built when they are asked for; counts who asks.
-class CountingCells final : public ObjectSource {
+/// All parts of a scene for one tracer, built when they are asked for; counts who asks.
+class CountingParts final : public ObjectSource {
  public:
-  CountingCells(const CompiledScene& scene, const SceneObjects& objects, uint64_t budget_bytes)
+  CountingParts(const CompiledScene& scene, const SceneObjects& objects, uint64_t budget_bytes)
       : objects_(objects),
-        limits_{static_cast<uint32_t>(scene.surfaces.size()), scene.patch_count},
+        builder_(scene, objects.parts()),
         budget_bytes_(budget_bytes),
         built_(objects.places().size()),
         visited_in_(built_.size(), 0),
         bytes_of_(built_.size(), 0) {}
 
-  /// What is entered from now on counts here.
+  /// What is asked for from now on counts here.
   void count_into(ReferenceCounts& counts) {
     counts_ = &counts;
     counts.references.assign(built_.size(), 0);
@@ -38,15 +38,18 @@ class CountingCells final : public ObjectSource {
   void begin_history() { ++history_; }
 
   const CellScene* cell(uint32_t cell) override {
-    ++counts_->references[cell];
-    if (visited_in_[cell] != history_) {
-      visited_in_[cell] = history_;
-      ++counts_->visits[cell];
-    }
-    Built& built = built_[cell];
-    if (built.object == nullptr) return build(cell);
-    used_.splice(used_.end(), used_, built.place);
-    return &built.object->scene();
+    const auto* object = static_cast<const BuiltCell*>(find(cell));
+    return object != nullptr ? &object->scene() : nullptr;
+  }
+  const Brick* brick(int medium, int brick) override {
+    const uint32_t number = objects_.parts().of_brick(medium, brick);
+    if (number == none_index) return &clear_brick();
+    const auto* object = static_cast<const BuiltBrick*>(find(number));
+    return object != nullptr ? &object->brick() : nullptr;
+  }
+  const ImageTile* tile(uint32_t image, uint32_t tile) override {
+    const auto* object = static_cast<const BuiltTile*>(find(objects_.parts().of_tile(image, tile)));
+    return object != nullptr ? &object->tile() : nullptr;
   }
   bool spoilt() override { return problem_.has_value(); }
   const std::optional<Problem>& problem() const { return problem_; }
@@ -54,37 +57,48 @@ class CountingCells final : public ObjectSource {
 
  private:
   struct Built {
-    std::unique_ptr<BuiltCell> object;
+    std::shared_ptr<const BuiltObject> object;
     std::list<uint32_t>::iterator place;
   };
 
-  const CellScene* build(uint32_t cell) {
-    auto decoded = decode_cell(objects_.bytes(cell).bytes, limits_);
-    if (!decoded.ok()) {
-      problem_ = decoded.problem();
+  const BuiltObject* find(uint32_t number) {
+    ++counts_->references[number];
+    if (visited_in_[number] != history_) {
+      visited_in_[number] = history_;
+      ++counts_->visits[number];
+    }
+    Built& built = built_[number];
+    if (built.object == nullptr) return build(number);
+    used_.splice(used_.end(), used_, built.place);
+    return built.object.get();
+  }
+
+  const BuiltObject* build(uint32_t number) {
+    auto object = builder_.built(number, objects_.bytes(number).bytes);
+    if (!object.ok()) {
+      problem_ = object.problem();
       return nullptr;
     }
-    auto object = std::make_unique<BuiltCell>(device_, std::move(decoded).value());
-    bytes_of_[cell] = object->bytes();
-    resident_bytes_ += object->bytes();
+    const size_t bytes = object.value()->bytes();
+    bytes_of_[number] = bytes;
+    resident_bytes_ += bytes;
     while (resident_bytes_ > budget_bytes_ && !used_.empty()) {
       Built& oldest = built_[used_.front()];
       resident_bytes_ -= oldest.object->bytes();
       oldest.object.reset();
       used_.pop_front();
     }
-    built_[cell] = {std::move(object), used_.insert(used_.end(), cell)};
-    return &built_[cell].object->scene();
+    built_[number] = {std::move(object).value(), used_.insert(used_.end(), number)};
+    return built_[number].object.get();
   }
 
   const SceneObjects& objects_;
-  CellLimits limits_;
+  PartBuilder builder_;
   uint64_t budget_bytes_;
-  EmbreeDevice device_;
   std::vector<Built> built_;
   std::list<uint32_t> used_;  // the one unused for the longest first
   uint64_t resident_bytes_ = 0;
-  std::vector<uint64_t> visited_in_;  // by cell: the last history that entered it
+  std::vector<uint64_t> visited_in_;  // by object: the last history that asked for it
   uint64_t history_ = 0;
   ReferenceCounts* counts_ = nullptr;
   std::vector<uint64_t> bytes_of_;
@@ -106,9 +120,9 @@ Result<ReferenceProfile> count_references(const CompiledScene& scene, const Scen
                                           const ProxyScene& proxies, uint64_t seed,
                                           const std::vector<int64_t>& particles,
                                           uint64_t budget_bytes) {
-  CountingCells cells(scene, objects, budget_bytes);
+  CountingParts parts(scene, objects, budget_bytes);
   const auto tracer =
-      make_batch_tracer(scene, GeometryAccess::through(proxies, cells), seed + other_histories);
+      make_batch_tracer(scene, GeometryAccess::through(proxies, parts), seed + other_histories);
   BatchScores scores;
   scores.reset(scene.layout);
   ReferenceProfile profile;
@@ -116,21 +130,21 @@ Result<ReferenceProfile> count_references(const CompiledScene& scene, const Scen
   profile.groups.resize(particles.size());
   for (size_t g = 0; g < particles.size(); ++g) {
     profile.groups[g].units = particles[g];
-    cells.count_into(profile.groups[g]);
+    parts.count_into(profile.groups[g]);
     for (int64_t particle = 0; particle < particles[g]; ++particle) {
-      cells.begin_history();
+      parts.begin_history();
       tracer->trace(static_cast<int>(g), static_cast<uint64_t>(particle), 1, scores);
-      if (cells.problem()) return *cells.problem();
+      if (parts.problem()) return *parts.problem();
     }
   }
   profile.eyes.units = 1;
-  cells.count_into(profile.eyes);
+  parts.count_into(profile.eyes);
   for (uint32_t unit = 0; unit < tracer->look_units(); ++unit) {
-    cells.begin_history();
+    parts.begin_history();
     tracer->look(0, unit, scores);
-    if (cells.problem()) return *cells.problem();
+    if (parts.problem()) return *parts.problem();
   }
-  profile.built_bytes = cells.bytes_of();
+  profile.built_bytes = parts.bytes_of();
   return profile;
 }
 

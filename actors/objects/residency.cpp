@@ -14,7 +14,7 @@ constexpr double holding_slack = 1.5;
 
 /// What an average batch of one group refers to, times the group's share of batches.
 struct GroupDemand {
-  std::vector<double> references, visits;  // by cell
+  std::vector<double> references, visits;  // by object
   double work = 0;                         // all references
 };
 
@@ -39,11 +39,11 @@ GroupDemand demand_of(const ResidencyRequest& r, size_t group) {
   };
   const double by_flight = share * scale(r.batch_particles, flights.units);
   const double by_eye = share * scale(1, profile.eyes.units);
-  for (size_t cell = 0; cell < profile.cells(); ++cell) {
-    demand.references.push_back(by_flight * static_cast<double>(flights.references[cell]) +
-                                by_eye * static_cast<double>(profile.eyes.references[cell]));
-    demand.visits.push_back(by_flight * static_cast<double>(flights.visits[cell]) +
-                            by_eye * static_cast<double>(profile.eyes.visits[cell]));
+  for (size_t object = 0; object < profile.objects(); ++object) {
+    demand.references.push_back(by_flight * static_cast<double>(flights.references[object]) +
+                                by_eye * static_cast<double>(profile.eyes.references[object]));
+    demand.visits.push_back(by_flight * static_cast<double>(flights.visits[object]) +
+                            by_eye * static_cast<double>(profile.eyes.visits[object]));
     demand.work += demand.references.back();
   }
   return demand;
@@ -116,52 +116,52 @@ Parts parts_of(const std::vector<Interval>& line, size_t nodes) {
   return parts;
 }
 
-std::vector<CellDemand> demand_at(const std::vector<GroupDemand>& groups,
-                                  const std::vector<double>& parts,
-                                  const std::vector<uint64_t>& built_bytes) {
-  std::vector<CellDemand> cells(built_bytes.size());
-  for (size_t c = 0; c < cells.size(); ++c) {
-    cells[c].bytes = built_bytes[c];
+std::vector<ObjectDemand> demand_at(const std::vector<GroupDemand>& groups,
+                                    const std::vector<double>& parts,
+                                    const std::vector<uint64_t>& built_bytes) {
+  std::vector<ObjectDemand> objects(built_bytes.size());
+  for (size_t c = 0; c < objects.size(); ++c) {
+    objects[c].bytes = built_bytes[c];
     for (size_t g = 0; g < groups.size(); ++g) {
-      cells[c].references += parts[g] * groups[g].references[c];
-      cells[c].visits += parts[g] * groups[g].visits[c];
+      objects[c].references += parts[g] * groups[g].references[c];
+      objects[c].visits += parts[g] * groups[g].visits[c];
     }
   }
-  return cells;
+  return objects;
 }
 
-void choose_pins(NodeResidency& node, const std::vector<CellDemand>& cells, uint64_t most) {
+void choose_pins(NodeResidency& node, const std::vector<ObjectDemand>& objects, uint64_t most) {
   std::vector<uint32_t> order;
-  for (uint32_t c = 0; c < cells.size(); ++c)
-    if (cells[c].visits > 0) order.push_back(c);
+  for (uint32_t c = 0; c < objects.size(); ++c)
+    if (objects[c].visits > 0) order.push_back(c);
   const auto worth = [&](uint32_t c) {
-    return cells[c].visits / static_cast<double>(std::max<uint64_t>(cells[c].bytes, 1));
+    return objects[c].visits / static_cast<double>(std::max<uint64_t>(objects[c].bytes, 1));
   };
   std::stable_sort(order.begin(), order.end(),
                    [&](uint32_t a, uint32_t b) { return worth(a) > worth(b); });
   for (const uint32_t c : order) {
-    if (node.pinned_bytes + cells[c].bytes > most) continue;
-    node.pinned_bytes += cells[c].bytes;
+    if (node.pinned_bytes + objects[c].bytes > most) continue;
+    node.pinned_bytes += objects[c].bytes;
     node.pins.push_back(c);
   }
 }
 
-double references_of(std::span<const CellDemand> cells) {
+double references_of(std::span<const ObjectDemand> objects) {
   double all = 0;
-  for (const CellDemand& cell : cells) all += cell.references;
+  for (const ObjectDemand& object : objects) all += object.references;
   return all;
 }
 
-/// Pinned cells are always found, the others as often as the rest of the cache allows.
-double expected_hits(const NodeResidency& node, std::vector<CellDemand> cells, uint64_t bytes) {
-  const double all = references_of(cells);
-  for (const uint32_t c : node.pins) cells[c] = {};
-  const double rest = references_of(cells);
+/// Pinned objects are always found, the others as often as the rest of the cache allows.
+double expected_hits(const NodeResidency& node, std::vector<ObjectDemand> objects, uint64_t bytes) {
+  const double all = references_of(objects);
+  for (const uint32_t c : node.pins) objects[c] = {};
+  const double rest = references_of(objects);
   const uint64_t left = bytes > node.pinned_bytes ? bytes - node.pinned_bytes : 0;
-  return all - rest + rest * lru_hit_rate(cells, left);
+  return all - rest + rest * lru_hit_rate(objects, left);
 }
 
-/// Deals cells to holders.
+/// Deals objects to holders.
 class Dealer {
  public:
   Dealer(const ResidencyRequest& request, const std::vector<GroupDemand>& groups,
@@ -175,13 +175,13 @@ class Dealer {
     beside_.resize(held_.size());
   }
 
-  std::vector<NodeId> deal(size_t cell) {
+  std::vector<NodeId> deal(size_t object) {
     std::vector<NodeId> holders;
     while (holders.size() < request_.replicas) {
       // A further replica is placed as if there were the first only.
       const Costs& costs = holders.empty() ? alone_ : beside(holders.front().value);
-      const size_t node = best(cell, costs, holders);
-      held_[node] += request_.wire_bytes[cell];
+      const size_t node = best(object, costs, holders);
+      held_[node] += request_.wire_bytes[object];
       holders.push_back({static_cast<uint16_t>(node)});
     }
     return holders;
@@ -210,8 +210,8 @@ class Dealer {
     return beside_[other];
   }
 
-  size_t best(size_t cell, const Costs& costs, const std::vector<NodeId>& taken) const {
-    const auto bytes = static_cast<double>(request_.wire_bytes[cell]);
+  size_t best(size_t object, const Costs& costs, const std::vector<NodeId>& taken) const {
+    const auto bytes = static_cast<double>(request_.wire_bytes[object]);
     size_t best = held_.size();
     double least = 0;
     bool fits_best = false;
@@ -221,7 +221,7 @@ class Dealer {
       const bool fits = static_cast<double>(held_[n]) + bytes <= room_;
       double cost = 0;
       for (size_t g = 0; g < groups_.size() && fits; ++g)
-        cost += groups_[g].visits[cell] * costs[g][n];
+        cost += groups_[g].visits[object] * costs[g][n];
       const bool better =
           best == held_.size() || (fits && !fits_best) ||
           (fits == fits_best && (cost < least || (cost == least && held_[n] < held_[best])));
@@ -242,7 +242,7 @@ class Dealer {
   std::vector<Costs> beside_;
 };
 
-/// Cells that cost most on the way choose first.
+/// Objects that cost most on the way choose first.
 std::vector<uint32_t> dealing_order(const ResidencyRequest& r,
                                     const std::vector<GroupDemand>& groups) {
   std::vector<double> traffic(r.wire_bytes.size(), 0);
@@ -258,21 +258,21 @@ std::vector<uint32_t> dealing_order(const ResidencyRequest& r,
 
 }  // namespace
 
-double lru_hit_rate(std::span<const CellDemand> cells, uint64_t bytes) {
-  const double references = references_of(cells);
+double lru_hit_rate(std::span<const ObjectDemand> objects, uint64_t bytes) {
+  const double references = references_of(objects);
   if (references <= 0) return 1;
-  // Bytes of the cells that come within a time: those that are resident, where it is the
+  // Bytes of the objects that come within a time: those that are resident, where it is the
   // characteristic one. It grows with the time, so halving finds it.
   const auto resident_after = [&](double time) {
     double sum = 0;
-    for (const CellDemand& cell : cells)
-      sum -= static_cast<double>(cell.bytes) * std::expm1(-cell.visits * time);
+    for (const ObjectDemand& object : objects)
+      sum -= static_cast<double>(object.bytes) * std::expm1(-object.visits * time);
     return sum;
   };
   double all_bytes = 0, visits = 0;
-  for (const CellDemand& cell : cells) {
-    if (cell.visits > 0) all_bytes += static_cast<double>(cell.bytes);
-    visits += cell.visits;
+  for (const ObjectDemand& object : objects) {
+    if (object.visits > 0) all_bytes += static_cast<double>(object.bytes);
+    visits += object.visits;
   }
   const auto room = static_cast<double>(bytes);
   if (all_bytes <= room || visits <= 0) return 1;
@@ -283,7 +283,8 @@ double lru_hit_rate(std::span<const CellDemand> cells, uint64_t bytes) {
     (resident_after(middle) < room ? low : high) = middle;
   }
   double misses = 0;
-  for (const CellDemand& cell : cells) misses += cell.visits * std::exp(-cell.visits * high);
+  for (const ObjectDemand& object : objects)
+    misses += object.visits * std::exp(-object.visits * high);
   return 1 - misses / references;
 }
 
@@ -298,10 +299,10 @@ Residency plan_residency(const ResidencyRequest& request) {
   for (size_t n = 0; n < nodes; ++n) {
     NodeResidency node;
     node.group_ranks = ranks_of(segment_of(n, nodes), line);
-    const std::vector<CellDemand> cells = demand_at(groups, parts[n], request.built_bytes);
-    choose_pins(node, cells, request.pinned_bytes[n]);
-    const double here = references_of(cells);
-    const double found = expected_hits(node, cells, request.resident_bytes[n]);
+    const std::vector<ObjectDemand> objects = demand_at(groups, parts[n], request.built_bytes);
+    choose_pins(node, objects, request.pinned_bytes[n]);
+    const double here = references_of(objects);
+    const double found = expected_hits(node, objects, request.resident_bytes[n]);
     node.expected_hit_rate = here > 0 ? found / here : 1;
     hits += found;
     references += here;
@@ -310,7 +311,8 @@ Residency plan_residency(const ResidencyRequest& request) {
   plan.expected_hit_rate = references > 0 ? hits / references : 1;
   Dealer dealer(request, groups, parts);
   plan.holders.resize(request.wire_bytes.size());
-  for (const uint32_t cell : dealing_order(request, groups)) plan.holders[cell] = dealer.deal(cell);
+  for (const uint32_t object : dealing_order(request, groups))
+    plan.holders[object] = dealer.deal(object);
   for (size_t n = 0; n < nodes; ++n) plan.nodes[n].held_bytes = dealer.held()[n];
   return plan;
 }

@@ -6,89 +6,90 @@ namespace luxodus {
 
 SceneObjects::SceneObjects(const CompiledScene& scene, std::span<const NodeId> holders,
                            uint32_t replicas)
-    : packed_(scene.description->packed) {
+    : parts_(scene), packed_(scene.description->packed) {
   if (packed_ == nullptr) {
     encode(scene);
   } else {
-    for (const PackedGeometry::Cell& cell : packed_->cells)
-      places_.push_back({cell.object, cell.wire_bytes, {}});
+    for (const PackedScene::Object& object : packed_->objects)
+      places_.push_back({object.id, object.wire_bytes, {}});
   }
-  for (size_t cell = 0; cell < places_.size(); ++cell) {
-    ObjectPlace& place = places_[cell];
+  for (size_t object = 0; object < places_.size(); ++object) {
+    ObjectPlace& place = places_[object];
     for (uint32_t r = 0; r < replicas; ++r)
-      place.holders.push_back(holders[(cell + r) % holders.size()]);
+      place.holders.push_back(holders[(object + r) % holders.size()]);
     wire_bytes_ += place.wire_bytes;
     largest_wire_bytes_ = std::max(largest_wire_bytes_, place.wire_bytes);
+    largest_build_bytes_ =
+        std::max(largest_build_bytes_, peak_build_bytes_of(parts_[object].kind, place.wire_bytes));
   }
 }
 
 void SceneObjects::encode(const CompiledScene& scene) {
-  for (const GeometryCell& cell : scene.cells) {
-    auto bytes = std::make_shared<const std::vector<std::byte>>(encode_cell(cell));
+  for (size_t i = 0; i < parts_.count(); ++i) {
+    auto bytes = std::make_shared<const std::vector<std::byte>>(encode_part(scene, parts_[i]));
     places_.push_back({object_id_of(*bytes), bytes->size(), {}});
     bytes_.push_back(std::move(bytes));
   }
 }
 
 void SceneObjects::place(const std::vector<std::vector<NodeId>>& holders) {
-  for (size_t cell = 0; cell < places_.size(); ++cell) places_[cell].holders = holders[cell];
+  for (size_t object = 0; object < places_.size(); ++object)
+    places_[object].holders = holders[object];
 }
 
-SharedBytes SceneObjects::bytes(uint32_t cell) const {
-  if (packed_ != nullptr) return {packed_->file->object(cell), packed_};
-  return {std::span(*bytes_[cell]), bytes_[cell]};
+SharedBytes SceneObjects::bytes(uint32_t object) const {
+  if (packed_ != nullptr) return {packed_->file->object(object), packed_};
+  return {std::span(*bytes_[object]), bytes_[object]};
 }
 
-HeldCells::HeldCells(const SceneObjects& objects, NodeId self) : objects_(objects) {
-  for (uint32_t cell = 0; cell < objects.places().size(); ++cell) {
-    const auto& holders = objects.places()[cell].holders;
+HeldObjects::HeldObjects(const SceneObjects& objects, NodeId self) : objects_(objects) {
+  for (uint32_t object = 0; object < objects.places().size(); ++object) {
+    const auto& holders = objects.places()[object].holders;
     if (std::find(holders.begin(), holders.end(), self) != holders.end())
-      held_.emplace_back(objects.places()[cell].id, cell);
+      held_.emplace_back(objects.places()[object].id, object);
   }
   std::sort(held_.begin(), held_.end());
 }
 
-SharedBytes HeldCells::find(ObjectId object) {
+SharedBytes HeldObjects::find(ObjectId object) {
   const auto at = std::lower_bound(held_.begin(), held_.end(), std::pair(object, uint32_t{0}));
   return at != held_.end() && at->first == object ? objects_.bytes(at->second) : SharedBytes{};
 }
 
-BuiltCell::BuiltCell(const EmbreeDevice& device, GeometryCell cell) : cell_(std::move(cell)) {
-  const int64_t before = device.bytes();
-  scene_ = std::make_unique<CellScene>(device, cell_);
-  bytes_ = sizeof *this + static_cast<size_t>(device.bytes() - before) +
-           cell_.triangles.capacity() * sizeof(TriangleRecord) +
-           cell_.texture_uv.capacity() * sizeof(GeometryCell::TriangleUv);
+const CellScene* CachedObjects::cell(uint32_t cell) {
+  const BuiltObject* object = get(cell);
+  return object != nullptr ? &static_cast<const BuiltCell*>(object)->scene() : nullptr;
 }
 
-CellBuilder::CellBuilder(const CompiledScene& scene)
-    : limits_{static_cast<uint32_t>(scene.surfaces.size()), scene.patch_count} {}
-
-void CellBuilder::build(uint32_t object, SharedBytes bytes, Client& client) {
-  auto cell = decode_cell(bytes.bytes, limits_);
-  if (!cell.ok()) return client.built(object, cell.problem());
-  client.built(object, std::unique_ptr<BuiltObject>(
-                           std::make_unique<BuiltCell>(device_, std::move(cell).value())));
+const Brick* CachedObjects::brick(int medium, int brick) {
+  const uint32_t number = parts_.of_brick(medium, brick);
+  if (number == none_index) return &clear_brick();
+  const BuiltObject* object = get(number);
+  return object != nullptr ? &static_cast<const BuiltBrick*>(object)->brick() : nullptr;
 }
 
-const CellScene* CachedCells::cell(uint32_t cell) {
-  const BuiltObject* object = cache_.find(cell);
-  if (object == nullptr) {
-    const uint64_t particle = fibers_.current()->subject();
-    const bool traced = trace_ != nullptr && trace_->wants(particle);
-    if (traced) trace_->begin(TraceKind::wait, particle, cell);
-    const Got got = cache_.get(cell, traced);
-    if (traced) trace_->end(TraceKind::wait, particle, cell);
-    if (got.how != Got::How::resident) {
-      refused_.push_back(fibers_.current()->id());
-      return nullptr;
-    }
-    object = got.object;
-  }
-  return &static_cast<const BuiltCell*>(object)->scene();
+const ImageTile* CachedObjects::tile(uint32_t image, uint32_t tile) {
+  const BuiltObject* object = get(parts_.of_tile(image, tile));
+  return object != nullptr ? &static_cast<const BuiltTile*>(object)->tile() : nullptr;
 }
 
-bool CachedCells::spoilt() {
+const BuiltObject* CachedObjects::get(uint32_t object) {
+  const BuiltObject* found = cache_.find(object);
+  return found != nullptr ? found : wait_for(object);
+}
+
+const BuiltObject* CachedObjects::wait_for(uint32_t object) {
+  const uint64_t particle = fibers_.current()->subject();
+  const bool traced = trace_ != nullptr && trace_->wants(particle);
+  if (traced) trace_->begin(TraceKind::wait, particle, object);
+  const Got got = cache_.get(object, traced);
+  if (traced) trace_->end(TraceKind::wait, particle, object);
+  if (got.how == Got::How::resident) return got.object;
+  refused_.push_back(fibers_.current()->id());
+  return nullptr;
+}
+
+bool CachedObjects::spoilt() {
   return !refused_.empty() && std::erase(refused_, fibers_.current()->id()) > 0;
 }
 

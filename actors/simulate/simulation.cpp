@@ -66,7 +66,7 @@ class Draw {
 size_t tight_budget(const CompiledScene& scene, size_t more) {
   const std::array holders{NodeId{0}};
   const SceneObjects objects(scene, holders, 1);
-  return 2 * more * peak_build_bytes_of(objects.largest_wire_bytes());
+  return 2 * more * objects.largest_build_bytes();
 }
 
 NodesOptions drawn_nodes(Draw& draw, const CompiledScene& scene, const SimOptions& options) {
@@ -74,11 +74,12 @@ NodesOptions drawn_nodes(Draw& draw, const CompiledScene& scene, const SimOption
   nodes.nodes = options.nodes;
   nodes.links = options.links;
   nodes.profile_share = 0;
+  nodes.sharing = false;  // each stands for a machine
   if (!options.draw_nodes) return nodes;
   nodes.pinned_share = 0;
   nodes.fibers = draw.one_of<size_t>({1, 2, 4, 16, 64});
   const auto room = draw.one_of<size_t>({0, 1, 1, 2, 8});
-  if (scene.cell_boxes.size() > 1 && room > 0) nodes.object_bytes = tight_budget(scene, room);
+  if (in_parts(scene) && room > 0) nodes.object_bytes = tight_budget(scene, room);
   nodes.replicas = std::min(draw.one_of<uint32_t>({1, 2, 3}), static_cast<uint32_t>(options.nodes));
   return nodes;
 }

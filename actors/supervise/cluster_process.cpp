@@ -91,14 +91,17 @@ Result<Graph> graph_of(const ClusterConfig& cluster) {
   return graph;
 }
 
-int cells_for(const ClusterConfig& cluster, uint64_t built_bytes) {
+uint64_t smallest_object_bytes(const ClusterConfig& cluster) {
   uint64_t smallest = UINT64_MAX;
   for (const ClusterNode& node : cluster.nodes) {
     if (node.role == NodeRole::worker) smallest = std::min(smallest, node.budget.object_bytes);
   }
-  if (built_bytes <= smallest) return 1;
-  return static_cast<int>(std::min<uint64_t>(
-      built_bytes / std::max<uint64_t>(smallest / cells_of_a_budget, 1) + 1, 1'000'000));
+  return smallest;
+}
+
+int cells_for(const ClusterConfig& cluster, uint64_t built_geometry_bytes) {
+  const uint64_t most = std::max<uint64_t>(smallest_object_bytes(cluster) / cells_of_a_budget, 1);
+  return static_cast<int>(std::min<uint64_t>(built_geometry_bytes / most + 1, 1'000'000));
 }
 
 std::vector<NodeId> holders_of(const ClusterConfig& cluster) {
@@ -157,12 +160,13 @@ Result<bool> ClusterProcessRun::load_scene() {
   if (!scenario.ok()) return scenario.problem();
   auto scene = compile_scene(description.value(), scenario.value(), {1});
   if (!scene.ok()) return scene.problem();
-  const uint64_t built = built_bytes_of(scene.value()->triangles * sizeof(TriangleRecord));
-  const int wanted = cells_for(cluster_, built);
-  fetches_ = wanted > 1;
-  const PackedGeometry* packed = description.value()->packed.get();
+  const uint64_t geometry = built_bytes_of(scene.value()->triangles * sizeof(TriangleRecord));
+  const uint64_t beside = built_bytes_beside_cells(*scene.value());
+  fetches_ = geometry + beside > smallest_object_bytes(cluster_);
+  const int wanted = fetches_ ? cells_for(cluster_, geometry) : 1;
+  const PackedScene* packed = description.value()->packed.get();
   cells_ = packed != nullptr ? packed->partition : wanted;
-  if (packed == nullptr && fetches_)
+  if (packed == nullptr && wanted > 1)
     scene = compile_scene(description.value(), scenario.value(), {cells_});
   if (!scene.ok()) return scene.problem();
   const uint64_t seed = description.value()->run.seed;
@@ -170,13 +174,14 @@ Result<bool> ClusterProcessRun::load_scene() {
     run_ = std::make_unique<LocalRun>(scene.value(), seed, 1);
     return true;
   }
-  if (scene.value()->cell_boxes.size() < 2) {
+  if (!in_parts(*scene.value())) {
     return Problem{{cluster_.run.scene.string(), 0},
                    "this pack is of one cell, which is more than a node's object_bytes: pack the "
                    "scene with a smaller --cell-kib"};
   }
   StoredRowsConfig rows;
   rows.object_bytes = cluster_.node(cluster_.controller()).budget.object_bytes;
+  rows.sharing = cluster_.run.sharing;
   run_ = std::make_unique<LocalRun>(scene.value(), seed, 1,
                                     std::make_unique<StoredRows>(scene.value(), rows));
   return true;
@@ -202,7 +207,7 @@ Result<ReferenceProfile> ClusterProcessRun::profile(double share) const {
 
 Result<std::optional<Residency>> ClusterProcessRun::planned_residency(const RunSetup& run) const {
   if (cluster_.run.profile.empty()) return std::optional<Residency>();
-  auto profile = read_profile(cluster_.run.profile, run.scene);
+  auto profile = read_profile(cluster_.run.profile, run.scene, run.objects->places().size());
   if (!profile.ok()) return profile.problem();
   ResidencyBudgets budgets{{}, pinned_share, replicas()};
   for (const ClusterNode& node : cluster_.nodes)
@@ -292,6 +297,7 @@ Result<std::optional<StopReason>> ClusterProcessRun::run(
   const EmbreeDevice device;
   std::optional<SceneObjects> objects;
   std::optional<ProxyScene> proxies;
+  std::optional<SharedObjects> shared;
   const SceneIndex* index = fetches_ ? nullptr : &run_->index();
   const Machine machine{clock, context};
   RunSetup setup{run_->scene(), index, nullptr, nullptr, run_->seed(), graph_, {}, nullptr};
@@ -304,6 +310,7 @@ Result<std::optional<StopReason>> ClusterProcessRun::run(
     proxies.emplace(device, run_->scene().cell_boxes);
     setup.objects = &*objects;
     setup.proxies = &*proxies;
+    if (cluster_.run.sharing) setup.shared = &shared.emplace(objects->places().size());
     auto planned = planned_residency(setup);
     if (!planned.ok()) return planned.problem();
     residency = std::move(planned).value();

@@ -21,10 +21,12 @@ namespace luxodus {
 /// Errors: a graph that is none, or not of this cluster's size.
 Result<Graph> graph_of(const ClusterConfig& cluster);
 
-/// Cells of the partition: 1 where every worker's budget holds the whole scene, else so many that a
-/// sixteenth of the smallest budget holds one. A pure function of file and scene, so all nodes
-/// agree.
-int cells_for(const ClusterConfig& cluster, uint64_t built_bytes);
+/// The smallest budget for objects of a worker [bytes].
+uint64_t smallest_object_bytes(const ClusterConfig& cluster);
+
+/// Cells of the partition: so many that a sixteenth of the smallest budget holds one. A pure
+/// function of file and scene, so all nodes agree.
+int cells_for(const ClusterConfig& cluster, uint64_t built_geometry_bytes);
 
 /// The workers among which objects are shared out.
 std::vector<NodeId> holders_of(const ClusterConfig& cluster);
@@ -43,7 +45,7 @@ class ClusterProcessRun {
   Result<std::optional<StopReason>> run(const std::atomic<bool>& interrupt,
                                         const std::function<void(const Progress&)>& report);
 
-  /// What nodes ask of cells, counted with this share of the run's particles.
+  /// What nodes ask of objects, counted with this share of the run's particles.
   /// Errors: budgets that hold the whole scene, so that nothing is fetched.
   Result<ReferenceProfile> profile(double share) const;
   /// After run(), of a run with a profile: lines of residency_table() for the nodes that are here.
@@ -59,7 +61,7 @@ class ClusterProcessRun {
   ClusterProcessRun(const ClusterConfig& cluster, Graph graph)
       : cluster_(cluster), graph_(std::move(graph)) {}
 
-  /// Nodes that hold a cell: one may be lost.
+  /// Nodes that hold an object: one may be lost.
   uint32_t replicas() const {
     return std::min<uint32_t>(2, static_cast<uint32_t>(cluster_.workers()));
   }

@@ -17,6 +17,13 @@ FetchConfig fetch_config(const RunSetup& run, const NodeSetup& node, NodeTrace* 
   return config;
 }
 
+CacheConfig cache_of(const RunSetup& run, const NodeSetup& node, NodeTrace* trace) {
+  CacheConfig config = cache_config(*run.objects, node);
+  config.trace = trace;
+  config.shared = run.shared;
+  return config;
+}
+
 Random jitter_of(NodeId self) {
   Random random(self.value, RandomStream::fetch);
   random.start(0);
@@ -31,6 +38,7 @@ void WorkerReport::add(const WorkerReport& other) {
   fetches += other.fetches;
   joined += other.joined;
   builds += other.builds;
+  builds_saved += other.builds_saved;
   evictions += other.evictions;
   waited += other.waited;
   fetched_bytes += other.fetched_bytes;
@@ -44,13 +52,12 @@ FetchingCells::FetchingCells(const RunSetup& run, const NodeSetup& node, NodeShe
                              NodeTrace* trace)
     : self_(node.net.self),
       store_(*run.objects, node.net.self),
-      builder_(run.scene),
+      builder_(run.scene, run.objects->parts()),
       fetcher_(fetch_config(run, node, trace), run.objects->places(), store_, shell.network(),
                shell.scheduler().timers(), shell.scheduler().clock(), jitter_of(node.net.self)),
-      cache_(cache_config(*run.objects, node, trace), run.objects->places().size(), fetcher_,
-             builder_, shell.scheduler().fibers(), shell.scheduler().timers(),
-             shell.scheduler().clock()),
-      source_(cache_, shell.scheduler().fibers(), trace) {
+      cache_(cache_of(run, node, trace), run.objects->places().size(), fetcher_, builder_,
+             shell.scheduler().fibers(), shell.scheduler().timers(), shell.scheduler().clock()),
+      source_(run.objects->parts(), cache_, shell.scheduler().fibers(), trace) {
   shell.use(fetcher_);
 }
 
@@ -62,8 +69,9 @@ void FetchingCells::add_metrics(Metrics& metrics) const {
 WorkerReport FetchingCells::report() const {
   const ObjectCache::Counters& c = cache_.counters();
   const Fetcher::Counters& f = fetcher_.counters();
-  return {self_, c.hits,     c.misses,         f.fetches,      c.joined, c.builds, c.evictions,
-          0,     f.bytes_in, c.resident_bytes, c.pinned_bytes, 0,        0};
+  return {
+      self_,       c.hits, c.misses,   f.fetches,        c.joined,       c.builds, c.builds_saved,
+      c.evictions, 0,      f.bytes_in, c.resident_bytes, c.pinned_bytes, 0,        0};
 }
 
 }  // namespace luxodus

@@ -1,5 +1,5 @@
-// What a node needs that does not hold all geometry: a store for what it holds for others, a cache
-// for itself, and the way to everybody else's. Thread rule: the node's thread.
+// What a node needs that does not hold all parts of the scene: a store for what it holds for
+// others, a cache for itself, and the way to everybody else's. Thread rule: the node's thread.
 #pragma once
 
 #include "actors/supervise/node_setup.hpp"
@@ -11,10 +11,11 @@ namespace luxodus {
 struct WorkerReport {
   NodeId node;
   uint64_t hits = 0;
-  uint64_t misses = 0;  // that began a fetch
+  uint64_t misses = 0;  // that found it absent
   uint64_t fetches = 0;
   uint64_t joined = 0;  // fibers that found a fetch under way
   uint64_t builds = 0;
+  uint64_t builds_saved = 0;  // another node of the process had it ready
   uint64_t evictions = 0;
   uint64_t waited = 0;  // [ns] with nothing to do
   uint64_t fetched_bytes = 0;
@@ -24,7 +25,7 @@ struct WorkerReport {
   uint64_t tally_bytes_most = 0;  // of one node, where its budget is less than all bins take
 
   void add(const WorkerReport& other);
-  /// Of all references to cells, those that found the cell resident; 1 where there was none.
+  /// Of all references to objects, those that found the object resident; 1 where there was none.
   double hit_rate() const {
     const uint64_t all = hits + misses + joined;
     return all == 0 ? 1 : static_cast<double>(hits) / static_cast<double>(all);
@@ -40,17 +41,17 @@ class FetchingCells {
   ObjectSource& source() { return source_; }
   const ObjectCache& cache() const { return cache_; }
   /// Keeps these for good, as far as their share of the budget goes.
-  void pin(std::span<const uint32_t> cells) { cache_.pin(cells); }
+  void pin(std::span<const uint32_t> objects) { cache_.pin(objects); }
   void add_metrics(Metrics& metrics) const;
   WorkerReport report() const;
 
  private:
   const NodeId self_;
-  HeldCells store_;
-  CellBuilder builder_;
+  HeldObjects store_;
+  PartBuilder builder_;
   Fetcher fetcher_;
   ObjectCache cache_;
-  CachedCells source_;
+  CachedObjects source_;
 };
 
 }  // namespace luxodus

@@ -74,12 +74,15 @@ MemoryPlan process_plan(const RunSetup& run) {
   if (!mapped || run.index != nullptr)
     plan.add("geometry", cells,
              fmt::format("{} triangles x {} B", run.scene.triangles, sizeof(TriangleRecord)));
+  const uint64_t beside = built_bytes_beside_cells(run.scene);
+  if (beside > 0 && (!mapped || run.index != nullptr))
+    plan.add("smoke data, pictures", beside, "bricks of 16^3 cells and texels, as built");
   if (run.index != nullptr)
     plan.add("search structures", built_bytes_of(cells) - cells,
              "about 111 B a triangle of a cell that is whole here");
   if (run.objects != nullptr && !mapped)
     plan.add("objects to serve", run.objects->wire_bytes(),
-             fmt::format("{} cells as they travel", run.objects->places().size()));
+             fmt::format("{} objects as they travel", run.objects->places().size()));
   return plan;
 }
 
@@ -104,10 +107,8 @@ SchedulerLimits controller_limits(const NodeSetup& node) {
   return limits;
 }
 
-CacheConfig cache_config(const SceneObjects& objects, const NodeSetup& node, NodeTrace* trace) {
-  CacheConfig config = cell_cache(objects, node.object_bytes, node.pinned_share);
-  config.trace = trace;
-  return config;
+CacheConfig cache_config(const SceneObjects& objects, const NodeSetup& node) {
+  return object_cache(objects, node.object_bytes, node.pinned_share);
 }
 
 MemoryPlan tally_plan(const CompiledScene& scene, const NodeSetup& node) {
@@ -137,12 +138,13 @@ MemoryPlan worker_plan(const RunSetup& run, const NodeSetup& node) {
     add_shard(plan, run, shard);
   uint64_t histograms = 2;
   if (run.objects != nullptr) {
-    const size_t cells = run.objects->places().size();
-    Fetcher::plan_memory(plan, node.fetch, cells);
-    ObjectCache::plan_memory(plan, cache_config(*run.objects, node), cells);
+    const size_t objects = run.objects->places().size();
+    Fetcher::plan_memory(plan, node.fetch, objects);
+    ObjectCache::plan_memory(plan, cache_config(*run.objects, node), objects);
     histograms += limits::hops + 1;
   }
-  plan.add("histograms", histogram_bytes(run), "of batches, and of builds where cells are fetched");
+  plan.add("histograms", histogram_bytes(run),
+           "of batches, and of builds where objects are fetched");
   add_metrics(plan, run, histograms);
   if (run.observation != nullptr && run.observation->traces())
     plan.add("trace", limits::trace_events * sizeof(TraceEvent),
@@ -185,12 +187,12 @@ std::optional<std::string> budget_fault(const RunSetup& run, const NodeSetup& no
   const uint64_t needed = 2 * cache.largest_build_bytes + cache.pinned_bytes_most();
   if (cache.budget_bytes < needed)
     return fmt::format(
-        "node {}: its cache needs {}, room for the largest cell and one more being built, and "
+        "node {}: its cache needs {}, room for the largest object and one more being built, and "
         "object_bytes is {}: raise object_bytes in [budget], or cut the scene into more cells",
         name, mebibytes(needed), mebibytes(cache.budget_bytes));
   if (run.objects->largest_wire_bytes() > node.fetch.receive_bytes)
     return fmt::format(
-        "node {}: the largest cell has {}, and {} are received at once: cut the scene into more "
+        "node {}: the largest object has {}, and {} are received at once: cut the scene into more "
         "cells",
         name, mebibytes(run.objects->largest_wire_bytes()), mebibytes(node.fetch.receive_bytes));
   return std::nullopt;

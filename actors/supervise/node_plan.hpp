@@ -17,9 +17,8 @@ namespace luxodus {
 SchedulerLimits worker_limits(const RunSetup& run, const NodeSetup& node);
 SchedulerLimits controller_limits(const NodeSetup& node);
 
-/// The cache of a worker that fetches cells.
-CacheConfig cache_config(const SceneObjects& objects, const NodeSetup& node,
-                         NodeTrace* trace = nullptr);
+/// The cache of a worker that fetches objects.
+CacheConfig cache_config(const SceneObjects& objects, const NodeSetup& node);
 
 /// What a worker's tally takes: scores of open batches, totals and a flush, or its key
 /// `tally_bytes` where that is less.

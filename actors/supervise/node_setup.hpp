@@ -22,13 +22,14 @@ namespace luxodus {
 struct RunSetup {
   const CompiledScene& scene;
   const SceneIndex* index = nullptr;      // where everything is resident
-  const ProxyScene* proxies = nullptr;    // where cells are fetched
+  const ProxyScene* proxies = nullptr;    // where objects are fetched
   const SceneObjects* objects = nullptr;  // likewise
   uint64_t seed = 0;
   const Graph& graph;
   std::vector<std::string> names;      // of nodes, by number
   Observation* observation = nullptr;  // where somebody watches
   ShardPlan shards = {};               // of the totals
+  SharedObjects* shared = nullptr;  // what nodes of the process have built; null: to each its own
 
   /// Of a node, for people.
   std::string name_of(NodeId node) const {
@@ -51,8 +52,8 @@ struct NodeSetup {
   Nanoseconds lost = ControllerConfig{}.lost;
   Nanoseconds lease_time = ControllerConfig{}.lease_time;
   FetchConfig fetch;
-  size_t object_bytes = 0;  // for built cells, where cells are fetched
-  double pinned_share = 0;  // of these for pinned cells, at most
+  size_t object_bytes = 0;  // for built objects, where objects are fetched
+  double pinned_share = 0;  // of these for pinned ones, at most
   std::vector<uint32_t> pins;
   /// The controller's: see ControllerConfig::group_ranks.
   std::vector<std::vector<uint32_t>> group_ranks;

@@ -31,12 +31,12 @@ std::optional<std::string> fault_of(const NodesOptions& options, const CompiledS
     if (resident) return std::nullopt;
     return "nodes that do not hold the whole scene need a budget for objects";
   }
-  if (scene.cell_boxes.size() < 2)
+  if (!in_parts(scene))
     return "nodes with a budget need a partition of the geometry: add --cells, or pack the scene "
            "with more than one";
   if (options.replicas < 1 || options.replicas > static_cast<uint32_t>(options.nodes) ||
       options.replicas > limits::holders)
-    return "a cell can be held by 1 to " + std::to_string(limits::holders) +
+    return "an object can be held by 1 to " + std::to_string(limits::holders) +
            " nodes, and by no more than there are";
   return std::nullopt;
 }
@@ -122,6 +122,7 @@ PlannedNodes::PlannedNodes(const LocalRun& run, const NodesOptions& options, Gra
   proxies_.emplace(device_, run.scene().cell_boxes);
   setup_.objects = &*objects_;
   setup_.proxies = &*proxies_;
+  if (options.sharing) setup_.shared = &shared_.emplace(objects_->places().size());
 }
 
 /// Who traces, holds and keeps what: before the nodes are set up, whose handshake covers it.

@@ -28,14 +28,15 @@ struct NodesOptions {
   int links = 4;         // of a node at most
   size_t fibers = 1;     // photon-threads of a node
   size_t portion = 128;  // particles a fiber takes at once, at most
-  /// For built geometry cells, of each node. 0: everything is resident, and shared. With a budget
-  /// each node holds its share of the cells' bytes for all, and fetches and builds what it needs.
+  /// For built objects, of each node. 0: everything is resident, and shared. With a budget each
+  /// node holds its share of the objects' bytes for all, and fetches and builds what it needs.
   size_t object_bytes = 0;
-  uint32_t replicas = 1;  // nodes that hold a cell's bytes
+  uint32_t replicas = 1;  // nodes that hold an object's bytes
+  bool sharing = true;    // an object that several nodes have is built once, and is one copy
   /// With a budget: the share of the run's particles that is traced beforehand, to plan who traces,
   /// holds and keeps what. 0: no plan.
   double profile_share = 0.01;
-  double pinned_share = 0.5;  // of a budget, for cells that the plan has kept for good
+  double pinned_share = 0.5;  // of a budget, for objects that the plan has kept for good
   /// Of every link, on purpose: what a distance would cost, and how many fibers hide it.
   Nanoseconds link_delay = 0;
   uint64_t tally_bytes = NodeSetup{}.tally_bytes;  // of each node, for scores, totals and flushes
@@ -71,6 +72,7 @@ class PlannedNodes {
   const EmbreeDevice device_;
   std::optional<SceneObjects> objects_;
   std::optional<ProxyScene> proxies_;
+  std::optional<SharedObjects> shared_;
   RunSetup setup_;
   std::vector<NodeSetup> workers_;
   NodeSetup controller_;

@@ -10,10 +10,10 @@
 
 namespace luxodus {
 
-CacheConfig cell_cache(const SceneObjects& objects, size_t object_bytes, double pinned_share) {
+CacheConfig object_cache(const SceneObjects& objects, size_t object_bytes, double pinned_share) {
   CacheConfig config;
   config.budget_bytes = object_bytes;
-  config.largest_build_bytes = peak_build_bytes_of(objects.largest_wire_bytes());
+  config.largest_build_bytes = objects.largest_build_bytes();
   const size_t kept = 2 * config.largest_build_bytes;  // for one object and one build
   const double room = object_bytes > kept ? static_cast<double>(object_bytes - kept) /
                                                 static_cast<double>(object_bytes)
@@ -45,14 +45,14 @@ Residency residency_for(const ReferenceProfile& profile, const CompiledScene& sc
   ResidencyRequest request{
       profile, BatchPlan(scene).shares(), scene.batch_particles, {}, {}, {}, {},
       {},      budgets.replicas};
-  for (size_t cell = 0; cell < objects.places().size(); ++cell) {
-    const uint64_t wire = objects.places()[cell].wire_bytes;
-    const uint64_t built = profile.built_bytes[cell];
-    request.wire_bytes.push_back(wire);
-    request.built_bytes.push_back(built > 0 ? built : built_bytes_of(wire));
+  for (uint32_t object = 0; object < objects.places().size(); ++object) {
+    const uint64_t built = profile.built_bytes[object];
+    request.wire_bytes.push_back(objects.places()[object].wire_bytes);
+    request.built_bytes.push_back(built > 0 ? built : objects.built_bytes(object));
   }
   for (Vertex node = 0; node < graph.workers(); ++node) {
-    const CacheConfig cache = cell_cache(objects, budgets.object_bytes[node], budgets.pinned_share);
+    const CacheConfig cache =
+        object_cache(objects, budgets.object_bytes[node], budgets.pinned_share);
     request.resident_bytes.push_back(cache.resident_bytes_most());
     request.pinned_bytes.push_back(cache.pinned_bytes_most());
     request.hops.push_back(hops_from(graph, node));
@@ -75,18 +75,19 @@ constexpr double mib = 1024.0 * 1024;
 
 std::string row(const std::string& name, double held, double pinned, double expected,
                 const WorkerReport& report) {
-  return fmt::format("{:<8} {:>9.2f} {:>10.2f} {:>9.2f} % {:>9.2f} % {:>9} {:>9.2f}", name,
-                     held / mib, pinned / mib, 100 * expected, 100 * report.hit_rate(),
-                     report.fetches, static_cast<double>(report.fetched_bytes) / mib);
+  return fmt::format("{:<8} {:>9.2f} {:>10.2f} {:>9.2f} % {:>9.2f} % {:>9} {:>9.2f} {:>9} {:>9}",
+                     name, held / mib, pinned / mib, 100 * expected, 100 * report.hit_rate(),
+                     report.fetches, static_cast<double>(report.fetched_bytes) / mib, report.builds,
+                     report.builds_saved);
 }
 
 }  // namespace
 
 std::vector<std::string> residency_table(const Residency& residency,
                                          const std::vector<WorkerReport>& nodes) {
-  std::vector<std::string> lines{fmt::format("{:<8} {:>9} {:>10} {:>11} {:>11} {:>9} {:>9}", "node",
-                                             "held MiB", "pinned MiB", "expected", "hit rate",
-                                             "fetches", "MiB")};
+  std::vector<std::string> lines{
+      fmt::format("{:<8} {:>9} {:>10} {:>11} {:>11} {:>9} {:>9} {:>9} {:>9}", "node", "held MiB",
+                  "pinned MiB", "expected", "hit rate", "fetches", "MiB", "builds", "shared")};
   WorkerReport all;
   double held = 0, expected = 0;
   for (const WorkerReport& report : nodes) {

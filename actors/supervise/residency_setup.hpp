@@ -21,12 +21,12 @@ struct ResidencyBudgets {
 
 /// The cache of a node with this budget. Where that has no room for so many pins beside one object
 /// and one build, fewer may be pinned.
-CacheConfig cell_cache(const SceneObjects& objects, size_t object_bytes, double pinned_share);
+CacheConfig object_cache(const SceneObjects& objects, size_t object_bytes, double pinned_share);
 
 /// Links from one node to each node on the shortest way.
 std::vector<uint32_t> hops_from(const Graph& graph, Vertex from);
 
-/// The plan for a run's workers. Requires: the profile is of this scene and its cells.
+/// The plan for a run's workers. Requires: the profile is of this scene and its objects.
 Residency residency_for(const ReferenceProfile& profile, const CompiledScene& scene,
                         const SceneObjects& objects, const Graph& graph,
                         const ResidencyBudgets& budgets);

@@ -105,8 +105,10 @@ void work(const RunSetup& run, const NodeSetup& node, const Clock& clock,
 
 void StoredRows::run(int64_t rows, const MakeWorker& make, const Finished& finished) const {
   if (rows == 0) return;
-  const RunSetup run{*scene_, nullptr, &stored_->proxies, &stored_->objects, 0, stored_->graph,
-                     {},      nullptr};
+  SharedObjects shared_objects(stored_->objects.places().size());
+  RunSetup run{*scene_, nullptr, &stored_->proxies, &stored_->objects, 0, stored_->graph,
+               {},      nullptr};
+  if (config_.sharing) run.shared = &shared_objects;
   NodeSetup node;
   node.net.self = {0};
   node.net.incarnation = {1};
@@ -130,7 +132,7 @@ void StoredRows::run(int64_t rows, const MakeWorker& make, const Finished& finis
   for (std::thread& thread : threads) thread.join();
   if (!wrong.empty()) throw std::runtime_error(wrong);
   if (shared.failed)
-    throw std::runtime_error("geometry of this scene could not be read from where it is stored");
+    throw std::runtime_error("parts of this scene could not be read from where it is stored");
 }
 
 }  // namespace luxodus

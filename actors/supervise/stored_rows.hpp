@@ -1,6 +1,6 @@
-// Rows of work where geometry does not fit into memory: every thread is a node without links, whose
-// fibers wait for cells out of the scene's own storage, a pack or the process's memory. So what is
-// computed of a result (direct light, pictures) reaches geometry as tracing does.
+// Rows of work where a scene does not fit into memory: every thread is a node without links, whose
+// fibers wait for objects out of the scene's own storage, a pack or the process's memory. So what
+// is computed of a result (direct light, pictures) reaches the scene's parts as tracing does.
 #pragma once
 
 #include <memory>
@@ -13,16 +13,17 @@ namespace luxodus {
 struct StoredRowsConfig {
   int threads = 1;
   size_t fibers = 256;      // of a thread
-  size_t object_bytes = 0;  // for built cells, of all threads together
+  size_t object_bytes = 0;  // for built objects, of all threads together
+  bool sharing = true;      // an object that several threads have is built once
 };
 
 class StoredRows final : public RowRunner {
  public:
-  /// Requires: `scene` has several cells.
+  /// Requires: in_parts(scene).
   StoredRows(std::shared_ptr<const CompiledScene> scene, const StoredRowsConfig& config);
   ~StoredRows() override;
 
-  /// Errors (exception): a budget without room for a cell and a build; a pack without objects.
+  /// Errors (exception): a budget without room for an object and a build; a pack without objects.
   void run(int64_t rows, const MakeWorker& make, const Finished& finished) const override;
 
  private:

@@ -96,6 +96,7 @@ struct RunChoice {
   std::string scenario;  // "": the scene's first
   std::filesystem::path out;
   std::filesystem::path profile;  // empty: none
+  bool sharing = true;            // nodes of one process share what they build
   std::optional<uint64_t> particles;
   std::optional<double> relative_error;
   std::optional<double> time_s;

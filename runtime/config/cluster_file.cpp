@@ -42,6 +42,7 @@ void read_run(TableReader& top, ClusterReading& reading) {
   run.out = keys.path("out");
   if (!keys.has("out")) run.out = reading.cluster.file.parent_path() / "out" / run.name;
   run.profile = keys.path("profile");
+  run.sharing = keys.flag("sharing");
   run.particles = keys.maybe_integer("particles");
   run.relative_error = keys.maybe_number("relative_error");
   run.time_s = keys.maybe_number("time_s");

@@ -41,8 +41,11 @@ std::vector<TableSpec> run_tables() {
             "folder of the results, on the controller's host; `out/NAME` beside this file unless "
             "said"},
            {"profile", "path", "", "", "",
-            "file of `luxodus profile`, by which nodes that fetch geometry plan who traces, holds "
+            "file of `luxodus profile`, by which nodes that fetch objects plan who traces, holds "
             "and keeps what; no plan without it"},
+           {"sharing", "flag", "", "true", "",
+            "nodes of one process share what several of them have built of the scene: one copy, "
+            "built once"},
            {"particles", "integer", "", "", "[1, 9e18]",
             "the run ends after so many; the first that is reached of this and the next two ends "
             "it"},

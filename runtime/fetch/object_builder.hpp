@@ -14,7 +14,7 @@
 
 namespace luxodus {
 
-/// An object ready for use. It does not change.
+/// An object ready for use. It does not change, and may be let go on any thread of its process.
 class BuiltObject {
  public:
   virtual ~BuiltObject() = default;
@@ -28,7 +28,8 @@ class ObjectBuilder {
   class Client {
    public:
     virtual ~Client() = default;
-    virtual void built(uint32_t object, Result<std::unique_ptr<BuiltObject>> result) = 0;
+    /// One allocation if it is made by std::make_shared.
+    virtual void built(uint32_t object, Result<std::shared_ptr<const BuiltObject>> result) = 0;
   };
 
   virtual ~ObjectBuilder() = default;

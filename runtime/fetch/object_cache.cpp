@@ -54,6 +54,9 @@ void ObjectCache::add_metrics(Metrics& metrics) const {
   metrics.add_counter({"cache_misses", "", "Objects found absent.", ""}, c.misses);
   metrics.add_counter({"cache_joined", "", "Objects found under way.", ""}, c.joined);
   metrics.add_counter({"builds", "", "Objects built.", ""}, c.builds);
+  metrics.add_counter(
+      {"builds_saved", "", "Objects that another node of the process had ready.", ""},
+      c.builds_saved);
   metrics.add_counter({"build_failures", "", "Objects that could not be built.", ""},
                       c.build_failures);
   metrics.add_counter({"evictions", "", "Objects that made room.", ""}, c.evictions);
@@ -101,9 +104,15 @@ void ObjectCache::pin(std::span<const uint32_t> objects) {
 }
 
 void ObjectCache::request(uint32_t object, bool traced) {
-  entries_[object].state = ObjectState::requested;
-  entries_[object].traced = traced && config_.trace != nullptr;
-  fetcher_.fetch(object, *this, entries_[object].traced);
+  Entry& entry = entries_[object];
+  entry.traced = traced && config_.trace != nullptr;
+  if (config_.shared != nullptr && config_.shared->find(object) != nullptr) {
+    entry.state = ObjectState::building;
+    to_build_.push_back(entry);
+    return step_soon();
+  }
+  entry.state = ObjectState::requested;
+  fetcher_.fetch(object, *this, entry.traced);
 }
 
 // ---- objects come
@@ -122,7 +131,7 @@ void ObjectCache::unobtainable(uint32_t object) {
   wake_waiters(entry);
 }
 
-void ObjectCache::built(uint32_t object, Result<std::unique_ptr<BuiltObject>> result) {
+void ObjectCache::built(uint32_t object, Result<std::shared_ptr<const BuiltObject>> result) {
   LUX_CHECK(in_builder_ && entries_[object].state == ObjectState::building,
             "a builder answered what it was not asked");
   LUX_CHECK(!result || result.value() != nullptr, "a builder said that nothing is an object");
@@ -130,6 +139,8 @@ void ObjectCache::built(uint32_t object, Result<std::unique_ptr<BuiltObject>> re
   build_time_.add(clock_.now() - build_began_);
   if (entries_[object].traced) config_.trace->end(TraceKind::build, object, object);
   ready_ = &entries_[object];
+  if (result && config_.shared != nullptr)
+    result = config_.shared->add(object, std::move(result).value());
   ready_result_ = std::move(result);
   fetcher_.release(object);
   step_soon();
@@ -160,7 +171,27 @@ void ObjectCache::step() {
   if (ready_ == nullptr && !in_builder_ && !to_build_.empty()) start_build(*to_build_.pop_front());
 }
 
+/// What another node of the process has ready is not held before its turn: nobody would be charged.
+bool ObjectCache::take_shared(Entry& entry) {
+  if (config_.shared == nullptr) return false;
+  auto built = config_.shared->find(number_of(entry));
+  if (built == nullptr) return false;
+  ++counters_.builds_saved;
+  if (!std::exchange(entry.bytes, {}).bytes.empty()) fetcher_.release(number_of(entry));
+  ready_ = &entry;
+  ready_result_ = std::move(built);
+  step_soon();
+  return true;
+}
+
 void ObjectCache::start_build(Entry& entry) {
+  if (take_shared(entry)) return;
+  if (entry.bytes.bytes.empty()) {  // let go of by the other node before its turn
+    entry.state = ObjectState::requested;
+    fetcher_.fetch(number_of(entry), *this, entry.traced);
+    if (!to_build_.empty()) step_soon();
+    return;
+  }
   ++counters_.builds;
   in_builder_ = true;
   build_began_ = clock_.now();
@@ -169,7 +200,7 @@ void ObjectCache::start_build(Entry& entry) {
   builder_.build(number_of(entry), std::exchange(entry.bytes, {}), *this);
 }
 
-void ObjectCache::come_in(Entry& entry, std::unique_ptr<BuiltObject> built) {
+void ObjectCache::come_in(Entry& entry, std::shared_ptr<const BuiltObject> built) {
   entry.charge = built->bytes();
   if (entry.charge > config_.largest_build_bytes) ++counters_.oversized;
   while (counters_.resident_bytes + entry.charge > config_.resident_bytes_most() &&

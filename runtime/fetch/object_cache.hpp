@@ -5,6 +5,9 @@
 // An object that is found stays where it is until the fiber that found it next suspends; no longer,
 // so nobody keeps the pointer. Objects come in and go on the scheduler's stack only.
 //
+// Where the nodes of a process share, an object that another of them has ready is neither fetched
+// nor built, but comes in as if it had been.
+//
 // Progress: an object comes in only when every fiber that was woken for the one before has run. So
 // each wait ends with the object in hand, even where the cache has room for a single one.
 //
@@ -20,6 +23,7 @@
 #include "runtime/core/check.hpp"
 #include "runtime/fetch/fetcher.hpp"
 #include "runtime/fetch/object_builder.hpp"
+#include "runtime/fetch/shared_objects.hpp"
 #include "runtime/fiber/fiber.hpp"
 
 namespace luxodus {
@@ -33,7 +37,8 @@ namespace luxodus {
 ///     └──────────────────────────────── room is needed ────────────────────────────────────┘
 ///
 /// Building lasts from the bytes' arrival: in line for the builder, with it, and then until the
-/// fibers woken for the object before have run.
+/// fibers woken for the object before have run. What another node of the process has ready is in
+/// line at once; if that has let it go before its turn, it is requested.
 enum class ObjectState : uint8_t { absent, requested, building, resident };
 
 struct CacheConfig {
@@ -44,6 +49,8 @@ struct CacheConfig {
   /// Of the budget, what pinned objects may take at most: the rest serves what was not foreseen.
   double pinned_share = 0.5;
   NodeTrace* trace = nullptr;  // null: nothing is traced
+  /// What nodes of the process have ready; null: this node shares nothing. It outlives the cache.
+  SharedObjects* shared = nullptr;
 
   /// For resident objects: what the budget leaves beside one build.
   size_t resident_bytes_most() const { return budget_bytes - largest_build_bytes; }
@@ -110,9 +117,10 @@ class ObjectCache final : private FetchClient, private ObjectBuilder::Client {
 
   struct Counters {
     uint64_t hits = 0;
-    uint64_t misses = 0;  // that began a fetch
+    uint64_t misses = 0;  // that found it absent
     uint64_t joined = 0;  // that found it under way
     uint64_t builds = 0;
+    uint64_t builds_saved = 0;  // of objects that another node of the process had ready
     uint64_t build_failures = 0;
     uint64_t evictions = 0;
     uint64_t pins_refused = 0;  // for want of room in their share
@@ -127,24 +135,26 @@ class ObjectCache final : private FetchClient, private ObjectBuilder::Client {
   enum class Pin : uint8_t { none, wanted, pinned };
   /// In `unpinned_` while resident, in `to_build_` while it waits for the builder.
   struct Entry : ListHook {
-    std::unique_ptr<BuiltObject> built;  // while resident
+    std::shared_ptr<const BuiltObject> built;  // while resident
     ObjectState state = ObjectState::absent;
     Pin pin = Pin::none;
     bool traced = false;  // the fetch that is under way
     size_t charge = 0;    // bytes while resident
     WaitList waiters;
-    SharedBytes bytes;  // from arrival until they are given to the builder
+    /// From arrival until they are given to the builder; none of what another node has ready.
+    SharedBytes bytes;
   };
 
   void fetched(uint32_t object, SharedBytes bytes) override;
   void unobtainable(uint32_t object) override;
-  void built(uint32_t object, Result<std::unique_ptr<BuiltObject>> result) override;
+  void built(uint32_t object, Result<std::shared_ptr<const BuiltObject>> result) override;
 
   void request(uint32_t object, bool traced = false);
   void step_soon();
   void step();
   void start_build(Entry& entry);
-  void come_in(Entry& entry, std::unique_ptr<BuiltObject> built);
+  bool take_shared(Entry& entry);
+  void come_in(Entry& entry, std::shared_ptr<const BuiltObject> built);
   void keep(Entry& entry);
   void evict(Entry& entry);
   void wake_waiters(Entry& entry);
@@ -163,7 +173,7 @@ class ObjectCache final : private FetchClient, private ObjectBuilder::Client {
   IntrusiveList<Entry> to_build_;
   bool in_builder_ = false;
   Entry* ready_ = nullptr;  // built, and not yet come in
-  Result<std::unique_ptr<BuiltObject>> ready_result_{nullptr};
+  Result<std::shared_ptr<const BuiltObject>> ready_result_{nullptr};
   size_t to_run_ = 0;  // fibers woken for an object that have not run since
   TimerId step_timer_;
   bool steps_soon_ = false;

@@ -60,6 +60,7 @@ class MediaCompiler {
       medium_ = media[i].medium;
       index_ = static_cast<int>(i);
       factor_ = media[i].factor;
+      table_ = media[i].table;
       fault_.clear();
       bricks_.emplace_back();
       add_medium();
@@ -73,7 +74,7 @@ class MediaCompiler {
     out.bands_ = bands_;
     out.need_ = need();
     out.tables_ = std::make_shared<const MediaTables>(std::move(tables_));
-    out.bricks_ = std::make_shared<const std::vector<std::vector<Brick>>>(std::move(bricks_));
+    out.bricks_ = std::make_shared<const MediaBricks>(std::move(bricks_));
     return out;
   }
 
@@ -259,18 +260,29 @@ class MediaCompiler {
       return;
     }
     const bool emits = medium_->emission.has_value();
-    const int component = add_component(medium_->optics, grid->has_extinction(), emits);
+    const bool relative =
+        table_ != nullptr ? table_->has_extinction : !medium_->data.extinction.empty();
+    const int component = add_component(medium_->optics, relative, emits);
     if (failed() || component < 0) return;
     if (tables_.grids.size() == static_cast<size_t>(limits::grids_most)) {
       return fail("is one data set too many; at most " + std::to_string(limits::grids_most) +
                   " are allowed");
     }
-    std::vector<Brick> bricks = SmokeGrid::cut(medium_->data);
-    grid->find_clear(bricks, emits);
-    if (emits) add_emitter(component, VolumeEmitter(grid.value(), bricks));
+    const BrickTable table = table_ != nullptr ? *table_ : cut_bricks();
+    grid->settle(table, emits);
+    if (emits) add_emitter(component, VolumeEmitter(grid.value(), table));
     if (has_extinction(component)) general_ = true;
     tables_.grids.push_back({std::move(grid).value(), component});
-    bricks_.back() = std::move(bricks);
+  }
+
+  BrickTable cut_bricks() {
+    const DataSet& data = medium_->data;
+    BrickTable table{!data.extinction.empty(), !data.albedo.empty(), !data.emission.empty(), {}};
+    for (size_t i = 0; i < brick_count(data); ++i) {
+      bricks_.back().push_back(cut_brick(data, i));
+      table.bricks.push_back(summary_of(bricks_.back().back()));
+    }
+    return table;
   }
 
   /// Makers of bodies and grids name the medium themselves.
@@ -324,10 +336,11 @@ class MediaCompiler {
   const Medium* medium_ = nullptr;
   int index_ = 0;
   double factor_ = 1;
+  const BrickTable* table_ = nullptr;
   std::string fault_;
 
   MediaTables tables_;
-  std::vector<std::vector<Brick>> bricks_;
+  MediaBricks bricks_;
   std::vector<std::vector<double>> sigma_;   // [component][band]
   std::vector<std::vector<double>> albedo_;  // [component][band]
   std::vector<LayerStack::Part> stack_;
@@ -337,7 +350,7 @@ class MediaCompiler {
 
 MediaSet::MediaSet()
     : tables_(std::make_shared<const MediaTables>()),
-      bricks_(std::make_shared<const std::vector<std::vector<Brick>>>()) {}
+      bricks_(std::make_shared<const MediaBricks>()) {}
 
 Result<MediaSet> MediaSet::compile(std::span<const MediumInput> media, int bands,
                                    const BandAverage& average, const glm::dvec3& local_origin) {

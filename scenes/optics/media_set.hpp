@@ -34,7 +34,12 @@ enum class MediaNeed {
 struct MediumInput {
   const Medium* medium;
   double factor;  // of the scenario, on extinction; 0: absent
+  /// Of a data set whose arrays are elsewhere: what is in them. Its bricks are then elsewhere, too.
+  const BrickTable* table = nullptr;
 };
+
+/// [medium][brick]
+using MediaBricks = std::vector<std::vector<Brick>>;
 
 /// The value of a spectrum in a band.
 using BandAverage = std::function<double(const Spectrum&, int band)>;
@@ -57,13 +62,14 @@ class MediaSet {
   const std::vector<Phase>& phases() const { return tables_->phases; }
   const Phase& phase(int i) const { return tables_->phases[static_cast<size_t>(i)]; }
 
-  /// Bricks of a data set; 0 for other media.
+  /// Bricks of a data set that are here; 0 for other media.
   int brick_count(int medium) const {
     return static_cast<int>((*bricks_)[static_cast<size_t>(medium)].size());
   }
   const Brick& brick(int medium, int index) const {
     return (*bricks_)[static_cast<size_t>(medium)][static_cast<size_t>(index)];
   }
+  const std::shared_ptr<const MediaBricks>& bricks() const { return bricks_; }
 
   /// The glow of a medium, or null.
   const VolumeEmitter* emitter(int medium) const;
@@ -88,7 +94,7 @@ class MediaSet {
   int count_ = 0;
   int bands_ = 1;
   std::shared_ptr<const MediaTables> tables_;
-  std::shared_ptr<const std::vector<std::vector<Brick>>> bricks_;  // by medium
+  std::shared_ptr<const MediaBricks> bricks_;
 };
 
 /// Answers from the set's own bricks.

@@ -79,15 +79,67 @@ uint64_t content_hash(const Brick& b) {
   return h;
 }
 
-bool any_above_zero(const std::vector<float>& values) {
-  return std::any_of(values.begin(), values.end(), [](float v) { return v > 0; });
-}
-
-int bricks_along(int cells) {
+int bricks_for(int cells) {
   return (cells + limits::brick_side - 1) / limits::brick_side;
 }
 
 }  // namespace
+
+const Brick& clear_brick() {
+  static const Brick clear = [] {
+    Brick b;
+    b.extinction.assign(limits::brick_cells, 0.0F);
+    b.albedo = b.emission = b.extinction;
+    complete(b);
+    return b;
+  }();
+  return clear;
+}
+
+glm::ivec3 bricks_along(const DataSet& data) {
+  return {bricks_for(data.nx), bricks_for(data.ny), bricks_for(data.nz)};
+}
+
+size_t brick_count(const DataSet& data) {
+  const glm::ivec3 n = bricks_along(data);
+  return static_cast<size_t>(n.x) * static_cast<size_t>(n.y) * static_cast<size_t>(n.z);
+}
+
+Brick cut_brick(const DataSet& data, size_t brick) {
+  const glm::ivec3 n = bricks_along(data);
+  const auto i = static_cast<int>(brick);
+  const glm::ivec3 first = limits::brick_side * glm::ivec3(i % n.x, i / n.x % n.y, i / (n.x * n.y));
+  Brick b;
+  b.extinction = cut_one(data, data.extinction, first);
+  b.albedo = cut_one(data, data.albedo, first);
+  b.emission = cut_one(data, data.emission, first);
+  complete(b);
+  return b;
+}
+
+void complete(Brick& brick) {
+  double sum = 0;
+  brick.emission_cumulative.clear();
+  brick.emission_cumulative.reserve(brick.emission.size());
+  for (const float e : brick.emission) {
+    sum += static_cast<double>(e);
+    brick.emission_cumulative.push_back(sum);
+  }
+  brick.content = content_hash(brick);
+}
+
+BrickSummary summary_of(const Brick& brick) {
+  return {
+      std::any_of(brick.extinction.begin(), brick.extinction.end(), [](float v) { return v > 0; }),
+      brick.emission.empty() ? 0 : brick.emission_cumulative.back()};
+}
+
+BrickTable brick_table(const DataSet& data) {
+  BrickTable out{!data.extinction.empty(), !data.albedo.empty(), !data.emission.empty(), {}};
+  for (size_t i = 0; i < brick_count(data); ++i)
+    out.bricks.push_back(summary_of(cut_brick(data, i)));
+  return out;
+}
 
 Result<SmokeGrid> SmokeGrid::make(const Medium& medium, int medium_index,
                                   const glm::dvec3& local_origin) {
@@ -103,44 +155,19 @@ Result<SmokeGrid> SmokeGrid::make(const Medium& medium, int medium_index,
   out.cells_ = {d.nx, d.ny, d.nz};
   out.cell_ = d.extent / glm::dvec3(out.cells_);
   out.per_cell_ = glm::dvec3(out.cells_) / d.extent;
-  out.bricks_ = {bricks_along(d.nx), bricks_along(d.ny), bricks_along(d.nz)};
-  out.has_extinction_ = !d.extinction.empty();
-  out.has_albedo_ = !d.albedo.empty();
-  out.has_emission_ = !d.emission.empty();
-  out.interpolate_emission_ = d.interpolate_emission && out.has_emission_;
-  out.clear_.assign(static_cast<size_t>(out.brick_count()), 0);
+  out.bricks_ = bricks_along(d);
+  out.interpolate_emission_ = d.interpolate_emission;
   return out;
 }
 
-std::vector<Brick> SmokeGrid::cut(const DataSet& d) {
-  std::vector<Brick> out;
-  for (int z = 0; z < d.nz; z += limits::brick_side) {
-    for (int y = 0; y < d.ny; y += limits::brick_side) {
-      for (int x = 0; x < d.nx; x += limits::brick_side) {
-        Brick b;
-        b.extinction = cut_one(d, d.extinction, {x, y, z});
-        b.albedo = cut_one(d, d.albedo, {x, y, z});
-        b.emission = cut_one(d, d.emission, {x, y, z});
-        double sum = 0;
-        for (const float e : b.emission) {
-          sum += static_cast<double>(e);
-          b.emission_cumulative.push_back(sum);
-        }
-        b.content = content_hash(b);
-        out.push_back(std::move(b));
-      }
-    }
-  }
-  return out;
-}
-
-void SmokeGrid::find_clear(const std::vector<Brick>& bricks, bool emits) {
-  for (size_t i = 0; i < bricks.size(); ++i) {
-    const Brick& b = bricks[i];
-    const bool glows =
-        emits && (!has_emission_ || interpolate_emission_ || any_above_zero(b.emission));
-    clear_[i] = has_extinction_ && !any_above_zero(b.extinction) && !glows ? 1 : 0;
-  }
+void SmokeGrid::settle(const BrickTable& table, bool emits) {
+  has_extinction_ = table.has_extinction;
+  has_albedo_ = table.has_albedo;
+  has_emission_ = table.has_emission;
+  interpolate_emission_ = interpolate_emission_ && has_emission_;
+  clear_.clear();
+  for (size_t i = 0; i < table.bricks.size(); ++i)
+    clear_.push_back(table.clear(i, emits, interpolate_emission_) ? 1 : 0);
 }
 
 Bounds SmokeGrid::bounds() const {

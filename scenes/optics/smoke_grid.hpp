@@ -51,6 +51,45 @@ struct Brick {
   }
 };
 
+/// A brick without anything: 4096 zeros of each quantity.
+const Brick& clear_brick();
+
+/// What must be known of a brick before it is read.
+struct BrickSummary {
+  bool smokes = false;  // a cell of it has extinction
+  double emission = 0;  // sum over its cells
+
+  friend bool operator==(const BrickSummary&, const BrickSummary&) = default;
+};
+
+/// What every machine keeps of a data set's arrays: which there are, and how much is in each brick.
+struct BrickTable {
+  bool has_extinction = false;
+  bool has_albedo = false;
+  bool has_emission = false;
+  std::vector<BrickSummary> bricks;  // in the order of SmokeGrid::brick_of
+
+  /// Nothing is lost if a ray never looks into the brick. `emits`: the medium gives light.
+  bool clear(size_t brick, bool emits, bool interpolates) const {
+    const bool glows = emits && (!has_emission || interpolates || bricks[brick].emission > 0);
+    return has_extinction && !bricks[brick].smokes && !glows;
+  }
+  bool has_arrays() const { return has_extinction || has_albedo || has_emission; }
+  friend bool operator==(const BrickTable&, const BrickTable&) = default;
+};
+
+/// Bricks of a data set along its sides, and in all.
+glm::ivec3 bricks_along(const DataSet& data);
+size_t brick_count(const DataSet& data);
+
+/// One brick of a data set that has its arrays.
+Brick cut_brick(const DataSet& data, size_t brick);
+/// Sets what follows from a brick's arrays: the running sum of emission, and the name.
+void complete(Brick& brick);
+BrickSummary summary_of(const Brick& brick);
+/// Of a data set that has its arrays; cuts one brick at a time.
+BrickTable brick_table(const DataSet& data);
+
 /// Reads through a resolver, and asks again only when the brick changes: a returned brick is good
 /// until the next one is asked for. One per ray.
 template <class Resolver>
@@ -81,10 +120,9 @@ class SmokeGrid {
   /// Errors: sizes, array lengths and values that break medium.hpp's rules.
   static Result<SmokeGrid> make(const Medium& medium, int medium_index,
                                 const glm::dvec3& local_origin);
-  /// The arrays of the data set, cut; in the order of `brick_of`.
-  static std::vector<Brick> cut(const DataSet& data);
-  /// Notes which bricks rays may pass without looking inside. `emits`: the medium gives light.
-  void find_clear(const std::vector<Brick>& bricks, bool emits);
+  /// Says what is in the arrays, wherever they are. `emits`: the medium gives light.
+  /// Requires: a table of brick_count() bricks.
+  void settle(const BrickTable& table, bool emits);
 
   int medium() const { return medium_; }
   const glm::ivec3& cells() const { return cells_; }
@@ -137,7 +175,7 @@ class SmokeGrid {
   bool has_albedo_ = false;
   bool has_emission_ = false;
   bool interpolate_emission_ = false;
-  std::vector<uint8_t> clear_;
+  std::vector<uint8_t> clear_;  // by brick: rays may pass without looking inside
 };
 
 /// Walks a ray through a grid: one stretch per cell, one per clear brick. Faces are crossed by

@@ -3,11 +3,11 @@
 
 namespace luxodus {
 
-VolumeEmitter::VolumeEmitter(SmokeGrid grid, const std::vector<Brick>& bricks)
+VolumeEmitter::VolumeEmitter(SmokeGrid grid, const BrickTable& table)
     : medium_(grid.medium()), grid_(std::move(grid)) {
   if (!grid_.has_emission()) return;
-  for (const Brick& b : bricks) {
-    total_ += b.emission_cumulative.back();
+  for (const BrickSummary& brick : table.bricks) {
+    total_ += brick.emission;
     brick_cumulative_.push_back(total_);
   }
 }

@@ -18,7 +18,8 @@ namespace luxodus {
 class VolumeEmitter {
  public:
   VolumeEmitter(int medium, QuadricBody body) : medium_(medium), body_(std::move(body)) {}
-  VolumeEmitter(SmokeGrid grid, const std::vector<Brick>& bricks);
+  /// Requires: `grid` is settled with this table.
+  VolumeEmitter(SmokeGrid grid, const BrickTable& table);
 
   int medium() const { return medium_; }
   double volume_m3() const { return body_ ? body_->volume().m3 : grid_.volume_m3(); }

@@ -58,7 +58,14 @@ void CEREAL_SAVE_FUNCTION_NAME(BytesOut& out, const T& value) {
 template <class T>
 requires std::is_arithmetic_v<T>
 void CEREAL_LOAD_FUNCTION_NAME(BytesIn& in, T& value) {
-  in.get(&value, sizeof value);
+  if constexpr (std::is_same_v<T, bool>) {
+    uint8_t byte = 0;
+    in.get(&byte, sizeof byte);
+    if (byte > 1) throw DamagedArchive("it holds what is neither yes nor no");
+    value = byte == 1;
+  } else {
+    in.get(&value, sizeof value);
+  }
 }
 template <class T>
 void CEREAL_SERIALIZE_FUNCTION_NAME(BytesOut& out, cereal::SizeTag<T>& tag) {

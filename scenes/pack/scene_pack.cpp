@@ -15,7 +15,6 @@
 #include "runtime/core/hash.hpp"
 #include "scenes/format/atomic_file.hpp"
 #include "scenes/pack/skeleton.hpp"
-#include "scenes/transport/cell_object.hpp"
 
 namespace luxodus {
 
@@ -123,13 +122,13 @@ class MappedPack final : public ObjectFile {
   }
   std::span<const std::byte> bytes() const { return bytes_; }
   /// Errors: objects that do not end where the skeleton begins.
-  Result<bool> place_objects(const PackedGeometry& geometry, const Head& head) {
+  Result<bool> place_objects(const PackedScene& packed, const Head& head) {
     uint64_t at = sizeof(Head);
-    for (const PackedGeometry::Cell& cell : geometry.cells) {
-      if (cell.wire_bytes == 0 || cell.wire_bytes > head.skeleton_offset - at)
+    for (const PackedScene::Object& object : packed.objects) {
+      if (object.wire_bytes == 0 || object.wire_bytes > head.skeleton_offset - at)
         return Problem{{name_, 0}, "the objects of this pack are not where they should be"};
-      places_.emplace_back(at, cell.wire_bytes);
-      at = aligned(at + cell.wire_bytes);
+      places_.emplace_back(at, object.wire_bytes);
+      at = aligned(at + object.wire_bytes);
       if (at > head.skeleton_offset)
         return Problem{{name_, 0}, "the objects of this pack are not where they should be"};
     }
@@ -180,26 +179,32 @@ Result<std::span<const std::byte>> skeleton_of(const MappedPack& pack, const Hea
 
 }  // namespace
 
+void PackReport::add(ScenePart::Kind kind, uint64_t bytes) {
+  ++objects;
+  bricks += kind == ScenePart::Kind::brick ? 1 : 0;
+  tiles += kind == ScenePart::Kind::tile ? 1 : 0;
+  object_bytes += bytes;
+  largest_object_bytes = std::max(largest_object_bytes, bytes);
+}
+
 Result<PackReport> write_pack(const std::filesystem::path& path, const CompiledScene& scene,
                               int partition, const std::function<void(double)>& progress) {
   if (scene.triangles == 0)
     return Problem{{scene.description->file, 0}, "the scene has no triangles to pack"};
   auto writer = begin(path);
   if (!writer.ok()) return writer.problem();
-  PackedGeometry geometry = summary_of(scene, partition);
+  const SceneParts parts(scene);
+  PackedScene packed = summary_of(scene, parts, partition);
   PackReport report;
-  report.objects = geometry.cells.size();
-  for (size_t i = 0; i < scene.cells.size(); ++i) {
-    const std::vector<std::byte> bytes = encode_cell(scene.cells[i]);
-    geometry.cells[i].object = object_id_of(bytes);
-    geometry.cells[i].wire_bytes = bytes.size();
+  for (size_t i = 0; i < parts.count(); ++i) {
+    const std::vector<std::byte> bytes = encode_part(scene, parts[i]);
+    packed.objects[i] = {object_id_of(bytes), bytes.size()};
     writer->write(bytes);
     writer->align();
-    report.object_bytes += bytes.size();
-    report.largest_object_bytes = std::max<uint64_t>(report.largest_object_bytes, bytes.size());
-    if (progress) progress(static_cast<double>(i + 1) / static_cast<double>(scene.cells.size()));
+    report.add(parts[i].kind, bytes.size());
+    if (progress) progress(static_cast<double>(i + 1) / static_cast<double>(parts.count()));
   }
-  const std::vector<std::byte> skeleton = encode_skeleton(*scene.description, geometry);
+  const std::vector<std::byte> skeleton = encode_skeleton(*scene.description, packed);
   auto bytes = writer->end(skeleton, true);
   if (!bytes.ok()) return bytes.problem();
   report.skeleton_bytes = skeleton.size();
@@ -219,7 +224,7 @@ Result<PackReport> write_skeleton_pack(const std::filesystem::path& path,
   if (!writer.ok()) return writer.problem();
   auto bytes = writer->end(skeleton.value(), false);
   if (!bytes.ok()) return bytes.problem();
-  return PackReport{bytes.value(), skeleton.value().size(), 0, 0, 0};
+  return PackReport{bytes.value(), skeleton.value().size(), 0, 0, 0, 0, 0};
 }
 
 bool is_pack(const std::filesystem::path& path) {
@@ -237,14 +242,14 @@ Result<std::shared_ptr<const SceneDescription>> read_pack(const std::filesystem:
   if (!bytes.ok()) return bytes.problem();
   auto skeleton = decode_skeleton(bytes.value());
   if (!skeleton.ok()) return Problem{{path.string(), 0}, skeleton.problem().what};
-  auto geometry = std::make_shared<PackedGeometry>(std::move(skeleton->geometry));
+  auto packed = std::make_shared<PackedScene>(std::move(skeleton->packed));
   if (head->holds_objects == 1) {
-    if (auto placed = pack.value()->place_objects(*geometry, head.value()); !placed.ok())
+    if (auto placed = pack.value()->place_objects(*packed, head.value()); !placed.ok())
       return placed.problem();
   }
-  geometry->file = std::move(pack).value();
+  packed->file = std::move(pack).value();
   auto description = std::make_shared<SceneDescription>(std::move(skeleton->description));
-  description->packed = std::move(geometry);
+  description->packed = std::move(packed);
   return std::shared_ptr<const SceneDescription>(std::move(description));
 }
 

@@ -1,7 +1,8 @@
-// A scene as one file that many machines can share: its triangles, cut into data objects named by
-// their content, and the skeleton that every machine reads. The file is mapped, not read: an object
-// takes memory only while it is looked at, and a scene may be larger than a machine. A pack may
-// hold the skeleton alone, for machines that get all objects from others.
+// A scene as one file that many machines can share: its triangles, smoke data and pictures, cut
+// into data objects named by their content, and the skeleton that every machine reads. The file is
+// mapped, not read: an object takes memory only while it is looked at, and a scene may be larger
+// than a machine. A pack may hold the skeleton alone, for machines that get all objects from
+// others.
 //
 //   head (128 B) | object 0 | object 1 | ... | skeleton        objects begin at multiples of 64
 //
@@ -15,12 +16,12 @@
 #include <optional>
 
 #include "runtime/core/result.hpp"
-#include "scenes/transport/packed_geometry.hpp"
+#include "scenes/transport/packed_scene.hpp"
 
 namespace luxodus {
 
 namespace limits {
-inline constexpr uint32_t pack_version = 1;
+inline constexpr uint32_t pack_version = 2;
 /// Of the skeleton: 100 times that of a tower of six million triangles.
 inline constexpr uint64_t skeleton_bytes_most = uint64_t{1} << 30;
 }  // namespace limits
@@ -32,6 +33,10 @@ struct PackReport {
   uint64_t object_bytes = 0;
   size_t objects = 0;
   uint64_t largest_object_bytes = 0;
+  size_t bricks = 0;  // of the objects, those of smoke data
+  size_t tiles = 0;   // and those of pictures
+
+  void add(ScenePart::Kind kind, uint64_t bytes);
 };
 
 /// Writes a scene, compiled with `partition` cells from a description with triangles; whole or not

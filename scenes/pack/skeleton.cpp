@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "scenes/pack/archive.hpp"
+#include "scenes/transport/flame_points.hpp"
 
 namespace luxodus {
 
@@ -39,9 +40,10 @@ template <class A>
 void serialize(A& a, Spectrum& x) {
   a(x.value);
 }
+/// Without its texels.
 template <class A>
 void serialize(A& a, Image& x) {
-  a(x.width, x.height, x.channels, x.texels);
+  a(x.width, x.height, x.channels);
 }
 template <class A>
 void serialize(A& a, Material& x) {
@@ -157,9 +159,10 @@ template <class A>
 void serialize(A& a, Quadric& x) {
   a(x.a, x.b, x.c, x.clips);
 }
+/// Without its arrays.
 template <class A>
 void serialize(A& a, DataSet& x) {
-  a(x.nx, x.ny, x.nz, x.extent, x.extinction, x.albedo, x.emission, x.interpolate_emission);
+  a(x.nx, x.ny, x.nz, x.extent, x.interpolate_emission);
 }
 template <class A>
 void serialize(A& a, MediumEmission& x) {
@@ -182,13 +185,25 @@ void serialize(A& a, CompiledSurface& x) {
     x.area_m2, x.one_patch);
 }
 template <class A>
-void serialize(A& a, PackedGeometry::Cell& x) {
-  a(x.low, x.high, x.triangles, x.object, x.wire_bytes);
+void serialize(A& a, BrickSummary& x) {
+  a(x.smokes, x.emission);
 }
 template <class A>
-void serialize(A& a, PackedGeometry& x) {
+void serialize(A& a, BrickTable& x) {
+  a(x.has_extinction, x.has_albedo, x.has_emission, x.bricks);
+}
+template <class A>
+void serialize(A& a, PackedScene::Cell& x) {
+  a(x.low, x.high, x.triangles);
+}
+template <class A>
+void serialize(A& a, PackedScene::Object& x) {
+  a(x.id, x.wire_bytes);
+}
+template <class A>
+void serialize(A& a, PackedScene& x) {
   a(x.partition, x.open_doors, x.bounds, x.surfaces, x.triangles, x.patch_count, x.total_area_m2,
-    x.cells, x.warnings);
+    x.cells, x.tables, x.flame_points, x.objects, x.warnings);
 }
 
 namespace {
@@ -243,18 +258,15 @@ Shared shared_of(const SceneDescription& description) {
   }
   std::vector<const Image*> images;
   for (const Material& material : description.materials) {
-    out.image_of_material.push_back(place_among(images, material.reflectance_image.get(), is_new));
-    if (is_new) out.images.push_back(*material.reflectance_image);
+    const Image* image = material.reflectance_image.get();
+    out.image_of_material.push_back(place_among(images, image, is_new));
+    if (is_new) out.images.push_back({image->width, image->height, image->channels, {}});
   }
   return out;
 }
 
 bool sound(const Image& image) {
-  const bool sized =
-      image.width > 0 && image.height > 0 && image.channels > 0 && image.channels <= 4;
-  return sized && image.texels.size() == static_cast<size_t>(image.width) *
-                                             static_cast<size_t>(image.height) *
-                                             static_cast<size_t>(image.channels);
+  return image.width > 0 && image.height > 0 && image.channels > 0 && image.channels <= 4;
 }
 
 /// The things a list names by place, each `none_index` or within it.
@@ -289,6 +301,29 @@ void give_shared(Shared& shared, SceneDescription& description) {
   }
 }
 
+/// Tables of data sets, of as many bricks as these have; objects, one for each part of the scene.
+void check_parts(const Skeleton& skeleton) {
+  const std::vector<Medium>& media = skeleton.description.media;
+  const PackedScene& packed = skeleton.packed;
+  if (packed.tables.size() != media.size() || packed.flame_points.size() != media.size())
+    throw DamagedArchive("its tables are not those of its media");
+  for (size_t m = 0; m < media.size(); ++m) {
+    const DataSet& data = media[m].data;
+    const bool is_grid = media[m].kind == MediumKind::data_set;
+    for (const int side : {data.nx, data.ny, data.nz})
+      if (is_grid && (side < 1 || side > limits::grid_side_most))
+        throw DamagedArchive("a data set has no size");
+    if (packed.tables[m].bricks.size() != (is_grid ? brick_count(data) : 0))
+      throw DamagedArchive("a table is not that of its data set");
+    const bool glows = is_grid && media[m].emission.has_value();
+    if (packed.flame_points[m].size() != (glows ? size_t{limits::flame_points} : 0))
+      throw DamagedArchive("a flame has not the points that it should have");
+  }
+  if (SceneParts::count_of(skeleton.description, packed.cells.size(), packed.tables) !=
+      packed.objects.size())
+    throw DamagedArchive("it has not an object for each of its parts");
+}
+
 /// What the compiler takes for granted of a description that a reader has made.
 void check_references(const Skeleton& skeleton) {
   const SceneDescription& d = skeleton.description;
@@ -315,7 +350,7 @@ void check_references(const Skeleton& skeleton) {
   }
   size_t faces = 0;
   for (const Sign& s : d.signs) faces += s.double_sided ? 2 : 1;
-  const PackedGeometry& g = skeleton.geometry;
+  const PackedScene& g = skeleton.packed;
   for (const CompiledSurface& s : g.surfaces) {
     // One more material than described: the dark back of signs.
     if (std::max(s.material[0], s.material[1]) > d.materials.size() ||
@@ -331,9 +366,9 @@ void check_references(const Skeleton& skeleton) {
 }  // namespace
 
 std::vector<std::byte> encode_skeleton(const SceneDescription& description,
-                                       const PackedGeometry& geometry) {
+                                       const PackedScene& packed) {
   BytesOut out;
-  out(description, shared_of(description), geometry);
+  out(description, shared_of(description), packed);
   return out.take();
 }
 
@@ -342,10 +377,11 @@ Result<Skeleton> decode_skeleton(std::span<const std::byte> bytes) {
     Skeleton skeleton;
     Shared shared;
     BytesIn in(bytes);
-    in(skeleton.description, shared, skeleton.geometry);
+    in(skeleton.description, shared, skeleton.packed);
     if (in.left() != 0) throw DamagedArchive("there is more behind its end");
     give_shared(shared, skeleton.description);
     check_references(skeleton);
+    check_parts(skeleton);
     return skeleton;
   } catch (const DamagedArchive& damage) {
     return Problem{{}, std::string("the skeleton of this pack is damaged: ") + damage.what()};

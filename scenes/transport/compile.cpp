@@ -9,10 +9,10 @@
 #include <set>
 
 #include "runtime/core/hash.hpp"
-#include "runtime/core/random.hpp"
 #include "scenes/transport/compile_surfaces.hpp"
 #include "scenes/transport/emission.hpp"
-#include "scenes/transport/packed_geometry.hpp"
+#include "scenes/transport/flame_points.hpp"
+#include "scenes/transport/packed_scene.hpp"
 
 namespace luxodus {
 
@@ -88,11 +88,13 @@ Bands choose_bands(const SceneDescription& scene, const Scenario& scenario,
 Result<bool> compile_media(CompiledScene& scene) {
   const SceneDescription& d = *scene.description;
   std::vector<MediumInput> inputs;
-  for (const Medium& m : d.media) {
+  for (size_t i = 0; i < d.media.size(); ++i) {
+    const Medium& m = d.media[i];
+    const bool stored = d.packed != nullptr && m.kind == MediumKind::data_set;
     const double named = factor_of(scene.scenario.media, m.name, -1);
     // A flame is no smoke: the general factor leaves it alone.
     const double general = m.emission ? 1.0 : scene.scenario.smoke_factor;
-    inputs.push_back({&m, named >= 0 ? named : general});
+    inputs.push_back({&m, named >= 0 ? named : general, stored ? &d.packed->tables[i] : nullptr});
     scene.media_names.push_back(m.name);
   }
   auto media = MediaSet::compile(
@@ -110,20 +112,14 @@ Result<bool> compile_media(CompiledScene& scene) {
   return true;
 }
 
-/// Points that stand for a flame where light is computed without chance.
-constexpr int flame_points = 512;
-
 void scatter_volume_points(CompiledScene& scene) {
   ResidentBricks bricks(scene.media);
+  const PackedScene* packed = scene.description->packed.get();
   for (const CompiledEmitter& e : scene.emitters) {
     if (e.kind != EmitterKind::volume) continue;
-    Random random(e.medium, RandomStream::layout);
-    auto& points = scene.volume_points[e.medium];
-    for (int i = 0; i < flame_points; ++i) {
-      random.start(static_cast<uint64_t>(i));
-      points.push_back(scene.media.sample_emission_point(
-          static_cast<int>(e.medium), [&] { return random.uniform_double(); }, bricks));
-    }
+    const bool stored = packed != nullptr && !packed->flame_points[e.medium].empty();
+    scene.volume_points[e.medium] =
+        stored ? packed->flame_points[e.medium] : flame_points(scene.media, e.medium, bricks);
   }
 }
 
@@ -451,7 +447,7 @@ Result<std::shared_ptr<const CompiledScene>> compile_scene(
   }
   compile_materials(*scene);
   compile_sign_faces(*scene);
-  const PackedGeometry* packed = description->packed.get();
+  const PackedScene* packed = description->packed.get();
   auto solid =
       packed != nullptr ? adopt_packed_geometry(*scene) : compile_triangles(*scene, options.cells);
   if (!solid.ok()) return solid.problem();

@@ -8,7 +8,7 @@
 #include "scenes/geometry/primitives.hpp"
 #include "scenes/geometry/transform.hpp"
 #include "scenes/tally/fixed_point.hpp"
-#include "scenes/transport/packed_geometry.hpp"
+#include "scenes/transport/packed_scene.hpp"
 
 namespace luxodus {
 
@@ -313,6 +313,7 @@ constexpr double sign_back_reflectance = 0.3;
 }  // namespace
 
 void compile_materials(CompiledScene& scene) {
+  scene.images = distinct_images(*scene.description);
   const auto add = [&](const Material& m) {
     CompiledMaterial out;
     out.name = m.name;
@@ -324,8 +325,8 @@ void compile_materials(CompiledScene& scene) {
                                          scene.bands.average(m.internal_transmittance, b)));
     }
     if (m.reflectance_image) {
-      out.image = static_cast<uint32_t>(scene.images.size());
-      scene.images.push_back(m.reflectance_image);
+      const auto at = std::find(scene.images.begin(), scene.images.end(), m.reflectance_image);
+      out.image = static_cast<uint32_t>(at - scene.images.begin());
     }
     scene.materials.push_back(std::move(out));
   };
@@ -395,7 +396,7 @@ std::vector<std::string> open_doors(const SceneDescription& description, const S
 }
 
 Result<bool> adopt_packed_geometry(CompiledScene& scene) {
-  const PackedGeometry& packed = *scene.description->packed;
+  const PackedScene& packed = *scene.description->packed;
   if (open_doors(*scene.description, scene.scenario) != packed.open_doors) {
     return Problem{{packed.file->name(), 0},
                    "in scenario \"" + scene.scenario.name +
@@ -409,7 +410,7 @@ Result<bool> adopt_packed_geometry(CompiledScene& scene) {
     const uint32_t sign = scene.surfaces[i].sign;
     if (sign != none_index) scene.signs[sign].surface = i;
   }
-  for (const PackedGeometry::Cell& cell : packed.cells)
+  for (const PackedScene::Cell& cell : packed.cells)
     scene.cell_boxes.push_back({cell.low, cell.high});
   for (const std::string& warning : packed.warnings)
     scene.warnings.push_back({{packed.file->name(), 0}, warning});

@@ -1,7 +1,7 @@
 // What the tracer needs, and nothing else: one scenario of a scene, in local float coordinates, per
 // band. The skeleton (surfaces, materials, emitters, media tables, detectors, tally layout) is
-// small and always there; geometry cells, bricks, texels and photometric webs are data objects that
-// the transport loop reads only through its resolver. Immutable once compiled; any thread.
+// small and always there; geometry cells, bricks and texels are data objects, which the transport
+// loop, as photometric webs, reads only through its resolver. Immutable once compiled; any thread.
 #pragma once
 
 #include <cstdint>
@@ -203,8 +203,8 @@ struct CompiledScene {
   std::vector<Group> groups;
   std::vector<CompiledSign> signs;
   std::vector<std::shared_ptr<const PhotometricWeb>> webs;
-  std::vector<std::shared_ptr<const Image>> images;
-  std::vector<std::array<float, 3>> image_basis;  // per band: response to r, g, b texels
+  std::vector<std::shared_ptr<const Image>> images;  // of a packed scene without texels
+  std::vector<std::array<float, 3>> image_basis;     // per band: response to r, g, b texels
   MediaSet media;
   std::vector<PhaseFunction> phases;  // by Flight::phase
   std::vector<std::string> media_names;

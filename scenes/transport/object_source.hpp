@@ -8,6 +8,8 @@
 namespace luxodus {
 
 class CellScene;
+struct Brick;
+struct ImageTile;
 
 class ObjectSource {
  public:
@@ -17,6 +19,11 @@ class ObjectSource {
   /// where it cannot be had, and then what the caller traces is worth nothing: see spoilt().
   /// Suspends: until it is resident.
   virtual const CellScene* cell(uint32_t cell) = 0;
+
+  /// A brick of a data set, likewise.
+  virtual const Brick* brick(int medium, int brick) = 0;
+  /// A tile of a reflectance picture, likewise.
+  virtual const ImageTile* tile(uint32_t image, uint32_t tile) = 0;
 
   /// Whether the fiber that calls was refused anything since it last asked this.
   virtual bool spoilt() = 0;

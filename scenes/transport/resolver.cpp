@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "scenes/transport/packed_geometry.hpp"
+#include "scenes/transport/packed_scene.hpp"
 
 namespace luxodus {
 
@@ -17,6 +17,12 @@ SceneIndex::SceneIndex(const EmbreeDevice& device, const CompiledScene& scene) {
     }
     cells_.push_back(std::make_unique<CellScene>(device, packed ? loaded_[i] : scene.cells[i]));
   }
+  auto bricks = load_bricks(scene);
+  if (!bricks.ok()) throw std::runtime_error(bricks.problem().text());
+  bricks_ = std::move(bricks).value();
+  auto images = load_images(scene);
+  if (!images.ok()) throw std::runtime_error(images.problem().text());
+  images_ = std::move(images).value();
   if (cells_.size() > 1) proxies_ = std::make_unique<ProxyScene>(device, scene.cell_boxes);
 }
 

@@ -4,8 +4,8 @@
 // returns is good until its next call.
 //
 // A resolver has: nearest(ray) -> Hit, occluded(ray) -> bool, cell_of(hit) -> const GeometryCell&,
-// brick(medium, brick) -> const Brick&, web(index) -> const PhotometricWeb&, image(index) -> const
-// Image&.
+// brick(medium, brick) -> const Brick&, web(index) -> const PhotometricWeb&, texel(image, x, y) ->
+// const float*, as many as the picture has channels.
 #pragma once
 
 #include <memory>
@@ -13,45 +13,60 @@
 
 #include "scenes/intersect/embree_scene.hpp"
 #include "scenes/transport/compiled_scene.hpp"
+#include "scenes/transport/image_tile.hpp"
 #include "scenes/transport/object_source.hpp"
 
 namespace luxodus {
 
-/// The search structures over a scene's cells, built once and shared by all threads.
+/// All parts of a scene, ready for use: the search structures over its cells, built once and shared
+/// by all threads, bricks and pictures.
 class SceneIndex {
  public:
   /// Requires: `scene` outlives this.
-  /// Errors (exception): a packed scene whose triangles cannot be read.
+  /// Errors (exception): a packed scene whose parts cannot be read.
   SceneIndex(const EmbreeDevice& device, const CompiledScene& scene);
   const CellScene& cell(uint32_t i) const { return *cells_[i]; }
   size_t cells() const { return cells_.size(); }
   /// Requires: cells() > 1.
   const ProxyScene& proxies() const { return *proxies_; }
+  const MediaBricks& bricks() const { return *bricks_; }
+  const Image& image(uint32_t i) const { return *images_[i]; }
 
  private:
   std::vector<GeometryCell> loaded_;  // of a packed scene
   std::vector<std::unique_ptr<CellScene>> cells_;
   std::unique_ptr<ProxyScene> proxies_;
+  std::shared_ptr<const MediaBricks> bricks_;
+  std::vector<std::shared_ptr<const Image>> images_;
 };
 
 /// Everything but geometry, resident.
 class ResidentData {
  public:
-  explicit ResidentData(const CompiledScene& scene) : scene_(&scene) {}
+  ResidentData(const CompiledScene& scene, const SceneIndex& index)
+      : scene_(&scene), bricks_(&index.bricks()), index_(&index) {}
 
-  const Brick& brick(int medium, int index) const { return scene_->media.brick(medium, index); }
+  const Brick& brick(int medium, int index) const {
+    return (*bricks_)[static_cast<size_t>(medium)][static_cast<size_t>(index)];
+  }
   const PhotometricWeb& web(uint32_t i) const { return *scene_->webs[i]; }
-  const Image& image(uint32_t i) const { return *scene_->images[i]; }
+  const float* texel(uint32_t i, int x, int y) const {
+    const Image& image = index_->image(i);
+    const size_t row = static_cast<size_t>(y) * static_cast<size_t>(image.width);
+    return &image.texels[(row + static_cast<size_t>(x)) * static_cast<size_t>(image.channels)];
+  }
 
- private:
+ protected:
   const CompiledScene* scene_;
+  const MediaBricks* bricks_;
+  const SceneIndex* index_;
 };
 
 /// One merged cell, resident: no proxy on the path.
 class MergedResolver : public ResidentData {
  public:
   MergedResolver(const CompiledScene& scene, const SceneIndex& index)
-      : ResidentData(scene), cell_(&index.cell(0)) {}
+      : ResidentData(scene, index), cell_(&index.cell(0)) {}
 
   Hit nearest(const Ray& ray) const { return cell_->nearest(ray); }
   bool occluded(const Ray& ray) const { return cell_->occluded(ray); }
@@ -64,7 +79,7 @@ class MergedResolver : public ResidentData {
 class PartitionResolver : public ResidentData {
  public:
   PartitionResolver(const CompiledScene& scene, const SceneIndex& index)
-      : ResidentData(scene), index_(&index) {}
+      : ResidentData(scene, index) {}
 
   Hit nearest(const Ray& ray) {
     return nearest_in_cells(index_->proxies(), ray, candidates_,
@@ -76,16 +91,28 @@ class PartitionResolver : public ResidentData {
   }
 
  private:
-  const SceneIndex* index_;
   std::vector<Candidate> candidates_;
 };
 
-/// Many cells, each of which may have to be waited for. A hit's triangle is copied, because its
+/// Many parts, each of which may have to be waited for. A hit's triangle is copied, because its
 /// cell may be gone when the next one is entered.
-class SourcedResolver : public ResidentData {
+class SourcedResolver {
  public:
   SourcedResolver(const CompiledScene& scene, const ProxyScene& proxies, ObjectSource& source)
-      : ResidentData(scene), proxies_(&proxies), source_(&source) {}
+      : scene_(&scene), proxies_(&proxies), source_(&source) {}
+
+  /// Clear where it cannot be had.
+  const Brick& brick(int medium, int index) {
+    const Brick* brick = source_->brick(medium, index);
+    return brick != nullptr ? *brick : clear_brick();
+  }
+  const PhotometricWeb& web(uint32_t i) const { return *scene_->webs[i]; }
+  /// Black where it cannot be had.
+  const float* texel(uint32_t i, int x, int y) {
+    static constexpr float black[4] = {};
+    const ImageTile* tile = source_->tile(i, tile_of(*scene_->images[i], x, y));
+    return tile != nullptr ? tile->texel(x, y) : black;
+  }
 
   Hit nearest(const Ray& ray) {
     const auto enter = [this](uint32_t cell) { return source_->cell(cell); };
@@ -107,6 +134,7 @@ class SourcedResolver : public ResidentData {
     return hit;
   }
 
+  const CompiledScene* scene_;
   const ProxyScene* proxies_;
   ObjectSource* source_;
   std::vector<Candidate> candidates_;
@@ -114,7 +142,7 @@ class SourcedResolver : public ResidentData {
   GeometryCell kept_;  // holds the texture coordinates of that triangle only
 };
 
-/// What a tracer reaches geometry by: everything resident, or a source that may wait.
+/// What a tracer reaches a scene's parts by: everything resident, or a source that may wait.
 struct GeometryAccess {
   const SceneIndex* index = nullptr;
   const ProxyScene* proxies = nullptr;  // with `source`, instead of the index

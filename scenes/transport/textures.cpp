@@ -20,11 +20,12 @@ glm::vec2 texture_uv(const GeometryCell& cell, const Hit& hit) {
   return uv->corner[0] * (1 - hit.u - hit.v) + uv->corner[1] * hit.u + uv->corner[2] * hit.v;
 }
 
-float image_factor(const CompiledScene& scene, const Image& image, const glm::vec2& uv, int band) {
-  const int x = texel_index(uv.x, image.width);
-  const int y = texel_index(1 - uv.y, image.height);
-  const float* texel = &image.texels[static_cast<size_t>((y * image.width + x) * image.channels)];
-  if (image.channels < 3) return texel[0];
+glm::ivec2 texel_of(const Image& image, const glm::vec2& uv) {
+  return {texel_index(uv.x, image.width), texel_index(1 - uv.y, image.height)};
+}
+
+float texel_factor(const CompiledScene& scene, const float* texel, int channels, int band) {
+  if (channels < 3) return texel[0];
   const std::array<float, 3>& basis = scene.image_basis[static_cast<size_t>(band)];
   return std::clamp(texel[0] * basis[0] + texel[1] * basis[1] + texel[2] * basis[2], 0.0f, 1.0f);
 }

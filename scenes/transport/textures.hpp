@@ -9,8 +9,10 @@ namespace luxodus {
 /// Texture coordinates at a hit; (0, 0) is the picture's lower left corner, and pictures repeat.
 glm::vec2 texture_uv(const GeometryCell& cell, const Hit& hit);
 
-/// Reflectance factor of an image at (u, v) in a band, in [0, 1]; nearest texel.
-float image_factor(const CompiledScene& scene, const Image& image, const glm::vec2& uv, int band);
+/// The picture's texel nearest to (u, v): column and row. Only its size is looked at.
+glm::ivec2 texel_of(const Image& image, const glm::vec2& uv);
+/// Reflectance factor in a band of a texel of so many channels, in [0, 1].
+float texel_factor(const CompiledScene& scene, const float* texel, int channels, int band);
 
 /// Texel of a sign's face at (u, v); (0, 0) is the reader's lower left corner.
 size_t texel_at(const SignFace& face, const glm::vec2& uv);
@@ -32,8 +34,10 @@ SurfaceModel surface_at(const CompiledScene& scene, const Hit& hit, bool front, 
           colour == SignColour::white ? sign.white_reflectance[b] : sign.green_reflectance[b];
     }
   } else if (material.image != none_index) {
-    const glm::vec2 uv = texture_uv(*hit.cell, hit);
-    model.reflectance *= image_factor(scene, resolver.image(material.image), uv, band);
+    const Image& image = *scene.images[material.image];
+    const glm::ivec2 at = texel_of(image, texture_uv(*hit.cell, hit));
+    const float* texel = resolver.texel(material.image, at.x, at.y);
+    model.reflectance *= texel_factor(scene, texel, image.channels, band);
   }
   return model;
 }

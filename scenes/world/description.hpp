@@ -249,8 +249,8 @@ struct RunSettings {
   double eye_share = 1.0;  // paths from the eye per batch, relative to the default
 };
 
-/// Of a scene out of a pack: see scenes/transport/packed_geometry.hpp.
-struct PackedGeometry;
+/// Of a scene out of a pack: see scenes/transport/packed_scene.hpp.
+struct PackedScene;
 
 struct SceneDescription {
   std::string name;
@@ -274,7 +274,7 @@ struct SceneDescription {
   int64_t degenerate_triangles = 0;  // dropped on reading
   std::vector<Problem> warnings;     // said by `check`, not fatal
   /// Where the triangles are, if not in the objects; null where they are.
-  std::shared_ptr<const PackedGeometry> packed;
+  std::shared_ptr<const PackedScene> packed;
 };
 
 }  // namespace luxodus

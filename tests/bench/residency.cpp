@@ -42,7 +42,7 @@ std::shared_ptr<const CompiledScene> office() {
 
 /// What all cells take once they are built [bytes].
 uint64_t built_bytes(const CompiledScene& scene) {
-  const EmbreeDevice device;
+  const auto device = std::make_shared<BuildDevice>();
   uint64_t bytes = 0;
   for (const GeometryCell& cell : scene.cells) bytes += BuiltCell(device, cell).bytes();
   return bytes;

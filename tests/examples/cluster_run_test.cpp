@@ -62,7 +62,8 @@ TEST_CASE("processes that plan by a profile leave the flux file of the plain loo
   const Outcome up = run_luxodus(folder, "cluster up " + cluster.string());
   INFO(up.err);
   REQUIRE(up.code == 0);
-  const std::string cells = profiled.out.substr(0, profiled.out.find(' '));  // "N cells, ..."
+  const std::string cells = profiled.out.substr(
+      0, profiled.out.find(' '));  // "N objects, ...": this scene has cells only
   REQUIRE(run_luxodus(folder, "run " + office + " --particles 60k --no-views --cells " + cells +
                                   " --out " + (folder.path / "plain").string())
               .code == 0);

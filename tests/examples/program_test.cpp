@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/examples/program_kit.hpp"
+#include "tests/unit/scenes/pack/burning_gallery.hpp"
 
 using namespace luxodus::program;
 
@@ -355,6 +356,28 @@ TEST_CASE("a packed scene runs as its scene file does, resident and on nodes wit
   CHECK(bare.code != 0);
   CHECK(bare.err.find("holds no objects") != std::string::npos);
   CHECK(run_luxodus(folder, "pack " + pack + " --out " + skeleton).code == 2);
+}
+
+TEST_CASE("a packed scene of smoke data and pictures runs on nodes that hold a part of it",
+          "[program]") {
+  const Folder folder;
+  const std::string scene = write_gallery(folder.path).string();
+  const std::string pack = out(folder, "gallery.luxpack");
+  const Outcome packed = run_luxodus(folder, "pack " + scene + " --json --out " + pack);
+  REQUIRE(packed.code == 0);
+  const auto told = nlohmann::json::parse(packed.out);
+  CHECK(told["bricks"].get<int>() == 13);
+  CHECK(told["tiles"].get<int>() == 6);
+  const std::string common = " --no-views --particles 20k --out ";
+  REQUIRE(run_luxodus(folder, "run " + scene + common + out(folder, "plain")).code == 0);
+  const std::string nodes = "run " + pack + " --nodes 2 --fibers 64 --object-mib 0.25";
+  const Outcome shared = run_luxodus(folder, nodes + common + out(folder, "shared"));
+  INFO(shared.err);
+  REQUIRE(shared.code == 0);
+  CHECK(shared.out.find("shared") != std::string::npos);
+  REQUIRE(run_luxodus(folder, nodes + " --no-sharing" + common + out(folder, "apart")).code == 0);
+  CHECK(flux(folder, "shared") == flux(folder, "plain"));
+  CHECK(flux(folder, "apart") == flux(folder, "plain"));
 }
 
 TEST_CASE("a run shows pictures of itself while it goes on, and its result does not notice",

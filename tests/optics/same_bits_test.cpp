@@ -131,9 +131,9 @@ class MissingData {
     if (!web_ || missing(0.1f)) web_ = std::make_unique<PhotometricWeb>(*scene_->webs[i]);
     return *web_;
   }
-  const Image& image(uint32_t i) {
+  const float* texel(uint32_t i, int x, int y) {
     if (!image_ || missing(0.1f)) image_ = std::make_unique<Image>(*scene_->images[i]);
-    return *image_;
+    return &image_->texels[static_cast<size_t>((y * image_->width + x) * image_->channels)];
   }
 
  protected:

@@ -24,7 +24,7 @@ struct Made {
   std::vector<double> share;
 
   ResidencyRequest request(size_t nodes, uint64_t resident, uint64_t pinned) const {
-    const std::vector<uint64_t> bytes(profile.cells(), kib);
+    const std::vector<uint64_t> bytes(profile.objects(), kib);
     std::vector<std::vector<uint32_t>> hops(nodes, std::vector<uint32_t>(nodes, 1));
     for (size_t n = 0; n < nodes; ++n) hops[n][n] = 0;
     return {profile,
@@ -52,17 +52,17 @@ Made made(const std::vector<std::vector<uint64_t>>& visits) {
   return m;
 }
 
-std::vector<CellDemand> zipf(int cells) {
-  std::vector<CellDemand> demand;
+std::vector<ObjectDemand> zipf(int cells) {
+  std::vector<ObjectDemand> demand;
   for (int i = 1; i <= cells; ++i) demand.push_back({1.0 / i, 1.0 / i, kib});
   return demand;
 }
 
 /// Hits of a cache of `room` equal cells that lets the one unused for the longest go.
-double simulated_lru(const std::vector<CellDemand>& cells, size_t room, int references) {
+double simulated_lru(const std::vector<ObjectDemand>& cells, size_t room, int references) {
   std::vector<double> cumulative;
   double sum = 0;
-  for (const CellDemand& cell : cells) cumulative.push_back(sum += cell.visits);
+  for (const ObjectDemand& cell : cells) cumulative.push_back(sum += cell.visits);
   Random random(1, RandomStream::test);
   random.start(0);
   std::vector<size_t> used;  // the one unused for the longest first
@@ -99,7 +99,7 @@ TEST_CASE("the expected hit rate of independent visits is what a simulated cache
 
 TEST_CASE("with equal visits a cache finds the share of cells that it has room for",
           "[residency]") {
-  const std::vector<CellDemand> cells(100, {1, 1, kib});
+  const std::vector<ObjectDemand> cells(100, {1, 1, kib});
   CHECK(lru_hit_rate(cells, 25 * kib) == Approx(0.25).epsilon(1e-6));
   CHECK(lru_hit_rate(cells, 100 * kib) == 1);
   CHECK(lru_hit_rate(cells, 0) == Approx(0).margin(1e-6));
@@ -107,7 +107,7 @@ TEST_CASE("with equal visits a cache finds the share of cells that it has room f
 }
 
 TEST_CASE("what a history refers to again it finds, however small the cache", "[residency]") {
-  const std::vector<CellDemand> cells(100, {10, 1, kib});
+  const std::vector<ObjectDemand> cells(100, {10, 1, kib});
   CHECK(lru_hit_rate(cells, 0) == Approx(0.9).epsilon(1e-6));
 }
 

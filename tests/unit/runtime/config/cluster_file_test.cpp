@@ -32,6 +32,9 @@ TEST_CASE("a file that says little has the defaults of the rooms that use them",
   CHECK(cluster.nodes[0].budget.object_bytes == uint64_t{1} << 30);
   CHECK(cluster.nodes[0].budget.stack_bytes == 32 * 1024);
   CHECK_FALSE(cluster.run.particles.has_value());
+  CHECK(cluster.run.sharing);
+  CHECK_FALSE(
+      good(run_part + "sharing = false\n" + host_part + controller_part + worker_part).run.sharing);
 }
 
 TEST_CASE("paths are relative to the folder of the file", "[runtime][config]") {

@@ -37,16 +37,18 @@ struct MapStore final : ObjectStore {
 };
 
 struct TestObject final : BuiltObject {
-  TestObject(uint32_t n, size_t charged, int& alive) : number(n), charge(charged), alive_(alive) {
-    ++alive_;
+  /// `alive` counts, and outlives its node where objects are shared.
+  TestObject(uint32_t n, size_t charged, std::shared_ptr<int> alive)
+      : number(n), charge(charged), alive_(std::move(alive)) {
+    ++*alive_;
   }
-  ~TestObject() override { --alive_; }
+  ~TestObject() override { --*alive_; }
   size_t bytes() const override { return charge; }
   uint32_t number;
   size_t charge;
 
  private:
-  int& alive_;
+  std::shared_ptr<int> alive_;
 };
 
 /// Objects of `charge` bytes each, unless told otherwise. Answers at once, or when told to.
@@ -64,7 +66,7 @@ class TestBuilder final : public ObjectBuilder {
     const auto [object, client] = std::exchange(pending_, {});
     if (problem) return client->built(object, Problem{{}, "no such thing"});
     const size_t size = charges.contains(object) ? charges[object] : charge;
-    client->built(object, {std::make_unique<TestObject>(object, size, alive)});
+    client->built(object, {std::make_shared<TestObject>(object, size, alive)});
   }
   bool pending() const { return pending_.second != nullptr; }
 
@@ -74,7 +76,7 @@ class TestBuilder final : public ObjectBuilder {
   std::map<uint32_t, size_t> charges;
   std::vector<uint32_t> built;  // in order
   std::function<void(uint32_t)> on_build;
-  int alive = 0;
+  const std::shared_ptr<int> alive = std::make_shared<int>(0);
 
  private:
   std::pair<uint32_t, Client*> pending_{0, nullptr};

@@ -127,7 +127,7 @@ TEST_CASE("with room for one object thousands of fibers reach all that they visi
   for (uint32_t i = 0; i < fibers; ++i) walkers.push_back({&node, i});
   for (Walker& walker : walkers) node.start([&walker] { walker.walk(); });
   int most_alive = 0;
-  node.builder.on_build = [&](uint32_t) { most_alive = std::max(most_alive, node.builder.alive); };
+  node.builder.on_build = [&](uint32_t) { most_alive = std::max(most_alive, *node.builder.alive); };
   cluster.until([&] { return node.fibers.live() == 0; });
   for (const Walker& walker : walkers) REQUIRE(walker.reached == visits);
   CHECK(most_alive <= 1);
@@ -178,7 +178,7 @@ TEST_CASE("the object unused for the longest makes room", "[runtime][fetch]") {
   bring(cluster, {4});
   CHECK(resident(node, 5) == std::vector<uint32_t>{0, 3, 4});
   CHECK(node.cache.counters().evictions == 2);
-  CHECK(node.builder.alive == 3);
+  CHECK(*node.builder.alive == 3);
 }
 
 TEST_CASE("objects are charged what they take once built, and leave room for one build",

@@ -11,6 +11,7 @@
 #include "scenes/pack/skeleton.hpp"
 #include "scenes/transport/compile.hpp"
 #include "tests/unit/scenes/format/scratch_folder.hpp"
+#include "tests/unit/scenes/pack/burning_gallery.hpp"
 
 using namespace luxodus;
 namespace fs = std::filesystem;
@@ -99,6 +100,74 @@ TEST_CASE("a packed scene is the scene that was packed, and is traced to the sam
     CHECK(again->emitters.size() == scene->emitters.size());
     check_same_bits(traced(scene)->totals(), traced(again)->totals());
   }
+}
+
+TEST_CASE("smoke data and pictures go through a pack as objects, and not in its skeleton",
+          "[pack]") {
+  const ScratchFolder folder;
+  const fs::path file = folder.path() / "x.luxpack";
+  const auto description = gallery_in(folder.path());
+  for (const auto& [packed_in, cells] : {std::pair("smoky", 5), std::pair("aired", 1)}) {
+    INFO("packed in scenario " << packed_in);
+    const auto report = write_pack(file, *compiled(description, packed_in, cells), cells);
+    REQUIRE(report.ok());
+    CHECK(report->bricks == 9 + 4);  // three of the smoke's are clear
+    CHECK(report->tiles == 6);
+    CHECK(report->objects == static_cast<size_t>(cells) + 9 + 4 + 6);
+    CHECK(report->skeleton_bytes < 40'000);
+    const auto packed = opened(file);
+    for (const Medium& medium : packed->media) CHECK(medium.data.extinction.empty());
+    for (const auto& image : distinct_images(*packed)) CHECK(image->texels.empty());
+    for (const char* traced_in : {"smoky", "aired"}) {
+      INFO("traced in scenario " << traced_in);
+      const auto scene = compiled(description, traced_in, cells);
+      const auto again = compiled(packed, traced_in, 1);
+      CHECK(again->scene_hash == scene->scene_hash);
+      CHECK(again->volume_points == scene->volume_points);
+      check_same_bits(traced(scene)->totals(), traced(again)->totals());
+    }
+  }
+}
+
+TEST_CASE("a skeleton alone compiles a scene of smoke data, whose numbers are those of the pack",
+          "[pack]") {
+  const ScratchFolder folder;
+  const fs::path whole = folder.path() / "x.luxpack", skeleton = folder.path() / "s.luxpack";
+  const auto scene = compiled(gallery_in(folder.path()), "smoky", 5);
+  REQUIRE(write_pack(whole, *scene, 5).ok());
+  REQUIRE(write_skeleton_pack(skeleton, whole).ok());
+  const auto bare = compiled(opened(skeleton), "smoky", 1);
+  CHECK(bare->scene_hash == scene->scene_hash);
+  CHECK(bare->volume_points == scene->volume_points);
+  const SceneParts here(*bare), there(*scene);
+  REQUIRE(here.count() == there.count());
+  for (size_t i = 0; i < here.count(); ++i) {
+    CHECK(here[i].kind == there[i].kind);
+    CHECK(here[i].owner == there[i].owner);
+    CHECK(here[i].index == there[i].index);
+  }
+  CHECK(here.tables() == there.tables());
+  CHECK_FALSE(load_bricks(*bare).ok());
+  CHECK_FALSE(load_images(*bare).ok());
+}
+
+TEST_CASE("a pack whose brick or tile is damaged is refused where it is read", "[pack]") {
+  const ScratchFolder folder;
+  const fs::path file = folder.path() / "x.luxpack";
+  REQUIRE(write_pack(file, *compiled(gallery_in(folder.path()), "smoky", 1), 1).ok());
+  const auto whole = compiled(opened(file), "smoky", 1);
+  REQUIRE(load_bricks(*whole).ok());
+  REQUIRE(load_images(*whole).ok());
+  auto bytes = bytes_of(file);
+  const size_t cell = whole->description->packed->objects[0].wire_bytes;
+  bytes[128 + cell + 64 + 1000] ^= std::byte{4};  // in the first brick
+  const fs::path broken = folder.path() / "broken.luxpack";
+  REQUIRE(write_file_atomically(broken, bytes).ok());
+  const auto harmed = compiled(opened(broken), "smoky", 1);
+  const auto bricks = load_bricks(*harmed);
+  REQUIRE_FALSE(bricks.ok());
+  CHECK(bricks.problem().text().find("damaged") != std::string::npos);
+  CHECK(load_images(*harmed).ok());
 }
 
 TEST_CASE("a pack serves every scenario that leaves its doors alone, and refuses the others",
@@ -200,9 +269,11 @@ TEST_CASE("a damaged pack is refused, wherever the damage is", "[pack]") {
 }
 
 TEST_CASE("no bytes of a skeleton harm whoever reads them", "[pack]") {
-  const auto description = described("fire_in_a_box.toml");
+  const ScratchFolder folder;
+  const auto description = gallery_in(folder.path());
   const auto scene = compiled(description, "", 2);
-  const std::vector<std::byte> bytes = encode_skeleton(*description, summary_of(*scene, 2));
+  const std::vector<std::byte> bytes =
+      encode_skeleton(*description, summary_of(*scene, SceneParts(*scene), 2));
   REQUIRE(decode_skeleton(bytes).ok());
   Random random(11, RandomStream::test);
   int refused = 0;
