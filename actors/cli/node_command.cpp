@@ -1,6 +1,7 @@
 // luxodus node: the nodes of one process of a cluster, started on the machine where they belong.
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "actors/cli/command.hpp"
@@ -43,6 +44,15 @@ Result<Done> write_results(const ClusterConfig& cluster, const ClusterProcessRun
   return Done{};
 }
 
+/// A controller that traces brings its worker.
+void add_tracer(const ClusterConfig& cluster, std::vector<NodeId>& nodes) {
+  const NodeId controller = cluster.controller();
+  if (!cluster.node(controller).traces || std::count(nodes.begin(), nodes.end(), controller) == 0)
+    return;
+  const auto tracer = find_node(cluster, tracer_of(cluster.node(controller).name));
+  if (tracer && std::count(nodes.begin(), nodes.end(), *tracer) == 0) nodes.push_back(*tracer);
+}
+
 int run_nodes(const NodeOptions& options) {
   const ReadCluster read = read_cluster(options.config);
   for (const Problem& problem : read.problems.list()) tell(problem);
@@ -63,6 +73,7 @@ int run_nodes(const NodeOptions& options) {
     }
     nodes.push_back(*node);
   }
+  add_tracer(cluster, nodes);
   auto process = ClusterProcessRun::prepare(cluster, nodes);
   if (!process.ok()) {
     tell(process.problem());

@@ -115,8 +115,6 @@ ClusterProcessRun::~ClusterProcessRun() = default;
 
 Result<std::unique_ptr<ClusterProcessRun>> ClusterProcessRun::prepare(
     const ClusterConfig& cluster, const std::vector<NodeId>& nodes) {
-  if (cluster.node(cluster.controller()).traces)
-    return Problem{{cluster.file.string(), 0}, "a controller that traces is not supported yet"};
   auto graph = graph_of(cluster);
   if (!graph.ok()) return graph.problem();
   std::unique_ptr<ClusterProcessRun> process(

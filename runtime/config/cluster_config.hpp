@@ -55,7 +55,7 @@ enum class NodeRole : uint8_t { worker, controller };
 struct ClusterNode {
   std::string name;
   NodeRole role = NodeRole::worker;
-  bool traces = true;
+  bool traces = true;  // a controller: by a worker in its process; see tracer_of()
   bool stores = true;  // its host has the scene's objects, so it holds its part of them for all
   size_t host = 0;     // among ClusterConfig::hosts
   size_t process = 0;  // among ClusterConfig::processes
@@ -154,6 +154,11 @@ struct ClusterConfig {
   NodeId controller() const { return NodeId{static_cast<uint16_t>(nodes.size() - 1)}; }
   size_t workers() const { return nodes.size() - 1; }
 };
+
+/// The worker by which a controller of this name traces, where it does.
+inline std::string tracer_of(const std::string& controller) {
+  return controller + "-tracer";
+}
 
 /// The node of this name.
 std::optional<NodeId> find_node(const ClusterConfig& cluster, std::string_view name);

@@ -95,6 +95,24 @@ void read_node(const toml::table& table, const NodeBudget& usual, ClusterReading
   }
 }
 
+/// A controller that traces does so by a worker in its process.
+void add_tracer(std::vector<Draft>& drafts, ClusterReading& reading) {
+  const auto controller = std::find_if(drafts.begin(), drafts.end(), [](const Draft& draft) {
+    return draft.node.role == NodeRole::controller && draft.node.traces;
+  });
+  if (controller == drafts.end() || controller->node.name.empty()) return;
+  Draft tracer = *controller;
+  tracer.node.role = NodeRole::worker;
+  tracer.node.name = tracer_of(controller->node.name);
+  tracer.port.reset();
+  if (controller->process.empty()) controller->process = controller->node.name;
+  tracer.process = controller->process;
+  if (const auto fault = name_fault(tracer.node.name); !fault.empty())
+    reading.findings.add(tracer.place, fmt::format("\"{}\", by which it traces, is no name: {}",
+                                                   tracer.node.name, fault));
+  drafts.push_back(tracer);
+}
+
 void check_roles(const std::vector<Draft>& drafts, ClusterReading& reading) {
   const Draft* controller = nullptr;
   bool somebody_traces = false, a_worker_stores = false, a_worker = false;
@@ -173,6 +191,7 @@ void read_nodes(TableReader& top, ClusterReading& reading) {
     read_node(*table, usual, reading, drafts);
   }
   if (drafts.empty()) return;  // which was told
+  add_tracer(drafts, reading);
   check_names(drafts, reading);
   check_roles(drafts, reading);
   std::stable_partition(drafts.begin(), drafts.end(),

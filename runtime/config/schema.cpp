@@ -93,7 +93,8 @@ std::vector<TableSpec> node_tables() {
        }},
       {"node.controller",
        "`[[node]]` with `role = \"controller\"`",
-       {{"traces", "flag", "", "false", "", "it traces particles too"}}},
+       {{"traces", "flag", "", "false", "",
+         "it traces particles too, by a worker in its process, NAME-tracer"}}},
       {"budget",
        "`[budget]` for all nodes, `[node.budget]` for one, which says what differs",
        {

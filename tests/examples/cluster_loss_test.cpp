@@ -209,3 +209,28 @@ TEST_CASE("who stops cluster up stops all its nodes, and the results are written
   INFO(up.text());
   CHECK(particles_in(folder) > 0);
 }
+
+TEST_CASE("a controller that is killed and started again goes on from its journal",
+          "[cluster][loss]") {
+  const Folder folder;
+  ClusterText text = workers(2, "particles = 3_000_000\n");
+  text.more =
+      "[timeouts]\nlost_s = 30\n[lease]\nduration_s = 4\n[observe]\nlog_level = \"debug\"\n";
+  const std::string cluster = write_cluster(folder, text);
+  Running nodes = start(cluster, 2);
+  REQUIRE(nodes.controller->says("flush=taken"));
+  nodes.controller->kill(SIGKILL);
+  CHECK(nodes.controller->wait() == 128 + SIGKILL);
+  CHECK_FALSE(fs::exists(folder.path / "out" / "flux.lux"));
+  const fs::path journal = folder.path / "out" / "run.journal";
+  std::ofstream(journal, std::ios::app) << "what a crash has torn";
+  nodes.controller = node(cluster, "controller");
+  const int code = nodes.controller->wait();
+  INFO(nodes.controller->text());
+  CHECK(code == 0);
+  CHECK(nodes.controller->said("journal=torn bytes=21"));
+  CHECK(nodes.controller->said("run=recovered"));
+  for (const auto& worker : nodes.workers) CHECK(worker->wait() == 0);
+  check_plain_flux(folder, "3M");
+  CHECK_FALSE(fs::exists(journal));
+}

@@ -72,6 +72,20 @@ TEST_CASE("processes that plan by a profile leave the flux file of the plain loo
   CHECK(flux == slurp(folder.path / "plain" / "flux.lux"));
 }
 
+TEST_CASE("a controller that traces, alone in one process, leaves the flux of the plain loop",
+          "[cluster]") {
+  const Folder folder;
+  const fs::path file = folder.path / "cluster.toml";
+  std::ofstream(file) << "[run]\nname = \"alone\"\nscene = \"" << smoke_tank()
+                      << "\"\nparticles = 100_000\nout = \"" << (folder.path / "out").string()
+                      << "\"\n[[host]]\nname = \"here\"\n[[node]]\nname = \"controller\"\n"
+                         "role = \"controller\"\ntraces = true\n";
+  const Outcome run = run_luxodus(folder, "node --config " + file.string() + " --name controller");
+  INFO(run.err);
+  REQUIRE(run.code == 0);
+  check_same_flux(folder, file);
+}
+
 TEST_CASE("a rehearsal of faults, by the cluster's file, leaves the flux of the plain loop",
           "[cluster]") {
   const Folder folder;

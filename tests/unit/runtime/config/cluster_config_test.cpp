@@ -164,4 +164,18 @@ TEST_CASE("the clusters that ship are good, and name scenes that ship where they
   }
 }
 
+TEST_CASE("a controller that traces does so by a worker in its process", "[runtime][config]") {
+  const ClusterConfig alone = good(run_part + host_part + controller_part + "traces = true\n");
+  REQUIRE(alone.nodes.size() == 2);
+  CHECK(alone.nodes[0].name == "c-tracer");
+  CHECK(alone.nodes[0].role == NodeRole::worker);
+  CHECK(alone.node(alone.controller()).name == "c");
+  REQUIRE(alone.processes.size() == 1);
+  CHECK(alone.processes[0].name == "c");
+  CHECK(alone.processes[0].nodes.size() == 2);
+  const Problem taken = only_problem(run_part + host_part + controller_part +
+                                     "traces = true\n[[node]]\nname = \"c-tracer\"\n");
+  CHECK(taken.what.find("there is a node") != std::string::npos);
+}
+
 }  // namespace luxodus
