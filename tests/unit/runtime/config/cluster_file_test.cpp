@@ -104,7 +104,7 @@ TEST_CASE("what is wrong with a key is told once, with its line", "[runtime][con
       {small_cluster + "[keys]\nfolder = \"k\"\ninsecure = true\n", 13, "keep one of them"},
       {small_cluster + "[tally]\nshards = \"n\"\n", 12, "a list of at most 256 names"},
       {small_cluster + "[tally]\nshards = [\n1]\n", 13, "'shards' lists names"},
-      {small_cluster + "[tally]\nshards = [\n\"m\"]\n", 13, "did you mean \"n\"?"},
+      {small_cluster + "[tally]\nshards = [\n\"m\"]\n", 13, "there is no node \"m\""},
       {small_cluster + "[tally]\nshards = [\"c\"]\n", 12, "name workers"},
       {small_cluster + "[tally]\nshards = [\"n\", \"n\"]\n", 12, "a share of the totals already"},
       {small_cluster + "[tally]\nshard = [\"n\"]\n", 12, "did you mean 'shards'?"},
