@@ -26,6 +26,7 @@ constexpr Table tables[] = {
     {"delay", luxodus::bench::print_delay},
     {"flushes", luxodus::bench::print_flushes},
     {"residency", [](int) { luxodus::bench::print_residency(); }},
+    {"smoke", [](int) { luxodus::bench::print_smoke(); }},
 };
 
 bool is_table(const std::string& word) {

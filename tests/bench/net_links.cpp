@@ -1,5 +1,6 @@
 // net_bench [--seconds N]: the network alone, two nodes on two threads, one table: round trips of a
-// small question (one at a time), questions a second (64 at a time), and objects of 1 MB.
+// small question (one at a time), questions a second (64 at a time), and objects a second of the
+// size of a brick of smoke, of eight together, and of a geometry cell (8 at a time).
 #include <fmt/core.h>
 #include <spdlog/spdlog.h>
 #include <unistd.h>
@@ -21,7 +22,8 @@ using namespace luxodus;
 namespace {
 
 constexpr NodeId asker{0}, holder{1};
-constexpr size_t object_bytes = 1 << 20;
+constexpr size_t object_bytes[] = {16 << 10, 128 << 10, 1 << 20};
+constexpr size_t object_bytes_most = 1 << 20;
 constexpr size_t questions_at_once = 64;
 constexpr size_t objects_at_once = 8;
 
@@ -37,21 +39,23 @@ NetConfig config_of(NodeId self) {
   return config;
 }
 
-/// Asks or answers; small questions are answered "not here", those for object 1 with 1 MB.
+/// Asks or answers; questions for object 0 are answered "not here", those for object n with n
+/// bytes.
 class Peer final : public NetHandler {
  public:
   Peer(ZmqContext& context, const ZmqConfig& zmq)
       : self_(zmq.self),
         transport(context, zmq, system_clock),
         network(config_of(zmq.self), transport, *this, system_clock.now()),
-        room_(object_bytes / 8 + 64),
-        object_(std::make_shared<std::vector<std::byte>>(object_bytes)) {}
+        room_(object_bytes_most / 8 + 64),
+        object_(std::make_shared<std::vector<std::byte>>(object_bytes_most)) {}
 
   bool deliver(const Delivery& d) override {
     if (const auto* fetch = std::get_if<FetchObject>(&d.message)) {
       if (fetch->object.value == 0)
         return network.send(d.source, d.id, ObjectNotHere{}) == SendOutcome::taken;
-      return network.send(d.source, d.id, ObjectFound{}, {*object_, object_}) == SendOutcome::taken;
+      const std::span bytes = std::span(*object_).first(fetch->object.value);
+      return network.send(d.source, d.id, ObjectFound{}, {bytes, object_}) == SendOutcome::taken;
     }
     ++answers;
     return true;
@@ -137,13 +141,14 @@ void measure(const char* name, const Endpoints& where, bool curve, Nanoseconds s
   first.load(0, questions_at_once, span / 10);  // warm
   const auto trips = first.round_trips(span);
   const double questions = first.load(0, questions_at_once, span);
-  const double objects = first.load(1, objects_at_once, span);
+  std::string objects;
+  for (const size_t bytes : object_bytes)
+    objects += fmt::format(" {:>11.0f}", first.load(bytes, objects_at_once, span));
   done = true;
   second.transport.wake();
   answering.join();
-  fmt::print("{:<12} {:>9.1f} {:>9.1f} {:>12.0f} {:>9.0f}\n", name, trips[trips.size() / 2],
-             trips[trips.size() * 99 / 100], questions,
-             objects * static_cast<double>(object_bytes) / 1e6);
+  fmt::print("{:<12} {:>9.1f} {:>9.1f} {:>12.0f}{}\n", name, trips[trips.size() / 2],
+             trips[trips.size() * 99 / 100], questions, objects);
 }
 
 }  // namespace
@@ -160,8 +165,8 @@ int main(int argc, char** argv) {
                                        ("luxodus-net-bench-" + std::to_string(::getpid())))
                                           .string();
   const Endpoints tcp{"tcp://127.0.0.1:*", "tcp://127.0.0.1:*"};
-  fmt::print("{:<12} {:>9} {:>9} {:>12} {:>9}\n", "transport", "p50 [us]", "p99 [us]",
-             "questions/s", "MB/s");
+  fmt::print("{:<12} {:>9} {:>9} {:>12} {:>11} {:>11} {:>11}\n", "transport", "p50 [us]",
+             "p99 [us]", "questions/s", "16 KiB/s", "128 KiB/s", "1 MiB/s");
   measure("inproc", {"inproc://first", "inproc://first-bulk"}, false, seconds(n));
   measure("ipc", {path + ".control", path + ".bulk"}, false, seconds(n));
   measure("tcp", tcp, false, seconds(n));

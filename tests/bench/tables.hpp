@@ -17,6 +17,8 @@ void print_pieces(int repeats);
 void print_switch(int repeats);
 /// How often nodes find cells resident, and what they fetch, with and without a profile.
 void print_residency();
+/// What nodes fetch and build of a room full of smoke data, with sharing and without.
+void print_smoke();
 /// Runs on nodes against the plain loop, everything resident.
 void print_nodes(int repeats);
 /// Runs on nodes that fetch, with and without a delay on their links, by fibers.

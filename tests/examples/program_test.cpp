@@ -361,7 +361,7 @@ TEST_CASE("a packed scene runs as its scene file does, resident and on nodes wit
 TEST_CASE("a packed scene of smoke data and pictures runs on nodes that hold a part of it",
           "[program]") {
   const Folder folder;
-  const std::string scene = write_gallery(folder.path).string();
+  const std::string scene = luxodus::write_gallery(folder.path).string();
   const std::string pack = out(folder, "gallery.luxpack");
   const Outcome packed = run_luxodus(folder, "pack " + scene + " --json --out " + pack);
   REQUIRE(packed.code == 0);
