@@ -163,7 +163,7 @@ Result<ExitCode> simulate_seeds(const SimCommandOptions& options) {
   const auto scene = sim_scene(options);
   if (!scene.ok()) return scene.problem();
   install_interrupt_handler();
-  if (!options.log) spdlog::set_level(spdlog::level::err);
+  if (!options.log) spdlog::set_level(spdlog::level::off);
   const SystemClock clock;
   const Nanoseconds began = clock.now();
   const bool single = seeds->end - seeds->first == 1;

@@ -368,9 +368,9 @@ TEST_CASE("a packed scene of smoke data and pictures runs on nodes that hold a p
   const auto told = nlohmann::json::parse(packed.out);
   CHECK(told["bricks"].get<int>() == 13);
   CHECK(told["tiles"].get<int>() == 6);
-  const std::string common = " --no-views --particles 20k --out ";
+  const std::string common = " --no-views --particles 8k --out ";
   REQUIRE(run_luxodus(folder, "run " + scene + common + out(folder, "plain")).code == 0);
-  const std::string nodes = "run " + pack + " --nodes 2 --fibers 64 --object-mib 0.25";
+  const std::string nodes = "run " + pack + " --nodes 2 --fibers 64 --object-mib 1";
   const Outcome shared = run_luxodus(folder, nodes + common + out(folder, "shared"));
   INFO(shared.err);
   REQUIRE(shared.code == 0);

@@ -20,7 +20,7 @@ constexpr int64_t batches = 40;
 constexpr int cells = 16;
 
 SimScene scene_of(const std::string& name) {
-  spdlog::set_level(spdlog::level::err);
+  spdlog::set_level(spdlog::level::off);
   auto read = read_scene(std::string(LUX_SOURCE_DIR) + "/scenes/library/" + name + ".toml");
   REQUIRE(read.scene);
   auto description = std::make_shared<SceneDescription>(std::move(*read.scene));
