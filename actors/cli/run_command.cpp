@@ -34,6 +34,7 @@ struct RunOptions {
   int tally_shards = 1;
   std::string profile = "1%";
   bool no_sharing = false;
+  size_t prefetch = 0;
   std::string link_delay;
   std::optional<uint16_t> metrics_port;
   uint64_t trace_every = 0;
@@ -113,6 +114,7 @@ Result<NodesOptions> nodes_options(const RunOptions& options, Nanoseconds link_d
     nodes.tally_bytes = static_cast<uint64_t>(options.tally_mib * 1024 * 1024);
   nodes.tally_shards = options.tally_shards;
   nodes.sharing = !options.no_sharing;
+  nodes.prefetch = options.prefetch;
   nodes.link_delay = link_delay;
   nodes.observation = observation;
   return nodes;
@@ -310,6 +312,12 @@ void add_node_options(CLI::App& command, const std::shared_ptr<RunOptions>& opti
                   "shares of the totals: one stays with the controller, the others are held by so "
                   "many of the nodes [1]")
       ->check(CLI::Range(1, limits::nodes_in_process + 1));
+  command
+      .add_option(
+          "--prefetch", options->prefetch,
+          "with --object-mib: cells that a ray enters next, asked for ahead of the one that is "
+          "waited for [0]")
+      ->check(CLI::Range(0, 64));
   command.add_flag("--no-sharing", options->no_sharing,
                    "with --object-mib: each node builds its own copy of what it needs, as if the "
                    "nodes were processes");

@@ -137,11 +137,15 @@ void print_run(uint64_t seed, const SimReport& report) {
       static_cast<unsigned long long>(w.corrupted), static_cast<unsigned long long>(w.ghosts));
   std::printf("  faults   %llu, of these crashes %llu\n", static_cast<unsigned long long>(w.faults),
               static_cast<unsigned long long>(w.crashes));
-  std::printf("  leases   %llu, fenced %llu; flushes refused %llu; fetches %llu\n",
-              static_cast<unsigned long long>(report.leases),
-              static_cast<unsigned long long>(report.leases_fenced),
-              static_cast<unsigned long long>(report.flushes_refused),
-              static_cast<unsigned long long>(report.caches.fetches));
+  std::printf(
+      "  leases   %llu, fenced %llu; flushes refused %llu; batches back from journals %lld\n",
+      static_cast<unsigned long long>(report.leases),
+      static_cast<unsigned long long>(report.leases_fenced),
+      static_cast<unsigned long long>(report.flushes_refused),
+      static_cast<long long>(report.recovered));
+  std::printf("  fetches  %llu, builds %llu\n",
+              static_cast<unsigned long long>(report.caches.fetches),
+              static_cast<unsigned long long>(report.caches.builds));
 }
 
 /// Errors: as simulate; with `twice`, a second run that is not the same.

@@ -37,7 +37,7 @@ class CountingParts final : public ObjectSource {
   }
   void begin_history() { ++history_; }
 
-  const CellScene* cell(uint32_t cell) override {
+  const CellScene* cell(uint32_t cell, std::span<const Candidate>) override {
     const auto* object = static_cast<const BuiltCell*>(find(cell));
     return object != nullptr ? &object->scene() : nullptr;
   }

@@ -56,8 +56,8 @@ SharedBytes HeldObjects::find(ObjectId object) {
   return at != held_.end() && at->first == object ? objects_.bytes(at->second) : SharedBytes{};
 }
 
-const CellScene* CachedObjects::cell(uint32_t cell) {
-  const BuiltObject* object = get(cell);
+const CellScene* CachedObjects::cell(uint32_t cell, std::span<const Candidate> next) {
+  const BuiltObject* object = get(cell, next);
   return object != nullptr ? &static_cast<const BuiltCell*>(object)->scene() : nullptr;
 }
 
@@ -73,16 +73,18 @@ const ImageTile* CachedObjects::tile(uint32_t image, uint32_t tile) {
   return object != nullptr ? &static_cast<const BuiltTile*>(object)->tile() : nullptr;
 }
 
-const BuiltObject* CachedObjects::get(uint32_t object) {
+const BuiltObject* CachedObjects::get(uint32_t object, std::span<const Candidate> next) {
   const BuiltObject* found = cache_.find(object);
-  return found != nullptr ? found : wait_for(object);
+  return found != nullptr ? found : wait_for(object, next);
 }
 
-const BuiltObject* CachedObjects::wait_for(uint32_t object) {
+const BuiltObject* CachedObjects::wait_for(uint32_t object, std::span<const Candidate> next) {
+  ahead_.clear();
+  for (const Candidate& c : next.first(std::min(prefetch_, next.size()))) ahead_.push_back(c.cell);
   const uint64_t particle = fibers_.current()->subject();
   const bool traced = trace_ != nullptr && trace_->wants(particle);
   if (traced) trace_->begin(TraceKind::wait, particle, object);
-  const Got got = cache_.get(object, traced);
+  const Got got = cache_.get(object, traced, ahead_);
   if (traced) trace_->end(TraceKind::wait, particle, object);
   if (got.how == Got::How::resident) return got.object;
   refused_.push_back(fibers_.current()->id());

@@ -66,24 +66,27 @@ class HeldObjects final : public ObjectStore {
 /// What a node's tracers ask for parts of the scene.
 class CachedObjects final : public ObjectSource {
  public:
-  /// `trace` is told of waits of sampled particles; null: of none.
+  /// Where a cell is waited for, `prefetch` of those that the ray enters next are asked for as
+  /// well. `trace` is told of waits of sampled particles; null: of none.
   CachedObjects(const SceneParts& parts, ObjectCache& cache, const Fibers& fibers,
-                NodeTrace* trace = nullptr)
-      : parts_(parts), cache_(cache), fibers_(fibers), trace_(trace) {}
+                size_t prefetch = 0, NodeTrace* trace = nullptr)
+      : parts_(parts), cache_(cache), fibers_(fibers), prefetch_(prefetch), trace_(trace) {}
 
-  const CellScene* cell(uint32_t cell) override;
+  const CellScene* cell(uint32_t cell, std::span<const Candidate> next) override;
   const Brick* brick(int medium, int brick) override;
   const ImageTile* tile(uint32_t image, uint32_t tile) override;
   bool spoilt() override;
 
  private:
-  const BuiltObject* get(uint32_t object);
-  const BuiltObject* wait_for(uint32_t object);
+  const BuiltObject* get(uint32_t object, std::span<const Candidate> next = {});
+  const BuiltObject* wait_for(uint32_t object, std::span<const Candidate> next);
 
   const SceneParts& parts_;
   ObjectCache& cache_;
   const Fibers& fibers_;
+  const size_t prefetch_;
   NodeTrace* const trace_;
+  std::vector<uint32_t> ahead_;   // to be asked for ahead of time
   std::vector<FiberId> refused_;  // fibers that did not get what they asked for
 };
 

@@ -66,7 +66,7 @@ SimWorker::SimWorker(const RunSetup& run, const NodeSetup& node, SimWorld& world
 }
 
 SimWorker::~SimWorker() {
-  if (worker_.cells() != nullptr) all_.add(worker_.cells()->report());
+  if (worker_.objects() != nullptr) all_.add(worker_.objects()->report());
 }
 
 void SimWorker::die() {
@@ -76,24 +76,25 @@ void SimWorker::die() {
 std::string SimWorker::fault() const {
   const Scheduler& scheduler = worker_.shell().scheduler();
   if (auto fault = fault_of(worker_.shell(), scheduler.fibers()); !fault.empty()) return fault;
-  if (worker_.cells() == nullptr) return "";
-  const ObjectCache::Counters& cache = worker_.cells()->cache().counters();
+  if (worker_.objects() == nullptr) return "";
+  const ObjectCache::Counters& cache = worker_.objects()->cache().counters();
   if (cache.resident_bytes > node_.object_bytes)
     return fmt::format("{} B are resident, with a budget of {} B", cache.resident_bytes,
                        node_.object_bytes);
   if (cache.pinned_bytes > cache.resident_bytes) return "more bytes are pinned than resident";
-  if (cache.builds > cache.misses) return "an object was built twice for one fetch";
+  if (cache.builds > worker_.objects()->report().fetches)
+    return "an object was built twice for one fetch";
   return "";
 }
 
 // ---- the controller ----------------------------------------------------------------------------
 
 SimController::SimController(const RunSetup& setup, const NodeSetup& node, LocalRun& run,
-                             const StopRule& stop, SimWorld& world, FlushKeeper& keeper)
+                             const StopRule& stop, SimWorld& world, FlushKeeper* keeper)
     : run_(run),
       node_(
           setup, node, run, stop, interrupt_, [](const Progress&) {},
-          {world.clock(node.net.self), world.transport(node.net.self)}, &keeper) {
+          {world.clock(node.net.self), world.transport(node.net.self)}, keeper) {
   node_.start([] { return false; });
 }
 

@@ -44,7 +44,7 @@ class SimController final : public CheckedNode {
  public:
   /// Requires: all outlive this.
   SimController(const RunSetup& setup, const NodeSetup& node, LocalRun& run, const StopRule& stop,
-                SimWorld& world, FlushKeeper& keeper);
+                SimWorld& world, FlushKeeper* keeper);
 
   Nanoseconds turn() override;
   bool finished() const override { return node_.shell().finished(); }

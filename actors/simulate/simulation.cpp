@@ -80,7 +80,9 @@ NodesOptions drawn_nodes(Draw& draw, const CompiledScene& scene, const SimOption
   nodes.fibers = draw.one_of<size_t>({1, 2, 4, 16, 64});
   const auto room = draw.one_of<size_t>({0, 1, 1, 2, 8});
   if (in_parts(scene) && room > 0) nodes.object_bytes = tight_budget(scene, room);
+  nodes.prefetch = draw.one_of<size_t>({0, 0, 1, 4});
   nodes.replicas = std::min(draw.one_of<uint32_t>({1, 2, 3}), static_cast<uint32_t>(options.nodes));
+  nodes.tally_shards = std::min(draw.one_of<int>({1, 1, 2, 3}), options.nodes + 1);
   return nodes;
 }
 
@@ -121,6 +123,7 @@ class Simulation {
   std::string ended_well() const;
   NodeId controller() const { return {static_cast<uint16_t>(setups_.size() - 1)}; }
   void note_last(const SimController& controller);
+  bool sharded() const { return !setup_.shards.owners.empty(); }
 
   const SimScene& scene_;
   const SimOptions options_;
@@ -192,6 +195,11 @@ FaultPlan Simulation::fault_plan() const {
   frame.edges = edges_of(setup_.graph);
   frame.nodes = static_cast<uint16_t>(setups_.size());
   frame.lasts = options_.faults_last;
+  // A shard of the totals does not survive its node, nor a run in shards its controller.
+  if (sharded()) {
+    frame.spared = setup_.shards.owners;
+    frame.spared.push_back(controller());
+  }
   return swarm(options_.seed, frame);
 }
 
@@ -200,7 +208,7 @@ std::unique_ptr<SimNode> Simulation::make(NodeId node, uint32_t life) {
   setup.net.incarnation = {draw_life(options_.seed, node, life)};
   if (node == controller()) {
     begin_controller(life);
-    return std::make_unique<SimController>(setup_, setup, *run_, stop_, *world_, *journal_);
+    return std::make_unique<SimController>(setup_, setup, *run_, stop_, *world_, journal_.get());
   }
   return std::make_unique<SimWorker>(setup_, setup, *world_, costs_, report_.caches);
 }
@@ -215,6 +223,7 @@ void Simulation::begin_controller(uint32_t life) {
   }
   journal_.reset();
   run_ = scene_.fresh_run(false);
+  if (sharded()) return;
   auto store = std::make_unique<FaultyStore>(std::make_unique<MemoryStore>(disk_), controller(),
                                              fault_plan(), world_->clock(controller()));
   auto journal = FluxJournal::open(std::move(store), *run_);
@@ -271,8 +280,8 @@ Result<SimReport> Simulation::run(const SimScene& scene, const SimOptions& optio
   Simulation simulation(scene, options, *nodes.value());
   simulation.go();
   simulation.report_.nodes =
-      fmt::format("{} nodes, {} fibers, {} replicas, objects {} KiB", wanted.nodes, wanted.fibers,
-                  wanted.replicas, wanted.object_bytes >> 10);
+      fmt::format("{} nodes, {} fibers, {} replicas, {} shards, objects {} KiB", wanted.nodes,
+                  wanted.fibers, wanted.replicas, wanted.tally_shards, wanted.object_bytes >> 10);
   return std::move(simulation.report_);
 }
 

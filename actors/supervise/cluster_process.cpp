@@ -226,6 +226,7 @@ Result<NodeSetup> ClusterProcessRun::setup_of(NodeId self, const RunSetup& run) 
   const NodeBudget& budget = cluster_.node(self).budget;
   node.photons.fibers = fetches_ ? budget.fibers : 1;
   node.object_bytes = budget.object_bytes;
+  node.prefetch = budget.prefetch;
   node.pinned_share = cluster_.run.profile.empty() ? 0 : pinned_share;
   node.fibers.stack_bytes = budget.stack_bytes * sanitizers::stack_factor;
   if (budget.maps_most > 0) node.fibers.maps_most = budget.maps_most;

@@ -55,6 +55,7 @@ struct NodeSetup {
   size_t object_bytes = 0;  // for built objects, where objects are fetched
   double pinned_share = 0;  // of these for pinned ones, at most
   std::vector<uint32_t> pins;
+  size_t prefetch = 0;  // cells asked for ahead of the one that is waited for
   /// The controller's: see ControllerConfig::group_ranks.
   std::vector<std::vector<uint32_t>> group_ranks;
   uint64_t tally_bytes = UINT64_MAX;  // for scores, totals and a flush

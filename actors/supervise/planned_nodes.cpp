@@ -66,6 +66,7 @@ NodeSetup setup_of(const RunSetup& run, const NetConfig& common, NodeId self,
   node.photons.portion = static_cast<int64_t>(options.portion);
   node.object_bytes = options.object_bytes;
   node.pinned_share = options.pinned_share;
+  node.prefetch = options.prefetch;
   node.tally_bytes = options.tally_bytes;
   node.faults.links.delay = options.link_delay;
   return node;

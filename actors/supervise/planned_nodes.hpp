@@ -36,6 +36,7 @@ struct NodesOptions {
   /// With a budget: the share of the run's particles that is traced beforehand, to plan who traces,
   /// holds and keeps what. 0: no plan.
   double profile_share = 0.01;
+  size_t prefetch = 0;        // cells asked for ahead of the one that is waited for
   double pinned_share = 0.5;  // of a budget, for objects that the plan has kept for good
   /// Of every link, on purpose: what a distance would cost, and how many fibers hide it.
   Nanoseconds link_delay = 0;

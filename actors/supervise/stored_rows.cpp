@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <thread>
 
-#include "actors/supervise/fetching_cells.hpp"
+#include "actors/supervise/fetching_objects.hpp"
 #include "actors/supervise/node_plan.hpp"
 #include "topology/graph.hpp"
 
@@ -84,7 +84,7 @@ void work(const RunSetup& run, const NodeSetup& node, const Clock& clock,
   _mm_setcsr(_mm_getcsr() | 0x8040);  // denormals to zero, as in the tracing of particles
   NoTransport transport(clock);
   NodeShell shell({node.net, worker_limits(run, node)}, run.graph, clock, transport);
-  FetchingCells cells(run, node, shell);
+  FetchingObjects cells(run, node, shell);
   const GeometryAccess access = GeometryAccess::through(*run.proxies, cells.source());
   std::vector<RowRunner::Worker> workers;
   for (size_t i = 0; i < node.photons.fibers; ++i) workers.push_back(make(access));

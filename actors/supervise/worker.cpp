@@ -32,14 +32,15 @@ Worker::Worker(const RunSetup& run, const NodeSetup& node, const NodeSeams& seam
       shell_(
           {node.net, worker_limits(run, node), ShellConfig{}.room_bytes_most, node.shutdown_phase},
           run.graph, seams.clock, seams.transport),
-      cells_(run.objects == nullptr ? nullptr
-                                    : std::make_unique<FetchingCells>(run, node, shell_, trace_)),
+      objects_(run.objects == nullptr
+                   ? nullptr
+                   : std::make_unique<FetchingObjects>(run, node, shell_, trace_)),
       shard_(own_shard()),
       parts_(run.shards, post()),
       leases_(lease_config(node, trace_), shell_.scheduler(), shell_.network(), parts_),
       photons_(run.scene,
-               cells_ ? GeometryAccess::through(*run.proxies, cells_->source())
-                      : GeometryAccess::resident(*run.index),
+               objects_ ? GeometryAccess::through(*run.proxies, objects_->source())
+                        : GeometryAccess::resident(*run.index),
                run.seed, photon_config(node, trace_), shell_.scheduler(), leases_,
                seams.make_tracer) {}
 
@@ -81,7 +82,7 @@ void Worker::show_to(Observation& seen) {
   leases_.add_metrics(metrics_->registry());
   photons_.add_metrics(metrics_->registry());
   if (shard_) shard_->add_metrics(metrics_->registry());
-  if (cells_) cells_->add_metrics(metrics_->registry());
+  if (objects_) objects_->add_metrics(metrics_->registry());
   metrics_->add_rate({"particles_per_second", "", "Particles traced in a second.", ""},
                      photons_.counters().particles);
   metrics_->start(seen);
@@ -92,7 +93,7 @@ void Worker::start(std::function<bool()> stop) {
   shell_.add([this](const Delivery& d) { return leases_.deliver(d); });
   if (shard_) shell_.add([this](const Delivery& d) { return shard_->deliver(d); });
   leases_.start(photons_);
-  if (cells_) cells_->pin(node_.pins);
+  if (objects_) objects_->pin(node_.pins);
   photons_.start();
   if (run_.observation != nullptr) show_to(*run_.observation);
   shell_.begin([this] { return may_leave(); });
@@ -113,7 +114,7 @@ bool Worker::may_leave() {
 
 Result<WorkerReport> Worker::result() const {
   if (leases_.fault()) return *leases_.fault();
-  WorkerReport report = cells_ ? cells_->report() : WorkerReport{};
+  WorkerReport report = objects_ ? objects_->report() : WorkerReport{};
   report.waited = shell_.scheduler().counters().waited;
   report.tally_full = photons_.counters().tally_full;
   report.tally_bytes_most = photons_.counters().tally_bytes_most;

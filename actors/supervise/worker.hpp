@@ -5,7 +5,7 @@
 #include <deque>
 
 #include "actors/photon/lease_client.hpp"
-#include "actors/supervise/fetching_cells.hpp"
+#include "actors/supervise/fetching_objects.hpp"
 #include "actors/supervise/node_metrics.hpp"
 #include "actors/tally/tally_shard.hpp"
 
@@ -27,7 +27,7 @@ class Worker {
   const NodeShell& shell() const { return shell_; }
   const LeaseClient& leases() const { return leases_; }
   /// Null where the node holds everything.
-  const FetchingCells* cells() const { return cells_.get(); }
+  const FetchingObjects* objects() const { return objects_.get(); }
 
   /// What it did. Errors: a controller that never came, was lost, or could not begin.
   /// Requires: shell().finished().
@@ -44,7 +44,7 @@ class Worker {
   const NodeSetup& node_;
   NodeTrace* const trace_;  // null where nothing is traced
   NodeShell shell_;
-  std::unique_ptr<FetchingCells> cells_;  // where the node does not hold everything
+  std::unique_ptr<FetchingObjects> objects_;  // where the node does not hold everything
   struct OwnMessage {
     MessageId id;
     Message message;

@@ -45,6 +45,7 @@ struct NodeBudget {
   uint64_t object_bytes = 0;
   uint64_t tally_bytes = 0;
   uint32_t fibers = 0;
+  uint32_t prefetch = 0;
   uint32_t stack_bytes = 0;  // of one fiber
   uint32_t maps_most = 0;    // 0: its part of process_maps_most()
 };

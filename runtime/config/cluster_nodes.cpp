@@ -33,6 +33,8 @@ NodeBudget read_budget(const toml::table& table, Findings& findings, const Sourc
   budget.object_bytes = keys.size("object_bytes", otherwise(&NodeBudget::object_bytes));
   budget.tally_bytes = keys.size("tally_bytes", otherwise(&NodeBudget::tally_bytes));
   budget.fibers = static_cast<uint32_t>(keys.integer("fibers", otherwise(&NodeBudget::fibers)));
+  budget.prefetch =
+      static_cast<uint32_t>(keys.integer("prefetch", otherwise(&NodeBudget::prefetch)));
   budget.stack_bytes = static_cast<uint32_t>(keys.integer("stack_kb", stack_kb) * 1024);
   budget.maps_most =
       static_cast<uint32_t>(keys.integer("maps_most", otherwise(&NodeBudget::maps_most)));

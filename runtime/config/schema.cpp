@@ -105,6 +105,8 @@ std::vector<TableSpec> node_tables() {
             "is full is sent at once, and a batch that is more by itself ends the run"},
            {"fibers", "integer", "", "4096", "[1, 100000]",
             "particles followed at once; more hide more delay and share more fetches"},
+           {"prefetch", "integer", "", "0", "[0, 64]",
+            "cells that a ray enters next, asked for ahead of the one that is waited for"},
            {"stack_kb", "integer", "KiB", "32", "[16, 1024]", "stack of one fiber"},
            {"maps_most", "integer", "", "0", "[0, 1e7]",
             "memory maps for guards between stacks; 0: its part of the system's limit"},

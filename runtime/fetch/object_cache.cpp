@@ -73,7 +73,7 @@ void ObjectCache::add_metrics(Metrics& metrics) const {
 
 // ---- asking for objects
 
-Got ObjectCache::get(uint32_t object, bool traced) {
+Got ObjectCache::get(uint32_t object, bool traced, std::span<const uint32_t> ahead) {
   if (const BuiltObject* built = find(object)) return {Got::How::resident, built};
   Entry& entry = entries_[object];
   if (entry.state == ObjectState::absent) {
@@ -82,6 +82,7 @@ Got ObjectCache::get(uint32_t object, bool traced) {
   } else {
     ++counters_.joined;
   }
+  prefetch(ahead);
   if (fibers_.wait(entry.waiters, "fetch") != Wake::woken) return {Got::How::cancelled};
   if (--to_run_ == 0 && ready_ != nullptr) step_soon();
   if (entry.built == nullptr) return {Got::How::unobtainable};

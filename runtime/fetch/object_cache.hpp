@@ -100,8 +100,9 @@ class ObjectCache final : private FetchClient, private ObjectBuilder::Client {
   }
 
   /// The object, after a wait if need be. Requires: on a fiber. Suspends where it is not resident.
-  /// `traced`: if this begins a fetch, its times are told to the trace.
-  [[nodiscard]] Got get(uint32_t object, bool traced = false);
+  /// `traced`: if this begins a fetch, its times are told to the trace. `ahead`: where it waits,
+  /// these are asked for after it, as by prefetch().
+  [[nodiscard]] Got get(uint32_t object, bool traced = false, std::span<const uint32_t> ahead = {});
 
   /// Has those fetched that are absent, and waits for none.
   void prefetch(std::span<const uint32_t> objects);

@@ -115,10 +115,10 @@ inline bool is_nearer(const Hit& hit, const Hit& best) {
   return best.found() && hit.triangle->global_triangle < best.triangle->global_triangle;
 }
 
-/// Nearest hit over cells, front to back. `enter(cell)` gives a pointer to the CellScene and may
-/// wait for it; null where it cannot be had, and then nothing is hit. `keep(hit)` is what stands
-/// for a hit whose cell may be gone when the next one is entered. A cell is entered only while it
-/// can hold something nearer.
+/// Nearest hit over cells, front to back. `enter(candidate)` gives a pointer to the CellScene and
+/// may wait for it; null where it cannot be had, and then nothing is hit. The candidate is one of
+/// `scratch`, and those behind it are the next. `keep(hit)` is what stands for a hit whose cell may
+/// be gone when the next one is entered. A cell is entered only while it can hold something nearer.
 template <class Enter, class Keep = std::identity>
 Hit nearest_in_cells(const ProxyScene& proxies, const Ray& ray, std::vector<Candidate>& scratch,
                      Enter&& enter, Keep keep = {}) {
@@ -126,7 +126,7 @@ Hit nearest_in_cells(const ProxyScene& proxies, const Ray& ray, std::vector<Cand
   Hit best;
   for (const Candidate& c : scratch) {
     if (c.entry > best.distance) break;
-    const CellScene* cell = enter(c.cell);
+    const CellScene* cell = enter(c);
     if (cell == nullptr) return {};
     const Hit hit = cell->nearest(ray);
     if (is_nearer(hit, best)) best = keep(hit);
@@ -140,7 +140,7 @@ bool occluded_in_cells(const ProxyScene& proxies, const Ray& ray, std::vector<Ca
                        Enter&& enter) {
   proxies.candidates(ray, scratch);
   return std::any_of(scratch.begin(), scratch.end(), [&](const Candidate& c) {
-    const CellScene* cell = enter(c.cell);
+    const CellScene* cell = enter(c);
     return cell == nullptr || cell->occluded(ray);
   });
 }

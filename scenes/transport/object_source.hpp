@@ -4,10 +4,12 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 namespace luxodus {
 
 class CellScene;
+struct Candidate;
 struct Brick;
 struct ImageTile;
 
@@ -17,8 +19,9 @@ class ObjectSource {
 
   /// The search structure of a geometry cell, good until the caller next asks for anything; null
   /// where it cannot be had, and then what the caller traces is worth nothing: see spoilt().
-  /// Suspends: until it is resident.
-  virtual const CellScene* cell(uint32_t cell) = 0;
+  /// `next` are cells that the ray enters after it, unless it ends before: they may be asked for
+  /// ahead of time. Suspends: until it is resident.
+  virtual const CellScene* cell(uint32_t cell, std::span<const Candidate> next) = 0;
 
   /// A brick of a data set, likewise.
   virtual const Brick* brick(int medium, int brick) = 0;

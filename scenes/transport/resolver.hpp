@@ -83,11 +83,11 @@ class PartitionResolver : public ResidentData {
 
   Hit nearest(const Ray& ray) {
     return nearest_in_cells(index_->proxies(), ray, candidates_,
-                            [this](uint32_t cell) { return &index_->cell(cell); });
+                            [this](const Candidate& c) { return &index_->cell(c.cell); });
   }
   bool occluded(const Ray& ray) {
     return occluded_in_cells(index_->proxies(), ray, candidates_,
-                             [this](uint32_t cell) { return &index_->cell(cell); });
+                             [this](const Candidate& c) { return &index_->cell(c.cell); });
   }
 
  private:
@@ -115,16 +115,20 @@ class SourcedResolver {
   }
 
   Hit nearest(const Ray& ray) {
-    const auto enter = [this](uint32_t cell) { return source_->cell(cell); };
-    return nearest_in_cells(*proxies_, ray, candidates_, enter,
-                            [this](const Hit& hit) { return keep(hit); });
+    return nearest_in_cells(
+        *proxies_, ray, candidates_, [this](const Candidate& c) { return enter(c); },
+        [this](const Hit& hit) { return keep(hit); });
   }
   bool occluded(const Ray& ray) {
     return occluded_in_cells(*proxies_, ray, candidates_,
-                             [this](uint32_t cell) { return source_->cell(cell); });
+                             [this](const Candidate& c) { return enter(c); });
   }
 
  private:
+  const CellScene* enter(const Candidate& c) {
+    const Candidate* const end = candidates_.data() + candidates_.size();
+    return source_->cell(c.cell, {&c + 1, end});
+  }
   Hit keep(Hit hit) {
     triangle_ = *hit.triangle;
     kept_.texture_uv.clear();

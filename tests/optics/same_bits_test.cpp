@@ -186,11 +186,11 @@ class MissingPartitionResolver : public MissingData {
     // A ray visits a cell at most once, so the copy that holds its nearest hit stays until the next
     // ray.
     return nearest_in_cells(index_->proxies(), ray, candidates_,
-                            [this](uint32_t i) { return &cell(i); });
+                            [this](const Candidate& c) { return &cell(c.cell); });
   }
   bool occluded(const Ray& ray) {
     return occluded_in_cells(index_->proxies(), ray, candidates_,
-                             [this](uint32_t i) { return &cell(i); });
+                             [this](const Candidate& c) { return &cell(c.cell); });
   }
 
  private:

@@ -49,6 +49,8 @@ TEST_CASE("faults of nobody, or of too few, are told with their line", "[runtime
             .find("between two") != std::string::npos);
   CHECK(wrong(small_cluster + event + "kind = \"flood\"\nnode = \"n\"\n").find("flood") !=
         std::string::npos);
+  CHECK(wrong(small_cluster + event + "node = \"n\"\n").find("'kind' is missing") !=
+        std::string::npos);
   CHECK(wrong(small_cluster + "[faults]\nloss = 1.5\n").find("loss") != std::string::npos);
 }
 
@@ -64,7 +66,7 @@ TEST_CASE("a file of faults alone is for the nodes that are named", "[runtime][c
   const ReadFaults other = read_fault_file(path, {"first"});
   CHECK_FALSE(other.plan);
   REQUIRE(other.problems.list().size() == 1);
-  CHECK(other.problems.list()[0].where.line == 3);
+  CHECK(other.problems.list()[0].where.line == 5);
   std::filesystem::remove(path);
   CHECK_FALSE(read_fault_file(path, {"first"}).plan);
 }

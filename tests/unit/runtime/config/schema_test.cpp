@@ -56,7 +56,7 @@ TEST_CASE("every type of the schema is explained, every default lies in its rang
       }
       if (key.type == "choice") {
         const auto words = config::words_of(key.range);
-        CHECK(std::count(words.begin(), words.end(), fallback) == 1);
+        if (fallback != "required") CHECK(std::count(words.begin(), words.end(), fallback) == 1);
       }
     }
   }

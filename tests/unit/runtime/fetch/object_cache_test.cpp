@@ -288,6 +288,23 @@ TEST_CASE("what cannot be built is told to all who wait, and may be asked for ag
   CHECK(again.got.how == Got::How::resident);
 }
 
+TEST_CASE("who waits for an object has what comes next fetched as well, and gets the object first",
+          "[runtime][fetch]") {
+  const Objects objects = own_objects(4);
+  FetchCluster cluster(1, objects);
+  FetchNode& node = cluster[0];
+  Got got;
+  node.start([&] { got = node.cache.get(2, false, std::array<uint32_t, 2>{0, 3}); });
+  cluster.run(milliseconds(20), milliseconds(1));
+  CHECK(got.how == Got::How::resident);
+  CHECK(node.builder.built == std::vector<uint32_t>{2, 0, 3});
+  CHECK(node.cache.counters().misses == 1);
+  // Where nothing is waited for, nothing is asked for.
+  node.start([&] { got = node.cache.get(2, false, std::array<uint32_t, 1>{1}); });
+  cluster.run(milliseconds(20), milliseconds(1));
+  CHECK(node.cache.state(1) == ObjectState::absent);
+}
+
 TEST_CASE("while fibers run, the builder has one object and no more", "[runtime][fetch]") {
   const Objects objects = own_objects(4);
   FetchCluster cluster(1, objects);

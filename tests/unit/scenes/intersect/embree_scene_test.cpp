@@ -94,7 +94,8 @@ struct Partition {
     proxies = std::make_unique<ProxyScene>(device, boxes);
   }
   Hit nearest(const Ray& ray, std::vector<Candidate>& scratch) const {
-    return nearest_in_cells(*proxies, ray, scratch, [&](uint32_t i) { return scenes[i].get(); });
+    return nearest_in_cells(*proxies, ray, scratch,
+                            [&](const Candidate& c) { return scenes[c.cell].get(); });
   }
 };
 
@@ -216,8 +217,9 @@ TEST_CASE("of triangles at one distance in two cells the smaller number wins", "
   std::vector<Candidate> scratch;
   const Ray ray{{1, 1, 0}, {0, 0, 1}};
   for (const bool swapped : {false, true}) {
-    const Hit hit = nearest_in_cells(proxies, ray, scratch,
-                                     [&](uint32_t i) { return (i == 0) != swapped ? &a : &b; });
+    const Hit hit = nearest_in_cells(proxies, ray, scratch, [&](const Candidate& c) {
+      return (c.cell == 0) != swapped ? &a : &b;
+    });
     REQUIRE(hit.found());
     CHECK(hit.triangle->global_triangle == 3);
   }

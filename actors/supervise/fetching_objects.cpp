@@ -1,4 +1,4 @@
-#include "actors/supervise/fetching_cells.hpp"
+#include "actors/supervise/fetching_objects.hpp"
 
 #include <algorithm>
 
@@ -48,8 +48,8 @@ void WorkerReport::add(const WorkerReport& other) {
   tally_bytes_most = std::max(tally_bytes_most, other.tally_bytes_most);
 }
 
-FetchingCells::FetchingCells(const RunSetup& run, const NodeSetup& node, NodeShell& shell,
-                             NodeTrace* trace)
+FetchingObjects::FetchingObjects(const RunSetup& run, const NodeSetup& node, NodeShell& shell,
+                                 NodeTrace* trace)
     : self_(node.net.self),
       store_(*run.objects, node.net.self),
       builder_(run.scene, run.objects->parts()),
@@ -57,16 +57,16 @@ FetchingCells::FetchingCells(const RunSetup& run, const NodeSetup& node, NodeShe
                shell.scheduler().timers(), shell.scheduler().clock(), jitter_of(node.net.self)),
       cache_(cache_of(run, node, trace), run.objects->places().size(), fetcher_, builder_,
              shell.scheduler().fibers(), shell.scheduler().timers(), shell.scheduler().clock()),
-      source_(run.objects->parts(), cache_, shell.scheduler().fibers(), trace) {
+      source_(run.objects->parts(), cache_, shell.scheduler().fibers(), node.prefetch, trace) {
   shell.use(fetcher_);
 }
 
-void FetchingCells::add_metrics(Metrics& metrics) const {
+void FetchingObjects::add_metrics(Metrics& metrics) const {
   fetcher_.add_metrics(metrics);
   cache_.add_metrics(metrics);
 }
 
-WorkerReport FetchingCells::report() const {
+WorkerReport FetchingObjects::report() const {
   const ObjectCache::Counters& c = cache_.counters();
   const Fetcher::Counters& f = fetcher_.counters();
   return {

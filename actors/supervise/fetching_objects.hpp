@@ -32,11 +32,11 @@ struct WorkerReport {
   }
 };
 
-class FetchingCells {
+class FetchingObjects {
  public:
   /// Requires: run.objects is not null; all outlive this.
-  FetchingCells(const RunSetup& run, const NodeSetup& node, NodeShell& shell,
-                NodeTrace* trace = nullptr);
+  FetchingObjects(const RunSetup& run, const NodeSetup& node, NodeShell& shell,
+                  NodeTrace* trace = nullptr);
 
   ObjectSource& source() { return source_; }
   const ObjectCache& cache() const { return cache_; }
