@@ -7,9 +7,8 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
+#include <cstdlib>
 #include <filesystem>
-#include <thread>
 #include <utility>
 
 #include "actors/cli/command.hpp"
@@ -26,10 +25,22 @@ struct ClusterOptions {
   std::string host;
 };
 
-/// Child processes; those that still live when this ends are stopped.
+/// Child processes; those that still live when this ends are stopped. Ctrl-C and SIGTERM come to
+/// wait(), which tells them on.
 class Children {
  public:
-  ~Children() { stop(); }
+  Children() {
+    ::sigemptyset(&watched_);
+    for (const int signal : {SIGCHLD, SIGINT, SIGTERM}) ::sigaddset(&watched_, signal);
+    ::sigprocmask(SIG_BLOCK, &watched_, &before_);
+  }
+  ~Children() {
+    tell_all();
+    for (const Child& child : living_) ::waitpid(child.pid, nullptr, 0);
+    ::sigprocmask(SIG_SETMASK, &before_, nullptr);
+  }
+  Children(const Children&) = delete;
+  Children& operator=(const Children&) = delete;
 
   /// Errors: the system starts no more.
   Result<bool> start(const ClusterConfig& cluster, const ClusterProcess& process) {
@@ -46,7 +57,8 @@ class Children {
     // In a group of its own, so that Ctrl-C reaches it once, from here.
     posix_spawnattr_t apart;
     ::posix_spawnattr_init(&apart);
-    ::posix_spawnattr_setflags(&apart, POSIX_SPAWN_SETPGROUP);
+    ::posix_spawnattr_setflags(&apart, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK);
+    ::posix_spawnattr_setsigmask(&apart, &before_);
     const int failed =
         ::posix_spawn(&pid, "/proc/self/exe", nullptr, &apart, arguments.data(), environ);
     ::posix_spawnattr_destroy(&apart);
@@ -55,34 +67,17 @@ class Children {
     return true;
   }
 
-  /// Waits until all have ended, and tells them when this shall. The process of the controller
-  /// decides: where it fails, the others are ended, and its exit code is returned; where it does
-  /// not, the run went on without those that failed. Without it (it is on another host), the first
-  /// that fails says the code.
+  /// Waits until all have ended. The process of the controller decides: where it fails, the others
+  /// are ended, and its exit code is returned; where it does not, the run went on without those
+  /// that failed. Without it (it is on another host), the first that fails says the code.
   int wait(const std::string& controller) {
-    int result = 0;
-    bool told = false;
-    while (!living_.empty()) {
-      if (interrupt_flag() && !std::exchange(told, true)) tell_all();
-      int status = 0;
-      const pid_t pid = ::waitpid(-1, &status, WNOHANG);
-      if (pid < 0 && errno != EINTR) break;
-      if (pid <= 0) {
-        std::this_thread::sleep_for(std::chrono::milliseconds(20));
-        continue;
-      }
-      const auto child = std::find_if(living_.begin(), living_.end(),
-                                      [&](const Child& c) { return c.pid == pid; });
-      if (child == living_.end()) continue;
-      const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-      const bool decides = controller.empty() ? result == 0 : child->name == controller;
-      if (code != 0) spdlog::error("process {} ended with {}", child->name, code);
-      if (decides) result = code;
-      const bool all_end = code != 0 && child->name == controller;
-      living_.erase(child);
-      if (all_end && !std::exchange(told, true)) tell_all();
+    for (reap(controller); !living_.empty(); reap(controller)) {
+      int signal = 0;
+      if (::sigwait(&watched_, &signal) != 0 || signal == SIGCHLD) continue;
+      if (told_) std::_Exit(ExitCode::interrupted);  // for the second time: it shall not wait
+      tell_all();
     }
-    return result;
+    return result_;
   }
 
  private:
@@ -91,17 +86,34 @@ class Children {
     std::string name;
   };
 
-  void tell_all() const {
+  /// Takes leave of those that have ended.
+  void reap(const std::string& controller) {
+    int status = 0;
+    for (pid_t pid = 0; (pid = ::waitpid(-1, &status, WNOHANG)) > 0;) {
+      const auto child = std::find_if(living_.begin(), living_.end(),
+                                      [&](const Child& c) { return c.pid == pid; });
+      if (child == living_.end()) continue;
+      const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+      const bool decides = controller.empty() ? result_ == 0 : child->name == controller;
+      const bool all_end = code != 0 && child->name == controller;
+      if (code != 0) spdlog::error("process {} ended with {}", child->name, code);
+      if (decides) result_ = code;
+      living_.erase(child);
+      if (all_end) tell_all();
+    }
+  }
+
+  /// To end, once: a second word would have them end without their results.
+  void tell_all() {
+    if (std::exchange(told_, true)) return;
     for (const Child& child : living_) ::kill(child.pid, SIGTERM);
   }
 
-  void stop() {
-    tell_all();
-    for (const Child& child : living_) ::waitpid(child.pid, nullptr, 0);
-    living_.clear();
-  }
-
+  sigset_t watched_;
+  sigset_t before_;
   std::vector<Child> living_;
+  bool told_ = false;
+  int result_ = 0;
 };
 
 int cluster_up(const ClusterOptions& options) {
@@ -118,7 +130,6 @@ int cluster_up(const ClusterOptions& options) {
                                : "there is no host \"" + options.host + "\""});
     return ExitCode::bad_input;
   }
-  install_interrupt_handler();
   Children children;
   std::string controller;
   for (const ClusterProcess& process : cluster.processes) {

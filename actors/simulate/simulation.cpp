@@ -42,8 +42,7 @@ std::string SimScene::difference(const LocalRun& run) const {
   return "";
 }
 
-// ---- what nodes are like
-// -------------------------------------------------------------------------
+// ---- what nodes are like ----------------------------------------------------------------------
 
 namespace {
 
@@ -106,8 +105,7 @@ uint64_t draw_life(uint64_t seed, NodeId node, uint32_t life) {
   return random.bits64() | 1;
 }
 
-// ---- a run
-// ---------------------------------------------------------------------------------------
+// ---- a run ------------------------------------------------------------------------------------
 
 class Simulation {
  public:

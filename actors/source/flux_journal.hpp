@@ -28,6 +28,7 @@ class FluxJournal final : public FlushKeeper {
   Result<bool> restart() { return journal_.restart(); }
 
   uint64_t bytes() const { return journal_.bytes(); }
+  uint64_t records() const { return journal_.records(); }
   uint64_t torn_bytes() const { return journal_.torn_bytes(); }
   /// Batches that opening it has counted.
   int64_t recovered() const { return recovered_; }

@@ -347,7 +347,10 @@ Result<std::optional<StopReason>> ClusterProcessRun::run(
     auto ended = run_controller(
         setup, machine, *controller, *run_, stop, interrupt, report,
         [&] { return threads.failed(); }, nullptr, journal_.get());
-    if (!ended.ok()) return ended.problem();
+    if (!ended.ok()) {
+      if (journal_) journal_->leave_no_trace();
+      return ended.problem();
+    }
     reason = ended.value();
   }
   threads.join();

@@ -12,11 +12,11 @@ namespace fs = std::filesystem;
 Result<std::unique_ptr<RunJournal>> RunJournal::open(const RunJournalConfig& config, LocalRun& run,
                                                      const Clock& clock) {
   std::error_code failed;
-  fs::create_directories(config.folder, failed);
+  std::unique_ptr<RunJournal> made(new RunJournal(config, run));
+  made->made_folder_ = fs::create_directories(config.folder, failed);
   if (failed)
     return Problem{{config.folder.string(), 0},
                    "cannot make this folder for the journal: " + failed.message()};
-  std::unique_ptr<RunJournal> made(new RunJournal(config, run));
   const int64_t before = run.traced();
   if (fs::exists(made->snapshot(), failed))
     if (auto ok = load_flux(made->snapshot(), run); !ok.ok()) return ok.problem();
@@ -42,6 +42,13 @@ void RunJournal::rest() {
   }
   if (auto cut = journal_->restart(); !cut.ok())
     spdlog::error("journal=restart_failed text=\"{}\"", cut.problem().text());
+}
+
+void RunJournal::leave_no_trace() {
+  if (recovered_ > 0 || journal_->records() > 0) return;
+  remove();
+  std::error_code not_empty;
+  if (made_folder_) fs::remove(config_.folder, not_empty);
 }
 
 void RunJournal::remove() {

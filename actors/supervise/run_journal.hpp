@@ -42,6 +42,8 @@ class RunJournal final : public FlushKeeper {
   uint64_t torn_bytes() const { return journal_->torn_bytes(); }
   /// The results hold everything: removes both files.
   void remove();
+  /// The run did not begin: where nothing was counted, nothing is left.
+  void leave_no_trace();
 
  private:
   RunJournal(const RunJournalConfig& config, LocalRun& run) : config_(config), run_(run) {}
@@ -52,6 +54,7 @@ class RunJournal final : public FlushKeeper {
   LocalRun& run_;
   std::unique_ptr<FluxJournal> journal_;
   int64_t recovered_ = 0;
+  bool made_folder_ = false;
 };
 
 }  // namespace luxodus

@@ -28,8 +28,7 @@ ShardControl::ShardControl(const ShardPlan& plan, Totals& totals, const Clock& c
   }
 }
 
-// ---- decisions
-// -----------------------------------------------------------------------------------
+// ---- decisions --------------------------------------------------------------------------------
 
 void ShardControl::take(const MessageId& flush, const std::vector<uint64_t>& part_hashes) {
   for (size_t i = 0; i < shards_.size(); ++i) decide(i, {flush, part_hashes[i], true});
@@ -62,8 +61,7 @@ void ShardControl::settle(Shard& shard, const FlushSettled& answer) {
   if (!shard.decisions.empty() || shard.next < shard.bins.end) ask(shard);
 }
 
-// ---- totals
-// --------------------------------------------------------------------------------------
+// ---- totals -----------------------------------------------------------------------------------
 
 void ShardControl::gather(std::function<void()> done) {
   ++gather_;
@@ -97,8 +95,7 @@ void ShardControl::end_gather() {
   if (done_ && std::all_of(shards_.begin(), shards_.end(), whole)) std::exchange(done_, {})();
 }
 
-// ---- questions and answers
-// -----------------------------------------------------------------------
+// ---- questions and answers --------------------------------------------------------------------
 
 bool ShardControl::waits(const Shard& shard) const {
   return !shard.decisions.empty() || shard.next < shard.bins.end;

@@ -59,8 +59,7 @@ std::shared_ptr<const CompiledScene> compiled(SceneDescription description,
   return scene.value();
 }
 
-// ---- one run and its numbers
-// ---------------------------------------------------------------------
+// ---- one run and its numbers ------------------------------------------------------------------
 
 struct Number {
   double value = 0;
@@ -126,8 +125,7 @@ Json traced(SceneDescription description, const std::string& scenario, int64_t p
   return result;
 }
 
-// ---- what is stated
-// ------------------------------------------------------------------------------
+// ---- what is stated ---------------------------------------------------------------------------
 
 double stated(const toml::table& table, const char* key, double otherwise = 0) {
   return table[key].value<double>().value_or(otherwise);

@@ -37,7 +37,8 @@ namespace {
 struct Wire {
   struct Queue {
     Queue() : frames(64) {
-      for (auto& frame : frames) frame.reserve(defaults::bulk_chunk_bytes + limits::frame_head_bytes);
+      constexpr size_t longest = defaults::bulk_chunk_bytes + limits::frame_head_bytes;
+      for (auto& frame : frames) frame.reserve(longest);
     }
     std::vector<std::vector<std::byte>> frames;
     size_t first = 0, count = 0;

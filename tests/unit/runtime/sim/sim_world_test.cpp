@@ -164,7 +164,7 @@ TEST_CASE("nothing goes wrong once all is healed", "[sim]") {
   CHECK(pair.world->counters().lost == 0);
 }
 
-TEST_CASE("a cut loses frames and tells nobody; a broken connection tells its ends", "[sim]") {
+TEST_CASE("a cut loses frames and tells nobody, a broken connection tells its ends", "[sim]") {
   FaultPlan plan = quiet();
   Fault fault;
   fault.at = milliseconds(100);
