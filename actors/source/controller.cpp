@@ -444,7 +444,7 @@ void Controller::keep(const Arrived& arrived) {
 
 /// Between flushes, when the totals hold all that was kept.
 void Controller::let_keeper_rest() {
-  if (config_.keeper == nullptr || adding_ || counting_) return;
+  if (config_.keeper == nullptr || adding_ || counting_ || !config_.keeper->rest_is_due()) return;
   run_.resume(book_.lent_end(), book_.missing());
   config_.keeper->rest();
 }

@@ -36,12 +36,14 @@ class Recovery {
     std::memcpy(&batches, record.data(), sizeof batches);
     record = record.subspan(sizeof batches);
     if (batches == 0 || batches > record.size() / sizeof(int64_t)) return false;
-    numbers_.resize(batches);
-    std::memcpy(numbers_.data(), record.data(), batches * sizeof(int64_t));
-    const size_t known = static_cast<size_t>(std::count_if(
-        numbers_.begin(), numbers_.end(), [&](int64_t batch) { return done_.count(batch) > 0; }));
-    if (known == numbers_.size()) return true;  // the flux file is the younger
-    return known == 0 && add(record.subspan(batches * sizeof(int64_t)));
+    std::vector<int64_t> numbers(batches);
+    std::memcpy(numbers.data(), record.data(), batches * sizeof(int64_t));
+    const std::set<int64_t> distinct(numbers.begin(), numbers.end());
+    if (distinct.size() != batches || *distinct.begin() < 0) return false;
+    const auto known = std::count_if(numbers.begin(), numbers.end(),
+                                     [&](int64_t batch) { return done_.count(batch) > 0; });
+    if (known == static_cast<int64_t>(batches)) return true;  // the flux file is the younger
+    return known == 0 && add(distinct, record.subspan(batches * sizeof(int64_t)));
   }
 
   int64_t recovered() const { return recovered_; }
@@ -56,20 +58,18 @@ class Recovery {
   }
 
  private:
-  bool add(std::span<const std::byte> flush) {
+  bool add(const std::set<int64_t>& batches, std::span<const std::byte> flush) {
     Totals& totals = run_.totals();
     const auto gain = decode_flush(flush, totals.groups(), totals.layout().totals());
-    if (!gain.ok() || gain->batches() != static_cast<int64_t>(numbers_.size())) return false;
+    if (!gain.ok() || gain->batches() != static_cast<int64_t>(batches.size())) return false;
     gain->add_to(totals);
-    for (const int64_t batch : numbers_)
-      if (batch < 0 || !done_.insert(batch).second) return false;
-    recovered_ += static_cast<int64_t>(numbers_.size());
+    done_.insert(batches.begin(), batches.end());
+    recovered_ += gain->batches();
     return true;
   }
 
   LocalRun& run_;
   std::set<int64_t> done_;
-  std::vector<int64_t> numbers_;
   int64_t recovered_ = 0;
 };
 

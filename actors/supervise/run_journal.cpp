@@ -33,7 +33,6 @@ Result<std::unique_ptr<RunJournal>> RunJournal::open(const RunJournalConfig& con
 }
 
 void RunJournal::rest() {
-  if (journal_->bytes() < config_.bytes_most) return;
   // The snapshot has its name before the journal is cut: between the two, what the journal holds is
   // known to be in the snapshot.
   if (auto saved = save_flux(snapshot(), run_); !saved.ok()) {

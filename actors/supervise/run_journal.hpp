@@ -34,7 +34,8 @@ class RunJournal final : public FlushKeeper {
   Result<bool> keep(std::span<const int64_t> batches, std::span<const std::byte> flush) override {
     return journal_->keep(batches, flush);
   }
-  /// Makes a snapshot where the journal has grown long.
+  bool rest_is_due() const override { return journal_->bytes() >= config_.bytes_most; }
+  /// Makes a snapshot, from which on the journal begins anew.
   void rest() override;
 
   /// Batches that were counted before this began.

@@ -2,7 +2,10 @@
 
 #include <catch2/catch.hpp>
 #include <cstring>
+#include <filesystem>
 
+#include "actors/source/flux_store.hpp"
+#include "actors/supervise/run_journal.hpp"
 #include "actors/tally/flush_codec.hpp"
 #include "runtime/storage/memory_store.hpp"
 #include "tests/unit/actors/supervise/library_scene.hpp"
@@ -108,6 +111,46 @@ TEST_CASE("a journal that is older than the flux file in part is counted once", 
   const auto journal = opened(disk, second);
   CHECK(journal->recovered() == 1);
   CHECK(same(whole, second));
+}
+
+TEST_CASE("a journal that has become a snapshot, and one that was about to, end in the same bits",
+          "[journal]") {
+  const auto scene = scene_of("smoke_tank", "", 1);
+  LocalRun whole(scene, 1, 1);
+  trace(whole, 4);
+  const Worker worker(whole);
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / "luxodus_run_journal_test";
+  std::filesystem::remove_all(folder);
+  RunJournalConfig config;
+  config.folder = folder;
+  config.bytes_most = 1;
+  const SystemClock clock;
+  const bool cut = GENERATE(true, false);  // a crash before the journal was cut, or none
+  {
+    LocalRun first(scene, 1, 1);
+    const auto journal = RunJournal::open(config, first, clock);
+    REQUIRE(journal.ok());
+    for (int64_t batch = 0; batch < 2; ++batch)
+      REQUIRE(journal.value()->keep(std::array{batch}, worker.flush_of(batch)).ok());
+    trace(first, 2);  // the totals hold what was kept
+    REQUIRE(journal.value()->rest_is_due());
+    if (cut)
+      journal.value()->rest();
+    else
+      REQUIRE(save_flux(folder / "run.snapshot", first).ok());
+    REQUIRE(journal.value()->keep(std::array<int64_t, 1>{3}, worker.flush_of(3)).ok());
+  }
+  LocalRun second(scene, 1, 1);
+  const auto journal = RunJournal::open(config, second, clock);
+  REQUIRE(journal.ok());
+  CHECK(journal.value()->recovered() == 3);
+  CHECK(second.missing() == std::vector<int64_t>{2});
+  trace(second, 4);
+  CHECK(same(whole, second));
+  journal.value()->remove();
+  CHECK(std::filesystem::is_empty(folder));
+  std::filesystem::remove_all(folder);
 }
 
 TEST_CASE("records that do not belong to a run are refused", "[journal]") {
