@@ -42,13 +42,15 @@ SimOptions options_of(uint64_t seed, int nodes) {
 }
 
 /// Twice; what the first was like.
-SimReport checked(const SimScene& scene, const SimOptions& options) {
+SimReport checked(const SimScene& scene, const std::string& name, const SimOptions& options) {
   const auto once = simulate(scene, options);
   const auto twice = simulate(scene, options);
   REQUIRE(once.ok());
   REQUIRE(twice.ok());
-  INFO("luxodus sim --seed " << options.seed << " --nodes " << options.nodes
-                             << " --particles 2000 --work 30s --faults-last 15s");
+  INFO("luxodus sim scenes/library/" << name << ".toml --seed " << options.seed << " --nodes "
+                                     << options.nodes << " --particles " << particles << " --work "
+                                     << options.work / seconds(1) << "s --faults-last "
+                                     << options.faults_last / seconds(1) << "s");
   CHECK(once->failure == "");
   CHECK(once->trace_hash == twice->trace_hash);
   return once.value();
@@ -73,7 +75,7 @@ TEMPLATE_TEST_CASE_SIG("swarms of faults change no bit, and a seed is one run", 
   const SimScene scene = scene_of("empty_room");
   Trouble all;
   for (uint64_t seed = 25 * part; seed < 25 * (part + 1); ++seed)
-    all.add(checked(scene, options_of(seed, 2 + static_cast<int>(seed % 5))));
+    all.add(checked(scene, "empty_room", options_of(seed, 2 + static_cast<int>(seed % 5))));
   // They are no mere show.
   CHECK(all.crashes > 0);
   CHECK(all.lost > 100);
@@ -84,7 +86,7 @@ TEMPLATE_TEST_CASE_SIG("swarms of faults change no bit, and a seed is one run", 
 
 TEST_CASE("swarms change no bit of a run in smoke", "[sim]") {
   const SimScene scene = scene_of("smoke_tank");
-  for (uint64_t seed = 1000; seed < 1005; ++seed) checked(scene, options_of(seed, 3));
+  for (uint64_t seed = 1000; seed < 1005; ++seed) checked(scene, "smoke_tank", options_of(seed, 3));
 }
 
 TEST_CASE("swarms change no bit of a run on 32 nodes", "[sim]") {
@@ -92,7 +94,7 @@ TEST_CASE("swarms change no bit of a run on 32 nodes", "[sim]") {
   for (uint64_t seed = 2000; seed < 2002; ++seed) {
     SimOptions options = options_of(seed, 32);
     options.work = seconds(240);
-    checked(scene, options);
+    checked(scene, "empty_room", options);
   }
 }
 
@@ -101,7 +103,7 @@ TEST_CASE("without faults nothing is lost, lent again or refused", "[sim]") {
   SimOptions options = options_of(1, 4);
   options.faults = false;
   options.draw_nodes = false;
-  const SimReport report = checked(scene, options);
+  const SimReport report = checked(scene, "empty_room", options);
   CHECK(report.leases == batches);
   CHECK(report.leases_fenced == 0);
   CHECK(report.flushes_refused == 0);

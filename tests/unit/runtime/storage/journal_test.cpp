@@ -6,6 +6,8 @@
 #include <fstream>
 #include <string>
 
+#include "runtime/storage/memory_store.hpp"
+
 using namespace luxodus;
 
 namespace {
@@ -31,29 +33,22 @@ struct Disk {
 
 class DiskStore final : public AppendStore {
  public:
-  explicit DiskStore(Disk& disk) : disk_(disk) {}
-  uint64_t size() const override { return disk_.bytes.size(); }
+  explicit DiskStore(Disk& disk) : disk_(disk), bytes_(disk.bytes) {}
+  uint64_t size() const override { return bytes_.size(); }
   Result<bool> read(uint64_t offset, std::span<std::byte> into) override {
-    if (offset + into.size() > disk_.bytes.size()) return Problem{{}, "not so many bytes"};
-    std::copy_n(disk_.bytes.begin() + static_cast<std::ptrdiff_t>(offset), into.size(),
-                into.begin());
-    return true;
+    return bytes_.read(offset, into);
   }
   Result<bool> append(std::span<const std::byte> bytes) override {
-    const size_t fits =
-        std::min(bytes.size(), disk_.room - std::min(disk_.room, disk_.bytes.size()));
-    disk_.bytes.insert(disk_.bytes.end(), bytes.begin(),
-                       bytes.begin() + static_cast<std::ptrdiff_t>(fits));
-    if (fits < bytes.size()) return Problem{{}, "the disk is full"};
-    return true;
+    const size_t left = disk_.room - std::min<size_t>(disk_.room, bytes_.size());
+    if (bytes.size() <= left) return bytes_.append(bytes);
+    (void)bytes_.append(bytes.first(left));
+    return Problem{{}, "the disk is full"};
   }
-  Result<bool> truncate(uint64_t size) override {
-    disk_.bytes.resize(size);
-    return true;
-  }
+  Result<bool> truncate(uint64_t size) override { return bytes_.truncate(size); }
 
  private:
   Disk& disk_;
+  MemoryStore bytes_;
 };
 
 /// Opens a journal over the disk and lists its records.
