@@ -152,21 +152,6 @@ TEST_CASE("a worker that is killed and started again beside shards is taken in, 
   check_plain_flux(folder, "1500k");
 }
 
-TEST_CASE("a cluster with shards that is told to end leaves what can be gone on from",
-          "[cluster][shards]") {
-  const Folder folder;
-  ClusterText text = workers(2, endless);
-  text.more += "[observe]\nlog_level = \"debug\"\n[tally]\nshards = [\"n0\", \"n1\"]\n";
-  const Running nodes = start(write_cluster(folder, text), 2);
-  REQUIRE(nodes.controller->says("flush=taken"));
-  for (const auto& worker : nodes.workers) worker->kill(SIGTERM);
-  nodes.controller->kill(SIGTERM);
-  CHECK(nodes.controller->wait() == 130);
-  INFO(nodes.controller->text());
-  for (const auto& worker : nodes.workers) CHECK(worker->wait() == 0);
-  check_goes_on(folder);
-}
-
 TEST_CASE("a controller whose workers have all vanished leaves what can be gone on from",
           "[cluster]") {
   const Folder folder;
@@ -187,6 +172,10 @@ TEST_CASE("a cluster that is told to end leaves whole batches that can be gone o
   const Folder folder;
   ClusterText text = workers(2, endless);
   text.more += "[observe]\nlog_level = \"debug\"\n";
+  SECTION("with all totals at the controller") {}
+  SECTION("with shards of the totals") {
+    text.more += "[tally]\nshards = [\"n0\", \"n1\"]\n";
+  }
   const Running nodes = start(write_cluster(folder, text), 2);
   REQUIRE(nodes.controller->says("flush=taken"));
   for (const auto& worker : nodes.workers) worker->kill(SIGTERM);
@@ -195,6 +184,21 @@ TEST_CASE("a cluster that is told to end leaves whole batches that can be gone o
   INFO(nodes.controller->text());
   for (const auto& worker : nodes.workers) CHECK(worker->wait() == 0);
   check_goes_on(folder);
+}
+
+TEST_CASE("a disk that fills up under the journal costs the journal, and not the run",
+          "[cluster][loss]") {
+  const Folder folder;
+  ClusterText text = workers(2, "particles = 3_000_000\n");
+  text.more =
+      "[lease]\nduration_s = 4\n[[faults.event]]\nkind = \"full_disk\"\n"
+      "node = \"controller\"\nat_s = 0.2\nlasts_s = 1000\n";
+  Running nodes = start(write_cluster(folder, text), 2);
+  CHECK(nodes.controller->wait() == 0);
+  INFO(nodes.controller->text());
+  CHECK(nodes.controller->said("journal=failed"));
+  for (const auto& worker : nodes.workers) CHECK(worker->wait() == 0);
+  check_plain_flux(folder, "3M");
 }
 
 TEST_CASE("who stops cluster up stops all its nodes, and the results are written",
