@@ -217,4 +217,15 @@ void ProgressLine::show_share(double share) {
   put(fmt::format("{:.0f} %", 100 * share), share >= 1);
 }
 
+Result<Json> write_report_aloud(const std::filesystem::path& folder, const LocalRun& run,
+                                const RunRecord& record) {
+  constexpr auto moment = std::chrono::seconds(2);
+  const auto began = std::chrono::steady_clock::now();
+  std::optional<ProgressLine> line;
+  return write_report(folder, run, record, [&](double share) {
+    if (!line && std::chrono::steady_clock::now() - began > moment) line.emplace("direct light");
+    if (line) line->show_share(share);
+  });
+}
+
 }  // namespace luxodus::cli

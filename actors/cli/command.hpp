@@ -3,11 +3,13 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "actors/display/report.hpp"
 #include "actors/source/local_run.hpp"
 #include "scenes/world/description.hpp"
 
@@ -75,6 +77,10 @@ class ProgressLine {
   bool terminal_;
   double logged_at_ = -1e9;
 };
+
+/// write_report, with its progress shown where that takes more than a moment.
+Result<Json> write_report_aloud(const std::filesystem::path& folder, const LocalRun& run,
+                                const RunRecord& record);
 
 /// "1.23 M", "45.6 k".
 std::string short_number(double v);

@@ -37,10 +37,11 @@ Result<Done> write_results(const ClusterConfig& cluster, const ClusterProcessRun
   record.cells = process.cells();
   const LocalRun& run = process.local_run();
   if (auto ok = save_flux(folder / "flux.lux", run); !ok.ok()) return ok.problem();
-  if (auto ok = write_report(folder, run, record); !ok.ok()) return ok.problem();
+  const auto result = write_report_aloud(folder, run, record);
+  if (!result.ok()) return result.problem();
   process.forget_journal();
   std::printf("%s in %s\n%s", cluster.run.name.c_str(), folder.string().c_str(),
-              summary_text(result_json(run, record)).c_str());
+              summary_text(result.value()).c_str());
   return Done{};
 }
 

@@ -84,16 +84,20 @@ Result<Nanoseconds> link_delay_of(const RunOptions& options) {
   return static_cast<Nanoseconds>(delay_s.value() * 1e9);
 }
 
-Result<Done> write_all(const fs::path& folder, const LocalRun& run, const RunRecord& record,
+/// Everything that a run leaves; returns result.json.
+Result<Json> write_all(const fs::path& folder, const LocalRun& run, const RunRecord& record,
                        const RunOptions& options) {
   if (auto ok = save_flux(folder / "flux.lux", run); !ok.ok()) return ok.problem();
-  if (auto ok = write_report(folder, run, record); !ok.ok()) return ok.problem();
+  auto result = write_report_aloud(folder, run, record);
   const bool pictures = !options.no_views && !run.scene().description->cameras.empty();
-  if (!pictures || record.stopped_by == std::string("interrupted")) return Done{};
+  if (!result.ok() || !pictures || record.stopped_by == "interrupted") return result;
   ProgressLine line("pictures");
   PictureOptions picture;
   picture.paths_per_pixel = options.picture_paths;
-  return render_views(folder, run, "", picture, [&](double share) { line.show_share(share); });
+  const auto drawn =
+      render_views(folder, run, "", picture, [&](double share) { line.show_share(share); });
+  if (!drawn.ok()) return drawn.problem();
+  return result;
 }
 
 Result<NodesOptions> nodes_options(const RunOptions& options, Nanoseconds link_delay,
@@ -168,7 +172,9 @@ std::unique_ptr<LocalRun> prepare(std::shared_ptr<const CompiledScene> scene, ui
     return std::make_unique<LocalRun>(std::move(scene), seed, options.threads);
   StoredRowsConfig config;
   config.threads = options.threads;
-  config.object_bytes = options.object_bytes() * static_cast<size_t>(options.threads);
+  // The nodes have ended by then, and left room for as much again.
+  config.object_bytes =
+      options.object_bytes() * static_cast<size_t>(std::max(options.threads, options.nodes));
   config.sharing = !options.no_sharing;
   auto rows = std::make_unique<StoredRows>(scene, config);
   return std::make_unique<LocalRun>(std::move(scene), seed, options.threads, std::move(rows));
@@ -214,13 +220,13 @@ Result<Traced> run_scenario(std::shared_ptr<const SceneDescription> description,
   record.scene_file = fs::absolute(options.scene).string();
   record.stopped_by = name_of(reason.value());
   record.cells = options.cells;
-  if (auto ok = write_all(folder, run, record, options); !ok.ok()) return ok.problem();
-  Json result = result_json(run, record);
+  auto result = write_all(folder, run, record, options);
+  if (!result.ok()) return result.problem();
   if (!options.json) {
     std::printf("%s, scenario %s, in %s\n%s", description->name.c_str(), scenario.name.c_str(),
-                folder.string().c_str(), summary_text(result).c_str());
+                folder.string().c_str(), summary_text(result.value()).c_str());
   }
-  return Traced{reason.value(), std::move(result)};
+  return Traced{reason.value(), std::move(result).value()};
 }
 
 /// The scenarios one after another, their results appended to `results`; an exit code.

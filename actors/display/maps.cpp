@@ -25,7 +25,8 @@ double mean_of(const std::vector<double>& values) {
 
 /// Direct light of all cells. Sums of groups are kept by row and added in order: the same bits for
 /// any number of threads.
-void fill_direct(const LocalRun& run, size_t index, PlaneMap& map) {
+void fill_direct(const LocalRun& run, size_t index, PlaneMap& map,
+                 const RowRunner::Finished& finished) {
   const CompiledScene& scene = run.scene();
   const PlaneMeasure& plane = scene.description->planes[index];
   const glm::vec3 normal = scene.planes[index].normal;
@@ -56,9 +57,10 @@ void fill_direct(const LocalRun& run, size_t index, PlaneMap& map) {
       }
     }
   };
-  run.rows().run(plane.cells_v, [&](const GeometryAccess& access) {
+  const auto make = [&](const GeometryAccess& access) {
     return [&, access](int64_t row) { do_row(access, row); };
-  });
+  };
+  run.rows().run(plane.cells_v, make, finished);
   map.group_direct_lx.assign(groups, 0);
   map.group_in_clear_lx.assign(groups, 0);
   const double share = 1 / static_cast<double>(rows * columns);
@@ -261,13 +263,18 @@ bool can_be_drawn(const PlaneMeasure& p) {
 
 }  // namespace
 
-PlaneMaps make_plane_maps(const LocalRun& run) {
+PlaneMaps make_plane_maps(const LocalRun& run, const ShareDone& progress) {
   const CompiledScene& scene = run.scene();
   const Readout readout(scene, run.totals());
+  int64_t rows = 0, before = 0;  // of all planes, of those done
+  for (const PlaneMeasure& plane : scene.description->planes) rows += plane.cells_v;
   PlaneMaps maps;
   for (size_t i = 0; i < scene.planes.size(); ++i) {
     PlaneMap map;
-    fill_direct(run, i, map);
+    fill_direct(run, i, map, [&](int64_t done) {
+      if (progress) progress(static_cast<double>(before + done) / static_cast<double>(rows));
+    });
+    before += scene.description->planes[i].cells_v;
     const CompiledPlane& plane = scene.planes[i];
     for (uint32_t cell = 0; cell < map.centres.size(); ++cell) {
       map.indirect_lx.push_back(

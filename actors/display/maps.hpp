@@ -40,7 +40,7 @@ struct PlaneMaps {
 };
 
 /// Computes the direct light of all planes, on the run's threads, and reads out the indirect light.
-PlaneMaps make_plane_maps(const LocalRun& run);
+PlaneMaps make_plane_maps(const LocalRun& run, const ShareDone& progress = {});
 
 /// The planes of result.json. Means are bins of their own, so that their errors are; minimum and
 /// maximum are cells, with the error of that cell.

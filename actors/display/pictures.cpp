@@ -178,7 +178,7 @@ std::unique_ptr<PatchRadiance> flux_radiance(const LocalRun& run) {
 }
 
 TracedPicture trace_picture(const LocalRun& run, size_t camera, const PictureOptions& options,
-                            const PatchRadiance* flux, const PictureProgress& progress) {
+                            const PatchRadiance* flux, const ShareDone& progress) {
   const Camera& view = run.scene().description->cameras[camera];
   TracedPicture out;
   out.light.width = view.width;

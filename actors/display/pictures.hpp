@@ -29,9 +29,6 @@ struct PictureOptions {
   bool gather = true;
 };
 
-/// How much of all pictures is done, 0 to 1; called from one thread at a time.
-using PictureProgress = std::function<void(double share)>;
-
 /// A camera's picture and the standard error of its luminance.
 struct TracedPicture {
   XyzPicture light;                     // with scotopic luminance from the bands
@@ -44,7 +41,7 @@ std::unique_ptr<PatchRadiance> flux_radiance(const LocalRun& run);
 /// One camera's picture. `flux`: where paths end, or null.
 /// Requires: camera is one of the scene's; 1 <= paths_per_pixel <= limits::paths_per_pixel_most.
 TracedPicture trace_picture(const LocalRun& run, size_t camera, const PictureOptions& options,
-                            const PatchRadiance* flux, const PictureProgress& progress = {});
+                            const PatchRadiance* flux, const ShareDone& progress = {});
 
 /// Traces every camera, or the one named `only_view`, and writes into folder/views (made if
 /// missing): NAME.exr (X, Y, Z, R, G, B, scotopic, standard_error.Y), NAME.png (one exposure),
@@ -53,6 +50,6 @@ TracedPicture trace_picture(const LocalRun& run, size_t camera, const PictureOpt
 /// Errors: no camera of that name, paths per pixel out of range, a file that cannot be written.
 Result<Done> render_views(const std::filesystem::path& folder, const LocalRun& run,
                           const std::string& only_view, const PictureOptions& options,
-                          const PictureProgress& progress);
+                          const ShareDone& progress);
 
 }  // namespace luxodus

@@ -353,16 +353,18 @@ Json result_json(const LocalRun& run, const RunRecord& record) {
   return result_of(run, record, make_plane_maps(run));
 }
 
-Result<Done> write_report(const std::filesystem::path& folder, const LocalRun& run,
-                          const RunRecord& record) {
+Result<Json> write_report(const std::filesystem::path& folder, const LocalRun& run,
+                          const RunRecord& record, const ShareDone& progress) {
   if (auto ok = remove_old_maps(folder); !ok.ok()) return ok.problem();
   std::error_code error;
   std::filesystem::create_directories(folder / "planes", error);
   if (error) return Problem{{folder.string(), 0}, "cannot make this folder: " + error.message()};
-  const PlaneMaps maps = make_plane_maps(run);
+  const PlaneMaps maps = make_plane_maps(run, progress);
   if (auto ok = write_plane_maps(folder / "planes", run, maps); !ok.ok()) return ok.problem();
   if (auto ok = write_flux_maps(folder, run); !ok.ok()) return ok.problem();
-  return write_json(folder / "result.json", result_of(run, record, maps));
+  Json result = result_of(run, record, maps);
+  if (auto ok = write_json(folder / "result.json", result); !ok.ok()) return ok.problem();
+  return result;
 }
 
 }  // namespace luxodus

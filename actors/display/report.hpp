@@ -21,8 +21,9 @@ Json result_json(const LocalRun& run, const RunRecord& record);
 
 /// Writes result.json, planes/*.csv and *.png, patches.vtp and volume.vti into `folder` (made if
 /// missing). Maps and pictures of an earlier run are removed first; nothing else in the folder is.
-Result<Done> write_report(const std::filesystem::path& folder, const LocalRun& run,
-                          const RunRecord& record);
+/// Returns what it wrote as result.json. `progress` is of the direct light, which takes longest.
+Result<Json> write_report(const std::filesystem::path& folder, const LocalRun& run,
+                          const RunRecord& record, const ShareDone& progress = {});
 
 /// The values asked for, a line each, and the errors, for the terminal: planes, probes, groups of
 /// surfaces, counting planes and signs. Requires: `result` is the run's result_json.

@@ -236,7 +236,7 @@ Result<std::vector<size_t>> chosen_views(const SceneDescription& scene, const st
 
 Result<Done> render_views(const std::filesystem::path& folder, const LocalRun& run,
                           const std::string& only_view, const PictureOptions& options,
-                          const PictureProgress& progress) {
+                          const ShareDone& progress) {
   const SceneDescription& scene = *run.scene().description;
   if (options.paths_per_pixel < 1 || options.paths_per_pixel > limits::paths_per_pixel_most) {
     return Problem{{scene.file, 0},

@@ -42,6 +42,9 @@ void for_each_row(int64_t rows, int threads, const Make& make,
   for (std::thread& t : all) t.join();
 }
 
+/// Told how much of some work is done, 0 to 1; from one thread at a time.
+using ShareDone = std::function<void(double share)>;
+
 /// Rows of work that reaches geometry, wherever that is.
 class RowRunner {
  public:

@@ -8,8 +8,9 @@ namespace {
 
 /// Between the end of a node's work and its leaving: others' farewells still pass through it.
 constexpr Nanoseconds linger = milliseconds(100);
-/// At what may have changed from outside.
-constexpr Nanoseconds look_every = milliseconds(5);
+/// At what may have changed from outside: soon enough for who pressed Ctrl-C, and seldom enough
+/// that a node with nothing to do takes no processor from those that have.
+constexpr Nanoseconds look_every = milliseconds(50);
 
 }  // namespace
 

@@ -125,9 +125,11 @@ void Scheduler::run_fibers() {
 void Scheduler::report_stall(const Fiber& fiber, Nanoseconds ran) {
   ++counters_.stalls;
   last_stall_ = {fiber.id(), fiber.tag(), fiber.reason(), fiber.subject(), ran};
-  spdlog::warn("event=stall fiber={:#x} tag=\"{}\" subject={} last_suspend=\"{}\" ran_ms={}",
-               fiber.id().value, fiber.tag(), fiber.subject(), fiber.reason(),
-               ran / milliseconds(1));
+  if (!log_stall_.may(clock_.now())) return;
+  spdlog::warn(
+      "event=stall fiber={:#x} tag=\"{}\" subject={} last_suspend=\"{}\" ran_ms={} stalls={}",
+      fiber.id().value, fiber.tag(), static_cast<int64_t>(fiber.subject()), fiber.reason(), ran / milliseconds(1),
+      counters_.stalls);
 }
 
 void Scheduler::run() {

@@ -15,6 +15,7 @@
 #include "runtime/actor/timers.hpp"
 #include "runtime/core/clock.hpp"
 #include "runtime/core/memory_plan.hpp"
+#include "runtime/core/once_a_minute.hpp"
 #include "runtime/fiber/fiber.hpp"
 #include "runtime/observe/metrics.hpp"
 
@@ -126,6 +127,7 @@ class Scheduler {
   IntrusiveList<ControlReceiver> controls_;
   Counters counters_;
   Stall last_stall_;
+  OnceAMinute log_stall_;
   bool sealed_ = false;
 };
 

@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "runtime/core/check.hpp"
+#include "runtime/core/once_a_minute.hpp"
 #include "runtime/fetch/fetcher.hpp"
 #include "runtime/fetch/object_builder.hpp"
 #include "runtime/fetch/shared_objects.hpp"

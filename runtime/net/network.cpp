@@ -161,7 +161,10 @@ void Network::own_lag(Nanoseconds now) {
   const Nanoseconds late = now - next_beat_;
   if (late < config_.times.beat) return;
   ++counters_.beats_late;
-  spdlog::warn("net=lagging node={} late_ms={}", config_.self.value, late / milliseconds(1));
+  if (!links_.empty() && log_lag_.may(now)) {
+    spdlog::warn("net=lagging node={} late_ms={} times={}", config_.self.value,
+                 late / milliseconds(1), counters_.beats_late);
+  }
   for (Link& link : links_) link.forgive(late);
 }
 

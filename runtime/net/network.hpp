@@ -15,6 +15,7 @@
 
 #include "proto/codec.hpp"
 #include "runtime/core/memory_plan.hpp"
+#include "runtime/core/once_a_minute.hpp"
 #include "runtime/core/result.hpp"
 #include "runtime/net/assembler.hpp"
 #include "runtime/net/counters.hpp"
@@ -170,6 +171,7 @@ class Network {
   Router router_;
   uint64_t sequence_ = 0;
   Nanoseconds next_beat_;
+  OnceAMinute log_lag_;
 };
 
 }  // namespace luxodus

@@ -25,6 +25,8 @@ namespace {
 /// The longest frame: an envelope and a message, or a chunk, which is no longer.
 constexpr int64_t frame_bytes_most = limits::frame_head_bytes + limits::message_bytes;
 constexpr Nanoseconds reminder_interval = seconds(60);
+/// Between looks at connections made and lost, while the node is busy: idle, it is told at once.
+constexpr Nanoseconds look_interval = milliseconds(10);
 
 std::optional<NodeId> node_of(std::string_view name) {
   uint16_t number = 0;
@@ -199,10 +201,17 @@ Sent ZmqTransport::send(NodeId neighbour, Lane lane, std::span<const std::byte> 
 std::optional<Arrival> ZmqTransport::receive() {
   if (auto arrival = receive_from(Lane::control)) return arrival;
   if (auto arrival = receive_from(Lane::bulk)) return arrival;
+  if (clock_.now() >= look_at_) look_around();
+  return std::nullopt;
+}
+
+/// At what is not frames. Each of the sockets it asks costs system calls, and a node that traces
+/// takes a turn every millisecond.
+void ZmqTransport::look_around() {
+  look_at_ = clock_.now() + look_interval;
   context_.answer_door();
   watch_connections();
   remind_of_insecurity();
-  return std::nullopt;
 }
 
 std::optional<Arrival> ZmqTransport::receive_from(Lane lane) {
@@ -248,7 +257,8 @@ void ZmqTransport::wait_until(Nanoseconds until) {
     uint64_t wakes = 0;
     (void)!::read(wake_descriptor_, &wakes, sizeof wakes);  // nothing to read is as good
   }
-  context_.answer_door();
+  const auto came = [](const zmq_pollitem_t& item) { return (item.revents & ZMQ_POLLIN) != 0; };
+  if (std::any_of(items + 2, items + 5, came)) look_around();
 }
 
 void ZmqTransport::wake() noexcept {

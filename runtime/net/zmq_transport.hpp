@@ -75,6 +75,7 @@ class ZmqTransport final : public Transport {
   Result<std::string> secure(LaneSockets& lane, const std::string& endpoint, bool server,
                              const std::string& server_key);
   std::optional<Arrival> receive_from(Lane lane);
+  void look_around();
   void watch_connections();
   void take_event(Lane lane);
   void remind_of_insecurity();
@@ -88,6 +89,7 @@ class ZmqTransport final : public Transport {
   int wake_descriptor_ = -1;
   int timer_descriptor_ = -1;  // waits end on time: a poll counts whole milliseconds
   bool open_to_all_ = false;   // listens or connects beyond the host without keys
+  Nanoseconds look_at_ = 0;
   Nanoseconds remind_at_ = 0;
 };
 

@@ -18,7 +18,7 @@ namespace luxodus::bench {
 namespace {
 
 constexpr uint64_t seed = 1;
-constexpr double seconds_of_a_run = 3;  // of one thread
+constexpr double seconds_of_a_run = 8;  // of one thread: longer than between two flushes
 const std::atomic<bool> nobody{false};
 void ignore(const Progress&) {}
 

@@ -1,12 +1,16 @@
 #include <fmt/core.h>
 #include <spdlog/spdlog.h>
 
+#include <array>
 #include <atomic>
 #include <cstdio>
+#include <span>
 #include <stdexcept>
 
+#include "actors/objects/scene_objects.hpp"
 #include "actors/supervise/in_process.hpp"
 #include "scenes/format/scene_file.hpp"
+#include "scenes/pack/scene_pack.hpp"
 #include "scenes/transport/compile.hpp"
 #include "tests/bench/measure.hpp"
 #include "tests/bench/tables.hpp"
@@ -15,10 +19,7 @@ namespace luxodus::bench {
 
 namespace {
 
-constexpr int cells = 256;
 constexpr int nodes = 2;
-constexpr int64_t batch_particles = 2048;
-constexpr int64_t particles = 16 * batch_particles;
 constexpr double profile_share = 0.1;  // of so short a run; 1 % of a long one is more
 
 struct Plan {
@@ -29,36 +30,59 @@ struct Plan {
 constexpr Plan plans[] = {
     {"none", 0, 0}, {"holders and leases", profile_share, 0}, {"and pins", profile_share, 0.5}};
 
-std::shared_ptr<const CompiledScene> office() {
-  auto read = read_scene(std::string(LUX_SOURCE_DIR) + "/scenes/library/office_floor.toml");
-  if (!read.scene) throw std::runtime_error(read.problems.list().front().text());
-  auto description = std::make_shared<SceneDescription>(std::move(*read.scene));
-  description->run.batch_particles = batch_particles;
-  auto scene =
-      compile_scene(description, find_scenario(*description, "smoke_mains").value(), {cells});
+/// What a row traces. One fiber alone waits for every part it lacks: it gets few particles.
+struct Size {
+  size_t fibers;
+  int64_t batch_particles;
+  int64_t particles;
+};
+constexpr Size of_the_office[] = {
+    {1, 2048, 32'768}, {64, 2048, 32'768}, {1024, 2048, 32'768}, {4096, 2048, 32'768}};
+constexpr Size of_a_pack[] = {
+    {1, 128, 1024}, {64, 512, 8192}, {1024, 2048, 32'768}, {4096, 8192, 65'536}};
+
+using Scene = std::shared_ptr<const CompiledScene>;
+
+Scene compiled(SceneDescription description, const char* scenario, int cells,
+               int64_t batch_particles) {
+  description.run.batch_particles = batch_particles;
+  const auto shared = std::make_shared<SceneDescription>(std::move(description));
+  auto scene = compile_scene(shared, find_scenario(*shared, scenario).value(), {cells});
   if (!scene.ok()) throw std::runtime_error(scene.problem().text());
   return std::move(scene).value();
 }
 
-/// What all cells take once they are built [bytes].
+Scene office(int64_t batch_particles) {
+  auto read = read_scene(std::string(LUX_SOURCE_DIR) + "/scenes/library/office_floor.toml");
+  if (!read.scene) throw std::runtime_error(read.problems.list().front().text());
+  return compiled(std::move(*read.scene), "smoke_mains", 256, batch_particles);
+}
+
+Scene packed(const std::string& file, int64_t batch_particles) {
+  auto read = read_pack(file);
+  if (!read.ok()) throw std::runtime_error(read.problem().text());
+  return compiled(*read.value(), "", 1, batch_particles);
+}
+
+/// What all parts take once they are built, as is reckoned before [bytes].
 uint64_t built_bytes(const CompiledScene& scene) {
-  const auto device = std::make_shared<BuildDevice>();
+  const SceneObjects objects(scene, std::array{NodeId{0}}, 1);
   uint64_t bytes = 0;
-  for (const GeometryCell& cell : scene.cells) bytes += BuiltCell(device, cell).bytes();
+  for (uint32_t i = 0; i < objects.places().size(); ++i) bytes += objects.built_bytes(i);
   return bytes;
 }
 
-void print_row(const std::shared_ptr<const CompiledScene>& scene, size_t fibers, const Plan& plan,
-               size_t budget) {
+void print_row(const Scene& scene, const Size& size, const Plan& plan, size_t budget) {
   NodesOptions options;
   options.nodes = nodes;
-  options.fibers = fibers;
+  options.fibers = size.fibers;
+  options.sharing = false;
   options.portion = 1;  // so that two open batches are work for 4096 fibers
   options.object_bytes = budget;
   options.profile_share = plan.profile_share;
   options.pinned_share = plan.pinned_share;
   StopRule stop;
-  stop.particles = particles;
+  stop.particles = size.particles;
   const std::atomic<bool> never{false};
   LocalRun run(scene, 1, 1);
   NodesReport report;
@@ -69,32 +93,41 @@ void print_row(const std::shared_ptr<const CompiledScene>& scene, size_t fibers,
   const double million = static_cast<double>(run.particles()) * 1e-6;
   const WorkerReport& all = report.workers;
   const auto references = static_cast<double>(all.hits + all.misses + all.joined);
-  fmt::print("{:>6}  {:<20} {:>9} {:>9.2f} {:>9.2f} {:>12.0f} {:>9.1f} {:>7.1f}\n", fibers,
-             plan.name,
+  fmt::print("{:>6}  {:<20} {:>9} {:>9.2f} {:>9.2f} {:>12.0f} {:>9.1f} {:>8.2f} {:>7.1f}\n",
+             size.fibers, plan.name,
              report.residency ? fmt::format("{:.2f}", 100 * report.residency->expected_hit_rate)
                               : std::string("-"),
              100 * all.hit_rate(), 100 * static_cast<double>(all.joined) / references,
              static_cast<double>(all.fetches) / million,
-             static_cast<double>(all.fetched_bytes) * 1e-6 / million, wall_seconds() - began);
+             static_cast<double>(all.fetched_bytes) * 1e-6 / million,
+             static_cast<double>(all.builds) * 1e-6 / million, wall_seconds() - began);
   std::fflush(stdout);
+}
+
+template <class Make>
+void print_rows(const char* of, std::span<const Size> sizes, size_t share, const Make& make) {
+  const Scene first = make(sizes.front().batch_particles);
+  const uint64_t built = built_bytes(*first);
+  const size_t budget = built / share;
+  fmt::print(
+      "\nParts found resident: {}, {} triangles in {} cells, {:.0f} MB once built; {} nodes with "
+      "{:.0f} MB each, which build\ntheir own; profile of {:.0f} %\n",
+      of, first->triangles, first->cell_boxes.size(), static_cast<double>(built) * 1e-6, nodes,
+      static_cast<double>(budget) * 1e-6, 100 * profile_share);
+  fmt::print("{:>6}  {:<20} {:>9} {:>9} {:>9} {:>12} {:>9} {:>8} {:>7}\n", "fibers", "plan",
+             "expected %", "hits %", "joined %", "fetches/Mp", "MB/Mp", "builds/p", "s");
+  for (const Size& size : sizes) {
+    const Scene scene = make(size.batch_particles);
+    for (const Plan& plan : plans) print_row(scene, size, plan, budget);
+  }
 }
 
 }  // namespace
 
-void print_residency() {
+void print_residency(const std::string& pack) {
   spdlog::set_level(spdlog::level::err);
-  const auto scene = office();
-  const uint64_t built = built_bytes(*scene);
-  const size_t budget = built / 4;
-  fmt::print(
-      "\nCells found resident: office floor, smoke_mains, {} cells of {:.1f} MB once built, {} "
-      "nodes with\n{:.1f} MB each, {} particles; profile of {:.0f} %\n",
-      scene->cells.size(), static_cast<double>(built) * 1e-6, nodes,
-      static_cast<double>(budget) * 1e-6, particles, 100 * profile_share);
-  fmt::print("{:>6}  {:<20} {:>9} {:>9} {:>9} {:>12} {:>9} {:>7}\n", "fibers", "plan", "expected %",
-             "hits %", "joined %", "fetches/Mp", "MB/Mp", "s");
-  for (const size_t fibers : {1u, 64u, 1024u, 4096u})
-    for (const Plan& plan : plans) print_row(scene, fibers, plan, budget);
+  if (pack.empty()) return print_rows("office floor, smoke_mains", of_the_office, 4, office);
+  print_rows(pack.c_str(), of_a_pack, 10, [&](int64_t batch) { return packed(pack, batch); });
 }
 
 }  // namespace luxodus::bench

@@ -2,6 +2,8 @@
 // this.
 #pragma once
 
+#include <string>
+
 namespace luxodus::bench {
 
 /// Particles and rays per second of whole runs, and their share of bare Embree; `repeats` pairs
@@ -15,8 +17,9 @@ void print_memory(int n);
 void print_pieces(int repeats);
 /// Nanoseconds of the runtime's own steps: switches, messages, timers.
 void print_switch(int repeats);
-/// How often nodes find cells resident, and what they fetch, with and without a profile.
-void print_residency();
+/// How often nodes find parts of a scene resident, and what they fetch, with and without a profile:
+/// of the office floor, or of a pack of a scene that is ten times what a node may hold.
+void print_residency(const std::string& pack);
 /// What nodes fetch and build of a room full of smoke data, with sharing and without.
 void print_smoke();
 /// Runs on nodes against the plain loop, everything resident.

@@ -25,6 +25,13 @@ NodesOptions nodes_of(int nodes, size_t fibers) {
   return options;
 }
 
+/// What all cells take once they are built, as is reckoned before.
+uint64_t built_bytes(const CompiledScene& scene) {
+  uint64_t bytes = 0;
+  for (const GeometryCell& cell : scene.cells) bytes += built_bytes_of(encode_cell(cell).size());
+  return bytes;
+}
+
 /// Bins of the totals that differ in any bit; every one where batches do.
 int64_t differences(const LocalRun& a, const LocalRun& b) {
   int64_t count = 0;
@@ -205,8 +212,7 @@ TEST_CASE("nodes whose budget holds a part of the cells fetch the others and giv
   stop.particles = 12'000;
   LocalRun plain(scene, 1, 2);
   plain.run(stop, nobody, ignore);
-  uint64_t bytes = 0;
-  for (const GeometryCell& cell : scene->cells) bytes += built_bytes_of(encode_cell(cell).size());
+  const uint64_t bytes = built_bytes(*scene);
   for (const auto& [nodes, replicas] : {std::pair(2, 1u), std::pair(5, 2u)}) {
     INFO(nodes << " nodes, " << replicas << " holders of each cell");
     NodesOptions options = nodes_of(nodes, 40);
@@ -223,6 +229,29 @@ TEST_CASE("nodes whose budget holds a part of the cells fetch the others and giv
   }
 }
 
+TEST_CASE("nodes with a twentieth of the scene each, which share nothing, give the same bits",
+          "[nodes]") {
+  spdlog::set_level(spdlog::level::err);
+  const auto scene = scene_of("office_floor", "smoke_emergency", 256);
+  StopRule stop;
+  stop.particles = 4096;
+  LocalRun plain(scene, 1, 2);
+  plain.run(stop, nobody, ignore);
+  NodesOptions options = nodes_of(2, 256);
+  options.object_bytes = built_bytes(*scene) / 20;
+  options.sharing = false;
+  options.profile_share = 0;
+  LocalRun run(scene, 1, 1);
+  NodesReport report;
+  const auto ended = run_on_nodes(run, options, stop, nobody, ignore, &report);
+  INFO((ended.ok() ? "" : ended.problem().text()));
+  REQUIRE(ended.ok());
+  CHECK(differences(plain, run) == 0);
+  CHECK(report.workers.evictions > scene->cells.size());
+  CHECK(report.workers.builds_saved == 0);
+  CHECK(report.workers.largest_resident_bytes <= options.object_bytes);
+}
+
 TEST_CASE("with a profile and without one, pinned or not, nodes give the same bits", "[nodes]") {
   spdlog::set_level(spdlog::level::err);
   const auto scene = scene_of("office_floor", "smoke_emergency", 64);
@@ -230,8 +259,7 @@ TEST_CASE("with a profile and without one, pinned or not, nodes give the same bi
   stop.particles = 8192;
   LocalRun plain(scene, 1, 2);
   plain.run(stop, nobody, ignore);
-  uint64_t bytes = 0;
-  for (const GeometryCell& cell : scene->cells) bytes += built_bytes_of(encode_cell(cell).size());
+  const uint64_t bytes = built_bytes(*scene);
   struct Case {
     double profile_share, pinned_share;
     uint32_t replicas;
