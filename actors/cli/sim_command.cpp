@@ -135,8 +135,9 @@ void print_run(uint64_t seed, const SimReport& report) {
       static_cast<unsigned long long>(w.frames), static_cast<unsigned long long>(w.lost),
       static_cast<unsigned long long>(w.duplicated), static_cast<unsigned long long>(w.reordered),
       static_cast<unsigned long long>(w.corrupted), static_cast<unsigned long long>(w.ghosts));
-  std::printf("  faults   %llu, of these crashes %llu\n", static_cast<unsigned long long>(w.faults),
-              static_cast<unsigned long long>(w.crashes));
+  std::printf("  faults   %llu, of these crashes %llu; rare ways taken on purpose %llu\n",
+              static_cast<unsigned long long>(w.faults), static_cast<unsigned long long>(w.crashes),
+              static_cast<unsigned long long>(report.rare_ways));
   std::printf(
       "  leases   %llu, fenced %llu; flushes refused %llu; batches back from journals %lld\n",
       static_cast<unsigned long long>(report.leases),

@@ -54,6 +54,7 @@ void LeaseClient::want_leases(size_t count) {
 
 void LeaseClient::ask() {
   if (asking_ || ended_ || draining_ || round_empty_ || wanted_ == 0) return;
+  if (scheduler_.rarely(Buggify::Site::small_wish)) wanted_ = 1;
   asking_ = Question{network_.next_id(), RequestLease{static_cast<uint32_t>(wanted_)}, {}};
   wanted_ = 0;
   put(*asking_);
@@ -91,7 +92,9 @@ void LeaseClient::begin_round() {
 void LeaseClient::lease_done(uint64_t lease) {
   if (done_.empty()) first_done_ = scheduler_.clock().now();
   done_.push_back(lease);
-  if (rested(scheduler_.clock().now()) || done_.size() == limits::leases) flush();
+  if (rested(scheduler_.clock().now()) || done_.size() == limits::leases ||
+      scheduler_.rarely(Buggify::Site::early_flush))
+    flush();
   flush_when_idle();
 }
 

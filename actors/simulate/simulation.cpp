@@ -105,6 +105,9 @@ uint64_t draw_life(uint64_t seed, NodeId node, uint32_t life) {
   return random.bits64() | 1;
 }
 
+/// Of RandomStream::faults: the swarm, the nodes' habits and torn ends have those before.
+constexpr uint64_t rare_ways_stream = uint64_t{1} << 32;
+
 // ---- a run ------------------------------------------------------------------------------------
 
 class Simulation {
@@ -129,7 +132,8 @@ class Simulation {
   std::vector<std::byte> disk_;    // of the controller
   std::unique_ptr<FluxJournal> journal_;
   const RunSetup& setup_;
-  std::vector<NodeSetup> setups_;  // the controller's is the last
+  std::vector<NodeSetup> setups_;   // the controller's is the last
+  std::vector<Buggify> rare_ways_;  // of each, of all its lives
   StopRule stop_;
   SimCosts costs_;
   SimReport report_;
@@ -172,6 +176,12 @@ void Simulation::set_up(const PlannedNodes& nodes) {
     // Who waits long enough sees the healing.
     node.start = node.lost = options_.patience;
     node.stall = seconds(3600);
+  }
+  if (!options_.draw_nodes) return;
+  rare_ways_.reserve(setups_.size());
+  for (NodeSetup& node : setups_) {
+    rare_ways_.emplace_back(options_.seed, rare_ways_stream + node.net.self.value);
+    node.buggify = node.net.buggify = &rare_ways_.back();
   }
 }
 
@@ -258,6 +268,7 @@ void Simulation::go() {
   report_.trace_hash = world_->trace_hash();
   report_.world = world_->counters();
   world_.reset();  // its nodes add what they did
+  for (const Buggify& ways : rare_ways_) report_.rare_ways += ways.taken();
 }
 
 std::string Simulation::ended_well() const {

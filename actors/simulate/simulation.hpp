@@ -59,8 +59,9 @@ struct SimReport {
   uint64_t leases = 0;
   uint64_t leases_fenced = 0;
   uint64_t flushes_refused = 0;
-  WorkerReport caches;  // of all lives of all workers
-  std::string nodes;    // what they were like, for people
+  WorkerReport caches;     // of all lives of all workers
+  uint64_t rare_ways = 0;  // taken on purpose, of Buggify
+  std::string nodes;       // what they were like, for people
 };
 
 /// Errors: options that contradict each other or the scene.

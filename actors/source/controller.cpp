@@ -346,9 +346,10 @@ void Controller::lend(const Delivery& delivery, const RequestLease& request) {
   }
   Answered& last = last_grant_[delivery.source];
   if (last.question != delivery.id) {
+    const uint32_t most = scheduler_.rarely(Buggify::Site::small_grant) ? 1 : config_.leases_most;
     const LentBatches lent =
-        book_.lend(delivery.source, std::min(request.batches, config_.leases_most),
-                   scheduler_.clock().now(), config_.lease_time, rank_of(delivery.source));
+        book_.lend(delivery.source, std::min(request.batches, most), scheduler_.clock().now(),
+                   config_.lease_time, rank_of(delivery.source));
     counters_.leases += static_cast<uint64_t>(lent.count);
     note_book();
     last = {delivery.id,

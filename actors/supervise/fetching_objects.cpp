@@ -14,6 +14,7 @@ FetchConfig fetch_config(const RunSetup& run, const NodeSetup& node, NodeTrace* 
   config.hops = hops_from(run.graph, node.net.self.value);
   config.self = node.net.self;
   config.trace = trace;
+  config.buggify = node.buggify;
   return config;
 }
 
@@ -21,6 +22,7 @@ CacheConfig cache_of(const RunSetup& run, const NodeSetup& node, NodeTrace* trac
   CacheConfig config = cache_config(*run.objects, node);
   config.trace = trace;
   config.shared = run.shared;
+  config.buggify = node.buggify;
   return config;
 }
 

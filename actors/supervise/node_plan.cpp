@@ -94,6 +94,7 @@ SchedulerLimits worker_limits(const RunSetup& run, const NodeSetup& node) {
   limits.fibers.count = node.photons.fibers + 1;  // and the one that packs flushes
   if (run.shards.shard_of(node.net.self) != 0) ++limits.fibers.count;  // that adds parts of others'
   limits.stall = node.stall;
+  limits.buggify = node.buggify;
   // Leases, the watch for the end, publishing, and a few to spare.
   limits.timers_beside_fibers = 16 + Fetcher::timers_most(node.fetch) + ObjectCache::timers_most;
   return limits;
@@ -104,6 +105,7 @@ SchedulerLimits controller_limits(const NodeSetup& node) {
   limits.fibers = node.fibers;
   limits.fibers.count = 1;  // that counts flushes
   limits.stall = node.stall;
+  limits.buggify = node.buggify;
   return limits;
 }
 

@@ -63,6 +63,8 @@ struct NodeSetup {
   /// What shall go wrong, on purpose. Requires: the same at all nodes.
   FaultPlan faults;
   bool one_clock = true;  // all nodes are on one host
+  /// Rare ways, in simulations: the same in `net`. Null: none.
+  Buggify* buggify = nullptr;
 };
 
 /// What stands between a node and its machine: a simulation puts its own here, and nothing else.

@@ -72,7 +72,9 @@ class NodeShell::Handler final : public NetHandler {
     }
     size_t taken = 0;
     for (const auto& [key, room] : rooms_) taken += room.size() * sizeof(uint64_t);
-    if (taken + bytes > shell_.config_.room_bytes_most) return {};
+    if (taken + bytes > shell_.config_.room_bytes_most ||
+        rarely(shell_.config_.net.buggify, Buggify::Site::no_room))
+      return {};
     auto& room = rooms_[key_of(id)];
     room.resize((bytes + 7) / 8);
     return std::as_writable_bytes(std::span(room));

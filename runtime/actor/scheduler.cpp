@@ -87,7 +87,8 @@ Wake Scheduler::wait_until(WaitList& list, Nanoseconds deadline, const char* rea
 Nanoseconds Scheduler::turn() {
   ++counters_.turns;
   handle_controls();
-  counters_.timers_fired += timers_.run_due(clock_.now(), limits_.timers_per_turn);
+  const size_t timers = rarely(Buggify::Site::few_timers) ? 1 : limits_.timers_per_turn;
+  counters_.timers_fired += timers_.run_due(clock_.now(), timers);
   const bool more_arrives = source_.poll();
   counters_.handed_over += handoff_.run();
   run_fibers();
@@ -113,7 +114,8 @@ void Scheduler::handle_controls() {
 void Scheduler::run_fibers() {
   Nanoseconds before = clock_.now();
   const Nanoseconds end = before + limits_.fibers_per_turn;
-  for (size_t i = 0; i < limits_.resumes_per_turn && before < end && fibers_.any_ready(); ++i) {
+  const size_t most = rarely(Buggify::Site::short_turn) ? 1 : limits_.resumes_per_turn;
+  for (size_t i = 0; i < most && before < end && fibers_.any_ready(); ++i) {
     const Fiber& fiber = fibers_.run_next();
     const Nanoseconds after = clock_.now();
     if (after - before > limits_.stall) report_stall(fiber, after - before);
@@ -128,8 +130,8 @@ void Scheduler::report_stall(const Fiber& fiber, Nanoseconds ran) {
   if (!log_stall_.may(clock_.now())) return;
   spdlog::warn(
       "event=stall fiber={:#x} tag=\"{}\" subject={} last_suspend=\"{}\" ran_ms={} stalls={}",
-      fiber.id().value, fiber.tag(), static_cast<int64_t>(fiber.subject()), fiber.reason(), ran / milliseconds(1),
-      counters_.stalls);
+      fiber.id().value, fiber.tag(), static_cast<int64_t>(fiber.subject()), fiber.reason(),
+      ran / milliseconds(1), counters_.stalls);
 }
 
 void Scheduler::run() {

@@ -13,6 +13,7 @@
 #include "runtime/actor/handoff.hpp"
 #include "runtime/actor/shutdown.hpp"
 #include "runtime/actor/timers.hpp"
+#include "runtime/core/buggify.hpp"
 #include "runtime/core/clock.hpp"
 #include "runtime/core/memory_plan.hpp"
 #include "runtime/core/once_a_minute.hpp"
@@ -31,6 +32,7 @@ struct SchedulerLimits {
   Nanoseconds fibers_per_turn = milliseconds(1);
   size_t timers_per_turn = 256;
   Nanoseconds stall = milliseconds(20);  // a fiber that runs for longer is reported
+  Buggify* buggify = nullptr;            // rare ways of all that runs here; null: none
 };
 
 /// What has control messages to handle. The scheduler calls back in the next turn.
@@ -110,6 +112,9 @@ class Scheduler {
   };
   const Counters& counters() const { return counters_; }
   const Stall& last_stall() const { return last_stall_; }
+
+  /// Whether what runs here shall take a rare way now: in simulations alone.
+  bool rarely(Buggify::Site site) const { return luxodus::rarely(limits_.buggify, site); }
 
  private:
   void handle_controls();

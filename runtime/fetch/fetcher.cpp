@@ -357,9 +357,15 @@ bool Fetcher::accept(Flight& flight, SharedBytes bytes, uint8_t hops, NodeId fro
 
 // ---- others' requests
 
+/// What others may have of an object here; empty where that is nothing.
+SharedBytes Fetcher::held(ObjectId object) {
+  if (rarely(config_.buggify, Buggify::Site::object_missing)) return {};
+  return store_.find(object);
+}
+
 bool Fetcher::serve(const Delivery& request, const FetchObject& wanted) {
   if (request.source == config_.self) return true;  // a forgery: this node does not ask itself
-  SharedBytes bytes = store_.find(wanted.object);
+  SharedBytes bytes = held(wanted.object);
   const size_t size = bytes.bytes.size();
   const SendOutcome outcome =
       size > 0
@@ -376,7 +382,7 @@ bool Fetcher::serve(const Delivery& request, const FetchObject& wanted) {
 bool Fetcher::intercept(const Delivery& request) {
   const auto* wanted = std::get_if<FetchObject>(&request.message);
   if (wanted == nullptr || request.source == config_.self) return false;
-  SharedBytes bytes = store_.find(wanted->object);
+  SharedBytes bytes = held(wanted->object);
   const size_t size = bytes.bytes.size();
   if (size == 0) return false;
   const ObjectFound answer{wanted->object, config_.self};

@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "runtime/actor/timers.hpp"
+#include "runtime/core/buggify.hpp"
 #include "runtime/core/fixed_pool.hpp"
 #include "runtime/core/memory_plan.hpp"
 #include "runtime/core/once_a_minute.hpp"
@@ -50,6 +51,7 @@ struct FetchConfig {
   /// that follow it. Empty: in the order of ObjectPlace.
   std::vector<uint32_t> hops;
   NodeTrace* trace = nullptr;  // null: nothing is traced
+  Buggify* buggify = nullptr;  // rare ways; null: none
 };
 
 /// Who wants an object. Called on the scheduler's stack.
@@ -161,6 +163,7 @@ class Fetcher {
   SharedBytes kept(const Flight& flight, std::span<const std::byte> payload);
   void not_here(const Delivery& delivery, const ObjectNotHere& answer);
   bool accept(Flight& flight, SharedBytes bytes, uint8_t hops, NodeId from);
+  SharedBytes held(ObjectId object);
   bool serve(const Delivery& request, const FetchObject& wanted);
 
   FetchConfig config_;

@@ -207,6 +207,8 @@ void ObjectCache::come_in(Entry& entry, std::shared_ptr<const BuiltObject> built
   while (counters_.resident_bytes + entry.charge > config_.resident_bytes_most() &&
          !unpinned_.empty())
     evict(*unpinned_.pop_front());
+  if (!unpinned_.empty() && rarely(config_.buggify, Buggify::Site::early_eviction))
+    evict(*unpinned_.pop_front());
   entry.built = std::move(built);
   entry.state = ObjectState::resident;
   counters_.resident_bytes += entry.charge;

@@ -50,6 +50,7 @@ struct CacheConfig {
   /// Of the budget, what pinned objects may take at most: the rest serves what was not foreseen.
   double pinned_share = 0.5;
   NodeTrace* trace = nullptr;  // null: nothing is traced
+  Buggify* buggify = nullptr;  // rare ways; null: none
   /// What nodes of the process have ready; null: this node shares nothing. It outlives the cache.
   SharedObjects* shared = nullptr;
 

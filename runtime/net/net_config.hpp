@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "proto/messages.hpp"
+#include "runtime/core/buggify.hpp"
 #include "runtime/net/link_state.hpp"
 
 namespace luxodus {
@@ -60,6 +61,7 @@ struct NetConfig {
   size_t assemblies = defaults::assemblies;
   size_t message_bytes_most = defaults::message_bytes_most;
   Nanoseconds assembly_patience = seconds(10);  // without a new piece
+  Buggify* buggify = nullptr;                   // rare ways; null: none
 
   size_t chunk_bytes(Kind kind) const {
     return is_bulk(kind) ? bulk_chunk_bytes : small_chunk_bytes;

@@ -93,7 +93,8 @@ SendOutcome Network::send(NodeId destination, const MessageId& id, const Message
     throw std::logic_error("network: send() is for messages to other nodes");
   if (!router_.reaches(destination)) return SendOutcome::unreachable;
   Outbox& outbox = router_.outbox(kind);
-  if (outbox.full()) return SendOutcome::full;
+  if (outbox.full() || rarely(config_.buggify, Buggify::Site::full_outbox))
+    return SendOutcome::full;
   const auto head = codec_.encode(message, scratch_);
   if (!head) throw std::length_error("network: " + head.problem().what);
   if (head.value() + payload.bytes.size() > config_.message_bytes_most)

@@ -58,13 +58,14 @@ SimReport checked(const SimScene& scene, const std::string& name, const SimOptio
 
 /// What the runs of some seeds went through, together.
 struct Trouble {
-  uint64_t crashes = 0, lost = 0, harmed = 0, fenced = 0, fetches = 0;
+  uint64_t crashes = 0, lost = 0, harmed = 0, fenced = 0, fetches = 0, rare_ways = 0;
   void add(const SimReport& report) {
     crashes += report.world.crashes;
     lost += report.world.lost;
     harmed += report.world.corrupted;
     fenced += report.leases_fenced;
     fetches += report.caches.fetches;
+    rare_ways += report.rare_ways;
   }
 };
 
@@ -82,6 +83,7 @@ TEMPLATE_TEST_CASE_SIG("swarms of faults change no bit, and a seed is one run", 
   CHECK(all.harmed > 0);
   CHECK(all.fenced > 0);
   CHECK(all.fetches > 0);
+  CHECK(all.rare_ways > 1000);
 }
 
 TEST_CASE("swarms change no bit of a run in smoke", "[sim]") {
@@ -108,6 +110,7 @@ TEST_CASE("without faults nothing is lost, lent again or refused", "[sim]") {
   CHECK(report.leases_fenced == 0);
   CHECK(report.flushes_refused == 0);
   CHECK(report.world.crashes == 0);
+  CHECK(report.rare_ways == 0);
 }
 
 // Each a command that once failed, and what it found.
