@@ -54,6 +54,19 @@ void Controller::start() {
   began_ = scheduler_.clock().now();
   next_word_ = began_ + waiting_word;
   set_timer();
+  if (!nothing_left()) return;
+  begun_ = done_before_ = true;
+  note_book();
+  end_run(book_.committed() >= target_ ? StopReason::particles : StopReason::error);
+}
+
+/// Whether what was counted by an earlier life is all that was asked for. Then nobody is waited
+/// for: workers that have heard of the end are gone.
+bool Controller::nothing_left() const {
+  if (book_.committed() >= target_) return true;
+  if (!stop_.relative_error || book_.committed() == 0 || !book_.missing().empty()) return false;
+  if (run_.round_end(book_.committed() - 1) != book_.committed()) return false;
+  return Readout(run_.scene(), run_.totals()).worst_relative_error() <= *stop_.relative_error;
 }
 
 // ---- workers that come and go ------------------------------------------------------------------
@@ -86,10 +99,7 @@ void Controller::begin() {
   began_ = scheduler_.clock().now();
   spdlog::info("run=begun workers={}", peers_.size());
   note_book();
-  if (book_.committed() >= target_)
-    end_run(StopReason::particles);
-  else
-    open_round();
+  open_round();
 }
 
 void Controller::await_workers(Nanoseconds now) {
@@ -278,7 +288,8 @@ bool Controller::ended() const {
   if (!over_) return false;
   const auto done = [&](const auto& entry) {
     const Peer& peer = entry.second;
-    return !peer.here || peer.told || (closing_ && peer.unreachable_since);
+    // Who has not been heard of may wait for a word of the end, when an earlier life counted it.
+    return (!peer.here && !done_before_) || peer.told || (closing_ && peer.unreachable_since);
   };
   return std::all_of(peers_.begin(), peers_.end(), done) ||
          scheduler_.clock().now() - over_since_ >= config_.farewell;
@@ -339,6 +350,14 @@ bool Controller::deliver(const Delivery& delivery) {
   return true;
 }
 
+/// Nobody takes more than its share of what is left, so that all end together.
+uint32_t Controller::most_to_lend() const {
+  if (scheduler_.rarely(Buggify::Site::small_grant)) return 1;
+  const auto workers = static_cast<int64_t>(peers_.size());
+  const int64_t share = (book_.waiting() + workers - 1) / workers;
+  return static_cast<uint32_t>(std::clamp<int64_t>(share, 1, config_.leases_most));
+}
+
 void Controller::lend(const Delivery& delivery, const RequestLease& request) {
   if (over_ && request.batches == 0) {
     peers_[delivery.source].told = true;
@@ -346,10 +365,9 @@ void Controller::lend(const Delivery& delivery, const RequestLease& request) {
   }
   Answered& last = last_grant_[delivery.source];
   if (last.question != delivery.id) {
-    const uint32_t most = scheduler_.rarely(Buggify::Site::small_grant) ? 1 : config_.leases_most;
     const LentBatches lent =
-        book_.lend(delivery.source, std::min(request.batches, most), scheduler_.clock().now(),
-                   config_.lease_time, rank_of(delivery.source));
+        book_.lend(delivery.source, std::min(request.batches, most_to_lend()),
+                   scheduler_.clock().now(), config_.lease_time, rank_of(delivery.source));
     counters_.leases += static_cast<uint64_t>(lent.count);
     note_book();
     last = {delivery.id,

@@ -104,6 +104,8 @@ class Controller {
   void open_round();
   void look();
   void set_timer();
+  bool nothing_left() const;
+  uint32_t most_to_lend() const;
   void lend(const Delivery& delivery, const RequestLease& request);
   LeaseBook::Rank rank_of(NodeId worker);
   size_t group_of(int64_t batch);
@@ -143,6 +145,7 @@ class Controller {
   Nanoseconds began_;
   double error_;
   std::map<NodeId, Peer> peers_;  // all workers
+  bool done_before_ = false;      // an earlier life has counted all that was asked for
   bool begun_ = false;
   Nanoseconds next_word_ = 0;  // of whom it waits for
   std::optional<Problem> fault_;

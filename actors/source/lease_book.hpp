@@ -85,6 +85,10 @@ class LeaseBook {
   /// Ends the round with what has been lent, and what was skipped on the way.
   void close() { end_ = lent_end(); }
   size_t standing() const { return leases_.size(); }
+  /// Batches of the round that may be lent now.
+  int64_t waiting() const {
+    return end_ - next_ - static_cast<int64_t>(ahead_.size()) + static_cast<int64_t>(again_.size());
+  }
   /// When fence_late() may have something to do; nothing without leases.
   std::optional<Nanoseconds> next_deadline() const;
 

@@ -53,6 +53,8 @@ struct Fault {
   NodeId node;  // or the sender
   NodeId peer;  // the receiver
   double factor = 1;
+  /// In a simulated world, instead of `at`: after so many events.
+  std::optional<uint64_t> after_events = {};
 
   bool holds(Nanoseconds moment) const { return moment >= at && moment < at + lasts; }
 };
@@ -68,6 +70,8 @@ struct FaultPlan {
   uint64_t seed = 1;
   LinkTraits links;
   std::vector<Fault> faults;  // in any order
+  /// In a simulated world: one frame, counted from 0 as they are sent, that is lost.
+  std::optional<uint64_t> lost_frame = {};
   /// From here on links only delay, and nothing new happens.
   Nanoseconds healed_at = std::numeric_limits<Nanoseconds>::max();
 

@@ -120,7 +120,8 @@ void SimWorld::start(MakeNode make_node) {
   here_ = nodes_.size();
   for (auto& node : nodes_) make(*node);
   for (uint32_t i = 0; i < setup_.plan.faults.size(); ++i)
-    push({setup_.plan.faults[i].at, 0, Event::Kind::fault_begins, i, 0});
+    if (!setup_.plan.faults[i].after_events)
+      push({setup_.plan.faults[i].at, 0, Event::Kind::fault_begins, i, 0});
 }
 
 void SimWorld::make(Node& node) {
@@ -164,9 +165,17 @@ bool SimWorld::step() {
         end(setup_.plan.faults[event.subject]);
         break;
     }
+    begin_counted();
     return true;
   }
   return false;
+}
+
+/// Faults whose moment is a number of events.
+void SimWorld::begin_counted() {
+  for (uint32_t i = 0; i < setup_.plan.faults.size(); ++i)
+    if (setup_.plan.faults[i].after_events == counters_.events)
+      push({now_, 0, Event::Kind::fault_begins, i, 0});
 }
 
 /// Has the node's next turn no later than `at`, as soon as it is free.
@@ -216,6 +225,7 @@ Sent SimWorld::send(NodeId from, NodeId to, Lane lane, std::span<const std::byte
     ++counters_.refused_full;
     return Sent::full;
   }
+  const bool chosen = setup_.plan.lost_frame == counters_.frames;
   ++counters_.frames;
   counters_.bytes += bytes;
   Frame frame{way, lane, way->connection, false, {}};
@@ -227,7 +237,7 @@ Sent SimWorld::send(NodeId from, NodeId to, Lane lane, std::span<const std::byte
   way->free_at = std::max(way->free_at, sent_at) + troubles_.wire_time(bytes);
   const FrameFate fate = troubles_.next(healed());
   const Nanoseconds at = std::max(way->free_at, way->clogged_until) + fate.hold;
-  if (now_ < way->cut_until || fate.lost) {
+  if (now_ < way->cut_until || fate.lost || chosen) {
     ++counters_.lost;
     return Sent::taken;
   }

@@ -92,6 +92,7 @@ class SimWorld {
   struct Event;
 
   void push(Event event);
+  void begin_counted();
   void wake(Node& node, Nanoseconds at);
   void take_turn(Node& node);
   void arrive(uint32_t slot);

@@ -5,6 +5,7 @@
 #include <spdlog/spdlog.h>
 
 #include <atomic>
+#include <cstdio>
 #include <stdexcept>
 
 #include "actors/supervise/in_process.hpp"
@@ -232,6 +233,7 @@ void print_delay_row(const DelayRow& row, int repeats) {
       100 * median(without, [](const Taken& t) { return t.idle_share(); }),
       100 * median(with, [](const Taken& t) { return t.idle_share(); }), per_kilo(w.builds),
       static_cast<double>(w.hits) / looked);
+  std::fflush(stdout);
 }
 
 }  // namespace

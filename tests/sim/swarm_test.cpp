@@ -19,7 +19,7 @@ constexpr int64_t particles = 2000;
 constexpr int64_t batches = 40;
 constexpr int cells = 16;
 
-SimScene scene_of(const std::string& name) {
+SimScene scene_of(const std::string& name, int64_t traced = particles) {
   spdlog::set_level(spdlog::level::off);
   auto read = read_scene(std::string(LUX_SOURCE_DIR) + "/scenes/library/" + name + ".toml");
   REQUIRE(read.scene);
@@ -29,7 +29,7 @@ SimScene scene_of(const std::string& name) {
   REQUIRE(scenario.ok());
   auto scene = compile_scene(description, scenario.value(), {cells});
   REQUIRE(scene.ok());
-  return {scene.value(), 1, particles};
+  return {scene.value(), 1, traced};
 }
 
 SimOptions options_of(uint64_t seed, int nodes) {
@@ -54,6 +54,17 @@ SimReport checked(const SimScene& scene, const std::string& name, const SimOptio
   CHECK(once->failure == "");
   CHECK(once->trace_hash == twice->trace_hash);
   return once.value();
+}
+
+/// Two workers and a controller, on links where nothing else happens.
+SimOptions small_run() {
+  SimOptions options = options_of(1, 2);
+  options.draw_nodes = false;
+  options.faults = false;
+  options.work = seconds(1);
+  options.plan.emplace();
+  options.plan->links.delay = microseconds(50);
+  return options;
 }
 
 /// What the runs of some seeds went through, together.
@@ -111,6 +122,43 @@ TEST_CASE("without faults nothing is lost, lent again or refused", "[sim]") {
   CHECK(report.flushes_refused == 0);
   CHECK(report.world.crashes == 0);
   CHECK(report.rare_ways == 0);
+}
+
+// Not by chance: the small run is repeated with one fault, in every place where it can be.
+TEST_CASE("a small run bears the loss of any one of its frames", "[sim]") {
+  const SimScene scene = scene_of("empty_room", particles / 5);
+  const SimOptions options = small_run();
+  const uint64_t frames = simulate(scene, options).value().world.frames;
+  REQUIRE(frames > 50);
+  for (uint64_t frame = 0; frame < frames; ++frame) {
+    SimOptions one = options;
+    one.plan->lost_frame = frame;
+    const auto report = simulate(scene, one);
+    INFO("frame " << frame << " of " << frames << " is lost");
+    REQUIRE(report.ok());
+    REQUIRE(report->failure == "");
+    REQUIRE(report->world.lost >= 1);
+  }
+}
+
+TEMPLATE_TEST_CASE_SIG("a small run bears the crash of any node after any event", "[sim]",
+                       ((uint16_t node), node), 0, 1, 2) {
+  const SimScene scene = scene_of("empty_room", particles / 5);
+  const SimOptions options = small_run();
+  const uint64_t events = simulate(scene, options).value().world.events;
+  REQUIRE(events > 300);
+  for (uint64_t event = 1; event < events; ++event) {
+    SimOptions one = options;
+    Fault crash;
+    crash.node = {node};
+    crash.lasts = milliseconds(700);
+    crash.after_events = event;
+    one.plan->faults.push_back(crash);
+    const auto report = simulate(scene, one);
+    INFO("node " << node << " crashes after event " << event << " of " << events);
+    REQUIRE(report.ok());
+    REQUIRE(report->failure == "");
+  }
 }
 
 // Each a command that once failed, and what it found.

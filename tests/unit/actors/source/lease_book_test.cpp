@@ -64,6 +64,20 @@ TEST_CASE("a lease book lends every batch of a round once and none beyond it", "
   CHECK(book.committed() == 10);
 }
 
+TEST_CASE("a lease book knows how many batches of the round wait", "[lease]") {
+  LeaseBook book(0, {}, 1, 8);
+  CHECK(book.waiting() == 0);
+  book.open_until(10);
+  CHECK(book.waiting() == 10);
+  book.lend({0}, 3, 0, 100);
+  CHECK(book.waiting() == 7);
+  book.lend({1}, 1, 50, 100, [](int64_t batch) { return batch == 6 ? 0u : 1u; });  // out of turn
+  CHECK(book.waiting() == 6);
+  book.fence_late(120);  // the first three are lent again
+  CHECK(book.waiting() == 9);
+  CHECK(book.lend({1}, 3, 130, 100).first_batch == 0);
+}
+
 TEST_CASE("a late lease is fenced, lent again first, and can no longer be counted", "[lease]") {
   LeaseBook book(0);
   book.open_until(8);
