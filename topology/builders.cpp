@@ -157,4 +157,17 @@ Result<Graph> make_random_regular(uint32_t nodes, uint32_t links, uint64_t seed)
       {}, fmt::format("no connected graph of {} nodes with {} links each was found", nodes, links)};
 }
 
+Result<Graph> with_controller(const Graph& graph, uint32_t links) {
+  const uint32_t workers = graph.workers();
+  if (graph.has_controller()) return Problem{{}, "this graph has a controller already"};
+  if (auto problem = size_problem(workers + 1)) return *problem;
+  std::vector<GraphLink> all = graph.links();
+  const uint32_t own = std::min(links, workers);
+  for (uint32_t i = 0; i < own; ++i) all.push_back({i * workers / own, workers});
+  std::sort(all.begin(), all.end());
+  GraphPlan plan{workers, graph.links_most() + 1, ControllerRole::endpoint, 1, std::move(all)};
+  if (const auto fault = fault_of(plan)) return Problem{{}, fault->what};
+  return Graph(std::move(plan));
+}
+
 }  // namespace luxodus

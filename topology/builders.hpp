@@ -32,4 +32,9 @@ Result<Graph> make_chordal_ring(uint32_t nodes);
 /// exchanged until nothing of it is left. Errors: also if nodes x links is odd, or links >= nodes.
 Result<Graph> make_random_regular(uint32_t nodes, uint32_t links, uint64_t seed);
 
+/// The same workers and a controller that forwards nothing, linked to so many of them, spread over
+/// their numbers. These workers then have a link more. Errors: a controller already; no vertex
+/// left.
+Result<Graph> with_controller(const Graph& graph, uint32_t links);
+
 }  // namespace luxodus

@@ -32,6 +32,7 @@ void add_keygen(CLI::App& app, int& exit_code);
 void add_profile(CLI::App& app, int& exit_code);
 void add_deploy(CLI::App& app, int& exit_code);
 void add_sim(CLI::App& app, int& exit_code);
+void add_study(CLI::App& app, int& exit_code);
 
 /// One line "file:line: sentence" on standard error.
 void tell(const Problem& problem);
@@ -70,9 +71,10 @@ class ProgressLine {
   ~ProgressLine();
   void show(const Progress& progress);
   void show_share(double share);
+  /// `last`: it is logged, too.
+  void put(const std::string& text, bool last);
 
  private:
-  void put(const std::string& text, bool last);
   std::string title_;
   bool terminal_;
   double logged_at_ = -1e9;

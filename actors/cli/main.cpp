@@ -57,6 +57,7 @@ int main(int argc, char** argv) {
   add_profile(app, exit_code);
   add_deploy(app, exit_code);
   add_sim(app, exit_code);
+  add_study(app, exit_code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

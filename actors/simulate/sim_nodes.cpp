@@ -8,37 +8,6 @@ namespace luxodus {
 
 namespace {
 
-/// Traces for real, and lets the node's clock pass as if it had taken what it costs.
-class ChargedTracer final : public BatchTracer {
- public:
-  ChargedTracer(std::unique_ptr<BatchTracer> real, SimClock& clock, const SimCosts& costs)
-      : real_(std::move(real)), clock_(clock), costs_(costs) {}
-
-  void trace(int group, uint64_t first, int64_t count, BatchScores& scores) override {
-    real_->trace(group, first, count, scores);
-    clock_.charge(count * costs_.particle);
-  }
-  uint32_t look_units() const override { return real_->look_units(); }
-  void look(int64_t batch, uint32_t unit, BatchScores& scores) override {
-    real_->look(batch, unit, scores);
-    clock_.charge(costs_.particle);
-  }
-
- private:
-  const std::unique_ptr<BatchTracer> real_;
-  SimClock& clock_;
-  const SimCosts costs_;
-};
-
-NodeSeams worker_seams(SimWorld& world, NodeId self, const SimCosts& costs) {
-  SimClock& clock = world.clock(self);
-  const auto make_tracer = [&clock, costs](const CompiledScene& scene, const GeometryAccess& access,
-                                           uint64_t seed) {
-    return std::make_unique<ChargedTracer>(make_batch_tracer(scene, access, seed), clock, costs);
-  };
-  return {clock, world.transport(self), make_tracer};
-}
-
 /// Has all fibers return, as they do when they are cancelled.
 void end_fibers(Fibers& fibers) {
   fibers.cancel_all();
@@ -59,14 +28,33 @@ std::string fault_of(const NodeShell& shell, const Fibers& fibers) {
 
 // ---- workers -----------------------------------------------------------------------------------
 
-SimWorker::SimWorker(const RunSetup& run, const NodeSetup& node, SimWorld& world,
-                     const SimCosts& costs, WorkerReport& all)
-    : node_(node), all_(all), worker_(run, node, worker_seams(world, node.net.self, costs)) {
+NodeSeams charged_seams(SimWorld& world, NodeId self, const SimCosts& costs) {
+  SimClock& clock = world.clock(self);
+  return {clock, world.transport(self), charged_tracers(clock, costs),
+          charged_builders(clock, costs, make_part_builder)};
+}
+
+SimWorker::SimWorker(const RunSetup& run, const NodeSetup& node, const NodeSeams& seams,
+                     SimClock& clock, const SimCosts& costs, WorkerReport& all)
+    : node_(node), all_(all), meter_(clock), costs_(costs), worker_(run, node, seams) {
   worker_.start([] { return false; });
 }
 
 SimWorker::~SimWorker() {
   if (worker_.objects() != nullptr) all_.add(worker_.objects()->report());
+}
+
+/// What the loop did beside tracing and building is charged when its turn has ended.
+Nanoseconds SimWorker::turn() {
+  const Nanoseconds due = worker_.shell().turn();
+  const uint64_t resumes = worker_.shell().scheduler().counters().resumes;
+  const uint64_t batches = worker_.photons().counters().batches;
+  const uint64_t flush_bytes = worker_.leases().counters().flush_bytes;
+  meter_.charge(costs_.switch_ns * static_cast<double>(resumes - charged_.resumes) +
+                costs_.lease_ns * static_cast<double>(batches - charged_.batches) +
+                costs_.pack_byte_ns * static_cast<double>(flush_bytes - charged_.flush_bytes));
+  charged_ = {resumes, batches, flush_bytes};
+  return due;
 }
 
 void SimWorker::die() {
@@ -90,8 +78,11 @@ std::string SimWorker::fault() const {
 // ---- the controller ----------------------------------------------------------------------------
 
 SimController::SimController(const RunSetup& setup, const NodeSetup& node, LocalRun& run,
-                             const StopRule& stop, SimWorld& world, FlushKeeper* keeper)
+                             const StopRule& stop, SimWorld& world, const SimCosts& costs,
+                             FlushKeeper* keeper)
     : run_(run),
+      meter_(world.clock(node.net.self)),
+      costs_(costs),
       node_(
           setup, node, run, stop, interrupt_, [](const Progress&) {},
           {world.clock(node.net.self), world.transport(node.net.self)}, keeper) {
@@ -102,6 +93,9 @@ Nanoseconds SimController::turn() {
   counted_ = controller().counters().batches;
   const Nanoseconds due = node_.shell().turn();
   went_back_ = went_back_ || controller().counters().batches < counted_;
+  const uint64_t flush_bytes = controller().counters().flush_bytes;
+  meter_.charge(costs_.count_byte_ns * static_cast<double>(flush_bytes - charged_flush_bytes_));
+  charged_flush_bytes_ = flush_bytes;
   return due;
 }
 

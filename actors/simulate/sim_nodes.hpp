@@ -4,16 +4,12 @@
 
 #include <string>
 
+#include "actors/simulate/charging.hpp"
 #include "actors/supervise/controller_node.hpp"
 #include "actors/supervise/worker.hpp"
 #include "runtime/sim/sim_world.hpp"
 
 namespace luxodus {
-
-/// What work costs a node of a simulation.
-struct SimCosts {
-  Nanoseconds particle = microseconds(10);
-};
 
 /// A node that also tells what is wrong with it.
 class CheckedNode : public SimNode {
@@ -22,21 +18,32 @@ class CheckedNode : public SimNode {
   virtual std::string fault() const = 0;
 };
 
+/// A node's place in the world, where work is real and takes what it costs.
+NodeSeams charged_seams(SimWorld& world, NodeId self, const SimCosts& costs);
+
 class SimWorker final : public CheckedNode {
  public:
-  /// What its cache did is added to `all` when it ends. Requires: all references outlive this.
-  SimWorker(const RunSetup& run, const NodeSetup& node, SimWorld& world, const SimCosts& costs,
-            WorkerReport& all);
+  /// What its cache did is added to `all` when it ends. Requires: all references outlive this;
+  /// `clock` is that of the seams.
+  SimWorker(const RunSetup& run, const NodeSetup& node, const NodeSeams& seams, SimClock& clock,
+            const SimCosts& costs, WorkerReport& all);
   ~SimWorker() override;
 
-  Nanoseconds turn() override { return worker_.shell().turn(); }
+  Nanoseconds turn() override;
   bool finished() const override { return worker_.shell().finished(); }
   void die() override;
   std::string fault() const override;
+  const Worker& worker() const { return worker_; }
 
  private:
   const NodeSetup& node_;
   WorkerReport& all_;
+  Meter meter_;
+  const SimCosts costs_;
+  struct Charged {
+    uint64_t resumes = 0, batches = 0, flush_bytes = 0;
+  };
+  Charged charged_;
   Worker worker_;
 };
 
@@ -44,7 +51,7 @@ class SimController final : public CheckedNode {
  public:
   /// Requires: all outlive this.
   SimController(const RunSetup& setup, const NodeSetup& node, LocalRun& run, const StopRule& stop,
-                SimWorld& world, FlushKeeper* keeper);
+                SimWorld& world, const SimCosts& costs, FlushKeeper* keeper);
 
   Nanoseconds turn() override;
   bool finished() const override { return node_.shell().finished(); }
@@ -54,6 +61,9 @@ class SimController final : public CheckedNode {
 
  private:
   const LocalRun& run_;
+  Meter meter_;
+  const SimCosts costs_;
+  uint64_t charged_flush_bytes_ = 0;
   const std::atomic<bool> interrupt_{false};
   ControllerNode node_;
   uint64_t counted_ = 0;  // batches, before the last turn

@@ -144,7 +144,7 @@ class Simulation {
 Simulation::Simulation(const SimScene& scene, const SimOptions& options, PlannedNodes& nodes)
     : scene_(scene), options_(options), setup_(nodes.setup()) {
   stop_.particles = scene.particles();
-  costs_.particle = options.work / scene.particles();
+  costs_.particle_ns = static_cast<double>(options.work) / static_cast<double>(scene.particles());
   set_up(nodes);
   SimSetup world;
   world.nodes = static_cast<uint16_t>(setups_.size());
@@ -161,8 +161,8 @@ void Simulation::set_up(const PlannedNodes& nodes) {
   (void)drawn_nodes(draw, *scene_.scene(), options_);  // these draws come first
   if (options_.draw_nodes) draw_habits(draw, habits);
   // A turn shall be short against a beat.
-  const auto portion =
-      std::clamp<int64_t>(milliseconds(5) / std::max<Nanoseconds>(costs_.particle, 1), 1, 128);
+  const auto portion = std::clamp<int64_t>(
+      milliseconds(5) / std::max<Nanoseconds>(whole_ns(costs_.particle_ns), 1), 1, 128);
   for (NodeSetup& node : setups_) {
     const NetConfig own = node.net;
     node.net = habits.net;
@@ -216,9 +216,11 @@ std::unique_ptr<SimNode> Simulation::make(NodeId node, uint32_t life) {
   setup.net.incarnation = {draw_life(options_.seed, node, life)};
   if (node == controller()) {
     begin_controller(life);
-    return std::make_unique<SimController>(setup_, setup, *run_, stop_, *world_, journal_.get());
+    return std::make_unique<SimController>(setup_, setup, *run_, stop_, *world_, costs_,
+                                           journal_.get());
   }
-  return std::make_unique<SimWorker>(setup_, setup, *world_, costs_, report_.caches);
+  return std::make_unique<SimWorker>(setup_, setup, charged_seams(*world_, node, costs_),
+                                     world_->clock(node), costs_, report_.caches);
 }
 
 /// Its totals are those of its journal, at the end of which may stand what a crash has torn.

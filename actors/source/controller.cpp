@@ -416,10 +416,19 @@ void Controller::count_flushes() {
   while (!arrived_.empty() && !(held_back() && !over_)) {
     answer_flush(arrived_.front(), count_flush(arrived_.front()));
     arrived_.pop_front();
-    scheduler_.timers().set(scheduler_.clock().now(), [this] { look_at_totals(); });
+    look_soon();
   }
   counting_ = false;
-  scheduler_.timers().set(scheduler_.clock().now(), [this] { look_at_totals(); });
+  look_soon();
+}
+
+/// Not on the fiber that asks. One timer does for all flushes of a turn: hundreds may come at once.
+void Controller::look_soon() {
+  if (std::exchange(looks_soon_, true)) return;
+  scheduler_.timers().set(scheduler_.clock().now(), [this] {
+    looks_soon_ = false;
+    look_at_totals();
+  });
 }
 
 /// `why` it is refused; "" where it was counted.

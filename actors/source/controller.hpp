@@ -61,6 +61,8 @@ class Controller {
   /// All batches are counted and every worker has been told, or has been silent for too long.
   bool ended() const;
   StopReason reason() const { return reason_; }
+  /// From the moment when all workers were here to that when all was counted; 0 before it.
+  Nanoseconds took() const { return over_ ? over_since_ - began_ : 0; }
   /// The totals hold a part of a flush.
   bool adding() const { return adding_; }
   /// Why the run could not begin.
@@ -119,6 +121,7 @@ class Controller {
   void keep(const Arrived& arrived);
   void let_keeper_rest();
   void look_at_totals();
+  void look_soon();
   void fail(const std::string& what);
   void lose_shard(NodeId worker, const char* how);
   void end_round();
@@ -169,9 +172,10 @@ class Controller {
     std::vector<std::byte> payload;
   };
   std::deque<Arrived> arrived_;
-  bool counting_ = false;  // the fiber runs
-  bool adding_ = false;    // the totals hold a part of a flush
-  bool gathered_ = false;  // the totals are those of all that is counted, shards included
+  bool counting_ = false;    // the fiber runs
+  bool adding_ = false;      // the totals hold a part of a flush
+  bool looks_soon_ = false;  // a timer is set for look_at_totals()
+  bool gathered_ = false;    // the totals are those of all that is counted, shards included
   Counters counters_;
 };
 

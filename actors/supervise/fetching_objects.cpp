@@ -48,16 +48,19 @@ void WorkerReport::add(const WorkerReport& other) {
   pinned_bytes += other.pinned_bytes;
   tally_full += other.tally_full;
   tally_bytes_most = std::max(tally_bytes_most, other.tally_bytes_most);
+  fetch_delay.merge(other.fetch_delay);
+  object_wait.merge(other.object_wait);
+  hops += other.hops;
 }
 
 FetchingObjects::FetchingObjects(const RunSetup& run, const NodeSetup& node, NodeShell& shell,
-                                 NodeTrace* trace)
+                                 const BuilderMaker& make_builder, NodeTrace* trace)
     : self_(node.net.self),
       store_(*run.objects, node.net.self),
-      builder_(run.scene, run.objects->parts()),
+      builder_(make_builder(run.scene, run.objects->parts())),
       fetcher_(fetch_config(run, node, trace), run.objects->places(), store_, shell.network(),
                shell.scheduler().timers(), shell.scheduler().clock(), jitter_of(node.net.self)),
-      cache_(cache_of(run, node, trace), run.objects->places().size(), fetcher_, builder_,
+      cache_(cache_of(run, node, trace), run.objects->places().size(), fetcher_, *builder_,
              shell.scheduler().fibers(), shell.scheduler().timers(), shell.scheduler().clock()),
       source_(run.objects->parts(), cache_, shell.scheduler().fibers(), node.prefetch, trace) {
   shell.use(fetcher_);
@@ -71,9 +74,24 @@ void FetchingObjects::add_metrics(Metrics& metrics) const {
 WorkerReport FetchingObjects::report() const {
   const ObjectCache::Counters& c = cache_.counters();
   const Fetcher::Counters& f = fetcher_.counters();
-  return {
-      self_,       c.hits, c.misses,   f.fetches,        c.joined,       c.builds, c.builds_saved,
-      c.evictions, 0,      f.bytes_in, c.resident_bytes, c.pinned_bytes, 0,        0};
+  WorkerReport report;
+  report.node = self_;
+  report.hits = c.hits;
+  report.misses = c.misses;
+  report.fetches = f.fetches;
+  report.joined = c.joined;
+  report.builds = c.builds;
+  report.builds_saved = c.builds_saved;
+  report.evictions = c.evictions;
+  report.fetched_bytes = f.bytes_in;
+  report.largest_resident_bytes = c.resident_bytes;
+  report.pinned_bytes = c.pinned_bytes;
+  report.object_wait = cache_.wait_time();
+  for (uint8_t hops = 1; hops <= limits::hops; ++hops) {
+    report.fetch_delay.merge(fetcher_.delay(hops));
+    report.hops += hops * fetcher_.delay(hops).count();
+  }
+  return report;
 }
 
 }  // namespace luxodus

@@ -23,6 +23,9 @@ struct WorkerReport {
   uint64_t pinned_bytes = 0;
   uint64_t tally_full = 0;        // times that a batch waited for room in the tally
   uint64_t tally_bytes_most = 0;  // of one node, where its budget is less than all bins take
+  Histogram fetch_delay;          // of objects that came over links: from the wish to the bytes
+  Histogram object_wait;          // of fibers: from asking for an object to going on with it
+  uint64_t hops = 0;              // links that fetched objects passed, all together
 
   void add(const WorkerReport& other);
   /// Of all references to objects, those that found the object resident; 1 where there was none.
@@ -36,6 +39,7 @@ class FetchingObjects {
  public:
   /// Requires: run.objects is not null; all outlive this.
   FetchingObjects(const RunSetup& run, const NodeSetup& node, NodeShell& shell,
+                  const BuilderMaker& make_builder = make_part_builder,
                   NodeTrace* trace = nullptr);
 
   ObjectSource& source() { return source_; }
@@ -48,7 +52,7 @@ class FetchingObjects {
  private:
   const NodeId self_;
   HeldObjects store_;
-  PartBuilder builder_;
+  const std::unique_ptr<ObjectBuilder> builder_;
   Fetcher fetcher_;
   ObjectCache cache_;
   CachedObjects source_;

@@ -43,7 +43,7 @@ void add_totals(MemoryPlan& plan, const CompiledScene& scene, uint64_t copies) {
 
 uint64_t histogram_bytes(const RunSetup& run) {
   const uint64_t own = 1;  // of batches; those of fetches are counted with the fetcher
-  return (own + (run.objects != nullptr ? 1 : 0)) * sizeof(Histogram);
+  return (own + (run.objects != nullptr ? 2 : 0)) * sizeof(Histogram);
 }
 
 /// The most that its readers are given: a second copy of each number and histogram.
@@ -143,10 +143,10 @@ MemoryPlan worker_plan(const RunSetup& run, const NodeSetup& node) {
     const size_t objects = run.objects->places().size();
     Fetcher::plan_memory(plan, node.fetch, objects);
     ObjectCache::plan_memory(plan, cache_config(*run.objects, node), objects);
-    histograms += limits::hops + 1;
+    histograms += limits::hops + 2;  // by hops from 0, and of waits
   }
   plan.add("histograms", histogram_bytes(run),
-           "of batches, and of builds where objects are fetched");
+           "of batches; of builds and waits where objects are fetched");
   add_metrics(plan, run, histograms);
   if (run.observation != nullptr && run.observation->traces())
     plan.add("trace", limits::trace_events * sizeof(TraceEvent),

@@ -56,8 +56,15 @@ std::string NodeTransport::meeting_trouble(const Network& network) const {
   return text;
 }
 
+std::unique_ptr<ObjectBuilder> make_part_builder(const CompiledScene& scene,
+                                                 const SceneParts& parts) {
+  return std::make_unique<PartBuilder>(scene, parts);
+}
+
 void complete(NetConfig& net, const RunSetup& run) {
-  const Routes routes = balanced_routes(run.graph);
+  std::optional<Routes> own;
+  if (run.routes == nullptr) own = balanced_routes(run.graph);
+  const Routes& routes = own ? *own : *run.routes;
   net.identity.scene_hash = hash_of(run);
   net.identity.topology_hash = routes.hash();
   net.identity.build = LUX_VERSION;

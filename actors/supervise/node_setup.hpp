@@ -30,6 +30,7 @@ struct RunSetup {
   Observation* observation = nullptr;  // where somebody watches
   ShardPlan shards = {};               // of the totals
   SharedObjects* shared = nullptr;  // what nodes of the process have built; null: to each its own
+  const Routes* routes = nullptr;   // of the whole graph, where they were made once for all
 
   /// Of a node, for people.
   std::string name_of(NodeId node) const {
@@ -67,12 +68,20 @@ struct NodeSetup {
   Buggify* buggify = nullptr;
 };
 
+/// Makes what builds a node's objects. What it is given outlives what it makes.
+using BuilderMaker = std::function<std::unique_ptr<ObjectBuilder>(const CompiledScene& scene,
+                                                                  const SceneParts& parts)>;
+/// The one that builds them of their bytes.
+std::unique_ptr<ObjectBuilder> make_part_builder(const CompiledScene& scene,
+                                                 const SceneParts& parts);
+
 /// What stands between a node and its machine: a simulation puts its own here, and nothing else.
 struct NodeSeams {
   const Clock& clock;
   Transport& transport;
   /// Of photon-threads.
   TracerMaker make_tracer = make_batch_tracer;
+  BuilderMaker make_builder = make_part_builder;
 };
 
 /// What the real nodes of one process share of their machine.

@@ -22,10 +22,7 @@ std::vector<Edge> edges_of(const Graph& graph) {
   return edges;
 }
 
-NextHops next_hops(const Graph& graph, NodeId self, std::span<const Edge> down) {
-  Failures failures;
-  for (const Edge& edge : down) failures.links.push_back({edge.a.value, edge.b.value});
-  const Routes routes = balanced_routes(graph, failures);
+NextHops next_hops(const Routes& routes, NodeId self) {
   NextHops out;
   for (Vertex to = 0; to < routes.vertices(); ++to) {
     const auto hop = to == self.value ? std::nullopt : routes.next_hop(self.value, to);
@@ -88,7 +85,12 @@ class NodeShell::Handler final : public NetHandler {
                   neighbour.value, name_of(phase));
   }
   NextHops reroute(std::span<const Edge> down) override {
-    return next_hops(shell_.graph_, shell_.config_.net.self, down);
+    const NodeId self = shell_.config_.net.self;
+    if (down.empty() && shell_.config_.routes != nullptr)
+      return next_hops(*shell_.config_.routes, self);
+    Failures failures;
+    for (const Edge& edge : down) failures.links.push_back({edge.a.value, edge.b.value});
+    return next_hops(balanced_routes(shell_.graph_, failures), self);
   }
 
  private:

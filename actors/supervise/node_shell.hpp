@@ -14,8 +14,8 @@
 
 namespace luxodus {
 
-/// Next hops of a vertex, for the network. `down` are links that do not work.
-NextHops next_hops(const Graph& graph, NodeId self, std::span<const Edge> down);
+/// Next hops of a vertex, for the network.
+NextHops next_hops(const Routes& routes, NodeId self);
 /// All links of a graph.
 std::vector<Edge> edges_of(const Graph& graph);
 
@@ -25,6 +25,8 @@ struct ShellConfig {
   /// Bytes of one message in pieces that is taken in at once, and of all of them.
   size_t room_bytes_most = 1 << 30;
   Nanoseconds shutdown_phase = seconds(5);  // for each step of its end
+  /// Of the whole graph, where somebody has made them: they take seconds for a thousand nodes.
+  const Routes* routes = nullptr;
 };
 
 class NodeShell {

@@ -98,7 +98,8 @@ Result<StopReason> run_controller(const RunSetup& setup, const Machine& machine,
                 controller.shard_counters(),
                 {},
                 {},
-                std::nullopt};
+                std::nullopt,
+                controller.took()};
   }
   return controller.reason();
 }

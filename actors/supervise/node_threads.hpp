@@ -26,6 +26,7 @@ struct NodesReport {
   WorkerReport workers;  // of all together
   std::vector<WorkerReport> by_node;
   std::optional<Residency> residency;  // where there was a plan
+  Nanoseconds took = 0;                // from all workers' being there to the last batch's count
 };
 
 /// Runs a worker on the calling thread until it has left; see Worker::start.

@@ -14,6 +14,7 @@ namespace {
 constexpr uint32_t controller_links_most = 4;
 
 Result<Graph> graph_for(const NodesOptions& options) {
+  if (options.graph) return *options.graph;
   AmpRequest request;
   request.nodes = static_cast<uint32_t>(options.nodes);
   request.links = static_cast<uint32_t>(options.links);
@@ -69,6 +70,8 @@ NodeSetup setup_of(const RunSetup& run, const NetConfig& common, NodeId self,
   node.prefetch = options.prefetch;
   node.tally_bytes = options.tally_bytes;
   node.faults.links.delay = options.link_delay;
+  node.faults.links.bytes_per_second = options.link_bytes_per_second;
+  node.lease_time = options.lease_time;
   return node;
 }
 
@@ -100,6 +103,11 @@ Result<std::unique_ptr<PlannedNodes>> PlannedNodes::make(const LocalRun& run,
   auto graph = graph_for(options);
   if (!graph.ok()) return graph.problem();
   std::unique_ptr<PlannedNodes> made(new PlannedNodes(run, options, std::move(graph).value()));
+  if (const uint32_t longest = made->routes_.longest(); longest > limits::hops)
+    return Problem{{},
+                   "the longest way between nodes has " + std::to_string(longest) +
+                       " links, and messages pass " + std::to_string(limits::hops) +
+                       " at most: take another graph, or fewer nodes"};
   if (auto planned = made->plan_residency(run, options, stop); !planned.ok())
     return planned.problem();
   made->set_up(options, run_id);
@@ -109,12 +117,15 @@ Result<std::unique_ptr<PlannedNodes>> PlannedNodes::make(const LocalRun& run,
 }
 
 PlannedNodes::PlannedNodes(const LocalRun& run, const NodesOptions& options, Graph graph)
-    : graph_(std::move(graph)), setup_{run.scene(), run.resident() ? &run.index() : nullptr,
-                                       nullptr,     nullptr,
-                                       run.seed(),  graph_,
-                                       {},          options.observation} {
+    : graph_(std::move(graph)),
+      routes_(balanced_routes(graph_)),
+      setup_{run.scene(), run.resident() ? &run.index() : nullptr,
+             nullptr,     nullptr,
+             run.seed(),  graph_,
+             {},          options.observation} {
   for (int i = 0; i < options.nodes; ++i) setup_.names.push_back("n" + std::to_string(i));
   setup_.names.push_back("controller");
+  setup_.routes = &routes_;
   for (uint16_t i = 0; i + 1 < options.tally_shards; ++i) setup_.shards.owners.push_back({i});
   if (options.object_bytes == 0) return;
   std::vector<NodeId> holders;

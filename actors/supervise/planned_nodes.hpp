@@ -40,6 +40,9 @@ struct NodesOptions {
   double pinned_share = 0.5;  // of a budget, for objects that the plan has kept for good
   /// Of every link, on purpose: what a distance would cost, and how many fibers hide it.
   Nanoseconds link_delay = 0;
+  double link_bytes_per_second = 0;  // likewise, each way; 0: as fast as may be
+  std::optional<Graph> graph;        // of the links; else the minimum-path graph
+  Nanoseconds lease_time = ControllerConfig{}.lease_time;
   uint64_t tally_bytes = NodeSetup{}.tally_bytes;  // of each node, for scores, totals and flushes
   int tally_shards = 1;  // of the totals: the controller's, and those of the first workers
   Observation* observation = nullptr;  // where somebody watches
@@ -70,6 +73,7 @@ class PlannedNodes {
   void set_up(const NodesOptions& options, uint64_t run_id);
 
   const Graph graph_;
+  const Routes routes_;
   const EmbreeDevice device_;
   std::optional<SceneObjects> objects_;
   std::optional<ProxyScene> proxies_;

@@ -29,12 +29,12 @@ Worker::Worker(const RunSetup& run, const NodeSetup& node, const NodeSeams& seam
     : run_(run),
       node_(node),
       trace_(run.observation == nullptr ? nullptr : run.observation->trace_of(node.net.self)),
-      shell_(
-          {node.net, worker_limits(run, node), ShellConfig{}.room_bytes_most, node.shutdown_phase},
-          run.graph, seams.clock, seams.transport),
-      objects_(run.objects == nullptr
-                   ? nullptr
-                   : std::make_unique<FetchingObjects>(run, node, shell_, trace_)),
+      shell_({node.net, worker_limits(run, node), ShellConfig{}.room_bytes_most,
+              node.shutdown_phase, run.routes},
+             run.graph, seams.clock, seams.transport),
+      objects_(run.objects == nullptr ? nullptr
+                                      : std::make_unique<FetchingObjects>(
+                                            run, node, shell_, seams.make_builder, trace_)),
       shard_(own_shard()),
       parts_(run.shards, post()),
       leases_(lease_config(node, trace_), shell_.scheduler(), shell_.network(), parts_),

@@ -26,6 +26,7 @@ class Worker {
   NodeShell& shell() { return shell_; }
   const NodeShell& shell() const { return shell_; }
   const LeaseClient& leases() const { return leases_; }
+  const PhotonThreads& photons() const { return photons_; }
   /// Null where the node holds everything.
   const FetchingObjects* objects() const { return objects_.get(); }
 

@@ -2,14 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
 #include <cmath>
-#include <cstring>
-#include <fstream>
 
 #include "runtime/config/cluster_reading.hpp"
+#include "runtime/config/document.hpp"
 #include "runtime/core/hash.hpp"
-#include "runtime/core/toml_nesting.hpp"
 
 namespace luxodus {
 
@@ -137,45 +134,13 @@ void read_tables(const toml::table& document, ClusterReading& reading) {
   check_keys(reading);
 }
 
-/// Parses a text and has `read` go through it; what is wrong with it is found by then.
-template <class Read>
-Problems read_document(std::string_view text, ClusterReading& reading, Read&& read) {
-  Problems problems;
-  const SourcePlace& start = reading.start;
-  if (text.size() > limits::cluster_file_bytes) {
-    problems.add({start.file, 0},
-                 fmt::format("this file is longer than {} bytes, the most a cluster takes",
-                             limits::cluster_file_bytes));
-    return problems;
-  }
-  if (const auto deep = too_deep_toml(text, start.file)) {
-    problems.add(deep->where, deep->what);
-    return problems;
-  }
-  try {
-    read(toml::parse(text, start.file));
-  } catch (const toml::parse_error& e) {
-    problems.add({start.file, static_cast<int>(e.source().begin.line)},
-                 fmt::format("this is not TOML: {}", e.description()));
-    return problems;
-  }
-  return reading.findings.take();
+Problems read_document(std::string_view text, ClusterReading& reading, const auto& read) {
+  return config::read_document(text, reading.start, limits::cluster_file_bytes, reading.findings,
+                               read);
 }
 
-/// The text of a file, or why there is none.
 Result<std::string> text_of(const std::filesystem::path& file) {
-  std::error_code failed;
-  if (std::filesystem::is_directory(file, failed))
-    return Problem{{file.string(), 0}, "is a folder"};
-  std::ifstream in(file, std::ios::binary);
-  if (!in)
-    return Problem{{file.string(), 0}, fmt::format("cannot be read: {}", std::strerror(errno))};
-  // One byte more than is allowed shows that there is too much, whatever the file says of its size.
-  std::string text(limits::cluster_file_bytes + 1, '\0');
-  in.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (in.bad()) return Problem{{file.string(), 0}, "cannot be read to its end"};
-  text.resize(static_cast<size_t>(in.gcount()));
-  return text;
+  return config::text_of_file(file, limits::cluster_file_bytes);
 }
 
 Problems only(const Problem& problem) {

@@ -306,10 +306,12 @@ const std::vector<TableSpec>& cluster_schema() {
 }
 
 const TableSpec& table_spec(std::string_view name) {
-  for (const TableSpec& table : cluster_schema()) {
-    if (table.name == name) return table;
+  for (const auto* schema : {&cluster_schema(), &study_schema()}) {
+    for (const TableSpec& table : *schema) {
+      if (table.name == name) return table;
+    }
   }
-  throw std::logic_error("no table '" + std::string(name) + "' in the cluster schema");
+  throw std::logic_error("no table '" + std::string(name) + "' in any schema");
 }
 
 std::optional<Interval> interval_of(std::string_view range) {
@@ -333,9 +335,9 @@ std::vector<std::string_view> words_of(std::string_view range) {
   return words;
 }
 
-std::string schema_markdown() {
+std::string schema_markdown(const std::vector<TableSpec>& tables) {
   std::string out;
-  for (const TableSpec& table : cluster_schema()) {
+  for (const TableSpec& table : tables) {
     out += "### " + std::string(table.heading) + "\n\n";
     out += "| key | type | unit | default | range | meaning |\n|---|---|---|---|---|---|\n";
     for (const KeySpec& k : table.keys) {

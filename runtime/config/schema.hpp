@@ -1,7 +1,7 @@
-// Every table and key of a cluster's file, stated once: type, unit, default, range, meaning, as
-// text. The reader takes defaults and ranges from here, README.md repeats the same rows, and a test
-// compares the two, so that neither can say what the other does not do. It knows no values: those
-// are in cluster_config.hpp. Constant data; any thread.
+// Every table and key of a cluster's file, and of a study's, stated once: type, unit, default,
+// range, meaning, as text. The reader takes defaults and ranges from here, README.md repeats the
+// same rows, and a test compares the two, so that neither can say what the other does not do. It
+// knows no values: those are in cluster_config.hpp. Constant data; any thread.
 #pragma once
 
 #include <optional>
@@ -30,7 +30,10 @@ struct TableSpec {
 
 /// All tables, in the order of the README.
 const std::vector<TableSpec>& cluster_schema();
-/// The table of this name. Requires: it exists (a programmer's mistake throws std::logic_error).
+/// The tables of a study's file and of a file of costs, in the order of actors/study/README.md.
+const std::vector<TableSpec>& study_schema();
+/// The table of this name, of either. Requires: it exists (a programmer's mistake throws
+/// std::logic_error).
 const TableSpec& table_spec(std::string_view name);
 
 /// A range of numbers.
@@ -46,7 +49,7 @@ std::optional<Interval> interval_of(std::string_view range);
 /// The comma-separated words of a choice.
 std::vector<std::string_view> words_of(std::string_view range);
 
-/// The schema as the README shows it: a heading and a table of keys for each table.
-std::string schema_markdown();
+/// A schema as a README shows it: a heading and a table of keys for each table.
+std::string schema_markdown(const std::vector<TableSpec>& tables = cluster_schema());
 
 }  // namespace luxodus::config

@@ -310,18 +310,85 @@ std::filesystem::path TableReader::path(std::string_view key) {
   return {};
 }
 
+/// Whether a word is one of the key's range; else it is told.
+bool TableReader::fits(const KeySpec& s, const toml::node& node, const std::string& word) {
+  const auto words = words_of(s.range);
+  if (std::find(words.begin(), words.end(), word) != words.end()) return true;
+  std::string what = fmt::format("'{}' is \"{}\" but must be one of: {}", s.name,
+                                 word.substr(0, shown_most), s.range);
+  if (const auto near = nearest_word(word, words)) what += fmt::format("; perhaps \"{}\"", *near);
+  findings_.add(place_of(node, place_), std::move(what));
+  return false;
+}
+
 std::string TableReader::choice(std::string_view key) {
   const KeySpec& s = spec(key, "choice");
   const std::string text = text_of(s);
-  const auto words = words_of(s.range);
-  if (std::find(words.begin(), words.end(), text) != words.end()) return text;
-  if (has(key)) {
-    std::string what = fmt::format("'{}' is \"{}\" but must be one of: {}", key,
-                                   text.substr(0, shown_most), s.range);
-    if (const auto near = nearest_word(text, words)) what += fmt::format("; perhaps \"{}\"", *near);
-    problem(key, std::move(what));
-  }
+  if (const toml::node* node = find(key); node && fits(s, *node, text)) return text;
   return std::string(unquoted(s.fallback));
+}
+
+/// The entries of a list, or the one value that stands for a list of one.
+std::vector<const toml::node*> TableReader::listed(const KeySpec& s, const toml::node& node,
+                                                   size_t most) {
+  const toml::array* list = node.as_array();
+  if (!list) return {&node};
+  std::vector<const toml::node*> out;
+  if (list->empty() || list->size() > most) {
+    problem(s.name, fmt::format("'{}' must be one value, or a list of 1 to {}", s.name, most));
+    return out;
+  }
+  for (const toml::node& entry : *list) out.push_back(&entry);
+  return out;
+}
+
+std::vector<double> TableReader::numbers(std::string_view key, size_t most) {
+  const auto it = specs_.find(key);
+  const bool whole = it != specs_.end() && it->second->type == "integers";
+  const KeySpec& s = spec(key, whole ? "integers" : "numbers");
+  const toml::node* node = wanted(s);
+  std::vector<double> out;
+  if (node) {
+    for (const toml::node* entry : listed(s, *node, most)) {
+      const auto* integer = entry->as_integer();
+      const auto* real = whole ? nullptr : entry->as_floating_point();
+      if (!integer && !real) {
+        wrong_type(s, *entry, whole ? "whole numbers" : "numbers");
+        continue;
+      }
+      const double value = integer ? static_cast<double>(integer->get()) : real->get();
+      if (!checked(s, *entry, value)) continue;
+      if (std::find(out.begin(), out.end(), value) == out.end())
+        out.push_back(value);
+      else
+        findings_.add(place_of(*entry, place_), fmt::format("'{}' says {} twice", key, value));
+    }
+  }
+  if (out.empty()) out.push_back(inside(s));
+  return out;
+}
+
+std::vector<std::string> TableReader::choices(std::string_view key, size_t most) {
+  const KeySpec& s = spec(key, "choices");
+  const toml::node* node = wanted(s);
+  std::vector<std::string> out;
+  if (node) {
+    for (const toml::node* entry : listed(s, *node, most)) {
+      const auto* word = entry->as_string();
+      if (!word) {
+        wrong_type(s, *entry, "words");
+        continue;
+      }
+      if (!fits(s, *entry, word->get())) continue;
+      if (std::find(out.begin(), out.end(), word->get()) == out.end())
+        out.push_back(word->get());
+      else
+        findings_.add(place_of(*entry, place_),
+                      fmt::format("'{}' says \"{}\" twice", key, word->get()));
+    }
+  }
+  if (out.empty()) out.emplace_back(unquoted(s.fallback));
+  return out;
 }
 
 std::vector<TableReader::Pair> TableReader::pairs(std::string_view key, size_t most) {

@@ -72,6 +72,12 @@ class TableReader {
   };
   std::vector<Pair> pairs(std::string_view key, size_t most);
 
+  /// One number, or a list of them, in which none stands twice; the default of the schema where the
+  /// key is absent. Of the schema's types "numbers" and "integers".
+  std::vector<double> numbers(std::string_view key, size_t most);
+  /// The same of words of the key's range: type "choices".
+  std::vector<std::string> choices(std::string_view key, size_t most);
+
   /// A list of names of nodes; empty where the key is absent.
   struct Name {
     std::string text;
@@ -91,6 +97,8 @@ class TableReader {
   std::optional<double> checked(const KeySpec& spec, const toml::node& node, double value);
   std::optional<uint64_t> size_in(const KeySpec& spec, const toml::node& node);
   std::string text_of(const KeySpec& spec);
+  std::vector<const toml::node*> listed(const KeySpec& spec, const toml::node& node, size_t most);
+  bool fits(const KeySpec& spec, const toml::node& node, const std::string& word);
 
   SourcePlace place_;
   Findings& findings_;

@@ -69,6 +69,8 @@ void ObjectCache::add_metrics(Metrics& metrics) const {
   metrics.add_gauge({"objects_pinned", "bytes", "Bytes of pinned objects.", ""}, c.pinned_bytes);
   metrics.add_histogram({"build", "", "From a builder's beginning to its answer.", ""},
                         build_time_);
+  metrics.add_histogram(
+      {"object_wait", "", "From a fiber's asking for an object to its going on.", ""}, wait_time_);
 }
 
 // ---- asking for objects
@@ -83,7 +85,9 @@ Got ObjectCache::get(uint32_t object, bool traced, std::span<const uint32_t> ahe
     ++counters_.joined;
   }
   prefetch(ahead);
+  const Nanoseconds asked_at = clock_.now();
   if (fibers_.wait(entry.waiters, "fetch") != Wake::woken) return {Got::How::cancelled};
+  wait_time_.add(clock_.now() - asked_at);
   if (--to_run_ == 0 && ready_ != nullptr) step_soon();
   if (entry.built == nullptr) return {Got::How::unobtainable};
   return {Got::How::resident, entry.built.get()};

@@ -132,6 +132,8 @@ class ObjectCache final : private FetchClient, private ObjectBuilder::Client {
     uint64_t pinned_bytes = 0;  // of those
   };
   const Counters& counters() const { return counters_; }
+  /// Of fibers: from asking for an object that was not resident to going on.
+  const Histogram& wait_time() const { return wait_time_; }
   void add_metrics(Metrics& metrics) const;
 
  private:
@@ -183,6 +185,7 @@ class ObjectCache final : private FetchClient, private ObjectBuilder::Client {
   Counters counters_;
   Nanoseconds build_began_ = 0;
   Histogram build_time_;  // from the builder's beginning to its answer
+  Histogram wait_time_;
   OnceAMinute log_failure_;
 };
 

@@ -100,6 +100,7 @@ SendOutcome Network::send(NodeId destination, const MessageId& id, const Message
   if (head.value() + payload.bytes.size() > config_.message_bytes_most)
     throw std::length_error("network: a message is longer than message_bytes_most");
   outbox.add(destination, id, std::span(scratch_).first(head.value()), std::move(payload));
+  given_ = true;
   return SendOutcome::taken;
 }
 
@@ -142,6 +143,7 @@ bool Network::poll(Nanoseconds now) {
     for (Link& link : links_) link.beat(view_.epoch());
     next_beat_ = now + config_.times.beat;
   }
+  given_ = false;
   const bool more_moves = router_.pump(view_.epoch(), now);
   for (Link& link : links_) link.tell_grants();
   watch_links();  // a send may have found a neighbour gone
@@ -152,7 +154,10 @@ bool Network::poll(Nanoseconds now) {
   return more_arrivals || more_moves;
 }
 
+// Fibers run after a turn's poll. What one gives away as the last thing before its node rests would
+// otherwise lie here until the next beat.
 Nanoseconds Network::next_deadline() const {
+  if (given_) return 0;
   Nanoseconds earliest = next_beat_;
   for (const Link& link : links_) earliest = std::min(earliest, link.state().next_deadline());
   return earliest;

@@ -97,7 +97,7 @@ class Network {
   /// True: there is more to do at once.
   bool poll(Nanoseconds now);
 
-  /// When poll() has something to do even if no frame comes.
+  /// When poll() has something to do even if no frame comes: at once after a send().
   Nanoseconds next_deadline() const;
 
   /// The room for this message is the handler's again.
@@ -172,6 +172,7 @@ class Network {
   uint64_t sequence_ = 0;
   Nanoseconds next_beat_;
   OnceAMinute log_lag_;
+  bool given_ = false;  // messages since the last poll, which have not left yet
 };
 
 }  // namespace luxodus

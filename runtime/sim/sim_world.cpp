@@ -68,6 +68,7 @@ class SimWorld::Port final : public Transport {
       given_ = std::move(queue.front());
       queue.pop_front();
       node_.clock.charge(world_.setup_.frame_cost);
+      world_.charge_bytes(node_, given_.second.size());
       return Arrival{given_.first, lane, given_.second};
     }
     return std::nullopt;
@@ -89,6 +90,11 @@ SimWorld::SimWorld(const SimSetup& setup)
     nodes_.push_back(std::make_unique<Node>());
     nodes_.back()->id = {i};
     nodes_.back()->port = std::make_unique<Port>(*this, *nodes_.back());
+  }
+  if (setup.cores > 0 && !setup.hosts.empty()) {
+    LUX_CHECK(setup.hosts.size() == setup.nodes, "every node of a world has its machine");
+    const uint16_t last_host = *std::max_element(setup.hosts.begin(), setup.hosts.end());
+    cores_.assign(size_t{last_host} + 1, std::vector<Nanoseconds>(setup.cores, 0));
   }
   ways_.resize(size_t{setup.nodes} * setup.nodes);
   for (const Edge& edge : setup.edges)
@@ -187,12 +193,26 @@ void SimWorld::wake(Node& node, Nanoseconds at) {
   push({at, 0, Event::Kind::turn, node.id.value, ++node.ticket});
 }
 
+/// The core of the node's machine that is free first; null where there is one for every node.
+Nanoseconds* SimWorld::free_core(const Node& node) {
+  if (cores_.empty()) return nullptr;
+  std::vector<Nanoseconds>& cores = cores_[setup_.hosts[node.id.value]];
+  return &*std::min_element(cores.begin(), cores.end());
+}
+
+void SimWorld::charge_bytes(Node& node, size_t bytes) {
+  node.clock.charge(static_cast<Nanoseconds>(setup_.byte_cost_ns * static_cast<double>(bytes)));
+}
+
 void SimWorld::take_turn(Node& node) {
   last_ = node.id;
   node.turn_at = never;
+  Nanoseconds* const core = free_core(node);
+  if (core != nullptr && *core > now_) return wake(node, *core);
   node.clock.reach(now_);
   const Nanoseconds due = node.node->turn();
   node.clock.charge(setup_.turn_cost);
+  if (core != nullptr) *core = node.clock.now();
   if (node.node->finished()) {
     node.node.reset();
     node.left = true;
@@ -228,6 +248,8 @@ Sent SimWorld::send(NodeId from, NodeId to, Lane lane, std::span<const std::byte
   const bool chosen = setup_.plan.lost_frame == counters_.frames;
   ++counters_.frames;
   counters_.bytes += bytes;
+  nodes_[from.value]->clock.charge(setup_.send_cost);
+  charge_bytes(*nodes_[from.value], bytes);
   Frame frame{way, lane, way->connection, false, {}};
   frame.bytes.reserve(bytes);
   frame.bytes.insert(frame.bytes.end(), head.begin(), head.end());
@@ -291,7 +313,8 @@ void SimWorld::arrive(uint32_t slot) {
     return;
   }
   node.inbox[static_cast<size_t>(frame.lane)].emplace_back(way.from, std::move(frame.bytes));
-  wake(node, now_);
+  const bool rests = node.clock.now() <= now_ && node.turn_at > now_;
+  wake(node, rests ? now_ + setup_.wake_cost : now_);
 }
 
 void SimWorld::break_connection(NodeId a, NodeId b) {

@@ -40,9 +40,16 @@ struct SimSetup {
   uint16_t nodes = 0;
   std::vector<Edge> edges;
   FaultPlan plan;
-  Nanoseconds turn_cost = microseconds(1);    // of a turn by itself, so that time passes
-  Nanoseconds frame_cost = microseconds(2);   // of taking in a frame
+  Nanoseconds turn_cost = microseconds(1);   // of a turn by itself, so that time passes
+  Nanoseconds frame_cost = microseconds(2);  // of taking in a frame
+  Nanoseconds send_cost = 0;                 // of giving a frame to a link
+  double byte_cost_ns = 0;                   // of each byte of a frame, at either end
+  Nanoseconds wake_cost = 0;  // until a node that rests sees what has come: the system's part
   Nanoseconds reconnect = milliseconds(100);  // until a broken connection stands again
+  /// Machines: nodes of one share its cores, each a turn at a time. By node; empty: to each its
+  /// own.
+  std::vector<uint16_t> hosts;
+  uint32_t cores = 0;  // of each machine; 0: one for every node
 };
 
 class SimWorld {
@@ -95,6 +102,8 @@ class SimWorld {
   void begin_counted();
   void wake(Node& node, Nanoseconds at);
   void take_turn(Node& node);
+  Nanoseconds* free_core(const Node& node);
+  void charge_bytes(Node& node, size_t bytes);
   void arrive(uint32_t slot);
   void begin(const Fault& fault);
   void end(const Fault& fault);
@@ -112,8 +121,9 @@ class SimWorld {
   LinkTroubles troubles_;
   MakeNode make_;
   std::vector<std::unique_ptr<Node>> nodes_;
-  std::vector<std::unique_ptr<Way>> ways_;  // nodes x nodes, null where there is no link
-  std::vector<Frame> frames_;               // on their way, by slot
+  std::vector<std::unique_ptr<Way>> ways_;       // nodes x nodes, null where there is no link
+  std::vector<std::vector<Nanoseconds>> cores_;  // by machine, when each is free; where they count
+  std::vector<Frame> frames_;                    // on their way, by slot
   std::vector<uint32_t> free_slots_;
   std::vector<Event> events_;  // a heap, the earliest first
   uint64_t sequence_ = 0;

@@ -37,6 +37,19 @@ TEST_CASE("two nodes that agree come up and exchange messages", "[runtime][netwo
   CHECK(std::get<FetchObject>(got.message).object == ObjectId{42});
 }
 
+TEST_CASE("a node that has sent is due at once, and not with its next beat", "[runtime][network]") {
+  Cluster pair(2, ring(2));
+  pair.bring_up();
+  pair.turn();
+  const Nanoseconds resting = pair[0].network.next_deadline();
+  REQUIRE(resting > 0);
+  REQUIRE(pair[0].network.send(b, pair[0].network.next_id(), FetchObject{{42}, 1000, 1}) ==
+          SendOutcome::taken);
+  CHECK(pair[0].network.next_deadline() == 0);
+  pair.turn();
+  CHECK(pair[0].network.next_deadline() > 0);
+}
+
 TEST_CASE("a reply of many chunks arrives whole, and its bytes are given back",
           "[runtime][network]") {
   Cluster pair(2, ring(2));

@@ -1,0 +1,261 @@
+// luxodus study: sweeps over graphs, delays, fibers, caches; and what they are charged from.
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <filesystem>
+#include <map>
+#include <tuple>
+
+#include "actors/cli/command.hpp"
+#include "actors/study/calibrate.hpp"
+#include "actors/study/report.hpp"
+#include "actors/study/runs.hpp"
+#include "actors/study/scenes.hpp"
+#include "runtime/core/clock.hpp"
+
+namespace luxodus::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct StudyCommandOptions {
+  std::string file;
+  std::string out;
+  bool log = false;
+};
+
+struct CalibrateOptions {
+  std::string scene, scenario;
+  std::string out = "costs.toml";
+  int cells = 64;
+  int64_t lease_particles = 64;
+  bool whole_tally = false;
+};
+
+/// A study with its scene and costs.
+struct Prepared {
+  Study study;
+  MeasuredCosts measured;
+  std::shared_ptr<const SceneDescription> scene;
+};
+
+void tell_all(const Problems& problems) {
+  for (const Problem& problem : problems.list()) tell(problem);
+}
+
+std::optional<Prepared> prepare(const std::string& file) {
+  ReadStudy read = read_study(file);
+  tell_all(read.problems);
+  if (!read.study) return std::nullopt;
+  Prepared prepared{std::move(*read.study), {}, nullptr};
+  if (!prepared.study.costs.empty()) {
+    ReadCosts costs = read_costs(prepared.study.costs);
+    tell_all(costs.problems);
+    if (!costs.measured) return std::nullopt;
+    prepared.measured = std::move(*costs.measured);
+  }
+  prepared.scene = load_scene(prepared.study.scene.string());
+  if (!prepared.scene) return std::nullopt;
+  return prepared;
+}
+
+/// Every point and seed, one after another, with a line of how far it is.
+class Sweep {
+ public:
+  explicit Sweep(const Prepared& prepared)
+      : study_(prepared.study),
+        scenes_(prepared.study, *prepared.scene),
+        outcome_{prepared.study, prepared.measured, {}} {}
+
+  /// Errors: a scene that cannot be compiled.
+  Result<Done> run();
+  const StudyOutcome& outcome() const { return outcome_; }
+
+ private:
+  Result<StudyRow> run_one(const StudyPoint& point, uint64_t seed);
+  Result<std::shared_ptr<const Recording>> recorded(const StudyRun& run);
+  double weight(const StudyPoint& point) const;
+  void show(double done);
+
+  const Study& study_;
+  StudyScenes scenes_;
+  StudyOutcome outcome_;
+  std::map<std::tuple<int64_t, uint64_t, int64_t>, std::shared_ptr<const Recording>> recordings_;
+  const SystemClock clock_;
+  Nanoseconds began_ = 0;
+  size_t runs_ = 0;
+  double all_ = 0;  // weights of all runs
+  ProgressLine line_{"study"};
+};
+
+/// About as long as a run of it takes: particles to trace, and nodes to keep.
+double Sweep::weight(const StudyPoint& point) const {
+  return static_cast<double>(particles_of(study_, point)) + 100 * study_.number(point, "nodes");
+}
+
+void Sweep::show(double done) {
+  const double passed = static_cast<double>(clock_.now() - began_) * 1e-9;
+  const double left = done > 0 ? passed * (all_ - done) / done : 0;
+  line_.put(fmt::format("{} of {} runs, {:.0f} s, about {:.0f} s left", outcome_.rows.size(), runs_,
+                        passed, left),
+            done >= all_);
+}
+
+Result<StudyRow> Sweep::run_one(const StudyPoint& point, uint64_t seed) {
+  const auto scene = scenes_.get(static_cast<int>(study_.whole(point, "cells")),
+                                 study_.whole(point, "lease_particles"));
+  if (!scene.ok()) return scene.problem();
+  StudyRun run{study_, point, scene.value(), seed, outcome_.measured.costs, nullptr};
+  const bool real = study_.word(point, "on") == "nodes";
+  if (study_.word(point, "on") == "replay") {
+    const auto recording = recorded(run);
+    if (!recording.ok()) return recording.problem();
+    run.recording = recording.value().get();
+  }
+  auto result = real ? run_real(run, interrupt_flag()) : run_simulated(run, interrupt_flag());
+  StudyRow row{point, seed, std::nullopt, ""};
+  if (result.ok())
+    row.result = std::move(result).value();
+  else
+    row.refused = result.problem().what;
+  return row;
+}
+
+/// Kept for other points: it depends on nothing that they vary but partition and chance.
+Result<std::shared_ptr<const Recording>> Sweep::recorded(const StudyRun& run) {
+  const std::tuple key{study_.whole(run.point, "cells"), run.seed,
+                       std::min(particles_of(study_, run.point), limits::recorded_particles)};
+  auto& kept = recordings_[key];
+  if (kept) return kept;
+  auto made = Recording::make(*run.scene, run.seed, std::get<2>(key), run.costs);
+  if (!made.ok()) return made.problem();
+  kept = std::move(made).value();
+  return kept;
+}
+
+Result<Done> Sweep::run() {
+  const auto points = study_.points();
+  began_ = clock_.now();
+  runs_ = points.size() * static_cast<size_t>(study_.seeds);
+  for (const StudyPoint& point : points) all_ += weight(point) * study_.seeds;
+  double done = 0;
+  for (const StudyPoint& point : points) {
+    for (int i = 0; i < study_.seeds; ++i) {
+      auto row = run_one(point, study_.first_seed + static_cast<uint64_t>(i));
+      if (interrupt_flag()) return Done{};
+      if (!row.ok()) return row.problem();
+      outcome_.rows.push_back(std::move(row).value());
+      done += weight(point);
+      show(done);
+    }
+  }
+  return Done{};
+}
+
+void print_outcome(const StudyOutcome& outcome, const fs::path& out) {
+  size_t refused = 0;
+  for (const StudyRow& row : outcome.rows) refused += row.result ? 0 : 1;
+  for (const StudyComparison& comparison : comparisons_of(outcome)) {
+    std::printf("%s against %s\n", comparison.of.c_str(), comparison.against.c_str());
+    for (const auto& error : comparison.errors())
+      std::printf("  %-24s mean error %5.1f %%, largest %5.1f %%\n", error.column.c_str(),
+                  100 * error.mean, 100 * error.most);
+  }
+  std::printf("%zu runs", outcome.rows.size());
+  if (refused > 0) std::printf(", %zu of them without a result (the page says why)", refused);
+  std::printf("; written to %s\n", out.string().c_str());
+}
+
+Result<ExitCode> study(const StudyCommandOptions& options) {
+  const auto prepared = prepare(options.file);
+  if (!prepared) return ExitCode::bad_input;
+  install_interrupt_handler();
+  const auto level = spdlog::get_level();
+  if (!options.log) spdlog::set_level(spdlog::level::off);
+  Sweep sweep(*prepared);
+  const auto done = sweep.run();
+  spdlog::set_level(level);
+  if (!done.ok()) return done.problem();
+  if (interrupt_flag()) {
+    spdlog::warn("interrupted; nothing was written");
+    return ExitCode::interrupted;
+  }
+  const fs::path out =
+      options.out.empty() ? fs::path("out") / fs::path(options.file).stem() : fs::path(options.out);
+  if (auto ok = write_study(out, sweep.outcome()); !ok.ok()) return ok.problem();
+  print_outcome(sweep.outcome(), out);
+  return ExitCode::success;
+}
+
+Result<Done> write_costs(const CalibrateOptions& options) {
+  const auto description = load_scene(options.scene);
+  if (!description) return Problem{{options.scene, 0}, "the scene has problems, told above"};
+  Study study;
+  study.scenario = options.scenario;
+  study.whole_tally = options.whole_tally;
+  StudyScenes scenes(study, *description);
+  const auto scene = scenes.get(options.cells, options.lease_particles);
+  if (!scene.ok()) return scene.problem();
+  const auto report = [](const std::string& what) {
+    std::fprintf(stderr, "measuring %s\n", what.c_str());
+  };
+  const auto measured = calibrate(*scene.value(), report);
+  if (!measured.ok()) return measured.problem();
+  const std::string text = costs_text(measured.value());
+  if (auto ok = write_file_atomically(options.out, text); !ok.ok()) return ok.problem();
+  std::printf("%swritten to %s\n", text.c_str(), options.out.c_str());
+  return Done{};
+}
+
+void add_calibrate(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<CalibrateOptions>();
+  CLI::App* command =
+      app.add_subcommand("calibrate", "Measure on this machine what work costs, for simulations");
+  command->footer(
+      "Costs of tracing are those of a scene and its partition; the rest is the machine's. Leave\n"
+      "the machine alone meanwhile: some twenty seconds.");
+  command->add_option("scene", options->scene, "scene file (TOML)")->required();
+  command->add_option("--scenario", options->scenario, "name of a scenario [the first]");
+  command->add_option("--cells", options->cells, "parts of the geometry [64]")
+      ->check(CLI::Range(2, 100000));
+  command->add_option("--lease-particles", options->lease_particles, "of a batch [64]")
+      ->check(CLI::Range(1, 1000000));
+  command->add_flag("--whole-tally", options->whole_tally, "as a study's tally = \"scene\"");
+  command->add_option("--out", options->out, "file of costs [costs.toml]");
+  command->callback([options, &exit_code] {
+    const auto done = write_costs(*options);
+    if (!done.ok()) tell(done.problem());
+    exit_code = done.ok() ? ExitCode::success : ExitCode::bad_input;
+  });
+}
+
+}  // namespace
+
+void add_study(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<StudyCommandOptions>();
+  CLI::App* command = app.add_subcommand(
+      "study", "Vary graphs, delays, fibers, caches; write tables, plots and a page");
+  command->footer(
+      "A study is a TOML file: a scene, what is varied, what is drawn (keys: "
+      "actors/study/README.md).\n"
+      "Studies that ship, with what they found: tests/studies.\n"
+      "  luxodus study tests/studies/fibers.toml --out out/fibers");
+  add_calibrate(*command, exit_code);
+  command->add_option("file", options->file, "study file (TOML)");
+  command->add_option("--out", options->out, "folder of the results [out/NAME]");
+  command->add_flag("--log", options->log, "what the nodes log");
+  command->callback([command, options, &exit_code] {
+    if (!command->get_subcommands().empty()) return;
+    if (options->file.empty()) {
+      tell({{}, "say which study: luxodus study FILE.toml, or luxodus study calibrate SCENE"});
+      exit_code = ExitCode::bad_input;
+      return;
+    }
+    auto done = study(*options);
+    if (!done.ok()) tell(done.problem());
+    exit_code = done.ok() ? done.value() : ExitCode::bad_input;
+  });
+}
+
+}  // namespace luxodus::cli

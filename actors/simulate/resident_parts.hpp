@@ -1,0 +1,71 @@
+// All parts of a scene for one tracer, built when they are asked for and kept; it counts and tells
+// who asks. For measuring and recording what tracing refers to. Thread rule: one thread.
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "actors/objects/scene_objects.hpp"
+
+namespace luxodus {
+
+class ResidentParts final : public ObjectSource {
+ public:
+  /// Told of an object before it is given.
+  using Asked = std::function<void(uint32_t object)>;
+
+  /// Requires: both outlive this.
+  ResidentParts(const CompiledScene& scene, const SceneObjects& objects, Asked asked = {})
+      : objects_(objects),
+        builder_(scene, objects.parts()),
+        asked_(std::move(asked)),
+        built_(objects.places().size()) {}
+
+  const CellScene* cell(uint32_t cell, std::span<const Candidate>) override {
+    const auto* object = static_cast<const BuiltCell*>(find(cell));
+    return object != nullptr ? &object->scene() : nullptr;
+  }
+  const Brick* brick(int medium, int brick) override {
+    const uint32_t number = objects_.parts().of_brick(medium, brick);
+    if (number == none_index) return &clear_brick();
+    const auto* object = static_cast<const BuiltBrick*>(find(number));
+    return object != nullptr ? &object->brick() : nullptr;
+  }
+  const ImageTile* tile(uint32_t image, uint32_t tile) override {
+    const auto* object = static_cast<const BuiltTile*>(find(objects_.parts().of_tile(image, tile)));
+    return object != nullptr ? &object->tile() : nullptr;
+  }
+  bool spoilt() override { return problem_.has_value(); }
+
+  uint64_t references() const { return references_; }
+  /// Why a part could not be built.
+  const std::optional<Problem>& problem() const { return problem_; }
+  /// What a part has taken once built; 0 where nobody asked for it.
+  size_t built_bytes(uint32_t object) const {
+    return built_[object] == nullptr ? 0 : built_[object]->bytes();
+  }
+
+ private:
+  const BuiltObject* find(uint32_t number) {
+    ++references_;
+    if (asked_) asked_(number);
+    if (built_[number] == nullptr) build(number);
+    return built_[number].get();
+  }
+  void build(uint32_t number) {
+    auto object = builder_.built(number, objects_.bytes(number).bytes);
+    if (object.ok())
+      built_[number] = std::move(object).value();
+    else
+      problem_ = object.problem();
+  }
+
+  const SceneObjects& objects_;
+  PartBuilder builder_;
+  const Asked asked_;
+  std::vector<std::shared_ptr<const BuiltObject>> built_;
+  std::optional<Problem> problem_;
+  uint64_t references_ = 0;
+};
+
+}  // namespace luxodus
