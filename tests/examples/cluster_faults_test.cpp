@@ -194,3 +194,64 @@ TEST_CASE("a node whose thread is stuck is given up while its process lives, and
   row.well(flush_of(1));
   end_with_same_bits(folder, nodes, row);
 }
+
+TEST_CASE("a second process under a node's name on its host ends, and the first goes on",
+          "[cluster][faults]") {
+  const Folder folder;
+  const std::string cluster = write_cluster(folder, over_tcp(quick(2)));
+  const Running nodes = start(cluster, 2);
+  REQUIRE(nodes.controller->says(flush_of(1)));
+  FaultRow row("a node is started twice on its host", *nodes.controller);
+  const auto twin = node(cluster, "n1");
+  CHECK(twin->wait() == 1);
+  INFO(twin->text());
+  CHECK(twin->said("cannot listen there: Address already in use"));
+  row.well(flush_of(1));
+  CHECK_FALSE(nodes.controller->said(lost(1)));
+  end_with_same_bits(folder, nodes, row);
+}
+
+TEST_CASE("a second process under a node's name on another host does not harm the result",
+          "[cluster][faults]") {
+  const Folder folder;
+  ClusterText text = over_tcp(quick(3));
+  const std::string cluster = write_cluster(folder, text);
+  text.ports[1] = free_ports(1).front();  // where nobody looks for it
+  const std::string of_twin = write_cluster(folder, text, "of_twin");
+  const Running nodes = start(cluster, 3);
+  REQUIRE(nodes.controller->says(flush_of(1)));
+  FaultRow row("a node is started twice, on two hosts", *nodes.controller);
+  const auto twin = node(of_twin, "n1");
+  REQUIRE(nodes.controller->says(flush_of(0), nodes.controller->now()));
+  row.noticed("worker=");
+  row.well(flush_of(0));
+  end_with_same_bits(folder, nodes, row);
+}
+
+TEST_CASE("who looks at a run and reads nothing holds up nobody", "[cluster][faults]") {
+  const Folder folder;
+  ClusterText text = over_tcp(quick(2));
+  std::vector<uint16_t> pages = free_ports(2);  // its three processes take these in their order
+  while (pages[1] != pages[0] + 2) pages = {pages[1], free_ports(1).front()};
+  text.more.insert(text.more.find("log_level"),
+                   "metrics_port = " + std::to_string(pages[0]) + "\n");
+  const Running nodes = start(write_cluster(folder, text), 2);
+  REQUIRE(nodes.controller->says(flush_of(1)));
+  FaultRow row("ten who look at each process, and read nothing", *nodes.controller);
+  std::vector<int> lookers;
+  for (int i = 0; i < 30; ++i) {
+    sockaddr_in place{};
+    place.sin_family = AF_INET;
+    place.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    place.sin_port = htons(static_cast<uint16_t>(pages[0] + i % 3));
+    lookers.push_back(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
+    REQUIRE(::connect(lookers.back(), reinterpret_cast<sockaddr*>(&place), sizeof place) == 0);
+    const std::string asked = i % 2 == 0 ? "GET /metrics HTTP/1.1\r\n\r\n" : "GET /met";
+    CHECK(::send(lookers.back(), asked.data(), asked.size(), MSG_NOSIGNAL) > 0);
+  }
+  for (int i = 0; i < 3; ++i) REQUIRE(nodes.controller->says(flush_of(1), nodes.controller->now()));
+  row.well(flush_of(0));
+  CHECK_FALSE(nodes.controller->said("worker=lost"));
+  end_with_same_bits(folder, nodes, row);
+  for (const int looker : lookers) ::close(looker);
+}
