@@ -54,7 +54,13 @@ void add_tracer(const ClusterConfig& cluster, std::vector<NodeId>& nodes) {
   if (tracer && std::count(nodes.begin(), nodes.end(), *tracer) == 0) nodes.push_back(*tracer);
 }
 
+/// What one node says is read beside what others say, on other hosts: with its moment, in UTC.
+void tell_the_time() {
+  spdlog::set_pattern("%Y-%m-%dT%H:%M:%S.%eZ %^%l%$ %v", spdlog::pattern_time_type::utc);
+}
+
 int run_nodes(const NodeOptions& options) {
+  tell_the_time();
   const ReadCluster read = read_cluster(options.config);
   for (const Problem& problem : read.problems.list()) tell(problem);
   if (!read.cluster) return ExitCode::bad_input;

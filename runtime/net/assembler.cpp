@@ -20,6 +20,7 @@ void Assembler::begin(const Envelope& envelope, std::span<std::byte> room, Nanos
   --free_;
   slot.used = true;
   slot.id = envelope.id;
+  slot.by = envelope.from;
   slot.kind = envelope.kind;
   slot.chunk_bytes = envelope.chunk_bytes;
   slot.total_bytes = envelope.total_bytes;
@@ -57,6 +58,27 @@ void Assembler::close(const MessageId& id, Kind kind) {
     slot.used = false;
     ++free_;
   }
+}
+
+std::optional<Assembler::Abandoned> Assembler::make_room(NodeId newcomer) {
+  const auto count_of = [&](NodeId node) {
+    return std::count_if(slots_.begin(), slots_.end(),
+                         [&](const Slot& slot) { return slot.used && slot.by == node; });
+  };
+  const Slot* worst = nullptr;
+  auto most = count_of(newcomer) + 1;
+  for (const Slot& slot : slots_) {
+    if (!slot.used || slot.missing == 0) continue;
+    const auto count = count_of(slot.by);
+    if (count < most || (count == most && (worst == nullptr || slot.touched >= worst->touched)))
+      continue;
+    most = count;
+    worst = &slot;
+  }
+  if (worst == nullptr) return std::nullopt;
+  const Abandoned abandoned{worst->id, worst->kind};
+  close(abandoned.id, abandoned.kind);
+  return abandoned;
 }
 
 std::optional<Assembler::Abandoned> Assembler::close_idle(Nanoseconds before) {

@@ -42,6 +42,10 @@ class Assembler {
     MessageId id;
     Kind kind;
   };
+  /// Who has begun many messages makes room for who has begun few: closes, of the neighbour with
+  /// the most, the one of which nothing has come for the longest. Nothing where that would leave it
+  /// fewer than `newcomer` then has.
+  std::optional<Abandoned> make_room(NodeId newcomer);
   /// Closes a message of which nothing has come since `before` and tells which; nothing if there
   /// is none.
   std::optional<Abandoned> close_idle(Nanoseconds before);
@@ -50,6 +54,7 @@ class Assembler {
   struct Slot {
     bool used = false;
     MessageId id;
+    NodeId by;  // the neighbour that brought its first piece
     Kind kind = Kind::link;
     uint32_t chunk_bytes = 0;
     uint32_t total_bytes = 0;

@@ -13,15 +13,21 @@ namespace luxodus {
 /// The sending end.
 class CreditOut {
  public:
+  /// `window` is the receiver's: more than that is never outstanding, whatever it grants.
+  explicit CreditOut(uint64_t window) : window_(window) {}
+
   bool allows(uint64_t bytes) const { return bytes <= limit_ - sent_; }
   /// Requires: allows(bytes).
   void spend(uint64_t bytes) { sent_ += bytes; }
-  void grant(uint64_t limit) { limit_ = std::max(limit_, limit); }
+  void grant(uint64_t limit) { limit_ = std::max(limit_, std::min(limit, sent_ + window_)); }
+  /// The receiver begins another life and counts from 0.
+  void restart() { sent_ = limit_ = 0; }
   uint64_t sent() const { return sent_; }
   /// What may still be sent.
   uint64_t left() const { return limit_ - sent_; }
 
  private:
+  uint64_t window_;
   uint64_t sent_ = 0;
   uint64_t limit_ = 0;  // >= sent_
 };

@@ -10,6 +10,19 @@
 
 namespace luxodus {
 
+namespace {
+
+/// Of refusals for one reason, one line a minute: a peer that asks and asks cannot fill the log.
+constexpr Nanoseconds log_interval = seconds(60);
+
+bool may_log(Nanoseconds& again_at, Nanoseconds now) {
+  if (now < again_at) return false;
+  again_at = now + log_interval;
+  return true;
+}
+
+}  // namespace
+
 Link::Link(const LinkSurroundings& around, NodeId neighbour, Nanoseconds now)
     : around_(around), neighbour_(neighbour), state_(around.config.times, now) {
   pools_.reserve(routed_kinds.size() * around.config.hop_limit);
@@ -192,9 +205,11 @@ bool Link::take(const Envelope& envelope, Lane lane, const Message& message, Nan
 
 void Link::meet(const Envelope& envelope, const Identity& theirs, bool welcomed, Nanoseconds now) {
   if (const auto no = refusal(around_.config.identity, theirs, neighbour_)) {
-    ++around_.counters.refused[static_cast<size_t>(no->reason)];
-    spdlog::error("link=refused node={} neighbour={} reason={} text=\"{}\"",
-                  around_.config.self.value, neighbour_.value, name_of(no->reason), no->text);
+    const auto reason = static_cast<size_t>(no->reason);
+    ++around_.counters.refused[reason];
+    if (may_log(may_log_refusal_[reason], now))
+      spdlog::error("link=refused node={} neighbour={} reason={} text=\"{}\"",
+                    around_.config.self.value, neighbour_.value, name_of(no->reason), no->text);
     state_.refuse(now);
     refusal_ = no->text;
     (void)say(Message{*no}, Lane::control);  // a peer that does not hear it asks again
@@ -202,7 +217,7 @@ void Link::meet(const Envelope& envelope, const Identity& theirs, bool welcomed,
   }
   if (state_.accept(envelope.from_incarnation, now))
     for (Pool& pool : pools_) {
-      pool.out = {};
+      pool.out.restart();
       pool.in.restart();
     }
   if (envelope.to_incarnation == around_.config.incarnation) state_.acknowledge(now);
@@ -210,10 +225,11 @@ void Link::meet(const Envelope& envelope, const Identity& theirs, bool welcomed,
 }
 
 void Link::be_refused(const Refuse& refuse, Nanoseconds now) {
-  if (state_.phase() != LinkPhase::refused)
+  const auto reason = static_cast<size_t>(refuse.reason);
+  if (may_log(may_log_being_refused_[reason], now))
     spdlog::error("link=refused_by_peer node={} neighbour={} reason={} text=\"{}\"",
                   around_.config.self.value, neighbour_.value, name_of(refuse.reason), refuse.text);
-  ++around_.counters.refused_by_peer[static_cast<size_t>(refuse.reason)];
+  ++around_.counters.refused_by_peer[reason];
   state_.refuse(now);
   refusal_ = refuse.text;
 }

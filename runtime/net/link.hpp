@@ -4,6 +4,7 @@
 // Thread rule: one node's thread.
 #pragma once
 
+#include <array>
 #include <span>
 #include <string>
 #include <vector>
@@ -89,7 +90,7 @@ class Link {
 
  private:
   struct Pool {
-    Pool(size_t window, size_t body_most) : in(window), frames(window, body_most) {}
+    Pool(size_t window, size_t body_most) : out(window), in(window), frames(window, body_most) {}
     CreditOut out;
     CreditIn in;
     FrameRing frames;
@@ -115,6 +116,8 @@ class Link {
   size_t grant_cursor_ = 0;
   uint64_t sessions_ = 0;
   std::string refusal_;  // the last one
+  /// When the next refusal for a reason may be logged: ours, and the neighbour's.
+  std::array<Nanoseconds, refusal_reasons> may_log_refusal_{}, may_log_being_refused_{};
   uint64_t bytes_sent_ = 0;
   uint64_t bytes_received_ = 0;
 };

@@ -42,6 +42,7 @@ struct Network::Watched {
   uint64_t sessions = 0;
   LinkPhase phase = LinkPhase::connecting;
   Nanoseconds may_log_at = 0;
+  int denied = 0;  // beats for which others have said that it is down, and it works
 };
 
 /// The router's way into the network, kept out of its public face.
@@ -142,6 +143,18 @@ bool Network::poll(Nanoseconds now) {
   if (now >= next_beat_) {
     for (Link& link : links_) link.beat(view_.epoch());
     next_beat_ = now + config_.times.beat;
+    LinkChanges news;
+    for (size_t i = 0; i < links_.size(); ++i) {
+      // An end of a link knows best. It waits for as long as the other end may have fallen silent
+      // before it says so; after that who said otherwise was wrong.
+      const Edge edge = edge_between(config_.self, links_[i].neighbour());
+      const bool denied = links_[i].state().usable() && view_.version(edge) % 2 == 1;
+      watched_[i].denied = denied ? watched_[i].denied + 1 : 0;
+      if (watched_[i].denied <= 2 * config_.times.down_after_beats || !view_.set(edge, true))
+        continue;
+      news.changes.push_back({edge.a, edge.b, view_.version(edge)});
+    }
+    spread(news, nullptr);
   }
   given_ = false;
   const bool more_moves = router_.pump(view_.epoch(), now);
@@ -281,10 +294,12 @@ bool Network::take_here(const Envelope& envelope, std::span<const std::byte> bod
 bool Network::take_piece(const Envelope& envelope, std::span<const std::byte> body,
                          Nanoseconds now) {
   if (!assembler_.open(envelope)) {
-    std::span<std::byte> room;
-    if (!assembler_.full())
-      room = handler_.room_for(envelope.id, envelope.source, envelope.kind, envelope.total_bytes);
-    if (room.size() < envelope.total_bytes) {
+    const auto room =
+        handler_.room_for(envelope.id, envelope.source, envelope.kind, envelope.total_bytes);
+    const bool welcome = room.size() >= envelope.total_bytes;
+    if (welcome && assembler_.full()) make_room(envelope.from);
+    if (!welcome || assembler_.full()) {
+      if (welcome) handler_.abandoned(envelope.id, envelope.kind);
       ++counters_.dropped_unexpected;
       return true;
     }
@@ -302,6 +317,13 @@ bool Network::take_piece(const Envelope& envelope, std::span<const std::byte> bo
   if (!deliver(envelope, assembler_.bytes(envelope))) return false;
   assembler_.close(envelope.id, envelope.kind);
   return true;
+}
+
+void Network::make_room(NodeId newcomer) {
+  const auto closed = assembler_.make_room(newcomer);
+  if (!closed) return;
+  ++counters_.assemblies_abandoned;
+  handler_.abandoned(closed->id, closed->kind);
 }
 
 bool Network::deliver(const Envelope& envelope, std::span<const std::byte> bytes) {

@@ -150,6 +150,7 @@ class Network {
   bool deliver(const Envelope& envelope, std::span<const std::byte> bytes);
   bool take_here(const Envelope& envelope, std::span<const std::byte> body, Nanoseconds now);
   bool take_piece(const Envelope& envelope, std::span<const std::byte> body, Nanoseconds now);
+  void make_room(NodeId newcomer);
   void watch_links();
   void learn(const LinkChanges& told, const Link& by);
   void spread(const LinkChanges& news, const Link* except);

@@ -299,8 +299,10 @@ void ZmqTransport::take_event(Lane lane) {
       case ZMQ_EVENT_HANDSHAKE_FAILED_PROTOCOL:
         if (counters_.handshake_failed++ == 0)
           say("handshake_failed",
-              "the neighbour's public key is not the one listed here, or only "
-              "one end has keys: give all nodes one folder of public keys");
+              config_.keys ? "the neighbour's public key is not the one listed here, or only one "
+                             "end has keys: give all nodes one folder of public keys"
+                           : "what listens there broke off: it has ended, or has keys, or is no "
+                             "node of a run");
         break;
       default:
         break;

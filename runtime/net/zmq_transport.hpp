@@ -33,9 +33,10 @@ struct ZmqConfig {
   NodeId self;
   std::optional<KeyPair> keys = std::nullopt;
   bool insecure = false;
-  /// Frames that a neighbour's queue holds; credit must end first. The most that credit allows is
-  /// bulk made of the smallest frames: 5 classes x 2 kinds x 262656 B / 128 B = 20 520.
-  int high_water_frames = 32768;
+  /// Frames that a neighbour's queue holds, each way. Credit allows 5 classes x 2 kinds x 4 long
+  /// ones; what makes this many is frames of less than 0.6 KB, which then wait a beat. It bounds
+  /// what a neighbour costs that does not keep to credit: 4096 x 64 KB.
+  int high_water_frames = 4096;
 };
 
 struct ZmqCounters {

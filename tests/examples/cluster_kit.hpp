@@ -2,11 +2,13 @@
 #pragma once
 
 #include <fcntl.h>
+#include <poll.h>
 #include <signal.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -15,16 +17,21 @@
 
 namespace luxodus::program {
 
-/// A program that runs beside the test; what it says can be read. Killed at the end if it lives.
+/// A program that runs beside the test; what it says can be read, and it can be told things.
+/// Killed at the end if it lives.
 class Process {
  public:
   Process(const std::string& program, std::vector<std::string> words) {
     words.insert(words.begin(), program);
     int ends[2];
+    int input[2];
     REQUIRE(::pipe2(ends, O_CLOEXEC) == 0);
+    REQUIRE(::pipe2(input, O_CLOEXEC) == 0);
     said_ = ends[0];
+    input_ = input[1];
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_adddup2(&actions, input[0], STDIN_FILENO);
     posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
     posix_spawn_file_actions_adddup2(&actions, ends[1], STDERR_FILENO);
     std::vector<char*> arguments;
@@ -34,6 +41,7 @@ class Process {
             0);
     posix_spawn_file_actions_destroy(&actions);
     ::close(ends[1]);
+    ::close(input[0]);
   }
   ~Process() {
     if (id_ > 0) {
@@ -41,17 +49,31 @@ class Process {
       ::waitpid(id_, nullptr, 0);
     }
     ::close(said_);
+    ::close(input_);
   }
   Process(const Process&) = delete;
   Process& operator=(const Process&) = delete;
 
   void kill(int signal) const { ::kill(id_, signal); }
 
-  /// Reads on until it has said these words; false: it ended before.
-  bool says(const std::string& words) {
-    while (text_.find(words) == std::string::npos)
+  /// Writes a line to its standard input. Requires: it lives.
+  void tell(const std::string& line) const {
+    const std::string text = line + "\n";
+    REQUIRE(::write(input_, text.data(), text.size()) == static_cast<ssize_t>(text.size()));
+  }
+
+  /// Reads on until it has said these words, from a place of its text on; false: it ended before.
+  bool says(const std::string& words, size_t from = 0) {
+    while (text_.find(words, from) == std::string::npos)
       if (!read_more()) return false;
     return true;
+  }
+  /// Reads what it has said up to now, and gives the place where it goes on.
+  size_t now() {
+    pollfd ready{said_, POLLIN, 0};
+    while (::poll(&ready, 1, 0) > 0 && (ready.revents & POLLIN) != 0 && read_more()) {
+    }
+    return text_.size();
   }
   /// Reads all until it has ended; its exit code, or 128 and the signal.
   int wait() {
@@ -76,6 +98,7 @@ class Process {
 
   pid_t id_ = 0;
   int said_ = -1;
+  int input_ = -1;
   std::string text_;
 };
 
@@ -89,6 +112,11 @@ struct ClusterText {
   std::string scene = smoke_tank();
   std::string run = "particles = 400_000\n";  // more of [run]
   std::string more = "[timeouts]\nstart_s = 2\nlost_s = 1\n";
+  std::string links;                           // of [links]
+  std::map<std::string, std::string> of_node;  // by name: more of its [[node]]
+  /// Where nodes listen, by number, the controller last: then they meet over TCP. Each uses the
+  /// port after its own, too. None: they meet by local sockets.
+  std::vector<uint16_t> ports;
 };
 
 /// Writes FOLDER/FILE.toml: workers n0, n1, ... and a controller, each a process, on this machine.
@@ -100,8 +128,16 @@ inline std::string write_cluster(const Folder& folder, const ClusterText& text,
   out << "[run]\nname = \"" << folder.path.filename().string().substr(8) << "\"\nscene = \""
       << text.scene << "\"\nout = \"" << (folder.path / "out").string() << "\"\n"
       << text.run << "[[host]]\nname = \"here\"\n";
-  for (int i = 0; i < text.workers; ++i) out << "[[node]]\nname = \"n" << i << "\"\n";
-  out << "[[node]]\nname = \"controller\"\nrole = \"controller\"\n" << text.more;
+  for (int i = 0; i <= text.workers; ++i) {
+    const std::string name = i < text.workers ? "n" + std::to_string(i) : "controller";
+    out << "[[node]]\nname = \"" << name << "\"\n";
+    if (i == text.workers) out << "role = \"controller\"\n";
+    if (!text.ports.empty()) out << "port = " << text.ports.at(static_cast<size_t>(i)) << "\n";
+    if (text.of_node.count(name) > 0) out << text.of_node.at(name);
+  }
+  out << text.more;
+  const std::string links = (text.ports.empty() ? "" : "same_host = \"tcp\"\n") + text.links;
+  if (!links.empty()) out << "[links]\n" << links;
   return path.string();
 }
 
@@ -109,6 +145,65 @@ inline std::string write_cluster(const Folder& folder, const ClusterText& text,
 inline std::unique_ptr<Process> node(const std::string& cluster, const std::string& name) {
   return std::make_unique<Process>(
       LUX_PROGRAM, std::vector<std::string>{"node", "--config", cluster, "--name", name});
+}
+
+struct Running {
+  std::vector<std::unique_ptr<Process>> workers;
+  std::unique_ptr<Process> controller;
+
+  /// Tells all to end, and waits for it.
+  void end() const {
+    for (const auto& worker : workers) worker->kill(SIGTERM);
+    controller->kill(SIGTERM);
+    CHECK(controller->wait() == 130);
+  }
+};
+
+/// All nodes of a cluster, once the run has begun.
+inline Running start(const std::string& cluster, int workers) {
+  Running nodes;
+  nodes.controller = node(cluster, "controller");
+  for (int i = 0; i < workers; ++i) nodes.workers.push_back(node(cluster, "n" + std::to_string(i)));
+  REQUIRE(nodes.controller->says("run=begun"));
+  return nodes;
+}
+
+constexpr const char* endless = "particles = 1_000_000_000_000\n";
+
+/// Whether OUT holds the flux of as many particles of the plain loop. `how`: more of its options.
+inline void check_plain_flux(const Folder& folder, const std::string& particles,
+                             const std::string& scene = smoke_tank(), const std::string& how = "") {
+  REQUIRE(run_luxodus(folder, "run " + scene + " --no-views --particles " + particles + how +
+                                  " --out " + (folder.path / "plain").string())
+              .code == 0);
+  const std::string flux = slurp(folder.path / "out" / "flux.lux");
+  CHECK_FALSE(flux.empty());
+  CHECK((flux == slurp(folder.path / "plain" / "flux.lux")));  // bytes that are no text
+}
+
+/// A whole number that the result in OUT says.
+inline int64_t number_in(const Folder& folder, const std::string& key) {
+  const std::string result = slurp(folder.path / "out" / "result.json");
+  const size_t at = result.find("\"" + key + "\": ");
+  REQUIRE(at != std::string::npos);
+  return std::stoll(result.substr(at + key.size() + 4));
+}
+
+inline int64_t particles_in(const Folder& folder) {
+  return number_in(folder, "particles");
+}
+
+/// Goes on from OUT, somewhat farther than it is, and compares. What was lent and lost is made up
+/// for first, which may be farther still.
+inline void check_goes_on(const Folder& folder, int64_t more = 500'000,
+                          const std::string& scene = smoke_tank(), const std::string& how = "") {
+  const int64_t farther = particles_in(folder) + more;
+  REQUIRE(run_luxodus(folder, "run " + scene + " --resume --no-views --particles " +
+                                  std::to_string(farther) + how + " --out " +
+                                  (folder.path / "out").string())
+              .code == 0);
+  CHECK(particles_in(folder) >= farther);
+  check_plain_flux(folder, std::to_string(particles_in(folder)), scene, how);
 }
 
 }  // namespace luxodus::program

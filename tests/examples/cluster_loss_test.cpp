@@ -6,58 +6,12 @@ using namespace luxodus::program;
 
 namespace {
 
-struct Running {
-  std::vector<std::unique_ptr<Process>> workers;
-  std::unique_ptr<Process> controller;
-};
-
-/// All nodes of a cluster, once the run has begun.
-Running start(const std::string& cluster, int workers) {
-  Running nodes;
-  nodes.controller = node(cluster, "controller");
-  for (int i = 0; i < workers; ++i) nodes.workers.push_back(node(cluster, "n" + std::to_string(i)));
-  REQUIRE(nodes.controller->says("run=begun"));
-  return nodes;
-}
-
 ClusterText workers(int count, const std::string& run) {
   ClusterText text;
   text.workers = count;
   text.run = run;
   text.more = "[timeouts]\nlost_s = 1\n";
   return text;
-}
-
-constexpr const char* endless = "particles = 1_000_000_000_000\n";
-
-/// Whether OUT holds the flux of as many particles of the plain loop.
-void check_plain_flux(const Folder& folder, const std::string& particles) {
-  REQUIRE(run_luxodus(folder, "run " + smoke_tank() + " --no-views --particles " + particles +
-                                  " --out " + (folder.path / "plain").string())
-              .code == 0);
-  const std::string flux = slurp(folder.path / "out" / "flux.lux");
-  CHECK_FALSE(flux.empty());
-  CHECK((flux == slurp(folder.path / "plain" / "flux.lux")));  // bytes that are no text
-}
-
-/// Particles that the result in OUT says were traced.
-int64_t particles_in(const Folder& folder) {
-  const std::string result = slurp(folder.path / "out" / "result.json");
-  const size_t at = result.find("\"particles\": ");
-  REQUIRE(at != std::string::npos);
-  return std::stoll(result.substr(at + 13));
-}
-
-/// Goes on from OUT, somewhat farther than it is, and compares. What was lent and lost is made up
-/// for first, which may be farther still.
-void check_goes_on(const Folder& folder) {
-  const int64_t farther = particles_in(folder) + 500'000;
-  REQUIRE(run_luxodus(folder, "run " + smoke_tank() + " --resume --no-views --particles " +
-                                  std::to_string(farther) + " --out " +
-                                  (folder.path / "out").string())
-              .code == 0);
-  CHECK(particles_in(folder) >= farther);
-  check_plain_flux(folder, std::to_string(particles_in(folder)));
 }
 
 }  // namespace

@@ -1,9 +1,12 @@
-// The short run of the fuzzer that every test run makes: the codec alone, then a whole node. The
-// seed is LUXODUS_SEED, or 1; a failure prints it.
+// The short run of the fuzzers that every test run makes: the codec alone, a whole node, a node in
+// every state of a link, payloads. The seed is LUXODUS_SEED, or 1; a failure prints it.
+// tests/tools/fuzz.sh runs the same for as long as one likes.
 #include <catch2/catch.hpp>
 #include <cstdlib>
 
 #include "tests/fuzz/fuzz_codec.hpp"
+#include "tests/fuzz/fuzz_flush.hpp"
+#include "tests/fuzz/fuzz_session.hpp"
 #include "tests/fuzz/mutate.hpp"
 #include "tests/fuzz/samples.hpp"
 #include "tests/unit/runtime/net/net_kit.hpp"
@@ -80,4 +83,41 @@ TEST_CASE("harmed frames leave a node up and working", "[fuzz]") {
   trio[2].network.send({1}, trio[2].network.next_id(), AskStatus{});
   trio.run(seconds(1));
   CHECK(trio[1].handler.count<AskStatus>() == before + 2);
+}
+
+TEST_CASE("every message in every state of a link leaves a node as it was", "[fuzz]") {
+  INFO("seed " << seed());
+  Random random = numbers();
+  const auto byte = [&] { return static_cast<std::byte>(random.bits()); };
+  uint64_t understood = 0, frames = 0;
+  constexpr int sessions = 60;
+  for (int i = 0; i < sessions; ++i) {
+    Bytes script{byte()};
+    for (int frame = 0; frame < 100; ++frame, ++frames) {
+      script.push_back(byte());
+      // Mostly of this session and with a check that holds: what a neighbour can make.
+      const bool made = random.uniform() < 0.8f;
+      script.push_back(byte() |
+                       static_cast<std::byte>(made ? session::addressed | session::sealed : 0));
+      const size_t harms = random.uniform() < 0.3f ? 0 : 1 + random.bits() % 3;
+      script.push_back(static_cast<std::byte>(harms));
+      for (size_t h = 0; h < 3 * harms; ++h) script.push_back(byte());
+    }
+    understood += fuzz_session(script);
+  }
+  CHECK(understood > frames / 10);
+  CHECK(understood < frames);
+}
+
+TEST_CASE("flushes are read or refused, whatever bytes they are", "[fuzz]") {
+  INFO("seed " << seed());
+  Random random = numbers();
+  const Bytes whole = sample_flush();
+  REQUIRE(fuzz_flush(whole, true));
+  int understood = 0;
+  constexpr int tries = 20'000;
+  for (int i = 0; i < tries; ++i) understood += fuzz_flush(mutated(whole, whole, random), true);
+  for (int i = 0; i < tries / 10; ++i) fuzz_flush(mutated(whole, whole, random), false);
+  CHECK(understood > tries / 100);
+  CHECK(understood < tries);
 }

@@ -17,7 +17,7 @@ struct Sending {
 }  // namespace
 
 TEST_CASE("nothing is sent before the first grant", "[runtime][credit]") {
-  CreditOut out;
+  CreditOut out(1000);
   CHECK_FALSE(out.allows(1));
   CreditIn in(1000);
   out.grant(in.announce());
@@ -28,7 +28,7 @@ TEST_CASE("nothing is sent before the first grant", "[runtime][credit]") {
 TEST_CASE("what is held never exceeds the window, and credit comes back", "[runtime][credit]") {
   Random random(5, RandomStream::test);
   random.start(0);
-  CreditOut out;
+  CreditOut out(1000);
   CreditIn in(1000);
   std::deque<Sending> wire;
   std::deque<uint64_t> held;
@@ -64,11 +64,22 @@ TEST_CASE("who sends beyond the window loses it", "[runtime][credit]") {
 }
 
 TEST_CASE("a late or doubled grant takes nothing back", "[runtime][credit]") {
-  CreditOut out;
+  CreditOut out(1000);
   out.grant(500);
   out.spend(100);
   out.grant(200);
   CHECK(out.allows(400));
+}
+
+TEST_CASE("no grant lets more than the window be outstanding", "[runtime][credit]") {
+  CreditOut out(1000);
+  for (int i = 0; i < 3; ++i) out.grant(~uint64_t{0} - static_cast<uint64_t>(i));
+  CHECK(out.allows(1000));
+  CHECK_FALSE(out.allows(1001));
+  out.spend(1000);
+  CHECK_FALSE(out.allows(1));
+  out.restart();
+  CHECK_FALSE(out.allows(1));
 }
 
 TEST_CASE("a ring keeps frames in order, whole and aligned, within its window", "[runtime][ring]") {

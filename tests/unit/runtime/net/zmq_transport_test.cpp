@@ -2,7 +2,10 @@
 // expected has happened; a bound on polls makes a failure end.
 #include "runtime/net/zmq_transport.hpp"
 
+#include <arpa/inet.h>
+#include <netinet/in.h>
 #include <spdlog/spdlog.h>
+#include <sys/socket.h>
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
@@ -215,4 +218,64 @@ TEST_CASE("a wait ends when another thread wakes the node", "[runtime][zmq]") {
   alone.wait_until(system_clock.now() + seconds(1000));
   other.join();
   SUCCEED("both waits ended");
+}
+
+TEST_CASE("a peer that floods a node which does not look fills queues of bounded length",
+          "[runtime][zmq][hostile]") {
+  spdlog::set_level(spdlog::level::off);
+  ZmqContext context_a({}), context_b({});
+  ZmqConfig config{a};
+  config.high_water_frames = 32;
+  ZmqTransport node(context_a, config, system_clock);
+  const auto where = node.listen(tcp());
+  REQUIRE(where.ok());
+  config.self = b;
+  ZmqTransport flood(context_b, config, system_clock);
+  REQUIRE(flood.connect(a, where.value()).ok());
+  const auto frame = pattern(60'000);
+  constexpr int in_a_row = 300;  // turns in which nothing more goes
+  uint64_t taken = 0;
+  int full = 0;
+  for (int turn = 0; turn < 20'000 && full < in_a_row; ++turn) {
+    const Sent sent = flood.send(a, Lane::bulk, frame, {});
+    taken += sent == Sent::taken ? 1 : 0;
+    full = sent == Sent::full ? full + 1 : 0;
+    if (sent != Sent::taken) flood.wait_until(system_clock.now() + milliseconds(1));
+  }
+  CHECK(full == in_a_row);
+  // Both queues, and what the system's buffers of a connection hold, 12 MB at the very most.
+  CHECK(taken >= 32);
+  CHECK(taken < 64 + 300);
+  uint64_t come = 0;
+  for (int turn = 0; turn < 20'000 && come < taken; ++turn) {
+    while (node.receive()) ++come;
+    node.wait_until(system_clock.now() + milliseconds(1));
+  }
+  CHECK(come == taken);  // and nothing was lost
+}
+
+TEST_CASE("strangers at the ports who say nothing, or anything, keep nobody from meeting",
+          "[runtime][zmq][hostile]") {
+  ZmqContext context_a({}), context_b({});
+  RealNode one(context_a, {a}, config_of(0, 2, ring(2), 1000));
+  RealNode other(context_b, {b}, config_of(1, 2, ring(2), 1001));
+  const auto where = one.transport.listen(tcp());
+  REQUIRE(where.ok());
+  std::vector<int> strangers;
+  for (int i = 0; i < 60; ++i) {
+    const std::string& endpoint = i % 2 == 0 ? where.value().control : where.value().bulk;
+    sockaddr_in place{};
+    place.sin_family = AF_INET;
+    place.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    place.sin_port =
+        htons(static_cast<uint16_t>(std::stoi(endpoint.substr(endpoint.rfind(':') + 1))));
+    strangers.push_back(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
+    REQUIRE(::connect(strangers.back(), reinterpret_cast<sockaddr*>(&place), sizeof place) == 0);
+    const auto noise = pattern(i % 3 * 1000u, static_cast<unsigned>(i));  // or nothing
+    (void)::send(strangers.back(), noise.data(), noise.size(), MSG_NOSIGNAL);
+  }
+  REQUIRE(other.transport.connect(a, where.value()).ok());
+  REQUIRE(both_up(one, other));
+  exchange(one, other);
+  for (const int stranger : strangers) ::close(stranger);
 }

@@ -1,0 +1,257 @@
+// Real processes over TCP, and what goes wrong between and within them: each case ends in the bits
+// of the plain loop, and prints when the fault was noticed and when all was well again.
+#include "tests/examples/fault_kit.hpp"
+
+using namespace luxodus::program;
+
+namespace {
+
+/// Workers that are found silent in 0.4 s and given up 0.5 s later, and hand over what they have
+/// traced twice a second. They compute at a quarter of their speed, so that the same particles are
+/// soon traced again by the plain loop. A test that waits in vain ends after a minute.
+ClusterText quick(int workers) {
+  ClusterText text;
+  text.workers = workers;
+  text.run = std::string(endless) + "time_s = 60\n";
+  text.more =
+      "[timeouts]\nlost_s = 0.5\n[lease]\nduration_s = 2\n[observe]\nlog_level = \"debug\"\n";
+  text.links = "beat_ms = 50\n";
+  for (int i = 0; i < workers; ++i)
+    text.more += "[[faults.event]]\nkind = \"slow\"\nnode = \"n" + std::to_string(i) +
+                 "\"\nat_s = 0\nlasts_s = 1000\nfactor = 4\n";
+  return text;
+}
+
+ClusterText over_tcp(ClusterText text) {
+  text.ports = free_ports(static_cast<size_t>(text.workers) + 1);
+  return text;
+}
+
+std::string of_link(const std::string& word, int node, int neighbour) {
+  return "link=" + word + " node=" + std::to_string(node) +
+         " neighbour=" + std::to_string(neighbour) + "\n";
+}
+
+std::string lost(int worker) {
+  return "worker=lost node=" + std::to_string(worker) + " ";
+}
+
+std::string flush_of(int worker) {
+  return "flush=taken node=" + std::to_string(worker) + " ";
+}
+
+/// Ends the run, and compares what it left.
+void end_with_same_bits(const Folder& folder, const Running& nodes, const FaultRow& row) {
+  nodes.end();
+  INFO(nodes.controller->text());
+  check_goes_on(folder, 100'000);
+  row.end("same bits");
+}
+
+}  // namespace
+
+TEST_CASE("half of the workers may be killed at once, or all but one, with the same bits",
+          "[cluster][faults]") {
+  const Folder folder;
+  const int killed = GENERATE(2, 3);
+  const Running nodes = start(write_cluster(folder, over_tcp(quick(4))), 4);
+  REQUIRE(nodes.controller->says(flush_of(1)));
+  FaultRow row(std::to_string(killed) + " of 4 workers are killed", *nodes.controller);
+  for (size_t i = 0; i < static_cast<size_t>(killed); ++i) nodes.workers[i]->kill(SIGKILL);
+  row.noticed(of_link("suspect", 4, 0));
+  row.given_up(lost(killed - 1));
+  row.well(flush_of(3));
+  end_with_same_bits(folder, nodes, row);
+}
+
+TEST_CASE("a worker that is stopped is given up, and works again when it goes on",
+          "[cluster][faults]") {
+  const Folder folder;
+  const Running nodes = start(write_cluster(folder, over_tcp(quick(3))), 3);
+  REQUIRE(nodes.controller->says(flush_of(1)));
+  FaultRow row("a worker is stopped (SIGSTOP)", *nodes.controller);
+  nodes.workers[1]->kill(SIGSTOP);
+  row.noticed(of_link("suspect", 3, 1));
+  row.given_up(lost(1));
+  row.healed();
+  nodes.workers[1]->kill(SIGCONT);
+  row.well(flush_of(1));
+  end_with_same_bits(folder, nodes, row);
+}
+
+TEST_CASE("a partition that heals in time costs nobody, with the same bits", "[cluster][faults]") {
+  const Folder folder;
+  ClusterText text = quick(3);
+  text.more.replace(text.more.find("lost_s = 0.5"), 12, "lost_s = 30 ");
+  const auto [how, what] = GENERATE(
+      std::pair{"stall", "a worker is cut off and nobody is told, for less than lost_s"},
+      std::pair{"refuse", "a worker is cut off and connections are refused, for less than lost_s"});
+  const ProxiedCluster cluster = behind_proxy(folder, text, 1);
+  const Running nodes = start(cluster, 3, 1);
+  REQUIRE(nodes.controller->says(flush_of(1)));
+  FaultRow row(what, *nodes.controller);
+  cluster.proxy->order(how);
+  row.noticed(of_link("suspect", 3, 1));
+  REQUIRE(nodes.controller->says(of_link("connecting", 3, 1)));
+  row.healed();
+  cluster.proxy->order("heal");
+  row.well(flush_of(1));
+  CHECK_FALSE(nodes.controller->said(lost(1)));
+  end_with_same_bits(folder, nodes, row);
+}
+
+TEST_CASE("a worker that a partition has cut off for long ends, and is taken in when started again",
+          "[cluster][faults]") {
+  const Folder folder;
+  const ProxiedCluster cluster = behind_proxy(folder, quick(3), 1);
+  Running nodes = start(cluster, 3, 1);
+  REQUIRE(nodes.controller->says(flush_of(1)));
+  FaultRow row("a worker is cut off for more than lost_s, and started again", *nodes.controller);
+  cluster.proxy->order("stall");
+  row.noticed(of_link("suspect", 3, 1));
+  row.given_up(lost(1));
+  CHECK(nodes.workers[1]->wait() == 1);
+  CHECK(nodes.workers[1]->said("no way has led to the controller for 0.5 s (lost_s)"));
+  row.healed();
+  cluster.proxy->order("heal");
+  nodes.workers[1] = node(cluster.its, "n1");
+  row.well(flush_of(1));
+  end_with_same_bits(folder, nodes, row);
+}
+
+TEST_CASE("connections that break again and again cost time, with the same bits",
+          "[cluster][faults]") {
+  const Folder folder;
+  const ProxiedCluster cluster = behind_proxy(folder, quick(3), 1);
+  const Running nodes = start(cluster, 3, 1);
+  REQUIRE(nodes.controller->says(flush_of(1)));
+  FaultRow row("all connections of a worker break, three times", *nodes.controller);
+  for (int i = 0; i < 3; ++i) {
+    const size_t from = nodes.controller->now();
+    cluster.proxy->order("drop");
+    REQUIRE(nodes.controller->says(flush_of(1), from));
+  }
+  row.well(flush_of(1));
+  end_with_same_bits(folder, nodes, row);
+}
+
+TEST_CASE("a link that is slow and long delays its worker, with the same bits",
+          "[cluster][faults]") {
+  const Folder folder;
+  const ProxiedCluster cluster = behind_proxy(folder, quick(3), 1);
+  const Running nodes = start(cluster, 3, 1);
+  REQUIRE(nodes.controller->says(flush_of(1)));
+  FaultRow row("a worker's links get 1 MB/s and 20 ms", *nodes.controller);
+  cluster.proxy->order("delay 20");
+  cluster.proxy->order("rate 1000000");
+  row.well(flush_of(1));
+  end_with_same_bits(folder, nodes, row);
+}
+
+TEST_CASE("bytes that a network harms are found and sent again, with the same bits",
+          "[cluster][faults]") {
+  const Folder folder;
+  const bool keys = GENERATE(false, true);
+  ClusterText text = quick(2);
+  // Workers at full speed: what slows them also writes into frames how long these are to be held.
+  text.more.erase(text.more.find("[[faults.event]]"));
+  if (keys) text.more += "[keys]\nfolder = \"keys\"\n";
+  const ProxiedCluster cluster = behind_proxy(folder, text, 1);
+  if (keys) REQUIRE(run_luxodus(folder, "keygen --cluster " + cluster.its).code == 0);
+  const Running nodes = start(cluster, 2, 1);
+  REQUIRE(nodes.controller->says(flush_of(1)));
+  FaultRow row(std::string("one byte in 50 000 of a worker's is harmed, ") +
+                   (keys ? "with keys" : "without keys"),
+               *nodes.controller);
+  cluster.proxy->order("harm 50000");
+  // By the check of a frame; by CURVE, which then ends the connection.
+  row.noticed(keys ? of_link("suspect", 2, 1) : "net=malformed node=2 neighbour=1 ");
+  row.healed();
+  cluster.proxy->order("heal");
+  row.well(flush_of(1));
+  end_with_same_bits(folder, nodes, row);
+}
+
+TEST_CASE("a node whose thread is stuck is given up while its process lives, and comes back",
+          "[cluster][faults]") {
+  const Folder folder;
+  ClusterText text = over_tcp(quick(3));
+  // Its process answers for it on the wire, and has another node that works on.
+  for (const char* name : {"n1", "n2"}) text.of_node[name] = "process = \"pair\"\n";
+  text.more += "[[faults.event]]\nkind = \"pause\"\nnode = \"n1\"\nat_s = 2\nlasts_s = 1.5\n";
+  const std::string cluster = write_cluster(folder, text);
+  Running nodes;
+  nodes.controller = node(cluster, "controller");
+  nodes.workers.push_back(node(cluster, "n0"));
+  nodes.workers.push_back(std::make_unique<Process>(
+      LUX_PROGRAM,
+      std::vector<std::string>{"node", "--config", cluster, "--name", "n1", "--name", "n2"}));
+  REQUIRE(nodes.workers[1]->says("fault=pause node=1"));
+  FaultRow row("the thread of a node is stuck for 1.5 s", *nodes.controller);
+  row.noticed(of_link("suspect", 3, 1));
+  row.given_up(lost(1));
+  REQUIRE(nodes.controller->says(flush_of(2), nodes.controller->now()));
+  row.well(flush_of(1));
+  end_with_same_bits(folder, nodes, row);
+}
+
+TEST_CASE("a second process under a node's name on its host ends, and the first goes on",
+          "[cluster][faults]") {
+  const Folder folder;
+  const std::string cluster = write_cluster(folder, over_tcp(quick(2)));
+  const Running nodes = start(cluster, 2);
+  REQUIRE(nodes.controller->says(flush_of(1)));
+  FaultRow row("a node is started twice on its host", *nodes.controller);
+  const auto twin = node(cluster, "n1");
+  CHECK(twin->wait() == 1);
+  INFO(twin->text());
+  CHECK(twin->said("cannot listen there: Address already in use"));
+  row.well(flush_of(1));
+  CHECK_FALSE(nodes.controller->said(lost(1)));
+  end_with_same_bits(folder, nodes, row);
+}
+
+TEST_CASE("a second process under a node's name on another host does not harm the result",
+          "[cluster][faults]") {
+  const Folder folder;
+  ClusterText text = over_tcp(quick(3));
+  const std::string cluster = write_cluster(folder, text);
+  text.ports[1] = free_ports(1).front();  // where nobody looks for it
+  const std::string of_twin = write_cluster(folder, text, "of_twin");
+  const Running nodes = start(cluster, 3);
+  REQUIRE(nodes.controller->says(flush_of(1)));
+  FaultRow row("a node is started twice, on two hosts", *nodes.controller);
+  const auto twin = node(of_twin, "n1");
+  REQUIRE(nodes.controller->says(flush_of(0), nodes.controller->now()));
+  row.noticed("worker=");
+  row.well(flush_of(0));
+  end_with_same_bits(folder, nodes, row);
+}
+
+TEST_CASE("who looks at a run and reads nothing holds up nobody", "[cluster][faults]") {
+  const Folder folder;
+  ClusterText text = over_tcp(quick(2));
+  std::vector<uint16_t> pages = free_ports(2);  // its three processes take these in their order
+  while (pages[1] != pages[0] + 2) pages = {pages[1], free_ports(1).front()};
+  text.more.insert(text.more.find("log_level"),
+                   "metrics_port = " + std::to_string(pages[0]) + "\n");
+  const Running nodes = start(write_cluster(folder, text), 2);
+  REQUIRE(nodes.controller->says(flush_of(1)));
+  FaultRow row("ten who look at each process, and read nothing", *nodes.controller);
+  std::vector<int> lookers;
+  for (int i = 0; i < 30; ++i) {
+    sockaddr_in place{};
+    place.sin_family = AF_INET;
+    place.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    place.sin_port = htons(static_cast<uint16_t>(pages[0] + i % 3));
+    lookers.push_back(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
+    REQUIRE(::connect(lookers.back(), reinterpret_cast<sockaddr*>(&place), sizeof place) == 0);
+    const std::string asked = i % 2 == 0 ? "GET /metrics HTTP/1.1\r\n\r\n" : "GET /met";
+    CHECK(::send(lookers.back(), asked.data(), asked.size(), MSG_NOSIGNAL) > 0);
+  }
+  for (int i = 0; i < 3; ++i) REQUIRE(nodes.controller->says(flush_of(1), nodes.controller->now()));
+  row.well(flush_of(0));
+  CHECK_FALSE(nodes.controller->said("worker=lost"));
+  end_with_same_bits(folder, nodes, row);
+  for (const int looker : lookers) ::close(looker);
+}

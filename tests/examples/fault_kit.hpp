@@ -1,0 +1,171 @@
+// What tests of faults share: free ports, a network that obeys (tests/tools/fault_proxy), and a row
+// for each fault of when it was noticed and when all was well again, by the controller's own log.
+// `tests/tools/fault_table.sh` makes a table of the rows.
+#pragma once
+
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdio>
+#include <ctime>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tests/examples/cluster_kit.hpp"
+
+namespace luxodus::program {
+
+/// Ports that nobody listens on, each with the one after it. Below those that the system gives out
+/// by itself, and apart from those of tests beside this one, as far as may be.
+inline std::vector<uint16_t> free_ports(size_t count) {
+  const auto is_free = [](int port) {
+    const int probe = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+    sockaddr_in place{};
+    place.sin_family = AF_INET;
+    place.sin_port = htons(static_cast<uint16_t>(port));
+    place.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    const bool bound = ::bind(probe, reinterpret_cast<sockaddr*>(&place), sizeof place) == 0;
+    ::close(probe);
+    return bound;
+  };
+  constexpr int first = 18000, ports_most = 9000, of_a_test = 60;
+  static int next = ::getpid() % (ports_most / of_a_test) * of_a_test;
+  std::vector<uint16_t> ports;
+  for (int tried = 0; tried < ports_most && ports.size() < count; tried += 2) {
+    const int port = first + next;
+    next = (next + 2) % ports_most;
+    if (is_free(port) && is_free(port + 1)) ports.push_back(static_cast<uint16_t>(port));
+  }
+  REQUIRE(ports.size() == count);
+  return ports;
+}
+
+/// A network between nodes, for as long as it lives.
+class FaultProxy {
+ public:
+  /// Ports of links, and what they lead to; of each the next one, too.
+  explicit FaultProxy(const std::vector<std::pair<uint16_t, uint16_t>>& links)
+      : process_(LUX_FAULT_PROXY, words(links)) {
+    REQUIRE(process_.says("ready"));
+  }
+  /// What is said of commands: fault_proxy.cpp. In force when this returns.
+  void order(const std::string& command) {
+    const size_t from = process_.now();
+    process_.tell(command);
+    REQUIRE(process_.says(command + "\n", from));
+  }
+
+ private:
+  static std::vector<std::string> words(const std::vector<std::pair<uint16_t, uint16_t>>& links) {
+    std::vector<std::string> words;
+    for (const auto& [port, target] : links)
+      for (int lane = 0; lane < 2; ++lane)
+        words.push_back(std::to_string(port + lane) + ":" + std::to_string(target + lane));
+    return words;
+  }
+  Process process_;
+};
+
+/// A cluster over TCP of which one worker meets all others through a proxy.
+struct ProxiedCluster {
+  std::string others;  // files
+  std::string its;
+  std::vector<uint16_t> ports;
+  std::unique_ptr<FaultProxy> proxy;
+};
+
+inline ProxiedCluster behind_proxy(const Folder& folder, ClusterText text, size_t worker) {
+  ProxiedCluster cluster;
+  const auto nodes = static_cast<size_t>(text.workers) + 1;
+  cluster.ports = free_ports(nodes);
+  const std::vector<uint16_t> way = free_ports(nodes);
+  std::vector<std::pair<uint16_t, uint16_t>> links;
+  text.ports = cluster.ports;
+  text.ports[worker] = way[worker];
+  links.emplace_back(way[worker], cluster.ports[worker]);
+  cluster.others = write_cluster(folder, text, "others");
+  text.ports = cluster.ports;
+  for (size_t i = 0; i < nodes; ++i) {
+    if (i == worker) continue;
+    text.ports[i] = way[i];
+    links.emplace_back(way[i], cluster.ports[i]);
+  }
+  cluster.its = write_cluster(folder, text, "its");
+  cluster.proxy = std::make_unique<FaultProxy>(links);
+  return cluster;
+}
+
+inline Running start(const ProxiedCluster& cluster, int workers, int worker) {
+  Running nodes;
+  nodes.controller = node(cluster.others, "controller");
+  for (int i = 0; i < workers; ++i)
+    nodes.workers.push_back(
+        node(i == worker ? cluster.its : cluster.others, "n" + std::to_string(i)));
+  REQUIRE(nodes.controller->says("run=begun"));
+  return nodes;
+}
+
+/// One fault, as the log of a process has it. Made right before the fault.
+class FaultRow {
+ public:
+  FaultRow(std::string what, Process& log)
+      : what_(std::move(what)), log_(log), from_(log.now()), since_(wall_s()) {}
+
+  /// Waits until the log says these words.
+  void noticed(const std::string& words) { noticed_ = await(words); }
+  void given_up(const std::string& words) { given_up_ = await(words); }
+  /// The fault is over now; times count from here, and the log from here on.
+  void healed() {
+    from_ = log_.now();
+    since_ = wall_s();
+    healed_ = true;
+  }
+  void well(const std::string& words) { well_ = await(words); }
+  /// Prints the row.
+  void end(const std::string& how) const {
+    std::printf("fault | %s | %s | %s | %s%s | %s\n", what_.c_str(), text(noticed_).c_str(),
+                text(given_up_).c_str(), text(well_).c_str(),
+                healed_ && well_ ? " after the end of it" : "", how.c_str());
+    std::fflush(stdout);
+  }
+
+ private:
+  static double wall_s() {
+    return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch())
+        .count();
+  }
+  static std::string text(const std::optional<double>& s) {
+    char words[32] = "-";
+    if (s) std::snprintf(words, sizeof words, "%.2f s", *s);
+    return words;
+  }
+  /// When the line with these words was written [s]; it begins with that moment.
+  double await(const std::string& words) {
+    INFO(what_ << ": waited for \"" << words << "\" in\n" << log_.text().substr(from_));
+    REQUIRE(log_.says(words, from_));
+    const std::string& all = log_.text();
+    const size_t at = all.find(words, from_);
+    from_ = at;
+    const size_t line = all.rfind('\n', at) + 1;  // 0 where there is none
+    std::tm moment{};
+    double second = 0;
+    REQUIRE(std::sscanf(all.c_str() + line, "%d-%d-%dT%d:%d:%lf", &moment.tm_year, &moment.tm_mon,
+                        &moment.tm_mday, &moment.tm_hour, &moment.tm_min, &second) == 6);
+    moment.tm_year -= 1900;
+    moment.tm_mon -= 1;
+    return static_cast<double>(::timegm(&moment)) + second - since_;
+  }
+
+  const std::string what_;
+  Process& log_;
+  size_t from_;
+  double since_;
+  bool healed_ = false;
+  std::optional<double> noticed_, given_up_, well_;
+};
+
+}  // namespace luxodus::program
