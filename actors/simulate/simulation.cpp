@@ -150,6 +150,7 @@ Simulation::Simulation(const SimScene& scene, const SimOptions& options, Planned
   world.nodes = static_cast<uint16_t>(setups_.size());
   world.edges = edges_of(setup_.graph);
   world.plan = fault_plan();
+  for (NodeSetup& node : setups_) node.faults = world.plan;  // of its stores
   world_ = std::make_unique<SimWorld>(world);
 }
 

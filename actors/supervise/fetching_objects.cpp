@@ -26,6 +26,12 @@ CacheConfig cache_of(const RunSetup& run, const NodeSetup& node, NodeTrace* trac
   return config;
 }
 
+std::optional<FaultyObjects> faulty(ObjectStore& store, const NodeSetup& node,
+                                    const Clock& clock) {
+  if (node.faults.faults.empty()) return std::nullopt;
+  return FaultyObjects(store, node.net.self, node.faults, clock);
+}
+
 Random jitter_of(NodeId self) {
   Random random(self.value, RandomStream::fetch);
   random.start(0);
@@ -57,8 +63,10 @@ FetchingObjects::FetchingObjects(const RunSetup& run, const NodeSetup& node, Nod
                                  const BuilderMaker& make_builder, NodeTrace* trace)
     : self_(node.net.self),
       store_(*run.objects, node.net.self),
+      faulty_(faulty(store_, node, shell.scheduler().clock())),
       builder_(make_builder(run.scene, run.objects->parts())),
-      fetcher_(fetch_config(run, node, trace), run.objects->places(), store_, shell.network(),
+      fetcher_(fetch_config(run, node, trace), run.objects->places(),
+               faulty_ ? static_cast<ObjectStore&>(*faulty_) : store_, shell.network(),
                shell.scheduler().timers(), shell.scheduler().clock(), jitter_of(node.net.self)),
       cache_(cache_of(run, node, trace), run.objects->places().size(), fetcher_, *builder_,
              shell.scheduler().fibers(), shell.scheduler().timers(), shell.scheduler().clock()),

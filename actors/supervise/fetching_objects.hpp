@@ -4,6 +4,7 @@
 
 #include "actors/supervise/node_setup.hpp"
 #include "actors/supervise/node_shell.hpp"
+#include "runtime/fetch/faulty_objects.hpp"
 
 namespace luxodus {
 
@@ -52,6 +53,7 @@ class FetchingObjects {
  private:
   const NodeId self_;
   HeldObjects store_;
+  std::optional<FaultyObjects> faulty_;  // where reads shall fail
   const std::unique_ptr<ObjectBuilder> builder_;
   Fetcher fetcher_;
   ObjectCache cache_;

@@ -264,10 +264,10 @@ std::vector<TableSpec> fault_tables() {
        "`[[faults.event]]`: something that happens to a node, or between two",
        {
            {"kind", "choice", "", "required",
-            "crash, pause, slow, cut, clog, disconnect, full_disk",
+            "crash, pause, slow, cut, clog, disconnect, full_disk, failed_read",
             "the node's process ends at once; it stands still; its work takes `factor` as long; "
             "frames from `node` to `peer` are lost; they wait; both ends lose the connection; its "
-            "journal finds no room"},
+            "journal finds no room; it can read nothing of the scene that it holds"},
            {"at_s", "number", "s", "required", "[0, 1e8]", "since the start of the node"},
            {"lasts_s", "number", "s", "1", "(0, 1e8]", "how long"},
            {"node", "text", "", "required", "", "a node's name"},

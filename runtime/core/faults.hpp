@@ -45,7 +45,8 @@ struct Fault {
     cut,         // node to peer: frames are lost, nobody is told
     clog,        // node to peer: frames wait until it is over
     disconnect,  // node and peer: the connection breaks, frames on the way are lost, both are told
-    full_disk    // node: what it keeps for a crash finds no room
+    full_disk,   // node: what it keeps for a crash finds no room
+    failed_read  // node: of the scene it reads nothing, as from a broken disk
   };
   Kind kind = Kind::crash;
   Nanoseconds at = 0;  // since the start
@@ -59,10 +60,10 @@ struct Fault {
   bool holds(Nanoseconds moment) const { return moment >= at && moment < at + lasts; }
 };
 
-inline constexpr int fault_kinds = 7;
+inline constexpr int fault_kinds = 8;
 constexpr const char* name_of(Fault::Kind kind) {
-  constexpr const char* names[] = {"crash", "pause",      "slow",     "cut",
-                                   "clog",  "disconnect", "full_disk"};
+  constexpr const char* names[] = {"crash", "pause",      "slow",      "cut",
+                                   "clog",  "disconnect", "full_disk", "failed_read"};
   return names[static_cast<size_t>(kind)];
 }
 

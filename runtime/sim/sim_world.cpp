@@ -354,7 +354,8 @@ void SimWorld::begin(const Fault& fault) {
     case Fault::Kind::disconnect:
       return break_connection(fault.node, fault.peer);
     case Fault::Kind::full_disk:
-      return;  // its store looks at the plan
+    case Fault::Kind::failed_read:
+      return;  // its stores look at the plan
   }
 }
 

@@ -57,7 +57,7 @@ Fault draw_fault(Draw& draw, Fault::Kind kind, const SwarmFrame& frame) {
   fault.lasts = draw.span(milliseconds(10), seconds(10));
   fault.factor = draw.between(2, 50);
   if (kind == Fault::Kind::crash || kind == Fault::Kind::pause || kind == Fault::Kind::slow ||
-      kind == Fault::Kind::full_disk) {
+      kind == Fault::Kind::full_disk || kind == Fault::Kind::failed_read) {
     fault.node = {static_cast<uint16_t>(draw.below(frame.nodes))};
     return fault;
   }

@@ -1,0 +1,41 @@
+// A store whose reads fail while a plan of faults says so, as those of a disk that is broken or
+// gone: the node says of what it holds that it is not here, and must ask others for it. Where there
+// is no plan, it is not there at all. Thread rule: one node's thread.
+#pragma once
+
+#include "runtime/core/clock.hpp"
+#include "runtime/core/faults.hpp"
+#include "runtime/fetch/objects.hpp"
+
+namespace luxodus {
+
+class FaultyObjects final : public ObjectStore {
+ public:
+  /// The plan's moments count from now. Requires: all outlive this.
+  FaultyObjects(ObjectStore& below, NodeId self, const FaultPlan& plan, const Clock& clock)
+      : below_(below), self_(self), plan_(plan), clock_(clock), began_(clock.now()) {}
+
+  SharedBytes find(ObjectId object) override {
+    return fails() ? SharedBytes{} : below_.find(object);
+  }
+  SharedBytes find_in_storage(uint32_t object) override {
+    return fails() ? SharedBytes{} : below_.find_in_storage(object);
+  }
+
+ private:
+  bool fails() const {
+    const Nanoseconds moment = clock_.now() - began_;
+    for (const Fault& fault : plan_.faults)
+      if (fault.kind == Fault::Kind::failed_read && fault.node == self_ && fault.holds(moment))
+        return true;
+    return false;
+  }
+
+  ObjectStore& below_;
+  const NodeId self_;
+  const FaultPlan& plan_;
+  const Clock& clock_;
+  const Nanoseconds began_;
+};
+
+}  // namespace luxodus
