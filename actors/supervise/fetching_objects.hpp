@@ -26,6 +26,7 @@ struct WorkerReport {
   Histogram fetch_delay;          // of objects that came over links: from the wish to the bytes
   Histogram object_wait;          // of fibers: from asking for an object to going on with it
   uint64_t hops = 0;              // links that fetched objects passed, all together
+  uint64_t processor_ns = 0;      // of real nodes' threads while they ran
 
   void add(const WorkerReport& other);
   /// Of all references to objects, those that found the object resident; 1 where there was none.
