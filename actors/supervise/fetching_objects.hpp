@@ -40,8 +40,7 @@ class FetchingObjects {
  public:
   /// Requires: run.objects is not null; all outlive this.
   FetchingObjects(const RunSetup& run, const NodeSetup& node, NodeShell& shell,
-                  const BuilderMaker& make_builder = make_part_builder,
-                  NodeTrace* trace = nullptr);
+                  const BuilderMaker& make_builder = make_part_builder, NodeTrace* trace = nullptr);
 
   ObjectSource& source() { return source_; }
   const ObjectCache& cache() const { return cache_; }
