@@ -63,8 +63,10 @@ std::optional<Prepared> prepare(const std::string& file) {
 /// Every point and seed, one after another, with a line of how far it is.
 class Sweep {
  public:
-  explicit Sweep(const Prepared& prepared)
-      : study_(prepared.study),
+  /// `log`: what nodes say of themselves is shown.
+  Sweep(const Prepared& prepared, bool log)
+      : log_(log),
+        study_(prepared.study),
         scenes_(prepared.study, *prepared.scene),
         outcome_{prepared.study, prepared.measured, {}} {}
 
@@ -78,6 +80,7 @@ class Sweep {
   double weight(const StudyPoint& point) const;
   void show(double done);
 
+  const bool log_;
   const Study& study_;
   StudyScenes scenes_;
   StudyOutcome outcome_;
@@ -113,7 +116,10 @@ Result<StudyRow> Sweep::run_one(const StudyPoint& point, uint64_t seed) {
     if (!recording.ok()) return recording.problem();
     run.recording = recording.value().get();
   }
+  const auto level = spdlog::get_level();
+  if (!log_) spdlog::set_level(spdlog::level::off);
   auto result = real ? run_real(run, interrupt_flag()) : run_simulated(run, interrupt_flag());
+  spdlog::set_level(level);
   StudyRow row{point, seed, std::nullopt, ""};
   if (result.ok())
     row.result = std::move(result).value();
@@ -171,11 +177,8 @@ Result<ExitCode> study(const StudyCommandOptions& options) {
   const auto prepared = prepare(options.file);
   if (!prepared) return ExitCode::bad_input;
   install_interrupt_handler();
-  const auto level = spdlog::get_level();
-  if (!options.log) spdlog::set_level(spdlog::level::off);
-  Sweep sweep(*prepared);
+  Sweep sweep(*prepared, options.log);
   const auto done = sweep.run();
-  spdlog::set_level(level);
   if (!done.ok()) return done.problem();
   if (interrupt_flag()) {
     spdlog::warn("interrupted; nothing was written");

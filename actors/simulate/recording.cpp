@@ -180,12 +180,11 @@ TracerMaker replaying_tracers(const Recording& recording, SimClock& clock, const
 
 class BuiltOnce::Builder final : public ObjectBuilder, private ObjectBuilder::Client {
  public:
-  Builder(BuiltOnce& all, std::unique_ptr<ObjectBuilder> real)
-      : all_(all), real_(std::move(real)) {}
+  explicit Builder(BuiltOnce& all) : all_(all) {}
 
   void build(uint32_t object, SharedBytes bytes, ObjectBuilder::Client& client) override {
     auto& built = all_.built_[object];
-    if (built == nullptr) real_->build(object, std::move(bytes), *this);
+    if (built == nullptr) all_.real_->build(object, std::move(bytes), *this);
     if (built != nullptr)
       client.built(object, built);
     else
@@ -198,12 +197,12 @@ class BuiltOnce::Builder final : public ObjectBuilder, private ObjectBuilder::Cl
   }
 
   BuiltOnce& all_;
-  const std::unique_ptr<ObjectBuilder> real_;
 };
 
 BuilderMaker BuiltOnce::builders() {
   return [this](const CompiledScene& scene, const SceneParts& parts) {
-    return std::make_unique<Builder>(*this, make_part_builder(scene, parts));
+    if (real_ == nullptr) real_ = make_part_builder(scene, parts);
+    return std::make_unique<Builder>(*this);
   };
 }
 

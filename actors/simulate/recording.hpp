@@ -69,11 +69,13 @@ TracerMaker replaying_tracers(const Recording& recording, SimClock& clock, const
 class BuiltOnce {
  public:
   explicit BuiltOnce(size_t objects) : built_(objects) {}
-  /// Builders that share through this. Requires: it outlives them.
+  /// Builders that share through this. Requires: it outlives them, and so do scene and parts of the
+  /// first that is made.
   BuilderMaker builders();
 
  private:
   class Builder;
+  std::unique_ptr<ObjectBuilder> real_;  // one for all: a thousand devices of Embree are too many
   std::vector<std::shared_ptr<const BuiltObject>> built_;
 };
 

@@ -31,7 +31,7 @@ std::vector<StudyColumn> of_runs() {
       {"particles_per_s", "1/s", "of all nodes", [](R r) { return per(r.particles, r.seconds); }},
       {"node_particles_per_s", "1/s", "of one node",
        [](R r) { return per(r.particles, r.seconds * r.nodes); }},
-      {"busy", "", "share of their time that workers compute or handle messages",
+      {"busy", "", "share of their time that workers compute; of real ones, processor time",
        [](R r) { return per(r.busy_s, r.seconds * r.nodes); }},
       {"controller_busy", "", "the same of the controller",
        [](R r) { return per(r.controller_s, r.seconds); }},
@@ -54,8 +54,6 @@ std::vector<StudyColumn> of_runs() {
        "what particles would send if they travelled to the holders of objects instead, by counted "
        "moves, 128 B each and the mean way between nodes; replayed runs alone",
        [](R r) { return per(r.moves, r.particles) * moved_bytes * r.mean_path; }},
-      {"processor_s", "s", "processor time of the process, on real nodes",
-       [](R r) { return r.processor_s; }},
   };
 }
 

@@ -14,7 +14,7 @@ struct StudyResult {
   double particles = 0;
   double nodes = 0;
   WorkerReport workers;     // of all together
-  double busy_s = 0;        // of all workers: computing and not waiting
+  double busy_s = 0;        // of all workers: charged; of real ones their threads' processor time
   double controller_s = 0;  // the same of the controller
   double frames = 0;        // on links; those of real nodes are not counted
   double link_bytes = 0;    // likewise
@@ -24,7 +24,6 @@ struct StudyResult {
   double moves = 0;  // of particles between holders of objects, were these to travel; replay alone
   double mean_path = 0;    // links between two workers, on average; replay alone
   uint64_t flux_hash = 0;  // of all totals: equal particles, equal flux, whoever traced them
-  double processor_s = 0;  // of the whole process, on real nodes
 };
 
 /// For StudyResult::flux_hash.

@@ -1,20 +1,7 @@
-#include <ctime>
-
 #include "actors/study/runs.hpp"
 #include "actors/supervise/in_process.hpp"
 
 namespace luxodus {
-
-namespace {
-
-/// Of all threads of this process: of a machine that others use, this is ours alone.
-double processor_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
-}  // namespace
 
 Result<StudyResult> run_real(const StudyRun& run, const std::atomic<bool>& interrupt) {
   auto nodes = nodes_of(run);
@@ -29,7 +16,6 @@ Result<StudyResult> run_real(const StudyRun& run, const std::atomic<bool>& inter
   StopRule stop;
   stop.particles = particles_of(run.study, run.point);
   NodesReport report;
-  const double before = processor_seconds();
   const auto ended = run_on_nodes(
       local, nodes.value(), stop, interrupt, [](const Progress&) {}, &report);
   if (!ended.ok()) return ended.problem();
@@ -40,12 +26,11 @@ Result<StudyResult> run_real(const StudyRun& run, const std::atomic<bool>& inter
   result.particles = static_cast<double>(local.particles());
   result.nodes = nodes->nodes;
   result.workers = report.workers;
-  result.busy_s = result.seconds * result.nodes - 1e-9 * static_cast<double>(report.workers.waited);
+  result.busy_s = 1e-9 * static_cast<double>(report.workers.processor_ns);
   result.leases = static_cast<double>(report.leases);
   result.fenced = static_cast<double>(report.leases_fenced);
   result.flush_bytes = static_cast<double>(report.flush_bytes);
   result.flux_hash = flux_hash_of(local.totals());
-  result.processor_s = processor_seconds() - before;
   return result;
 }
 

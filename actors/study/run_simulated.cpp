@@ -52,7 +52,7 @@ class SimulatedRun {
   NodeSeams seams(NodeId node);
   NodeId controller() const { return {static_cast<uint16_t>(setups_.size() - 1)}; }
   void look_at_controller();
-  StudyResult result();
+  void note_world();
 
   const StudyRun& run_;
   const NodesOptions& options_;
@@ -122,7 +122,7 @@ NodeSeams SimulatedRun::seams(NodeId node) {
 
 void SimulatedRun::look_at_controller() {
   const auto* node = static_cast<const SimController*>(world_->node(controller()));
-  if (node == nullptr || !node->controller().ended()) return;
+  if (node == nullptr || node->controller().took() == 0) return;
   const Controller& ended = node->controller();
   reason_ = ended.reason();
   result_.seconds = 1e-9 * static_cast<double>(ended.took());
@@ -131,7 +131,7 @@ void SimulatedRun::look_at_controller() {
   result_.flush_bytes = static_cast<double>(ended.counters().flush_bytes);
 }
 
-StudyResult SimulatedRun::result() {
+void SimulatedRun::note_world() {
   for (const NodeSetup& node : setups_) {
     const double busy_s = 1e-9 * static_cast<double>(world_->clock(node.net.self).busy());
     (node.net.self == controller() ? result_.controller_s : result_.busy_s) += busy_s;
@@ -148,13 +148,13 @@ StudyResult SimulatedRun::result() {
     result_.moves = run_.recording->moves_per_particle(holders) * result_.particles;
     result_.mean_path = mean_path(setup_);
   }
-  return result_;
 }
 
 Result<StudyResult> SimulatedRun::go(const std::atomic<bool>& interrupt) {
   world_->start([this](NodeId node, uint32_t life) { return make(node, life); });
-  while (world_->step()) {
-    if (!reason_ && world_->last() == controller()) look_at_controller();
+  // When all is counted nothing more is measured; a thousand farewells would take as long again.
+  while (!reason_ && world_->step()) {
+    if (world_->last() == controller()) look_at_controller();
     if (world_->now() > longest_run) return Problem{{}, "a simulated run does not end"};
     if (world_->counters().events % look_every == 0 && interrupt.load())
       return Problem{{}, "interrupted"};
@@ -162,8 +162,9 @@ Result<StudyResult> SimulatedRun::go(const std::atomic<bool>& interrupt) {
   if (!reason_) return Problem{{}, "nobody has anything to do, and the run has not ended"};
   if (*reason_ != StopReason::particles)
     return Problem{{}, fmt::format("the run ended by {}, not by its particles", name_of(*reason_))};
-  StudyResult done = result();
-  return done;
+  note_world();
+  world_.reset();  // its workers add what they did
+  return result_;
 }
 
 }  // namespace

@@ -57,6 +57,7 @@ void WorkerReport::add(const WorkerReport& other) {
   fetch_delay.merge(other.fetch_delay);
   object_wait.merge(other.object_wait);
   hops += other.hops;
+  processor_ns += other.processor_ns;
 }
 
 FetchingObjects::FetchingObjects(const RunSetup& run, const NodeSetup& node, NodeShell& shell,

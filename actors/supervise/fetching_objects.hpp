@@ -27,6 +27,7 @@ struct WorkerReport {
   Histogram fetch_delay;          // of objects that came over links: from the wish to the bytes
   Histogram object_wait;          // of fibers: from asking for an object to going on with it
   uint64_t hops = 0;              // links that fetched objects passed, all together
+  uint64_t processor_ns = 0;      // of real nodes' threads while they ran
 
   void add(const WorkerReport& other);
   /// Of all references to objects, those that found the object resident; 1 where there was none.
@@ -40,8 +41,7 @@ class FetchingObjects {
  public:
   /// Requires: run.objects is not null; all outlive this.
   FetchingObjects(const RunSetup& run, const NodeSetup& node, NodeShell& shell,
-                  const BuilderMaker& make_builder = make_part_builder,
-                  NodeTrace* trace = nullptr);
+                  const BuilderMaker& make_builder = make_part_builder, NodeTrace* trace = nullptr);
 
   ObjectSource& source() { return source_; }
   const ObjectCache& cache() const { return cache_; }
