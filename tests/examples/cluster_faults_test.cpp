@@ -40,6 +40,57 @@ std::string flush_of(int worker) {
   return "flush=taken node=" + std::to_string(worker) + " ";
 }
 
+/// A hall of 900 boxes, twice as large as a budget, and batches that are soon traced.
+std::string boxes(const Folder& folder) {
+  const fs::path path = folder.path / "boxes.toml";
+  std::ofstream(path) << R"(title = "Boxes in rows"
+patch_edge_m = 5
+[run]
+batch_particles = 200
+[[material]]
+name = "white"
+reflectance = "white80"
+[[object]]
+name = "hall"
+shape = "room"
+low = [0, 0, 0]
+high = [31, 31, 4]
+material = "white"
+[[object]]
+name = "box"
+shape = "box"
+low = [0.3, 0.3, 0]
+high = [0.7, 0.7, 1]
+material = "white"
+one_patch = true
+repeat = [{ count = 30, step = [1, 0, 0] }, { count = 30, step = [0, 1, 0] }]
+[[emitter]]
+name = "lamp"
+shape = "rectangle"
+position = [15.5, 15.5, 3.9]
+size = [0.6, 0.6]
+distribution = "lambertian"
+flux_lm = 3000
+)";
+  return path.string();
+}
+
+/// Three workers with room for half of a scene, of which the last stores nothing of it: it has what
+/// it needs from the other two, who hold every object both.
+ClusterText fetching(const std::string& scene) {
+  ClusterText text = quick(3);
+  text.more.erase(text.more.find("[[faults.event]]"));  // who fetches is slow enough
+  text.more.replace(text.more.find("duration_s = 2"), 14, "duration_s = 8");
+  text.scene = scene;
+  text.of_node["n2"] = "stores = false\n";
+  text.more += "[budget]\nobject_bytes = \"1 MiB\"\nfibers = 256\n";
+  return text;
+}
+
+std::string cells_of(const Folder& folder) {
+  return " --cells " + std::to_string(number_in(folder, "cells"));
+}
+
 /// Ends the run, and compares what it left.
 void end_with_same_bits(const Folder& folder, const Running& nodes, const FaultRow& row) {
   nodes.end();
@@ -193,6 +244,22 @@ TEST_CASE("a node whose thread is stuck is given up while its process lives, and
   REQUIRE(nodes.controller->says(flush_of(2), nodes.controller->now()));
   row.well(flush_of(1));
   end_with_same_bits(folder, nodes, row);
+}
+
+TEST_CASE("the holder of objects that all ask for may be killed, with the same bits",
+          "[cluster][faults]") {
+  const Folder folder;
+  const Running nodes = start(write_cluster(folder, over_tcp(fetching(boxes(folder)))), 3);
+  REQUIRE(nodes.controller->says(flush_of(2)));
+  FaultRow row("one of two holders of all objects is killed", *nodes.controller);
+  nodes.workers[0]->kill(SIGKILL);
+  row.noticed(of_link("suspect", 3, 0));
+  row.given_up(lost(0));
+  row.well(flush_of(2));
+  nodes.end();
+  INFO(nodes.controller->text());
+  check_goes_on(folder, 4'000, boxes(folder), cells_of(folder));
+  row.end("same bits");
 }
 
 TEST_CASE("a second process under a node's name on its host ends, and the first goes on",

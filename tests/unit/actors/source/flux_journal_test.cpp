@@ -1,5 +1,7 @@
 #include "actors/source/flux_journal.hpp"
 
+#include <unistd.h>
+
 #include <catch2/catch.hpp>
 #include <cstring>
 #include <filesystem>
@@ -151,6 +153,28 @@ TEST_CASE("a journal that has become a snapshot, and one that was about to, end 
   journal.value()->remove();
   CHECK(std::filesystem::is_empty(folder));
   std::filesystem::remove_all(folder);
+}
+
+TEST_CASE("a run that goes on from its flux file, after any batch, ends as one that never stopped",
+          "[journal]") {
+  const auto scene = scene_of("smoke_tank", "", 1);
+  constexpr int64_t batches = 5;
+  LocalRun whole(scene, 1, 1);
+  trace(whole, batches);
+  const auto file = std::filesystem::temp_directory_path() /
+                    ("luxodus_boundaries_" + std::to_string(::getpid()) + ".lux");
+  for (int64_t stop = 0; stop <= batches; ++stop) {
+    INFO("stopped after " << stop << " batches");
+    LocalRun first(scene, 1, 1);
+    trace(first, stop);
+    REQUIRE(save_flux(file, first).ok());
+    LocalRun second(scene, 1, 1);
+    REQUIRE(load_flux(file, second).ok());
+    CHECK(second.traced() == stop);
+    trace(second, batches);
+    CHECK(same(whole, second));
+  }
+  std::filesystem::remove(file);
 }
 
 TEST_CASE("records that do not belong to a run are refused", "[journal]") {
