@@ -31,8 +31,8 @@ ControllerNode::ControllerNode(const RunSetup& setup, const NodeSetup& node, Loc
                                FlushKeeper* keeper)
     : setup_(setup),
       self_(node.net.self),
-      shell_({node.net, controller_limits(node), ShellConfig{}.room_bytes_most, node.shutdown_phase,
-              setup.routes},
+      shell_({controller_net(setup, node), controller_limits(node), ShellConfig{}.room_bytes_most,
+              node.shutdown_phase, setup.routes},
              setup.graph, seams.clock, seams.transport),
       controller_(controller_config(setup, node, keeper), run, stop, interrupt, std::move(report),
                   shell_.scheduler(), shell_.network()) {}

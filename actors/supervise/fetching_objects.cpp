@@ -26,8 +26,7 @@ CacheConfig cache_of(const RunSetup& run, const NodeSetup& node, NodeTrace* trac
   return config;
 }
 
-std::optional<FaultyObjects> faulty(ObjectStore& store, const NodeSetup& node,
-                                    const Clock& clock) {
+std::optional<FaultyObjects> faulty(ObjectStore& store, const NodeSetup& node, const Clock& clock) {
   if (node.faults.faults.empty()) return std::nullopt;
   return FaultyObjects(store, node.net.self, node.faults, clock);
 }

@@ -53,10 +53,10 @@ void add_metrics(MemoryPlan& plan, const RunSetup& run, uint64_t histograms) {
            fmt::format("a copy of {} histograms and some 500 numbers", histograms));
 }
 
-MemoryPlan common_plan(const NodeSetup& node, const SchedulerLimits& limits) {
+MemoryPlan common_plan(const NetConfig& net, const SchedulerLimits& limits) {
   MemoryPlan plan;
   Scheduler::plan_memory(plan, limits);
-  Network::plan_memory(plan, node.net);
+  Network::plan_memory(plan, net);
   return plan;
 }
 
@@ -100,6 +100,14 @@ SchedulerLimits worker_limits(const RunSetup& run, const NodeSetup& node) {
   return limits;
 }
 
+NetConfig controller_net(const RunSetup& run, const NodeSetup& node) {
+  NetConfig net = node.net;
+  const size_t workers = run.graph.workers();
+  if (workers > defaults::outbox_messages)
+    net.outbox_messages = std::max(net.outbox_messages, workers);
+  return net;
+}
+
 SchedulerLimits controller_limits(const NodeSetup& node) {
   SchedulerLimits limits;
   limits.fibers = node.fibers;
@@ -134,7 +142,7 @@ MemoryPlan tally_plan(const CompiledScene& scene, const NodeSetup& node) {
 }
 
 MemoryPlan worker_plan(const RunSetup& run, const NodeSetup& node) {
-  MemoryPlan plan = common_plan(node, worker_limits(run, node));
+  MemoryPlan plan = common_plan(node.net, worker_limits(run, node));
   plan.add(tally_plan(run.scene, node));
   if (const size_t shard = run.shards.shard_of(node.net.self); shard != 0)
     add_shard(plan, run, shard);
@@ -155,7 +163,7 @@ MemoryPlan worker_plan(const RunSetup& run, const NodeSetup& node) {
 }
 
 MemoryPlan controller_plan(const RunSetup& run, const NodeSetup& node) {
-  MemoryPlan plan = common_plan(node, controller_limits(node));
+  MemoryPlan plan = common_plan(controller_net(run, node), controller_limits(node));
   add_totals(plan, run.scene, 1);
   const uint64_t bins = bins_of(run, 0);  // others' shards have theirs
   plan.add("flush being counted", bins * (flush_bytes_of_bin + sizeof(TotalsGain::Bin)),
