@@ -70,7 +70,7 @@ std::string SimWorker::fault() const {
     return fmt::format("{} B are resident, with a budget of {} B", cache.resident_bytes,
                        node_.object_bytes);
   if (cache.pinned_bytes > cache.resident_bytes) return "more bytes are pinned than resident";
-  if (cache.builds > worker_.objects()->report().fetches)
+  if (cache.builds > worker_.objects()->fetcher().counters().fetches)
     return "an object was built twice for one fetch";
   return "";
 }

@@ -257,7 +257,8 @@ void Simulation::go() {
   while (report_.failure.empty() && world_->step()) {
     const NodeId last = world_->last();
     if (last == no_node) continue;
-    const auto* node = static_cast<const CheckedNode*>(world_->node(last));
+    const SimNode* const here = world_->node(last);
+    const auto* node = static_cast<const CheckedNode*>(here != nullptr ? here : world_->departed());
     if (node == nullptr) continue;
     if (auto fault = node->fault(); !fault.empty())
       report_.failure = fmt::format("{}: {}", setup_.name_of(last), fault);

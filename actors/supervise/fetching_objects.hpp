@@ -45,6 +45,7 @@ class FetchingObjects {
 
   ObjectSource& source() { return source_; }
   const ObjectCache& cache() const { return cache_; }
+  const Fetcher& fetcher() const { return fetcher_; }
   /// Keeps these for good, as far as their share of the budget goes.
   void pin(std::span<const uint32_t> objects) { cache_.pin(objects); }
   void add_metrics(Metrics& metrics) const;

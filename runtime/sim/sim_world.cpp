@@ -144,6 +144,7 @@ void SimWorld::push(Event event) {
 }
 
 bool SimWorld::step() {
+  departed_.reset();
   while (!events_.empty() && here_ > 0) {
     std::pop_heap(events_.begin(), events_.end(), Event::later);
     const Event event = events_.back();
@@ -214,7 +215,7 @@ void SimWorld::take_turn(Node& node) {
   node.clock.charge(setup_.turn_cost);
   if (core != nullptr) *core = node.clock.now();
   if (node.node->finished()) {
-    node.node.reset();
+    departed_ = std::move(node.node);
     node.left = true;
     --here_;
     for (const auto& way : ways_)

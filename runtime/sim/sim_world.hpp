@@ -71,6 +71,8 @@ class SimWorld {
   Nanoseconds now() const { return now_; }
   /// The node, null while it is crashed or after it has left.
   SimNode* node(NodeId node);
+  /// The node that left in the last event, as it left; null where none did.
+  const SimNode* departed() const { return departed_.get(); }
   /// The node that had the last event; no_node where none had.
   NodeId last() const { return last_; }
 
@@ -121,6 +123,7 @@ class SimWorld {
   LinkTroubles troubles_;
   MakeNode make_;
   std::vector<std::unique_ptr<Node>> nodes_;
+  std::unique_ptr<SimNode> departed_;
   std::vector<std::unique_ptr<Way>> ways_;       // nodes x nodes, null where there is no link
   std::vector<std::vector<Nanoseconds>> cores_;  // by machine, when each is free; where they count
   std::vector<Frame> frames_;                    // on their way, by slot

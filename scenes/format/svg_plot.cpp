@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <string_view>
+#include <utility>
 
 #include "scenes/format/output_text.hpp"
 #include "scenes/format/plot_axis.hpp"
@@ -145,7 +146,7 @@ class SvgPainter {
   void frame();
   void legend();
   void texts();
-  bool legend_at_left() const;
+  std::pair<double, double> legend_place(double width, double height) const;
 
   const SvgPlot& p_;
   Axis x_, y_;
@@ -274,18 +275,27 @@ void SvgPainter::frame() {
           "\" fill=\"none\" stroke=\"#444b55\" stroke-width=\"1.4\"/>\n";
 }
 
-/// The legend stands at the top, on the side where fewer points are in its way.
-bool SvgPainter::legend_at_left() const {
-  const double middle_x = (x_.from + x_.to) / 2;
-  const double middle_y = (y_.from + y_.to) / 2;
-  int at_left = 0, at_right = 0;
-  for (const PlotSeries& s : p_.series) {
-    for (size_t i = 0; i < s.x.size(); ++i) {
-      if (!shown(s, i) || y_.place(s.y[i]) > middle_y) continue;
-      ++(x_.place(s.x[i]) < middle_x ? at_left : at_right);
-    }
-  }
-  return at_left < at_right;
+/// Where the legend stands: in the corner that has the fewest points behind it.
+std::pair<double, double> SvgPainter::legend_place(double width, double height) const {
+  constexpr double margin = 12;
+  using Place = std::pair<double, double>;
+  const double left = x_.from + margin, right = x_.to - margin - width;
+  const double top = y_.to + margin, bottom = y_.from - margin - height;
+  const std::array corners{Place{right, top}, Place{left, top}, Place{right, bottom},
+                           Place{left, bottom}};
+  const auto points_behind = [&](const Place& corner) {
+    int points = 0;
+    for (const PlotSeries& s : p_.series)
+      for (size_t i = 0; i < s.x.size(); ++i) {
+        if (!shown(s, i)) continue;
+        const double x = x_.place(s.x[i]) - corner.first, y = y_.place(s.y[i]) - corner.second;
+        points += x > -margin && x < width + margin && y > -margin && y < height + margin;
+      }
+    return points;
+  };
+  return *std::min_element(corners.begin(), corners.end(), [&](const Place& a, const Place& b) {
+    return points_behind(a) < points_behind(b);
+  });
 }
 
 void SvgPainter::legend() {
@@ -312,8 +322,7 @@ void SvgPainter::legend() {
   // named, takes.
   const double width = std::min(62 + 8.6 * static_cast<double>(longest), (x_.to - x_.from) - 24);
   const double height = legend_line * static_cast<double>(entries.size()) + 12;
-  const double x = legend_at_left() ? x_.from + 12 : x_.to - 12 - width;
-  const double y = y_.to + 12;
+  const auto [x, y] = legend_place(width, height);
   out_ += "<rect x=\"" + coordinate(x) + "\" y=\"" + coordinate(y) + "\" width=\"" +
           coordinate(width) + "\" height=\"" + coordinate(height) +
           "\" rx=\"4\" fill=\"#ffffff\" fill-opacity=\"0.92\" stroke=\"#c6ccd4\"/>\n";
