@@ -1,4 +1,5 @@
 // luxodus node: the nodes of one process of a cluster, started on the machine where they belong.
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -103,6 +104,17 @@ int run_nodes(const NodeOptions& options) {
     tell({{options.config, 0},
           "all workers were lost; what they had counted was written: go on with "
           "luxodus run --resume, or see to the workers and start anew"});
+    return ExitCode::failure;
+  }
+  if (*ended.value() == StopReason::objects_lost) {
+    const LocalRun& run = process.value()->local_run();
+    const auto lost = static_cast<int64_t>(run.missing().size());
+    tell({{options.config, 0},
+          fmt::format("{} particles are lost: {} batches need objects of the scene that no node "
+                      "who is left has, and the results, which were written, lean away from what "
+                      "these would have met; start anew with nodes that store the scene, or go on "
+                      "with luxodus run --resume",
+                      lost * run.scene().batch_particles, lost)});
     return ExitCode::failure;
   }
   return *ended.value() == StopReason::interrupted ? ExitCode::interrupted : ExitCode::success;

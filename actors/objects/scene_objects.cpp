@@ -79,6 +79,9 @@ const BuiltObject* CachedObjects::get(uint32_t object, std::span<const Candidate
 }
 
 const BuiltObject* CachedObjects::wait_for(uint32_t object, std::span<const Candidate> next) {
+  // What this fiber traces is worth nothing any more, until it has been asked: no more waiting.
+  const FiberId self = fibers_.current()->id();
+  if (std::find(refused_.begin(), refused_.end(), self) != refused_.end()) return nullptr;
   ahead_.clear();
   for (const Candidate& c : next.first(std::min(prefetch_, next.size()))) ahead_.push_back(c.cell);
   const uint64_t particle = fibers_.current()->subject();
@@ -87,7 +90,7 @@ const BuiltObject* CachedObjects::wait_for(uint32_t object, std::span<const Cand
   const Got got = cache_.get(object, traced, ahead_);
   if (traced) trace_->end(TraceKind::wait, particle, object);
   if (got.how == Got::How::resident) return got.object;
-  refused_.push_back(fibers_.current()->id());
+  refused_.push_back(self);
   return nullptr;
 }
 

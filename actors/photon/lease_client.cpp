@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "runtime/core/check.hpp"
 #include "runtime/core/hash.hpp"
 
@@ -37,6 +39,8 @@ void LeaseClient::add_metrics(Metrics& metrics) const {
   metrics.add_counter({"leases", "", "Batches lent to this node.", ""}, c.leases);
   metrics.add_counter({"leases_failed", "", "Leases whose batch is traced anew.", ""},
                       c.leases_failed);
+  metrics.add_counter({"leases_given_back", "", "Leases whose batch cannot be traced here.", ""},
+                      c.leases_given_back);
   metrics.add_counter({"flushes", "", "Flushes made.", ""}, c.flushes);
   metrics.add_counter({"flushes_refused", "", "Flushes that the controller refused.", ""},
                       c.flushes_refused);
@@ -90,6 +94,7 @@ void LeaseClient::begin_round() {
 // ---- giving results --------------------------------------------------------------------------
 
 void LeaseClient::lease_done(uint64_t lease) {
+  std::erase_if(in_vain_, [&](const InVain& vain) { return vain.lease == lease; });
   if (done_.empty()) first_done_ = scheduler_.clock().now();
   done_.push_back(lease);
   if (rested(scheduler_.clock().now()) || done_.size() == limits::leases ||
@@ -104,10 +109,29 @@ bool LeaseClient::rested(Nanoseconds now) const {
   return !done_.empty() && now - first_done_ >= most;
 }
 
-/// A loss of the moment: the batch is traced anew, the lease stands until its deadline.
+/// A loss of the moment: the batch is traced anew, the lease stands until its deadline. A loss that
+/// lasts for as long as one waits for a lost node is for good: others may have the object.
 void LeaseClient::lease_failed(uint64_t lease, int64_t batch) {
   ++counters_.leases_failed;
-  if (!ended_) photons_->add(lease, batch);
+  if (ended_) return;
+  if (scheduler_.clock().now() - vain_since(lease, batch) < config_.lost)
+    return photons_->add(lease, batch);
+  ++counters_.leases_given_back;
+  network_.send(config_.controller, network_.next_id(), LeasesFenced{{lease}});
+  photons_->look_again();
+  flush_when_idle();
+}
+
+/// Since when a batch has been traced in vain here, under whatever leases.
+Nanoseconds LeaseClient::vain_since(uint64_t lease, int64_t batch) {
+  const auto known = std::find_if(in_vain_.begin(), in_vain_.end(),
+                                  [&](const InVain& vain) { return vain.batch == batch; });
+  if (known != in_vain_.end()) {
+    known->lease = lease;
+    return known->since;
+  }
+  if (in_vain_.size() == limits::leases) in_vain_.erase(in_vain_.begin());
+  return in_vain_.emplace_back(InVain{lease, batch, scheduler_.clock().now()}).since;
 }
 
 void LeaseClient::want_room() {

@@ -71,6 +71,7 @@ class LeaseClient final : public LeasePort {
     uint64_t flush_bytes = 0;
     uint64_t asked_again = 0;
     uint64_t leases_failed = 0;
+    uint64_t leases_given_back = 0;
   };
   const Counters& counters() const { return counters_; }
   void add_metrics(Metrics& metrics) const;
@@ -100,6 +101,7 @@ class LeaseClient final : public LeasePort {
   void watch_controller(Nanoseconds now);
   void end(std::optional<Problem> fault);
   void flush_answered(const MessageId& answered, bool taken);
+  Nanoseconds vain_since(uint64_t lease, int64_t batch);
 
   LeaseClientConfig config_;
   Scheduler& scheduler_;
@@ -118,6 +120,13 @@ class LeaseClient final : public LeasePort {
   Nanoseconds flush_cost_ = 0;    // of the last one that was answered
   Nanoseconds lease_time_ = 0;
   Nanoseconds first_done_ = 0;  // when the oldest of them was merged
+  /// Batches that were traced in vain, under the lease of their last try, and since when.
+  struct InVain {
+    uint64_t lease;
+    int64_t batch;
+    Nanoseconds since;
+  };
+  std::vector<InVain> in_vain_;
   size_t wanted_ = 0;
   uint32_t round_ = 0;        // of the last grant: a round begins when all before is counted
   bool round_empty_ = false;  // the controller had none: flush, and wait for the next round

@@ -153,7 +153,9 @@ void PhotonThreads::trace_portions(BatchTracer& tracer) {
     }
     OpenBatch& open = *portion->batch;
     const Batch& batch = open.batch;
-    if (portion->count > 0) {
+    if (open.failed || open.dropped) {
+      // Nobody will count it: the rest of it would be traced in vain.
+    } else if (portion->count > 0) {
       trace_particles(tracer, *portion);
       counters_.particles += static_cast<uint64_t>(portion->count);
     } else {
@@ -176,8 +178,10 @@ void PhotonThreads::trace_particles(BatchTracer& tracer, const Portion& portion)
   const uint64_t of_batch = open.batch.first_particle;
   if (open.order.empty())
     return trace_row(tracer, open, of_batch + static_cast<uint64_t>(portion.first), portion.count);
-  for (int64_t i = portion.first; i < portion.first + portion.count; ++i)
+  for (int64_t i = portion.first; i < portion.first + portion.count && !open.failed; ++i) {
     trace_row(tracer, open, of_batch + open.order[static_cast<size_t>(i)], 1);
+    if (source_ != nullptr && source_->spoilt()) open.failed = true;
+  }
 }
 
 /// Up to the next sampled particle in one go, and that one alone.

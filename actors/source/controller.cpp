@@ -82,6 +82,7 @@ bool Controller::meet(const Delivery& delivery) {
     if (peer.life != Incarnation{}) {
       peer.former.push_back(peer.life);
       fence(book_.fence_node(delivery.source), "its worker began anew");
+      book_.forgive(delivery.source);
       shards_.end_life(delivery.source, peer.life);
       lose_shard(delivery.source, "began anew");
     }
@@ -195,11 +196,39 @@ void Controller::fence(const std::vector<Lease>& leases, const char* why) {
   }
 }
 
+/// A worker has tried these for as long as one waits for a lost node: it cannot have an object.
+void Controller::take_back(NodeId worker, const LeasesFenced& leases) {
+  for (const Lease& lease : book_.give_back(worker, leases.leases))
+    spdlog::warn(
+        "lease=given_back lease={} node={} batch={} text=\"{} cannot have an object that it needs: "
+        "lent to others\"",
+        lease.id, worker.value, lease.batch, name_of(worker));
+}
+
+/// What nobody can trace is lost, and the run with it: what has been lent is brought to its end,
+/// and no more is lent, since the next batches would need the same objects.
+void Controller::lose_batches() {
+  std::vector<NodeId> here;
+  for (const auto& [worker, peer] : peers_)
+    if (peer.here) here.push_back(worker);
+  const int64_t lost = book_.lose_what_all_gave_back(here);
+  if (lost == 0) return;
+  counters_.batches_lost += static_cast<uint64_t>(lost);
+  spdlog::error(
+      "run=lost batches={} particles={} text=\"nobody who is left can have the objects that these "
+      "need: the run ends without them\"",
+      lost, lost * run_.scene().batch_particles);
+  if (!closing_) book_.close();
+  closing_ = true;
+}
+
 void Controller::add_metrics(Metrics& metrics) const {
   const Counters& c = counters_;
   metrics.add_counter({"leases_lent", "", "Batches lent.", ""}, c.leases);
   metrics.add_counter({"leases_fenced", "", "Leases that were late, or whose node was gone.", ""},
                       c.fenced);
+  metrics.add_counter({"batches_lost", "", "Batches that nobody who is left could trace.", ""},
+                      c.batches_lost);
   metrics.add_counter({"flushes_taken", "", "Flushes counted.", ""}, c.flushes_taken);
   metrics.add_counter({"flushes_not_taken", "", "Flushes refused.", ""}, c.flushes_refused);
   metrics.add_counter({"flushes_not_kept", "", "Flushes that the journal could not take.", ""},
@@ -264,6 +293,7 @@ void Controller::look_at_totals() {
 
 void Controller::end_round() {
   error_ = Readout(run_.scene(), run_.totals()).worst_relative_error();
+  if (book_.lost() > 0) return end_run(StopReason::objects_lost);
   if (closing_) return end_run(interrupt_.load() ? StopReason::interrupted : StopReason::time);
   if (stop_.relative_error && error_ <= *stop_.relative_error) return end_run(StopReason::error);
   if (book_.committed() >= target_) return end_run(StopReason::particles);
@@ -310,6 +340,7 @@ void Controller::look() {
   report_(progress());
   shards_.look();
   fence(book_.fence_late(now), "late");
+  lose_batches();
   note_book();
   let_keeper_rest();
   const double passed = static_cast<double>(now - began_) * 1e-9;
@@ -339,6 +370,7 @@ bool Controller::deliver(const Delivery& delivery) {
     return true;
   }
   const bool of_a_worker = std::holds_alternative<RequestLease>(delivery.message) ||
+                           std::holds_alternative<LeasesFenced>(delivery.message) ||
                            std::holds_alternative<Flush>(delivery.message);
   if (!of_a_worker) return false;
   if (!meet(delivery)) return true;
@@ -346,6 +378,8 @@ bool Controller::deliver(const Delivery& delivery) {
     lend(delivery, *request);
   } else if (const auto* flush = std::get_if<Flush>(&delivery.message)) {
     take_flush(delivery, *flush);
+  } else if (const auto* leases = std::get_if<LeasesFenced>(&delivery.message)) {
+    take_back(delivery.source, *leases);
   }
   return true;
 }

@@ -72,6 +72,7 @@ class Controller {
     uint64_t leases = 0;
     uint64_t fenced = 0;
     uint64_t workers_lost = 0;
+    uint64_t batches_lost = 0;  // nobody who is here could trace them
     uint64_t flushes_taken = 0;
     uint64_t flushes_refused = 0;
     uint64_t flushes_not_kept = 0;  // by the journal
@@ -103,6 +104,8 @@ class Controller {
   std::string name_of(NodeId node) const;
   std::string missing_workers() const;
   void fence(const std::vector<Lease>& leases, const char* why);
+  void take_back(NodeId worker, const LeasesFenced& leases);
+  void lose_batches();
   void open_round();
   void look();
   void set_timer();

@@ -9,8 +9,16 @@ bool LeaseBook::open(int64_t batch) const {
   return batch >= next_ && batch < end_ && batch < next_ + look_ahead_ && ahead_.count(batch) == 0;
 }
 
-int64_t LeaseBook::first_choice(const Rank& rank) const {
-  if (!again_.empty()) return *again_.begin();
+/// Whether a batch waits to be lent again, and this node may have it.
+bool LeaseBook::may_again(NodeId node, int64_t batch) const {
+  const auto given_back = given_back_.find(batch);
+  return again_.count(batch) > 0 &&
+         (given_back == given_back_.end() || given_back->second.count(node) == 0);
+}
+
+int64_t LeaseBook::first_choice(NodeId node, const Rank& rank) const {
+  for (const int64_t batch : again_)
+    if (may_again(node, batch)) return batch;
   if (!rank) return next_;
   int64_t best = next_;
   for (int64_t batch = next_ + 1; batch < std::min(end_, next_ + look_ahead_); ++batch)
@@ -34,10 +42,11 @@ Nanoseconds LeaseBook::patience(int64_t batch, Nanoseconds span) const {
 
 LentBatches LeaseBook::lend(NodeId node, int64_t most, Nanoseconds now, Nanoseconds span,
                             const Rank& rank) {
-  LentBatches lent{last_id_ + 1, first_choice(rank), 0};
+  LentBatches lent{last_id_ + 1, first_choice(node, rank), 0};
   while (lent.count < most) {
     const int64_t batch = lent.first_batch + lent.count;
-    const bool again = again_.erase(batch) > 0;
+    const bool again = may_again(node, batch);
+    if (again) again_.erase(batch);
     if (!again && !open(batch)) break;
     if (!again && rank && lent.count > 0 && rank(batch) != rank(lent.first_batch)) break;
     if (!again) take(batch);
@@ -66,6 +75,7 @@ void LeaseBook::commit(const std::vector<uint64_t>& leases) {
   for (const uint64_t id : leases) {
     const auto at = leases_.find(id);
     late_.erase(at->second.batch);
+    given_back_.erase(at->second.batch);
     leases_.erase(at);
   }
   committed_ += static_cast<int64_t>(leases.size());
@@ -101,8 +111,29 @@ std::vector<Lease> LeaseBook::fence_leases(NodeId node, const std::vector<uint64
   return fence([&](const Lease& lease) { return lease.node == node && named.count(lease.id) > 0; });
 }
 
+std::vector<Lease> LeaseBook::give_back(NodeId node, const std::vector<uint64_t>& leases) {
+  const std::vector<Lease> fenced = fence_leases(node, leases);
+  for (const Lease& lease : fenced) given_back_[lease.batch].insert(node);
+  return fenced;
+}
+
+void LeaseBook::forgive(NodeId node) {
+  for (auto& [batch, nodes] : given_back_) nodes.erase(node);
+}
+
+int64_t LeaseBook::lose_what_all_gave_back(const std::vector<NodeId>& nodes) {
+  const int64_t before = lost();
+  for (const auto& [batch, gave_back] : given_back_) {
+    const auto did = [&gave_back = gave_back](NodeId node) { return gave_back.count(node) > 0; };
+    if (nodes.empty() || !std::all_of(nodes.begin(), nodes.end(), did)) continue;
+    if (again_.erase(batch) > 0) lost_.insert(batch);
+  }
+  return lost() - before;
+}
+
 std::vector<int64_t> LeaseBook::missing() const {
   std::set<int64_t> batches = again_;
+  batches.insert(lost_.begin(), lost_.end());
   for (const auto& [id, lease] : leases_) batches.insert(lease.batch);
   for (int64_t batch = next_; batch < lent_end(); ++batch)
     if (ahead_.count(batch) == 0) batches.insert(batch);

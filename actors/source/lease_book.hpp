@@ -75,11 +75,21 @@ class LeaseBook {
   /// Fences those of these leases that stand and are this node's: what it did with them is gone.
   std::vector<Lease> fence_leases(NodeId node, const std::vector<uint64_t>& leases);
 
-  /// Everything up to the end of the round is counted.
-  bool round_done() const { return committed_ == end_; }
+  /// Everything up to the end of the round is counted, or lost.
+  bool round_done() const { return committed_ + lost() == end_; }
   int64_t committed() const { return committed_; }
   /// Beyond the last batch that was lent at least once.
   int64_t lent_end() const { return ahead_.empty() ? next_ : *ahead_.rbegin() + 1; }
+  /// A node gives back those of these leases that stand and are its own: it cannot trace their
+  /// batches, and is not lent them again.
+  std::vector<Lease> give_back(NodeId node, const std::vector<uint64_t>& leases);
+  /// The node is another one now, and may be lent what it has given back.
+  void forgive(NodeId node);
+  /// Batches that every one of these nodes has given back are lost: no lease of them is lent any
+  /// more, and a round may end without them. Gives those that are lost since the last call.
+  int64_t lose_what_all_gave_back(const std::vector<NodeId>& nodes);
+  int64_t lost() const { return static_cast<int64_t>(lost_.size()); }
+
   /// Batches 0..lent_end() - 1 that are not committed.
   std::vector<int64_t> missing() const;
   /// Ends the round with what has been lent, and what was skipped on the way.
@@ -95,7 +105,8 @@ class LeaseBook {
  private:
   template <class Which>
   std::vector<Lease> fence(Which&& which);
-  int64_t first_choice(const Rank& rank) const;
+  int64_t first_choice(NodeId node, const Rank& rank) const;
+  bool may_again(NodeId node, int64_t batch) const;
   bool open(int64_t batch) const;
   void take(int64_t batch);
   Nanoseconds patience(int64_t batch, Nanoseconds span) const;
@@ -103,7 +114,9 @@ class LeaseBook {
   std::map<uint64_t, Lease> leases_;
   std::set<int64_t> again_;      // fenced, to be lent before new ones
   std::map<int64_t, int> late_;  // how often batches were, while they are not counted
-  std::set<int64_t> ahead_;      // lent before their turn: beyond next_
+  std::map<int64_t, std::set<NodeId>> given_back_;  // of again_: who could not trace them
+  std::set<int64_t> lost_;
+  std::set<int64_t> ahead_;  // lent before their turn: beyond next_
   uint64_t last_id_;
   int64_t look_ahead_;
   int64_t next_;  // the first that was never lent

@@ -54,7 +54,8 @@ LocalRun::LocalRun(std::shared_ptr<const CompiledScene> scene, uint64_t seed, in
       error_(std::numeric_limits<double>::quiet_NaN()) {}
 
 const char* name_of(StopReason reason) {
-  constexpr const char* names[] = {"particles", "error", "time", "interrupted", "workers lost"};
+  constexpr const char* names[] = {"particles",   "error",        "time",
+                                   "interrupted", "workers lost", "objects lost"};
   return names[static_cast<size_t>(reason)];
 }
 

@@ -36,7 +36,7 @@ struct Progress {
 Progress progress_of(const StopRule& stop, int64_t batch_particles, int64_t at_start,
                      int64_t batches, double seconds, double error);
 
-enum class StopReason { particles, error, time, interrupted, workers_lost };
+enum class StopReason { particles, error, time, interrupted, workers_lost, objects_lost };
 
 /// The word of a reason in results and logs.
 const char* name_of(StopReason reason);

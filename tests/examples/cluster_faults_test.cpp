@@ -262,6 +262,40 @@ TEST_CASE("the holder of objects that all ask for may be killed, with the same b
   row.end("same bits");
 }
 
+TEST_CASE("particles that need objects which nobody has any more are lost, and the run says so",
+          "[cluster][faults]") {
+  const Folder folder;
+  const std::string pack = (folder.path / "boxes.luxpack").string();
+  const std::string skeleton = (folder.path / "skeleton.luxpack").string();
+  REQUIRE(run_luxodus(folder, "pack " + boxes(folder) + " --cell-kib 16 --out " + pack).code == 0);
+  REQUIRE(run_luxodus(folder, "pack " + pack + " --skeleton-only --out " + skeleton).code == 0);
+  ClusterText text = over_tcp(fetching(pack));
+  text.more.insert(text.more.find("lost_s"), "fetch_attempts = 1\n");
+  const std::string cluster = write_cluster(folder, text);
+  text.scene = skeleton;
+  Running nodes;
+  nodes.controller = node(cluster, "controller");
+  for (const char* name : {"n0", "n1"}) nodes.workers.push_back(node(cluster, name));
+  nodes.workers.push_back(node(write_cluster(folder, text, "of_n2"), "n2"));
+  REQUIRE(nodes.controller->says("run=begun"));
+  REQUIRE(nodes.controller->says(flush_of(2)));
+  FaultRow row("both holders of all objects are killed", *nodes.controller);
+  nodes.workers[0]->kill(SIGKILL);
+  nodes.workers[1]->kill(SIGKILL);
+  row.noticed(of_link("suspect", 3, 0));
+  row.given_up("run=lost batches=");
+  CHECK(nodes.controller->wait() == 1);
+  INFO(nodes.controller->text() << nodes.workers[2]->text());
+  CHECK(nodes.controller->said("lease=given_back"));
+  CHECK(nodes.controller->said(" particles are lost: "));
+  CHECK(nodes.workers[2]->wait() == 0);
+  const std::string result = slurp(folder.path / "out" / "result.json");
+  CHECK(result.find("\"stopped_by\": \"objects lost\"") != std::string::npos);
+  // What is there is whole batches, and says which it lacks.
+  check_goes_on(folder, 4'000, pack);
+  row.end("exit 1, the particles that are lost, and what can be gone on from");
+}
+
 TEST_CASE("a second process under a node's name on its host ends, and the first goes on",
           "[cluster][faults]") {
   const Folder folder;

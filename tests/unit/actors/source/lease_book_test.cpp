@@ -189,3 +189,45 @@ TEST_CASE("what was fenced is lent again before what a node prefers", "[lease]")
   CHECK(book.lend(bob, 1, 0, 200, likes(1)).first_batch == 0);
   CHECK(book.lend(bob, 1, 0, 200, likes(1)).first_batch == 1);
 }
+
+TEST_CASE("a batch that a node gives back is lent to others, and lost when all have given it back",
+          "[lease]") {
+  LeaseBook book(0);
+  book.open_until(4);
+  const LentBatches lent = book.lend(ann, 2, 0, 100);
+  REQUIRE(lent.count == 2);
+  const auto back = book.give_back(ann, {lent.first_lease, 999});
+  REQUIRE(back.size() == 1);
+  CHECK(back.front().batch == 0);
+  CHECK(book.give_back(ann, {lent.first_lease}).empty());  // it does not stand any more
+  CHECK(book.lose_what_all_gave_back({ann, bob}) == 0);
+
+  // Ann gets what comes next, bob what she gave back.
+  CHECK(book.lend(ann, 1, 0, 100).first_batch == 2);
+  const LentBatches of_bob = book.lend(bob, 1, 0, 100);
+  CHECK(of_bob.first_batch == 0);
+  SECTION("it is counted where another can trace it") {
+    book.commit({of_bob.first_lease});
+    CHECK(book.lose_what_all_gave_back({ann}) == 0);
+    CHECK(book.lost() == 0);
+  }
+  SECTION("it is lost where nobody can, and the round ends without it") {
+    book.give_back(bob, {of_bob.first_lease});
+    CHECK(book.lose_what_all_gave_back({ann, bob}) == 1);
+    CHECK(book.lose_what_all_gave_back({ann, bob}) == 0);  // told once
+    CHECK(book.lost() == 1);
+    CHECK(book.missing() == std::vector<int64_t>{0, 1, 2});
+    const LentBatches last = book.lend(bob, 5, 0, 100);
+    CHECK(last.first_batch == 3);
+    CHECK(last.count == 1);
+    book.commit({lent.first_lease + 1, of_bob.first_lease - 1, last.first_lease});
+    CHECK(book.round_done());
+    CHECK(book.missing() == std::vector<int64_t>{0});
+  }
+  SECTION("a node that begins anew may try it again") {
+    book.give_back(bob, {of_bob.first_lease});
+    book.forgive(ann);
+    CHECK(book.lose_what_all_gave_back({ann, bob}) == 0);
+    CHECK(book.lend(ann, 1, 0, 100).first_batch == 0);
+  }
+}
