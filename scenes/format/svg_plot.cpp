@@ -279,10 +279,10 @@ void SvgPainter::frame() {
 std::pair<double, double> SvgPainter::legend_place(double width, double height) const {
   constexpr double margin = 12;
   using Place = std::pair<double, double>;
-  const double left = x_.from + margin, right = x_.to - margin - width;
-  const double top = y_.to + margin, bottom = y_.from - margin - height;
-  const std::array corners{Place{right, top}, Place{left, top}, Place{right, bottom},
-                           Place{left, bottom}};
+  const double west = x_.from + margin, east = x_.to - margin - width;
+  const double north = y_.to + margin, south = y_.from - margin - height;
+  const std::array corners{Place{east, north}, Place{west, north}, Place{east, south},
+                           Place{west, south}};
   const auto points_behind = [&](const Place& corner) {
     int points = 0;
     for (const PlotSeries& s : p_.series)
