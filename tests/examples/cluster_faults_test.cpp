@@ -32,6 +32,12 @@ std::string of_link(const std::string& word, int node, int neighbour) {
          " neighbour=" + std::to_string(neighbour) + "\n";
 }
 
+/// Silence is suspected first; where the connection has gone, and something is to be sent, it is
+/// known at once.
+std::string change_of(int node, int neighbour) {
+  return " node=" + std::to_string(node) + " neighbour=" + std::to_string(neighbour) + "\n";
+}
+
 std::string lost(int worker) {
   return "worker=lost node=" + std::to_string(worker) + " ";
 }
@@ -109,7 +115,7 @@ TEST_CASE("half of the workers may be killed at once, or all but one, with the s
   REQUIRE(nodes.controller->says(flush_of(1)));
   FaultRow row(std::to_string(killed) + " of 4 workers are killed", *nodes.controller);
   for (size_t i = 0; i < static_cast<size_t>(killed); ++i) nodes.workers[i]->kill(SIGKILL);
-  row.noticed(of_link("suspect", 4, 0));
+  row.noticed(change_of(4, 0));
   row.given_up(lost(killed - 1));
   row.well(flush_of(3));
   end_with_same_bits(folder, nodes, row);
@@ -122,7 +128,7 @@ TEST_CASE("a worker that is stopped is given up, and works again when it goes on
   REQUIRE(nodes.controller->says(flush_of(1)));
   FaultRow row("a worker is stopped (SIGSTOP)", *nodes.controller);
   nodes.workers[1]->kill(SIGSTOP);
-  row.noticed(of_link("suspect", 3, 1));
+  row.noticed(change_of(3, 1));
   row.given_up(lost(1));
   row.healed();
   nodes.workers[1]->kill(SIGCONT);
@@ -142,7 +148,7 @@ TEST_CASE("a partition that heals in time costs nobody, with the same bits", "[c
   REQUIRE(nodes.controller->says(flush_of(1)));
   FaultRow row(what, *nodes.controller);
   cluster.proxy->order(how);
-  row.noticed(of_link("suspect", 3, 1));
+  row.noticed(change_of(3, 1));
   REQUIRE(nodes.controller->says(of_link("connecting", 3, 1)));
   row.healed();
   cluster.proxy->order("heal");
@@ -159,7 +165,7 @@ TEST_CASE("a worker that a partition has cut off for long ends, and is taken in 
   REQUIRE(nodes.controller->says(flush_of(1)));
   FaultRow row("a worker is cut off for more than lost_s, and started again", *nodes.controller);
   cluster.proxy->order("stall");
-  row.noticed(of_link("suspect", 3, 1));
+  row.noticed(change_of(3, 1));
   row.given_up(lost(1));
   CHECK(nodes.workers[1]->wait() == 1);
   CHECK(nodes.workers[1]->said("no way has led to the controller for 0.5 s (lost_s)"));
@@ -239,7 +245,7 @@ TEST_CASE("a node whose thread is stuck is given up while its process lives, and
       std::vector<std::string>{"node", "--config", cluster, "--name", "n1", "--name", "n2"}));
   REQUIRE(nodes.workers[1]->says("fault=pause node=1"));
   FaultRow row("the thread of a node is stuck for 1.5 s", *nodes.controller);
-  row.noticed(of_link("suspect", 3, 1));
+  row.noticed(change_of(3, 1));
   row.given_up(lost(1));
   REQUIRE(nodes.controller->says(flush_of(2), nodes.controller->now()));
   row.well(flush_of(1));
@@ -253,7 +259,7 @@ TEST_CASE("the holder of objects that all ask for may be killed, with the same b
   REQUIRE(nodes.controller->says(flush_of(2)));
   FaultRow row("one of two holders of all objects is killed", *nodes.controller);
   nodes.workers[0]->kill(SIGKILL);
-  row.noticed(of_link("suspect", 3, 0));
+  row.noticed(change_of(3, 0));
   row.given_up(lost(0));
   row.well(flush_of(2));
   nodes.end();
@@ -282,7 +288,7 @@ TEST_CASE("particles that need objects which nobody has any more are lost, and t
   FaultRow row("both holders of all objects are killed", *nodes.controller);
   nodes.workers[0]->kill(SIGKILL);
   nodes.workers[1]->kill(SIGKILL);
-  row.noticed(of_link("suspect", 3, 0));
+  row.noticed(change_of(3, 0));
   row.given_up("run=lost batches=");
   CHECK(nodes.controller->wait() == 1);
   INFO(nodes.controller->text() << nodes.workers[2]->text());
