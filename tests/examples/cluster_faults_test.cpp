@@ -330,7 +330,6 @@ TEST_CASE("a second process under a node's name on another host does not harm th
   FaultRow row("a node is started twice, on two hosts", *nodes.controller);
   const auto twin = node(of_twin, "n1");
   REQUIRE(nodes.controller->says(flush_of(0), nodes.controller->now()));
-  row.noticed("worker=");
   row.well(flush_of(0));
   end_with_same_bits(folder, nodes, row);
 }
