@@ -12,6 +12,8 @@ namespace luxodus {
 namespace {
 /// At some 20 ns a bin this is half a turn of fibers.
 constexpr int64_t bins_of_a_step = 16384;
+/// Until a question is put again that did not leave this node: about as soon as links stand.
+constexpr Nanoseconds retry_after = milliseconds(20);
 }  // namespace
 
 LeaseClient::LeaseClient(const LeaseClientConfig& config, Scheduler& scheduler, Network& network,
@@ -259,9 +261,20 @@ void LeaseClient::watch_controller(Nanoseconds now) {
 // ---- questions and answers -------------------------------------------------------------------
 
 void LeaseClient::put(Question& question) {
-  // Full or unreachable: the timer asks again.
-  network_.send(config_.controller, question.id, question.message, question.payload);
+  const SendOutcome outcome =
+      network_.send(config_.controller, question.id, question.message, question.payload);
   question.asked = scheduler_.clock().now();
+  question.left = outcome == SendOutcome::taken;
+  if (question.left || retries_soon_) return;
+  retries_soon_ = true;
+  scheduler_.timers().set(question.asked + retry_after, [this] { retry(); });
+}
+
+/// What found no room or no way: nobody will answer it.
+void LeaseClient::retry() {
+  retries_soon_ = false;
+  if (asking_ && !asking_->left) put(*asking_);
+  if (flushing_ && !flushing_->left && parts_.placed()) put(*flushing_);
 }
 
 void LeaseClient::set_timer() {

@@ -82,6 +82,7 @@ class LeaseClient final : public LeasePort {
     Message message;
     SharedBytes payload;  // of a flush
     Nanoseconds asked = 0;
+    bool left = false;  // the network has taken it
   };
 
   void ask();
@@ -93,6 +94,7 @@ class LeaseClient final : public LeasePort {
   void put_flush();
   bool shard_answered(const Delivery& delivery);
   void put(Question& question);
+  void retry();
   void set_timer();
   void on_timer();
   void granted(const MessageId& answered, const LeaseGranted& grant);
@@ -127,6 +129,7 @@ class LeaseClient final : public LeasePort {
     Nanoseconds since;
   };
   std::vector<InVain> in_vain_;
+  bool retries_soon_ = false;  // a timer puts again what has not left
   size_t wanted_ = 0;
   uint32_t round_ = 0;        // of the last grant: a round begins when all before is counted
   bool round_empty_ = false;  // the controller had none: flush, and wait for the next round

@@ -102,9 +102,8 @@ SchedulerLimits worker_limits(const RunSetup& run, const NodeSetup& node) {
 
 NetConfig controller_net(const RunSetup& run, const NodeSetup& node) {
   NetConfig net = node.net;
-  const size_t workers = run.graph.workers();
-  if (workers > defaults::outbox_messages)
-    net.outbox_messages = std::max(net.outbox_messages, workers);
+  const size_t words = 2 * run.graph.workers();  // that a round begins, and an answer
+  if (words > defaults::outbox_messages) net.outbox_messages = std::max(net.outbox_messages, words);
   return net;
 }
 

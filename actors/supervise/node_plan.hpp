@@ -16,7 +16,7 @@ namespace luxodus {
 /// What a node's scheduler is made with.
 SchedulerLimits worker_limits(const RunSetup& run, const NodeSetup& node);
 SchedulerLimits controller_limits(const NodeSetup& node);
-/// A controller's network: it may have a word for every worker at once.
+/// A controller's network: it may have two words for every worker at once.
 NetConfig controller_net(const RunSetup& run, const NodeSetup& node);
 
 /// The cache of a worker that fetches objects.
