@@ -10,19 +10,6 @@
 
 namespace luxodus {
 
-namespace {
-
-/// Of refusals for one reason, one line a minute: a peer that asks and asks cannot fill the log.
-constexpr Nanoseconds log_interval = seconds(60);
-
-bool may_log(Nanoseconds& again_at, Nanoseconds now) {
-  if (now < again_at) return false;
-  again_at = now + log_interval;
-  return true;
-}
-
-}  // namespace
-
 Link::Link(const LinkSurroundings& around, NodeId neighbour, Nanoseconds now)
     : around_(around), neighbour_(neighbour), state_(around.config.times, now) {
   pools_.reserve(routed_kinds.size() * around.config.hop_limit);
@@ -207,7 +194,7 @@ void Link::meet(const Envelope& envelope, const Identity& theirs, bool welcomed,
   if (const auto no = refusal(around_.config.identity, theirs, neighbour_)) {
     const auto reason = static_cast<size_t>(no->reason);
     ++around_.counters.refused[reason];
-    if (may_log(may_log_refusal_[reason], now))
+    if (log_refusal_[reason].may(now))
       spdlog::error("link=refused node={} neighbour={} reason={} text=\"{}\"",
                     around_.config.self.value, neighbour_.value, name_of(no->reason), no->text);
     state_.refuse(now);
@@ -226,7 +213,7 @@ void Link::meet(const Envelope& envelope, const Identity& theirs, bool welcomed,
 
 void Link::be_refused(const Refuse& refuse, Nanoseconds now) {
   const auto reason = static_cast<size_t>(refuse.reason);
-  if (may_log(may_log_being_refused_[reason], now))
+  if (log_being_refused_[reason].may(now))
     spdlog::error("link=refused_by_peer node={} neighbour={} reason={} text=\"{}\"",
                   around_.config.self.value, neighbour_.value, name_of(refuse.reason), refuse.text);
   ++around_.counters.refused_by_peer[reason];

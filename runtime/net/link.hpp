@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "proto/codec.hpp"
+#include "runtime/core/once_a_minute.hpp"
 #include "runtime/net/counters.hpp"
 #include "runtime/net/credit.hpp"
 #include "runtime/net/frame_ring.hpp"
@@ -116,8 +117,8 @@ class Link {
   size_t grant_cursor_ = 0;
   uint64_t sessions_ = 0;
   std::string refusal_;  // the last one
-  /// When the next refusal for a reason may be logged: ours, and the neighbour's.
-  std::array<Nanoseconds, refusal_reasons> may_log_refusal_{}, may_log_being_refused_{};
+  /// Refusals, by reason: ours, and the neighbour's. One who asks and asks cannot fill the log.
+  std::array<OnceAMinute, refusal_reasons> log_refusal_, log_being_refused_;
   uint64_t bytes_sent_ = 0;
   uint64_t bytes_received_ = 0;
 };
