@@ -1,8 +1,15 @@
 #include "runtime/core/faults.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace luxodus {
+
+bool FaultPlan::holds(Fault::Kind kind, NodeId node, Nanoseconds moment) const {
+  return std::any_of(faults.begin(), faults.end(), [&](const Fault& fault) {
+    return fault.kind == kind && fault.node == node && fault.holds(moment);
+  });
+}
 
 Nanoseconds LinkTroubles::uniform(Nanoseconds most) {
   return most == 0 ? 0 : std::llround(random_.uniform_double() * static_cast<double>(most));

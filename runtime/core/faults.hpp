@@ -77,6 +77,8 @@ struct FaultPlan {
   Nanoseconds healed_at = std::numeric_limits<Nanoseconds>::max();
 
   bool any() const { return links.any() || !faults.empty(); }
+  /// Whether a fault of this kind holds at a node, that far from the start.
+  bool holds(Fault::Kind kind, NodeId node, Nanoseconds moment) const;
 };
 
 /// What a link does to one frame that was given to it.

@@ -23,13 +23,7 @@ class FaultyObjects final : public ObjectStore {
   }
 
  private:
-  bool fails() const {
-    const Nanoseconds moment = clock_.now() - began_;
-    for (const Fault& fault : plan_.faults)
-      if (fault.kind == Fault::Kind::failed_read && fault.node == self_ && fault.holds(moment))
-        return true;
-    return false;
-  }
+  bool fails() const { return plan_.holds(Fault::Kind::failed_read, self_, clock_.now() - began_); }
 
   ObjectStore& below_;
   const NodeId self_;

@@ -29,13 +29,7 @@ class FaultyStore final : public AppendStore {
   Result<bool> truncate(uint64_t size) override { return below_->truncate(size); }
 
  private:
-  bool full() const {
-    const Nanoseconds moment = clock_.now() - began_;
-    for (const Fault& fault : plan_.faults)
-      if (fault.kind == Fault::Kind::full_disk && fault.node == self_ && fault.holds(moment))
-        return true;
-    return false;
-  }
+  bool full() const { return plan_.holds(Fault::Kind::full_disk, self_, clock_.now() - began_); }
 
   const std::unique_ptr<AppendStore> below_;
   const NodeId self_;
