@@ -1,13 +1,13 @@
 #include "actors/study/calibrate.hpp"
 
 #include <algorithm>
-#include <ctime>
 #include <fstream>
 #include <limits>
 
 #include "actors/simulate/resident_parts.hpp"
 #include "actors/source/batch_plan.hpp"
 #include "actors/tally/flush_codec.hpp"
+#include "runtime/core/processor_time.hpp"
 #include "scenes/transport/readout.hpp"
 #include "scenes/transport/trace.hpp"
 
@@ -108,12 +108,6 @@ void measure_looks(const CompiledScene& scene, BatchTracer& tracer, const Reside
 }
 
 }  // namespace
-
-double thread_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 Result<Done> measure_tracing(const CompiledScene& scene, SimCosts& costs) {
   const std::array holders{NodeId{0}};

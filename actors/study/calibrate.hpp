@@ -26,9 +26,6 @@ Result<Done> measure_counting(const CompiledScene& scene, SimCosts& costs);
 /// switch, turn, receive, send, frame_byte, wake.
 Result<Done> measure_loop(SimCosts& costs);
 
-/// Of the calling thread [s].
-double thread_seconds();
-
 /// Non-negative x with the least squares of the relative errors of `rows` x = `values`, scaled so
 /// that the sums agree. Rows of more than `disturbed` times what the others say, which something
 /// else has held up, are left out. Requires: as many rows as values, rows of one length.

@@ -7,6 +7,7 @@
 
 #include "actors/study/calibrate.hpp"
 #include "runtime/actor/scheduler.hpp"
+#include "runtime/core/processor_time.hpp"
 #include "runtime/net/network.hpp"
 #include "runtime/net/zmq_transport.hpp"
 

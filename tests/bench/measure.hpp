@@ -1,32 +1,18 @@
 // Clocks, memory as the system sees it, and the summary of repeated measurements.
 #pragma once
 
-#include <time.h>
-
 #include <algorithm>
 #include <cstdint>
 #include <fstream>
 #include <string>
 #include <vector>
 
+#include "runtime/core/processor_time.hpp"
+
 namespace luxodus::bench {
 
-/// Processor time of this thread [s]: what others do on the machine counts least here.
-inline double thread_seconds() {
-  timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
-/// Processor time of all threads of this process [s].
-inline double process_seconds() {
-  timespec t{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
 inline double wall_seconds() {
-  timespec t{};
-  clock_gettime(CLOCK_MONOTONIC, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+  return clock_seconds(CLOCK_MONOTONIC);
 }
 
 /// A line of /proc/self/status [bytes], e.g. "VmRSS" or "VmHWM"; 0 where there is none.

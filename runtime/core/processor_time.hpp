@@ -1,0 +1,25 @@
+// Processor time, as the system counts it: what others do on the machine counts least here. For
+// measuring; results never depend on it. Any thread.
+#pragma once
+
+#include <time.h>
+
+namespace luxodus {
+
+/// Of a clock of the system [s].
+inline double clock_seconds(clockid_t clock) {
+  timespec now{};
+  clock_gettime(clock, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+/// Of the calling thread [s].
+inline double thread_seconds() {
+  return clock_seconds(CLOCK_THREAD_CPUTIME_ID);
+}
+/// Of all threads of this process [s].
+inline double process_seconds() {
+  return clock_seconds(CLOCK_PROCESS_CPUTIME_ID);
+}
+
+}  // namespace luxodus
