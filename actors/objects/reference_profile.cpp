@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "actors/objects/parts_source.hpp"
 #include "scenes/transport/trace.hpp"
 
 namespace luxodus {
@@ -19,10 +20,11 @@ constexpr int64_t particles_least = 256;
 constexpr uint64_t other_histories = 0x9E3779B97F4A7C15;
 
 /// All parts of a scene for one tracer, built when they are asked for; counts who asks.
-class CountingParts final : public ObjectSource {
+class CountingParts final : public PartsSource<CountingParts> {
  public:
   CountingParts(const CompiledScene& scene, const SceneObjects& objects, uint64_t budget_bytes)
-      : objects_(objects),
+      : PartsSource(objects.parts()),
+        objects_(objects),
         builder_(scene, objects.parts()),
         budget_bytes_(budget_bytes),
         built_(objects.places().size()),
@@ -37,31 +39,19 @@ class CountingParts final : public ObjectSource {
   }
   void begin_history() { ++history_; }
 
-  const CellScene* cell(uint32_t cell, std::span<const Candidate>) override {
-    const auto* object = static_cast<const BuiltCell*>(find(cell));
-    return object != nullptr ? &object->scene() : nullptr;
-  }
-  const Brick* brick(int medium, int brick) override {
-    const uint32_t number = objects_.parts().of_brick(medium, brick);
-    if (number == none_index) return &clear_brick();
-    const auto* object = static_cast<const BuiltBrick*>(find(number));
-    return object != nullptr ? &object->brick() : nullptr;
-  }
-  const ImageTile* tile(uint32_t image, uint32_t tile) override {
-    const auto* object = static_cast<const BuiltTile*>(find(objects_.parts().of_tile(image, tile)));
-    return object != nullptr ? &object->tile() : nullptr;
-  }
   bool spoilt() override { return problem_.has_value(); }
   const std::optional<Problem>& problem() const { return problem_; }
   const std::vector<uint64_t>& bytes_of() const { return bytes_of_; }
 
  private:
+  friend PartsSource;
+
   struct Built {
     std::shared_ptr<const BuiltObject> object;
     std::list<uint32_t>::iterator place;
   };
 
-  const BuiltObject* find(uint32_t number) {
+  const BuiltObject* part(uint32_t number, std::span<const Candidate>) {
     ++counts_->references[number];
     if (visited_in_[number] != history_) {
       visited_in_[number] = history_;

@@ -1,6 +1,7 @@
 #include "actors/objects/scene_objects.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace luxodus {
 
@@ -42,6 +43,14 @@ SharedBytes SceneObjects::bytes(uint32_t object) const {
   return {std::span(*bytes_[object]), bytes_[object]};
 }
 
+uint64_t built_bytes_of(const CompiledScene& scene) {
+  const std::array holders{NodeId{0}};
+  const SceneObjects objects(scene, holders, 1);
+  uint64_t bytes = 0;
+  for (uint32_t i = 0; i < objects.places().size(); ++i) bytes += objects.built_bytes(i);
+  return bytes;
+}
+
 HeldObjects::HeldObjects(const SceneObjects& objects, NodeId self) : objects_(objects) {
   for (uint32_t object = 0; object < objects.places().size(); ++object) {
     const auto& holders = objects.places()[object].holders;
@@ -56,24 +65,7 @@ SharedBytes HeldObjects::find(ObjectId object) {
   return at != held_.end() && at->first == object ? objects_.bytes(at->second) : SharedBytes{};
 }
 
-const CellScene* CachedObjects::cell(uint32_t cell, std::span<const Candidate> next) {
-  const BuiltObject* object = get(cell, next);
-  return object != nullptr ? &static_cast<const BuiltCell*>(object)->scene() : nullptr;
-}
-
-const Brick* CachedObjects::brick(int medium, int brick) {
-  const uint32_t number = parts_.of_brick(medium, brick);
-  if (number == none_index) return &clear_brick();
-  const BuiltObject* object = get(number);
-  return object != nullptr ? &static_cast<const BuiltBrick*>(object)->brick() : nullptr;
-}
-
-const ImageTile* CachedObjects::tile(uint32_t image, uint32_t tile) {
-  const BuiltObject* object = get(parts_.of_tile(image, tile));
-  return object != nullptr ? &static_cast<const BuiltTile*>(object)->tile() : nullptr;
-}
-
-const BuiltObject* CachedObjects::get(uint32_t object, std::span<const Candidate> next) {
+const BuiltObject* CachedObjects::part(uint32_t object, std::span<const Candidate> next) {
   const BuiltObject* found = cache_.find(object);
   return found != nullptr ? found : wait_for(object, next);
 }

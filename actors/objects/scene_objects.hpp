@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "actors/objects/built_parts.hpp"
+#include "actors/objects/parts_source.hpp"
 #include "runtime/fetch/object_cache.hpp"
 #include "scenes/transport/compiled_scene.hpp"
 #include "scenes/transport/object_source.hpp"
@@ -51,6 +52,10 @@ class SceneObjects {
   uint64_t largest_build_bytes_ = 0;
 };
 
+/// What all parts of a scene are expected to take once they are built [bytes]: what budgets are
+/// shares of.
+uint64_t built_bytes_of(const CompiledScene& scene);
+
 /// The objects that one node holds for all; beyond them what its process has stored, for itself.
 class HeldObjects final : public ObjectStore {
  public:
@@ -64,24 +69,22 @@ class HeldObjects final : public ObjectStore {
 };
 
 /// What a node's tracers ask for parts of the scene.
-class CachedObjects final : public ObjectSource {
+class CachedObjects final : public PartsSource<CachedObjects> {
  public:
   /// Where a cell is waited for, `prefetch` of those that the ray enters next are asked for as
   /// well. `trace` is told of waits of sampled particles; null: of none.
   CachedObjects(const SceneParts& parts, ObjectCache& cache, const Fibers& fibers,
                 size_t prefetch = 0, NodeTrace* trace = nullptr)
-      : parts_(parts), cache_(cache), fibers_(fibers), prefetch_(prefetch), trace_(trace) {}
+      : PartsSource(parts), cache_(cache), fibers_(fibers), prefetch_(prefetch), trace_(trace) {}
 
-  const CellScene* cell(uint32_t cell, std::span<const Candidate> next) override;
-  const Brick* brick(int medium, int brick) override;
-  const ImageTile* tile(uint32_t image, uint32_t tile) override;
   bool spoilt() override;
 
  private:
-  const BuiltObject* get(uint32_t object, std::span<const Candidate> next = {});
+  friend PartsSource;
+
+  const BuiltObject* part(uint32_t object, std::span<const Candidate> next);
   const BuiltObject* wait_for(uint32_t object, std::span<const Candidate> next);
 
-  const SceneParts& parts_;
   ObjectCache& cache_;
   const Fibers& fibers_;
   const size_t prefetch_;

@@ -5,36 +5,24 @@
 #include <functional>
 #include <optional>
 
+#include "actors/objects/parts_source.hpp"
 #include "actors/objects/scene_objects.hpp"
 
 namespace luxodus {
 
-class ResidentParts final : public ObjectSource {
+class ResidentParts final : public PartsSource<ResidentParts> {
  public:
   /// Told of an object before it is given.
   using Asked = std::function<void(uint32_t object)>;
 
   /// Requires: both outlive this.
   ResidentParts(const CompiledScene& scene, const SceneObjects& objects, Asked asked = {})
-      : objects_(objects),
+      : PartsSource(objects.parts()),
+        objects_(objects),
         builder_(scene, objects.parts()),
         asked_(std::move(asked)),
         built_(objects.places().size()) {}
 
-  const CellScene* cell(uint32_t cell, std::span<const Candidate>) override {
-    const auto* object = static_cast<const BuiltCell*>(find(cell));
-    return object != nullptr ? &object->scene() : nullptr;
-  }
-  const Brick* brick(int medium, int brick) override {
-    const uint32_t number = objects_.parts().of_brick(medium, brick);
-    if (number == none_index) return &clear_brick();
-    const auto* object = static_cast<const BuiltBrick*>(find(number));
-    return object != nullptr ? &object->brick() : nullptr;
-  }
-  const ImageTile* tile(uint32_t image, uint32_t tile) override {
-    const auto* object = static_cast<const BuiltTile*>(find(objects_.parts().of_tile(image, tile)));
-    return object != nullptr ? &object->tile() : nullptr;
-  }
   bool spoilt() override { return problem_.has_value(); }
 
   uint64_t references() const { return references_; }
@@ -46,7 +34,9 @@ class ResidentParts final : public ObjectSource {
   }
 
  private:
-  const BuiltObject* find(uint32_t number) {
+  friend PartsSource;
+
+  const BuiltObject* part(uint32_t number, std::span<const Candidate>) {
     ++references_;
     if (asked_) asked_(number);
     if (built_[number] == nullptr) build(number);

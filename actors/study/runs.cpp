@@ -33,14 +33,6 @@ Result<Graph> named_graph(const std::string& topology, uint32_t nodes, uint32_t 
   return make_random_regular(nodes, links, 1);
 }
 
-uint64_t built_bytes_of(const CompiledScene& scene) {
-  const std::array holders{NodeId{0}};
-  const SceneObjects objects(scene, holders, 1);
-  uint64_t bytes = 0;
-  for (uint32_t i = 0; i < objects.places().size(); ++i) bytes += objects.built_bytes(i);
-  return bytes;
-}
-
 }  // namespace
 
 Result<Graph> study_graph(const std::string& topology, uint32_t nodes, uint32_t links) {

@@ -199,18 +199,12 @@ constexpr DelayRow delay_rows[] = {
     {4096, 32768, 262'144, 262'144},
 };
 
-size_t built_bytes(const CompiledScene& scene) {
-  size_t bytes = 0;
-  for (const GeometryCell& cell : scene.cells) bytes += built_bytes_of(encode_cell(cell).size());
-  return bytes;
-}
-
 void print_delay_row(const DelayRow& row, int repeats) {
   const auto scene = office_floor("smoke_emergency", delay_cells, row.batch_particles);
   NodesOptions resident = nodes_of(2);
   resident.fibers = row.fibers;
   NodesOptions near = resident;
-  near.object_bytes = built_bytes(*scene) / 4;
+  near.object_bytes = built_bytes_of(*scene) / 4;
   NodesOptions far = near;
   far.link_delay = delay;
   std::vector<Taken> all, without, with;

@@ -1,7 +1,6 @@
 #include <fmt/core.h>
 #include <spdlog/spdlog.h>
 
-#include <array>
 #include <atomic>
 #include <cstdio>
 #include <span>
@@ -64,14 +63,6 @@ Scene packed(const std::string& file, int64_t batch_particles) {
   return compiled(*read.value(), "", 1, batch_particles);
 }
 
-/// What all parts take once they are built, as is reckoned before [bytes].
-uint64_t built_bytes(const CompiledScene& scene) {
-  const SceneObjects objects(scene, std::array{NodeId{0}}, 1);
-  uint64_t bytes = 0;
-  for (uint32_t i = 0; i < objects.places().size(); ++i) bytes += objects.built_bytes(i);
-  return bytes;
-}
-
 void print_row(const Scene& scene, const Size& size, const Plan& plan, size_t budget) {
   NodesOptions options;
   options.nodes = nodes;
@@ -107,7 +98,7 @@ void print_row(const Scene& scene, const Size& size, const Plan& plan, size_t bu
 template <class Make>
 void print_rows(const char* of, std::span<const Size> sizes, size_t share, const Make& make) {
   const Scene first = make(sizes.front().batch_particles);
-  const uint64_t built = built_bytes(*first);
+  const uint64_t built = built_bytes_of(*first);
   const size_t budget = built / share;
   fmt::print(
       "\nParts found resident: {}, {} triangles in {} cells, {:.0f} MB once built; {} nodes with "

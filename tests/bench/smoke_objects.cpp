@@ -84,8 +84,7 @@ void print_smoke() {
   spdlog::set_level(spdlog::level::err);
   const auto scene = smoky_room();
   const SceneObjects objects(*scene, std::array{NodeId{0}}, 1);
-  uint64_t built = 0;
-  for (uint32_t i = 0; i < objects.places().size(); ++i) built += objects.built_bytes(i);
+  const uint64_t built = built_bytes_of(*scene);
   const std::atomic<bool> never{false};
   LocalRun plain(scene, 1, nodes);
   const double began = wall_seconds();

@@ -25,13 +25,6 @@ NodesOptions nodes_of(int nodes, size_t fibers) {
   return options;
 }
 
-/// What all cells take once they are built, as is reckoned before.
-uint64_t built_bytes(const CompiledScene& scene) {
-  uint64_t bytes = 0;
-  for (const GeometryCell& cell : scene.cells) bytes += built_bytes_of(encode_cell(cell).size());
-  return bytes;
-}
-
 /// Bins of the totals that differ in any bit; every one where batches do.
 int64_t differences(const LocalRun& a, const LocalRun& b) {
   int64_t count = 0;
@@ -212,7 +205,7 @@ TEST_CASE("nodes whose budget holds a part of the cells fetch the others and giv
   stop.particles = 12'000;
   LocalRun plain(scene, 1, 2);
   plain.run(stop, nobody, ignore);
-  const uint64_t bytes = built_bytes(*scene);
+  const uint64_t bytes = built_bytes_of(*scene);
   for (const auto& [nodes, replicas] : {std::pair(2, 1u), std::pair(5, 2u)}) {
     INFO(nodes << " nodes, " << replicas << " holders of each cell");
     NodesOptions options = nodes_of(nodes, 40);
@@ -238,7 +231,7 @@ TEST_CASE("nodes with a twentieth of the scene each, which share nothing, give t
   LocalRun plain(scene, 1, 2);
   plain.run(stop, nobody, ignore);
   NodesOptions options = nodes_of(2, 256);
-  options.object_bytes = built_bytes(*scene) / 20;
+  options.object_bytes = built_bytes_of(*scene) / 20;
   options.sharing = false;
   options.profile_share = 0;
   LocalRun run(scene, 1, 1);
@@ -259,7 +252,7 @@ TEST_CASE("with a profile and without one, pinned or not, nodes give the same bi
   stop.particles = 8192;
   LocalRun plain(scene, 1, 2);
   plain.run(stop, nobody, ignore);
-  const uint64_t bytes = built_bytes(*scene);
+  const uint64_t bytes = built_bytes_of(*scene);
   struct Case {
     double profile_share, pinned_share;
     uint32_t replicas;
@@ -293,8 +286,7 @@ TEST_CASE("a delay on all links changes no bit", "[nodes]") {
   LocalRun plain(scene, 1, 1);
   plain.run(stop, nobody, ignore);
   NodesOptions options = nodes_of(2, 300);
-  for (const GeometryCell& cell : scene->cells)
-    options.object_bytes += built_bytes_of(encode_cell(cell).size()) / 4;
+  options.object_bytes = built_bytes_of(*scene) / 4;
   options.link_delay = microseconds(300);
   LocalRun run(scene, 1, 1);
   NodesReport report;

@@ -25,12 +25,6 @@ std::unique_ptr<Observation> watching() {
   return std::move(seen).value();
 }
 
-uint64_t geometry_bytes(const CompiledScene& scene) {
-  uint64_t bytes = 0;
-  for (const GeometryCell& cell : scene.cells) bytes += built_bytes_of(encode_cell(cell).size());
-  return bytes;
-}
-
 }  // namespace
 
 TEST_CASE("while nodes trace, their page tells what each of them does", "[nodes][observe]") {
@@ -40,7 +34,7 @@ TEST_CASE("while nodes trace, their page tells what each of them does", "[nodes]
   NodesOptions options;
   options.nodes = 2;
   options.fibers = 20;
-  options.object_bytes = geometry_bytes(*scene) / 4;
+  options.object_bytes = built_bytes_of(*scene) / 4;
   options.observation = seen.get();
   AskedProcess process{"here", {"127.0.0.1", seen->port().value()}, {"n0", "n1", "controller"}};
   std::atomic<bool> interrupt{false};
@@ -82,7 +76,7 @@ TEST_CASE("the plan names what nodes take, alike nodes once, and what they share
   LocalRun run(scene, 1, 1);
   NodesOptions options;
   options.nodes = 3;
-  options.object_bytes = geometry_bytes(*scene) / 4;
+  options.object_bytes = built_bytes_of(*scene) / 4;
   const auto plan = plan_on_nodes(run, options);
   REQUIRE(plan.ok());
   for (const char* part :

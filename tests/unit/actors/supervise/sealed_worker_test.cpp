@@ -86,9 +86,7 @@ TEST_CASE("a worker that fetches takes memory for cells and what is built of the
   const auto scene = scene_of("office_floor", "smoke_emergency", 64);
   NodesOptions options;
   options.fibers = 20;
-  for (const GeometryCell& cell : scene->cells)
-    options.object_bytes += built_bytes_of(encode_cell(cell).size());
-  options.object_bytes /= 4;
+  options.object_bytes = built_bytes_of(*scene) / 4;
   const Taken taken = taken_by_a_worker(scene, options);
   REQUIRE(taken.report.builds > 100);
   // The bytes, a cell's arrays, and what Embree and its tasks ask for one by one.

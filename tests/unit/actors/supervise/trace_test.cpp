@@ -91,9 +91,7 @@ TEST_CASE("a run's trace nests, and tells waits of sampled particles only", "[no
   NodesOptions options;
   options.nodes = 2;
   options.fibers = 20;
-  for (const GeometryCell& cell : scene->cells)
-    options.object_bytes += built_bytes_of(encode_cell(cell).size());
-  options.object_bytes /= 8;
+  options.object_bytes = built_bytes_of(*scene) / 8;
   options.observation = seen.value().get();
   StopRule stop;
   stop.particles = 12'000;
