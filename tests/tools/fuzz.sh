@@ -9,7 +9,10 @@ seconds=${1:?usage: fuzz.sh SECONDS [NAME...]}
 shift
 names=("$@")
 [ "${#names[@]}" -gt 0 ] || names=(fuzz_codec fuzz_session fuzz_flush)
-command -v clang++ >/dev/null || { echo "fuzz.sh: clang++ is missing (Debian: clang)" >&2; exit 77; }
+if ! command -v clang++ >/dev/null; then
+  echo "fuzz.sh: clang++ is missing (Debian: clang)" >&2
+  exit 77
+fi
 
 cmake -S . -B build/fuzz -G Ninja -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_C_COMPILER=clang \
   -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O1 -g1" \

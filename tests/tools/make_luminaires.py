@@ -3,9 +3,9 @@
 
     python3 tests/tools/make_luminaires.py [folder]
 
-Each luminaire is a function of C and gamma, sampled at the file's angles and scaled so that the integral of
-the table, bilinear between its angles, gives the stated flux; LORL is then computed from the rounded values
-that the file holds. The same run writes the same bytes.
+Each luminaire is a function of C and gamma, sampled at the file's angles and scaled so that the
+integral of the table, bilinear between its angles, gives the stated flux; LORL is then computed
+from the rounded values that the file holds. The same run writes the same bytes.
 """
 
 import math
@@ -48,11 +48,11 @@ def smooth_step(x, edge, width):
     return 1.0 / (1.0 + math.exp((x - edge) / width))
 
 
-# ---- intensity functions: relative, of C and gamma in degrees --------------------------------------
+# ---- intensity functions: relative, of C and gamma in degrees ------------------------------------
 
 
 def wide_beam(c, gamma):
-    """Even light on the floor out to 60 degrees (1/cos^3), then off; a faint tail to the horizon."""
+    """Even light on the floor to 60 degrees (1/cos^3), then off; a faint tail to the horizon."""
     if gamma >= 90:
         return 0.0
     g = min(gamma, 68.0)
@@ -86,7 +86,7 @@ def downlight(c, gamma):
 
 
 def opal(c, gamma):
-    """An opal dish under a ceiling: cosine of the dish below, the light of its rim above the horizon."""
+    """An opal dish under a ceiling: its cosine below, the light of its rim above the horizon."""
     cosine = math.cos(math.radians(gamma))
     rim = 0.22 * math.sin(math.radians(gamma)) ** 2 * smooth_step(gamma, 110.0, 6.0)
     return max(cosine, 0.0) + rim
@@ -112,11 +112,13 @@ def wall_light(c, gamma):
 
 def listed_planes(symmetry, planes):
     """The planes an EULUMDAT file of this symmetry lists, and the share of the circle they span."""
-    return {1: [0.0], 2: [c for c in planes if c <= 180], 4: [c for c in planes if c <= 90]}[symmetry]
+    listed = {1: [0.0], 2: [c for c in planes if c <= 180], 4: [c for c in planes if c <= 90]}
+    return listed[symmetry]
 
 
 def write_ldt(folder, name, *, title, number, symmetry, kind, c_step, gammas, gamma_step, function,
-              luminaire_flux, light_output_ratio, absolute, watts, colour, rendering, housing, opening):
+              luminaire_flux, light_output_ratio, absolute, watts, colour, rendering, housing,
+              opening):
     planes = [0.0] if symmetry == 1 else steps(0.0, 360.0 - c_step, c_step)
     listed = listed_planes(symmetry, planes)
     span, images = (([0.0, 360.0], 1) if symmetry == 1 else (listed, 360.0 / listed[-1]))
@@ -132,8 +134,9 @@ def write_ldt(folder, name, *, title, number, symmetry, kind, c_step, gammas, ga
     down = 100.0 * integral(table, True) / integral(table)
     lamp_flux = luminaire_flux / light_output_ratio
 
-    lines = ["Luxodus sample", kind, symmetry, len(planes), c_step if symmetry != 1 else 0, len(gammas),
-             gamma_step, "analytic", title, number, name + ".ldt", "make_luminaires.py"]
+    lines = ["Luxodus sample", kind, symmetry, len(planes), c_step if symmetry != 1 else 0,
+             len(gammas), gamma_step, "analytic", title, number, name + ".ldt",
+             "make_luminaires.py"]
     lines += list(housing) + list(opening)
     lines += [f"{down:.2f}", f"{lorl:.4f}", "1.0", "0.0"]
     lines += [1, -1 if absolute else 1, "LED", f"{lamp_flux:.2f}", colour, rendering, watts]
@@ -150,15 +153,16 @@ def wrapped(values, width=12):
     return [" ".join(values[i:i + width]) for i in range(0, len(values), width)]
 
 
-def write_ies(folder, name, *, title, number, horizontals, verticals, function, luminaire_flux, watts,
-              colour, width, length, height):
+def write_ies(folder, name, *, title, number, horizontals, verticals, function, luminaire_flux,
+              watts, colour, width, length, height):
     images = 360.0 / horizontals[-1]
     raw = [[function(c, g) for g in verticals] for c in horizontals]
     scale = luminaire_flux / (images * flux(horizontals, verticals, raw))
     table = [[round(scale * value, 4) for value in column] for column in raw]
     total = images * flux(horizontals, verticals, table)
-    lines = ["IESNA:LM-63-2002", "[TEST] analytic", "[TESTLAB] make_luminaires.py", "[ISSUEDATE] 2024-01-01",
-             "[MANUFAC] Luxodus sample", f"[LUMCAT] {number}", f"[LUMINAIRE] {title}",
+    lines = ["IESNA:LM-63-2002", "[TEST] analytic", "[TESTLAB] make_luminaires.py",
+             "[ISSUEDATE] 2024-01-01", "[MANUFAC] Luxodus sample", f"[LUMCAT] {number}",
+             f"[LUMINAIRE] {title}",
              f"[LAMP] LED {colour}", f"[OTHER] luminaire flux {total:.2f} lm",
              "[MORE] absolute photometry", "TILT=NONE",
              f"1 -1 1.0 {len(verticals)} {len(horizontals)} 1 2 {width:g} {length:g} {height:g}",
@@ -175,8 +179,9 @@ def main():
     here = pathlib.Path(__file__).resolve().parent.parent.parent
     folder = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else here / "scenes/library/luminaires"
     fine, coarse = steps(0.0, 180.0, 2.5), steps(0.0, 180.0, 5.0)
-    write_ldt(folder, "emergency_downlight", title="Emergency downlight, wide beam", number="LX-ED200",
-              symmetry=1, kind=1, c_step=0.0, gammas=fine, gamma_step="2.5", function=wide_beam,
+    write_ldt(folder, "emergency_downlight", title="Emergency downlight, wide beam",
+              number="LX-ED200", symmetry=1, kind=1, c_step=0.0, gammas=fine, gamma_step="2.5",
+              function=wide_beam,
               luminaire_flux=200.0, light_output_ratio=1.0, absolute=True, watts="2.5",
               colour="5000 K", rendering="70", housing=(85, 0, 40), opening=(30, 0, 0, 0, 0, 0))
     write_ldt(folder, "emergency_corridor", title="Emergency corridor light, long throw",
@@ -184,12 +189,13 @@ def main():
               function=along_corridor, luminaire_flux=180.0, light_output_ratio=0.9, absolute=False,
               watts="2.5", colour="5000 K", rendering="70", housing=(85, 0, 40),
               opening=(30, 0, 0, 0, 0, 0))
-    write_ldt(folder, "office_panel", title="Office panel 600 x 600", number="LX-OP4000", symmetry=4,
-              kind=2, c_step=15.0, gammas=coarse, gamma_step="5.0", function=panel,
+    write_ldt(folder, "office_panel", title="Office panel 600 x 600", number="LX-OP4000",
+              symmetry=4, kind=2, c_step=15.0, gammas=coarse, gamma_step="5.0", function=panel,
               luminaire_flux=4000.0, light_output_ratio=1.0, absolute=True, watts="32",
-              colour="4000 K", rendering="80", housing=(597, 597, 30), opening=(570, 570, 0, 0, 0, 0))
-    write_ldt(folder, "corridor_downlight", title="Corridor downlight", number="LX-CD1500", symmetry=1,
-              kind=1, c_step=0.0, gammas=fine, gamma_step="2.5", function=downlight,
+              colour="4000 K", rendering="80", housing=(597, 597, 30),
+              opening=(570, 570, 0, 0, 0, 0))
+    write_ldt(folder, "corridor_downlight", title="Corridor downlight", number="LX-CD1500",
+              symmetry=1, kind=1, c_step=0.0, gammas=fine, gamma_step="2.5", function=downlight,
               luminaire_flux=1500.0, light_output_ratio=0.85, absolute=False, watts="15",
               colour="4000 K", rendering="80", housing=(200, 0, 90), opening=(160, 0, 0, 0, 0, 0))
     write_ldt(folder, "bulkhead", title="Opal bulkhead", number="LX-BH250", symmetry=1, kind=1,
