@@ -110,7 +110,7 @@ Result<StudyRow> Sweep::run_one(const StudyPoint& point, uint64_t seed) {
                                  study_.whole(point, "lease_particles"));
   if (!scene.ok()) return scene.problem();
   StudyRun run{study_, point, scene.value(), seed, outcome_.measured.costs, nullptr};
-  const bool real = study_.word(point, "on") == "nodes";
+  const bool real = is_real(study_.word(point, "on"));
   if (study_.word(point, "on") == "replay") {
     const auto recording = recorded(run);
     if (!recording.ok()) return recording.problem();
@@ -217,7 +217,7 @@ void add_calibrate(CLI::App& app, int& exit_code) {
       app.add_subcommand("calibrate", "Measure on this machine what work costs, for simulations");
   command->footer(
       "Costs of tracing are those of a scene and its partition; the rest is the machine's. Leave\n"
-      "the machine alone meanwhile: some twenty seconds.");
+      "the machine alone meanwhile: a few seconds.");
   command->add_option("scene", options->scene, "scene file (TOML)")->required();
   command->add_option("--scenario", options->scenario, "name of a scenario [the first]");
   command->add_option("--cells", options->cells, "parts of the geometry [64]")

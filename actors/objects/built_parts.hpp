@@ -15,7 +15,8 @@ namespace luxodus {
 
 /// Where search structures are built, one at a time, so that what each takes can be told.
 struct BuildDevice {
-  EmbreeDevice embree;
+  /// Parts are small and come one by one: threads woken for each would mostly spin.
+  EmbreeDevice embree{BuildThreads::calling};
   /// Held while one is built, and while one is let go of by a node that shared it.
   std::mutex measuring;
 };

@@ -29,6 +29,7 @@ struct SimCosts {
   double send_ns = 0;
   double frame_byte_ns = 0;  // at either end
   double wake_ns = 0;        // until a node that rests sees what has come; nobody's work
+  double rest_ns = 0;        // of going to rest and waking again
 
   friend bool operator==(const SimCosts&, const SimCosts&) = default;
 };

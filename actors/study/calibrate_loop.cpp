@@ -128,9 +128,13 @@ double question_cost(Peer& first, Peer& second, uint64_t object, int count) {
   return nanoseconds_since(start) / count;
 }
 
-/// From a question's sending to its answer between two threads that rest meanwhile: the middle of
-/// many [ns].
-double round_trip(Peer& first, Peer& second) {
+/// Of a question with its answer between two threads that rest meanwhile [ns].
+struct RoundTrip {
+  double span;  // from sending to answer, the middle of many
+  double work;  // the asking thread's processor time
+};
+
+RoundTrip round_trip(Peer& first, Peer& second) {
   std::atomic<bool> done{false};
   const auto run = [](Peer& peer, auto&& until) {
     while (!until()) {
@@ -140,6 +144,7 @@ double round_trip(Peer& first, Peer& second) {
   };
   std::thread answering([&] { run(second, [&] { return done.load(); }); });
   std::vector<double> spans;
+  const double begun = thread_seconds();
   for (int i = 0; i < trips; ++i) {
     first.answers = 0;
     const Nanoseconds start = machine_clock().now();
@@ -147,11 +152,12 @@ double round_trip(Peer& first, Peer& second) {
     run(first, [&] { return first.answers > 0; });
     spans.push_back(static_cast<double>(machine_clock().now() - start));
   }
+  const double work = nanoseconds_since(begun) / trips;
   done = true;
   second.transport.wake();
   answering.join();
   std::nth_element(spans.begin(), spans.begin() + trips / 2, spans.end());
-  return spans[trips / 2];
+  return {spans[trips / 2], work};
 }
 
 Result<Done> measure_frames(SimCosts& costs) {
@@ -173,8 +179,10 @@ Result<Done> measure_frames(SimCosts& costs) {
   // Two frames, each of which is sent and received; the object's bytes at both ends.
   costs.send_ns = costs.receive_ns = small / 4;
   costs.frame_byte_ns = std::max(0.0, large - small) / (2.0 * object_bytes);
-  const double trip = round_trip(first, second);
-  costs.wake_ns = std::max(0.0, (trip - small) / 2);
+  const RoundTrip trip = round_trip(first, second);
+  // Each end sends a frame and receives one, and rests once.
+  costs.rest_ns = std::max(0.0, trip.work - small / 2);
+  costs.wake_ns = std::max(0.0, trip.span / 2 - small / 2 - costs.rest_ns);
   return Done{};
 }
 

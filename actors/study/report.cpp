@@ -76,8 +76,9 @@ std::vector<StudyComparison> comparisons_of(const StudyOutcome& outcome) {
   };
   const auto all = static_cast<std::ptrdiff_t>(on.size());
   for (const auto& [of, against] :
-       {std::pair{"simulation", "nodes"}, std::pair{"replay", "simulation"},
-        std::pair{"replay", "nodes"}}) {
+       {std::pair{"simulation", "nodes"}, std::pair{"simulation", "processes"},
+        std::pair{"replay", "simulation"}, std::pair{"replay", "nodes"},
+        std::pair{"replay", "processes"}}) {
     if (has(of) == all || has(against) == all) continue;
     StudyComparison comparison{of, against, {}};
     for (const auto& [label, points] : series_of(study, "on"))

@@ -87,6 +87,7 @@ SimSetup SimulatedRun::world_setup() const {
   world.send_cost = whole_ns(costs.send_ns);
   world.byte_cost_ns = costs.frame_byte_ns;
   world.wake_cost = whole_ns(costs.wake_ns);
+  world.rest_cost = whole_ns(costs.rest_ns);
   world.cores = run_.study.cores;
   if (world.cores > 0) world.hosts.assign(world.nodes, 0);
   if (const double at_s = run_.study.number(run_.point, "crash_s"); at_s > 0) {

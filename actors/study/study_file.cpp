@@ -39,6 +39,7 @@ constexpr std::array cost_keys{
     CostKey{"send_ns", &SimCosts::send_ns},
     CostKey{"frame_byte_ns", &SimCosts::frame_byte_ns},
     CostKey{"wake_ns", &SimCosts::wake_ns},
+    CostKey{"rest_ns", &SimCosts::rest_ns},
 };
 
 Nanoseconds span_of(double seconds_said) {
@@ -136,7 +137,7 @@ void read_top(const toml::table& document, Study& study, Findings& findings,
   study.axes = read_axes(top, findings);
   read_plots(top, study, findings);
   const auto& on = study.axis("on").words;
-  const bool simulates = std::any_of(on.begin(), on.end(), [](auto& w) { return w != "nodes"; });
+  const bool simulates = std::any_of(on.begin(), on.end(), [](auto& w) { return !is_real(w); });
   if (simulates && study.costs.empty() && !top.has("costs"))
     findings.add(top.place(), "simulated runs need 'costs', a file of `luxodus study calibrate`");
   if (runs_of(study) > limits::study_runs)

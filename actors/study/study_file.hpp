@@ -48,6 +48,11 @@ struct StudyPoint {
   std::vector<size_t> values;
 };
 
+/// Of the words of `on`: whether nodes run by the clock on the wall.
+inline bool is_real(std::string_view on) {
+  return on == "nodes" || on == "processes";
+}
+
 struct Study {
   std::filesystem::path file;
   std::string title;

@@ -42,9 +42,10 @@ std::optional<std::string> fault_of(const NodesOptions& options, const CompiledS
   return std::nullopt;
 }
 
-/// In memory: every node listens under its own name.
-Endpoints endpoints_of(NodeId node) {
-  const std::string name = "inproc://node-" + std::to_string(node.value);
+/// Every node listens under its own name: in memory, or in a folder.
+Endpoints endpoints_of(NodeId node, const std::string& sockets) {
+  const std::string name = (sockets.empty() ? "inproc://" : "ipc://" + sockets + "/") + "node-" +
+                           std::to_string(node.value);
   return {name, name + "-bulk"};
 }
 
@@ -57,10 +58,10 @@ NodeSetup setup_of(const RunSetup& run, const NetConfig& common, NodeId self,
   node.net.incarnation = {run_id + self.value + 1};
   node.net.identity.node = self;
   node.net.identity.run_id = run_id;
-  node.links.listen.push_back(endpoints_of(self));
+  node.links.listen.push_back(endpoints_of(self, options.sockets));
   for (const Vertex neighbour : run.graph.all().of(self.value)) {
     const NodeId other{static_cast<uint16_t>(neighbour)};
-    if (other < self) node.links.connect.emplace_back(other, endpoints_of(other));
+    if (other < self) node.links.connect.emplace_back(other, endpoints_of(other, options.sockets));
   }
   node.controller = {static_cast<uint16_t>(run.graph.controller())};
   node.photons.fibers = options.fibers;

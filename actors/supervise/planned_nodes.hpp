@@ -42,6 +42,9 @@ struct NodesOptions {
   Nanoseconds link_delay = 0;
   double link_bytes_per_second = 0;  // likewise, each way; 0: as fast as may be
   std::optional<Graph> graph;        // of the links; else the minimum-path graph
+  /// Folder of the local sockets by which nodes of several processes meet; without it all are of
+  /// one process, and links are memory.
+  std::string sockets;
   Nanoseconds lease_time = ControllerConfig{}.lease_time;
   uint64_t tally_bytes = NodeSetup{}.tally_bytes;  // of each node, for scores, totals and flushes
   int tally_shards = 1;  // of the totals: the controller's, and those of the first workers

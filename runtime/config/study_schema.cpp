@@ -35,9 +35,9 @@ TableSpec sweep_table() {
       "sweep",
       "`[sweep]`: every combination is a point",
       {
-          {"on", "choices", "", "\"simulation\"", "simulation, replay, nodes",
+          {"on", "choices", "", "\"simulation\"", "simulation, replay, nodes, processes",
            "nodes simulated by virtual time, with real tracing or with recorded references; or "
-           "real nodes of this process, by the clock on the wall"},
+           "real nodes by the clock on the wall, in one process or each in its own"},
           {"topology", "choices", "", "\"amp\"",
            "amp, torus, mesh, hypercube, ring, chordal-ring, ternary-tree, random-regular",
            "of the links; the controller is one vertex more, linked to up to four nodes"},
@@ -106,6 +106,7 @@ TableSpec costs_table() {
           cost("send_ns", "ns", "of a frame that is sent"),
           cost("frame_byte_ns", "ns", "of each byte of it, at either end"),
           cost("wake_ns", "ns", "until a node that rests sees what has come"),
+          cost("rest_ns", "ns", "of going to rest and waking again, on its own processor"),
           {"machine", "text", "", "\"\"", "", "what it was measured on"},
           {"scene", "text", "", "\"\"", "", "likewise: costs of tracing are a scene's"},
       }};

@@ -1,6 +1,7 @@
 #include "runtime/sim/sim_world.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "runtime/actor/timers.hpp"
 #include "runtime/core/check.hpp"
@@ -49,6 +50,7 @@ struct SimWorld::Node {
   uint32_t life = 0;
   Nanoseconds paused_until = 0;
   Nanoseconds turn_at = never;
+  bool rested = false;  // since its last turn
   uint64_t ticket = 0;
   std::array<std::deque<std::pair<NodeId, std::vector<std::byte>>>, lanes> inbox;
 };
@@ -211,6 +213,7 @@ void SimWorld::take_turn(Node& node) {
   Nanoseconds* const core = free_core(node);
   if (core != nullptr && *core > now_) return wake(node, *core);
   node.clock.reach(now_);
+  if (std::exchange(node.rested, false)) node.clock.charge(setup_.rest_cost);
   const Nanoseconds due = node.node->turn();
   node.clock.charge(setup_.turn_cost);
   if (core != nullptr) *core = node.clock.now();
@@ -223,6 +226,7 @@ void SimWorld::take_turn(Node& node) {
     return;
   }
   const bool waiting = !node.inbox[0].empty() || !node.inbox[1].empty();
+  node.rested = !waiting && due > node.clock.now();
   if (waiting || due != never) wake(node, waiting ? now_ : due);
 }
 

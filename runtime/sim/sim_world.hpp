@@ -45,6 +45,7 @@ struct SimSetup {
   Nanoseconds send_cost = 0;                 // of giving a frame to a link
   double byte_cost_ns = 0;                   // of each byte of a frame, at either end
   Nanoseconds wake_cost = 0;  // until a node that rests sees what has come: the system's part
+  Nanoseconds rest_cost = 0;  // of going to rest and waking again, on the node's processor
   Nanoseconds reconnect = milliseconds(100);  // until a broken connection stands again
   /// Machines: nodes of one share its cores, each a turn at a time. By node; empty: to each its
   /// own.

@@ -79,8 +79,8 @@ void proxy_intersect(const RTCIntersectFunctionNArguments* args) noexcept {
 
 }  // namespace
 
-EmbreeDevice::EmbreeDevice() {
-  device_ = rtcNewDevice(nullptr);
+EmbreeDevice::EmbreeDevice(BuildThreads threads) {
+  device_ = rtcNewDevice(threads == BuildThreads::calling ? "threads=1" : nullptr);
   if (device_ == nullptr) throw std::runtime_error("Embree does not start on this machine");
   rtcSetDeviceErrorFunction(device_, report_error, nullptr);
   rtcSetDeviceMemoryMonitorFunction(device_, count_bytes, &bytes_);

@@ -23,9 +23,12 @@ struct RTCSceneTy;
 
 namespace luxodus {
 
+/// Which threads build search structures: all of the machine, or the calling one alone.
+enum class BuildThreads { all, calling };
+
 class EmbreeDevice {
  public:
-  EmbreeDevice();
+  explicit EmbreeDevice(BuildThreads threads = BuildThreads::all);
   ~EmbreeDevice();
   EmbreeDevice(const EmbreeDevice&) = delete;
   EmbreeDevice& operator=(const EmbreeDevice&) = delete;
