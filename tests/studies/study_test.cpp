@@ -76,7 +76,7 @@ StudyOutcome outcome_of(const Study& study, const SimCosts& costs) {
         run.recording = recording.get();
       }
       auto result =
-          study.word(point, "on") == "nodes" ? run_real(run, nobody) : run_simulated(run, nobody);
+          is_real(study.word(point, "on")) ? run_real(run, nobody) : run_simulated(run, nobody);
       INFO((result.ok() ? "" : result.problem().what));
       REQUIRE(result.ok());
       outcome.rows.push_back({point, seed, std::move(result).value(), ""});
@@ -222,8 +222,12 @@ TEST_CASE("a replay leaves the flux of tracing and takes its time", "[study]") {
 }
 
 TEST_CASE("real nodes trace what simulated ones trace", "[study]") {
-  const Study study = good("seeds = 1\n", small + "on = [\"simulation\", \"nodes\"]\n");
+  const Study study =
+      good("seeds = 1\n", small + "on = [\"simulation\", \"nodes\", \"processes\"]\n");
   const StudyOutcome outcome = outcome_of(study, some_costs());
-  for (const StudyRow& row : outcome.rows)
+  for (const StudyRow& row : outcome.rows) {
     CHECK(row.result->flux_hash == outcome.rows.front().result->flux_hash);
+    CHECK(row.result->workers.fetch_delay.count() > 0);
+    CHECK(row.result->busy_s > 0);
+  }
 }
