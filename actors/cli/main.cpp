@@ -58,6 +58,9 @@ int main(int argc, char** argv) {
   add_deploy(app, exit_code);
   add_sim(app, exit_code);
   add_study(app, exit_code);
+  add_assess(app, exit_code);
+  add_report(app, exit_code);
+  add_compare(app, exit_code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

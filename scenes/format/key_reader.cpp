@@ -433,6 +433,29 @@ std::vector<glm::dvec2> KeyReader::corners(std::string_view key) {
   return rows(spec(key, "corners"), true);
 }
 
+std::vector<glm::dvec3> KeyReader::points(std::string_view key) {
+  const KeySpec& s = spec(key, "points");
+  std::vector<glm::dvec3> out;
+  const toml::array* a = list(s);
+  if (!a) return out;
+  for (const toml::node& e : *a) {
+    const toml::array* row = e.as_array();
+    if (!row || row->size() != 3) {
+      clean_ = false;
+      reading_.problem(place_of(e, place_), in_quotes(key) + " must be a list of points [x, y, z]");
+      return {};
+    }
+    glm::dvec3 point(0);
+    for (int i = 0; i < 3; ++i) {
+      const auto value = checked(key, (*row)[static_cast<size_t>(i)]);
+      if (!value) return {};
+      point[i] = *value;
+    }
+    out.push_back(point);
+  }
+  return out;
+}
+
 glm::dvec3 KeyReader::scale(std::string_view key) {
   const KeySpec& s = spec(key, "scale");
   const toml::node* n = needed(s);

@@ -70,6 +70,8 @@ class KeyReader {
   std::vector<glm::dvec2> pairs(std::string_view key);
   /// Rows [x, y] of points; the range holds for both.
   std::vector<glm::dvec2> corners(std::string_view key);
+  /// Rows [x, y, z] of points; the range holds for all three.
+  std::vector<glm::dvec3> points(std::string_view key);
   /// One number for all three axes, or three.
   glm::dvec3 scale(std::string_view key);
   /// A table of name = number.

@@ -48,8 +48,8 @@ void read_operation(KeyReader& keys, Emitter& e, double rated) {
   keys.exactly_one({"emergency_flux", "emergency_factor"}, true);
   if (!keys.has("maintenance_factor")) keys.problem("'maintenance_factor'" + why);
   if (!keys.has("end_of_duration_factor")) keys.problem("'end_of_duration_factor'" + why);
-  e.emergency_flux = flux.value_or(rated * factor.value_or(0)) * maintenance.value_or(1) *
-                     end_of_duration.value_or(1);
+  e.emergency_ageing = maintenance.value_or(1) * end_of_duration.value_or(1);
+  e.emergency_flux = flux.value_or(rated * factor.value_or(0)) * e.emergency_ageing;
 }
 
 void read_body(KeyReader& keys, Emitter& e) {

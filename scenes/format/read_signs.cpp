@@ -58,6 +58,7 @@ void read_face(KeyReader& keys, Sign& sign) {
         "understand the sign?");
   }
   sign.smallest_detail_m = detail.value_or(stroke);
+  if (given == "text") sign.letters = SignLetters{letter, stroke};
   if (!keys.clean()) return;
   auto face = given == "file" ? drawn_face(*path, sign, texels)
               : given == "text"

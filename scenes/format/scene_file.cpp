@@ -120,6 +120,8 @@ void read_head(const Documents& documents, const fs::path& path, SceneReading& r
     const auto name = keys.maybe_text("name");
     if (name) reading.scene.name = *name;
     if (const toml::table* run = keys.table("run")) read_run(*run, reading);
+    if (const toml::table* assessment = keys.table("assessment"))
+      read_assessment(*assessment, reading);
   }
 }
 
@@ -174,6 +176,10 @@ ReadScene read_scene(const std::filesystem::path& path) {
       {"counting_plane", read_counting_plane},
       {"observer", read_observer},
       {"camera", read_camera},
+      {"route", read_route},
+      {"open_area", read_open_area},
+      {"task_area", read_task_area},
+      {"emphasis", read_emphasis},
       {"scenario", read_scenario},
   };
   for (const auto& [key, reader] : order) read_all(documents, key, reader, reading);

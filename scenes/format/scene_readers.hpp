@@ -1,6 +1,7 @@
 // The readers of the tables of a scene file, one per kind of table, called by scene_file.cpp in the
 // order in which names are needed: materials, objects and imports, emitters, media, signs,
-// measurements, scenarios. Each adds to reading.scene and reports every mistake. Single-threaded.
+// measurements, what is assessed, scenarios. Each adds to reading.scene and reports every mistake.
+// Single-threaded.
 #pragma once
 
 #include <toml++/toml.h>
@@ -24,6 +25,11 @@ void read_volume_group(const toml::table& table, SceneReading& reading);
 void read_counting_plane(const toml::table& table, SceneReading& reading);
 void read_observer(const toml::table& table, SceneReading& reading);
 void read_camera(const toml::table& table, SceneReading& reading);
+void read_assessment(const toml::table& table, SceneReading& reading);
+void read_route(const toml::table& table, SceneReading& reading);
+void read_open_area(const toml::table& table, SceneReading& reading);
+void read_task_area(const toml::table& table, SceneReading& reading);
+void read_emphasis(const toml::table& table, SceneReading& reading);
 void read_scenario(const toml::table& table, SceneReading& reading);
 
 }  // namespace luxodus

@@ -61,5 +61,6 @@ std::vector<TableSpec> object_schema();    // part of geometry_schema
 std::vector<TableSpec> data_set_schema();  // part of light_schema
 std::vector<TableSpec> light_schema();
 std::vector<TableSpec> measure_schema();
+std::vector<TableSpec> assessment_schema();
 
 }  // namespace luxodus

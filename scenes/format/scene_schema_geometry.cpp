@@ -35,6 +35,11 @@ TableSpec scene_keys() {
           {"counting_plane", "tables", "", "", "", "particles that cross"},
           {"observer", "tables", "", "", "", "eyes"},
           {"camera", "tables", "", "", "", "pictures"},
+          {"assessment", "table", "", "", "", "how people and smoke are taken to be"},
+          {"route", "tables", "", "", "", "escape routes"},
+          {"open_area", "tables", "", "", "", "floors without a defined route"},
+          {"task_area", "tables", "", "", "", "places of high-risk work"},
+          {"emphasis", "tables", "", "", "", "what emergency luminaires must be near to"},
           {"scenario", "tables", "", "", "", "states of the building; none: mains, as written"},
       }};
 }

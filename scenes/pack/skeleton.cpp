@@ -64,7 +64,8 @@ template <class A>
 void serialize(A& a, Emitter& x) {
   a(x.name, x.place, x.circuit, x.group, choice(x.shape, EmitterShape::mesh), x.frame, x.size,
     x.mesh, choice(x.distribution, Distribution::web), x.cosine_power, x.spot_inner_deg,
-    x.spot_outer_deg, x.spectrum, x.radiometric, x.mains_flux, x.emergency_flux, x.body_material);
+    x.spot_outer_deg, x.spectrum, x.radiometric, x.mains_flux, x.emergency_flux, x.emergency_ageing,
+    x.body_material);
 }
 template <class A>
 void serialize(A& a, SignFace& x) {
@@ -82,11 +83,15 @@ void serialize(A& a, SignState& x) {
   a(x.white_cd_m2, x.green_cd_m2);
 }
 template <class A>
+void serialize(A& a, SignLetters& x) {
+  a(x.height_m, x.stroke_m);
+}
+template <class A>
 void serialize(A& a, Sign& x) {
   a(x.name, x.place, x.circuit, x.group, x.frame, x.width_m, x.height_m, x.smallest_detail_m,
-    x.double_sided, x.thickness_m, x.face, choice(x.lighting, SignLighting::photoluminescent),
-    x.mains, x.emergency, x.angular_exponent, x.decay, x.white_shape, x.green_shape,
-    x.white_reflectance, x.green_reflectance);
+    x.letters, x.double_sided, x.thickness_m, x.face,
+    choice(x.lighting, SignLighting::photoluminescent), x.mains, x.emergency, x.angular_exponent,
+    x.decay, x.white_shape, x.green_shape, x.white_reflectance, x.green_reflectance);
 }
 template <class A>
 void serialize(A& a, PlaneMeasure& x) {
@@ -111,7 +116,23 @@ void serialize(A& a, CountingPlaneMeasure& x) {
 }
 template <class A>
 void serialize(A& a, Observer& x) {
-  a(x.name, x.place, x.eye, x.gaze);
+  a(x.name, x.place, x.eye, x.gaze, x.signs);
+}
+template <class A>
+void serialize(A& a, EscapeRoute& x) {
+  a(x.name, x.place, x.path, x.width_m);
+}
+template <class A>
+void serialize(A& a, AssessedArea& x) {
+  a(x.name, x.place, x.outline, x.z_m, x.mains_lx);
+}
+template <class A>
+void serialize(A& a, EmphasisPoint& x) {
+  a(x.name, x.place, choice(x.kind, EmphasisKind::refuge), x.position, x.facing);
+}
+template <class A>
+void serialize(A& a, AssessmentSettings& x) {
+  a(x.age_years, x.eye_heights_m, x.spacing_m, x.smoke_expected, x.irritant_smoke);
 }
 template <class A>
 void serialize(A& a, Camera& x) {
@@ -177,7 +198,8 @@ template <class A>
 void serialize(A& a, SceneDescription& x) {
   a(x.name, x.title, x.file, x.run, x.materials, x.objects, x.emitters, x.media, x.signs);
   a(x.planes, x.probes, x.surface_groups, x.volume_groups, x.counting_planes, x.observers,
-    x.cameras, x.scenarios, x.content_hash, x.degenerate_triangles, x.warnings);
+    x.cameras, x.routes, x.open_areas, x.task_areas, x.emphasis, x.assessment, x.scenarios,
+    x.content_hash, x.degenerate_triangles, x.warnings);
 }
 template <class A>
 void serialize(A& a, CompiledSurface& x) {

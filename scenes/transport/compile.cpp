@@ -204,7 +204,9 @@ void choose_eye_targets(CompiledScene& scene) {
   const SceneDescription& d = *scene.description;
   uint32_t bin = 0;
   for (uint32_t o = 0; o < d.observers.size(); ++o) {
+    const auto& wanted = d.observers[o].signs;
     for (uint32_t s = 0; s < scene.signs.size(); ++s) {
+      if (wanted && std::count(wanted->begin(), wanted->end(), scene.signs[s].sign) == 0) continue;
       const glm::dvec3 to_eye = d.observers[o].eye - scene.signs[s].frame.origin;
       if (glm::dot(to_eye, scene.signs[s].frame.axes[2]) <= 0) continue;  // sees its back
       scene.eye_targets.push_back({o, s, bin});

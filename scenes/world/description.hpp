@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "runtime/core/result.hpp"
@@ -99,9 +100,10 @@ struct Emitter {
   // Flux emitted in each operating state, all factors applied. Photometric input is in lm,
   // radiometric in W.
   bool radiometric = false;
-  double mains_flux = 0;      // [lm] or [W]
-  double emergency_flux = 0;  // [lm] or [W]; 0 for a luminaire that fails with the mains
-  std::string body_material;  // "" for none: returning light passes
+  double mains_flux = 0;        // [lm] or [W]
+  double emergency_flux = 0;    // [lm] or [W]; 0 for a luminaire that fails with the mains
+  double emergency_ageing = 1;  // maintenance x end of duration: contained in emergency_flux
+  std::string body_material;    // "" for none: returning light passes
 };
 
 // ---- signs ------------------------------------------------------------------------------------
@@ -126,6 +128,12 @@ struct SignState {
   double green_cd_m2 = 0;
 };
 
+/// Of a sign with words.
+struct SignLetters {
+  double height_m = 0;
+  double stroke_m = 0;
+};
+
 struct Sign {
   std::string name;
   SourcePlace place;
@@ -136,6 +144,7 @@ struct Sign {
   double width_m = 0;
   double height_m = 0;
   double smallest_detail_m = 0;
+  std::optional<SignLetters> letters;
   bool double_sided = false;
   double thickness_m = 0.03;  // distance between the two faces
   SignFace face;
@@ -200,6 +209,7 @@ struct Observer {
   SourcePlace place;
   glm::dvec3 eye{0};
   glm::dvec3 gaze{1, 0, 0};
+  std::optional<std::vector<uint32_t>> signs;  // numbers of those looked at; all unless said
 };
 
 struct Camera {
@@ -211,6 +221,64 @@ struct Camera {
   double vertical_fov_deg = 60;
   int width = 640;
   int height = 360;
+};
+
+// ---- what an assessment is of ------------------------------------------------------------------
+
+/// A defined way out, along the floor.
+struct EscapeRoute {
+  std::string name;
+  SourcePlace place;
+  std::vector<glm::dvec3> path;  // the centre line, in the direction of escape; at least two points
+  double width_m = 0;
+};
+
+/// A floor that people cross on no defined way (open area), or a plane on which they work at a risk
+/// that outlasts the lights (task area).
+struct AssessedArea {
+  std::string name;
+  SourcePlace place;
+  std::vector<glm::dvec2> outline;  // counter-clockwise
+  double z_m = 0;
+  double mains_lx = 0;  // of a task area: the illuminance maintained in mains operation
+};
+
+/// What an emergency luminaire has to be near to.
+enum class EmphasisKind {
+  exit_door,
+  final_exit,
+  stairs,
+  level_change,
+  direction_change,
+  intersection,
+  first_aid,
+  fire_equipment,
+  call_point,
+  alarm_panel,
+  refuge
+};
+
+/// The kinds as they are written, in their order.
+inline constexpr std::array<std::string_view, 11> emphasis_words{
+    "exit_door",        "final_exit",   "stairs",    "level_change",
+    "direction_change", "intersection", "first_aid", "fire_equipment",
+    "call_point",       "alarm_panel",  "refuge"};
+
+struct EmphasisPoint {
+  std::string name;
+  SourcePlace place;
+  EmphasisKind kind = EmphasisKind::exit_door;
+  glm::dvec3 position{0};
+  std::optional<glm::dvec3> facing;  // where the front of equipment looks
+};
+
+/// How people and smoke are taken to be.
+struct AssessmentSettings {
+  double age_years = 65;
+  std::vector<double> eye_heights_m = {1.65, 1.2, 0.6};
+  double spacing_m = 2;         // of observers along routes
+  bool smoke_expected = true;   // smoke may occur where signs are (EN 1838)
+  bool irritant_smoke = false;  // it stings: people see less than their eyes could
 };
 
 // ---- scenarios and run ------------------------------------------------------------------------
@@ -269,6 +337,11 @@ struct SceneDescription {
   std::vector<CountingPlaneMeasure> counting_planes;
   std::vector<Observer> observers;
   std::vector<Camera> cameras;
+  std::vector<EscapeRoute> routes;
+  std::vector<AssessedArea> open_areas;
+  std::vector<AssessedArea> task_areas;
+  std::vector<EmphasisPoint> emphasis;
+  AssessmentSettings assessment;
   std::vector<Scenario> scenarios;   // empty: mains, as written
   uint64_t content_hash = 0;         // of every file read
   int64_t degenerate_triangles = 0;  // dropped on reading

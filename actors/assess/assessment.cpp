@@ -1,0 +1,102 @@
+#include "actors/assess/assessment.hpp"
+
+#include <algorithm>
+
+#include "actors/assess/code_mode.hpp"
+#include "actors/assess/plan_cut.hpp"
+#include "actors/assess/reality_mode.hpp"
+#include "runtime/core/clock.hpp"
+#include "scenes/transport/compile.hpp"
+
+namespace luxodus {
+
+namespace {
+
+/// Whether any medium is left in a scenario.
+bool has_smoke(const SceneDescription& scene, const Scenario& scenario) {
+  return std::any_of(scene.media.begin(), scene.media.end(), [&](const Medium& medium) {
+    const auto named = std::find_if(scenario.media.begin(), scenario.media.end(),
+                                    [&](const auto& factor) { return factor.name == medium.name; });
+    return (named != scenario.media.end() ? named->factor : scenario.smoke_factor) > 0;
+  });
+}
+
+/// Of the reality mode: as named, else the first in emergency operation that has smoke, else the
+/// first in emergency operation, else the first.
+Result<Scenario> scenario_of(const SceneDescription& scene, const AssessOptions& options) {
+  if (!options.scenario.empty()) return find_scenario(scene, options.scenario);
+  const Scenario* best = nullptr;
+  for (const Scenario& scenario : scene.scenarios) {
+    if (scenario.operation != Operation::emergency) continue;
+    if (has_smoke(scene, scenario)) return scenario;
+    if (best == nullptr) best = &scenario;
+  }
+  return best != nullptr ? Result<Scenario>(*best) : find_scenario(scene, "");
+}
+
+std::optional<Problem> cannot_assess(const SceneDescription& scene) {
+  if (scene.packed)
+    return Problem{{scene.file, 0},
+                   "a pack has its triangles elsewhere: assess the scene file that it was made of"};
+  if (scene.routes.empty() && scene.open_areas.empty() && scene.task_areas.empty() &&
+      scene.observers.empty())
+    return Problem{{scene.file, 0},
+                   "there is nothing to assess: add [[route]], [[open_area]] or [[observer]]"};
+  return std::nullopt;
+}
+
+/// The extinction of all media times a factor, named ones too.
+void thicken(Scenario& scenario, double factor) {
+  scenario.smoke_factor *= factor;
+  for (Scenario::Factor& medium : scenario.media) medium.factor *= factor;
+}
+
+/// From how many places each sign is legible.
+void count_sweep(double factor, const std::vector<SightRow>& sights, std::vector<SweepRow>& out) {
+  const auto first = static_cast<std::ptrdiff_t>(out.size());
+  for (const SightRow& row : sights) {
+    if (row.sight.verdict == SightVerdict::hidden) continue;
+    auto at = std::find_if(out.begin() + first, out.end(),
+                           [&](const SweepRow& s) { return s.sign == row.sign; });
+    if (at == out.end()) at = out.insert(out.end(), {factor, row.sign, 0, 0, 0});
+    ++at->places;
+    if (row.sight.verdict == SightVerdict::legible) ++at->legible;
+    if (row.sight.verdict == SightVerdict::undecided) ++at->undecided;
+  }
+}
+
+}  // namespace
+
+Result<Assessment> assess(const std::shared_ptr<const SceneDescription>& scene,
+                          const AssessOptions& options, const std::atomic<bool>& interrupt,
+                          const AssessProgress& progress) {
+  if (auto problem = cannot_assess(*scene)) return *problem;
+  auto scenario = scenario_of(*scene, options);
+  if (!scenario.ok()) return scenario.problem();
+  const SystemClock clock;
+  const Nanoseconds began = clock.now();
+  Assessment out;
+  out.scenario = scenario->name;
+  out.seed = options.seed;
+  out.scene_hash = scene->content_hash;
+  out.walls = walls_of(*scene);
+  if (auto ok = assess_by_codes(*scene, scenario.value(), options, progress, out); !ok.ok())
+    return ok.problem();
+  if (options.reality)
+    if (auto ok = assess_sights(*scene, scenario.value(), options, interrupt, progress, out);
+        !ok.ok())
+      return ok.problem();
+  for (const double factor : options.smoke_factors) {
+    Scenario thick = scenario.value();
+    thicken(thick, factor);
+    Assessment at_density;
+    if (auto ok = assess_sights(*scene, thick, options, interrupt, progress, at_density); !ok.ok())
+      return ok.problem();
+    count_sweep(factor, at_density.sights, out.sweep);
+    out.paths += at_density.paths;
+  }
+  out.seconds = 1e-9 * static_cast<double>(clock.now() - began);
+  return out;
+}
+
+}  // namespace luxodus

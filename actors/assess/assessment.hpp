@@ -1,0 +1,84 @@
+// What an assessment finds of a building: the codes' rules by direct light in clear air (code
+// mode), and what people on the escape routes read of the signs with all light and smoke (reality
+// mode). Plain values; any thread.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <memory>
+
+#include "scenes/emergency/legibility.hpp"
+#include "scenes/emergency/rules.hpp"
+
+namespace luxodus {
+
+namespace limits {
+/// Pairs of a place and a sign that are looked at: each costs three tallies and their paths.
+inline constexpr size_t sights = 200'000;
+/// Rounds of paths from the eye; each has four times the paths of the one before.
+inline constexpr int sight_rounds = 8;
+}  // namespace limits
+
+struct AssessOptions {
+  /// Of the reality mode; its doors are the code mode's too. Empty: the first in emergency
+  /// operation that has smoke, else the first in emergency operation, else the first.
+  std::string scenario;
+  CodeChoice codes;
+  uint64_t seed = 1;
+  int threads = 1;
+  int rounds = 4;                          // until nothing is undecided, or so many
+  bool reality = true;                     // else the code mode alone
+  std::vector<double> smoke_factors = {};  // of a sweep over the density of all smoke
+};
+
+/// One sign from one place.
+struct SightRow {
+  std::string from;  // route "corridor", or an observer's name
+  double along_m = 0;
+  double height_m = 0;  // of the eye above the floor; of an observer above z = 0
+  glm::dvec3 eye{0};
+  std::string sign;
+  bool back_face = false;
+  double gaze_deg = 0;  // between the direction of walking and the sign
+  SignView view;
+  SignLook look;
+  Sight sight;
+};
+
+/// A point of calculation on a plan, with all emergency luminaires lit [lx].
+struct PlanPoint {
+  glm::dvec3 place;
+  double lux = 0;
+};
+
+/// Of a sign, how many of the places that it faces it is legible from, in smoke of a density.
+struct SweepRow {
+  double factor = 1;  // of all extinctions
+  std::string sign;
+  int64_t places = 0, legible = 0, undecided = 0;
+};
+
+struct Assessment {
+  std::string scenario;
+  std::vector<Check> checks;
+  std::vector<SightRow> sights;
+  std::vector<SweepRow> sweep;
+  std::vector<PlanPoint> plan;                           // without furniture
+  std::vector<std::pair<glm::dvec2, glm::dvec2>> walls;  // as cut at breast height
+  std::vector<Problem> warnings;
+  int64_t paths = 0;  // from eyes, of all rounds
+  double seconds = 0;
+  uint64_t scene_hash = 0;
+  uint64_t seed = 1;
+};
+
+/// What is going on, and the share of it that is done.
+using AssessProgress = std::function<void(const std::string& what, double share)>;
+
+/// Errors: nothing to assess; routes outside the building or in walls; a scenario that is not
+/// there; a pack; `interrupt`.
+Result<Assessment> assess(const std::shared_ptr<const SceneDescription>& scene,
+                          const AssessOptions& options, const std::atomic<bool>& interrupt,
+                          const AssessProgress& progress);
+
+}  // namespace luxodus

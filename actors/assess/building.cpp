@@ -1,0 +1,75 @@
+#include "actors/assess/building.hpp"
+
+#include <algorithm>
+
+namespace luxodus {
+
+namespace {
+
+/// Points along each edge of a face that are tried.
+constexpr int face_points = 3;
+/// Of six directions, so many that show a back: inside.
+constexpr int backs_of_solid = 4;
+constexpr float far_m = 1000;
+
+}  // namespace
+
+SceneDescription without_measurements(const SceneDescription& scene) {
+  SceneDescription bare = scene;
+  bare.planes.clear();
+  bare.probes.clear();
+  bare.surface_groups.clear();
+  bare.volume_groups.clear();
+  bare.counting_planes.clear();
+  bare.observers.clear();
+  bare.cameras.clear();
+  bare.run.voxels = false;
+  for (Object& object : bare.objects) object.one_patch = true;
+  return bare;
+}
+
+Building::Building(std::shared_ptr<const CompiledScene> scene, int threads)
+    : scene_(std::move(scene)), index_(device_, *scene_), rows_(index_, threads) {}
+
+Result<std::unique_ptr<Building>> Building::make(SceneDescription scene, const Scenario& scenario,
+                                                 int threads) {
+  auto compiled = compile_scene(std::make_shared<SceneDescription>(std::move(scene)), scenario, {});
+  if (!compiled.ok()) return compiled.problem();
+  return std::unique_ptr<Building>(new Building(std::move(compiled).value(), threads));
+}
+
+void Building::each(size_t count,
+                    const std::function<void(const GeometryAccess& access, size_t i)>& work) const {
+  rows_.run(static_cast<int64_t>(count),
+            [&](const GeometryAccess& access) {
+              return [&work, access](int64_t i) { work(access, static_cast<size_t>(i)); };
+            },
+            {});
+}
+
+bool Building::in_solid(const GeometryAccess& access, const glm::dvec3& place) const {
+  int backs = 0;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const float sign : {-1.0f, 1.0f}) {
+      glm::vec3 direction(0);
+      direction[axis] = sign;
+      const auto met = next_surface(*scene_, access, local(place), direction, far_m);
+      if (met && !met->front) ++backs;
+    }
+  return backs >= backs_of_solid;
+}
+
+double Building::seen_share(const GeometryAccess& access, const Sign& sign, const SignView& view,
+                            const glm::dvec3& eye) const {
+  int seen = 0;
+  for (int j = 0; j < face_points; ++j)
+    for (int i = 0; i < face_points; ++i) {
+      const glm::dvec2 uv = (glm::dvec2(i, j) + 0.5) / static_cast<double>(face_points) - 0.5;
+      const glm::dvec3 place = view.centre + sign.frame.axes[0] * (uv.x * sign.width_m) +
+                               sign.frame.axes[1] * (uv.y * sign.height_m) + view.normal * 1e-3;
+      if (clear_share(*scene_, access, local(eye), local(place)) > 0) ++seen;
+    }
+  return static_cast<double>(seen) / (face_points * face_points);
+}
+
+}  // namespace luxodus

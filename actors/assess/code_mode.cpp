@@ -1,0 +1,260 @@
+#include "actors/assess/code_mode.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace luxodus {
+
+namespace {
+
+constexpr const char* furniture = "furniture";
+/// A route's floor is looked for within this above and below it [m].
+constexpr double floor_within_m = 0.3;
+/// A sign that has a surface as near before it shows itself to nobody [m].
+constexpr float before_sign_m = 0.3f;
+constexpr double standing_eye_m = 1.65;
+
+bool is_furniture(const Object& object) {
+  return std::count(object.tags.begin(), object.tags.end(), furniture) > 0;
+}
+
+/// The building as the codes look at it.
+SceneDescription code_scene(const SceneDescription& scene, bool furnished) {
+  SceneDescription out = without_measurements(scene);
+  out.media.clear();
+  std::erase_if(out.emitters, [](const Emitter& e) { return !(e.emergency_flux > 0); });
+  // With no emergency luminaire the geometry is still asked for: any light will do to compile it.
+  if (out.emitters.empty()) out.emitters = scene.emitters;
+  if (!furnished) std::erase_if(out.objects, is_furniture);
+  return out;
+}
+
+Scenario code_scenario(const SceneDescription& scene, const Scenario& doors) {
+  Scenario out;
+  out.name = "code mode";
+  out.operation = emergency_luminaires(scene).empty() ? Operation::mains : Operation::emergency;
+  out.doors_open = doors.doors_open;
+  out.doors_closed = doors.doors_closed;
+  return out;
+}
+
+std::string shown(const glm::dvec3& p) {
+  return fmt::format("({:.2f}, {:.2f}, {:.2f})", p.x, p.y, p.z);
+}
+
+class CodeMode {
+ public:
+  CodeMode(const SceneDescription& scene, const Building& building, const AssessOptions& options)
+      : scene_(scene), building_(building), options_(options) {
+    if (emergency_luminaires(scene).empty()) return;
+    const auto& emitters = building.scene().emitters;
+    for (size_t i = 0; i < emitters.size(); ++i)
+      if (emitters[i].sign == none_index) columns_.push_back(i);
+  }
+
+  /// What all luminaires give at places, a little above them, on a surface that faces `normal`.
+  std::vector<LitPoint> lit(const std::vector<glm::dvec3>& places, const glm::dvec3& normal,
+                            double lift) const;
+  /// Those that what stands in the way may change.
+  std::vector<Check> checks_by_light() const;
+  /// Those of signs and luminaires by themselves.
+  std::vector<Check> checks_of_parts() const;
+  /// Errors: the first place that nobody can walk on.
+  Result<Done> walkable() const;
+  std::vector<Problem> blind_signs() const;
+  std::vector<PlanPoint> plan() const;
+
+ private:
+  std::vector<Check> of_route(const EscapeRoute& route) const;
+  std::vector<std::vector<ClearSign>> clear_signs(const std::vector<Walker>& people) const;
+  double lux_on_face(const Sign& sign) const;
+  std::optional<double> vertical_lux(const EmphasisPoint& point) const;
+
+  const SceneDescription& scene_;
+  const Building& building_;
+  const AssessOptions& options_;
+  std::vector<size_t> columns_;  // luminaires among the compiled emitters
+};
+
+std::vector<LitPoint> CodeMode::lit(const std::vector<glm::dvec3>& places, const glm::dvec3& normal,
+                                    double lift) const {
+  std::vector<LitPoint> out(places.size());
+  DirectOptions clear_air;
+  clear_air.media = false;
+  building_.each(places.size(), [&](const GeometryAccess& access, size_t i) {
+    out[i].place = places[i] + normal * lift;
+    const auto lux = direct_by_emitter(building_.scene(), access, building_.local(out[i].place),
+                                       glm::vec3(normal), clear_air);
+    for (const size_t column : columns_) out[i].lux.push_back(lux[column]);
+  });
+  return out;
+}
+
+std::vector<std::vector<ClearSign>> CodeMode::clear_signs(const std::vector<Walker>& people) const {
+  std::vector<std::vector<ClearSign>> out(people.size());
+  building_.each(people.size(), [&](const GeometryAccess& access, size_t i) {
+    const glm::dvec3 eye = people[i].foot + glm::dvec3(0, 0, standing_eye_m);
+    for (uint32_t s = 0; s < scene_.signs.size(); ++s) {
+      const SignView view = view_of_sign(scene_.signs[s], eye);
+      if (!view.behind && building_.seen_share(access, scene_.signs[s], view, eye) > 0.5)
+        out[i].push_back({s, view});
+    }
+  });
+  return out;
+}
+
+std::vector<Check> CodeMode::of_route(const EscapeRoute& route) const {
+  const RoutePoints points = points_of(route, options_.codes);
+  const glm::dvec3 up(0, 0, 1);
+  RouteLight light;
+  light.centre = lit(points.centre, up, floor_plane_m);
+  light.band = lit(points.band, up, floor_plane_m);
+  light.inner = lit(points.inner, up, floor_plane_m);
+  auto out = checks_of_route(scene_, route, light, options_.codes);
+  const auto people = walkers(route, scene_.assessment.spacing_m);
+  const auto far = checks_of_distance(scene_, route, people, clear_signs(people), options_.codes);
+  out.insert(out.end(), far.begin(), far.end());
+  return out;
+}
+
+double CodeMode::lux_on_face(const Sign& sign) const {
+  if (sign.lighting != SignLighting::external) return 0;
+  std::vector<glm::dvec3> places;
+  for (const double u : {-0.25, 0.25})
+    for (const double v : {-0.25, 0.25})
+      places.push_back(sign.frame.origin + sign.frame.axes[0] * (u * sign.width_m) +
+                       sign.frame.axes[1] * (v * sign.height_m));
+  double sum = 0;
+  for (const LitPoint& p : lit(places, sign.frame.axes[2], 0.002))
+    for (const double lux : p.lux) sum += lux / static_cast<double>(places.size());
+  return sum;
+}
+
+std::optional<double> CodeMode::vertical_lux(const EmphasisPoint& point) const {
+  if (!point.facing) return std::nullopt;
+  double sum = 0;
+  for (const double lux : lit({point.position}, *point.facing, floor_plane_m).front().lux)
+    sum += lux;
+  return sum;
+}
+
+void append(std::vector<Check>& out, const std::vector<Check>& more) {
+  out.insert(out.end(), more.begin(), more.end());
+}
+
+std::vector<Check> CodeMode::checks_by_light() const {
+  std::vector<Check> out;
+  const auto add = [&](const std::vector<Check>& more) { append(out, more); };
+  const glm::dvec3 up(0, 0, 1);
+  for (const EscapeRoute& route : scene_.routes) add(of_route(route));
+  for (const AssessedArea& area : scene_.open_areas)
+    add(checks_of_open_area(scene_, area, lit(within(area, 0.5, area_grid_m), up, floor_plane_m),
+                            options_.codes));
+  for (const AssessedArea& area : scene_.task_areas)
+    add(checks_of_task_area(area, lit(within(area, 0, area_grid_m), up, floor_plane_m),
+                            options_.codes));
+  for (const EmphasisPoint& point : emphasis_of(scene_))
+    add(checks_of_emphasis(scene_, point, vertical_lux(point), options_.codes));
+  return out;
+}
+
+std::vector<Check> CodeMode::checks_of_parts() const {
+  std::vector<Check> out;
+  for (const Sign& sign : scene_.signs)
+    append(out, checks_of_sign(scene_, sign, lux_on_face(sign), options_.codes));
+  append(out, checks_of_glare(scene_, options_.codes));
+  append(out, checks_beyond(options_.codes));
+  return out;
+}
+
+Result<Done> CodeMode::walkable() const {
+  for (const EscapeRoute& route : scene_.routes) {
+    const auto places = along(route, 0, 1);
+    std::vector<std::string> wrong(places.size());
+    building_.each(places.size(), [&](const GeometryAccess& access, size_t i) {
+      const glm::dvec3 above = places[i] + glm::dvec3(0, 0, floor_within_m);
+      if (!next_surface(building_.scene(), access, building_.local(above), {0, 0, -1},
+                        static_cast<float>(2 * floor_within_m)))
+        wrong[i] = "has no floor under it: is it outside the building, or at another height?";
+      else if (building_.in_solid(access, places[i] + glm::dvec3(0, 0, standing_eye_m)))
+        wrong[i] = "leads through a wall";
+    });
+    for (size_t i = 0; i < places.size(); ++i)
+      if (!wrong[i].empty())
+        return Problem{route.place,
+                       "route \"" + route.name + "\" " + wrong[i] + " At " + shown(places[i])};
+  }
+  return Done{};
+}
+
+std::vector<Problem> CodeMode::blind_signs() const {
+  std::vector<char> blind(scene_.signs.size(), 0);
+  building_.each(scene_.signs.size(), [&](const GeometryAccess& access, size_t i) {
+    const Sign& sign = scene_.signs[i];
+    const glm::dvec3 normal = sign.frame.axes[2];
+    const auto met =
+        next_surface(building_.scene(), access,
+                     building_.local(sign.frame.origin + normal * (sign.thickness_m / 2 + 0.005)),
+                     glm::vec3(normal), before_sign_m);
+    blind[i] = met ? 1 : 0;
+  });
+  std::vector<Problem> out;
+  for (size_t i = 0; i < blind.size(); ++i)
+    if (blind[i] != 0)
+      out.push_back({scene_.signs[i].place, "sign \"" + scene_.signs[i].name +
+                                                "\" faces a wall less than 0.3 m before it"});
+  return out;
+}
+
+std::vector<PlanPoint> CodeMode::plan() const {
+  std::vector<glm::dvec3> places;
+  for (const EscapeRoute& route : scene_.routes) {
+    const auto more = within(route, route.width_m / 2, 2 * route_grid_m);
+    places.insert(places.end(), more.begin(), more.end());
+  }
+  for (const AssessedArea& area : scene_.open_areas) {
+    const auto more = within(area, 0, area_grid_m);
+    places.insert(places.end(), more.begin(), more.end());
+  }
+  std::vector<PlanPoint> out;
+  for (const LitPoint& p : lit(places, {0, 0, 1}, floor_plane_m)) {
+    out.push_back({p.place, 0});
+    for (const double lux : p.lux) out.back().lux += lux;
+  }
+  return out;
+}
+
+void add_condition(std::vector<Check>& checks, const std::string& condition) {
+  for (Check& check : checks) check.condition += (check.condition.empty() ? "" : "; ") + condition;
+}
+
+}  // namespace
+
+Result<Done> assess_by_codes(const SceneDescription& scene, const Scenario& scenario,
+                             const AssessOptions& options, const AssessProgress& progress,
+                             Assessment& out) {
+  const bool has_furniture = std::any_of(scene.objects.begin(), scene.objects.end(), is_furniture);
+  for (const bool furnished : {false, true}) {
+    if (furnished && !has_furniture) break;
+    progress(furnished ? "codes, with furniture" : "codes, without furniture", furnished ? 0.5 : 0);
+    auto building = Building::make(code_scene(scene, furnished), code_scenario(scene, scenario),
+                                   options.threads);
+    if (!building.ok()) return building.problem();
+    const CodeMode mode(scene, *building.value(), options);
+    if (!furnished) {
+      if (auto ok = mode.walkable(); !ok.ok()) return ok;
+      out.plan = mode.plan();
+      const auto blind = mode.blind_signs();
+      out.warnings.insert(out.warnings.end(), blind.begin(), blind.end());
+    }
+    auto checks = mode.checks_by_light();
+    if (has_furniture) add_condition(checks, furnished ? "with furniture" : "without furniture");
+    append(out.checks, checks);
+    if (!furnished) append(out.checks, mode.checks_of_parts());
+  }
+  progress("codes", 1);
+  return Done{};
+}
+
+}  // namespace luxodus

@@ -1,0 +1,17 @@
+// The code mode: every rule of the chosen codes, by direct light of the emergency luminaires alone,
+// in clear air, with furniture and without. Thread rule: one thread, which has rows run on others.
+#pragma once
+
+#include "actors/assess/assessment.hpp"
+#include "actors/assess/building.hpp"
+#include "scenes/format/atomic_file.hpp"
+
+namespace luxodus {
+
+/// Adds checks, the plan and warnings to `out`. `scenario` gives the doors.
+/// Errors: routes outside the building or in walls.
+Result<Done> assess_by_codes(const SceneDescription& scene, const Scenario& scenario,
+                             const AssessOptions& options, const AssessProgress& progress,
+                             Assessment& out);
+
+}  // namespace luxodus

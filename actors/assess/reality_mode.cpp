@@ -1,0 +1,279 @@
+#include "actors/assess/reality_mode.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "actors/assess/building.hpp"
+#include "actors/source/local_run.hpp"
+#include "scenes/emergency/sign_face.hpp"
+
+namespace luxodus {
+
+namespace {
+
+/// Batches of a round, whose spread is the error, and paths to each part of a sign in the first
+/// round's batches.
+constexpr int64_t batches = 64;
+constexpr double first_paths = 8;
+/// Paths from the eye cost far more than particles, of which a run traces some beside them.
+constexpr int64_t batch_particles = 256;
+/// compile's share of paths: 0.1 of the particles, divided among the parts.
+constexpr double paths_per_particle = 0.1;
+
+/// Somebody at a place, and the signs that they may see.
+struct Stand {
+  std::string from;
+  double along_m = 0, height_m = 0;
+  Observer observer;
+};
+
+std::vector<Stand> stands_of(const SceneDescription& scene) {
+  std::vector<Stand> out;
+  for (const EscapeRoute& route : scene.routes)
+    for (const Walker& walker : walkers(route, scene.assessment.spacing_m))
+      for (const double height : scene.assessment.eye_heights_m) {
+        Stand stand{"route \"" + route.name + "\"", walker.along_m, height, {}};
+        stand.observer.name =
+            fmt::format("{} at {:.2f} m, {:.2f} m high", route.name, walker.along_m, height);
+        stand.observer.place = route.place;
+        stand.observer.eye = walker.foot + glm::dvec3(0, 0, height);
+        stand.observer.gaze = walker.ahead;
+        out.push_back(std::move(stand));
+      }
+  for (const Observer& observer : scene.observers)
+    out.push_back({"observer \"" + observer.name + "\"", 0, observer.eye.z, observer});
+  return out;
+}
+
+double angle_deg(const glm::dvec3& a, const glm::dvec3& b) {
+  return glm::degrees(
+      std::acos(std::clamp(glm::dot(glm::normalize(a), glm::normalize(b)), -1.0, 1.0)));
+}
+
+/// Veiling luminance in the eye of all emitters but the sign itself.
+double veil_of(const Building& building, const GeometryAccess& access, const SightRow& row,
+               uint32_t sign, double age_years) {
+  const CompiledScene& scene = building.scene();
+  const glm::dvec3 gaze = glm::normalize(row.view.centre - row.eye);
+  const auto lux = direct_by_emitter(scene, access, building.local(row.eye), glm::vec3(gaze), {});
+  double veil = 0;
+  for (size_t i = 0; i < lux.size(); ++i) {
+    const CompiledEmitter& emitter = scene.emitters[i];
+    if (lux[i] <= 0) continue;
+    if (emitter.sign != none_index && scene.signs[emitter.sign].sign == sign) continue;
+    const glm::vec3 place = emitter.corners.empty() ? emitter.origin : emitter.corners.front();
+    const glm::dvec3 to_source(place - building.local(row.eye));
+    veil += lux[i] * veil_per_lux(angle_deg(to_source, gaze), age_years);
+  }
+  return veil;
+}
+
+/// Of independent samples, to first order.
+Uncertain plus(const Uncertain& a, const Uncertain& b) {
+  return {a.value + b.value, std::hypot(a.error, b.error)};
+}
+Uncertain product(const Uncertain& a, const Uncertain& b) {
+  return {a.value * b.value, std::hypot(a.value * b.error, a.error * b.value)};
+}
+
+class RealityMode {
+ public:
+  RealityMode(const SceneDescription& scene, const Scenario& scenario, const AssessOptions& options,
+              Assessment& out)
+      : scene_(scene), scenario_(scenario), options_(options), out_(out) {}
+
+  /// Who can see what, by straight lines. Errors: as assess_sights.
+  Result<Done> look_for_lines(const AssessProgress& progress);
+  /// One round of paths for what is undecided. Errors: as assess_sights.
+  Result<Done> trace(int round, const std::atomic<bool>& interrupt, const AssessProgress& progress);
+  bool anything_open() const { return !open_.empty(); }
+
+ private:
+  /// A row whose verdict is not yet there, and who looks.
+  struct Open {
+    size_t row;
+    size_t stand;
+    uint32_t sign;
+  };
+  SceneDescription round_scene(int round) const;
+  SignLook look_at(const Readout& readout, const CompiledScene& scene, const EyeTarget& target,
+                   const SightRow& row) const;
+  void judge(const CompiledScene& scene, const Totals& totals);
+
+  const SceneDescription& scene_;
+  const Scenario& scenario_;
+  const AssessOptions& options_;
+  Assessment& out_;
+  std::vector<Stand> stands_;
+  std::vector<Open> open_;
+  std::vector<size_t> asked_;  // stands of the round's observers
+};
+
+Result<Done> RealityMode::look_for_lines(const AssessProgress& progress) {
+  progress("lines of sight", 0);
+  auto made = Building::make(without_measurements(scene_), scenario_, options_.threads);
+  if (!made.ok()) return made.problem();
+  const Building& building = *made.value();
+  stands_ = stands_of(scene_);
+  if (stands_.size() * scene_.signs.size() > limits::sights)
+    return Problem{{scene_.file, 0},
+                   fmt::format("{} places and {} signs make more pairs than {}: take a larger "
+                               "spacing_m or fewer eye heights",
+                               stands_.size(), scene_.signs.size(), limits::sights)};
+  std::vector<std::vector<SightRow>> rows(stands_.size());
+  std::vector<char> stuck(stands_.size(), 0);
+  building.each(stands_.size(), [&](const GeometryAccess& access, size_t i) {
+    const Stand& stand = stands_[i];
+    stuck[i] = building.in_solid(access, stand.observer.eye) ? 1 : 0;
+    for (uint32_t s = 0; s < scene_.signs.size(); ++s) {
+      const Sign& sign = scene_.signs[s];
+      SightRow row{stand.from,
+                   stand.along_m,
+                   stand.height_m,
+                   stand.observer.eye,
+                   sign.name,
+                   false,
+                   0,
+                   {},
+                   {},
+                   {}};
+      row.view = view_of_sign(sign, row.eye);
+      if (row.view.behind) continue;
+      row.back_face = row.view.back_face;
+      row.gaze_deg = angle_deg(row.view.centre - row.eye, stand.observer.gaze);
+      const double seen = building.seen_share(access, sign, row.view, row.eye);
+      row.look.visible_share = seen;
+      if (seen == 0) row.sight.verdict = SightVerdict::hidden;
+      if (stuck[i] != 0) row.sight.reason = "the eye is in a solid thing";
+      if (seen > 0 && stuck[i] == 0) {
+        row.sight.verdict = SightVerdict::undecided;
+        row.look.veil_cd_m2 = veil_of(building, access, row, s, scene_.assessment.age_years);
+      }
+      rows[i].push_back(std::move(row));
+    }
+  });
+  for (size_t i = 0; i < rows.size(); ++i)
+    for (SightRow& row : rows[i]) {
+      if (row.sight.verdict == SightVerdict::undecided) {
+        const auto sign = std::find_if(scene_.signs.begin(), scene_.signs.end(),
+                                       [&](const Sign& s) { return s.name == row.sign; });
+        open_.push_back(
+            {out_.sights.size(), i, static_cast<uint32_t>(sign - scene_.signs.begin())});
+      }
+      out_.sights.push_back(std::move(row));
+    }
+  return Done{};
+}
+
+/// The scene with those who still have to look, and as many paths as the round has.
+SceneDescription RealityMode::round_scene(int round) const {
+  SceneDescription scene = without_measurements(scene_);
+  size_t last = stands_.size();
+  for (const Open& open : open_) {
+    if (open.stand != last) {
+      scene.observers.push_back(stands_[open.stand].observer);
+      scene.observers.back().signs.emplace();
+      last = open.stand;
+    }
+    scene.observers.back().signs->push_back(open.sign);
+  }
+  scene.run.batch_particles = batch_particles;
+  const double paths = first_paths * std::pow(4, round);
+  const auto parts = static_cast<double>(3 * open_.size());
+  // Half a path more, so that rounding down gives this many.
+  scene.run.eye_share = (paths + 0.5) * parts / (paths_per_particle * batch_particles);
+  return scene;
+}
+
+SignLook RealityMode::look_at(const Readout& readout, const CompiledScene& scene,
+                              const EyeTarget& target, const SightRow& row) const {
+  const SignFace& face = scene.description->signs[scene.signs[target.sign].sign].face;
+  const auto of = [&](uint32_t part, EyeQuantity quantity) {
+    const Estimate e =
+        readout.value(scene.blocks.views, target.first_bin + part, static_cast<uint32_t>(quantity));
+    return Uncertain{e.value, e.standard_error};
+  };
+  const Uncertain white = of(0, EyeQuantity::at_eye), green = of(1, EyeQuantity::at_eye);
+  const bool white_legend = face.legend == SignColour::white;
+  const double w = colour_share(face, SignColour::white), g = colour_share(face, SignColour::green);
+  const double all = std::max(w + g, 1e-12);
+  SignLook look;
+  look.legend = white_legend ? white : green;
+  look.ground = white_legend ? green : white;
+  look.face = {(w * white.value + g * green.value) / all,
+               std::hypot(w * white.error, g * green.error) / all};
+  look.surround = of(2, EyeQuantity::at_eye);
+  const auto mean_of_colours = [&](EyeQuantity q) {
+    return (w * of(0, q).value + g * of(1, q).value) / all;
+  };
+  look.visible_share = mean_of_colours(EyeQuantity::visible);
+  const double passed = mean_of_colours(EyeQuantity::transmission);
+  look.transmission = look.visible_share > 0 ? passed / look.visible_share : 0;
+  look.veil_cd_m2 = row.look.veil_cd_m2;
+  const auto arrives = [&](uint32_t part) {
+    return product(plus(of(part, EyeQuantity::own), of(part, EyeQuantity::reflected)),
+                   of(part, EyeQuantity::transmission));
+  };
+  look.difference =
+      plus(arrives(white_legend ? 0 : 1), product({-1, 0}, arrives(white_legend ? 1 : 0)));
+  return look;
+}
+
+void RealityMode::judge(const CompiledScene& scene, const Totals& totals) {
+  const Readout readout(scene, totals);
+  const SightRules rules{{scene_.assessment.age_years}, scene_.assessment.irritant_smoke};
+  std::vector<Open> still;
+  for (const Open& open : open_) {
+    SightRow& row = out_.sights[open.row];
+    for (const EyeTarget& target : scene.eye_targets) {
+      const CompiledSign& face = scene.signs[target.sign];
+      if (asked_[target.observer] != open.stand || face.sign != open.sign ||
+          face.back != row.back_face)
+        continue;
+      row.look = look_at(readout, scene, target, row);
+      row.sight = judge_sight(scene_.signs[open.sign], row.view, row.look, rules);
+    }
+    if (row.sight.verdict == SightVerdict::undecided) still.push_back(open);
+  }
+  open_ = std::move(still);
+}
+
+Result<Done> RealityMode::trace(int round, const std::atomic<bool>& interrupt,
+                                const AssessProgress& progress) {
+  const std::string what = fmt::format("round {}: {} views", round + 1, open_.size());
+  progress(what, 0);
+  asked_.clear();
+  for (const Open& open : open_)
+    if (asked_.empty() || asked_.back() != open.stand) asked_.push_back(open.stand);
+  auto compiled =
+      compile_scene(std::make_shared<SceneDescription>(round_scene(round)), scenario_, {});
+  if (!compiled.ok()) return compiled.problem();
+  LocalRun run(compiled.value(), options_.seed + static_cast<uint64_t>(round), options_.threads);
+  StopRule stop;
+  stop.particles = batches * batch_particles;
+  const auto reason = run.run(stop, interrupt, [&](const Progress& p) {
+    progress(what, static_cast<double>(p.particles) / static_cast<double>(*stop.particles));
+  });
+  if (reason == StopReason::interrupted) return Problem{{}, "interrupted"};
+  out_.paths += run.batches() * int64_t{run.scene().eye_paths_per_batch} *
+                static_cast<int64_t>(3 * run.scene().eye_targets.size());
+  judge(run.scene(), run.totals());
+  progress(what, 1);
+  return Done{};
+}
+
+}  // namespace
+
+Result<Done> assess_sights(const SceneDescription& scene, const Scenario& scenario,
+                           const AssessOptions& options, const std::atomic<bool>& interrupt,
+                           const AssessProgress& progress, Assessment& out) {
+  RealityMode mode(scene, scenario, options, out);
+  if (auto ok = mode.look_for_lines(progress); !ok.ok()) return ok;
+  for (int round = 0; round < options.rounds && mode.anything_open(); ++round)
+    if (auto ok = mode.trace(round, interrupt, progress); !ok.ok()) return ok;
+  return Done{};
+}
+
+}  // namespace luxodus

@@ -1,0 +1,16 @@
+// The reality mode: what people on the routes read of the signs, with all light and all smoke, from
+// paths traced from their eyes. Rounds of paths go on where a verdict is undecided. Thread rule:
+// one thread, which has batches traced by others.
+#pragma once
+
+#include "actors/assess/assessment.hpp"
+#include "scenes/format/atomic_file.hpp"
+
+namespace luxodus {
+
+/// Adds sights to `out`. Errors: `interrupt`; more pairs of place and sign than a limit.
+Result<Done> assess_sights(const SceneDescription& scene, const Scenario& scenario,
+                           const AssessOptions& options, const std::atomic<bool>& interrupt,
+                           const AssessProgress& progress, Assessment& out);
+
+}  // namespace luxodus

@@ -1,0 +1,190 @@
+// luxodus assess, report, compare: whether signs and routes do their job, as a page and as data.
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <filesystem>
+
+#include "actors/assess/assessment_json.hpp"
+#include "actors/cli/command.hpp"
+
+namespace luxodus::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct AssessCommandOptions {
+  std::string scene;
+  std::string out;
+  std::vector<std::string> rules = {"en1838-2013"};
+  AssessOptions assess;
+  bool codes_alone = false;
+  bool strict = false;
+};
+
+CodeChoice codes_of(const std::vector<std::string>& rules) {
+  CodeChoice codes{false, false, false};
+  for (const std::string& rule : rules) {
+    codes.en_2013 = codes.en_2013 || rule == "en1838-2013";
+    codes.en_2024 = codes.en_2024 || rule == "en1838-2024";
+    codes.nfpa = codes.nfpa || rule == "nfpa101";
+  }
+  return codes;
+}
+
+void print_summary(const Json& a, const fs::path& out) {
+  const Json& counts = a["counts"];
+  std::printf("%d checks pass, %d fail, %d not assessed\n", counts["pass"].get<int>(),
+              counts["fail"].get<int>(), counts["not_assessed"].get<int>());
+  for (const Json& check : a["checks"]) {
+    if (check["verdict"] != "fail") continue;
+    const std::string value =
+        check["value"].is_number() ? short_number(check["value"].get<double>()) : "none";
+    std::printf(
+        "  fails: %s: %s: %s %s, %s %s (%s, %s)\n", check["subject"].get<std::string>().c_str(),
+        check["title"].get<std::string>().c_str(), value.c_str(),
+        check["unit"].get<std::string>().c_str(), check["sense"].get<std::string>().c_str(),
+        short_number(check["limit"].get<double>()).c_str(),
+        check["rule"].get<std::string>().c_str(), check["condition"].get<std::string>().c_str());
+  }
+  if (!a["sights"].empty()) {
+    std::printf("signs, from places on the routes:");
+    for (const auto& [word, count] : a["sight_counts"].items())
+      std::printf(" %d %s%s", count.get<int>(), word.c_str(),
+                  word == a["sight_counts"].items().end().key() ? "" : ";");
+    std::printf("\n");
+  }
+  std::printf("written to %s\n", (out / "report.html").string().c_str());
+}
+
+ExitCode verdict_of(const Json& a, bool strict) {
+  const Json& counts = a["counts"];
+  const bool open = counts["fail"].get<int>() + counts["not_assessed"].get<int>() > 0 ||
+                    a["sight_counts"].contains("undecided");
+  return strict && open ? ExitCode::failure : ExitCode::success;
+}
+
+Result<ExitCode> assess_scene(const AssessCommandOptions& options) {
+  const auto scene = load_scene(options.scene);
+  if (!scene) return ExitCode::bad_input;
+  install_interrupt_handler();
+  AssessOptions asked = options.assess;
+  asked.codes = codes_of(options.rules);
+  asked.reality = !options.codes_alone;
+  ProgressLine line("assess");
+  const auto assessed =
+      assess(scene, asked, interrupt_flag(), [&](const std::string& what, double share) {
+        line.put(fmt::format("{}: {:.0f} %", what, 100 * share), share >= 1);
+      });
+  if (!assessed.ok()) {
+    if (!interrupt_flag()) {
+      tell(assessed.problem());
+      return ExitCode::bad_input;
+    }
+    spdlog::warn("interrupted; nothing was written");
+    return ExitCode::interrupted;
+  }
+  for (const Problem& warning : assessed->warnings) spdlog::warn("{}", warning.text());
+  const fs::path out =
+      options.out.empty() ? fs::path("out") / (scene->name + "-assessed") : fs::path(options.out);
+  const Json json = assessment_json(*scene, assessed.value(), LUX_VERSION);
+  if (auto ok = write_assessment(out, json); !ok.ok()) return ok.problem();
+  print_summary(json, out);
+  return verdict_of(json, options.strict);
+}
+
+Result<ExitCode> report_again(const std::string& folder) {
+  const auto read = read_assessment(folder);
+  if (!read.ok()) return read.problem();
+  const fs::path page = fs::path(folder) / "report.html";
+  if (auto ok = write_file_atomically(page, assessment_page(read.value(), pictures_in(folder)));
+      !ok.ok())
+    return ok.problem();
+  std::printf("written to %s\n", page.string().c_str());
+  return ExitCode::success;
+}
+
+Result<ExitCode> compare_folders(const std::string& before, const std::string& after,
+                                 const std::string& json) {
+  const auto a = read_assessment(before);
+  if (!a.ok()) return a.problem();
+  const auto b = read_assessment(after);
+  if (!b.ok()) return b.problem();
+  const Json comparison = comparison_of(a.value(), b.value());
+  std::printf("%s", comparison_text(comparison).c_str());
+  if (!json.empty())
+    if (auto ok = write_json(json, comparison); !ok.ok()) return ok.problem();
+  return ExitCode::success;
+}
+
+/// Its exit code, or that of bad input after the problem was told.
+int told(const Result<ExitCode>& result) {
+  if (result.ok()) return result.value();
+  tell(result.problem());
+  return ExitCode::bad_input;
+}
+
+}  // namespace
+
+void add_assess(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<AssessCommandOptions>();
+  options->assess.threads = default_threads();
+  CLI::App* command =
+      app.add_subcommand("assess", "Judge signs and escape routes, by codes and in smoke");
+  command->footer(
+      "Needs routes, areas or observers in the scene (keys: scenes/format/README.md). Writes\n"
+      "report.html, assessment.json, checks.csv and sights.csv.\n"
+      "  luxodus assess scenes/library/office_floor.toml --out out/office\n"
+      "  luxodus assess office.toml --rules en1838-2024,nfpa101 --codes-alone\n"
+      "  luxodus assess office.toml --smoke-scale 0.1,0.3,1,3,10");
+  command->add_option("scene", options->scene, "scene file (TOML)")->required();
+  command->add_option("--scenario", options->assess.scenario,
+                      "state of the building [the first in emergency operation, with smoke]");
+  command->add_option("--out", options->out, "folder of the results [out/NAME-assessed]");
+  command
+      ->add_option("--rules", options->rules,
+                   "codes: en1838-2013, en1838-2024, nfpa101 [en1838-2013]")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"en1838-2013", "en1838-2024", "nfpa101"}));
+  command->add_option("--seed", options->assess.seed, "of all random numbers [1]")
+      ->check(seed_number());
+  command->add_option("--threads", options->assess.threads, "threads [all]")
+      ->check(CLI::Range(1, 1024));
+  command
+      ->add_option("--rounds", options->assess.rounds,
+                   "rounds of paths at most, each of four times as many, for what is undecided [4]")
+      ->check(CLI::Range(1, limits::sight_rounds));
+  command
+      ->add_option("--smoke-scale", options->assess.smoke_factors,
+                   "judge signs again with all smoke times these factors")
+      ->delimiter(',')
+      ->check(CLI::Range(0.0, 1e6));
+  command->add_flag("--codes-alone", options->codes_alone, "no smoke, no reflections: codes only");
+  command->add_flag("--strict", options->strict,
+                    "exit code 1 where anything fails, is undecided or not assessed");
+  command->callback([options, &exit_code] { exit_code = told(assess_scene(*options)); });
+}
+
+void add_report(CLI::App& app, int& exit_code) {
+  auto folder = std::make_shared<std::string>();
+  CLI::App* command =
+      app.add_subcommand("report", "Write the page of an assessment again, with new pictures");
+  command->footer("Takes in the pictures of FOLDER/views, as `luxodus render` makes them.");
+  command->add_option("folder", *folder, "folder of luxodus assess")->required();
+  command->callback([folder, &exit_code] { exit_code = told(report_again(*folder)); });
+}
+
+void add_compare(CLI::App& app, int& exit_code) {
+  auto folders = std::make_shared<std::pair<std::string, std::string>>();
+  auto json = std::make_shared<std::string>();
+  CLI::App* command = app.add_subcommand("compare", "What two assessments say differently");
+  command->footer("  luxodus compare out/before out/after");
+  command->add_option("before", folders->first, "folder of luxodus assess")->required();
+  command->add_option("after", folders->second, "another")->required();
+  command->add_option("--json", *json, "write it to this file, too");
+  command->callback([folders, json, &exit_code] {
+    exit_code = told(compare_folders(folders->first, folders->second, *json));
+  });
+}
+
+}  // namespace luxodus::cli

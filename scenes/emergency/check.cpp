@@ -1,0 +1,65 @@
+#include "scenes/emergency/check.hpp"
+
+#include <cmath>
+
+namespace luxodus {
+
+const char* name_of(CheckVerdict verdict) {
+  switch (verdict) {
+    case CheckVerdict::pass:
+      return "pass";
+    case CheckVerdict::fail:
+      return "fail";
+    case CheckVerdict::not_assessed:
+      return "not assessed";
+    case CheckVerdict::information:
+      return "information";
+  }
+  return "";
+}
+
+std::optional<double> Check::margin() const {
+  if (!value || !limit || *limit == 0) return std::nullopt;
+  return (at_least ? *value - *limit : *limit - *value) / std::abs(*limit);
+}
+
+Check judged(Rule rule, std::string subject, double value, double limit, bool at_least,
+             std::string unit, std::optional<glm::dvec3> worst) {
+  Check check;
+  check.rule = std::move(rule);
+  check.subject = std::move(subject);
+  check.value = value;
+  check.limit = limit;
+  check.at_least = at_least;
+  check.unit = std::move(unit);
+  check.worst = worst;
+  if (std::isinf(value)) check.reason = "beyond all measure: there is none, or no light at all";
+  if (std::isnan(value)) {
+    check.reason = "no value could be computed";
+    return check;
+  }
+  const bool holds = at_least ? value >= limit : value <= limit;
+  check.verdict = holds ? CheckVerdict::pass : CheckVerdict::fail;
+  return check;
+}
+
+Check not_assessed(Rule rule, std::string subject, std::string reason) {
+  Check check;
+  check.rule = std::move(rule);
+  check.subject = std::move(subject);
+  check.reason = std::move(reason);
+  return check;
+}
+
+CheckCounts counts_of(const std::vector<Check>& checks) {
+  CheckCounts counts{};
+  for (const Check& check : checks) ++counts[static_cast<size_t>(check.verdict)];
+  return counts;
+}
+
+std::string words_of(const CheckCounts& counts) {
+  return std::to_string(counts[0]) + " checks pass, " + std::to_string(counts[1]) + " fail, " +
+         std::to_string(counts[2]) + " not assessed";
+}
+
+}  // namespace luxodus

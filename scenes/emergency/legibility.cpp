@@ -1,0 +1,131 @@
+#include "scenes/emergency/legibility.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scenes/emergency/smoke_laws.hpp"
+
+namespace luxodus {
+
+namespace {
+
+/// A verdict's distance from its limit, in standard errors.
+constexpr double sure = 2;
+/// Below the first share a sign is hidden; up to the second what arrives is a mixture of the sign
+/// and of what stands before it, of which nothing is said.
+constexpr double hidden_share = 0.02, whole_share = 0.95;
+
+/// Visibility level of what differs from its background by so much, both seen through a veil, with
+/// the error of both.
+Uncertain level(const Uncertain& difference, const Uncertain& background, double veil,
+                double size_arcmin, const Eye& eye) {
+  if (!(size_arcmin > 0)) return {};
+  const auto at = [&](double by, double under) {
+    return visibility_level(under + by, under, size_arcmin, eye);
+  };
+  const double under = background.value + veil;
+  const double value = at(difference.value, under);
+  const double by_chance = at(difference.error, under);
+  // The background is also what the eye adapts to.
+  return {value, std::hypot(by_chance, at(difference.value, under + background.error) - value)};
+}
+
+Uncertain minus(const Uncertain& a, const Uncertain& b) {
+  return {a.value - b.value, std::hypot(a.error, b.error)};
+}
+
+bool surely_above(const Uncertain& level, double limit) {
+  return level.value - sure * level.error >= limit;
+}
+bool surely_below(const Uncertain& level, double limit) {
+  return level.value + sure * level.error < limit;
+}
+
+bool has_legend(const SignFace& face) {
+  return std::count(face.colour.begin(), face.colour.end(), SignColour::white) > 0 &&
+         std::count(face.colour.begin(), face.colour.end(), SignColour::green) > 0;
+}
+
+/// Seen by nobody: neither the pattern, nor a silhouette that could be told from chance where
+/// chance is smaller than what an eye tells apart.
+bool unseen(const Uncertain& pattern, const Uncertain& silhouette) {
+  const bool no_silhouette =
+      surely_below(silhouette, level_seen) ||
+      (silhouette.value < sure * silhouette.error && silhouette.error <= level_seen);
+  return surely_below(pattern, level_seen) && no_silhouette;
+}
+
+/// By what the eye receives alone.
+void judge_by_light(Sight& sight, const SignView& view, const SignLook& look, const Eye& eye) {
+  const double whole = std::sqrt(view.width_arcmin * view.height_arcmin);
+  const double veil = look.veil_cd_m2;
+  const Uncertain pattern = level(look.difference, look.ground, veil, whole, eye);
+  const Uncertain silhouette =
+      level(minus(look.face, look.surround), look.surround, veil, whole, eye);
+  sight.reading_level = level(look.difference, look.ground, veil, view.detail_arcmin, eye);
+  sight.seeing_level = pattern.value >= silhouette.value ? pattern : silhouette;
+  const bool seen = surely_above(pattern, level_seen) || surely_above(silhouette, level_seen);
+  if (surely_above(sight.reading_level, level_read)) {
+    sight.verdict = SightVerdict::legible;
+  } else if (unseen(pattern, silhouette)) {
+    sight.verdict = SightVerdict::invisible;
+  } else if (surely_below(sight.reading_level, level_read) && seen) {
+    sight.verdict = SightVerdict::visible;
+  } else {
+    sight.verdict = SightVerdict::undecided;
+    sight.reason = "needs more particles";
+  }
+}
+
+}  // namespace
+
+const char* name_of(SightVerdict verdict) {
+  switch (verdict) {
+    case SightVerdict::legible:
+      return "legible";
+    case SightVerdict::visible:
+      return "visible but not legible";
+    case SightVerdict::invisible:
+      return "invisible";
+    case SightVerdict::hidden:
+      return "hidden by the building";
+    case SightVerdict::undecided:
+      return "undecided";
+    case SightVerdict::not_assessed:
+      return "not assessed";
+  }
+  return "";
+}
+
+Sight judge_sight(const Sign& sign, const SignView& view, const SignLook& look,
+                  const SightRules& rules) {
+  Sight sight;
+  sight.viewing = viewing_distance(sign, view);
+  const double passed = std::clamp(look.transmission, 1e-300, 1.0);
+  sight.extinction = view.distance_m > 0 ? -std::log(passed) / view.distance_m : 0;
+  const double constant = jin_constant(sign.lighting);
+  sight.jin_m = jin_distance_m(constant, sight.extinction);
+  sight.jin_legible = view.distance_m <= sight.jin_m;
+  if (look.visible_share < hidden_share) {
+    sight.verdict = SightVerdict::hidden;
+    return sight;
+  }
+  if (look.visible_share < whole_share) {
+    sight.reason = "the building hides a part of it";
+    return sight;
+  }
+  if (!has_legend(sign.face)) {
+    sight.reason = "its face has one colour: there is nothing to read";
+    return sight;
+  }
+  judge_by_light(sight, view, look, rules.eye);
+  if (sight.verdict == SightVerdict::legible && rules.irritant_smoke &&
+      sight.extinction >= irritant_from &&
+      view.distance_m > irritant_distance_m(constant, sight.extinction)) {
+    sight.verdict = SightVerdict::visible;
+    sight.reason = "irritant smoke: too far for eyes that sting (Jin and Yamada 1985)";
+  }
+  return sight;
+}
+
+}  // namespace luxodus

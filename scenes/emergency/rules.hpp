@@ -1,0 +1,84 @@
+// The rules of the codes that geometry and photometry can decide, each applied to what was
+// computed: illuminance on routes, areas and task planes, glare, what luminaires must be near to,
+// signs. EN 1838 (2013, and the route rule of its 2024 revision) and NFPA 101. Values are those of
+// direct light in clear air, at the end of the rated duration, unless a rule asks otherwise. The
+// codes' texts were not at hand: every rule says what it is quoted from. Pure functions; any
+// thread.
+#pragma once
+
+#include "scenes/emergency/check.hpp"
+#include "scenes/emergency/sign_geometry.hpp"
+#include "scenes/emergency/way.hpp"
+
+namespace luxodus {
+
+/// Which codes are applied.
+struct CodeChoice {
+  bool en_2013 = true;
+  bool en_2024 = false;
+  bool nfpa = false;
+};
+
+/// Measured in its own height above the floor [m] (EN 1838: at most 2 cm).
+inline constexpr double floor_plane_m = 0.02;
+/// Between points of calculation on routes, and in areas [m].
+inline constexpr double route_grid_m = 0.25, area_grid_m = 0.5;
+
+/// A point of calculation, with what each emergency luminaire gives there [lx].
+struct LitPoint {
+  glm::dvec3 place;
+  std::vector<double> lux;
+};
+
+/// The emergency luminaires of a scene: numbers of its emitters, in their order.
+std::vector<uint32_t> emergency_luminaires(const SceneDescription& scene);
+
+/// Points that the rules for a route ask for.
+struct RoutePoints {
+  std::vector<glm::dvec3> centre;  // of its strips of 2 m at most (EN 1838)
+  std::vector<glm::dvec3> band;    // half the width of each strip
+  std::vector<glm::dvec3> inner;   // all but the edges (2024)
+};
+RoutePoints points_of(const EscapeRoute& route, const CodeChoice& codes);
+
+struct RouteLight {
+  std::vector<LitPoint> centre, band, inner;
+};
+
+/// `luminaires` are those of the columns of lux; each may fail in turn.
+std::vector<Check> checks_of_route(const SceneDescription& scene, const EscapeRoute& route,
+                                   const RouteLight& light, const CodeChoice& codes);
+std::vector<Check> checks_of_open_area(const SceneDescription& scene, const AssessedArea& area,
+                                       const std::vector<LitPoint>& core, const CodeChoice& codes);
+std::vector<Check> checks_of_task_area(const AssessedArea& area, const std::vector<LitPoint>& plane,
+                                       const CodeChoice& codes);
+/// Disability glare of a luminaire by its intensity, with the highest emergency flux.
+std::vector<Check> checks_of_glare(const SceneDescription& scene, const CodeChoice& codes);
+
+/// The places of emphasis that the scene names, and the bends of its routes.
+std::vector<EmphasisPoint> emphasis_of(const SceneDescription& scene);
+/// `vertical_lx`: on the front of equipment; none where it says no facing.
+std::vector<Check> checks_of_emphasis(const SceneDescription& scene, const EmphasisPoint& point,
+                                      std::optional<double> vertical_lx, const CodeChoice& codes);
+
+/// What a sign is by itself. `face_lx`: mean direct light on an externally lit face in emergency
+/// operation.
+std::vector<Check> checks_of_sign(const SceneDescription& scene, const Sign& sign, double face_lx,
+                                  const CodeChoice& codes);
+
+/// A sign that somebody on a route has a clear line to.
+struct ClearSign {
+  uint32_t sign;
+  SignView view;
+};
+/// Whether people on a route have a sign near enough everywhere, by the codes' distances.
+/// `clear`: by walker.
+std::vector<Check> checks_of_distance(const SceneDescription& scene, const EscapeRoute& route,
+                                      const std::vector<Walker>& walkers,
+                                      const std::vector<std::vector<ClearSign>>& clear,
+                                      const CodeChoice& codes);
+
+/// Rules of the chosen codes that a scene says too little for, each once.
+std::vector<Check> checks_beyond(const CodeChoice& codes);
+
+}  // namespace luxodus

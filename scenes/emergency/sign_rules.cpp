@@ -1,0 +1,187 @@
+// Signs: brightness, evenness, contrast, height, letters, and whether people are near enough.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "scenes/emergency/rule_table.hpp"
+#include "scenes/emergency/rules.hpp"
+#include "scenes/emergency/sign_face.hpp"
+
+namespace luxodus {
+
+namespace {
+
+constexpr double green_least = 2, green_least_in_smoke = 10;  // S1 [cd/m2]
+constexpr double evenness_most = 10;                          // S2
+constexpr double contrast_least = 5, contrast_most = 15;      // S3
+constexpr double mains_white = 500;                           // S5 [cd/m2]
+constexpr double height_least_m = 2;                          // S6
+constexpr double low_level_m = 1;          // where way guidance along the floor ends
+constexpr double luminaire_near_m = 2;     // S6
+constexpr double elevation_most_deg = 20;  // S6
+constexpr double standing_eye_m = 1.65;
+constexpr double face_lx = 54;                                    // N6
+constexpr double letter_least_m = 0.152, stroke_least_m = 0.019;  // N7
+constexpr double nearest_most_m = 30;                             // N8
+
+struct Extremes {
+  double least = std::numeric_limits<double>::infinity(), most = 0;
+};
+
+/// Of the brightness pattern over one colour, whose mean is 1.
+Extremes pattern_of(const SignFace& face, SignColour colour) {
+  Extremes e;
+  for (size_t i = 0; i < face.relative_luminance.size(); ++i) {
+    if (face.colour[i] != colour) continue;
+    const auto v = static_cast<double>(face.relative_luminance[i]);
+    e.least = std::min(e.least, v);
+    e.most = std::max(e.most, v);
+  }
+  return e;
+}
+
+constexpr const char* one_number =
+    "one luminance for each colour is known, not how it varies over the face: give a luminance_map";
+
+/// A mean that is too low is too low somewhere; one that is high enough says nothing of the dimmest
+/// place.
+Check smallest_green(const SceneDescription& scene, const Sign& sign, const std::string& subject) {
+  const double limit = scene.assessment.smoke_expected ? green_least_in_smoke : green_least;
+  const double mean = sign.emergency.green_cd_m2;
+  const bool mapped = !sign.face.relative_luminance.empty();
+  Check check = judged(rule_of("S1"), subject,
+                       mapped ? mean * pattern_of(sign.face, SignColour::green).least : mean, limit,
+                       true, "cd/m2", sign.frame.origin);
+  check.condition = scene.assessment.smoke_expected ? "smoke may occur" : "no smoke is expected";
+  if (!mapped && check.verdict == CheckVerdict::pass) {
+    check.verdict = CheckVerdict::not_assessed;
+    check.reason = one_number;
+  }
+  return check;
+}
+
+Check evenness(const Sign& sign, const std::string& subject) {
+  if (sign.face.relative_luminance.empty()) return not_assessed(rule_of("S2"), subject, one_number);
+  double worst = 0;
+  for (const SignColour colour : {SignColour::white, SignColour::green}) {
+    const Extremes e = pattern_of(sign.face, colour);
+    if (e.most > 0)
+      worst =
+          std::max(worst, e.least > 0 ? e.most / e.least : std::numeric_limits<double>::infinity());
+  }
+  return judged(rule_of("S2"), subject, worst, evenness_most, false, "1", sign.frame.origin);
+}
+
+/// By the means of the colours.
+std::vector<Check> contrast(const Sign& sign, const std::string& subject) {
+  const double green = sign.emergency.green_cd_m2;
+  if (!(green > 0)) return {not_assessed(rule_of("S3"), subject, "green has no luminance")};
+  const double ratio = sign.emergency.white_cd_m2 / green;
+  const bool low = ratio < contrast_least;
+  Check check = judged(rule_of("S3"), subject, ratio, low ? contrast_least : contrast_most, low,
+                       "1", sign.frame.origin);
+  check.condition = "5 to 15, of the means";
+  return {check};
+}
+
+std::vector<Check> mounting(const SceneDescription& scene, const Sign& sign,
+                            const std::string& subject) {
+  const auto floor = floor_below(scene, sign.frame.origin);
+  if (!floor)
+    return {not_assessed(rule_of("S6"), subject,
+                         "no route or open area lies below it: its height is not known")};
+  const double height = sign.frame.origin.z - sign.height_m / 2 - *floor;
+  if (height < low_level_m)
+    return {not_assessed(rule_of("S6"), subject,
+                         "it is a low one, which may stand beside those above (ISO 16069)")};
+  SignView from_ahead;
+  const double farthest = viewing_distance(sign, from_ahead).allowed_m;
+  const double above = sign.frame.origin.z - *floor - standing_eye_m;
+  const double elevation =
+      std::asin(std::clamp(above / std::max(farthest, 1e-9), -1.0, 1.0)) * 180 / 3.14159265358979;
+  return {judged(rule_of("S6"), subject, height, height_least_m, true, "m", sign.frame.origin),
+          judged(rule_of("S6a"), subject, elevation, elevation_most_deg, false, "deg",
+                 sign.frame.origin)};
+}
+
+Check luminaire_near(const SceneDescription& scene, const Sign& sign, const std::string& subject) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const uint32_t number : emergency_luminaires(scene))
+    nearest = std::min(
+        nearest, glm::length(glm::dvec2(scene.emitters[number].frame.origin - sign.frame.origin)));
+  return judged(rule_of("S6l"), subject, nearest, luminaire_near_m, false, "m", sign.frame.origin);
+}
+
+std::vector<Check> en_checks(const SceneDescription& scene, const Sign& sign,
+                             const std::string& subject) {
+  std::vector<Check> out;
+  if (sign.lighting == SignLighting::internal) {
+    out.push_back(smallest_green(scene, sign, subject));
+    out.push_back(evenness(sign, subject));
+    for (Check& check : contrast(sign, subject)) out.push_back(std::move(check));
+    out.push_back(judged(rule_of("S5"), subject, sign.mains.white_cd_m2, mains_white, true, "cd/m2",
+                         sign.frame.origin));
+  }
+  if (sign.lighting == SignLighting::external) out.push_back(luminaire_near(scene, sign, subject));
+  for (Check& check : mounting(scene, sign, subject)) out.push_back(std::move(check));
+  return out;
+}
+
+}  // namespace
+
+std::vector<Check> checks_of_sign(const SceneDescription& scene, const Sign& sign, double lux,
+                                  const CodeChoice& codes) {
+  const std::string subject = "sign \"" + sign.name + "\"";
+  std::vector<Check> out;
+  if (codes.en_2013 || codes.en_2024) out = en_checks(scene, sign, subject);
+  if (!codes.nfpa) return out;
+  if (sign.lighting == SignLighting::external)
+    out.push_back(judged(rule_of("N6"), subject, lux, face_lx, true, "lx", sign.frame.origin));
+  if (sign.letters) {
+    out.push_back(judged(rule_of("N7"), subject, sign.letters->height_m, letter_least_m, true, "m",
+                         sign.frame.origin));
+    out.push_back(judged(rule_of("N7s"), subject, sign.letters->stroke_m, stroke_least_m, true, "m",
+                         sign.frame.origin));
+  }
+  return out;
+}
+
+std::vector<Check> checks_of_distance(const SceneDescription& scene, const EscapeRoute& route,
+                                      const std::vector<Walker>& walkers,
+                                      const std::vector<std::vector<ClearSign>>& clear,
+                                      const CodeChoice& codes) {
+  const std::string subject = "route \"" + route.name + "\"";
+  const bool en = codes.en_2013 || codes.en_2024;
+  // Of the best sign, as a share of what its rule allows; and the nearest in metres.
+  double worst_share = 0, worst_distance = 0;
+  glm::dvec3 where_share(0), where_distance(0);
+  for (size_t i = 0; i < walkers.size(); ++i) {
+    double share = std::numeric_limits<double>::infinity(), distance = share;
+    for (const ClearSign& seen : clear[i]) {
+      const double allowed = viewing_distance(scene.signs[seen.sign], seen.view).allowed_oblique_m;
+      if (allowed > 0) share = std::min(share, seen.view.distance_m / allowed);
+      distance = std::min(distance, seen.view.distance_m);
+    }
+    if (share > worst_share) {
+      worst_share = share;
+      where_share = walkers[i].foot;
+    }
+    if (distance > worst_distance) {
+      worst_distance = distance;
+      where_distance = walkers[i].foot;
+    }
+  }
+  std::vector<Check> out;
+  if (en) {
+    out.push_back(judged(rule_of("S4"), subject, worst_share, 1, false, "of z h", where_share));
+    if (std::isinf(worst_share)) out.back().reason = "no sign faces this place";
+  }
+  if (codes.nfpa) {
+    out.push_back(
+        judged(rule_of("N8"), subject, worst_distance, nearest_most_m, false, "m", where_distance));
+    if (std::isinf(worst_distance)) out.back().reason = "no sign faces this place";
+  }
+  return out;
+}
+
+}  // namespace luxodus

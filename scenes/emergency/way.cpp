@@ -1,0 +1,154 @@
+#include "scenes/emergency/way.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace luxodus {
+
+namespace {
+
+/// Heights that differ by less are one [m].
+constexpr double level_within_m = 0.01;
+
+int pieces(double length, double spacing) {
+  return std::max(1, static_cast<int>(std::ceil(length / spacing * (1 - 1e-9))));
+}
+
+/// To the left of a leg, level.
+glm::dvec3 left_of(const glm::dvec3& from, const glm::dvec3& to) {
+  const glm::dvec2 way = glm::normalize(glm::dvec2(to - from));
+  return {-way.y, way.x, 0};
+}
+
+double distance_to_edge(const glm::dvec2& p, const glm::dvec2& a, const glm::dvec2& b) {
+  const glm::dvec2 edge = b - a;
+  const double t = std::clamp(glm::dot(p - a, edge) / glm::dot(edge, edge), 0.0, 1.0);
+  return glm::length(p - a - edge * t);
+}
+
+double distance_to_outline(const glm::dvec2& p, const std::vector<glm::dvec2>& outline) {
+  double least = std::numeric_limits<double>::infinity();
+  for (size_t i = 0; i < outline.size(); ++i)
+    least = std::min(least, distance_to_edge(p, outline[i], outline[(i + 1) % outline.size()]));
+  return least;
+}
+
+/// By the number of edges that a ray to the right crosses.
+bool lies_in(const glm::dvec2& p, const std::vector<glm::dvec2>& outline) {
+  bool in = false;
+  for (size_t i = 0; i < outline.size(); ++i) {
+    const glm::dvec2 a = outline[i], b = outline[(i + 1) % outline.size()];
+    if ((a.y > p.y) == (b.y > p.y)) continue;
+    if (p.x < a.x + (b.x - a.x) * (p.y - a.y) / (b.y - a.y)) in = !in;
+  }
+  return in;
+}
+
+/// Distance in plan, and the height of the nearest point of a route.
+std::pair<double, double> nearest_of(const EscapeRoute& route, const glm::dvec2& p) {
+  std::pair<double, double> best{std::numeric_limits<double>::infinity(), 0};
+  for (size_t i = 1; i < route.path.size(); ++i) {
+    const glm::dvec3 a = route.path[i - 1], b = route.path[i];
+    const glm::dvec2 leg(b - a);
+    const double t = std::clamp(glm::dot(p - glm::dvec2(a), leg) / glm::dot(leg, leg), 0.0, 1.0);
+    const glm::dvec3 at = a + (b - a) * t;
+    const double distance = glm::length(p - glm::dvec2(at));
+    if (distance < best.first) best = {distance, at.z};
+  }
+  return best;
+}
+
+}  // namespace
+
+double length_of(const EscapeRoute& route) {
+  double length = 0;
+  for (size_t i = 1; i < route.path.size(); ++i)
+    length += glm::length(route.path[i] - route.path[i - 1]);
+  return length;
+}
+
+bool is_level(const EscapeRoute& route) {
+  return std::all_of(route.path.begin(), route.path.end(), [&](const glm::dvec3& p) {
+    return std::abs(p.z - route.path.front().z) < level_within_m;
+  });
+}
+
+std::vector<glm::dvec3> along(const EscapeRoute& route, double aside_m, double spacing_m) {
+  std::vector<glm::dvec3> out;
+  for (size_t i = 1; i < route.path.size(); ++i) {
+    const glm::dvec3 from = route.path[i - 1], to = route.path[i];
+    const glm::dvec3 aside = left_of(from, to) * aside_m;
+    const int n = pieces(glm::length(to - from), spacing_m);
+    // Each leg begins where the one before ended, if that is the same place.
+    for (int k = i > 1 && aside_m == 0 ? 1 : 0; k <= n; ++k)
+      out.push_back(glm::mix(from, to, static_cast<double>(k) / n) + aside);
+  }
+  return out;
+}
+
+std::vector<glm::dvec3> within(const EscapeRoute& route, double half_width_m, double spacing_m) {
+  std::vector<glm::dvec3> out;
+  const int n = pieces(half_width_m, spacing_m);
+  for (int k = -n; k <= n; ++k) {
+    const auto line = along(route, half_width_m * k / n, spacing_m);
+    out.insert(out.end(), line.begin(), line.end());
+  }
+  return out;
+}
+
+std::vector<glm::dvec3> within(const AssessedArea& area, double border_m, double spacing_m) {
+  glm::dvec2 low = area.outline.front(), high = low;
+  for (const glm::dvec2& p : area.outline) {
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+  }
+  low += border_m;
+  high -= border_m;
+  std::vector<glm::dvec3> out;
+  if (low.x > high.x || low.y > high.y) return out;
+  const int nx = pieces(high.x - low.x, spacing_m), ny = pieces(high.y - low.y, spacing_m);
+  for (int j = 0; j <= ny; ++j)
+    for (int i = 0; i <= nx; ++i) {
+      const glm::dvec2 p =
+          low + (high - low) * glm::dvec2(static_cast<double>(i) / nx, static_cast<double>(j) / ny);
+      const bool inside =
+          border_m > 0 ? lies_in(p, area.outline) &&
+                             distance_to_outline(p, area.outline) >= border_m * (1 - 1e-9)
+                       : lies_in(p, area.outline) || distance_to_outline(p, area.outline) < 1e-9;
+      if (inside) out.emplace_back(p, area.z_m);
+    }
+  return out;
+}
+
+std::vector<Walker> walkers(const EscapeRoute& route, double spacing_m) {
+  std::vector<Walker> out;
+  double before = 0;
+  for (size_t i = 1; i < route.path.size(); ++i) {
+    const glm::dvec3 from = route.path[i - 1], way = route.path[i] - from;
+    const double length = glm::length(way);
+    const int n = pieces(length, spacing_m);
+    for (int k = 0; k < n; ++k) {
+      const double share = static_cast<double>(k) / n;
+      out.push_back({from + way * share, way / length, before + length * share});
+    }
+    before += length;
+  }
+  return out;
+}
+
+std::optional<double> floor_below(const SceneDescription& scene, const glm::dvec3& place) {
+  std::pair<double, double> best{std::numeric_limits<double>::infinity(), 0};
+  const auto offer = [&](const std::pair<double, double>& floor) {
+    if (floor.second <= place.z && floor.first < best.first) best = floor;
+  };
+  for (const EscapeRoute& route : scene.routes) offer(nearest_of(route, glm::dvec2(place)));
+  for (const AssessedArea& area : scene.open_areas) {
+    const glm::dvec2 p(place);
+    offer({lies_in(p, area.outline) ? 0 : distance_to_outline(p, area.outline), area.z_m});
+  }
+  if (!std::isfinite(best.first)) return std::nullopt;
+  return best.second;
+}
+
+}  // namespace luxodus

@@ -1,0 +1,37 @@
+#include "scenes/transport/lines.hpp"
+
+namespace luxodus {
+
+std::vector<double> direct_by_emitter(const CompiledScene& scene, const GeometryAccess& access,
+                                      const glm::vec3& point, const glm::vec3& normal,
+                                      const DirectOptions& options) {
+  return with_resolver(scene, access, [&](auto resolver) {
+    std::vector<double> lux;
+    const glm::vec3 from = offset_ray(point, normal);
+    for (const CompiledEmitter& emitter : scene.emitters)
+      lux.push_back(direct_from(scene, emitter, from, normal, options, resolver).illuminance_lx);
+    return lux;
+  });
+}
+
+double clear_share(const CompiledScene& scene, const GeometryAccess& access, const glm::vec3& from,
+                   const glm::vec3& to) {
+  return with_resolver(scene, access, [&](auto resolver) {
+    const Connection line = connect(from, to, glm::normalize(from - to), true);
+    return solid_transmittance(scene, line.ray, line.ray.length, scene.bands.count() / 2, resolver);
+  });
+}
+
+std::optional<MetSurface> next_surface(const CompiledScene& scene, const GeometryAccess& access,
+                                       const glm::vec3& from, const glm::vec3& direction,
+                                       float length_m) {
+  return with_resolver(scene, access, [&](auto resolver) -> std::optional<MetSurface> {
+    Ray ray{from, direction};
+    ray.length = length_m;
+    const Hit hit = resolver.nearest(ray);
+    if (!hit.found()) return std::nullopt;
+    return MetSurface{hit.distance, glm::dot(hit.triangle->normal, direction) < 0};
+  });
+}
+
+}  // namespace luxodus

@@ -1,0 +1,32 @@
+// Straight lines through a scene, for whoever asks of places rather than of particles: what each
+// emitter gives at a point, whether one point sees another, what is next in a direction. Without
+// chance. One thread or fiber at a time.
+#pragma once
+
+#include <optional>
+
+#include "scenes/transport/direct.hpp"
+#include "scenes/transport/resolver.hpp"
+
+namespace luxodus {
+
+/// Direct illuminance at a point [local coordinates] by each emitter of the scene, in their order
+/// [lx].
+std::vector<double> direct_by_emitter(const CompiledScene& scene, const GeometryAccess& access,
+                                      const glm::vec3& point, const glm::vec3& normal,
+                                      const DirectOptions& options);
+
+/// Share of light in the middle band that whatever is solid lets pass between two points.
+double clear_share(const CompiledScene& scene, const GeometryAccess& access, const glm::vec3& from,
+                   const glm::vec3& to);
+
+struct MetSurface {
+  float distance_m = 0;
+  bool front = true;  // its front side is met
+};
+/// Nothing within `length_m`: none.
+std::optional<MetSurface> next_surface(const CompiledScene& scene, const GeometryAccess& access,
+                                       const glm::vec3& from, const glm::vec3& direction,
+                                       float length_m);
+
+}  // namespace luxodus

@@ -1,0 +1,231 @@
+// A room with one luminaire and one sign, assessed: closed forms where there are, and the page.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <map>
+
+#include "actors/assess/assessment.hpp"
+#include "actors/assess/assessment_json.hpp"
+#include "scenes/format/scene_file.hpp"
+#include "tests/unit/scenes/format/temporary_folder.hpp"
+
+using namespace luxodus;
+
+namespace {
+
+/// 12 m by 4 m by 3 m, black; a point of 300 lm above the middle, a sign at the end.
+const std::string room = R"(
+[[object]]
+name = "room"
+shape = "room"
+low = [0, -2, 0]
+high = [12, 2, 3]
+material = "black5"
+
+[[object]]
+name = "table"
+shape = "box"
+low = [8.6, -0.4, 0.7]
+high = [9.4, 0.4, 0.75]
+material = "grey50"
+tags = ["furniture"]
+
+[[emitter]]
+name = "lamp"
+shape = "point"
+distribution = "isotropic"
+position = [6, 0, 2.5]
+flux_lm = 1000
+emergency = "non-maintained"
+emergency_flux = 500
+maintenance_factor = 0.8
+end_of_duration_factor = 0.75
+
+[[sign]]
+name = "exit"
+position = [11.95, 0, 2.2]
+facing = [-1, 0, 0]
+width = 0.4
+height = 0.2
+text = "EXIT"
+letter_height = 0.15
+lighting = "internal"
+mains_white = 500
+mains_green = 50
+emergency_white = 100
+emergency_green = 10
+
+[assessment]
+spacing_m = 4
+eye_heights_m = [1.65]
+
+[[route]]
+name = "way"
+path = [[1, 0, 0], [11, 0, 0]]
+width = 1.6
+
+[[scenario]]
+name = "failed"
+operation = "emergency"
+)";
+
+std::shared_ptr<const SceneDescription> scene_of(const std::string& text) {
+  const test::TemporaryFolder folder;
+  auto read = read_scene(folder.write("scene.toml", text));
+  for (const Problem& problem : read.problems.list()) UNSCOPED_INFO(problem.text());
+  REQUIRE(read.scene);
+  return std::make_shared<SceneDescription>(std::move(*read.scene));
+}
+
+Result<Assessment> tried(const std::string& text, AssessOptions options = {}) {
+  static const std::atomic<bool> nobody{false};
+  return assess(scene_of(text), options, nobody, [](const std::string&, double) {});
+}
+
+Assessment assessed(const std::string& text, const AssessOptions& options = {}) {
+  auto result = tried(text, options);
+  INFO((result.ok() ? "" : result.problem().text()));
+  REQUIRE(result.ok());
+  return std::move(result).value();
+}
+
+const Check& check_of(const Assessment& a, const std::string& id, const std::string& condition) {
+  for (const Check& check : a.checks)
+    if (check.rule.id == id && check.condition.find(condition) != std::string::npos) return check;
+  FAIL("no check " << id);
+  return a.checks.front();
+}
+
+std::string with_smoke(double extinction, double albedo) {
+  return room + "[[medium]]\nname = \"smoke\"\nkind = \"homogeneous\"\nextinction = " +
+         std::to_string(extinction) + "\nalbedo = " + std::to_string(albedo) + "\n";
+}
+
+AssessOptions codes_alone() {
+  AssessOptions options;
+  options.reality = false;
+  return options;
+}
+
+}  // namespace
+
+TEST_CASE("the code mode is direct light at the end of the duration, without smoke or walls",
+          "[assess]") {
+  // I cos^3 / h^2 of 500 lm x 0.8 x 0.75, 5 m aside, 2.48 m above the plane.
+  const double intensity = 300 / (4 * 3.14159265358979323846), h = 2.5 - 0.02;
+  const double expected = intensity * h / std::pow(h * h + 25, 1.5);
+  for (const std::string& text : {room, with_smoke(2, 0.3)}) {
+    const Assessment a = assessed(text, codes_alone());
+    CHECK(*check_of(a, "E1", "without furniture").value == Approx(expected).epsilon(1e-4));
+    // The table's shadow lies on the way.
+    CHECK(*check_of(a, "E1", "with furniture").value < 1e-9);
+    CHECK(check_of(a, "N4", "\"lamp\" has failed").value == 0.0);
+    CHECK(a.sights.empty());
+  }
+}
+
+TEST_CASE("in absorbing smoke a sign's difference follows Koschmieder's law", "[assess]") {
+  AssessOptions options;
+  options.rounds = 1;
+  const Assessment a = assessed(with_smoke(0.4, 0), options);
+  REQUIRE(a.sights.size() == 3);
+  for (const SightRow& row : a.sights) {
+    const double cosine = std::cos(row.view.angle_deg * 3.14159265358979323846 / 180);
+    CHECK(cosine > 0.9);
+    CHECK(row.look.transmission == Approx(std::exp(-0.4 * row.view.distance_m)).epsilon(0.01));
+    // 100 - 10 cd/m2 of the sign itself, and the lamp's light on white and green letters.
+    CHECK(row.look.difference.value / row.look.transmission == Approx(90).epsilon(0.02));
+    CHECK(row.sight.extinction == Approx(0.4).epsilon(0.02));
+  }
+}
+
+TEST_CASE("thick smoke takes a sign away that clear air shows, and a sweep says where",
+          "[assess]") {
+  AssessOptions options;
+  options.rounds = 2;
+  options.smoke_factors = {0, 1, 20};
+  const Assessment a = assessed(with_smoke(0.5, 0.3), options);
+  std::map<double, int64_t> legible;
+  for (const SweepRow& row : a.sweep) {
+    CHECK(row.places == 3);
+    legible[row.factor] = row.legible;
+  }
+  CHECK(legible[0] == 3);
+  CHECK(legible[1] < 3);
+  CHECK(legible[20] == 0);
+}
+
+TEST_CASE("equal seeds give equal assessments, whatever the threads", "[assess]") {
+  AssessOptions one, two;
+  one.rounds = two.rounds = 1;
+  two.threads = 2;
+  const Assessment a = assessed(with_smoke(0.5, 0.3), one);
+  const Assessment b = assessed(with_smoke(0.5, 0.3), two);
+  REQUIRE(a.sights.size() == b.sights.size());
+  for (size_t i = 0; i < a.sights.size(); ++i) {
+    CHECK(a.sights[i].look.legend.value == b.sights[i].look.legend.value);
+    CHECK(a.sights[i].sight.verdict == b.sights[i].sight.verdict);
+  }
+}
+
+TEST_CASE("a route that nobody can walk is named with its line", "[assess]") {
+  const auto broken = [](std::string text, const std::string& from, const std::string& to) {
+    text.replace(text.find(from), from.size(), to);
+    const auto result = tried(text, codes_alone());
+    REQUIRE_FALSE(result.ok());
+    return result.problem();
+  };
+  const std::string path = "[[1, 0, 0], [11, 0, 0]]";
+  for (const char* wrong : {"[[1, 0, 0], [14, 0, 0]]", "[[1, 0, 1.5], [11, 0, 1.5]]"}) {
+    const Problem problem = broken(room, path, wrong);
+    CHECK(problem.what.find("route \"way\" has no floor under it") == 0);
+    CHECK(problem.where.line > 0);
+  }
+  const Problem nothing =
+      broken(room, "[[route]]\nname = \"way\"\npath = " + path + "\nwidth = 1.6\n", "");
+  CHECK(nothing.what.find("nothing to assess") != std::string::npos);
+}
+
+TEST_CASE("a sign that faces a wall is told", "[assess]") {
+  std::string text = room;
+  const std::string facing = "facing = [-1, 0, 0]";
+  text.replace(text.find(facing), facing.size(), "facing = [1, 0, 0]");
+  const Assessment a = assessed(text, codes_alone());
+  REQUIRE(a.warnings.size() == 1);
+  CHECK(a.warnings.front().what.find("sign \"exit\" faces a wall") == 0);
+  CHECK(check_of(a, "S4", "without furniture").verdict == CheckVerdict::fail);
+}
+
+TEST_CASE("an assessment is read back, and a comparison says what has changed", "[assess]") {
+  const test::TemporaryFolder folder;
+  AssessOptions options;
+  options.rounds = 1;
+  const auto scene = scene_of(with_smoke(0.4, 0));
+  const Json before = assessment_json(*scene, assessed(with_smoke(0.4, 0), options), "1");
+  REQUIRE(write_assessment(folder / "a", before).ok());
+  const auto again = read_assessment(folder / "a");
+  REQUIRE(again.ok());
+  CHECK(json_text(again.value()) == json_text(before));
+  const Json nothing = comparison_of(before, again.value());
+  for (const auto& [key, rows] : nothing.items()) CHECK(rows.empty());
+  std::string dimmer = with_smoke(0.4, 0);
+  dimmer.replace(dimmer.find("emergency_flux = 500"), 20, "emergency_flux = 250");
+  const Json after = assessment_json(*scene_of(dimmer), assessed(dimmer, options), "1");
+  const Json changed = comparison_of(before, after);
+  CHECK_FALSE(changed["values"].empty());
+  CHECK(comparison_text(changed).find("E1 route \"way\"") != std::string::npos);
+  CHECK_FALSE(read_assessment(folder / "").ok());
+}
+
+TEST_CASE("the report counts, and never says that a building complies", "[assess]") {
+  const auto scene = scene_of(room);
+  AssessOptions options;
+  options.rounds = 1;
+  const std::string page =
+      assessment_page(assessment_json(*scene, assessed(room, options), "1"), {{"view", "png"}});
+  CHECK(page.find(" fail, ") != std::string::npos);
+  CHECK(page.find("complies with EN") == std::string::npos);
+  CHECK(page.find("http-equiv") == std::string::npos);
+  CHECK(page.find("src=\"http") == std::string::npos);
+  CHECK(page.find("data:image/png;base64,cG5n") != std::string::npos);
+  CHECK(page.find("</html>") != std::string::npos);
+}

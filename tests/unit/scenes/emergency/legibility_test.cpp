@@ -1,0 +1,114 @@
+#include "scenes/emergency/legibility.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "scenes/emergency/sign_face.hpp"
+
+using namespace luxodus;
+
+namespace {
+
+/// 0.3 m by 0.15 m, half white, half green, details of 15 mm, seen square on.
+Sign two_coloured() {
+  Sign sign;
+  sign.width_m = 0.3;
+  sign.height_m = 0.15;
+  sign.smallest_detail_m = 0.015;
+  sign.face.width = 2;
+  sign.face.height = 1;
+  sign.face.colour = {SignColour::white, SignColour::green};
+  return sign;
+}
+
+/// In clear air: white 50, green 10, wall 1 cd/m2.
+SignLook clear() {
+  SignLook look;
+  look.legend = {50, 0.1};
+  look.ground = {10, 0.1};
+  look.difference = {40, 0.1};
+  look.face = {30, 0.1};
+  look.surround = {1, 0.05};
+  return look;
+}
+
+Sight judged_at(double distance_m, const SignLook& look, SightRules rules = {}) {
+  const Sign sign = two_coloured();
+  return judge_sight(sign, view_of_sign(sign, {0, 0, distance_m}), look, rules);
+}
+
+}  // namespace
+
+TEST_CASE("a bright sign is read from near, seen from far, and lost behind smoke",
+          "[emergency][legibility]") {
+  CHECK(judged_at(10, clear()).verdict == SightVerdict::legible);
+  CHECK(judged_at(300, clear()).verdict == SightVerdict::visible);
+  SignLook smoke = clear();
+  smoke.legend = smoke.ground = smoke.face = smoke.surround = {5, 1e-4};
+  smoke.difference = {40 * 1e-6, 1e-9};
+  smoke.transmission = 1e-6;
+  const Sight lost = judged_at(10, smoke);
+  CHECK(lost.verdict == SightVerdict::invisible);
+  CHECK(lost.extinction == Approx(1.38155).epsilon(1e-4));
+  CHECK_FALSE(lost.jin_legible);
+}
+
+TEST_CASE("what chance may have made is undecided", "[emergency][legibility]") {
+  SignLook noisy = clear();
+  const Sight sure = judged_at(10, noisy);
+  REQUIRE(sure.reading_level.value > level_read);
+  // So much noise that two standard errors reach down to the limit.
+  noisy.difference.error =
+      0.6 * 40 * (sure.reading_level.value - level_read) / sure.reading_level.value;
+  const Sight unsure = judged_at(10, noisy);
+  CHECK(unsure.verdict == SightVerdict::undecided);
+  CHECK_FALSE(unsure.reason.empty());
+}
+
+TEST_CASE("a silhouette before a bright wall is seen, though nothing on it can be told apart",
+          "[emergency][legibility]") {
+  SignLook dark = clear();
+  dark.legend = dark.ground = dark.face = {0.1, 0.001};
+  dark.difference = {0, 1e-5};
+  dark.surround = {5, 0.01};
+  CHECK(judged_at(10, dark).verdict == SightVerdict::visible);
+  dark.surround = {0.1, 0.0001};
+  CHECK(judged_at(10, dark).verdict == SightVerdict::invisible);
+  dark.surround = {0.1, 0.3};  // nobody knows
+  CHECK(judged_at(10, dark).verdict == SightVerdict::undecided);
+}
+
+TEST_CASE("glare takes a sign away", "[emergency][legibility]") {
+  SignLook faint = clear();
+  faint.legend = {0.5, 1e-4};
+  faint.ground = {0.1, 1e-4};
+  faint.difference = {0.4, 1e-4};
+  const double before = judged_at(10, faint).reading_level.value;
+  faint.veil_cd_m2 = 100;
+  CHECK(judged_at(10, faint).reading_level.value < before / 10);
+}
+
+TEST_CASE("hidden signs, half-hidden ones and faces of one colour get no verdict of sight",
+          "[emergency][legibility]") {
+  SignLook look = clear();
+  look.visible_share = 0;
+  CHECK(judged_at(10, look).verdict == SightVerdict::hidden);
+  look.visible_share = 0.5;
+  CHECK(judged_at(10, look).verdict == SightVerdict::not_assessed);
+  CHECK_FALSE(judged_at(10, look).reason.empty());
+  Sign plain = two_coloured();
+  plain.face.colour = {SignColour::white, SignColour::white};
+  const Sight sight = judge_sight(plain, view_of_sign(plain, {0, 0, 10}), clear(), {});
+  CHECK(sight.verdict == SightVerdict::not_assessed);
+}
+
+TEST_CASE("irritant smoke caps what optics would allow", "[emergency][legibility]") {
+  SignLook look = clear();
+  look.transmission = 0.01;  // over 8 m: 0.576/m
+  CHECK(judged_at(8, look).verdict == SightVerdict::legible);
+  const Sight stung = judged_at(8, look, {{65}, true});
+  CHECK(stung.extinction == Approx(0.5756).epsilon(1e-3));
+  // 8 / 0.576 (0.133 - 1.47 lg 0.576) = 6.7 m.
+  CHECK(stung.verdict == SightVerdict::visible);
+  CHECK(stung.reason.find("Jin and Yamada") != std::string::npos);
+  CHECK(judged_at(6, look, {{65}, true}).verdict != SightVerdict::undecided);
+}

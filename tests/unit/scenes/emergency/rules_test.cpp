@@ -1,0 +1,270 @@
+// Rules on values that are put in: what passes, what fails, where it is worst.
+#include "scenes/emergency/rules.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "scenes/emergency/sign_face.hpp"
+
+using namespace luxodus;
+
+namespace {
+
+constexpr CodeChoice all_codes{true, true, true};
+
+const Check& of(const std::vector<Check>& checks, const std::string& id) {
+  const auto at = std::find_if(checks.begin(), checks.end(),
+                               [&](const Check& check) { return check.rule.id == id; });
+  REQUIRE(at != checks.end());
+  return *at;
+}
+bool has(const std::vector<Check>& checks, const std::string& id) {
+  return std::any_of(checks.begin(), checks.end(), [&](const Check& c) { return c.rule.id == id; });
+}
+
+Emitter luminaire(const std::string& name, const glm::dvec3& at, double lumens) {
+  Emitter e;
+  e.name = name;
+  e.frame.origin = at;
+  e.distribution = Distribution::isotropic;
+  e.emergency_flux = lumens;
+  e.emergency_ageing = 0.5;
+  return e;
+}
+
+/// A level route 10 m long, two luminaires 2.8 m above it.
+SceneDescription corridor() {
+  SceneDescription scene;
+  EscapeRoute route;
+  route.name = "corridor";
+  route.path = {{0, 0, 0}, {10, 0, 0}};
+  route.width_m = 1.8;
+  scene.routes.push_back(route);
+  scene.emitters = {luminaire("a", {2, 0, 2.8}, 100), luminaire("b", {8, 0, 2.8}, 100)};
+  return scene;
+}
+
+LitPoint at(double x, double a, double b) {
+  return {{x, 0, 0.02}, {a, b}};
+}
+
+Sign sign_of(double white, double green) {
+  Sign sign;
+  sign.name = "exit";
+  sign.width_m = 0.3;
+  sign.height_m = 0.15;
+  sign.frame.origin = {5, 1, 2.3};
+  sign.mains = {500, 100};
+  sign.emergency = {white, green};
+  sign.face.width = 2;
+  sign.face.height = 1;
+  sign.face.colour = {SignColour::white, SignColour::green};
+  return sign;
+}
+
+}  // namespace
+
+TEST_CASE("a route passes at 1 lx and 40 to 1, and fails below", "[emergency][rules]") {
+  const SceneDescription scene = corridor();
+  const EscapeRoute& route = scene.routes.front();
+  RouteLight light;
+  light.centre = {at(0, 0.9, 0.1), at(5, 20, 20), at(10, 0.5, 0.6)};
+  light.band = {at(0, 0.3, 0.2), at(10, 0.2, 0.29)};
+  light.inner = {at(0, 1, 0.5)};
+  const auto checks = checks_of_route(scene, route, light, all_codes);
+  CHECK(of(checks, "E1").verdict == CheckVerdict::pass);
+  CHECK(*of(checks, "E1").value == Approx(1.0));
+  CHECK(of(checks, "E2").verdict == CheckVerdict::fail);
+  CHECK(*of(checks, "E2").value == Approx(0.49));
+  CHECK(of(checks, "E2").worst->x == 10);
+  CHECK(of(checks, "E2").margin().value() == Approx(-0.02));
+  CHECK(of(checks, "E4").verdict == CheckVerdict::pass);
+  CHECK(*of(checks, "E4").value == Approx(40));
+  CHECK(of(checks, "E5").verdict == CheckVerdict::pass);
+}
+
+TEST_CASE("at first light is what it was before batteries and lamps have aged",
+          "[emergency][rules]") {
+  const SceneDescription scene = corridor();
+  RouteLight light;
+  light.centre = {at(0, 0.4, 0.4), at(10, 6, 6)};
+  const auto checks = checks_of_route(scene, scene.routes.front(), light, all_codes);
+  CHECK(*of(checks, "N2").value == Approx((0.8 + 12) / 2));
+  CHECK(*of(checks, "N1").value == Approx(0.8 + 12));  // half is left at the end
+  CHECK(*of(checks, "N1m").value == Approx(1.6));
+  CHECK(of(checks, "N1").verdict == CheckVerdict::pass);
+  CHECK(of(checks, "N2").verdict == CheckVerdict::fail);
+}
+
+TEST_CASE("each luminaire fails in turn, and the worst is told", "[emergency][rules]") {
+  const SceneDescription scene = corridor();
+  RouteLight light;
+  light.centre = {at(0, 5, 0.2), at(10, 0.1, 5)};
+  const auto checks = checks_of_route(scene, scene.routes.front(), light, all_codes);
+  const Check& failed = of(checks, "N4");
+  CHECK(failed.verdict == CheckVerdict::information);
+  CHECK(*failed.value == Approx(0.1));
+  CHECK(failed.condition == "\"b\" has failed");
+}
+
+TEST_CASE("wide routes are strips of 2 m at most", "[emergency][rules]") {
+  EscapeRoute route = corridor().routes.front();
+  route.width_m = 5;
+  const RoutePoints points = points_of(route, all_codes);
+  double widest = 0;
+  for (const glm::dvec3& p : points.centre) widest = std::max(widest, std::abs(p.y));
+  CHECK(widest == Approx(5.0 / 3));  // three strips, of which the middle one is the centre
+  double edge = 0;
+  for (const glm::dvec3& p : points.inner) edge = std::max(edge, std::abs(p.y));
+  CHECK(edge == Approx(2.0));  // all but half a metre each side
+  route.width_m = 1.6;
+  for (const glm::dvec3& p : points_of(route, all_codes).band) CHECK(std::abs(p.y) <= 0.4 + 1e-9);
+}
+
+TEST_CASE("a place without any light fails beyond all measure, and without luminaires too",
+          "[emergency][rules]") {
+  SceneDescription scene = corridor();
+  RouteLight light;
+  light.centre = {at(0, 0, 0), at(10, 5, 5)};
+  auto checks = checks_of_route(scene, scene.routes.front(), light, {});
+  CHECK(of(checks, "E1").verdict == CheckVerdict::fail);
+  CHECK(std::isinf(*of(checks, "E4").value));
+  CHECK(of(checks, "E4").verdict == CheckVerdict::fail);
+  scene.emitters.clear();
+  light.centre = {{{0, 0, 0}, {}}};
+  checks = checks_of_route(scene, scene.routes.front(), light, {});
+  CHECK(of(checks, "E1").verdict == CheckVerdict::fail);
+  CHECK(*of(checks, "E1").value == 0);
+}
+
+TEST_CASE("an area too narrow for its borders has no core to assess", "[emergency][rules]") {
+  AssessedArea area;
+  area.name = "niche";
+  const auto checks = checks_of_open_area(corridor(), area, {}, {});
+  REQUIRE(checks.size() == 1);
+  CHECK(checks.front().verdict == CheckVerdict::not_assessed);
+  const auto lit = checks_of_open_area(corridor(), area, {at(0, 0.3, 0.3), at(1, 2, 2)}, {});
+  CHECK(of(lit, "E6").verdict == CheckVerdict::pass);
+}
+
+TEST_CASE("a task needs 15 lx or a tenth of its mains light, whichever is more",
+          "[emergency][rules]") {
+  AssessedArea bench;
+  bench.mains_lx = 500;
+  const std::vector<LitPoint> plane{at(0, 20, 20), at(1, 100, 100)};
+  const auto strict = checks_of_task_area(bench, plane, {});
+  CHECK(*of(strict, "E7").limit == 50);
+  CHECK(of(strict, "E7").verdict == CheckVerdict::fail);
+  CHECK(of(strict, "E7u").verdict == CheckVerdict::pass);
+  bench.mains_lx = 100;
+  CHECK(of(checks_of_task_area(bench, plane, {}), "E7").verdict == CheckVerdict::pass);
+}
+
+TEST_CASE("glare is judged by the new luminaire's intensity and its height", "[emergency][rules]") {
+  SceneDescription scene = corridor();
+  // 4 pi I lumens when new, half of it at the end.
+  const double pi = 3.14159265358979323846;
+  scene.emitters = {luminaire("low", {2, 0, 2.4}, 0.5 * 4 * pi * 501),
+                    luminaire("high", {2, 0, 2.6}, 0.5 * 4 * pi * 501)};
+  const auto checks = checks_of_glare(scene, {});
+  REQUIRE(checks.size() == 2);
+  CHECK(*checks[0].value == Approx(501));
+  CHECK(checks[0].verdict == CheckVerdict::fail);  // 500 cd below 2.5 m
+  CHECK(checks[1].verdict == CheckVerdict::pass);  // 900 cd below 3 m
+  CHECK(checks[0].condition.find("60 to 90") != std::string::npos);
+  scene.routes.front().path[1].z = 1;  // no level route any more
+  CHECK(checks_of_glare(scene, {})[0].condition == "all directions");
+  scene.emitters[0].distribution = Distribution::spot;
+  CHECK(checks_of_glare(scene, {})[0].verdict == CheckVerdict::not_assessed);
+}
+
+TEST_CASE("bends of routes are points of emphasis, and luminaires are near within 2 m",
+          "[emergency][rules]") {
+  SceneDescription scene = corridor();
+  scene.routes.front().path = {{0, 0, 0}, {8, 0, 0}, {8, 5, 0}};
+  const auto points = emphasis_of(scene);
+  REQUIRE(points.size() == 1);
+  CHECK(points[0].position == glm::dvec3(8, 0, 0));
+  CHECK(of(checks_of_emphasis(scene, points[0], std::nullopt, {}), "E12").verdict ==
+        CheckVerdict::pass);
+  EmphasisPoint hose;
+  hose.name = "hose";
+  hose.kind = EmphasisKind::fire_equipment;
+  hose.position = {5, 0, 1};
+  auto checks = checks_of_emphasis(scene, hose, std::nullopt, {});
+  CHECK(of(checks, "E12").verdict == CheckVerdict::fail);
+  CHECK(*of(checks, "E12").value == Approx(3));
+  CHECK(of(checks, "E13").verdict == CheckVerdict::not_assessed);
+  checks = checks_of_emphasis(scene, hose, 6.0, {});
+  CHECK(of(checks, "E13").verdict == CheckVerdict::pass);
+}
+
+TEST_CASE("one number for a colour can fail a sign but never pass it", "[emergency][rules]") {
+  SceneDescription scene = corridor();
+  auto checks = checks_of_sign(scene, sign_of(90, 12), 0, {});
+  CHECK(of(checks, "S1").verdict == CheckVerdict::not_assessed);
+  CHECK(of(checks, "S2").verdict == CheckVerdict::not_assessed);
+  CHECK(of(checks, "S3").verdict == CheckVerdict::pass);
+  CHECK(of(checks_of_sign(scene, sign_of(90, 9), 0, {}), "S1").verdict == CheckVerdict::fail);
+  scene.assessment.smoke_expected = false;
+  CHECK(of(checks_of_sign(scene, sign_of(45, 9), 0, {}), "S1").verdict ==
+        CheckVerdict::not_assessed);
+  Sign mapped = sign_of(90, 12);
+  mapped.face.relative_luminance = {1, 1};
+  scene.assessment.smoke_expected = true;
+  checks = checks_of_sign(scene, mapped, 0, {});
+  CHECK(of(checks, "S1").verdict == CheckVerdict::pass);
+  CHECK(of(checks, "S2").verdict == CheckVerdict::pass);
+  CHECK(of(checks_of_sign(scene, sign_of(200, 12), 0, {}), "S3").verdict == CheckVerdict::fail);
+}
+
+TEST_CASE("low signs stand beside high ones, and letters have their measures",
+          "[emergency][rules]") {
+  const SceneDescription scene = corridor();
+  Sign low = sign_of(90, 12);
+  low.frame.origin.z = 0.4;
+  CHECK(of(checks_of_sign(scene, low, 0, {}), "S6").verdict == CheckVerdict::not_assessed);
+  Sign middle = sign_of(90, 12);
+  middle.frame.origin.z = 1.8;
+  CHECK(of(checks_of_sign(scene, middle, 0, {}), "S6").verdict == CheckVerdict::fail);
+  Sign words = sign_of(90, 12);
+  words.letters = SignLetters{0.15, 0.02};
+  const auto checks = checks_of_sign(scene, words, 0, all_codes);
+  CHECK(of(checks, "N7").verdict == CheckVerdict::fail);
+  CHECK(of(checks, "N7s").verdict == CheckVerdict::pass);
+  Sign lit = sign_of(0, 0);
+  lit.lighting = SignLighting::external;
+  CHECK(of(checks_of_sign(scene, lit, 60, all_codes), "N6").verdict == CheckVerdict::pass);
+  CHECK_FALSE(has(checks_of_sign(scene, lit, 60, all_codes), "S1"));
+}
+
+TEST_CASE("a route needs a sign near enough everywhere", "[emergency][rules]") {
+  SceneDescription scene = corridor();
+  scene.signs = {sign_of(90, 12)};
+  scene.signs[0].frame.origin = {20, 0, 2};
+  scene.signs[0].frame.axes =
+      glm::dmat3(glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1), glm::dvec3(-1, 0, 0));
+  const auto people = walkers(scene.routes.front(), 5);
+  std::vector<std::vector<ClearSign>> clear(people.size());
+  for (size_t i = 0; i < people.size(); ++i)
+    clear[i] = {{0, view_of_sign(scene.signs[0], people[i].foot + glm::dvec3(0, 0, 2))}};
+  auto checks = checks_of_distance(scene, scene.routes.front(), people, clear, all_codes);
+  CHECK(*of(checks, "S4").value == Approx(20.0 / 30));  // z h = 200 x 0.15 m
+  CHECK(*of(checks, "N8").value == Approx(20));
+  clear.back().clear();
+  checks = checks_of_distance(scene, scene.routes.front(), people, clear, all_codes);
+  CHECK(of(checks, "S4").verdict == CheckVerdict::fail);
+  CHECK(of(checks, "N8").verdict == CheckVerdict::fail);
+}
+
+TEST_CASE("what a scene says nothing of is never a pass", "[emergency][rules]") {
+  const auto checks = checks_beyond(all_codes);
+  CHECK_FALSE(checks.empty());
+  for (const Check& check : checks) {
+    CHECK(check.verdict == CheckVerdict::not_assessed);
+    CHECK_FALSE(check.reason.empty());
+  }
+  const CheckCounts counts = counts_of(checks);
+  CHECK(words_of(counts) ==
+        "0 checks pass, 0 fail, " + std::to_string(checks.size()) + " not assessed");
+}

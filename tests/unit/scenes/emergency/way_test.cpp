@@ -1,0 +1,78 @@
+#include "scenes/emergency/way.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace luxodus;
+
+namespace {
+
+EscapeRoute bent() {
+  EscapeRoute route;
+  route.name = "bent";
+  route.path = {{0, 0, 0}, {4, 0, 0}, {4, 3, 0}};
+  route.width_m = 2;
+  return route;
+}
+
+}  // namespace
+
+TEST_CASE("points of a line are evenly apart, ends included, corners once", "[emergency][way]") {
+  const EscapeRoute route = bent();
+  CHECK(length_of(route) == Approx(7));
+  CHECK(is_level(route));
+  const auto points = along(route, 0, 1);
+  REQUIRE(points.size() == 8);
+  CHECK(points.front() == glm::dvec3(0, 0, 0));
+  CHECK(points.back() == glm::dvec3(4, 3, 0));
+  const auto left = along(route, 0.5, 10);
+  REQUIRE(left.size() == 4);  // both ends of both legs: they do not meet
+  CHECK(left[0] == glm::dvec3(0, 0.5, 0));
+  CHECK(left[2] == glm::dvec3(3.5, 0, 0));
+}
+
+TEST_CASE("a ramp is no level route", "[emergency][way]") {
+  EscapeRoute ramp = bent();
+  ramp.path[1].z = 0.5;
+  CHECK_FALSE(is_level(ramp));
+}
+
+TEST_CASE("the core of an area keeps its border", "[emergency][way]") {
+  AssessedArea area;
+  // An L: 4 m by 4 m without its upper right quarter.
+  area.outline = {{0, 0}, {4, 0}, {4, 2}, {2, 2}, {2, 4}, {0, 4}};
+  area.z_m = 1;
+  const auto core = within(area, 0.5, 0.5);
+  CHECK_FALSE(core.empty());
+  for (const glm::dvec3& p : core) {
+    CHECK(p.z == 1);
+    CHECK(p.x >= 0.5);
+    CHECK(p.y >= 0.5);
+    CHECK(p.x <= 3.5);
+    CHECK_FALSE((p.x > 1.5 && p.y > 1.5 && glm::length(glm::dvec2(p) - glm::dvec2(2, 2)) < 0.49));
+    CHECK_FALSE((p.x > 2 && p.y > 2));
+  }
+  area.outline = {{0, 0}, {0.8, 0}, {0.8, 4}, {0, 4}};
+  CHECK(within(area, 0.5, 0.5).empty());
+}
+
+TEST_CASE("people walk from the start and look ahead", "[emergency][way]") {
+  const auto people = walkers(bent(), 2);
+  REQUIRE(people.size() == 4);
+  CHECK(people[0].ahead == glm::dvec3(1, 0, 0));
+  CHECK(people[2].foot == glm::dvec3(4, 0, 0));
+  CHECK(people[2].ahead == glm::dvec3(0, 1, 0));
+  CHECK(people[3].along_m == Approx(5.5));
+}
+
+TEST_CASE("the floor below a place is that of the nearest route or area", "[emergency][way]") {
+  SceneDescription scene;
+  CHECK_FALSE(floor_below(scene, {0, 0, 2}).has_value());
+  scene.routes.push_back(bent());
+  AssessedArea upper;
+  upper.outline = {{10, 0}, {14, 0}, {14, 4}, {10, 4}};
+  upper.z_m = 3;
+  scene.open_areas.push_back(upper);
+  CHECK(floor_below(scene, {3, 1, 2.5}) == 0.0);
+  CHECK(floor_below(scene, {12, 1, 5.5}) == 3.0);
+  CHECK(floor_below(scene, {12, 1, 2.5}) == 0.0);  // the area is above it
+}
