@@ -28,6 +28,7 @@ struct AssessOptions {
   int threads = 1;
   int rounds = 4;                          // until nothing is undecided, or so many
   bool reality = true;                     // else the code mode alone
+  std::string sign;                        // judged alone, by name; "": all are
   std::vector<double> smoke_factors = {};  // of a sweep over the density of all smoke
 };
 

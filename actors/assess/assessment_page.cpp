@@ -9,6 +9,7 @@
 
 #include "actors/assess/assessment_json.hpp"
 #include "actors/assess/plan_drawing.hpp"
+#include "scenes/format/base64.hpp"
 #include "scenes/format/output_text.hpp"
 
 namespace luxodus {
@@ -197,20 +198,6 @@ std::string sweep_table(const Json& sweep) {
 }
 
 // ---- the page ----------------------------------------------------------------------------------
-
-std::string base64(const std::string& bytes) {
-  static constexpr std::string_view digits =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string out;
-  for (size_t i = 0; i < bytes.size(); i += 3) {
-    uint32_t three = 0;
-    for (size_t k = 0; k < 3; ++k)
-      three = three << 8 | (i + k < bytes.size() ? static_cast<uint8_t>(bytes[i + k]) : 0u);
-    for (size_t k = 0; k < 4; ++k)
-      out += i + k <= bytes.size() ? digits[three >> (18 - 6 * k) & 63] : '=';
-  }
-  return out;
-}
 
 std::string figure(const std::string& drawing, const std::string& caption) {
   return "<figure>" + drawing + "<figcaption>" + xml_escape(caption) + "</figcaption></figure>\n";

@@ -210,11 +210,11 @@ std::vector<Problem> CodeMode::blind_signs() const {
 std::vector<PlanPoint> CodeMode::plan() const {
   std::vector<glm::dvec3> places;
   for (const EscapeRoute& route : scene_.routes) {
-    const auto more = within(route, route.width_m / 2, 2 * route_grid_m);
+    const auto more = within(route, route.width_m / 2 - route_grid_m, 2 * route_grid_m);
     places.insert(places.end(), more.begin(), more.end());
   }
   for (const AssessedArea& area : scene_.open_areas) {
-    const auto more = within(area, 0, area_grid_m);
+    const auto more = within(area, area_grid_m / 2, area_grid_m);
     places.insert(places.end(), more.begin(), more.end());
   }
   std::vector<PlanPoint> out;

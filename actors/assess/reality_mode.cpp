@@ -129,6 +129,7 @@ Result<Done> RealityMode::look_for_lines(const AssessProgress& progress) {
     stuck[i] = building.in_solid(access, stand.observer.eye) ? 1 : 0;
     for (uint32_t s = 0; s < scene_.signs.size(); ++s) {
       const Sign& sign = scene_.signs[s];
+      if (!options_.sign.empty() && sign.name != options_.sign) continue;
       SightRow row{stand.from,
                    stand.along_m,
                    stand.height_m,

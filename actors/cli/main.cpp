@@ -61,6 +61,7 @@ int main(int argc, char** argv) {
   add_assess(app, exit_code);
   add_report(app, exit_code);
   add_compare(app, exit_code);
+  add_view(app, exit_code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

@@ -181,6 +181,7 @@ ReadScene read_scene(const std::filesystem::path& path) {
       {"task_area", read_task_area},
       {"emphasis", read_emphasis},
       {"scenario", read_scenario},
+      {"change", read_change},
   };
   for (const auto& [key, reader] : order) read_all(documents, key, reader, reading);
   check_whole(reading);

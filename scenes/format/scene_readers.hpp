@@ -31,5 +31,6 @@ void read_open_area(const toml::table& table, SceneReading& reading);
 void read_task_area(const toml::table& table, SceneReading& reading);
 void read_emphasis(const toml::table& table, SceneReading& reading);
 void read_scenario(const toml::table& table, SceneReading& reading);
+void read_change(const toml::table& table, SceneReading& reading);
 
 }  // namespace luxodus

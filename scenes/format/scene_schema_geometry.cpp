@@ -41,6 +41,7 @@ TableSpec scene_keys() {
           {"task_area", "tables", "", "", "", "places of high-risk work"},
           {"emphasis", "tables", "", "", "", "what emergency luminaires must be near to"},
           {"scenario", "tables", "", "", "", "states of the building; none: mains, as written"},
+          {"change", "tables", "", "", "", "what a variant changes in the files it includes"},
       }};
 }
 
@@ -63,7 +64,9 @@ TableSpec run_keys() {
           {"voxels", "flag", "", "true", "", "keep fluence by voxel"},
           {"analogue", "flag", "", "false", "", "sampled absorption instead of weighted survival"},
           {"groups", "choice", "", "\"one\"", "one, circuit, emitter",
-           "what gets tallies of its own: nothing, each circuit, each emitter; a `group` key wins"},
+           "what gets tallies of its own: nothing, each circuit (or `group`, where one is named), "
+           "each "
+           "emitter"},
           {"eye_share", "number", "", "1", "[0, 1000]",
            "paths from the eye per batch, relative to the default"},
       }};

@@ -108,6 +108,18 @@ std::vector<TableSpec> measure_schema() {
            {"doors_open", "texts", "", "", "", "names of doors that stand open"},
            {"doors_closed", "texts", "", "", "", "names of doors that are closed"},
        }},
+      {"change",
+       "`[[change]]`: what a variant has otherwise than the files that it includes",
+       {
+           {"kind", "choice", "", "required", "sign, luminaire, medium",
+            "what is changed; emitters are luminaires, too"},
+           {"of", "text", "", "required", "", "its name"},
+           {"position", "point", "m", "", "[-1e7, 1e7]", "where it is, of signs and luminaires"},
+           {"facing", "direction", "", "", "[-1e7, 1e7]",
+            "where a sign's face looks, or a luminaire aims; with `position`"},
+           {"factor", "number", "", "1", "[0, 1000]",
+            "of its light in every operation; of a medium's extinction in every scenario"},
+       }},
   };
 }
 

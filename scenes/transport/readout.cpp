@@ -64,8 +64,8 @@ Estimate Readout::sum_groups(uint32_t block, uint32_t bin, int channel, uint32_t
   const ScoreUnit unit = scene_.layout.block(block).unit;
   Estimate out;
   double variance = 0;
-  for (int g = 0; g < totals_.groups(); ++g) {
-    if (group >= 0 && g != group) continue;
+  const int first = group < 0 ? 0 : group, end = group < 0 ? totals_.groups() : group + 1;
+  for (int g = first; g < end; ++g) {
     const BatchMean m = totals_.mean(g, index);
     const double k = scale(g, channel, unit);
     out.value += m.mean * k;

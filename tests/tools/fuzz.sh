@@ -14,7 +14,7 @@ if ! command -v clang++ >/dev/null; then
   exit 77
 fi
 
-cmake -S . -B build/fuzz -G Ninja -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_C_COMPILER=clang \
+cmake -S . -B build/fuzz -G Ninja -DCMAKE_CXX_COMPILER=clang++ \
   -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O1 -g1" \
   -DLUX_SANITIZE=address,undefined >build/fuzz.log
 ninja -C build/fuzz "${names[@]}" >>build/fuzz.log

@@ -1,0 +1,147 @@
+#include "actors/view/frames.hpp"
+
+#include <cstring>
+#include <glm/gtc/packing.hpp>
+
+#include "scenes/geometry/patches.hpp"
+#include "scenes/optics/media_set.hpp"
+#include "scenes/optics/spectrum.hpp"
+#include "scenes/transport/packed_scene.hpp"
+
+namespace luxodus {
+
+namespace {
+
+enum class FrameKind : uint32_t { geometry = 1, light = 2, smoke = 3, smoke_light = 4 };
+
+constexpr double pi = 3.14159265358979323846;
+/// The largest half float: brighter patches are shown as bright as this [cd/m2].
+constexpr float half_most = 65504;
+
+/// Values in the order of the wire, little endian as every machine that runs this is.
+class Writer {
+ public:
+  Writer(FrameKind kind, uint32_t generation, uint32_t a, uint32_t b = 0) {
+    for (const uint32_t word : {static_cast<uint32_t>(kind), generation, a, b}) put(word);
+  }
+  template <class T>
+  void put(T value) {
+    char bytes[sizeof value];
+    std::memcpy(bytes, &value, sizeof value);
+    text_.append(bytes, sizeof value);
+  }
+  void half(double value) {
+    put(glm::packHalf1x16(glm::clamp(static_cast<float>(value), -half_most, half_most)));
+  }
+  LiveFrame take() { return std::make_shared<const std::string>(std::move(text_)); }
+
+ private:
+  std::string text_;
+};
+
+/// Light of a bin as linear sRGB, of `per_watt` each; luminance is its weighted sum.
+std::array<double, 3> colour_of(const CompiledScene& scene, const Readout& readout, uint32_t block,
+                                uint32_t bin, uint32_t quantity, int group, double per_watt) {
+  std::array<double, 3> xyz{};
+  for (int b = 0; b < scene.bands.count(); ++b) {
+    const double watts = readout.watts(block, bin, b, quantity, group).value * per_watt;
+    const Band& band = scene.bands[b];
+    xyz[0] += watts * band.x_per_w;
+    xyz[1] += watts * band.lm_per_w;
+    xyz[2] += watts * band.z_per_w;
+  }
+  return linear_srgb_from_xyz(xyz);
+}
+
+void put_colour(Writer& out, const std::array<double, 3>& rgb) {
+  for (const double channel : rgb) out.half(channel);
+}
+
+/// Luminance that leaves both sides of each triangle.
+LiveFrame surface_light(const CompiledScene& scene, const Readout& readout,
+                        const std::vector<LivePatch>& patches, uint32_t generation, int group) {
+  Writer out(FrameKind::light, generation, static_cast<uint32_t>(group));
+  for (const LivePatch& patch : patches) {
+    const double per_watt = 1 / (pi * patch.area_m2);
+    for (const uint32_t bin : {patch.front, patch.back})
+      put_colour(out, colour_of(scene, readout, scene.blocks.patches, bin, 1, group, per_watt));
+  }
+  return out.take();
+}
+
+/// What a metre of each voxel sends towards an eye, scattered evenly.
+LiveFrame smoke_light(const CompiledScene& scene, const Readout& readout, uint32_t generation,
+                      int group) {
+  Writer out(FrameKind::smoke_light, generation, static_cast<uint32_t>(group));
+  const auto edge = static_cast<double>(scene.voxels.edge);
+  const double per_watt = 1 / (4 * pi * edge * edge * edge);
+  for (uint32_t i = 0; i < scene.voxels.count(); ++i)
+    put_colour(out, colour_of(scene, readout, scene.blocks.voxel_power, i, 1, group, per_watt));
+  return out.take();
+}
+
+}  // namespace
+
+Result<LiveGeometry> geometry_of(const CompiledScene& scene, uint32_t generation) {
+  LiveGeometry out;
+  std::vector<float> corners;
+  const auto read = for_each_cell(scene, [&](const GeometryCell& cell) {
+    for (const TriangleRecord& t : cell.triangles) {
+      const uint32_t n = t.subdivision, patches = n * n;
+      const bool whole = scene.surfaces[t.surface].one_patch;
+      for (uint32_t k = 0; k < (whole ? 1 : patches); ++k) {
+        const auto at = sub_triangle_corners(k, whole ? 1 : n);
+        for (const glm::dvec2& uv : at) {
+          const glm::dvec3 place = scene.local_origin +
+                                   glm::dvec3(t.corner[0]) * (1 - uv.x - uv.y) +
+                                   glm::dvec3(t.corner[1]) * uv.x + glm::dvec3(t.corner[2]) * uv.y;
+          for (int i = 0; i < 3; ++i) corners.push_back(static_cast<float>(place[i]));
+        }
+        const uint32_t back = t.first_patch + (whole ? 1 : patches) + k;
+        out.patches.push_back(
+            {t.first_patch + k, back, t.surface, scene.surfaces[t.surface].patch_area_m2(t)});
+      }
+    }
+  });
+  if (!read.ok()) return read.problem();
+  Writer frame(FrameKind::geometry, generation, static_cast<uint32_t>(out.patches.size()));
+  for (const float coordinate : corners) frame.put(coordinate);
+  for (const LivePatch& patch : out.patches) frame.put(patch.surface);
+  out.frame = frame.take();
+  return out;
+}
+
+std::vector<LiveFrame> light_frames(const LocalRun& run, const std::vector<LivePatch>& patches,
+                                    uint32_t generation) {
+  const CompiledScene& scene = run.scene();
+  const Readout readout(scene, run.totals());
+  const size_t groups = scene.groups.size();
+  const bool smoke = scene.voxels.edge > 0;
+  std::vector<LiveFrame> out(smoke ? 2 * groups : groups);
+  run.rows().run(static_cast<int64_t>(groups), [&](const GeometryAccess&) {
+    return [&](int64_t row) {
+      const auto group = static_cast<size_t>(row);
+      const int number = static_cast<int>(row);
+      out[group] = surface_light(scene, readout, patches, generation, number);
+      if (smoke) out[groups + group] = smoke_light(scene, readout, generation, number);
+    };
+  });
+  return out;
+}
+
+LiveFrame smoke_frame(const CompiledScene& scene, const SceneIndex& index, uint32_t generation) {
+  const VoxelGrid& grid = scene.voxels;
+  if (!(grid.edge > 0)) return nullptr;
+  Writer out(FrameKind::smoke, generation, grid.count());
+  ResidentData data(scene, index);
+  const int band = scene.bands.count() / 2;  // nearest to what an eye sees best
+  for (int z = 0; z < grid.nz; ++z)
+    for (int y = 0; y < grid.ny; ++y)
+      for (int x = 0; x < grid.nx; ++x) {
+        const glm::vec3 centre = grid.low + (glm::vec3(x, y, z) + glm::vec3(0.5f)) * grid.edge;
+        out.half(extinction_at(scene.media, band, centre, data));
+      }
+  return out.take();
+}
+
+}  // namespace luxodus

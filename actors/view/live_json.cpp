@@ -1,0 +1,160 @@
+#include "actors/view/live_json.hpp"
+
+#include "scenes/format/base64.hpp"
+#include "scenes/optics/spectrum.hpp"
+
+namespace luxodus {
+
+namespace {
+
+Json place(const glm::dvec3& p) {
+  return {p.x, p.y, p.z};
+}
+
+/// Linear sRGB of a radiance by band, its weighted sum the luminance.
+Json colour(const Bands& bands, const std::vector<double>& radiance) {
+  std::array<double, 3> xyz{};
+  for (size_t b = 0; b < radiance.size(); ++b) {
+    const Band& band = bands[static_cast<int>(b)];
+    xyz[0] += radiance[b] * band.x_per_w;
+    xyz[1] += radiance[b] * band.lm_per_w;
+    xyz[2] += radiance[b] * band.z_per_w;
+  }
+  const auto rgb = linear_srgb_from_xyz(xyz);
+  return {rgb[0], rgb[1], rgb[2]};
+}
+
+const char* operation_name(Operation operation) {
+  switch (operation) {
+    case Operation::mains:
+      return "mains";
+    case Operation::emergency:
+      return "emergency";
+    case Operation::dark:
+      return "dark";
+  }
+  return "";
+}
+
+Json scenarios_json(const SceneDescription& scene) {
+  Json out = Json::array();
+  for (const Scenario& s : scene.scenarios)
+    out.push_back({{"name", s.name}, {"operation", operation_name(s.operation)}});
+  return out;
+}
+
+Json groups_json(const CompiledScene& scene, const std::map<std::string, double>& factors) {
+  Json out = Json::array();
+  for (size_t g = 0; g < scene.groups.size(); ++g) {
+    Json group = {{"name", scene.groups[g].name}, {"kind", "luminaire"}};
+    for (const CompiledEmitter& e : scene.emitters) {
+      if (e.group != static_cast<int>(g)) continue;
+      if (e.sign != none_index) group["kind"] = "sign";
+      if (e.medium != none_index) group["kind"] = "flame";
+      group["position"] = place(scene.local_origin + glm::dvec3(e.origin));
+      break;
+    }
+    const auto factor = factors.find(scene.groups[g].name);
+    group["factor"] = factor == factors.end() ? 1.0 : factor->second;
+    out.push_back(std::move(group));
+  }
+  return out;
+}
+
+std::string texels_of(const SignFace& face) {
+  std::string bytes;
+  for (const SignColour colour : face.colour) bytes.push_back(static_cast<char>(colour));
+  return base64(bytes);
+}
+
+Json signs_json(const CompiledScene& scene) {
+  Json out = Json::array();
+  for (const CompiledSign& face : scene.signs) {
+    if (face.back) continue;
+    const Sign& sign = scene.description->signs[face.sign];
+    out.push_back({{"name", sign.name},
+                   {"position", place(sign.frame.origin)},
+                   {"facing", place(sign.frame.axes[2])},
+                   {"up", place(sign.frame.axes[1])},
+                   {"width", sign.width_m},
+                   {"height", sign.height_m},
+                   {"double_sided", sign.double_sided},
+                   {"columns", sign.face.width},
+                   {"rows", sign.face.height},
+                   {"texels", texels_of(sign.face)},
+                   {"white", colour(scene.bands, face.white_radiance)},
+                   {"green", colour(scene.bands, face.green_radiance)},
+                   {"group", group_of_sign(sign.name)}});
+  }
+  return out;
+}
+
+Json luminaires_json(const SceneDescription& scene) {
+  Json out = Json::array();
+  for (const Emitter& e : scene.emitters)
+    out.push_back({{"name", e.name},
+                   {"position", place(e.frame.origin)},
+                   {"group", group_of_luminaire(e.name)}});
+  return out;
+}
+
+Json voxels_json(const CompiledScene& scene) {
+  const VoxelGrid& grid = scene.voxels;
+  if (!(grid.edge > 0)) return {};
+  return {{"low", place(scene.local_origin + glm::dvec3(grid.low))},
+          {"edge", grid.edge},
+          {"count", {grid.nx, grid.ny, grid.nz}}};
+}
+
+}  // namespace
+
+Json live_scene_json(const SceneDescription& scene, const LiveGeneration& generation,
+                     const std::map<std::string, double>& factors, bool editor) {
+  const CompiledScene& compiled = *generation.scene;
+  Json observers = Json::array(), cameras = Json::array();
+  for (const Observer& o : scene.observers)
+    observers.push_back({{"name", o.name}, {"eye", place(o.eye)}, {"gaze", place(o.gaze)}});
+  for (const Camera& c : scene.cameras)
+    cameras.push_back({{"name", c.name},
+                       {"eye", place(c.eye)},
+                       {"target", place(c.target)},
+                       {"up", place(c.up)},
+                       {"fov_deg", c.vertical_fov_deg}});
+  return {{"type", "scene"},
+          {"generation", generation.number},
+          {"name", scene.name},
+          {"title", scene.title},
+          {"scenarios", scenarios_json(scene)},
+          {"scenario", compiled.scenario.name},
+          {"smoke", generation.wish.smoke},
+          {"low", place(compiled.bounds.low)},
+          {"high", place(compiled.bounds.high)},
+          {"groups", groups_json(compiled, factors)},
+          {"signs", signs_json(compiled)},
+          {"luminaires", luminaires_json(*compiled.description)},
+          {"observers", observers},
+          {"cameras", cameras},
+          {"voxels", voxels_json(compiled)},
+          {"editor", editor}};
+}
+
+Json progress_json(const LiveProgress& progress) {
+  return {{"type", "progress"},
+          {"generation", progress.generation},
+          {"particles", progress.particles},
+          {"relative_error", number_json(progress.relative_error)},
+          {"seconds", progress.seconds},
+          {"done", progress.done}};
+}
+
+Json answer_json(const LiveAnswer& answer) {
+  return {{"type", "probe"},
+          {"id", answer.id},
+          {"illuminance", number_json(answer.illuminance.value)},
+          {"illuminance_error", number_json(answer.illuminance.standard_error)},
+          {"luminance", number_json(answer.luminance.value)},
+          {"luminance_error", number_json(answer.luminance.standard_error)},
+          {"surface", answer.surface}};
+}
+
+}  // namespace luxodus

@@ -1,0 +1,128 @@
+#include "actors/view/live_scene.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "scenes/format/output_text.hpp"
+#include "scenes/geometry/transform.hpp"
+
+namespace luxodus {
+
+namespace {
+
+/// Small batches, so that the first light of every group is there soon.
+constexpr int64_t live_batch_particles = 1024;
+
+/// Signs face along their z, luminaires along their -z.
+using Aim = Result<Frame> (*)(const glm::dvec3& origin, const glm::dvec3& direction,
+                              const glm::dvec3& up);
+
+Result<Frame> moved(const Frame& frame, const LiveWish::Move& move, Aim aim) {
+  if (move.facing) return aim(move.position, *move.facing, {0, 0, 1});
+  Frame out = frame;
+  out.origin = move.position;
+  return out;
+}
+
+std::string numbers(const glm::dvec3& v) {
+  return "[" + shortest_number(v.x) + ", " + shortest_number(v.y) + ", " + shortest_number(v.z) +
+         "]";
+}
+
+}  // namespace
+
+std::string group_of_luminaire(const std::string& name) {
+  return name;
+}
+std::string group_of_sign(const std::string& name) {
+  return "sign " + name;
+}
+std::string group_of_flame(const std::string& medium) {
+  return "flame " + medium;
+}
+
+Result<SceneDescription> live_description(const SceneDescription& scene, const LiveWish& wish) {
+  SceneDescription out = scene;
+  out.planes.clear();
+  out.probes.clear();
+  out.surface_groups.clear();
+  out.volume_groups.clear();
+  out.counting_planes.clear();
+  out.observers.clear();
+  out.run.batch_particles = live_batch_particles;
+  out.run.groups = GroupRule::by_circuit;  // where a group that is named wins
+  for (Emitter& e : out.emitters) {
+    e.group = group_of_luminaire(e.name);
+    if (const auto move = wish.luminaires.find(e.name); move != wish.luminaires.end()) {
+      auto frame = moved(e.frame, move->second, frame_aiming);
+      if (!frame.ok()) return frame.problem();
+      e.frame = frame.value();
+    }
+  }
+  for (Sign& sign : out.signs) {
+    sign.group = group_of_sign(sign.name);
+    if (const auto move = wish.signs.find(sign.name); move != wish.signs.end()) {
+      auto frame = moved(sign.frame, move->second, frame_facing);
+      if (!frame.ok()) return frame.problem();
+      sign.frame = frame.value();
+    }
+  }
+  for (Medium& medium : out.media)
+    if (medium.emission) medium.emission->group = group_of_flame(medium.name);
+  return out;
+}
+
+Result<std::shared_ptr<const CompiledScene>> compile_live(const SceneDescription& scene,
+                                                          const LiveWish& wish) {
+  auto description = live_description(scene, wish);
+  if (!description.ok()) return description.problem();
+  auto scenario = find_scenario(scene, wish.scenario);
+  if (!scenario.ok()) return scenario.problem();
+  Scenario& state = scenario.value();
+  state.smoke_factor *= wish.smoke;
+  for (Scenario::Factor& medium : state.media) medium.factor *= wish.smoke;
+  return compile_scene(std::make_shared<SceneDescription>(std::move(description).value()), state,
+                       {});
+}
+
+std::string variant_text(const SceneDescription& scene, const LiveWish& wish,
+                         const std::map<std::string, double>& factors, const std::string& name) {
+  const std::string original = std::filesystem::absolute(scene.file).string();
+  std::string out = "# A variant that was made in a live view.\ntitle = \"" +
+                    (scene.title.empty() ? scene.name : scene.title) + ": " + name +
+                    "\"\ninclude = [\"" + original + "\"]\n";
+  const auto change = [&](const char* kind, const std::string& of, const LiveWish::Move* move,
+                          double factor) {
+    out += fmt::format("\n[[change]]\nkind = \"{}\"\nof = \"{}\"\n", kind, of);
+    if (move != nullptr) out += "position = " + numbers(move->position) + "\n";
+    if (move != nullptr && move->facing) out += "facing = " + numbers(*move->facing) + "\n";
+    if (factor != 1) out += "factor = " + shortest_number(factor) + "\n";
+  };
+  const auto factor_of = [&](const std::string& group) {
+    const auto at = factors.find(group);
+    return at == factors.end() ? 1.0 : at->second;
+  };
+  const auto move_of = [](const auto& moves, const std::string& of) {
+    const auto at = moves.find(of);
+    return at == moves.end() ? nullptr : &at->second;
+  };
+  for (const Emitter& e : scene.emitters) {
+    const double factor = factor_of(group_of_luminaire(e.name));
+    const auto* move = move_of(wish.luminaires, e.name);
+    if (move != nullptr || factor != 1) change("luminaire", e.name, move, factor);
+  }
+  for (const Sign& sign : scene.signs) {
+    const double factor = factor_of(group_of_sign(sign.name));
+    const auto* move = move_of(wish.signs, sign.name);
+    if (move != nullptr || factor != 1) change("sign", sign.name, move, factor);
+  }
+  if (wish.smoke != 1)
+    for (const Medium& medium : scene.media)
+      out += fmt::format("\n[[change]]\nkind = \"medium\"\nof = \"{}\"\nfactor = {}\n", medium.name,
+                         shortest_number(wish.smoke));
+  return out;
+}
+
+}  // namespace luxodus

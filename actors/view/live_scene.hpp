@@ -1,0 +1,41 @@
+// The building as a live view has it: the scene's description with what viewers have moved, each
+// luminaire, sign and flame a source group of its own, so that dimming one is a factor on what it
+// has given already. Pure functions; any thread.
+#pragma once
+
+#include <map>
+#include <memory>
+
+#include "scenes/transport/compile.hpp"
+
+namespace luxodus {
+
+/// What viewers ask to be traced. Factors of groups are not among it: they need no tracing.
+struct LiveWish {
+  std::string scenario;  // "": the first
+  double smoke = 1;      // all extinctions times this
+  struct Move {
+    glm::dvec3 position{0};
+    std::optional<glm::dvec3> facing;
+  };
+  std::map<std::string, Move> signs, luminaires;  // by name
+};
+
+/// Which source group an emitter, a sign or a flame has.
+std::string group_of_luminaire(const std::string& name);
+std::string group_of_sign(const std::string& name);
+std::string group_of_flame(const std::string& medium);
+
+/// A copy to be compiled: moved, grouped, with nothing to tally but surfaces and smoke.
+/// Errors: a facing that has no upright.
+Result<SceneDescription> live_description(const SceneDescription& scene, const LiveWish& wish);
+
+/// Errors: as compile_scene and live_description; no such scenario.
+Result<std::shared_ptr<const CompiledScene>> compile_live(const SceneDescription& scene,
+                                                          const LiveWish& wish);
+
+/// A scene file that includes the original and says what differs.
+std::string variant_text(const SceneDescription& scene, const LiveWish& wish,
+                         const std::map<std::string, double>& factors, const std::string& name);
+
+}  // namespace luxodus

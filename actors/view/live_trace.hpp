@@ -1,0 +1,99 @@
+// The tracing behind a live view: one generation after another, each from few particles to many,
+// told of at every doubling, so that the first light is there at once and later ones cost little.
+// A new wish ends the generation under way. Thread rule: its own thread traces and tells; wishes
+// and questions may come from any other.
+#pragma once
+
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+
+#include "actors/source/local_run.hpp"
+#include "actors/view/frames.hpp"
+#include "actors/view/live_scene.hpp"
+
+namespace luxodus {
+
+struct LiveProgress {
+  uint32_t generation = 0;
+  int64_t particles = 0;
+  double relative_error = 0;  // NaN until it is known
+  double seconds = 0;
+  bool done = false;
+};
+
+/// Light at a place of a surface, for somebody who has asked.
+struct LiveQuestion {
+  uint64_t viewer = 0;
+  int64_t id = 0;
+  uint32_t triangle = 0;
+  bool front = true;
+  std::map<std::string, double> factors;  // of source groups, by name; others 1
+};
+struct LiveAnswer {
+  uint64_t viewer = 0;
+  int64_t id = 0;
+  Estimate illuminance, luminance;  // [lx], [cd/m2]
+  std::string surface;
+};
+
+/// A new generation, before its first light.
+struct LiveGeneration {
+  uint32_t number = 0;
+  LiveWish wish;
+  std::shared_ptr<const CompiledScene> scene;
+  LiveFrame geometry;
+  LiveFrame smoke;  // null where no medium is
+};
+
+/// Who is told. Called on the tracing thread.
+class LiveAudience {
+ public:
+  virtual ~LiveAudience() = default;
+  virtual void begins(const LiveGeneration& generation) = 0;
+  virtual void lit(uint32_t generation, std::vector<LiveFrame> frames) = 0;
+  virtual void goes_on(const LiveProgress& progress) = 0;
+  virtual void answers(const LiveAnswer& answer) = 0;
+  virtual void refuses(const std::string& why) = 0;
+};
+
+struct LiveOptions {
+  uint64_t seed = 1;
+  int threads = 1;
+  int64_t particles = 100'000'000;  // of a generation, at most
+  double relative_error = 0.002;    // at which it ends
+};
+
+class LiveTrace {
+ public:
+  /// Begins at once. Requires: `audience` outlives this.
+  LiveTrace(std::shared_ptr<const SceneDescription> scene, const LiveOptions& options,
+            LiveWish first, LiveAudience& audience);
+  ~LiveTrace();
+  LiveTrace(const LiveTrace&) = delete;
+  LiveTrace& operator=(const LiveTrace&) = delete;
+
+  void wish(LiveWish wish);
+  void ask(LiveQuestion question);
+
+ private:
+  void work();
+  /// Traces a wish until it is good enough or another comes.
+  void trace(const LiveWish& wish);
+  void answer_all(const LocalRun& run, const std::vector<LivePatch>& patches);
+
+  const std::shared_ptr<const SceneDescription> scene_;
+  const LiveOptions options_;
+  LiveAudience& audience_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::optional<LiveWish> next_;
+  std::vector<LiveQuestion> questions_;
+  bool ends_ = false;
+  std::atomic<bool> interrupt_{false};
+  std::atomic<bool> asked_{false};
+  uint32_t generation_ = 0;
+  std::thread thread_;  // the last: it begins when all else is there
+};
+
+}  // namespace luxodus

@@ -1,0 +1,76 @@
+#include "actors/view/sign_verdicts.hpp"
+
+#include <algorithm>
+
+#include "actors/assess/reality_mode.hpp"
+
+namespace luxodus {
+
+namespace {
+
+constexpr int rounds = 3;
+
+/// The building with all that viewers have changed, dimming too.
+Result<SceneDescription> as_it_stands(const SceneDescription& scene, const LiveWish& wish,
+                                      const std::map<std::string, double>& factors) {
+  auto out = live_description(scene, wish);
+  if (!out.ok()) return out;
+  const auto factor_of = [&](const std::string& group) {
+    const auto at = factors.find(group);
+    return at == factors.end() ? 1.0 : at->second;
+  };
+  for (Emitter& e : out->emitters) {
+    const double factor = factor_of(e.group);
+    e.mains_flux *= factor;
+    e.emergency_flux *= factor;
+  }
+  for (Sign& sign : out->signs) {
+    const double factor = factor_of(sign.group);
+    for (SignState* state : {&sign.mains, &sign.emergency}) {
+      state->white_cd_m2 *= factor;
+      state->green_cd_m2 *= factor;
+    }
+  }
+  out->observers = scene.observers;
+  out->run = scene.run;
+  return out;
+}
+
+}  // namespace
+
+Json sign_verdicts(const SceneDescription& scene, const LiveWish& wish,
+                   const std::map<std::string, double>& factors, const std::string& sign,
+                   const LiveOptions& options, const std::atomic<bool>& interrupt) {
+  const auto refused = [](const std::string& why) -> Json {
+    return {{"type", "refused"}, {"why", why}};
+  };
+  if (std::none_of(scene.signs.begin(), scene.signs.end(),
+                   [&](const Sign& s) { return s.name == sign; }))
+    return refused("there is no sign \"" + sign + "\"");
+  const auto now = as_it_stands(scene, wish, factors);
+  if (!now.ok()) return refused(now.problem().what);
+  auto scenario = find_scenario(scene, wish.scenario);
+  if (!scenario.ok()) return refused(scenario.problem().what);
+  scenario->smoke_factor *= wish.smoke;
+  for (Scenario::Factor& medium : scenario->media) medium.factor *= wish.smoke;
+  AssessOptions asked;
+  asked.seed = options.seed;
+  asked.threads = options.threads;
+  asked.rounds = rounds;
+  asked.sign = sign;
+  Assessment found;
+  const auto done = assess_sights(
+      now.value(), scenario.value(), asked, interrupt, [](const std::string&, double) {}, found);
+  if (!done.ok()) return refused(done.problem().what);
+  Json rows = Json::array();
+  for (const SightRow& row : found.sights)
+    rows.push_back({{"from", row.from},
+                    {"along", row.along_m},
+                    {"eye_height", row.height_m},
+                    {"distance", row.view.distance_m},
+                    {"verdict", name_of(row.sight.verdict)},
+                    {"reason", row.sight.reason}});
+  return {{"type", "sign"}, {"name", sign}, {"rows", rows}};
+}
+
+}  // namespace luxodus

@@ -1,0 +1,212 @@
+#include "actors/view/view_hub.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "actors/view/live_json.hpp"
+#include "actors/view/sign_verdicts.hpp"
+#include "scenes/format/atomic_file.hpp"
+
+namespace luxodus {
+
+namespace {
+
+LiveFrame text_of(const Json& message) {
+  return std::make_shared<const std::string>(
+      message.dump(-1, ' ', false, Json::error_handler_t::replace));
+}
+
+/// A name that is a file of its own and nothing else.
+bool is_plain_name(const std::string& name) {
+  return name.find_first_not_of(
+             "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_- ") ==
+             std::string::npos &&
+         !name.empty() && name.front() != ' ' && name.back() != ' ';
+}
+
+}  // namespace
+
+ViewHub::ViewHub(std::shared_ptr<const SceneDescription> scene, const HubOptions& options,
+                 Post post)
+    : scene_(std::move(scene)), options_(options), post_(std::move(post)), wish_(options.first) {
+  trace_.reset(new LiveTrace(scene_, options_.live, wish_, *this));
+}
+
+ViewHub::~ViewHub() {
+  ends_ = true;
+  trace_.reset();
+  if (judge_.joinable()) judge_.join();
+}
+
+// ---- from the tracing thread -------------------------------------------------------------------
+
+void ViewHub::begins(const LiveGeneration& generation) {
+  post_([this, generation] {
+    generation_ = generation;
+    light_.clear();
+    for (const auto& [viewer, number] : viewers_) {
+      viewer->forget_light();
+      greet(*viewer);
+    }
+  });
+}
+
+void ViewHub::lit(uint32_t generation, std::vector<LiveFrame> frames) {
+  post_([this, generation, frames = std::move(frames)] {
+    if (generation != generation_.number) return;
+    light_ = frames;
+    for (const auto& [viewer, number] : viewers_) {
+      viewer->forget_light();
+      for (const LiveFrame& frame : light_) viewer->send_binary(frame, true);
+    }
+  });
+}
+
+void ViewHub::goes_on(const LiveProgress& progress) {
+  post_([this, progress] {
+    progress_ = progress;
+    to_all(progress_json(progress));
+  });
+}
+
+void ViewHub::answers(const LiveAnswer& answer) {
+  post_([this, answer] {
+    if (Viewer* const viewer = viewer_of(answer.viewer))
+      viewer->send_text(text_of(answer_json(answer)));
+  });
+}
+
+void ViewHub::refuses(const std::string& why) {
+  post_([this, why] { to_all({{"type", "refused"}, {"why", why}}); });
+}
+
+// ---- viewers -----------------------------------------------------------------------------------
+
+Viewer* ViewHub::viewer_of(uint64_t number) const {
+  for (const auto& [viewer, its] : viewers_)
+    if (its == number) return viewer;
+  return nullptr;
+}
+
+void ViewHub::joins(Viewer& viewer) {
+  viewers_[&viewer] = next_number_++;
+  if (editor_ == nullptr) editor_ = &viewer;
+  if (generation_.scene) greet(viewer);
+}
+
+void ViewHub::leaves(Viewer& viewer) {
+  viewers_.erase(&viewer);
+  if (editor_ == &viewer) editor_ = nullptr;
+}
+
+/// All that there is so far.
+void ViewHub::greet(Viewer& viewer) {
+  viewer.send_text(text_of(scene_json(viewer)));
+  viewer.send_binary(generation_.geometry, false);
+  if (generation_.smoke) viewer.send_binary(generation_.smoke, false);
+  for (const LiveFrame& frame : light_) viewer.send_binary(frame, true);
+  if (progress_ && progress_->generation == generation_.number)
+    viewer.send_text(text_of(progress_json(*progress_)));
+}
+
+Json ViewHub::scene_json(const Viewer& viewer) const {
+  return live_scene_json(*scene_, generation_, factors_, &viewer == editor_);
+}
+
+void ViewHub::to_all(const Json& message) {
+  const LiveFrame text = text_of(message);
+  for (const auto& [viewer, number] : viewers_) viewer->send_text(text);
+}
+
+void ViewHub::refuse(Viewer& viewer, const std::string& why) {
+  viewer.send_text(text_of({{"type", "refused"}, {"why", why}}));
+}
+
+void ViewHub::says(Viewer& viewer, std::string_view text) {
+  const auto message = parse_view_message(text);
+  if (!message.ok()) return refuse(viewer, message.problem().what);
+  if (is_edit(message.value()) && editor_ != &viewer)
+    return refuse(viewer, "somebody else edits: take over first");
+  std::visit([&](const auto& m) { handle(viewer, m); }, message.value());
+}
+
+void ViewHub::make_editor(Viewer* viewer) {
+  if (editor_ == viewer) return;
+  Viewer* const before = std::exchange(editor_, viewer);
+  for (Viewer* one : {before, editor_})
+    if (one != nullptr) one->send_text(text_of({{"type", "editor"}, {"editor", one == editor_}}));
+}
+
+// ---- edits -------------------------------------------------------------------------------------
+
+void ViewHub::handle(Viewer& viewer, const FactorEdit& edit) {
+  const auto& groups = generation_.scene ? generation_.scene->groups : std::vector<Group>();
+  if (std::none_of(groups.begin(), groups.end(),
+                   [&](const Group& g) { return g.name == edit.group; }))
+    return refuse(viewer, "there is no light \"" + edit.group + "\" in this scenario");
+  factors_[edit.group] = edit.factor;
+  to_all({{"type", "factors"}, {"factors", {{edit.group, edit.factor}}}});
+}
+
+void ViewHub::handle(Viewer& viewer, const ScenarioEdit& edit) {
+  if (const auto found = find_scenario(*scene_, edit.name); !found.ok())
+    return refuse(viewer, found.problem().what);
+  wish_.scenario = edit.name;
+  trace_->wish(wish_);
+}
+
+void ViewHub::handle(Viewer&, const SmokeEdit& edit) {
+  wish_.smoke = edit.factor;
+  trace_->wish(wish_);
+}
+
+void ViewHub::handle(Viewer& viewer, const MoveEdit& edit) {
+  const auto is_it = [&](const auto& one) { return one.name == edit.name; };
+  const bool known = edit.is_sign
+                         ? std::any_of(scene_->signs.begin(), scene_->signs.end(), is_it)
+                         : std::any_of(scene_->emitters.begin(), scene_->emitters.end(), is_it);
+  if (!known) return refuse(viewer, "there is no \"" + edit.name + "\" to move");
+  auto& moves = edit.is_sign ? wish_.signs : wish_.luminaires;
+  moves[edit.name] = {edit.position, edit.facing};
+  trace_->wish(wish_);
+}
+
+void ViewHub::handle(Viewer& viewer, const SaveEdit& edit) {
+  if (!is_plain_name(edit.name))
+    return refuse(viewer, "a name is made of letters, digits, spaces, _ and -");
+  const auto file = options_.save_folder / (edit.name + ".toml");
+  std::error_code ignored;
+  if (std::filesystem::exists(file, ignored))
+    return refuse(viewer, file.string() + " is there already: take another name");
+  const auto saved = write_file_atomically(file, variant_text(*scene_, wish_, factors_, edit.name));
+  if (!saved.ok()) return refuse(viewer, saved.problem().text());
+  viewer.send_text(text_of({{"type", "saved"}, {"file", file.string()}}));
+}
+
+void ViewHub::handle(Viewer& viewer, const EditWish& wish) {
+  if (wish.wanted) return make_editor(&viewer);
+  if (editor_ == &viewer) make_editor(nullptr);
+}
+
+// ---- questions ---------------------------------------------------------------------------------
+
+void ViewHub::handle(Viewer& viewer, const ProbeAsk& ask) {
+  trace_->ask({viewers_[&viewer], ask.id, ask.triangle, ask.front, factors_});
+}
+
+void ViewHub::handle(Viewer& viewer, const JudgeAsk& ask) {
+  if (judging_) return refuse(viewer, "one sign after another: the last is not judged yet");
+  judging_ = true;
+  if (judge_.joinable()) judge_.join();
+  const uint64_t number = viewers_[&viewer];
+  // Beside the tracing: it shares the processors with it for some seconds.
+  judge_ = std::thread([this, number, sign = ask.sign, wish = wish_, factors = factors_] {
+    const Json verdicts = sign_verdicts(*scene_, wish, factors, sign, options_.live, ends_);
+    post_([this, number, verdicts] {
+      judging_ = false;
+      if (Viewer* const asked = viewer_of(number)) asked->send_text(text_of(verdicts));
+    });
+  });
+}
+
+}  // namespace luxodus

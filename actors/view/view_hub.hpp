@@ -1,0 +1,85 @@
+// The state that all viewers of a live view share: the latest frames for those who come late, the
+// factors of source groups, what is traced, and who may edit. Thread rule: everything is called on
+// the thread of the server; what the tracing thread tells is posted there.
+#pragma once
+
+#include <deque>
+#include <filesystem>
+#include <functional>
+#include <set>
+
+#include "actors/view/live_trace.hpp"
+#include "actors/view/view_messages.hpp"
+#include "scenes/format/json_out.hpp"
+
+namespace luxodus {
+
+/// One connection, as the hub sees it.
+class Viewer {
+ public:
+  virtual ~Viewer() = default;
+  virtual void send_text(const LiveFrame& text) = 0;
+  /// `light`: it replaces what waits of an earlier light.
+  virtual void send_binary(const LiveFrame& frame, bool light) = 0;
+  /// Takes back light that waits to be sent: newer has come.
+  virtual void forget_light() = 0;
+};
+
+struct HubOptions {
+  LiveOptions live;
+  LiveWish first;
+  std::filesystem::path save_folder;  // where variants are written
+};
+
+class ViewHub final : private LiveAudience {
+ public:
+  /// `post` runs a function on the server's thread, from any thread.
+  using Post = std::function<void(std::function<void()>)>;
+  ViewHub(std::shared_ptr<const SceneDescription> scene, const HubOptions& options, Post post);
+  ~ViewHub() override;
+
+  void joins(Viewer& viewer);
+  void leaves(Viewer& viewer);
+  void says(Viewer& viewer, std::string_view text);
+  size_t viewers() const { return viewers_.size(); }
+
+ private:
+  void begins(const LiveGeneration& generation) override;
+  void lit(uint32_t generation, std::vector<LiveFrame> frames) override;
+  void goes_on(const LiveProgress& progress) override;
+  void answers(const LiveAnswer& answer) override;
+  void refuses(const std::string& why) override;
+
+  void handle(Viewer& viewer, const FactorEdit& edit);
+  void handle(Viewer& viewer, const ScenarioEdit& edit);
+  void handle(Viewer& viewer, const SmokeEdit& edit);
+  void handle(Viewer& viewer, const MoveEdit& edit);
+  void handle(Viewer& viewer, const SaveEdit& edit);
+  void handle(Viewer& viewer, const EditWish& wish);
+  void handle(Viewer& viewer, const ProbeAsk& ask);
+  void handle(Viewer& viewer, const JudgeAsk& ask);
+  void refuse(Viewer& viewer, const std::string& why);
+  void to_all(const Json& message);
+  void greet(Viewer& viewer);
+  void make_editor(Viewer* viewer);
+  Json scene_json(const Viewer& viewer) const;
+  Viewer* viewer_of(uint64_t number) const;
+
+  const std::shared_ptr<const SceneDescription> scene_;
+  const HubOptions options_;
+  const Post post_;
+  std::map<Viewer*, uint64_t> viewers_;
+  uint64_t next_number_ = 1;
+  Viewer* editor_ = nullptr;
+  LiveWish wish_;
+  std::map<std::string, double> factors_;
+  LiveGeneration generation_;
+  std::vector<LiveFrame> light_;
+  std::optional<LiveProgress> progress_;
+  std::atomic<bool> ends_{false};
+  std::thread judge_;
+  bool judging_ = false;
+  std::unique_ptr<LiveTrace> trace_;  // the last: it tells at once
+};
+
+}  // namespace luxodus

@@ -1,0 +1,60 @@
+// What a viewer may say (PROTOCOL.md), read from untrusted text: types, ranges and lengths are
+// checked, all else is refused with a reason. Pure; any thread.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "runtime/core/result.hpp"
+
+namespace luxodus {
+
+namespace limits {
+inline constexpr size_t view_message_bytes = 64 << 10;
+inline constexpr double view_factor_most = 10, view_smoke_most = 100;
+inline constexpr size_t view_name_chars = 200;
+}  // namespace limits
+
+struct FactorEdit {
+  std::string group;
+  double factor = 1;
+};
+struct ScenarioEdit {
+  std::string name;
+};
+struct SmokeEdit {
+  double factor = 1;
+};
+struct MoveEdit {
+  bool is_sign = true;  // else a luminaire
+  std::string name;
+  glm::dvec3 position{0};
+  std::optional<glm::dvec3> facing;
+};
+struct SaveEdit {
+  std::string name;
+};
+struct EditWish {
+  bool wanted = false;
+};
+struct ProbeAsk {
+  int64_t id = 0;
+  uint32_t triangle = 0;
+  bool front = true;
+};
+struct JudgeAsk {
+  std::string sign;
+};
+using ViewMessage = std::variant<FactorEdit, ScenarioEdit, SmokeEdit, MoveEdit, SaveEdit, EditWish,
+                                 ProbeAsk, JudgeAsk>;
+
+/// Errors: what is no message, one sentence.
+Result<ViewMessage> parse_view_message(std::string_view text);
+
+/// Whether only the editor may say it.
+bool is_edit(const ViewMessage& message);
+
+}  // namespace luxodus

@@ -1,0 +1,111 @@
+#include "actors/view/live_scene.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "scenes/format/scene_file.hpp"
+#include "tests/unit/scenes/format/temporary_folder.hpp"
+
+using namespace luxodus;
+
+namespace {
+
+const std::string room = R"(
+[[object]]
+name = "room"
+shape = "room"
+low = [0, 0, 0]
+high = [6, 4, 3]
+material = "grey50"
+
+[[emitter]]
+name = "lamp"
+shape = "rectangle"
+position = [3, 2, 2.9]
+size = [0.5, 0.5]
+flux_lm = 1000
+
+[[sign]]
+name = "exit"
+position = [5.9, 2, 2.2]
+facing = [-1, 0, 0]
+width = 0.4
+height = 0.2
+text = "EXIT"
+letter_height = 0.15
+mains_white = 500
+mains_green = 50
+emergency_white = 100
+emergency_green = 10
+
+[[medium]]
+name = "haze"
+kind = "homogeneous"
+extinction = 0.2
+albedo = 0.9
+
+[[scenario]]
+name = "day"
+
+[[scenario]]
+name = "clear"
+media = { haze = 0 }
+)";
+
+SceneDescription scene_of(const std::string& file) {
+  auto read = read_scene(file);
+  for (const Problem& problem : read.problems.list()) UNSCOPED_INFO(problem.text());
+  REQUIRE(read.scene);
+  return std::move(*read.scene);
+}
+
+}  // namespace
+
+TEST_CASE("each light of a live scene is a group of its own, whatever the file says", "[view]") {
+  const test::TemporaryFolder folder;
+  const SceneDescription scene = scene_of(folder.write("room.toml", room));
+  const auto compiled = compile_live(scene, {});
+  REQUIRE(compiled.ok());
+  std::vector<std::string> names;
+  for (const Group& group : compiled.value()->groups) names.push_back(group.name);
+  CHECK(names == std::vector<std::string>{group_of_luminaire("lamp"), group_of_sign("exit")});
+  CHECK_FALSE(compile_live(scene, {"night", 1, {}, {}}).ok());
+}
+
+TEST_CASE("a wish moves signs and luminaires and thickens smoke", "[view]") {
+  const test::TemporaryFolder folder;
+  const SceneDescription scene = scene_of(folder.write("room.toml", room));
+  LiveWish wish;
+  wish.signs["exit"] = {{0.1, 2, 2}, glm::dvec3(1, 0, 0)};
+  wish.luminaires["lamp"] = {{1, 1, 2.5}, std::nullopt};
+  const auto moved = live_description(scene, wish);
+  REQUIRE(moved.ok());
+  CHECK(moved->signs[0].frame.origin == glm::dvec3(0.1, 2, 2));
+  CHECK(moved->signs[0].frame.axes[2].x == Approx(1));
+  CHECK(moved->emitters[0].frame.origin == glm::dvec3(1, 1, 2.5));
+  CHECK(moved->emitters[0].frame.axes == scene.emitters[0].frame.axes);
+  wish.smoke = 3;
+  const auto thick = compile_live(scene, wish);
+  REQUIRE(thick.ok());
+  CHECK(thick.value()->scenario.smoke_factor == 3);
+  wish.signs["exit"].facing = glm::dvec3(0);
+  CHECK_FALSE(live_description(scene, wish).ok());
+}
+
+TEST_CASE("a saved variant is the building as it was seen", "[view]") {
+  const test::TemporaryFolder folder;
+  const SceneDescription scene = scene_of(folder.write("room.toml", room));
+  LiveWish wish;
+  wish.signs["exit"] = {{0.1, 2, 2}, glm::dvec3(1, 0, 0)};
+  wish.smoke = 2;
+  const std::string text =
+      variant_text(scene, wish, {{"lamp", 0.5}, {group_of_sign("exit"), 2}}, "turned");
+  const SceneDescription variant = scene_of(folder.write("turned.toml", text));
+  CHECK(variant.signs[0].frame.origin == glm::dvec3(0.1, 2, 2));
+  CHECK(variant.signs[0].frame.axes[2].x == Approx(1));
+  CHECK(variant.signs[0].mains.white_cd_m2 == 1000);
+  CHECK(variant.emitters[0].mains_flux == 500);
+  CHECK(variant.emitters[0].frame.origin == scene.emitters[0].frame.origin);
+  REQUIRE(variant.scenarios.size() == 2);
+  CHECK(variant.scenarios[0].media.front().factor == 2);
+  CHECK(variant.scenarios[1].media.front().factor == 0);  // clear air stays clear
+}

@@ -1,0 +1,291 @@
+// The hub with viewers that remember, and the server with raw sockets.
+#include "actors/view/view_hub.hpp"
+
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <condition_variable>
+#include <cstring>
+#include <mutex>
+
+#include "actors/view/view_server.hpp"
+#include "scenes/format/scene_file.hpp"
+#include "tests/unit/scenes/format/temporary_folder.hpp"
+
+using namespace luxodus;
+
+namespace {
+
+const std::string room = R"(
+[[object]]
+name = "room"
+shape = "room"
+low = [0, 0, 0]
+high = [6, 4, 3]
+material = "grey50"
+
+[[emitter]]
+name = "left"
+shape = "point"
+distribution = "isotropic"
+position = [2, 2, 2]
+flux_lm = 1000
+
+[[emitter]]
+name = "right"
+shape = "point"
+distribution = "isotropic"
+position = [4, 2, 2]
+flux_lm = 1000
+)";
+
+std::shared_ptr<const SceneDescription> scene_in(const test::TemporaryFolder& folder) {
+  auto read = read_scene(folder.write("room.toml", room));
+  REQUIRE(read.scene);
+  return std::make_shared<SceneDescription>(std::move(*read.scene));
+}
+
+struct Remembers final : Viewer {
+  std::vector<Json> texts;
+  std::vector<LiveFrame> frames;
+  void send_text(const LiveFrame& text) override { texts.push_back(Json::parse(*text)); }
+  void send_binary(const LiveFrame& frame, bool) override { frames.push_back(frame); }
+  void forget_light() override {}
+
+  const Json* last(const std::string& type) const {
+    for (auto at = texts.rbegin(); at != texts.rend(); ++at)
+      if ((*at)["type"] == type) return &*at;
+    return nullptr;
+  }
+  size_t frames_of(uint32_t kind, uint32_t generation) const {
+    size_t count = 0;
+    for (const LiveFrame& frame : frames) {
+      uint32_t head[2];
+      std::memcpy(head, frame->data(), sizeof head);
+      if (head[0] == kind && head[1] == generation) ++count;
+    }
+    return count;
+  }
+};
+
+/// The server's thread, by hand: what is posted runs when asked for.
+class Posts {
+ public:
+  ViewHub::Post post() {
+    return [this](std::function<void()> function) {
+      const std::lock_guard lock(mutex_);
+      waiting_.push_back(std::move(function));
+      came_.notify_all();
+    };
+  }
+  /// Runs what comes until `holds`. The hub tells at every doubling, so it will.
+  template <class Holds>
+  void until(Holds&& holds) {
+    while (!holds()) {
+      std::unique_lock lock(mutex_);
+      came_.wait(lock, [&] { return !waiting_.empty(); });
+      const auto next = std::move(waiting_.front());
+      waiting_.pop_front();
+      lock.unlock();
+      next();
+    }
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable came_;
+  std::deque<std::function<void()>> waiting_;
+};
+
+HubOptions small_runs(const test::TemporaryFolder& folder) {
+  HubOptions options;
+  options.live.particles = 1 << 16;
+  options.save_folder = folder / "";
+  return options;
+}
+
+}  // namespace
+
+TEST_CASE("viewers get the building and its light, one edits, all hear of it", "[view]") {
+  const test::TemporaryFolder folder;
+  Posts posts;
+  ViewHub hub(scene_in(folder), small_runs(folder), posts.post());
+  Remembers first, second;
+  hub.joins(first);
+  posts.until([&] { return first.frames_of(2, 1) >= 2; });
+  REQUIRE(first.last("scene") != nullptr);
+  CHECK((*first.last("scene"))["editor"] == true);
+  CHECK((*first.last("scene"))["groups"].size() == 2);
+  CHECK(first.frames_of(1, 1) == 1);
+  hub.joins(second);  // late: it gets what there is
+  CHECK((*second.last("scene"))["editor"] == false);
+  CHECK(second.frames_of(1, 1) == 1);
+  CHECK(second.frames_of(2, 1) == 2);
+  const std::string dim = R"({"type":"factor","group":"left","factor":0.5})";
+  hub.says(second, dim);
+  CHECK((*second.last("refused"))["why"].get<std::string>().find("somebody else") == 0);
+  hub.says(first, dim);
+  CHECK((*second.last("factors"))["factors"]["left"] == 0.5);
+  hub.says(second, R"({"type":"edit","wanted":true})");
+  CHECK((*second.last("editor"))["editor"] == true);
+  CHECK((*first.last("editor"))["editor"] == false);
+  hub.leaves(second);
+  CHECK(hub.viewers() == 1);
+  hub.leaves(first);
+}
+
+TEST_CASE("what moves begins a new generation, and light answers for its place", "[view]") {
+  const test::TemporaryFolder folder;
+  Posts posts;
+  ViewHub hub(scene_in(folder), small_runs(folder), posts.post());
+  Remembers viewer;
+  hub.joins(viewer);
+  posts.until([&] {
+    const Json* progress = viewer.last("progress");
+    return progress != nullptr && (*progress)["done"] == true;
+  });
+  hub.says(viewer, R"({"type":"probe","id":5,"triangle":0,"front":true})");
+  posts.until([&] { return viewer.last("probe") != nullptr; });
+  const Json full = *viewer.last("probe");
+  CHECK(full["id"] == 5);
+  CHECK(full["illuminance"].get<double>() > 10);
+  // Lambertian grey of a half: luminance = 0.5 E / pi.
+  CHECK(full["luminance"].get<double>() ==
+        Approx(0.5 * full["illuminance"].get<double>() / 3.14159265).epsilon(1e-6));
+  for (const char* group : {"left", "right"})
+    hub.says(viewer, std::string(R"({"type":"factor","factor":0.5,"group":")") + group + "\"}");
+  viewer.texts.clear();
+  hub.says(viewer, R"({"type":"probe","id":6,"triangle":0,"front":true})");
+  posts.until([&] { return viewer.last("probe") != nullptr; });
+  CHECK((*viewer.last("probe"))["illuminance"].get<double>() ==
+        Approx(0.5 * full["illuminance"].get<double>()));
+  hub.says(viewer, R"({"type":"move","kind":"luminaire","name":"left","position":[1,1,1]})");
+  posts.until([&] { return viewer.frames_of(2, 2) >= 2; });
+  CHECK((*viewer.last("scene"))["generation"] == 2);
+  hub.says(viewer, R"({"type":"move","kind":"sign","name":"none","position":[1,1,1]})");
+  CHECK(viewer.last("refused") != nullptr);
+  hub.leaves(viewer);
+}
+
+TEST_CASE("a variant is saved under a plain name, and never over a file", "[view]") {
+  const test::TemporaryFolder folder;
+  Posts posts;
+  ViewHub hub(scene_in(folder), small_runs(folder), posts.post());
+  Remembers viewer;
+  hub.joins(viewer);
+  posts.until([&] { return viewer.last("scene") != nullptr; });
+  for (const char* name : {"../escape", "a/b", ".hidden", "a.b"}) {
+    viewer.texts.clear();
+    hub.says(viewer, std::string(R"({"type":"save","name":")") + name + "\"}");
+    CHECK(viewer.last("saved") == nullptr);
+    CHECK(viewer.last("refused") != nullptr);
+  }
+  hub.says(viewer, R"({"type":"save","name":"my variant"})");
+  REQUIRE(viewer.last("saved") != nullptr);
+  CHECK(read_scene(folder / "my variant.toml").scene.has_value());
+  viewer.texts.clear();
+  hub.says(viewer, R"({"type":"save","name":"my variant"})");
+  CHECK((*viewer.last("refused"))["why"].get<std::string>().find("is there already") !=
+        std::string::npos);
+  hub.leaves(viewer);
+}
+
+namespace {
+
+/// What the server answers to these bytes, to the end of its line.
+std::string answer(uint16_t port, const std::string& bytes) {
+  const int socket = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  sockaddr_in place{};
+  place.sin_family = AF_INET;
+  place.sin_port = htons(port);
+  place.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  REQUIRE(::connect(socket, reinterpret_cast<sockaddr*>(&place), sizeof place) == 0);
+  REQUIRE(::send(socket, bytes.data(), bytes.size(), MSG_NOSIGNAL) ==
+          static_cast<ssize_t>(bytes.size()));
+  ::shutdown(socket, SHUT_WR);
+  std::string out(4096, '\0');
+  const ssize_t count = ::recv(socket, out.data(), out.size(), 0);
+  ::close(socket);
+  out.resize(static_cast<size_t>(std::max<ssize_t>(0, count)));
+  return out.substr(0, out.find("\r\n"));
+}
+
+class Serving {
+ public:
+  explicit Serving(const std::string& token) {
+    ServerOptions options;
+    options.port = 0;
+    options.token = token;
+    server_ = std::move(ViewServer::listen(options)).value();
+    hub_ = std::make_unique<ViewHub>(
+        scene_in(folder_), small_runs(folder_),
+        [this](std::function<void()> function) { server_->post(std::move(function)); });
+    thread_ = std::thread([this] { server_->run(*hub_, ends_); });
+  }
+  ~Serving() {
+    ends_ = true;
+    thread_.join();
+  }
+  uint16_t port() const { return server_->port(); }
+
+ private:
+  const test::TemporaryFolder folder_;
+  std::unique_ptr<ViewServer> server_;
+  std::unique_ptr<ViewHub> hub_;
+  std::atomic<bool> ends_{false};
+  std::thread thread_;
+};
+
+std::string get(const std::string& target) {
+  return "GET " + target + " HTTP/1.1\r\nHost: here\r\n\r\n";
+}
+std::string upgrade(const std::string& target, const std::string& more = "") {
+  return "GET " + target +
+         " HTTP/1.1\r\nHost: here\r\nConnection: Upgrade\r\nUpgrade: websocket\r\n"
+         "Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n" +
+         more + "\r\n";
+}
+
+}  // namespace
+
+TEST_CASE("the server has a page and a socket, and no other path of the machine", "[view]") {
+  const Serving serving("");
+  const uint16_t port = serving.port();
+  CHECK(answer(port, get("/")) == "HTTP/1.1 200 OK");
+  for (const char* path : {"/etc/passwd", "/../../etc/passwd", "/live", "/index.html", "//"})
+    CHECK(answer(port, get(path)) == "HTTP/1.1 404 Not Found");
+  CHECK(answer(port, "POST / HTTP/1.1\r\nHost: here\r\n\r\n") == "HTTP/1.1 405 Method Not Allowed");
+  CHECK(answer(port, upgrade("/live")) == "HTTP/1.1 101 Switching Protocols");
+  CHECK(answer(port, upgrade("/live", "Origin: http://here\r\n")) ==
+        "HTTP/1.1 101 Switching Protocols");
+  CHECK(answer(port, upgrade("/live", "Origin: http://elsewhere\r\n")) == "HTTP/1.1 403 Forbidden");
+}
+
+TEST_CASE("a server with a token wants it for page and socket", "[view]") {
+  const Serving serving("secret");
+  const uint16_t port = serving.port();
+  CHECK(answer(port, get("/")) == "HTTP/1.1 403 Forbidden");
+  CHECK(answer(port, get("/?token=secreT")) == "HTTP/1.1 403 Forbidden");
+  CHECK(answer(port, get("/?token=secret")) == "HTTP/1.1 200 OK");
+  CHECK(answer(port, upgrade("/live")) == "HTTP/1.1 403 Forbidden");
+  CHECK(answer(port, upgrade("/live?token=secret")) == "HTTP/1.1 101 Switching Protocols");
+}
+
+TEST_CASE("rubbish ends its own connection alone", "[view]") {
+  const Serving serving("");
+  const uint16_t port = serving.port();
+  std::string noise(3000, 'x');
+  for (size_t i = 0; i < noise.size(); ++i) noise[i] = static_cast<char>((i * 7919 + i / 3) & 0xff);
+  CHECK(answer(port, noise).find("200") == std::string::npos);
+  CHECK(answer(port, "GET / HTTP/1.1\r\n" + std::string(20'000, 'a')).find("200") ==
+        std::string::npos);
+  // Frames that lie: reserved bits, a length of exabytes, an unmasked text.
+  for (const std::string& frame :
+       {std::string("\xff\xff\xff\xff", 4),
+        std::string("\x82\xff\x7f\xff\xff\xff\xff\xff\xff\xff", 10), std::string("\x81\x05hello")})
+    CHECK(answer(port, upgrade("/live") + frame) == "HTTP/1.1 101 Switching Protocols");
+  CHECK(answer(port, get("/")) == "HTTP/1.1 200 OK");
+}
