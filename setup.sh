@@ -2,6 +2,7 @@
 # Installs what Luxodus is built with, on Debian 12, and nothing that is there already: a second
 # call only looks. Both ./run.sh and ./test.sh call it.
 set -euo pipefail
+cd "$(dirname "$0")"
 
 packages=(
   # compiler and build
@@ -16,9 +17,16 @@ packages=(
   libopenexr-dev libpng-dev librsvg2-dev libcairo2-dev fonts-dejavu-core libzstd-dev libxxhash-dev
   # nodes: fibers, links, messages
   libboost-context-dev libzmq3-dev cppzmq-dev libcapnp-dev capnproto
+  # the live view's server
+  libboost-dev
   # tests and formatting
   catch2 python3 clang-format iproute2
 )
+
+# Others' Node.js will do; Debian's comes where there is none.
+if ! command -v node >/dev/null || ! command -v npm >/dev/null; then
+  packages+=(nodejs npm)
+fi
 
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
   echo "setup.sh: this is no Debian; install by hand what these packages hold: ${packages[*]}" >&2
@@ -32,21 +40,35 @@ missing=()
 for package in "${packages[@]}"; do
   [[ $installed == *" $package "* ]] || missing+=("$package")
 done
-if [ ${#missing[@]} -eq 0 ]; then
-  exit 0
+
+install_missing() {
+  echo "setup.sh: installing ${missing[*]}"
+  local as_root=()
+  if [ "$(id -u)" -ne 0 ]; then
+    command -v sudo >/dev/null || {
+      echo "setup.sh: run as root, or install sudo: apt-get install ${missing[*]}" >&2
+      exit 1
+    }
+    as_root=(sudo)
+  fi
+  # Another apt may hold the lock for a while, on a machine that has just started.
+  local apt=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive
+    apt-get -o DPkg::Lock::Timeout=300 -qq)
+  "${apt[@]}" update
+  "${apt[@]}" install -y --no-install-recommends "${missing[@]}" >/dev/null
+}
+if [ ${#missing[@]} -gt 0 ]; then
+  install_missing
 fi
 
-echo "setup.sh: installing ${missing[*]}"
-as_root=()
-if [ "$(id -u)" -ne 0 ]; then
-  command -v sudo >/dev/null || {
-    echo "setup.sh: run as root, or install sudo: apt-get install ${missing[*]}" >&2
-    exit 1
-  }
-  as_root=(sudo)
+# npm's packages of the live view's page, as its lock says. Without them the page says so, and all
+# else is built.
+page=actors/view/page
+have=$page/node_modules/.package-lock.json
+if [ ! -e "$have" ] || [ "$page/package-lock.json" -nt "$have" ]; then
+  echo "setup.sh: fetching what the live view's page is built with"
+  if ! (cd "$page" && npm ci --no-audit --no-fund --loglevel=error); then
+    rm -rf "$page/node_modules"
+    echo "setup.sh: npm could not; the live view will have no page" >&2
+  fi
 fi
-# Another apt may hold the lock for a while, on a machine that has just started.
-apt=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=300 -qq)
-"${apt[@]}" update
-"${apt[@]}" install -y --no-install-recommends "${missing[@]}" >/dev/null
-echo "setup.sh: done"
