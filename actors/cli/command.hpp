@@ -33,6 +33,7 @@ void add_profile(CLI::App& app, int& exit_code);
 void add_deploy(CLI::App& app, int& exit_code);
 void add_sim(CLI::App& app, int& exit_code);
 void add_study(CLI::App& app, int& exit_code);
+void add_validate(CLI::App& app, int& exit_code);
 
 /// One line "file:line: sentence" on standard error.
 void tell(const Problem& problem);
