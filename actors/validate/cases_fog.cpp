@@ -28,9 +28,10 @@ Plan moments_plan(const std::string& parameters, double mean_z) {
   plan.add("mean path", 1 / (1 - albedo),
            [](const Traced& run) { return run.watts(run.blocks().voxels, 0, 0); })
       .unit = 1 / (1 - albedo);
+  const double mean_z2 = 2 / (3 * (1 - albedo * g)) * (1 / (1 - albedo) + 2 / (1 - albedo * g * g));
   plan.add("mean z of absorption", mean_z,
            [](const Traced& run) { return run.watts(run.blocks().voxels, 0, 3); })
-      .unit = mean_z;
+      .unit = mean_z2 / mean_z;  // so that unit x mean is the mean square
   return plan;
 }
 
