@@ -37,6 +37,7 @@ void add_assess(CLI::App& app, int& exit_code);
 void add_report(CLI::App& app, int& exit_code);
 void add_compare(CLI::App& app, int& exit_code);
 void add_view(CLI::App& app, int& exit_code);
+void add_validate(CLI::App& app, int& exit_code);
 
 /// One line "file:line: sentence" on standard error.
 void tell(const Problem& problem);

@@ -48,6 +48,7 @@ int main(int argc, char** argv) {
   add_pack(app, exit_code);
   add_render(app, exit_code);
   add_converge(app, exit_code);
+  add_validate(app, exit_code);
   add_info(app, exit_code);
   add_topology(app, exit_code);
   add_node(app, exit_code);

@@ -104,7 +104,7 @@ void LocalRun::trace_until(int64_t end, const StopRule& stop, const std::atomic<
   double last_report = clock.seconds();
   const auto work = [&] {
     flush_denormals();
-    const auto tracer = make_batch_tracer(*scene_, GeometryAccess::resident(*index_), seed_);
+    const auto tracer = make_tracer_(*scene_, GeometryAccess::resident(*index_), seed_);
     BatchScores scores;
     while (true) {
       Batch batch;

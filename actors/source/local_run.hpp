@@ -57,6 +57,12 @@ class LocalRun {
   StopReason run(const StopRule& stop, const std::atomic<bool>& interrupt,
                  const std::function<void(const Progress&)>& report);
 
+  /// Makes what traces a batch. Called once on each thread.
+  using MakeTracer = std::function<std::unique_ptr<BatchTracer>(
+      const CompiledScene&, const GeometryAccess&, uint64_t seed)>;
+  /// Has batches traced by another loop than the program's own.
+  void trace_with(MakeTracer make) { make_tracer_ = std::move(make); }
+
   /// Has `pause` called between batches, while nobody adds to the totals, whenever `due` says so:
   /// by run() on its thread, by a controller on its. Both functions outlive the run.
   void set_pause(std::function<bool()> due, std::function<void()> pause) {
@@ -121,6 +127,7 @@ class LocalRun {
   double seconds_ = 0;
   double error_ = 0;
   int64_t batches_at_start_ = 0;
+  MakeTracer make_tracer_ = make_batch_tracer;
   std::function<bool()> pause_due_;
   std::function<void()> pause_;
 };

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "runtime/core/random.hpp"
 #include "scenes/geometry/patches.hpp"
@@ -33,9 +34,12 @@ inline constexpr Weight roulette_below = unit_weight / 8;
 inline constexpr Weight roulette_to = unit_weight / 4;
 }  // namespace defaults
 
-/// What the loop contains; everything absent is not compiled in.
-template <MediaNeed Media, bool ManyBands, bool AllSurfaces, bool Detectors>
+/// What the loop contains; everything absent is not compiled in. `Flaws` are none but in a test,
+/// which compiles the same loop with mistakes in it and proves that validation finds each:
+/// functions that spoil, in place, what the loop has just found out.
+template <MediaNeed Media, bool ManyBands, bool AllSurfaces, bool Detectors, class Flaws = void>
 struct Kernel {
+  using flaws = Flaws;
   static constexpr MediaNeed media = Media;
   static constexpr bool many_bands = ManyBands;
   static constexpr bool all_surfaces = AllSurfaces;
@@ -44,6 +48,9 @@ struct Kernel {
 
 template <class K, class Resolver>
 class ParticleTracer {
+  using Flaws = typename K::flaws;
+  static constexpr bool flawed = !std::is_void_v<Flaws>;
+
  public:
   ParticleTracer(const CompiledScene& scene, Resolver& resolver, uint64_t seed)
       : scene_(scene),
@@ -77,10 +84,13 @@ class ParticleTracer {
   Turn draw_turn() {
     const float u = random_.uniform();
     const float v = random_.uniform();
-    return {u, v, cosine_hemisphere(u, v)};
+    Turn turn{u, v, cosine_hemisphere(u, v)};
+    if constexpr (flawed) Flaws::lambertian(turn.lambertian);
+    return turn;
   }
 
   void trace(uint64_t particle) {
+    if constexpr (flawed) Flaws::history(particle);
     random_.start(particle);
     State p = emit();
     Ledger& ledger = batch_->ledger;
@@ -113,6 +123,7 @@ class ParticleTracer {
     const EmissionPoint point = emission_point(scene_, emitter, random_, resolver_);
     p.ray.direction = emission_direction(emitter, point, random_, resolver_);
     p.ray.origin = point.position;
+    if constexpr (flawed) Flaws::birth(p.ray, point, emitter);
     if (emitter.body != none_index) {
       const glm::vec3 side = glm::dot(point.axis, p.ray.direction) >= 0 ? point.axis : -point.axis;
       p.ray.origin = offset_ray(point.position, side);
@@ -133,7 +144,9 @@ class ParticleTracer {
     const std::vector<uint32_t>& choices = group_->emitters[b];
     if (choices.size() == 1) return scene_.emitters[choices[0]];
     const uint64_t r = random_.bits64();
-    return scene_.emitters[choices[find(group_->emitter_cdf[b], r)]];
+    size_t choice = find(group_->emitter_cdf[b], r);
+    if constexpr (flawed) Flaws::emitter(choice, choices.size());
+    return scene_.emitters[choices[choice]];
   }
 
   static size_t find(const std::vector<uint64_t>& cdf, uint64_t r) {
@@ -152,10 +165,13 @@ class ParticleTracer {
   Flight fly(const State& p, float length) {
     // -log(1 - u), u in [0, 1) with 32 bits, exact in double.
     const uint32_t r = random_.bits();
-    const double tau = -std::log((4294967296.0 - static_cast<double>(r)) * 0x1p-32);
+    double tau = -std::log((4294967296.0 - static_cast<double>(r)) * 0x1p-32);
+    if constexpr (flawed) Flaws::depth(tau);
     const float choice = random_.uniform();
-    return free_flight<K::media>(scene_.media, p.band, p.ray.origin, p.ray.direction, length, tau,
-                                 choice, resolver_);
+    Flight flight = free_flight<K::media>(scene_.media, p.band, p.ray.origin, p.ray.direction,
+                                          length, tau, choice, resolver_);
+    if constexpr (flawed) Flaws::flight(flight, p.ray, length, scene_);
+    return flight;
   }
 
   /// The event at the end of a flight; a surface that was found comes before the collision.
@@ -174,6 +190,7 @@ class ParticleTracer {
   /// The turn that follows a flight is independent of it, and so may say where its points lie.
   void pass_detectors(const State& p, float length, const Turn& turn) {
     if constexpr (K::detectors) {
+      if constexpr (flawed) Flaws::passed(length);
       score_flight(
           scene_,
           {p.ray.origin, p.ray.direction, length, p.weight, p.band, p.direct, p.collided, turn.u},
@@ -188,15 +205,19 @@ class ParticleTracer {
     ++batch_->ledger.collisions;
     const glm::vec3 place = p.ray.origin + p.ray.direction * flight.t;
     const Weight before = p.weight;
-    const Weight after = surviving(before, to_fraction(flight.albedo));
+    Fraction albedo = to_fraction(flight.albedo);
+    if constexpr (flawed) Flaws::albedo(albedo);
+    const Weight after = surviving(before, albedo);
     batch_->ledger.absorbed_media += before - after;
     score_collision(scene_, place, p.band, static_cast<uint32_t>(flight.medium), before - after,
                     after, *batch_);
     p.weight = after;
     if (!goes_on(p)) return false;
     p.ray.origin = place;
+    const glm::vec3 incoming = p.ray.direction;
     p.ray.direction =
-        sample(scene_.phases[static_cast<size_t>(flight.phase)], p.ray.direction, turn.u, turn.v);
+        sample(scene_.phases[static_cast<size_t>(flight.phase)], incoming, turn.u, turn.v);
+    if constexpr (flawed) Flaws::scattered(p.ray.direction, incoming);
     p.direct = false;
     p.collided = true;
     return true;
@@ -220,20 +241,23 @@ class ParticleTracer {
     }
     const size_t side = front ? 0 : 1;
     const size_t bands = K::many_bands ? static_cast<size_t>(scene_.bands.count()) : 1;
-    const Fraction reflectance =
+    Fraction reflectance =
         scene_
             .lambert_fraction[(triangle.surface * 2 + side) * bands + static_cast<size_t>(p.band)];
+    if constexpr (flawed) Flaws::reflectance(reflectance);
     const Weight before = p.weight;
     const Weight after = surviving(before, reflectance);
     int64_t* patch = patch_score(hit, front, p.band);
     patch[0] += static_cast<int64_t>(before);
     patch[1] += static_cast<int64_t>(after);
+    if constexpr (flawed) Flaws::counted(patch[0], before);
     batch_->ledger.absorbed_surfaces += before - after;
     p.weight = after;
     if (!goes_on(p)) return false;
     const glm::vec3 normal = front ? triangle.normal : -triangle.normal;
     p.ray.direction = to_world(normal, turn.lambertian);
     p.ray.origin = offset_ray(triangle.at(hit.u, hit.v), normal);
+    if constexpr (flawed) Flaws::departure(p.ray.origin, triangle.at(hit.u, hit.v));
     p.direct = false;
     return true;
   }
@@ -244,7 +268,8 @@ class ParticleTracer {
                         const Turn& turn) {
     const TriangleRecord& triangle = *hit.triangle;
     const glm::vec3 normal = front ? triangle.normal : -triangle.normal;
-    const SurfaceModel model = surface_at(scene_, hit, front, p.band, material, resolver_);
+    SurfaceModel model = surface_at(scene_, hit, front, p.band, material, resolver_);
+    if constexpr (flawed) Flaws::surface(model);
     const glm::vec3 place = triangle.at(hit.u, hit.v);
     const float lobe = random_.uniform();
     const SurfaceSample sampled =
@@ -269,6 +294,7 @@ class ParticleTracer {
     const uint32_t n = t.subdivision;
     uint32_t patch = t.first_patch + (front ? 0 : n * n);
     if (n > 1) patch += sub_triangle(hit.u, hit.v, n);
+    if constexpr (flawed) Flaws::patch(patch, scene_);
     const int64_t bands = K::many_bands ? scene_.bands.count() : 1;
     return batch_->scores.data() + patches_ + (int64_t{patch} * bands + band) * 2;
   }
@@ -292,8 +318,10 @@ class ParticleTracer {
     if (p.weight == 0) return false;
     const uint64_t r = (uint64_t{random_.bits()} * defaults::roulette_to) >> 32;
     if (r < p.weight) {
-      batch_->ledger.roulette_gain += defaults::roulette_to - p.weight;
+      const Weight before = p.weight;
       p.weight = defaults::roulette_to;
+      if constexpr (flawed) Flaws::roulette(p.weight, before);
+      batch_->ledger.roulette_gain += p.weight - before;
       return true;
     }
     batch_->ledger.roulette_loss += p.weight;
@@ -304,7 +332,8 @@ class ParticleTracer {
   // -------------------------------------------------------------------------
 
   bool escape(State& p, const Turn& turn) {
-    const EscapePoint exit = leave_box(p.ray);
+    EscapePoint exit = leave_box(p.ray);
+    if constexpr (flawed) Flaws::exit(exit.side);
     pass_detectors(p, exit.distance, turn);
     const int64_t at = scene_.layout.score_index(scene_.blocks.escape, exit.side, p.band, 0);
     batch_->scores.data()[at] += static_cast<int64_t>(p.weight);

@@ -1,0 +1,128 @@
+// luxodus validate: every case with a known answer, and a verdict by a rule written down
+// beforehand.
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <cmath>
+
+#include "actors/cli/command.hpp"
+#include "actors/validate/report.hpp"
+
+namespace luxodus::cli {
+
+namespace {
+
+struct ValidateOptions {
+  bool quick = false;
+  bool full = false;
+  bool list = false;
+  std::string only;
+  std::string error = "0.01%";
+  std::string out = "out/validate";
+  uint64_t seed = 1;
+  int threads = default_threads();
+};
+
+std::string seconds_text(double seconds) {
+  if (!std::isfinite(seconds)) return "unknown";
+  return seconds < 600 ? fmt::format("{:.0f} s", seconds) : fmt::format("{:.1f} h", seconds / 3600);
+}
+
+void print_verdict(const light::Verdict& verdict, const std::string& out, bool interrupted) {
+  for (const light::Check& c : verdict.checks)
+    std::printf("%-36s %-28s (allowed: %s) %s\n", c.name.c_str(), c.found.c_str(),
+                c.allowed.c_str(), c.passed ? "passed" : "FAILED");
+  std::printf("%zu statistical quantities, %zu computed, %zu too rare to be judged\n",
+              verdict.statistical, verdict.computed, verdict.rare);
+  if (!verdict.z.empty())
+    std::printf("largest z %+.2f: %s\n", verdict.z_largest, verdict.z_largest_of.c_str());
+  std::printf("%s%s; the page is %s/validate.html\n", verdict.passed ? "passed" : "FAILED",
+              interrupted ? " so far; interrupted" : "", out.c_str());
+}
+
+/// Every quantity that is out of bounds, on standard error.
+void tell_failures(const std::vector<light::CaseResult>& results, const light::Verdict& verdict) {
+  for (size_t i = 0; i < results.size(); ++i) {
+    for (size_t k = 0; k < results[i].findings.size(); ++k) {
+      const light::Finding& f = results[i].findings[k];
+      if (verdict.judged[i][k].judgement != light::Judgement::failed) continue;
+      spdlog::error("{}: {}: {} +- {}, reference {}, z {:.2f}", results[i].name, f.quantity,
+                    f.estimate.value, f.estimate.standard_error, f.reference,
+                    verdict.judged[i][k].z);
+    }
+  }
+}
+
+Result<ExitCode> validate(const ValidateOptions& options) {
+  const auto error = parse_share(options.error);
+  if (!error.ok()) return error.problem();
+  if (!(error.value() > 0)) return Problem{{}, "--error must be above 0"};
+  const light::Cases cases = light::cases_named(options.only);
+  if (cases.empty())
+    return Problem{{}, "no case has \"" + options.only + "\" in its name; --list tells them"};
+  if (options.list) {
+    for (const light::Case& c : cases) std::printf("%s  (%s)\n", c.name.c_str(), c.source.c_str());
+    return ExitCode::success;
+  }
+  install_interrupt_handler();
+  light::SuiteRecord record{options.seed, options.threads, options.full ? error.value() : 0,
+                            options.only};
+  light::SuiteOptions suite;
+  suite.seed = record.seed;
+  suite.threads = record.threads;
+  suite.error = record.error;
+  ProgressLine line("validate");
+  const auto show = [&](const light::SuiteProgress& p) {
+    line.put(fmt::format("{} of {} cases, {}, about {} left: {}", p.done, p.cases,
+                         seconds_text(p.seconds), seconds_text(p.seconds_left), p.name),
+             false);
+  };
+  const auto results = light::run_suite(cases, suite, interrupt_flag(), show);
+  line.put(fmt::format("{} of {} cases", results.size(), cases.size()), true);
+  record.interrupted = interrupt_flag().load();
+  const light::Verdict verdict = light::judge(results);
+  if (auto ok = light::write_suite(options.out, results, record, verdict); !ok.ok())
+    return ok.problem();
+  tell_failures(results, verdict);
+  print_verdict(verdict, options.out, record.interrupted);
+  if (record.interrupted) return ExitCode::interrupted;
+  return verdict.passed ? ExitCode::success : ExitCode::failure;
+}
+
+}  // namespace
+
+void add_validate(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<ValidateOptions>();
+  CLI::App* command = app.add_subcommand(
+      "validate", "Compare the light with reference solutions: a page, a verdict");
+  command->footer(
+      "Cases are scenes whose light is known: closed forms, deterministic solvers, published "
+      "values.\n"
+      "Each is run at growing numbers of particles. The page shows every quantity with its "
+      "standard\n"
+      "error and distance z from the reference, how z is distributed, and how errors fall. Pass "
+      "or\n"
+      "fail follows from a rule that stands on the page and in actors/validate/README.md.\n"
+      "Exit code: 0 passed, 1 failed, 2 wrong options, 130 interrupted.\n"
+      "  luxodus validate                       quickly, some two minutes of one core\n"
+      "  luxodus validate --full                to 0.01 %; says how long it will take\n"
+      "  luxodus validate --full --error 0.1% --only \"cube\"");
+  auto* quick = command->add_flag("--quick", options->quick, "as many particles as are quick [so]");
+  command->add_flag("--full", options->full, "particles until every quantity has the error")
+      ->excludes(quick);
+  command->add_option("--error", options->error,
+                      "relative standard error of --full, as 0.1% or 0.001 [0.01%]");
+  command->add_option("--only", options->only, "cases with this in their names [all]");
+  command->add_flag("--list", options->list, "names of the cases, and their references");
+  command->add_option("--out", options->out, "folder for validate.html and .json [out/validate]");
+  command->add_option("--seed", options->seed, "of the random numbers [1]")
+      ->transform(seed_number());
+  command->add_option("--threads", options->threads, "[all cores]")->check(CLI::Range(1, 1024));
+  command->callback([options, &exit_code] {
+    auto done = validate(*options);
+    if (!done.ok()) tell(done.problem());
+    exit_code = done.ok() ? done.value() : ExitCode::bad_input;
+  });
+}
+
+}  // namespace luxodus::cli

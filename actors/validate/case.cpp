@@ -1,0 +1,52 @@
+#include "actors/validate/case.hpp"
+
+#include <algorithm>
+#include <cctype>
+
+namespace luxodus::light {
+
+Quantity& Plan::add(std::string name, double reference, std::function<Estimate(const Traced&)> read,
+                    double bias) {
+  quantities.push_back(
+      {std::move(name), reference, std::move(read), bias * std::abs(reference), 0, false});
+  return quantities.back();
+}
+
+void Plan::add_closed() {
+  add("escaped", 0, [](const Traced& run) {
+    double sum = 0;
+    for (uint32_t side = 0; side < 6; ++side) sum += run.escaped(side).value;
+    return Estimate{sum, 0};
+  }).certain = true;
+}
+
+Cases all_cases() {
+  Cases cases;
+  add_stack_cases(cases);
+  add_half_space_cases(cases);
+  add_cube_cases(cases);
+  add_enclosure_cases(cases);
+  add_gas_cases(cases);
+  add_furnace_cases(cases);
+  add_smoke_cases(cases);
+  add_fog_cases(cases);
+  add_lamp_cases(cases);
+  add_room_lighting_cases(cases);
+  add_photometric_cases(cases);
+  add_sight_cases(cases);
+  return cases;
+}
+
+Cases cases_named(const std::string& text) {
+  const auto lower = [](std::string word) {
+    std::transform(word.begin(), word.end(), word.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return word;
+  };
+  Cases cases = all_cases();
+  std::erase_if(
+      cases, [&](const Case& c) { return lower(c.name).find(lower(text)) == std::string::npos; });
+  return cases;
+}
+
+}  // namespace luxodus::light

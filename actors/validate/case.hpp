@@ -1,0 +1,79 @@
+// A case: a scene whose light is known from elsewhere, and the quantities that are compared. Cases
+// of one kind are made by one file, cases_*.cpp; all_cases() is the table of them all. Plain
+// values; any thread.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "actors/validate/traced.hpp"
+
+namespace luxodus::light {
+
+/// What tracing estimates, and what it ought to be.
+struct Quantity {
+  std::string name;
+  double reference = 0;
+  std::function<Estimate(const Traced&)> read;
+  /// Declared beforehand, in the reference's unit: of a mesh that stands for a round thing, of a
+  /// source that stands off its wall, of the digits of a table.
+  double bias = 0;
+  /// About the most that all particles can bring, should each do so; 0: the power of the scene.
+  double unit = 0;
+  /// Equal to the reference within the bias, whatever chance does.
+  bool certain = false;
+};
+
+/// What is computed without chance.
+struct Computed {
+  std::string name;
+  double reference = 0;
+  double value = 0;
+  double tolerance = 0;  // relative
+};
+
+/// A case made ready.
+struct Plan {
+  SceneDescription scene;
+  std::vector<BinSum> sums;
+  std::vector<Quantity> quantities;  // none: nothing is traced
+  std::vector<Computed> computed;
+  int64_t quick_particles = 1 << 18;
+  int64_t batch_particles = 4096;
+
+  /// `bias` is relative to the reference.
+  Quantity& add(std::string name, double reference, std::function<Estimate(const Traced&)> read,
+                double bias = 0);
+  /// No light leaves the scene.
+  void add_closed();
+};
+
+struct Case {
+  std::string group;   // "stack"
+  std::string name;    // unique: "stack 5 L1 lambert from top"
+  std::string source;  // of the reference: a table, or the law
+  std::function<Plan()> plan;
+};
+
+using Cases = std::vector<Case>;
+
+void add_stack_cases(Cases& cases);
+void add_half_space_cases(Cases& cases);
+void add_cube_cases(Cases& cases);
+void add_enclosure_cases(Cases& cases);
+void add_gas_cases(Cases& cases);
+void add_furnace_cases(Cases& cases);
+void add_smoke_cases(Cases& cases);
+void add_fog_cases(Cases& cases);
+void add_lamp_cases(Cases& cases);
+void add_room_lighting_cases(Cases& cases);
+void add_photometric_cases(Cases& cases);
+void add_sight_cases(Cases& cases);
+
+/// Every case that has a reference.
+Cases all_cases();
+/// Those whose name holds the text, small and capital letters alike; all for "".
+Cases cases_named(const std::string& text);
+
+}  // namespace luxodus::light

@@ -1,0 +1,175 @@
+// A point source in endless fog (Case), balls of smoke (collision probabilities), and the glowing
+// cube of Burns and Christon (quadrature).
+#include <cmath>
+#include <numbers>
+
+#include "actors/validate/case.hpp"
+#include "actors/validate/reference.hpp"
+#include "actors/validate/scene_kit.hpp"
+
+namespace luxodus::light {
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+void add_specks(SceneDescription& scene, double away) {
+  add_speck(scene, {away, away, away});
+  add_speck(scene, {-away, -away, -away});
+  scene.objects.back().name = "other speck";
+}
+
+Plan fog_plan(double albedo, const std::vector<Row>& rows) {
+  Plan plan;
+  SceneDescription& scene = plan.scene;
+  scene.run.voxels = false;
+  add_specks(scene, 30);
+  add_point(scene, {0, 0, 0}, 1);
+  add_homogeneous(scene, smoke(1, albedo));
+  for (uint32_t i = 0; i < rows.size(); ++i) {
+    const double r = rows[i].number("r_in_mfp");
+    // Half the relative thickness of a shell. Fluence bends most over a free path: 0.1 of it.
+    const double t = std::min(0.02, 0.1 / r);
+    add_shell_group(scene, {0, 0, 0}, 0, r);
+    add_shell_group(scene, {0, 0, 0}, r * (1 - t), r * (1 + t));
+    const std::string where = " " + rows[i].text("r_in_mfp");
+    const double share = rows[i].number("absorbed_fraction_within_r");
+    plan.add("absorbed within" + where, share,
+             [i](const Traced& run) { return run.absorbed_in(2 * i); });
+    // Far away, where few particles come, one of them stays in the shell for twice its thickness.
+    const double area = 4 * pi * r * r, thickness = 2 * r * t;
+    constexpr double of_shells = 3e-3;  // fluence bends within them
+    plan.add(
+            "path about" + where, area * thickness * rows[i].number("fluence_sigma_t=1"),
+            [i, t](const Traced& run) {
+              return run.track_length(2 * i + 1) * (1 / (1 + t * t / 3));
+            },
+            of_shells)
+        .unit = 2 * thickness;
+  }
+  return plan;
+}
+
+Plan ball_plan(const Row& row) {
+  Plan plan;
+  SceneDescription& scene = plan.scene;
+  const double radius = 1.25, albedo = row.number("albedo");
+  const std::string& quantity = row.text("quantity");
+  scene.run.voxels = false;
+  add_specks(scene, 3);
+  Medium& ball = add_ball(scene, {0.2, -0.1, 0.3}, radius,
+                          smoke(row.number("optical_radius") / radius, albedo));
+  double entering = 1;
+  if (quantity.starts_with("escape fraction of uniform")) {
+    ball.emission = MediumEmission{};
+    ball.emission->power_w = 1;
+  } else if (quantity.starts_with("escape fraction of central")) {
+    add_point(scene, {0.2, -0.1, 0.3}, 1);
+  } else {
+    // Within walls of one exitance M the field is the same everywhere: M x 4 pi r^2 enters a ball.
+    for (const Face& f : faces_of_box({-1.2, -1.5, -1.1}, {1.6, 1.3, 1.7}))
+      add_face_emitter(scene, f, 1 / 6.0);
+    entering = 4 * pi * radius * radius / (6 * 2.8 * 2.8);
+  }
+  const bool absorbed = quantity.starts_with("absorbed");
+  const double share = absorbed ? row.number("value") : 1 - row.number("value");
+  plan.sums.push_back(every_side());
+  plan.quick_particles = 1 << 17;
+  constexpr double digits = 2e-6;
+  plan.add("absorbed", entering * share,
+           [](const Traced& run) { return run.absorbed_by_medium(0); })
+      .bias = digits;
+  plan.add("escaped", 1 - entering * share, [](const Traced& run) { return run.sum(0); }).bias =
+      digits;
+  return plan;
+}
+
+double kappa_of_burns_christon(const glm::dvec3& p) {
+  const auto f = [](double x) { return 1 - 2 * std::abs(x - 0.5); };
+  return 0.9 * f(p.x) * f(p.y) * f(p.z) + 0.1;
+}
+
+/// Fluence at a point of the centre line, which is six half lines of one and the same field.
+void add_centre(Plan& plan, double x, double fluence) {
+  constexpr double half = 0.015;
+  const auto number = static_cast<uint32_t>(plan.sums.size());
+  plan.sums.push_back({&TallyBlocks::volume_length, {}});
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double sign : {-1.0, 1.0}) {
+      glm::dvec3 c(0.5);
+      c[axis] += sign * (x - 0.5);
+      plan.sums.back().bins.push_back(static_cast<uint32_t>(plan.scene.volume_groups.size()));
+      add_box_group(plan.scene, c - half, c + half);
+    }
+  }
+  // By quadrature along rays, cells of 1/80 and the average over a box of 3 cm take 0.37 % off the
+  // centre's value, where kappa has its peak, and up to 0.26 % off the others.
+  constexpr double of_cells = 4e-3;
+  plan.add(
+          "fluence at x = " + std::to_string(x).substr(0, 5), fluence,
+          [number](const Traced& run) {
+            return run.sum(number) * (1 / (6 * std::pow(2 * half, 3)));
+          },
+          of_cells)
+      .unit = 1 / (half * half);
+}
+
+Plan burns_christon_plan() {
+  Plan plan;
+  SceneDescription& scene = plan.scene;
+  scene.run.voxels = false;
+  const int black = add_grey(scene, 0);
+  for (const Face& f : faces_of_box({0, 0, 0}, {1, 1, 1}))
+    add_quad(scene, f.name, f.corner, f.u, f.v, black);
+  // An even number of cells: their centres' values are the averages, as kappa is linear within
+  // each.
+  Medium& m = add_cells(scene, {0, 0, 0}, {1, 1, 1}, 80, kappa_of_burns_christon, 0);
+  m.data.emission = m.data.extinction;
+  m.emission = MediumEmission{};
+  constexpr double emitted = 0.85;
+  m.emission->power_w = emitted;
+  constexpr double of_cells = 1e-3;
+  const std::vector<Row> rows = reference_table("burns_christon.csv");
+  plan.sums.push_back({&TallyBlocks::surfaces, {0, 1, 2, 3, 4, 5}});
+  for (const Row& row : rows) {
+    if (!row.text("x").starts_with("total escaping")) continue;
+    const double escaping = row.number("divQ");
+    plan.add(
+        "to all walls", escaping, [](const Traced& run) { return run.sum(0); }, of_cells);
+    plan.add(
+        "absorbed", emitted - escaping, [](const Traced& run) { return run.absorbed_by_medium(0); },
+        of_cells);
+    for (const std::string wall : {"x0", "x1", "y0", "y1", "z0", "z1"})
+      plan.add(
+          "to wall " + wall, escaping / 6, [wall](const Traced& run) { return run.into(wall); },
+          of_cells);
+  }
+  // Boxes nearer to a wall than their half would leave the cube.
+  for (size_t i = 0; i < rows.size() && !rows[i].text("x").starts_with("total"); i += 3) {
+    const double x = rows[i].number("x");
+    if (x < 0.97) add_centre(plan, x, rows[i].number("G_incident_radiation"));
+  }
+  return plan;
+}
+
+}  // namespace
+
+void add_smoke_cases(Cases& cases) {
+  for (const std::string albedo : {"0.3", "0.9"}) {
+    cases.push_back(
+        {"fog", "point source in fog, albedo " + albedo, "infinite_point_source.csv", [albedo] {
+           return fog_plan(std::stod(albedo),
+                           rows_where("infinite_point_source.csv", "albedo", albedo));
+         }});
+  }
+  for (const Row& row : reference_table("sphere_cases.csv")) {
+    cases.push_back({"ball",
+                     "ball of smoke " + row.text("optical_radius") + ", albedo " +
+                         row.text("albedo") + ", " + row.text("quantity"),
+                     "sphere_cases.csv", [row] { return ball_plan(row); }});
+  }
+  cases.push_back(
+      {"cells", "Burns and Christon's cube", "burns_christon.csv", burns_christon_plan});
+}
+
+}  // namespace luxodus::light

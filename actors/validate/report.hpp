@@ -1,0 +1,31 @@
+// What a validation found, for people and for other programs: one page that needs nothing beside
+// itself, and the same as JSON. Files are whole or not there. Any thread.
+#pragma once
+
+#include <filesystem>
+
+#include "actors/validate/judge.hpp"
+#include "scenes/format/json_out.hpp"
+
+namespace luxodus::light {
+
+/// How a suite was run, for the record.
+struct SuiteRecord {
+  uint64_t seed = 1;
+  int threads = 1;
+  double error = 0;  // 0: quick
+  std::string only;  // "" for all cases
+  bool interrupted = false;
+};
+
+Json suite_json(const std::vector<CaseResult>& results, const Verdict& verdict,
+                const SuiteRecord& record);
+/// Errors: as svg_plot_text.
+Result<std::string> suite_page(const std::vector<CaseResult>& results, const Verdict& verdict,
+                               const SuiteRecord& record);
+/// validate.json and validate.html, in a folder that is made where it is missing.
+Result<Done> write_suite(const std::filesystem::path& folder,
+                         const std::vector<CaseResult>& results, const SuiteRecord& record,
+                         const Verdict& verdict);
+
+}  // namespace luxodus::light

@@ -1,0 +1,74 @@
+// Cases run: each at growing numbers of particles, every quantity read at the end of each. The same
+// seed and options give the same estimates; seconds are as they are. Thread rule: one caller.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "actors/validate/case.hpp"
+
+namespace luxodus::light {
+
+namespace limits {
+/// Of one case, whatever error it is to reach: some hours of two cores in clear air.
+inline constexpr int64_t case_particles = int64_t{1} << 34;
+}  // namespace limits
+
+struct SuiteOptions {
+  uint64_t seed = 1;
+  int threads = 1;
+  /// Relative standard error that every quantity is to reach; 0: as many particles as are quick.
+  double error = 0;
+  /// Instead of the program's own loop: for tests.
+  LocalRun::MakeTracer make_tracer;
+};
+
+/// How far a suite is.
+struct SuiteProgress {
+  size_t done = 0;
+  size_t cases = 0;
+  std::string name;  // of the case that runs
+  double seconds = 0;
+  double seconds_left = 0;  // NaN where nothing is known
+};
+using ReportSuite = std::function<void(const SuiteProgress&)>;
+
+/// A quantity and what was found.
+struct Finding {
+  std::string quantity;
+  double reference = 0;
+  Estimate estimate;
+  double bias = 0;  // declared; of what is computed, the tolerance. In the reference's unit
+  double unit = 0;  // see Quantity; 0 for what is computed
+  bool statistical = false;
+};
+
+/// Error of a case after so many particles: root mean squares over its quantities, relative.
+struct CoursePoint {
+  int64_t particles = 0;
+  double seconds = 0;
+  double standard_error = 0;
+  double deviation = 0;  // of the estimates from the references
+};
+
+struct CaseResult {
+  std::string group, name, source;
+  int64_t particles = 0;
+  int64_t batches = 0;
+  double seconds = 0;
+  std::vector<Finding> findings;
+  std::vector<CoursePoint> course;
+  double slope_particles = 0, slope_seconds = 0;  // of the standard error; NaN where none is known
+};
+
+/// 1 / (relative error^2 x seconds) [1/s]; 0 where nothing is estimated.
+double figure_of_merit(const Finding& finding, double seconds);
+
+/// Runs the cases one after another. A suite that is to reach an error first runs all of them
+/// quickly, to know how long it will take. What was done is returned when `interrupt` is set.
+std::vector<CaseResult> run_suite(const Cases& cases, const SuiteOptions& options,
+                                  const std::atomic<bool>& interrupt, const ReportSuite& report);
+
+}  // namespace luxodus::light

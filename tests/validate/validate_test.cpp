@@ -1,0 +1,254 @@
+// `luxodus validate` itself: it passes, its rule finds what is wrong, and it finds every mistake
+// that the sampler can be given.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <set>
+
+#include "actors/validate/report.hpp"
+#include "runtime/core/random.hpp"
+#include "tests/validate/flawed_tracer.hpp"
+
+namespace luxodus::light {
+namespace {
+
+const std::atomic<bool> no_interrupt{false};
+
+std::vector<CaseResult> run(const Cases& cases, const SuiteOptions& options) {
+  return run_suite(cases, options, no_interrupt, [](const SuiteProgress&) {});
+}
+
+Cases named(const std::vector<std::string>& names) {
+  Cases chosen;
+  for (const Case& c : all_cases()) {
+    for (const std::string& name : names) {
+      if (c.name == name) chosen.push_back(c);
+    }
+  }
+  REQUIRE(chosen.size() == names.size());
+  return chosen;
+}
+
+/// What failed, one line each.
+std::vector<std::string> failures(const std::vector<CaseResult>& results, const Verdict& verdict) {
+  std::vector<std::string> out;
+  for (size_t i = 0; i < results.size(); ++i) {
+    for (size_t k = 0; k < results[i].findings.size(); ++k) {
+      const Finding& f = results[i].findings[k];
+      if (verdict.judged[i][k].judgement != Judgement::failed) continue;
+      out.push_back(results[i].name + ": " + f.quantity + ": " + std::to_string(f.estimate.value) +
+                    " +- " + std::to_string(f.estimate.standard_error) + " instead of " +
+                    std::to_string(f.reference));
+    }
+  }
+  for (const Check& c : verdict.checks)
+    if (!c.passed) out.push_back(c.name + ": " + c.found + ", allowed: " + c.allowed);
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("every case with a reference passes quickly, and z is distributed as it should be") {
+  SuiteOptions options;
+  options.threads = 2;
+  const Cases cases = all_cases();
+  const std::vector<CaseResult> results = run(cases, options);
+  REQUIRE(results.size() == cases.size());
+  const Verdict verdict = judge(results);
+  for (const std::string& line : failures(results, verdict)) UNSCOPED_INFO(line);
+  CHECK(verdict.passed);
+  CHECK(verdict.lead_count >= 200);
+  // The file of a run reads back, with every case in it.
+  const auto folder = std::filesystem::temp_directory_path() /
+                      ("luxodus_validate_" + std::to_string(std::hash<std::string>{}(LUX_PROGRAM)));
+  const SuiteRecord record{1, 2, 0, ""};
+  REQUIRE(write_suite(folder, results, record, verdict).ok());
+  std::ifstream in(folder / "validate.json");
+  const Json json = Json::parse(in);
+  CHECK(json["passed"] == true);
+  CHECK(json["cases"].size() == cases.size());
+  CHECK(std::filesystem::file_size(folder / "validate.html") > 100000);
+  std::filesystem::remove_all(folder);
+}
+
+TEST_CASE("names of cases are unique") {
+  std::set<std::string> names;
+  for (const Case& c : all_cases()) {
+    INFO(c.name);
+    CHECK(names.insert(c.name).second);
+    CHECK_FALSE(c.source.empty());
+  }
+}
+
+TEST_CASE(
+    "a suite gives the same estimates for any number of threads, and others for other seeds") {
+  const Cases cases = named({"cube c03_office"});
+  SuiteOptions one, two, other;
+  two.threads = 2;
+  other.seed = 2;
+  const auto a = run(cases, one), b = run(cases, two), c = run(cases, other);
+  for (size_t i = 0; i < a[0].findings.size(); ++i) {
+    CHECK(a[0].findings[i].estimate.value == b[0].findings[i].estimate.value);
+    CHECK(a[0].findings[i].estimate.standard_error == b[0].findings[i].estimate.standard_error);
+  }
+  CHECK(a[0].findings[0].estimate.value != c[0].findings[0].estimate.value);
+}
+
+TEST_CASE(
+    "a suite that is to reach an error reaches it, and the error falls as Monte Carlo's does") {
+  SuiteOptions options;
+  options.error = 1e-4;
+  const auto results = run(named({"plates r1=0.8;r2=0.3", "integrating sphere rho=0.5"}), options);
+  for (const CaseResult& r : results) {
+    INFO(r.name);
+    for (const Finding& f : r.findings) {
+      if (f.statistical) CHECK(f.estimate.standard_error <= 1e-4 * f.reference);
+    }
+    CHECK(r.slope_particles == Approx(-0.5).margin(0.1));
+    CHECK(r.course.size() >= 5);
+  }
+  CHECK(judge(results).passed);
+}
+
+// ---- the rule ----------------------------------------------------------------------------------
+
+namespace {
+
+/// Results of so many cases as if chance had given them these z.
+std::vector<CaseResult> results_with(const std::vector<double>& z) {
+  std::vector<CaseResult> results;
+  for (const double d : z) {
+    CaseResult r;
+    r.name = "case " + std::to_string(results.size());
+    r.particles = 1 << 20;
+    r.batches = 1 << 20;  // so that Student's t is the normal distribution
+    r.findings.push_back({"q", 1, {1 + 0.001 * d, 0.001}, 0, 1, true});
+    results.push_back(r);
+  }
+  return results;
+}
+
+/// Standard normal numbers (Box and Muller), scaled and shifted.
+std::vector<double> normal_numbers(int n, double deviation, double mean) {
+  Random random(7, RandomStream::test);
+  std::vector<double> out;
+  for (int i = 0; i < n; ++i) {
+    random.start(static_cast<uint64_t>(i));
+    const double u = random.uniform_double();
+    const double v = random.uniform_double();
+    out.push_back(mean + deviation * std::sqrt(-2 * std::log1p(-u)) * std::cos(6.283185307 * v));
+  }
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("normal z pass, and those that are too wide, too narrow or shifted do not") {
+  CHECK(judge(results_with(normal_numbers(250, 1, 0))).passed);
+  CHECK_FALSE(judge(results_with(normal_numbers(250, 1.3, 0))).passed);
+  CHECK_FALSE(judge(results_with(normal_numbers(250, 0.75, 0))).passed);
+  CHECK_FALSE(judge(results_with(normal_numbers(250, 1, 0.4))).passed);
+}
+
+TEST_CASE("one quantity out of a thousand that is six standard errors off fails") {
+  std::vector<double> z = normal_numbers(1000, 1, 0);
+  z[500] = 6;
+  const Verdict verdict = judge(results_with(z));
+  CHECK_FALSE(verdict.passed);
+  CHECK(verdict.failed == 1);
+  CHECK(verdict.z_largest == Approx(6).epsilon(1e-3));
+}
+
+TEST_CASE("a declared bias is allowed, and no more than that") {
+  auto results = results_with({0});
+  Finding& f = results[0].findings[0];
+  f.estimate.value = 1.02;
+  f.bias = 0.02;
+  CHECK(judge(results).passed);
+  f.bias = 0.01;
+  CHECK_FALSE(judge(results).passed);
+}
+
+TEST_CASE("what is computed is held to its tolerance, and what is no number fails") {
+  auto results = results_with({0});
+  results[0].findings.push_back({"computed", 2, {2.001, 0}, 0.002});
+  CHECK(judge(results).passed);
+  results[0].findings.back().bias = 0.0005;
+  CHECK_FALSE(judge(results).passed);
+  results[0].findings.back() = {"computed", 2, {std::nan(""), 0}, 0.002};
+  CHECK_FALSE(judge(results).passed);
+  results[0].findings.back() = {"estimated", 2, {std::nan(""), 0.1}, 0, 1, true};
+  CHECK_FALSE(judge(results).passed);
+}
+
+TEST_CASE("what is too rare is told and not judged, and a case that is all noise fails") {
+  auto results = results_with({0});
+  results[0].findings.push_back({"rare", 1e-6, {2e-6, 1e-7}, 0, 1, true});
+  const Verdict verdict = judge(results);
+  CHECK(verdict.passed);
+  CHECK(verdict.rare == 1);
+  results[0].findings[0].estimate.standard_error = 0.2;
+  CHECK_FALSE(judge(results).passed);
+}
+
+TEST_CASE("quantiles are those of the tables") {
+  CHECK(normal_exceeded(0.025) == Approx(1.959964).epsilon(1e-6));
+  CHECK(normal_exceeded(1e-7) == Approx(5.199338).epsilon(1e-6));
+  // Student's t of 20 degrees exceeds 2.845340 with probability 0.005, as a normal number 2.575829.
+  CHECK(normal_of_student(2.845340, 20) == Approx(2.575829).epsilon(5e-4));
+  CHECK(normal_of_student(-2.845340, 20) == Approx(-2.575829).epsilon(5e-4));
+  // Chi-square of 100 degrees exceeds 140.169 with probability 0.005.
+  CHECK(chi_square_exceeded(0.005, 100) == Approx(1.40169).epsilon(1e-3));
+  CHECK(log_slope({1, 10, 100}, {1, 0.1, 0.01}, {1, 2, 3}) == Approx(-1));
+}
+
+// ---- broken samplers ---------------------------------------------------------------------------
+
+namespace {
+
+/// Few cases that together use every step of the loop.
+Cases cases_of_every_step() {
+  return named({"stack 41 mixA of depth 3, normal from top",
+                "stack 41 mixA of depth 3, lambert from top",
+                "stack 36 L6 of depth 5, lambert from top", "half space, albedo 0.9, R(mu0=1)",
+                "cube c05_one_wall_emits_unequal", "cube p03_point_centre_rho.5",
+                "cube of gas, optical depth 1", "furnace, white smoke: all over one another",
+                "furnace, white smoke: homogeneous", "plates r1=0.8;r2=0.3",
+                "beam in fog, c=0.9;g=0.5", "glass pane theta=60", "diffuse wall under a beam",
+                "beams of 1, 2 and 5 W", "area lamp L5_large_4x4_h1, traced"});
+}
+
+SuiteOptions flawed_options() {
+  SuiteOptions options;
+  options.threads = 2;
+  options.make_tracer = make_flawed_tracer;
+  return options;
+}
+
+}  // namespace
+
+TEST_CASE("the loop that flaws are put into passes as long as it has none") {
+  set_flaw(Flaw::none);
+  const auto results = run(cases_of_every_step(), flawed_options());
+  const Verdict verdict = judge(results);
+  for (const std::string& line : failures(results, verdict)) UNSCOPED_INFO(line);
+  CHECK(verdict.passed);
+}
+
+TEST_CASE("every flaw of the sampler makes validation fail") {
+  const Cases cases = cases_of_every_step();
+  for (int i = 1; i < flaws; ++i) {
+    const auto flaw = static_cast<Flaw>(i);
+    set_flaw(flaw);
+    const auto results = run(cases, flawed_options());
+    set_flaw(Flaw::none);
+    const Verdict verdict = judge(results);
+    const std::vector<std::string> found = failures(results, verdict);
+    INFO(name_of(flaw) << ": " << found.size() << " failures, first "
+                       << (found.empty() ? "none" : found.front()));
+    CHECK_FALSE(verdict.passed);
+  }
+}
+
+}  // namespace luxodus::light
