@@ -34,13 +34,14 @@ struct AssessOptions {
 
 /// One sign from one place.
 struct SightRow {
-  std::string from;  // route "corridor", or an observer's name
+  std::string from;       // route "corridor", open area "hall", observer "walker"
+  double stands_for = 0;  // metres of a route, or square metres of an area; 0 of an observer
   double along_m = 0;
   double height_m = 0;  // of the eye above the floor; of an observer above z = 0
   glm::dvec3 eye{0};
   std::string sign;
   bool back_face = false;
-  double gaze_deg = 0;  // between the direction of walking and the sign
+  double gaze_deg = 0;  // between the direction of walking and the sign; NaN in areas
   SignView view;
   SignLook look;
   Sight sight;

@@ -47,6 +47,7 @@ Json check_json(const Check& check) {
 
 Json sight_json(const SightRow& row) {
   Json out = {{"from", row.from},
+              {"stands_for", exact_json(row.stands_for, row.from[0] == 'r' ? "m" : "m2")},
               {"along", exact_json(row.along_m, "m")},
               {"eye_height", exact_json(row.height_m, "m")},
               {"eye", place_json(row.eye)},
@@ -104,16 +105,11 @@ Json sweep_json(const Assessment& assessment) {
   return out;
 }
 
-/// The value at "a.b" of an object; null where there is none.
-const Json* value_at(const Json& row, std::string_view path) {
-  const Json* value = &row;
-  while (!path.empty() && value != nullptr) {
-    const size_t dot = path.find('.');
-    const auto at = value->find(std::string(path.substr(0, dot)));
-    value = at == value->end() ? nullptr : &*at;
-    path = dot == std::string_view::npos ? std::string_view() : path.substr(dot + 1);
-  }
-  return value;
+/// The value at "a.b" or "a.0" of an object; null where there is none.
+const Json* value_at(const Json& row, std::string path) {
+  std::replace(path.begin(), path.end(), '.', '/');
+  const Json::json_pointer pointer("/" + path);
+  return row.contains(pointer) ? &row[pointer] : nullptr;
 }
 
 /// A row of every entry, with the values at these paths.
@@ -183,7 +179,11 @@ Result<Done> write_assessment(const fs::path& folder, const Json& assessment) {
   if (auto ok = write_csv(folder / "checks.csv", checks); !ok.ok()) return ok;
   const auto sights = csv_of(assessment["sights"], {"from",
                                                     "along.value",
+                                                    "stands_for.value",
                                                     "eye_height.value",
+                                                    "eye.0",
+                                                    "eye.1",
+                                                    "eye.2",
                                                     "sign",
                                                     "verdict",
                                                     "reason",

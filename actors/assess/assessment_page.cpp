@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "actors/assess/assessment_json.hpp"
 #include "actors/assess/plan_drawing.hpp"
@@ -31,6 +32,7 @@ constexpr const char* style =
     ".hidden-by-the-building, .information { background: #ececec; }\n"
     ".sum { font-size: 1.2rem; padding: 0.8rem; border: 1px solid #888; }\n"
     "figure { margin: 1rem 0; break-inside: avoid; }\n"
+    ".maps { display: grid; grid-template-columns: 1fr 1fr 1fr; gap: 0 1rem; }\n"
     "figcaption { font-size: 0.8rem; }\n"
     "tr { break-inside: avoid; }\n"
     "@media print { body { max-width: none; margin: 0; } h2 { break-after: avoid; } }\n";
@@ -118,19 +120,39 @@ const std::array<const char*, 6> sight_words{"legible",      "visible but not le
                                              "invisible",    "undecided",
                                              "not assessed", "hidden by the building"};
 
-/// Of each sign, from how many places which verdict.
+/// Metres of routes or square metres of areas, at the first eye height, by verdict.
+std::string amount(const Json& sights, const std::string& sign, const char* verdict,
+                   const char* unit) {
+  double sum = 0;
+  std::optional<double> height;
+  for (const Json& sight : sights) {
+    if (sight["stands_for"]["unit"] != unit || text_of(sight, "from").starts_with("observer"))
+      continue;
+    if (!height) height = sight["eye_height"]["value"].get<double>();
+    if (text_of(sight, "sign") == sign && text_of(sight, "verdict") == verdict &&
+        sight["eye_height"]["value"].get<double>() == *height)
+      sum += sight["stands_for"]["value"].get<double>();
+  }
+  return sum > 0 ? readable_number(sum) + " " + (unit[1] == '\0' ? "m" : "m²") : std::string();
+}
+
+/// Of each sign, from how much of the routes and areas that it faces which verdict.
 std::string signs_table(const Json& sights) {
-  std::map<std::string, std::map<std::string, int>> counts;
-  for (const Json& sight : sights) ++counts[text_of(sight, "sign")][text_of(sight, "verdict")];
+  std::vector<std::string> signs;
+  for (const Json& sight : sights)
+    if (std::find(signs.begin(), signs.end(), text_of(sight, "sign")) == signs.end())
+      signs.push_back(text_of(sight, "sign"));
   std::string out = "<table>\n<tr><th>sign</th>";
   for (const char* word : sight_words) out += std::string("<th>") + word + "</th>";
   out += "</tr>\n";
-  for (const auto& [sign, of] : counts) {
+  for (const std::string& sign : signs) {
     out += "<tr>" + cell(sign);
     for (const char* word : sight_words) {
-      const auto at = of.find(word);
-      out += at == of.end() ? "<td></td>"
-                            : fmt::format("<td class=\"n {}\">{}</td>", class_of(word), at->second);
+      const std::string routes = amount(sights, sign, word, "m");
+      const std::string areas = amount(sights, sign, word, "m2");
+      const std::string both = routes + (routes.empty() || areas.empty() ? "" : ", ") + areas;
+      out +=
+          both.empty() ? "<td></td>" : "<td class=\"n " + class_of(word) + "\">" + both + "</td>";
     }
     out += "</tr>\n";
   }
@@ -241,23 +263,40 @@ std::string method(const Json& a) {
       text_of(a, "version"), m["seconds"]["value"].get<double>());
 }
 
-std::string eye_plans(const Json& a) {
+std::vector<double> heights_of(const Json& a) {
   std::vector<double> heights;
   for (const Json& sight : a["sights"]) {
     const double height = sight["eye_height"]["value"].get<double>();
-    if (text_of(sight, "from").starts_with("route") &&
+    if (!text_of(sight, "from").starts_with("observer") &&
         std::find(heights.begin(), heights.end(), height) == heights.end())
       heights.push_back(height);
   }
+  return heights;
+}
+
+std::string eye_plans(const Json& a) {
+  const std::vector<double> heights = heights_of(a);
   std::string out;
   for (const double height : heights)
-    out += figure(plan_of_sights(a, height),
+    out += figure(plan_of_sights(a, height, ""),
                   fmt::format("From where on the routes a sign is legible, eyes at {:.2f} m: green "
                               "one is, yellow undecided, orange one is seen but none read, red "
                               "none is seen, grey none has a clear line. Black: signs, and where "
                               "they face.",
                               height));
   return out;
+}
+
+/// A small map for each sign, at the first height.
+std::string sign_plans(const Json& a) {
+  const std::vector<double> heights = heights_of(a);
+  if (heights.empty()) return "";
+  std::string out = "<div class=\"maps\">\n";
+  for (const Json& sign : a["plan"]["signs"]) {
+    const auto name = sign["name"].get<std::string>();
+    out += figure(plan_of_sights(a, heights.front(), name), name);
+  }
+  return out + "</div>\n";
 }
 
 }  // namespace
@@ -280,8 +319,10 @@ std::string assessment_page(const Json& a, const std::vector<ReportPicture>& pic
                 "without furniture [lx].") +
          eye_plans(a);
   if (!a["sights"].empty()) {
-    out += "<h2>Signs</h2>\n<p>From how many of the places on the routes that it faces.</p>\n" +
-           signs_table(a["sights"]);
+    out +=
+        "<h2>Signs</h2>\n<p>From how much of the routes [m] and areas [m²] that it faces, eyes at "
+        "the first height.</p>\n" +
+        signs_table(a["sights"]) + sign_plans(a);
     out += "<h2>Where the rules of thumb say otherwise</h2>\n" + differences_table(a["sights"]);
   }
   if (!a["sweep"].empty())

@@ -62,10 +62,11 @@ std::string walls(const Json& plan, const Sheet& sheet) {
   return "<path d=\"" + path + "\" stroke=\"#333\" stroke-width=\"1\" fill=\"none\"/>\n";
 }
 
-/// A bar on the wall, and a tick to where it faces.
-std::string signs(const Json& plan, const Sheet& sheet) {
+/// A dot, and a tick to where it faces: of one sign, or of all.
+std::string signs(const Json& plan, const Sheet& sheet, const std::string& only = "") {
   std::string out;
   for (const Json& sign : plan["signs"]) {
+    if (!only.empty() && sign["name"].get<std::string>() != only) continue;
     const double x = sheet.x(sign["position"][0].get<double>());
     const double y = sheet.y(sign["position"][1].get<double>());
     out += fmt::format(
@@ -123,12 +124,13 @@ std::string plan_of_light(const Json& assessment) {
   return out + walls(plan, sheet) + signs(plan, sheet) + colour_scale(sheet.height()) + "</svg>\n";
 }
 
-std::string plan_of_sights(const Json& assessment, double eye_height_m) {
+std::string plan_of_sights(const Json& assessment, double eye_height_m, const std::string& sign) {
   const Json& plan = assessment["plan"];
   const Sheet sheet(plan);
   std::map<std::pair<double, double>, size_t> best;  // by place, a number of sight_colours
   for (const Json& sight : assessment["sights"]) {
     if (sight["eye_height"]["value"].get<double>() != eye_height_m) continue;
+    if (!sign.empty() && sight["sign"].get<std::string>() != sign) continue;
     const std::string verdict = sight["verdict"].get<std::string>();
     const auto* at = std::find_if(sight_colours.begin(), sight_colours.end(),
                                   [&](const auto& colour) { return verdict == colour.first; });
@@ -143,7 +145,7 @@ std::string plan_of_sights(const Json& assessment, double eye_height_m) {
         fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"7\" fill=\"{}\" stroke=\"#333\"/>\n",
                     sheet.x(place.first), sheet.y(place.second),
                     rank < sight_colours.size() ? sight_colours[rank].second : "#aaaaaa");
-  return out + signs(plan, sheet) + "</svg>\n";
+  return out + signs(plan, sheet, sign) + "</svg>\n";
 }
 
 }  // namespace luxodus

@@ -9,7 +9,7 @@ namespace luxodus {
 
 /// Illuminance on the floor in false colour, with a scale.
 std::string plan_of_light(const Json& assessment);
-/// What people on the routes with eyes at this height read, place by place.
-std::string plan_of_sights(const Json& assessment, double eye_height_m);
+/// What people with eyes at this height read, place by place: the best of all signs, or one sign.
+std::string plan_of_sights(const Json& assessment, double eye_height_m, const std::string& sign);
 
 }  // namespace luxodus

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "actors/assess/building.hpp"
 #include "actors/source/local_run.hpp"
 #include "scenes/emergency/sign_face.hpp"
+#include "scenes/geometry/polygon.hpp"
 
 namespace luxodus {
 
@@ -22,28 +24,66 @@ constexpr int64_t batch_particles = 256;
 /// compile's share of paths: 0.1 of the particles, divided among the parts.
 constexpr double paths_per_particle = 0.1;
 
-/// Somebody at a place, and the signs that they may see.
+/// People keep so far from the walls of an area [m].
+constexpr double area_border_m = 0.3;
+
+/// Somebody at a place.
 struct Stand {
   std::string from;
-  double along_m = 0, height_m = 0;
+  double along_m = 0, stands_for = 0, height_m = 0;
   Observer observer;
+  bool looks_ahead = true;  // else anywhere
 };
 
-std::vector<Stand> stands_of(const SceneDescription& scene) {
-  std::vector<Stand> out;
-  for (const EscapeRoute& route : scene.routes)
-    for (const Walker& walker : walkers(route, scene.assessment.spacing_m))
+Stand standing(const std::string& from, const glm::dvec3& foot, double height_m) {
+  Stand stand;
+  stand.from = from;
+  stand.height_m = height_m;
+  stand.observer.eye = foot + glm::dvec3(0, 0, height_m);
+  stand.observer.name =
+      fmt::format("{} at ({:.2f}, {:.2f}), {:.2f} m high", from, foot.x, foot.y, height_m);
+  return stand;
+}
+
+void stand_on_routes(const SceneDescription& scene, std::vector<Stand>& out) {
+  for (const EscapeRoute& route : scene.routes) {
+    const auto people = walkers(route, scene.assessment.spacing_m);
+    for (const Walker& walker : people)
       for (const double height : scene.assessment.eye_heights_m) {
-        Stand stand{"route \"" + route.name + "\"", walker.along_m, height, {}};
-        stand.observer.name =
-            fmt::format("{} at {:.2f} m, {:.2f} m high", route.name, walker.along_m, height);
-        stand.observer.place = route.place;
-        stand.observer.eye = walker.foot + glm::dvec3(0, 0, height);
+        Stand stand = standing("route \"" + route.name + "\"", walker.foot, height);
+        stand.along_m = walker.along_m;
+        stand.stands_for = length_of(route) / static_cast<double>(people.size());
         stand.observer.gaze = walker.ahead;
         out.push_back(std::move(stand));
       }
-  for (const Observer& observer : scene.observers)
-    out.push_back({"observer \"" + observer.name + "\"", 0, observer.eye.z, observer});
+  }
+}
+
+/// At the first height alone: where people cross an area they walk.
+void stand_in_areas(const SceneDescription& scene, std::vector<Stand>& out) {
+  for (const AssessedArea& area : scene.open_areas) {
+    const auto places = within(area, area_border_m, scene.assessment.spacing_m);
+    for (const glm::dvec3& place : places) {
+      Stand stand = standing("open area \"" + area.name + "\"", place,
+                             scene.assessment.eye_heights_m.front());
+      stand.stands_for = std::abs(signed_area(area.outline)) / static_cast<double>(places.size());
+      stand.looks_ahead = false;
+      out.push_back(std::move(stand));
+    }
+  }
+}
+
+std::vector<Stand> stands_of(const SceneDescription& scene) {
+  std::vector<Stand> out;
+  stand_on_routes(scene, out);
+  stand_in_areas(scene, out);
+  for (const Observer& observer : scene.observers) {
+    Stand stand;
+    stand.from = "observer \"" + observer.name + "\"";
+    stand.height_m = observer.eye.z;
+    stand.observer = observer;
+    out.push_back(std::move(stand));
+  }
   return out;
 }
 
@@ -130,20 +170,18 @@ Result<Done> RealityMode::look_for_lines(const AssessProgress& progress) {
     for (uint32_t s = 0; s < scene_.signs.size(); ++s) {
       const Sign& sign = scene_.signs[s];
       if (!options_.sign.empty() && sign.name != options_.sign) continue;
-      SightRow row{stand.from,
-                   stand.along_m,
-                   stand.height_m,
-                   stand.observer.eye,
-                   sign.name,
-                   false,
-                   0,
-                   {},
-                   {},
-                   {}};
+      SightRow row;
+      row.from = stand.from;
+      row.stands_for = stand.stands_for;
+      row.along_m = stand.along_m;
+      row.height_m = stand.height_m;
+      row.eye = stand.observer.eye;
+      row.sign = sign.name;
       row.view = view_of_sign(sign, row.eye);
       if (row.view.behind) continue;
       row.back_face = row.view.back_face;
-      row.gaze_deg = angle_deg(row.view.centre - row.eye, stand.observer.gaze);
+      row.gaze_deg = stand.looks_ahead ? angle_deg(row.view.centre - row.eye, stand.observer.gaze)
+                                       : std::numeric_limits<double>::quiet_NaN();
       const double seen = building.seen_share(access, sign, row.view, row.eye);
       row.look.visible_share = seen;
       if (seen == 0) row.sight.verdict = SightVerdict::hidden;

@@ -138,6 +138,25 @@ TEST_CASE("in absorbing smoke a sign's difference follows Koschmieder's law", "[
   }
 }
 
+TEST_CASE("people stand on routes and in areas, for all of their length and area", "[assess]") {
+  AssessOptions options;
+  options.rounds = 1;
+  const std::string hall =
+      "[[open_area]]\nname = \"hall\"\noutline = [[1, -1.5], [9, -1.5], [9, 1.5], [1, 1.5]]\n";
+  const Assessment a = assessed(room + hall, options);
+  double metres = 0, square_metres = 0;
+  for (const SightRow& row : a.sights) {
+    const bool on_route = row.from == "route \"way\"";
+    (on_route ? metres : square_metres) += row.stands_for;
+    CHECK(std::isnan(row.gaze_deg) != on_route);
+  }
+  CHECK(metres == Approx(10));
+  CHECK(square_metres == Approx(24));
+  const auto scene = scene_of(room + hall);
+  const std::string page = assessment_page(assessment_json(*scene, a, "1"), {});
+  CHECK(page.find("10 m, 24 m²") != std::string::npos);  // all of both is legible
+}
+
 TEST_CASE("thick smoke takes a sign away that clear air shows, and a sweep says where",
           "[assess]") {
   AssessOptions options;
