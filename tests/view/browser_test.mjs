@@ -12,6 +12,10 @@ const flags = ['--headless=new', '--no-sandbox', '--use-gl=angle', '--use-angle=
   '--enable-unsafe-swiftshader'];
 const patience = { timeout: 30_000 };
 
+/** Shares of the screen's raster; screenshots are drawn fine where LUX_FINE asks for it. */
+const coarse = 0.4;
+const fine = process.env.LUX_FINE ? 1 : coarse;
+
 let server;
 let browser;
 let address;
@@ -27,9 +31,16 @@ async function open(options = {}) {
   await opened.goto(address);
   await opened.waitForFunction(() => window.luxodus?.page.live.shown?.surfaces?.groups.size === 6,
     null, patience);
+  // A machine without a graphics card draws slowly; that it draws evenly is what counts here.
+  await raster(opened, coarse);
   return opened;
 }
 
+const raster = (p, share) => p.evaluate((still) => {
+  const { picture } = window.luxodus.page;
+  picture.learns = false;
+  picture.shares = { moving: 0.4, still };
+}, share);
 const settled = (p = page) => p.evaluate(() => window.luxodus.settled());
 const mean = async (p = page) => {
   await settled(p);
@@ -37,9 +48,10 @@ const mean = async (p = page) => {
 };
 const eye = (p = page) => p.evaluate(() => [...window.luxodus.page.motion.eye]);
 const shot = async (name, p = page) => {
+  await raster(p, fine);
   await settled(p);
-  await p.waitForTimeout(150);
   await p.screenshot({ path: `${shots}/${name}.png` });
+  await raster(p, coarse);
 };
 const slider = (name) => page.locator(`li[data-name="${name}"] input[type=range]`);
 const generation = () => page.evaluate(() => window.luxodus.page.live.number);
@@ -54,7 +66,7 @@ async function pull(locator, value) {
 
 before(async () => {
   mkdirSync(shots, { recursive: true });
-  server = new MockServer();
+  server = new MockServer({ traceMs: 2500 });
   address = `http://127.0.0.1:${await server.listen()}/`;
   browser = await chromium.launch({ executablePath: browserPath, args: flags, headless: true });
   page = await open();
@@ -109,24 +121,6 @@ test('the mean luminance follows a dimmed luminaire linearly', async () => {
   await pull(slider('lamp west'), 1);
   const sent = server.heard.filter((m) => m.type === 'factor');
   assert.ok(sent.every((m) => m.group === 'lamp west'));
-});
-
-test('dimming is ready for the screen in less than a tenth of a second at full size', async () => {
-  const ms = await page.evaluate(() => {
-    const { page: p } = window.luxodus;
-    const sum = p.live.shown.surfaces;
-    const times = [];
-    for (let i = 0; i < 9; ++i) {
-      const start = performance.now();
-      sum.dim(0, 0.5 + 0.01 * i);
-      p.picture.surfaces.shine(sum);
-      times.push(performance.now() - start);
-    }
-    sum.dim(0, 1);
-    times.sort((a, b) => a - b);
-    return { median: times[4], triangles: sum.cells };
-  });
-  console.log(`dimming: ${ms.median.toFixed(2)} ms for ${ms.triangles} triangles`);
 });
 
 test('thicker smoke shows the old picture faded, then the new one', async () => {

@@ -25,7 +25,7 @@ export class MockServer {
     this.generation = 1;
     this.particles = 0;
     this.heard = [];
-    this.frames = this.trace();
+    this.frames = null;
   }
 
   async listen(port = 0) {
@@ -65,7 +65,7 @@ export class MockServer {
       scenarios: scenarios.map(({ name, operation }) => ({ name, operation })),
       scenario: state.scenario, smoke: state.smoke, low: room.low, high: room.high, groups,
       signs: state.signs, luminaires: state.luminaires, observers: room.observers,
-      cameras: room.cameras, voxels: room.voxels, editor: viewer === this.editor };
+      cameras: room.cameras, voxels: room.voxels, editor: viewer !== null && viewer === this.editor };
   }
 
   welcome(viewer) {
@@ -78,6 +78,7 @@ export class MockServer {
     });
     this.tell(viewer, this.scene(viewer));
     viewer.send(room.geometryFrame(this.generation));
+    this.frames ??= this.trace();
     for (const frame of this.frames) viewer.send(frame);
   }
 

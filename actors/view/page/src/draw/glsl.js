@@ -131,13 +131,17 @@ void main() {
 
 // Smoke is marched on a coarser raster; of its four neighbours those count that lie as deep as
 // this pixel does, so that no fog hangs over edges.
-export const composeFragment = `${common}${depthTools}
+export const composeFragment = `${common}
 in vec2 at;
-uniform sampler2D surfaces, smoke, before;
+uniform sampler2D depth, surfaces, smoke, before;
+uniform vec4 unproject;
 uniform float weight;
 uniform bool smoky;
 out vec4 colour;
-float far(vec2 p) { return distance(world(p, 0.0), world(p, texture(depth, p).r)); }
+float far(vec2 p) {
+  float z = 2.0 * texture(depth, p).r - 1.0;
+  return -(unproject.x * z + unproject.y) / (unproject.z * z + unproject.w);
+}
 vec4 smokeHere() {
   vec2 raster = vec2(textureSize(smoke, 0));
   vec2 p = at * raster - 0.5;

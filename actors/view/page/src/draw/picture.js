@@ -10,13 +10,13 @@ import { Signs } from './signs.js';
 import { Smoke, steps } from './smoke.js';
 import { Surfaces } from './surfaces.js';
 
-/** So many pictures are added up before the page rests. */
-const picturesMost = 24;
+/** So many pictures are added up before the page rests; on a slow machine fewer. */
+const pictures = { least: 6, most: 24, seconds: 4 };
 const meterCells = 32;
 const nothingCut = 1e9;
 const ratioMost = 2;
-/** While moving the raster becomes coarser until a picture takes no longer than this. */
-const slowest_ms = 45;
+/** The raster becomes coarser until a picture takes no longer than this. */
+const slowest_ms = { moving: 45, still: 300 };
 const coarsest = 0.4;
 
 function target(options = {}) {
@@ -58,6 +58,8 @@ export class Picture {
     this.exposure = new Exposure();
     this.fade = { now: 0, wanted: 0 };
     this.share = 1;
+    this.shares = { moving: 1, still: 1 };
+    this.learns = true;
     this.added = 0;
     this.makeTargets();
     this.makePasses();
@@ -95,6 +97,7 @@ export class Picture {
       before: { value: null },
       weight: { value: 1 },
       smoky: { value: false },
+      unproject: { value: new THREE.Vector4() },
     });
     this.meterPass = screenPass(meterFragment, { picture: { value: null } });
     const colours = new THREE.DataTexture(scaleTexels(), 256, 1);
@@ -145,6 +148,7 @@ export class Picture {
   /** What was added up is of another light or place. */
   again() {
     this.added = 0;
+    this.since = performance.now();
   }
 
   look(view, cut) {
@@ -172,30 +176,35 @@ export class Picture {
   /** Draws what is needed; true when the picture on the screen is another than before. */
   draw(elapsed, moving) {
     if (!this.camera) return false;
-    this.coarsen(elapsed, moving);
-    const adding = this.added < (moving ? 1 : picturesMost);
+    this.choose(elapsed, moving ? 'moving' : 'still');
+    const adding = moving ? this.added === 0 : !this.rested;
     if (adding) this.addPicture(moving);
+    this.wasAdding = adding;
     const adapting = this.exposure.adapt(elapsed, this.hurried);
     const fading = this.fadeOn(elapsed);
-    if (adding || adapting || fading || this.untoned) this.show();
     this.changing = adding || adapting || fading;
+    if (this.changing || this.untoned) this.show();
     return this.changing;
   }
 
-  /** Learns from the last pictures how fine a raster this machine can move. */
-  coarsen(elapsed, moving) {
-    this.movingShare ??= 1;
-    if (moving && this.wasMoving && this.share === this.movingShare) {
-      this.slow = 0.8 * (this.slow ?? 20) + 0.2 * Math.min(500, 1000 * elapsed);
-      if (this.slow > slowest_ms && this.movingShare > coarsest) {
-        this.movingShare = Math.max(coarsest, 0.75 * this.movingShare);
-        this.slow = 20;
+  get rested() {
+    const late = performance.now() - this.since > 1000 * pictures.seconds;
+    return this.added >= (late ? pictures.least : pictures.most);
+  }
+
+  /** Learns from the pictures before how fine a raster this machine can do. */
+  choose(elapsed, pace) {
+    const ms = Math.min(1000, 1000 * elapsed);
+    if (this.learns && this.wasAdding && this.pace === pace && this.added > 0) {
+      this.slow += 0.3 * (ms - this.slow);
+      if (this.slow > slowest_ms[pace]) {
+        this.shares[pace] = Math.max(coarsest, 0.75 * this.shares[pace]);
+        this.slow = 0;
       }
-    }
-    this.wasMoving = moving;
-    const wanted = moving ? this.movingShare : 1;
-    if (wanted === this.share) return;
-    this.share = wanted;
+    } else if (this.pace !== pace) this.slow = 0;
+    this.pace = pace;
+    if (this.shares[pace] === this.share) return;
+    this.share = this.shares[pace];
     this.layTargets();
   }
 
@@ -206,6 +215,9 @@ export class Picture {
     camera.setViewOffset(width, height, n ? shift[0] : 0, n ? shift[1] : 0, width, height);
     this.shared.clipToWorld.value
       .copy(camera.matrixWorld).multiply(camera.projectionMatrixInverse);
+    const inverse = camera.projectionMatrixInverse.elements;
+    this.compose.uniforms.unproject.value
+      .set(inverse[10], inverse[14], inverse[11], inverse[15]);
     this.renderer.setRenderTarget(targets.surfaces);
     this.renderer.clear();
     this.renderer.render(this.world, camera);
@@ -220,12 +232,12 @@ export class Picture {
     uniforms.weight.value = 1 / (n + 1);
     this.pass(this.compose, targets.sums[0]);
     targets.sums.reverse();
-    if (n === 0 || n === picturesMost - 1) this.meter();
+    if (n === 0 || n === pictures.least - 1) this.meter();
   }
 
   /** Nothing is left to add up or to adapt to. */
   get complete() {
-    return this.added >= picturesMost && this.share === 1 && !this.metering && !this.changing;
+    return this.pace === 'still' && this.rested && !this.metering && !this.changing;
   }
 
   get finished() {

@@ -140,13 +140,16 @@ export class Building {
     return [0, 0, 0];
   }
 
-  /** The level normal of what stands in the way, or null. */
+  /** The level normal of what the body would touch, or null. */
   wallBefore(eye, levels, direction, size) {
     for (const z of levels) {
-      const hit = this.ahead([eye[0], eye[1], z], direction, size + bodyRadius_m);
+      const hit = this.ahead([eye[0], eye[1], z], direction, size + 3 * bodyRadius_m);
       if (!hit) continue;
       const [x, y] = this.normal(hit.triangle);
-      if (Math.hypot(x, y) > 0.3) return unit([x, y, 0]);
+      if (Math.hypot(x, y) < 0.3) continue;
+      const wall = unit([x, y, 0]);
+      const straight = Math.abs(dot(direction, wall));
+      if ((hit.distance - size) * straight < bodyRadius_m) return wall;
     }
     return null;
   }
