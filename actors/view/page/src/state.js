@@ -25,7 +25,7 @@ class Generation {
  * and passes on the messages that concern no picture under their type.
  */
 export class Live {
-  constructor(tell, later = setTimeout) {
+  constructor(tell, later = (f, ms) => setTimeout(f, ms)) {
     this.tell = tell;
     this.later = later;
     this.forget();

@@ -6,7 +6,7 @@ export const intervalMs = 40;
 
 export class Outbox {
   /** `send(text)`; `later(f, ms)` calls f after a while (setTimeout, or a test's own clock). */
-  constructor(send, later = setTimeout) {
+  constructor(send, later = (f, ms) => setTimeout(f, ms)) {
     this.send = send;
     this.later = later;
     this.waiting = new Map();
