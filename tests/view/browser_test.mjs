@@ -163,15 +163,17 @@ test('a selected sign is dragged along its wall', async () => {
   const point = () => page.evaluate(() => {
     const { page: p } = window.luxodus;
     const [x, y] = p.labels.project(p.live.scene.signs[0].position, p.picture.camera);
-    return [(0.5 + 0.5 * x) * innerWidth, (0.5 - 0.5 * y) * innerHeight];
+    const { clientWidth, clientHeight } = document.getElementById('picture');
+    return [(0.5 + 0.5 * x) * clientWidth, (0.5 - 0.5 * y) * clientHeight];
   });
   const [x, y] = await point();
   const count = server.heard.filter((m) => m.type === 'move').length;
+  const old = await generation();
   await page.mouse.move(x, y);
   await page.mouse.down();
   await page.mouse.move(x - 30, y, { steps: 3 });
   await page.mouse.up();
-  await page.waitForFunction(() => !window.luxodus.page.live.next, null, patience);
+  await page.waitForFunction((g) => window.luxodus.page.live.number > g, old, patience);
   const moves = server.heard.filter((m) => m.type === 'move');
   assert.equal(moves.length, count + 1);
   assert.ok(Math.abs(moves.at(-1).position[0] - 6.49) < 1e-6, 'it stays on its wall');

@@ -1,6 +1,6 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { scaleColour, scalePlace, scaleTexels, words, wordsWithError }
+import { count, scaleColour, scalePlace, scaleTexels, words, wordsWithError }
   from '../../../actors/view/page/src/light/colours.js';
 import { Exposure, eyeScale, readMeter } from '../../../actors/view/page/src/draw/exposure.js';
 
@@ -30,7 +30,10 @@ test('numbers have three digits, errors two, and values as many as their error a
   assert.equal(words(0), '0');
   assert.equal(words(null), '–');
   assert.equal(words(1e-9), '1.00e-9');
-  assert.equal(wordsWithError(12.3456, 0.234), '12.35 ± 0.23'.replace('12.35', '12.3'));
+  assert.equal(wordsWithError(12.3456, 0.234), '12.35 ± 0.23');
+  assert.equal(wordsWithError(4.08, 0.082), '4.080 ± 0.082');
+  assert.equal(wordsWithError(12345, 67), '12\u202f345 ± 67');
+  assert.equal(count(800000), '800\u202f000');
 });
 
 test('the meter gives the log-average of what has light', () => {

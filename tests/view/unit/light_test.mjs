@@ -28,9 +28,23 @@ test('settling leaves nothing of what was bright', () => {
   sum.set(1, halves(1e-4, 1e-4, 1e-4), 1);
   for (let i = 0; i < 50; ++i) sum.dim(0, i * 0.137);
   sum.dim(0, 0);
-  sum.settle();
+  assert.equal(sum.settle(1), false);
+  assert.equal(sum.settle(1), true);
   assert.ok(Math.abs(sum.sum[0] / 1e-4 - 1) < 1e-3);
-  assert.equal(sum.settle(), false);
+  assert.equal(sum.rounded, false);
+});
+
+test('light that changes while the sum is settled is not lost', () => {
+  const sum = smokeSum(1);
+  sum.set(0, halves(1, 1, 1), 1);
+  sum.set(1, halves(2, 2, 2), 1);
+  sum.dim(0, 0.5);
+  sum.settle(1);
+  sum.dim(0, 0.25);
+  sum.settle(1);
+  sum.set(2, halves(8, 8, 8), 1);
+  sum.settle();
+  assert.deepEqual([...sum.sum], [10.25, 10.25, 10.25, 0]);
 });
 
 test('dimming a group that has no light, or to what it is, changes nothing', () => {

@@ -116,6 +116,16 @@ test('factors dim the picture and those not named stay', () => {
   assert.equal(live.scene.groups[1].factor, 0.5);
 });
 
+test('an echo does not pull a slider out of the hand', () => {
+  const { live, named } = started();
+  live.held = (name) => name === 'lamp west';
+  live.setFactor('lamp west', 0.2);
+  const factors = ['lamp west', 'lamp east'].map((name) => ({ name, factor: 0.9 }));
+  live.hear({ type: 'factors', factors });
+  assert.equal(live.scene.groups[0].factor, 0.2);
+  assert.deepEqual(named('factors').at(-1), [{ name: 'lamp east', factor: 0.9 }]);
+});
+
 test('a slider sends its last value and no more than the program takes', () => {
   const sent = [];
   const waiting = [];

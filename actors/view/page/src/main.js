@@ -17,7 +17,7 @@ import { Building } from './walk/building.js';
 import { Hands } from './walk/hands.js';
 import { eyeHeights, pan, rayThrough, speeds, stand, startMotion, stride, turn, viewOf, zoom }
   from './walk/motion.js';
-import { length } from './walk/vectors.js';
+import { add, cross, length, scale, unit } from './walk/vectors.js';
 
 /** After the last dimming the sums are made afresh; after the last move the picture is fine. */
 const settle_ms = 400;
@@ -25,6 +25,9 @@ const still_ms = 160;
 /** While a hand is on a slider its own value counts, not the echo of it. */
 const echo_ms = 1000;
 const luminaireReach_px = 14;
+/** Refined light comes group by group, many times: so often is it brought to the screen. */
+const gather_ms = 250;
+const probe_m = 0.05;
 
 class Page {
   constructor() {
@@ -33,9 +36,11 @@ class Page {
     this.live = new Live((event, detail) => this[`on_${event}`]?.(detail));
     this.dirty = new Set();
     this.held = new Map();
+    this.live.held = (name) => this.held.get(name) > performance.now();
     this.motion = startMotion([0, 0, 0], [10, 10, 3]);
     this.solid = true;
     this.movedAt = 0;
+    this.settleAt = Infinity;
     this.probes = 0;
     this.makePanels();
     this.hands = new Hands(byId('picture'), this.wants());
@@ -146,8 +151,9 @@ class Page {
     this.dirty.add('light');
   }
 
-  on_light() {
-    this.dirty.add('light');
+  /** New light of one group is one of many: it waits a little for the others. */
+  on_light(group) {
+    this.dirty.add(group === null ? 'light' : 'more light');
   }
 
   on_fading(now) {
@@ -160,9 +166,9 @@ class Page {
   }
 
   on_factors(changes) {
-    const now = performance.now();
-    this.groups.factors(changes.filter(({ name }) => !(this.held.get(name) > now)));
+    this.groups.factors(changes);
     this.dirty.add('light');
+    this.settleAt = performance.now() + settle_ms;
   }
 
   on_probe(answer) {
@@ -197,10 +203,8 @@ class Page {
   dim(name, factor) {
     this.held.set(name, performance.now() + echo_ms);
     this.live.setFactor(name, factor);
-    this.dirty.add('light');
+    this.settleAt = performance.now() + settle_ms;
     this.say({ type: 'factor', group: name, factor }, `factor ${name}`);
-    clearTimeout(this.settling);
-    this.settling = setTimeout(() => this.live.settle(), settle_ms);
   }
 
   /** Changes the point of view and says when. */
@@ -340,9 +344,10 @@ class Page {
     this.reveal();
   }
 
-  probe({ triangle, front, point }, seen) {
+  probe({ triangle, front, point, normal }, seen) {
     const id = ++this.probes;
     this.mover.release();
+    this.outline(diamond(point, normal));
     this.inspect.surface({ id, point, seen });
     this.say({ type: 'probe', id, triangle, front, point }, 'probe');
     this.reveal();
@@ -407,13 +412,24 @@ class Page {
     picture.again();
   }
 
+  update(now) {
+    const more = this.dirty.has('more light') && now - (this.litAt ?? 0) > gather_ms;
+    if (more || this.dirty.has('light')) {
+      this.litAt = now;
+      this.dirty.delete('more light');
+      this.applyLight();
+    }
+    if (this.dirty.has('view')) this.picture.look(viewOf(this.motion), this.cut);
+    this.dirty.delete('light');
+    this.dirty.delete('view');
+  }
+
   tick(now) {
     const elapsed = Math.min(0.5, (now - this.last) / 1000);
     this.last = now;
     this.walkOn(Math.min(0.1, elapsed));
-    if (this.dirty.has('light')) this.applyLight();
-    if (this.dirty.has('view')) this.picture.look(viewOf(this.motion), this.cut);
-    this.dirty.clear();
+    if (now > this.settleAt && this.live.settle(1)) this.settleAt = Infinity;
+    this.update(now);
     const moving = performance.now() - this.movedAt < still_ms;
     if (this.picture.draw(elapsed, moving)) {
       this.rendition.show();
@@ -421,6 +437,13 @@ class Page {
     }
     requestAnimationFrame((then) => this.tick(then));
   }
+}
+
+/** A small mark that lies on a surface. */
+function diamond(point, normal) {
+  const side = unit(cross(normal, Math.abs(normal[2]) > 0.9 ? [1, 0, 0] : [0, 0, 1]));
+  const other = cross(normal, side);
+  return [side, other, scale(side, -1), scale(other, -1)].map((v) => add(point, scale(v, probe_m)));
 }
 
 function begin() {
@@ -432,7 +455,8 @@ function begin() {
       meanLuminance: () => page.picture.meanLuminance(),
       settled: async () => {
         const wait = () => new Promise((done) => requestAnimationFrame(done));
-        do await wait(); while (page.dirty.size || !page.picture.complete);
+        do await wait();
+        while (page.dirty.size || page.settleAt < Infinity || !page.picture.complete);
       },
     };
   } catch (error) {

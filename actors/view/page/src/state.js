@@ -28,6 +28,8 @@ export class Live {
   constructor(tell, later = (f, ms) => setTimeout(f, ms)) {
     this.tell = tell;
     this.later = later;
+    /** Groups under this viewer's own hand: what comes of them is an echo, and older. */
+    this.held = () => false;
     this.forget();
   }
 
@@ -154,7 +156,8 @@ export class Live {
     light?.set(group, halves, this.shown.scene.groups[group].factor);
   }
 
-  factors(changes) {
+  factors(all) {
+    const changes = all.filter(({ name }) => !this.held(name));
     for (const { name, factor } of changes) this.setFactor(name, factor);
     this.tell('factors', changes);
   }
@@ -178,11 +181,12 @@ export class Live {
     if (changed) this.tell('light', null);
   }
 
-  /** Takes out what rounding has left in the sums; for when nothing is being pulled. */
-  settle() {
-    const surfaces = this.shown?.surfaces?.settle();
-    const air = this.shown?.air?.settle();
-    if (surfaces || air) this.tell('light', null);
+  /** Takes out what rounding has left in the sums, some groups at a time; true when it is done. */
+  settle(most) {
+    const sums = [this.shown?.surfaces, this.shown?.air].filter((sum) => sum?.rounded);
+    if (!sums.every((sum) => sum.settle(most))) return false;
+    if (sums.length) this.tell('light', null);
+    return true;
   }
 }
 

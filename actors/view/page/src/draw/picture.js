@@ -192,20 +192,31 @@ export class Picture {
     return this.added >= (late ? pictures.least : pictures.most);
   }
 
-  /** Learns from the pictures before how fine a raster this machine can do. */
+  /** Learns from the pictures before how fine a raster this machine can do at each pace. */
   choose(elapsed, pace) {
-    const ms = Math.min(1000, 1000 * elapsed);
-    if (this.learns && this.wasAdding && this.pace === pace && this.added > 0) {
-      this.slow += 0.3 * (ms - this.slow);
-      if (this.slow > slowest_ms[pace]) {
-        this.shares[pace] = Math.max(coarsest, 0.75 * this.shares[pace]);
-        this.slow = 0;
-      }
-    } else if (this.pace !== pace) this.slow = 0;
-    this.pace = pace;
+    if (pace !== this.pace) this.changePace(pace);
+    else if (this.learns && this.wasAdding) this.learn(Math.min(1000, 1000 * elapsed));
     if (this.shares[pace] === this.share) return;
     this.share = this.shares[pace];
     this.layTargets();
+  }
+
+  /** A raster that was quick all along may be finer the next time: a hiccup is no verdict. */
+  changePace(pace) {
+    const { samples = 0, ms } = this.slow ?? {};
+    if (samples > 4 && ms < slowest_ms[this.pace] / 4)
+      this.shares[this.pace] = Math.min(1, 1.25 * this.shares[this.pace]);
+    this.pace = pace;
+    this.slow = { samples: 0, ms: 0 };
+  }
+
+  learn(ms) {
+    const { slow, pace } = this;
+    slow.samples += 1;
+    slow.ms += 0.3 * (ms - slow.ms);
+    if (slow.ms < slowest_ms[pace]) return;
+    this.shares[pace] = Math.max(coarsest, 0.75 * this.shares[pace]);
+    slow.ms = slow.samples = 0;
   }
 
   addPicture(moving) {

@@ -47,18 +47,24 @@ const significant = (value, digits) => {
   return decimals > 6 ? value.toExponential(digits - 1) : value.toFixed(Math.min(6, decimals));
 };
 
+const grouped = (digits) =>
+  digits.length > 4 ? digits.replace(/\B(?=(\d{3})+$)/g, '\u202f') : digits;
+
+/** How many: all digits of a whole number. */
+export const count = (n) => grouped(Math.round(n).toFixed(0));
+
 /** A number in words, e.g. 0.0123, 1.23, 12 300; three digits unless told. */
 export function words(value, digits = 3) {
   if (value === null || !Number.isFinite(value)) return '–';
   const [head, tail] = significant(value, digits).split('.');
-  const grouped = head.length > 4 ? head.replace(/\B(?=(\d{3})+$)/g, '\u202f') : head;
-  return tail ? `${grouped}.${tail}` : grouped;
+  return tail ? `${grouped(head)}.${tail}` : grouped(head);
 }
 
-/** Value and standard error with as many digits as the error justifies. */
+/** Value and standard error: the error with two digits, the value with as many places. */
 export function wordsWithError(value, error) {
   if (value === null) return '–';
   if (!(error > 0)) return words(value);
-  const digits = Math.ceil(Math.log10(Math.max(Math.abs(value), error) / error)) + 1;
-  return `${words(value, Math.min(6, Math.max(1, digits)))} ± ${words(error, 2)}`;
+  const places = Math.min(6, Math.max(0, 1 - Math.floor(Math.log10(error))));
+  const [head, tail] = value.toFixed(places).split('.');
+  return `${grouped(head)}${tail ? `.${tail}` : ''} ± ${words(error, 2)}`;
 }

@@ -3,26 +3,23 @@
 // bright stays behind when it is dimmed to nothing, the sum is made afresh once hands are still.
 import { halfValues } from '../protocol/half.js';
 
-/** `stride` numbers a cell in the sum for every `taken` numbers of a group's light. */
+/** `colours` of r g b in each cell; the sum has a fourth number each, as textures have. */
 export class LightSum {
-  constructor(cells, { taken, places, stride }) {
-    Object.assign(this, { cells, taken, places, stride });
-    this.sum = new Float32Array(cells * stride);
+  constructor(cells, colours) {
+    this.cells = cells;
+    /** The length that a group's light has to have. */
+    this.length = 3 * colours * cells;
+    this.sum = new Float32Array(4 * colours * cells);
     this.groups = new Map();
-    this.rounded = false;
-  }
-
-  /** The length that a group's light has to have. */
-  get length() {
-    return this.cells * this.taken;
+    this.stained(false);
   }
 
   set(group, halves, factor) {
     const old = this.groups.get(group);
-    if (old) this.add(old.halves, -old.factor);
     this.groups.set(group, { halves, factor });
-    this.add(halves, factor);
-    this.rounded ||= old !== undefined;
+    if (old) this.exchange(old, halves, factor);
+    else this.add(halves, factor);
+    this.afresh = null;
   }
 
   /** True when the sum has changed. */
@@ -31,32 +28,54 @@ export class LightSum {
     if (!entry || entry.factor === factor) return false;
     this.add(entry.halves, factor - entry.factor);
     entry.factor = factor;
-    this.rounded = true;
+    this.stained(true);
     return true;
   }
 
-  /** The sum without what rounding left in it; true when there was something to do. */
-  settle() {
-    if (!this.rounded) return false;
-    this.sum.fill(0);
-    for (const { halves, factor } of this.groups.values()) this.add(halves, factor);
-    this.rounded = false;
+  /**
+   * Goes on making the sum without what rounding left in it, by at most so many groups; true when
+   * there is nothing more to do. Light that changes meanwhile makes it begin again.
+   */
+  settle(most = Infinity) {
+    if (!this.rounded) return true;
+    this.afresh ??= { sum: new Float32Array(this.sum.length), left: [...this.groups.values()] };
+    const { sum, left } = this.afresh;
+    for (const { halves, factor } of left.splice(0, most)) this.add(halves, factor, sum);
+    if (left.length) return false;
+    this.sum = sum;
+    this.stained(false);
     return true;
   }
 
-  add(halves, weight) {
+  stained(rounded) {
+    this.rounded = rounded;
+    this.afresh = null;
+  }
+
+  add(halves, weight, sum = this.sum) {
     if (weight === 0) return;
-    const { sum, places, taken, stride } = this;
-    for (let k = 0; k < taken; ++k)
-      for (let from = k, to = places[k]; from < halves.length; from += taken, to += stride)
-        sum[to] += weight * halfValues[halves[from]];
+    for (let from = 0, to = 0; from < halves.length; from += 3, to += 4) {
+      sum[to] += weight * halfValues[halves[from]];
+      sum[to + 1] += weight * halfValues[halves[from + 1]];
+      sum[to + 2] += weight * halfValues[halves[from + 2]];
+    }
+  }
+
+  exchange({ halves: before, factor: weightBefore }, halves, weight) {
+    const { sum } = this;
+    const change = (from) =>
+      weight * halfValues[halves[from]] - weightBefore * halfValues[before[from]];
+    for (let from = 0, to = 0; from < halves.length; from += 3, to += 4) {
+      sum[to] += change(from);
+      sum[to + 1] += change(from + 1);
+      sum[to + 2] += change(from + 2);
+    }
+    this.stained(true);
   }
 }
 
 /** A triangle: front r g b and a fourth, back r g b and a fourth: two texels of a texture. */
-export const surfaceSum = (triangles) =>
-  new LightSum(triangles, { taken: 6, places: [0, 1, 2, 4, 5, 6], stride: 8 });
+export const surfaceSum = (triangles) => new LightSum(triangles, 2);
 
 /** A voxel: r g b and a fourth. */
-export const smokeSum = (voxels) =>
-  new LightSum(voxels, { taken: 3, places: [0, 1, 2], stride: 4 });
+export const smokeSum = (voxels) => new LightSum(voxels, 1);

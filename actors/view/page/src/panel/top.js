@@ -1,5 +1,5 @@
 // The upper edge: which building, whether the program is there, who edits; and the progress.
-import { words } from '../light/colours.js';
+import { count, words } from '../light/colours.js';
 import { byId, el } from './dom.js';
 
 /** The bar is full at this relative error; work may go on beyond it. */
@@ -58,7 +58,7 @@ export class Top {
     const width = done ? 1 : Math.min(0.98, Math.max(0.02, share));
     this.bar.firstElementChild.style.width = `${100 * width}%`;
     this.bar.classList.toggle('done', done);
-    const many = particles >= 1e6 ? `${words(particles / 1e6)} M` : words(Math.round(particles), 9);
+    const many = particles >= 1e6 ? `${words(particles / 1e6)} M` : count(particles);
     const error = relativeError === null ? null : `± ${words(100 * relativeError, 2)} %`;
     const state = done ? 'finished' : 'refining';
     this.figures.textContent =

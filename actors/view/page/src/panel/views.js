@@ -12,7 +12,7 @@ export class Views {
       on: { change: () => height(Number(this.heights.value)) },
     });
     for (const [name, metres] of Object.entries(eyeHeights))
-      this.heights.append(new Option(`${name} ${metres} m`, metres));
+      this.heights.append(new Option(`${metres} m ${name}`, metres));
     this.places = el('select', {
       aria: { label: 'Go to an observer or a camera' },
       on: { change: () => this.go(jump) },

@@ -1,6 +1,6 @@
 // The building to bump into and to point at: rays against its triangles. Short rays of feet and
 // shoulders look into a grid seen from above; the rare long ray of a click tries every triangle.
-import { add, clamp, cross, dot, length, scale, subtract, unit } from './vectors.js';
+import { add, cross, dot, length, scale, subtract, unit } from './vectors.js';
 
 const cellsAcrossMost = 256;
 const cellLeast_m = 0.5;
@@ -59,53 +59,62 @@ export class Building {
   }
 
   layGrid() {
+    const c = this.corners;
     const low = [Infinity, Infinity];
     const high = [-Infinity, -Infinity];
-    for (let i = 0; i < this.corners.length; i += 3)
+    for (let i = 0; i < c.length; i += 3)
       for (let a = 0; a < 2; ++a) {
-        low[a] = Math.min(low[a], this.corners[i + a]);
-        high[a] = Math.max(high[a], this.corners[i + a]);
+        if (c[i + a] < low[a]) low[a] = c[i + a];
+        if (c[i + a] > high[a]) high[a] = c[i + a];
       }
     const across = Math.max(high[0] - low[0], high[1] - low[1]);
     this.low = low;
     this.cell = Math.max(cellLeast_m, across / cellsAcrossMost);
     this.count = [0, 1].map((a) => Math.floor((high[a] - low[a]) / this.cell) + 1);
     this.start = new Uint32Array(this.count[0] * this.count[1] + 1);
-    this.eachCellOfAll((cell) => ++this.start[cell + 1]);
+    this.eachTriangle((cell) => ++this.start[cell + 1]);
     for (let i = 1; i < this.start.length; ++i) this.start[i] += this.start[i - 1];
     this.list = new Uint32Array(this.start.at(-1));
     const filled = this.start.slice();
-    this.eachCellOfAll((cell, t) => (this.list[filled[cell]++] = t));
+    this.eachTriangle((cell, t) => (this.list[filled[cell]++] = t));
   }
 
-  eachCellOfAll(visit) {
+  eachTriangle(visit) {
     const c = this.corners;
     for (let t = 0; t < this.triangles; ++t) {
       const k = 9 * t;
-      const low = [0, 1].map((a) => Math.min(c[k + a], c[k + 3 + a], c[k + 6 + a]));
-      const high = [0, 1].map((a) => Math.max(c[k + a], c[k + 3 + a], c[k + 6 + a]));
-      this.eachCell(low, high, (cell) => visit(cell, t));
+      this.eachCell(
+        Math.min(c[k], c[k + 3], c[k + 6]), Math.min(c[k + 1], c[k + 4], c[k + 7]),
+        Math.max(c[k], c[k + 3], c[k + 6]), Math.max(c[k + 1], c[k + 4], c[k + 7]), visit, t);
     }
   }
 
-  eachCell(low, high, visit) {
-    const at = (x, a) => clamp(Math.floor((x - this.low[a]) / this.cell), 0, this.count[a] - 1);
-    const [x0, x1, y0, y1] = [at(low[0], 0), at(high[0], 0), at(low[1], 1), at(high[1], 1)];
-    for (let y = y0; y <= y1; ++y) for (let x = x0; x <= x1; ++x) visit(y * this.count[0] + x);
+  column(x, axis) {
+    const cell = Math.floor((x - this.low[axis]) / this.cell);
+    return Math.min(this.count[axis] - 1, Math.max(0, cell));
+  }
+
+  /** Calls `visit(cell, t)` for the cells of a level rectangle. */
+  eachCell(lowX, lowY, highX, highY, visit, t) {
+    const x0 = this.column(lowX, 0);
+    const x1 = this.column(highX, 0);
+    const y1 = this.column(highY, 1);
+    for (let y = this.column(lowY, 1); y <= y1; ++y)
+      for (let x = x0; x <= x1; ++x) visit(y * this.count[0] + x, t);
   }
 
   /** The first triangle within `reach` metres along a unit direction; for short rays. */
   ahead(origin, direction, reach) {
     const end = add(origin, scale(direction, reach));
-    const low = [Math.min(origin[0], end[0]), Math.min(origin[1], end[1])];
-    const high = [Math.max(origin[0], end[0]), Math.max(origin[1], end[1])];
     let best = { distance: reach, triangle: -1 };
-    this.eachCell(low, high, (cell) => {
+    const visit = (cell) => {
       for (let i = this.start[cell]; i < this.start[cell + 1]; ++i) {
         const distance = this.meet(this.list[i], origin, direction);
         if (distance < best.distance) best = { distance, triangle: this.list[i] };
       }
-    });
+    };
+    this.eachCell(Math.min(origin[0], end[0]), Math.min(origin[1], end[1]),
+      Math.max(origin[0], end[0]), Math.max(origin[1], end[1]), visit);
     return best.triangle < 0 ? null : best;
   }
 
@@ -159,16 +168,20 @@ export class Building {
     const lines = [];
     const c = this.corners;
     for (let k = 0; k < c.length; k += 9) {
-      const ends = [];
-      for (let e = 0; e < 3; ++e) {
-        const a = k + 3 * e;
-        const b = k + 3 * ((e + 1) % 3);
-        if (c[a + 2] < height === c[b + 2] < height) continue;
-        const s = (height - c[a + 2]) / (c[b + 2] - c[a + 2]);
-        ends.push(c[a] + s * (c[b] - c[a]), c[a + 1] + s * (c[b + 1] - c[a + 1]), height);
-      }
-      if (ends.length === 6) lines.push(...ends);
+      const above = (c[k + 2] >= height) + (c[k + 5] >= height) + (c[k + 8] >= height);
+      if (above === 1 || above === 2) this.cutTriangle(k, height, lines);
     }
     return new Float32Array(lines);
+  }
+
+  cutTriangle(k, height, lines) {
+    const c = this.corners;
+    for (let e = 0; e < 3; ++e) {
+      const a = k + 3 * e;
+      const b = k + 3 * ((e + 1) % 3);
+      if (c[a + 2] >= height === c[b + 2] >= height) continue;
+      const s = (height - c[a + 2]) / (c[b + 2] - c[a + 2]);
+      lines.push(c[a] + s * (c[b] - c[a]), c[a + 1] + s * (c[b + 1] - c[a + 1]), height);
+    }
   }
 }
