@@ -6,7 +6,8 @@ import { after, before, test } from 'node:test';
 import { chromium } from 'playwright-core';
 import { MockServer } from './mock_server.mjs';
 
-const shots = process.env.LUX_SHOTS ?? process.argv[2] ?? new URL('shots', import.meta.url).pathname;
+const shots =
+  process.env.LUX_SHOTS ?? process.argv[2] ?? new URL('shots', import.meta.url).pathname;
 const browserPath = process.env.LUX_CHROMIUM ?? '/usr/bin/chromium';
 const flags = ['--headless=new', '--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader',
   '--enable-unsafe-swiftshader'];
@@ -192,6 +193,21 @@ test('false colours have a legend, the eye and the plan their own pictures', asy
   await page.getByRole('button', { name: 'Orbit' }).click();
   await shot('orbit');
   await page.getByRole('button', { name: 'Walk' }).click();
+});
+
+test('a scenario is one click, and an eye sees it darker than a camera', async () => {
+  const old = await generation();
+  await page.getByRole('button', { name: /smoke, emergency/ }).click();
+  await page.waitForFunction((g) => window.luxodus.page.live.number > g, old, patience);
+  await page.getByRole('button', { name: 'Eye', exact: true }).click();
+  assert.ok((await mean()) < 1);
+  await shot('emergency_eye');
+  await page.getByRole('button', { name: 'Camera', exact: true }).click();
+  await shot('emergency_camera');
+  await page.keyboard.press('?');
+  await page.locator('#help').waitFor({ state: 'visible', ...patience });
+  await shot('help');
+  await page.getByRole('button', { name: 'Close' }).click();
 });
 
 test('an edit that is refused is said so', async () => {

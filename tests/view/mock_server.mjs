@@ -53,7 +53,8 @@ export class MockServer {
     const { generation, state } = this;
     const frames = [room.smokeFrame(generation, state)];
     room.sources.forEach((_, group) => frames.push(
-      room.lightFrame(generation, group, state), room.smokeLightFrame(generation, group, state)));
+      room.lightFrame(generation, group, state),
+      room.smokeLightFrame(generation, group, state)));
     return frames;
   }
 
@@ -65,7 +66,8 @@ export class MockServer {
       scenarios: scenarios.map(({ name, operation }) => ({ name, operation })),
       scenario: state.scenario, smoke: state.smoke, low: room.low, high: room.high, groups,
       signs: state.signs, luminaires: state.luminaires, observers: room.observers,
-      cameras: room.cameras, voxels: room.voxels, editor: viewer !== null && viewer === this.editor };
+      cameras: room.cameras, voxels: room.voxels, editor: viewer !== null && viewer === this.editor,
+    };
   }
 
   welcome(viewer) {
@@ -166,7 +168,7 @@ export class MockServer {
       const distance = Math.hypot(...eye.map((x, i) => x - position[i]));
       const legible = distance * this.state.smoke < 7;
       return { from: name, distance, verdict: legible ? 'legible' : 'visible but not legible',
-        reason: legible ? 'visibility level 11 of the detail' : 'detail at level 4.1, 7 is needed' };
+        reason: `the detail is at visibility level ${legible ? 11 : 4}, 7 is needed` };
     });
     this.tell(viewer, { type: 'sign', name: sign, rows });
   }

@@ -1,6 +1,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { limits, parseFrame, ProtocolError } from '../../../actors/view/page/src/protocol/frames.js';
+import { limits, parseFrame, ProtocolError }
+  from '../../../actors/view/page/src/protocol/frames.js';
 
 function frame(kind, generation, a, bytes) {
   const buffer = new ArrayBuffer(16 + bytes);

@@ -129,7 +129,7 @@ class Page {
 
   start({ low, high, cameras, observers }) {
     this.started = true;
-    this.motion = startMotion(low, high);
+    this.motion = startMotion(low, high, this.picture.width / this.picture.height);
     const [first] = observers.length ? observers : cameras;
     if (first) this.jump(first);
     this.moving();
@@ -147,7 +147,7 @@ class Page {
   on_smoke({ scene, smoke }) {
     const held = this.picture.smoke.build(
       scene.voxels, smoke?.halves ?? null, this.picture.voxelsMost);
-    if (!held) toast('The smoke has more voxels than this graphics card can hold; it is not drawn.');
+    if (!held) toast('This graphics card cannot hold so many voxels: the smoke is not drawn.');
     this.dirty.add('light');
   }
 
@@ -186,7 +186,9 @@ class Page {
   on_refused({ why }) {
     toast(`Refused: ${why}`);
     const { scene } = this.live;
-    if (scene) this.state.scene(scene);
+    if (!scene) return;
+    this.state.scene(scene);
+    this.keepSelection(scene);
   }
 
   on_editor({ editor }) {
@@ -364,6 +366,7 @@ class Page {
 
   /** A new generation may have moved what is selected, or judged it anew. */
   keepSelection(scene) {
+    if (this.mover.pending) return;
     const { subject } = this.inspect;
     const things = { sign: scene.signs, luminaire: scene.luminaires }[subject?.kind];
     const thing = things?.find(({ name }) => name === subject.name);

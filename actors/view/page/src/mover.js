@@ -14,6 +14,7 @@ export class Mover {
   }
 
   hold(kind, thing) {
+    this.pending = false;
     this.kind = kind;
     this.thing = { ...thing };
     this.draw();
@@ -21,6 +22,7 @@ export class Mover {
 
   release() {
     clearTimeout(this.timer);
+    this.pending = false;
     this.thing = null;
     this.outline([]);
   }
@@ -65,6 +67,7 @@ export class Mover {
   }
 
   to(position) {
+    this.pending = true;
     this.thing.position = position;
     this.moved(position);
     this.draw();
@@ -72,6 +75,7 @@ export class Mover {
 
   send() {
     clearTimeout(this.timer);
+    this.pending = false;
     const { name, position, facing } = this.thing;
     this.say({ type: 'move', kind: this.kind, name, position, ...(facing && { facing }) }, 'move');
   }

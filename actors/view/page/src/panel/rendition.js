@@ -4,8 +4,8 @@ import { byId, choice, el, section } from './dom.js';
 
 const explained = {
   camera: 'One exposure for the whole picture; highlights roll off.',
-  eye: 'A simple dark-adapted eye: mesopic luminance (CIE 191, scotopic part estimated from colour), ' +
-    'brightness by Ward 1994 on a 250 cd/m² screen. No glare veil, no loss of acuity.',
+  eye: 'A simple dark-adapted eye: mesopic luminance (CIE 191, scotopic part estimated from ' +
+    'colour), brightness by Ward 1994 on a 250 cd/m² screen. No glare veil, no loss of acuity.',
   luminance: 'False colours of luminance as it arrives at the eye.',
 };
 const modes = [['camera', 'Camera'], ['eye', 'Eye'], ['luminance', 'Luminance']];
@@ -29,7 +29,8 @@ export class Rendition {
         el('label', { htmlFor: 'exposure', textContent: 'Exposure' }), this.slider, this.value),
       el('label', { className: 'check' }, this.automatic, ' automatic'));
     this.extras = el('div', { className: 'checks' });
-    this.element = section('Picture', this.choice.element, this.note, this.exposureLine, this.extras);
+    this.element = section(
+      'Picture', this.choice.element, this.note, this.exposureLine, this.extras);
     buildLegend();
     this.set(exposure.rendition);
   }

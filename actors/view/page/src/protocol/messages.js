@@ -193,7 +193,8 @@ export function parseMessage(json) {
     throw error instanceof ProtocolError ? error : new ProtocolError('text that is not JSON');
   }
   const read = Object.hasOwn(readers, message.type) ? readers[message.type] : null;
-  if (!read) throw new ProtocolError(`message of unknown type ${String(message.type).slice(0, 40)}`);
+  if (!read)
+    throw new ProtocolError(`message of unknown type ${String(message.type).slice(0, 40)}`);
   try {
     return { type: message.type, ...read(message) };
   } catch (error) {

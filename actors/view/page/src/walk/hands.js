@@ -4,8 +4,9 @@ const turnPerPixel = 0.0032;
 const clickPixels = 5;
 const walkPerPixel = 0.012;
 
-const typing = (target) =>
-  target instanceof Element && target.closest('input:not([type=range]):not([type=checkbox]), select');
+const writable = 'input:not([type=range]):not([type=checkbox]), select';
+const typing = (target) => target instanceof Element && target.closest(writable);
+const control = (target) => target instanceof Element && target.matches('input, button, summary');
 
 const walkKeys = new Set(['KeyW', 'KeyA', 'KeyS', 'KeyD', 'KeyQ', 'KeyE', 'ArrowUp', 'ArrowDown',
   'ArrowLeft', 'ArrowRight', 'PageUp', 'PageDown']);
@@ -45,9 +46,9 @@ export class Hands {
   }
 
   keyDown(event) {
+    if (document.querySelector('dialog[open]')) return;
     if (typing(event.target) || event.ctrlKey || event.metaKey || event.altKey) return;
-    const onControl = event.target instanceof Element && event.target.matches('input, button, summary');
-    if (onControl && (event.code.startsWith('Arrow') || event.code.startsWith('Page'))) return;
+    if (control(event.target) && /^(Arrow|Page)/.test(event.code)) return;
     if (walkKeys.has(event.code)) event.preventDefault();
     this.keys.add(event.code);
     if (!event.repeat) this.wants.key(event.key === '?' ? '?' : event.code);
@@ -65,6 +66,7 @@ export class Hands {
     this.canvas.focus({ preventScroll: true });
     this.canvas.setPointerCapture?.(event.pointerId);
     this.fingers.set(event.pointerId, { x: event.clientX, y: event.clientY });
+    if (this.holding && this.travelled > clickPixels) this.wants.drop();
     this.travelled = this.fingers.size > 1 ? Infinity : 0;
     this.holding = this.fingers.size === 1 && this.wants.grab(...this.place(event));
   }
@@ -101,7 +103,8 @@ export class Hands {
     const other = ends.find(([key]) => key !== id)[1];
     const before = Math.hypot(moved.x - other.x, moved.y - other.y);
     const after = Math.hypot(moved.x + dx - other.x, moved.y + dy - other.y);
-    this.wants.step((-dy / 2) * walkPerPixel, (dx / 2) * walkPerPixel, () => this.shift(dx / 2, dy / 2));
+    const metres = walkPerPixel / 2;
+    this.wants.step(-dy * metres, dx * metres, () => this.shift(dx / 2, dy / 2));
     if (before > 10 && after > 10) this.wants.zoom(before / after);
   }
 

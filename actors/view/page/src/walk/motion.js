@@ -7,9 +7,11 @@ export const speeds = { walk: 1.4, fast: 4, turn: 1.6 };
 const steepest = 1.5;
 const fovs = { low: 15, high: 110, usual: 65 };
 
-export function startMotion(low, high) {
+/** `aspect`: of the picture, for plan and orbit to show all of the building. */
+export function startMotion(low, high, aspect = 1.6) {
   const centre = scale(add(low, high), 0.5);
   const size = subtract(high, low);
+  const away = (0.9 * length(size) + 1) * Math.max(1, 1.4 / aspect);
   return {
     mode: 'walk',
     eye: [centre[0], centre[1], low[2] + eyeHeights.standing],
@@ -17,10 +19,10 @@ export function startMotion(low, high) {
     pitch: 0,
     fov: fovs.usual,
     height: eyeHeights.standing,
-    orbit: { centre, distance: 0.9 * length(size) + 1, yaw: -2, pitch: 0.7 },
+    orbit: { centre, distance: away, yaw: -2, pitch: 0.7 },
     plan: {
       centre: [centre[0], centre[1]],
-      span: 1.15 * Math.max(size[1], 0.6 * size[0], 2),
+      span: 1.25 * Math.max(size[1], size[0] / aspect, 2),
       cut: low[2] + Math.min(2.2, 0.9 * size[2]),
     },
   };
