@@ -63,3 +63,13 @@ test('exposure adapts towards what is metered and then rests', () => {
   assert.ok(Math.abs(exposure.level / 64 - 1) < 0.01);
   assert.equal(exposure.adapt(0.1), false);
 });
+
+test('who wants no motion gets the new exposure at once, and is shown it', () => {
+  const exposure = new Exposure();
+  for (const luminance of [1, 30]) {
+    exposure.meter(Float32Array.of(Math.log2(luminance), 1, 0, 0));
+    assert.equal(exposure.adapt(0.01, true), true);
+    assert.ok(Math.abs(exposure.level / luminance - 1) < 1e-6);
+    assert.equal(exposure.adapt(0.01, true), false);
+  }
+});

@@ -1,6 +1,4 @@
 // How bright the picture is shown. Pure: what the meter reads goes in, a scale comes out.
-import { clamp } from '../walk/vectors.js';
-
 export const renditions = { camera: 0, eye: 1, luminance: 2 };
 
 /** Mid grey of a camera; and the least luminance that automatic exposure brings up to it. */
@@ -42,14 +40,14 @@ export class Exposure {
     this.target = readMeter(cells);
   }
 
-  /** Adapts for a while; true as long as there is more to do. */
-  adapt(elapsed, still = false) {
+  /** Adapts for a while, or `atOnce`; true when the picture is to be shown anew. */
+  adapt(elapsed, atOnce = false) {
     if (this.target === null || !this.moves) return false;
-    if (this.adapted === null || still) this.adapted = this.target;
-    const share = 1 - Math.exp(-elapsed / (seconds[this.rendition] ?? 0.3));
-    const apart = Math.log(this.target / this.adapted);
-    this.adapted *= Math.exp(clamp(share, 0, 1) * apart);
-    return Math.abs(apart) > 0.005;
+    const first = this.adapted === null;
+    const apart = first ? 0 : Math.log(this.target / this.adapted);
+    const share = atOnce ? 1 : 1 - Math.exp(-elapsed / seconds[this.rendition]);
+    this.adapted = first ? this.target : this.adapted * Math.exp(share * apart);
+    return first || Math.abs(apart) > 0.005;
   }
 
   get moves() {
