@@ -221,8 +221,9 @@ vec3 knee(vec3 c) {
   vec3 tinted = c * (shown / y);
   float most = max(tinted.r, max(tinted.g, tinted.b));
   if (most <= 1.0) return tinted;
-  float grey = min(shown, 1.0);
-  return mix(vec3(grey), tinted, (1.0 - grey) / max(most - grey, 1e-6));
+  // A colour too bright for the screen pales, yet stays that colour: a green sign is no white one.
+  float over = 1.0 - 1.0 / most;
+  return mix(tinted / most, vec3(1.0), 0.45 * over * over);
 }
 vec3 encode(vec3 c) {
   c = clamp(c, 0.0, 1.0);
