@@ -1,0 +1,65 @@
+// How bright the picture is shown. Pure: what the meter reads goes in, a scale comes out.
+export const renditions = { camera: 0, eye: 1, luminance: 2 };
+
+/** Mid grey of a camera; and the least luminance that automatic exposure brings up to it. */
+const key = 0.18;
+const darkest_cd_m2 = 1e-4;
+/** White point: so many times the luminance that is shown as half of full white. */
+export const whitePoint = 6;
+/** A usual monitor, for the eye's rendition [cd/m2]. */
+const displayMost_cd_m2 = 250;
+const seconds = { camera: 0.35, eye: 1.2 };
+
+/** Log-average luminance of meter cells: sum of log2 luminance, pixels, and two unused. */
+export function readMeter(cells) {
+  let log = 0;
+  let count = 0;
+  for (let i = 0; i < cells.length; i += 4) {
+    log += cells[i];
+    count += cells[i + 1];
+  }
+  return count > 0 ? Math.max(darkest_cd_m2, 2 ** (log / count)) : darkest_cd_m2;
+}
+
+/** Ward 1994: equal contrasts at threshold for the viewer of the screen and of the building. */
+export function eyeScale(adapted) {
+  const screen = 1.219 + (displayMost_cd_m2 / 2) ** 0.4;
+  return (screen / (1.219 + adapted ** 0.4)) ** 2.5 / displayMost_cd_m2;
+}
+
+export class Exposure {
+  constructor() {
+    this.rendition = 'camera';
+    this.automatic = true;
+    this.fixed_cd_m2 = 10;
+    this.adapted = null;
+    this.target = null;
+  }
+
+  meter(cells) {
+    this.target = readMeter(cells);
+  }
+
+  /** Adapts for a while, or `atOnce`; true when the picture is to be shown anew. */
+  adapt(elapsed, atOnce = false) {
+    if (this.target === null || !this.moves) return false;
+    const first = this.adapted === null;
+    const apart = first ? 0 : Math.log(this.target / this.adapted);
+    const share = atOnce ? 1 : 1 - Math.exp(-elapsed / seconds[this.rendition]);
+    this.adapted = first ? this.target : this.adapted * Math.exp(share * apart);
+    return first || Math.abs(apart) > 0.005;
+  }
+
+  get moves() {
+    return this.automatic && this.rendition !== 'luminance';
+  }
+
+  /** The luminance shown as mid grey, or to which the eye is adapted [cd/m2]. */
+  get level() {
+    return this.automatic ? this.adapted ?? this.fixed_cd_m2 : this.fixed_cd_m2;
+  }
+
+  get scale() {
+    return this.rendition === 'eye' ? eyeScale(this.level) : key / this.level;
+  }
+}

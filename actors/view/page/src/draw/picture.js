@@ -1,0 +1,324 @@
+// The picture: surfaces and signs, then smoke, then several such pictures added up while the eye
+// is still (which also smooths edges), then exposure and the screen.
+import * as THREE from 'three';
+import { scaleTexels } from '../light/colours.js';
+import { halfValues } from '../protocol/half.js';
+import { Exposure, renditions, whitePoint } from './exposure.js';
+import { composeFragment, meterFragment, screenVertex, toneFragment } from './glsl.js';
+import { Marks } from './marks.js';
+import { Signs } from './signs.js';
+import { Smoke, steps } from './smoke.js';
+import { Surfaces } from './surfaces.js';
+
+/** So many pictures are added up before the page rests; on a slow machine fewer. */
+const pictures = { least: 6, most: 24, seconds: 4 };
+const meterCells = 32;
+const nothingCut = 1e9;
+const ratioMost = 2;
+/** The raster becomes coarser until a picture takes no longer than this. */
+const slowest_ms = { moving: 45, still: 300 };
+const coarsest = 0.4;
+
+function target(options = {}) {
+  return new THREE.WebGLRenderTarget(1, 1, {
+    type: THREE.HalfFloatType,
+    depthBuffer: false,
+    minFilter: THREE.LinearFilter,
+    magFilter: THREE.LinearFilter,
+    ...options,
+  });
+}
+
+function screenPass(fragmentShader, uniforms) {
+  return new THREE.RawShaderMaterial({
+    glslVersion: THREE.GLSL3,
+    vertexShader: screenVertex,
+    fragmentShader,
+    uniforms,
+    depthTest: false,
+    depthWrite: false,
+  });
+}
+
+/** The sequence of van der Corput: places in a pixel, and starts of steps, that fill evenly. */
+function radicalInverse(i, base) {
+  let value = 0;
+  for (let share = 1 / base; i > 0; i = Math.floor(i / base), share /= base)
+    value += share * (i % base);
+  return value;
+}
+
+export class Picture {
+  constructor(canvas) {
+    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: false, depth: false });
+    this.renderer.autoClear = false;
+    this.renderer.outputColorSpace = THREE.LinearSRGBColorSpace;
+    if (!this.renderer.extensions.get('EXT_color_buffer_float'))
+      throw new Error('This graphics card cannot draw in floating point.');
+    this.exposure = new Exposure();
+    this.fade = { now: 0, wanted: 0 };
+    this.share = 1;
+    this.shares = { moving: 1, still: 1 };
+    this.learns = true;
+    this.added = 0;
+    this.makeTargets();
+    this.makePasses();
+  }
+
+  makeTargets() {
+    const depth = new THREE.DepthTexture(1, 1, THREE.UnsignedIntType);
+    this.targets = {
+      surfaces: target({ depthBuffer: true, depthTexture: depth }),
+      smoke: target(),
+      sums: [target(), target()],
+      meter: target({ type: THREE.FloatType, minFilter: THREE.NearestFilter }),
+    };
+    this.targets.meter.setSize(meterCells, meterCells);
+    this.shared = {
+      depth: { value: depth },
+      clipToWorld: { value: new THREE.Matrix4() },
+      cut: { value: nothingCut },
+    };
+  }
+
+  makePasses() {
+    const { shared } = this;
+    this.surfaces = new Surfaces();
+    this.surfaces.material.uniforms.cut = shared.cut;
+    this.signs = new Signs(shared.cut);
+    this.smoke = new Smoke(shared);
+    this.marks = new Marks(shared.depth);
+    this.world = new THREE.Scene();
+    this.world.add(this.surfaces.mesh, this.signs.object);
+    this.compose = screenPass(composeFragment, {
+      ...shared,
+      surfaces: { value: this.targets.surfaces.texture },
+      smoke: { value: this.targets.smoke.texture },
+      before: { value: null },
+      weight: { value: 1 },
+      smoky: { value: false },
+      unproject: { value: new THREE.Vector4() },
+    });
+    this.meterPass = screenPass(meterFragment, { picture: { value: null } });
+    const colours = new THREE.DataTexture(scaleTexels(), 256, 1);
+    colours.minFilter = colours.magFilter = THREE.LinearFilter;
+    colours.needsUpdate = true;
+    this.tone = screenPass(toneFragment, {
+      picture: { value: null },
+      scaleColours: { value: colours },
+      mode: { value: 0 },
+      scale: { value: 1 },
+      white: { value: whitePoint },
+      fade: { value: 0 },
+      seed: { value: 0 },
+    });
+    const triangle = new THREE.BufferGeometry();
+    const corners = new Float32Array([-1, -1, 0, 3, -1, 0, -1, 3, 0]);
+    triangle.setAttribute('position', new THREE.BufferAttribute(corners, 3));
+    this.sheet = new THREE.Mesh(triangle, this.tone);
+    this.sheet.frustumCulled = false;
+    this.flat = new THREE.OrthographicCamera();
+    this.cameras = {
+      walk: new THREE.PerspectiveCamera(60, 1, 0.05, 600),
+      plan: new THREE.OrthographicCamera(-1, 1, 1, -1, 0.1, 1200),
+    };
+  }
+
+  get voxelsMost() {
+    const gl = this.renderer.getContext();
+    return gl.getParameter(gl.MAX_3D_TEXTURE_SIZE);
+  }
+
+  resize(width, height) {
+    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, ratioMost));
+    this.renderer.setSize(width, height, false);
+    this.layTargets();
+  }
+
+  layTargets() {
+    const [width, height] = this.renderer.getDrawingBufferSize(new THREE.Vector2()).toArray()
+      .map((n) => Math.max(1, Math.round(n * this.share)));
+    this.width = width;
+    this.height = height;
+    for (const t of [this.targets.surfaces, ...this.targets.sums]) t.setSize(width, height);
+    this.targets.smoke.setSize(Math.ceil(width / 2), Math.ceil(height / 2));
+    this.again();
+  }
+
+  /** What was added up is of another light or place. */
+  again() {
+    this.added = 0;
+    this.since = performance.now();
+  }
+
+  look(view, cut) {
+    const camera = view.span ? this.cameras.plan : this.cameras.walk;
+    const aspect = this.width / this.height;
+    if (view.span) {
+      camera.top = view.span / 2;
+      camera.bottom = -camera.top;
+      camera.right = camera.top * aspect;
+      camera.left = -camera.right;
+    } else {
+      camera.fov = view.fov;
+      camera.aspect = aspect;
+    }
+    camera.up.fromArray(view.up);
+    camera.position.fromArray(view.eye);
+    camera.lookAt(...view.target);
+    camera.updateMatrixWorld();
+    this.camera = camera;
+    this.shared.cut.value = cut ?? nothingCut;
+    this.marks.walls.visible = Boolean(view.span);
+    this.again();
+  }
+
+  /** Draws what is needed; true when the picture on the screen is another than before. */
+  draw(elapsed, moving) {
+    if (!this.camera) return false;
+    this.choose(elapsed, moving ? 'moving' : 'still');
+    const adding = moving ? this.added === 0 : !this.rested;
+    if (adding) this.addPicture(moving);
+    this.wasAdding = adding;
+    const adapting = this.exposure.adapt(elapsed, this.hurried);
+    const fading = this.fadeOn(elapsed);
+    this.changing = adding || adapting || fading;
+    if (this.changing || this.untoned) this.show();
+    return this.changing;
+  }
+
+  get rested() {
+    const late = performance.now() - this.since > 1000 * pictures.seconds;
+    return this.added >= (late ? pictures.least : pictures.most);
+  }
+
+  /** Learns from the pictures before how fine a raster this machine can do at each pace. */
+  choose(elapsed, pace) {
+    if (pace !== this.pace) this.changePace(pace);
+    else if (this.learns && this.wasAdding) this.learn(Math.min(1000, 1000 * elapsed));
+    if (this.shares[pace] === this.share) return;
+    this.share = this.shares[pace];
+    this.layTargets();
+  }
+
+  /** A raster that was quick all along may be finer the next time: a hiccup is no verdict. */
+  changePace(pace) {
+    const { samples = 0, ms } = this.slow ?? {};
+    if (samples > 4 && ms < slowest_ms[this.pace] / 4)
+      this.shares[this.pace] = Math.min(1, 1.25 * this.shares[this.pace]);
+    this.pace = pace;
+    this.slow = { samples: 0, ms: 0 };
+  }
+
+  learn(ms) {
+    const { slow, pace } = this;
+    slow.samples += 1;
+    slow.ms += 0.3 * (ms - slow.ms);
+    if (slow.ms < slowest_ms[pace]) return;
+    this.shares[pace] = Math.max(coarsest, 0.75 * this.shares[pace]);
+    slow.ms = slow.samples = 0;
+  }
+
+  addPicture(moving) {
+    const n = this.added++;
+    const shift = [0.5 - radicalInverse(n + 1, 2), 0.5 - radicalInverse(n + 1, 3)];
+    const { width, height, camera, targets } = this;
+    camera.setViewOffset(width, height, n ? shift[0] : 0, n ? shift[1] : 0, width, height);
+    this.shared.clipToWorld.value
+      .copy(camera.matrixWorld).multiply(camera.projectionMatrixInverse);
+    const inverse = camera.projectionMatrixInverse.elements;
+    this.compose.uniforms.unproject.value
+      .set(inverse[10], inverse[14], inverse[11], inverse[15]);
+    this.renderer.setRenderTarget(targets.surfaces);
+    this.renderer.clear();
+    this.renderer.render(this.world, camera);
+    if (this.smoke.present) {
+      this.smoke.material.uniforms.steps.value = moving ? steps.moving : steps.still;
+      this.smoke.material.uniforms.shift.value = (0.618034 * n) % 1;
+      this.pass(this.smoke.material, targets.smoke);
+    }
+    const uniforms = this.compose.uniforms;
+    uniforms.smoky.value = this.smoke.present;
+    uniforms.before.value = targets.sums[1].texture;
+    uniforms.weight.value = 1 / (n + 1);
+    this.pass(this.compose, targets.sums[0]);
+    targets.sums.reverse();
+    if (n === 0 || n === pictures.least - 1) this.meter();
+  }
+
+  /** Nothing is left to add up or to adapt to. */
+  get complete() {
+    return this.pace === 'still' && this.rested && !this.metering && !this.changing;
+  }
+
+  get finished() {
+    return this.targets.sums[1];
+  }
+
+  pass(material, to) {
+    this.sheet.material = material;
+    this.renderer.setRenderTarget(to);
+    this.renderer.render(this.sheet, this.flat);
+  }
+
+  /** Asks for the exposure without waiting for the graphics card. */
+  async meter() {
+    if (this.metering) return;
+    this.metering = true;
+    this.meterPass.uniforms.picture.value = this.finished.texture;
+    this.pass(this.meterPass, this.targets.meter);
+    const cells = new Float32Array(4 * meterCells * meterCells);
+    try {
+      await this.renderer.readRenderTargetPixelsAsync(
+        this.targets.meter, 0, 0, meterCells, meterCells, cells);
+      this.exposure.meter(cells);
+    } finally {
+      this.metering = false;
+    }
+  }
+
+  fadeOn(elapsed) {
+    const { now, wanted } = this.fade;
+    if (now === wanted) return false;
+    const step = this.hurried ? 1 : elapsed / 0.3;
+    this.fade.now = wanted > now ? Math.min(wanted, now + step) : Math.max(wanted, now - step);
+    return true;
+  }
+
+  show() {
+    this.untoned = false;
+    const uniforms = this.tone.uniforms;
+    uniforms.picture.value = this.finished.texture;
+    uniforms.mode.value = renditions[this.exposure.rendition];
+    uniforms.scale.value = this.exposure.scale;
+    uniforms.fade.value = this.fade.now;
+    uniforms.seed.value = (this.added * 17.3) % 97;
+    this.pass(this.tone, null);
+    this.camera.clearViewOffset();
+    this.renderer.getDrawingBufferSize(this.marks.points.material.uniforms.raster.value);
+    this.marks.points.material.uniforms.size.value = 13 * this.renderer.getPixelRatio();
+    this.renderer.render(this.marks.scene, this.camera);
+  }
+
+  /** The picture's luminances [cd/m2] within a window of its raster. */
+  luminances(x, y, width, height) {
+    const halves = new Uint16Array(4 * width * height);
+    this.renderer.readRenderTargetPixels(this.finished, x, y, width, height, halves);
+    const values = new Float32Array(width * height);
+    for (let i = 0; i < values.length; ++i)
+      values[i] = 0.2126 * halfValues[halves[4 * i]] + 0.7152 * halfValues[halves[4 * i + 1]] +
+        0.0722 * halfValues[halves[4 * i + 2]];
+    return values;
+  }
+
+  meanLuminance() {
+    const values = this.luminances(0, 0, this.width, this.height);
+    return values.reduce((sum, y) => sum + y, 0) / values.length;
+  }
+
+  /** Luminance [cd/m2] that arrives from a place of the picture, each -1 to 1, right and up. */
+  luminanceAt(x, y) {
+    const at = (share, n) => Math.min(n - 1, Math.floor((0.5 + 0.5 * share) * n));
+    return this.luminances(at(x, this.width), at(y, this.height), 1, 1)[0];
+  }
+}

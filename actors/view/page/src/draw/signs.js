@@ -1,0 +1,109 @@
+// The faces of signs: their own luminance on a quad just before the wall, added to the light that
+// the wall's triangles already send back.
+import * as THREE from 'three';
+import { add, cross, scale, unit } from '../walk/vectors.js';
+import { signFragment, signVertex } from './glsl.js';
+
+const beforeWall_m = 0.004;
+const marks = { white: 0, green: 1 };
+
+function sharesOf({ texels, columns, rows }) {
+  const data = new Uint8Array(4 * columns * rows);
+  for (let row = 0; row < rows; ++row)
+    for (let column = 0; column < columns; ++column) {
+      const to = 4 * (row * columns + column);
+      const mark = texels[(rows - 1 - row) * columns + column];
+      data[to] = mark === marks.white ? 255 : 0;
+      data[to + 1] = mark === marks.green ? 255 : 0;
+    }
+  const texture = new THREE.DataTexture(data, columns, rows);
+  texture.magFilter = THREE.LinearFilter;
+  texture.minFilter = THREE.LinearMipmapLinearFilter;
+  texture.generateMipmaps = true;
+  texture.anisotropy = 8;
+  texture.needsUpdate = true;
+  return texture;
+}
+
+/** The four corners of a face: left and right as its reader sees them. */
+export function faceOf({ position, facing, up, width, height }, turned = false) {
+  const normal = scale(unit(facing), turned ? -1 : 1);
+  const right = unit(cross(up, normal), [1, 0, 0]);
+  const above = cross(normal, right);
+  const centre = add(position, scale(normal, beforeWall_m));
+  const corner = (x, y) =>
+    add(centre, add(scale(right, (x * width) / 2), scale(above, (y * height) / 2)));
+  return [corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1)];
+}
+
+function quadOf(corners) {
+  const geometry = new THREE.BufferGeometry();
+  const positions = new Float32Array(corners.flat());
+  geometry.setAttribute('position', new THREE.BufferAttribute(positions, 3));
+  const uv = new Float32Array([0, 0, 1, 0, 1, 1, 0, 1]);
+  geometry.setAttribute('uv', new THREE.BufferAttribute(uv, 2));
+  geometry.setIndex([0, 1, 2, 0, 2, 3]);
+  return geometry;
+}
+
+export class Signs {
+  constructor(cut) {
+    this.cut = cut;
+    this.object = new THREE.Group();
+    this.signs = [];
+  }
+
+  build(signs) {
+    for (const mesh of this.object.children) {
+      mesh.geometry.dispose();
+      mesh.material.uniforms.shares.value.dispose();
+      mesh.material.dispose();
+    }
+    this.object.clear();
+    this.signs = signs;
+    for (const sign of signs) this.addFaces(sign);
+  }
+
+  addFaces(sign) {
+    const material = new THREE.RawShaderMaterial({
+      glslVersion: THREE.GLSL3,
+      vertexShader: signVertex,
+      fragmentShader: signFragment,
+      blending: THREE.CustomBlending,
+      blendSrc: THREE.OneFactor,
+      blendDst: THREE.OneFactor,
+      depthWrite: false,
+      polygonOffset: true,
+      polygonOffsetFactor: -1,
+      polygonOffsetUnits: -4,
+      uniforms: {
+        shares: { value: sharesOf(sign) },
+        white: { value: new THREE.Vector3() },
+        green: { value: new THREE.Vector3() },
+        cut: this.cut,
+      },
+    });
+    for (const turned of sign.doubleSided ? [false, true] : [false]) {
+      const mesh = new THREE.Mesh(quadOf(faceOf(sign, turned)), material);
+      mesh.userData.sign = sign;
+      this.object.add(mesh);
+    }
+  }
+
+  /** `factorOf(group)`: what a group is dimmed to. */
+  shine(factorOf) {
+    for (const { material, userData } of this.object.children) {
+      const factor = factorOf(userData.sign.group);
+      material.uniforms.white.value.fromArray(userData.sign.white).multiplyScalar(factor);
+      material.uniforms.green.value.fromArray(userData.sign.green).multiplyScalar(factor);
+    }
+  }
+
+  /** The sign that a ray meets before `reach` metres, or null. */
+  pointedAt(origin, direction, reach) {
+    const ray = new THREE.Raycaster(
+      new THREE.Vector3(...origin), new THREE.Vector3(...direction), 0, reach + 0.05);
+    const [hit] = ray.intersectObjects(this.object.children, false);
+    return hit ? hit.object.userData.sign : null;
+  }
+}

@@ -1,0 +1,81 @@
+// Light kept by group: what is shown is the sum over groups of factor x light, on surfaces and in
+// smoke alike. A changed factor adds (new - old) of that group alone; since rounding of what was
+// bright stays behind when it is dimmed to nothing, the sum is made afresh once hands are still.
+import { halfValues } from '../protocol/half.js';
+
+/** `colours` of r g b in each cell; the sum has a fourth number each, as textures have. */
+export class LightSum {
+  constructor(cells, colours) {
+    this.cells = cells;
+    /** The length that a group's light has to have. */
+    this.length = 3 * colours * cells;
+    this.sum = new Float32Array(4 * colours * cells);
+    this.groups = new Map();
+    this.stained(false);
+  }
+
+  set(group, halves, factor) {
+    const old = this.groups.get(group);
+    this.groups.set(group, { halves, factor });
+    if (old) this.exchange(old, halves, factor);
+    else this.add(halves, factor);
+    this.afresh = null;
+  }
+
+  /** True when the sum has changed. */
+  dim(group, factor) {
+    const entry = this.groups.get(group);
+    if (!entry || entry.factor === factor) return false;
+    this.add(entry.halves, factor - entry.factor);
+    entry.factor = factor;
+    this.stained(true);
+    return true;
+  }
+
+  /**
+   * Goes on making the sum without what rounding left in it, by at most so many groups; true when
+   * there is nothing more to do. Light that changes meanwhile makes it begin again.
+   */
+  settle(most = Infinity) {
+    if (!this.rounded) return true;
+    this.afresh ??= { sum: new Float32Array(this.sum.length), left: [...this.groups.values()] };
+    const { sum, left } = this.afresh;
+    for (const { halves, factor } of left.splice(0, most)) this.add(halves, factor, sum);
+    if (left.length) return false;
+    this.sum = sum;
+    this.stained(false);
+    return true;
+  }
+
+  stained(rounded) {
+    this.rounded = rounded;
+    this.afresh = null;
+  }
+
+  add(halves, weight, sum = this.sum) {
+    if (weight === 0) return;
+    for (let from = 0, to = 0; from < halves.length; from += 3, to += 4) {
+      sum[to] += weight * halfValues[halves[from]];
+      sum[to + 1] += weight * halfValues[halves[from + 1]];
+      sum[to + 2] += weight * halfValues[halves[from + 2]];
+    }
+  }
+
+  exchange({ halves: before, factor: weightBefore }, halves, weight) {
+    const { sum } = this;
+    const change = (from) =>
+      weight * halfValues[halves[from]] - weightBefore * halfValues[before[from]];
+    for (let from = 0, to = 0; from < halves.length; from += 3, to += 4) {
+      sum[to] += change(from);
+      sum[to + 1] += change(from + 1);
+      sum[to + 2] += change(from + 2);
+    }
+    this.stained(true);
+  }
+}
+
+/** A triangle: front r g b and a fourth, back r g b and a fourth: two texels of a texture. */
+export const surfaceSum = (triangles) => new LightSum(triangles, 2);
+
+/** A voxel: r g b and a fourth. */
+export const smokeSum = (voxels) => new LightSum(voxels, 1);

@@ -1,0 +1,31 @@
+// Elements from words. Text from outside becomes text nodes only, never markup.
+
+/** `properties` go to the element itself; `on` holds listeners, `aria` and `data` attributes. */
+export function el(tag, { on = {}, aria = {}, data = {}, ...properties } = {}, ...children) {
+  const element = Object.assign(document.createElement(tag), properties);
+  for (const [name, listener] of Object.entries(on)) element.addEventListener(name, listener);
+  for (const [name, value] of Object.entries(aria)) element.setAttribute(`aria-${name}`, value);
+  Object.assign(element.dataset, data);
+  element.append(...children.filter((child) => child !== null));
+  return element;
+}
+
+export const byId = (id) => document.getElementById(id);
+
+export const button = (label, click, properties = {}) =>
+  el('button', { type: 'button', textContent: label, on: { click }, ...properties });
+
+export const section = (title, ...children) =>
+  el('section', {}, el('h2', { textContent: title }), ...children);
+
+/** Buttons of which one is pressed; `choices` are [value, label]. */
+export function choice(label, choices, chosen) {
+  const buttons = new Map(choices.map(([value, words]) =>
+    [value, button(words, () => chosen(value), { aria: { pressed: 'false' } })]));
+  const element = el('div', { className: 'choice', role: 'group', aria: { label } });
+  element.append(...buttons.values());
+  const press = (value) => {
+    for (const [name, b] of buttons) b.setAttribute('aria-pressed', String(name === value));
+  };
+  return { element, press };
+}

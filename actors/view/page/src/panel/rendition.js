@@ -1,0 +1,95 @@
+// How luminances become a picture, and the legend that says so.
+import { scaleColour, scaleHigh, scaleLow, words } from '../light/colours.js';
+import { byId, choice, el, section } from './dom.js';
+
+const explained = {
+  camera: 'One exposure for the whole picture; highlights roll off.',
+  eye: 'A simple dark-adapted eye: mesopic luminance (CIE 191, scotopic part estimated from ' +
+    'colour), brightness by Ward 1994 on a 250 cd/m² screen. No glare veil, no loss of acuity.',
+  luminance: 'False colours of luminance as it arrives at the eye.',
+};
+const modes = [['camera', 'Camera'], ['eye', 'Eye'], ['luminance', 'Luminance']];
+
+export class Rendition {
+  constructor(exposure, changed) {
+    this.exposure = exposure;
+    this.changed = changed;
+    this.choice = choice('Rendition', modes, (mode) => this.set(mode));
+    this.note = el('p', { className: 'note' });
+    this.value = el('output');
+    this.automatic = el('input', {
+      type: 'checkbox', id: 'automatic', checked: true, on: { change: () => this.expose() },
+    });
+    this.slider = el('input', {
+      type: 'range', id: 'exposure', min: -3, max: 3.5, step: 0.02,
+      on: { input: () => this.fix() },
+    });
+    this.exposureLine = el('div', { className: 'exposure' },
+      el('div', { className: 'line' },
+        el('label', { htmlFor: 'exposure', textContent: 'Exposure' }), this.slider, this.value),
+      el('label', { className: 'check' }, this.automatic, ' automatic'));
+    this.extras = el('div', { className: 'checks' });
+    this.element = section(
+      'Picture', this.choice.element, this.note, this.exposureLine, this.extras);
+    buildLegend();
+    this.set(exposure.rendition);
+  }
+
+  /** One more box to tick. */
+  check(label, checked, ticked) {
+    const box = el('input', { type: 'checkbox', checked,
+      on: { change: () => ticked(box.checked) } });
+    this.extras.append(el('label', { className: 'check' }, box, ` ${label}`));
+    return box;
+  }
+
+  set(mode) {
+    this.exposure.rendition = mode;
+    this.choice.press(mode);
+    this.note.textContent = explained[mode];
+    this.exposureLine.hidden = mode === 'luminance';
+    byId('legend').hidden = mode !== 'luminance';
+    this.show();
+    this.changed();
+  }
+
+  next() {
+    const names = modes.map(([name]) => name);
+    this.set(names[(names.indexOf(this.exposure.rendition) + 1) % names.length]);
+  }
+
+  expose() {
+    this.exposure.automatic = this.automatic.checked;
+    if (!this.exposure.automatic) this.exposure.fixed_cd_m2 = this.exposure.adapted ?? 10;
+    this.show();
+    this.changed();
+  }
+
+  fix() {
+    this.automatic.checked = this.exposure.automatic = false;
+    this.exposure.fixed_cd_m2 = 10 ** Number(this.slider.value);
+    this.show();
+    this.changed();
+  }
+
+  show() {
+    this.value.textContent = `${words(this.exposure.level, 2)} cd/m²`;
+    this.slider.value = Math.log10(this.exposure.level);
+    this.slider.title = this.exposure.rendition === 'eye'
+      ? 'Luminance to which the eye is adapted' : 'Luminance shown as mid grey';
+  }
+}
+
+function buildLegend() {
+  const decades = Math.round(Math.log10(scaleHigh / scaleLow));
+  const colours = el('canvas', { width: 256, height: 1, className: 'scale' });
+  const context = colours.getContext('2d');
+  for (let i = 0; i < 256; ++i) {
+    context.fillStyle = `rgb(${scaleColour(i / 255).join(' ')})`;
+    context.fillRect(i, 0, 1, 1);
+  }
+  const ticks = el('div', { className: 'ticks' });
+  for (let d = 0; d <= decades; ++d)
+    ticks.append(el('span', { textContent: words(scaleLow * 10 ** d, 1) }));
+  byId('legend').append(el('p', { textContent: 'Luminance [cd/m²]' }), colours, ticks);
+}

@@ -1,0 +1,64 @@
+// Which state of the building: scenario, density of smoke; and a file for it.
+import { words } from '../light/colours.js';
+import { button, el, section } from './dom.js';
+
+const none = -2.1;
+const most = 2;
+
+const densityOf = (place) => (place <= none + 0.05 ? 0 : 10 ** place);
+const placeOf = (density) => (density <= 0 ? none : Math.log10(density));
+const wordsFor = (density) => (density === 0 ? 'none' : `× ${words(density, 2)}`);
+
+export class StatePanel {
+  constructor({ say }) {
+    this.say = say;
+    this.scenarios = el('div', { className: 'scenarios' });
+    this.value = el('output', { textContent: '–' });
+    this.slider = el('input', {
+      type: 'range', id: 'smoke', min: none, max: most, step: 0.05, value: 0,
+      on: {
+        input: () => (this.value.textContent = wordsFor(this.density)),
+        change: () => say({ type: 'smoke', factor: this.density }, 'smoke'),
+      },
+    });
+    const smoke = el('div', { className: 'line' },
+      el('label', { htmlFor: 'smoke', textContent: 'Smoke' }), this.slider, this.value);
+    this.controls = el('fieldset', {}, this.scenarios, smoke);
+    this.element = section('Scenario', this.controls);
+    this.saveControls = this.makeSave();
+    this.saveElement = section('Keep', this.saveControls);
+  }
+
+  get density() {
+    return Number(densityOf(Number(this.slider.value)).toPrecision(3));
+  }
+
+  makeSave() {
+    const name = el('input', {
+      type: 'text', maxLength: 80, placeholder: 'variant', aria: { label: 'Name of the variant' },
+    });
+    const save = (event) => {
+      event.preventDefault();
+      this.say({ type: 'save', name: name.value.trim() || 'variant' });
+    };
+    const submit = el('button', { textContent: 'Save as' });
+    return el('fieldset', {},
+      el('form', { className: 'line', on: { submit: save } }, name, submit));
+  }
+
+  scene({ scenarios, scenario, smoke }) {
+    const buttons = scenarios.map(({ name, operation }) => {
+      const chosen = () => this.say({ type: 'scenario', name }, 'scenario');
+      const b = button(name, chosen, { aria: { pressed: String(name === scenario) } });
+      b.append(el('small', { textContent: operation }));
+      return b;
+    });
+    this.scenarios.replaceChildren(...buttons);
+    this.slider.value = placeOf(smoke);
+    this.value.textContent = wordsFor(smoke);
+  }
+
+  edits(editor) {
+    this.controls.disabled = this.saveControls.disabled = !editor;
+  }
+}

@@ -1,0 +1,67 @@
+// The WebSocket to the program, opened again when it is lost.
+import { parseFrame, ProtocolError } from './frames.js';
+import { parseMessage } from './messages.js';
+import { Outbox } from './outbox.js';
+
+const firstPauseMs = 500;
+const longestPauseMs = 8000;
+/** A program that speaks nonsense this often is another program, or another version. */
+const faultsMost = 20;
+
+/** `/live` on the page's own host; of the page's address only the token is passed on. */
+export function liveAddress(page) {
+  const url = new URL('live', page);
+  url.protocol = url.protocol === 'https:' ? 'wss:' : 'ws:';
+  const token = new URL(page).searchParams.get('token');
+  url.search = token === null ? '' : `?${new URLSearchParams({ token })}`;
+  url.hash = '';
+  return url.href;
+}
+
+export class Connection {
+  /** `heard(messageOrFrame)`, `state('connecting' | 'open' | 'lost', words)`, `fault(words)`. */
+  constructor(address, { heard, state, fault }) {
+    Object.assign(this, { address, heard, state, fault });
+    this.pauseMs = firstPauseMs;
+    this.outbox = new Outbox((text) => this.socket.send(text));
+    this.open();
+  }
+
+  open() {
+    this.state('connecting', 'Connecting to the program …');
+    this.faults = 0;
+    this.socket = new WebSocket(this.address);
+    this.socket.binaryType = 'arraybuffer';
+    this.socket.onopen = () => {
+      this.pauseMs = firstPauseMs;
+      this.state('open', 'Connected');
+    };
+    this.socket.onmessage = ({ data }) => this.read(data);
+    this.socket.onclose = () => this.lost();
+  }
+
+  read(data) {
+    try {
+      this.heard(typeof data === 'string' ? parseMessage(data) : parseFrame(data));
+    } catch (error) {
+      if (!(error instanceof ProtocolError)) throw error;
+      this.fault(`The program said what this page does not understand: ${error.message}`);
+      if (++this.faults >= faultsMost) this.socket.close();
+    }
+  }
+
+  lost() {
+    this.outbox.clear();
+    const seconds = Math.max(1, Math.round(this.pauseMs / 1000));
+    this.state('lost', `The connection is lost; trying again in ${seconds} s. The picture stays.`);
+    setTimeout(() => this.open(), this.pauseMs);
+    this.pauseMs = Math.min(longestPauseMs, 2 * this.pauseMs);
+  }
+
+  /** Sends when there is somebody to send to; says whether it was taken. */
+  say(message, key) {
+    if (this.socket.readyState !== WebSocket.OPEN) return false;
+    this.outbox.put(message, key);
+    return true;
+  }
+}

@@ -1,0 +1,195 @@
+// What the program has told: the generation that is shown, and the next one while its light is
+// awaited. Pure: knows no screen, no socket, and only the clock that it is given.
+import { kinds, ProtocolError } from './protocol/frames.js';
+import { smokeSum, surfaceSum } from './light/sum.js';
+
+/** After a new generation's first light, so long are the other groups waited for. */
+const gatherMs = 250;
+
+const demand = (condition, what) => {
+  if (!condition) throw new ProtocolError(what);
+};
+
+class Generation {
+  constructor(scene) {
+    this.scene = scene;
+    this.number = scene.generation;
+    this.geometry = null;
+    this.smoke = null;
+    this.frames = new Map();
+  }
+}
+
+/**
+ * Tells `tell(event, detail)` of: 'scene', 'geometry', 'smoke', 'light', 'fading' (true, false),
+ * and passes on the messages that concern no picture under their type.
+ */
+export class Live {
+  constructor(tell, later = (f, ms) => setTimeout(f, ms)) {
+    this.tell = tell;
+    this.later = later;
+    /** Groups under this viewer's own hand: what comes of them is an echo, and older. */
+    this.held = () => false;
+    this.forget();
+  }
+
+  /** A new connection may lead to a new program, which counts generations from its own start. */
+  forget() {
+    this.next = null;
+    this.number = -1;
+    this.fresh = true;
+  }
+
+  get scene() {
+    return this.shown?.scene ?? null;
+  }
+
+  get newest() {
+    return this.next?.number ?? this.number;
+  }
+
+  hear(heard) {
+    if (heard.kind) this.frame(heard);
+    else if (heard.type === 'scene') this.announced(heard);
+    else if (heard.type === 'factors') this.factors(heard.factors);
+    else if (heard.type !== 'progress' || heard.generation === this.newest)
+      this.tell(heard.type, heard);
+  }
+
+  announced(scene) {
+    if (scene.generation < this.newest) return;
+    if (!this.fresh && scene.generation === this.number && !this.next) {
+      this.shown.scene = scene;
+      this.refactor();
+      this.tell('scene', scene);
+      return;
+    }
+    if (this.next?.number === scene.generation) {
+      this.next.scene = scene;
+      return;
+    }
+    this.next = new Generation(scene);
+    if (!this.shown) this.promote();
+    else this.tell('fading', true);
+    this.tell('editor', { editor: scene.editor });
+  }
+
+  frame(frame) {
+    if (frame.generation < this.newest) return;
+    demand(frame.generation === this.newest, 'a frame before its scene');
+    const target = this.next ?? this.shown;
+    if (frame.kind === kinds.geometry) target.geometry = frame;
+    if (frame.kind === kinds.smoke) {
+      demand(frame.halves.length === (target.scene.voxels?.total ?? 0), 'smoke of another size');
+      target.smoke = frame;
+    }
+    if (frame.group !== undefined) this.checkLight(frame, target);
+    if (this.next) this.stash(frame);
+    else this.apply(frame);
+  }
+
+  checkLight({ kind, group, halves }, { scene, geometry }) {
+    const triangles = (geometry ?? this.shown?.geometry)?.triangles ?? 0;
+    const expected = kind === kinds.surfaceLight ? 6 * triangles : 3 * (scene.voxels?.total ?? 0);
+    demand(halves.length === expected, `light of ${halves.length} numbers, not ${expected}`);
+    demand(group < scene.groups.length, `light of group ${group} of ${scene.groups.length}`);
+  }
+
+  stash(frame) {
+    if (frame.group === undefined) return;
+    const { next } = this;
+    const first = next.frames.size === 0;
+    next.frames.set(`${frame.kind} ${frame.group}`, frame);
+    const lit = [...next.frames.values()].filter((f) => f.kind === kinds.surfaceLight).length;
+    if (lit === next.scene.groups.length) this.promote();
+    else if (first) this.later(() => this.next === next && this.promote(), gatherMs);
+  }
+
+  /** The next generation becomes the one shown; of the old one's light stays what still fits. */
+  promote() {
+    const { next } = this;
+    const old = this.shown;
+    this.next = null;
+    this.fresh = false;
+    this.number = next.number;
+    this.shown = next;
+    const rebuilt = next.geometry !== null;
+    next.geometry ??= old?.geometry ?? null;
+    next.smoke ??= sameVoxels(old?.scene.voxels, next.scene.voxels) ? old?.smoke ?? null : null;
+    next.surfaces = this.inherit(old, next, 'surfaces', next.geometry?.triangles, surfaceSum);
+    next.air = this.inherit(old, next, 'air', next.scene.voxels?.total, smokeSum);
+    this.tell('scene', next.scene);
+    if (rebuilt) this.tell('geometry', next.geometry);
+    this.tell('smoke', next);
+    for (const frame of next.frames.values()) this.put(frame);
+    next.frames.clear();
+    this.tell('light', null);
+    this.tell('fading', false);
+  }
+
+  inherit(old, next, which, cells, make) {
+    if (!cells) return null;
+    const light = make(cells);
+    const kept = old?.[which]?.cells === cells ? old[which] : null;
+    const oldNames = old?.scene.groups.map((g) => g.name) ?? [];
+    next.scene.groups.forEach(({ name, factor }, i) => {
+      const entry = kept?.groups.get(oldNames.indexOf(name));
+      if (entry) light.set(i, entry.halves, factor);
+    });
+    return light;
+  }
+
+  apply(frame) {
+    if (frame.kind === kinds.geometry) {
+      this.shown.surfaces = this.inherit(null, this.shown, '', frame.triangles, surfaceSum);
+      this.tell('geometry', frame);
+    } else if (frame.kind === kinds.smoke) {
+      this.tell('smoke', this.shown);
+    } else {
+      this.put(frame);
+      this.tell('light', frame.group);
+    }
+  }
+
+  put({ kind, group, halves }) {
+    const light = kind === kinds.surfaceLight ? this.shown.surfaces : this.shown.air;
+    light?.set(group, halves, this.shown.scene.groups[group].factor);
+  }
+
+  factors(all) {
+    const changes = all.filter(({ name }) => !this.held(name));
+    for (const { name, factor } of changes) this.setFactor(name, factor);
+    this.tell('factors', changes);
+  }
+
+  /** Dims a group, in the picture and in the generation that is awaited. */
+  setFactor(name, factor) {
+    for (const generation of [this.shown, this.next]) {
+      const group = generation?.scene.groups.find((g) => g.name === name);
+      if (group) group.factor = factor;
+    }
+    this.refactor();
+  }
+
+  refactor() {
+    if (!this.shown) return;
+    let changed = false;
+    this.shown.scene.groups.forEach(({ factor }, i) => {
+      changed = this.shown.surfaces?.dim(i, factor) || changed;
+      changed = this.shown.air?.dim(i, factor) || changed;
+    });
+    if (changed) this.tell('light', null);
+  }
+
+  /** Takes out what rounding has left in the sums, some groups at a time; true when it is done. */
+  settle(most) {
+    const sums = [this.shown?.surfaces, this.shown?.air].filter((sum) => sum?.rounded);
+    if (!sums.every((sum) => sum.settle(most))) return false;
+    if (sums.length) this.tell('light', null);
+    return true;
+  }
+}
+
+function sameVoxels(a, b) {
+  return Boolean(a && b) && a.total === b.total && a.edge === b.edge;
+}

@@ -1,0 +1,262 @@
+// The page in a real browser, against the server that pretends.
+// `node browser_test.mjs [FOLDER FOR SCREENSHOTS]`; needs `npm run build` of the page before.
+import assert from 'node:assert/strict';
+import { mkdirSync } from 'node:fs';
+import { after, before, test } from 'node:test';
+import { chromium } from 'playwright-core';
+import { MockServer } from './mock_server.mjs';
+
+const shots =
+  process.env.LUX_SHOTS ?? process.argv[2] ?? new URL('shots', import.meta.url).pathname;
+const browserPath = process.env.LUX_CHROMIUM ?? '/usr/bin/chromium';
+const flags = ['--headless=new', '--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader',
+  '--enable-unsafe-swiftshader'];
+const patience = { timeout: 30_000 };
+
+/** Shares of the screen's raster; screenshots are drawn fine where LUX_FINE asks for it. */
+const coarse = 0.4;
+const fine = process.env.LUX_FINE ? 1 : coarse;
+
+let server;
+let browser;
+let address;
+let page;
+const complaints = [];
+
+async function open(options = {}) {
+  const context = await browser.newContext({
+    viewport: { width: 1024, height: 640 }, reducedMotion: 'reduce', ...options });
+  const opened = await context.newPage();
+  opened.on('console', (m) => ['error', 'warning'].includes(m.type()) && complaints.push(m.text()));
+  opened.on('pageerror', (error) => complaints.push(error.stack));
+  await opened.goto(address);
+  await opened.waitForFunction(() => window.luxodus?.page.live.shown?.surfaces?.groups.size === 6,
+    null, patience);
+  // A machine without a graphics card draws slowly; that it draws evenly is what counts here.
+  await raster(opened, coarse);
+  return opened;
+}
+
+const raster = (p, share) => p.evaluate((still) => {
+  const { picture } = window.luxodus.page;
+  picture.learns = false;
+  picture.shares = { moving: 0.4, still };
+}, share);
+const settled = (p = page) => p.evaluate(() => window.luxodus.settled());
+const mean = async (p = page) => {
+  await settled(p);
+  return p.evaluate(() => window.luxodus.meanLuminance());
+};
+const eye = (p = page) => p.evaluate(() => [...window.luxodus.page.motion.eye]);
+const shot = async (name, p = page) => {
+  await raster(p, fine);
+  await settled(p);
+  await p.screenshot({ path: `${shots}/${name}.png` });
+  await raster(p, coarse);
+};
+const slider = (name) => page.locator(`li[data-name="${name}"] input[type=range]`);
+const generation = () => page.evaluate(() => window.luxodus.page.live.number);
+
+async function pull(locator, value) {
+  await locator.evaluate((input, v) => {
+    input.value = v;
+    input.dispatchEvent(new Event('input', { bubbles: true }));
+    input.dispatchEvent(new Event('change', { bubbles: true }));
+  }, value);
+}
+
+before(async () => {
+  mkdirSync(shots, { recursive: true });
+  server = new MockServer({ traceMs: 2500 });
+  address = `http://127.0.0.1:${await server.listen()}/`;
+  browser = await chromium.launch({ executablePath: browserPath, args: flags, headless: true });
+  page = await open();
+});
+
+after(async () => {
+  await browser?.close();
+  server?.close();
+});
+
+test('the page loads, draws light, and complains of nothing', async () => {
+  assert.ok((await mean()) > 0.1);
+  await shot('walk_camera');
+  assert.deepEqual(complaints, []);
+});
+
+test('nothing is fetched but the page itself and the live connection', async () => {
+  const fetched = await page.evaluate(() =>
+    performance.getEntriesByType('resource').map((e) => e.name));
+  assert.deepEqual(fetched.filter((name) => !name.startsWith('data:')), []);
+});
+
+test('a key held down walks, and a wall stops the walk', async () => {
+  const from = await eye();
+  await page.locator('#picture').focus();
+  await page.keyboard.down('KeyW');
+  await page.waitForFunction((x) => window.luxodus.page.motion.eye[0] > x + 0.3, from[0], patience);
+  await page.keyboard.up('KeyW');
+  await page.evaluate(() => {
+    window.luxodus.page.motion.yaw = Math.PI;
+    for (let i = 0; i < 200; ++i) window.luxodus.page.go([-0.1, 0, 0]);
+  });
+  const [x, , z] = await eye();
+  assert.ok(x > 0.1 && x < 0.6, `stopped at ${x}`);
+  assert.ok(Math.abs(z - 1.65) < 0.01, `eye at ${z}`);
+});
+
+test('the mean luminance follows a dimmed luminaire linearly', async () => {
+  await page.evaluate(() => {
+    const { page: p } = window.luxodus;
+    p.jump(p.live.scene.observers[0]);
+  });
+  const at = {};
+  for (const factor of [1, 0.5, 0]) {
+    await pull(slider('lamp west'), factor);
+    at[factor] = await mean();
+  }
+  assert.ok(at[1] > 1.3 * at[0]);
+  const half = (at[0] + at[1]) / 2;
+  assert.ok(Math.abs(at[0.5] / half - 1) < 0.005, `${at[0.5]} against ${half}`);
+  await shot('lamp_off');
+  await pull(slider('lamp west'), 1);
+  const sent = server.heard.filter((m) => m.type === 'factor');
+  assert.ok(sent.every((m) => m.group === 'lamp west'));
+});
+
+test('thicker smoke shows the old picture faded, then the new one', async () => {
+  const before = await mean();
+  const old = await generation();
+  await pull(page.locator('#smoke'), 0.6);
+  await page.locator('#banner').waitFor({ state: 'visible', ...patience });
+  assert.equal(await generation(), old);
+  await page.screenshot({ path: `${shots}/fading.png` });
+  await page.locator('#banner').waitFor({ state: 'hidden', ...patience });
+  assert.equal(await generation(), old + 1);
+  assert.notEqual(await mean(), before);
+  await shot('thick_smoke');
+  await pull(page.locator('#smoke'), 0);
+  await page.waitForFunction((g) => window.luxodus.page.live.number === g, old + 2, patience);
+});
+
+test('a surface tells its light, a sign its verdicts, and the sign can be moved', async () => {
+  await page.mouse.click(330, 520);
+  await page.locator('dl dd').first().waitFor(patience);
+  await page.getByText('standard error').waitFor(patience);
+  await shot('probe');
+  await page.evaluate(() => {
+    const { page: p } = window.luxodus;
+    p.selectSign(p.live.scene.signs[0]);
+  });
+  await page.locator('#panel table').waitFor(patience);
+  await shot('sign');
+  const old = await generation();
+  await page.getByRole('button', { name: 'Left', exact: true }).click();
+  await page.waitForFunction((g) => window.luxodus.page.live.number > g, old, patience);
+  const move = server.heard.findLast((m) => m.type === 'move');
+  assert.deepEqual([move.kind, move.name], ['sign', 'exit sign']);
+  assert.ok(Math.abs(Math.hypot(...move.position.map((x, i) => x - [6.49, 2.9, 2.4][i])) - 0.25)
+    < 1e-6);
+});
+
+test('a selected sign is dragged along its wall', async () => {
+  await settled();
+  const point = () => page.evaluate(() => {
+    const { page: p } = window.luxodus;
+    const [x, y] = p.labels.project(p.live.scene.signs[0].position, p.picture.camera);
+    const { clientWidth, clientHeight } = document.getElementById('picture');
+    return [(0.5 + 0.5 * x) * clientWidth, (0.5 - 0.5 * y) * clientHeight];
+  });
+  const [x, y] = await point();
+  const count = server.heard.filter((m) => m.type === 'move').length;
+  const old = await generation();
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.move(x - 30, y, { steps: 3 });
+  await page.mouse.up();
+  await page.waitForFunction((g) => window.luxodus.page.live.number > g, old, patience);
+  const moves = server.heard.filter((m) => m.type === 'move');
+  assert.equal(moves.length, count + 1);
+  assert.ok(Math.abs(moves.at(-1).position[0] - 6.49) < 1e-6, 'it stays on its wall');
+  await page.keyboard.press('Escape');
+});
+
+test('false colours have a legend, the eye and the plan their own pictures', async () => {
+  await page.getByRole('button', { name: 'Luminance' }).click();
+  assert.ok(await page.locator('#legend').isVisible());
+  await shot('luminance');
+  await page.getByRole('button', { name: 'Eye', exact: true }).click();
+  await shot('eye');
+  await page.getByRole('button', { name: 'Camera', exact: true }).click();
+  await page.getByRole('button', { name: 'Plan' }).click();
+  await shot('plan');
+  await page.getByRole('button', { name: 'Orbit' }).click();
+  await shot('orbit');
+  await page.getByRole('button', { name: 'Walk' }).click();
+});
+
+test('a scenario is one click, and an eye sees it darker than a camera', async () => {
+  const old = await generation();
+  await page.getByRole('button', { name: /smoke, emergency/ }).click();
+  await page.waitForFunction((g) => window.luxodus.page.live.number > g, old, patience);
+  await page.getByRole('button', { name: 'Eye', exact: true }).click();
+  assert.ok((await mean()) < 1);
+  await shot('emergency_eye');
+  await page.getByRole('button', { name: 'Camera', exact: true }).click();
+  await shot('emergency_camera');
+  await page.keyboard.press('?');
+  await page.locator('#help').waitFor({ state: 'visible', ...patience });
+  await shot('help');
+  await page.getByRole('button', { name: 'Close' }).click();
+});
+
+test('an edit that is refused is said so', async () => {
+  await page.getByLabel('Name of the variant').fill('../out');
+  await page.getByRole('button', { name: 'Save as' }).click();
+  await page.locator('.toast', { hasText: 'Refused' }).waitFor(patience);
+  await shot('refused');
+  await page.getByLabel('Name of the variant').fill('variant_2');
+  await page.getByRole('button', { name: 'Save as' }).click();
+  await page.locator('.toast', { hasText: 'variant_2.toml' }).waitFor(patience);
+});
+
+test('of two viewers one edits; the other may take over', async () => {
+  const second = await open();
+  assert.ok(await second.locator('#smoke').isDisabled());
+  assert.ok(await page.locator('#smoke').isEnabled());
+  await pull(slider('lamp east'), 0.25);
+  await second.waitForFunction(() => window.luxodus.page.live.scene.groups
+    .find((g) => g.name === 'lamp east').factor === 0.25, null, patience);
+  await shot('read_only', second);
+  await second.getByRole('button', { name: 'take over' }).click();
+  await second.locator('#smoke:enabled').waitFor(patience);
+  await page.locator('#smoke:disabled').waitFor({ state: 'attached', ...patience });
+  await second.context().close();
+});
+
+test('a phone has room for it', async () => {
+  const phone = await open({ viewport: { width: 390, height: 780 }, hasTouch: true });
+  await shot('phone', phone);
+  await phone.locator('#fold').click();
+  await shot('phone_panel', phone);
+  await phone.context().close();
+});
+
+test('a lost connection is said, and found again', async () => {
+  for (const viewer of server.viewers) viewer.terminate();
+  await page.locator('#link[data-state=lost]').waitFor(patience);
+  await page.locator('#link[data-state=open]').waitFor(patience);
+  await page.waitForFunction(() => !window.luxodus.page.live.fresh, null, patience);
+  assert.ok((await mean()) > 0.05);
+});
+
+test('rubbish on the wire is reported and does no harm', async () => {
+  for (const viewer of server.viewers) {
+    viewer.send('{"type":"scene"}');
+    viewer.send(Buffer.alloc(7));
+    viewer.send(Buffer.alloc(64, 255));
+  }
+  await page.locator('.toast', { hasText: 'does not understand' }).first().waitFor(patience);
+  assert.ok((await mean()) > 0.05);
+  assert.deepEqual(complaints.filter((c) => !c.includes('WebSocket')), []);
+});

@@ -1,0 +1,180 @@
+// A server that speaks actors/view/PROTOCOL.md without a simulation behind it.
+// By hand: `node mock_server.mjs 8099`, then open http://127.0.0.1:8099/
+import { readFileSync } from 'node:fs';
+import { createServer } from 'node:http';
+import { fileURLToPath } from 'node:url';
+import { WebSocketServer } from 'ws';
+import * as room from './mock_room.mjs';
+
+const pageFile = fileURLToPath(
+  new URL('../../actors/view/page/dist/index.html', import.meta.url));
+const scenarios = [
+  { name: 'smoke, mains', operation: 'mains', smoke: 1, lamps: 1 },
+  { name: 'smoke, emergency', operation: 'emergency', smoke: 1, lamps: 0.05 },
+  { name: 'clear, mains', operation: 'mains', smoke: 0, lamps: 1 },
+  { name: 'smoke, dark', operation: 'dark', smoke: 1, lamps: 0 },
+];
+
+export class MockServer {
+  /** `traceMs`: how long the first light of a new generation is awaited. */
+  constructor({ traceMs = 400 } = {}) {
+    this.traceMs = traceMs;
+    this.viewers = new Set();
+    this.editor = null;
+    this.state = room.startState();
+    this.generation = 1;
+    this.particles = 0;
+    this.heard = [];
+    this.frames = null;
+  }
+
+  async listen(port = 0) {
+    const page = readFileSync(pageFile);
+    this.http = createServer(({ url }, answer) => {
+      const here = new URL(url, 'http://mock').pathname === '/';
+      answer.writeHead(here ? 200 : 404, { 'content-type': here ? 'text/html' : 'text/plain' });
+      answer.end(here ? page : 'not here');
+    });
+    this.sockets = new WebSocketServer({ server: this.http, path: '/live' });
+    this.sockets.on('connection', (socket) => this.welcome(socket));
+    this.pulse = setInterval(() => this.progress(), 400);
+    await new Promise((done) => this.http.listen(port, '127.0.0.1', done));
+    return this.http.address().port;
+  }
+
+  close() {
+    clearInterval(this.pulse);
+    clearTimeout(this.tracing);
+    for (const viewer of this.viewers) viewer.terminate();
+    this.http.close();
+  }
+
+  trace() {
+    const { generation, state } = this;
+    const frames = [room.smokeFrame(generation, state)];
+    room.sources.forEach((_, group) => frames.push(
+      room.lightFrame(generation, group, state),
+      room.smokeLightFrame(generation, group, state)));
+    return frames;
+  }
+
+  scene(viewer) {
+    const { state, generation } = this;
+    const groups = room.sources.map(({ name, kind, position }) =>
+      ({ name, kind, position, factor: state.factors[name] }));
+    return { type: 'scene', generation, name: 'mock', title: 'Two rooms and a fire in a bin',
+      scenarios: scenarios.map(({ name, operation }) => ({ name, operation })),
+      scenario: state.scenario, smoke: state.smoke, low: room.low, high: room.high, groups,
+      signs: state.signs, luminaires: state.luminaires, observers: room.observers,
+      cameras: room.cameras, voxels: room.voxels, editor: viewer !== null && viewer === this.editor,
+    };
+  }
+
+  welcome(viewer) {
+    this.viewers.add(viewer);
+    this.editor ??= viewer;
+    viewer.on('message', (data) => this.hear(viewer, JSON.parse(String(data))));
+    viewer.on('close', () => {
+      this.viewers.delete(viewer);
+      if (this.editor === viewer) this.editor = null;
+    });
+    this.tell(viewer, this.scene(viewer));
+    viewer.send(room.geometryFrame(this.generation));
+    this.frames ??= this.trace();
+    for (const frame of this.frames) viewer.send(frame);
+  }
+
+  tell(viewer, message) {
+    viewer.send(JSON.stringify(message));
+  }
+
+  tellAll(message) {
+    for (const viewer of this.viewers) this.tell(viewer, message);
+  }
+
+  progress() {
+    this.particles += 40_000;
+    const done = this.particles > 4_000_000;
+    this.tellAll({ type: 'progress', generation: this.generation, particles: this.particles,
+      relative_error: Math.min(1, 12 / Math.sqrt(this.particles)),
+      seconds: this.particles / 1e5, done });
+  }
+
+  hear(viewer, message) {
+    this.heard.push(message);
+    const edits = ['factor', 'scenario', 'smoke', 'move', 'save'];
+    if (edits.includes(message.type) && viewer !== this.editor)
+      this.tell(viewer, { type: 'refused', why: 'somebody else is editing' });
+    else this[`do_${message.type}`]?.(viewer, message);
+  }
+
+  /** A new generation: announced at once, its light comes later. */
+  begin() {
+    ++this.generation;
+    this.particles = 0;
+    for (const viewer of this.viewers) this.tell(viewer, this.scene(viewer));
+    clearTimeout(this.tracing);
+    this.tracing = setTimeout(() => {
+      this.frames = this.trace();
+      for (const viewer of this.viewers) for (const frame of this.frames) viewer.send(frame);
+    }, this.traceMs);
+  }
+
+  do_factor(_, { group, factor }) {
+    this.state.factors[group] = factor;
+    this.tellAll({ type: 'factors', factors: { [group]: factor } });
+  }
+
+  do_scenario(_, { name }) {
+    const chosen = scenarios.find((s) => s.name === name);
+    this.state.scenario = name;
+    this.state.smoke = chosen.smoke;
+    for (const { name: group, kind } of room.sources)
+      if (kind === 'luminaire') this.state.factors[group] = chosen.lamps;
+    this.begin();
+  }
+
+  do_smoke(_, { factor }) {
+    this.state.smoke = factor;
+    this.begin();
+  }
+
+  do_move(_, { kind, name, position }) {
+    const things = kind === 'sign' ? this.state.signs : this.state.luminaires;
+    things.find((t) => t.name === name).position = position;
+    this.begin();
+  }
+
+  do_save(viewer, { name }) {
+    if (/^[\w-]{1,64}$/.test(name)) this.tell(viewer, { type: 'saved', file: `${name}.toml` });
+    else this.tell(viewer, { type: 'refused', why: `"${name}" is no name for a file` });
+  }
+
+  do_edit(viewer, { wanted }) {
+    const old = this.editor;
+    if (wanted) this.editor = viewer;
+    else if (old === viewer) this.editor = null;
+    if (old && old !== this.editor) this.tell(old, { type: 'editor', editor: false });
+    this.tell(viewer, { type: 'editor', editor: viewer === this.editor });
+  }
+
+  do_probe(viewer, message) {
+    this.tell(viewer, { type: 'probe', id: message.id, ...room.probe(this.state, message) });
+  }
+
+  do_judge(viewer, { sign }) {
+    const { position } = this.state.signs.find((s) => s.name === sign);
+    const rows = room.observers.map(({ name, eye }) => {
+      const distance = Math.hypot(...eye.map((x, i) => x - position[i]));
+      const legible = distance * this.state.smoke < 7;
+      return { from: name, distance, verdict: legible ? 'legible' : 'visible but not legible',
+        reason: `the detail is at visibility level ${legible ? 11 : 4}, 7 is needed` };
+    });
+    this.tell(viewer, { type: 'sign', name: sign, rows });
+  }
+}
+
+if (process.argv[1] === fileURLToPath(import.meta.url)) {
+  const port = await new MockServer().listen(Number(process.argv[2] ?? 8099));
+  console.log(`http://127.0.0.1:${port}/`);
+}

@@ -1,0 +1,75 @@
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { count, scaleColour, scalePlace, scaleTexels, words, wordsWithError }
+  from '../../../actors/view/page/src/light/colours.js';
+import { Exposure, eyeScale, readMeter } from '../../../actors/view/page/src/draw/exposure.js';
+
+const linear = (byte) => {
+  const x = byte / 255;
+  return x <= 0.04045 ? x / 12.92 : ((x + 0.055) / 1.055) ** 2.4;
+};
+
+test('the scale grows lighter all the way, so that it survives grey print', () => {
+  const lightness = Array.from({ length: 101 }, (_, i) => {
+    const [r, g, b] = scaleColour(i / 100).map(linear);
+    return 0.2126 * r + 0.7152 * g + 0.0722 * b;
+  });
+  for (let i = 1; i < lightness.length; ++i) assert.ok(lightness[i] > lightness[i - 1]);
+});
+
+test('a decade is a sixth of the scale', () => {
+  assert.ok(Math.abs(scalePlace(1e-3)) < 1e-9);
+  assert.ok(Math.abs(scalePlace(1) - 0.5) < 1e-9);
+  assert.ok(Math.abs(scalePlace(1e3) - 1) < 1e-9);
+  assert.equal(scaleTexels().length, 1024);
+});
+
+test('numbers have three digits, errors two, and values as many as their error allows', () => {
+  assert.equal(words(0.012345), '0.0123');
+  assert.equal(words(12345.6), '12\u202f346');
+  assert.equal(words(0), '0');
+  assert.equal(words(null), '–');
+  assert.equal(words(1e-9), '1.00e-9');
+  assert.equal(wordsWithError(12.3456, 0.234), '12.35 ± 0.23');
+  assert.equal(wordsWithError(4.08, 0.082), '4.080 ± 0.082');
+  assert.equal(wordsWithError(12345, 67), '12\u202f345 ± 67');
+  assert.equal(count(800000), '800\u202f000');
+});
+
+test('the meter gives the log-average of what has light', () => {
+  const cells = Float32Array.of(10 * Math.log2(4), 10, 0, 1, 10 * Math.log2(16), 10, 0, 1,
+    0, 0, 0, 1);
+  assert.ok(Math.abs(readMeter(cells) - 8) < 1e-6);
+  assert.ok(readMeter(new Float32Array(8)) > 0);
+});
+
+test('a dark-adapted eye needs less light for the same grey', () => {
+  assert.ok(eyeScale(0.01) > eyeScale(1));
+  assert.ok(eyeScale(1) > eyeScale(100));
+  // As bright a building as the screen's own half: a cd/m2 is shown as a cd/m2.
+  assert.ok(Math.abs(eyeScale(125) - 1 / 250) < 1e-6);
+});
+
+test('exposure adapts towards what is metered and then rests', () => {
+  const exposure = new Exposure();
+  exposure.meter(Float32Array.of(Math.log2(1), 1, 0, 0));
+  exposure.adapt(0.1);
+  exposure.meter(Float32Array.of(Math.log2(64), 1, 0, 0));
+  let before = exposure.level;
+  for (let i = 0; i < 60 && exposure.adapt(0.1); ++i) {
+    assert.ok(exposure.level > before);
+    before = exposure.level;
+  }
+  assert.ok(Math.abs(exposure.level / 64 - 1) < 0.01);
+  assert.equal(exposure.adapt(0.1), false);
+});
+
+test('who wants no motion gets the new exposure at once, and is shown it', () => {
+  const exposure = new Exposure();
+  for (const luminance of [1, 30]) {
+    exposure.meter(Float32Array.of(Math.log2(luminance), 1, 0, 0));
+    assert.equal(exposure.adapt(0.01, true), true);
+    assert.ok(Math.abs(exposure.level / luminance - 1) < 1e-6);
+    assert.equal(exposure.adapt(0.01, true), false);
+  }
+});

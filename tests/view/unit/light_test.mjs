@@ -1,0 +1,95 @@
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { smokeSum, surfaceSum } from '../../../actors/view/page/src/light/sum.js';
+import { smooth, weld } from '../../../actors/view/page/src/light/weld.js';
+import { toHalf } from '../../../actors/view/page/src/protocol/half.js';
+
+const halves = (...values) => Uint16Array.from(values, toHalf);
+
+test('light is the sum over groups of factor times light', () => {
+  const sum = surfaceSum(1);
+  sum.set(0, halves(1, 2, 3, 4, 5, 6), 1);
+  sum.set(1, halves(10, 10, 10, 0, 0, 0), 0.5);
+  assert.deepEqual([...sum.sum], [6, 7, 8, 0, 4, 5, 6, 0]);
+  sum.dim(0, 0);
+  assert.deepEqual([...sum.sum], [5, 5, 5, 0, 0, 0, 0, 0]);
+});
+
+test('newer light of a group replaces its older light', () => {
+  const sum = smokeSum(2);
+  sum.set(3, halves(1, 1, 1, 2, 2, 2), 2);
+  sum.set(3, halves(4, 4, 4, 8, 8, 8), 2);
+  assert.deepEqual([...sum.sum], [8, 8, 8, 0, 16, 16, 16, 0]);
+});
+
+test('settling leaves nothing of what was bright', () => {
+  const sum = smokeSum(1);
+  sum.set(0, halves(60000, 60000, 60000), 1);
+  sum.set(1, halves(1e-4, 1e-4, 1e-4), 1);
+  for (let i = 0; i < 50; ++i) sum.dim(0, i * 0.137);
+  sum.dim(0, 0);
+  assert.equal(sum.settle(1), false);
+  assert.equal(sum.settle(1), true);
+  assert.ok(Math.abs(sum.sum[0] / 1e-4 - 1) < 1e-3);
+  assert.equal(sum.rounded, false);
+});
+
+test('light that changes while the sum is settled is not lost', () => {
+  const sum = smokeSum(1);
+  sum.set(0, halves(1, 1, 1), 1);
+  sum.set(1, halves(2, 2, 2), 1);
+  sum.dim(0, 0.5);
+  sum.settle(1);
+  sum.dim(0, 0.25);
+  sum.settle(1);
+  sum.set(2, halves(8, 8, 8), 1);
+  sum.settle();
+  assert.deepEqual([...sum.sum], [10.25, 10.25, 10.25, 0]);
+});
+
+test('dimming a group that has no light, or to what it is, changes nothing', () => {
+  const sum = smokeSum(1);
+  sum.set(0, halves(1, 1, 1), 1);
+  assert.equal(sum.dim(0, 1), false);
+  assert.equal(sum.dim(9, 0.5), false);
+});
+
+test('one of thirty-two groups of 120 000 triangles is dimmed; the time is printed', () => {
+  const sum = surfaceSum(120_000);
+  const light = new Uint16Array(sum.length).fill(toHalf(1));
+  for (let g = 0; g < 32; ++g) sum.set(g, light, 1);
+  const start = performance.now();
+  sum.dim(7, 0.25);
+  console.log(`one group of 120 000 triangles: ${(performance.now() - start).toFixed(1)} ms`);
+  assert.equal(sum.sum[0], 31.25);
+});
+
+const square = {
+  triangles: 2,
+  corners: Float32Array.of(0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 0, 0, 1, 1, 0, 0, 1, 0),
+  surfaces: Uint32Array.of(0, 0),
+};
+
+test('triangles of one flat surface share their points', () => {
+  const { points, pointOf, area } = weld(square);
+  assert.equal(points, 4);
+  assert.equal(pointOf[0], pointOf[3]);
+  assert.deepEqual([...area], [0.5, 0.5]);
+});
+
+test('another surface or another plane keeps its own points', () => {
+  assert.equal(weld({ ...square, surfaces: Uint32Array.of(0, 1) }).points, 6);
+  const corners = Float32Array.from(square.corners);
+  corners[17] = 1;
+  assert.equal(weld({ ...square, corners }).points, 6);
+});
+
+test('even light stays even when smoothed, and shared points take the mean by area', () => {
+  const welded = weld(square);
+  const out = new Float32Array(8 * welded.points);
+  smooth(Float32Array.of(2, 2, 2, 0, 1, 1, 1, 0, 4, 4, 4, 0, 1, 1, 1, 0), welded, out);
+  assert.equal(out[8 * welded.pointOf[0]], 3);
+  assert.equal(out[8 * welded.pointOf[1]], 2);
+  assert.equal(out[8 * welded.pointOf[5]], 4);
+  for (let p = 0; p < welded.points; ++p) assert.equal(out[8 * p + 4], 1);
+});

@@ -1,0 +1,51 @@
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { ProtocolError } from '../../../actors/view/page/src/protocol/frames.js';
+import { parseMessage } from '../../../actors/view/page/src/protocol/messages.js';
+import { liveAddress } from '../../../actors/view/page/src/protocol/connection.js';
+import { MockServer } from '../mock_server.mjs';
+
+const scene = () => new MockServer().scene(null);
+const read = (message) => parseMessage(JSON.stringify(message));
+
+test('a scene is taken over field by field', () => {
+  const { groups, signs, voxels, editor } = read({ ...scene(), surprise: 1 });
+  assert.equal(groups.length, 6);
+  assert.equal(signs[0].texels.length, 128 * 64);
+  assert.equal(voxels.total, 22 * 12 * 6);
+  assert.equal(editor, false);
+  assert.ok(!('surprise' in read({ ...scene(), surprise: 1 })));
+});
+
+test('a scene with a wrong part is refused, and the part named', () => {
+  const harmed = (change) => {
+    const s = structuredClone(scene());
+    change(s);
+    return () => read(s);
+  };
+  const named = (pattern) => (error) =>
+    error instanceof ProtocolError && pattern.test(error.message);
+  assert.throws(harmed((s) => (s.groups[2].factor = -1)), named(/groups\[2\]\.factor/));
+  assert.throws(harmed((s) => (s.groups[0].kind = 'sun')), named(/groups\[0\]\.kind/));
+  assert.throws(harmed((s) => (s.signs[1].rows = 63)), named(/signs\[1\]\.texels/));
+  assert.throws(harmed((s) => (s.signs[0].facing = [0, 1])), named(/facing/));
+  assert.throws(harmed((s) => (s.voxels.count = [4000, 4000, 4000])), named(/voxels/));
+  assert.throws(harmed((s) => delete s.low), named(/low/));
+  assert.throws(harmed((s) => (s.luminaires[0] = null)), ProtocolError);
+});
+
+test('text that is no message is refused', () => {
+  for (const text of ['', '{', '[]', '7', 'null', '{"type":"toString"}', '{"type":"sudo"}'])
+    assert.throws(() => parseMessage(text), ProtocolError);
+});
+
+test('an error that is not known stays unknown', () => {
+  const base = { generation: 1, particles: 5, seconds: 1 };
+  assert.equal(read({ type: 'progress', ...base, relative_error: null }).relativeError, null);
+  assert.equal(read({ type: 'progress', ...base, relative_error: 0.5 }).relativeError, 0.5);
+});
+
+test('of the address of the page only the token goes on', () => {
+  assert.equal(liveAddress('http://a:8080/?token=x%26y&z=1#q'), 'ws://a:8080/live?token=x%26y');
+  assert.equal(liveAddress('https://a/'), 'wss://a/live');
+});

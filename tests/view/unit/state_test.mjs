@@ -1,0 +1,143 @@
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { parseFrame, ProtocolError } from '../../../actors/view/page/src/protocol/frames.js';
+import { parseMessage } from '../../../actors/view/page/src/protocol/messages.js';
+import { intervalMs, Outbox } from '../../../actors/view/page/src/protocol/outbox.js';
+import { Live } from '../../../actors/view/page/src/state.js';
+import { geometryFrame, lightFrame, smokeFrame, sources, startState } from '../mock_room.mjs';
+import { MockServer } from '../mock_server.mjs';
+
+/** A page's state without a page, and a clock that only tests turn. */
+function heard() {
+  const events = [];
+  const waiting = [];
+  const live = new Live((name, detail) => events.push([name, detail]), (f) => waiting.push(f));
+  const server = new MockServer();
+  const scene = (generation) => {
+    server.generation = generation;
+    return parseMessage(JSON.stringify(server.scene(null)));
+  };
+  const named = (name) => events.filter(([n]) => n === name).map(([, detail]) => detail);
+  return { live, scene, events, named, ring: () => waiting.splice(0).forEach((f) => f()) };
+}
+
+const state = startState();
+const light = (generation, group) => parseFrame(lightFrame(generation, group, state));
+const geometry = (generation) => parseFrame(geometryFrame(generation));
+
+function started() {
+  const all = heard();
+  all.live.hear(all.scene(1));
+  all.live.hear(geometry(1));
+  sources.forEach((_, group) => all.live.hear(light(1, group)));
+  return all;
+}
+
+test('the first scene is shown at once', () => {
+  const { live, named } = started();
+  assert.equal(live.number, 1);
+  assert.equal(live.shown.surfaces.groups.size, sources.length);
+  assert.deepEqual(named('fading').filter(Boolean), []);
+});
+
+test('a new generation waits for its light, the old one stays', () => {
+  const { live, scene, named, ring } = started();
+  live.hear(scene(2));
+  assert.equal(live.number, 1);
+  assert.equal(named('fading').at(-1), true);
+  live.hear(light(2, 0));
+  assert.equal(live.number, 1);
+  ring();
+  assert.equal(live.number, 2);
+  assert.equal(named('fading').at(-1), false);
+  assert.equal(live.shown.surfaces.groups.size, sources.length, 'other groups keep their light');
+});
+
+test('a new generation whose groups all have light waits no longer', () => {
+  const { live, scene } = started();
+  live.hear(scene(2));
+  sources.forEach((_, group) => live.hear(light(2, group)));
+  assert.equal(live.number, 2);
+});
+
+test('late frames of an older generation are thrown away', () => {
+  const { live, scene, ring } = started();
+  live.hear(scene(3));
+  const before = Float32Array.from(live.shown.surfaces.sum);
+  live.hear(light(1, 0));
+  ring();
+  assert.equal(live.number, 1);
+  assert.deepEqual(live.shown.surfaces.sum, before);
+});
+
+test('a newer scene overtakes one that still waits', () => {
+  const { live, scene, ring } = started();
+  live.hear(scene(2));
+  live.hear(light(2, 0));
+  live.hear(scene(3));
+  ring();
+  assert.equal(live.number, 1);
+  live.hear(light(3, 0));
+  ring();
+  assert.equal(live.number, 3);
+});
+
+test('a new connection begins anew, whatever the generations were called', () => {
+  const { live, scene, ring } = started();
+  live.hear(scene(5));
+  live.forget();
+  live.hear(scene(1));
+  live.hear(geometry(1));
+  live.hear(light(1, 0));
+  ring();
+  assert.equal(live.number, 1);
+  assert.equal(live.next, null);
+});
+
+test('light of another size, of no group, or before its scene is refused', () => {
+  const { live, scene } = started();
+  assert.throws(() => live.hear({ ...light(1, 0), halves: new Uint16Array(6) }), ProtocolError);
+  assert.throws(() => live.hear({ ...light(1, 0), group: 99 }), ProtocolError);
+  assert.throws(() => live.hear(light(2, 0)), ProtocolError);
+  live.hear({ ...scene(2), voxels: null });
+  const smoke = parseFrame(smokeFrame(2, state));
+  assert.throws(() => live.hear(smoke), ProtocolError);
+});
+
+test('factors dim the picture and those not named stay', () => {
+  const { live } = started();
+  const before = Float32Array.from(live.shown.surfaces.sum);
+  live.hear({ type: 'factors', factors: sources.map(({ name }) => ({ name, factor: 0.5 })) });
+  live.settle();
+  for (let i = 0; i < before.length; i += 97)
+    assert.ok(Math.abs(live.shown.surfaces.sum[i] - before[i] / 2) <= 1e-6 * before[i] + 1e-9);
+  live.hear({ type: 'factors', factors: [{ name: 'lamp west', factor: 0 }] });
+  assert.equal(live.scene.groups[0].factor, 0);
+  assert.equal(live.scene.groups[1].factor, 0.5);
+});
+
+test('an echo does not pull a slider out of the hand', () => {
+  const { live, named } = started();
+  live.held = (name) => name === 'lamp west';
+  live.setFactor('lamp west', 0.2);
+  const factors = ['lamp west', 'lamp east'].map((name) => ({ name, factor: 0.9 }));
+  live.hear({ type: 'factors', factors });
+  assert.equal(live.scene.groups[0].factor, 0.2);
+  assert.deepEqual(named('factors').at(-1), [{ name: 'lamp east', factor: 0.9 }]);
+});
+
+test('a slider sends its last value and no more than the program takes', () => {
+  const sent = [];
+  const waiting = [];
+  let interval = 0;
+  const outbox = new Outbox((text) => sent.push(JSON.parse(text)), (f, ms) => {
+    interval = ms;
+    waiting.push(f);
+  });
+  for (let i = 1; i <= 100; ++i) outbox.put({ factor: i }, 'factor lamp');
+  outbox.put({ other: true });
+  while (waiting.length) waiting.shift()();
+  assert.deepEqual(sent, [{ factor: 1 }, { factor: 100 }, { other: true }]);
+  assert.equal(interval, intervalMs);
+  assert.ok(1000 / intervalMs < 50);
+});
