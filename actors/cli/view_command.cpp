@@ -18,6 +18,7 @@ struct ViewOptions {
   LiveOptions live;
   std::string scenario;
   std::string save_folder = ".";
+  std::string particles = "100M";
 };
 
 bool is_loopback(const std::string& address) {
@@ -45,6 +46,7 @@ Result<ExitCode> view(ViewOptions options) {
   auto server = ViewServer::listen(options.server);
   if (!server.ok()) return server.problem();
   install_interrupt_handler();
+  options.live.particles = parse_count(options.particles).value();
   HubOptions hub_options{options.live, {}, options.save_folder};
   hub_options.first.scenario = options.scenario;
   ViewServer& serving = *server.value();
@@ -74,6 +76,15 @@ void add_view(CLI::App& app, int& exit_code) {
   command->add_option("--port", options->server.port, "port; 0: any that is free [8080]");
   command->add_option("--address", options->server.address, "to listen on [127.0.0.1]");
   command->add_option("--save-folder", options->save_folder, "where variants are saved [.]");
+  command
+      ->add_option("--particles", options->particles,
+                   "of each state of the building, at most [100M]")
+      ->check(CLI::Validator(
+          [](std::string& text) {
+            const auto count = parse_count(text);
+            return count.ok() && count.value() > 0 ? "" : "a count such as 500k or 10M is wanted";
+          },
+          "COUNT"));
   command->add_option("--seed", options->live.seed, "of all random numbers [1]")
       ->check(seed_number());
   command->add_option("--threads", options->live.threads, "threads [all]")

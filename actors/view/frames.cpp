@@ -1,5 +1,7 @@
 #include "actors/view/frames.hpp"
 
+#include <array>
+#include <cmath>
 #include <cstring>
 #include <glm/gtc/packing.hpp>
 
@@ -39,21 +41,58 @@ class Writer {
   std::string text_;
 };
 
-/// Light of a bin as linear sRGB, of `per_watt` each; luminance is its weighted sum.
-std::array<double, 3> colour_of(const CompiledScene& scene, const Readout& readout, uint32_t block,
-                                uint32_t bin, uint32_t quantity, int group, double per_watt) {
-  std::array<double, 3> xyz{};
-  for (int b = 0; b < scene.bands.count(); ++b) {
-    const double watts = readout.watts(block, bin, b, quantity, group).value * per_watt;
-    const Band& band = scene.bands[b];
-    xyz[0] += watts * band.x_per_w;
-    xyz[1] += watts * band.lm_per_w;
-    xyz[2] += watts * band.z_per_w;
-  }
-  return linear_srgb_from_xyz(xyz);
-}
+/// A bin whose luminance is known worse than this has the colour of its group instead of its own,
+/// more and more: a path carries one band, so few paths give right luminances in wrong colours.
+constexpr double colour_known_at = 0.1;
 
-void put_colour(Writer& out, const std::array<double, 3>& rgb) {
+using Colour = std::array<double, 3>;
+
+/// One source group's light in the bins of a block as linear sRGB, whose weighted sum is the
+/// luminance.
+class GroupColours {
+ public:
+  GroupColours(const Readout& readout, const CompiledScene& scene, uint32_t block, int group)
+      : readout_(readout), scene_(scene), block_(block), group_(group) {}
+
+  /// Takes a bin into the group's mean colour.
+  void learn(uint32_t bin) {
+    const Colour xyz = xyz_of(bin);
+    for (size_t i = 0; i < 3; ++i) mean_[i] += xyz[i];
+  }
+  /// Of a bin, `per_watt` each. Requires: every bin was learned.
+  Colour of(uint32_t bin, double per_watt) const {
+    const Colour own = xyz_of(bin);
+    if (own[1] <= 0 || mean_[1] <= 0) return {};
+    const double error = readout_.lumens(block_, bin, 1, group_).relative_error();
+    const double known =
+        std::isfinite(error) ? 1 / (1 + error * error / (colour_known_at * colour_known_at)) : 0;
+    Colour mixed;
+    for (size_t i = 0; i < 3; ++i)
+      mixed[i] = per_watt * (known * own[i] + (1 - known) * own[1] * mean_[i] / mean_[1]);
+    return linear_srgb_from_xyz(mixed);
+  }
+
+ private:
+  Colour xyz_of(uint32_t bin) const {
+    Colour xyz{};
+    for (int b = 0; b < scene_.bands.count(); ++b) {
+      const double watts = readout_.watts(block_, bin, b, 1, group_).value;
+      const Band& band = scene_.bands[b];
+      xyz[0] += watts * band.x_per_w;
+      xyz[1] += watts * band.lm_per_w;
+      xyz[2] += watts * band.z_per_w;
+    }
+    return xyz;
+  }
+
+  const Readout& readout_;
+  const CompiledScene& scene_;
+  uint32_t block_;
+  int group_;
+  Colour mean_{};
+};
+
+void put_colour(Writer& out, const Colour& rgb) {
   for (const double channel : rgb) out.half(channel);
 }
 
@@ -61,10 +100,12 @@ void put_colour(Writer& out, const std::array<double, 3>& rgb) {
 LiveFrame surface_light(const CompiledScene& scene, const Readout& readout,
                         const std::vector<LivePatch>& patches, uint32_t generation, int group) {
   Writer out(FrameKind::light, generation, static_cast<uint32_t>(group));
+  GroupColours colours(readout, scene, scene.blocks.patches, group);
+  for (const LivePatch& patch : patches)
+    for (const uint32_t bin : {patch.front, patch.back}) colours.learn(bin);
   for (const LivePatch& patch : patches) {
     const double per_watt = 1 / (pi * patch.area_m2);
-    for (const uint32_t bin : {patch.front, patch.back})
-      put_colour(out, colour_of(scene, readout, scene.blocks.patches, bin, 1, group, per_watt));
+    for (const uint32_t bin : {patch.front, patch.back}) put_colour(out, colours.of(bin, per_watt));
   }
   return out.take();
 }
@@ -75,8 +116,9 @@ LiveFrame smoke_light(const CompiledScene& scene, const Readout& readout, uint32
   Writer out(FrameKind::smoke_light, generation, static_cast<uint32_t>(group));
   const auto edge = static_cast<double>(scene.voxels.edge);
   const double per_watt = 1 / (4 * pi * edge * edge * edge);
-  for (uint32_t i = 0; i < scene.voxels.count(); ++i)
-    put_colour(out, colour_of(scene, readout, scene.blocks.voxel_power, i, 1, group, per_watt));
+  GroupColours colours(readout, scene, scene.blocks.voxel_power, group);
+  for (uint32_t i = 0; i < scene.voxels.count(); ++i) colours.learn(i);
+  for (uint32_t i = 0; i < scene.voxels.count(); ++i) put_colour(out, colours.of(i, per_watt));
   return out.take();
 }
 

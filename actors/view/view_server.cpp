@@ -207,7 +207,8 @@ class Request final : public std::enable_shared_from_this<Request> {
     response_.set("X-Frame-Options", "DENY");
     response_.set("Content-Security-Policy",
                   "default-src 'none'; script-src 'unsafe-inline' blob:; style-src "
-                  "'unsafe-inline'; img-src data: blob:; connect-src 'self'; worker-src blob:");
+                  "'unsafe-inline'; img-src data: blob:; connect-src 'self'; worker-src blob:; "
+                  "frame-ancestors 'none'");
     response_.keep_alive(false);
     response_.body() = std::string(body);
     response_.prepare_payload();

@@ -51,16 +51,29 @@ struct Source {
   std::string at(size_t line) const { return path + ":" + std::to_string(line + 1); }
 };
 
+/// Our files below a folder: not what npm has fetched or built.
+std::vector<fs::path> files_below(const fs::path& folder) {
+  std::vector<fs::path> files;
+  fs::recursive_directory_iterator at(folder);
+  for (; at != fs::recursive_directory_iterator(); ++at) {
+    const std::string name = at->path().filename().string();
+    if (name == "node_modules" || name == "dist")
+      at.disable_recursion_pending();
+    else if (at->is_regular_file())
+      files.push_back(at->path());
+  }
+  return files;
+}
+
 const std::vector<Source>& sources() {
   static const std::vector<Source> all = [] {
     std::vector<Source> found;
     for (const char* top : top_folders) {
       if (!fs::exists(root / top)) continue;
-      for (const auto& entry : fs::recursive_directory_iterator(root / top)) {
-        const std::string suffix = entry.path().extension().string();
-        if (entry.is_regular_file() && (suffix == ".cpp" || suffix == ".hpp"))
-          found.push_back(
-              {fs::relative(entry.path(), root).generic_string(), lines_of(entry.path())});
+      for (const fs::path& file : files_below(root / top)) {
+        const std::string suffix = file.extension().string();
+        if (suffix == ".cpp" || suffix == ".hpp")
+          found.push_back({fs::relative(file, root).generic_string(), lines_of(file)});
       }
     }
     std::sort(found.begin(), found.end(),
@@ -309,8 +322,8 @@ TEST_CASE("relative links in the documents lead somewhere", "[tidy]") {
     if (entry.path().extension() == ".md") documents.push_back(entry.path());
   for (const char* top : top_folders) {
     if (!fs::exists(root / top)) continue;
-    for (const auto& entry : fs::recursive_directory_iterator(root / top))
-      if (entry.path().extension() == ".md") documents.push_back(entry.path());
+    for (const fs::path& file : files_below(root / top))
+      if (file.extension() == ".md") documents.push_back(file);
   }
   for (const fs::path& document : documents)
     for (const std::string& line : lines_of(document))
@@ -329,8 +342,8 @@ TEST_CASE("every shell script parses and can be run", "[tidy]") {
                                 root / ".ci" / "run", root / ".ci" / "build"};
   for (const char* folder : {"scripts", "scenes", "tests"}) {
     if (!fs::exists(root / folder)) continue;
-    for (const auto& entry : fs::recursive_directory_iterator(root / folder))
-      if (entry.path().extension() == ".sh") scripts.push_back(entry.path());
+    for (const fs::path& file : files_below(root / folder))
+      if (file.extension() == ".sh") scripts.push_back(file);
   }
   Findings bad;
   for (const fs::path& script : scripts) {

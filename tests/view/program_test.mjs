@@ -1,0 +1,144 @@
+// The page in a real browser, served by the program itself.
+// `node program_test.mjs`; LUX_PROGRAM names the program, LUX_SHOTS the folder for pictures.
+import assert from 'node:assert/strict';
+import { spawn } from 'node:child_process';
+import { mkdirSync, mkdtempSync, readFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { after, before, test } from 'node:test';
+import { chromium } from 'playwright-core';
+
+const root = new URL('../..', import.meta.url).pathname;
+const program = process.env.LUX_PROGRAM ?? `${root}/build/release/luxodus`;
+const scene = `${root}/scenes/library/office_floor.toml`;
+const shots = process.env.LUX_SHOTS ?? new URL('shots', import.meta.url).pathname;
+const flags = ['--headless=new', '--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader',
+  '--enable-unsafe-swiftshader'];
+const patience = { timeout: 60_000 };
+const lamp = 'corridor emergency light 3';
+
+let served;
+let browser;
+let address;
+let page;
+let folder;
+const complaints = [];
+
+/** The address that the program prints. */
+function started(child) {
+  return new Promise((resolve, reject) => {
+    let said = '';
+    child.stdout.on('data', (bytes) => {
+      said += bytes;
+      const found = said.match(/http:\S+/);
+      if (found) resolve(found[0]);
+    });
+    child.on('exit', (code) => reject(new Error(`the program ended with ${code}`)));
+  });
+}
+
+async function open() {
+  const context = await browser.newContext({
+    viewport: { width: 1024, height: 640 }, reducedMotion: 'reduce' });
+  const opened = await context.newPage();
+  opened.on('console', (m) => m.type() === 'error' && complaints.push(m.text()));
+  opened.on('pageerror', (error) => complaints.push(error.stack));
+  await opened.goto(address);
+  await lit(opened, 1);
+  await opened.evaluate(() => {
+    const { picture } = window.luxodus.page;
+    picture.learns = false;
+    picture.shares = { moving: 0.3, still: 0.4 };
+  });
+  return opened;
+}
+
+/** Waits until a generation, or a later one, is traced to its end and shown. */
+const lit = (p, generation) => p.waitForFunction((wanted) => {
+  const { live } = window.luxodus.page;
+  return live.number >= wanted && live.shown?.surfaces?.groups.size > 10 &&
+    document.querySelector('.done');
+}, generation, patience);
+const generation = () => page.evaluate(() => window.luxodus.page.live.number);
+const mean = async () => {
+  await page.evaluate(() => window.luxodus.settled());
+  return page.evaluate(() => window.luxodus.meanLuminance());
+};
+const shot = (name) => page.screenshot({ path: `${shots}/${name}.png` });
+
+async function pull(locator, value) {
+  await locator.evaluate((input, v) => {
+    input.value = v;
+    input.dispatchEvent(new Event('input', { bubbles: true }));
+    input.dispatchEvent(new Event('change', { bubbles: true }));
+  }, value);
+}
+
+before(async () => {
+  mkdirSync(shots, { recursive: true });
+  folder = mkdtempSync(`${tmpdir()}/luxodus-view-`);
+  served = spawn(program, ['view', scene, '--scenario', 'clear_emergency', '--port', '0',
+    '--save-folder', folder, '--particles', '300k']);
+  address = await started(served);
+  browser = await chromium.launch({
+    executablePath: process.env.LUX_CHROMIUM ?? '/usr/bin/chromium', args: flags });
+  page = await open();
+});
+
+after(async () => {
+  await browser?.close();
+  served?.kill('SIGINT');
+});
+
+test('the office floor loads, lit, and complains of nothing', async () => {
+  await page.evaluate(() => {
+    const { page: p } = window.luxodus;
+    p.jump(p.live.scene.observers.find((o) => o.name === 'walker'));
+  });
+  assert.ok((await mean()) > 0.01);
+  await shot('program_corridor');
+  assert.deepEqual(complaints, []);
+});
+
+test('the mean luminance follows a dimmed luminaire linearly', async () => {
+  const slider = page.locator(`li[data-name="${lamp}"] input[type=range]`);
+  const at = {};
+  for (const factor of [1, 0.5, 0]) {
+    await pull(slider, factor);
+    at[factor] = await mean();
+  }
+  assert.ok(at[1] > 1.02 * at[0], `${at[1]} lit, ${at[0]} dark`);
+  const half = (at[0] + at[1]) / 2;
+  assert.ok(Math.abs(at[0.5] / half - 1) < 0.005, `${at[0.5]} against ${half}`);
+  await pull(slider, 1);
+});
+
+test('smoke begins a new generation', async () => {
+  const old = await generation();
+  await page.getByRole('button', { name: /smoke_emergency/ }).click();
+  await lit(page, old + 1);
+  await shot('program_smoke');
+  assert.ok((await generation()) > old);
+});
+
+test('a sign is judged, moved, and saved as a variant', async () => {
+  await page.evaluate(() => {
+    const { page: p } = window.luxodus;
+    p.selectSign(p.live.scene.signs.find((s) => s.name === 'exit east'));
+  });
+  await page.locator('#panel table').waitFor(patience);
+  await shot('program_sign');
+  const old = await generation();
+  await page.getByRole('button', { name: 'Left', exact: true }).click();
+  await lit(page, old + 1);
+  await page.getByLabel('Name of the variant').fill('moved sign');
+  await page.getByRole('button', { name: 'Save as' }).click();
+  await page.locator('.toast', { hasText: 'moved sign.toml' }).waitFor(patience);
+  const saved = readFileSync(`${folder}/moved sign.toml`, 'utf8');
+  assert.match(saved, /kind = "sign"\nof = "exit east"\nposition = /);
+});
+
+test('a second viewer may look, not edit', async () => {
+  const second = await open();
+  assert.ok(await second.locator('#smoke').isDisabled());
+  await second.context().close();
+});
