@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "scenes/world/measurements.hpp"
+
 namespace luxodus {
 
 namespace {
@@ -16,15 +18,7 @@ constexpr float far_m = 1000;
 
 SceneDescription without_measurements(const SceneDescription& scene) {
   SceneDescription bare = scene;
-  bare.planes.clear();
-  bare.probes.clear();
-  bare.surface_groups.clear();
-  bare.volume_groups.clear();
-  bare.counting_planes.clear();
-  bare.observers.clear();
-  bare.cameras.clear();
-  bare.run.voxels = false;
-  for (Object& object : bare.objects) object.one_patch = true;
+  count_by_object(bare);
   return bare;
 }
 

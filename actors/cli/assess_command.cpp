@@ -1,6 +1,9 @@
 // luxodus assess, report, compare: whether signs and routes do their job, as a page and as data.
 #include <fmt/format.h>
+#include <spawn.h>
 #include <spdlog/spdlog.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <filesystem>
 
@@ -47,13 +50,10 @@ void print_summary(const Json& a, const fs::path& out) {
         short_number(check["limit"].get<double>()).c_str(),
         check["rule"].get<std::string>().c_str(), check["condition"].get<std::string>().c_str());
   }
-  if (!a["sights"].empty()) {
-    std::printf("signs, from places on the routes:");
-    for (const auto& [word, count] : a["sight_counts"].items())
-      std::printf(" %d %s%s", count.get<int>(), word.c_str(),
-                  word == a["sight_counts"].items().end().key() ? "" : ";");
-    std::printf("\n");
-  }
+  std::string seen;
+  for (const auto& [word, count] : a["sight_counts"].items())
+    seen += fmt::format("{}{} {}", seen.empty() ? "" : ", ", count.get<int>(), word);
+  if (!seen.empty()) std::printf("signs, from routes and areas: %s\n", seen.c_str());
   std::printf("written to %s\n", (out / "report.html").string().c_str());
 }
 
@@ -93,7 +93,36 @@ Result<ExitCode> assess_scene(const AssessCommandOptions& options) {
   return verdict_of(json, options.strict);
 }
 
-Result<ExitCode> report_again(const std::string& folder) {
+/// Runs a program and waits; whether it said that all went well. A program that is not there fails.
+bool runs(const std::vector<std::string>& words) {
+  std::vector<char*> arguments;
+  for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
+  arguments.push_back(nullptr);
+  pid_t pid = 0;
+  int status = 0;
+  return ::posix_spawnp(&pid, arguments[0], nullptr, nullptr, arguments.data(), environ) == 0 &&
+         ::waitpid(pid, &status, 0) == pid && status == 0;
+}
+
+/// Prints a page as PDF by whichever Chromium is installed.
+Result<Done> print_pdf(const fs::path& page, const fs::path& pdf) {
+  const std::string address = "file://" + fs::absolute(page).string();
+  std::error_code ignored;
+  fs::remove(pdf, ignored);
+  for (const char* browser : {"chromium", "chromium-browser", "google-chrome"}) {
+    std::vector<std::string> words{
+        browser,         "--headless=new",         "--disable-gpu",
+        "--log-level=3", "--no-pdf-header-footer", "--print-to-pdf=" + pdf.string()};
+    // It has no sandbox for root; the page is ours and fetches nothing.
+    if (::geteuid() == 0) words.emplace_back("--no-sandbox");
+    words.push_back(address);
+    if (runs(words) && fs::exists(pdf, ignored)) return Done{};
+  }
+  return Problem{{pdf.string(), 0},
+                 "no Chromium printed it: install one (Debian: chromium), or print report.html"};
+}
+
+Result<ExitCode> report_again(const std::string& folder, bool pdf) {
   const auto read = read_assessment(folder);
   if (!read.ok()) return read.problem();
   const fs::path page = fs::path(folder) / "report.html";
@@ -101,6 +130,10 @@ Result<ExitCode> report_again(const std::string& folder) {
       !ok.ok())
     return ok.problem();
   std::printf("written to %s\n", page.string().c_str());
+  if (!pdf) return ExitCode::success;
+  const fs::path printed = fs::path(folder) / "report.pdf";
+  if (auto ok = print_pdf(page, printed); !ok.ok()) return ok.problem();
+  std::printf("written to %s\n", printed.string().c_str());
   return ExitCode::success;
 }
 
@@ -167,11 +200,14 @@ void add_assess(CLI::App& app, int& exit_code) {
 
 void add_report(CLI::App& app, int& exit_code) {
   auto folder = std::make_shared<std::string>();
+  auto pdf = std::make_shared<bool>(false);
   CLI::App* command =
       app.add_subcommand("report", "Write the page of an assessment again, with new pictures");
   command->footer("Takes in the pictures of FOLDER/views, as `luxodus render` makes them.");
   command->add_option("folder", *folder, "folder of luxodus assess")->required();
-  command->callback([folder, &exit_code] { exit_code = told(report_again(*folder)); });
+  command->add_flag("--pdf", *pdf,
+                    "print it as report.pdf, too, by Chromium where one is installed");
+  command->callback([folder, pdf, &exit_code] { exit_code = told(report_again(*folder, *pdf)); });
 }
 
 void add_compare(CLI::App& app, int& exit_code) {

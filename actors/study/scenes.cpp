@@ -1,29 +1,13 @@
 #include "actors/study/scenes.hpp"
 
 #include "scenes/transport/compile.hpp"
+#include "scenes/world/measurements.hpp"
 
 namespace luxodus {
 
-namespace {
-
-/// Leaves one bin for each side of an object, and no paths from eyes: geometry, media and light,
-/// and so every fetch of a particle, stay what they are.
-void count_by_object(SceneDescription& scene) {
-  scene.planes.clear();
-  scene.probes.clear();
-  scene.surface_groups.clear();
-  scene.volume_groups.clear();
-  scene.counting_planes.clear();
-  scene.observers.clear();
-  scene.cameras.clear();
-  scene.run.voxels = false;
-  for (Object& object : scene.objects) object.one_patch = true;
-}
-
-}  // namespace
-
 StudyScenes::StudyScenes(const Study& study, const SceneDescription& description)
     : scenario_(study.scenario), description_(description) {
+  // Geometry, media and light, and so every fetch of a particle, stay what they are.
   if (!study.whole_tally) count_by_object(description_);
 }
 

@@ -7,6 +7,7 @@
 
 #include "scenes/format/output_text.hpp"
 #include "scenes/geometry/transform.hpp"
+#include "scenes/world/measurements.hpp"
 
 namespace luxodus {
 
@@ -45,12 +46,7 @@ std::string group_of_flame(const std::string& medium) {
 
 Result<SceneDescription> live_description(const SceneDescription& scene, const LiveWish& wish) {
   SceneDescription out = scene;
-  out.planes.clear();
-  out.probes.clear();
-  out.surface_groups.clear();
-  out.volume_groups.clear();
-  out.counting_planes.clear();
-  out.observers.clear();
+  clear_measurements(out);
   out.run.batch_particles = live_batch_particles;
   out.run.groups = GroupRule::by_circuit;  // where a group that is named wins
   for (Emitter& e : out.emitters) {
