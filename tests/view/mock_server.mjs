@@ -3,7 +3,6 @@
 import { readFileSync } from 'node:fs';
 import { createServer } from 'node:http';
 import { fileURLToPath } from 'node:url';
-import { WebSocketServer } from 'ws';
 import * as room from './mock_room.mjs';
 
 const pageFile = fileURLToPath(
@@ -29,6 +28,8 @@ export class MockServer {
   }
 
   async listen(port = 0) {
+    // Only who listens needs it: modules are tested without npm's packages of this folder.
+    const { WebSocketServer } = await import('ws');
     const page = readFileSync(pageFile);
     this.http = createServer(({ url }, answer) => {
       const here = new URL(url, 'http://mock').pathname === '/';
