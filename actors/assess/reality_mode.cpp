@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <tuple>
 
 #include "actors/assess/building.hpp"
 #include "actors/source/local_run.hpp"
@@ -15,10 +17,9 @@ namespace luxodus {
 
 namespace {
 
-/// Batches of a round, whose spread is the error, and paths to each part of a sign in the first
-/// round's batches.
-constexpr int64_t batches = 64;
-constexpr double first_paths = 8;
+/// Batches of a round at least, whose spread is the error; paths to each part of a sign in the
+/// first round's batches, and at most in any: beyond that a round has more batches.
+constexpr int64_t batches_least = 64, first_paths = 8, paths_most = 512;
 /// Paths from the eye cost far more than particles, of which a run traces some beside them.
 constexpr int64_t batch_particles = 256;
 /// compile's share of paths: 0.1 of the particles, divided among the parts.
@@ -87,9 +88,34 @@ std::vector<Stand> stands_of(const SceneDescription& scene) {
   return out;
 }
 
+/// Each round has four times the paths of the one before.
+struct RoundSize {
+  explicit RoundSize(int round)
+      : paths(std::min(paths_most, first_paths << (2 * round))),
+        batches(batches_least * ((first_paths << (2 * round)) / paths)) {}
+  int64_t paths;  // of a batch, to each part
+  int64_t batches;
+};
+
 double angle_deg(const glm::dvec3& a, const glm::dvec3& b) {
   return glm::degrees(
       std::acos(std::clamp(glm::dot(glm::normalize(a), glm::normalize(b)), -1.0, 1.0)));
+}
+
+/// A sign as somebody faces it, before anything is known of its light.
+SightRow row_of(const Stand& stand, const Sign& sign) {
+  SightRow row;
+  row.from = stand.from;
+  row.stands_for = stand.stands_for;
+  row.along_m = stand.along_m;
+  row.height_m = stand.height_m;
+  row.eye = stand.observer.eye;
+  row.sign = sign.name;
+  row.view = view_of_sign(sign, row.eye);
+  row.back_face = row.view.back_face;
+  row.gaze_deg = stand.looks_ahead ? angle_deg(row.view.centre - row.eye, stand.observer.gaze)
+                                   : std::numeric_limits<double>::quiet_NaN();
+  return row;
 }
 
 /// Veiling luminance in the eye of all emitters but the sign itself.
@@ -170,18 +196,8 @@ Result<Done> RealityMode::look_for_lines(const AssessProgress& progress) {
     for (uint32_t s = 0; s < scene_.signs.size(); ++s) {
       const Sign& sign = scene_.signs[s];
       if (!options_.sign.empty() && sign.name != options_.sign) continue;
-      SightRow row;
-      row.from = stand.from;
-      row.stands_for = stand.stands_for;
-      row.along_m = stand.along_m;
-      row.height_m = stand.height_m;
-      row.eye = stand.observer.eye;
-      row.sign = sign.name;
-      row.view = view_of_sign(sign, row.eye);
+      SightRow row = row_of(stand, sign);
       if (row.view.behind) continue;
-      row.back_face = row.view.back_face;
-      row.gaze_deg = stand.looks_ahead ? angle_deg(row.view.centre - row.eye, stand.observer.gaze)
-                                       : std::numeric_limits<double>::quiet_NaN();
       const double seen = building.seen_share(access, sign, row.view, row.eye);
       row.look.visible_share = seen;
       if (seen == 0) row.sight.verdict = SightVerdict::hidden;
@@ -219,7 +235,7 @@ SceneDescription RealityMode::round_scene(int round) const {
     scene.observers.back().signs->push_back(open.sign);
   }
   scene.run.batch_particles = batch_particles;
-  const double paths = first_paths * std::pow(4, round);
+  const auto paths = static_cast<double>(RoundSize(round).paths);
   const auto parts = static_cast<double>(3 * open_.size());
   // Half a path more, so that rounding down gives this many.
   scene.run.eye_share = (paths + 0.5) * parts / (paths_per_particle * batch_particles);
@@ -263,17 +279,22 @@ SignLook RealityMode::look_at(const Readout& readout, const CompiledScene& scene
 void RealityMode::judge(const CompiledScene& scene, const Totals& totals) {
   const Readout readout(scene, totals);
   const SightRules rules{{scene_.assessment.age_years}, scene_.assessment.irritant_smoke};
+  std::map<std::tuple<size_t, uint32_t, bool>, const EyeTarget*> targets;
+  for (const EyeTarget& target : scene.eye_targets) {
+    const CompiledSign& face = scene.signs[target.sign];
+    targets[{asked_[target.observer], face.sign, face.back}] = &target;
+  }
   std::vector<Open> still;
   for (const Open& open : open_) {
     SightRow& row = out_.sights[open.row];
-    for (const EyeTarget& target : scene.eye_targets) {
-      const CompiledSign& face = scene.signs[target.sign];
-      if (asked_[target.observer] != open.stand || face.sign != open.sign ||
-          face.back != row.back_face)
-        continue;
-      row.look = look_at(readout, scene, target, row);
-      row.sight = judge_sight(scene_.signs[open.sign], row.view, row.look, rules);
+    const auto target = targets.find({open.stand, open.sign, row.back_face});
+    if (target == targets.end()) {  // within rounding of the face's own plane
+      row.sight.verdict = SightVerdict::not_assessed;
+      row.sight.reason = "it is seen edge-on";
+      continue;
     }
+    row.look = look_at(readout, scene, *target->second, row);
+    row.sight = judge_sight(scene_.signs[open.sign], row.view, row.look, rules);
     if (row.sight.verdict == SightVerdict::undecided) still.push_back(open);
   }
   open_ = std::move(still);
@@ -291,7 +312,7 @@ Result<Done> RealityMode::trace(int round, const std::atomic<bool>& interrupt,
   if (!compiled.ok()) return compiled.problem();
   LocalRun run(compiled.value(), options_.seed + static_cast<uint64_t>(round), options_.threads);
   StopRule stop;
-  stop.particles = batches * batch_particles;
+  stop.particles = RoundSize(round).batches * batch_particles;
   const auto reason = run.run(stop, interrupt, [&](const Progress& p) {
     progress(what, static_cast<double>(p.particles) / static_cast<double>(*stop.particles));
   });
