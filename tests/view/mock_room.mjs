@@ -231,8 +231,8 @@ export function probe(state, { triangle, front }) {
 }
 
 export const observers = [
-  { name: 'west, by the table', eye: [0.8, 2.2, 1.65], gaze: [6.5, 2.9, 2.0] },
-  { name: 'east, at the door', eye: [7.2, 3.2, 1.65], gaze: [11, 4.2, 1.9] },
+  { name: 'west, by the table', eye: [0.8, 2.2, 1.65], gaze: [5.7, 0.7, 0.35] },
+  { name: 'east, at the door', eye: [7.2, 3.2, 1.65], gaze: [3.8, 1.0, 0.25] },
 ];
 export const cameras = [
   { name: 'overview', eye: [0.4, 0.4, 2.5], target: [6, 4, 1], up: [0, 0, 1], fov_deg: 75 },

@@ -94,6 +94,9 @@ test('the office floor loads, lit, and complains of nothing', async () => {
     const { page: p } = window.luxodus;
     p.jump(p.live.scene.observers.find((o) => o.name === 'walker'));
   });
+  // They look along the corridor, to the east.
+  const yaw = await page.evaluate(() => window.luxodus.page.motion.yaw);
+  assert.ok(Math.abs(yaw) < 0.01, `they look ${yaw} rad off the corridor`);
   assert.ok((await mean()) > 0.01);
   await shot('program_corridor');
   assert.deepEqual(complaints, []);

@@ -257,9 +257,10 @@ class Page {
     this.moving();
   }
 
+  /** To an observer, who looks along `gaze`, or a camera, which looks at `target`. */
   jump({ eye, gaze, target, fov }) {
     const floor = this.building?.floorUnder(eye) ?? null;
-    this.moving(() => stand(this.motion, eye, target ?? gaze, fov, floor));
+    this.moving(() => stand(this.motion, eye, target ?? add(eye, gaze), fov, floor));
     this.placeMarks();
   }
 
