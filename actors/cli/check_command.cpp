@@ -5,6 +5,7 @@
 #include "scenes/format/json_out.hpp"
 #include "scenes/transport/compile.hpp"
 #include "scenes/transport/packed_scene.hpp"
+#include "scenes/transport/scene_features.hpp"
 #include "scenes/transport/trace.hpp"
 
 namespace luxodus::cli {
@@ -59,6 +60,13 @@ Json memory_json(const CompiledScene& scene) {
           {"webs", exact_json(webs, "B")}};
 }
 
+Json features_json(const CompiledScene& scene) {
+  Json features = Json::array();
+  for (const SceneFeature& f : features_of(scene))
+    features.push_back({{"name", f.name}, {"on", f.on}, {"why", f.why}});
+  return features;
+}
+
 Json describe(const CompiledScene& scene) {
   const SceneDescription& d = *scene.description;
   Json emitters = Json::array();
@@ -85,6 +93,7 @@ Json describe(const CompiledScene& scene) {
       {"media", scene.media_names},
       {"bands_nm", bands},
       {"kernel", describe_kernel(scene)},
+      {"features", features_json(scene)},
       {"cells", scene.cell_boxes.size()},
       {"batch_particles", scene.batch_particles},
       {"eye_paths_per_batch", scene.eye_paths_per_batch},
@@ -122,6 +131,10 @@ void print(const Json& s) {
   for (const Json& b : s["bands_nm"])
     std::printf("%.0f-%.0f ", b[0].get<double>(), b[1].get<double>());
   std::printf("nm\n  kernel     %s\n", s["kernel"].get<std::string>().c_str());
+  for (const Json& f : s["features"]) {
+    std::printf("    %-3s %-32s %s\n", f["on"].get<bool>() ? "on" : "off",
+                f["name"].get<std::string>().c_str(), f["why"].get<std::string>().c_str());
+  }
   std::printf("  memory     geometry %s, totals %s, scores %s a thread, webs %s\n",
               bytes("geometry").c_str(), bytes("totals").c_str(),
               bytes("scores_per_thread").c_str(), bytes("webs").c_str());

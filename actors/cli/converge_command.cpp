@@ -20,6 +20,7 @@ namespace fs = std::filesystem;
 struct ConvergeOptions {
   std::string scene, scenario, out;
   std::string particles = "8M";
+  std::vector<std::string> error_of;
   int threads = default_threads();
   std::optional<uint64_t> seed;
   bool json = false;
@@ -155,7 +156,7 @@ Result<ExitCode> converge(const ConvergeOptions& options) {
   if (!description) return Problem{{options.scene, 0}, "the scene has problems, told above"};
   auto scenario = find_scenario(*description, options.scenario);
   if (!scenario.ok()) return scenario.problem();
-  auto scene = compile_scene(description, scenario.value(), {});
+  auto scene = compile_scene(description, scenario.value(), {1, options.error_of});
   if (!scene.ok()) return scene.problem();
   install_interrupt_handler();
   LocalRun run(scene.value(), options.seed.value_or(description->run.seed), options.threads);
@@ -192,6 +193,8 @@ void add_converge(CLI::App& app, int& exit_code) {
   command->add_option("scene", options->scene, "scene file (TOML)")->required();
   command->add_option("--scenario", options->scenario, "name of a scenario [the first]");
   command->add_option("--particles", options->particles, "where to end [8M]");
+  command->add_option("--error-of", options->error_of,
+                      "what the error is of: as of luxodus run [the scene's]");
   command->add_option("--out", options->out,
                       "folder for converge.csv and the plots [out/NAME_converge]");
   command->add_option("--seed", options->seed, "of the random numbers [the scene's]")

@@ -26,6 +26,7 @@ struct Finished {
   std::string scene_file, scenario;
   uint64_t seed = 0;
   int cells = 1;
+  std::vector<std::string> error_of;
 };
 
 Result<Finished> read_result(const fs::path& file) {
@@ -41,7 +42,11 @@ Result<Finished> read_result(const fs::path& file) {
       !json.value("cells", Json()).is_number_integer()) {
     return Problem{place, "this is no result of a run: run the scene again"};
   }
-  return Finished{json["scene_file"], json["scenario"], json["seed"], json["cells"]};
+  Finished finished{json["scene_file"], json["scenario"], json["seed"], json["cells"], {}};
+  for (const Json& word : json.value("error_of", Json::array())) {
+    if (word.is_string()) finished.error_of.push_back(word);
+  }
+  return finished;
 }
 
 Result<Done> render(const RenderOptions& options) {
@@ -54,7 +59,7 @@ Result<Done> render(const RenderOptions& options) {
   const std::string name = description->scenarios.empty() ? "" : finished->scenario;
   auto scenario = find_scenario(*description, name);
   if (!scenario.ok()) return scenario.problem();
-  auto scene = compile_scene(description, scenario.value(), {finished->cells});
+  auto scene = compile_scene(description, scenario.value(), {finished->cells, finished->error_of});
   if (!scene.ok()) return scene.problem();
   if (description->cameras.empty())
     return Problem{{finished->scene_file, 0}, "the scene has no [[camera]] to render"};

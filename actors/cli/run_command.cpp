@@ -23,6 +23,7 @@ struct RunOptions {
   std::string out;
   std::string scenario;
   std::string particles, error, time;
+  std::vector<std::string> error_of;
   std::string preview;
   std::optional<uint64_t> seed;
   int threads = default_threads();
@@ -189,7 +190,7 @@ struct Traced {
 Result<Traced> run_scenario(std::shared_ptr<const SceneDescription> description,
                             const Scenario& scenario, const fs::path& folder,
                             const RunOptions& options, const StopRule& rule) {
-  auto scene = compile_scene(description, scenario, {options.cells});
+  auto scene = compile_scene(description, scenario, {options.cells, options.error_of});
   if (!scene.ok()) return scene.problem();
   for (const Problem& w : scene.value()->warnings) spdlog::warn("{}", w.text());
   const uint64_t seed = options.seed.value_or(description->run.seed);
@@ -346,12 +347,15 @@ void add_run(CLI::App& app, int& exit_code) {
       "  luxodus run scenes/library/empty_room.toml --out out/room --particles 10M\n"
       "  luxodus run scenes/library/office_floor.toml --scenario all --particles 4M\n"
       "  luxodus run scenes/library/empty_room.toml --error 1%\n"
+      "  luxodus run scenes/library/office_floor.toml --error 2% "
+      "--error-of \"plane corridor floor\"\n"
       "  luxodus run scene.toml --out out/x --time 60s     then: ... --time 60s --resume\n\n"
       "Stops at the first of --particles, --error and --time that holds (4M particles if none is "
       "given).\n"
       "The error is the worst relative standard error of plane means, probes and signs at the "
-      "eye:\n"
-      "a sign that thick smoke hides from a far observer takes very long.\n"
+      "eye,\n"
+      "or of what --error-of names, and paths go there: a sign that thick smoke hides from a far\n"
+      "observer takes very long.\n"
       "Ctrl-C stops at a batch's end and writes what there is. Equal scene, seed, particles and "
       "cells give\n"
       "the same flux file, bit for bit, for any number of threads.\n\n"
@@ -365,6 +369,11 @@ void add_run(CLI::App& app, int& exit_code) {
   command->add_option("--particles", options->particles,
                       "how many, e.g. 1e6, 250k, 10M (whole batches)");
   command->add_option("--error", options->error, "relative standard error to reach, e.g. 1%");
+  command->add_option(
+      "--error-of", options->error_of,
+      "what --error is of, the worst of all that are given: planes, probes, signs, "
+      "surfaces, patches (95 % of them), \"plane NAME\", \"probe NAME\", \"sign NAME\" "
+      "[the scene's error_of, or planes, probes and signs]");
   command->add_option("--time", options->time, "how long, e.g. 60s, 5m");
   command->add_option("--seed", options->seed, "of the random numbers [the scene's]")
       ->transform(seed_number());

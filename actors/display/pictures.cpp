@@ -18,11 +18,7 @@ namespace luxodus {
 
 namespace {
 
-constexpr double plastic = 1.2207440846057596;  // root of x^4 = x + 1
-constexpr glm::dvec3 r3_step{1 / plastic, 1 / (plastic * plastic),
-                             1 / (plastic * plastic * plastic)};
-
-/// A path's number: camera, pixel (28 bits), path; path 0 draws the pixel's shift.
+/// A path's number: camera, pixel (28 bits), path.
 constexpr int camera_shift = 48;
 constexpr int pixel_shift = 17;
 
@@ -110,10 +106,6 @@ class Pinhole {
 /// Pixels that one fiber traces in one go.
 constexpr int columns_at_once = 32;
 
-double wrapped(double x) {
-  return x - std::floor(x);
-}
-
 /// Light of one pixel.
 struct PixelSums {
   double x = 0, y = 0, z = 0, scotopic = 0, y_squares = 0;
@@ -147,16 +139,14 @@ class PixelTracer {
 
   PixelSums trace(int column, int row, uint64_t pixel) {
     const uint64_t first = first_path_ + (pixel << pixel_shift);
-    tracer_->start(first);
-    glm::dvec3 place;
-    for (int a = 0; a < 3; ++a) place[a] = static_cast<double>(tracer_->uniform());
     PixelSums sums;
-    for (int i = 1; i <= paths_; ++i) {
-      for (int a = 0; a < 3; ++a) place[a] = wrapped(place[a] + r3_step[a]);
-      tracer_->start(first + static_cast<uint64_t>(i));
-      const int band = tracer_->choose_band(place[2]);
+    for (int i = 0; i < paths_; ++i) {
+      tracer_->start(first, static_cast<uint32_t>(paths_), static_cast<uint32_t>(i));
+      const auto x = static_cast<double>(tracer_->uniform());
+      const auto y = static_cast<double>(tracer_->uniform());
+      const int band = tracer_->choose_band(static_cast<double>(tracer_->uniform()));
       const double probability = tracer_->band_probability(band);
-      const Ray ray = pinhole_.ray(column + place[0], row + place[1]);
+      const Ray ray = pinhole_.ray(column + x, row + y);
       sums.add(scene_.bands[band], tracer_->radiance(ray, band, flux_) / probability);
     }
     return sums;

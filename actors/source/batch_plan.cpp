@@ -4,13 +4,13 @@
 
 #include <algorithm>
 
+#include "scenes/transport/history.hpp"
+
 namespace luxodus {
 
 namespace {
 /// Batches of the first round and group: enough for a standard error that is itself good to 25 %.
 constexpr int64_t first_round_batches = 8;
-/// Ids of different groups never meet: 2^44 particles each.
-constexpr int group_id_shift = 44;
 }  // namespace
 
 BatchPlan::BatchPlan(const CompiledScene& scene) : batch_particles_(scene.batch_particles) {
@@ -37,7 +37,7 @@ Batch BatchPlan::next() {
   Batch batch;
   batch.number = given_++;
   batch.group = static_cast<int>(chosen);
-  batch.first_particle = (uint64_t{chosen} << group_id_shift) +
+  batch.first_particle = (uint64_t{chosen} << limits::group_id_shift) +
                          static_cast<uint64_t>(issued_[chosen]++ * batch_particles_);
   return batch;
 }

@@ -9,6 +9,8 @@
 #include <array>
 #include <cstdint>
 
+#include "runtime/core/sobol.hpp"
+
 #ifdef __AVX2__
 #include <immintrin.h>
 #endif
@@ -25,7 +27,8 @@ enum class RandomStream : uint32_t {
   graph = 5,
   fetch = 6,
   faults = 7,
-  simulation = 8
+  simulation = 8,
+  scramble = 9
 };
 
 /// One Philox 4x32-10 block, the definition that every other form must equal.
@@ -46,14 +49,22 @@ inline std::array<uint32_t, 4> philox_block(std::array<uint32_t, 4> counter, uin
 /// The draws of one particle after another. Plain value, one per fiber or thread.
 class Random {
  public:
-  Random(uint64_t seed, RandomStream stream)
-      : seed_(seed), stream_(static_cast<uint32_t>(stream)) {}
+  /// `part` tells apart what uses one stream with the same ids; below 2^24.
+  Random(uint64_t seed, RandomStream stream, uint32_t part = 0)
+      : seed_(seed), stream_(static_cast<uint32_t>(stream) | part << 8) {}
 
   /// Begins the sequence of this particle at its first draw.
   void start(uint64_t particle) {
     particle_ = particle;
     block_ = 0;
     refill();
+  }
+  /// The same, but the first draws are the coordinates of that point of a set.
+  void start(uint64_t particle, const SobolSet& set, uint32_t index) {
+    start(particle);
+    SobolSet::Point point;
+    set.point(index, point);
+    for (uint32_t d = 0; d < SobolSet::dimensions; ++d) words_[d] = point[d];
   }
 
   /// The next 32 random bits.

@@ -65,7 +65,12 @@ void read_run(const toml::table& table, SceneReading& reading) {
   if (keys.has("voxel_edge_m")) run.voxel_edge_m = keys.number("voxel_edge_m");
   if (keys.has("voxels")) run.voxels = keys.flag("voxels");
   if (keys.has("analogue")) run.analogue = keys.flag("analogue");
+  if (keys.has("stratified")) run.stratified = keys.flag("stratified");
   if (keys.has("eye_share")) run.eye_share = keys.number("eye_share");
+  if (keys.has("error_of")) {
+    run.error_of = keys.texts("error_of");
+    run.error_of_place = keys.place("error_of");
+  }
   if (keys.has("groups")) {
     const std::string groups = keys.choice("groups");
     run.groups = groups == "circuit"   ? GroupRule::by_circuit

@@ -63,12 +63,21 @@ TableSpec run_keys() {
            "edge of a voxel, only where a medium is; 0: follows from the scene"},
           {"voxels", "flag", "", "true", "", "keep fluence by voxel"},
           {"analogue", "flag", "", "false", "", "sampled absorption instead of weighted survival"},
+          {"stratified", "flag", "", "true", "",
+           "low-discrepancy points, scrambled anew for each batch, for where and whither particles "
+           "and eye paths start; false: independent ones"},
           {"groups", "choice", "", "\"one\"", "one, circuit, emitter",
            "what gets tallies of its own: nothing, each circuit (or `group`, where one is named), "
            "each "
            "emitter"},
           {"eye_share", "number", "", "1", "[0, 1000]",
            "paths from the eye per batch, relative to the default"},
+          {"error_of", "texts", "", "[\"all\"]", "",
+           "what the error of a run is judged by, the worst of them: \"all\" (planes, probes and "
+           "signs, or surfaces where there are none of these), \"planes\", \"probes\", \"signs\", "
+           "\"surfaces\", \"patches\" (the error that 95 % of those that get light do not exceed), "
+           "\"plane NAME\", \"probe NAME\", \"sign NAME\". Paths go where it asks: to eyes or to "
+           "bins"},
       }};
 }
 

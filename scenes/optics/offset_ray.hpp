@@ -2,9 +2,9 @@
 // surface it left, and no farther. The distance grows with the position, counted in units in the
 // last place (the idea of Wächter and Binder, "A Fast and Robust Method for Avoiding
 // Self-Intersection", Ray Tracing Gems ch. 6). Promise: for points interpolated on a triangle whose
-// extent is at most its distance from the origin, or at most 50 m, the start lies on the normal's
-// side of the exact plane, and a ray from it to that side does not meet the triangle again; 1e-3 to
-// 1e5 m out. Any thread, no state.
+// extent is at most its distance from the origin, or at most the size that `least_offset` was asked
+// for, the start lies on the normal's side of the exact plane, and a ray from it to that side does
+// not meet the triangle again. Any thread, no state.
 #pragma once
 
 #include <bit>
@@ -26,13 +26,19 @@ inline constexpr float ulps_per_normal = 64.0F;
 /// nothing otherwise. With 4, one ray in 2e5 still met its own slightly tilted triangle 100 km out;
 /// with 16 none.
 inline constexpr float least_ulps = 16.0F;
-/// Distance per unit of the normal where ulps are too small to count [m]: covers triangles that
-/// reach 50 m out while the point itself is near zero.
-inline constexpr float near_zero_m = 0x1p-16F;
+/// Least distance as a share of the scene's size: near zero ulps are too small to count, while
+/// triangles still reach far out. 0.014 mm in a building of 30 m.
+inline constexpr float least_share = 0x1p-21F;
 }  // namespace offset_limits
 
+/// Least offset in a scene of this size (its diagonal) [m]: by it a room of a millimetre is as
+/// exact as one of ten kilometres.
+inline float least_offset(float size_m) {
+  return size_m * offset_limits::least_share;
+}
+
 /// One coordinate of offset_ray.
-inline float offset_coordinate(float position, float normal) {
+inline float offset_coordinate(float position, float normal, float least_offset_m) {
   const uint32_t bits = std::bit_cast<uint32_t>(position);
   const float wanted =
       std::fabs(normal) * offset_limits::ulps_per_normal + offset_limits::least_ulps;
@@ -42,15 +48,17 @@ inline float offset_coordinate(float position, float normal) {
   const bool towards_zero = ((bits ^ std::bit_cast<uint32_t>(normal)) >> 31) != 0;
   const uint32_t mask = 0U - static_cast<uint32_t>(towards_zero);
   const float stepped = std::bit_cast<float>(bits + ((ulps ^ mask) - mask));
-  const float fixed = position + normal * offset_limits::near_zero_m;
+  const float fixed = position + normal * least_offset_m;
   const bool farther = std::fabs(stepped - position) > std::fabs(fixed - position);
   return choose(farther, stepped, fixed);
 }
 
 /// Start of a ray that leaves `position` [m] to the side its unit `normal` points to.
-inline glm::vec3 offset_ray(const glm::vec3& position, const glm::vec3& normal) {
-  return {offset_coordinate(position.x, normal.x), offset_coordinate(position.y, normal.y),
-          offset_coordinate(position.z, normal.z)};
+inline glm::vec3 offset_ray(const glm::vec3& position, const glm::vec3& normal,
+                            float least_offset_m) {
+  return {offset_coordinate(position.x, normal.x, least_offset_m),
+          offset_coordinate(position.y, normal.y, least_offset_m),
+          offset_coordinate(position.z, normal.z, least_offset_m)};
 }
 
 }  // namespace luxodus

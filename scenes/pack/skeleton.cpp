@@ -150,7 +150,8 @@ void serialize(A& a, Scenario& x) {
 template <class A>
 void serialize(A& a, RunSettings& x) {
   a(x.seed, x.bands_most, x.band_edges_nm, x.band_tolerance, x.batch_particles, x.voxel_edge_m,
-    x.voxels, x.analogue, choice(x.groups, GroupRule::by_emitter), x.eye_share);
+    x.voxels, x.analogue, x.stratified, choice(x.groups, GroupRule::by_emitter), x.eye_share,
+    x.error_of);
 }
 template <class A>
 void serialize(A& a, Phase& x) {

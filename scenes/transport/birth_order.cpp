@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "runtime/core/random.hpp"
+#include "scenes/transport/history.hpp"
 
 namespace luxodus {
 
@@ -39,7 +39,7 @@ constexpr uint64_t packed(uint32_t place, uint32_t number) {
 uint32_t emitter_of_particle(const CompiledScene& scene, uint64_t seed, int group,
                              uint64_t particle) {
   const Group& g = scene.groups[static_cast<size_t>(group)];
-  Random random(seed, RandomStream::particle);
+  HistoryRandom random(scene, seed);
   random.start(particle);
   const size_t band = scene.features.bands ? find(g.band_cdf, random.bits64()) : 0;
   const std::vector<uint32_t>& choices = g.emitters[band];

@@ -9,9 +9,11 @@
 #include <set>
 
 #include "runtime/core/hash.hpp"
+#include "scenes/optics/offset_ray.hpp"
 #include "scenes/transport/compile_surfaces.hpp"
 #include "scenes/transport/emission.hpp"
 #include "scenes/transport/flame_points.hpp"
+#include "scenes/transport/judged.hpp"
 #include "scenes/transport/packed_scene.hpp"
 
 namespace luxodus {
@@ -139,10 +141,10 @@ CompiledPlane make_plane(const glm::dvec3& corner, const glm::dvec3& u, const gl
   return out;
 }
 
-/// Reach beyond a flight's end, as a share of the scene's size: a plane that lies in a wall or on a
-/// floor is crossed by the flights that end there, whichever way their ends are rounded (a few ulps
-/// of a coordinate). Less than offset_ray's step, and what comes back crosses from behind.
-constexpr float plane_reach_share = 0x1p-21f;
+/// Reach beyond a flight's end, as a share of the step by which rays leave surfaces: a plane that
+/// lies in a wall or on a floor is crossed by the flights that end there, whichever way their ends
+/// are rounded (two ulps of the largest coordinate), and what comes back crosses from behind.
+constexpr float plane_reach_share = 0.5f;
 
 void compile_detectors(CompiledScene& scene) {
   const SceneDescription& d = *scene.description;
@@ -162,7 +164,7 @@ void compile_detectors(CompiledScene& scene) {
     for (const CompiledPlane& p : *list)
       scene.plane_tests.push_back({p.normal, glm::dot(p.normal, p.corner)});
   }
-  scene.plane_reach_m = scene.diagonal_m * plane_reach_share;
+  scene.plane_reach_m = scene.least_offset_m * plane_reach_share;
   for (const VolumeGroupMeasure& v : d.volume_groups) {
     CompiledVolumeGroup out;
     out.shape = v.shape;
@@ -277,6 +279,26 @@ void lay_out_tally(CompiledScene& scene) {
   }
 }
 
+/// Paths from eyes relative to the usual, by which they take about half of the time. What nobody
+/// judges is still there, at a tenth of it.
+double share_of_eyes(const Judged& judged) {
+  if (judged.asks_eyes() == judged.asks_bins()) return 1;
+  return judged.asks_eyes() ? 8 : 1.0 / 8;
+}
+
+Result<bool> choose_judged(CompiledScene& scene, const std::vector<std::string>& wanted) {
+  const RunSettings& run = scene.description->run;
+  const bool own = wanted.empty();
+  auto judged = judged_by(scene, own ? run.error_of : wanted);
+  if (!judged.ok()) {
+    Problem problem = judged.problem();
+    problem.where = own ? run.error_of_place : SourcePlace{};
+    return problem;
+  }
+  scene.judged = std::move(judged).value();
+  return true;
+}
+
 void choose_batch(CompiledScene& scene) {
   const RunSettings& run = scene.description->run;
   // A batch ends with a walk over all its scores, some 3 ns each, against 250 ns a particle in
@@ -293,7 +315,8 @@ void choose_batch(CompiledScene& scene) {
       static_cast<double>(3 * scene.eye_targets.size() + 2 * scene.description->probes.size());
   if (parts > 0) {
     // A path from the eye costs some ten histories' rays (each event asks the lights as well).
-    const double paths = 0.1 * run.eye_share * static_cast<double>(scene.batch_particles) / parts;
+    const double paths = 0.1 * run.eye_share * share_of_eyes(scene.judged) *
+                         static_cast<double>(scene.batch_particles) / parts;
     scene.eye_paths_per_batch = std::clamp(static_cast<int>(paths), 1, 1024);
   }
 }
@@ -372,6 +395,7 @@ void set_bounds(CompiledScene& scene) {
   scene.local_low = glm::vec3(scene.bounds.low - centre);
   scene.local_high = glm::vec3(scene.bounds.high - centre);
   scene.diagonal_m = glm::length(scene.local_high - scene.local_low);
+  scene.least_offset_m = least_offset(scene.diagonal_m);
   scene.length_unit_m =
       std::exp2(std::ceil(std::log2(std::max(static_cast<double>(scene.diagonal_m), 1e-6))));
   scene.scores_per_metre = 1 / scene.length_unit_m;
@@ -474,6 +498,7 @@ Result<std::shared_ptr<const CompiledScene>> compile_scene(
                    "make voxel_edge larger"};
   }
   choose_eye_targets(*scene);
+  if (auto ok = choose_judged(*scene, options.error_of); !ok.ok()) return ok.problem();
   choose_features(*scene);
   lay_out_tally(*scene);
   choose_batch(*scene);

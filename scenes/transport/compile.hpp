@@ -11,6 +11,7 @@ namespace luxodus {
 
 struct CompileOptions {
   int cells = 1;  // geometry cells; 1 is one merged scene; a packed scene has been cut already
+  std::vector<std::string> error_of = {};  // instead of the scene's [run] error_of, if not empty
 };
 
 /// The scenario of that name; with an empty name the first, or plain mains where a scene has none.

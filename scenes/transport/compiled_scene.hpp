@@ -112,6 +112,17 @@ struct VoxelGrid {
   uint32_t count() const { return static_cast<uint32_t>(nx * ny * nz); }
 };
 
+/// What the error of a run is judged by; see judged.hpp.
+struct Judged {
+  std::vector<std::string> words;                 // that said so
+  std::vector<uint32_t> planes, probes, targets;  // targets: of the eye
+  bool surfaces = false;                          // each that gets at least 1 % of the flux
+  bool patches = false;                           // the 95th percentile
+
+  bool asks_eyes() const { return !probes.empty() || !targets.empty(); }
+  bool asks_bins() const { return !planes.empty() || surfaces || patches; }
+};
+
 /// Blocks of the tally, by what they count. none_index where a scene has no such thing.
 struct TallyBlocks {
   uint32_t patches = none_index;         // in, out
@@ -191,6 +202,7 @@ struct CompiledScene {
   Bounds bounds;               // scene coordinates
   glm::vec3 local_low{0}, local_high{0};
   float diagonal_m = 1;
+  float least_offset_m = 0;     // of rays that leave surfaces: see offset_ray
   double length_unit_m = 1;     // a path-length score of weight * this is one unit weight
   double scores_per_metre = 1;  // its inverse; both are powers of two, hence exact
   Bands bands{{spectrum_first_nm, spectrum_last_nm}, equal_energy_shape()};
@@ -218,6 +230,7 @@ struct CompiledScene {
   std::vector<CompiledVolumeGroup> volume_groups;
   VoxelGrid voxels;
   std::vector<EyeTarget> eye_targets;
+  Judged judged;
   std::vector<std::vector<uint32_t>> surface_groups;  // surfaces of each measured group
 
   Features features;

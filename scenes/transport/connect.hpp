@@ -38,7 +38,8 @@ double solid_transmittance(const CompiledScene& scene, Ray ray, float length, in
       return 0;
     }
     const glm::vec3 end = ray.origin + ray.direction * ray.length;
-    ray.origin = offset_ray(t.at(hit.u, hit.v), cosine < 0 ? -t.normal : t.normal);
+    ray.origin =
+        offset_ray(t.at(hit.u, hit.v), cosine < 0 ? -t.normal : t.normal, scene.least_offset_m);
     ray.length = glm::dot(end - ray.origin, ray.direction);
     if (ray.length <= 0) return share;
   }
@@ -56,23 +57,22 @@ double medium_transmittance(const CompiledScene& scene, const Ray& ray, float le
 
 /// A straight line from a place to a point of an emitter.
 struct Connection {
-  Ray ray;
-  float distance = 0;
+  Ray ray;             // ends where solid things may begin that are not in the way
+  float distance = 0;  // of the two places: what smoke and the inverse square know
 };
 
 /// `axis` is the emitting side's normal; a target on a solid face is met just in front of it.
-inline Connection connect(const glm::vec3& from, const glm::vec3& to, const glm::vec3& axis,
-                          bool on_surface) {
+inline Connection connect(const CompiledScene& scene, const glm::vec3& from, const glm::vec3& to,
+                          const glm::vec3& axis, bool on_surface) {
   glm::vec3 target = to;
-  if (on_surface) target = offset_ray(to, glm::dot(from - to, axis) >= 0 ? axis : -axis);
+  if (on_surface) {
+    const glm::vec3 side = glm::dot(from - to, axis) >= 0 ? axis : -axis;
+    target = offset_ray(to, side, scene.least_offset_m);
+  }
   const glm::vec3 difference = target - from;
-  Connection c;
-  c.distance = glm::length(difference);
-  c.ray.origin = from;
-  c.ray.direction = difference / c.distance;
+  const float length = glm::length(difference);
   // The last millionth belongs to the emitter's own surface.
-  c.ray.length = c.distance * (1 - 1e-6f);
-  return c;
+  return {{from, difference / length, length * (1 - 1e-6f)}, glm::length(to - from)};
 }
 
 }  // namespace luxodus

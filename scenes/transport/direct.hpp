@@ -86,8 +86,8 @@ DirectFromEmitter direct_from(const CompiledScene& scene, const CompiledEmitter&
   const int bands = scene.bands.count();
   for (const EmitterPart& part :
        emitter_parts(scene, emitter, {point, normal, sigma_t, options.part_share})) {
-    const Connection c =
-        connect(point, part.point.position, part.point.axis, emitter.kind != EmitterKind::volume);
+    const Connection c = connect(scene, point, part.point.position, part.point.axis,
+                                 emitter.kind != EmitterKind::volume);
     if (!(c.distance > 0)) continue;
     const float density = directional_density(emitter, part.point, -c.ray.direction, resolver);
     const float cosine = glm::dot(normal, c.ray.direction);
@@ -122,7 +122,7 @@ DirectLight direct_light(const CompiledScene& scene, const glm::vec3& point,
   DirectLight out;
   out.illuminance_lx.assign(scene.groups.size(), 0);
   out.fluence_lm_m2.assign(scene.groups.size(), 0);
-  const glm::vec3 from = offset_ray(point, normal);
+  const glm::vec3 from = offset_ray(point, normal, scene.least_offset_m);
   for (const CompiledEmitter& emitter : scene.emitters) {
     const DirectFromEmitter d = direct_from(scene, emitter, from, normal, options, resolver);
     out.illuminance_lx[static_cast<size_t>(emitter.group)] += d.illuminance_lx;

@@ -249,7 +249,8 @@ class EyeTracer {
     const glm::vec3 normal = front ? t.normal : -t.normal;
     const glm::vec3 place = t.at(hit.u, hit.v);
     if (model.kind == SurfaceKind::lambertian || model.kind == SurfaceKind::glossy) {
-      p.add(reflected_light(offset_ray(place, normal), p.ray.direction, normal, model, p.band));
+      p.add(reflected_light(offset_ray(place, normal, scene_.least_offset_m), p.ray.direction,
+                            normal, model, p.band));
     }
     const float lobe = random_.uniform();
     const float u = random_.uniform();
@@ -267,7 +268,7 @@ class EyeTracer {
     }
     if (!s.specular) p.diffused = true;
     p.ray.direction = s.direction;
-    p.ray.origin = offset_ray(place, s.transmitted ? -normal : normal);
+    p.ray.origin = offset_ray(place, s.transmitted ? -normal : normal, scene_.least_offset_m);
     return true;
   }
 
@@ -402,7 +403,8 @@ class EyeTracer {
     if (asked.emitter == nullptr) return {};
     const CompiledEmitter& e = *asked.emitter;
     const EmissionPoint point = emission_point(scene_, e, random_, resolver_);
-    const Connection c = connect(place, point.position, point.axis, e.kind != EmitterKind::volume);
+    const Connection c =
+        connect(scene_, place, point.position, point.axis, e.kind != EmitterKind::volume);
     if (!(c.distance > e.near_m)) return {};  // counted where paths meet it
     const auto density =
         static_cast<double>(directional_density(e, point, -c.ray.direction, resolver_));

@@ -7,7 +7,7 @@ std::vector<double> direct_by_emitter(const CompiledScene& scene, const Geometry
                                       const DirectOptions& options) {
   return with_resolver(scene, access, [&](auto resolver) {
     std::vector<double> lux;
-    const glm::vec3 from = offset_ray(point, normal);
+    const glm::vec3 from = offset_ray(point, normal, scene.least_offset_m);
     for (const CompiledEmitter& emitter : scene.emitters)
       lux.push_back(direct_from(scene, emitter, from, normal, options, resolver).illuminance_lx);
     return lux;
@@ -17,7 +17,7 @@ std::vector<double> direct_by_emitter(const CompiledScene& scene, const Geometry
 double clear_share(const CompiledScene& scene, const GeometryAccess& access, const glm::vec3& from,
                    const glm::vec3& to) {
   return with_resolver(scene, access, [&](auto resolver) {
-    const Connection line = connect(from, to, glm::normalize(from - to), true);
+    const Connection line = connect(scene, from, to, glm::normalize(from - to), true);
     return solid_transmittance(scene, line.ray, line.ray.length, scene.bands.count() / 2, resolver);
   });
 }

@@ -33,6 +33,7 @@ class EyeScores {
         resolver_(resolver),
         eye_(scene, resolver, seed, RandomStream::eye),
         random_(eye_.random()),
+        set_(seed, RandomStream::eye),
         by_group_(scene.groups.size() > 1),
         light_(scene.groups.size()),
         reflected_(scene.groups.size()),
@@ -56,8 +57,13 @@ class EyeScores {
     const uint64_t first = (static_cast<uint64_t>(batch) << 28) + unit * paths;
     const auto parts = static_cast<uint32_t>(3 * scene_.eye_targets.size());
     start_sums();
-    for (uint64_t path = first; path < first + paths; ++path) {
-      random_.start(path);
+    const bool stratified = scene_.description->run.stratified;
+    if (stratified) set_.choose(first, static_cast<uint32_t>(paths));
+    for (uint64_t k = 0; k < paths; ++k) {
+      if (stratified)
+        random_.start(first + k, set_, static_cast<uint32_t>(k));
+      else
+        random_.start(first + k);
       if (unit < parts)
         look_at_sign(scene_.eye_targets[unit / 3], unit % 3);
       else
@@ -144,7 +150,7 @@ class EyeScores {
     const glm::vec3 aimed = sign.origin +
                             sign.axes[0] * ((uv.x - 0.5f) * static_cast<float>(d.width_m)) +
                             sign.axes[1] * ((uv.y - 0.5f) * static_cast<float>(d.height_m));
-    const Connection c = connect(eye, aimed, sign.axes[2], true);
+    const Connection c = connect(scene_, eye, aimed, sign.axes[2], true);
     const PathBand chosen = choose_band();
     if (part == 2) return look_along(c, chosen);
     const double solid = solid_transmittance(scene_, c.ray, c.ray.length, chosen.band, resolver_);
@@ -199,7 +205,7 @@ class EyeScores {
         make_surface(SurfaceKind::lambertian,
                      static_cast<double>(rho[static_cast<size_t>(chosen.band)]), 0, 1, 1, 1);
     const glm::vec3 normal = sign.axes[2];
-    const glm::vec3 start = offset_ray(place, normal);
+    const glm::vec3 start = offset_ray(place, normal, scene_.least_offset_m);
     const SourceLight asked = eye_.reflected_light(start, direction, normal, model, chosen.band);
     light_.add(asked.group, chosen.lm_per_w * asked.radiance);
     const float u = random_.uniform();
@@ -242,7 +248,8 @@ class EyeScores {
   void look_around_probe(uint32_t p) {
     const ProbeMeasure& probe = scene_.description->probes[p];
     const glm::vec3 normal(probe.normal);
-    const glm::vec3 start = offset_ray(glm::vec3(probe.position - scene_.local_origin), normal);
+    const glm::vec3 start =
+        offset_ray(glm::vec3(probe.position - scene_.local_origin), normal, scene_.least_offset_m);
     ++paths_;
     const PathBand chosen = choose_band();
     const double pi = static_cast<double>(pi_f);
@@ -270,6 +277,7 @@ class EyeScores {
   Resolver& resolver_;
   EyeTracer<Resolver> eye_;
   Random& random_;  // the tracer's
+  SobolSet set_;
   const bool by_group_;
   std::vector<FaceTexels> texels_;
 

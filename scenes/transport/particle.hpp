@@ -10,12 +10,12 @@
 #include <cmath>
 #include <type_traits>
 
-#include "runtime/core/random.hpp"
 #include "scenes/geometry/patches.hpp"
 #include "scenes/optics/offset_ray.hpp"
 #include "scenes/tally/batch_scores.hpp"
 #include "scenes/transport/detectors.hpp"
 #include "scenes/transport/emission.hpp"
+#include "scenes/transport/history.hpp"
 #include "scenes/transport/textures.hpp"
 
 namespace luxodus {
@@ -55,7 +55,7 @@ class ParticleTracer {
   ParticleTracer(const CompiledScene& scene, Resolver& resolver, uint64_t seed)
       : scene_(scene),
         resolver_(resolver),
-        random_(seed, RandomStream::particle),
+        random_(scene, seed),
         analogue_(scene.description->run.analogue),
         patches_(scene.layout.block(scene.blocks.patches).first_score) {}
 
@@ -126,7 +126,7 @@ class ParticleTracer {
     if constexpr (flawed) Flaws::birth(p.ray, point, emitter);
     if (emitter.body != none_index) {
       const glm::vec3 side = glm::dot(point.axis, p.ray.direction) >= 0 ? point.axis : -point.axis;
-      p.ray.origin = offset_ray(point.position, side);
+      p.ray.origin = offset_ray(point.position, side, scene_.least_offset_m);
     }
     // Collimated light has no density of directions, so the deterministic part cannot hold it.
     p.direct = emitter.distribution != Distribution::collimated;
@@ -256,7 +256,7 @@ class ParticleTracer {
     if (!goes_on(p)) return false;
     const glm::vec3 normal = front ? triangle.normal : -triangle.normal;
     p.ray.direction = to_world(normal, turn.lambertian);
-    p.ray.origin = offset_ray(triangle.at(hit.u, hit.v), normal);
+    p.ray.origin = offset_ray(triangle.at(hit.u, hit.v), normal, scene_.least_offset_m);
     if constexpr (flawed) Flaws::departure(p.ray.origin, triangle.at(hit.u, hit.v));
     p.direct = false;
     return true;
@@ -285,7 +285,7 @@ class ParticleTracer {
         sampled.transmitted && sampled.specular && model.kind != SurfaceKind::dielectric;
     p.direct = p.direct && straight;
     p.ray.direction = sampled.direction;
-    p.ray.origin = offset_ray(place, sampled.transmitted ? -normal : normal);
+    p.ray.origin = offset_ray(place, sampled.transmitted ? -normal : normal, scene_.least_offset_m);
     return true;
   }
 
@@ -364,7 +364,7 @@ class ParticleTracer {
 
   const CompiledScene& scene_;
   Resolver& resolver_;
-  Random random_;
+  HistoryRandom random_;
   const bool analogue_;
   const int64_t patches_;
   const Group* group_ = nullptr;

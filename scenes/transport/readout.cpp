@@ -24,6 +24,12 @@ double largest_lumens_per_share(const CompiledScene& scene, const Group& group) 
   return most;
 }
 
+/// NaN stands for fewer than two batches: not known, so not small.
+double known_error(const Estimate& e) {
+  const double error = e.relative_error();
+  return std::isnan(error) ? std::numeric_limits<double>::infinity() : error;
+}
+
 }  // namespace
 
 double Estimate::relative_error() const {
@@ -94,36 +100,53 @@ Estimate Readout::value(uint32_t block, uint32_t bin, uint32_t quantity) const {
 }
 
 double Readout::worst_relative_error() const {
+  const Judged& judged = scene_.judged;
   double worst = 0;
   bool asked = false;
   const auto judge = [&](const Estimate& e) {
     if (e.value <= 0) return;
     asked = true;
-    const double error =
-        e.relative_error();  // NaN with fewer than two batches: not known, so not small
-    worst = std::isnan(error) ? std::numeric_limits<double>::infinity() : std::max(worst, error);
+    worst = std::max(worst, known_error(e));
   };
-  for (uint32_t i = 0; i < scene_.planes.size(); ++i) {
+  for (const uint32_t i : judged.planes) {
     const Estimate direct = lumens(scene_.blocks.planes, i, 0);
     const Estimate indirect = lumens(scene_.blocks.planes, i, 1);
     // Direct light is computed without chance: only the traced part errs.
     judge({direct.value + indirect.value, indirect.standard_error});
   }
-  for (uint32_t i = 0; i < scene_.description->probes.size(); ++i)
-    judge(value(scene_.blocks.probes, i, 0));
-  for (const EyeTarget& t : scene_.eye_targets) {
+  for (const uint32_t i : judged.probes) judge(value(scene_.blocks.probes, i, 0));
+  for (const uint32_t i : judged.targets) {
     const auto at_eye = static_cast<uint32_t>(EyeQuantity::at_eye);
-    judge(value(scene_.blocks.views, t.first_bin, at_eye));
+    judge(value(scene_.blocks.views, scene_.eye_targets[i].first_bin, at_eye));
   }
-  if (asked) return worst;
-  double total = 0;
-  for (uint32_t s = 0; s < scene_.surfaces.size(); ++s)
-    total += lumens(scene_.blocks.surfaces, s, 0).value;
-  for (uint32_t s = 0; s < scene_.surfaces.size(); ++s) {
-    const Estimate in = lumens(scene_.blocks.surfaces, s, 0);
-    if (in.value > 0.01 * total) judge(in);
+  if (judged.surfaces) {
+    double total = 0;
+    for (uint32_t s = 0; s < scene_.surfaces.size(); ++s)
+      total += lumens(scene_.blocks.surfaces, s, 0).value;
+    for (uint32_t s = 0; s < scene_.surfaces.size(); ++s) {
+      const Estimate in = lumens(scene_.blocks.surfaces, s, 0);
+      if (in.value > 0.01 * total) judge(in);
+    }
+  }
+  if (judged.patches) {
+    const std::optional<double> error = patch_error();
+    asked |= error.has_value();
+    worst = std::max(worst, error.value_or(0));
   }
   return asked ? worst : std::numeric_limits<double>::infinity();
+}
+
+std::optional<double> Readout::patch_error() const {
+  constexpr double percentile = 0.95;
+  std::vector<double> errors;
+  for (uint32_t p = 0; p < scene_.patch_count; ++p) {
+    const Estimate in = lumens(scene_.blocks.patches, p, 0);
+    if (in.value > 0) errors.push_back(known_error(in));
+  }
+  if (errors.empty()) return std::nullopt;
+  const auto at = static_cast<std::ptrdiff_t>(percentile * static_cast<double>(errors.size() - 1));
+  std::nth_element(errors.begin(), errors.begin() + at, errors.end());
+  return errors[static_cast<size_t>(at)];
 }
 
 }  // namespace luxodus

@@ -3,6 +3,7 @@
 // add too.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "scenes/tally/totals.hpp"
@@ -32,12 +33,13 @@ class Readout {
   /// A value score in its own unit.
   Estimate value(uint32_t block, uint32_t bin, uint32_t quantity) const;
 
-  /// The relative standard error that a run is judged by: the worst of plane means, probes and sign
-  /// luminances at the eye; where a scene asks for none of these, of the flux into surfaces that
-  /// get at least 1 % of it.
+  /// The relative standard error that a run is judged by: the worst of what CompiledScene::judged
+  /// names, of mean illuminances of planes, indirect illuminances of probes, luminances of signs at
+  /// the eye, flux into surfaces and patches. Infinite where nothing of it has any light yet.
   double worst_relative_error() const;
 
  private:
+  std::optional<double> patch_error() const;
   Estimate sum_groups(uint32_t block, uint32_t bin, int channel, uint32_t quantity,
                       int group) const;
   double scale(int group, int channel, ScoreUnit unit) const;

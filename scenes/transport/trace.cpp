@@ -71,9 +71,15 @@ class ResolverPictureTracer final : public PictureTracer {
   ResolverPictureTracer(const CompiledScene& scene, Resolver resolver, uint64_t seed)
       : resolver_(std::move(resolver)),
         eye_(scene, resolver_, seed, RandomStream::picture),
+        set_(seed, RandomStream::picture),
+        stratified_(scene.description->run.stratified),
         light_(scene.groups.size()) {}
 
-  void start(uint64_t path) override { eye_.random().start(path); }
+  void start(uint64_t set, uint32_t count, uint32_t path) override {
+    if (!stratified_) return eye_.random().start(set + path);
+    set_.choose(set, count);
+    eye_.random().start(set + path, set_, path);
+  }
   float uniform() override { return eye_.random().uniform(); }
   int choose_band(double u) const override { return eye_.choose_band(u); }
   double band_probability(int band) const override { return eye_.band_probability(band); }
@@ -86,6 +92,8 @@ class ResolverPictureTracer final : public PictureTracer {
  private:
   Resolver resolver_;
   EyeTracer<Resolver> eye_;
+  SobolSet set_;
+  bool stratified_;
   GroupLight light_;
 };
 

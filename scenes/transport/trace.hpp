@@ -35,7 +35,8 @@ DirectLight direct_light_at(const CompiledScene& scene, const GeometryAccess& ac
 class PictureTracer {
  public:
   virtual ~PictureTracer() = default;
-  virtual void start(uint64_t path) = 0;
+  /// Begins path number `path` of `count` in a set, whose first draws are low-discrepancy points.
+  virtual void start(uint64_t set, uint32_t count, uint32_t path) = 0;
   virtual float uniform() = 0;
   virtual int choose_band(double u) const = 0;
   virtual double band_probability(int band) const = 0;

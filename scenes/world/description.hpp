@@ -312,9 +312,13 @@ struct RunSettings {
   int64_t batch_particles = 0;  // 0: follows from the scene
   double voxel_edge_m = 0;      // 0: follows from the scene; only where a medium is
   bool voxels = true;
-  bool analogue = false;  // sampled absorption instead of weighted survival
+  bool analogue = false;   // sampled absorption instead of weighted survival
+  bool stratified = true;  // low-discrepancy points for the first draws of histories and eye paths
   GroupRule groups = GroupRule::one;
   double eye_share = 1.0;  // paths from the eye per batch, relative to the default
+  std::vector<std::string>
+      error_of;  // what the error is judged by: see scenes/transport/judged.hpp
+  SourcePlace error_of_place;
 };
 
 /// Of a scene out of a pack: see scenes/transport/packed_scene.hpp.

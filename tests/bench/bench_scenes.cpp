@@ -100,7 +100,7 @@ Medium smoke(Air air) {
 
 }  // namespace
 
-std::shared_ptr<const CompiledScene> furnished_room(Air air, const Counting& counting) {
+SceneDescription furnished(Air air, const Counting& counting) {
   SceneDescription d;
   d.name = "furnished room";
   d.materials.emplace_back().name = "grey";
@@ -131,7 +131,11 @@ std::shared_ptr<const CompiledScene> furnished_room(Air air, const Counting& cou
     volume.high = {0, 0, 2};
     d.volume_groups.push_back(volume);
   }
-  return compiled(std::move(d));
+  return d;
+}
+
+std::shared_ptr<const CompiledScene> furnished_room(Air air, const Counting& counting) {
+  return compiled(furnished(air, counting));
 }
 
 std::shared_ptr<const CompiledScene> landscape(int n) {

@@ -20,6 +20,7 @@ struct Counting {
 /// 20 x 15 x 3 m, six walls and 131 boxes without bottoms, Lambertian 0.5, one ceiling rectangle.
 /// Homogeneous: isotropic, 0.1/m, albedo 0.8. Layered: six layers of 0.5 m, 0.05 to 2/m upwards,
 /// albedo 0.8.
+SceneDescription furnished(Air air, const Counting& counting);
 std::shared_ptr<const CompiledScene> furnished_room(Air air, const Counting& counting);
 
 /// A hilly floor of 2 n^2 triangles under a lamp, one patch a side of each.

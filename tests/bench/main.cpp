@@ -31,6 +31,8 @@ constexpr Table tables[] = {
     {"delay", [](const Options& o) { luxodus::bench::print_delay(o.repeats); }},
     {"flushes", [](const Options& o) { luxodus::bench::print_flushes(o.repeats); }},
     {"residency", [](const Options& o) { luxodus::bench::print_residency(o.pack); }},
+    {"merit", [](const Options& o) { luxodus::bench::print_merit(o.repeats); }},
+    {"images", [](const Options&) { luxodus::bench::print_images(); }},
     {"smoke", [](const Options&) { luxodus::bench::print_smoke(); }},
 };
 

@@ -51,7 +51,7 @@ void print_pieces(int repeats) {
   });
   print_piece("offset of a start", repeats, [&](int) {
     const float u = random.uniform();
-    return offset_ray({u, 1 + u, 2}, {0.6f, 0, 0.8f}).x;
+    return offset_ray({u, 1 + u, 2}, {0.6f, 0, 0.8f}, 1e-5f).x;
   });
   print_piece("optical depth of a flight", repeats, [&](int) {
     const uint32_t r = random.bits();

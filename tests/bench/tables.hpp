@@ -29,4 +29,9 @@ void print_delay(int repeats);
 /// What flushes of a large scene send and cost, by their interval.
 void print_flushes(int repeats);
 
+/// What each way of sampling gains in figure of merit over the plain weighted game.
+void print_merit(int turns);
+/// How far pictures are from a long run, by paths and seconds, and by the size of patches.
+void print_images();
+
 }  // namespace luxodus::bench

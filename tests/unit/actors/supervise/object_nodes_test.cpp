@@ -214,8 +214,8 @@ TEST_CASE("direct light and pictures read bricks and tiles through a cache", "[n
                 direct_light_at(run.scene(), access, {5 * at - 2.5f, 0.3f, -0.6f}, {0, 0, 1}, {})
                     .total_lx();
             const glm::vec3 towards = glm::normalize(glm::vec3(2 * at - 1, 2, 0.3f * at - 0.2f));
-            for (uint64_t path = 0; path < 40; ++path) {
-              eye->start(i * 40 + path);
+            for (uint32_t path = 0; path < 40; ++path) {
+              eye->start(i * 40, 40, path);
               const Ray ray{{0, -1.5f, 0.1f}, towards};
               out[rows + i] += eye->radiance(ray, 0, nullptr);
             }

@@ -1,0 +1,124 @@
+#include "scenes/transport/judged.hpp"
+
+#include <numeric>
+
+namespace luxodus {
+
+namespace {
+
+struct Word {
+  std::string kind, name;  // the name is empty where all of a kind are meant
+};
+
+Word split(const std::string& text) {
+  const size_t space = text.find(' ');
+  if (space == std::string::npos) return {text, ""};
+  return {text.substr(0, space), text.substr(space + 1)};
+}
+
+/// Things of one kind that can be judged, by name; a name may stand for several (a sign that many
+/// observers see).
+struct Kind {
+  const char* one;
+  const char* all;
+  std::vector<std::string> names;
+  std::vector<uint32_t>* chosen;
+};
+
+std::vector<uint32_t> all_of(const Kind& kind) {
+  std::vector<uint32_t> numbers(kind.names.size());
+  std::iota(numbers.begin(), numbers.end(), 0u);
+  return numbers;
+}
+
+std::string quoted_list(const std::vector<std::string>& names) {
+  constexpr size_t shown = 8;
+  std::string text;
+  for (size_t i = 0; i < names.size() && i < shown; ++i)
+    text += (i > 0 ? ", \"" : "\"") + names[i] + "\"";
+  return text + (names.size() > shown ? ", ..." : "");
+}
+
+class Judging {
+ public:
+  Judging(const CompiledScene& scene, const std::vector<std::string>& words) : scene_(scene) {
+    judged_.words = words;
+    const SceneDescription& d = *scene.description;
+    for (const PlaneMeasure& p : d.planes) kinds_[0].names.push_back(p.name);
+    for (const ProbeMeasure& p : d.probes) kinds_[1].names.push_back(p.name);
+    for (const EyeTarget& t : scene.eye_targets)
+      kinds_[2].names.push_back(d.signs[scene.signs[t.sign].sign].name);
+  }
+
+  Result<bool> add(const std::string& text) {
+    if (text == "all") {
+      add_all();
+    } else if (text == "surfaces") {
+      judged_.surfaces = true;
+    } else if (text == "patches") {
+      judged_.patches = true;
+    } else {
+      return add_kind(split(text), text);
+    }
+    return true;
+  }
+
+  void add_all() {
+    for (const Kind& kind : kinds_) *kind.chosen = all_of(kind);
+    const bool any = !judged_.planes.empty() || !judged_.probes.empty() || !judged_.targets.empty();
+    judged_.surfaces |= !any;
+  }
+
+  Judged take() { return std::move(judged_); }
+
+ private:
+  Result<bool> add_kind(const Word& word, const std::string& text) {
+    for (const Kind& kind : kinds_) {
+      if (word.kind == kind.all && word.name.empty()) {
+        if (kind.names.empty()) return fail("the scene has no " + std::string(kind.all));
+        *kind.chosen = all_of(kind);
+        return true;
+      }
+      if (word.kind == kind.one && !word.name.empty()) return add_named(kind, word.name);
+    }
+    return fail(
+        "an error can be of all, planes, probes, signs, surfaces, patches, \"plane NAME\", "
+        "\"probe NAME\" or \"sign NAME\", not of \"" +
+        text + "\"");
+  }
+
+  Result<bool> add_named(const Kind& kind, const std::string& name) {
+    bool found = false;
+    for (uint32_t i = 0; i < kind.names.size(); ++i) {
+      if (kind.names[i] != name) continue;
+      kind.chosen->push_back(i);
+      found = true;
+    }
+    if (found) return true;
+    const std::string known =
+        kind.names.empty() ? "there are none" : "there are " + quoted_list(kind.names);
+    return fail("an error is wanted of the " + std::string(kind.one) + " \"" + name + "\", but " +
+                known);
+  }
+
+  Problem fail(std::string what) const { return {{scene_.description->file, 0}, std::move(what)}; }
+
+  const CompiledScene& scene_;
+  Judged judged_;
+  Kind kinds_[3] = {{"plane", "planes", {}, &judged_.planes},
+                    {"probe", "probes", {}, &judged_.probes},
+                    {"sign", "signs", {}, &judged_.targets}};
+};
+
+}  // namespace
+
+Result<Judged> judged_by(const CompiledScene& scene, const std::vector<std::string>& words) {
+  Judging judging(scene, words);
+  if (words.empty()) judging.add_all();
+  for (const std::string& word : words) {
+    if (auto ok = judging.add(word); !ok.ok()) return ok.problem();
+  }
+  return judging.take();
+}
+
+}  // namespace luxodus

@@ -1,0 +1,142 @@
+#include "scenes/transport/scene_features.hpp"
+
+#include <algorithm>
+
+namespace luxodus {
+
+namespace {
+
+/// "3 planes"; "1 plane".
+std::string counted(size_t count, const std::string& one) {
+  return std::to_string(count) + " " + one + (count == 1 ? "" : "s");
+}
+
+std::string joined(const std::vector<std::string>& parts) {
+  std::string text;
+  for (const std::string& part : parts) text += (text.empty() ? "" : ", ") + part;
+  return text;
+}
+
+/// The first names of a list, and how many more there are.
+std::string some_of(const std::vector<std::string>& names) {
+  constexpr size_t shown = 3;
+  std::vector<std::string> first(
+      names.begin(), names.begin() + static_cast<std::ptrdiff_t>(std::min(names.size(), shown)));
+  const std::string rest =
+      names.size() > shown ? " and " + std::to_string(names.size() - shown) + " more" : "";
+  return joined(first) + rest;
+}
+
+SceneFeature bands(const CompiledScene& scene) {
+  const RunSettings& run = scene.description->run;
+  const auto n = static_cast<size_t>(scene.bands.count());
+  if (n > 1) {
+    return {"wavelength bands", true,
+            counted(n, "band") + (run.band_edges_nm.empty() ? ", told apart by spectra"
+                                                            : ", as [run] band_edges_nm says")};
+  }
+  return {"wavelength bands", false,
+          run.bands_most == 1
+              ? "one, as [run] bands_most says"
+              : "one: no spectrum of a material or medium changes over wavelengths"};
+}
+
+SceneFeature groups(const CompiledScene& scene) {
+  const size_t n = scene.groups.size();
+  return {"source groups", n > 1,
+          n > 1 ? counted(n, "group") + " with tallies of their own"
+                : "one tally: [run] groups asks for no more, or there is one source"};
+}
+
+SceneFeature webs(const CompiledScene& scene) {
+  const size_t n = scene.webs.size();
+  return {"photometric webs", n > 0,
+          n > 0 ? counted(n, "web") : "no active luminaire has an LDT or IES file"};
+}
+
+SceneFeature media(const CompiledScene& scene) {
+  switch (scene.features.media) {
+    case MediaNeed::none:
+      return {"media", false,
+              scene.media_names.empty() ? "the scene has none"
+                                        : "none has any extinction in this scenario"};
+    case MediaNeed::homogeneous:
+      return {"media", true, "homogeneous: one extinction everywhere"};
+    case MediaNeed::layered:
+      return {"media", true, "layered: extinctions that depend on height alone"};
+    case MediaNeed::general:
+      break;
+  }
+  return {"media", true, "bounded: a footprint, a quadric or a data set"};
+}
+
+SceneFeature glow(const CompiledScene& scene) {
+  std::vector<std::string> names;
+  for (const CompiledEmitter& e : scene.emitters) {
+    if (e.kind == EmitterKind::volume) names.push_back(e.name);
+  }
+  return {"emission in volumes", !names.empty(),
+          names.empty() ? "no flame is lit" : some_of(names)};
+}
+
+SceneFeature surfaces(const CompiledScene& scene) {
+  std::vector<std::string> names;
+  for (const CompiledMaterial& m : scene.materials) {
+    if (m.kind != MaterialKind::lambertian) names.push_back(m.name);
+  }
+  if (!scene.signs.empty()) names.push_back(counted(scene.signs.size(), "sign face"));
+  if (scene.features.surfaces && names.empty()) names.emplace_back("textures");
+  return {
+      "surfaces other than Lambertian", scene.features.surfaces,
+      scene.features.surfaces ? some_of(names) : "all materials are matt and of one colour each"};
+}
+
+SceneFeature textures(const CompiledScene& scene) {
+  const size_t n = scene.images.size();
+  return {"textures", n > 0, n > 0 ? counted(n, "picture") : "no material has an image"};
+}
+
+SceneFeature voxels(const CompiledScene& scene) {
+  const VoxelGrid& grid = scene.voxels;
+  if (grid.edge > 0) return {"voxels", true, counted(grid.count(), "voxel") + " for the media"};
+  return {"voxels", false,
+          scene.features.media == MediaNeed::none ? "there is no medium" : "[run] voxels is false"};
+}
+
+SceneFeature flights(const CompiledScene& scene) {
+  std::vector<std::string> asked;
+  if (!scene.planes.empty()) asked.push_back(counted(scene.planes.size(), "plane"));
+  if (!scene.counting_planes.empty())
+    asked.push_back(counted(scene.counting_planes.size(), "counting plane"));
+  if (!scene.volume_groups.empty())
+    asked.push_back(counted(scene.volume_groups.size(), "volume group"));
+  if (scene.voxels.edge > 0) asked.emplace_back("voxels");
+  return {"scores along flights", scene.features.detectors,
+          asked.empty() ? "no plane, volume group or voxel asks for them" : joined(asked)};
+}
+
+SceneFeature eyes(const CompiledScene& scene) {
+  const size_t probes = scene.description->probes.size();
+  std::vector<std::string> asked;
+  if (!scene.eye_targets.empty())
+    asked.push_back(counted(scene.eye_targets.size(), "sign") + " seen by observers");
+  if (probes > 0) asked.push_back(counted(probes, "probe"));
+  return {"paths from eyes", !asked.empty(),
+          asked.empty() ? "no probe, and no observer with a sign before him" : joined(asked)};
+}
+
+SceneFeature sampling(const CompiledScene& scene) {
+  const bool on = scene.description->run.stratified;
+  return {"low-discrepancy points", on,
+          on ? "first draws of histories and eye paths" : "[run] stratified is false"};
+}
+
+}  // namespace
+
+std::vector<SceneFeature> features_of(const CompiledScene& scene) {
+  return {bands(scene),   groups(scene),   webs(scene),     media(scene),
+          glow(scene),    surfaces(scene), textures(scene), voxels(scene),
+          flights(scene), eyes(scene),     sampling(scene)};
+}
+
+}  // namespace luxodus

@@ -1,0 +1,149 @@
+// How far pictures are from a long run of themselves, by paths and by seconds; and what the size of
+// patches does to what an eye sees.
+#include <fmt/core.h>
+
+#include <atomic>
+#include <cmath>
+#include <stdexcept>
+
+#include "actors/display/pictures.hpp"
+#include "scenes/format/scene_file.hpp"
+#include "scenes/transport/compile.hpp"
+#include "scenes/transport/look.hpp"
+#include "tests/bench/measure.hpp"
+#include "tests/bench/tables.hpp"
+
+namespace luxodus::bench {
+
+namespace {
+
+constexpr int width = 96, height = 64;
+constexpr int long_paths = 2048;
+/// Pixels darker than this share of the mean are judged as if they were that bright.
+constexpr double dark = 0.05;
+
+std::shared_ptr<const CompiledScene> office(const char* scenario, bool stratified,
+                                            double patch_edge) {
+  auto read = read_scene(LUX_SOURCE_DIR "/scenes/library/office_floor.toml");
+  if (!read.scene) throw std::runtime_error("scenes/library/office_floor.toml cannot be read");
+  SceneDescription d = *read.scene;
+  d.run.stratified = stratified;
+  d.cameras.resize(1);
+  d.cameras[0].width = width;
+  d.cameras[0].height = height;
+  for (Object& o : d.objects) o.patch_edge_m = patch_edge > 0 ? patch_edge : o.patch_edge_m;
+  const Scenario found = find_scenario(d, scenario).value();
+  auto scene = compile_scene(std::make_shared<const SceneDescription>(std::move(d)), found, {});
+  if (!scene.ok()) throw std::runtime_error(scene.problem().text());
+  return scene.value();
+}
+
+std::unique_ptr<LocalRun> traced(std::shared_ptr<const CompiledScene> scene, uint64_t seed,
+                                 int64_t particles) {
+  auto run = std::make_unique<LocalRun>(std::move(scene), seed, 2);
+  const std::atomic<bool> never{false};
+  StopRule stop;
+  stop.particles = particles;
+  run->run(stop, never, [](const Progress&) {});
+  return run;
+}
+
+double luminance(const TracedPicture& p, size_t pixel) {
+  return static_cast<double>(p.light.xyz[3 * pixel + 1]);
+}
+
+struct Deviation {
+  double luminance = 0;  // relative, root mean square
+  double mean = 0;       // relative, of the picture's mean luminance
+  double colour = 0;     // of x and y together, root mean square
+};
+
+Deviation deviation(const TracedPicture& is, const TracedPicture& wanted) {
+  const size_t n = wanted.light.pixels();
+  double mean = 0, seen = 0;
+  for (size_t i = 0; i < n; ++i) {
+    mean += luminance(wanted, i) / static_cast<double>(n);
+    seen += luminance(is, i) / static_cast<double>(n);
+  }
+  double squares = 0, colours = 0;
+  for (size_t i = 0; i < n; ++i) {
+    const double to = std::max(luminance(wanted, i), dark * mean);
+    const double off = (luminance(is, i) - luminance(wanted, i)) / to;
+    squares += off * off;
+    const auto share = [&](const TracedPicture& p, size_t k) {
+      const float* c = &p.light.xyz[3 * i];
+      const auto sum = static_cast<double>(c[0] + c[1] + c[2]);
+      return sum > 0 ? static_cast<double>(c[k]) / sum : 1.0 / 3;
+    };
+    for (const size_t k : {size_t{0}, size_t{1}}) {
+      const double d = share(is, k) - share(wanted, k);
+      colours += d * d;
+    }
+  }
+  const auto count = static_cast<double>(n);
+  return {std::sqrt(squares / count), seen / mean - 1, std::sqrt(colours / count)};
+}
+
+struct Timed {
+  TracedPicture picture;
+  double seconds;
+};
+
+/// Wall time of two threads' work, by processor time of the process.
+Timed draw(const LocalRun& run, int paths, bool gather) {
+  PictureOptions options;
+  options.paths_per_pixel = paths;
+  options.gather = gather;
+  const auto flux = gather ? flux_radiance(run) : nullptr;
+  const double before = process_seconds();
+  TracedPicture picture = trace_picture(run, 0, options, flux.get());
+  return {std::move(picture), process_seconds() - before};
+}
+
+void print_course(const char* scenario) {
+  // Other seeds than the pictures': a long run is not to share their chance.
+  const auto long_run = traced(office(scenario, true, 0), 77, 1 << 24);
+  for (const bool gather : {true, false}) {
+    const TracedPicture wanted = draw(*long_run, long_paths, gather).picture;
+    for (const bool stratified : {false, true}) {
+      const auto run = traced(office(scenario, stratified, 0), 1, 1 << 24);
+      for (const int paths : {4, 16, 64}) {
+        const Timed timed = draw(*run, paths, gather);
+        const Deviation d = deviation(timed.picture, wanted);
+        fmt::print("{:<16} {:<7} {:<11} {:>5} {:>8.2f} {:>9.2f} % {:>9.4f} {:>10.3g}\n", scenario,
+                   gather ? "gather" : "full", stratified ? "stratified" : "independent", paths,
+                   timed.seconds, 100 * d.luminance, d.colour,
+                   1 / (d.luminance * d.luminance * timed.seconds));
+      }
+    }
+  }
+}
+
+void print_halving(const char* scenario) {
+  const auto exact = traced(office(scenario, true, 0), 1, 1 << 16);
+  const TracedPicture wanted = draw(*exact, long_paths, false).picture;
+  for (const double edge : {4.0, 2.0, 1.0, 0.5, 0.25}) {
+    const auto run = traced(office(scenario, true, edge), 1, 1 << 24);
+    const Deviation d = deviation(draw(*run, 256, true).picture, wanted);
+    fmt::print("{:<16} {:>8.2f} {:>9} {:>11.2f} % {:>11.2f} %\n", scenario, edge,
+               run->scene().patch_count, 100 * d.luminance, 100 * d.mean);
+  }
+}
+
+}  // namespace
+
+void print_images() {
+  fmt::print(
+      "\nPictures of the office floor, {} x {} pixels, against one of {} paths a pixel in the same "
+      "way\n{:<16} {:<7} {:<11} {:>5} {:>8} {:>11} {:>9} {:>10}\n",
+      width, height, long_paths, "scenario", "paths", "numbers", "each", "cpu [s]", "rms error",
+      "rms x, y", "merit [/s]");
+  for (const char* scenario : {"clear_emergency", "smoke_emergency"}) print_course(scenario);
+  fmt::print(
+      "\nFinal gathers in patches of an edge, against paths traced to their end\n"
+      "{:<16} {:>8} {:>9} {:>13} {:>13}\n",
+      "scenario", "edge [m]", "patches", "rms error", "mean is off");
+  for (const char* scenario : {"clear_emergency", "smoke_emergency"}) print_halving(scenario);
+}
+
+}  // namespace luxodus::bench
