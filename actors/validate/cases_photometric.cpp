@@ -113,17 +113,18 @@ Plan luminaire_plan(const PhotometricFile& file) {
   Emitter& e = add_point(scene, {0, 0, 0}, 1);
   e.distribution = Distribution::web;
   e.web = file.web;
-  // A floor right below the lamp, in two halves, gets all but what leaves within 1e-4 of the
-  // horizon, 1e-8 of it.
-  constexpr double below = 1e-3, wide = 10;
+  // A floor right below the lamp, in two halves, gets all but what leaves within 1e-3 of the
+  // horizon, 1e-6 of it. Rays know to a millionth of their size where its halves meet.
+  constexpr double below = 1e-2, wide = 10, edge = 1e-4;
   add_quad(scene, "towards C0", {0, -wide, -below}, {wide, 0, 0}, {0, 2 * wide, 0},
            add_grey(scene, 0));
   add_quad(scene, "away from C0", {-wide, -wide, -below}, {wide, 0, 0}, {0, 2 * wide, 0},
            add_grey(scene, 0));
   const double leaning = share_of_trapezoids(c_step) / (2 * pi);
-  plan.add("towards C0", 0.5 + leaning, [](const Traced& run) { return run.into("towards C0"); });
-  plan.add("away from C0", 0.5 - leaning,
-           [](const Traced& run) { return run.into("away from C0"); });
+  for (const auto& [half, share] :
+       {std::pair("towards C0", 0.5 + leaning), {"away from C0", 0.5 - leaning}})
+    plan.add(
+        half, share, [half = half](const Traced& run) { return run.into(half); }, edge);
   return plan;
 }
 

@@ -33,6 +33,7 @@ constexpr Table tables[] = {
     {"residency", [](const Options& o) { luxodus::bench::print_residency(o.pack); }},
     {"merit", [](const Options& o) { luxodus::bench::print_merit(o.repeats); }},
     {"images", [](const Options&) { luxodus::bench::print_images(); }},
+    {"features", [](const Options& o) { luxodus::bench::print_features(o.repeats); }},
     {"smoke", [](const Options&) { luxodus::bench::print_smoke(); }},
 };
 

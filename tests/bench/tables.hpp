@@ -33,5 +33,7 @@ void print_flushes(int repeats);
 void print_merit(int turns);
 /// How far pictures are from a long run, by paths and seconds, and by the size of patches.
 void print_images();
+/// What each feature of a scene costs where it is absent, unused and used.
+void print_features(int repeats);
 
 }  // namespace luxodus::bench
