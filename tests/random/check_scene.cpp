@@ -231,7 +231,8 @@ std::string kind_of_refusal(const std::string& what) {
   std::string out;
   bool quoted = false;
   for (const char c : what) {
-    if (c == '"' || c == '\'') quoted = !quoted;
+    const bool mark = c == '"' || c == '\'';
+    if (mark && (quoted || out.empty() || out.back() == ' ' || out.back() == '(')) quoted = !quoted;
     const bool number = (c >= '0' && c <= '9') || c == '.' || c == '-';
     const char shown = number ? '#' : c;
     if (quoted || (shown == '#' && !out.empty() && out.back() == '#')) continue;
@@ -250,8 +251,11 @@ Verdict check_scene(const RandomScene& drawn, uint64_t number, const EmbreeDevic
     return verdict;
   }
   verdict.accepted = true;
+  const CompiledScene& scene = *compiled.value();
+  if (scene.layout.scores() > limits::scores_checked || scene.triangles > limits::triangles_checked)
+    return verdict;
   const TracingArithmetic arithmetic;
-  Tracing tracing(drawn, *compiled.value(), device, number);
+  Tracing tracing(drawn, scene, device, number);
   tracing.check();
   verdict.findings = std::move(tracing.findings);
   verdict.rays = tracing.rays;

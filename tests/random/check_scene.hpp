@@ -15,6 +15,9 @@ namespace luxodus::test {
 namespace limits {
 /// Rays of one batch after which no further particle is begun: what bounds a scene's work.
 inline constexpr uint64_t rays_per_batch = 1 << 13;
+/// Scores and triangles of a scene that is worth a test's time; others are compiled alone.
+inline constexpr int64_t scores_checked = 1 << 22;
+inline constexpr uint64_t triangles_checked = 1 << 16;
 }  // namespace limits
 
 struct Verdict {

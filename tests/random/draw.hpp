@@ -17,6 +17,7 @@ struct Draw {
   double size_m = 1;           // its shortest side
   bool extreme = false;        // this scene draws from the ends of ranges
   bool enclosed = false;       // by six opaque walls
+  bool bare = false;           // nothing stands there, at most flames burn
 
   glm::dvec3 size() const { return high - low; }
   /// A place well inside, or anywhere near.
@@ -30,12 +31,12 @@ struct Draw {
 inline double draw_share(Draw& draw) {
   Dice& dice = draw.dice;
   if (dice.chance(draw.extreme ? 0.5 : 0.9)) return dice.between(0, 0.95);
-  const int which = dice.below(64);
+  const int which = dice.below(32);
   if (which == 0) return 1;
   if (which == 1) return 1 - 1e-6;
   if (which < 4) return 0.999;
-  if (which < 24) return 0;
-  if (which < 34) return 1e-6;
+  if (which < 12) return 0;
+  if (which < 17) return 1e-6;
   return dice.between(0.9, 0.99);
 }
 

@@ -164,7 +164,7 @@ void draw_lighting(Draw& draw, Sign& sign) {
 
 void draw_emitters(Draw& draw) {
   Dice& dice = draw.dice;
-  const int count = dice.chance(0.1) ? 0 : dice.whole(1, 4);
+  const int count = draw.bare || dice.chance(0.1) ? 0 : dice.whole(1, 4);
   for (int i = 0; i < count; ++i) {
     Emitter e;
     e.name = "emitter " + std::to_string(i);
@@ -181,7 +181,7 @@ void draw_emitters(Draw& draw) {
 
 void draw_signs(Draw& draw) {
   Dice& dice = draw.dice;
-  const int count = dice.chance(0.5) ? 0 : dice.whole(1, 2);
+  const int count = draw.bare || dice.chance(0.5) ? 0 : dice.whole(1, 2);
   for (int i = 0; i < count; ++i) {
     Sign sign;
     sign.name = "sign " + std::to_string(i);

@@ -50,7 +50,7 @@ SmokeOptics draw_optics(Draw& draw) {
   optics.albedo = draw_property(draw);
   // Endless walks in dark fog that takes nothing are traced up to the cap: a few are enough.
   const double most = *std::max_element(optics.albedo.value.begin(), optics.albedo.value.end());
-  if (most > 0.999 && dice.chance(0.8)) optics.albedo = optics.albedo * 0.9;
+  if (most > 0.999 && dice.chance(0.5)) optics.albedo = optics.albedo * 0.9;
   optics.phase = draw_phase(draw);
   return optics;
 }
@@ -109,7 +109,8 @@ void draw_body(Draw& draw, Medium& m) {
   const double a = std::clamp(draw.size_m * dice.magnitude(0.02, 1), 1e-4, 1e6);
   const double b = std::clamp(draw.size_m * dice.magnitude(0.02, 1), 1e-4, 1e6);
   QuadricShape shape;
-  const int kind = dice.below(5);
+  // The volume of what has no formula for it takes the compiler tens of milliseconds.
+  const int kind = dice.chance(0.1) ? 4 : dice.below(4);
   if (kind == 0) shape = ellipsoid({a, b, 0.5 * (a + b)});
   if (kind == 1) shape = cylinder(a, b);
   if (kind == 2) shape = cone(a, b);
@@ -117,7 +118,7 @@ void draw_body(Draw& draw, Medium& m) {
   if (kind == 4) shape = draw_quadric(draw, a);
   m.quadric = std::move(shape.quadric);
   m.local_bounds = shape.bounds;
-  if (dice.chance(0.3)) {
+  if (dice.chance(0.1)) {
     const glm::dvec3 normal = dice.direction();
     m.quadric.clips.push_back({normal, 0.5 * a * dice.between(-0.5, 1)});
   }
@@ -162,8 +163,8 @@ void draw_glow(Draw& draw, Medium& m) {
 void draw_media(Draw& draw) {
   using enum MediumKind;
   Dice& dice = draw.dice;
-  const int count = dice.chance(0.3) ? 0 : dice.whole(1, 4);
-  const MediumKind mostly = dice.one_of({homogeneous, layered, bounded, data_set});
+  const int count = !draw.bare && dice.chance(0.3) ? 0 : dice.whole(1, 4);
+  const MediumKind mostly = dice.one_of({homogeneous, layered, layered, data_set});
   for (int i = 0; i < count; ++i) {
     Medium m;
     m.name = "medium " + std::to_string(i);
@@ -179,7 +180,7 @@ void draw_media(Draw& draw) {
         const glm::dvec3 axis = dice.direction();
         m.frame.axes = rotation(axis, dice.between(-360, 360)).value().linear;
       }
-      if (dice.chance(0.35)) draw_glow(draw, m);
+      if (dice.chance(draw.bare ? 0.9 : 0.35)) draw_glow(draw, m);
     }
     draw.scene.media.push_back(std::move(m));
   }

@@ -15,6 +15,7 @@ constexpr uint64_t of_scenes = 0x5ce7e5;
 void draw_world(Draw& draw) {
   Dice& dice = draw.dice;
   draw.extreme = dice.chance(0.35);
+  draw.bare = dice.chance(0.02);
   const bool odd_size = draw.extreme && dice.chance(0.5);
   draw.size_m = odd_size ? dice.magnitude(1e-3, 1e4) : dice.magnitude(1, 30);
   glm::dvec3 size(draw.size_m);
@@ -35,7 +36,7 @@ void draw_run(Draw& draw) {
   run.band_tolerance = dice.one_of({0.02, 1e-6, 1.0});
   if (dice.chance(0.2)) run.voxel_edge_m = draw.size_m * dice.between(0.1, 1);
   run.voxels = dice.chance(0.6);
-  if (run.voxels && run.voxel_edge_m == 0 && dice.chance(0.8)) run.voxel_edge_m = draw.size_m / 5;
+  if (run.voxels && run.voxel_edge_m == 0 && dice.chance(0.97)) run.voxel_edge_m = draw.size_m / 5;
   run.analogue = dice.chance(0.2);
   run.groups = dice.one_of({GroupRule::one, GroupRule::by_circuit, GroupRule::by_emitter});
   run.eye_share = dice.one_of({0.0, 1.0, 1.0, 3.0});

@@ -5,7 +5,10 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 
+#include "scenes/transport/compile.hpp"
+#include "scenes/transport/trace.hpp"
 #include "tests/random/check_scene.hpp"
+#include "tests/random/check_scores.hpp"
 #include "tests/random/features.hpp"
 #include "tests/random/random_text.hpp"
 
@@ -79,4 +82,62 @@ TEST_CASE("random scene files are taken, or refused with file and line") {
   std::filesystem::remove_all(folder);
   CHECK(accepted > texts / 10);
   CHECK(accepted < texts * 9 / 10);
+}
+
+namespace {
+
+/// The first random scene that light meets, and one batch of it.
+struct OneBatch {
+  std::shared_ptr<const CompiledScene> scene;
+  BatchScores scores;
+};
+
+OneBatch one_batch() {
+  const EmbreeDevice device(BuildThreads::calling);
+  for (uint64_t number = 0;; ++number) {
+    const RandomScene drawn = random_scene(number);
+    if (!drawn.closed) continue;
+    const auto compiled = compile_scene(std::make_shared<const SceneDescription>(drawn.description),
+                                        drawn.scenario, {1});
+    if (!compiled.ok()) continue;
+    OneBatch out;
+    out.scene = compiled.value();
+    const SceneIndex index(device, *out.scene);
+    out.scores.reset(out.scene->layout);
+    make_batch_tracer(*out.scene, GeometryAccess::resident(index), 1)->trace(0, 0, 50, out.scores);
+    return out;
+  }
+}
+
+/// What is found of the batch after it was harmed.
+template <class Harm>
+Findings findings_after(const OneBatch& from, const Harm& harm) {
+  OneBatch batch = from;
+  batch.scores.scores.find_touched();
+  harm(batch.scores);
+  Findings findings;
+  check_ledger(*batch.scene, batch.scores.ledger, {true, false}, findings);
+  check_batch(*batch.scene, batch.scores, findings);
+  return findings;
+}
+
+}  // namespace
+
+TEST_CASE("a unit of weight too many or too few is found, wherever it is") {
+  OneBatch batch = one_batch();
+  batch.scores.scores.find_touched();
+  CHECK(findings_after(batch, [](BatchScores&) {}).empty());
+  CHECK_FALSE(findings_after(batch, [](BatchScores& s) { ++s.ledger.emitted; }).empty());
+  CHECK_FALSE(findings_after(batch, [](BatchScores& s) { --s.ledger.absorbed_surfaces; }).empty());
+  CHECK_FALSE(findings_after(batch, [](BatchScores& s) { ++s.ledger.absorbed_media; }).empty());
+  CHECK_FALSE(findings_after(batch, [](BatchScores& s) {
+                ++s.ledger.escaped;
+                --s.ledger.absorbed_surfaces;
+              }).empty());
+  const auto& layout = batch.scene->layout;
+  for (const uint32_t block : {batch.scene->blocks.patches, batch.scene->blocks.escape}) {
+    const int64_t at = layout.score_index(block, 0, 0, 0);
+    CHECK_FALSE(findings_after(batch, [&](BatchScores& s) { ++*s.scores.touch(at); }).empty());
+    CHECK_FALSE(findings_after(batch, [&](BatchScores& s) { *s.scores.touch(at) = -1; }).empty());
+  }
 }

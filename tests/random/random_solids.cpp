@@ -234,7 +234,7 @@ void draw_materials(Draw& draw) {
 void draw_room(Draw& draw) {
   Dice& dice = draw.dice;
   const int kind = dice.below(8);
-  if (kind < 2) return;  // in the open
+  if (kind < 2 || draw.bare) return;  // in the open
   if (kind == 2) {
     auto room = shapes::room_over(draw_outline(draw, draw.size_m), draw.size().z);
     if (!room.ok()) return;
@@ -263,7 +263,8 @@ void draw_room(Draw& draw) {
 
 void draw_objects(Draw& draw) {
   Dice& dice = draw.dice;
-  const int least = draw.scene.objects.empty() ? 1 : 0;
+  if (draw.bare) return;
+  const int least = draw.scene.objects.empty() && dice.chance(0.95) ? 1 : 0;
   const int count = least + dice.below(4);
   for (int i = 0; i < count; ++i) {
     auto shape = draw_shape(draw, draw.size_m * dice.magnitude(0.05, 0.8));

@@ -92,7 +92,7 @@ facing = [-1, 0, 0]
 width = 0.4
 height = 0.2
 text = "EXIT"
-texels = 32
+texels = 64
 letter_height = 0.1
 stroke = 0.015
 mains_white = 500
@@ -232,8 +232,9 @@ class TextWriter {
     const auto line = table.lines.begin() + dice_.below(count(table.lines));
     if (what == 7) {
       table.lines.erase(line);
-    } else if (what == 8) {
-      table.lines.push_back(*line);
+    } else if (what == 8 && dice_.chance(0.2)) {
+      const std::string again = *line;
+      table.lines.push_back(again);
     } else {
       const std::string key = line->substr(0, line->find(' '));
       *line = key + " = " + value_of(kind_of(table), key);
@@ -258,7 +259,10 @@ class TextWriter {
     const TableSpec& spec = *dice_.any(specs);
     if (spec.keys.empty()) return;
     const KeySpec& key = dice_.any(spec.keys);
-    table.lines.push_back(std::string(key.name) + " = " + value_for(key));
+    const std::string begin = std::string(key.name) + " = ";
+    const bool twice = dice_.chance(0.03);
+    if (!twice) std::erase_if(table.lines, [&](const auto& l) { return l.starts_with(begin); });
+    table.lines.push_back(begin + value_for(key));
   }
 
   void add_table() {
