@@ -21,7 +21,7 @@ namespace {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr uint64_t scenes = 300, texts = 300;
 #else
-constexpr uint64_t scenes = 3000, texts = 3000;
+constexpr uint64_t scenes = 2000, texts = 1500;
 #endif
 /// Features of less than 1 % of all scenes need some scenes to appear.
 constexpr uint64_t scenes_drawn = 3000;

@@ -456,7 +456,9 @@ Verdict check_text(uint64_t number, const std::filesystem::path& file, const Emb
   for (const Problem& p : read.problems.list()) {
     if (verdict.refusal.empty()) verdict.refusal = kind_of_refusal(p.what);
     const bool own = p.where.file == file.string();
-    if (p.where.file.empty() || (own && p.where.line < 1) || p.what.empty())
+    // Of a text that names itself as another file, the place is where it does so.
+    const bool named = p.what.find("named at ") != std::string::npos;
+    if (p.where.file.empty() || (own && p.where.line < 1 && !named) || p.what.empty())
       verdict.findings.push_back("a mistake without a place: " + p.text());
     if (p.text().find('\n') != std::string::npos)
       verdict.findings.push_back("a mistake in several lines: " + p.text());

@@ -9,6 +9,7 @@
 #include <array>
 #include <atomic>
 #include <chrono>
+#include <condition_variable>
 #include <cstdio>
 #include <map>
 #include <mutex>
@@ -100,7 +101,6 @@ class Tries {
                 ("random_scenes_" + std::to_string(::getpid()))) {}
 
   Summary run() {
-    if (options_.texts) std::filesystem::create_directories(folder_);
     std::vector<std::thread> threads;
     for (int job = 0; job < options_.jobs; ++job) threads.emplace_back([this, job] { work(job); });
     tell_progress();
@@ -111,16 +111,18 @@ class Tries {
 
  private:
   uint64_t end() const { return options_.first + options_.count; }
-  uint64_t done() const { return finished_.load(); }
 
   void work(int job) {
     const EmbreeDevice device(BuildThreads::calling);
-    const auto file = folder_ / ("scene_" + std::to_string(job) + ".toml");
+    // Its name is part of what the text may mean: one folder for each.
+    const auto file = folder_ / std::to_string(job) / "scene.toml";
+    if (options_.texts) std::filesystem::create_directories(file.parent_path());
     Summary own;
     for (uint64_t number = next_++; number < end(); number = next_++) {
       under_way[static_cast<size_t>(job)] = number;
       try_one(number, file, device, own);
-      ++finished_;
+      const std::lock_guard lock(mutex_);
+      if (++finished_ >= options_.count) ended_.notify_one();
     }
     under_way[static_cast<size_t>(job)] = idle;
     const std::lock_guard lock(mutex_);
@@ -158,20 +160,19 @@ class Tries {
       return std::chrono::duration<double>(Clock::now() - t).count();
     };
     const auto start = Clock::now();
-    auto moved = start, told = start;
+    auto moved = start;
     uint64_t before = 0;
-    while (done() < options_.count) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(20));
-      if (done() != before) moved = Clock::now();
-      before = done();
+    std::unique_lock lock(mutex_);
+    const auto all_done = [this] { return finished_ >= options_.count; };
+    while (!ended_.wait_for(lock, std::chrono::seconds(2), all_done)) {
+      if (finished_ != before) moved = Clock::now();
+      before = finished_;
       if (seconds_since(moved) > options_.patience_s) {
         tell_under_way();
         std::fprintf(stderr, "random_scenes: none of these has ended in %.0f s\n",
                      options_.patience_s);
         std::_Exit(1);
       }
-      if (seconds_since(told) < 2) continue;
-      told = Clock::now();
       const double rate = static_cast<double>(before) / seconds_since(start);
       const double left = static_cast<double>(options_.count - before) / std::max(rate, 1e-9);
       std::fprintf(stderr, "\r%llu of %llu, %.0f a second, %.0f s left   ",
@@ -183,9 +184,10 @@ class Tries {
 
   const Options options_;
   std::atomic<uint64_t> next_;
-  std::atomic<uint64_t> finished_{0};
   const std::filesystem::path folder_;
-  std::mutex mutex_;
+  std::mutex mutex_;  // of what follows, and of printing
+  std::condition_variable ended_;
+  uint64_t finished_ = 0;
   Summary total_;
 };
 
