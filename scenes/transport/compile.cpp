@@ -378,10 +378,14 @@ Result<bool> set_bounds(CompiledScene& scene) {
   scene.local_low = glm::vec3(scene.bounds.low - centre);
   scene.local_high = glm::vec3(scene.bounds.high - centre);
   scene.diagonal_m = glm::length(scene.local_high - scene.local_low);
-  scene.length_unit_m =
-      std::exp2(std::ceil(std::log2(std::max(static_cast<double>(scene.diagonal_m), 1e-6))));
-  scene.scores_per_metre = 1 / scene.length_unit_m;
   return true;
+}
+
+/// A voxel may be larger than all that stands in a scene, which may be a point.
+void choose_length_unit(CompiledScene& scene) {
+  const double most = static_cast<double>(std::max(scene.diagonal_m, scene.voxels.edge));
+  scene.length_unit_m = std::exp2(std::ceil(std::log2(std::max(most, 1e-6))));
+  scene.scores_per_metre = 1 / scene.length_unit_m;
 }
 
 void compile_emitters(CompiledScene& scene, const std::vector<ActiveSource>& sources) {
@@ -480,6 +484,7 @@ Result<std::shared_ptr<const CompiledScene>> compile_scene(
                    "the voxel grid would have more than 50 million voxels: "
                    "make voxel_edge larger"};
   }
+  choose_length_unit(*scene);
   choose_eye_targets(*scene);
   choose_features(*scene);
   lay_out_tally(*scene);

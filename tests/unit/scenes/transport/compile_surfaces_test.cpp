@@ -123,3 +123,13 @@ TEST_CASE("a scene of nothing but media has no size and is refused", "[transport
   seen.observers.resize(1);
   CHECK(compiled(seen, 1).ok());
 }
+
+TEST_CASE("lengths are counted in a unit that a voxel does not exceed", "[transport][compile]") {
+  SceneDescription seen = flame();
+  seen.media[0].optics.extinction.sigma_t = 1;
+  seen.observers.resize(1);
+  seen.run.voxel_edge_m = 10;
+  const auto scene = compiled(seen, 1);
+  REQUIRE(scene.ok());
+  CHECK(scene.value()->length_unit_m == 16);
+}
