@@ -387,8 +387,14 @@ std::string group_name(const ActiveSource& s, GroupRule rule) {
   return "all";
 }
 
-void set_bounds(CompiledScene& scene) {
+/// Errors: nothing that has a place.
+Result<bool> set_bounds(CompiledScene& scene) {
   scene.bounds = solid_bounds(*scene.description, scene.scenario);
+  if (scene.bounds.empty()) {
+    return Problem{{scene.description->file, 0},
+                   "there is nothing but media in the scene, so it has no size: add an object, an "
+                   "emitter, a plane or an observer"};
+  }
   const glm::dvec3 centre = 0.5 * (scene.bounds.low + scene.bounds.high);
   scene.local_origin = centre;
   // Rounded outwards, so that nothing solid lies outside in single precision.
@@ -396,8 +402,13 @@ void set_bounds(CompiledScene& scene) {
   scene.local_high = glm::vec3(scene.bounds.high - centre);
   scene.diagonal_m = glm::length(scene.local_high - scene.local_low);
   scene.least_offset_m = least_offset(scene.diagonal_m);
-  scene.length_unit_m =
-      std::exp2(std::ceil(std::log2(std::max(static_cast<double>(scene.diagonal_m), 1e-6))));
+  return true;
+}
+
+/// A voxel may be larger than all that stands in a scene, which may be a point.
+void choose_length_unit(CompiledScene& scene) {
+  const double most = static_cast<double>(std::max(scene.diagonal_m, scene.voxels.edge));
+  scene.length_unit_m = std::exp2(std::ceil(std::log2(std::max(most, 1e-6))));
   scene.scores_per_metre = 1 / scene.length_unit_m;
 }
 
@@ -464,7 +475,7 @@ Result<std::shared_ptr<const CompiledScene>> compile_scene(
                        "\": add an emitter, a luminaire or a lit sign, or switch a circuit on"};
   }
   scene->bands = choose_bands(*description, scenario, sources);
-  set_bounds(*scene);
+  if (auto ok = set_bounds(*scene); !ok.ok()) return ok.problem();
   for (const ActiveSource& s : sources) {
     if (s.emitter != nullptr && s.emitter->web &&
         std::find(scene->webs.begin(), scene->webs.end(), s.emitter->web) == scene->webs.end()) {
@@ -497,6 +508,7 @@ Result<std::shared_ptr<const CompiledScene>> compile_scene(
                    "the voxel grid would have more than 50 million voxels: "
                    "make voxel_edge larger"};
   }
+  choose_length_unit(*scene);
   choose_eye_targets(*scene);
   if (auto ok = choose_judged(*scene, options.error_of); !ok.ok()) return ok.problem();
   choose_features(*scene);

@@ -17,7 +17,8 @@ struct CompileOptions {
 /// The scenario of that name; with an empty name the first, or plain mains where a scene has none.
 Result<Scenario> find_scenario(const SceneDescription& description, const std::string& name);
 
-/// Errors: no light at all, no geometry, a medium or emitter that cannot be; each with its place.
+/// Errors: no light at all, nothing but media, a medium or emitter that cannot be; each with its
+/// place.
 Result<std::shared_ptr<const CompiledScene>> compile_scene(
     std::shared_ptr<const SceneDescription> description, const Scenario& scenario,
     const CompileOptions& options);

@@ -246,7 +246,8 @@ void add_cells(CompiledScene& scene, TriangleBuilder& builder,
 }
 
 void cut_into_cells(CompiledScene& scene, TriangleBuilder& builder, int cells) {
-  if (cells <= 1) {
+  // Without triangles there is nothing to cut, and resolvers expect a cell.
+  if (cells <= 1 || builder.records().empty()) {
     GeometryCell cell;
     cell.triangles = std::move(builder.records());
     cell.texture_uv = std::move(builder.uv());

@@ -3,6 +3,10 @@
 
 #include <catch2/catch.hpp>
 
+#include "scenes/optics/quadric_shapes.hpp"
+#include "scenes/transport/compile.hpp"
+#include "scenes/transport/trace.hpp"
+
 using namespace luxodus;
 
 namespace {
@@ -70,4 +74,62 @@ TEST_CASE("an object of one patch has two bins and its whole area", "[transport]
   }();
   const TriangleRecord& t = cut.cells[0].triangles[0];
   CHECK(cut.surfaces[0].patch_area_m2(t) * t.subdivision * t.subdivision == Approx(2));
+}
+
+namespace {
+
+/// A flame in the open, and nothing else.
+SceneDescription flame() {
+  SceneDescription scene;
+  Medium m;
+  m.name = "flame";
+  m.kind = MediumKind::bounded;
+  const QuadricShape ball = ellipsoid({1, 1, 1});
+  m.quadric = ball.quadric;
+  m.local_bounds = ball.bounds;
+  m.emission = MediumEmission{};
+  m.emission->power_w = 1;
+  scene.media.push_back(m);
+  return scene;
+}
+
+auto compiled(SceneDescription scene, int cells) {
+  return compile_scene(std::make_shared<const SceneDescription>(std::move(scene)), {}, {cells});
+}
+
+}  // namespace
+
+TEST_CASE("a scene without triangles is traced in however many cells it is asked for",
+          "[transport][compile]") {
+  SceneDescription lamp;
+  lamp.run.batch_particles = 8;
+  lamp.emitters.resize(1);
+  lamp.emitters[0].mains_flux = 1;
+  const auto scene = compiled(lamp, 4);
+  REQUIRE(scene.ok());
+  const EmbreeDevice device(BuildThreads::calling);
+  const SceneIndex index(device, *scene.value());
+  BatchScores scores;
+  scores.reset(scene.value()->layout);
+  make_batch_tracer(*scene.value(), GeometryAccess::resident(index), 1)->trace(0, 0, 8, scores);
+  CHECK(scores.ledger.escaped == scores.ledger.emitted);
+}
+
+TEST_CASE("a scene of nothing but media has no size and is refused", "[transport][compile]") {
+  const auto refused = compiled(flame(), 1);
+  REQUIRE_FALSE(refused.ok());
+  CHECK(refused.problem().what.find("nothing but media") != std::string::npos);
+  SceneDescription seen = flame();
+  seen.observers.resize(1);
+  CHECK(compiled(seen, 1).ok());
+}
+
+TEST_CASE("lengths are counted in a unit that a voxel does not exceed", "[transport][compile]") {
+  SceneDescription seen = flame();
+  seen.media[0].optics.extinction.sigma_t = 1;
+  seen.observers.resize(1);
+  seen.run.voxel_edge_m = 10;
+  const auto scene = compiled(seen, 1);
+  REQUIRE(scene.ok());
+  CHECK(scene.value()->length_unit_m == 16);
 }

@@ -1,0 +1,28 @@
+// What must hold of the scores of one batch and of what is read from totals, in integers where it
+// can be. Each fault is a sentence. Pure; any thread.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scenes/tally/totals.hpp"
+#include "scenes/transport/compiled_scene.hpp"
+
+namespace luxodus::test {
+
+using Findings = std::vector<std::string>;
+
+/// What may be asked of a scene's ledger.
+struct Expected {
+  bool closed = false;   // nothing escapes
+  bool patient = false;  // light may live for longer than a history lasts
+};
+
+void check_ledger(const CompiledScene& scene, const Ledger& ledger, const Expected& expected,
+                  Findings& findings);
+void check_batch(const CompiledScene& scene, const BatchScores& batch, Findings& findings);
+void check_readout(const CompiledScene& scene, const Totals& totals, Findings& findings);
+void check_same(const Totals& totals, const Totals& again, const std::string& way,
+                Findings& findings);
+
+}  // namespace luxodus::test
