@@ -168,8 +168,8 @@ class Tracing {
     const glm::dvec3 way = camera.target - camera.eye;
     if (!(glm::length(way) > 1e-6)) return;
     const auto tracer = make_picture_tracer(scene_, access_, seed_);
-    for (uint64_t path = 0; path < 4; ++path) {
-      tracer->start(path);
+    for (uint32_t path = 0; path < 4; ++path) {
+      tracer->start(0, 4, path);
       const int band = tracer->choose_band(static_cast<double>(tracer->uniform()));
       const Ray ray{glm::vec3(camera.eye - scene_.local_origin), glm::vec3(glm::normalize(way))};
       check_value(tracer->radiance(ray, band, nullptr), "radiance in a picture");

@@ -231,6 +231,7 @@ std::vector<Feature> light_features() {
       {"one source group", has_groups<GroupRule::one>},
       {"source groups by circuit", has_groups<GroupRule::by_circuit>},
       {"source groups by emitter", has_groups<GroupRule::by_emitter>},
+      {"independent draws", [](R s) { return !s.description.run.stratified; }},
       {"analogue game", [](R s) { return s.description.run.analogue; }},
       {"given band edges", [](R s) { return !s.description.run.band_edges_nm.empty(); }},
   };

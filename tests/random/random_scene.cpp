@@ -38,6 +38,7 @@ void draw_run(Draw& draw) {
   run.voxels = dice.chance(0.6);
   if (run.voxels && run.voxel_edge_m == 0 && dice.chance(0.97)) run.voxel_edge_m = draw.size_m / 5;
   run.analogue = dice.chance(0.2);
+  run.stratified = dice.chance(0.8);
   run.groups = dice.one_of({GroupRule::one, GroupRule::by_circuit, GroupRule::by_emitter});
   run.eye_share = dice.one_of({0.0, 1.0, 1.0, 3.0});
 }
