@@ -34,6 +34,8 @@ constexpr Table tables[] = {
     {"merit", [](const Options& o) { luxodus::bench::print_merit(o.repeats); }},
     {"images", [](const Options&) { luxodus::bench::print_images(); }},
     {"features", [](const Options& o) { luxodus::bench::print_features(o.repeats); }},
+    {"allocation", [](const Options&) { luxodus::bench::print_allocation(); }},
+    {"edits", [](const Options&) { luxodus::bench::print_edits(); }},
     {"smoke", [](const Options&) { luxodus::bench::print_smoke(); }},
 };
 

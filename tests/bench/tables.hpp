@@ -35,5 +35,9 @@ void print_merit(int turns);
 void print_images();
 /// What each feature of a scene costs where it is absent, unused and used.
 void print_features(int repeats);
+/// What leases by the variance of source groups would gain.
+void print_allocation();
+/// What the same random numbers gain where two variants of a scene are compared.
+void print_edits();
 
 }  // namespace luxodus::bench
