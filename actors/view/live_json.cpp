@@ -43,7 +43,14 @@ Json scenarios_json(const SceneDescription& scene) {
   return out;
 }
 
-Json groups_json(const CompiledScene& scene, const std::map<std::string, double>& factors) {
+const char* light_name(ShownLight light) {
+  constexpr const char* names[] = {"new", "kept", "before"};
+  return names[static_cast<size_t>(light)];
+}
+
+Json groups_json(const LiveGeneration& generation, const std::map<std::string, double>& factors,
+                 bool follows) {
+  const CompiledScene& scene = *generation.scene;
   Json out = Json::array();
   for (size_t g = 0; g < scene.groups.size(); ++g) {
     Json group = {{"name", scene.groups[g].name}, {"kind", "luminaire"}};
@@ -56,6 +63,7 @@ Json groups_json(const CompiledScene& scene, const std::map<std::string, double>
     }
     const auto factor = factors.find(scene.groups[g].name);
     group["factor"] = factor == factors.end() ? 1.0 : factor->second;
+    group["light"] = light_name(follows ? generation.lights[g] : ShownLight::none);
     out.push_back(std::move(group));
   }
   return out;
@@ -109,7 +117,7 @@ Json voxels_json(const CompiledScene& scene) {
 }  // namespace
 
 Json live_scene_json(const SceneDescription& scene, const LiveGeneration& generation,
-                     const std::map<std::string, double>& factors, bool editor) {
+                     const std::map<std::string, double>& factors, bool editor, bool follows) {
   const CompiledScene& compiled = *generation.scene;
   Json observers = Json::array(), cameras = Json::array();
   for (const Observer& o : scene.observers)
@@ -129,7 +137,7 @@ Json live_scene_json(const SceneDescription& scene, const LiveGeneration& genera
           {"smoke", generation.wish.smoke},
           {"low", place(compiled.bounds.low)},
           {"high", place(compiled.bounds.high)},
-          {"groups", groups_json(compiled, factors)},
+          {"groups", groups_json(generation, factors, follows)},
           {"signs", signs_json(compiled)},
           {"luminaires", luminaires_json(*compiled.description)},
           {"observers", observers},
@@ -144,6 +152,7 @@ Json progress_json(const LiveProgress& progress) {
           {"particles", progress.particles},
           {"relative_error", number_json(progress.relative_error)},
           {"seconds", progress.seconds},
+          {"groups_of_before", progress.groups_of_before},
           {"done", progress.done}};
 }
 

@@ -6,9 +6,10 @@
 
 namespace luxodus {
 
-/// What a generation is of, without its light.
+/// What a generation is of, without its light. `follows`: to somebody who has the generation
+/// before, and may go on showing light of it.
 Json live_scene_json(const SceneDescription& scene, const LiveGeneration& generation,
-                     const std::map<std::string, double>& factors, bool editor);
+                     const std::map<std::string, double>& factors, bool editor, bool follows);
 Json progress_json(const LiveProgress& progress);
 Json answer_json(const LiveAnswer& answer);
 

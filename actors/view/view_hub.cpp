@@ -6,6 +6,7 @@
 #include "actors/view/live_json.hpp"
 #include "actors/view/sign_verdicts.hpp"
 #include "scenes/format/atomic_file.hpp"
+#include "scenes/geometry/transform.hpp"
 
 namespace luxodus {
 
@@ -42,22 +43,51 @@ ViewHub::~ViewHub() {
 
 void ViewHub::begins(const LiveGeneration& generation) {
   post_([this, generation] {
-    generation_ = generation;
-    light_.clear();
+    const LiveGeneration before = std::exchange(generation_, generation);
+    const bool same_geometry = before.geometry == generation.geometry;
+    const bool same_smoke = before.smoke == generation.smoke;
+    std::map<std::pair<uint32_t, uint32_t>, LiveFrame> kept;
+    for (const auto& [at, frame] : light_)
+      if (const LiveFrame now = carried(frame, before)) kept[{at.first, head_of(now).a}] = now;
+    light_ = std::move(kept);
     for (const auto& [viewer, number] : viewers_) {
-      viewer->forget_light();
-      greet(*viewer);
+      const auto waiting = viewer->take_light();
+      viewer->send_text(text_of(scene_json(*viewer, before.scene != nullptr)));
+      if (!same_geometry) viewer->send_binary(generation.geometry, false);
+      if (!same_smoke && generation.smoke) viewer->send_binary(generation.smoke, false);
+      for (const LiveFrame& frame : waiting)
+        if (const LiveFrame now = carried(frame, before)) viewer->send_binary(now, true);
     }
   });
+}
+
+LiveFrame ViewHub::carried(const LiveFrame& frame, const LiveGeneration& from) const {
+  const FrameHead head = head_of(frame);
+  if (!from.scene || head.a >= from.scene->groups.size()) return nullptr;
+  const std::vector<Group>& now = generation_.scene->groups;
+  for (uint32_t g = 0; g < now.size(); ++g)
+    if (now[g].name == from.scene->groups[head.a].name)
+      return generation_.lights[g] == ShownLight::none ? nullptr
+                                                       : readdressed(frame, generation_.number, g);
+  return nullptr;
 }
 
 void ViewHub::lit(uint32_t generation, std::vector<LiveFrame> frames) {
   post_([this, generation, frames = std::move(frames)] {
     if (generation != generation_.number) return;
-    light_ = frames;
+    const auto key = [](const LiveFrame& frame) {
+      const FrameHead head = head_of(frame);
+      return std::pair{head.kind, head.a};
+    };
+    std::set<std::pair<uint32_t, uint32_t>> newer;
+    for (const LiveFrame& frame : frames) {
+      newer.insert(key(frame));
+      light_[key(frame)] = frame;
+    }
     for (const auto& [viewer, number] : viewers_) {
-      viewer->forget_light();
-      for (const LiveFrame& frame : light_) viewer->send_binary(frame, true);
+      for (const LiveFrame& frame : viewer->take_light())
+        if (newer.count(key(frame)) == 0) viewer->send_binary(frame, true);
+      for (const LiveFrame& frame : frames) viewer->send_binary(frame, true);
     }
   });
 }
@@ -101,16 +131,17 @@ void ViewHub::leaves(Viewer& viewer) {
 
 /// All that there is so far.
 void ViewHub::greet(Viewer& viewer) {
-  viewer.send_text(text_of(scene_json(viewer)));
-  viewer.send_binary(generation_.geometry, false);
-  if (generation_.smoke) viewer.send_binary(generation_.smoke, false);
-  for (const LiveFrame& frame : light_) viewer.send_binary(frame, true);
+  viewer.send_text(text_of(scene_json(viewer, false)));
+  viewer.send_binary(readdressed(generation_.geometry, generation_.number, 0), false);
+  if (generation_.smoke)
+    viewer.send_binary(readdressed(generation_.smoke, generation_.number, 0), false);
+  for (const auto& [at, frame] : light_) viewer.send_binary(frame, true);
   if (progress_ && progress_->generation == generation_.number)
     viewer.send_text(text_of(progress_json(*progress_)));
 }
 
-Json ViewHub::scene_json(const Viewer& viewer) const {
-  return live_scene_json(*scene_, generation_, factors_, &viewer == editor_);
+Json ViewHub::scene_json(const Viewer& viewer, bool follows) const {
+  return live_scene_json(*scene_, generation_, factors_, &viewer == editor_, follows);
 }
 
 void ViewHub::to_all(const Json& message) {
@@ -166,6 +197,11 @@ void ViewHub::handle(Viewer& viewer, const MoveEdit& edit) {
                          ? std::any_of(scene_->signs.begin(), scene_->signs.end(), is_it)
                          : std::any_of(scene_->emitters.begin(), scene_->emitters.end(), is_it);
   if (!known) return refuse(viewer, "there is no \"" + edit.name + "\" to move");
+  if (edit.facing) {
+    const auto aim = edit.is_sign ? frame_facing : frame_aiming;
+    if (const auto frame = aim(edit.position, *edit.facing, {0, 0, 1}); !frame.ok())
+      return refuse(viewer, frame.problem().what);
+  }
   auto& moves = edit.is_sign ? wish_.signs : wish_.luminaires;
   moves[edit.name] = {edit.position, edit.facing};
   trace_->wish(wish_);

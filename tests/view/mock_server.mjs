@@ -62,7 +62,7 @@ export class MockServer {
   scene(viewer) {
     const { state, generation } = this;
     const groups = room.sources.map(({ name, kind, position }) =>
-      ({ name, kind, position, factor: state.factors[name] }));
+      ({ name, kind, position, factor: state.factors[name], light: this.light?.(name) ?? 'new' }));
     return { type: 'scene', generation, name: 'mock', title: 'Two rooms and a fire in a bin',
       scenarios: scenarios.map(({ name, operation }) => ({ name, operation })),
       scenario: state.scenario, smoke: state.smoke, low: room.low, high: room.high, groups,
@@ -109,15 +109,21 @@ export class MockServer {
     else this[`do_${message.type}`]?.(viewer, message);
   }
 
-  /** A new generation: announced at once, its light comes later. */
-  begin() {
+  /** A new generation: announced at once, its light comes later; that of groups not `new` stays. */
+  begin(light = () => 'new') {
     ++this.generation;
     this.particles = 0;
+    this.light = light;
     for (const viewer of this.viewers) this.tell(viewer, this.scene(viewer));
+    this.light = null;
     clearTimeout(this.tracing);
     this.tracing = setTimeout(() => {
       this.frames = this.trace();
-      for (const viewer of this.viewers) for (const frame of this.frames) viewer.send(frame);
+      const sent = this.frames.filter((frame) => {
+        const [kind, , group] = new Uint32Array(new Uint8Array(frame).slice(0, 12).buffer);
+        return ![2, 4].includes(kind) || light(room.sources[group].name) !== 'kept';
+      });
+      for (const viewer of this.viewers) for (const frame of sent) viewer.send(frame);
     }, this.traceMs);
   }
 
@@ -142,8 +148,10 @@ export class MockServer {
 
   do_move(_, { kind, name, position }) {
     const things = kind === 'sign' ? this.state.signs : this.state.luminaires;
-    things.find((t) => t.name === name).position = position;
-    this.begin();
+    const thing = things.find((t) => t.name === name);
+    thing.position = position;
+    const others = kind === 'sign' ? 'before' : 'kept';
+    this.begin((group) => (group === thing.group ? 'new' : others));
   }
 
   do_save(viewer, { name }) {

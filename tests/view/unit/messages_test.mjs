@@ -27,6 +27,7 @@ test('a scene with a wrong part is refused, and the part named', () => {
     error instanceof ProtocolError && pattern.test(error.message);
   assert.throws(harmed((s) => (s.groups[2].factor = -1)), named(/groups\[2\]\.factor/));
   assert.throws(harmed((s) => (s.groups[0].kind = 'sun')), named(/groups\[0\]\.kind/));
+  assert.throws(harmed((s) => (s.groups[1].light = 'old')), named(/groups\[1\]\.light/));
   assert.throws(harmed((s) => (s.signs[1].rows = 63)), named(/signs\[1\]\.texels/));
   assert.throws(harmed((s) => (s.signs[0].facing = [0, 1])), named(/facing/));
   assert.throws(harmed((s) => (s.voxels.count = [4000, 4000, 4000])), named(/voxels/));

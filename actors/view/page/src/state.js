@@ -68,10 +68,30 @@ export class Live {
       this.next.scene = scene;
       return;
     }
+    const waited = this.next;
     this.next = new Generation(scene);
-    if (!this.shown) this.promote();
-    else this.tell('fading', true);
+    if (waited) this.carry(waited, this.next);
+    const anew = scene.groups.every(({ light }) => light === 'new');
+    if (!this.shown || this.lit(this.next)) this.promote();
+    else this.tell('fading', anew);
     this.tell('editor', { editor: scene.editor });
+  }
+
+  /** What was sent for a generation that was never shown, and is not sent again. */
+  carry(waited, next) {
+    next.geometry = waited.geometry;
+    next.smoke = waited.smoke;
+    for (const frame of waited.frames.values()) {
+      const { name } = waited.scene.groups[frame.group];
+      const group = next.scene.groups.findIndex((g) => g.name === name && g.light !== 'new');
+      if (group >= 0) next.frames.set(`${frame.kind} ${group}`, { ...frame, group });
+    }
+  }
+
+  /** Whether each group that begins anew has light. */
+  lit({ scene, frames }) {
+    return scene.groups.every(({ light }, group) =>
+      light !== 'new' || frames.has(`${kinds.surfaceLight} ${group}`));
   }
 
   frame(frame) {
@@ -98,11 +118,11 @@ export class Live {
   stash(frame) {
     if (frame.group === undefined) return;
     const { next } = this;
-    const first = next.frames.size === 0;
     next.frames.set(`${frame.kind} ${frame.group}`, frame);
-    const lit = [...next.frames.values()].filter((f) => f.kind === kinds.surfaceLight).length;
-    if (lit === next.scene.groups.length) this.promote();
-    else if (first) this.later(() => this.next === next && this.promote(), gatherMs);
+    if (this.lit(next)) return this.promote();
+    if (next.gathers || next.scene.groups[frame.group].light !== 'new') return;
+    next.gathers = true;
+    this.later(() => this.next === next && this.promote(), gatherMs);
   }
 
   /** The next generation becomes the one shown; of the old one's light stays what still fits. */
@@ -141,7 +161,8 @@ export class Live {
 
   apply(frame) {
     if (frame.kind === kinds.geometry) {
-      this.shown.surfaces = this.inherit(null, this.shown, '', frame.triangles, surfaceSum);
+      const { shown } = this;
+      shown.surfaces = this.inherit(shown, shown, 'surfaces', frame.triangles, surfaceSum);
       this.tell('geometry', frame);
     } else if (frame.kind === kinds.smoke) {
       this.tell('smoke', this.shown);

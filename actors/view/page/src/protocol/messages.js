@@ -103,6 +103,7 @@ const group = (g, path) => ({
   kind: oneOf(g.kind, `${path}.kind`, ['luminaire', 'sign', 'flame']),
   position: place(g.position, `${path}.position`),
   factor: number(g.factor, `${path}.factor`, 0, 1e6),
+  light: oneOf(g.light ?? 'new', `${path}.light`, ['new', 'kept', 'before']),
 });
 
 const luminaire = (l, path) => ({
@@ -152,6 +153,7 @@ const readers = {
     particles: number(m.particles, 'particles', 0, 1e18),
     relativeError: numberOrNull(m.relative_error, 'relative_error'),
     seconds: number(m.seconds, 'seconds', 0, 1e9),
+    groupsOfBefore: whole(m.groups_of_before ?? 0, 'groups_of_before', 0, 1e6),
     done: m.done === true,
   }),
   factors: (m) => ({
