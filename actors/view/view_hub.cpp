@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "actors/view/live_json.hpp"
 #include "actors/view/sign_verdicts.hpp"
 #include "scenes/format/atomic_file.hpp"
 #include "scenes/geometry/transform.hpp"
@@ -30,6 +29,8 @@ bool is_plain_name(const std::string& name) {
 ViewHub::ViewHub(std::shared_ptr<const SceneDescription> scene, const HubOptions& options,
                  Post post)
     : scene_(std::move(scene)), options_(options), post_(std::move(post)), wish_(options.first) {
+  if (const auto scenario = find_scenario(*scene_, wish_.scenario); scenario.ok())
+    dimming_.seconds = seconds_said(scenario.value());
   trace_.reset(new LiveTrace(scene_, options_.live, wish_, *this));
 }
 
@@ -44,6 +45,7 @@ ViewHub::~ViewHub() {
 void ViewHub::begins(const LiveGeneration& generation) {
   post_([this, generation] {
     const LiveGeneration before = std::exchange(generation_, generation);
+    share();
     const bool same_geometry = before.geometry == generation.geometry;
     const bool same_smoke = before.smoke == generation.smoke;
     std::map<std::pair<uint32_t, uint32_t>, LiveFrame> kept;
@@ -141,7 +143,7 @@ void ViewHub::greet(Viewer& viewer) {
 }
 
 Json ViewHub::scene_json(const Viewer& viewer, bool follows) const {
-  return live_scene_json(*scene_, generation_, factors_, &viewer == editor_, follows);
+  return live_scene_json(*scene_, generation_, dimming_, &viewer == editor_, follows);
 }
 
 void ViewHub::to_all(const Json& message) {
@@ -175,20 +177,40 @@ void ViewHub::handle(Viewer& viewer, const FactorEdit& edit) {
   if (std::none_of(groups.begin(), groups.end(),
                    [&](const Group& g) { return g.name == edit.group; }))
     return refuse(viewer, "there is no light \"" + edit.group + "\" in this scenario");
-  factors_[edit.group] = edit.factor;
+  dimming_.factors[edit.group] = edit.factor;
   to_all({{"type", "factors"}, {"factors", {{edit.group, edit.factor}}}});
 }
 
 void ViewHub::handle(Viewer& viewer, const ScenarioEdit& edit) {
-  if (const auto found = find_scenario(*scene_, edit.name); !found.ok())
-    return refuse(viewer, found.problem().what);
+  const auto found = find_scenario(*scene_, edit.name);
+  if (!found.ok()) return refuse(viewer, found.problem().what);
   wish_.scenario = edit.name;
+  dimming_.seconds = seconds_said(found.value());
   trace_->wish(wish_);
 }
 
 void ViewHub::handle(Viewer&, const SmokeEdit& edit) {
   wish_.smoke = edit.factor;
   trace_->wish(wish_);
+}
+
+void ViewHub::share() {
+  dimming_.shares = shares_after(*scene_, generation_.scene->scenario.operation, dimming_.seconds);
+}
+
+void ViewHub::handle(Viewer& viewer, const TimeEdit& edit) {
+  if (!generation_.scene || generation_.scene->scenario.operation == Operation::mains)
+    return refuse(viewer, "in this scenario the mains have not failed");
+  dimming_.seconds = edit.seconds;
+  share();
+  Json shares = Json::object();
+  for (const Group& group : generation_.scene->groups) {
+    const auto at = dimming_.shares.find(group.name);
+    shares[group.name] = at == dimming_.shares.end() ? 1.0 : at->second;
+  }
+  to_all({{"type", "time"},
+          {"seconds", edit.seconds ? Json(*edit.seconds) : Json()},
+          {"shares", shares}});
 }
 
 void ViewHub::handle(Viewer& viewer, const MoveEdit& edit) {
@@ -214,7 +236,8 @@ void ViewHub::handle(Viewer& viewer, const SaveEdit& edit) {
   std::error_code ignored;
   if (std::filesystem::exists(file, ignored))
     return refuse(viewer, file.string() + " is there already: take another name");
-  const auto saved = write_file_atomically(file, variant_text(*scene_, wish_, factors_, edit.name));
+  const auto saved =
+      write_file_atomically(file, variant_text(*scene_, wish_, dimming_.factors, edit.name));
   if (!saved.ok()) return refuse(viewer, saved.problem().text());
   viewer.send_text(text_of({{"type", "saved"}, {"file", file.string()}}));
 }
@@ -227,7 +250,7 @@ void ViewHub::handle(Viewer& viewer, const EditWish& wish) {
 // ---- questions ---------------------------------------------------------------------------------
 
 void ViewHub::handle(Viewer& viewer, const ProbeAsk& ask) {
-  trace_->ask({viewers_[&viewer], ask.id, ask.triangle, ask.front, factors_});
+  trace_->ask({viewers_[&viewer], ask.id, ask.triangle, ask.front, dimming_.both()});
 }
 
 void ViewHub::handle(Viewer& viewer, const JudgeAsk& ask) {
@@ -236,7 +259,7 @@ void ViewHub::handle(Viewer& viewer, const JudgeAsk& ask) {
   if (judge_.joinable()) judge_.join();
   const uint64_t number = viewers_[&viewer];
   // Beside the tracing: it shares the processors with it for some seconds.
-  judge_ = std::thread([this, number, sign = ask.sign, wish = wish_, factors = factors_] {
+  judge_ = std::thread([this, number, sign = ask.sign, wish = wish_, factors = dimming_.both()] {
     const Json verdicts = sign_verdicts(*scene_, wish, factors, sign, options_.live, ends_);
     post_([this, number, verdicts] {
       judging_ = false;

@@ -8,7 +8,7 @@
 #include <functional>
 #include <set>
 
-#include "actors/view/live_trace.hpp"
+#include "actors/view/live_json.hpp"
 #include "actors/view/view_messages.hpp"
 #include "scenes/format/json_out.hpp"
 
@@ -53,6 +53,7 @@ class ViewHub final : private LiveAudience {
   void handle(Viewer& viewer, const FactorEdit& edit);
   void handle(Viewer& viewer, const ScenarioEdit& edit);
   void handle(Viewer& viewer, const SmokeEdit& edit);
+  void handle(Viewer& viewer, const TimeEdit& edit);
   void handle(Viewer& viewer, const MoveEdit& edit);
   void handle(Viewer& viewer, const SaveEdit& edit);
   void handle(Viewer& viewer, const EditWish& wish);
@@ -64,6 +65,8 @@ class ViewHub final : private LiveAudience {
   /// A frame of an earlier generation as one of this; null where its group is gone or begins anew.
   LiveFrame carried(const LiveFrame& frame, const LiveGeneration& from) const;
   void make_editor(Viewer* viewer);
+  /// Brings the shares of groups up to the time and the scenario.
+  void share();
   Json scene_json(const Viewer& viewer, bool follows) const;
   Viewer* viewer_of(uint64_t number) const;
 
@@ -74,7 +77,7 @@ class ViewHub final : private LiveAudience {
   uint64_t next_number_ = 1;
   Viewer* editor_ = nullptr;
   LiveWish wish_;
-  std::map<std::string, double> factors_;
+  LiveDimming dimming_;
   LiveGeneration generation_;
   /// The latest by kind and group, of any generation that it holds for.
   std::map<std::pair<uint32_t, uint32_t>, LiveFrame> light_;

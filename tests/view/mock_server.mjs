@@ -25,6 +25,7 @@ export class MockServer {
     this.particles = 0;
     this.heard = [];
     this.frames = null;
+    this.seconds = null;
   }
 
   async listen(port = 0) {
@@ -62,10 +63,10 @@ export class MockServer {
   scene(viewer) {
     const { state, generation } = this;
     const groups = room.sources.map(({ name, kind, position }) =>
-      ({ name, kind, position, factor: state.factors[name], light: this.light?.(name) ?? 'new' }));
+      ({ name, kind, position, factor: state.factors[name], share: this.share(kind), light: this.light?.(name) ?? 'new' }));
     return { type: 'scene', generation, name: 'mock', title: 'Two rooms and a fire in a bin',
       scenarios: scenarios.map(({ name, operation }) => ({ name, operation })),
-      scenario: state.scenario, smoke: state.smoke, low: room.low, high: room.high, groups,
+      scenario: state.scenario, smoke: state.smoke, seconds: this.seconds, low: room.low, high: room.high, groups,
       signs: state.signs, luminaires: state.luminaires, observers: room.observers,
       cameras: room.cameras, voxels: room.voxels, editor: viewer !== null && viewer === this.editor,
     };
@@ -103,7 +104,7 @@ export class MockServer {
 
   hear(viewer, message) {
     this.heard.push(message);
-    const edits = ['factor', 'scenario', 'smoke', 'move', 'save'];
+    const edits = ['factor', 'scenario', 'smoke', 'time', 'move', 'save'];
     if (edits.includes(message.type) && viewer !== this.editor)
       this.tell(viewer, { type: 'refused', why: 'somebody else is editing' });
     else this[`do_${message.type}`]?.(viewer, message);
@@ -139,6 +140,18 @@ export class MockServer {
     for (const { name: group, kind } of room.sources)
       if (kind === 'luminaire') this.state.factors[group] = chosen.lamps;
     this.begin();
+  }
+
+  /** Luminaires come on within ten seconds. */
+  share(kind) {
+    return kind === 'luminaire' && this.seconds !== null ? Math.min(1, this.seconds / 10) : 1;
+  }
+
+  do_time(_, { seconds }) {
+    this.seconds = seconds;
+    const shares = Object.fromEntries(
+      room.sources.map(({ name, kind }) => [name, this.share(kind)]));
+    this.tellAll({ type: 'time', seconds, shares });
   }
 
   do_smoke(_, { factor }) {

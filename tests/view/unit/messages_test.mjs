@@ -35,6 +35,14 @@ test('a scene with a wrong part is refused, and the part named', () => {
   assert.throws(harmed((s) => (s.luminaires[0] = null)), ProtocolError);
 });
 
+test('time since a failure is a number or none, and shares are numbers', () => {
+  assert.deepEqual(read({ type: 'time', seconds: 5, shares: { lamp: 0.5 } }),
+    { type: 'time', seconds: 5, shares: [{ name: 'lamp', share: 0.5 }] });
+  assert.equal(read({ type: 'time', seconds: null, shares: {} }).seconds, null);
+  assert.throws(() => read({ type: 'time', seconds: 5, shares: { lamp: -1 } }), ProtocolError);
+  assert.throws(() => read({ type: 'time', seconds: 'now', shares: {} }), ProtocolError);
+});
+
 test('text that is no message is refused', () => {
   for (const text of ['', '{', '[]', '7', 'null', '{"type":"toString"}', '{"type":"sudo"}'])
     assert.throws(() => parseMessage(text), ProtocolError);

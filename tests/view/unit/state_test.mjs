@@ -181,3 +181,19 @@ test('what came for a generation that was overtaken is not lost', () => {
   assert.equal(live.shown.geometry, other);
   assert.equal(live.shown.surfaces.groups.get(1).halves, early);
 });
+
+test('time after a failure dims by shares, beside the factors', () => {
+  const { live, named } = started();
+  const before = Float32Array.from(live.shown.surfaces.sum);
+  const shares = sources.map(({ name }) => ({ name, share: 0.5 }));
+  live.hear({ type: 'factors', factors: sources.map(({ name }) => ({ name, factor: 0.5 })) });
+  live.hear({ type: 'time', seconds: 5, shares });
+  live.settle();
+  for (let i = 0; i < before.length; i += 97)
+    assert.ok(Math.abs(live.shown.surfaces.sum[i] - before[i] / 4) <= 1e-6 * before[i] + 1e-9);
+  assert.equal(live.scene.groups[0].factor, 0.5);
+  assert.deepEqual(named('time'), [{ seconds: 5 }]);
+  assert.equal(live.scene.seconds, 5);
+  live.hear({ type: 'time', seconds: null, shares: [] });
+  assert.equal(live.scene.groups[0].share, 1, 'who is not named gives all');
+});

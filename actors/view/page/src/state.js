@@ -6,6 +6,9 @@ import { smokeSum, surfaceSum } from './light/sum.js';
 /** After a new generation's first light, so long are the other groups waited for. */
 const gatherMs = 250;
 
+/** What a group gives of the light that was traced: dimmed by hands, and by the time since. */
+export const weightOf = ({ factor, share }) => factor * share;
+
 const demand = (condition, what) => {
   if (!condition) throw new ProtocolError(what);
 };
@@ -52,6 +55,7 @@ export class Live {
     if (heard.kind) this.frame(heard);
     else if (heard.type === 'scene') this.announced(heard);
     else if (heard.type === 'factors') this.factors(heard.factors);
+    else if (heard.type === 'time') this.time(heard);
     else if (heard.type !== 'progress' || heard.generation === this.newest)
       this.tell(heard.type, heard);
   }
@@ -152,9 +156,9 @@ export class Live {
     const light = make(cells);
     const kept = old?.[which]?.cells === cells ? old[which] : null;
     const oldNames = old?.scene.groups.map((g) => g.name) ?? [];
-    next.scene.groups.forEach(({ name, factor }, i) => {
-      const entry = kept?.groups.get(oldNames.indexOf(name));
-      if (entry) light.set(i, entry.halves, factor);
+    next.scene.groups.forEach((group, i) => {
+      const entry = kept?.groups.get(oldNames.indexOf(group.name));
+      if (entry) light.set(i, entry.halves, weightOf(group));
     });
     return light;
   }
@@ -174,7 +178,7 @@ export class Live {
 
   put({ kind, group, halves }) {
     const light = kind === kinds.surfaceLight ? this.shown.surfaces : this.shown.air;
-    light?.set(group, halves, this.shown.scene.groups[group].factor);
+    light?.set(group, halves, weightOf(this.shown.scene.groups[group]));
   }
 
   factors(all) {
@@ -192,12 +196,24 @@ export class Live {
     this.refactor();
   }
 
+  /** So long after the mains have failed, in the picture and in the generation that is awaited. */
+  time({ seconds, shares }) {
+    const byName = new Map(shares.map(({ name, share }) => [name, share]));
+    for (const generation of [this.shown, this.next]) {
+      if (!generation) continue;
+      generation.scene.seconds = seconds;
+      for (const group of generation.scene.groups) group.share = byName.get(group.name) ?? 1;
+    }
+    this.refactor();
+    this.tell('time', { seconds });
+  }
+
   refactor() {
     if (!this.shown) return;
     let changed = false;
-    this.shown.scene.groups.forEach(({ factor }, i) => {
-      changed = this.shown.surfaces?.dim(i, factor) || changed;
-      changed = this.shown.air?.dim(i, factor) || changed;
+    this.shown.scene.groups.forEach((group, i) => {
+      changed = this.shown.surfaces?.dim(i, weightOf(group)) || changed;
+      changed = this.shown.air?.dim(i, weightOf(group)) || changed;
     });
     if (changed) this.tell('light', null);
   }

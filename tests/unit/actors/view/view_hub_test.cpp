@@ -223,6 +223,51 @@ TEST_CASE("after a move others get no light again, who comes late gets all, who 
   hub.leaves(viewer);
 }
 
+TEST_CASE("time after a failure is shares of light, nothing is traced, and mains know no time",
+          "[view]") {
+  const test::TemporaryFolder folder;
+  auto scene = std::make_shared<SceneDescription>(*scene_in(folder));
+  scene->emitters[0].emergency_flux = scene->emitters[1].emergency_flux = 100;
+  Sign glow;
+  glow.name = "glow";
+  glow.frame.origin = {3, 2, 1};
+  glow.width_m = 0.4;
+  glow.height_m = 0.2;
+  glow.face = {2, 1, {SignColour::white, SignColour::green}, {}, SignColour::white};
+  glow.lighting = SignLighting::photoluminescent;
+  glow.emergency = {1, 0.1};
+  glow.decay = {{0, 1}, {10, 0}};
+  scene->signs.push_back(glow);
+  scene->scenarios.resize(2);
+  scene->scenarios[0].name = "failed";
+  scene->scenarios[0].operation = Operation::emergency;
+  scene->scenarios[1].name = "day";
+  Posts posts;
+  ViewHub hub(scene, small_runs(folder), posts.post());
+  Remembers viewer;
+  hub.joins(viewer);
+  posts.until([&] { return viewer.last("scene") != nullptr; });
+  CHECK((*viewer.last("scene"))["seconds"] == 0);
+  hub.says(viewer, R"({"type":"time","seconds":5})");
+  REQUIRE(viewer.last("time") != nullptr);
+  CHECK((*viewer.last("time"))["seconds"] == 5);
+  CHECK((*viewer.last("time"))["shares"]["sign glow"] == 0.5);
+  CHECK((*viewer.last("time"))["shares"]["right"] == 1);
+  Remembers late;
+  hub.joins(late);
+  CHECK((*late.last("scene"))["seconds"] == 5);
+  CHECK((*late.last("scene"))["groups"][2]["share"] == 0.5);
+  CHECK((*late.last("scene"))["groups"][2]["factor"] == 1);
+  CHECK((*late.last("scene"))["generation"] == 1);
+  hub.says(viewer, R"({"type":"scenario","name":"day"})");
+  posts.until([&] { return (*viewer.last("scene"))["scenario"] == "day"; });
+  hub.says(viewer, R"({"type":"time","seconds":5})");
+  REQUIRE(viewer.last("refused") != nullptr);
+  CHECK((*viewer.last("scene"))["groups"][0]["share"] == 1);
+  hub.leaves(late);
+  hub.leaves(viewer);
+}
+
 TEST_CASE("a variant is saved under a plain name, and never over a file", "[view]") {
   const test::TemporaryFolder folder;
   Posts posts;

@@ -56,6 +56,10 @@ function record(value, path) {
   return value;
 }
 
+const numbersByName = (value, path) =>
+  Object.entries(record(value, path)).map(([name, factor]) =>
+    [text(name, path), number(factor, `${path}.${name}`, 0, 1e6)]);
+
 function texelsOf(value, path, columns, rows) {
   let bytes;
   try {
@@ -103,6 +107,7 @@ const group = (g, path) => ({
   kind: oneOf(g.kind, `${path}.kind`, ['luminaire', 'sign', 'flame']),
   position: place(g.position, `${path}.position`),
   factor: number(g.factor, `${path}.factor`, 0, 1e6),
+  share: number(g.share ?? 1, `${path}.share`, 0, 1e6),
   light: oneOf(g.light ?? 'new', `${path}.light`, ['new', 'kept', 'before']),
 });
 
@@ -138,6 +143,7 @@ const readers = {
     scenarios: list(m.scenarios ?? [], 'scenarios', scenario),
     scenario: textOr(m.scenario, 'scenario', ''),
     smoke: number(m.smoke, 'smoke', 0, 1e6),
+    seconds: numberOrNull(m.seconds, 'seconds'),
     low: place(m.low, 'low'),
     high: place(m.high, 'high'),
     groups: list(m.groups, 'groups', group),
@@ -157,10 +163,11 @@ const readers = {
     done: m.done === true,
   }),
   factors: (m) => ({
-    factors: Object.entries(record(m.factors, 'factors')).map(([name, factor]) => ({
-      name: text(name, 'factors'),
-      factor: number(factor, `factors.${name}`, 0, 1e6),
-    })),
+    factors: numbersByName(m.factors, 'factors').map(([name, factor]) => ({ name, factor })),
+  }),
+  time: (m) => ({
+    seconds: numberOrNull(m.seconds, 'seconds'),
+    shares: numbersByName(m.shares, 'shares').map(([name, share]) => ({ name, share })),
   }),
   probe: (m) => ({
     id: whole(m.id, 'id', 0, 0xffffffff),
