@@ -14,6 +14,12 @@ constexpr double floor_within_m = 0.3;
 /// A sign that has a surface as near before it shows itself to nobody [m].
 constexpr float before_sign_m = 0.3f;
 constexpr double standing_eye_m = 1.65;
+/// What stands from here to the eye is no step, sill or table [m].
+constexpr double waist_m = 1.0;
+/// A place that lies in a wall or a door is looked from so far beside it [m].
+constexpr double beside_m = 0.3;
+/// So far before a luminous opening a line ends: it may lie in a ceiling [m].
+constexpr double before_opening_m = 0.01;
 
 bool is_furniture(const Object& object) {
   return std::count(object.tags.begin(), object.tags.end(), furniture) > 0;
@@ -62,6 +68,8 @@ class CodeMode {
   std::vector<Check> checks_of_parts() const;
   /// Errors: the first place that nobody can walk on.
   Result<Done> walkable() const;
+  /// Closed doors that routes lead through.
+  std::vector<Problem> closed_doors() const;
   std::vector<Problem> blind_signs() const;
   std::vector<PlanPoint> plan() const;
 
@@ -70,6 +78,15 @@ class CodeMode {
   std::vector<std::vector<ClearSign>> clear_signs(const std::vector<Walker>& people) const;
   double lux_on_face(const Sign& sign) const;
   std::optional<double> vertical_lux(const EmphasisPoint& point) const;
+  struct Obstacle {
+    const Object* object = nullptr;
+    glm::dvec3 place{0};  // on the floor
+  };
+  std::vector<Obstacle> obstacles(const EscapeRoute& route) const;
+  std::vector<Obstacle> met_between(const GeometryAccess& access, const glm::dvec3& from,
+                                    const glm::dvec3& to, double height_m) const;
+  std::string words_of(const EscapeRoute& route, const Obstacle& met) const;
+  LinesOfSight seen_from(const std::vector<glm::dvec3>& places) const;
 
   const SceneDescription& scene_;
   const Building& building_;
@@ -139,6 +156,35 @@ std::optional<double> CodeMode::vertical_lux(const EmphasisPoint& point) const {
   return sum;
 }
 
+/// From any of the places.
+LinesOfSight CodeMode::seen_from(const std::vector<glm::dvec3>& places) const {
+  const auto luminaires = emergency_luminaires(scene_);
+  std::vector<char> seen(luminaires.size(), 0);
+  building_.each(luminaires.size(), [&](const GeometryAccess& access, size_t i) {
+    const glm::dvec3 lamp = scene_.emitters[luminaires[i]].frame.origin;
+    for (const glm::dvec3& place : places) {
+      const double distance = glm::length(place - lamp);
+      if (!(distance > before_opening_m)) continue;
+      const glm::dvec3 before = lamp + (place - lamp) * (before_opening_m / distance);
+      if (clear_share(building_.scene(), access, building_.local(place), building_.local(before)) >
+          0)
+        seen[i] = 1;
+    }
+  });
+  return LinesOfSight(seen.begin(), seen.end());
+}
+
+/// Where a point of emphasis is looked from: before its front, else from all around it, since a
+/// door's or a stair's point may lie in the door or the step itself.
+std::vector<glm::dvec3> beside(const EmphasisPoint& point) {
+  if (point.facing) return {point.position + *point.facing * floor_plane_m};
+  const glm::dvec3 place = point.position + glm::dvec3(0, 0, floor_plane_m);
+  std::vector<glm::dvec3> out{place};
+  for (const glm::dvec2 aside : {glm::dvec2(1, 0), {-1, 0}, {0, 1}, {0, -1}})
+    out.push_back(place + glm::dvec3(aside * beside_m, 0));
+  return out;
+}
+
 void append(std::vector<Check>& out, const std::vector<Check>& more) {
   out.insert(out.end(), more.begin(), more.end());
 }
@@ -155,14 +201,19 @@ std::vector<Check> CodeMode::checks_by_light() const {
     add(checks_of_task_area(area, lit(within(area, 0, area_grid_m), up, floor_plane_m),
                             options_.codes));
   for (const EmphasisPoint& point : emphasis_of(scene_))
-    add(checks_of_emphasis(scene_, point, vertical_lux(point), options_.codes));
+    add(checks_of_emphasis(scene_, point, seen_from(beside(point)), vertical_lux(point),
+                           options_.codes));
   return out;
 }
 
 std::vector<Check> CodeMode::checks_of_parts() const {
   std::vector<Check> out;
   for (const Sign& sign : scene_.signs)
-    append(out, checks_of_sign(scene_, sign, lux_on_face(sign), options_.codes));
+    append(out,
+           checks_of_sign(scene_, sign, lux_on_face(sign),
+                          seen_from({sign.frame.origin +
+                                     sign.frame.axes[2] * (sign.thickness_m / 2 + floor_plane_m)}),
+                          options_.codes));
   append(out, checks_of_glare(scene_, options_.codes));
   append(out, checks_beyond(options_.codes));
   return out;
@@ -171,21 +222,99 @@ std::vector<Check> CodeMode::checks_of_parts() const {
 Result<Done> CodeMode::walkable() const {
   for (const EscapeRoute& route : scene_.routes) {
     const auto places = along(route, 0, 1);
-    std::vector<std::string> wrong(places.size());
+    std::vector<char> floorless(places.size(), 0), inside(places.size(), 0);
     building_.each(places.size(), [&](const GeometryAccess& access, size_t i) {
       const glm::dvec3 above = places[i] + glm::dvec3(0, 0, floor_within_m);
-      if (!next_surface(building_.scene(), access, building_.local(above), {0, 0, -1},
-                        static_cast<float>(2 * floor_within_m)))
-        wrong[i] = "has no floor under it: is it outside the building, or at another height?";
-      else if (building_.in_solid(access, places[i] + glm::dvec3(0, 0, standing_eye_m)))
-        wrong[i] = "leads through a wall";
+      floorless[i] = !next_surface(building_.scene(), access, building_.local(above), {0, 0, -1},
+                                   static_cast<float>(2 * floor_within_m));
+      inside[i] = building_.in_solid(access, places[i] + glm::dvec3(0, 0, standing_eye_m));
     });
-    for (size_t i = 0; i < places.size(); ++i)
-      if (!wrong[i].empty())
-        return Problem{route.place,
-                       "route \"" + route.name + "\" " + wrong[i] + " At " + shown(places[i])};
+    const auto where = [&](const std::vector<char>& wrong) {
+      const auto at = std::find(wrong.begin(), wrong.end(), 1) - wrong.begin();
+      return static_cast<size_t>(at) < places.size()
+                 ? std::optional(shown(places[static_cast<size_t>(at)]))
+                 : std::nullopt;
+    };
+    const std::string named = "route \"" + route.name + "\" ";
+    if (const auto at = where(floorless))
+      return Problem{route.place, named +
+                                      "has no floor under it: is it outside the building, or at "
+                                      "another height? At " +
+                                      *at};
+    for (const Obstacle& met : obstacles(route))
+      if (!met.object->door) return Problem{route.place, words_of(route, met)};
+    if (const auto at = where(inside))
+      return Problem{route.place, named + "leads through a wall, at " + *at};
   }
   return Done{};
+}
+
+std::vector<Problem> CodeMode::closed_doors() const {
+  std::vector<Problem> out;
+  for (const EscapeRoute& route : scene_.routes)
+    for (const Obstacle& met : obstacles(route))
+      if (met.object->door)
+        out.push_back(
+            {route.place,
+             words_of(route, met) + ": behind it, light and signs are those of the closed door"});
+  return out;
+}
+
+/// What stands in the way from waist to eye, each object once. Signs, luminaires and what is not
+/// solid are passed under or through.
+std::vector<CodeMode::Obstacle> CodeMode::obstacles(const EscapeRoute& route) const {
+  const auto places = along(route, 0, 1);
+  const auto legs = places.empty() ? 0 : places.size() - 1;
+  std::vector<std::vector<Obstacle>> met(legs);
+  building_.each(legs, [&](const GeometryAccess& access, size_t i) {
+    auto low = met_between(access, places[i], places[i + 1], waist_m);
+    const auto high = met_between(access, places[i], places[i + 1], standing_eye_m);
+    for (const Obstacle& one : low)
+      if (std::any_of(high.begin(), high.end(),
+                      [&](const Obstacle& other) { return other.object == one.object; }))
+        met[i].push_back(one);
+  });
+  std::vector<Obstacle> out;
+  for (const auto& some : met)
+    for (const Obstacle& one : some)
+      if (std::none_of(out.begin(), out.end(),
+                       [&](const Obstacle& other) { return other.object == one.object; }))
+        out.push_back(one);
+  return out;
+}
+
+std::vector<CodeMode::Obstacle> CodeMode::met_between(const GeometryAccess& access,
+                                                      const glm::dvec3& from, const glm::dvec3& to,
+                                                      double height_m) const {
+  constexpr float beyond_m = 1e-3f;
+  const CompiledScene& compiled = building_.scene();
+  const auto& objects = compiled.description->objects;
+  const glm::vec3 start = building_.local(from + glm::dvec3(0, 0, height_m));
+  const glm::vec3 way = building_.local(to + glm::dvec3(0, 0, height_m)) - start;
+  const float length = glm::length(way);
+  std::vector<Obstacle> out;
+  if (!(length > beyond_m)) return out;
+  const glm::vec3 direction = way / length;
+  for (float gone = 0; gone < length;) {
+    const auto hit =
+        next_surface(compiled, access, start + direction * gone, direction, length - gone);
+    if (!hit) break;
+    gone += hit->distance_m;
+    const uint32_t material = compiled.surfaces[hit->surface].material[hit->front ? 0 : 1];
+    if (hit->surface < objects.size() && compiled.materials[material].kind != MaterialKind::open)
+      out.push_back(
+          {&objects[hit->surface], from + (to - from) * static_cast<double>(gone / length)});
+    gone += beyond_m;
+  }
+  return out;
+}
+
+std::string CodeMode::words_of(const EscapeRoute& route, const Obstacle& met) const {
+  const SourcePlace& place = met.object->place;
+  return fmt::format("route \"{}\" leads through {} \"{}\"{} at {}", route.name,
+                     met.object->door ? "the closed door" : "the wall or body", met.object->name,
+                     place.line > 0 ? fmt::format(" ({}:{})", place.file, place.line) : "",
+                     shown(met.place));
 }
 
 std::vector<Problem> CodeMode::blind_signs() const {
@@ -245,6 +374,8 @@ Result<Done> assess_by_codes(const SceneDescription& scene, const Scenario& scen
     if (!furnished) {
       if (auto ok = mode.walkable(); !ok.ok()) return ok;
       out.plan = mode.plan();
+      const auto doors = mode.closed_doors();
+      out.warnings.insert(out.warnings.end(), doors.begin(), doors.end());
       const auto blind = mode.blind_signs();
       out.warnings.insert(out.warnings.end(), blind.begin(), blind.end());
     }

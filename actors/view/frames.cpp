@@ -153,22 +153,42 @@ Result<LiveGeometry> geometry_of(const CompiledScene& scene, uint32_t generation
   return out;
 }
 
-std::vector<LiveFrame> light_frames(const LocalRun& run, const std::vector<LivePatch>& patches,
-                                    uint32_t generation) {
+std::vector<LiveFrame> light_frames(const LiveRun& run, const std::vector<LivePatch>& patches,
+                                    uint32_t generation, const std::vector<int>& groups) {
   const CompiledScene& scene = run.scene();
-  const Readout readout(scene, run.totals());
-  const size_t groups = scene.groups.size();
   const bool smoke = scene.voxels.edge > 0;
-  std::vector<LiveFrame> out(smoke ? 2 * groups : groups);
-  run.rows().run(static_cast<int64_t>(groups), [&](const GeometryAccess&) {
+  const size_t count = groups.size();
+  std::vector<LiveFrame> out(smoke ? 2 * count : count);
+  run.rows().run(static_cast<int64_t>(out.size()), [&](const GeometryAccess&) {
     return [&](int64_t row) {
-      const auto group = static_cast<size_t>(row);
-      const int number = static_cast<int>(row);
-      out[group] = surface_light(scene, readout, patches, generation, number);
-      if (smoke) out[groups + group] = smoke_light(scene, readout, generation, number);
+      const auto at = static_cast<size_t>(row);
+      const int group = groups[at % count];
+      const Readout readout(scene, run.shown(group));
+      out[at] = at < count ? surface_light(scene, readout, patches, generation, group)
+                           : smoke_light(scene, readout, generation, group);
     };
   });
   return out;
+}
+
+FrameHead head_of(const LiveFrame& frame) {
+  FrameHead head;
+  std::memcpy(&head, frame->data(), sizeof head);
+  return head;
+}
+
+bool is_light(const FrameHead& head) {
+  return head.kind == static_cast<uint32_t>(FrameKind::light) ||
+         head.kind == static_cast<uint32_t>(FrameKind::smoke_light);
+}
+
+LiveFrame readdressed(const LiveFrame& frame, uint32_t generation, uint32_t a) {
+  FrameHead head = head_of(frame);
+  head.generation = generation;
+  if (is_light(head)) head.a = a;
+  std::string text = *frame;
+  std::memcpy(text.data(), &head, sizeof head);
+  return std::make_shared<const std::string>(std::move(text));
 }
 
 LiveFrame smoke_frame(const CompiledScene& scene, const SceneIndex& index, uint32_t generation) {

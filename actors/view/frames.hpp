@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "actors/source/local_run.hpp"
+#include "actors/view/live_run.hpp"
 
 namespace luxodus {
 
@@ -27,9 +27,19 @@ struct LiveGeometry {
 /// Every flux patch as a triangle. Errors: a packed scene that cannot be read.
 Result<LiveGeometry> geometry_of(const CompiledScene& scene, uint32_t generation);
 
-/// Light of each source group on surfaces and, where there is smoke, in it; by the run's threads.
-std::vector<LiveFrame> light_frames(const LocalRun& run, const std::vector<LivePatch>& patches,
-                                    uint32_t generation);
+/// Light of some source groups on surfaces and, where there is smoke, in it; by the run's threads.
+std::vector<LiveFrame> light_frames(const LiveRun& run, const std::vector<LivePatch>& patches,
+                                    uint32_t generation, const std::vector<int>& groups);
+
+/// What a frame says of itself.
+struct FrameHead {
+  uint32_t kind = 0, generation = 0, a = 0, b = 0;
+};
+FrameHead head_of(const LiveFrame& frame);
+/// Whether it is light of a group: then `a` is its number.
+bool is_light(const FrameHead& head);
+/// The same content in another generation; light as that of the group `a`.
+LiveFrame readdressed(const LiveFrame& frame, uint32_t generation, uint32_t a);
 
 /// Extinction of the voxels; none where no medium is.
 LiveFrame smoke_frame(const CompiledScene& scene, const SceneIndex& index, uint32_t generation);

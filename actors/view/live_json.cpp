@@ -43,7 +43,18 @@ Json scenarios_json(const SceneDescription& scene) {
   return out;
 }
 
-Json groups_json(const CompiledScene& scene, const std::map<std::string, double>& factors) {
+double number_of(const std::map<std::string, double>& numbers, const std::string& group) {
+  const auto at = numbers.find(group);
+  return at == numbers.end() ? 1.0 : at->second;
+}
+
+const char* light_name(ShownLight light) {
+  constexpr const char* names[] = {"new", "kept", "before"};
+  return names[static_cast<size_t>(light)];
+}
+
+Json groups_json(const LiveGeneration& generation, const LiveDimming& dimming, bool follows) {
+  const CompiledScene& scene = *generation.scene;
   Json out = Json::array();
   for (size_t g = 0; g < scene.groups.size(); ++g) {
     Json group = {{"name", scene.groups[g].name}, {"kind", "luminaire"}};
@@ -54,8 +65,9 @@ Json groups_json(const CompiledScene& scene, const std::map<std::string, double>
       group["position"] = place(scene.local_origin + glm::dvec3(e.origin));
       break;
     }
-    const auto factor = factors.find(scene.groups[g].name);
-    group["factor"] = factor == factors.end() ? 1.0 : factor->second;
+    group["factor"] = number_of(dimming.factors, scene.groups[g].name);
+    group["share"] = number_of(dimming.shares, scene.groups[g].name);
+    group["light"] = light_name(follows ? generation.lights[g] : ShownLight::none);
     out.push_back(std::move(group));
   }
   return out;
@@ -108,8 +120,14 @@ Json voxels_json(const CompiledScene& scene) {
 
 }  // namespace
 
+std::map<std::string, double> LiveDimming::both() const {
+  std::map<std::string, double> out = factors;
+  for (const auto& [group, share] : shares) out.try_emplace(group, 1.0).first->second *= share;
+  return out;
+}
+
 Json live_scene_json(const SceneDescription& scene, const LiveGeneration& generation,
-                     const std::map<std::string, double>& factors, bool editor) {
+                     const LiveDimming& dimming, bool editor, bool follows) {
   const CompiledScene& compiled = *generation.scene;
   Json observers = Json::array(), cameras = Json::array();
   for (const Observer& o : scene.observers)
@@ -127,9 +145,10 @@ Json live_scene_json(const SceneDescription& scene, const LiveGeneration& genera
           {"scenarios", scenarios_json(scene)},
           {"scenario", compiled.scenario.name},
           {"smoke", generation.wish.smoke},
+          {"seconds", dimming.seconds ? Json(*dimming.seconds) : Json()},
           {"low", place(compiled.bounds.low)},
           {"high", place(compiled.bounds.high)},
-          {"groups", groups_json(compiled, factors)},
+          {"groups", groups_json(generation, dimming, follows)},
           {"signs", signs_json(compiled)},
           {"luminaires", luminaires_json(*compiled.description)},
           {"observers", observers},
@@ -144,6 +163,7 @@ Json progress_json(const LiveProgress& progress) {
           {"particles", progress.particles},
           {"relative_error", number_json(progress.relative_error)},
           {"seconds", progress.seconds},
+          {"groups_of_before", progress.groups_of_before},
           {"done", progress.done}};
 }
 

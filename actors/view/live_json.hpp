@@ -6,9 +6,20 @@
 
 namespace luxodus {
 
-/// What a generation is of, without its light.
+/// What viewers have changed that needs no tracing.
+struct LiveDimming {
+  std::map<std::string, double> factors;  // of groups; others 1
+  std::optional<double> seconds;          // since the mains have failed; none: fully on
+  std::map<std::string, double> shares;   // of what is traced, by then; others 1
+
+  /// Of a group's light: factor and share.
+  std::map<std::string, double> both() const;
+};
+
+/// What a generation is of, without its light. `follows`: to somebody who has the generation
+/// before, and may go on showing light of it.
 Json live_scene_json(const SceneDescription& scene, const LiveGeneration& generation,
-                     const std::map<std::string, double>& factors, bool editor);
+                     const LiveDimming& dimming, bool editor, bool follows);
 Json progress_json(const LiveProgress& progress);
 Json answer_json(const LiveAnswer& answer);
 

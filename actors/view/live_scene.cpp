@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "scenes/emergency/sign_geometry.hpp"
 #include "scenes/format/output_text.hpp"
 #include "scenes/geometry/transform.hpp"
 #include "scenes/world/measurements.hpp"
@@ -70,6 +71,21 @@ Result<SceneDescription> live_description(const SceneDescription& scene, const L
   return out;
 }
 
+std::optional<double> seconds_said(const Scenario& scenario) {
+  if (scenario.operation == Operation::mains) return std::nullopt;
+  return scenario.seconds_after_failure;
+}
+
+std::map<std::string, double> shares_after(const SceneDescription& scene, Operation operation,
+                                           std::optional<double> seconds) {
+  std::map<std::string, double> out;
+  if (!seconds || operation == Operation::mains) return out;
+  for (const Sign& sign : scene.signs)
+    if (const double first = decay_share(sign.decay, 0); !sign.decay.empty() && first > 0)
+      out[group_of_sign(sign.name)] = decay_share(sign.decay, *seconds) / first;
+  return out;
+}
+
 Result<std::shared_ptr<const CompiledScene>> compile_live(const SceneDescription& scene,
                                                           const LiveWish& wish) {
   auto description = live_description(scene, wish);
@@ -79,6 +95,7 @@ Result<std::shared_ptr<const CompiledScene>> compile_live(const SceneDescription
   Scenario& state = scenario.value();
   state.smoke_factor *= wish.smoke;
   for (Scenario::Factor& medium : state.media) medium.factor *= wish.smoke;
+  state.seconds_after_failure = 0;
   return compile_scene(std::make_shared<SceneDescription>(std::move(description).value()), state,
                        {});
 }

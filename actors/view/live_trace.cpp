@@ -1,18 +1,23 @@
 #include "actors/view/live_trace.hpp"
 
 #include <cmath>
+#include <limits>
+#include <utility>
 
 namespace luxodus {
 
 namespace {
 
-/// Batches of each group, on average, before the first light is shown.
-constexpr int64_t first_batches = 1;
+/// The first light is of at least so many batches, and at least one of each group.
+constexpr int64_t first_batches = 16;
+/// What has no light yet comes to so many batches a group, on average, before light of before is
+/// traced anew beside it.
+constexpr int64_t hurry_batches = 32;
 /// Questions that wait; more are forgotten.
 constexpr size_t questions_most = 64;
 
-LiveAnswer answer_to(const LiveQuestion& question, const CompiledScene& scene,
-                     const Readout& readout, const LivePatch& patch) {
+LiveAnswer answer_to(const LiveQuestion& question, const LiveRun& run, const LivePatch& patch) {
+  const CompiledScene& scene = run.scene();
   const uint32_t bin = question.front ? patch.front : patch.back;
   LiveAnswer out{question.viewer, question.id, {}, {}, scene.surfaces[patch.surface].name};
   const auto sum = [&](uint32_t quantity, double per_lumen) {
@@ -21,8 +26,11 @@ LiveAnswer answer_to(const LiveQuestion& question, const CompiledScene& scene,
     for (size_t g = 0; g < scene.groups.size(); ++g) {
       const auto factor = question.factors.find(scene.groups[g].name);
       const double f = factor == question.factors.end() ? 1 : factor->second;
-      const Estimate of = readout.lumens(scene.blocks.patches, bin, quantity, static_cast<int>(g)) *
-                          (f * per_lumen);
+      const int group = static_cast<int>(g);
+      if (run.light(group) == ShownLight::none) continue;
+      const Readout readout(scene, run.shown(group));
+      const Estimate of =
+          readout.lumens(scene.blocks.patches, bin, quantity, group) * (f * per_lumen);
       e.value += of.value;
       variance += of.standard_error * of.standard_error;
     }
@@ -75,72 +83,107 @@ void LiveTrace::ask(LiveQuestion question) {
 
 void LiveTrace::work() {
   for (;;) {
-    LiveWish wish;
+    std::optional<LiveWish> wish;
     {
       std::unique_lock lock(mutex_);
-      changed_.wait(lock, [&] { return ends_ || next_; });
+      changed_.wait(lock, [&] { return ends_ || next_ || (run_ && !questions_.empty()); });
       if (ends_) return;
-      wish = std::move(*next_);
-      next_.reset();
+      wish = std::exchange(next_, std::nullopt);
       interrupt_ = false;
     }
     try {
-      trace(wish);
+      if (wish) begin(*wish);
+      if (run_) refine();
     } catch (const std::exception& e) {
       audience_.refuses(e.what());
     }
   }
 }
 
-void LiveTrace::answer_all(const LocalRun& run, const std::vector<LivePatch>& patches) {
+void LiveTrace::answer_all() {
   std::vector<LiveQuestion> questions;
   {
     const std::lock_guard lock(mutex_);
     questions.swap(questions_);
     asked_ = false;
   }
-  const Readout readout(run.scene(), run.totals());
   for (const LiveQuestion& question : questions)
-    if (question.triangle < patches.size())
-      audience_.answers(answer_to(question, run.scene(), readout, patches[question.triangle]));
+    if (question.triangle < geometry_.patches.size())
+      audience_.answers(answer_to(question, *run_, geometry_.patches[question.triangle]));
 }
 
-void LiveTrace::trace(const LiveWish& wish) {
+void LiveTrace::begin(const LiveWish& wish) {
   auto compiled = compile_live(*scene_, wish);
   if (!compiled.ok()) return audience_.refuses(compiled.problem().text());
-  LocalRun run(compiled.value(), options_.seed, options_.threads);
-  const uint32_t generation = ++generation_;
-  auto geometry = geometry_of(run.scene(), generation);
-  if (!geometry.ok()) return audience_.refuses(geometry.problem().text());
-  const std::vector<LivePatch>& patches = geometry->patches;
-  audience_.begins({generation, wish, compiled.value(), geometry->frame,
-                    smoke_frame(run.scene(), run.index(), generation)});
-  run.set_pause([this] { return asked_.load(); }, [&] { answer_all(run, patches); });
-  const auto tell = [&](const Progress& p, bool done) {
-    audience_.goes_on({generation, p.particles, p.relative_error, run.seconds(), done});
-  };
-  Progress last;
-  const int64_t first =
-      first_batches * static_cast<int64_t>(run.scene().groups.size()) * run.scene().batch_particles;
-  for (int64_t target = first; !interrupt_ && target < 2 * options_.particles; target *= 2) {
-    StopRule stop;
-    stop.particles = std::min(target, options_.particles);
-    run.run(stop, interrupt_, [&](const Progress& p) { tell(last = p, false); });
-    if (interrupt_) return;
-    audience_.lit(generation, light_frames(run, patches, generation));
-    last.particles = run.particles();
-    last.relative_error = Readout(run.scene(), run.totals()).worst_relative_error();
-    tell(last, false);
-    if (last.relative_error < options_.relative_error) break;
+  const bool same_air = run_ && traced_.scenario == wish.scenario && traced_.smoke == wish.smoke;
+  auto run = std::make_unique<LiveRun>(compiled.value(), options_.seed, options_.threads,
+                                       run_.get(), same_air);
+  const uint32_t generation = generation_ + 1;
+  if (!run->same_geometry()) {
+    auto geometry = geometry_of(run->scene(), generation);
+    if (!geometry.ok()) return audience_.refuses(geometry.problem().text());
+    geometry_ = std::move(geometry).value();
   }
-  tell(last, true);
-  // Nothing more to trace: questions are still answered.
-  for (std::unique_lock lock(mutex_); !ends_ && !next_;) {
-    changed_.wait(lock, [&] { return ends_ || next_ || !questions_.empty(); });
-    lock.unlock();
-    answer_all(run, patches);
-    lock.lock();
+  if (!same_air || !run->same_geometry())
+    smoke_ = smoke_frame(run->scene(), run->index(), generation);
+  run_ = std::move(run);
+  traced_ = wish;
+  generation_ = generation;
+  refined_ = false;
+  error_ = std::numeric_limits<double>::quiet_NaN();
+  audience_.begins({generation, wish, compiled.value(), geometry_.frame, smoke_, run_->lights()});
+}
+
+void LiveTrace::tell(bool done) {
+  const int64_t old = run_->groups_with(ShownLight::before);
+  audience_.goes_on({generation_, run_->particles(), error_, run_->seconds(), old, done});
+}
+
+bool LiveTrace::reach(int64_t level, LiveRun::Scope scope) {
+  bool reached = false;
+  while (!reached && !interrupt_) {
+    reached = run_->trace(
+        level, scope, [this] { return interrupt_.load() || asked_.load(); },
+        [this] { tell(false); });
+    if (asked_) answer_all();
   }
+  const std::vector<int> groups = run_->news(scope);
+  // A few at a time: whoever moves something does not wait for the rest.
+  const auto most = static_cast<size_t>(options_.threads);
+  for (size_t first = 0; first < groups.size() && !interrupt_; first += most) {
+    const auto begin = groups.begin() + static_cast<std::ptrdiff_t>(first);
+    const std::vector<int> some(
+        begin, begin + static_cast<std::ptrdiff_t>(std::min(most, groups.size() - first)));
+    run_->tell(some);
+    audience_.lit(generation_, light_frames(*run_, geometry_.patches, generation_, some));
+  }
+  if (interrupt_) return false;
+  if (groups.empty()) return true;
+  error_ = run_->worst_relative_error();
+  tell(false);
+  return true;
+}
+
+void LiveTrace::refine() {
+  using Scope = LiveRun::Scope;
+  answer_all();
+  if (refined_) return;
+  const auto groups = static_cast<int64_t>(run_->lights().size());
+  const int64_t most =
+      std::max<int64_t>(1, options_.particles / (groups * run_->scene().batch_particles));
+  if (const int64_t fresh = run_->groups_with(ShownLight::none); fresh > 0) {
+    const int64_t first = (first_batches + fresh - 1) / fresh;
+    if (!reach(std::min(first, most), Scope::fresh)) return;
+  }
+  for (int64_t level = 1;; level *= 2) {
+    level = std::min(level, most);
+    const bool all = level == most || level > hurry_batches;
+    if (!reach(level, all ? Scope::all : Scope::own)) return;
+    const bool good = error_ < options_.relative_error;
+    if (level == most || (good && run_->groups_with(ShownLight::before) == 0)) break;
+  }
+  refined_ = true;
+  tell(true);
 }
 
 }  // namespace luxodus

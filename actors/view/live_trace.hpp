@@ -1,14 +1,13 @@
 // The tracing behind a live view: one generation after another, each from few particles to many,
 // told of at every doubling, so that the first light is there at once and later ones cost little.
-// A new wish ends the generation under way. Thread rule: its own thread traces and tells; wishes
-// and questions may come from any other.
+// A new wish ends the generation under way, and takes over of its light what still holds. Thread
+// rule: its own thread traces and tells; wishes and questions may come from any other.
 #pragma once
 
 #include <condition_variable>
 #include <mutex>
 #include <thread>
 
-#include "actors/source/local_run.hpp"
 #include "actors/view/frames.hpp"
 #include "actors/view/live_scene.hpp"
 
@@ -19,6 +18,7 @@ struct LiveProgress {
   int64_t particles = 0;
   double relative_error = 0;  // NaN until it is known
   double seconds = 0;
+  int64_t groups_of_before = 0;  // that still show light of before
   bool done = false;
 };
 
@@ -42,8 +42,9 @@ struct LiveGeneration {
   uint32_t number = 0;
   LiveWish wish;
   std::shared_ptr<const CompiledScene> scene;
-  LiveFrame geometry;
-  LiveFrame smoke;  // null where no medium is
+  LiveFrame geometry;  // the frame of the generation before where triangles are the same
+  LiveFrame smoke;     // likewise; null where no medium is
+  std::vector<ShownLight> lights;  // of each group: what it goes on showing
 };
 
 /// Who is told. Called on the tracing thread.
@@ -78,9 +79,13 @@ class LiveTrace {
 
  private:
   void work();
-  /// Traces a wish until it is good enough or another comes.
-  void trace(const LiveWish& wish);
-  void answer_all(const LocalRun& run, const std::vector<LivePatch>& patches);
+  void begin(const LiveWish& wish);
+  /// Traces until it is good enough or something comes.
+  void refine();
+  /// Traces groups to a level and tells of it; false where a wish or the end has come.
+  bool reach(int64_t level, LiveRun::Scope scope);
+  void tell(bool done);
+  void answer_all();
 
   const std::shared_ptr<const SceneDescription> scene_;
   const LiveOptions options_;
@@ -92,7 +97,14 @@ class LiveTrace {
   bool ends_ = false;
   std::atomic<bool> interrupt_{false};
   std::atomic<bool> asked_{false};
+  // Of the tracing thread.
   uint32_t generation_ = 0;
+  LiveWish traced_;
+  LiveGeometry geometry_;
+  LiveFrame smoke_;
+  std::unique_ptr<LiveRun> run_;
+  bool refined_ = false;
+  double error_ = 0;
   std::thread thread_;  // the last: it begins when all else is there
 };
 

@@ -53,6 +53,7 @@ Json sign_verdicts(const SceneDescription& scene, const LiveWish& wish,
   if (!scenario.ok()) return refused(scenario.problem().what);
   scenario->smoke_factor *= wish.smoke;
   for (Scenario::Factor& medium : scenario->media) medium.factor *= wish.smoke;
+  scenario->seconds_after_failure = 0;  // what time does is among the factors
   AssessOptions asked;
   asked.seed = options.seed;
   asked.threads = options.threads;

@@ -8,7 +8,7 @@
 #include <functional>
 #include <set>
 
-#include "actors/view/live_trace.hpp"
+#include "actors/view/live_json.hpp"
 #include "actors/view/view_messages.hpp"
 #include "scenes/format/json_out.hpp"
 
@@ -19,10 +19,10 @@ class Viewer {
  public:
   virtual ~Viewer() = default;
   virtual void send_text(const LiveFrame& text) = 0;
-  /// `light`: it replaces what waits of an earlier light.
+  /// `light`: it may be taken back while it waits.
   virtual void send_binary(const LiveFrame& frame, bool light) = 0;
-  /// Takes back light that waits to be sent: newer has come.
-  virtual void forget_light() = 0;
+  /// Takes back light that waits to be sent, in its order.
+  virtual std::vector<LiveFrame> take_light() = 0;
 };
 
 struct HubOptions {
@@ -53,6 +53,7 @@ class ViewHub final : private LiveAudience {
   void handle(Viewer& viewer, const FactorEdit& edit);
   void handle(Viewer& viewer, const ScenarioEdit& edit);
   void handle(Viewer& viewer, const SmokeEdit& edit);
+  void handle(Viewer& viewer, const TimeEdit& edit);
   void handle(Viewer& viewer, const MoveEdit& edit);
   void handle(Viewer& viewer, const SaveEdit& edit);
   void handle(Viewer& viewer, const EditWish& wish);
@@ -61,8 +62,12 @@ class ViewHub final : private LiveAudience {
   void refuse(Viewer& viewer, const std::string& why);
   void to_all(const Json& message);
   void greet(Viewer& viewer);
+  /// A frame of an earlier generation as one of this; null where its group is gone or begins anew.
+  LiveFrame carried(const LiveFrame& frame, const LiveGeneration& from) const;
   void make_editor(Viewer* viewer);
-  Json scene_json(const Viewer& viewer) const;
+  /// Brings the shares of groups up to the time and the scenario.
+  void share();
+  Json scene_json(const Viewer& viewer, bool follows) const;
   Viewer* viewer_of(uint64_t number) const;
 
   const std::shared_ptr<const SceneDescription> scene_;
@@ -72,9 +77,10 @@ class ViewHub final : private LiveAudience {
   uint64_t next_number_ = 1;
   Viewer* editor_ = nullptr;
   LiveWish wish_;
-  std::map<std::string, double> factors_;
+  LiveDimming dimming_;
   LiveGeneration generation_;
-  std::vector<LiveFrame> light_;
+  /// The latest by kind and group, of any generation that it holds for.
+  std::map<std::pair<uint32_t, uint32_t>, LiveFrame> light_;
   std::optional<LiveProgress> progress_;
   std::atomic<bool> ends_{false};
   std::thread judge_;

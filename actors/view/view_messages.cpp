@@ -87,6 +87,9 @@ std::optional<ViewMessage> read_message(const std::string& type, Members& m) {
     return FactorEdit{m.text("group"), m.number("factor", 0, limits::view_factor_most)};
   if (type == "scenario") return ScenarioEdit{m.text("name")};
   if (type == "smoke") return SmokeEdit{m.number("factor", 0, limits::view_smoke_most)};
+  if (type == "time")
+    return m.has("seconds") ? TimeEdit{m.number("seconds", 0, limits::view_seconds_most)}
+                            : TimeEdit{};
   if (type == "move") return read_move(m);
   if (type == "save") return SaveEdit{m.text("name")};
   if (type == "edit") return EditWish{m.flag("wanted")};

@@ -14,7 +14,7 @@ namespace luxodus {
 
 namespace limits {
 inline constexpr size_t view_message_bytes = 64 << 10;
-inline constexpr double view_factor_most = 10, view_smoke_most = 100;
+inline constexpr double view_factor_most = 10, view_smoke_most = 100, view_seconds_most = 1e6;
 inline constexpr size_t view_name_chars = 200;
 }  // namespace limits
 
@@ -27,6 +27,9 @@ struct ScenarioEdit {
 };
 struct SmokeEdit {
   double factor = 1;
+};
+struct TimeEdit {
+  std::optional<double> seconds;  // after the mains have failed; none: fully on
 };
 struct MoveEdit {
   bool is_sign = true;  // else a luminaire
@@ -48,8 +51,8 @@ struct ProbeAsk {
 struct JudgeAsk {
   std::string sign;
 };
-using ViewMessage = std::variant<FactorEdit, ScenarioEdit, SmokeEdit, MoveEdit, SaveEdit, EditWish,
-                                 ProbeAsk, JudgeAsk>;
+using ViewMessage = std::variant<FactorEdit, ScenarioEdit, SmokeEdit, TimeEdit, MoveEdit, SaveEdit,
+                                 EditWish, ProbeAsk, JudgeAsk>;
 
 /// Errors: what is no message, one sentence.
 Result<ViewMessage> parse_view_message(std::string_view text);

@@ -1,5 +1,6 @@
 #include "actors/view/view_server.hpp"
 
+#include <algorithm>
 #include <boost/asio.hpp>
 #include <boost/beast.hpp>
 #include <chrono>
@@ -87,13 +88,18 @@ class Connection final : public Viewer, public std::enable_shared_from_this<Conn
 
   void send_text(const LiveFrame& text) override { send({text, false, false}); }
   void send_binary(const LiveFrame& frame, bool light) override { send({frame, true, light}); }
-  void forget_light() override {
+  std::vector<LiveFrame> take_light() override {
     // The first may be on its way.
-    for (size_t i = queue_.size(); i-- > 1;)
-      if (queue_[i].light) {
-        unread_ -= queue_[i].bytes->size();
-        queue_.erase(queue_.begin() + static_cast<std::ptrdiff_t>(i));
-      }
+    const auto first = queue_.begin() + (queue_.empty() ? 0 : 1);
+    const auto taken =
+        std::stable_partition(first, queue_.end(), [](const Out& out) { return !out.light; });
+    std::vector<LiveFrame> light;
+    for (auto at = taken; at != queue_.end(); ++at) {
+      unread_ -= at->bytes->size();
+      light.push_back(std::move(at->bytes));
+    }
+    queue_.erase(taken, queue_.end());
+    return light;
   }
 
  private:

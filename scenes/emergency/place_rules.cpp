@@ -1,12 +1,17 @@
 // Glare of luminaires, and what they must be near to.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "scenes/emergency/rule_table.hpp"
 #include "scenes/emergency/rules.hpp"
 
 namespace luxodus {
+
+using namespace std::string_literals;
 
 namespace {
 
@@ -15,7 +20,7 @@ constexpr double near_m = 2;                             // E12, S6
 constexpr double equipment_lx = 5;                       // E13
 constexpr double bend_deg = 30;                          // a change of direction, ours
 constexpr double zone_low_deg = 60, zone_high_deg = 90;  // E8, from straight down
-constexpr int directions_azimuth = 72, directions_polar = 90;
+constexpr int directions_azimuth = 72, directions_polar = 90, tube_steps = 360;
 
 /// Largest intensity of a luminaire by its height above the floor (E8).
 struct GlareStep {
@@ -32,27 +37,86 @@ double glare_limit(double height_m) {
   return glare_highest_cd;
 }
 
-/// Intensity far away [cd] of `flux` lumens, in a direction of the luminaire's own frame; none for
-/// shapes that have no simple law.
-std::optional<double> intensity(const Emitter& e, double flux, const glm::dvec3& direction) {
-  const double down = std::max(0.0, -direction.z);
+/// Share of its light per steradian that a point of a surface sends at an angle to its normal.
+double density(const Emitter& e, double cosine) {
+  const double c = std::max(0.0, cosine);
   switch (e.distribution) {
-    case Distribution::web:
-      return flux * e.web->pdf(direction);
     case Distribution::isotropic:
-      return flux / (4 * pi);
-    case Distribution::cosine_power:
-      return flux * (e.cosine_power + 1) / (2 * pi) * std::pow(down, e.cosine_power);
+      return 1 / (4 * pi);
     case Distribution::lambertian:
-      if (e.shape == EmitterShape::rectangle || e.shape == EmitterShape::disc)
-        return flux / pi * down;
-      if (e.shape == EmitterShape::sphere) return flux / (4 * pi);
-      return std::nullopt;
+      return c / pi;
+    case Distribution::cosine_power:
+      return (e.cosine_power + 1) / (2 * pi) * std::pow(c, e.cosine_power);
     case Distribution::spot:
     case Distribution::collimated:
-      return std::nullopt;
+    case Distribution::web:
+      return 0;
   }
-  return std::nullopt;
+  return 0;
+}
+
+/// Of a mesh, over all its triangles: as if none hid another.
+double mesh_density(const Emitter& e, const glm::dvec3& world) {
+  double area = 0, sum = 0;
+  for (const auto& t : e.mesh.triangles) {
+    const glm::dvec3 a(e.mesh.positions[t[0]]), b(e.mesh.positions[t[1]]),
+        c(e.mesh.positions[t[2]]);
+    const glm::dvec3 doubled = glm::cross(b - a, c - a);
+    const double size = glm::length(doubled);
+    if (!(size > 0)) continue;
+    area += size;
+    sum += size * density(e, glm::dot(doubled / size, world));
+  }
+  return area > 0 ? sum / area : 0;
+}
+
+/// Of the side of a cylinder along local x: the mean over its circumference.
+double tube_density(const Emitter& e, const glm::dvec3& local) {
+  const double aside = std::sqrt(std::max(0.0, 1 - local.x * local.x));
+  double sum = 0;
+  for (int i = 0; i < tube_steps; ++i)
+    sum += density(e, aside * std::cos(2 * pi * (i + 0.5) / tube_steps));
+  return sum / tube_steps;
+}
+
+/// Of a sphere, the same in all directions: the mean over its surface.
+double sphere_density() {
+  return 1 / (4 * pi);
+}
+
+/// Intensity far away [cd] per lumen in a direction [scene coordinates]. Requires: neither a spot
+/// nor collimated.
+double intensity_per_lm(const Emitter& e, const glm::dvec3& world) {
+  const glm::dvec3 local = glm::transpose(e.frame.axes) * world;
+  if (e.distribution == Distribution::web) return e.web->pdf(local);
+  switch (e.shape) {
+    case EmitterShape::point:
+    case EmitterShape::rectangle:
+    case EmitterShape::disc:
+      return density(e, -local.z);
+    case EmitterShape::sphere:
+      return sphere_density();
+    case EmitterShape::tube:
+      return tube_density(e, local);
+    case EmitterShape::mesh:
+      return mesh_density(e, world);
+  }
+  return 0;
+}
+
+/// Of a spot, so far from its axis: full within the inner angle, nothing beyond the outer, between
+/// them the smooth step in 1 - cos that the tracer samples.
+double spot_per_lm(const Emitter& e, double off_axis_deg) {
+  const auto one_minus_cos = [](double degrees) {
+    return 2 * std::pow(std::sin(degrees * pi / 360), 2);
+  };
+  const double inner = one_minus_cos(e.spot_inner_deg), outer = one_minus_cos(e.spot_outer_deg);
+  const double x = one_minus_cos(off_axis_deg);
+  const double full = 1 / (pi * (inner + outer));
+  if (x <= inner) return full;
+  if (x >= outer) return 0;
+  const double t = (outer - x) / (outer - inner);
+  return full * t * t * (3 - 2 * t);
 }
 
 /// Whether the way below a luminaire is a level escape route: then glare counts in a zone alone.
@@ -63,20 +127,32 @@ bool over_level_route(const SceneDescription& scene, const glm::dvec3& place) {
          });
 }
 
-/// The largest intensity in the directions that count, none where there is no law for it.
-std::optional<double> glaring(const Emitter& e, double flux, bool zone_alone) {
+/// Directions that count, by their angle from straight down.
+struct Zone {
+  double low_deg = 0, high_deg = 180;
+  double distance_deg(double polar_deg) const {
+    return std::max({0.0, low_deg - polar_deg, polar_deg - high_deg});
+  }
+};
+
+/// How far from the axis of a spot or a beam the nearest direction of a zone is.
+double off_axis_deg(const Emitter& e, const Zone& zone) {
+  return zone.distance_deg(std::acos(std::clamp(e.frame.axes[2].z, -1.0, 1.0)) * 180 / pi);
+}
+
+/// The largest intensity in a zone [cd]; none where a beam of parallel light points into it.
+std::optional<double> glaring(const Emitter& e, double flux, const Zone& zone) {
+  if (e.distribution == Distribution::spot) return flux * spot_per_lm(e, off_axis_deg(e, zone));
+  if (e.distribution == Distribution::collimated)
+    return off_axis_deg(e, zone) > 0 ? std::optional(0.0) : std::nullopt;
   double most = 0;
   for (int p = 0; p <= directions_polar; ++p) {
-    const double polar = (zone_alone ? zone_low_deg : 0.0) + ((zone_alone ? zone_high_deg : 180.0) -
-                                                              (zone_alone ? zone_low_deg : 0.0)) *
-                                                                 p / directions_polar;
+    const double polar = zone.low_deg + (zone.high_deg - zone.low_deg) * p / directions_polar;
     for (int a = 0; a < directions_azimuth; ++a) {
       const double azimuth = 2 * pi * a / directions_azimuth, from_down = polar * pi / 180;
       const glm::dvec3 world(std::sin(from_down) * std::cos(azimuth),
                              std::sin(from_down) * std::sin(azimuth), -std::cos(from_down));
-      const auto candela = intensity(e, flux, glm::transpose(e.frame.axes) * world);
-      if (!candela) return std::nullopt;
-      most = std::max(most, *candela);
+      most = std::max(most, flux * intensity_per_lm(e, world));
     }
   }
   return most;
@@ -103,16 +179,20 @@ std::vector<Check> checks_of_glare(const SceneDescription& scene, const CodeChoi
     const double lumens =
         e.radiometric ? e.emergency_flux * efficacy_lm_per_w(e.spectrum) : e.emergency_flux;
     const bool zone_alone = over_level_route(scene, e.frame.origin);
-    const auto candela = glaring(e, lumens / e.emergency_ageing, zone_alone);
+    const Zone zone = zone_alone ? Zone{zone_low_deg, zone_high_deg} : Zone{};
+    const auto candela = glaring(e, lumens / e.emergency_ageing, zone);
     if (!floor) {
       out.push_back(not_assessed(rule_of("E8"), subject,
                                  "no route or open area lies below it: its height is not known"));
     } else if (!candela) {
       out.push_back(not_assessed(rule_of("E8"), subject,
-                                 "spots, beams, tubes and meshes have no intensity table"));
+                                 "a beam of parallel light has no intensity, and it points where "
+                                 "glare counts"));
     } else {
       Check check = judged(rule_of("E8"), subject, *candela, glare_limit(e.frame.origin.z - *floor),
                            false, "cd", e.frame.origin);
+      if (e.shape == EmitterShape::mesh && check.verdict == CheckVerdict::fail)
+        check.reason = "as if no part of the mesh hid another";
       check.condition = zone_alone ? "60 to 90 degrees from straight down" : "all directions";
       out.push_back(std::move(check));
     }
@@ -137,23 +217,40 @@ std::vector<EmphasisPoint> emphasis_of(const SceneDescription& scene) {
   return out;
 }
 
+Check luminaire_near(const char* id, const SceneDescription& scene, const std::string& subject,
+                     const glm::dvec3& place, bool above, const LinesOfSight& seen) {
+  constexpr double none = std::numeric_limits<double>::infinity();
+  struct Near {
+    double distance_m = none;
+    std::string name;
+  } open, hidden;
+  const auto luminaires = emergency_luminaires(scene);
+  for (size_t i = 0; i < luminaires.size(); ++i) {
+    const Emitter& e = scene.emitters[luminaires[i]];
+    const double distance = in_plan(e.frame.origin, place);
+    Near& nearest = seen.empty() || seen[i] ? open : hidden;
+    if ((!above || e.frame.origin.z >= place.z) && distance < nearest.distance_m)
+      nearest = {distance, "\"" + e.name + "\""};
+  }
+  Check check = judged(rule_of(id), subject, open.distance_m, near_m, false, "m", place);
+  const std::string there = above ? "above it " : "";
+  check.reason = !open.name.empty() ? "the nearest is " + open.name
+                 : hidden.name.empty()
+                     ? "no emergency luminaire is " + (above ? "above it"s : "there"s)
+                     : "no emergency luminaire " + there + "is in sight";
+  if (hidden.distance_m < open.distance_m)
+    check.reason += fmt::format("; {} is {:.2f} m away, but behind something solid", hidden.name,
+                                hidden.distance_m);
+  return check;
+}
+
 std::vector<Check> checks_of_emphasis(const SceneDescription& scene, const EmphasisPoint& point,
-                                      std::optional<double> vertical_lx, const CodeChoice& codes) {
+                                      const LinesOfSight& seen, std::optional<double> vertical_lx,
+                                      const CodeChoice& codes) {
   if (!codes.en_2013 && !codes.en_2024) return {};
   const std::string subject = "\"" + point.name + "\" (" +
                               std::string(emphasis_words[static_cast<size_t>(point.kind)]) + ")";
-  std::vector<Check> out;
-  double nearest = std::numeric_limits<double>::infinity();
-  std::string whose;
-  for (const uint32_t number : emergency_luminaires(scene)) {
-    const Emitter& e = scene.emitters[number];
-    const double distance = in_plan(e.frame.origin, point.position);
-    if (e.frame.origin.z < point.position.z || distance >= nearest) continue;
-    nearest = distance;
-    whose = "the nearest is \"" + e.name + "\"";
-  }
-  out.push_back(judged(rule_of("E12"), subject, nearest, near_m, false, "m", point.position));
-  out.back().reason = whose.empty() ? "no emergency luminaire is above it" : whose;
+  std::vector<Check> out = {luminaire_near("E12", scene, subject, point.position, true, seen)};
   if (!is_equipment(point.kind)) return out;
   out.push_back(vertical_lx ? judged(rule_of("E13"), subject, *vertical_lx, equipment_lx, true,
                                      "lx", point.position)

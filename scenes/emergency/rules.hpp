@@ -33,6 +33,10 @@ struct LitPoint {
 /// The emergency luminaires of a scene: numbers of its emitters, in their order.
 std::vector<uint32_t> emergency_luminaires(const SceneDescription& scene);
 
+/// Whether a straight line that nothing solid blocks leads from a place to each emergency
+/// luminaire, in their order; empty: taken for granted.
+using LinesOfSight = std::vector<bool>;
+
 /// Points that the rules for a route ask for.
 struct RoutePoints {
   std::vector<glm::dvec3> centre;  // of its strips of 2 m at most (EN 1838)
@@ -57,14 +61,19 @@ std::vector<Check> checks_of_glare(const SceneDescription& scene, const CodeChoi
 
 /// The places of emphasis that the scene names, and the bends of its routes.
 std::vector<EmphasisPoint> emphasis_of(const SceneDescription& scene);
+/// A luminaire is near by its distance in plan, if it is in sight of the place, and higher where
+/// `above` asks for it; one that is nearer behind something solid is named.
+Check luminaire_near(const char* id, const SceneDescription& scene, const std::string& subject,
+                     const glm::dvec3& place, bool above, const LinesOfSight& seen);
 /// `vertical_lx`: on the front of equipment; none where it says no facing.
 std::vector<Check> checks_of_emphasis(const SceneDescription& scene, const EmphasisPoint& point,
-                                      std::optional<double> vertical_lx, const CodeChoice& codes);
+                                      const LinesOfSight& seen, std::optional<double> vertical_lx,
+                                      const CodeChoice& codes);
 
 /// What a sign is by itself. `face_lx`: mean direct light on an externally lit face in emergency
-/// operation.
+/// operation. `seen`: from its face.
 std::vector<Check> checks_of_sign(const SceneDescription& scene, const Sign& sign, double face_lx,
-                                  const CodeChoice& codes);
+                                  const LinesOfSight& seen, const CodeChoice& codes);
 
 /// A sign that somebody on a route has a clear line to.
 struct ClearSign {

@@ -17,7 +17,6 @@ constexpr double contrast_least = 5, contrast_most = 15;      // S3
 constexpr double mains_white = 500;                           // S5 [cd/m2]
 constexpr double height_least_m = 2;                          // S6
 constexpr double low_level_m = 1;          // where way guidance along the floor ends
-constexpr double luminaire_near_m = 2;     // S6
 constexpr double elevation_most_deg = 20;  // S6
 constexpr double standing_eye_m = 1.65;
 constexpr double face_lx = 54;                                    // N6
@@ -104,16 +103,8 @@ std::vector<Check> mounting(const SceneDescription& scene, const Sign& sign,
                  sign.frame.origin)};
 }
 
-Check luminaire_near(const SceneDescription& scene, const Sign& sign, const std::string& subject) {
-  double nearest = std::numeric_limits<double>::infinity();
-  for (const uint32_t number : emergency_luminaires(scene))
-    nearest = std::min(
-        nearest, glm::length(glm::dvec2(scene.emitters[number].frame.origin - sign.frame.origin)));
-  return judged(rule_of("S6l"), subject, nearest, luminaire_near_m, false, "m", sign.frame.origin);
-}
-
 std::vector<Check> en_checks(const SceneDescription& scene, const Sign& sign,
-                             const std::string& subject) {
+                             const std::string& subject, const LinesOfSight& seen) {
   std::vector<Check> out;
   if (sign.lighting == SignLighting::internal) {
     out.push_back(smallest_green(scene, sign, subject));
@@ -122,7 +113,8 @@ std::vector<Check> en_checks(const SceneDescription& scene, const Sign& sign,
     out.push_back(judged(rule_of("S5"), subject, sign.mains.white_cd_m2, mains_white, true, "cd/m2",
                          sign.frame.origin));
   }
-  if (sign.lighting == SignLighting::external) out.push_back(luminaire_near(scene, sign, subject));
+  if (sign.lighting == SignLighting::external)
+    out.push_back(luminaire_near("S6l", scene, subject, sign.frame.origin, false, seen));
   for (Check& check : mounting(scene, sign, subject)) out.push_back(std::move(check));
   return out;
 }
@@ -130,10 +122,10 @@ std::vector<Check> en_checks(const SceneDescription& scene, const Sign& sign,
 }  // namespace
 
 std::vector<Check> checks_of_sign(const SceneDescription& scene, const Sign& sign, double lux,
-                                  const CodeChoice& codes) {
+                                  const LinesOfSight& seen, const CodeChoice& codes) {
   const std::string subject = "sign \"" + sign.name + "\"";
   std::vector<Check> out;
-  if (codes.en_2013 || codes.en_2024) out = en_checks(scene, sign, subject);
+  if (codes.en_2013 || codes.en_2024) out = en_checks(scene, sign, subject, seen);
   if (!codes.nfpa) return out;
   if (sign.lighting == SignLighting::external)
     out.push_back(judged(rule_of("N6"), subject, lux, face_lx, true, "lx", sign.frame.origin));

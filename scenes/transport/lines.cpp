@@ -30,7 +30,8 @@ std::optional<MetSurface> next_surface(const CompiledScene& scene, const Geometr
     ray.length = length_m;
     const Hit hit = resolver.nearest(ray);
     if (!hit.found()) return std::nullopt;
-    return MetSurface{hit.distance, glm::dot(hit.triangle->normal, direction) < 0};
+    return MetSurface{hit.distance, glm::dot(hit.triangle->normal, direction) < 0,
+                      hit.triangle->surface};
   });
 }
 

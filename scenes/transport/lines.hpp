@@ -22,7 +22,8 @@ double clear_share(const CompiledScene& scene, const GeometryAccess& access, con
 
 struct MetSurface {
   float distance_m = 0;
-  bool front = true;  // its front side is met
+  bool front = true;     // its front side is met
+  uint32_t surface = 0;  // of the scene's
 };
 /// Nothing within `length_m`: none.
 std::optional<MetSurface> next_surface(const CompiledScene& scene, const GeometryAccess& access,

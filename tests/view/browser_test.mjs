@@ -210,6 +210,34 @@ test('a scenario is one click, and an eye sees it darker than a camera', async (
   await page.getByRole('button', { name: 'Close' }).click();
 });
 
+test('0, 5 and 60 s after a failure are one click each, and nothing is traced', async () => {
+  const old = await generation();
+  const at = {};
+  for (const time of ['at first', '0 s', '5 s', '60 s']) {
+    await page.getByRole('button', { name: time, exact: true }).click();
+    await page.locator(`.choice button[aria-pressed=true]`, { hasText: time }).waitFor(patience);
+    at[time] = await mean();
+    if (time === '5 s') await shot('five_seconds');
+  }
+  assert.ok(at['0 s'] < at['5 s'] && at['5 s'] < at['60 s'], JSON.stringify(at));
+  assert.ok(Math.abs(at['60 s'] / at['at first'] - 1) < 1e-3, JSON.stringify(at));
+  assert.equal(await generation(), old);
+});
+
+test('a luminaire moves without the rest of the light fading', async () => {
+  const old = await generation();
+  await page.evaluate(() => {
+    const { page: p } = window.luxodus;
+    p.selectLuminaire(p.live.scene.luminaires[0]);
+  });
+  await page.getByRole('button', { name: 'Right', exact: true }).click();
+  await page.waitForFunction(() => window.luxodus.page.live.next, null, patience);
+  assert.ok(await page.locator('#banner').isHidden());
+  await page.waitForFunction((g) => window.luxodus.page.live.number > g, old, patience);
+  assert.equal(await page.evaluate(() => window.luxodus.page.live.shown.surfaces.groups.size), 6);
+  await page.keyboard.press('Escape');
+});
+
 test('an edit that is refused is said so', async () => {
   await page.getByLabel('Name of the variant').fill('../out');
   await page.getByRole('button', { name: 'Save as' }).click();

@@ -25,6 +25,7 @@ export class MockServer {
     this.particles = 0;
     this.heard = [];
     this.frames = null;
+    this.seconds = null;
   }
 
   async listen(port = 0) {
@@ -62,10 +63,10 @@ export class MockServer {
   scene(viewer) {
     const { state, generation } = this;
     const groups = room.sources.map(({ name, kind, position }) =>
-      ({ name, kind, position, factor: state.factors[name] }));
+      ({ name, kind, position, factor: state.factors[name], share: this.share(kind), light: this.light?.(name) ?? 'new' }));
     return { type: 'scene', generation, name: 'mock', title: 'Two rooms and a fire in a bin',
       scenarios: scenarios.map(({ name, operation }) => ({ name, operation })),
-      scenario: state.scenario, smoke: state.smoke, low: room.low, high: room.high, groups,
+      scenario: state.scenario, smoke: state.smoke, seconds: this.seconds, low: room.low, high: room.high, groups,
       signs: state.signs, luminaires: state.luminaires, observers: room.observers,
       cameras: room.cameras, voxels: room.voxels, editor: viewer !== null && viewer === this.editor,
     };
@@ -103,21 +104,27 @@ export class MockServer {
 
   hear(viewer, message) {
     this.heard.push(message);
-    const edits = ['factor', 'scenario', 'smoke', 'move', 'save'];
+    const edits = ['factor', 'scenario', 'smoke', 'time', 'move', 'save'];
     if (edits.includes(message.type) && viewer !== this.editor)
       this.tell(viewer, { type: 'refused', why: 'somebody else is editing' });
     else this[`do_${message.type}`]?.(viewer, message);
   }
 
-  /** A new generation: announced at once, its light comes later. */
-  begin() {
+  /** A new generation: announced at once, its light comes later; that of groups not `new` stays. */
+  begin(light = () => 'new') {
     ++this.generation;
     this.particles = 0;
+    this.light = light;
     for (const viewer of this.viewers) this.tell(viewer, this.scene(viewer));
+    this.light = null;
     clearTimeout(this.tracing);
     this.tracing = setTimeout(() => {
       this.frames = this.trace();
-      for (const viewer of this.viewers) for (const frame of this.frames) viewer.send(frame);
+      const sent = this.frames.filter((frame) => {
+        const [kind, , group] = new Uint32Array(new Uint8Array(frame).slice(0, 12).buffer);
+        return ![2, 4].includes(kind) || light(room.sources[group].name) !== 'kept';
+      });
+      for (const viewer of this.viewers) for (const frame of sent) viewer.send(frame);
     }, this.traceMs);
   }
 
@@ -135,6 +142,18 @@ export class MockServer {
     this.begin();
   }
 
+  /** Luminaires come on within ten seconds. */
+  share(kind) {
+    return kind === 'luminaire' && this.seconds !== null ? Math.min(1, this.seconds / 10) : 1;
+  }
+
+  do_time(_, { seconds }) {
+    this.seconds = seconds;
+    const shares = Object.fromEntries(
+      room.sources.map(({ name, kind }) => [name, this.share(kind)]));
+    this.tellAll({ type: 'time', seconds, shares });
+  }
+
   do_smoke(_, { factor }) {
     this.state.smoke = factor;
     this.begin();
@@ -142,8 +161,10 @@ export class MockServer {
 
   do_move(_, { kind, name, position }) {
     const things = kind === 'sign' ? this.state.signs : this.state.luminaires;
-    things.find((t) => t.name === name).position = position;
-    this.begin();
+    const thing = things.find((t) => t.name === name);
+    thing.position = position;
+    const others = kind === 'sign' ? 'before' : 'kept';
+    this.begin((group) => (group === thing.group ? 'new' : others));
   }
 
   do_save(viewer, { name }) {

@@ -123,6 +123,22 @@ test('smoke begins a new generation', async () => {
   assert.ok((await generation()) > old);
 });
 
+test('a luminaire moves, and its own light alone comes anew', async () => {
+  const old = await generation();
+  await page.evaluate((name) => {
+    const { page: p } = window.luxodus;
+    p.selectLuminaire(p.live.scene.luminaires.find((l) => l.name === name));
+  }, lamp);
+  await page.getByRole('button', { name: 'Right', exact: true }).click();
+  await page.waitForFunction((g) => window.luxodus.page.live.number > g, old, patience);
+  const groups = await page.evaluate(() => window.luxodus.page.live.scene.groups);
+  assert.deepEqual(groups.filter((g) => g.light === 'new').map((g) => g.name), [lamp]);
+  assert.ok(await page.locator('#banner').isHidden());
+  await lit(page, old + 1);
+  await shot('program_moved_lamp');
+  await page.keyboard.press('Escape');
+});
+
 test('a sign is judged, moved, and saved as a variant', async () => {
   await page.evaluate(() => {
     const { page: p } = window.luxodus;

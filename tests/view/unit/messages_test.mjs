@@ -27,11 +27,20 @@ test('a scene with a wrong part is refused, and the part named', () => {
     error instanceof ProtocolError && pattern.test(error.message);
   assert.throws(harmed((s) => (s.groups[2].factor = -1)), named(/groups\[2\]\.factor/));
   assert.throws(harmed((s) => (s.groups[0].kind = 'sun')), named(/groups\[0\]\.kind/));
+  assert.throws(harmed((s) => (s.groups[1].light = 'old')), named(/groups\[1\]\.light/));
   assert.throws(harmed((s) => (s.signs[1].rows = 63)), named(/signs\[1\]\.texels/));
   assert.throws(harmed((s) => (s.signs[0].facing = [0, 1])), named(/facing/));
   assert.throws(harmed((s) => (s.voxels.count = [4000, 4000, 4000])), named(/voxels/));
   assert.throws(harmed((s) => delete s.low), named(/low/));
   assert.throws(harmed((s) => (s.luminaires[0] = null)), ProtocolError);
+});
+
+test('time since a failure is a number or none, and shares are numbers', () => {
+  assert.deepEqual(read({ type: 'time', seconds: 5, shares: { lamp: 0.5 } }),
+    { type: 'time', seconds: 5, shares: [{ name: 'lamp', share: 0.5 }] });
+  assert.equal(read({ type: 'time', seconds: null, shares: {} }).seconds, null);
+  assert.throws(() => read({ type: 'time', seconds: 5, shares: { lamp: -1 } }), ProtocolError);
+  assert.throws(() => read({ type: 'time', seconds: 'now', shares: {} }), ProtocolError);
 });
 
 test('text that is no message is refused', () => {

@@ -7,6 +7,10 @@ import { Live } from '../../../actors/view/page/src/state.js';
 import { geometryFrame, lightFrame, smokeFrame, sources, startState } from '../mock_room.mjs';
 import { MockServer } from '../mock_server.mjs';
 
+/** A scene in which the light of some groups goes on being shown. */
+const keeping = (scene, kept, how = 'kept') =>
+  ({ ...scene, groups: scene.groups.map((g, i) => ({ ...g, light: kept(i) ? how : 'new' })) });
+
 /** A page's state without a page, and a clock that only tests turn. */
 function heard() {
   const events = [];
@@ -140,4 +144,56 @@ test('a slider sends its last value and no more than the program takes', () => {
   assert.deepEqual(sent, [{ factor: 1 }, { factor: 100 }, { other: true }]);
   assert.equal(interval, intervalMs);
   assert.ok(1000 / intervalMs < 50);
+});
+
+test('what moves waits for its own light alone, and nothing fades', () => {
+  const { live, scene, named } = started();
+  const others = live.shown.surfaces.groups.get(1).halves;
+  live.hear(keeping(scene(2), (i) => i !== 0));
+  assert.equal(live.number, 1);
+  assert.deepEqual(named('fading').filter(Boolean), []);
+  const moved = light(2, 0);
+  live.hear(moved);
+  assert.equal(live.number, 2);
+  assert.equal(live.shown.surfaces.groups.get(0).halves, moved.halves);
+  assert.equal(live.shown.surfaces.groups.get(1).halves, others, 'the others keep their light');
+});
+
+test('a generation that keeps all light is shown at once, and new geometry takes none of it', () => {
+  const { live, scene, named } = started();
+  live.hear(keeping(scene(2), () => true, 'before'));
+  assert.equal(live.number, 2);
+  live.hear(geometry(2));
+  assert.equal(named('geometry').length, 2);
+  assert.equal(live.shown.surfaces.groups.size, sources.length);
+});
+
+test('what came for a generation that was overtaken is not lost', () => {
+  const { live, scene } = started();
+  live.hear(scene(2));
+  const other = geometry(2);
+  live.hear(other);
+  live.hear(light(2, 1));
+  const early = live.next.frames.get('2 1').halves;
+  live.hear(keeping(scene(3), (i) => i === 1));
+  sources.forEach((_, group) => group === 1 || live.hear(light(3, group)));
+  assert.equal(live.number, 3);
+  assert.equal(live.shown.geometry, other);
+  assert.equal(live.shown.surfaces.groups.get(1).halves, early);
+});
+
+test('time after a failure dims by shares, beside the factors', () => {
+  const { live, named } = started();
+  const before = Float32Array.from(live.shown.surfaces.sum);
+  const shares = sources.map(({ name }) => ({ name, share: 0.5 }));
+  live.hear({ type: 'factors', factors: sources.map(({ name }) => ({ name, factor: 0.5 })) });
+  live.hear({ type: 'time', seconds: 5, shares });
+  live.settle();
+  for (let i = 0; i < before.length; i += 97)
+    assert.ok(Math.abs(live.shown.surfaces.sum[i] - before[i] / 4) <= 1e-6 * before[i] + 1e-9);
+  assert.equal(live.scene.groups[0].factor, 0.5);
+  assert.deepEqual(named('time'), [{ seconds: 5 }]);
+  assert.equal(live.scene.seconds, 5);
+  live.hear({ type: 'time', seconds: null, shares: [] });
+  assert.equal(live.scene.groups[0].share, 1, 'who is not named gives all');
 });

@@ -12,7 +12,7 @@ import { Top } from './panel/top.js';
 import { Views } from './panel/views.js';
 import { Mover } from './mover.js';
 import { Connection, liveAddress } from './protocol/connection.js';
-import { Live } from './state.js';
+import { Live, weightOf } from './state.js';
 import { Building } from './walk/building.js';
 import { Hands } from './walk/hands.js';
 import { eyeHeights, pan, rayThrough, speeds, stand, startMotion, stride, turn, viewOf, zoom }
@@ -167,6 +167,12 @@ class Page {
 
   on_factors(changes) {
     this.groups.factors(changes);
+    this.dirty.add('light');
+    this.settleAt = performance.now() + settle_ms;
+  }
+
+  on_time({ seconds }) {
+    this.state.time(seconds);
     this.dirty.add('light');
     this.settleAt = performance.now() + settle_ms;
   }
@@ -409,7 +415,7 @@ class Page {
 
   applyLight() {
     const { live, picture } = this;
-    const groups = new Map((live.scene?.groups ?? []).map((g) => [g.name, g.factor]));
+    const groups = new Map((live.scene?.groups ?? []).map((g) => [g.name, weightOf(g)]));
     picture.surfaces.shine(live.shown?.surfaces ?? null);
     picture.smoke.shine(live.shown?.air ?? null);
     picture.signs.shine((name) => groups.get(name) ?? 1);

@@ -6,6 +6,9 @@ import { smokeSum, surfaceSum } from './light/sum.js';
 /** After a new generation's first light, so long are the other groups waited for. */
 const gatherMs = 250;
 
+/** What a group gives of the light that was traced: dimmed by hands, and by the time since. */
+export const weightOf = ({ factor, share }) => factor * share;
+
 const demand = (condition, what) => {
   if (!condition) throw new ProtocolError(what);
 };
@@ -52,6 +55,7 @@ export class Live {
     if (heard.kind) this.frame(heard);
     else if (heard.type === 'scene') this.announced(heard);
     else if (heard.type === 'factors') this.factors(heard.factors);
+    else if (heard.type === 'time') this.time(heard);
     else if (heard.type !== 'progress' || heard.generation === this.newest)
       this.tell(heard.type, heard);
   }
@@ -68,10 +72,30 @@ export class Live {
       this.next.scene = scene;
       return;
     }
+    const waited = this.next;
     this.next = new Generation(scene);
-    if (!this.shown) this.promote();
-    else this.tell('fading', true);
+    if (waited) this.carry(waited, this.next);
+    const anew = scene.groups.every(({ light }) => light === 'new');
+    if (!this.shown || this.lit(this.next)) this.promote();
+    else this.tell('fading', anew);
     this.tell('editor', { editor: scene.editor });
+  }
+
+  /** What was sent for a generation that was never shown, and is not sent again. */
+  carry(waited, next) {
+    next.geometry = waited.geometry;
+    next.smoke = waited.smoke;
+    for (const frame of waited.frames.values()) {
+      const { name } = waited.scene.groups[frame.group];
+      const group = next.scene.groups.findIndex((g) => g.name === name && g.light !== 'new');
+      if (group >= 0) next.frames.set(`${frame.kind} ${group}`, { ...frame, group });
+    }
+  }
+
+  /** Whether each group that begins anew has light. */
+  lit({ scene, frames }) {
+    return scene.groups.every(({ light }, group) =>
+      light !== 'new' || frames.has(`${kinds.surfaceLight} ${group}`));
   }
 
   frame(frame) {
@@ -98,11 +122,11 @@ export class Live {
   stash(frame) {
     if (frame.group === undefined) return;
     const { next } = this;
-    const first = next.frames.size === 0;
     next.frames.set(`${frame.kind} ${frame.group}`, frame);
-    const lit = [...next.frames.values()].filter((f) => f.kind === kinds.surfaceLight).length;
-    if (lit === next.scene.groups.length) this.promote();
-    else if (first) this.later(() => this.next === next && this.promote(), gatherMs);
+    if (this.lit(next)) return this.promote();
+    if (next.gathers || next.scene.groups[frame.group].light !== 'new') return;
+    next.gathers = true;
+    this.later(() => this.next === next && this.promote(), gatherMs);
   }
 
   /** The next generation becomes the one shown; of the old one's light stays what still fits. */
@@ -132,16 +156,17 @@ export class Live {
     const light = make(cells);
     const kept = old?.[which]?.cells === cells ? old[which] : null;
     const oldNames = old?.scene.groups.map((g) => g.name) ?? [];
-    next.scene.groups.forEach(({ name, factor }, i) => {
-      const entry = kept?.groups.get(oldNames.indexOf(name));
-      if (entry) light.set(i, entry.halves, factor);
+    next.scene.groups.forEach((group, i) => {
+      const entry = kept?.groups.get(oldNames.indexOf(group.name));
+      if (entry) light.set(i, entry.halves, weightOf(group));
     });
     return light;
   }
 
   apply(frame) {
     if (frame.kind === kinds.geometry) {
-      this.shown.surfaces = this.inherit(null, this.shown, '', frame.triangles, surfaceSum);
+      const { shown } = this;
+      shown.surfaces = this.inherit(shown, shown, 'surfaces', frame.triangles, surfaceSum);
       this.tell('geometry', frame);
     } else if (frame.kind === kinds.smoke) {
       this.tell('smoke', this.shown);
@@ -153,7 +178,7 @@ export class Live {
 
   put({ kind, group, halves }) {
     const light = kind === kinds.surfaceLight ? this.shown.surfaces : this.shown.air;
-    light?.set(group, halves, this.shown.scene.groups[group].factor);
+    light?.set(group, halves, weightOf(this.shown.scene.groups[group]));
   }
 
   factors(all) {
@@ -171,12 +196,24 @@ export class Live {
     this.refactor();
   }
 
+  /** So long after the mains have failed, in the picture and in the generation that is awaited. */
+  time({ seconds, shares }) {
+    const byName = new Map(shares.map(({ name, share }) => [name, share]));
+    for (const generation of [this.shown, this.next]) {
+      if (!generation) continue;
+      generation.scene.seconds = seconds;
+      for (const group of generation.scene.groups) group.share = byName.get(group.name) ?? 1;
+    }
+    this.refactor();
+    this.tell('time', { seconds });
+  }
+
   refactor() {
     if (!this.shown) return;
     let changed = false;
-    this.shown.scene.groups.forEach(({ factor }, i) => {
-      changed = this.shown.surfaces?.dim(i, factor) || changed;
-      changed = this.shown.air?.dim(i, factor) || changed;
+    this.shown.scene.groups.forEach((group, i) => {
+      changed = this.shown.surfaces?.dim(i, weightOf(group)) || changed;
+      changed = this.shown.air?.dim(i, weightOf(group)) || changed;
     });
     if (changed) this.tell('light', null);
   }

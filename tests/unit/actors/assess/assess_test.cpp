@@ -204,6 +204,54 @@ TEST_CASE("a route that nobody can walk is named with its line", "[assess]") {
   CHECK(nothing.what.find("nothing to assess") != std::string::npos);
 }
 
+namespace {
+
+/// A wall or a closed door across the way at x = 4, without any thickness.
+std::string across(const std::string& more) {
+  return room + "[[object]]\nname = \"leaf\"\nshape = \"quad\"\n" +
+         "corner = [4, -2, 0]\nedge_u = [0, 4, 0]\nedge_v = [0, 0, 3]\nmaterial = \"grey50\"\n" +
+         more;
+}
+
+}  // namespace
+
+TEST_CASE("a route through a wall is refused, through a closed door told, with both lines",
+          "[assess]") {
+  const auto refused = tried(across(""), codes_alone());
+  REQUIRE_FALSE(refused.ok());
+  CHECK(refused.problem().what.find("route \"way\" leads through the wall or body \"leaf\" (") ==
+        0);
+  CHECK(refused.problem().what.find("scene.toml:") != std::string::npos);
+  CHECK(refused.problem().where.line > 0);
+  const std::string door = "door = { open = false, hinge = [4, -2, 0] }\n";
+  const Assessment closed = assessed(across(door), codes_alone());
+  REQUIRE(closed.warnings.size() == 1);
+  CHECK(closed.warnings.front().what.find("route \"way\" leads through the closed door \"leaf\"") ==
+        0);
+  CHECK(closed.warnings.front().where.line > 0);
+  AssessOptions options = codes_alone();
+  const Assessment open = assessed(across("door = { open = true, hinge = [4, -2, 0] }\n"), options);
+  CHECK(open.warnings.empty());
+  // A table is walked around.
+  CHECK(assessed(room, codes_alone()).warnings.empty());
+}
+
+TEST_CASE("a luminaire is near to a point only where a straight line leads to it", "[assess]") {
+  const std::string point =
+      "[[emphasis]]\nname = \"call\"\nkind = \"call_point\"\nposition = [4.6, 1.9, 1.2]\n"
+      "facing = [0, -1, 0]\n";
+  const Assessment open = assessed(room + point, codes_alone());
+  CHECK(check_of(open, "E12", "without furniture").reason == "the nearest is \"lamp\"");
+  const std::string wall =
+      "[[object]]\nname = \"screen\"\nshape = \"quad\"\ncorner = [5, 1, 0]\n"
+      "edge_u = [0, 1, 0]\nedge_v = [0, 0, 3]\nmaterial = \"grey50\"\n";
+  const Assessment hidden = assessed(room + point + wall, codes_alone());
+  const Check& near = check_of(hidden, "E12", "without furniture");
+  CHECK(near.verdict == CheckVerdict::fail);
+  CHECK(near.reason.find("\"lamp\" is 2.36 m away, but behind something solid") !=
+        std::string::npos);
+}
+
 TEST_CASE("a sign that faces a wall is told", "[assess]") {
   std::string text = room;
   const std::string facing = "facing = [-1, 0, 0]";

@@ -10,6 +10,7 @@
 #include <condition_variable>
 #include <cstring>
 #include <mutex>
+#include <set>
 
 #include "actors/view/view_server.hpp"
 #include "scenes/format/scene_file.hpp"
@@ -53,7 +54,8 @@ struct Remembers final : Viewer {
   std::vector<LiveFrame> frames;
   void send_text(const LiveFrame& text) override { texts.push_back(Json::parse(*text)); }
   void send_binary(const LiveFrame& frame, bool) override { frames.push_back(frame); }
-  void forget_light() override {}
+  std::vector<LiveFrame> take_light() override { return std::exchange(waiting, {}); }
+  std::vector<LiveFrame> waiting;  // light that a slow connection has not sent yet
 
   const Json* last(const std::string& type) const {
     for (auto at = texts.rbegin(); at != texts.rend(); ++at)
@@ -164,9 +166,105 @@ TEST_CASE("what moves begins a new generation, and light answers for its place",
         Approx(0.5 * full["illuminance"].get<double>()));
   hub.says(viewer, R"({"type":"move","kind":"luminaire","name":"left","position":[1,1,1]})");
   posts.until([&] { return viewer.frames_of(2, 2) >= 2; });
-  CHECK((*viewer.last("scene"))["generation"] == 2);
+  const Json& scene = *viewer.last("scene");
+  CHECK(scene["generation"] == 2);
+  CHECK(scene["groups"][0]["light"] == "new");
+  CHECK(scene["groups"][1]["light"] == "kept");
+  CHECK(viewer.frames_of(1, 2) == 0);  // the same geometry is not sent again
   hub.says(viewer, R"({"type":"move","kind":"sign","name":"none","position":[1,1,1]})");
   CHECK(viewer.last("refused") != nullptr);
+  hub.leaves(viewer);
+}
+
+namespace {
+
+/// Groups whose light on surfaces came in a generation.
+std::set<uint32_t> lit_groups(const Remembers& viewer, uint32_t generation) {
+  std::set<uint32_t> out;
+  for (const LiveFrame& frame : viewer.frames) {
+    const FrameHead head = head_of(frame);
+    if (head.kind == 2 && head.generation == generation) out.insert(head.a);
+  }
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("after a move others get no light again, who comes late gets all, who is slow what waits",
+          "[view]") {
+  const test::TemporaryFolder folder;
+  Posts posts;
+  ViewHub hub(scene_in(folder), small_runs(folder), posts.post());
+  Remembers viewer;
+  hub.joins(viewer);
+  const auto done = [&] {
+    const Json* progress = viewer.last("progress");
+    return progress != nullptr && (*progress)["done"] == true;
+  };
+  posts.until(done);
+  viewer.waiting = {viewer.frames.back()};
+  const FrameHead waited = head_of(viewer.frames.back());
+  REQUIRE(waited.a == 1);  // the last that came is of the lamp that stays
+  viewer.texts.clear();
+  hub.says(viewer, R"({"type":"move","kind":"luminaire","name":"left","position":[1,1,1]})");
+  posts.until(done);
+  CHECK(lit_groups(viewer, 2) == std::set<uint32_t>{0, 1});
+  CHECK(viewer.frames_of(2, 2) > 1);
+  const auto again = std::count_if(viewer.frames.begin(), viewer.frames.end(), [](const auto& f) {
+    return head_of(f).generation == 2 && head_of(f).a == 1;
+  });
+  CHECK(again == 1);  // what had not been sent, and nothing else
+  Remembers late;
+  hub.joins(late);
+  CHECK(lit_groups(late, 2) == std::set<uint32_t>{0, 1});
+  CHECK(late.frames_of(1, 2) == 1);
+  CHECK((*late.last("scene"))["groups"][1]["light"] == "new");
+  hub.leaves(late);
+  hub.leaves(viewer);
+}
+
+TEST_CASE("time after a failure is shares of light, nothing is traced, and mains know no time",
+          "[view]") {
+  const test::TemporaryFolder folder;
+  auto scene = std::make_shared<SceneDescription>(*scene_in(folder));
+  scene->emitters[0].emergency_flux = scene->emitters[1].emergency_flux = 100;
+  Sign glow;
+  glow.name = "glow";
+  glow.frame.origin = {3, 2, 1};
+  glow.width_m = 0.4;
+  glow.height_m = 0.2;
+  glow.face = {2, 1, {SignColour::white, SignColour::green}, {}, SignColour::white};
+  glow.lighting = SignLighting::photoluminescent;
+  glow.emergency = {1, 0.1};
+  glow.decay = {{0, 1}, {10, 0}};
+  scene->signs.push_back(glow);
+  scene->scenarios.resize(2);
+  scene->scenarios[0].name = "failed";
+  scene->scenarios[0].operation = Operation::emergency;
+  scene->scenarios[1].name = "day";
+  Posts posts;
+  ViewHub hub(scene, small_runs(folder), posts.post());
+  Remembers viewer;
+  hub.joins(viewer);
+  posts.until([&] { return viewer.last("scene") != nullptr; });
+  CHECK((*viewer.last("scene"))["seconds"] == 0);
+  hub.says(viewer, R"({"type":"time","seconds":5})");
+  REQUIRE(viewer.last("time") != nullptr);
+  CHECK((*viewer.last("time"))["seconds"] == 5);
+  CHECK((*viewer.last("time"))["shares"]["sign glow"] == 0.5);
+  CHECK((*viewer.last("time"))["shares"]["right"] == 1);
+  Remembers late;
+  hub.joins(late);
+  CHECK((*late.last("scene"))["seconds"] == 5);
+  CHECK((*late.last("scene"))["groups"][2]["share"] == 0.5);
+  CHECK((*late.last("scene"))["groups"][2]["factor"] == 1);
+  CHECK((*late.last("scene"))["generation"] == 1);
+  hub.says(viewer, R"({"type":"scenario","name":"day"})");
+  posts.until([&] { return (*viewer.last("scene"))["scenario"] == "day"; });
+  hub.says(viewer, R"({"type":"time","seconds":5})");
+  REQUIRE(viewer.last("refused") != nullptr);
+  CHECK((*viewer.last("scene"))["groups"][0]["share"] == 1);
+  hub.leaves(late);
   hub.leaves(viewer);
 }
 

@@ -36,6 +36,13 @@ TEST_CASE("what a viewer may say is read", "[view]") {
   CHECK(parse_view_message(R"({"type":"judge","sign":"exit"})").ok());
   CHECK(parse_view_message(R"({"type":"smoke","factor":0})").ok());
   CHECK(parse_view_message(R"({"type":"scenario","name":"dark"})").ok());
+  const auto time = parse_view_message(R"({"type":"time","seconds":5})");
+  REQUIRE(time.ok());
+  CHECK(std::get<TimeEdit>(time.value()).seconds == 5.0);
+  CHECK(is_edit(time.value()));
+  const auto settled = parse_view_message(R"({"type":"time","seconds":null})");
+  REQUIRE(settled.ok());
+  CHECK_FALSE(std::get<TimeEdit>(settled.value()).seconds.has_value());
   CHECK(parse_view_message(R"({"type":"save","name":"brighter"})").ok());
 }
 
@@ -48,6 +55,8 @@ TEST_CASE("all else is refused with a reason", "[view]") {
         std::string::npos);
   CHECK(refused(R"({"type":"factor","group":"","factor":1})").find("1 to 200") !=
         std::string::npos);
+  CHECK(refused(R"({"type":"time","seconds":-1})").find("range") != std::string::npos);
+  CHECK(refused(R"({"type":"time","seconds":"now"})").find("a number") != std::string::npos);
   CHECK(refused(R"({"type":"smoke","factor":-1})").find("range") != std::string::npos);
   CHECK(refused(R"({"type":"smoke","factor":1e999})").find("JSON") != std::string::npos);
   CHECK(refused(R"({"type":"move","kind":"sign","name":"a","position":[1,2]})")

@@ -174,8 +174,70 @@ TEST_CASE("glare is judged by the new luminaire's intensity and its height", "[e
   CHECK(checks[0].condition.find("60 to 90") != std::string::npos);
   scene.routes.front().path[1].z = 1;  // no level route any more
   CHECK(checks_of_glare(scene, {})[0].condition == "all directions");
-  scene.emitters[0].distribution = Distribution::spot;
+}
+
+TEST_CASE("a spot glares where its cone reaches, a beam where it points", "[emergency][rules]") {
+  const double pi = 3.14159265358979323846;
+  SceneDescription scene = corridor();
+  scene.emitters = {luminaire("spot", {2, 0, 2.4}, 100)};
+  Emitter& spot = scene.emitters.front();
+  spot.distribution = Distribution::spot;
+  spot.spot_inner_deg = 20;
+  spot.spot_outer_deg = 40;
+  // Straight down: nothing beyond 40 degrees, so nothing between 60 and 90.
+  CHECK(*checks_of_glare(scene, {})[0].value == 0);
+  // In all directions its axis counts: 200 lm when new over pi ((1 - cos 20) + (1 - cos 40)) sr.
+  scene.routes.front().path[1].z = 1;
+  const double sr = pi * (2 - std::cos(20 * pi / 180) - std::cos(40 * pi / 180));
+  CHECK(*checks_of_glare(scene, {})[0].value == Approx(200 / sr));
+  // Aimed level, its axis lies in the zone.
+  scene.routes.front().path[1].z = 0;
+  spot.frame.axes = glm::dmat3(glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1), glm::dvec3(1, 0, 0));
+  CHECK(*checks_of_glare(scene, {})[0].value == Approx(200 / sr));
+  spot.distribution = Distribution::collimated;
   CHECK(checks_of_glare(scene, {})[0].verdict == CheckVerdict::not_assessed);
+  spot.frame.axes = glm::dmat3(1);
+  CHECK(checks_of_glare(scene, {})[0].verdict == CheckVerdict::pass);
+}
+
+TEST_CASE("tubes and meshes have the intensity of their surfaces", "[emergency][rules]") {
+  const double pi = 3.14159265358979323846;
+  SceneDescription scene = corridor();
+  scene.emitters = {luminaire("bare", {2, 0, 2.4}, 100)};
+  Emitter& lamp = scene.emitters.front();
+  lamp.distribution = Distribution::lambertian;
+  // A tube across the way: flux = pi^2 I, all around it.
+  lamp.shape = EmitterShape::tube;
+  CHECK(*checks_of_glare(scene, {})[0].value == Approx(200 / (pi * pi)).epsilon(1e-4));
+  // A panel that looks down: I = flux / pi cos, 60 degrees off its axis at most.
+  lamp.shape = EmitterShape::mesh;
+  lamp.mesh.positions = {{0, 0, 0}, {0, 1, 0}, {1, 1, 0}, {1, 0, 0}};
+  lamp.mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  CHECK(*checks_of_glare(scene, {})[0].value == Approx(200 / pi * 0.5));
+  lamp.emergency_flux = 1e4;
+  CHECK(checks_of_glare(scene, {})[0].verdict == CheckVerdict::fail);
+  CHECK(checks_of_glare(scene, {})[0].reason.find("no part of the mesh") != std::string::npos);
+}
+
+TEST_CASE("a luminaire behind a wall is not near, and is named", "[emergency][rules]") {
+  const SceneDescription scene = corridor();
+  EmphasisPoint door;
+  door.name = "door";
+  door.position = {3, 0, 0};
+  const auto open = checks_of_emphasis(scene, door, {true, true}, std::nullopt, {});
+  CHECK(*of(open, "E12").value == Approx(1));
+  const auto hidden = checks_of_emphasis(scene, door, {false, true}, std::nullopt, {});
+  CHECK(of(hidden, "E12").verdict == CheckVerdict::fail);
+  CHECK(*of(hidden, "E12").value == Approx(5));
+  CHECK(of(hidden, "E12").reason ==
+        "the nearest is \"b\"; \"a\" is 1.00 m away, but behind something solid");
+  const auto none = checks_of_emphasis(scene, door, {false, false}, std::nullopt, {});
+  CHECK(of(none, "E12").verdict == CheckVerdict::fail);
+  CHECK(of(none, "E12").reason.find("no emergency luminaire above it is in sight; \"a\"") == 0);
+  Sign sign = sign_of(0, 0);
+  sign.lighting = SignLighting::external;
+  CHECK(*of(checks_of_sign(scene, sign, 60, {false, true}, {}), "S6l").value ==
+        Approx(std::sqrt(10.0)));
 }
 
 TEST_CASE("bends of routes are points of emphasis, and luminaires are near within 2 m",
@@ -185,37 +247,37 @@ TEST_CASE("bends of routes are points of emphasis, and luminaires are near withi
   const auto points = emphasis_of(scene);
   REQUIRE(points.size() == 1);
   CHECK(points[0].position == glm::dvec3(8, 0, 0));
-  CHECK(of(checks_of_emphasis(scene, points[0], std::nullopt, {}), "E12").verdict ==
+  CHECK(of(checks_of_emphasis(scene, points[0], {}, std::nullopt, {}), "E12").verdict ==
         CheckVerdict::pass);
   EmphasisPoint hose;
   hose.name = "hose";
   hose.kind = EmphasisKind::fire_equipment;
   hose.position = {5, 0, 1};
-  auto checks = checks_of_emphasis(scene, hose, std::nullopt, {});
+  auto checks = checks_of_emphasis(scene, hose, {}, std::nullopt, {});
   CHECK(of(checks, "E12").verdict == CheckVerdict::fail);
   CHECK(*of(checks, "E12").value == Approx(3));
   CHECK(of(checks, "E13").verdict == CheckVerdict::not_assessed);
-  checks = checks_of_emphasis(scene, hose, 6.0, {});
+  checks = checks_of_emphasis(scene, hose, {}, 6.0, {});
   CHECK(of(checks, "E13").verdict == CheckVerdict::pass);
 }
 
 TEST_CASE("one number for a colour can fail a sign but never pass it", "[emergency][rules]") {
   SceneDescription scene = corridor();
-  auto checks = checks_of_sign(scene, sign_of(90, 12), 0, {});
+  auto checks = checks_of_sign(scene, sign_of(90, 12), 0, {}, {});
   CHECK(of(checks, "S1").verdict == CheckVerdict::not_assessed);
   CHECK(of(checks, "S2").verdict == CheckVerdict::not_assessed);
   CHECK(of(checks, "S3").verdict == CheckVerdict::pass);
-  CHECK(of(checks_of_sign(scene, sign_of(90, 9), 0, {}), "S1").verdict == CheckVerdict::fail);
+  CHECK(of(checks_of_sign(scene, sign_of(90, 9), 0, {}, {}), "S1").verdict == CheckVerdict::fail);
   scene.assessment.smoke_expected = false;
-  CHECK(of(checks_of_sign(scene, sign_of(45, 9), 0, {}), "S1").verdict ==
+  CHECK(of(checks_of_sign(scene, sign_of(45, 9), 0, {}, {}), "S1").verdict ==
         CheckVerdict::not_assessed);
   Sign mapped = sign_of(90, 12);
   mapped.face.relative_luminance = {1, 1};
   scene.assessment.smoke_expected = true;
-  checks = checks_of_sign(scene, mapped, 0, {});
+  checks = checks_of_sign(scene, mapped, 0, {}, {});
   CHECK(of(checks, "S1").verdict == CheckVerdict::pass);
   CHECK(of(checks, "S2").verdict == CheckVerdict::pass);
-  CHECK(of(checks_of_sign(scene, sign_of(200, 12), 0, {}), "S3").verdict == CheckVerdict::fail);
+  CHECK(of(checks_of_sign(scene, sign_of(200, 12), 0, {}, {}), "S3").verdict == CheckVerdict::fail);
 }
 
 TEST_CASE("low signs stand beside high ones, and letters have their measures",
@@ -223,19 +285,19 @@ TEST_CASE("low signs stand beside high ones, and letters have their measures",
   const SceneDescription scene = corridor();
   Sign low = sign_of(90, 12);
   low.frame.origin.z = 0.4;
-  CHECK(of(checks_of_sign(scene, low, 0, {}), "S6").verdict == CheckVerdict::not_assessed);
+  CHECK(of(checks_of_sign(scene, low, 0, {}, {}), "S6").verdict == CheckVerdict::not_assessed);
   Sign middle = sign_of(90, 12);
   middle.frame.origin.z = 1.8;
-  CHECK(of(checks_of_sign(scene, middle, 0, {}), "S6").verdict == CheckVerdict::fail);
+  CHECK(of(checks_of_sign(scene, middle, 0, {}, {}), "S6").verdict == CheckVerdict::fail);
   Sign words = sign_of(90, 12);
   words.letters = SignLetters{0.15, 0.02};
-  const auto checks = checks_of_sign(scene, words, 0, all_codes);
+  const auto checks = checks_of_sign(scene, words, 0, {}, all_codes);
   CHECK(of(checks, "N7").verdict == CheckVerdict::fail);
   CHECK(of(checks, "N7s").verdict == CheckVerdict::pass);
   Sign lit = sign_of(0, 0);
   lit.lighting = SignLighting::external;
-  CHECK(of(checks_of_sign(scene, lit, 60, all_codes), "N6").verdict == CheckVerdict::pass);
-  CHECK_FALSE(has(checks_of_sign(scene, lit, 60, all_codes), "S1"));
+  CHECK(of(checks_of_sign(scene, lit, 60, {}, all_codes), "N6").verdict == CheckVerdict::pass);
+  CHECK_FALSE(has(checks_of_sign(scene, lit, 60, {}, all_codes), "S1"));
 }
 
 TEST_CASE("a route needs a sign near enough everywhere", "[emergency][rules]") {

@@ -1,6 +1,6 @@
 // Which state of the building: scenario, density of smoke; and a file for it.
 import { words } from '../light/colours.js';
-import { button, el, section } from './dom.js';
+import { button, choice, el, section } from './dom.js';
 
 const none = -2.1;
 const most = 2;
@@ -8,6 +8,9 @@ const most = 2;
 const densityOf = (place) => (place <= none + 0.05 ? 0 : 10 ** place);
 const placeOf = (density) => (density <= 0 ? none : Math.log10(density));
 const wordsFor = (density) => (density === 0 ? 'none' : `× ${words(density, 2)}`);
+
+/** When EN 1838 asks for light: half of it by 5 s, all of it by 60 s. */
+const times = [[0, '0 s'], [5, '5 s'], [60, '60 s'], [null, 'at first']];
 
 export class StatePanel {
   constructor({ say }) {
@@ -23,7 +26,7 @@ export class StatePanel {
     });
     const smoke = el('div', { className: 'line' },
       el('label', { htmlFor: 'smoke', textContent: 'Smoke' }), this.slider, this.value);
-    this.controls = el('fieldset', {}, this.scenarios, smoke);
+    this.controls = el('fieldset', {}, this.scenarios, smoke, this.makeTime());
     this.element = section('Scenario', this.controls);
     this.saveControls = this.makeSave();
     this.saveElement = section('Keep', this.saveControls);
@@ -31,6 +34,26 @@ export class StatePanel {
 
   get density() {
     return Number(densityOf(Number(this.slider.value)).toPrecision(3));
+  }
+
+  /** Time since the mains failed: how far what comes on or fades has done so. */
+  makeTime() {
+    const ask = (seconds) => this.say({ type: 'time', seconds }, 'time');
+    this.times = choice('Seconds after the mains have failed', times, ask);
+    this.seconds = el('input', {
+      type: 'number', id: 'seconds', min: 0, max: 1e6, step: 'any', placeholder: 's',
+      on: { change: () => this.seconds.reportValidity() && this.seconds.value !== '' &&
+        ask(Number(this.seconds.value)) },
+    });
+    this.timeControls = el('fieldset', { hidden: true },
+      el('label', { htmlFor: 'seconds', textContent: 'After the mains have failed' }),
+      el('div', { className: 'line' }, this.times.element, this.seconds));
+    return this.timeControls;
+  }
+
+  time(seconds) {
+    this.times.press(seconds);
+    this.seconds.value = seconds ?? '';
   }
 
   makeSave() {
@@ -46,7 +69,10 @@ export class StatePanel {
       el('form', { className: 'line', on: { submit: save } }, name, submit));
   }
 
-  scene({ scenarios, scenario, smoke }) {
+  scene({ scenarios, scenario, smoke, seconds }) {
+    const now = scenarios.find(({ name }) => name === scenario);
+    this.timeControls.hidden = !now || now.operation === 'mains';
+    this.time(seconds);
     const buttons = scenarios.map(({ name, operation }) => {
       const chosen = () => this.say({ type: 'scenario', name }, 'scenario');
       const b = button(name, chosen, { aria: { pressed: String(name === scenario) } });

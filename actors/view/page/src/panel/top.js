@@ -53,7 +53,7 @@ export class Top {
       : '';
   }
 
-  progress({ particles, relativeError, seconds, done }) {
+  progress({ particles, relativeError, seconds, groupsOfBefore, done }) {
     const share = relativeError > 0 ? Math.log(relativeError) / Math.log(good) : 0;
     const width = done ? 1 : Math.min(0.98, Math.max(0.02, share));
     this.bar.firstElementChild.style.width = `${100 * width}%`;
@@ -61,7 +61,8 @@ export class Top {
     const many = particles >= 1e6 ? `${words(particles / 1e6)} M` : count(particles);
     const error = relativeError === null ? null : `± ${words(100 * relativeError, 2)} %`;
     const state = done ? 'finished' : 'refining';
-    this.figures.textContent =
-      [`${many} particles`, error, `${words(seconds, 2)} s`, state].filter(Boolean).join(' · ');
+    const old = groupsOfBefore ? `${groupsOfBefore} lights still as before the move` : null;
+    this.figures.textContent = [`${many} particles`, error, `${words(seconds, 2)} s`, state, old]
+      .filter(Boolean).join(' · ');
   }
 }

@@ -56,6 +56,10 @@ function record(value, path) {
   return value;
 }
 
+const numbersByName = (value, path) =>
+  Object.entries(record(value, path)).map(([name, factor]) =>
+    [text(name, path), number(factor, `${path}.${name}`, 0, 1e6)]);
+
 function texelsOf(value, path, columns, rows) {
   let bytes;
   try {
@@ -103,6 +107,8 @@ const group = (g, path) => ({
   kind: oneOf(g.kind, `${path}.kind`, ['luminaire', 'sign', 'flame']),
   position: place(g.position, `${path}.position`),
   factor: number(g.factor, `${path}.factor`, 0, 1e6),
+  share: number(g.share ?? 1, `${path}.share`, 0, 1e6),
+  light: oneOf(g.light ?? 'new', `${path}.light`, ['new', 'kept', 'before']),
 });
 
 const luminaire = (l, path) => ({
@@ -137,6 +143,7 @@ const readers = {
     scenarios: list(m.scenarios ?? [], 'scenarios', scenario),
     scenario: textOr(m.scenario, 'scenario', ''),
     smoke: number(m.smoke, 'smoke', 0, 1e6),
+    seconds: numberOrNull(m.seconds, 'seconds'),
     low: place(m.low, 'low'),
     high: place(m.high, 'high'),
     groups: list(m.groups, 'groups', group),
@@ -152,13 +159,15 @@ const readers = {
     particles: number(m.particles, 'particles', 0, 1e18),
     relativeError: numberOrNull(m.relative_error, 'relative_error'),
     seconds: number(m.seconds, 'seconds', 0, 1e9),
+    groupsOfBefore: whole(m.groups_of_before ?? 0, 'groups_of_before', 0, 1e6),
     done: m.done === true,
   }),
   factors: (m) => ({
-    factors: Object.entries(record(m.factors, 'factors')).map(([name, factor]) => ({
-      name: text(name, 'factors'),
-      factor: number(factor, `factors.${name}`, 0, 1e6),
-    })),
+    factors: numbersByName(m.factors, 'factors').map(([name, factor]) => ({ name, factor })),
+  }),
+  time: (m) => ({
+    seconds: numberOrNull(m.seconds, 'seconds'),
+    shares: numbersByName(m.shares, 'shares').map(([name, share]) => ({ name, share })),
   }),
   probe: (m) => ({
     id: whole(m.id, 'id', 0, 0xffffffff),

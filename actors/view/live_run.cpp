@@ -1,0 +1,249 @@
+// Which batches come next: those of the group that has least of what it is asked for. So a group
+// that begins anew is traced alone until it has caught up with the others.
+#include "actors/view/live_run.hpp"
+
+#include <xmmintrin.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <mutex>
+#include <thread>
+
+namespace luxodus {
+
+namespace {
+
+/// Ids of different groups never meet: 2^44 particles each.
+constexpr int group_id_shift = 44;
+constexpr double tick_every_s = 0.25;
+/// Light of before ends when a group's own has one in so many of its batches: errors twice as
+/// large, of the right building.
+constexpr int64_t caught_up_at = 4;
+
+using Clock = std::chrono::steady_clock;
+double since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+bool same_bands(const Bands& a, const Bands& b) {
+  if (a.count() != b.count()) return false;
+  for (int i = 0; i < a.count(); ++i)
+    if (a[i].low_nm != b[i].low_nm || a[i].high_nm != b[i].high_nm ||
+        a[i].lm_per_w != b[i].lm_per_w || a[i].x_per_w != b[i].x_per_w ||
+        a[i].z_per_w != b[i].z_per_w)
+      return false;
+  return true;
+}
+
+/// Whether bins of totals mean the same in both.
+bool same_bins(const CompiledScene& a, const CompiledScene& b) {
+  return a.local_origin == b.local_origin && a.length_unit_m == b.length_unit_m &&
+         a.batch_particles == b.batch_particles && a.layout.totals() == b.layout.totals() &&
+         a.patch_count == b.patch_count && a.surfaces.size() == b.surfaces.size() &&
+         a.voxels.low == b.voxels.low && a.voxels.edge == b.voxels.edge &&
+         a.voxels.count() == b.voxels.count() && same_bands(a.bands, b.bands);
+}
+
+bool same_triangles(const CompiledScene& a, const CompiledScene& b) {
+  const auto same = [](const GeometryCell& x, const GeometryCell& y) {
+    return x.triangles.size() == y.triangles.size() &&
+           std::memcmp(x.triangles.data(), y.triangles.data(),
+                       x.triangles.size() * sizeof(TriangleRecord)) == 0;
+  };
+  return same_bins(a, b) &&
+         std::equal(a.cells.begin(), a.cells.end(), b.cells.begin(), b.cells.end(), same);
+}
+
+std::vector<const CompiledEmitter*> emitters_of(const CompiledScene& scene, int group) {
+  std::vector<const CompiledEmitter*> out;
+  for (const CompiledEmitter& e : scene.emitters)
+    if (e.group == group) out.push_back(&e);
+  return out;
+}
+
+/// Whether a group sends out the same light from the same places.
+bool same_emitters(const CompiledScene& a, int in_a, const CompiledScene& b, int in_b) {
+  const auto same = [](const CompiledEmitter* x, const CompiledEmitter* y) {
+    return x->origin == y->origin && x->axes == y->axes && x->size == y->size &&
+           x->power_w == y->power_w && x->corners == y->corners && x->texel_cdf == y->texel_cdf;
+  };
+  const auto of_a = emitters_of(a, in_a), of_b = emitters_of(b, in_b);
+  const auto& group_a = a.groups[static_cast<size_t>(in_a)];
+  const auto& group_b = b.groups[static_cast<size_t>(in_b)];
+  return group_a.band_share == group_b.band_share &&
+         std::equal(of_a.begin(), of_a.end(), of_b.begin(), of_b.end(), same);
+}
+
+int group_named(const CompiledScene& scene, const std::string& name) {
+  for (size_t g = 0; g < scene.groups.size(); ++g)
+    if (scene.groups[g].name == name) return static_cast<int>(g);
+  return -1;
+}
+
+/// Half of the batches evenly, half in proportion to lumens, as the batches of every run.
+std::vector<double> shares_of(const CompiledScene& scene) {
+  double total = 0;
+  for (const Group& g : scene.groups) total += g.luminous_flux_lm;
+  const auto n = static_cast<double>(scene.groups.size());
+  std::vector<double> out;
+  for (const Group& g : scene.groups)
+    out.push_back(0.5 / n + (total > 0 ? 0.5 * g.luminous_flux_lm / total : 0.5 / n));
+  return out;
+}
+
+}  // namespace
+
+LiveRun::LiveRun(std::shared_ptr<const CompiledScene> scene, uint64_t seed, int threads,
+                 const LiveRun* before, bool same_air)
+    : scene_(std::move(scene)),
+      seed_(seed),
+      threads_(threads),
+      same_geometry_(before != nullptr && same_triangles(*scene_, *before->scene_)),
+      geometry_(same_geometry_ && same_air ? before->geometry_
+                                           : std::make_shared<Geometry>(scene_)),
+      rows_(geometry_->index, threads),
+      own_(std::make_shared<Ledger>(scene_)),
+      before_(scene_->groups.size()),
+      lights_(scene_->groups.size(), ShownLight::none),
+      issued_(scene_->groups.size(), 0),
+      told_(scene_->groups.size(), 0),
+      share_(shares_of(*scene_)) {
+  if (before != nullptr && same_air && same_bins(*scene_, *before->scene_)) take_over(*before);
+}
+
+void LiveRun::take_over(const LiveRun& before) {
+  const bool same_groups =
+      std::equal(scene_->groups.begin(), scene_->groups.end(), before.scene_->groups.begin(),
+                 before.scene_->groups.end(), [](const Group& a, const Group& b) {
+                   return a.name == b.name && a.band_share == b.band_share;
+                 });
+  // With other groups, groups have other numbers: then what they have is copied.
+  const std::shared_ptr<Ledger> copies = same_groups ? nullptr : std::make_shared<Ledger>(scene_);
+  if (same_groups && same_geometry_) own_ = before.own_;
+  for (size_t g = 0; g < lights_.size(); ++g) {
+    const int group = static_cast<int>(g);
+    const int old = group_named(*before.scene_, scene_->groups[g].name);
+    if (old < 0 || before.light(old) == ShownLight::none ||
+        !same_emitters(*scene_, group, *before.scene_, old)) {
+      if (own_ == before.own_)
+        own_->totals.restore(group, {SparseArray<Total>(scene_->layout.totals()), 0});
+      continue;
+    }
+    const auto was = static_cast<size_t>(old);
+    if (same_geometry_) {
+      if (!same_groups) own_->totals.restore(group, before.own_->totals.state(old));
+      issued_[g] = before.issued_[was];
+      told_[g] = before.told_[was];
+    }
+    lights_[g] = same_geometry_ ? before.lights_[was] : ShownLight::before;
+    if (lights_[g] != ShownLight::before) continue;
+    if (!same_groups) copies->totals.restore(group, before.shown(old).state(old));
+    before_[g] = same_groups ? (before.before_[was] ? before.before_[was] : before.own_) : copies;
+  }
+}
+
+bool LiveRun::is_of(Scope scope, size_t group) const {
+  return scope == Scope::all || lights_[group] == ShownLight::none ||
+         (scope == Scope::own && lights_[group] == ShownLight::own);
+}
+
+int64_t LiveRun::wanted(size_t group, int64_t level) const {
+  const double batches =
+      static_cast<double>(level) * share_[group] * static_cast<double>(share_.size());
+  return std::max<int64_t>(1, std::llround(batches));
+}
+
+bool LiveRun::trace(int64_t level, Scope scope, const std::function<bool()>& stop,
+                    const std::function<void()>& tick) {
+  std::vector<int64_t> goal(issued_.size(), 0);
+  for (size_t g = 0; g < goal.size(); ++g)
+    if (is_of(scope, g)) goal[g] = wanted(g, level);
+  const auto next = [&]() -> int {
+    int chosen = -1;
+    double least = 1;
+    for (size_t g = 0; g < goal.size(); ++g) {
+      if (issued_[g] >= goal[g]) continue;
+      const double has = static_cast<double>(issued_[g]) / static_cast<double>(goal[g]);
+      if (has < least) {
+        least = has;
+        chosen = static_cast<int>(g);
+      }
+    }
+    return chosen;
+  };
+  if (next() < 0) return true;
+  const Clock::time_point start = Clock::now();
+  std::mutex mutex;
+  double ticked = 0;
+  const auto work = [&] {
+    _mm_setcsr(_mm_getcsr() | 0x8040);  // denormals to zero: see for_each_row
+    const auto tracer =
+        make_batch_tracer(*scene_, GeometryAccess::resident(geometry_->index), seed_);
+    BatchScores scores;
+    for (;;) {
+      int group;
+      int64_t number;
+      {
+        const std::lock_guard lock(mutex);
+        if (stop()) return;
+        if (const double now = since(start); now - ticked >= tick_every_s) {
+          ticked = now;
+          tick();
+        }
+        group = next();
+        if (group < 0) return;
+        number = issued_[static_cast<size_t>(group)]++;
+      }
+      scores.reset(scene_->layout);
+      const auto first = (static_cast<uint64_t>(group) << group_id_shift) +
+                         static_cast<uint64_t>(number * scene_->batch_particles);
+      tracer->trace(group, first, scene_->batch_particles, scores);
+      own_->totals.merge(scores, group);
+    }
+  };
+  std::vector<std::thread> threads;
+  for (int i = 1; i < threads_; ++i) threads.emplace_back(work);
+  work();
+  for (std::thread& t : threads) t.join();
+  seconds_ += since(start);
+  return next() < 0;
+}
+
+std::vector<int> LiveRun::news(Scope scope) const {
+  std::vector<int> out;
+  for (size_t g = 0; g < lights_.size(); ++g) {
+    const int group = static_cast<int>(g);
+    const int64_t batches = own_->totals.batches(group);
+    if (batches == told_[g] || !is_of(scope, g)) continue;
+    if (!before_[g] || batches * caught_up_at >= before_[g]->totals.batches(group))
+      out.push_back(group);
+  }
+  return out;
+}
+
+void LiveRun::tell(const std::vector<int>& groups) {
+  for (const int group : groups) {
+    const auto g = static_cast<size_t>(group);
+    before_[g] = nullptr;
+    lights_[g] = ShownLight::own;
+    told_[g] = own_->totals.batches(group);
+  }
+}
+
+int64_t LiveRun::groups_with(ShownLight light) const {
+  return std::count(lights_.begin(), lights_.end(), light);
+}
+
+int64_t LiveRun::particles() const {
+  int64_t batches = 0;
+  for (const int64_t of : issued_) batches += of;
+  return batches * scene_->batch_particles;
+}
+
+double LiveRun::seconds() const {
+  return seconds_;
+}
+
+}  // namespace luxodus

@@ -1,0 +1,106 @@
+// The light of one state of a live building, source group by source group: each is traced as far as
+// is asked for, and what an earlier state has given is taken over where it still holds. Thread
+// rule: one thread, which has batches traced by others.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "actors/source/rows.hpp"
+#include "scenes/transport/readout.hpp"
+#include "scenes/transport/trace.hpp"
+
+namespace luxodus {
+
+/// Whose light a group shows.
+//
+//   none ----traced----> own <----caught up---- before
+//                         |                       ^
+//                         +---- geometry moves ---+      (in the run that follows)
+enum class ShownLight : uint8_t {
+  none,    // nothing yet
+  own,     // of this building
+  before,  // of the building before something of its geometry moved: nearly right
+};
+
+class LiveRun {
+ public:
+  /// Takes over what holds of `before`, which may be null: in the same air the light of groups
+  /// whose emitters are the same, as light of before where geometry is another. Errors (exception):
+  /// geometry that cannot be had.
+  LiveRun(std::shared_ptr<const CompiledScene> scene, uint64_t seed, int threads,
+          const LiveRun* before, bool same_air);
+
+  /// Whether triangles and their patches are those of `before`.
+  bool same_geometry() const { return same_geometry_; }
+
+  /// Which groups are traced: without light, without light of before, all.
+  enum class Scope { fresh, own, all };
+  /// Until groups have the batches that a level asks for: each its share of `level` times the
+  /// groups. True when they have them; false when `stop` says so, which is asked between batches.
+  /// `tick` is called about four times a second, from one thread at a time.
+  bool trace(int64_t level, Scope scope, const std::function<bool()>& stop,
+             const std::function<void()>& tick);
+
+  /// Groups of a scope that have batches which nobody has been told of, and own light to show:
+  /// where it is of before, once their own has caught up.
+  std::vector<int> news(Scope scope = Scope::all) const;
+  /// From now on these show their own light, as it is.
+  void tell(const std::vector<int>& groups);
+
+  ShownLight light(int group) const { return lights_[static_cast<size_t>(group)]; }
+  const std::vector<ShownLight>& lights() const { return lights_; }
+  int64_t groups_with(ShownLight light) const;
+  /// Totals that show a group's light, its own or of before.
+  const Totals& shown(int group) const {
+    const auto& before = before_[static_cast<size_t>(group)];
+    return before ? before->totals : own_->totals;
+  }
+  double worst_relative_error() const {
+    return Readout(*scene_, own_->totals).worst_relative_error();
+  }
+  int64_t particles() const;
+  double seconds() const;
+
+  const CompiledScene& scene() const { return *scene_; }
+  const SceneIndex& index() const { return geometry_->index; }
+  const RowRunner& rows() const { return rows_; }
+
+ private:
+  /// Search structures, and what they refer to.
+  struct Geometry {
+    explicit Geometry(std::shared_ptr<const CompiledScene> of)
+        : scene(std::move(of)), index(device, *scene) {}
+    std::shared_ptr<const CompiledScene> scene;
+    EmbreeDevice device;
+    SceneIndex index;
+  };
+  /// What batches have given. Runs share it rather than copy it: it may be gigabytes.
+  struct Ledger {
+    explicit Ledger(std::shared_ptr<const CompiledScene> of)
+        : scene(std::move(of)),
+          totals(scene->layout, static_cast<int>(scene->groups.size()), photopic_weights(*scene)) {}
+    std::shared_ptr<const CompiledScene> scene;  // which the totals refer to
+    Totals totals;
+  };
+  void take_over(const LiveRun& before);
+  bool is_of(Scope scope, size_t group) const;
+  int64_t wanted(size_t group, int64_t level) const;
+
+  std::shared_ptr<const CompiledScene> scene_;
+  const uint64_t seed_;
+  const int threads_;
+  const bool same_geometry_;
+  std::shared_ptr<const Geometry> geometry_;
+  ResidentRows rows_;
+  std::shared_ptr<Ledger> own_;
+  std::vector<std::shared_ptr<const Ledger>> before_;  // of groups that show light of before
+  std::vector<ShownLight> lights_;
+  std::vector<int64_t> issued_, told_;  // batches of each group
+  std::vector<double> share_;           // of all batches
+  double seconds_ = 0;
+};
+
+}  // namespace luxodus

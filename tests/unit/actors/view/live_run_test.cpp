@@ -1,0 +1,186 @@
+// What a state of a live building takes over from the one before, and what it traces anew.
+#include "actors/view/live_run.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "actors/view/live_scene.hpp"
+#include "scenes/format/scene_file.hpp"
+#include "tests/unit/scenes/format/temporary_folder.hpp"
+
+using namespace luxodus;
+
+namespace {
+
+const std::string room = R"(
+[[object]]
+name = "room"
+shape = "room"
+low = [0, 0, 0]
+high = [6, 4, 3]
+material = "grey50"
+
+[[emitter]]
+name = "left"
+shape = "point"
+distribution = "isotropic"
+position = [2, 2, 2]
+flux_lm = 1000
+
+[[emitter]]
+name = "right"
+shape = "point"
+distribution = "isotropic"
+position = [4, 2, 2]
+flux_lm = 1000
+
+[[sign]]
+name = "exit"
+position = [5.9, 2, 2.2]
+facing = [-1, 0, 0]
+width = 0.4
+height = 0.2
+text = "EXIT"
+letter_height = 0.15
+mains_white = 500
+mains_green = 50
+emergency_white = 100
+emergency_green = 10
+)";
+
+constexpr int left = 0, right = 1, sign = 2;
+
+class Room {
+ public:
+  Room() {
+    auto read = read_scene(folder_.write("room.toml", room));
+    REQUIRE(read.scene);
+    scene_ = std::move(*read.scene);
+  }
+  std::shared_ptr<const CompiledScene> compiled(const LiveWish& wish) const {
+    auto out = compile_live(scene_, wish);
+    REQUIRE(out.ok());
+    return out.value();
+  }
+
+ private:
+  const test::TemporaryFolder folder_;
+  SceneDescription scene_;
+};
+
+void reach(LiveRun& run, int64_t level, LiveRun::Scope scope = LiveRun::Scope::all) {
+  CHECK(run.trace(
+      level, scope, [] { return false; }, [] {}));
+}
+
+std::vector<int> told(LiveRun& run) {
+  const auto groups = run.news();
+  run.tell(groups);
+  return groups;
+}
+
+LiveWish moved_lamp() {
+  LiveWish wish;
+  wish.luminaires["left"] = {{1, 1, 1}, std::nullopt};
+  return wish;
+}
+LiveWish moved_sign() {
+  LiveWish wish;
+  wish.signs["exit"] = {{5.9, 1, 2.2}, std::nullopt};
+  return wish;
+}
+
+/// Lumens that arrive on all surfaces from one group.
+Estimate caught(const LiveRun& run, int group) {
+  Estimate sum;
+  const Readout readout(run.scene(), run.shown(group));
+  for (uint32_t s = 0; s < run.scene().surfaces.size(); ++s) {
+    const Estimate e = readout.lumens(run.scene().blocks.surfaces, s, 0, group);
+    sum.value += e.value;
+    sum.standard_error = std::hypot(sum.standard_error, e.standard_error);
+  }
+  return sum;
+}
+
+}  // namespace
+
+TEST_CASE("a moved luminaire begins anew, and all other light is kept to the bit", "[view]") {
+  const Room room;
+  LiveRun before(room.compiled({}), 1, 1, nullptr, false);
+  reach(before, 8);
+  CHECK(told(before) == std::vector<int>{left, right, sign});
+  LiveRun after(room.compiled(moved_lamp()), 1, 1, &before, true);
+  CHECK(after.same_geometry());
+  CHECK(after.light(left) == ShownLight::none);
+  for (const int group : {right, sign}) {
+    CHECK(after.light(group) == ShownLight::own);
+    CHECK(caught(after, group).value == caught(before, group).value);
+    CHECK(after.shown(group).batches(group) == before.shown(group).batches(group));
+  }
+  const int64_t kept = after.shown(right).batches(right);
+  reach(after, 4);
+  CHECK(told(after) == std::vector<int>{left});
+  CHECK(after.shown(right).batches(right) == kept);  // it had more already
+  // A closed room of a half: each lumen arrives twice in all.
+  const Estimate light = caught(after, left);
+  CHECK(std::abs(light.value - 2000) < 5 * light.standard_error + 5);
+}
+
+TEST_CASE("light that goes on after a move is the light of one run", "[view]") {
+  const Room room;
+  LiveRun whole(room.compiled({}), 1, 1, nullptr, false);
+  reach(whole, 8);
+  LiveRun first(room.compiled({}), 1, 1, nullptr, false);
+  reach(first, 2);
+  told(first);
+  LiveRun second(room.compiled(moved_lamp()), 1, 2, &first, true);
+  reach(second, 8);
+  CHECK(caught(second, right).value == caught(whole, right).value);
+}
+
+TEST_CASE("a moved sign leaves light of before, which ends when its own has caught up", "[view]") {
+  const Room room;
+  LiveRun before(room.compiled({}), 1, 1, nullptr, false);
+  reach(before, 64);
+  told(before);
+  LiveRun after(room.compiled(moved_sign()), 1, 1, &before, true);
+  CHECK_FALSE(after.same_geometry());
+  CHECK(after.light(sign) == ShownLight::none);
+  CHECK(after.groups_with(ShownLight::before) == 2);
+  CHECK(caught(after, left).value == caught(before, left).value);
+  reach(after, 4, LiveRun::Scope::own);
+  CHECK(told(after) == std::vector<int>{sign});  // its own group first
+  reach(after, 8);
+  told(after);
+  CHECK(after.light(left) == ShownLight::before);
+  CHECK(caught(after, left).value == caught(before, left).value);
+  // Moved once more while nothing has caught up: the light of before goes on to be shown.
+  const LiveRun again(room.compiled({}), 1, 1, &after, true);
+  CHECK(again.groups_with(ShownLight::before) == 2);
+  CHECK(caught(again, left).value == caught(before, left).value);
+  reach(after, 24);
+  told(after);
+  CHECK(after.light(left) == ShownLight::own);
+  CHECK(after.shown(left).batches(left) < before.shown(left).batches(left));
+}
+
+TEST_CASE("in other air nothing is kept but the geometry's frame", "[view]") {
+  const Room room;
+  LiveRun before(room.compiled({}), 1, 1, nullptr, false);
+  reach(before, 2);
+  told(before);
+  const LiveRun after(room.compiled({}), 1, 1, &before, false);
+  CHECK(after.same_geometry());
+  CHECK(after.groups_with(ShownLight::none) == 3);
+}
+
+TEST_CASE("tracing stops between batches when it is told to, and goes on", "[view]") {
+  const Room room;
+  LiveRun run(room.compiled({}), 1, 1, nullptr, false);
+  int asked = 0;
+  CHECK_FALSE(run.trace(
+      8, LiveRun::Scope::all, [&] { return ++asked > 3; }, [] {}));
+  CHECK(run.particles() == 3 * run.scene().batch_particles);
+  reach(run, 8);
+  CHECK(run.particles() >= 3 * 8 * run.scene().batch_particles - 3 * run.scene().batch_particles);
+}

@@ -1,0 +1,73 @@
+// How long after a move of a luminaire, and of a sign, the first new light is there:
+// `node move_time.mjs [SCENE SCENARIO LUMINAIRE SIGN]`; LUX_PROGRAM names the program.
+import { spawn } from 'node:child_process';
+import { WebSocket } from 'ws';
+
+const root = new URL('../..', import.meta.url).pathname;
+const program = process.env.LUX_PROGRAM ?? `${root}/build/release/luxodus`;
+const [scene = `${root}/scenes/library/office_floor.toml`, scenario = 'smoke_emergency',
+  luminaire = 'corridor emergency light 3', sign = 'exit east'] = process.argv.slice(2);
+const moves = 11;
+/** So long the view traces undisturbed between moves. */
+const rest_ms = 3000;
+
+const child = spawn(program, ['view', scene, '--scenario', scenario, '--port', '0']);
+const address = await new Promise((resolve) => {
+  child.stdout.on('data', (bytes) => {
+    const found = String(bytes).match(/http:\S+/);
+    if (found) resolve(found[0]);
+  });
+});
+const socket = new WebSocket(`${address.replace('http', 'ws').replace(/\/$/, '')}/live`);
+socket.binaryType = 'arraybuffer';
+
+let known = null;
+let heard = () => {};
+socket.onmessage = ({ data }) => {
+  if (typeof data === 'string') {
+    const message = JSON.parse(data);
+    if (message.type === 'scene') known = message;
+    heard(message, data.length);
+  } else {
+    const [kind, generation, a] = new Uint32Array(data, 0, 3);
+    heard({ kind, generation, a }, data.byteLength);
+  }
+};
+const until = (holds) => new Promise((resolve) => {
+  heard = (message, bytes) => holds(message, bytes) && resolve(performance.now());
+});
+const pause = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
+const median = (list) => list.toSorted((a, b) => a - b)[list.length >> 1];
+
+async function move(kind, name, step) {
+  const thing = known[kind === 'sign' ? 'signs' : 'luminaires'].find((t) => t.name === name);
+  const position = [...thing.position];
+  position[1] += step;
+  const before = known.generation;
+  const start = performance.now();
+  let bytes = 0;
+  let announced = 0;
+  const light = until((message, size) => {
+    bytes += size;
+    if (message.type === 'scene') announced = performance.now();
+    const moved = known.groups.findIndex((g) => g.name === thing.group);
+    return message.kind === 2 && message.generation > before && message.a === moved;
+  });
+  socket.send(JSON.stringify({ type: 'move', kind, name, position, facing: thing.facing }));
+  const lit = await light;
+  return { scene: announced - start, light: lit - start, kib: bytes / 1024 };
+}
+
+await until((message) => message.kind === 2);
+for (const [kind, name] of [['luminaire', luminaire], ['sign', sign]]) {
+  const all = [];
+  for (let i = 0; i < moves; ++i) {
+    await pause(rest_ms);
+    all.push(await move(kind, name, i % 2 ? -0.1 : 0.1));
+  }
+  const of = (key) => median(all.map((one) => one[key])).toFixed(0);
+  console.log(`${kind} "${name}": told after ${of('scene')} ms, its first light after ` +
+    `${of('light')} ms, ${of('kib')} KiB until then (medians of ${moves} moves)`);
+}
+socket.close();
+child.kill('SIGINT');
