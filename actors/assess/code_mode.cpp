@@ -198,7 +198,7 @@ std::vector<Check> CodeMode::checks_by_light() const {
     add(checks_of_open_area(scene_, area, lit(within(area, 0.5, area_grid_m), up, floor_plane_m),
                             options_.codes));
   for (const AssessedArea& area : scene_.task_areas)
-    add(checks_of_task_area(area, lit(within(area, 0, area_grid_m), up, floor_plane_m),
+    add(checks_of_task_area(scene_, area, lit(within(area, 0, area_grid_m), up, floor_plane_m),
                             options_.codes));
   for (const EmphasisPoint& point : emphasis_of(scene_))
     add(checks_of_emphasis(scene_, point, seen_from(beside(point)), vertical_lux(point),
@@ -215,7 +215,7 @@ std::vector<Check> CodeMode::checks_of_parts() const {
                                      sign.frame.axes[2] * (sign.thickness_m / 2 + floor_plane_m)}),
                           options_.codes));
   append(out, checks_of_glare(scene_, options_.codes));
-  append(out, checks_beyond(options_.codes));
+  append(out, checks_beyond(scene_, options_.codes));
   return out;
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "scenes/emergency/onset.hpp"
 #include "scenes/emergency/sign_geometry.hpp"
 #include "scenes/format/output_text.hpp"
 #include "scenes/geometry/transform.hpp"
@@ -72,7 +73,7 @@ Result<SceneDescription> live_description(const SceneDescription& scene, const L
 }
 
 std::optional<double> seconds_said(const Scenario& scenario) {
-  if (scenario.operation == Operation::mains) return std::nullopt;
+  if (scenario.operation == Operation::mains || !scenario.says_seconds) return std::nullopt;
   return scenario.seconds_after_failure;
 }
 
@@ -80,6 +81,8 @@ std::map<std::string, double> shares_after(const SceneDescription& scene, Operat
                                            std::optional<double> seconds) {
   std::map<std::string, double> out;
   if (!seconds || operation == Operation::mains) return out;
+  for (const Emitter& e : scene.emitters)
+    if (!e.onset.empty()) out[group_of_luminaire(e.name)] = onset_share(e.onset, *seconds);
   for (const Sign& sign : scene.signs)
     if (const double first = decay_share(sign.decay, 0); !sign.decay.empty() && first > 0)
       out[group_of_sign(sign.name)] = decay_share(sign.decay, *seconds) / first;
@@ -96,6 +99,7 @@ Result<std::shared_ptr<const CompiledScene>> compile_live(const SceneDescription
   state.smoke_factor *= wish.smoke;
   for (Scenario::Factor& medium : state.media) medium.factor *= wish.smoke;
   state.seconds_after_failure = 0;
+  state.says_seconds = false;
   return compile_scene(std::make_shared<SceneDescription>(std::move(description).value()), state,
                        {});
 }

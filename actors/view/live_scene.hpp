@@ -30,16 +30,17 @@ std::string group_of_flame(const std::string& medium);
 /// Errors: a facing that has no upright.
 Result<SceneDescription> live_description(const SceneDescription& scene, const LiveWish& wish);
 
-/// How long the mains have failed in a scenario; none where they have not.
+/// How long the mains have failed in a scenario; none where they have not, or it does not say.
 std::optional<double> seconds_said(const Scenario& scenario);
 /// Share of what is traced that groups give so long after the mains have failed:
-/// photoluminescent signs by their decay. Groups that are not named give all, as all do where no
-/// time is given or the mains are there.
+/// luminaires by their onset, photoluminescent signs by their decay. Groups that are not named give
+/// all, as all do where no time is given or the mains are there.
 std::map<std::string, double> shares_after(const SceneDescription& scene, Operation operation,
                                            std::optional<double> seconds);
 
-/// Photoluminescent signs are traced as they are at first: what they give later is a share of it.
-/// Errors: as compile_scene and live_description; no such scenario.
+/// Luminaires are traced as fully on, photoluminescent signs as they are at first: what they give
+/// at other times is a share of it. Errors: as compile_scene and live_description; no such
+/// scenario.
 Result<std::shared_ptr<const CompiledScene>> compile_live(const SceneDescription& scene,
                                                           const LiveWish& wish);
 

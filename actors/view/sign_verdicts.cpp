@@ -54,6 +54,7 @@ Json sign_verdicts(const SceneDescription& scene, const LiveWish& wish,
   scenario->smoke_factor *= wish.smoke;
   for (Scenario::Factor& medium : scenario->media) medium.factor *= wish.smoke;
   scenario->seconds_after_failure = 0;  // what time does is among the factors
+  scenario->says_seconds = false;
   AssessOptions asked;
   asked.seed = options.seed;
   asked.threads = options.threads;

@@ -142,6 +142,8 @@ std::vector<Check> checks_of_route(const SceneDescription& scene, const EscapeRo
     out.push_back(at_least("N2m", subject, centre, last_least_lx));
     out.push_back(even("N3", subject, centre));
   }
+  for (Check& check : checks_of_onset(scene, subject, light.centre, route_lx, codes))
+    out.push_back(std::move(check));
   out.push_back(with_one_failed(scene, subject, light.centre));
   return out;
 }
@@ -154,36 +156,26 @@ std::vector<Check> checks_of_open_area(const SceneDescription& scene, const Asse
     return {not_assessed(rule_of("E6"), subject,
                          "it is narrower than its two borders of 0.5 m: it has no core")};
   const Spread spread = spread_of(core, all_lit(core));
-  return {at_least("E6", subject, spread, open_lx), even("E6d", subject, spread),
-          with_one_failed(scene, subject, core)};
+  std::vector<Check> out{at_least("E6", subject, spread, open_lx), even("E6d", subject, spread),
+                         with_one_failed(scene, subject, core)};
+  for (Check& check : checks_of_onset(scene, subject, core, open_lx, {true, false, false}))
+    out.push_back(std::move(check));
+  return out;
 }
 
-std::vector<Check> checks_of_task_area(const AssessedArea& area, const std::vector<LitPoint>& plane,
+std::vector<Check> checks_of_task_area(const SceneDescription& scene, const AssessedArea& area,
+                                       const std::vector<LitPoint>& plane,
                                        const CodeChoice& codes) {
   const std::string subject = "task area \"" + area.name + "\"";
   if (!codes.en_2013 && !codes.en_2024) return {};
   const Spread spread = spread_of(plane, all_lit(plane));
   const double limit = std::max(task_lx, task_share * area.mains_lx);
-  return {at_least("E7", subject, spread, limit),
-          judged(rule_of("E7u"), subject, spread.most > 0 ? spread.least / spread.most : 0,
-                 task_uniformity, true, "1", spread.darkest)};
-}
-
-std::vector<Check> checks_beyond(const CodeChoice& codes) {
-  std::vector<Check> out;
-  const auto add = [&](const char* id, const char* reason) {
-    out.push_back(not_assessed(rule_of(id), "all luminaires and signs", reason));
-  };
-  if (codes.en_2013 || codes.en_2024) {
-    add("E9", "a scene says how its light is spread over wavelengths only roughly");
-    add("E10", "a scene says nothing of how fast luminaires come on");
-    add("E11", "a scene says nothing of how long their batteries last");
-    add("S8", "the boxes of the standard are not at hand");
-  }
-  if (codes.nfpa) {
-    add("N5", "a scene says nothing of how fast luminaires come on");
-    add("N10", "a scene says nothing of how long their batteries last");
-  }
+  std::vector<Check> out{
+      at_least("E7", subject, spread, limit),
+      judged(rule_of("E7u"), subject, spread.most > 0 ? spread.least / spread.most : 0,
+             task_uniformity, true, "1", spread.darkest)};
+  for (Check& check : checks_of_task_onset(scene, subject, plane, limit, codes))
+    out.push_back(std::move(check));
   return out;
 }
 

@@ -54,8 +54,8 @@ std::vector<Check> checks_of_route(const SceneDescription& scene, const EscapeRo
                                    const RouteLight& light, const CodeChoice& codes);
 std::vector<Check> checks_of_open_area(const SceneDescription& scene, const AssessedArea& area,
                                        const std::vector<LitPoint>& core, const CodeChoice& codes);
-std::vector<Check> checks_of_task_area(const AssessedArea& area, const std::vector<LitPoint>& plane,
-                                       const CodeChoice& codes);
+std::vector<Check> checks_of_task_area(const SceneDescription& scene, const AssessedArea& area,
+                                       const std::vector<LitPoint>& plane, const CodeChoice& codes);
 /// Disability glare of a luminaire by its intensity, with the highest emergency flux.
 std::vector<Check> checks_of_glare(const SceneDescription& scene, const CodeChoice& codes);
 
@@ -87,7 +87,18 @@ std::vector<Check> checks_of_distance(const SceneDescription& scene, const Escap
                                       const std::vector<std::vector<ClearSign>>& clear,
                                       const CodeChoice& codes);
 
+/// Whether what is asked for on a route or in an area, `demanded_lx`, is there in time, by the
+/// onset of each luminaire. One that states none counts as dark: with light enough from others a
+/// check passes all the same, else it is not assessed. Nothing where no luminaire states any.
+std::vector<Check> checks_of_onset(const SceneDescription& scene, const std::string& subject,
+                                   const std::vector<LitPoint>& points, double demanded_lx,
+                                   const CodeChoice& codes);
+/// Of high-risk tasks: all of it, nearly at once.
+std::vector<Check> checks_of_task_onset(const SceneDescription& scene, const std::string& subject,
+                                        const std::vector<LitPoint>& plane, double demanded_lx,
+                                        const CodeChoice& codes);
+
 /// Rules of the chosen codes that a scene says too little for, each once.
-std::vector<Check> checks_beyond(const CodeChoice& codes);
+std::vector<Check> checks_beyond(const SceneDescription& scene, const CodeChoice& codes);
 
 }  // namespace luxodus

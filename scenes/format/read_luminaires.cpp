@@ -16,6 +16,18 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
+void read_onset(KeyReader& keys, Emitter& e) {
+  e.onset = keys.pairs("onset");
+  if (!keys.has("onset") || !keys.clean()) return;
+  bool good = !e.onset.empty() && e.onset.front().x == 0 && e.onset.back().y == 1;
+  for (size_t i = 1; i < e.onset.size(); ++i)
+    good &= e.onset[i].x > e.onset[i - 1].x && e.onset[i].y >= e.onset[i - 1].y;
+  if (!good)
+    keys.problem("onset",
+                 "'onset' needs rows [s, share], times ascending from 0, shares never "
+                 "falling and 1 at the end");
+}
+
 /// Fluxes of both states from the rated flux: E = rated x factors, each stated in the file, none
 /// guessed.
 void read_operation(KeyReader& keys, Emitter& e, double rated) {
@@ -34,7 +46,8 @@ void read_operation(KeyReader& keys, Emitter& e, double rated) {
   const bool mains = emergency != "non-maintained";
   e.mains_flux = mains ? rated * dimming * maintenance.value_or(1) : 0;
   if (emergency == "false") {
-    for (const char* key : {"emergency_flux", "emergency_factor", "end_of_duration_factor"}) {
+    for (const char* key :
+         {"emergency_flux", "emergency_factor", "end_of_duration_factor", "onset"}) {
       if (keys.has(key)) {
         keys.problem(key, "'" + std::string(key) +
                               "' is given, but 'emergency' is not; say "
@@ -50,6 +63,7 @@ void read_operation(KeyReader& keys, Emitter& e, double rated) {
   if (!keys.has("end_of_duration_factor")) keys.problem("'end_of_duration_factor'" + why);
   e.emergency_ageing = maintenance.value_or(1) * end_of_duration.value_or(1);
   e.emergency_flux = flux.value_or(rated * factor.value_or(0)) * e.emergency_ageing;
+  read_onset(keys, e);
 }
 
 void read_body(KeyReader& keys, Emitter& e) {

@@ -35,6 +35,7 @@ void read_scenario(const toml::table& table, SceneReading& reading) {
                 : operation == "emergency" ? Operation::emergency
                                            : Operation::mains;
   s.seconds_after_failure = keys.number("seconds_after_failure");
+  s.says_seconds = keys.has("seconds_after_failure");
   if (s.operation == Operation::mains && keys.has("seconds_after_failure") &&
       s.seconds_after_failure > 0 && keys.clean()) {
     keys.problem("seconds_after_failure",

@@ -48,6 +48,10 @@ Keys operation_keys() {
        "share left at the end of the rated duration; no default: mandatory where `emergency` is "
        "not "
        "false"},
+      {"onset", "pairs", "", "", "[0, 1]",
+       "rows [seconds after the mains have failed, share of the emergency flux], ascending in both "
+       "from 0 s, the last share 1; linear between; without it the light is there at once, and "
+       "whether it comes in time is not assessed"},
       {"spectrum", "emission", "", "\"led 4000 K\"", "[0, 1e9]", "shape of its spectrum"},
   };
 }

@@ -97,7 +97,8 @@ std::vector<TableSpec> measure_schema() {
            {"operation", "choice", "", "\"mains\"", "mains, emergency, dark",
             "which flux the luminaires give; `dark`: flames alone"},
            {"seconds_after_failure", "number", "s", "0", "[0, 1e6]",
-            "since the mains failed: photoluminescent signs fade"},
+            "since the mains failed: photoluminescent signs fade, and where it is given luminaires "
+            "come on by their `onset`"},
            {"circuits", "factors", "", "", "[0, 1000]",
             "flux factor by name of the circuit; others 1"},
            {"media", "factors", "", "", "[0, 1e6]",

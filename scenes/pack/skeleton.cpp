@@ -65,7 +65,7 @@ void serialize(A& a, Emitter& x) {
   a(x.name, x.place, x.circuit, x.group, choice(x.shape, EmitterShape::mesh), x.frame, x.size,
     x.mesh, choice(x.distribution, Distribution::web), x.cosine_power, x.spot_inner_deg,
     x.spot_outer_deg, x.spectrum, x.radiometric, x.mains_flux, x.emergency_flux, x.emergency_ageing,
-    x.body_material);
+    x.onset, x.body_material);
 }
 template <class A>
 void serialize(A& a, SignFace& x) {
@@ -144,8 +144,8 @@ void serialize(A& a, Scenario::Factor& x) {
 }
 template <class A>
 void serialize(A& a, Scenario& x) {
-  a(x.name, x.place, choice(x.operation, Operation::dark), x.seconds_after_failure, x.circuits,
-    x.media, x.smoke_factor, x.emission_factor, x.doors_open, x.doors_closed);
+  a(x.name, x.place, choice(x.operation, Operation::dark), x.seconds_after_failure, x.says_seconds,
+    x.circuits, x.media, x.smoke_factor, x.emission_factor, x.doors_open, x.doors_closed);
 }
 template <class A>
 void serialize(A& a, RunSettings& x) {

@@ -8,6 +8,7 @@
 #include <map>
 #include <numeric>
 
+#include "scenes/emergency/onset.hpp"
 #include "scenes/emergency/sign_geometry.hpp"
 
 namespace luxodus {
@@ -21,7 +22,8 @@ double emitter_flux(const Emitter& e, const Scenario& scenario) {
     case Operation::mains:
       return e.mains_flux;
     case Operation::emergency:
-      return e.emergency_flux;
+      return e.emergency_flux *
+             (scenario.says_seconds ? onset_share(e.onset, scenario.seconds_after_failure) : 1);
     case Operation::dark:
       return 0;
   }

@@ -103,6 +103,9 @@ struct Emitter {
   double mains_flux = 0;        // [lm] or [W]
   double emergency_flux = 0;    // [lm] or [W]; 0 for a luminaire that fails with the mains
   double emergency_ageing = 1;  // maintenance x end of duration: contained in emergency_flux
+  /// After a failure of the mains: time [s], share of emergency_flux; ascending in both, linear
+  /// between, the last holds. Empty: not said.
+  std::vector<glm::dvec2> onset;
   std::string body_material;    // "" for none: returning light passes
 };
 
@@ -293,7 +296,8 @@ struct Scenario {
   std::string name;
   SourcePlace place;
   Operation operation = Operation::mains;
-  double seconds_after_failure = 0;     // photoluminescent decay
+  double seconds_after_failure = 0;     // photoluminescent decay, onset of luminaires
+  bool says_seconds = false;            // it is written; else luminaires are taken as fully on
   std::vector<Factor> circuits;         // by circuit name; others 1
   std::vector<Factor> media;            // extinction factor by medium name; 0 removes it
   double smoke_factor = 1;              // for every medium not named

@@ -110,26 +110,43 @@ TEST_CASE("a saved variant is the building as it was seen", "[view]") {
   CHECK(variant.scenarios[1].media.front().factor == 0);  // clear air stays clear
 }
 
-TEST_CASE("after a failure phosphor fades, by shares of what is traced", "[view]") {
+TEST_CASE("after a failure luminaires come on and phosphor fades, by shares of what is traced",
+          "[view]") {
   const test::TemporaryFolder folder;
   SceneDescription scene = scene_of(folder.write("room.toml", room));
   scene.emitters[0].emergency_flux = 100;
   scene.signs[0].lighting = SignLighting::photoluminescent;
   scene.signs[0].decay = {{0, 0.8}, {60, 0.4}};
   scene.scenarios[0].operation = Operation::emergency;
+  scene.emitters[0].onset = {{0, 0}, {5, 0.5}, {10, 1}};
   scene.scenarios[0].seconds_after_failure = 60;
+  CHECK_FALSE(seconds_said(scene.scenarios[0]).has_value());
+  scene.scenarios[0].says_seconds = true;
   CHECK(seconds_said(scene.scenarios[0]) == 60.0);
   CHECK_FALSE(seconds_said(scene.scenarios[1]).has_value());
   // Traced as at first, whatever time the scenario says.
   const auto compiled = compile_live(scene, {});
   REQUIRE(compiled.ok());
+  CHECK(compiled.value()->groups[0].luminous_flux_lm == Approx(100));
   CHECK(compiled.value()->signs[0].white_cd_m2 == Approx(0.8 * 100));
   const auto after = [&](double seconds) {
     return shares_after(scene, Operation::emergency, seconds);
   };
   CHECK(after(0).at("sign exit") == 1);
   CHECK(after(60).at("sign exit") == Approx(0.5));
-  CHECK(after(60).count("lamp") == 0);
+  CHECK(after(0).at("lamp") == 0);
+  CHECK(after(5).at("lamp") == 0.5);
+  CHECK(after(60).at("lamp") == 1);
   CHECK(shares_after(scene, Operation::mains, 5.0).empty());
   CHECK(shares_after(scene, Operation::emergency, std::nullopt).empty());
+  // A run of the same scenario has the light of that time; one that says no time has all of it.
+  const auto lumens = [&](Scenario scenario, bool says) {
+    scenario.seconds_after_failure = 5;
+    scenario.says_seconds = says;
+    const auto run = compile_scene(std::make_shared<SceneDescription>(scene), scenario, {});
+    REQUIRE(run.ok());
+    return run.value()->emitters.front().luminous_flux_lm;
+  };
+  CHECK(lumens(scene.scenarios[0], true) == Approx(50));
+  CHECK(lumens(scene.scenarios[0], false) == Approx(100));
 }

@@ -152,12 +152,12 @@ TEST_CASE("a task needs 15 lx or a tenth of its mains light, whichever is more",
   AssessedArea bench;
   bench.mains_lx = 500;
   const std::vector<LitPoint> plane{at(0, 20, 20), at(1, 100, 100)};
-  const auto strict = checks_of_task_area(bench, plane, {});
+  const auto strict = checks_of_task_area(corridor(), bench, plane, {});
   CHECK(*of(strict, "E7").limit == 50);
   CHECK(of(strict, "E7").verdict == CheckVerdict::fail);
   CHECK(of(strict, "E7u").verdict == CheckVerdict::pass);
   bench.mains_lx = 100;
-  CHECK(of(checks_of_task_area(bench, plane, {}), "E7").verdict == CheckVerdict::pass);
+  CHECK(of(checks_of_task_area(corridor(), bench, plane, {}), "E7").verdict == CheckVerdict::pass);
 }
 
 TEST_CASE("glare is judged by the new luminaire's intensity and its height", "[emergency][rules]") {
@@ -319,8 +319,41 @@ TEST_CASE("a route needs a sign near enough everywhere", "[emergency][rules]") {
   CHECK(of(checks, "N8").verdict == CheckVerdict::fail);
 }
 
+TEST_CASE("light in time is judged where luminaires say how they come on", "[emergency][rules]") {
+  SceneDescription scene = corridor();
+  const std::vector<LitPoint> points{at(0, 0.7, 0.7)};
+  const EscapeRoute& route = scene.routes.front();
+  RouteLight light;
+  light.centre = light.band = light.inner = points;
+  CHECK_FALSE(has(checks_of_route(scene, route, light, all_codes), "E10h"));
+  CHECK(of(checks_beyond(scene, all_codes), "E10").subject == "all luminaires");
+  scene.emitters[0].onset = scene.emitters[1].onset = {{0, 0}, {5, 0.3}, {10, 1}};
+  auto checks = checks_of_route(scene, route, light, all_codes);
+  CHECK(*of(checks, "E10h").value == Approx(0.42));
+  CHECK(*of(checks, "E10h").limit == 0.5);
+  CHECK(of(checks, "E10h").verdict == CheckVerdict::fail);
+  CHECK(of(checks, "E10f").verdict == CheckVerdict::pass);
+  CHECK(of(checks, "N5").verdict == CheckVerdict::pass);
+  CHECK(of(checks_beyond(scene, all_codes), "E10").subject == "all signs");
+  // What does not say it counts as dark: without it there is too little to tell.
+  scene.emitters[1].onset.clear();
+  checks = checks_of_route(scene, route, light, all_codes);
+  CHECK(of(checks, "E10f").verdict == CheckVerdict::not_assessed);
+  CHECK(of(checks, "E10f").reason == "how fast they come on ('onset') is not said of \"b\"");
+  light.centre = {at(0, 2, 0)};
+  CHECK(of(checks_of_route(scene, route, light, all_codes), "E10f").verdict == CheckVerdict::pass);
+  AssessedArea bench;
+  bench.mains_lx = 100;
+  const std::vector<LitPoint> plane{at(0, 40, 40)};
+  CHECK(*of(checks_of_task_area(corridor(), bench, plane, {}), "E7").value == 80);
+  scene.emitters[0].onset = {{0, 0.5}, {0.5, 1}};
+  const auto task = checks_of_task_area(scene, bench, plane, {});
+  CHECK(of(task, "E10t").verdict == CheckVerdict::pass);
+  CHECK(*of(task, "E10t").value == 40);
+}
+
 TEST_CASE("what a scene says nothing of is never a pass", "[emergency][rules]") {
-  const auto checks = checks_beyond(all_codes);
+  const auto checks = checks_beyond(corridor(), all_codes);
   CHECK_FALSE(checks.empty());
   for (const Check& check : checks) {
     CHECK(check.verdict == CheckVerdict::not_assessed);

@@ -296,6 +296,7 @@ emergency = true
 emergency_factor = 0.2
 maintenance_factor = 0.8
 end_of_duration_factor = 0.75
+onset = [[0, 0], [0.5, 0.5], [5, 1]]
 spectrum = "2700 K"
 body_material = "grey50"
 [[luminaire]]
@@ -325,6 +326,7 @@ maintenance_factor = 0.9
   CHECK(same(both.frame.axes * glm::dvec3(0, 1, 0), {0, 0, 1}));
   CHECK(both.mains_flux == near(flux * 0.5 * 0.8));
   CHECK(both.emergency_flux == near(flux * 0.2 * 0.8 * 0.75));
+  CHECK(both.onset == std::vector<glm::dvec2>{{0, 0}, {0.5, 0.5}, {5, 1}});
   CHECK_FALSE(both.radiometric);
   CHECK(both.circuit == "c1");
   CHECK(both.group == "g");
@@ -556,6 +558,7 @@ doors_open = ["leaf"]
   const Scenario& fails = s.scenarios.at(0);
   CHECK(fails.operation == Operation::emergency);
   CHECK(fails.seconds_after_failure == 60);
+  CHECK(fails.says_seconds);
   CHECK(fails.circuits.at(0).name == "c");
   CHECK(fails.circuits.at(0).factor == 0.5);
   CHECK(fails.media.at(0).factor == 2);

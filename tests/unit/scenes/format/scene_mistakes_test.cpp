@@ -19,6 +19,9 @@ const std::string quad =
     "[[object]]\nname = \"q\"\nshape = \"quad\"\ncorner = [0, 0, 0]\nedge_u = [1, 0, 0]\n"
     "edge_v = [0, 1, 0]\n";
 const std::string point = "[[emitter]]\nname = \"e\"\nshape = \"point\"\nposition = [0, 0, 1]\n";
+const std::string backed =
+    "emergency = true\nemergency_factor = 0.2\nmaintenance_factor = 0.8\n"
+    "end_of_duration_factor = 0.7\n";
 const std::string lamp = "[[luminaire]]\nname = \"l\"\nfile = \"lamp.ies\"\nposition = [0, 0, 1]\n";
 const std::string smoke = "[[medium]]\nname = \"s\"\nkind = \"homogeneous\"\n";
 const std::string sign =
@@ -198,6 +201,13 @@ TEST_CASE("lights that cannot be, or that leave emergency values to guessing, ar
       {lamp + "emergency = true\nemergency_factor = 0.2\nmaintenance_factor = 0.7\n", 1,
        "'end_of_duration_factor' is needed"},
       {lamp + "emergency_factor = 0.2\n", 5, "but 'emergency' is not"},
+      {lamp + "onset = [[0, 0], [5, 1]]\n", 5, "but 'emergency' is not"},
+      {lamp + backed + "onset = [[1, 0], [5, 1]]\n", 9, "'onset' needs rows"},
+      {lamp + backed + "onset = [[0, 0], [5, 0.9]]\n", 9, "'onset' needs rows"},
+      {lamp + backed + "onset = [[0, 0.5], [5, 0.4], [6, 1]]\n", 9, "'onset' needs rows"},
+      {lamp + backed + "onset = [[0, 0], [0, 1]]\n", 9, "'onset' needs rows"},
+      {lamp + backed + "onset = []\n", 9, "'onset'"},
+      {lamp + backed + "onset = [[0, 0], [5, 1.5]]\n", 9, "'onset'"},
       {lamp + "emergency = \"sometimes\"\n", 5, "must be one of \"false\", \"true\""},
       {lamp + "maintenance_factor = 1.3\n", 5, "must lie in (0, 1]"},
       {lamp + lamp, 6, "'l' is defined twice"},

@@ -10,7 +10,7 @@ const placeOf = (density) => (density <= 0 ? none : Math.log10(density));
 const wordsFor = (density) => (density === 0 ? 'none' : `× ${words(density, 2)}`);
 
 /** When EN 1838 asks for light: half of it by 5 s, all of it by 60 s. */
-const times = [[0, '0 s'], [5, '5 s'], [60, '60 s'], [null, 'at first']];
+const times = [[0, '0 s'], [5, '5 s'], [60, '60 s'], [null, 'full']];
 
 export class StatePanel {
   constructor({ say }) {
