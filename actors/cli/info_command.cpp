@@ -30,7 +30,7 @@ Json info() {
   return {{"version", LUX_VERSION},
           {"build", LUX_BUILD},
           {"compiler", fmt::format("GCC {}", __VERSION__)},
-          {"built_for", LUX_ARCH},
+          {"built_for", LUX_BUILT_FOR},
           {"this_processor", instruction_set()},
           {"embree_instruction_sets", EmbreeDevice::instruction_sets()},
           {"threads", default_threads()},

@@ -67,7 +67,7 @@ uint64_t trace_fingerprint() {
 }  // namespace
 
 std::string isa_in_use() {
-  return std::string(LUX_ARCH) + ", Embree " + EmbreeDevice::instruction_sets();
+  return std::string(LUX_BUILT_FOR) + ", Embree " + EmbreeDevice::instruction_sets();
 }
 
 uint64_t numeric_fingerprint() {

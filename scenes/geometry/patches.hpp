@@ -20,6 +20,8 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 
+#include "scenes/geometry/real.hpp"
+
 namespace luxodus {
 
 namespace limits {
@@ -30,15 +32,15 @@ inline constexpr uint32_t patch_subdivision = 32768;
 /// Index in [0, n*n) of the sub-triangle that holds (u, v). Rounding beyond the edges (u + v a
 /// little above 1, u a little below 0) lands in the nearest one along v; NaN counts as 0.
 /// Requires: 1 <= n <= limits::patch_subdivision.
-inline uint32_t sub_triangle(float u, float v, uint32_t n) {
-  const float most = static_cast<float>(n);
-  const float un = u > 0.0f ? std::min(u * most, most) : 0.0f;
-  const float vn = v > 0.0f ? std::min(v * most, most) : 0.0f;
+inline uint32_t sub_triangle(Real u, Real v, uint32_t n) {
+  const Real most = static_cast<Real>(n);
+  const Real un = u > 0 ? std::min(u * most, most) : 0;
+  const Real vn = v > 0 ? std::min(v * most, most) : 0;
   const uint32_t i = std::min(static_cast<uint32_t>(un), n - 1);
   const uint32_t last_j = n - 1 - i;
   const uint32_t j = std::min(static_cast<uint32_t>(vn), last_j);
-  const float across = (un - static_cast<float>(i)) + (vn - static_cast<float>(j));
-  const uint32_t upper = (across > 1.0f && j < last_j) ? 1u : 0u;
+  const Real across = (un - static_cast<Real>(i)) + (vn - static_cast<Real>(j));
+  const uint32_t upper = (across > 1 && j < last_j) ? 1u : 0u;
   return i * (2 * n - i) + 2 * j + upper;
 }
 

@@ -9,15 +9,15 @@ namespace luxodus {
 
 inline RTCRayHit to_embree(const Ray& ray) {
   RTCRayHit query;
-  query.ray.org_x = ray.origin.x;
-  query.ray.org_y = ray.origin.y;
-  query.ray.org_z = ray.origin.z;
+  query.ray.org_x = static_cast<float>(ray.origin.x);
+  query.ray.org_y = static_cast<float>(ray.origin.y);
+  query.ray.org_z = static_cast<float>(ray.origin.z);
   query.ray.tnear = 0;
-  query.ray.dir_x = ray.direction.x;
-  query.ray.dir_y = ray.direction.y;
-  query.ray.dir_z = ray.direction.z;
+  query.ray.dir_x = static_cast<float>(ray.direction.x);
+  query.ray.dir_y = static_cast<float>(ray.direction.y);
+  query.ray.dir_z = static_cast<float>(ray.direction.z);
   query.ray.time = 0;
-  query.ray.tfar = ray.length;
+  query.ray.tfar = static_cast<float>(ray.length);
   query.ray.mask = 0xFFFFFFFFu;
   query.ray.id = 0;
   query.ray.flags = 0;

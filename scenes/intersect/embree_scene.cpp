@@ -13,6 +13,7 @@
 #include <string>
 
 #include "scenes/intersect/embree_ray.hpp"
+#include "scenes/intersect/plain_intersector.hpp"
 
 namespace luxodus {
 
@@ -39,21 +40,21 @@ struct CollectContext {
 
 /// Where the ray enters the box, widened by a few roundings so that no hit on a face is missed.
 bool enters(const ProxyScene::Box& box, const Ray& ray, float& entry) {
-  float first = 0;
-  float last = ray.length;
+  Real first = 0;
+  Real last = ray.length;
   for (int axis = 0; axis < 3; ++axis) {
-    const float inverse = 1.0f / ray.direction[axis];
-    float a = (box.low[axis] - ray.origin[axis]) * inverse;
-    float b = (box.high[axis] - ray.origin[axis]) * inverse;
+    const Real inverse = 1 / ray.direction[axis];
+    Real a = (box.low[axis] - ray.origin[axis]) * inverse;
+    Real b = (box.high[axis] - ray.origin[axis]) * inverse;
     if (a > b) std::swap(a, b);
     // NaN (0 * infinity: the ray lies in a face plane) must not exclude the box.
     if (a > first) first = a;
     if (b < last) last = b;
   }
-  constexpr float slack = 8 * std::numeric_limits<float>::epsilon();
+  constexpr Real slack = 8 * std::numeric_limits<float>::epsilon();
   first *= 1 - slack;
   last *= 1 + slack;
-  entry = first;
+  entry = static_cast<float>(first);
   return first <= last;
 }
 
@@ -143,7 +144,37 @@ CellScene::~CellScene() {
   rtcReleaseScene(scene_);
 }
 
+namespace {
+
+/// A build that computes in double asks small cells' triangles itself, and of Embree's answers
+/// takes the triangle alone.
+bool asks_itself(const GeometryCell& cell) {
+  return computes_in_double && cell.triangles.size() <= limits::plain_triangles;
+}
+
+PlainRay<Real> plain(const Ray& ray) {
+  return {ray.origin, ray.direction, ray.length};
+}
+
+Hit nearest_of_all(const GeometryCell& cell, const Ray& ray) {
+  const PlainHit<Real> found = plain_nearest(std::span(cell.triangles), plain(ray));
+  if (found.index == no_triangle) return {};
+  return {found.distance, found.u, found.v, found.index, &cell.triangles[found.index], &cell};
+}
+
+/// Distance and barycentrics anew, from the ray and the corners.
+void recompute(Hit& hit, const Ray& ray) {
+  const PlaneMeeting<Real> m = meet_plane(plain(ray), *hit.triangle);
+  if (!(m.distance >= 0 && m.distance < std::numeric_limits<Real>::infinity())) return;  // edge-on
+  hit.distance = m.distance;
+  hit.u = m.u;
+  hit.v = m.v;
+}
+
+}  // namespace
+
 Hit CellScene::nearest(const Ray& ray) const {
+  if (asks_itself(*cell_)) return nearest_of_all(*cell_, ray);
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   RTCRayHit query = to_embree(ray);
@@ -156,10 +187,12 @@ Hit CellScene::nearest(const Ray& ray) const {
   hit.index = query.hit.primID;
   hit.triangle = &cell_->triangles[hit.index];
   hit.cell = cell_;
+  if constexpr (computes_in_double) recompute(hit, ray);
   return hit;
 }
 
 bool CellScene::occluded(const Ray& ray) const {
+  if (asks_itself(*cell_)) return plain_occluded(std::span(cell_->triangles), plain(ray));
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   RTCRayHit query = to_embree(ray);

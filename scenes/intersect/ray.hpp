@@ -5,12 +5,14 @@
 #include <glm/glm.hpp>
 #include <limits>
 
+#include "scenes/geometry/real.hpp"
+
 namespace luxodus {
 
 struct Ray {
-  glm::vec3 origin;     // local coordinates [m]
-  glm::vec3 direction;  // unit
-  float length = std::numeric_limits<float>::infinity();
+  Vec3 origin;     // local coordinates [m]
+  Vec3 direction;  // unit
+  Real length = std::numeric_limits<Real>::infinity();
 };
 
 inline constexpr uint32_t no_triangle = 0xFFFFFFFF;
@@ -26,18 +28,29 @@ struct TriangleRecord {
 
   /// The point at barycentrics (u, v), kept off the edges by 2^-16 of the triangle: a point that
   /// rounding puts beyond a neighbour in a corner of the room would see the outside.
-  glm::vec3 at(float u, float v) const {
-    constexpr float margin = 0x1p-16f;
+  Vec3 at(Real u, Real v) const {
+    constexpr Real margin = 0x1p-16_r;
     u = u < margin ? margin : u;
     v = v < margin ? margin : v;
-    float w = 1 - u - v;
+    Real w = 1 - u - v;
     if (w < margin) {
-      const float shrink = (1 - margin) / (u + v);
+      const Real shrink = (1 - margin) / (u + v);
       u *= shrink;
       v *= shrink;
       w = margin;
     }
-    return corner[0] * w + corner[1] * u + corner[2] * v;
+    return Vec3(corner[0]) * w + Vec3(corner[1]) * u + Vec3(corner[2]) * v;
+  }
+
+  /// The normal as exact as the computation is: as stored, or of the corners anew.
+  Vec3 unit_normal() const {
+    if constexpr (computes_in_double) {
+      const Vec3 a(corner[0]);
+      const Vec3 across = glm::cross(Vec3(corner[1]) - a, Vec3(corner[2]) - a);
+      const Real twice_area = glm::length(across);
+      if (twice_area > 0) return across / twice_area;
+    }
+    return Vec3(normal);
   }
 };
 static_assert(sizeof(TriangleRecord) == 64);
@@ -45,8 +58,8 @@ static_assert(sizeof(TriangleRecord) == 64);
 struct GeometryCell;
 
 struct Hit {
-  float distance = std::numeric_limits<float>::infinity();
-  float u = 0, v = 0;            // barycentrics of corners 1 and 2
+  Real distance = std::numeric_limits<Real>::infinity();
+  Real u = 0, v = 0;             // barycentrics of corners 1 and 2
   uint32_t index = no_triangle;  // within the cell
   const TriangleRecord* triangle = nullptr;
   const GeometryCell* cell = nullptr;

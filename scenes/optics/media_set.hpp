@@ -4,7 +4,7 @@
 // and data sets stay what they are. Kernels are templates on what a scene needs, so a clear or
 // homogeneous scene pays for nothing else.
 //
-// Coordinates are float, relative to the scene's local origin; optical depths are double. A factor
+// Coordinates are Real, relative to the scene's local origin; optical depths are double. A factor
 // of 0 takes a medium's extinction away but not its glow: whether it glows is the caller's question
 // of power. Immutable once compiled; any thread. Calls may wait where the resolver waits. Design:
 // light.md, "Media".
@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "runtime/core/result.hpp"
+#include "scenes/geometry/real.hpp"
 #include "scenes/optics/media_tables.hpp"
 #include "scenes/optics/media_walk.hpp"
 #include "scenes/optics/medium.hpp"
@@ -75,12 +76,12 @@ class MediaSet {
   const VolumeEmitter* emitter(int medium) const;
   /// A point in proportion to emission. Requires: emitter(medium) is not null.
   template <class Uniform, class Resolver>
-  glm::vec3 sample_emission_point(int medium, Uniform&& next_uniform, Resolver& resolver) const {
+  Vec3 sample_emission_point(int medium, Uniform&& next_uniform, Resolver& resolver) const {
     return emitter(medium)->sample(next_uniform, resolver);
   }
   /// Emission per volume [1/m3] of a unit total. Requires: emitter(medium) is not null.
   template <class Resolver>
-  double emission_density(int medium, const glm::vec3& p, Resolver& resolver) const {
+  double emission_density(int medium, const Vec3& p, Resolver& resolver) const {
     BrickReader<Resolver> reader(resolver);
     return emitter(medium)->density(glm::dvec3(p), reader);
   }
@@ -109,7 +110,7 @@ class ResidentBricks {
 
 /// How a flight through media ends.
 struct Flight {
-  float t = 0;        // distance flown [m]; t_max where nothing collided
+  Real t = 0;         // distance flown [m]; t_max where nothing collided
   int medium = -1;    // that collided
   int phase = -1;     // its phase function
   double albedo = 0;  // there; double, since 1 - albedo may be 1e-6
@@ -133,11 +134,11 @@ inline Flight collision_in_stack(const MediaTables& tables, int band, LayerStack
     }
   }
   const MediaComponent& c = tables.component(chosen);
-  return {static_cast<float>(stop.t), c.medium, c.phase, tables.albedo_of(band, chosen), true};
+  return {static_cast<Real>(stop.t), c.medium, c.phase, tables.albedo_of(band, chosen), true};
 }
 
-inline Flight flight_in_stack(const MediaTables& tables, int band, const glm::vec3& origin,
-                              const glm::vec3& direction, float t_max, double tau, double choice) {
+inline Flight flight_in_stack(const MediaTables& tables, int band, const Vec3& origin,
+                              const Vec3& direction, Real t_max, double tau, double choice) {
   const LayerStack::Stop stop =
       tables.stack.fly(band, static_cast<double>(origin.z), static_cast<double>(direction.z),
                        static_cast<double>(t_max), tau);
@@ -146,9 +147,8 @@ inline Flight flight_in_stack(const MediaTables& tables, int band, const glm::ve
 }
 
 template <class Resolver>
-Flight flight_in_all(const MediaTables& tables, int band, const glm::vec3& origin,
-                     const glm::vec3& direction, float t_max, double tau, double choice,
-                     Resolver& resolver) {
+Flight flight_in_all(const MediaTables& tables, int band, const Vec3& origin, const Vec3& direction,
+                     Real t_max, double tau, double choice, Resolver& resolver) {
   MediaWalk<Resolver> walk(tables, band, origin, direction, static_cast<double>(t_max), resolver);
   if (walk.only_stack()) {
     return flight_in_stack(tables, band, origin, direction, t_max, tau, choice);
@@ -160,7 +160,7 @@ Flight flight_in_all(const MediaTables& tables, int band, const glm::vec3& origi
       const double t = walk.t0() + tau / walk.sigma_t();
       const auto chosen = walk.choose(choice);
       const MediaComponent& c = tables.component(chosen.component);
-      return {static_cast<float>(t), c.medium, c.phase, chosen.albedo, true};
+      return {static_cast<Real>(t), c.medium, c.phase, chosen.albedo, true};
     }
     tau -= here;
   }
@@ -174,9 +174,8 @@ Flight flight_in_all(const MediaTables& tables, int band, const glm::vec3& origi
 /// collision is tau. Requires: N covers set.need(); direction of unit length; t_max >= 0 (infinity
 /// allowed); tau >= 0.
 template <MediaNeed N, class Resolver>
-Flight free_flight(const MediaSet& set, int band, const glm::vec3& origin,
-                   const glm::vec3& direction, float t_max, double tau, double choice,
-                   [[maybe_unused]] Resolver& resolver) {
+Flight free_flight(const MediaSet& set, int band, const Vec3& origin, const Vec3& direction,
+                   Real t_max, double tau, double choice, [[maybe_unused]] Resolver& resolver) {
   if constexpr (N == MediaNeed::none) {
     return {.t = t_max};
   } else {
@@ -199,8 +198,8 @@ Flight free_flight(const MediaSet& set, int band, const glm::vec3& origin,
 
 /// Optical depth from the origin to t_max. Requires: as free_flight.
 template <MediaNeed N, class Resolver>
-double optical_depth(const MediaSet& set, int band, const glm::vec3& origin,
-                     const glm::vec3& direction, float t_max, [[maybe_unused]] Resolver& resolver) {
+double optical_depth(const MediaSet& set, int band, const Vec3& origin, const Vec3& direction,
+                     Real t_max, [[maybe_unused]] Resolver& resolver) {
   const auto length = static_cast<double>(t_max);
   if constexpr (N == MediaNeed::none) {
     return 0;
@@ -231,8 +230,8 @@ struct EmissionPart {
 /// A stretch of a ray where extinction, albedo and (but for interpolated flames) emission are
 /// constant.
 struct MediaSegment {
-  float t0 = 0;
-  float t1 = 0;
+  Real t0 = 0;
+  Real t1 = 0;
   double length = 0;                       // t1 - t0 before rounding
   double sigma_t = 0;                      // [1/m]
   double sigma_s = 0;                      // [1/m]
@@ -242,8 +241,8 @@ struct MediaSegment {
 /// Visits the segments of a ray that absorb, scatter or glow, front to back, until `visit(segment)`
 /// is false. Works whatever set.need() is.
 template <class Resolver, class Visit>
-void for_each_segment(const MediaSet& set, int band, const glm::vec3& origin,
-                      const glm::vec3& direction, float t_max, Resolver& resolver, Visit&& visit) {
+void for_each_segment(const MediaSet& set, int band, const Vec3& origin, const Vec3& direction,
+                      Real t_max, Resolver& resolver, Visit&& visit) {
   const MediaTables& tables = set.tables();
   std::array<EmissionPart, limits::volume_emitters_most> parts;
   MediaWalk<Resolver> walk(tables, band, origin, direction, static_cast<double>(t_max), resolver);
@@ -255,8 +254,8 @@ void for_each_segment(const MediaSet& set, int band, const glm::vec3& origin,
       });
     }
     if (!(walk.sigma_t() > 0) && n == 0) continue;
-    const MediaSegment segment{static_cast<float>(walk.t0()),
-                               static_cast<float>(walk.t1()),
+    const MediaSegment segment{static_cast<Real>(walk.t0()),
+                               static_cast<Real>(walk.t1()),
                                walk.t1() - walk.t0(),
                                walk.sigma_t(),
                                walk.sigma_s(),
@@ -267,7 +266,7 @@ void for_each_segment(const MediaSet& set, int band, const glm::vec3& origin,
 
 /// Calls each(medium, phase, sigma_t, albedo) for every component that has extinction at a point.
 template <class Resolver, class Each>
-void for_each_medium_at(const MediaSet& set, int band, const glm::vec3& point, Resolver& resolver,
+void for_each_medium_at(const MediaSet& set, int band, const Vec3& point, Resolver& resolver,
                         Each&& each) {
   const MediaTables& tables = set.tables();
   const glm::dvec3 p(point);
@@ -305,7 +304,7 @@ void for_each_medium_at(const MediaSet& set, int band, const glm::vec3& point, R
 
 /// Sum of all extinctions at a point [1/m].
 template <class Resolver>
-double extinction_at(const MediaSet& set, int band, const glm::vec3& point, Resolver& resolver) {
+double extinction_at(const MediaSet& set, int band, const Vec3& point, Resolver& resolver) {
   double sum = 0;
   for_each_medium_at(set, band, point, resolver,
                      [&](int, int, double sigma_t, double) { sum += sigma_t; });

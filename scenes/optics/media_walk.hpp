@@ -7,6 +7,7 @@
 #include <array>
 #include <limits>
 
+#include "scenes/geometry/real.hpp"
 #include "scenes/optics/media_tables.hpp"
 
 namespace luxodus {
@@ -14,8 +15,8 @@ namespace luxodus {
 template <class Resolver>
 class MediaWalk {
  public:
-  MediaWalk(const MediaTables& tables, int band, const glm::vec3& origin,
-            const glm::vec3& direction, double t_max, Resolver& resolver)
+  MediaWalk(const MediaTables& tables, int band, const Vec3& origin, const Vec3& direction,
+            double t_max, Resolver& resolver)
       : tables_(&tables), band_(band), o_(origin), d_(direction), t_max_(t_max), bricks_(resolver) {
     find_bodies();
     find_grids();

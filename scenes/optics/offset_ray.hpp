@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 
+#include "scenes/geometry/real.hpp"
 #include "scenes/optics/sampling.hpp"
 
 namespace luxodus {
@@ -28,12 +29,12 @@ inline constexpr float ulps_per_normal = 64.0F;
 inline constexpr float least_ulps = 16.0F;
 /// Least distance as a share of the scene's size: near zero ulps are too small to count, while
 /// triangles still reach far out. 0.014 mm in a building of 30 m.
-inline constexpr float least_share = 0x1p-21F;
+inline constexpr Real least_share = 0x1p-21_r;
 }  // namespace offset_limits
 
 /// Least offset in a scene of this size (its diagonal) [m]: by it a room of a millimetre is as
 /// exact as one of ten kilometres.
-inline float least_offset(float size_m) {
+inline Real least_offset(Real size_m) {
   return size_m * offset_limits::least_share;
 }
 
@@ -53,9 +54,19 @@ inline float offset_coordinate(float position, float normal, float least_offset_
   return choose(farther, stepped, fixed);
 }
 
+/// The same in double, as wide as in float: the start must stand clear of what is stored in float,
+/// corners above all, and of what Embree makes of it; and two builds that differ in rounding alone
+/// can be compared.
+inline double offset_coordinate(double position, double normal, double least_offset_m) {
+  const auto near = static_cast<float>(position);
+  const float moved = offset_coordinate(near, static_cast<float>(normal), 0.0F);
+  const double stepped = position + (static_cast<double>(moved) - static_cast<double>(near));
+  const double fixed = position + normal * least_offset_m;
+  return std::fabs(stepped - position) > std::fabs(fixed - position) ? stepped : fixed;
+}
+
 /// Start of a ray that leaves `position` [m] to the side its unit `normal` points to.
-inline glm::vec3 offset_ray(const glm::vec3& position, const glm::vec3& normal,
-                            float least_offset_m) {
+inline Vec3 offset_ray(const Vec3& position, const Vec3& normal, Real least_offset_m) {
   return {offset_coordinate(position.x, normal.x, least_offset_m),
           offset_coordinate(position.y, normal.y, least_offset_m),
           offset_coordinate(position.z, normal.z, least_offset_m)};

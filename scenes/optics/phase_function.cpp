@@ -30,8 +30,8 @@ std::string table_fault(const Phase& phase) {
              " is negative or not a number; write a density per solid angle, 0 or more";
     }
     if (i == 0) continue;
-    // Also false for NaN. Compared in float, because that is what the sampler stores.
-    if (!(static_cast<float>(1.0 - cosines[i - 1]) > static_cast<float>(1.0 - cosines[i]))) {
+    // Also false for NaN. Compared as the sampler stores it.
+    if (!(static_cast<Real>(1.0 - cosines[i - 1]) > static_cast<Real>(1.0 - cosines[i]))) {
       return "phase table cosines must ascend by more than rounding; entry " +
              std::to_string(i + 1) + " does not";
     }
@@ -55,9 +55,9 @@ Result<PhaseFunction> PhaseFunction::make(const Phase& phase, const SourcePlace&
     const double magnitude = std::fabs(phase.g);
     const bool straight = 1.0 - magnitude < phase_limits::least_one_minus_g;
     if (magnitude == 0.0) out.kind_ = PhaseKind::isotropic;
-    out.sign_ = phase.g < 0 ? -1.0F : 1.0F;
-    out.g_ = straight ? 1.0F : static_cast<float>(magnitude);
-    out.one_minus_g_ = straight ? 0.0F : static_cast<float>(1.0 - magnitude);
+    out.sign_ = phase.g < 0 ? -1.0_r : 1.0_r;
+    out.g_ = straight ? 1.0_r : static_cast<Real>(magnitude);
+    out.one_minus_g_ = straight ? 0.0_r : static_cast<Real>(1.0 - magnitude);
     out.mean_cosine_ = out.sign_ * out.g_;
   }
   if (phase.kind == PhaseKind::tabulated) {
@@ -87,39 +87,39 @@ void PhaseFunction::compile_table(const Phase& phase) {
   }
   table_.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
-    table_[i] = {static_cast<float>(1.0 - cosines[i]), static_cast<float>(values[i] / total),
-                 static_cast<float>(below[i] / total)};
+    table_[i] = {static_cast<Real>(1.0 - cosines[i]), static_cast<Real>(values[i] / total),
+                 static_cast<Real>(below[i] / total)};
   }
-  mean_cosine_ = static_cast<float>(moment / total);
+  mean_cosine_ = static_cast<Real>(moment / total);
 }
 
-PhaseFunction::Deflection PhaseFunction::tabulated(float u) const {
+PhaseFunction::Deflection PhaseFunction::tabulated(Real u) const {
   // The first node with a distribution above u ends the segment; u < 1 = the last node's, so there
   // is one, and a segment without any probability is never found.
   const auto end = std::upper_bound(table_.begin() + 1, table_.end() - 1, u,
-                                    [](float x, const Node& node) { return x < node.below; });
+                                    [](Real x, const Node& node) { return x < node.below; });
   const Node& right = *end;
   const Node& left = *(end - 1);
-  const float width = left.one_minus_cos - right.one_minus_cos;
-  const float slope = (right.density - left.density) / width;
+  const Real width = left.one_minus_cos - right.one_minus_cos;
+  const Real slope = (right.density - left.density) / width;
   // Root of density x + slope x^2 / 2 = rest in the form that never subtracts.
-  const float rest = u - left.below;
-  const float root = safe_sqrt(left.density * left.density + 2.0F * slope * rest);
-  const float sum = left.density + root;
-  const float x = sum > 0.0F ? std::min(width, 2.0F * rest / sum) : 0.0F;
-  const float one_minus_cos = left.one_minus_cos - x;
-  return {1.0F - one_minus_cos, safe_sqrt(one_minus_cos * (2.0F - one_minus_cos))};
+  const Real rest = u - left.below;
+  const Real root = safe_sqrt(left.density * left.density + 2.0_r * slope * rest);
+  const Real sum = left.density + root;
+  const Real x = sum > 0.0_r ? std::min(width, 2.0_r * rest / sum) : 0.0_r;
+  const Real one_minus_cos = left.one_minus_cos - x;
+  return {1.0_r - one_minus_cos, safe_sqrt(one_minus_cos * (2.0_r - one_minus_cos))};
 }
 
-float PhaseFunction::tabulated_density(float cos_theta) const {
-  const float sought = std::clamp(1.0F - cos_theta, 0.0F, 2.0F);
+Real PhaseFunction::tabulated_density(Real cos_theta) const {
+  const Real sought = std::clamp(1.0_r - cos_theta, 0.0_r, 2.0_r);
   const auto end =
       std::upper_bound(table_.begin() + 1, table_.end() - 1, sought,
-                       [](float x, const Node& node) { return x > node.one_minus_cos; });
+                       [](Real x, const Node& node) { return x > node.one_minus_cos; });
   const Node& right = *end;
   const Node& left = *(end - 1);
-  const float t = (left.one_minus_cos - sought) / (left.one_minus_cos - right.one_minus_cos);
-  return 0.5F * inverse_pi_f * (left.density + t * (right.density - left.density));
+  const Real t = (left.one_minus_cos - sought) / (left.one_minus_cos - right.one_minus_cos);
+  return 0.5_r * inverse_pi_f * (left.density + t * (right.density - left.density));
 }
 
 }  // namespace luxodus

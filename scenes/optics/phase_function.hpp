@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "runtime/core/result.hpp"
+#include "scenes/geometry/real.hpp"
 #include "scenes/optics/medium.hpp"
 #include "scenes/optics/sampling.hpp"
 
@@ -39,40 +40,40 @@ class PhaseFunction {
   /// A scattering angle. cos is in [-1, 1]; sin has its own relative accuracy, so that a narrow
   /// peak keeps its shape where cos is 1 in float.
   struct Deflection {
-    float cos;
-    float sin;
+    Real cos;
+    Real sin;
   };
   /// The angle that belongs to u in [0, 1): the distribution function inverted.
-  Deflection deflection(float u) const;
+  Deflection deflection(Real u) const;
 
   PhaseKind kind() const { return kind_; }
   /// Mean cosine of the scattering angle, of the very function that is sampled.
-  float mean_cosine() const { return mean_cosine_; }
+  Real mean_cosine() const { return mean_cosine_; }
   std::size_t bytes() const { return sizeof(*this) + table_.capacity() * sizeof(Node); }
 
  private:
-  friend float evaluate(const PhaseFunction& phase, float cos_theta);
+  friend Real evaluate(const PhaseFunction& phase, Real cos_theta);
 
   /// One corner of the piecewise linear density. Kept as 1 - cos, descending, so that a forward
   /// peak keeps its width; `below` is the probability of a smaller cosine.
   struct Node {
-    float one_minus_cos;
-    float density;  // of the cosine: 2 pi x density per solid angle
-    float below;
+    Real one_minus_cos;
+    Real density;  // of the cosine: 2 pi x density per solid angle
+    Real below;
   };
 
-  Deflection henyey_greenstein(float u) const;
-  static Deflection rayleigh(float u);
-  Deflection tabulated(float u) const;
-  float henyey_greenstein_density(float cos_theta) const;
-  float tabulated_density(float cos_theta) const;
+  Deflection henyey_greenstein(Real u) const;
+  static Deflection rayleigh(Real u);
+  Deflection tabulated(Real u) const;
+  Real henyey_greenstein_density(Real cos_theta) const;
+  Real tabulated_density(Real cos_theta) const;
   void compile_table(const Phase& phase);
 
   PhaseKind kind_ = PhaseKind::isotropic;
-  float sign_ = 1;         // of g: a negative g is the mirrored function of |g|
-  float g_ = 0;            // |g|
-  float one_minus_g_ = 1;  // 1 - |g|, rounded once from double
-  float mean_cosine_ = 0;
+  Real sign_ = 1;         // of g: a negative g is the mirrored function of |g|
+  Real g_ = 0;            // |g|
+  Real one_minus_g_ = 1;  // 1 - |g|, rounded once from double
+  Real mean_cosine_ = 0;
   std::vector<Node> table_;  // tabulated: at least two
 };
 
@@ -82,37 +83,37 @@ class PhaseFunction {
 ///   d^2),
 /// sums of positive terms only for g in [0, 1], so both keep their relative accuracy at any g; g =
 /// 0 gives q and p. (Put s = 2 u - 1 into the textbook form and factor (1 - g^2) out.)
-inline PhaseFunction::Deflection PhaseFunction::henyey_greenstein(float u) const {
-  const float p = 2.0F * u;
-  const float q = 2.0F * (1.0F - u);
-  const float d = one_minus_g_ + g_ * p;
-  if (d == 0.0F) return {sign_, 0.0F};  // |g| = 1 and u = 0: as any other u at |g| = 1
-  const float inverse = 1.0F / d;
-  const float ratio = one_minus_g_ * inverse;
-  const float ratio_plus = (1.0F + g_) * inverse;
-  const float one_minus_cos = 0.5F * ratio * ratio * q * (2.0F + g_ * p);
-  const float one_plus_cos = 0.5F * ratio_plus * ratio_plus * p * (2.0F * one_minus_g_ + g_ * p);
-  const float cos = choose(one_minus_cos < 1.0F, 1.0F - one_minus_cos, one_plus_cos - 1.0F);
+inline PhaseFunction::Deflection PhaseFunction::henyey_greenstein(Real u) const {
+  const Real p = 2.0_r * u;
+  const Real q = 2.0_r * (1.0_r - u);
+  const Real d = one_minus_g_ + g_ * p;
+  if (d == 0.0_r) return {sign_, 0.0_r};  // |g| = 1 and u = 0: as any other u at |g| = 1
+  const Real inverse = 1.0_r / d;
+  const Real ratio = one_minus_g_ * inverse;
+  const Real ratio_plus = (1.0_r + g_) * inverse;
+  const Real one_minus_cos = 0.5_r * ratio * ratio * q * (2.0_r + g_ * p);
+  const Real one_plus_cos = 0.5_r * ratio_plus * ratio_plus * p * (2.0_r * one_minus_g_ + g_ * p);
+  const Real cos = choose(one_minus_cos < 1.0_r, 1.0_r - one_minus_cos, one_plus_cos - 1.0_r);
   return {sign_ * cos, std::sqrt(one_minus_cos * one_plus_cos)};
 }
 
 /// Rayleigh: u = (c^3 + 3 c + 4) / 8, solved for c by Newton from a quintic that errs by at most
 /// 3e-3. The slope is 3 (c^2 + 1) >= 3, so two steps end at rounding everywhere.
-inline PhaseFunction::Deflection PhaseFunction::rayleigh(float u) {
-  const float k = 8.0F * u - 4.0F;
-  const float square = k * k;
-  float c = k * (0.333333333F + square * (-0.0100296F + square * 0.00030133F));
+inline PhaseFunction::Deflection PhaseFunction::rayleigh(Real u) {
+  const Real k = 8.0_r * u - 4.0_r;
+  const Real square = k * k;
+  Real c = k * (0.333333333_r + square * (-0.0100296_r + square * 0.00030133_r));
   for (int step = 0; step < 2; ++step) {
-    c -= (c * (c * c + 3.0F) - k) / (3.0F * (c * c + 1.0F));
+    c -= (c * (c * c + 3.0_r) - k) / (3.0_r * (c * c + 1.0_r));
   }
-  c = std::clamp(c, -1.0F, 1.0F);
-  return {c, std::sqrt((1.0F - c) * (1.0F + c))};
+  c = std::clamp(c, -1.0_r, 1.0_r);
+  return {c, std::sqrt((1.0_r - c) * (1.0_r + c))};
 }
 
-inline PhaseFunction::Deflection PhaseFunction::deflection(float u) const {
+inline PhaseFunction::Deflection PhaseFunction::deflection(Real u) const {
   switch (kind_) {
     case PhaseKind::isotropic:
-      return {1.0F - 2.0F * u, 2.0F * std::sqrt(u * (1.0F - u))};
+      return {1.0_r - 2.0_r * u, 2.0_r * std::sqrt(u * (1.0_r - u))};
     case PhaseKind::rayleigh:
       return rayleigh(u);
     case PhaseKind::tabulated:
@@ -125,8 +126,7 @@ inline PhaseFunction::Deflection PhaseFunction::deflection(float u) const {
 
 /// Direction of travel [unit] after scattering; u, v in [0, 1).
 /// Requires: direction_of_travel is unit.
-inline glm::vec3 sample(const PhaseFunction& phase, const glm::vec3& direction_of_travel, float u,
-                        float v) {
+inline Vec3 sample(const PhaseFunction& phase, const Vec3& direction_of_travel, Real u, Real v) {
   if (phase.kind() == PhaseKind::isotropic) return uniform_sphere(u, v);
   const PhaseFunction::Deflection angle = phase.deflection(u);
   const SinCos phi = sin_cos_two_pi(v);
@@ -135,20 +135,20 @@ inline glm::vec3 sample(const PhaseFunction& phase, const glm::vec3& direction_o
 
 /// (1 - g^2) / (4 pi (1 + g^2 - 2 g cos)^(3/2)), with 1 + g^2 - 2 g cos = (1 - g)^2 + 2 g (1 -
 /// cos). 0 for |g| = 1, which scatters into one direction that no evaluation meets.
-inline float PhaseFunction::henyey_greenstein_density(float cos_theta) const {
-  const float one_minus_cos = std::max(0.0F, 1.0F - sign_ * cos_theta);
-  const float square = one_minus_g_ * one_minus_g_ + 2.0F * g_ * one_minus_cos;
-  if (one_minus_g_ == 0.0F) return 0.0F;
-  return 0.25F * inverse_pi_f * one_minus_g_ * (1.0F + g_) / (square * std::sqrt(square));
+inline Real PhaseFunction::henyey_greenstein_density(Real cos_theta) const {
+  const Real one_minus_cos = std::max(0.0_r, 1.0_r - sign_ * cos_theta);
+  const Real square = one_minus_g_ * one_minus_g_ + 2.0_r * g_ * one_minus_cos;
+  if (one_minus_g_ == 0.0_r) return 0.0_r;
+  return 0.25_r * inverse_pi_f * one_minus_g_ * (1.0_r + g_) / (square * std::sqrt(square));
 }
 
 /// Density [1/sr] of scattering by an angle of this cosine.
-inline float evaluate(const PhaseFunction& phase, float cos_theta) {
+inline Real evaluate(const PhaseFunction& phase, Real cos_theta) {
   switch (phase.kind_) {
     case PhaseKind::isotropic:
-      return 0.25F * inverse_pi_f;
+      return 0.25_r * inverse_pi_f;
     case PhaseKind::rayleigh:
-      return 0.1875F * inverse_pi_f * (1.0F + cos_theta * cos_theta);
+      return 0.1875_r * inverse_pi_f * (1.0_r + cos_theta * cos_theta);
     case PhaseKind::tabulated:
       return phase.tabulated_density(cos_theta);
     case PhaseKind::henyey_greenstein:

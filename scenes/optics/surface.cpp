@@ -13,7 +13,7 @@ double within(double value, double low, double high) {
 }
 
 /// Share reflected of light that arrives at this angle from the front.
-double directional_reflectance(const SurfaceModel& model, float cos_theta) {
+double directional_reflectance(const SurfaceModel& model, Real cos_theta) {
   switch (model.kind) {
     case SurfaceKind::lambertian:
       return model.reflectance;
@@ -28,18 +28,18 @@ double directional_reflectance(const SurfaceModel& model, float cos_theta) {
     case SurfaceKind::glossy:
       break;
   }
-  if (model.specular <= 0.0F) return model.reflectance;
+  if (model.specular <= 0.0_r) return model.reflectance;
   constexpr int cells = 32;
   SurfaceModel lobe = model;
-  lobe.reflectance = 0.0F;
-  const glm::vec3 normal(0.0F, 0.0F, 1.0F);
-  const glm::vec3 incoming(safe_sqrt(1.0F - cos_theta * cos_theta), 0.0F, -cos_theta);
+  lobe.reflectance = 0.0_r;
+  const Vec3 normal(0.0_r, 0.0_r, 1.0_r);
+  const Vec3 incoming(safe_sqrt(1.0_r - cos_theta * cos_theta), 0.0_r, -cos_theta);
   double sum = 0;
   for (int i = 0; i < cells; ++i) {
     for (int j = 0; j < cells; ++j) {
-      const float u = (static_cast<float>(i) + 0.5F) / static_cast<float>(cells);
-      const float v = (static_cast<float>(j) + 0.5F) / static_cast<float>(cells);
-      sum += static_cast<double>(sample_surface(lobe, incoming, normal, true, 0.0F, u, v).weight);
+      const Real u = (static_cast<Real>(i) + 0.5_r) / static_cast<Real>(cells);
+      const Real v = (static_cast<Real>(j) + 0.5_r) / static_cast<Real>(cells);
+      sum += static_cast<double>(sample_surface(lobe, incoming, normal, true, 0.0_r, u, v).weight);
     }
   }
   return static_cast<double>(model.reflectance) + sum / (cells * cells);
@@ -58,13 +58,14 @@ SurfaceModel make_surface(SurfaceKind kind, double reflectance, double specular,
   }
   SurfaceModel out;
   out.kind = kind;
-  out.reflectance = static_cast<float>(diffuse);
-  out.specular = static_cast<float>(mirror);
-  // Two roundings to float may add up to 1 + 2^-24: the diffuse part gives way.
-  if (kind == SurfaceKind::glossy) out.reflectance = std::min(out.reflectance, 1.0F - out.specular);
-  out.alpha = static_cast<float>(within(roughness, surface_limits::least_alpha, 1.0));
-  out.ior = static_cast<float>(within(ior, surface_limits::least_ior, surface_limits::most_ior));
-  out.log2_transmittance = log2_of(static_cast<float>(within(internal_transmittance, 0.0, 1.0)));
+  out.reflectance = static_cast<Real>(diffuse);
+  out.specular = static_cast<Real>(mirror);
+  // Two roundings may add up to more than 1: the diffuse part gives way.
+  if (kind == SurfaceKind::glossy)
+    out.reflectance = std::min(out.reflectance, 1.0_r - out.specular);
+  out.alpha = static_cast<Real>(within(roughness, surface_limits::least_alpha, 1.0));
+  out.ior = static_cast<Real>(within(ior, surface_limits::least_ior, surface_limits::most_ior));
+  out.log2_transmittance = log2_of(static_cast<Real>(within(internal_transmittance, 0.0, 1.0)));
   return out;
 }
 
@@ -76,7 +77,7 @@ double mean_hemispherical_reflectance(const SurfaceModel& model) {
   double sum = 0;
   for (int i = 0; i < rings; ++i) {
     const double square = (i + 0.5) / rings;
-    sum += directional_reflectance(model, static_cast<float>(std::sqrt(square)));
+    sum += directional_reflectance(model, static_cast<Real>(std::sqrt(square)));
   }
   return sum / rings;
 }

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <glm/glm.hpp>
 
+#include "scenes/geometry/real.hpp"
 #include "scenes/optics/sampling.hpp"
 
 namespace luxodus {
@@ -30,7 +31,7 @@ namespace surface_limits {
 inline constexpr double least_alpha = 1e-3;
 /// Cosines below this (6e-5 degrees above the plane) are taken as this: Fresnel's terms stay
 /// defined.
-inline constexpr float least_cos = 1e-6F;
+inline constexpr Real least_cos = 1e-6_r;
 /// Refractive indices relative to the outside: a bubble in diamond to beyond any transparent solid.
 inline constexpr double least_ior = 0.2;
 inline constexpr double most_ior = 5.0;
@@ -40,16 +41,16 @@ inline constexpr double most_ior = 5.0;
 /// afterwards.
 struct SurfaceModel {
   SurfaceKind kind = SurfaceKind::open;
-  float reflectance = 0;         // Lambertian part, [0, 1]
-  float specular = 0;            // mirror or GGX part, [0, 1]; reflectance + specular <= 1
-  float alpha = 0.3F;            // GGX roughness, [1e-3, 1]
-  float ior = 1;                 // n behind / n in front; of the glass for a pane
-  float log2_transmittance = 0;  // log2 of the internal transmittance of a pane along its normal
+  Real reflectance = 0;         // Lambertian part, [0, 1]
+  Real specular = 0;            // mirror or GGX part, [0, 1]; reflectance + specular <= 1
+  Real alpha = 0.3_r;           // GGX roughness, [1e-3, 1]
+  Real ior = 1;                 // n behind / n in front; of the glass for a pane
+  Real log2_transmittance = 0;  // log2 of the internal transmittance of a pane along its normal
 };
 
 struct SurfaceSample {
-  glm::vec3 direction;  // of travel afterwards, unit
-  float weight;      // f cos / pdf of the sampled lobe, [0, 1]: the share of the power that goes on
+  Vec3 direction;    // of travel afterwards, unit
+  Real weight;       // f cos / pdf of the sampled lobe, [0, 1]: the share of the power that goes on
   bool transmitted;  // the light leaves on the other side
   bool specular;     // into a single direction: next-event estimation cannot see it
 };
@@ -68,8 +69,8 @@ double mean_hemispherical_reflectance(const SurfaceModel& model);
 
 /// Reflectance r and 1 - r of one boundary for one polarisation; the second has its own accuracy.
 struct FresnelShares {
-  float r;
-  float t;
+  Real r;
+  Real t;
 };
 
 /// Fresnel's equations for both polarisations, and the cosine behind the boundary (0: total
@@ -77,83 +78,83 @@ struct FresnelShares {
 struct FresnelTerms {
   FresnelShares s;
   FresnelShares p;
-  float cos_behind;
+  Real cos_behind;
 };
-inline FresnelTerms fresnel(float cos_theta, float ior) {
-  const float c = std::clamp(cos_theta, surface_limits::least_cos, 1.0F);
-  const float square = ior * ior - (1.0F - c) * (1.0F + c);  // (n cos behind)^2
-  if (square <= 0.0F) return {{1.0F, 0.0F}, {1.0F, 0.0F}, 0.0F};
-  const float b = std::sqrt(square);
-  const float cos_behind = b / ior;
+inline FresnelTerms fresnel(Real cos_theta, Real ior) {
+  const Real c = std::clamp(cos_theta, surface_limits::least_cos, 1.0_r);
+  const Real square = ior * ior - (1.0_r - c) * (1.0_r + c);  // (n cos behind)^2
+  if (square <= 0.0_r) return {{1.0_r, 0.0_r}, {1.0_r, 0.0_r}, 0.0_r};
+  const Real b = std::sqrt(square);
+  const Real cos_behind = b / ior;
   // r = ((x - y) / (x + y))^2 and 1 - r = 4 x y / (x + y)^2.
-  const auto shares = [](float x, float y) {
-    const float inverse = 1.0F / (x + y);
-    const float amplitude = (x - y) * inverse;
-    return FresnelShares{amplitude * amplitude, 4.0F * (x * inverse) * (y * inverse)};
+  const auto shares = [](Real x, Real y) {
+    const Real inverse = 1.0_r / (x + y);
+    const Real amplitude = (x - y) * inverse;
+    return FresnelShares{amplitude * amplitude, 4.0_r * (x * inverse) * (y * inverse)};
   };
   return {shares(c, b), shares(ior * c, cos_behind), cos_behind};
 }
 
 /// Share of unpolarised power that a smooth boundary reflects. `ior` = n behind / n in front.
-inline float fresnel_reflectance(float cos_theta, float ior) {
+inline Real fresnel_reflectance(Real cos_theta, Real ior) {
   const FresnelTerms terms = fresnel(cos_theta, ior);
-  return 0.5F * (terms.s.r + terms.p.r);
+  return 0.5_r * (terms.s.r + terms.p.r);
 }
 
 struct PaneShares {
-  float reflected;
-  float transmitted;
+  Real reflected;
+  Real transmitted;
 };
 
 /// A thin pane with all reflections between its faces, incoherent, averaged over the polarisations:
 /// R = r + (1-r)^2 r t^2 / (1 - r^2 t^2), T = (1-r)^2 t / (1 - r^2 t^2), t = internal^(1 / cos
 /// behind).
-inline PaneShares pane_shares(const SurfaceModel& model, float cos_theta) {
+inline PaneShares pane_shares(const SurfaceModel& model, Real cos_theta) {
   const FresnelTerms terms = fresnel(std::fabs(cos_theta), model.ior);
-  if (terms.cos_behind <= 0.0F) return {1.0F, 0.0F};
-  const float loss = -exp2_minus_one(model.log2_transmittance / terms.cos_behind);  // 1 - t
-  const float t = 1.0F - loss;
-  PaneShares sum{0.0F, 0.0F};
+  if (terms.cos_behind <= 0.0_r) return {1.0_r, 0.0_r};
+  const Real loss = -exp2_minus_one(model.log2_transmittance / terms.cos_behind);  // 1 - t
+  const Real t = 1.0_r - loss;
+  PaneShares sum{0.0_r, 0.0_r};
   for (const FresnelShares& f : {terms.s, terms.p}) {
     // 1 - r^2 t^2 = (1 - r t) (1 + r t) with 1 - r t = (1 - r) + r (1 - t): no cancellation at
     // grazing.
-    const float through = f.t * f.t * t / ((f.t + f.r * loss) * (1.0F + f.r * t));
-    sum.transmitted += 0.5F * through;
-    sum.reflected += 0.5F * f.r * (1.0F + t * through);
+    const Real through = f.t * f.t * t / ((f.t + f.r * loss) * (1.0_r + f.r * t));
+    sum.transmitted += 0.5_r * through;
+    sum.reflected += 0.5_r * f.r * (1.0_r + t * through);
   }
   return sum;
 }
 
 /// Share of the power that passes a pane without deviation, either way: for shadow rays.
 /// `cos_theta` is the cosine between the ray and the pane's normal, any sign.
-inline float pane_transmittance(const SurfaceModel& model, float cos_theta) {
+inline Real pane_transmittance(const SurfaceModel& model, Real cos_theta) {
   return pane_shares(model, cos_theta).transmitted;
 }
 
 // ---- glossy ------------------------------------------------------------------------------------
 
 /// sqrt(cos^2 + alpha^2 sin^2): Smith's Lambda for GGX is (this / cos - 1) / 2, without a tangent.
-inline float ggx_stretch(float cos_theta, float alpha) {
-  const float cos_square = cos_theta * cos_theta;
-  return std::sqrt(cos_square + alpha * alpha * std::max(0.0F, 1.0F - cos_square));
+inline Real ggx_stretch(Real cos_theta, Real alpha) {
+  const Real cos_square = cos_theta * cos_theta;
+  return std::sqrt(cos_square + alpha * alpha * std::max(0.0_r, 1.0_r - cos_square));
 }
 
 /// Microfacet normal seen from the local direction wo (z > 0), distributed as the visible normals
 /// of GGX (Heitz, "Sampling the GGX Distribution of Visible Normals", JCGT 7(4), 2018): stretch to
 /// the half sphere, sample its projection as seen from wo, go back.
-inline glm::vec3 sample_ggx_visible_normal(const glm::vec3& wo, float alpha, float u, float v) {
-  const glm::vec3 view = glm::normalize(glm::vec3(alpha * wo.x, alpha * wo.y, wo.z));
+inline Vec3 sample_ggx_visible_normal(const Vec3& wo, Real alpha, Real u, Real v) {
+  const Vec3 view = glm::normalize(Vec3(alpha * wo.x, alpha * wo.y, wo.z));
   // The visible half disc is cut along the axis that lies in the surface.
-  const float flat = view.x * view.x + view.y * view.y;
-  const glm::vec3 t1 = flat > 1e-14F ? glm::vec3(-view.y, view.x, 0.0F) * (1.0F / std::sqrt(flat))
-                                     : glm::vec3(1.0F, 0.0F, 0.0F);
-  const glm::vec3 t2 = glm::cross(view, t1);
-  const glm::vec2 disc = uniform_disc(u, v);
-  const float visible = 0.5F * (1.0F + view.z);
-  const float y = (1.0F - visible) * safe_sqrt(1.0F - disc.x * disc.x) + visible * disc.y;
-  const float z = safe_sqrt(1.0F - disc.x * disc.x - y * y);
-  const glm::vec3 h = t1 * disc.x + t2 * y + view * z;
-  return glm::normalize(glm::vec3(alpha * h.x, alpha * h.y, std::max(1e-6F, h.z)));
+  const Real flat = view.x * view.x + view.y * view.y;
+  const Vec3 t1 = flat > 1e-14_r ? Vec3(-view.y, view.x, 0.0_r) * (1.0_r / std::sqrt(flat))
+                                 : Vec3(1.0_r, 0.0_r, 0.0_r);
+  const Vec3 t2 = glm::cross(view, t1);
+  const Vec2 disc = uniform_disc(u, v);
+  const Real visible = 0.5_r * (1.0_r + view.z);
+  const Real y = (1.0_r - visible) * safe_sqrt(1.0_r - disc.x * disc.x) + visible * disc.y;
+  const Real z = safe_sqrt(1.0_r - disc.x * disc.x - y * y);
+  const Vec3 h = t1 * disc.x + t2 * y + view * z;
+  return glm::normalize(Vec3(alpha * h.x, alpha * h.y, std::max(1e-6_r, h.z)));
 }
 
 // ---- the two calls of the tracer ---------------------------------------------------------------
@@ -161,61 +162,59 @@ inline glm::vec3 sample_ggx_visible_normal(const glm::vec3& wo, float alpha, flo
 /// BRDF [1/sr] of everything that is spread over directions (Lambert + GGX with Smith's
 /// height-correlated masking, Heitz, JCGT 3(2), 2014); 0 for mirror, pane, dielectric and open, and
 /// below the horizon.
-inline float evaluate_surface(const SurfaceModel& model, const glm::vec3& wo, const glm::vec3& wi,
-                              const glm::vec3& normal) {
-  const float cos_o = glm::dot(wo, normal);
-  const float cos_i = glm::dot(wi, normal);
-  if (!(cos_o > 0.0F && cos_i > 0.0F)) return 0.0F;
+inline Real evaluate_surface(const SurfaceModel& model, const Vec3& wo, const Vec3& wi,
+                             const Vec3& normal) {
+  const Real cos_o = glm::dot(wo, normal);
+  const Real cos_i = glm::dot(wi, normal);
+  if (!(cos_o > 0.0_r && cos_i > 0.0_r)) return 0.0_r;
   if (model.kind == SurfaceKind::lambertian) return model.reflectance * inverse_pi_f;
-  if (model.kind != SurfaceKind::glossy) return 0.0F;
-  const glm::vec3 h = glm::normalize(wo + wi);
-  const float cos_h = glm::dot(h, normal);
-  const glm::vec3 flat =
-      glm::cross(h, normal);  // sin^2 from here: 1 - cos^2 would lose a narrow lobe
-  const float alpha_square = model.alpha * model.alpha;
-  const float spread = cos_h * cos_h * alpha_square + glm::dot(flat, flat);
-  const float d = inverse_pi_f * alpha_square / (spread * spread);
-  const float masking =
+  if (model.kind != SurfaceKind::glossy) return 0.0_r;
+  const Vec3 h = glm::normalize(wo + wi);
+  const Real cos_h = glm::dot(h, normal);
+  const Vec3 flat = glm::cross(h, normal);  // sin^2 from here: 1 - cos^2 would lose a narrow lobe
+  const Real alpha_square = model.alpha * model.alpha;
+  const Real spread = cos_h * cos_h * alpha_square + glm::dot(flat, flat);
+  const Real d = inverse_pi_f * alpha_square / (spread * spread);
+  const Real masking =
       cos_i * ggx_stretch(cos_o, model.alpha) + cos_o * ggx_stretch(cos_i, model.alpha);
-  return model.reflectance * inverse_pi_f + model.specular * d * 0.5F / masking;
+  return model.reflectance * inverse_pi_f + model.specular * d * 0.5_r / masking;
 }
 
 namespace surface_detail {
 
-inline SurfaceSample sample_ggx(const SurfaceModel& model, const glm::vec3& incoming,
-                                const glm::vec3& normal, float u, float v) {
+inline SurfaceSample sample_ggx(const SurfaceModel& model, const Vec3& incoming, const Vec3& normal,
+                                Real u, Real v) {
   const Basis basis = basis_around(normal);
-  glm::vec3 wo = basis.to_local(-incoming);
+  Vec3 wo = basis.to_local(-incoming);
   wo.z = std::max(wo.z, surface_limits::least_cos);
-  const glm::vec3 m = sample_ggx_visible_normal(wo, model.alpha, u, v);
-  const glm::vec3 wi = m * (2.0F * glm::dot(wo, m)) - wo;
+  const Vec3 m = sample_ggx_visible_normal(wo, model.alpha, u, v);
+  const Vec3 wi = m * (2.0_r * glm::dot(wo, m)) - wo;
   // Reflected into the surface: a second facet would be next; the single-scattering model ends
   // here.
-  if (!(wi.z > 0.0F)) return {normal, 0.0F, false, false};
-  const float stretch_o = ggx_stretch(wo.z, model.alpha);
-  const float stretch_i = ggx_stretch(wi.z, model.alpha);
-  const float masking = wi.z * (wo.z + stretch_o) / (wi.z * stretch_o + wo.z * stretch_i);
-  const float weight = (model.reflectance + model.specular) * std::min(1.0F, masking);
+  if (!(wi.z > 0.0_r)) return {normal, 0.0_r, false, false};
+  const Real stretch_o = ggx_stretch(wo.z, model.alpha);
+  const Real stretch_i = ggx_stretch(wi.z, model.alpha);
+  const Real masking = wi.z * (wo.z + stretch_o) / (wi.z * stretch_o + wo.z * stretch_i);
+  const Real weight = (model.reflectance + model.specular) * std::min(1.0_r, masking);
   return {renormalised(basis.to_world(wi)), weight, false, false};
 }
 
-inline glm::vec3 mirrored(const glm::vec3& incoming, const glm::vec3& normal, float cos_theta) {
-  return renormalised(incoming + normal * (2.0F * cos_theta));
+inline Vec3 mirrored(const Vec3& incoming, const Vec3& normal, Real cos_theta) {
+  return renormalised(incoming + normal * (2.0_r * cos_theta));
 }
 
-inline SurfaceSample sample_dielectric(const SurfaceModel& model, const glm::vec3& incoming,
-                                       const glm::vec3& normal, bool front, float u_lobe) {
-  const float cos_theta = std::clamp(-glm::dot(incoming, normal), 0.0F, 1.0F);
-  const float ior = front ? model.ior : 1.0F / model.ior;
+inline SurfaceSample sample_dielectric(const SurfaceModel& model, const Vec3& incoming,
+                                       const Vec3& normal, bool front, Real u_lobe) {
+  const Real cos_theta = std::clamp(-glm::dot(incoming, normal), 0.0_r, 1.0_r);
+  const Real ior = front ? model.ior : 1.0_r / model.ior;
   const FresnelTerms terms = fresnel(cos_theta, ior);
-  if (terms.cos_behind <= 0.0F || u_lobe < 0.5F * (terms.s.r + terms.p.r)) {
-    return {mirrored(incoming, normal, cos_theta), 1.0F, false, true};
+  if (terms.cos_behind <= 0.0_r || u_lobe < 0.5_r * (terms.s.r + terms.p.r)) {
+    return {mirrored(incoming, normal, cos_theta), 1.0_r, false, true};
   }
   // Snell: the part along the surface shrinks by 1 / ior, the rest is cos_behind.
-  const float inverse = 1.0F / ior;
-  const glm::vec3 refracted =
-      incoming * inverse + normal * (cos_theta * inverse - terms.cos_behind);
-  return {glm::normalize(refracted), 1.0F, true, true};
+  const Real inverse = 1.0_r / ior;
+  const Vec3 refracted = incoming * inverse + normal * (cos_theta * inverse - terms.cos_behind);
+  return {glm::normalize(refracted), 1.0_r, true, true};
 }
 
 }  // namespace surface_detail
@@ -223,28 +222,27 @@ inline SurfaceSample sample_dielectric(const SurfaceModel& model, const glm::vec
 /// One event: chooses a lobe with u_lobe and a direction in it with u, v. `front` tells a
 /// dielectric that the light comes from outside. Requires: incoming, normal unit; incoming . normal
 /// <= 0 up to rounding.
-inline SurfaceSample sample_surface(const SurfaceModel& model, const glm::vec3& incoming,
-                                    const glm::vec3& normal, bool front, float u_lobe, float u,
-                                    float v) {
+inline SurfaceSample sample_surface(const SurfaceModel& model, const Vec3& incoming,
+                                    const Vec3& normal, bool front, Real u_lobe, Real u, Real v) {
   switch (model.kind) {
     case SurfaceKind::lambertian:
       break;
     case SurfaceKind::glossy: {
       // Lobes in proportion to their reflectivity: each then carries the sum of both.
-      const float sum = model.reflectance + model.specular;
+      const Real sum = model.reflectance + model.specular;
       if (u_lobe * sum < model.specular) {
         return surface_detail::sample_ggx(model, incoming, normal, u, v);
       }
       return {to_world(normal, cosine_hemisphere(u, v)), sum, false, false};
     }
     case SurfaceKind::mirror: {
-      const float cos_theta = std::max(0.0F, -glm::dot(incoming, normal));
+      const Real cos_theta = std::max(0.0_r, -glm::dot(incoming, normal));
       return {surface_detail::mirrored(incoming, normal, cos_theta), model.specular, false, true};
     }
     case SurfaceKind::glass_pane: {
-      const float cos_theta = std::max(0.0F, -glm::dot(incoming, normal));
+      const Real cos_theta = std::max(0.0_r, -glm::dot(incoming, normal));
       const PaneShares shares = pane_shares(model, cos_theta);
-      const float sum = std::min(1.0F, shares.reflected + shares.transmitted);
+      const Real sum = std::min(1.0_r, shares.reflected + shares.transmitted);
       if (u_lobe * sum < shares.reflected) {
         return {surface_detail::mirrored(incoming, normal, cos_theta), sum, false, true};
       }
@@ -253,7 +251,7 @@ inline SurfaceSample sample_surface(const SurfaceModel& model, const glm::vec3& 
     case SurfaceKind::dielectric:
       return surface_detail::sample_dielectric(model, incoming, normal, front, u_lobe);
     case SurfaceKind::open:
-      return {incoming, 1.0F, true, true};
+      return {incoming, 1.0_r, true, true};
   }
   return {to_world(normal, cosine_hemisphere(u, v)), model.reflectance, false, false};
 }

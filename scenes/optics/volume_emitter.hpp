@@ -10,6 +10,7 @@
 #include <optional>
 #include <vector>
 
+#include "scenes/geometry/real.hpp"
 #include "scenes/optics/quadric_body.hpp"
 #include "scenes/optics/smoke_grid.hpp"
 
@@ -31,7 +32,7 @@ class VolumeEmitter {
   /// A point in the tracer's coordinates. `next_uniform()` gives independent numbers in [0, 1); a
   /// data set takes four, a body three for every try.
   template <class Uniform, class Resolver>
-  glm::vec3 sample(Uniform&& next_uniform, Resolver& resolver) const;
+  Vec3 sample(Uniform&& next_uniform, Resolver& resolver) const;
 
   /// Emission per volume [1/m3], integral 1, at a point in the tracer's coordinates.
   template <class Resolver>
@@ -93,14 +94,14 @@ glm::ivec3 VolumeEmitter::choose_cell(double u, BrickReader<Resolver>& bricks) c
 }
 
 template <class Uniform, class Resolver>
-glm::vec3 VolumeEmitter::sample(Uniform&& next_uniform, Resolver& resolver) const {
-  if (body_) return glm::vec3(body_->sample(next_uniform));
+Vec3 VolumeEmitter::sample(Uniform&& next_uniform, Resolver& resolver) const {
+  if (body_) return Vec3(body_->sample(next_uniform));
   const double choice = next_uniform();
   const double u = next_uniform();
   const double v = next_uniform();
   const double w = next_uniform();
   const glm::dvec3 draw(u, v, w);
-  if (!grid_.has_emission()) return glm::vec3(grid_.from_local(draw * grid_.extent()));
+  if (!grid_.has_emission()) return Vec3(grid_.from_local(draw * grid_.extent()));
   BrickReader<Resolver> bricks(resolver);
   const glm::ivec3 cell = choose_cell(choice, bricks);
   glm::dvec3 place = glm::dvec3(cell) + draw;
@@ -112,7 +113,7 @@ glm::vec3 VolumeEmitter::sample(Uniform&& next_uniform, Resolver& resolver) cons
       if (place[k] > grid_.cells()[k]) place[k] = 2 * grid_.cells()[k] - place[k];
     }
   }
-  return glm::vec3(grid_.from_local(place * grid_.cell_size()));
+  return Vec3(grid_.from_local(place * grid_.cell_size()));
 }
 
 template <class Resolver>

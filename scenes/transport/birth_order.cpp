@@ -16,13 +16,13 @@ size_t find(const std::vector<uint64_t>& cdf, uint64_t r) {
 }
 
 /// 20 bits of each coordinate, by turns.
-uint64_t morton(const glm::vec3& p, const CompiledScene& scene) {
-  const glm::vec3 size = glm::max(scene.local_high - scene.local_low, glm::vec3(1e-6f));
-  const glm::vec3 share = glm::clamp((p - scene.local_low) / size, 0.0f, 0.999999f);
+uint64_t morton(const Vec3& p, const CompiledScene& scene) {
+  const Vec3 size = glm::max(scene.local_high - scene.local_low, Vec3(1e-6_r));
+  const Vec3 share = glm::clamp((p - scene.local_low) / size, 0.0_r, 0.999999_r);
   uint64_t code = 0;
   for (int bit = 19; bit >= 0; --bit) {
     for (int k = 0; k < 3; ++k) {
-      const auto cell = static_cast<uint32_t>(share[k] * 0x1p20f);
+      const auto cell = static_cast<uint32_t>(share[k] * 0x1p20_r);
       code = code << 1 | (cell >> bit & 1);
     }
   }

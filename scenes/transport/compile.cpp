@@ -130,11 +130,11 @@ CompiledPlane make_plane(const glm::dvec3& corner, const glm::dvec3& u, const gl
   CompiledPlane out;
   const glm::dvec3 cross = glm::cross(u, v);
   const glm::dvec3 n = glm::normalize(cross);
-  out.corner = glm::vec3(corner - origin);
-  out.normal = glm::vec3(n);
+  out.corner = Vec3(corner - origin);
+  out.normal = Vec3(n);
   // Dual edges: coordinates along u and v also where the two are not perpendicular.
-  out.dual_u = glm::vec3(glm::cross(v, n) / glm::dot(u, glm::cross(v, n)));
-  out.dual_v = glm::vec3(glm::cross(n, u) / glm::dot(v, glm::cross(n, u)));
+  out.dual_u = Vec3(glm::cross(v, n) / glm::dot(u, glm::cross(v, n)));
+  out.dual_v = Vec3(glm::cross(n, u) / glm::dot(v, glm::cross(n, u)));
   out.cells_u = nu;
   out.cells_v = nv;
   out.cell_area_m2 = glm::length(cross) / (nu * nv);
@@ -144,7 +144,7 @@ CompiledPlane make_plane(const glm::dvec3& corner, const glm::dvec3& u, const gl
 /// Reach beyond a flight's end, as a share of the step by which rays leave surfaces: a plane that
 /// lies in a wall or on a floor is crossed by the flights that end there, whichever way their ends
 /// are rounded (two ulps of the largest coordinate), and what comes back crosses from behind.
-constexpr float plane_reach_share = 0.5f;
+constexpr Real plane_reach_share = 0.5_r;
 
 void compile_detectors(CompiledScene& scene) {
   const SceneDescription& d = *scene.description;
@@ -168,15 +168,15 @@ void compile_detectors(CompiledScene& scene) {
   for (const VolumeGroupMeasure& v : d.volume_groups) {
     CompiledVolumeGroup out;
     out.shape = v.shape;
-    out.low = glm::vec3(v.low - scene.local_origin);
-    out.high = glm::vec3(v.high - scene.local_origin);
+    out.low = Vec3(v.low - scene.local_origin);
+    out.high = Vec3(v.high - scene.local_origin);
     if (v.shape == VolumeGroupMeasure::Shape::layer) {
-      out.low.x = out.low.y = -1e30f;
-      out.high.x = out.high.y = 1e30f;
+      out.low.x = out.low.y = -1e30_r;
+      out.high.x = out.high.y = 1e30_r;
     }
-    out.centre = glm::vec3(v.centre - scene.local_origin);
-    out.radius = static_cast<float>(v.radius);
-    out.inner_radius = static_cast<float>(v.inner_radius);
+    out.centre = Vec3(v.centre - scene.local_origin);
+    out.radius = static_cast<Real>(v.radius);
+    out.inner_radius = static_cast<Real>(v.inner_radius);
     scene.volume_groups.push_back(out);
   }
 }
@@ -398,8 +398,8 @@ Result<bool> set_bounds(CompiledScene& scene) {
   const glm::dvec3 centre = 0.5 * (scene.bounds.low + scene.bounds.high);
   scene.local_origin = centre;
   // Rounded outwards, so that nothing solid lies outside in single precision.
-  scene.local_low = glm::vec3(scene.bounds.low - centre);
-  scene.local_high = glm::vec3(scene.bounds.high - centre);
+  scene.local_low = Vec3(scene.bounds.low - centre);
+  scene.local_high = Vec3(scene.bounds.high - centre);
   scene.diagonal_m = glm::length(scene.local_high - scene.local_low);
   scene.least_offset_m = least_offset(scene.diagonal_m);
   return true;

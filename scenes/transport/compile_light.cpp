@@ -139,8 +139,8 @@ std::vector<ActiveSource> active_sources(const SceneDescription& scene, const Sc
 namespace {
 
 void place_frame(CompiledEmitter& out, const Frame& frame, const CompiledScene& scene) {
-  out.origin = glm::vec3(frame.origin - scene.local_origin);
-  out.axes = glm::mat3(frame.axes);
+  out.origin = Vec3(frame.origin - scene.local_origin);
+  out.axes = Mat3(frame.axes);
 }
 
 void normalise_cdf(std::vector<double>& cdf) {
@@ -152,9 +152,9 @@ void normalise_cdf(std::vector<double>& cdf) {
 void compile_mesh(CompiledEmitter& out, const Emitter& e, const CompiledScene& scene) {
   for (const glm::uvec3& t : e.mesh.triangles) {
     for (int k = 0; k < 3; ++k) {
-      out.corners.push_back(glm::vec3(e.mesh.positions[t[k]] - scene.local_origin));
+      out.corners.push_back(Vec3(e.mesh.positions[t[k]] - scene.local_origin));
     }
-    const glm::vec3* c = &out.corners[out.corners.size() - 3];
+    const Vec3* c = &out.corners[out.corners.size() - 3];
     out.texel_cdf.push_back(0.5 *
                             static_cast<double>(glm::length(glm::cross(c[1] - c[0], c[2] - c[0]))));
     out.area_m2 += out.texel_cdf.back();
@@ -163,7 +163,7 @@ void compile_mesh(CompiledEmitter& out, const Emitter& e, const CompiledScene& s
 }
 
 void compile_shape(CompiledEmitter& out, const Emitter& e, const CompiledScene& scene) {
-  out.size = glm::vec3(e.size);
+  out.size = Vec3(e.size);
   switch (e.shape) {
     case EmitterShape::point:
       out.kind = EmitterKind::point;
@@ -195,7 +195,7 @@ void compile_sign_face(CompiledEmitter& out, const ActiveSource& s, const Compil
   const Sign& sign = *s.sign;
   out.kind = EmitterKind::sign_face;
   out.distribution = Distribution::cosine_power;
-  out.exponent = static_cast<float>(sign.angular_exponent + 1);
+  out.exponent = static_cast<Real>(sign.angular_exponent + 1);
   for (uint32_t i = 0; i < scene.signs.size(); ++i) {
     if (scene.signs[i].sign == s.description_index && scene.signs[i].back == s.sign_back)
       out.sign = i;
@@ -203,7 +203,7 @@ void compile_sign_face(CompiledEmitter& out, const ActiveSource& s, const Compil
   const CompiledSign& face = scene.signs[out.sign];
   out.origin = face.origin;
   out.axes = face.axes;
-  out.size = glm::vec3(sign.width_m, sign.height_m, 0);
+  out.size = Vec3(sign.width_m, sign.height_m, 0);
   out.area_m2 = sign_colour_area_m2(sign, s.colour);
   out.body = face.surface;
   out.texel_columns = sign.face.width;
@@ -218,23 +218,23 @@ void compile_sign_face(CompiledEmitter& out, const ActiveSource& s, const Compil
 }
 
 /// Half the largest extent of an emitter [m].
-float near_distance(const CompiledEmitter& e, const ActiveSource& s, const CompiledScene& scene) {
+Real near_distance(const CompiledEmitter& e, const ActiveSource& s, const CompiledScene& scene) {
   if (e.kind == EmitterKind::point) return 0;
   if (e.kind == EmitterKind::sign_face) return scene.signs[e.sign].near_m;
   if (e.kind == EmitterKind::volume) {
     const glm::dvec3 size = s.medium->kind == MediumKind::data_set
                                 ? s.medium->data.extent
                                 : s.medium->local_bounds.high - s.medium->local_bounds.low;
-    return static_cast<float>(0.5 * std::max({size.x, size.y, size.z}));
+    return static_cast<Real>(0.5 * std::max({size.x, size.y, size.z}));
   }
-  if (e.kind != EmitterKind::mesh) return 0.5f * std::max(e.size.x, e.size.y);
-  glm::vec3 low = e.corners.front(), high = low;
-  for (const glm::vec3& c : e.corners) {
+  if (e.kind != EmitterKind::mesh) return 0.5_r * std::max(e.size.x, e.size.y);
+  Vec3 low = e.corners.front(), high = low;
+  for (const Vec3& c : e.corners) {
     low = glm::min(low, c);
     high = glm::max(high, c);
   }
-  const glm::vec3 size = high - low;
-  return 0.5f * std::max({size.x, size.y, size.z});
+  const Vec3 size = high - low;
+  return 0.5_r * std::max({size.x, size.y, size.z});
 }
 
 }  // namespace
@@ -248,7 +248,7 @@ CompiledEmitter compile_emitter(const ActiveSource& s, const CompiledScene& scen
     place_frame(out, e.frame, scene);
     compile_shape(out, e, scene);
     out.distribution = e.distribution;
-    out.exponent = static_cast<float>(e.cosine_power);
+    out.exponent = static_cast<Real>(e.cosine_power);
     if (e.distribution == Distribution::spot)
       out.spot = SpotLobe::from_half_angles(glm::radians(e.spot_inner_deg),
                                             glm::radians(e.spot_outer_deg));

@@ -344,9 +344,9 @@ void compile_materials(CompiledScene& scene) {
     const double share[3] = {scene.bands.average(r, i), scene.bands.average(g, i),
                              scene.bands.average(b, i)};
     const double sum = std::max(share[0] + share[1] + share[2], 1e-9);
-    scene.image_basis.push_back({static_cast<float>(share[0] / sum),
-                                 static_cast<float>(share[1] / sum),
-                                 static_cast<float>(share[2] / sum)});
+    scene.image_basis.push_back({static_cast<Real>(share[0] / sum),
+                                 static_cast<Real>(share[1] / sum),
+                                 static_cast<Real>(share[2] / sum)});
   }
 }
 
@@ -358,16 +358,16 @@ void compile_sign_faces(CompiledScene& scene) {
       out.sign = i;
       out.back = side == 1;
       out.frame = side == 0 ? sign.frame : back_frame(sign);
-      out.origin = glm::vec3(out.frame.origin - scene.local_origin);
-      out.axes = glm::mat3(out.frame.axes);
+      out.origin = Vec3(out.frame.origin - scene.local_origin);
+      out.axes = Mat3(out.frame.axes);
       out.white_cd_m2 = scenario_luminance(sign, SignColour::white, scene.scenario);
       out.green_cd_m2 = scenario_luminance(sign, SignColour::green, scene.scenario);
-      out.near_m = static_cast<float>(0.5 * std::max(sign.width_m, sign.height_m));
+      out.near_m = static_cast<Real>(0.5 * std::max(sign.width_m, sign.height_m));
       for (int b = 0; b < scene.bands.count(); ++b) {
         out.white_reflectance.push_back(
-            static_cast<float>(scene.bands.average(sign.white_reflectance, b)));
+            static_cast<Real>(scene.bands.average(sign.white_reflectance, b)));
         out.green_reflectance.push_back(
-            static_cast<float>(scene.bands.average(sign.green_reflectance, b)));
+            static_cast<Real>(scene.bands.average(sign.green_reflectance, b)));
       }
       scene.signs.push_back(std::move(out));
     }

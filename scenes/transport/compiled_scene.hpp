@@ -1,4 +1,4 @@
-// What the tracer needs, and nothing else: one scenario of a scene, in local float coordinates, per
+// What the tracer needs, and nothing else: one scenario of a scene, in local coordinates, per
 // band. The skeleton (surfaces, materials, emitters, media tables, detectors, tally layout) is
 // small and always there; geometry cells, bricks and texels are data objects, which the transport
 // loop, as photometric webs, reads only through its resolver. Immutable once compiled; any thread.
@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "scenes/geometry/real.hpp"
 #include "scenes/intersect/embree_scene.hpp"
 #include "scenes/optics/bands.hpp"
 #include "scenes/optics/media_set.hpp"
@@ -57,10 +58,10 @@ struct CompiledEmitter {
   std::string name;
   EmitterKind kind = EmitterKind::point;
   Distribution distribution = Distribution::lambertian;
-  glm::vec3 origin{0};  // local
-  glm::mat3 axes{1.0f};
-  glm::vec3 size{0};
-  float exponent = 1;  // cosine power; of a sign: of its luminance
+  Vec3 origin{0};  // local
+  Mat3 axes{1.0_r};
+  Vec3 size{0};
+  Real exponent = 1;  // cosine power; of a sign: of its luminance
   SpotLobe spot;
   uint32_t web = none_index;
   uint32_t sign = none_index;
@@ -68,26 +69,26 @@ struct CompiledEmitter {
   uint32_t body = none_index;    // surface that it sits on: rays leave by an offset
   int group = 0;
   double area_m2 = 0;
-  float near_m =
+  Real near_m =
       0;  // half its size: eyes that are closer meet it instead of asking it; 0 for points
   double luminous_flux_lm = 0;
-  std::vector<double> power_w;     // per band
-  std::vector<double> texel_cdf;   // sign face: by texel; mesh: by triangle; cumulative share
-  int texel_columns = 0;           // sign face
-  std::vector<glm::vec3> corners;  // mesh: three per triangle
+  std::vector<double> power_w;    // per band
+  std::vector<double> texel_cdf;  // sign face: by texel; mesh: by triangle; cumulative share
+  int texel_columns = 0;          // sign face
+  std::vector<Vec3> corners;      // mesh: three per triangle
 };
 
 /// A sphere around an emitter that rays can meet: tells most of them apart at little cost.
 struct EmitterBound {
-  glm::vec3 centre{0};
-  float radius = 0;
+  Vec3 centre{0};
+  Real radius = 0;
   uint32_t emitter = 0;
 };
 
 /// Parallelogram of cells, crossed by flights without stopping them.
 struct CompiledPlane {
-  glm::vec3 corner{0}, normal{0, 0, 1};
-  glm::vec3 dual_u{1, 0, 0}, dual_v{0, 1, 0};  // (p - corner) . dual in [0, 1)
+  Vec3 corner{0}, normal{0, 0, 1};
+  Vec3 dual_u{1, 0, 0}, dual_v{0, 1, 0};  // (p - corner) . dual in [0, 1)
   int cells_u = 1, cells_v = 1;
   double cell_area_m2 = 1;
   uint32_t first_bin = 0;
@@ -95,14 +96,14 @@ struct CompiledPlane {
 
 /// What tells that most flights stay on one side of a plane.
 struct PlaneTest {
-  glm::vec3 normal{0, 0, 1};
-  float height = 0;  // of the corner along the normal
+  Vec3 normal{0, 0, 1};
+  Real height = 0;  // of the corner along the normal
 };
 
 struct CompiledVolumeGroup {
   VolumeGroupMeasure::Shape shape = VolumeGroupMeasure::Shape::box;
-  glm::vec3 low{0}, high{0}, centre{0};
-  float radius = 0, inner_radius = 0;
+  Vec3 low{0}, high{0}, centre{0};
+  Real radius = 0, inner_radius = 0;
 };
 
 struct VoxelGrid {
@@ -177,12 +178,12 @@ struct CompiledSign {
   uint32_t surface = none_index;
   int white_group = 0, green_group = 0;  // source groups of its own light
   Frame frame;                           // local origin kept in double
-  glm::vec3 origin{0};                   // local
-  glm::mat3 axes{1.0f};
-  float near_m = 0;                                    // as of its emitters
+  Vec3 origin{0};                        // local
+  Mat3 axes{1.0_r};
+  Real near_m = 0;                                     // as of its emitters
   double white_cd_m2 = 0, green_cd_m2 = 0;             // along the normal, in this scenario
   std::vector<double> white_radiance, green_radiance;  // [W/(m2 sr)] per band
-  std::vector<float> white_reflectance, green_reflectance;
+  std::vector<Real> white_reflectance, green_reflectance;
 };
 
 struct Group {
@@ -200,9 +201,9 @@ struct CompiledScene {
   Scenario scenario;
   glm::dvec3 local_origin{0};  // scene = local + origin
   Bounds bounds;               // scene coordinates
-  glm::vec3 local_low{0}, local_high{0};
-  float diagonal_m = 1;
-  float least_offset_m = 0;     // of rays that leave surfaces: see offset_ray
+  Vec3 local_low{0}, local_high{0};
+  Real diagonal_m = 1;
+  Real least_offset_m = 0;      // of rays that leave surfaces: see offset_ray
   double length_unit_m = 1;     // a path-length score of weight * this is one unit weight
   double scores_per_metre = 1;  // its inverse; both are powers of two, hence exact
   Bands bands{{spectrum_first_nm, spectrum_last_nm}, equal_energy_shape()};
@@ -216,7 +217,7 @@ struct CompiledScene {
   std::vector<CompiledSign> signs;
   std::vector<std::shared_ptr<const PhotometricWeb>> webs;
   std::vector<std::shared_ptr<const Image>> images;  // of a packed scene without texels
-  std::vector<std::array<float, 3>> image_basis;     // per band: response to r, g, b texels
+  std::vector<std::array<Real, 3>> image_basis;      // per band: response to r, g, b texels
   MediaSet media;
   std::vector<PhaseFunction> phases;  // by Flight::phase
   std::vector<std::string> media_names;
@@ -226,7 +227,7 @@ struct CompiledScene {
   std::vector<CompiledPlane> planes;
   std::vector<CompiledPlane> counting_planes;
   std::vector<PlaneTest> plane_tests;  // of planes, then of counting planes
-  float plane_reach_m = 0;             // beyond a flight's end, see compile_detectors
+  Real plane_reach_m = 0;              // beyond a flight's end, see compile_detectors
   std::vector<CompiledVolumeGroup> volume_groups;
   VoxelGrid voxels;
   std::vector<EyeTarget> eye_targets;

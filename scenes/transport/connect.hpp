@@ -7,6 +7,7 @@
 #include <glm/glm.hpp>
 #include <limits>
 
+#include "scenes/geometry/real.hpp"
 #include "scenes/optics/offset_ray.hpp"
 #include "scenes/transport/compiled_scene.hpp"
 
@@ -19,7 +20,7 @@ inline constexpr int panes_per_line = 64;
 
 /// Product of the transmittances of all panes within `length` of the ray, per band; 0 when blocked.
 template <class Resolver>
-double solid_transmittance(const CompiledScene& scene, Ray ray, float length, int band,
+double solid_transmittance(const CompiledScene& scene, Ray ray, Real length, int band,
                            Resolver& resolver) {
   ray.length = length;
   if (!scene.features.surfaces) return resolver.occluded(ray) ? 0 : 1;
@@ -28,7 +29,7 @@ double solid_transmittance(const CompiledScene& scene, Ray ray, float length, in
     const Hit hit = resolver.nearest(ray);
     if (!hit.found()) return share;
     const TriangleRecord& t = *hit.triangle;
-    const float cosine = glm::dot(t.normal, ray.direction);
+    const Real cosine = glm::dot(t.unit_normal(), ray.direction);
     const size_t side = cosine < 0 ? 0 : 1;
     const CompiledMaterial& material = scene.materials[scene.surfaces[t.surface].material[side]];
     if (material.kind == MaterialKind::glass_pane) {
@@ -37,9 +38,9 @@ double solid_transmittance(const CompiledScene& scene, Ray ray, float length, in
     } else if (material.kind != MaterialKind::open) {
       return 0;
     }
-    const glm::vec3 end = ray.origin + ray.direction * ray.length;
-    ray.origin =
-        offset_ray(t.at(hit.u, hit.v), cosine < 0 ? -t.normal : t.normal, scene.least_offset_m);
+    const Vec3 end = ray.origin + ray.direction * ray.length;
+    ray.origin = offset_ray(t.at(hit.u, hit.v), cosine < 0 ? -t.unit_normal() : t.unit_normal(),
+                            scene.least_offset_m);
     ray.length = glm::dot(end - ray.origin, ray.direction);
     if (ray.length <= 0) return share;
   }
@@ -48,7 +49,7 @@ double solid_transmittance(const CompiledScene& scene, Ray ray, float length, in
 
 /// exp(-optical depth) along the ray.
 template <class Resolver>
-double medium_transmittance(const CompiledScene& scene, const Ray& ray, float length, int band,
+double medium_transmittance(const CompiledScene& scene, const Ray& ray, Real length, int band,
                             Resolver& resolver) {
   if (scene.features.media == MediaNeed::none) return 1;
   return std::exp(-optical_depth<MediaNeed::general>(scene.media, band, ray.origin, ray.direction,
@@ -57,22 +58,22 @@ double medium_transmittance(const CompiledScene& scene, const Ray& ray, float le
 
 /// A straight line from a place to a point of an emitter.
 struct Connection {
-  Ray ray;             // ends where solid things may begin that are not in the way
-  float distance = 0;  // of the two places: what smoke and the inverse square know
+  Ray ray;            // ends where solid things may begin that are not in the way
+  Real distance = 0;  // of the two places: what smoke and the inverse square know
 };
 
 /// `axis` is the emitting side's normal; a target on a solid face is met just in front of it.
-inline Connection connect(const CompiledScene& scene, const glm::vec3& from, const glm::vec3& to,
-                          const glm::vec3& axis, bool on_surface) {
-  glm::vec3 target = to;
+inline Connection connect(const CompiledScene& scene, const Vec3& from, const Vec3& to,
+                          const Vec3& axis, bool on_surface) {
+  Vec3 target = to;
   if (on_surface) {
-    const glm::vec3 side = glm::dot(from - to, axis) >= 0 ? axis : -axis;
+    const Vec3 side = glm::dot(from - to, axis) >= 0 ? axis : -axis;
     target = offset_ray(to, side, scene.least_offset_m);
   }
-  const glm::vec3 difference = target - from;
-  const float length = glm::length(difference);
+  const Vec3 difference = target - from;
+  const Real length = glm::length(difference);
   // The last millionth belongs to the emitter's own surface.
-  return {{from, difference / length, length * (1 - 1e-6f)}, glm::length(to - from)};
+  return {{from, difference / length, length * (1 - 1e-6_r)}, glm::length(to - from)};
 }
 
 }  // namespace luxodus

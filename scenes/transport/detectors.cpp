@@ -7,35 +7,35 @@ namespace luxodus {
 
 namespace {
 
-float length_in_sphere(const glm::vec3& centre, float radius, const FlightPiece& piece) {
+Real length_in_sphere(const Vec3& centre, Real radius, const FlightPiece& piece) {
   // Distance of closest approach first, so that nothing cancels for small spheres far away.
-  const glm::vec3 to_centre = centre - piece.origin;
-  const float along = glm::dot(to_centre, piece.direction);
-  const glm::vec3 offset = to_centre - piece.direction * along;
-  const float half_square = radius * radius - glm::dot(offset, offset);
+  const Vec3 to_centre = centre - piece.origin;
+  const Real along = glm::dot(to_centre, piece.direction);
+  const Vec3 offset = to_centre - piece.direction * along;
+  const Real half_square = radius * radius - glm::dot(offset, offset);
   if (half_square <= 0) return 0;
-  const float half = std::sqrt(half_square);
-  const float first = std::max(0.0f, along - half);
-  const float last = std::min(piece.length, along + half);
-  return std::max(0.0f, last - first);
+  const Real half = std::sqrt(half_square);
+  const Real first = std::max(0.0_r, along - half);
+  const Real last = std::min(piece.length, along + half);
+  return std::max(0.0_r, last - first);
 }
 
 }  // namespace
 
-float length_inside(const CompiledVolumeGroup& group, const FlightPiece& piece) {
+Real length_inside(const CompiledVolumeGroup& group, const FlightPiece& piece) {
   using Shape = VolumeGroupMeasure::Shape;
   switch (group.shape) {
     case Shape::layer: {
-      const float inverse = finite_inverse(piece.direction.z);
-      const float t0 = (group.low.z - piece.origin.z) * inverse;
-      const float t1 = (group.high.z - piece.origin.z) * inverse;
-      const float first = std::max(std::min(t0, t1), 0.0f);
-      const float last = std::min(std::max(t0, t1), piece.length);
-      return std::max(0.0f, last - first);
+      const Real inverse = finite_inverse(piece.direction.z);
+      const Real t0 = (group.low.z - piece.origin.z) * inverse;
+      const Real t1 = (group.high.z - piece.origin.z) * inverse;
+      const Real first = std::max(std::min(t0, t1), 0.0_r);
+      const Real last = std::min(std::max(t0, t1), piece.length);
+      return std::max(0.0_r, last - first);
     }
     case Shape::box: {
       const BoxStretch stretch = stretch_in_box(group.low, group.high, piece);
-      return std::max(0.0f, stretch.last - stretch.first);
+      return std::max(0.0_r, stretch.last - stretch.first);
     }
     case Shape::sphere:
       return length_in_sphere(group.centre, group.radius, piece);
@@ -46,26 +46,24 @@ float length_inside(const CompiledVolumeGroup& group, const FlightPiece& piece) 
   return 0;
 }
 
-bool inside(const CompiledVolumeGroup& group, const glm::vec3& p) {
+bool inside(const CompiledVolumeGroup& group, const Vec3& p) {
   using Shape = VolumeGroupMeasure::Shape;
   if (group.shape == Shape::box || group.shape == Shape::layer) {
     return glm::all(glm::greaterThanEqual(p, group.low)) && glm::all(glm::lessThan(p, group.high));
   }
-  const glm::vec3 d = p - group.centre;
-  const float r2 = glm::dot(d, d);
-  const float inner = group.shape == Shape::shell ? group.inner_radius : 0;
+  const Vec3 d = p - group.centre;
+  const Real r2 = glm::dot(d, d);
+  const Real inner = group.shape == Shape::shell ? group.inner_radius : 0;
   return r2 < group.radius * group.radius && r2 >= inner * inner;
 }
 
-uint32_t crossed_cell(const CompiledPlane& plane, const FlightPiece& piece, float t) {
-  const glm::vec3 p = piece.origin + piece.direction * t - plane.corner;
-  const float u = glm::dot(p, plane.dual_u);
-  const float v = glm::dot(p, plane.dual_v);
+uint32_t crossed_cell(const CompiledPlane& plane, const FlightPiece& piece, Real t) {
+  const Vec3 p = piece.origin + piece.direction * t - plane.corner;
+  const Real u = glm::dot(p, plane.dual_u);
+  const Real v = glm::dot(p, plane.dual_v);
   if (!(u >= 0 && u < 1 && v >= 0 && v < 1)) return none_index;
-  const int i =
-      std::min(static_cast<int>(u * static_cast<float>(plane.cells_u)), plane.cells_u - 1);
-  const int j =
-      std::min(static_cast<int>(v * static_cast<float>(plane.cells_v)), plane.cells_v - 1);
+  const int i = std::min(static_cast<int>(u * static_cast<Real>(plane.cells_u)), plane.cells_u - 1);
+  const int j = std::min(static_cast<int>(v * static_cast<Real>(plane.cells_v)), plane.cells_v - 1);
   return plane.first_bin + static_cast<uint32_t>(j * plane.cells_u + i);
 }
 
@@ -90,7 +88,7 @@ void score_crossing(const CompiledScene& scene, size_t index, const FlightPiece&
 
 void score_volumes(const CompiledScene& scene, const FlightPiece& piece, BatchScores& batch) {
   for (uint32_t i = 0; i < scene.volume_groups.size(); ++i) {
-    const float length = length_inside(scene.volume_groups[i], piece);
+    const Real length = length_inside(scene.volume_groups[i], piece);
     if (length <= 0) continue;
     const int64_t score = length_score(scene, piece.weight, length);
     const auto at = scene.layout.score_index(scene.blocks.volume_length, i, piece.band, 0);
@@ -134,7 +132,7 @@ void score_voxels(const CompiledScene& scene, const FlightPiece& piece, BatchSco
   batch.length_score_sum += length * static_cast<double>(points.count);
 }
 
-void score_collision(const CompiledScene& scene, const glm::vec3& place, int band, uint32_t medium,
+void score_collision(const CompiledScene& scene, const Vec3& place, int band, uint32_t medium,
                      Weight absorbed, Weight scattered, BatchScores& batch) {
   const auto add = [&](uint32_t block, uint32_t bin) {
     int64_t* score = batch.scores.data() + scene.layout.score_index(block, bin, band, 0);

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "scenes/geometry/real.hpp"
 #include "scenes/transport/connect.hpp"
 #include "scenes/transport/emission.hpp"
 
@@ -47,8 +48,8 @@ struct EmitterPart {
 
 /// Where an emitter is seen from: what decides how finely it is cut.
 struct Viewpoint {
-  glm::vec3 place;
-  glm::vec3 normal;       // of the receiver; light from below its horizon does not count
+  Vec3 place;
+  Vec3 normal;            // of the receiver; light from below its horizon does not count
   double sigma_t = 0;     // mean extinction on the way to the emitter [1/m]
   double part_share = 0;  // width over distance of a part
 };
@@ -59,12 +60,12 @@ std::vector<EmitterPart> emitter_parts(const CompiledScene& scene, const Compile
 /// most to the eye; 0 in clear air.
 template <class Resolver>
 double mean_extinction(const CompiledScene& scene, const CompiledEmitter& emitter,
-                       const glm::vec3& place, Resolver& resolver) {
+                       const Vec3& place, Resolver& resolver) {
   if (scene.features.media == MediaNeed::none) return 0;
-  const glm::vec3 target = emitter.kind == EmitterKind::mesh ? emitter.corners[0] : emitter.origin;
-  const float distance = glm::length(target - place);
+  const Vec3 target = emitter.kind == EmitterKind::mesh ? emitter.corners[0] : emitter.origin;
+  const Real distance = glm::length(target - place);
   if (!(distance > 0)) return 0;
-  const glm::vec3 direction = (target - place) / distance;
+  const Vec3 direction = (target - place) / distance;
   return optical_depth<MediaNeed::general>(scene.media, scene.bands.count() / 2, place, direction,
                                            distance, resolver) /
          static_cast<double>(distance);
@@ -78,8 +79,8 @@ struct DirectFromEmitter {
 
 template <class Resolver>
 DirectFromEmitter direct_from(const CompiledScene& scene, const CompiledEmitter& emitter,
-                              const glm::vec3& point, const glm::vec3& normal,
-                              const DirectOptions& options, Resolver& resolver) {
+                              const Vec3& point, const Vec3& normal, const DirectOptions& options,
+                              Resolver& resolver) {
   DirectFromEmitter out;
   if (emitter.distribution == Distribution::collimated) return out;
   const double sigma_t = options.media ? mean_extinction(scene, emitter, point, resolver) : 0;
@@ -89,8 +90,8 @@ DirectFromEmitter direct_from(const CompiledScene& scene, const CompiledEmitter&
     const Connection c = connect(scene, point, part.point.position, part.point.axis,
                                  emitter.kind != EmitterKind::volume);
     if (!(c.distance > 0)) continue;
-    const float density = directional_density(emitter, part.point, -c.ray.direction, resolver);
-    const float cosine = glm::dot(normal, c.ray.direction);
+    const Real density = directional_density(emitter, part.point, -c.ray.direction, resolver);
+    const Real cosine = glm::dot(normal, c.ray.direction);
     if (density <= 0) continue;
     // Below the horizon of the point only the fluence counts, and a line into the surface is no
     // line.
@@ -116,13 +117,12 @@ DirectFromEmitter direct_from(const CompiledScene& scene, const CompiledEmitter&
 
 /// Light from all emitters at a point [local coordinates] with a normal.
 template <class Resolver>
-DirectLight direct_light(const CompiledScene& scene, const glm::vec3& point,
-                         const glm::vec3& normal, const DirectOptions& options,
-                         Resolver& resolver) {
+DirectLight direct_light(const CompiledScene& scene, const Vec3& point, const Vec3& normal,
+                         const DirectOptions& options, Resolver& resolver) {
   DirectLight out;
   out.illuminance_lx.assign(scene.groups.size(), 0);
   out.fluence_lm_m2.assign(scene.groups.size(), 0);
-  const glm::vec3 from = offset_ray(point, normal, scene.least_offset_m);
+  const Vec3 from = offset_ray(point, normal, scene.least_offset_m);
   for (const CompiledEmitter& emitter : scene.emitters) {
     const DirectFromEmitter d = direct_from(scene, emitter, from, normal, options, resolver);
     out.illuminance_lx[static_cast<size_t>(emitter.group)] += d.illuminance_lx;

@@ -12,98 +12,98 @@ size_t find_interval(const std::vector<double>& cdf, double w) {
   return std::min(static_cast<size_t>(it - cdf.begin()), cdf.size() - 1);
 }
 
-EmissionPoint point_on_sign(const CompiledEmitter& e, float u, float v, double w) {
+EmissionPoint point_on_sign(const CompiledEmitter& e, Real u, Real v, double w) {
   const size_t texel = find_interval(e.texel_cdf, w);
   const auto columns = static_cast<size_t>(e.texel_columns);
-  const float rows = static_cast<float>(e.texel_cdf.size() / columns);
-  const float x = (static_cast<float>(texel % columns) + u) / static_cast<float>(columns);
-  const float y = (static_cast<float>(texel / columns) + v) / rows;
-  const glm::vec3 p =
-      e.origin + e.axes[0] * ((x - 0.5f) * e.size.x) + e.axes[1] * ((0.5f - y) * e.size.y);
+  const Real rows = static_cast<Real>(e.texel_cdf.size() / columns);
+  const Real x = (static_cast<Real>(texel % columns) + u) / static_cast<Real>(columns);
+  const Real y = (static_cast<Real>(texel / columns) + v) / rows;
+  const Vec3 p =
+      e.origin + e.axes[0] * ((x - 0.5_r) * e.size.x) + e.axes[1] * ((0.5_r - y) * e.size.y);
   return {p, e.axes[2]};
 }
 
 /// Of an emitter's extent, so much of it emits: a millionth off its edges, since on one that
 /// touches a wall a start would lie in that wall.
-constexpr float off_the_edges = 1 - 0x1p-20f;
+constexpr Real off_the_edges = 1 - 0x1p-20_r;
 
-EmissionPoint point_on_mesh(const CompiledEmitter& e, float u, float v, double w) {
+EmissionPoint point_on_mesh(const CompiledEmitter& e, Real u, Real v, double w) {
   const size_t triangle = find_interval(e.texel_cdf, w);
-  const glm::vec3* corner = &e.corners[3 * triangle];
-  const glm::vec3 b = uniform_triangle(u, v);
-  const glm::vec3 p = corner[0] * b.x + corner[1] * b.y + corner[2] * b.z;
-  const glm::vec3 centre = (corner[0] + corner[1] + corner[2]) / 3.0f;
+  const Vec3* corner = &e.corners[3 * triangle];
+  const Vec3 b = uniform_triangle(u, v);
+  const Vec3 p = corner[0] * b.x + corner[1] * b.y + corner[2] * b.z;
+  const Vec3 centre = (corner[0] + corner[1] + corner[2]) / 3.0_r;
   return {centre + (p - centre) * off_the_edges,
           glm::normalize(glm::cross(corner[1] - corner[0], corner[2] - corner[0]))};
 }
 
 /// Distance along the ray to a triangle's front, infinity if none (Moeller and Trumbore 1997).
-float triangle_distance(const glm::vec3* corner, const Ray& ray) {
-  const float none = std::numeric_limits<float>::infinity();
-  const glm::vec3 e1 = corner[1] - corner[0];
-  const glm::vec3 e2 = corner[2] - corner[0];
-  const glm::vec3 p = glm::cross(ray.direction, e2);
-  const float determinant = glm::dot(e1, p);
+Real triangle_distance(const Vec3* corner, const Ray& ray) {
+  const Real none = std::numeric_limits<Real>::infinity();
+  const Vec3 e1 = corner[1] - corner[0];
+  const Vec3 e2 = corner[2] - corner[0];
+  const Vec3 p = glm::cross(ray.direction, e2);
+  const Real determinant = glm::dot(e1, p);
   if (determinant <= 0) return none;  // behind, or edge-on
-  const glm::vec3 s = ray.origin - corner[0];
-  const float u = glm::dot(s, p);
+  const Vec3 s = ray.origin - corner[0];
+  const Real u = glm::dot(s, p);
   if (u < 0 || u > determinant) return none;
-  const glm::vec3 q = glm::cross(s, e1);
-  const float v = glm::dot(ray.direction, q);
+  const Vec3 q = glm::cross(s, e1);
+  const Real v = glm::dot(ray.direction, q);
   if (v < 0 || u + v > determinant) return none;
   return glm::dot(e2, q) / determinant;
 }
 
-float sphere_distance(const CompiledEmitter& e, const Ray& ray) {
-  const float radius = 0.5f * e.size.x;
-  const glm::vec3 to_centre = e.origin - ray.origin;
-  const float along = glm::dot(to_centre, ray.direction);
-  const glm::vec3 offset = to_centre - ray.direction * along;
-  const float half = radius * radius - glm::dot(offset, offset);
-  return half > 0 ? along - std::sqrt(half) : std::numeric_limits<float>::infinity();
+Real sphere_distance(const CompiledEmitter& e, const Ray& ray) {
+  const Real radius = 0.5_r * e.size.x;
+  const Vec3 to_centre = e.origin - ray.origin;
+  const Real along = glm::dot(to_centre, ray.direction);
+  const Vec3 offset = to_centre - ray.direction * along;
+  const Real half = radius * radius - glm::dot(offset, offset);
+  return half > 0 ? along - std::sqrt(half) : std::numeric_limits<Real>::infinity();
 }
 
 /// Lateral surface of a tube about local x, from outside.
-float tube_distance(const CompiledEmitter& e, const Ray& ray) {
-  const float none = std::numeric_limits<float>::infinity();
-  const float radius = 0.5f * e.size.y;
-  const glm::vec3 o = ray.origin - e.origin;
-  const glm::vec2 p(glm::dot(o, e.axes[1]), glm::dot(o, e.axes[2]));
-  const glm::vec2 d(glm::dot(ray.direction, e.axes[1]), glm::dot(ray.direction, e.axes[2]));
-  const float a = glm::dot(d, d);
+Real tube_distance(const CompiledEmitter& e, const Ray& ray) {
+  const Real none = std::numeric_limits<Real>::infinity();
+  const Real radius = 0.5_r * e.size.y;
+  const Vec3 o = ray.origin - e.origin;
+  const Vec2 p(glm::dot(o, e.axes[1]), glm::dot(o, e.axes[2]));
+  const Vec2 d(glm::dot(ray.direction, e.axes[1]), glm::dot(ray.direction, e.axes[2]));
+  const Real a = glm::dot(d, d);
   if (a <= 0) return none;
-  const float along = -glm::dot(p, d) / a;
-  const glm::vec2 closest = p + d * along;
-  const float half = (radius * radius - glm::dot(closest, closest)) / a;
+  const Real along = -glm::dot(p, d) / a;
+  const Vec2 closest = p + d * along;
+  const Real half = (radius * radius - glm::dot(closest, closest)) / a;
   if (half <= 0) return none;
-  const float t = along - std::sqrt(half);
-  const float x = glm::dot(o + ray.direction * t, e.axes[0]);
-  return std::abs(x) <= 0.5f * e.size.x ? t : none;
+  const Real t = along - std::sqrt(half);
+  const Real x = glm::dot(o + ray.direction * t, e.axes[0]);
+  return std::abs(x) <= 0.5_r * e.size.x ? t : none;
 }
 
 /// Flat shapes emit to local -Z; isotropic ones to both sides.
-float flat_distance(const CompiledEmitter& e, const Ray& ray) {
-  const float none = std::numeric_limits<float>::infinity();
-  const float cosine = glm::dot(ray.direction, e.axes[2]);
+Real flat_distance(const CompiledEmitter& e, const Ray& ray) {
+  const Real none = std::numeric_limits<Real>::infinity();
+  const Real cosine = glm::dot(ray.direction, e.axes[2]);
   if (cosine == 0 || (cosine < 0 && e.distribution != Distribution::isotropic &&
                       e.distribution != Distribution::web))
     return none;
-  const float t = glm::dot(e.origin - ray.origin, e.axes[2]) / cosine;
-  const glm::vec3 p = ray.origin + ray.direction * t - e.origin;
-  const float x = glm::dot(p, e.axes[0]);
-  const float y = glm::dot(p, e.axes[1]);
+  const Real t = glm::dot(e.origin - ray.origin, e.axes[2]) / cosine;
+  const Vec3 p = ray.origin + ray.direction * t - e.origin;
+  const Real x = glm::dot(p, e.axes[0]);
+  const Real y = glm::dot(p, e.axes[1]);
   const bool in = e.kind == EmitterKind::disc
-                      ? x * x + y * y <= 0.25f * e.size.x * e.size.x
-                      : std::abs(x) <= 0.5f * e.size.x && std::abs(y) <= 0.5f * e.size.y;
+                      ? x * x + y * y <= 0.25_r * e.size.x * e.size.x
+                      : std::abs(x) <= 0.5_r * e.size.x && std::abs(y) <= 0.5_r * e.size.y;
   return in ? t : none;
 }
 
 /// Whether the ray misses the sphere before `length`.
-bool passes(const EmitterBound& bound, const Ray& ray, float length) {
-  const glm::vec3 d = bound.centre - ray.origin;
-  const float along = glm::dot(d, ray.direction);
+bool passes(const EmitterBound& bound, const Ray& ray, Real length) {
+  const Vec3 d = bound.centre - ray.origin;
+  const Real along = glm::dot(d, ray.direction);
   if (along < -bound.radius || along - bound.radius > length) return true;
-  const glm::vec3 beside = d - ray.direction * along;
+  const Vec3 beside = d - ray.direction * along;
   return glm::dot(beside, beside) > bound.radius * bound.radius;
 }
 
@@ -119,37 +119,37 @@ EmitterBound emitter_bound(const CompiledScene& scene, uint32_t emitter) {
   EmitterBound bound{e.origin, 0, emitter};
   if (e.kind == EmitterKind::mesh) {
     bound.centre = e.corners.front();
-    for (const glm::vec3& c : e.corners)
+    for (const Vec3& c : e.corners)
       bound.radius = std::max(bound.radius, glm::length(c - bound.centre));
   } else {
-    bound.radius = 0.5f * glm::length(e.size);  // at least half the diagonal of any shape
+    bound.radius = 0.5_r * glm::length(e.size);  // at least half the diagonal of any shape
   }
-  bound.radius = bound.radius * 1.001f + scene.diagonal_m * 0x1p-18f;  // over all roundings
+  bound.radius = bound.radius * 1.001_r + scene.diagonal_m * 0x1p-18_r;  // over all roundings
   return bound;
 }
 
-EmissionPoint emission_point(const CompiledEmitter& e, float u, float v, double w) {
-  const glm::vec3 down = -e.axes[2];
+EmissionPoint emission_point(const CompiledEmitter& e, Real u, Real v, double w) {
+  const Vec3 down = -e.axes[2];
   switch (e.kind) {
     case EmitterKind::point:
     case EmitterKind::volume:
       return {e.origin, down};
     case EmitterKind::rectangle:
-      return {e.origin + e.axes[0] * ((u - 0.5f) * off_the_edges * e.size.x) +
-                  e.axes[1] * ((v - 0.5f) * off_the_edges * e.size.y),
+      return {e.origin + e.axes[0] * ((u - 0.5_r) * off_the_edges * e.size.x) +
+                  e.axes[1] * ((v - 0.5_r) * off_the_edges * e.size.y),
               down};
     case EmitterKind::disc: {
-      const glm::vec2 p = uniform_disc(u, v) * (0.5f * e.size.x);
+      const Vec2 p = uniform_disc(u, v) * (0.5_r * e.size.x);
       return {e.origin + e.axes[0] * p.x + e.axes[1] * p.y, down};
     }
     case EmitterKind::sphere: {
-      const glm::vec3 n = uniform_sphere(u, v);
-      return {e.origin + n * (0.5f * e.size.x), e.distribution == Distribution::web ? down : n};
+      const Vec3 n = uniform_sphere(u, v);
+      return {e.origin + n * (0.5_r * e.size.x), e.distribution == Distribution::web ? down : n};
     }
     case EmitterKind::tube: {
       const SinCos around = sin_cos_two_pi(v);
-      const glm::vec3 n = e.axes[1] * around.cos + e.axes[2] * around.sin;
-      return {e.origin + e.axes[0] * ((u - 0.5f) * e.size.x) + n * (0.5f * e.size.y),
+      const Vec3 n = e.axes[1] * around.cos + e.axes[2] * around.sin;
+      return {e.origin + e.axes[0] * ((u - 0.5_r) * e.size.x) + n * (0.5_r * e.size.y),
               e.distribution == Distribution::web ? down : n};
     }
     case EmitterKind::mesh:
@@ -160,15 +160,15 @@ EmissionPoint emission_point(const CompiledEmitter& e, float u, float v, double 
   return {e.origin, down};
 }
 
-EmitterHit nearest_emitter(const CompiledScene& scene, const Ray& ray, float length) {
+EmitterHit nearest_emitter(const CompiledScene& scene, const Ray& ray, Real length) {
   EmitterHit best;
   best.distance = length;
   for (const EmitterBound& bound : scene.emitter_bounds) {
     if (passes(bound, ray, best.distance)) continue;
     const uint32_t i = bound.emitter;
     const CompiledEmitter& e = scene.emitters[i];
-    float t = std::numeric_limits<float>::infinity();
-    glm::vec3 normal = -e.axes[2];
+    Real t = std::numeric_limits<Real>::infinity();
+    Vec3 normal = -e.axes[2];
     switch (e.kind) {
       case EmitterKind::point:
       case EmitterKind::volume:
@@ -185,13 +185,13 @@ EmitterHit nearest_emitter(const CompiledScene& scene, const Ray& ray, float len
       case EmitterKind::tube:
         t = tube_distance(e, ray);
         if (t < best.distance) {
-          const glm::vec3 o = ray.origin + ray.direction * t - e.origin;
+          const Vec3 o = ray.origin + ray.direction * t - e.origin;
           normal = glm::normalize(o - e.axes[0] * glm::dot(o, e.axes[0]));
         }
         break;
       case EmitterKind::mesh:
         for (size_t k = 0; k + 2 < e.corners.size(); k += 3) {
-          const float at = triangle_distance(&e.corners[k], ray);
+          const Real at = triangle_distance(&e.corners[k], ray);
           if (!(at > 0 && at < t)) continue;
           t = at;
           normal = glm::normalize(

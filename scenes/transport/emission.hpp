@@ -8,18 +8,19 @@
 #include <glm/glm.hpp>
 
 #include "runtime/core/random.hpp"
+#include "scenes/geometry/real.hpp"
 #include "scenes/optics/sampling.hpp"
 #include "scenes/transport/compiled_scene.hpp"
 
 namespace luxodus {
 
 struct EmissionPoint {
-  glm::vec3 position;  // local coordinates
-  glm::vec3 axis;      // about which the distribution is given: the surface normal, or local -Z
+  Vec3 position;  // local coordinates
+  Vec3 axis;      // about which the distribution is given: the surface normal, or local -Z
 };
 
 /// A point drawn in proportion to emitted power; u, v, w uniform in [0, 1). Not for volumes.
-EmissionPoint emission_point(const CompiledEmitter& emitter, float u, float v, double w);
+EmissionPoint emission_point(const CompiledEmitter& emitter, Real u, Real v, double w);
 
 /// A point of any emitter, volumes included, with as many draws as it takes.
 template <class Resolver>
@@ -27,12 +28,11 @@ EmissionPoint emission_point(const CompiledScene& scene, const CompiledEmitter& 
                              Random& random, Resolver& resolver) {
   if (emitter.kind == EmitterKind::volume) {
     const auto uniform = [&] { return random.uniform_double(); };
-    return {scene.media.sample_emission_point(emitter.medium, uniform, resolver),
-            glm::vec3(0, 0, -1)};
+    return {scene.media.sample_emission_point(emitter.medium, uniform, resolver), Vec3(0, 0, -1)};
   }
   if (emitter.kind == EmitterKind::point) return {emitter.origin, -emitter.axes[2]};
-  const float u = random.uniform();
-  const float v = random.uniform();
+  const Real u = random.uniform();
+  const Real v = random.uniform();
   const double w = emitter.texel_cdf.empty() ? 0.0 : random.uniform_double();
   return emission_point(emitter, u, v, w);
 }
@@ -40,14 +40,14 @@ EmissionPoint emission_point(const CompiledScene& scene, const CompiledEmitter& 
 /// Density [1/sr] of directions at a point of the emitter; 0 for collimated light, which is no
 /// density.
 template <class Resolver>
-float directional_density(const CompiledEmitter& emitter, const EmissionPoint& point,
-                          const glm::vec3& direction, Resolver& resolver) {
-  const float cosine = glm::dot(point.axis, direction);
+Real directional_density(const CompiledEmitter& emitter, const EmissionPoint& point,
+                         const Vec3& direction, Resolver& resolver) {
+  const Real cosine = glm::dot(point.axis, direction);
   switch (emitter.distribution) {
     case Distribution::isotropic:
       return 1 / (4 * pi_f);
     case Distribution::lambertian:
-      return std::max(0.0f, cosine) / pi_f;
+      return std::max(0.0_r, cosine) / pi_f;
     case Distribution::cosine_power:
       return cosine_power_pdf(emitter.exponent, cosine);
     case Distribution::spot:
@@ -58,7 +58,7 @@ float directional_density(const CompiledEmitter& emitter, const EmissionPoint& p
       const glm::dvec3 local(glm::dot(emitter.axes[0], direction),
                              glm::dot(emitter.axes[1], direction),
                              glm::dot(emitter.axes[2], direction));
-      return static_cast<float>(resolver.web(emitter.web).pdf(local));
+      return static_cast<Real>(resolver.web(emitter.web).pdf(local));
     }
   }
   return 0;
@@ -66,17 +66,17 @@ float directional_density(const CompiledEmitter& emitter, const EmissionPoint& p
 
 /// A direction drawn from that density.
 template <class Resolver>
-glm::vec3 emission_direction(const CompiledEmitter& emitter, const EmissionPoint& point,
-                             Random& random, Resolver& resolver) {
+Vec3 emission_direction(const CompiledEmitter& emitter, const EmissionPoint& point, Random& random,
+                        Resolver& resolver) {
   if (emitter.distribution == Distribution::collimated) return point.axis;
   if (emitter.distribution == Distribution::web) {
     const double u = random.uniform_double();
     const double v = random.uniform_double();
     const auto sample = resolver.web(emitter.web).sample(u, v);
-    return glm::normalize(emitter.axes * glm::vec3(sample.direction));
+    return glm::normalize(emitter.axes * Vec3(sample.direction));
   }
-  const float u = random.uniform();
-  const float v = random.uniform();
+  const Real u = random.uniform();
+  const Real v = random.uniform();
   if (emitter.distribution == Distribution::isotropic) return uniform_sphere(u, v);
   if (emitter.distribution == Distribution::spot)
     return to_world(point.axis, emitter.spot.sample(u, v));
@@ -87,7 +87,7 @@ glm::vec3 emission_direction(const CompiledEmitter& emitter, const EmissionPoint
 
 /// What an eye sees where its ray meets an emitter's surface.
 struct EmitterHit {
-  float distance = 0;
+  Real distance = 0;
   uint32_t emitter = none_index;
   EmissionPoint point;
 };
@@ -100,15 +100,15 @@ EmitterBound emitter_bound(const CompiledScene& scene, uint32_t emitter);
 
 /// Nearest emitting surface along the ray whose emitting side is turned to it, within `length`.
 /// Sign faces are surfaces of the scene and not looked for here.
-EmitterHit nearest_emitter(const CompiledScene& scene, const Ray& ray, float length);
+EmitterHit nearest_emitter(const CompiledScene& scene, const Ray& ray, Real length);
 
 /// Radiance [W/(m2 sr)] that leaves the point toward `direction`, in a band. Not for points and
 /// volumes.
 template <class Resolver>
 double emitted_radiance(const CompiledEmitter& emitter, const EmissionPoint& point,
-                        const glm::vec3& direction, int band, Resolver& resolver) {
-  const float cosine = std::abs(glm::dot(point.axis, direction));
-  if (emitter.area_m2 <= 0 || cosine < 1e-6f) return 0;
+                        const Vec3& direction, int band, Resolver& resolver) {
+  const Real cosine = std::abs(glm::dot(point.axis, direction));
+  if (emitter.area_m2 <= 0 || cosine < 1e-6_r) return 0;
   return emitter.power_w[static_cast<size_t>(band)] *
          static_cast<double>(directional_density(emitter, point, direction, resolver)) /
          (emitter.area_m2 * static_cast<double>(cosine));

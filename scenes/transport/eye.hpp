@@ -11,6 +11,7 @@
 #include <cmath>
 
 #include "runtime/core/random.hpp"
+#include "scenes/geometry/real.hpp"
 #include "scenes/tally/batch_scores.hpp"
 #include "scenes/transport/connect.hpp"
 #include "scenes/transport/emission.hpp"
@@ -119,7 +120,7 @@ class EyeTracer {
       } else {
         if (!hit.found()) return;
         if (gather != nullptr && path.diffused && reflects_diffusely(hit, path.ray)) {
-          const bool front = glm::dot(hit.triangle->normal, path.ray.direction) < 0;
+          const bool front = glm::dot(hit.triangle->unit_normal(), path.ray.direction) < 0;
           into.add_of_all(path.weight * path.throughput * gather->radiance(hit, front, band));
           return;
         }
@@ -131,8 +132,8 @@ class EyeTracer {
 
   /// Light of an emitter that a medium at `place` turns against `direction`; one emitter is asked,
   /// and divided by the probability of asking it.
-  SourceLight scattered_light(const glm::vec3& place, const glm::vec3& direction,
-                              const PhaseFunction& phase, int band) {
+  SourceLight scattered_light(const Vec3& place, const Vec3& direction, const PhaseFunction& phase,
+                              int band) {
     const Arriving a = arriving_light(place, band);
     if (a.irradiance <= 0) return {};
     return {a.group,
@@ -140,10 +141,10 @@ class EyeTracer {
   }
 
   /// The same of a surface.
-  SourceLight reflected_light(const glm::vec3& place, const glm::vec3& direction,
-                              const glm::vec3& normal, const SurfaceModel& model, int band) {
+  SourceLight reflected_light(const Vec3& place, const Vec3& direction, const Vec3& normal,
+                              const SurfaceModel& model, int band) {
     const Arriving a = arriving_light(place, band);
-    const float cosine = glm::dot(a.direction, normal);
+    const Real cosine = glm::dot(a.direction, normal);
     if (a.irradiance <= 0 || cosine <= 0) return {};
     return {a.group,
             a.irradiance * static_cast<double>(cosine) *
@@ -151,7 +152,7 @@ class EyeTracer {
   }
 
   /// Own light of a point of a sign's face towards an eye, without path or room light.
-  SourceLight texel_light(const CompiledSign& sign, const glm::vec2& uv, const glm::vec3& to_eye,
+  SourceLight texel_light(const CompiledSign& sign, const Vec2& uv, const Vec3& to_eye,
                           int band) const {
     const Sign& d = scene_.description->signs[sign.sign];
     const SignColour colour = d.face.colour[texel_at(d.face, uv)];
@@ -166,7 +167,7 @@ class EyeTracer {
 
   /// Adds `weight` times the emission of flames along `length` of the ray, of one medium or of all
   /// (-1).
-  void add_flames(const Ray& ray, float length, int band, int medium, double weight,
+  void add_flames(const Ray& ray, Real length, int band, int medium, double weight,
                   GroupLight& into) {
     double depth = 0;
     for_each_segment(
@@ -195,7 +196,7 @@ class EyeTracer {
     double weight;
     GroupLight& into;
     double throughput = 1;
-    float travelled = 0;    // from the last event to the ray's origin, through panes
+    Real travelled = 0;     // from the last event to the ray's origin, through panes
     bool diffused = false;  // a surface has spread it
 
     void add(const SourceLight& light) {
@@ -206,11 +207,11 @@ class EyeTracer {
   // ---- events
   // ------------------------------------------------------------------------------------
 
-  Flight fly(const Ray& ray, float length, int band) {
+  Flight fly(const Ray& ray, Real length, int band) {
     if (scene_.features.media == MediaNeed::none) return {};
     const uint32_t r = random_.bits();
     const double tau = -std::log((4294967296.0 - static_cast<double>(r)) * 0x1p-32);
-    const float choice = random_.uniform();
+    const Real choice = random_.uniform();
     return free_flight<MediaNeed::general>(scene_.media, band, ray.origin, ray.direction, length,
                                            tau, choice, resolver_);
   }
@@ -220,7 +221,7 @@ class EyeTracer {
   }
 
   bool reflects_diffusely(const Hit& hit, const Ray& ray) const {
-    const bool front = glm::dot(hit.triangle->normal, ray.direction) < 0;
+    const bool front = glm::dot(hit.triangle->unit_normal(), ray.direction) < 0;
     const MaterialKind kind = material_at(hit, front).kind;
     return kind == MaterialKind::lambertian || kind == MaterialKind::glossy;
   }
@@ -232,8 +233,8 @@ class EyeTracer {
     const PhaseFunction& phase = scene_.phases[static_cast<size_t>(flight.phase)];
     p.ray.origin += p.ray.direction * flight.t;
     p.add(scattered_light(p.ray.origin, p.ray.direction, phase, p.band));
-    const float u = random_.uniform();
-    const float v = random_.uniform();
+    const Real u = random_.uniform();
+    const Real v = random_.uniform();
     p.ray.direction = sample(phase, p.ray.direction, u, v);
     p.met = Met::near;
     p.travelled = 0;
@@ -243,18 +244,18 @@ class EyeTracer {
   /// Surface event: light asked from an emitter, then a new direction. False ends the path.
   bool bounce(Path& p, const Hit& hit) {
     const TriangleRecord& t = *hit.triangle;
-    const bool front = glm::dot(t.normal, p.ray.direction) < 0;
+    const bool front = glm::dot(t.unit_normal(), p.ray.direction) < 0;
     const SurfaceModel model =
         surface_at(scene_, hit, front, p.band, material_at(hit, front), resolver_);
-    const glm::vec3 normal = front ? t.normal : -t.normal;
-    const glm::vec3 place = t.at(hit.u, hit.v);
+    const Vec3 normal = front ? t.unit_normal() : -t.unit_normal();
+    const Vec3 place = t.at(hit.u, hit.v);
     if (model.kind == SurfaceKind::lambertian || model.kind == SurfaceKind::glossy) {
       p.add(reflected_light(offset_ray(place, normal, scene_.least_offset_m), p.ray.direction,
                             normal, model, p.band));
     }
-    const float lobe = random_.uniform();
-    const float u = random_.uniform();
-    const float v = random_.uniform();
+    const Real lobe = random_.uniform();
+    const Real u = random_.uniform();
+    const Real v = random_.uniform();
     const SurfaceSample s = sample_surface(model, p.ray.direction, normal, front, lobe, u, v);
     p.throughput *= static_cast<double>(s.weight);
     if (p.throughput <= 0) return false;
@@ -287,21 +288,21 @@ class EyeTracer {
   /// Expected radiance of what emits along the ray up to the surface it hits: emitting faces, the
   /// sign that was hit, flames; each weighted by what passes the media before it.
   void add_emitted_along(Path& p, const Hit& hit) {
-    const float slack = 1 + 1e-5f;  // a body's own face lies as far as the emitter on it
-    float reach = hit.distance * slack;
+    const Real slack = 1 + 1e-5_r;  // a body's own face lies as far as the emitter on it
+    Real reach = hit.distance * slack;
     Ray rest = p.ray;
-    float before = 0;
+    Real before = 0;
     for (int k = 0; k < limits::emitters_per_line; ++k) {
       const EmitterHit e = nearest_emitter(scene_, rest, reach);
       if (e.emitter == none_index) break;
       const CompiledEmitter& emitter = scene_.emitters[e.emitter];
-      const float distance = before + e.distance;
+      const Real distance = before + e.distance;
       if (counts(p, distance, emitter.near_m)) {
         p.add({emitter.group,
                emitted_radiance(emitter, e.point, -p.ray.direction, p.band, resolver_) *
                    medium_transmittance(scene_, p.ray, distance, p.band, resolver_)});
       }
-      const float step = std::nextafter(e.distance * slack, std::numeric_limits<float>::infinity());
+      const Real step = std::nextafter(e.distance * slack, std::numeric_limits<Real>::infinity());
       rest.origin += rest.direction * step;
       before += step;
       reach -= step;
@@ -311,14 +312,14 @@ class EyeTracer {
     add_flames_met(p, hit.distance);
   }
 
-  static bool counts(const Path& p, float distance, float near) {
+  static bool counts(const Path& p, Real distance, Real near) {
     return p.met == Met::all || p.travelled + distance < near;
   }
 
   void add_emitted_by_sign(Path& p, const Hit& hit) {
     if (!hit.found()) return;
     const uint32_t index = scene_.surfaces[hit.triangle->surface].sign;
-    if (index == none_index || glm::dot(hit.triangle->normal, p.ray.direction) >= 0) return;
+    if (index == none_index || glm::dot(hit.triangle->unit_normal(), p.ray.direction) >= 0) return;
     const CompiledSign& sign = scene_.signs[index];
     if (!counts(p, hit.distance, sign.near_m)) return;
     const SourceLight own = texel_light(sign, texture_uv(*hit.cell, hit), -p.ray.direction, p.band);
@@ -328,13 +329,13 @@ class EyeTracer {
   }
 
   /// Flames that count: all along the line, or the part of each that is near.
-  void add_flames_met(const Path& p, float length) {
+  void add_flames_met(const Path& p, Real length) {
     if (scene_.volume_points.empty()) return;
     const double weight = p.weight * p.throughput;
     if (p.met == Met::all) return add_flames(p.ray, length, p.band, -1, weight, p.into);
     for (const CompiledEmitter& e : scene_.emitters) {
       if (e.kind != EmitterKind::volume) continue;
-      const float rest = e.near_m - p.travelled;
+      const Real rest = e.near_m - p.travelled;
       if (rest > 0) {
         add_flames(p.ray, std::min(length, rest), p.band, static_cast<int>(e.medium), weight,
                    p.into);
@@ -350,7 +351,7 @@ class EyeTracer {
     return nullptr;
   }
 
-  static double face_relative(const SignFace& face, const glm::vec2& uv) {
+  static double face_relative(const SignFace& face, const Vec2& uv) {
     if (face.relative_luminance.empty()) return 1;
     return static_cast<double>(face.relative_luminance[texel_at(face, uv)]);
   }
@@ -364,7 +365,7 @@ class EyeTracer {
   };
 
   /// An emitter, in proportion to power over squared distance where they are few.
-  Asked ask(const glm::vec3& place, int band) {
+  Asked ask(const Vec3& place, int band) {
     const auto b = static_cast<size_t>(band);
     const size_t n = scene_.emitters.size();
     weights_.resize(n);
@@ -373,9 +374,9 @@ class EyeTracer {
       const CompiledEmitter& e = scene_.emitters[i];
       double w = e.distribution == Distribution::collimated ? 0 : e.power_w[b];
       if (n <= limits::nearby_emitters) {
-        const glm::vec3 d = (e.kind == EmitterKind::mesh ? e.corners[0] : e.origin) - place;
-        const glm::vec3 size = e.size;
-        w /= static_cast<double>(glm::dot(d, d) + 0.25f * glm::dot(size, size)) + 1e-6;
+        const Vec3 d = (e.kind == EmitterKind::mesh ? e.corners[0] : e.origin) - place;
+        const Vec3 size = e.size;
+        w /= static_cast<double>(glm::dot(d, d) + 0.25_r * glm::dot(size, size)) + 1e-6;
       }
       total += w;
       weights_[i] = total;
@@ -393,12 +394,12 @@ class EyeTracer {
   /// Irradiance normal to the line from one point of one emitter, divided by the probability of
   /// asking it.
   struct Arriving {
-    glm::vec3 direction{0};  // towards the emitter
+    Vec3 direction{0};  // towards the emitter
     int group = 0;
     double irradiance = 0;
   };
 
-  Arriving arriving_light(const glm::vec3& place, int band) {
+  Arriving arriving_light(const Vec3& place, int band) {
     const Asked asked = ask(place, band);
     if (asked.emitter == nullptr) return {};
     const CompiledEmitter& e = *asked.emitter;

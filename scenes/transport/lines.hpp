@@ -5,6 +5,7 @@
 
 #include <optional>
 
+#include "scenes/geometry/real.hpp"
 #include "scenes/transport/direct.hpp"
 #include "scenes/transport/resolver.hpp"
 
@@ -13,21 +14,20 @@ namespace luxodus {
 /// Direct illuminance at a point [local coordinates] by each emitter of the scene, in their order
 /// [lx].
 std::vector<double> direct_by_emitter(const CompiledScene& scene, const GeometryAccess& access,
-                                      const glm::vec3& point, const glm::vec3& normal,
+                                      const Vec3& point, const Vec3& normal,
                                       const DirectOptions& options);
 
 /// Share of light in the middle band that whatever is solid lets pass between two points.
-double clear_share(const CompiledScene& scene, const GeometryAccess& access, const glm::vec3& from,
-                   const glm::vec3& to);
+double clear_share(const CompiledScene& scene, const GeometryAccess& access, const Vec3& from,
+                   const Vec3& to);
 
 struct MetSurface {
-  float distance_m = 0;
+  Real distance_m = 0;
   bool front = true;     // its front side is met
   uint32_t surface = 0;  // of the scene's
 };
 /// Nothing within `length_m`: none.
 std::optional<MetSurface> next_surface(const CompiledScene& scene, const GeometryAccess& access,
-                                       const glm::vec3& from, const glm::vec3& direction,
-                                       float length_m);
+                                       const Vec3& from, const Vec3& direction, Real length_m);
 
 }  // namespace luxodus

@@ -7,6 +7,7 @@
 
 #include <vector>
 
+#include "scenes/geometry/real.hpp"
 #include "scenes/transport/eye.hpp"
 
 namespace luxodus {
@@ -117,12 +118,12 @@ class EyeScores {
 
   /// A point of the wanted part in face coordinates, u to the reader's right, v up, the face is
   /// [0, 1]^2.
-  bool aim(const EyeTarget& target, uint32_t part, glm::vec2& uv) {
+  bool aim(const EyeTarget& target, uint32_t part, Vec2& uv) {
     const SignFace& face = scene_.description->signs[scene_.signs[target.sign].sign].face;
     if (part == 2) {  // the ring as wide as half the face on each side
       for (int attempt = 0; attempt < 64; ++attempt) {
-        uv.x = 2 * random_.uniform() - 0.5f;
-        uv.y = 2 * random_.uniform() - 0.5f;
+        uv.x = 2 * random_.uniform() - 0.5_r;
+        uv.y = 2 * random_.uniform() - 0.5_r;
         if (uv.x < 0 || uv.x >= 1 || uv.y < 0 || uv.y >= 1) return true;
       }
       return false;
@@ -132,24 +133,22 @@ class EyeScores {
     if (texels.empty()) return false;
     const uint64_t r = random_.bits();
     const uint32_t texel = texels[(r * texels.size()) >> 32];
-    const float x =
-        static_cast<float>(texel % static_cast<uint32_t>(face.width)) + random_.uniform();
-    const float y =
-        static_cast<float>(texel / static_cast<uint32_t>(face.width)) + random_.uniform();
-    uv = {x / static_cast<float>(face.width), 1 - y / static_cast<float>(face.height)};
+    const Real x = static_cast<Real>(texel % static_cast<uint32_t>(face.width)) + random_.uniform();
+    const Real y = static_cast<Real>(texel / static_cast<uint32_t>(face.width)) + random_.uniform();
+    uv = {x / static_cast<Real>(face.width), 1 - y / static_cast<Real>(face.height)};
     return true;
   }
 
   void look_at_sign(const EyeTarget& target, uint32_t part) {
-    glm::vec2 uv;
+    Vec2 uv;
     if (!aim(target, part, uv)) return;
     ++paths_;
     const CompiledSign& sign = scene_.signs[target.sign];
     const Sign& d = scene_.description->signs[sign.sign];
-    const glm::vec3 eye(scene_.description->observers[target.observer].eye - scene_.local_origin);
-    const glm::vec3 aimed = sign.origin +
-                            sign.axes[0] * ((uv.x - 0.5f) * static_cast<float>(d.width_m)) +
-                            sign.axes[1] * ((uv.y - 0.5f) * static_cast<float>(d.height_m));
+    const Vec3 eye(scene_.description->observers[target.observer].eye - scene_.local_origin);
+    const Vec3 aimed = sign.origin +
+                       sign.axes[0] * ((uv.x - 0.5_r) * static_cast<Real>(d.width_m)) +
+                       sign.axes[1] * ((uv.y - 0.5_r) * static_cast<Real>(d.height_m));
     const Connection c = connect(scene_, eye, aimed, sign.axes[2], true);
     const PathBand chosen = choose_band();
     if (part == 2) return look_along(c, chosen);
@@ -180,7 +179,7 @@ class EyeScores {
     int group = 0;
     double at_face = 0, at_eye = 0, through = 0, through_scene = 0;
   };
-  OwnLight own_light(const CompiledSign& sign, const glm::vec2& uv, const Connection& c,
+  OwnLight own_light(const CompiledSign& sign, const Vec2& uv, const Connection& c,
                      int chosen_band) {
     OwnLight own;
     for (int b = 0; b < scene_.bands.count(); ++b) {
@@ -197,19 +196,19 @@ class EyeScores {
   }
 
   /// Room light that the face sends back to the eye, into light_.
-  void reflect_room_light(const CompiledSign& sign, uint32_t part, const glm::vec3& place,
-                          const glm::vec3& direction, const PathBand& chosen) {
+  void reflect_room_light(const CompiledSign& sign, uint32_t part, const Vec3& place,
+                          const Vec3& direction, const PathBand& chosen) {
     light_.clear();
     const auto& rho = part == 0 ? sign.white_reflectance : sign.green_reflectance;
     const SurfaceModel model =
         make_surface(SurfaceKind::lambertian,
                      static_cast<double>(rho[static_cast<size_t>(chosen.band)]), 0, 1, 1, 1);
-    const glm::vec3 normal = sign.axes[2];
-    const glm::vec3 start = offset_ray(place, normal, scene_.least_offset_m);
+    const Vec3 normal = sign.axes[2];
+    const Vec3 start = offset_ray(place, normal, scene_.least_offset_m);
     const SourceLight asked = eye_.reflected_light(start, direction, normal, model, chosen.band);
     light_.add(asked.group, chosen.lm_per_w * asked.radiance);
-    const float u = random_.uniform();
-    const float v = random_.uniform();
+    const Real u = random_.uniform();
+    const Real v = random_.uniform();
     const Ray onward{start, to_world(normal, cosine_hemisphere(u, v))};
     eye_.radiance(onward, chosen.band, Met::near,
                   chosen.lm_per_w * static_cast<double>(model.reflectance), light_);
@@ -228,17 +227,17 @@ class EyeScores {
     if (!(depth > 0)) return;
     const double collided = -std::expm1(-depth);
     const double tau = -std::log1p(-random_.uniform_double() * collided);
-    const float choice = random_.uniform();
+    const Real choice = random_.uniform();
     const Flight flight = free_flight<MediaNeed::general>(
         scene_.media, band, c.ray.origin, c.ray.direction, c.distance, tau, choice, resolver_);
     if (!flight.collided || flight.albedo <= 0) return;
     const PhaseFunction& phase = scene_.phases[static_cast<size_t>(flight.phase)];
-    const glm::vec3 place = c.ray.origin + c.ray.direction * flight.t;
+    const Vec3 place = c.ray.origin + c.ray.direction * flight.t;
     const double weight = chosen.lm_per_w * collided * flight.albedo;
     const SourceLight asked = eye_.scattered_light(place, c.ray.direction, phase, band);
     light_.add(asked.group, weight * asked.radiance);
-    const float u = random_.uniform();
-    const float v = random_.uniform();
+    const Real u = random_.uniform();
+    const Real v = random_.uniform();
     eye_.radiance({place, sample(phase, c.ray.direction, u, v)}, band, Met::near, weight, light_);
   }
 
@@ -247,18 +246,18 @@ class EyeScores {
 
   void look_around_probe(uint32_t p) {
     const ProbeMeasure& probe = scene_.description->probes[p];
-    const glm::vec3 normal(probe.normal);
-    const glm::vec3 start =
-        offset_ray(glm::vec3(probe.position - scene_.local_origin), normal, scene_.least_offset_m);
+    const Vec3 normal(probe.normal);
+    const Vec3 start =
+        offset_ray(Vec3(probe.position - scene_.local_origin), normal, scene_.least_offset_m);
     ++paths_;
     const PathBand chosen = choose_band();
     const double pi = static_cast<double>(pi_f);
-    const float u = random_.uniform();
-    const float v = random_.uniform();
+    const Real u = random_.uniform();
+    const Real v = random_.uniform();
     eye_.radiance({start, to_world(normal, cosine_hemisphere(u, v))}, chosen.band, Met::none,
                   pi * chosen.lm_per_w, illuminance_);
-    const float s = random_.uniform();
-    const float t = random_.uniform();
+    const Real s = random_.uniform();
+    const Real t = random_.uniform();
     eye_.radiance({start, uniform_sphere(s, t)}, chosen.band, Met::none, 4 * pi * chosen.lm_per_w,
                   fluence_);
   }

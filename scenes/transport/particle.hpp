@@ -11,6 +11,7 @@
 #include <type_traits>
 
 #include "scenes/geometry/patches.hpp"
+#include "scenes/geometry/real.hpp"
 #include "scenes/optics/offset_ray.hpp"
 #include "scenes/tally/batch_scores.hpp"
 #include "scenes/transport/detectors.hpp"
@@ -78,12 +79,12 @@ class ParticleTracer {
   /// Chance for a new direction, and what becomes of it on a Lambertian surface: a direction about
   /// its normal.
   struct Turn {
-    float u, v;
-    glm::vec3 lambertian;
+    Real u, v;
+    Vec3 lambertian;
   };
   Turn draw_turn() {
-    const float u = random_.uniform();
-    const float v = random_.uniform();
+    const Real u = random_.uniform();
+    const Real v = random_.uniform();
     Turn turn{u, v, cosine_hemisphere(u, v)};
     if constexpr (flawed) Flaws::lambertian(turn.lambertian);
     return turn;
@@ -103,7 +104,7 @@ class ParticleTracer {
       const Turn turn = draw_turn();
       Flight flight;
       if constexpr (flight_first) {
-        flight = fly(p, std::numeric_limits<float>::infinity());
+        flight = fly(p, std::numeric_limits<Real>::infinity());
         p.ray.length = flight.t;
       }
       const Hit hit = resolver_.nearest(p.ray);
@@ -125,7 +126,7 @@ class ParticleTracer {
     p.ray.origin = point.position;
     if constexpr (flawed) Flaws::birth(p.ray, point, emitter);
     if (emitter.body != none_index) {
-      const glm::vec3 side = glm::dot(point.axis, p.ray.direction) >= 0 ? point.axis : -point.axis;
+      const Vec3 side = glm::dot(point.axis, p.ray.direction) >= 0 ? point.axis : -point.axis;
       p.ray.origin = offset_ray(point.position, side, scene_.least_offset_m);
     }
     // Collimated light has no density of directions, so the deterministic part cannot hold it.
@@ -162,12 +163,12 @@ class ParticleTracer {
   static constexpr bool flight_first =
       K::media == MediaNeed::homogeneous || K::media == MediaNeed::layered;
 
-  Flight fly(const State& p, float length) {
+  Flight fly(const State& p, Real length) {
     // -log(1 - u), u in [0, 1) with 32 bits, exact in double.
     const uint32_t r = random_.bits();
     double tau = -std::log((4294967296.0 - static_cast<double>(r)) * 0x1p-32);
     if constexpr (flawed) Flaws::depth(tau);
-    const float choice = random_.uniform();
+    const Real choice = random_.uniform();
     Flight flight = free_flight<K::media>(scene_.media, p.band, p.ray.origin, p.ray.direction,
                                           length, tau, choice, resolver_);
     if constexpr (flawed) Flaws::flight(flight, p.ray, length, scene_);
@@ -188,7 +189,7 @@ class ParticleTracer {
   }
 
   /// The turn that follows a flight is independent of it, and so may say where its points lie.
-  void pass_detectors(const State& p, float length, const Turn& turn) {
+  void pass_detectors(const State& p, Real length, const Turn& turn) {
     if constexpr (K::detectors) {
       if constexpr (flawed) Flaws::passed(length);
       score_flight(
@@ -203,7 +204,7 @@ class ParticleTracer {
 
   bool collide(State& p, const Flight& flight, const Turn& turn) {
     ++batch_->ledger.collisions;
-    const glm::vec3 place = p.ray.origin + p.ray.direction * flight.t;
+    const Vec3 place = p.ray.origin + p.ray.direction * flight.t;
     const Weight before = p.weight;
     Fraction albedo = to_fraction(flight.albedo);
     if constexpr (flawed) Flaws::albedo(albedo);
@@ -214,7 +215,7 @@ class ParticleTracer {
     p.weight = after;
     if (!goes_on(p)) return false;
     p.ray.origin = place;
-    const glm::vec3 incoming = p.ray.direction;
+    const Vec3 incoming = p.ray.direction;
     p.ray.direction =
         sample(scene_.phases[static_cast<size_t>(flight.phase)], incoming, turn.u, turn.v);
     if constexpr (flawed) Flaws::scattered(p.ray.direction, incoming);
@@ -229,7 +230,7 @@ class ParticleTracer {
   bool meet_surface(State& p, const Hit& hit, const Turn& turn) {
     ++batch_->ledger.hits;
     const TriangleRecord& triangle = *hit.triangle;
-    const bool front = glm::dot(triangle.normal, p.ray.direction) < 0;
+    const bool front = glm::dot(triangle.unit_normal(), p.ray.direction) < 0;
     if constexpr (K::all_surfaces) {
       const uint32_t side = front ? 0 : 1;
       const CompiledSurface& surface = scene_.surfaces[triangle.surface];
@@ -254,7 +255,7 @@ class ParticleTracer {
     batch_->ledger.absorbed_surfaces += before - after;
     p.weight = after;
     if (!goes_on(p)) return false;
-    const glm::vec3 normal = front ? triangle.normal : -triangle.normal;
+    const Vec3 normal = front ? triangle.unit_normal() : -triangle.unit_normal();
     p.ray.direction = to_world(normal, turn.lambertian);
     p.ray.origin = offset_ray(triangle.at(hit.u, hit.v), normal, scene_.least_offset_m);
     if constexpr (flawed) Flaws::departure(p.ray.origin, triangle.at(hit.u, hit.v));
@@ -267,11 +268,11 @@ class ParticleTracer {
   bool meet_any_surface(State& p, const Hit& hit, bool front, const CompiledMaterial& material,
                         const Turn& turn) {
     const TriangleRecord& triangle = *hit.triangle;
-    const glm::vec3 normal = front ? triangle.normal : -triangle.normal;
+    const Vec3 normal = front ? triangle.unit_normal() : -triangle.unit_normal();
     SurfaceModel model = surface_at(scene_, hit, front, p.band, material, resolver_);
     if constexpr (flawed) Flaws::surface(model);
-    const glm::vec3 place = triangle.at(hit.u, hit.v);
-    const float lobe = random_.uniform();
+    const Vec3 place = triangle.at(hit.u, hit.v);
+    const Real lobe = random_.uniform();
     const SurfaceSample sampled =
         sample_surface(model, p.ray.direction, normal, front, lobe, turn.u, turn.v);
     const Weight before = p.weight;
@@ -342,23 +343,23 @@ class ParticleTracer {
   }
 
   struct EscapePoint {
-    float distance;
+    Real distance;
     uint32_t side;
   };
 
   /// Where a ray that hits nothing leaves the bounding box; a ray outside leaves at the face it
   /// flees.
   EscapePoint leave_box(const Ray& ray) const {
-    const glm::vec3 low = scene_.local_low;
-    const glm::vec3 high = scene_.local_high;
-    EscapePoint exit{std::numeric_limits<float>::infinity(), 0};
+    const Vec3 low = scene_.local_low;
+    const Vec3 high = scene_.local_high;
+    EscapePoint exit{std::numeric_limits<Real>::infinity(), 0};
     for (int a = 0; a < 3; ++a) {
-      const float d = ray.direction[a];
+      const Real d = ray.direction[a];
       if (d == 0) continue;
-      const float t = ((d > 0 ? high[a] : low[a]) - ray.origin[a]) / d;
+      const Real t = ((d > 0 ? high[a] : low[a]) - ray.origin[a]) / d;
       if (t < exit.distance) exit = {t, static_cast<uint32_t>(2 * a + (d > 0 ? 1 : 0))};
     }
-    exit.distance = std::max(exit.distance, 0.0f);
+    exit.distance = std::max(exit.distance, 0.0_r);
     return exit;
   }
 

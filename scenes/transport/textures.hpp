@@ -1,21 +1,22 @@
 // The surface model at a hit where it varies over the surface: reflectance pictures and sign faces.
 #pragma once
 
+#include "scenes/geometry/real.hpp"
 #include "scenes/intersect/embree_scene.hpp"
 #include "scenes/transport/compiled_scene.hpp"
 
 namespace luxodus {
 
 /// Texture coordinates at a hit; (0, 0) is the picture's lower left corner, and pictures repeat.
-glm::vec2 texture_uv(const GeometryCell& cell, const Hit& hit);
+Vec2 texture_uv(const GeometryCell& cell, const Hit& hit);
 
 /// The picture's texel nearest to (u, v): column and row. Only its size is looked at.
-glm::ivec2 texel_of(const Image& image, const glm::vec2& uv);
+glm::ivec2 texel_of(const Image& image, const Vec2& uv);
 /// Reflectance factor in a band of a texel of so many channels, in [0, 1].
-float texel_factor(const CompiledScene& scene, const float* texel, int channels, int band);
+Real texel_factor(const CompiledScene& scene, const float* texel, int channels, int band);
 
 /// Texel of a sign's face at (u, v); (0, 0) is the reader's lower left corner.
-size_t texel_at(const SignFace& face, const glm::vec2& uv);
+size_t texel_at(const SignFace& face, const Vec2& uv);
 
 /// The model that holds at this hit: the material's, with its diffuse part taken from picture or
 /// sign face.

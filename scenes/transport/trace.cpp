@@ -56,8 +56,7 @@ std::unique_ptr<BatchTracer> make_batch_tracer(const CompiledScene& scene,
 }
 
 DirectLight direct_light_at(const CompiledScene& scene, const GeometryAccess& access,
-                            const glm::vec3& point, const glm::vec3& normal,
-                            const DirectOptions& options) {
+                            const Vec3& point, const Vec3& normal, const DirectOptions& options) {
   return with_resolver(scene, access, [&](auto resolver) {
     return direct_light(scene, point, normal, options, resolver);
   });
@@ -80,7 +79,7 @@ class ResolverPictureTracer final : public PictureTracer {
     set_.choose(set, count);
     eye_.random().start(set + path, set_, path);
   }
-  float uniform() override { return eye_.random().uniform(); }
+  Real uniform() override { return eye_.random().uniform(); }
   int choose_band(double u) const override { return eye_.choose_band(u); }
   double band_probability(int band) const override { return eye_.band_probability(band); }
   double radiance(const Ray& ray, int band, const PatchRadiance* gather) override {

@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "scenes/geometry/real.hpp"
 #include "scenes/transport/direct.hpp"
 #include "scenes/transport/look.hpp"
 #include "scenes/transport/resolver.hpp"
@@ -28,8 +29,7 @@ std::unique_ptr<BatchTracer> make_batch_tracer(const CompiledScene& scene,
 
 /// Direct light through whichever resolver the access needs; one thread or fiber at a time.
 DirectLight direct_light_at(const CompiledScene& scene, const GeometryAccess& access,
-                            const glm::vec3& point, const glm::vec3& normal,
-                            const DirectOptions& options);
+                            const Vec3& point, const Vec3& normal, const DirectOptions& options);
 
 /// Radiance along one ray of a picture [W/(m2 sr)]; see EyeTracer::radiance.
 class PictureTracer {
@@ -37,7 +37,7 @@ class PictureTracer {
   virtual ~PictureTracer() = default;
   /// Begins path number `path` of `count` in a set, whose first draws are low-discrepancy points.
   virtual void start(uint64_t set, uint32_t count, uint32_t path) = 0;
-  virtual float uniform() = 0;
+  virtual Real uniform() = 0;
   virtual int choose_band(double u) const = 0;
   virtual double band_probability(int band) const = 0;
   virtual double radiance(const Ray& ray, int band, const PatchRadiance* gather) = 0;

@@ -3,6 +3,7 @@
 #include <array>
 #include <catch2/catch.hpp>
 
+#include "runtime/core/random.hpp"
 #include "tests/unit/scenes/optics/sampler_checks.hpp"
 
 using namespace luxodus;
@@ -154,5 +155,27 @@ TEST_CASE("a coordinate a few steps from zero crosses it instead of wrapping rou
       CHECK((moved - x) * n > 0.0F);
       CHECK(std::fabs(moved) < 1e-4F);
     }
+  }
+}
+
+TEST_CASE("an offset in double is as wide as in float, whatever the position's further digits",
+          "[optics][offset]") {
+  Random random(5, RandomStream::test);
+  for (uint64_t i = 0; i < 20'000; ++i) {
+    random.start(i);
+    const double size = std::exp2(20 * random.uniform_double() - 10);
+    const double position = size * (2 * random.uniform_double() - 1);
+    const double normal = 2 * random.uniform_double() - 1;
+    const double least = size * 0x1p-21;
+    const auto single = static_cast<float>(position);
+    const double moved_single =
+        static_cast<double>(
+            offset_coordinate(single, static_cast<float>(normal), static_cast<float>(least))) -
+        static_cast<double>(single);
+    const double moved = offset_coordinate(position, normal, least) - position;
+    // Float's own result is rounded to an ulp of the position.
+    const double ulp = std::max(std::fabs(position), least) * 0x1p-22;
+    CHECK(std::fabs(moved - moved_single) <= ulp);
+    CHECK(moved * normal >= 0);
   }
 }

@@ -330,3 +330,25 @@ TEST_CASE("a direction turned a million times stays unit", "[optics][sampling]")
   CAPTURE(worst);
   CHECK(worst < 3e-7);
 }
+
+TEST_CASE("elementary functions in double are those of float but for float's stated errors",
+          "[optics][sampling]") {
+  double worst = 0;
+  for (int i = 0; i < (1 << 16); ++i) {
+    const float x = (static_cast<float>(i) + 0.5F) * 0x1p-16F;
+    const double exact = static_cast<double>(x);
+    const auto single = sin_cos_two_pi(x);
+    const auto twice = sin_cos_two_pi(exact);
+    worst =
+        std::max({worst, std::fabs(static_cast<double>(single.sin) - twice.sin),
+                  std::fabs(static_cast<double>(single.cos) - twice.cos),
+                  std::fabs(static_cast<double>(log2_of(x)) / log2_of(exact) - 1),
+                  std::fabs(static_cast<double>(exp2_of(-x)) / exp2_of(-exact) - 1),
+                  std::fabs(static_cast<double>(exp2_minus_one(-x)) / exp2_minus_one(-exact) - 1)});
+  }
+  CHECK(worst < 5e-7);
+  CHECK(log2_of(0.0) == -1000.0);
+  CHECK(exp2_of(-127.0) == 0.0);
+  CHECK(exp2_minus_one(-127.0) == -1.0);
+  CHECK(choose(true, 1.0, 2.0) == 1.0);
+}
