@@ -14,6 +14,7 @@
 #include "scenes/transport/emission.hpp"
 #include "scenes/transport/flame_points.hpp"
 #include "scenes/transport/judged.hpp"
+#include "scenes/transport/media_bounds.hpp"
 #include "scenes/transport/packed_scene.hpp"
 
 namespace luxodus {
@@ -87,16 +88,21 @@ Bands choose_bands(const SceneDescription& scene, const Scenario& scenario,
   return Bands(edges, total);
 }
 
+/// How much of a medium a scenario leaves.
+double factor_in(const Scenario& scenario, const Medium& medium) {
+  const double named = factor_of(scenario.media, medium.name, -1);
+  if (named >= 0) return named;
+  // A flame is no smoke: the general factor leaves it alone.
+  return medium.emission ? 1.0 : scenario.smoke_factor;
+}
+
 Result<bool> compile_media(CompiledScene& scene) {
   const SceneDescription& d = *scene.description;
   std::vector<MediumInput> inputs;
   for (size_t i = 0; i < d.media.size(); ++i) {
     const Medium& m = d.media[i];
     const bool stored = d.packed != nullptr && m.kind == MediumKind::data_set;
-    const double named = factor_of(scene.scenario.media, m.name, -1);
-    // A flame is no smoke: the general factor leaves it alone.
-    const double general = m.emission ? 1.0 : scene.scenario.smoke_factor;
-    inputs.push_back({&m, named >= 0 ? named : general, stored ? &d.packed->tables[i] : nullptr});
+    inputs.push_back({&m, factor_in(scene.scenario, m), stored ? &d.packed->tables[i] : nullptr});
     scene.media_names.push_back(m.name);
   }
   auto media = MediaSet::compile(
@@ -181,12 +187,25 @@ void compile_detectors(CompiledScene& scene) {
   }
 }
 
+/// Those that this scenario leaves some of.
+std::vector<const Medium*> active_media(const CompiledScene& scene) {
+  std::vector<const Medium*> out;
+  for (const Medium& m : scene.description->media) {
+    if (factor_in(scene.scenario, m) > 0) out.push_back(&m);
+  }
+  return out;
+}
+
+/// Only where a medium is: elsewhere nobody asks for the light in the air.
 void choose_voxels(CompiledScene& scene) {
   const RunSettings& run = scene.description->run;
   if (!run.voxels || scene.features.media == MediaNeed::none) return;
-  const glm::dvec3 size = scene.bounds.high - scene.bounds.low;
+  const Bounds box = media_bounds(active_media(scene), scene.bounds);
+  if (box.empty()) return;
   double edge = run.voxel_edge_m;
   if (edge <= 0) {
+    // By the whole scene: a small cloud needs no finer light than a large one.
+    const glm::dvec3 size = scene.bounds.high - scene.bounds.low;
     const double volume = std::max(size.x, 1e-6) * std::max(size.y, 1e-6) * std::max(size.z, 1e-6);
     edge = std::cbrt(volume / static_cast<double>(limits::default_voxels));
   }
@@ -196,7 +215,8 @@ void choose_voxels(CompiledScene& scene) {
     return static_cast<int>(std::clamp(count, 1.0, static_cast<double>(limits::voxels) + 1));
   };
   scene.voxels.edge = static_cast<float>(edge);
-  scene.voxels.low = scene.local_low;
+  const glm::dvec3 size = box.high - box.low;
+  scene.voxels.low = glm::vec3(box.low - scene.local_origin);
   scene.voxels.nx = cells(size.x);
   scene.voxels.ny = cells(size.y);
   scene.voxels.nz = cells(size.z);

@@ -9,7 +9,9 @@
 #include "actors/display/pictures.hpp"
 #include "scenes/format/scene_file.hpp"
 #include "scenes/transport/compile.hpp"
+#include "scenes/transport/detectors.hpp"
 #include "scenes/transport/look.hpp"
+#include "tests/bench/bench_scenes.hpp"
 #include "tests/bench/measure.hpp"
 #include "tests/bench/tables.hpp"
 
@@ -22,6 +24,13 @@ constexpr int long_paths = 2048;
 /// Pixels darker than this share of the mean are judged as if they were that bright.
 constexpr double dark = 0.05;
 
+std::shared_ptr<const CompiledScene> compiled(SceneDescription d, const char* scenario) {
+  const Scenario found = find_scenario(d, scenario).value();
+  auto scene = compile_scene(std::make_shared<const SceneDescription>(std::move(d)), found, {});
+  if (!scene.ok()) throw std::runtime_error(scene.problem().text());
+  return scene.value();
+}
+
 std::shared_ptr<const CompiledScene> office(const char* scenario, bool stratified,
                                             double patch_edge) {
   auto read = read_scene(LUX_SOURCE_DIR "/scenes/library/office_floor.toml");
@@ -32,10 +41,7 @@ std::shared_ptr<const CompiledScene> office(const char* scenario, bool stratifie
   d.cameras[0].width = width;
   d.cameras[0].height = height;
   for (Object& o : d.objects) o.patch_edge_m = patch_edge > 0 ? patch_edge : o.patch_edge_m;
-  const Scenario found = find_scenario(d, scenario).value();
-  auto scene = compile_scene(std::make_shared<const SceneDescription>(std::move(d)), found, {});
-  if (!scene.ok()) throw std::runtime_error(scene.problem().text());
-  return scene.value();
+  return compiled(std::move(d), scenario);
 }
 
 std::unique_ptr<LocalRun> traced(std::shared_ptr<const CompiledScene> scene, uint64_t seed,
@@ -130,6 +136,64 @@ void print_halving(const char* scenario) {
   }
 }
 
+// ---- the veil before a sign, by voxels ----------------------------------------------------------
+
+constexpr double sigma = 0.1, albedo = 0.8;  // of bench_scenes' smoke, isotropic
+constexpr glm::dvec3 eye{2, 7.5, 1.65}, sign_at{18, 7.5, 2.3};
+
+SceneDescription room_with_sign(double voxel_edge) {
+  SceneDescription d = furnished(Air::homogeneous, {false, true});
+  d.run.voxel_edge_m = voxel_edge;
+  d.run.eye_share = 4;
+  Sign sign;
+  sign.name = "sign";
+  sign.frame.origin = sign_at;
+  sign.frame.axes = glm::dmat3(glm::dvec3(0, -1, 0), glm::dvec3(0, 0, 1), glm::dvec3(-1, 0, 0));
+  sign.width_m = sign.height_m = sign.smallest_detail_m = 0.1;
+  sign.face = {1, 1, {SignColour::white}, {}, SignColour::white};
+  sign.mains = {10, 0};
+  d.signs.push_back(sign);
+  Observer observer;
+  observer.name = "eye";
+  observer.eye = eye;
+  d.observers.push_back(observer);
+  return d;
+}
+
+/// Luminance that the smoke between eye and sign sends to the eye, if its fluence is that of the
+/// voxels [cd/m2].
+double veil_by_voxels(const LocalRun& run) {
+  constexpr int steps = 4000;
+  const CompiledScene& scene = run.scene();
+  const Readout readout(scene, run.totals());
+  const auto edge = static_cast<double>(scene.voxels.edge);
+  const double step = glm::length(sign_at - eye) / steps;
+  double luminance = 0;
+  for (int i = 0; i < steps; ++i) {
+    const double along = (i + 0.5) * step;
+    const glm::dvec3 at = eye + (sign_at - eye) * (along / (steps * step));
+    const uint32_t voxel = voxel_of(scene.voxels, Vec3(at - scene.local_origin));
+    const double fluence =
+        readout.lumens(scene.blocks.voxels, voxel, 0).value / (edge * edge * edge);
+    luminance += sigma * albedo * fluence / (4 * M_PI) * std::exp(-sigma * along) * step;
+  }
+  return luminance;
+}
+
+void print_veil() {
+  for (const double edge : {3.0, 1.5, 0.75, 0.375}) {
+    const auto run = traced(compiled(room_with_sign(edge), ""), 1, 1 << 22);
+    const auto path = static_cast<uint32_t>(EyeQuantity::path);
+    const Estimate traced_veil =
+        Readout(run->scene(), run->totals())
+            .value(run->scene().blocks.views, run->scene().eye_targets[0].first_bin, path);
+    const double by_voxels = veil_by_voxels(*run);
+    fmt::print("{:>8.3f} {:>9} {:>10.4f} {:>10.4f} +- {:.4f} {:>9.2f} %\n", edge,
+               run->scene().voxels.count(), by_voxels, traced_veil.value,
+               traced_veil.standard_error, 100 * (by_voxels / traced_veil.value - 1));
+  }
+}
+
 }  // namespace
 
 void print_images() {
@@ -144,6 +208,11 @@ void print_images() {
       "{:<16} {:>8} {:>9} {:>13} {:>13}\n",
       "scenario", "edge [m]", "patches", "rms error", "mean is off");
   for (const char* scenario : {"clear_emergency", "smoke_emergency"}) print_halving(scenario);
+  fmt::print(
+      "\nVeil before a sign in the room's homogeneous smoke, by voxels and traced from the eye\n"
+      "{:>8} {:>9} {:>10} {:>10}    error {:>11}\n",
+      "edge [m]", "voxels", "voxels", "eye", "off");
+  print_veil();
 }
 
 }  // namespace luxodus::bench

@@ -1,0 +1,104 @@
+// What a scene does not need is not in its loop and not in its tallies, and `luxodus check` says
+// so.
+#include <catch2/catch.hpp>
+#include <functional>
+
+#include "scenes/transport/compile.hpp"
+#include "scenes/transport/scene_features.hpp"
+#include "scenes/transport/trace.hpp"
+#include "tests/optics/light_kit.hpp"
+
+using namespace luxodus;
+using namespace luxodus::light;
+
+namespace {
+
+SceneDescription plain_room() {
+  SceneDescription scene;
+  for (const Face& f : faces_of_box({0, 0, 0}, {4, 3, 2.5}))
+    add_quad(scene, f.name, f.corner, f.u, f.v, add_grey(scene, 0.5));
+  add_rectangle(scene, {2, 1.5, 2.4}, {0, 0, -1}, 0.5, 0.5, 1);
+  return scene;
+}
+
+std::shared_ptr<const CompiledScene> compiled(SceneDescription scene, const Scenario& scenario) {
+  auto made =
+      compile_scene(std::make_shared<const SceneDescription>(std::move(scene)), scenario, {});
+  REQUIRE(made.ok());
+  return made.value();
+}
+
+std::vector<std::string> names_of_those_on(const CompiledScene& scene) {
+  std::vector<std::string> names;
+  for (const SceneFeature& f : features_of(scene)) {
+    INFO(f.name);
+    CHECK_FALSE(f.why.empty());
+    if (f.on) names.push_back(f.name);
+  }
+  return names;
+}
+
+/// What is there but unused: a name, what adds it, and the scenario that leaves it so.
+struct Unused {
+  const char* what;
+  std::function<void(SceneDescription&)> add;
+};
+
+const std::vector<Unused>& unused_things() {
+  static const std::vector<Unused> all = {
+      {"smoke that the scenario takes away",
+       [](SceneDescription& d) { add_homogeneous(d, smoke(0.5, 0.8)); }},
+      {"a ball of it",
+       [](SceneDescription& d) {
+         add_ball(d, {2, 1, 1}, 0.5, smoke(0.5, 0.8));
+       }},
+      {"a glossy material on nothing",
+       [](SceneDescription& d) { d.materials.emplace_back().kind = MaterialKind::glossy; }},
+      {"many bands, all grey", [](SceneDescription& d) { d.run.bands_most = 8; }},
+      {"groups by emitter, of one",
+       [](SceneDescription& d) { d.run.groups = GroupRule::by_emitter; }},
+      {"a lamp that is dark",
+       [](SceneDescription& d) {
+         add_rectangle(d, {1, 1, 2.4}, {0, 0, -1}, 0.5, 0.5, 0).emergency_flux = 1;
+       }},
+  };
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("what is in a scene and not used is neither in the loop nor in the tallies") {
+  Scenario without_smoke;
+  without_smoke.name = "no smoke";
+  without_smoke.smoke_factor = 0;
+  const auto plain = compiled(plain_room(), without_smoke);
+  const auto on = names_of_those_on(*plain);
+  CHECK(on == std::vector<std::string>{"low-discrepancy points"});
+  for (const Unused& unused : unused_things()) {
+    INFO(unused.what);
+    SceneDescription scene = plain_room();
+    unused.add(scene);
+    const auto with = compiled(std::move(scene), without_smoke);
+    CHECK(describe_kernel(*with) == describe_kernel(*plain));
+    CHECK(with->layout.scores() == plain->layout.scores());
+    CHECK(with->layout.totals() == plain->layout.totals());
+    CHECK(names_of_those_on(*with) == on);
+  }
+}
+
+TEST_CASE("what a scene uses is on, with what asks for it") {
+  SceneDescription scene = plain_room();
+  add_homogeneous(scene, smoke(0.5, 0.8));
+  scene.materials[0].kind = MaterialKind::glossy;
+  scene.materials[0].name = "varnish";
+  add_layer_group(scene, 0, 1);
+  const auto with = compiled(std::move(scene), Scenario{});
+  CHECK(names_of_those_on(*with) ==
+        std::vector<std::string>{"media", "surfaces other than Lambertian", "voxels",
+                                 "scores along flights", "low-discrepancy points"});
+  for (const SceneFeature& f : features_of(*with)) {
+    if (f.name == "surfaces other than Lambertian") CHECK(f.why == "varnish");
+    if (f.name == "scores along flights") CHECK(f.why == "1 volume group, voxels");
+    if (f.name == "media") CHECK(f.why == "homogeneous: one extinction everywhere");
+  }
+}
