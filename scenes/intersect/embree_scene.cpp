@@ -164,8 +164,11 @@ Hit nearest_of_all(const GeometryCell& cell, const Ray& ray) {
 
 /// Distance and barycentrics anew, from the ray and the corners.
 void recompute(Hit& hit, const Ray& ray) {
-  const PlaneMeeting<Real> m = meet_plane(plain(ray), *hit.triangle);
-  if (!(m.distance >= 0 && m.distance < std::numeric_limits<Real>::infinity())) return;  // edge-on
+  const PlainRay<Real> line = plain(ray);
+  const PlaneMeeting<Real> m = meet_plane(line, *hit.triangle, edge_volumes(line, *hit.triangle));
+  const bool edge_on =
+      !(m.distance >= 0 && m.distance < std::numeric_limits<Real>::infinity()) || std::isnan(m.u);
+  if (edge_on) return;
   hit.distance = m.distance;
   hit.u = m.u;
   hit.v = m.v;

@@ -1,8 +1,8 @@
 // Rays and triangles by arithmetic of any number type, without Embree: what a build that computes
 // in double answers rays with, every triangle in turn. Edges are told by volumes that two
 // neighbours compute from the same numbers with opposite signs to the last bit (Plücker products,
-// as in Embree's ROBUST mode), so
-// that no ray passes between triangles that share corners. Both sides count. Any thread, no state.
+// as in Embree's ROBUST mode), so that no ray passes between triangles that share an edge. Both
+// sides count. Any thread, no state.
 #pragma once
 
 #include <cstdint>
@@ -26,28 +26,46 @@ struct PlainRay {
   T length = std::numeric_limits<T>::infinity();
 };
 
-/// Where a line meets a triangle's plane.
+/// Volumes spanned by the ray's direction and each edge, seen from its origin: signs tell on which
+/// side of an edge the line passes, sizes are the barycentrics of the opposite corners.
 template <class T>
-struct PlaneMeeting {
-  T distance = std::numeric_limits<T>::quiet_NaN();  // NaN or infinite: parallel
-  T u = 0, v = 0;                                    // barycentrics of corners 1 and 2
-  bool inside = false;                               // of the triangle, edges included
+struct EdgeVolumes {
+  T of_corner[3];
+
+  T sum() const { return of_corner[0] + of_corner[1] + of_corner[2]; }
+  /// The line meets the triangle, edges included; one that runs within its plane does not.
+  bool inside() const {
+    if (sum() == 0) return false;
+    return (of_corner[0] >= 0 && of_corner[1] >= 0 && of_corner[2] >= 0) ||
+           (of_corner[0] <= 0 && of_corner[1] <= 0 && of_corner[2] <= 0);
+  }
 };
 
 template <class T>
-PlaneMeeting<T> meet_plane(const PlainRay<T>& ray, const TriangleRecord& triangle) {
+EdgeVolumes<T> edge_volumes(const PlainRay<T>& ray, const TriangleRecord& triangle) {
   using Vec = glm::vec<3, T>;
-  const Vec corner0(triangle.corner[0]), corner1(triangle.corner[1]), corner2(triangle.corner[2]);
-  const Vec a = corner0 - ray.origin, b = corner1 - ray.origin, c = corner2 - ray.origin;
-  const T of_a = glm::dot(ray.direction, glm::cross(c, b));
-  const T of_b = glm::dot(ray.direction, glm::cross(a, c));
-  const T of_c = glm::dot(ray.direction, glm::cross(b, a));
-  const T sum = of_a + of_b + of_c;
-  if (sum == 0) return {};
-  const Vec across = glm::cross(corner1 - corner0, corner2 - corner0);
-  const bool inside =
-      (of_a >= 0 && of_b >= 0 && of_c >= 0) || (of_a <= 0 && of_b <= 0 && of_c <= 0);
-  return {glm::dot(across, a) / glm::dot(across, ray.direction), of_b / sum, of_c / sum, inside};
+  const Vec a = Vec(triangle.corner[0]) - ray.origin;
+  const Vec b = Vec(triangle.corner[1]) - ray.origin;
+  const Vec c = Vec(triangle.corner[2]) - ray.origin;
+  return {{glm::dot(ray.direction, glm::cross(c, b)), glm::dot(ray.direction, glm::cross(a, c)),
+           glm::dot(ray.direction, glm::cross(b, a))}};
+}
+
+/// Where a line meets a triangle's plane; the distance is NaN or infinite where it is parallel.
+template <class T>
+struct PlaneMeeting {
+  T distance;
+  T u, v;  // barycentrics of corners 1 and 2
+};
+
+template <class T>
+PlaneMeeting<T> meet_plane(const PlainRay<T>& ray, const TriangleRecord& triangle,
+                           const EdgeVolumes<T>& volumes) {
+  using Vec = glm::vec<3, T>;
+  const Vec corner(triangle.corner[0]);
+  const Vec across = glm::cross(Vec(triangle.corner[1]) - corner, Vec(triangle.corner[2]) - corner);
+  return {glm::dot(across, corner - ray.origin) / glm::dot(across, ray.direction),
+          volumes.of_corner[1] / volumes.sum(), volumes.of_corner[2] / volumes.sum()};
 }
 
 /// A hit among triangles; `index` is no_triangle where there is none.
@@ -63,8 +81,10 @@ template <class T>
 PlainHit<T> plain_nearest(std::span<const TriangleRecord> triangles, const PlainRay<T>& ray) {
   PlainHit<T> best;
   for (uint32_t i = 0; i < triangles.size(); ++i) {
-    const PlaneMeeting<T> m = meet_plane(ray, triangles[i]);
-    if (!m.inside || !(m.distance > 0 && m.distance <= ray.length)) continue;
+    const EdgeVolumes<T> volumes = edge_volumes(ray, triangles[i]);
+    if (!volumes.inside()) continue;
+    const PlaneMeeting<T> m = meet_plane(ray, triangles[i], volumes);
+    if (!(m.distance > 0 && m.distance <= ray.length)) continue;
     const bool nearer = m.distance < best.distance;
     const bool tie = m.distance == best.distance && best.index != no_triangle &&
                      triangles[i].global_triangle < triangles[best.index].global_triangle;
@@ -77,8 +97,10 @@ PlainHit<T> plain_nearest(std::span<const TriangleRecord> triangles, const Plain
 template <class T>
 bool plain_occluded(std::span<const TriangleRecord> triangles, const PlainRay<T>& ray) {
   for (const TriangleRecord& triangle : triangles) {
-    const PlaneMeeting<T> m = meet_plane(ray, triangle);
-    if (m.inside && m.distance > 0 && m.distance < ray.length) return true;
+    const EdgeVolumes<T> volumes = edge_volumes(ray, triangle);
+    if (!volumes.inside()) continue;
+    const T distance = meet_plane(ray, triangle, volumes).distance;
+    if (distance > 0 && distance < ray.length) return true;
   }
   return false;
 }
