@@ -1,8 +1,8 @@
 // Rays and triangles by arithmetic of any number type, without Embree: what a build that computes
 // in double answers rays with, every triangle in turn. Edges are told by volumes that two
 // neighbours compute from the same numbers with opposite signs to the last bit (Plücker products,
-// as in Embree's ROBUST mode), so that no ray passes between triangles that share an edge. Both
-// sides count. Any thread, no state.
+// as in Embree's ROBUST mode), so that no ray passes between triangles that share an edge; one
+// aimed at a corner to the last bit may. Both sides count. Any thread, no state.
 #pragma once
 
 #include <cstdint>

@@ -106,7 +106,7 @@ TEST_CASE("of triangles at one distance the smaller number is the nearest, in wh
   CHECK(plain_nearest<double>(with(8, 3), up).index == 1);
 }
 
-TEMPLATE_TEST_CASE("a closed ball lets no ray out through edges and corners, in any precision",
+TEMPLATE_TEST_CASE("a closed ball lets no ray out through its shared edges, in any precision",
                    "[intersect][plain]", float, double) {
   const std::vector<TriangleRecord> triangles = ball(10);
   Random random(2, RandomStream::test);
@@ -115,11 +115,13 @@ TEMPLATE_TEST_CASE("a closed ball lets no ray out through edges and corners, in 
     random.start(i);
     const glm::dvec3 origin = any_point(random, 0.4);
     glm::dvec3 direction = any_direction(random);
-    if (i % 4 != 0) {  // aimed at an edge's middle, or at a corner to the last bit
+    if (i % 4 !=
+        0) {  // aimed at an edge, at its middle or anywhere but at its ends to the last bit
       const TriangleRecord& t = triangles[random.bits() % triangles.size()];
       const uint32_t k = random.bits() % 3;
-      const glm::dvec3 other(i % 4 == 1 ? t.corner[k] : t.corner[(k + 1) % 3]);
-      direction = glm::normalize(0.5 * (glm::dvec3(t.corner[k]) + other) - origin);
+      const double share = i % 4 == 1 ? 0.5 : 0.01 + 0.98 * random.uniform_double();
+      const glm::dvec3 other(t.corner[(k + 1) % 3]);
+      direction = glm::normalize(glm::mix(glm::dvec3(t.corner[k]), other, share) - origin);
     }
     const auto hit = plain_nearest<TestType>(triangles, ray<TestType>(origin, direction));
     escaped += hit.index == no_triangle ? 1 : 0;
