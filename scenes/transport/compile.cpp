@@ -209,17 +209,19 @@ void choose_voxels(CompiledScene& scene) {
     const double volume = std::max(size.x, 1e-6) * std::max(size.y, 1e-6) * std::max(size.z, 1e-6);
     edge = std::cbrt(volume / static_cast<double>(limits::default_voxels));
   }
+  // The cells of one lattice over the whole scene, so that other smoke has the same voxels.
+  const glm::dvec3 first = glm::floor((box.low - scene.bounds.low) / edge);
+  const glm::dvec3 end = glm::ceil((box.high - scene.bounds.low) / edge);
   // Beyond the limit a side's cells need not be told apart: the grid is refused anyway.
-  const auto cells = [&](double length) {
-    const double count = std::ceil(length / edge);
-    return static_cast<int>(std::clamp(count, 1.0, static_cast<double>(limits::voxels) + 1));
+  const auto cells = [&](int axis) {
+    const double most = static_cast<double>(limits::voxels) + 1;
+    return static_cast<int>(std::clamp(end[axis] - first[axis], 1.0, most));
   };
   scene.voxels.edge = static_cast<float>(edge);
-  const glm::dvec3 size = box.high - box.low;
-  scene.voxels.low = glm::vec3(box.low - scene.local_origin);
-  scene.voxels.nx = cells(size.x);
-  scene.voxels.ny = cells(size.y);
-  scene.voxels.nz = cells(size.z);
+  scene.voxels.low = glm::vec3(scene.bounds.low + first * edge - scene.local_origin);
+  scene.voxels.nx = cells(0);
+  scene.voxels.ny = cells(1);
+  scene.voxels.nz = cells(2);
 }
 
 void choose_eye_targets(CompiledScene& scene) {
