@@ -109,6 +109,10 @@ TEST_CASE("paths go to eyes where only eyes are judged, to particles where only 
   CHECK(judged_scene({"planes", "probes"})->eye_paths_per_batch == usual);
   CHECK(judged_scene({"probe in the corner"})->eye_paths_per_batch > 6 * usual);
   CHECK(judged_scene({"patches"})->eye_paths_per_batch < usual / 6);
+  // A scene that has nothing but eyes has the usual paths, unless somebody says that they judge.
+  SceneDescription eyes_alone = scene_from_toml(lit_room);
+  eyes_alone.planes.clear();
+  CHECK(compile(std::move(eyes_alone))->eye_paths_per_batch == usual);
 }
 
 TEST_CASE("an error of what a scene does not have is refused with what it has") {
