@@ -76,16 +76,17 @@ void SobolSet::choose(uint64_t number, uint32_t count) {
   Random random(seed_, RandomStream::scramble, static_cast<uint32_t>(stream_));
   random.start(number);
   for (uint32_t& word : shift_) word = random.bits();
-  for (uint32_t d = 0; d < dimensions; ++d) {
-    // A direction number has no digit after its own place, so the first columns are enough.
-    uint32_t matrix[bits];
-    for (uint32_t j = 0; j < columns; ++j) matrix[j] = lower_column(j, random.bits());
-    for (uint32_t i = 0; i < columns; ++i) {
-      uint32_t product = 0;
-      for (uint32_t j = 0; j <= i; ++j) {
-        if ((direction_numbers[i][d] >> (bits - 1 - j) & 1) != 0) product ^= matrix[j];
+  // A direction number has no digit after its own place, so the first columns are enough.
+  std::array<Point, bits> matrix;  // by column, all dimensions beside one another: vectors
+  for (uint32_t d = 0; d < dimensions; ++d)
+    for (uint32_t j = 0; j < columns; ++j) matrix[j][d] = lower_column(j, random.bits());
+  for (uint32_t i = 0; i < columns; ++i) {
+    scrambled_[i] = {};
+    for (uint32_t j = 0; j <= i; ++j) {
+      for (uint32_t d = 0; d < dimensions; ++d) {
+        const uint32_t digit = direction_numbers[i][d] >> (bits - 1 - j) & 1;
+        scrambled_[i][d] ^= matrix[j][d] & (0u - digit);
       }
-      scrambled_[i][d] = product;
     }
   }
 }

@@ -29,6 +29,16 @@ uint64_t morton(const Vec3& p, const CompiledScene& scene) {
   return code;
 }
 
+/// Of a particle, by numbers that many particles may share: those of one batch share a set.
+uint32_t emitter_of(const CompiledScene& scene, int group, uint64_t particle,
+                    HistoryRandom& random) {
+  const Group& g = scene.groups[static_cast<size_t>(group)];
+  random.start(particle);
+  const size_t band = scene.features.bands ? find(g.band_cdf, random.bits64()) : 0;
+  const std::vector<uint32_t>& choices = g.emitters[band];
+  return choices.size() == 1 ? choices[0] : choices[find(g.emitter_cdf[band], random.bits64())];
+}
+
 /// Sorts in pairs of (place, number), packed: places and numbers have 32 bits.
 constexpr uint64_t packed(uint32_t place, uint32_t number) {
   return uint64_t{place} << 32 | number;
@@ -38,12 +48,8 @@ constexpr uint64_t packed(uint32_t place, uint32_t number) {
 
 uint32_t emitter_of_particle(const CompiledScene& scene, uint64_t seed, int group,
                              uint64_t particle) {
-  const Group& g = scene.groups[static_cast<size_t>(group)];
   HistoryRandom random(scene, seed);
-  random.start(particle);
-  const size_t band = scene.features.bands ? find(g.band_cdf, random.bits64()) : 0;
-  const std::vector<uint32_t>& choices = g.emitters[band];
-  return choices.size() == 1 ? choices[0] : choices[find(g.emitter_cdf[band], random.bits64())];
+  return emitter_of(scene, group, particle, random);
 }
 
 std::vector<uint32_t> places_of_emitters(const CompiledScene& scene) {
@@ -61,9 +67,10 @@ std::vector<uint32_t> places_of_emitters(const CompiledScene& scene) {
 void order_by_emitter(const CompiledScene& scene, const std::vector<uint32_t>& places,
                       uint64_t seed, int group, uint64_t first, uint32_t count,
                       std::vector<uint32_t>& order) {
+  HistoryRandom random(scene, seed);
   std::vector<uint64_t> keys(count);
   for (uint32_t i = 0; i < count; ++i)
-    keys[i] = packed(places[emitter_of_particle(scene, seed, group, first + i)], i);
+    keys[i] = packed(places[emitter_of(scene, group, first + i, random)], i);
   std::sort(keys.begin(), keys.end());
   order.resize(count);
   for (uint32_t i = 0; i < count; ++i) order[i] = static_cast<uint32_t>(keys[i]);
