@@ -11,12 +11,13 @@
 #include <mutex>
 #include <thread>
 
+#include "actors/source/batch_plan.hpp"
+#include "scenes/transport/history.hpp"
+
 namespace luxodus {
 
 namespace {
 
-/// Ids of different groups never meet: 2^44 particles each.
-constexpr int group_id_shift = 44;
 constexpr double tick_every_s = 0.25;
 /// Light of before ends when a group's own has one in so many of its batches: errors twice as
 /// large, of the right building.
@@ -82,17 +83,6 @@ int group_named(const CompiledScene& scene, const std::string& name) {
   return -1;
 }
 
-/// Half of the batches evenly, half in proportion to lumens, as the batches of every run.
-std::vector<double> shares_of(const CompiledScene& scene) {
-  double total = 0;
-  for (const Group& g : scene.groups) total += g.luminous_flux_lm;
-  const auto n = static_cast<double>(scene.groups.size());
-  std::vector<double> out;
-  for (const Group& g : scene.groups)
-    out.push_back(0.5 / n + (total > 0 ? 0.5 * g.luminous_flux_lm / total : 0.5 / n));
-  return out;
-}
-
 }  // namespace
 
 LiveRun::LiveRun(std::shared_ptr<const CompiledScene> scene, uint64_t seed, int threads,
@@ -109,7 +99,7 @@ LiveRun::LiveRun(std::shared_ptr<const CompiledScene> scene, uint64_t seed, int 
       lights_(scene_->groups.size(), ShownLight::none),
       issued_(scene_->groups.size(), 0),
       told_(scene_->groups.size(), 0),
-      share_(shares_of(*scene_)) {
+      share_(BatchPlan(*scene_).shares()) {
   if (before != nullptr && same_air && same_bins(*scene_, *before->scene_)) take_over(*before);
 }
 
@@ -197,7 +187,7 @@ bool LiveRun::trace(int64_t level, Scope scope, const std::function<bool()>& sto
         number = issued_[static_cast<size_t>(group)]++;
       }
       scores.reset(scene_->layout);
-      const auto first = (static_cast<uint64_t>(group) << group_id_shift) +
+      const auto first = (static_cast<uint64_t>(group) << limits::group_id_shift) +
                          static_cast<uint64_t>(number * scene_->batch_particles);
       tracer->trace(group, first, scene_->batch_particles, scores);
       own_->totals.merge(scores, group);
