@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Is float enough? Builds what compares in both precisions, traces scenes with the same random numbers, and fails where
-# the difference is not far below the statistical error of 1e9 particles. PARTICLES and THREADS may be set.
+# Is float enough? Builds what compares in both precisions, traces scenes with the same random
+# numbers, and fails where the difference is not far below the statistical error of 1e9 particles.
+# PARTICLES and THREADS may be set.
 #   tests/tools/precision.sh [FOLDER for the traced batches]
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -12,7 +13,7 @@ for preset in release double; do
   ninja -C "build/$preset" -j "$threads" luxodus_precision
 done
 
-# name, scene, scenario, particles: the last has more than a thousand triangles, so that Embree finds the triangles.
+# name, scene, scenario, particles: the last has more than a thousand triangles, which Embree finds.
 scenes=(
   "furnished tests/precision/furnished.toml - ${PARTICLES:-4e6}"
   "glass tests/precision/glass.toml - ${PARTICLES:-4e6}"
@@ -26,7 +27,8 @@ for line in "${scenes[@]}"; do
   for preset in release double; do
     file="$out/${name}_$preset.txt"
     echo "$name, $preset: $particles particles"
-    "build/$preset/tests/luxodus_precision" trace "$scene" "$scenario" "$particles" "$threads" "$file"
+    "build/$preset/tests/luxodus_precision" trace \
+      "$scene" "$scenario" "$particles" "$threads" "$file"
     files+=("$file")
   done
 done
