@@ -1,8 +1,8 @@
 // The number that light is computed with. What is *stored* (corners of triangles, arrays of smoke,
 // texels, files, pictures) is float in every build; what is computed from it, rays, hits,
 // directions, densities, is Real: float, or double where the build says LUX_PRECISION=double, which
-// shows that float is enough (tests/precision). Optical depths and all that is read out are double
-// in both. Where which, and what it costs, stands in ARCHITECTURE.md, "Precision".
+// asks whether float is enough (tests/precision). Optical depths and all that is read out are
+// double in both. Where which, and what it costs, stands in ARCHITECTURE.md, "Precision".
 #pragma once
 
 #include <glm/glm.hpp>
