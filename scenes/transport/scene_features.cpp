@@ -1,6 +1,7 @@
 #include "scenes/transport/scene_features.hpp"
 
 #include <algorithm>
+#include <set>
 
 namespace luxodus {
 
@@ -79,9 +80,19 @@ SceneFeature glow(const CompiledScene& scene) {
           names.empty() ? "no flame is lit" : some_of(names)};
 }
 
+/// Materials that a surface has, on either side.
+std::vector<CompiledMaterial> used_materials(const CompiledScene& scene) {
+  std::set<uint32_t> used;
+  for (const CompiledSurface& s : scene.surfaces)
+    used.insert(std::begin(s.material), std::end(s.material));
+  std::vector<CompiledMaterial> out;
+  for (const uint32_t m : used) out.push_back(scene.materials[m]);
+  return out;
+}
+
 SceneFeature surfaces(const CompiledScene& scene) {
   std::vector<std::string> names;
-  for (const CompiledMaterial& m : scene.materials) {
+  for (const CompiledMaterial& m : used_materials(scene)) {
     if (m.kind != MaterialKind::lambertian) names.push_back(m.name);
   }
   if (!scene.signs.empty()) names.push_back(counted(scene.signs.size(), "sign face"));
@@ -92,8 +103,12 @@ SceneFeature surfaces(const CompiledScene& scene) {
 }
 
 SceneFeature textures(const CompiledScene& scene) {
-  const size_t n = scene.images.size();
-  return {"textures", n > 0, n > 0 ? counted(n, "picture") : "no material has an image"};
+  const auto materials = used_materials(scene);
+  const auto n = static_cast<size_t>(
+      std::count_if(materials.begin(), materials.end(),
+                    [](const CompiledMaterial& m) { return m.image != none_index; }));
+  return {"textures", n > 0,
+          n > 0 ? counted(n, "material") + " with a picture" : "no surface has a picture"};
 }
 
 SceneFeature voxels(const CompiledScene& scene) {

@@ -54,6 +54,11 @@ const std::vector<Unused>& unused_things() {
        }},
       {"a glossy material on nothing",
        [](SceneDescription& d) { d.materials.emplace_back().kind = MaterialKind::glossy; }},
+      {"a picture on nothing",
+       [](SceneDescription& d) {
+         d.materials.emplace_back().reflectance_image =
+             std::make_shared<const Image>(Image{1, 1, 1, {0.5f}});
+       }},
       {"many bands, all grey", [](SceneDescription& d) { d.run.bands_most = 8; }},
       {"groups by emitter, of one",
        [](SceneDescription& d) { d.run.groups = GroupRule::by_emitter; }},
