@@ -434,11 +434,17 @@ void choose_length_unit(CompiledScene& scene) {
   scene.scores_per_metre = 1 / scene.length_unit_m;
 }
 
-void compile_emitters(CompiledScene& scene, const std::vector<ActiveSource>& sources) {
+/// Errors: a mesh without a triangle that can be told from a point.
+Result<bool> compile_emitters(CompiledScene& scene, const std::vector<ActiveSource>& sources) {
   const SceneDescription& d = *scene.description;
   std::vector<std::string> groups;
   for (const ActiveSource& s : sources) {
     scene.emitters.push_back(compile_emitter(s, scene));
+    if (scene.emitters.back().kind == EmitterKind::mesh && !(scene.emitters.back().area_m2 > 0))
+      return Problem{s.emitter->place, "emitter \"" + s.name +
+                                           "\": its triangles are too small to be told from a "
+                                           "point where they are: make them larger, or the "
+                                           "emitter a point"};
     groups.push_back(group_name(s, d.run.groups));
     if (s.sign == nullptr) continue;
     const CompiledEmitter& e = scene.emitters.back();
@@ -463,6 +469,7 @@ void compile_emitters(CompiledScene& scene, const std::vector<ActiveSource>& sou
     const bool white = sources[i].colour == SignColour::white;
     (white ? sign.white_group : sign.green_group) = scene.emitters[i].group;
   }
+  return true;
 }
 
 }  // namespace
@@ -511,7 +518,7 @@ Result<std::shared_ptr<const CompiledScene>> compile_scene(
       packed != nullptr ? adopt_packed_geometry(*scene) : compile_triangles(*scene, options.cells);
   if (!solid.ok()) return solid.problem();
   compile_lambert_fractions(*scene);
-  compile_emitters(*scene, sources);
+  if (auto ok = compile_emitters(*scene, sources); !ok.ok()) return ok.problem();
   if (auto ok = compile_media(*scene); !ok.ok()) return ok.problem();
   scatter_volume_points(*scene);
   int64_t plane_cells = 0;

@@ -149,17 +149,22 @@ void normalise_cdf(std::vector<double>& cdf) {
   for (double& c : cdf) c /= total;
 }
 
+/// A triangle whose normal has a smaller square before it is normalised [m4], edges of 30 nm or
+/// corners that single precision cannot tell apart, has none: it emits nothing.
+constexpr Real least_normal_squared = 1e-30_r;
+
 void compile_mesh(CompiledEmitter& out, const Emitter& e, const CompiledScene& scene) {
   for (const glm::uvec3& t : e.mesh.triangles) {
     for (int k = 0; k < 3; ++k) {
       out.corners.push_back(Vec3(e.mesh.positions[t[k]] - scene.local_origin));
     }
     const Vec3* c = &out.corners[out.corners.size() - 3];
-    out.texel_cdf.push_back(0.5 *
-                            static_cast<double>(glm::length(glm::cross(c[1] - c[0], c[2] - c[0]))));
+    const Vec3 normal = glm::cross(c[1] - c[0], c[2] - c[0]);
+    const bool emits = glm::dot(normal, normal) >= least_normal_squared;
+    out.texel_cdf.push_back(emits ? 0.5 * static_cast<double>(glm::length(normal)) : 0.0);
     out.area_m2 += out.texel_cdf.back();
   }
-  normalise_cdf(out.texel_cdf);
+  if (out.area_m2 > 0) normalise_cdf(out.texel_cdf);
 }
 
 void compile_shape(CompiledEmitter& out, const Emitter& e, const CompiledScene& scene) {

@@ -37,7 +37,7 @@ double sign_colour_area_m2(const Sign& sign, SignColour colour);
 std::vector<ActiveSource> active_sources(const SceneDescription& scene, const Scenario& scenario);
 
 /// Emitter with its shape, distribution and per-band power; corners and positions in local
-/// coordinates.
+/// coordinates. A mesh whose triangles are too small to have a normal has no area.
 CompiledEmitter compile_emitter(const ActiveSource& source, const CompiledScene& scene);
 
 /// Source groups, their band shares and cumulative tables, from scene.emitters.
