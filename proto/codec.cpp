@@ -110,6 +110,14 @@ void write_decision(wire::FlushDecided::Builder out, const FlushDecided& m) {
   out.setTaken(m.taken);
 }
 
+void write_order(wire::TraceBatches::Builder out, const TraceBatches& m) {
+  out.setLease(m.lease);
+  out.setSeed(m.seed);
+  out.setGroup(m.group);
+  out.setBatches(m.batches);
+  out.setFirstBatch(m.first_batch);
+}
+
 void write(wire::Message::Builder out, const Message& message) {
   std::visit(
       Overloaded{
@@ -180,6 +188,12 @@ void write(wire::Message::Builder out, const Message& message) {
             told.setFirst(m.first);
             told.setNext(m.next);
           },
+          [&](const TraceBatches& m) { write_order(out.initTraceBatches(), m); },
+          [&](const BatchesTraced& m) {
+            auto traced = out.initBatchesTraced();
+            traced.setLease(m.lease);
+            traced.setFault(m.fault.c_str());
+          },
       },
       message);
 }
@@ -203,6 +217,7 @@ bool within_limits(const Message& message) {
           },
           [&](const FlushRefused& m) { return leases_fit(m.fenced) && text_fits(m.text); },
           [&](const RunEnded& m) { return text_fits(m.text); },
+          [&](const BatchesTraced& m) { return text_fits(m.fault); },
           [&](const auto&) { return true; },
       },
       message);
@@ -375,6 +390,15 @@ Message read(wire::Message::Reader in) {
       const auto told = in.getTotalsTold();
       return TotalsTold{told.getGather(), told.getFirst(), told.getNext()};
     }
+    case wire::Message::TRACE_BATCHES: {
+      const auto order = in.getTraceBatches();
+      return TraceBatches{order.getLease(), order.getSeed(), order.getGroup(), order.getBatches(),
+                          order.getFirstBatch()};
+    }
+    case wire::Message::BATCHES_TRACED: {
+      const auto traced = in.getBatchesTraced();
+      return BatchesTraced{traced.getLease(), read_text(traced.getFault())};
+    }
   }
   throw malformed("no such message");
 }
@@ -475,6 +499,7 @@ Kind kind_of(const Message& message) {
                         [](const ProfileCounted&) { return Kind::commit; },
                         [](const FlushPart&) { return Kind::commit; },
                         [](const TotalsTold&) { return Kind::commit; },
+                        [](const BatchesTraced&) { return Kind::commit; },
                         [](const auto&) { return Kind::control; },
                     },
                     message);

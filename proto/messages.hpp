@@ -279,11 +279,29 @@ struct TotalsTold {
   friend bool operator==(const TotalsTold&, const TotalsTold&) = default;
 };
 
+/// Of a live view: these batches of a source group, in the building that follows as payload (what
+/// viewers wish, as text).
+struct TraceBatches {
+  uint64_t lease = 0;
+  uint64_t seed = 0;
+  uint32_t group = 0;
+  uint32_t batches = 0;
+  uint64_t first_batch = 0;  // of the group
+  friend bool operator==(const TraceBatches&, const TraceBatches&) = default;
+};
+/// What they have given follows as payload, as of a flush.
+struct BatchesTraced {
+  uint64_t lease = 0;
+  std::string fault;  // why they could not be traced; "" where they were
+  friend bool operator==(const BatchesTraced&, const BatchesTraced&) = default;
+};
+
 using Message = std::variant<Hello, Welcome, Refuse, Bye, Beat, LinkChanges, FetchObject,
                              ObjectFound, ObjectNotHere, RequestLease, LeaseGranted, LeasesFenced,
                              Flush, FlushTaken, FlushRefused, RoundOpened, RunEnded, ProfileCounted,
                              AskStatus, StatusAnswered, EnterPhase, FlushPart, PartHeld,
-                             FlushDecided, FlushSettled, AskTotals, TotalsTold>;
+                             FlushDecided, FlushSettled, AskTotals, TotalsTold, TraceBatches,
+                             BatchesTraced>;
 
 /// The kind whose buffers and credit a message uses.
 Kind kind_of(const Message& message);

@@ -57,6 +57,8 @@ struct Message {
     flushSettled @24 :FlushSettled;
     askTotals @25 :AskTotals;
     totalsTold @26 :TotalsTold;
+    traceBatches @27 :TraceBatches;
+    batchesTraced @28 :BatchesTraced;
   }
 }
 
@@ -175,4 +177,17 @@ struct TotalsTold {
   gather @0 :UInt32;
   first @1 :UInt64;
   next @2 :UInt64;
+}
+
+struct TraceBatches {
+  lease @0 :UInt64;
+  seed @1 :UInt64;
+  group @2 :UInt32;
+  batches @3 :UInt32;
+  firstBatch @4 :UInt64;
+}
+
+struct BatchesTraced {
+  lease @0 :UInt64;
+  fault @1 :Text;
 }

@@ -6,10 +6,13 @@
 #include <filesystem>
 
 #include "actors/cli/command.hpp"
+#include "actors/cli/serve_view.hpp"
 #include "actors/display/pictures.hpp"
 #include "actors/display/report.hpp"
 #include "actors/source/flux_store.hpp"
 #include "actors/supervise/cluster_process.hpp"
+#include "actors/view/live_cluster.hpp"
+#include "actors/view/live_worker.hpp"
 #include "runtime/config/cluster_file.hpp"
 
 namespace luxodus::cli {
@@ -60,6 +63,35 @@ void tell_the_time() {
   spdlog::set_pattern("%Y-%m-%dT%H:%M:%S.%eZ %^%l%$ %v", spdlog::pattern_time_type::utc);
 }
 
+/// The nodes of a cluster whose file has a table [view].
+Result<std::optional<StopReason>> view_on_nodes(const ClusterConfig& cluster,
+                                                ClusterProcessRun& process) {
+  const LocalRun& base = process.local_run();
+  const auto& scene = base.scene().description;
+  LiveStates states(scene);
+  NodeWork work;
+  work.worker = [&](const RunSetup& run, const Machine& machine, const NodeSetup& node,
+                    const std::function<bool()>& stop) {
+    return run_live_worker(run, machine, node, stop, states);
+  };
+  work.controller = [&](const RunSetup& run, const Machine& machine,
+                        const NodeSetup& node) -> Result<StopReason> {
+    auto started = LiveCluster::start(run, machine, node);
+    if (!started.ok()) return started.problem();
+    HubOptions hub{{}, {}, cluster.view.save_folder.empty() ? "." : cluster.view.save_folder};
+    hub.live.seed = base.seed();
+    hub.live.threads = default_threads();
+    if (cluster.run.particles) hub.live.particles = static_cast<int64_t>(*cluster.run.particles);
+    if (cluster.run.relative_error) hub.live.relative_error = *cluster.run.relative_error;
+    hub.live.tracers = std::move(started).value();
+    hub.first.scenario = cluster.run.scenario;
+    const auto served = serve_view(scene, {cluster.view.address, cluster.view.port, ""}, hub);
+    if (!served.ok()) return served.problem();
+    return StopReason::interrupted;
+  };
+  return process.run(interrupt_flag(), work);
+}
+
 int run_nodes(const NodeOptions& options) {
   tell_the_time();
   const ReadCluster read = read_cluster(options.config);
@@ -88,6 +120,12 @@ int run_nodes(const NodeOptions& options) {
     return ExitCode::bad_input;
   }
   install_interrupt_handler();
+  if (cluster.view.live) {
+    const auto viewed = view_on_nodes(cluster, *process.value());
+    if (viewed.ok()) return ExitCode::success;
+    tell(viewed.problem());
+    return ExitCode::failure;
+  }
   ProgressLine line(cluster.run.name);
   auto ended = process.value()->run(interrupt_flag(), [&](const Progress& p) { line.show(p); });
   if (!ended.ok()) {

@@ -1,12 +1,7 @@
 // luxodus view: a live walk through the building, in a browser.
-#include <fmt/format.h>
-#include <sys/random.h>
-
-#include <array>
-
 #include "actors/cli/command.hpp"
-#include "actors/view/view_hub.hpp"
-#include "actors/view/view_server.hpp"
+#include "actors/cli/serve_view.hpp"
+#include "actors/view/live_nodes.hpp"
 
 namespace luxodus::cli {
 
@@ -19,44 +14,29 @@ struct ViewOptions {
   std::string scenario;
   std::string save_folder = ".";
   std::string particles = "100M";
+  int nodes = 0;
 };
 
-bool is_loopback(const std::string& address) {
-  return address == "127.0.0.1" || address == "::1";
-}
-
-/// 128 bits that nobody guesses, from the system. Not the light's random numbers.
-std::string new_token() {
-  std::array<uint8_t, 16> bytes{};
-  if (::getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size()))
-    throw std::runtime_error("the system gives no random numbers for a token");
-  std::string out;
-  for (const uint8_t byte : bytes) out += fmt::format("{:02x}", byte);
-  return out;
-}
-
-Result<ExitCode> view(ViewOptions options) {
+Result<ExitCode> view(const ViewOptions& options) {
   const auto scene = load_scene(options.scene);
   if (!scene) return ExitCode::bad_input;
-  if (scene->packed)
-    return Problem{{options.scene, 0}, "a pack cannot be changed live: view its scene file"};
   if (const auto found = find_scenario(*scene, options.scenario); !found.ok())
     return found.problem();
-  if (!is_loopback(options.server.address)) options.server.token = new_token();
-  auto server = ViewServer::listen(options.server);
-  if (!server.ok()) return server.problem();
   install_interrupt_handler();
-  options.live.particles = parse_count(options.particles).value();
-  HubOptions hub_options{options.live, {}, options.save_folder};
-  hub_options.first.scenario = options.scenario;
-  ViewServer& serving = *server.value();
-  ViewHub hub(scene, hub_options,
-              [&](std::function<void()> function) { serving.post(std::move(function)); });
-  std::printf("http://%s:%u/%s%s\nCtrl-C ends it.\n", options.server.address.c_str(),
-              serving.port(),
-              options.server.token.empty() ? "" : "?token=", options.server.token.c_str());
-  std::fflush(stdout);
-  serving.run(hub, interrupt_flag());
+  HubOptions hub{options.live, {}, options.save_folder};
+  hub.live.particles = parse_count(options.particles).value();
+  hub.first.scenario = options.scenario;
+  std::unique_ptr<LiveNodes> nodes;
+  if (options.nodes > 0) {
+    NodesOptions of_nodes;
+    of_nodes.nodes = options.nodes;
+    auto started = LiveNodes::start(scene, of_nodes);
+    if (!started.ok()) return started.problem();
+    nodes = std::move(started).value();
+    hub.live.tracers = nodes->tracers();
+  }
+  const auto served = serve_view(scene, options.server, hub);
+  if (!served.ok()) return served.problem();
   return ExitCode::success;
 }
 
@@ -70,7 +50,8 @@ void add_view(CLI::App& app, int& exit_code) {
       "Traces while you walk; dim, move, thicken, and see it at once. Beyond this machine\n"
       "(--address) the page is served to those alone who have the token that is printed.\n"
       "  luxodus view scenes/library/office_floor.toml\n"
-      "  luxodus view office.toml --address 0.0.0.0 --port 9000");
+      "  luxodus view office.toml --address 0.0.0.0 --port 9000\n"
+      "A cluster traces for a view where its file has a table [view]: luxodus cluster up FILE.");
   command->add_option("scene", options->scene, "scene file (TOML)")->required();
   command->add_option("--scenario", options->scenario, "state of the building [the first]");
   command->add_option("--port", options->server.port, "port; 0: any that is free [8080]");
@@ -89,6 +70,10 @@ void add_view(CLI::App& app, int& exit_code) {
       ->check(seed_number());
   command->add_option("--threads", options->live.threads, "threads [all]")
       ->check(CLI::Range(1, 1024));
+  command
+      ->add_option("--nodes", options->nodes,
+                   "nodes of this process that trace, as those of a cluster do [none: threads]")
+      ->check(CLI::Range(1, limits::nodes_in_process));
   command->callback([options, &exit_code] {
     const auto ended = view(*options);
     if (!ended.ok()) tell(ended.problem());

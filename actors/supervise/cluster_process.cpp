@@ -287,65 +287,85 @@ Result<Done> ClusterProcessRun::write_trace(const Observation& seen) const {
                           ("trace-" + cluster_.processes[process].name + ".json"));
 }
 
-Result<std::optional<StopReason>> ClusterProcessRun::run(
-    const std::atomic<bool>& interrupt, const std::function<void(const Progress&)>& report) {
-  const SystemClock clock;
-  std::vector<Admitted> admitted;
-  for (const auto& [node, key] : public_keys_) admitted.push_back({node, key});
-  ZmqContext context(admitted);
-  const EmbreeDevice device;
+/// What the nodes of the process are made from; they refer to it.
+struct ClusterProcessRun::Prepared {
+  Prepared(const LocalRun& run, const Graph& graph, std::span<const Admitted> admitted,
+           const SceneIndex* index)
+      : context({admitted.begin(), admitted.end()}), setup{run.scene(), index, nullptr, nullptr,
+                                                           run.seed(),  graph, {},      nullptr} {}
+  SystemClock clock;
+  ZmqContext context;
+  Machine machine{clock, context};
+  EmbreeDevice device;
   std::optional<SceneObjects> objects;
   std::optional<ProxyScene> proxies;
   std::optional<SharedObjects> shared;
-  const SceneIndex* index = fetches_ ? nullptr : &run_->index();
-  const Machine machine{clock, context};
-  RunSetup setup{run_->scene(), index, nullptr, nullptr, run_->seed(), graph_, {}, nullptr};
+  std::optional<Residency> residency;
+  std::unique_ptr<Observation> seen;
+  RunSetup setup;
+  std::vector<NodeSetup> workers;
+  std::optional<NodeSetup> controller;
+};
+
+Result<std::unique_ptr<ClusterProcessRun::Prepared>> ClusterProcessRun::prepare_nodes() {
+  std::vector<Admitted> admitted;
+  for (const auto& [node, key] : public_keys_) admitted.push_back({node, key});
+  auto out =
+      std::make_unique<Prepared>(*run_, graph_, admitted, fetches_ ? nullptr : &run_->index());
+  RunSetup& setup = out->setup;
   for (const ClusterNode& node : cluster_.nodes) setup.names.push_back(node.name);
   setup.shards.owners = cluster_.tally.shards;
-  std::optional<Residency> residency;
   if (fetches_) {
     const std::vector<NodeId> holders = holders_of(cluster_);
-    objects.emplace(run_->scene(), holders, std::min<size_t>(replicas(), holders.size()));
-    proxies.emplace(device, run_->scene().cell_boxes);
-    setup.objects = &*objects;
-    setup.proxies = &*proxies;
-    if (cluster_.run.sharing) setup.shared = &shared.emplace(objects->places().size());
+    out->objects.emplace(run_->scene(), holders, std::min<size_t>(replicas(), holders.size()));
+    out->proxies.emplace(out->device, run_->scene().cell_boxes);
+    setup.objects = &*out->objects;
+    setup.proxies = &*out->proxies;
+    if (cluster_.run.sharing) setup.shared = &out->shared.emplace(out->objects->places().size());
     auto planned = planned_residency(setup);
     if (!planned.ok()) return planned.problem();
-    residency = std::move(planned).value();
+    out->residency = std::move(planned).value();
     // Where some workers have no storage, the plan's holders would be asked in vain.
-    if (residency && holders_of(cluster_).size() == cluster_.workers())
-      objects->place(residency->holders);
+    if (out->residency && holders_of(cluster_).size() == cluster_.workers())
+      out->objects->place(out->residency->holders);
   }
   auto seen = Observation::start(observe_options());
   if (!seen.ok()) return seen.problem();
-  if (seen.value()->watches()) setup.observation = seen.value().get();
-  std::vector<NodeSetup> workers;
-  std::optional<NodeSetup> controller;
+  out->seen = std::move(seen).value();
+  if (out->seen->watches()) setup.observation = out->seen.get();
   for (const NodeId node : nodes_) {
     auto own = setup_of(node, setup);
     if (!own.ok()) return own.problem();
-    if (residency) settle(own.value(), *residency);
+    if (out->residency) settle(own.value(), *out->residency);
     if (node == cluster_.controller())
-      controller = std::move(own).value();
+      out->controller = std::move(own).value();
     else
-      workers.push_back(std::move(own).value());
+      out->workers.push_back(std::move(own).value());
   }
-  for (const NodeSetup& node : workers)
+  for (const NodeSetup& node : out->workers)
     if (auto fault = budget_fault(setup, node)) return Problem{{cluster_.file.string(), 0}, *fault};
-  spdlog::info("memory plan\n{}", plan_text(setup, workers, controller));
+  spdlog::info("memory plan\n{}", plan_text(setup, out->workers, out->controller));
+  return out;
+}
+
+Result<std::optional<StopReason>> ClusterProcessRun::run(
+    const std::atomic<bool>& interrupt, const std::function<void(const Progress&)>& report) {
+  auto prepared = prepare_nodes();
+  if (!prepared.ok()) return prepared.problem();
+  Prepared& nodes = *prepared.value();
   // With shards the journal would hold a part of the totals.
-  if (controller && setup.shards.owners.empty())
-    if (auto ok = open_journal(clock); !ok.ok()) return ok.problem();
-  WorkerThreads threads(setup, machine, workers, [&] { return !controller && interrupt.load(); });
+  if (nodes.controller && nodes.setup.shards.owners.empty())
+    if (auto ok = open_journal(nodes.clock); !ok.ok()) return ok.problem();
+  WorkerThreads threads(nodes.setup, nodes.machine, nodes.workers,
+                        [&] { return !nodes.controller && interrupt.load(); });
   std::optional<StopReason> reason;
-  if (controller) {
+  if (nodes.controller) {
     StopRule stop;
     if (cluster_.run.particles) stop.particles = static_cast<int64_t>(*cluster_.run.particles);
     stop.relative_error = cluster_.run.relative_error;
     stop.seconds = cluster_.run.time_s;
     auto ended = run_controller(
-        setup, machine, *controller, *run_, stop, interrupt, report,
+        nodes.setup, nodes.machine, *nodes.controller, *run_, stop, interrupt, report,
         [&] { return threads.failed(); }, nullptr, journal_.get());
     if (!ended.ok()) {
       if (journal_) journal_->leave_no_trace();
@@ -355,8 +375,31 @@ Result<std::optional<StopReason>> ClusterProcessRun::run(
   }
   threads.join();
   if (threads.failed()) return threads.problem();
-  if (residency) residency_lines_ = residency_table(*residency, threads.by_node());
-  if (auto ok = write_trace(*seen.value()); !ok.ok()) return ok.problem();
+  if (nodes.residency) residency_lines_ = residency_table(*nodes.residency, threads.by_node());
+  if (auto ok = write_trace(*nodes.seen); !ok.ok()) return ok.problem();
+  return reason;
+}
+
+Result<std::optional<StopReason>> ClusterProcessRun::run(const std::atomic<bool>& interrupt,
+                                                         const NodeWork& work) {
+  if (fetches_)
+    return Problem{{cluster_.file.string(), 0},
+                   "a live view needs nodes that hold the whole scene: raise object_bytes in "
+                   "[budget]"};
+  auto prepared = prepare_nodes();
+  if (!prepared.ok()) return prepared.problem();
+  const Prepared& nodes = *prepared.value();
+  WorkerThreads threads(
+      nodes.setup, nodes.machine, nodes.workers, [&] { return interrupt.load(); }, work.worker);
+  std::optional<StopReason> reason;
+  if (nodes.controller) {
+    auto ended = work.controller(nodes.setup, nodes.machine, *nodes.controller);
+    threads.join();
+    if (!ended.ok()) return ended.problem();
+    reason = ended.value();
+  }
+  threads.join();
+  if (threads.failed()) return threads.problem();
   return reason;
 }
 

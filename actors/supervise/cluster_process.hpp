@@ -31,6 +31,15 @@ int cells_for(const ClusterConfig& cluster, uint64_t built_geometry_bytes);
 /// The workers among which objects are shared out.
 std::vector<NodeId> holders_of(const ClusterConfig& cluster);
 
+/// What the nodes of a process do, where that is not the run that their file describes.
+struct NodeWork {
+  RunWorker worker;
+  /// On the calling thread, until its work is over.
+  std::function<Result<StopReason>(const RunSetup& run, const Machine& machine,
+                                   const NodeSetup& node)>
+      controller;
+};
+
 /// What a process of a cluster is about to do; kept while it runs.
 class ClusterProcessRun {
  public:
@@ -44,6 +53,9 @@ class ClusterProcessRun {
   /// Errors: as join_links; a worker that failed.
   Result<std::optional<StopReason>> run(const std::atomic<bool>& interrupt,
                                         const std::function<void(const Progress&)>& report);
+  /// As run(), for other work, for which every node holds the whole scene. Nothing is kept of it.
+  /// Errors: as run(); a scene that is more than some node's budget.
+  Result<std::optional<StopReason>> run(const std::atomic<bool>& interrupt, const NodeWork& work);
 
   /// What nodes ask of objects, counted with this share of the run's particles.
   /// Errors: budgets that hold the whole scene, so that nothing is fetched.
@@ -65,6 +77,8 @@ class ClusterProcessRun {
   uint32_t replicas() const {
     return std::min<uint32_t>(2, static_cast<uint32_t>(cluster_.workers()));
   }
+  struct Prepared;
+  Result<std::unique_ptr<Prepared>> prepare_nodes();
   Result<bool> load_scene();
   Result<bool> load_keys(const std::vector<NodeId>& nodes);
   Result<std::optional<Residency>> planned_residency(const RunSetup& run) const;

@@ -42,18 +42,19 @@ Result<WorkerReport> run_worker(const RunSetup& run, const Machine& machine, con
 }
 
 WorkerThreads::WorkerThreads(const RunSetup& run, const Machine& machine,
-                             const std::vector<NodeSetup>& nodes,
-                             const std::function<bool()>& stop) {
+                             const std::vector<NodeSetup>& nodes, const std::function<bool()>& stop,
+                             const RunWorker& run_one) {
   for (const NodeSetup& node : nodes)
-    threads_.emplace_back([this, &run, &machine, &node, stop] { work(run, machine, node, stop); });
+    threads_.emplace_back(
+        [this, &run, &machine, &node, stop, run_one] { work(run, machine, node, stop, run_one); });
 }
 
 void WorkerThreads::work(const RunSetup& run, const Machine& machine, const NodeSetup& node,
-                         const std::function<bool()>& stop) {
+                         const std::function<bool()>& stop, const RunWorker& run_one) {
   _mm_setcsr(_mm_getcsr() | 0x8040);  // denormals to zero, as in the plain loop
   Problem wrong;
   try {
-    auto done = run_worker(run, machine, node, stop);
+    auto done = run_one(run, machine, node, stop);
     const std::lock_guard lock(mutex_);
     if (done.ok()) return reports_.push_back(done.value());
     wrong = done.problem();

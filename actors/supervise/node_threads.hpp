@@ -34,12 +34,17 @@ struct NodesReport {
 Result<WorkerReport> run_worker(const RunSetup& run, const Machine& machine, const NodeSetup& node,
                                 const std::function<bool()>& stop);
 
+/// As run_worker.
+using RunWorker =
+    std::function<Result<WorkerReport>(const RunSetup& run, const Machine& machine,
+                                       const NodeSetup& node, const std::function<bool()>& stop)>;
+
 /// Threads that run workers, each in one, and the first problem of any of them.
 class WorkerThreads {
  public:
   /// Starts them. Requires: `run`, `machine` and `nodes` outlive this; `stop` may be called by all.
   WorkerThreads(const RunSetup& run, const Machine& machine, const std::vector<NodeSetup>& nodes,
-                const std::function<bool()>& stop);
+                const std::function<bool()>& stop, const RunWorker& run_one = run_worker);
   ~WorkerThreads() { join(); }
   WorkerThreads(const WorkerThreads&) = delete;
   WorkerThreads& operator=(const WorkerThreads&) = delete;
@@ -55,7 +60,7 @@ class WorkerThreads {
 
  private:
   void work(const RunSetup& run, const Machine& machine, const NodeSetup& node,
-            const std::function<bool()>& stop);
+            const std::function<bool()>& stop, const RunWorker& run_one);
 
   mutable std::mutex mutex_;
   std::vector<WorkerReport> reports_;

@@ -2,17 +2,13 @@
 // that begins anew is traced alone until it has caught up with the others.
 #include "actors/view/live_run.hpp"
 
-#include <xmmintrin.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstring>
 #include <mutex>
-#include <thread>
 
 #include "actors/source/batch_plan.hpp"
-#include "scenes/transport/history.hpp"
 
 namespace luxodus {
 
@@ -99,6 +95,7 @@ LiveRun::LiveRun(std::shared_ptr<const CompiledScene> scene, uint64_t seed, int 
       lights_(scene_->groups.size(), ShownLight::none),
       issued_(scene_->groups.size(), 0),
       told_(scene_->groups.size(), 0),
+      again_(scene_->groups.size()),
       share_(BatchPlan(*scene_).shares()) {
   if (before != nullptr && same_air && same_bins(*scene_, *before->scene_)) take_over(*before);
 }
@@ -125,6 +122,8 @@ void LiveRun::take_over(const LiveRun& before) {
     if (same_geometry_) {
       if (!same_groups) own_->totals.restore(group, before.own_->totals.state(old));
       issued_[g] = before.issued_[was];
+      again_[g] = before.again_[was];
+      for (LiveBatches& batches : again_[g]) batches.group = group;
       told_[g] = before.told_[was];
     }
     lights_[g] = same_geometry_ ? before.lights_[was] : ShownLight::before;
@@ -145,60 +144,95 @@ int64_t LiveRun::wanted(size_t group, int64_t level) const {
   return std::max<int64_t>(1, std::llround(batches));
 }
 
-bool LiveRun::trace(int64_t level, Scope scope, const std::function<bool()>& stop,
-                    const std::function<void()>& tick) {
+/// Batches that are traced, or are being traced.
+int64_t LiveRun::given(size_t group) const {
+  int64_t out = issued_[group];
+  for (const LiveBatches& batches : again_[group]) out -= batches.count;
+  return out;
+}
+
+/// The group that has least of its goal; none: -1.
+int LiveRun::neediest(const std::vector<int64_t>& goal) const {
+  int chosen = -1;
+  double least = 1;
+  for (size_t g = 0; g < goal.size(); ++g) {
+    const int64_t has = given(g);
+    if (has >= goal[g]) continue;
+    const double share = static_cast<double>(has) / static_cast<double>(goal[g]);
+    if (share < least) {
+      least = share;
+      chosen = static_cast<int>(g);
+    }
+  }
+  return chosen;
+}
+
+/// The next batches of a group: first what was given back.
+LiveBatches LiveRun::give(size_t group, int64_t most) {
+  if (again_[group].empty()) {
+    const LiveBatches out{static_cast<int>(group), issued_[group], most};
+    issued_[group] += most;
+    return out;
+  }
+  LiveBatches& left = again_[group].back();
+  const LiveBatches out{left.group, left.first, std::min(left.count, most)};
+  left.first += out.count;
+  left.count -= out.count;
+  if (left.count == 0) again_[group].pop_back();
+  return out;
+}
+
+/// One call of LiveRun::trace.
+class LiveRun::Work final : public LiveWork {
+ public:
+  Work(LiveRun& run, std::vector<int64_t> goal, const std::function<bool()>& stop,
+       const std::function<void()>& tick)
+      : run_(run), goal_(std::move(goal)), stop_(stop), tick_(tick), start_(Clock::now()) {}
+
+  const CompiledScene& scene() const override { return *run_.scene_; }
+  GeometryAccess access() const override { return GeometryAccess::resident(run_.geometry_->index); }
+  uint64_t seed() const override { return run_.seed_; }
+  bool stopped() const override { return stop_(); }
+  Totals& totals() override { return run_.own_->totals; }
+
+  std::optional<LiveBatches> next(int64_t most) override {
+    const std::lock_guard lock(mutex_);
+    if (stop_()) return std::nullopt;
+    if (const double now = since(start_); now - ticked_ >= tick_every_s) {
+      ticked_ = now;
+      tick_();
+    }
+    const int group = run_.neediest(goal_);
+    if (group < 0) return std::nullopt;
+    const auto g = static_cast<size_t>(group);
+    return run_.give(g, std::min(most, goal_[g] - run_.given(g)));
+  }
+  void give_back(const LiveBatches& batches) override {
+    const std::lock_guard lock(mutex_);
+    run_.again_[static_cast<size_t>(batches.group)].push_back(batches);
+  }
+
+ private:
+  LiveRun& run_;
+  const std::vector<int64_t> goal_;
+  const std::function<bool()>& stop_;
+  const std::function<void()>& tick_;
+  const Clock::time_point start_;
+  std::mutex mutex_;
+  double ticked_ = 0;
+};
+
+bool LiveRun::trace(int64_t level, Scope scope, LiveTracers& tracers,
+                    const std::function<bool()>& stop, const std::function<void()>& tick) {
   std::vector<int64_t> goal(issued_.size(), 0);
   for (size_t g = 0; g < goal.size(); ++g)
     if (is_of(scope, g)) goal[g] = wanted(g, level);
-  const auto next = [&]() -> int {
-    int chosen = -1;
-    double least = 1;
-    for (size_t g = 0; g < goal.size(); ++g) {
-      if (issued_[g] >= goal[g]) continue;
-      const double has = static_cast<double>(issued_[g]) / static_cast<double>(goal[g]);
-      if (has < least) {
-        least = has;
-        chosen = static_cast<int>(g);
-      }
-    }
-    return chosen;
-  };
-  if (next() < 0) return true;
+  if (neediest(goal) < 0) return true;
   const Clock::time_point start = Clock::now();
-  std::mutex mutex;
-  double ticked = 0;
-  const auto work = [&] {
-    _mm_setcsr(_mm_getcsr() | 0x8040);  // denormals to zero: see for_each_row
-    const auto tracer =
-        make_batch_tracer(*scene_, GeometryAccess::resident(geometry_->index), seed_);
-    BatchScores scores;
-    for (;;) {
-      int group;
-      int64_t number;
-      {
-        const std::lock_guard lock(mutex);
-        if (stop()) return;
-        if (const double now = since(start); now - ticked >= tick_every_s) {
-          ticked = now;
-          tick();
-        }
-        group = next();
-        if (group < 0) return;
-        number = issued_[static_cast<size_t>(group)]++;
-      }
-      scores.reset(scene_->layout);
-      const auto first = (static_cast<uint64_t>(group) << limits::group_id_shift) +
-                         static_cast<uint64_t>(number * scene_->batch_particles);
-      tracer->trace(group, first, scene_->batch_particles, scores);
-      own_->totals.merge(scores, group);
-    }
-  };
-  std::vector<std::thread> threads;
-  for (int i = 1; i < threads_; ++i) threads.emplace_back(work);
-  work();
-  for (std::thread& t : threads) t.join();
+  Work work(*this, goal, stop, tick);
+  tracers.trace(work);
   seconds_ += since(start);
-  return next() < 0;
+  return neediest(goal) < 0;
 }
 
 std::vector<int> LiveRun::news(Scope scope) const {
@@ -228,7 +262,7 @@ int64_t LiveRun::groups_with(ShownLight light) const {
 
 int64_t LiveRun::particles() const {
   int64_t batches = 0;
-  for (const int64_t of : issued_) batches += of;
+  for (size_t g = 0; g < issued_.size(); ++g) batches += given(g);
   return batches * scene_->batch_particles;
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "actors/source/rows.hpp"
+#include "actors/view/live_work.hpp"
 #include "scenes/transport/readout.hpp"
 #include "scenes/transport/trace.hpp"
 
@@ -38,10 +39,10 @@ class LiveRun {
 
   /// Which groups are traced: without light, without light of before, all.
   enum class Scope { fresh, own, all };
-  /// Until groups have the batches that a level asks for: each its share of `level` times the
-  /// groups. True when they have them; false when `stop` says so, which is asked between batches.
-  /// `tick` is called about four times a second, from one thread at a time.
-  bool trace(int64_t level, Scope scope, const std::function<bool()>& stop,
+  /// Has batches traced until groups have those that a level asks for: each its share of `level`
+  /// times the groups. True when they have them; false when `stop` says so, which any thread may
+  /// ask. `tick` is called about four times a second, from one thread at a time.
+  bool trace(int64_t level, Scope scope, LiveTracers& tracers, const std::function<bool()>& stop,
              const std::function<void()>& tick);
 
   /// Groups of a scope that have batches which nobody has been told of, and own light to show:
@@ -85,9 +86,13 @@ class LiveRun {
     std::shared_ptr<const CompiledScene> scene;  // which the totals refer to
     Totals totals;
   };
+  class Work;
   void take_over(const LiveRun& before);
   bool is_of(Scope scope, size_t group) const;
   int64_t wanted(size_t group, int64_t level) const;
+  int64_t given(size_t group) const;
+  int neediest(const std::vector<int64_t>& goal) const;
+  LiveBatches give(size_t group, int64_t most);
 
   std::shared_ptr<const CompiledScene> scene_;
   const uint64_t seed_;
@@ -99,7 +104,9 @@ class LiveRun {
   std::vector<std::shared_ptr<const Ledger>> before_;  // of groups that show light of before
   std::vector<ShownLight> lights_;
   std::vector<int64_t> issued_, told_;  // batches of each group
-  std::vector<double> share_;           // of all batches
+  std::vector<std::vector<LiveBatches>>
+      again_;                  // of those issued, by group: nobody has traced them
+  std::vector<double> share_;  // of all batches
   double seconds_ = 0;
 };
 

@@ -48,6 +48,7 @@ LiveTrace::LiveTrace(std::shared_ptr<const SceneDescription> scene, const LiveOp
                      LiveWish first, LiveAudience& audience)
     : scene_(std::move(scene)),
       options_(options),
+      tracers_(options.tracers ? options.tracers : std::make_shared<LiveThreads>(options.threads)),
       audience_(audience),
       next_(std::move(first)),
       thread_([this] { work(); }) {}
@@ -127,6 +128,7 @@ void LiveTrace::begin(const LiveWish& wish) {
   if (!same_air || !run->same_geometry())
     smoke_ = smoke_frame(run->scene(), run->index(), generation);
   run_ = std::move(run);
+  tracers_->enter(wish);
   traced_ = wish;
   generation_ = generation;
   refined_ = false;
@@ -143,7 +145,7 @@ bool LiveTrace::reach(int64_t level, LiveRun::Scope scope) {
   bool reached = false;
   while (!reached && !interrupt_) {
     reached = run_->trace(
-        level, scope, [this] { return interrupt_.load() || asked_.load(); },
+        level, scope, *tracers_, [this] { return interrupt_.load() || asked_.load(); },
         [this] { tell(false); });
     if (asked_) answer_all();
   }

@@ -61,8 +61,9 @@ class LiveAudience {
 struct LiveOptions {
   uint64_t seed = 1;
   int threads = 1;
-  int64_t particles = 100'000'000;  // of a generation, at most
-  double relative_error = 0.002;    // at which it ends
+  int64_t particles = 100'000'000;            // of a generation, at most
+  double relative_error = 0.002;              // at which it ends
+  std::shared_ptr<LiveTracers> tracers = {};  // null: `threads` of this process
 };
 
 class LiveTrace {
@@ -89,6 +90,7 @@ class LiveTrace {
 
   const std::shared_ptr<const SceneDescription> scene_;
   const LiveOptions options_;
+  const std::shared_ptr<LiveTracers> tracers_;
   LiveAudience& audience_;
   std::mutex mutex_;
   std::condition_variable changed_;

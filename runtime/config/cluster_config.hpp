@@ -133,6 +133,14 @@ struct ObserveChoice {
   std::string log_level;     // debug, info, warn, error
 };
 
+/// Whether nodes trace for a live view, which the controller's process serves.
+struct ViewChoice {
+  bool live = false;
+  std::string address;
+  uint16_t port = 0;                  // 0: any that is free
+  std::filesystem::path save_folder;  // of variants, on the controller's host
+};
+
 struct ClusterConfig {
   std::filesystem::path file;
   RunChoice run;
@@ -148,6 +156,7 @@ struct ClusterConfig {
   TallyChoice tally;
   KeysChoice keys;
   ObserveChoice observe;
+  ViewChoice view;
   FaultPlan faults;  // on purpose; none in most files
 
   const ClusterNode& node(NodeId id) const { return nodes[id.value]; }

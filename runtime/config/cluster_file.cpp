@@ -104,6 +104,15 @@ uint16_t read_observe(TableReader& top, ClusterReading& reading) {
   return static_cast<uint16_t>(keys.integer("metrics_port"));
 }
 
+void read_view(TableReader& top, ClusterReading& reading) {
+  ViewChoice& view = reading.cluster.view;
+  view.live = top.has("view");
+  TableReader keys = reader_of(top, "view", reading);
+  view.port = static_cast<uint16_t>(keys.integer("port"));
+  view.address = keys.address("address");
+  view.save_folder = keys.path("save_folder");
+}
+
 void check_keys(ClusterReading& reading) {
   const KeysChoice& keys = reading.cluster.keys;
   if (!leaves_host(reading.cluster) || !keys.folder.empty() || keys.insecure) return;
@@ -123,6 +132,7 @@ void read_tables(const toml::table& document, ClusterReading& reading) {
   read_links(top, reading);
   read_services(top, reading);
   const uint16_t metrics_port = read_observe(top, reading);
+  read_view(top, reading);
   read_faults(top, reading);
   if (!reading.findings.empty()) return;
   form_processes(reading, metrics_port);

@@ -25,6 +25,7 @@ std::vector<TableSpec> run_tables() {
            {"tally", "table", "", "", "", "where what is counted lies"},
            {"keys", "table", "", "", "", "by which nodes know each other"},
            {"observe", "table", "", "", "", "what can be seen of a run"},
+           {"view", "table", "", "", "", "a live view in place of a run that ends"},
            {"faults", "table", "", "", "", "what shall go wrong, on purpose: for rehearsals"},
        }},
       {"run",
@@ -231,6 +232,17 @@ std::vector<TableSpec> service_tables() {
            {"trace_every", "integer", "", "0", "[0, 1e12]",
             "particles of which one is traced; 0: none"},
            {"log_level", "choice", "", "\"info\"", "debug, info, warn, error", "what is logged"},
+       }},
+      {"view",
+       "`[view]`: the controller's process serves a live view, for which all workers trace, until "
+       "Ctrl-C; every node must hold the whole scene",
+       {
+           {"port", "integer", "", "8080", "[0, 65535]", "of the page; 0: any that is free"},
+           {"address", "address", "", "\"127.0.0.1\"", "",
+            "to listen on; beyond this machine a token is demanded, which the controller prints"},
+           {"save_folder", "path", "", "", "",
+            "where variants are saved, on the controller's host; the folder it was started in "
+            "unless said"},
        }},
   };
 }

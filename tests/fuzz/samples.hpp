@@ -46,6 +46,8 @@ inline std::vector<Message> sample_messages() {
       FlushSettled{false},
       AskTotals{46, 47},
       TotalsTold{48, 49, 50},
+      TraceBatches{51, 52, 53, 54, 55},
+      BatchesTraced{56, "no memory"},
   };
 }
 

@@ -1,5 +1,6 @@
 // How long after a move of a luminaire, and of a sign, the first new light is there:
-// `node move_time.mjs [SCENE SCENARIO LUMINAIRE SIGN]`; LUX_PROGRAM names the program.
+// `node move_time.mjs [SCENE SCENARIO LUMINAIRE SIGN]`; LUX_PROGRAM names the program, LUX_OPTIONS
+// what is said to it besides (`LUX_OPTIONS="--nodes 2"`).
 import { spawn } from 'node:child_process';
 import { WebSocket } from 'ws';
 
@@ -11,7 +12,8 @@ const moves = 11;
 /** So long the view traces undisturbed between moves. */
 const rest_ms = 3000;
 
-const child = spawn(program, ['view', scene, '--scenario', scenario, '--port', '0']);
+const options = (process.env.LUX_OPTIONS ?? '').split(' ').filter(Boolean);
+const child = spawn(program, ['view', scene, '--scenario', scenario, '--port', '0', ...options]);
 const address = await new Promise((resolve) => {
   child.stdout.on('data', (bytes) => {
     const found = String(bytes).match(/http:\S+/);

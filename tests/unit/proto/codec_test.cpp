@@ -156,6 +156,8 @@ TEST_CASE("messages go by the kinds that the protocol names", "[proto][codec]") 
   CHECK(kind_of(ProfileCounted{}) == Kind::commit);
   CHECK(kind_of(FlushPart{}) == Kind::commit);
   CHECK(kind_of(TotalsTold{}) == Kind::commit);
+  CHECK(kind_of(TraceBatches{}) == Kind::control);
+  CHECK(kind_of(BatchesTraced{}) == Kind::commit);
   CHECK(kind_of(FlushDecided{}) == Kind::control);
   CHECK(kind_of(FlushTaken{}) == Kind::control);
   CHECK(kind_of(LeaseGranted{}) == Kind::control);

@@ -69,8 +69,9 @@ class Room {
 };
 
 void reach(LiveRun& run, int64_t level, LiveRun::Scope scope = LiveRun::Scope::all) {
+  LiveThreads threads(2);
   CHECK(run.trace(
-      level, scope, [] { return false; }, [] {}));
+      level, scope, threads, [] { return false; }, [] {}));
 }
 
 std::vector<int> told(LiveRun& run) {
@@ -178,8 +179,9 @@ TEST_CASE("tracing stops between batches when it is told to, and goes on", "[vie
   const Room room;
   LiveRun run(room.compiled({}), 1, 1, nullptr, false);
   int asked = 0;
+  LiveThreads one(1);
   CHECK_FALSE(run.trace(
-      8, LiveRun::Scope::all, [&] { return ++asked > 3; }, [] {}));
+      8, LiveRun::Scope::all, one, [&] { return ++asked > 3; }, [] {}));
   CHECK(run.particles() == 3 * run.scene().batch_particles);
   reach(run, 8);
   CHECK(run.particles() >= 3 * 8 * run.scene().batch_particles - 3 * run.scene().batch_particles);

@@ -1,0 +1,15 @@
+// The live view of a scene, served until Ctrl-C, whoever traces for it.
+#pragma once
+
+#include "actors/view/view_hub.hpp"
+#include "actors/view/view_server.hpp"
+#include "runtime/core/result.hpp"
+
+namespace luxodus::cli {
+
+/// Prints where the page is. Beyond this machine it makes a token, which the page then demands.
+/// Errors: a pack; an address that is none, a port that is taken.
+Result<Done> serve_view(std::shared_ptr<const SceneDescription> scene, ServerOptions server,
+                        const HubOptions& options);
+
+}  // namespace luxodus::cli

@@ -1,0 +1,255 @@
+#include "actors/view/live_cluster.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+
+#include "actors/supervise/node_plan.hpp"
+#include "actors/tally/flush_codec.hpp"
+#include "actors/view/wish_text.hpp"
+
+namespace luxodus {
+
+namespace {
+
+/// At leases and at work that begins, while something is traced, and while nothing is.
+constexpr Nanoseconds look_at_work = milliseconds(1), look_at_rest = milliseconds(10);
+/// How often whoever traces asks whether it shall stop.
+constexpr std::chrono::milliseconds stop_every(5);
+/// A worker has one lease in work and one that waits: the way to it and back takes no time.
+constexpr size_t leases_each = 2;
+/// A lease shall take about so long: short against what a person notices, long against a message.
+constexpr Nanoseconds lease_at_least = milliseconds(20), lease_at_most = milliseconds(80);
+constexpr int64_t batches_most = 256;
+/// What large answers take to come is spread over more batches, within reason.
+constexpr size_t large_answer = 256 << 10;
+constexpr Nanoseconds large_answer_at_most = milliseconds(500);
+/// A worker that has nothing to do so long after it was lent something has never got it.
+constexpr Nanoseconds lost_on_the_way = seconds(1);
+/// Until workers have heard of the end.
+constexpr Nanoseconds farewell = milliseconds(300);
+
+}  // namespace
+
+Result<std::unique_ptr<LiveCluster>> LiveCluster::start(const RunSetup& run, const Machine& machine,
+                                                        const NodeSetup& node) {
+  std::unique_ptr<LiveCluster> out(new LiveCluster(run, node));
+  for (uint16_t i = 0; i < run.graph.workers(); ++i) out->peers_[{i}];
+  LiveCluster& self = *out;
+  out->thread_ = std::thread([&self, machine] { self.work(machine); });
+  std::unique_lock lock(self.mutex_);
+  self.changed_.wait(lock, [&] { return self.started_; });
+  if (self.fault_) return *self.fault_;
+  lock.unlock();
+  return out;
+}
+
+LiveCluster::~LiveCluster() {
+  {
+    const std::lock_guard lock(mutex_);
+    ends_ = true;
+  }
+  thread_.join();
+}
+
+// ---- whoever traces ----------------------------------------------------------------------------
+
+void LiveCluster::enter(const LiveWish& wish) {
+  const std::lock_guard lock(mutex_);
+  wish_ = std::make_shared<const std::string>(wish_text(wish));
+}
+
+void LiveCluster::trace(LiveWork& work) {
+  std::unique_lock lock(mutex_);
+  work_ = &work;
+  all_given_ = false;
+  while (!work.stopped() && !(all_given_ && leases_.empty())) changed_.wait_for(lock, stop_every);
+  // What is still out comes too late: the next call has it traced anew, if it is wanted then.
+  for (const auto& [id, lease] : leases_) work.give_back(lease.batches);
+  leases_.clear();
+  work_ = nullptr;
+}
+
+LiveCluster::Counters LiveCluster::counters() const {
+  const std::lock_guard lock(mutex_);
+  Counters out = counters_;
+  for (const auto& [worker, peer] : peers_) out.workers += peer.here ? 1 : 0;
+  return out;
+}
+
+// ---- the node's thread -------------------------------------------------------------------------
+
+void LiveCluster::work(const Machine& machine) {
+  const auto begun = [&](std::optional<Problem> fault) {
+    const std::lock_guard lock(mutex_);
+    started_ = true;
+    fault_ = std::move(fault);
+    changed_.notify_all();
+  };
+  try {
+    NodeTransport transport(machine, node_);
+    NodeShell shell({controller_net(run_, node_), controller_limits(node_),
+                     ShellConfig{}.room_bytes_most, node_.shutdown_phase, run_.routes},
+                    run_.graph, machine.clock, transport.transport());
+    if (auto joined = join_links(transport.sockets(), node_); !joined.ok())
+      return begun(joined.problem());
+    shell_ = &shell;
+    last_lease_ = node_.net.incarnation.value;  // no lease of an earlier life is taken for one
+    begun(std::nullopt);
+    shell.add([this](const Delivery& d) { return deliver(d); });
+    look();
+    Nanoseconds told = never;
+    shell.begin([&] {
+      const std::lock_guard lock(mutex_);
+      if (!ends_) return false;
+      const Nanoseconds now = machine.clock.now();
+      if (told == never) {
+        told = now;
+        say_end();
+      }
+      return now >= told + farewell;
+    });
+    shell.run();
+  } catch (const std::exception& e) {
+    spdlog::error("view=broken text=\"{}\"", e.what());
+    begun(Problem{{}, e.what()});
+  }
+}
+
+void LiveCluster::say_end() {
+  for (const auto& [worker, peer] : peers_)
+    if (peer.here) shell_->network().send(worker, shell_->network().next_id(), RunEnded{});
+}
+
+void LiveCluster::look() {
+  const std::lock_guard lock(mutex_);
+  Scheduler& scheduler = shell_->scheduler();
+  const Nanoseconds now = scheduler.clock().now();
+  scheduler.timers().set(now + (work_ == nullptr ? look_at_rest : look_at_work),
+                         [this] { look(); });
+  for (auto& [worker, peer] : peers_) {
+    if (!peer.here || shell_->network().reaches(worker)) continue;
+    peer.here = false;
+    spdlog::warn("worker=lost node={} text=\"no way leads to {}\"", worker.value,
+                 run_.name_of(worker));
+  }
+  fence([&](const Lease& lease) { return !peers_[lease.node].here; }, "its worker is gone");
+  fence([&](const Lease& lease) { return now - lease.lent >= node_.lease_time; }, "late");
+  lend_all();
+}
+
+template <class Which>
+void LiveCluster::fence(Which&& which, const char* why) {
+  for (auto at = leases_.begin(); at != leases_.end();) {
+    if (!which(at->second)) {
+      ++at;
+      continue;
+    }
+    ++counters_.fenced;
+    spdlog::warn("lease=fenced lease={} node={} text=\"{}: lent again\"", at->first,
+                 at->second.node.value, why);
+    work_->give_back(at->second.batches);
+    all_given_ = false;
+    at = leases_.erase(at);
+  }
+}
+
+size_t LiveCluster::lent_to(NodeId worker) const {
+  return static_cast<size_t>(std::count_if(leases_.begin(), leases_.end(), [&](const auto& entry) {
+    return entry.second.node == worker;
+  }));
+}
+
+void LiveCluster::lend_all() {
+  for (auto& [worker, peer] : peers_)
+    if (peer.here) lend(worker, peer);
+  if (all_given_ && leases_.empty()) changed_.notify_all();
+}
+
+void LiveCluster::lend(NodeId worker, Peer& peer) {
+  if (work_ == nullptr) return;
+  Network& network = shell_->network();
+  for (size_t lent = lent_to(worker); lent < leases_each; ++lent) {
+    const auto batches = work_->next(peer.batches);
+    all_given_ = !batches;
+    if (!batches) return;
+    const TraceBatches order{++last_lease_, work_->seed(), static_cast<uint32_t>(batches->group),
+                             static_cast<uint32_t>(batches->count),
+                             static_cast<uint64_t>(batches->first)};
+    const SharedBytes text{std::as_bytes(std::span(*wish_)), wish_};
+    if (network.send(worker, network.next_id(), order, text) != SendOutcome::taken) {
+      work_->give_back(*batches);
+      return;
+    }
+    leases_[order.lease] = {worker, *batches, shell_->scheduler().clock().now()};
+    ++counters_.leases;
+  }
+}
+
+bool LiveCluster::deliver(const Delivery& delivery) {
+  const std::lock_guard lock(mutex_);
+  if (peers_.find(delivery.source) == peers_.end()) return false;
+  if (std::holds_alternative<RequestLease>(delivery.message)) {
+    meet(delivery);
+    return true;
+  }
+  const auto* traced = std::get_if<BatchesTraced>(&delivery.message);
+  if (traced == nullptr) return false;
+  take(delivery, *traced);
+  return true;
+}
+
+/// A worker says that it is there, and has nothing to do.
+void LiveCluster::meet(const Delivery& delivery) {
+  Network& network = shell_->network();
+  network.send(delivery.source, delivery.id, ends_ ? Message(RunEnded{}) : Message(LeaseGranted{}));
+  if (ends_) return;
+  Peer& peer = peers_[delivery.source];
+  const bool anew = peer.life != delivery.id.incarnation;
+  if (!peer.here)
+    spdlog::info("worker=here node={} text=\"{} is there\"", delivery.source.value,
+                 run_.name_of(delivery.source));
+  const Nanoseconds now = shell_->scheduler().clock().now();
+  fence(
+      [&](const Lease& lease) {
+        return lease.node == delivery.source && (anew || now - lease.lent >= lost_on_the_way);
+      },
+      "its worker has nothing to do");
+  peer = {true, delivery.id.incarnation, anew ? 1 : peer.batches};
+  lend(delivery.source, peer);
+}
+
+void LiveCluster::take(const Delivery& delivery, const BatchesTraced& traced) {
+  Peer& peer = peers_[delivery.source];
+  const auto at = leases_.find(traced.lease);
+  if (at == leases_.end() || at->second.node != delivery.source ||
+      peer.life != delivery.id.incarnation) {
+    ++counters_.dropped;
+    return;
+  }
+  const Lease lease = at->second;
+  Totals& totals = work_->totals();
+  const auto gain = traced.fault.empty()
+                        ? decode_flush(delivery.payload, totals.groups(), totals.layout().totals())
+                        : Result<FlushGain>(Problem{{}, traced.fault});
+  if (!gain.ok() || gain.value().batches() != lease.batches.count) {
+    spdlog::error("worker=fails node={} text=\"{}: {}\"", delivery.source.value,
+                  run_.name_of(delivery.source),
+                  gain.ok() ? "other batches than it was lent" : gain.problem().what);
+    peer.here = false;  // until it says again that it is
+    fence([&](const Lease& its) { return its.node == delivery.source; }, "its worker fails");
+    return;
+  }
+  gain.value().add_to(totals);
+  leases_.erase(at);
+  const Nanoseconds took = shell_->scheduler().clock().now() - lease.lent;
+  const bool large = delivery.payload.size() >= large_answer;
+  if (took < (large ? large_answer_at_most : lease_at_least))
+    peer.batches = std::min(2 * peer.batches, batches_most);
+  else if (took > lease_at_most && !large)
+    peer.batches = std::max<int64_t>(peer.batches / 2, 1);
+  lend(delivery.source, peer);
+  if (all_given_ && leases_.empty()) changed_.notify_all();
+}
+
+}  // namespace luxodus

@@ -1,0 +1,205 @@
+#include "actors/view/live_worker.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "actors/supervise/node_plan.hpp"
+#include "actors/view/live_work.hpp"
+#include "actors/view/wish_text.hpp"
+
+namespace luxodus {
+
+namespace {
+
+/// Between words that it is there, and has nothing to do.
+constexpr Nanoseconds word_every = milliseconds(250);
+constexpr Nanoseconds send_again_after = milliseconds(1);
+/// Particles of one turn: some 0.2 ms.
+constexpr int64_t portion_particles = 128;
+/// Leases at hand; more are not taken. A live view lends two at a time.
+constexpr size_t orders_most = 8;
+constexpr uint32_t batches_most = 1 << 16;
+
+}  // namespace
+
+Result<std::shared_ptr<const LiveState>> LiveStates::get(const std::string& wish) {
+  const std::lock_guard lock(mutex_);
+  if (state_ && wish == wish_) return state_;
+  auto parsed = parse_wish(wish);
+  if (!parsed.ok()) return parsed.problem();
+  auto scene = compile_live(*scene_, parsed.value());
+  if (!scene.ok()) return scene.problem();
+  state_ = std::make_shared<LiveState>(std::move(scene).value());
+  wish_ = wish;
+  return state_;
+}
+
+LiveWorker::Tracing::Tracing(std::shared_ptr<const LiveState> of, uint64_t seed)
+    : state(std::move(of)),
+      tracer(make_batch_tracer(*state->scene, GeometryAccess::resident(state->index), seed)),
+      totals(state->scene->layout, static_cast<int>(state->scene->groups.size()),
+             photopic_weights(*state->scene)),
+      encoder(static_cast<int>(state->scene->groups.size()), state->scene->layout.totals()) {}
+
+LiveWorker::LiveWorker(const RunSetup& run, const NodeSetup& node, const NodeSeams& seams,
+                       LiveStates& states)
+    : node_(node),
+      states_(states),
+      shell_({node.net, worker_limits(run, node), ShellConfig{}.room_bytes_most,
+              node.shutdown_phase, run.routes},
+             run.graph, seams.clock, seams.transport),
+      began_(seams.clock.now()) {}
+
+void LiveWorker::start(std::function<bool()> stop) {
+  stop_ = std::move(stop);
+  shell_.add([this](const Delivery& d) { return deliver(d); });
+  look();
+  shell_.begin([this] { return ended_ || stop_(); });
+}
+
+/// Says that it is there, and gives the live view up when that is gone.
+void LiveWorker::look() {
+  const Nanoseconds now = shell_.scheduler().clock().now();
+  shell_.scheduler().timers().set(now + word_every, [this] { look(); });
+  if (ended_) return;
+  if (shell_.network().reaches(node_.controller))
+    unreachable_since_.reset();
+  else if (!unreachable_since_)
+    unreachable_since_ = now;
+  const auto give_up = [&](const char* what, Nanoseconds after, const char* key) {
+    fault_ = Problem{
+        {}, fmt::format("{} for {:g} s ({})", what, static_cast<double>(after) * 1e-9, key)};
+    ended_ = true;
+  };
+  if (!heard_ && now - began_ >= node_.start)
+    return give_up("the live view has not been heard of", node_.start, "start_s");
+  if (heard_ && unreachable_since_ && now - *unreachable_since_ >= node_.lost)
+    return give_up("no way has led to the live view", node_.lost, "lost_s");
+  if (orders_.empty() && answers_.empty())
+    shell_.network().send(node_.controller, shell_.network().next_id(), RequestLease{1});
+}
+
+bool LiveWorker::deliver(const Delivery& delivery) {
+  if (delivery.source != node_.controller) return false;
+  heard_ = true;
+  if (std::holds_alternative<RunEnded>(delivery.message)) {
+    ended_ = true;
+    return true;
+  }
+  // A live view that waits for wishes says so: by leases of nothing.
+  if (std::holds_alternative<LeaseGranted>(delivery.message)) return true;
+  const auto* order = std::get_if<TraceBatches>(&delivery.message);
+  if (order == nullptr) return false;
+  std::string wish(reinterpret_cast<const char*>(delivery.payload.data()), delivery.payload.size());
+  // Nobody waits for another state any more; what is in work ends.
+  const auto stale = [&](const Order& old) { return old.wish != wish; };
+  if (orders_.size() > 1)
+    orders_.erase(std::remove_if(orders_.begin() + 1, orders_.end(), stale), orders_.end());
+  if (orders_.size() >= orders_most) return true;
+  orders_.push_back({*order, std::move(wish)});
+  wake();
+  return true;
+}
+
+void LiveWorker::wake() {
+  if (working_) return;
+  working_ = true;
+  shell_.scheduler().timers().set(shell_.scheduler().clock().now(), [this] { work(); });
+}
+
+/// One portion, or what is left to be sent.
+void LiveWorker::work() {
+  working_ = false;
+  send_answers();
+  if (!orders_.empty()) {
+    const Order& order = orders_.front();
+    std::string fault = trace_portion(order);
+    const int64_t all = tracing_ == nullptr
+                            ? 0
+                            : int64_t{order.what.batches} * tracing_->state->scene->batch_particles;
+    if (!fault.empty() || traced_ >= all) answer(std::move(fault));
+  }
+  if (!orders_.empty()) return wake();
+  if (answers_.empty()) return;
+  working_ = true;
+  shell_.scheduler().timers().set(shell_.scheduler().clock().now() + send_again_after,
+                                  [this] { work(); });
+}
+
+Result<bool> LiveWorker::enter(const Order& order) {
+  if (tracing_ && order.wish == wish_ && order.what.seed == seed_) return true;
+  tracing_.reset();
+  auto state = states_.get(order.wish);
+  if (!state.ok()) return state.problem();
+  tracing_ = std::make_unique<Tracing>(state.value(), order.what.seed);
+  wish_ = order.wish;
+  seed_ = order.what.seed;
+  return true;
+}
+
+/// Why it cannot be traced; "" where it can.
+std::string LiveWorker::trace_portion(const Order& order) try {
+  if (const auto entered = enter(order); !entered.ok()) return entered.problem().text();
+  const CompiledScene& scene = *tracing_->state->scene;
+  if (order.what.group >= scene.groups.size() || order.what.batches > batches_most ||
+      order.what.first_batch > uint64_t{1} << 40)
+    return "there are no such batches";
+  const int group = static_cast<int>(order.what.group);
+  const int64_t in_batch = traced_ % scene.batch_particles;
+  if (in_batch == 0) tracing_->scores.reset(scene.layout);
+  const auto batch = static_cast<int64_t>(order.what.first_batch) + traced_ / scene.batch_particles;
+  const int64_t count = std::min(portion_particles, scene.batch_particles - in_batch);
+  tracing_->tracer->trace(group,
+                          first_particle_of(scene, group, batch) + static_cast<uint64_t>(in_batch),
+                          count, tracing_->scores);
+  traced_ += count;
+  if (in_batch + count == scene.batch_particles) tracing_->totals.merge(tracing_->scores, group);
+  return "";
+} catch (const std::exception& e) {
+  tracing_.reset();
+  return e.what();
+}
+
+void LiveWorker::answer(std::string fault) {
+  Answer out;
+  out.message.lease = orders_.front().what.lease;
+  out.message.fault = fault.substr(0, limits::text_bytes);
+  if (fault.empty()) {
+    tracing_->encoder.begin(tracing_->totals);
+    while (!tracing_->encoder.step(tracing_->state->scene->layout.totals())) continue;
+    const auto bytes = std::make_shared<const std::vector<std::byte>>(tracing_->encoder.bytes());
+    out.payload = {*bytes, bytes};
+  }
+  answers_.push_back(std::move(out));
+  orders_.pop_front();
+  traced_ = 0;
+  send_answers();
+}
+
+void LiveWorker::send_answers() {
+  Network& network = shell_.network();
+  while (!answers_.empty()) {
+    const Answer& next = answers_.front();
+    const SendOutcome outcome =
+        network.send(node_.controller, network.next_id(), next.message, next.payload);
+    if (outcome == SendOutcome::full) return;
+    answers_.pop_front();  // without a way, the lease is fenced there
+  }
+}
+
+Result<WorkerReport> run_live_worker(const RunSetup& run, const Machine& machine,
+                                     const NodeSetup& node, const std::function<bool()>& stop,
+                                     LiveStates& states) {
+  NodeTransport transport(machine, node);
+  LiveWorker worker(run, node, transport.seams(), states);
+  if (auto joined = join_links(transport.sockets(), node); !joined.ok()) return joined.problem();
+  worker.start(stop);
+  worker.shell().run();
+  if (!worker.fault()) return WorkerReport{};
+  return Problem{{},
+                 run.name_of(node.net.self) + ": " + worker.fault()->what +
+                     transport.meeting_trouble(worker.shell().network())};
+}
+
+}  // namespace luxodus

@@ -1,0 +1,66 @@
+#include "actors/view/wish_text.hpp"
+
+#include "scenes/format/json_out.hpp"
+
+namespace luxodus {
+
+namespace {
+
+using Moves = std::map<std::string, LiveWish::Move>;
+
+Json numbers(const glm::dvec3& v) {
+  return {v.x, v.y, v.z};
+}
+
+Json moves_json(const Moves& moves) {
+  Json out = Json::object();
+  for (const auto& [name, move] : moves) {
+    Json one = {{"position", numbers(move.position)}};
+    if (move.facing) one["facing"] = numbers(*move.facing);
+    out[name] = std::move(one);
+  }
+  return out;
+}
+
+// What is not there or of another type is thrown by the library, and caught below.
+
+glm::dvec3 read_vector(const Json& list) {
+  return {list.at(0).get<double>(), list.at(1).get<double>(), list.at(2).get<double>()};
+}
+
+Moves read_moves(const Json& object) {
+  Moves out;
+  for (const auto& [name, one] : object.items()) {
+    LiveWish::Move& move = out[name];
+    move.position = read_vector(one.at("position"));
+    if (one.contains("facing")) move.facing = read_vector(one.at("facing"));
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string wish_text(const LiveWish& wish) {
+  const Json object = {{"scenario", wish.scenario},
+                       {"smoke", wish.smoke},
+                       {"signs", moves_json(wish.signs)},
+                       {"luminaires", moves_json(wish.luminaires)}};
+  return object.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+Result<LiveWish> parse_wish(std::string_view text) {
+  if (text.size() > limits::wish_bytes) return Problem{{}, "a wish is at most 1 MiB"};
+  try {
+    const Json object = Json::parse(text);
+    LiveWish out;
+    out.scenario = object.at("scenario").get<std::string>();
+    out.smoke = object.at("smoke").get<double>();
+    out.signs = read_moves(object.at("signs"));
+    out.luminaires = read_moves(object.at("luminaires"));
+    return out;
+  } catch (const Json::exception& e) {
+    return Problem{{}, std::string("this is no wish of a live view: ") + e.what()};
+  }
+}
+
+}  // namespace luxodus

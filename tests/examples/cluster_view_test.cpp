@@ -1,0 +1,119 @@
+// A live view whose light comes from the processes of a cluster, as a person starts and uses it.
+#include <boost/asio/connect.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/websocket.hpp>
+#include <cstring>
+#include <set>
+
+#include "tests/examples/cluster_kit.hpp"
+
+using namespace luxodus::program;
+
+namespace {
+
+namespace beast = boost::beast;
+namespace net = boost::asio;
+
+/// What a browser's page says and hears.
+class Page {
+ public:
+  explicit Page(const std::string& port) : socket_(context_) {
+    net::ip::tcp::resolver resolver(context_);
+    net::connect(socket_.next_layer(), resolver.resolve("127.0.0.1", port));
+    socket_.read_message_max(64 << 20);
+    socket_.handshake("127.0.0.1:" + port, "/live");
+  }
+  void say(const std::string& text) {
+    socket_.text(true);
+    socket_.write(net::buffer(text));
+  }
+  /// Listens until a text has these words, and gives it; what lights up meanwhile is remembered.
+  std::string hear(const std::string& words) {
+    for (;;) {
+      beast::flat_buffer buffer;
+      socket_.read(buffer);
+      const std::string got = beast::buffers_to_string(buffer.data());
+      if (!socket_.got_text())
+        remember(got);
+      else if (got.find(words) != std::string::npos)
+        return got;
+    }
+  }
+  /// Groups of which light has come, by generation.
+  std::set<uint32_t> lit(uint32_t generation) const {
+    std::set<uint32_t> out;
+    for (const auto& [number, group] : lit_)
+      if (number == generation) out.insert(group);
+    return out;
+  }
+
+ private:
+  void remember(const std::string& frame) {
+    uint32_t head[3];
+    REQUIRE(frame.size() >= sizeof head);
+    std::memcpy(head, frame.data(), sizeof head);
+    if (head[0] == 2) lit_.insert({head[1], head[2]});
+  }
+
+  net::io_context context_;
+  beast::websocket::stream<net::ip::tcp::socket> socket_;
+  std::set<std::pair<uint32_t, uint32_t>> lit_;
+};
+
+ClusterText viewed() {
+  ClusterText text;
+  text.workers = 2;
+  text.scene = (fs::path(LUX_SOURCE_DIR) / "scenes/library/office_floor.toml").string();
+  text.run = "particles = 400_000\n";
+  text.more = "[view]\nport = 0\n[timeouts]\nstart_s = 20\nlost_s = 20\n";
+  return text;
+}
+
+/// The port of the page that a process has told of.
+std::string port_of(Process& process) {
+  REQUIRE(process.says("http://127.0.0.1:"));
+  REQUIRE(process.says("Ctrl-C"));
+  const std::string& text = process.text();
+  const size_t from = text.find("http://127.0.0.1:") + 17;
+  return text.substr(from, text.find('/', from) - from);
+}
+
+}  // namespace
+
+TEST_CASE("a cluster traces for a live view, and retraces what is moved", "[cluster][view]") {
+  const Folder folder;
+  Process up(LUX_PROGRAM, {"cluster", "up", write_cluster(folder, viewed())});
+  {
+    Page page(port_of(up));
+    const std::string scene = page.hear("\"type\":\"scene\"");
+    page.hear("\"done\":true");
+    const size_t groups = page.lit(1).size();
+    CHECK(groups > 10);
+    // One luminaire moves: its light alone comes anew.
+    const size_t at = scene.find("\"luminaires\":[");
+    REQUIRE(at != std::string::npos);
+    const size_t name = scene.find("\"name\":\"", at) + 8;
+    page.say(R"({"type":"move","kind":"luminaire","name":")" +
+             scene.substr(name, scene.find('"', name) - name) + R"(","position":[2,2,2.2]})");
+    page.hear("\"generation\":2");
+    page.hear("\"done\":true");
+    CHECK(page.lit(2).size() == 1);
+  }
+  up.kill(SIGINT);
+  const int code = up.wait();
+  INFO(up.text());
+  CHECK(code == 0);
+  CHECK(up.said("n0 is there"));
+  CHECK(up.said("n1 is there"));
+}
+
+TEST_CASE("a live view refuses nodes that do not hold the scene", "[cluster][view][failure]") {
+  const Folder folder;
+  ClusterText text = viewed();
+  text.more += "[budget]\nobject_bytes = \"1 MiB\"\n";
+  Process node(LUX_PROGRAM,
+               {"node", "--config", write_cluster(folder, text), "--name", "controller"});
+  CHECK(node.wait() == 1);
+  CHECK(node.said("object_bytes"));
+}

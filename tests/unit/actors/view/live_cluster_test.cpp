@@ -1,0 +1,125 @@
+// A live view that nodes trace for: their light is that of threads, to the bit, whoever comes and
+// goes. Real nodes of this process, over inproc.
+#include "actors/view/live_cluster.hpp"
+
+#include <atomic>
+#include <catch2/catch.hpp>
+#include <thread>
+
+#include "actors/view/live_nodes.hpp"
+#include "actors/view/live_run.hpp"
+#include "tests/unit/actors/view/live_room.hpp"
+
+using namespace luxodus;
+using namespace luxodus::test;
+
+namespace {
+
+constexpr int64_t level = 24;
+
+const auto never_stop = [] { return false; };
+const auto no_tick = [] {};
+
+std::unique_ptr<LiveNodes> nodes_for(const LiveRoom& room, NodesOptions options = {}) {
+  auto nodes = LiveNodes::start(room.scene(), options);
+  REQUIRE(nodes.ok());
+  return std::move(nodes).value();
+}
+
+void same_light(const LiveRun& a, const LiveRun& b) {
+  for (const int group : {left, right, sign}) {
+    const auto& x = a.shown(group).state(group);
+    const auto& y = b.shown(group).state(group);
+    CHECK(x.batches == y.batches);
+    REQUIRE(x.totals.size() == y.totals.size());
+    size_t differences = 0;
+    for (size_t i = 0; i < x.totals.size(); ++i)
+      differences +=
+          x.totals[i].sum != y.totals[i].sum || x.totals[i].squares != y.totals[i].squares;
+    CHECK(differences == 0);
+  }
+}
+
+/// The light of threads.
+LiveRun traced_here(const LiveRoom& room, const LiveWish& wish) {
+  LiveRun run(room.compiled(wish), 1, 1, nullptr, false);
+  LiveThreads threads(1);
+  CHECK(run.trace(level, LiveRun::Scope::all, threads, never_stop, no_tick));
+  return run;
+}
+
+}  // namespace
+
+TEST_CASE("nodes give a live view the light of threads, state after state", "[view][nodes]") {
+  const LiveRoom room;
+  const auto nodes = nodes_for(room);
+  LiveCluster& cluster = *nodes->tracers();
+  cluster.enter({});
+  LiveRun first(room.compiled({}), 1, 1, nullptr, false);
+  CHECK(first.trace(level, LiveRun::Scope::all, cluster, never_stop, no_tick));
+  same_light(first, traced_here(room, {}));
+  CHECK(cluster.counters().workers == 2);
+  first.tell(first.news());
+  // A lamp moves: its group alone is traced by the nodes, in the other building.
+  const int64_t particles = first.particles();
+  cluster.enter(moved_lamp());
+  LiveRun second(room.compiled(moved_lamp()), 1, 1, &first, true);
+  CHECK(second.light(right) == ShownLight::own);
+  CHECK(second.trace(level, LiveRun::Scope::all, cluster, never_stop, no_tick));
+  same_light(second, traced_here(room, moved_lamp()));
+  CHECK(second.particles() == particles);
+}
+
+TEST_CASE("what nodes have not given when tracing stops is traced later", "[view][nodes]") {
+  const LiveRoom room;
+  const auto nodes = nodes_for(room);
+  LiveCluster& cluster = *nodes->tracers();
+  cluster.enter({});
+  LiveRun run(room.compiled({}), 1, 1, nullptr, false);
+  int stops = 0;
+  bool done = false;
+  while (!done) {
+    // Any thread may ask; after so many answers each call has to end.
+    std::atomic<int> asked = 0;
+    done = run.trace(
+        level, LiveRun::Scope::all, cluster, [&] { return ++asked > 60; }, no_tick);
+    stops += done ? 0 : 1;
+  }
+  CHECK(stops > 0);
+  same_light(run, traced_here(room, {}));
+}
+
+TEST_CASE("a live view goes on when one of its nodes leaves", "[view][nodes][failure]") {
+  const LiveRoom room;
+  NodesOptions options;
+  std::atomic<bool> one_leaves = false;
+  std::atomic<std::thread::id> leaver{};
+  // The first worker that asks when one has to leave is the one.
+  options.stop = [&] {
+    if (!one_leaves) return false;
+    std::thread::id nobody{};
+    leaver.compare_exchange_strong(nobody, std::this_thread::get_id());
+    return leaver.load() == std::this_thread::get_id();
+  };
+  const auto nodes = nodes_for(room, options);
+  LiveCluster& cluster = *nodes->tracers();
+  cluster.enter({});
+  LiveRun run(room.compiled({}), 1, 1, nullptr, false);
+  CHECK(run.trace(4, LiveRun::Scope::all, cluster, never_stop, no_tick));
+  one_leaves = true;
+  CHECK(run.trace(level, LiveRun::Scope::all, cluster, never_stop, no_tick));
+  same_light(run, traced_here(room, {}));
+}
+
+TEST_CASE("a live view without nodes waits until it is told to stop", "[view][nodes][failure]") {
+  const LiveRoom room;
+  NodesOptions options;
+  options.stop = [] { return true; };  // all workers leave at once
+  const auto nodes = nodes_for(room, options);
+  LiveCluster& cluster = *nodes->tracers();
+  cluster.enter({});
+  LiveRun run(room.compiled({}), 1, 1, nullptr, false);
+  std::atomic<int> asked = 0;
+  CHECK_FALSE(run.trace(
+      level, LiveRun::Scope::all, cluster, [&] { return ++asked > 100; }, no_tick));
+}

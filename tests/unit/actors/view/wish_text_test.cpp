@@ -1,0 +1,39 @@
+#include "actors/view/wish_text.hpp"
+
+#include <catch2/catch.hpp>
+#include <string>
+
+using namespace luxodus;
+
+TEST_CASE("a wish is the same after its way to a node", "[view]") {
+  LiveWish wish;
+  wish.scenario = "smoke \"emergency\"";
+  wish.smoke = 1.0 / 3;
+  wish.signs["exit é"] = {{0.1, -2e-300, 3}, glm::dvec3(0, 1.0 / 7, 1)};
+  wish.luminaires["lamp"] = {{1e6 + 1e-6, 0, 0}, std::nullopt};
+  const std::string text = wish_text(wish);
+  const auto parsed = parse_wish(text);
+  REQUIRE(parsed.ok());
+  const LiveWish& read = parsed.value();
+  CHECK(read.scenario == wish.scenario);
+  CHECK(read.smoke == wish.smoke);
+  CHECK(read.signs.at("exit é").position == wish.signs["exit é"].position);
+  CHECK(read.signs.at("exit é").facing == wish.signs["exit é"].facing);
+  CHECK(read.luminaires.at("lamp").position == wish.luminaires["lamp"].position);
+  CHECK_FALSE(read.luminaires.at("lamp").facing);
+  CHECK(wish_text(read) == text);
+}
+
+TEST_CASE("what is no wish is refused with a reason", "[view][failure]") {
+  for (const char* text : {"", "[]", "{", "{\"scenario\":1}", "null",
+                           R"({"scenario":"","smoke":"thick","signs":{},"luminaires":{}})",
+                           R"({"scenario":"","smoke":1,"signs":{"a":{}},"luminaires":{}})",
+                           R"({"scenario":"","smoke":1,"signs":[1],"luminaires":{}})",
+                           R"({"scenario":"","smoke":1,"signs":{"a":{"position":[1,2]}}})"}) {
+    INFO(text);
+    const auto read = parse_wish(text);
+    REQUIRE_FALSE(read.ok());
+    CHECK_FALSE(read.problem().what.empty());
+  }
+  CHECK_FALSE(parse_wish(std::string(limits::wish_bytes + 1, ' ')).ok());
+}
