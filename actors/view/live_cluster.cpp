@@ -54,6 +54,11 @@ LiveCluster::~LiveCluster() {
 
 // ---- whoever traces ----------------------------------------------------------------------------
 
+void LiveCluster::foresee(const LiveWish& wish) {
+  const std::lock_guard lock(mutex_);
+  foreseen_ = std::make_shared<const std::string>(wish_text(wish));
+}
+
 void LiveCluster::enter(const LiveWish& wish) {
   const std::lock_guard lock(mutex_);
   wish_ = std::make_shared<const std::string>(wish_text(wish));
@@ -135,7 +140,22 @@ void LiveCluster::look() {
   }
   fence([&](const Lease& lease) { return !peers_[lease.node].here; }, "its worker is gone");
   fence([&](const Lease& lease) { return now - lease.lent >= node_.lease_time; }, "late");
+  tell_foreseen();
   lend_all();
+}
+
+/// A lease of no batches has a worker compile what it refers to; its answer is dropped.
+void LiveCluster::tell_foreseen() {
+  if (!foreseen_) return;
+  for (const auto& [worker, peer] : peers_)
+    if (peer.here) send(worker, {.lease = ++last_lease_}, foreseen_);
+  foreseen_.reset();
+}
+
+SendOutcome LiveCluster::send(NodeId worker, const TraceBatches& order,
+                              const std::shared_ptr<const std::string>& wish) {
+  Network& network = shell_->network();
+  return network.send(worker, network.next_id(), order, {std::as_bytes(std::span(*wish)), wish});
 }
 
 template <class Which>
@@ -166,18 +186,24 @@ void LiveCluster::lend_all() {
   if (all_given_ && leases_.empty()) changed_.notify_all();
 }
 
+/// So many that all leases of all workers end together.
+int64_t LiveCluster::fair_share() const {
+  int64_t leases = 0;
+  for (const auto& [worker, peer] : peers_)
+    if (peer.here) leases += static_cast<int64_t>(leases_each);
+  return std::max<int64_t>(1, work_->left() / std::max<int64_t>(leases, 1));
+}
+
 void LiveCluster::lend(NodeId worker, Peer& peer) {
   if (work_ == nullptr) return;
-  Network& network = shell_->network();
   for (size_t lent = lent_to(worker); lent < leases_each; ++lent) {
-    const auto batches = work_->next(peer.batches);
+    const auto batches = work_->next(std::min(peer.batches, fair_share()));
     all_given_ = !batches;
     if (!batches) return;
     const TraceBatches order{++last_lease_, work_->seed(), static_cast<uint32_t>(batches->group),
                              static_cast<uint32_t>(batches->count),
                              static_cast<uint64_t>(batches->first)};
-    const SharedBytes text{std::as_bytes(std::span(*wish_)), wish_};
-    if (network.send(worker, network.next_id(), order, text) != SendOutcome::taken) {
+    if (send(worker, order, wish_) != SendOutcome::taken) {
       work_->give_back(*batches);
       return;
     }

@@ -28,6 +28,8 @@ class LiveCluster final : public LiveTracers {
   LiveCluster(const LiveCluster&) = delete;
   LiveCluster& operator=(const LiveCluster&) = delete;
 
+  /// Has workers compile it.
+  void foresee(const LiveWish& wish) override;
   void enter(const LiveWish& wish) override;
   /// Waits for workers where none is there; see LiveTracers.
   void trace(LiveWork& work) override;
@@ -60,8 +62,12 @@ class LiveCluster final : public LiveTracers {
   void take(const Delivery& delivery, const BatchesTraced& traced);
   void lend(NodeId worker, Peer& peer);
   void lend_all();
+  SendOutcome send(NodeId worker, const TraceBatches& order,
+                   const std::shared_ptr<const std::string>& wish);
+  void tell_foreseen();
   template <class Which>
   void fence(Which&& which, const char* why);
+  int64_t fair_share() const;
   size_t lent_to(NodeId worker) const;
   void say_end();
 
@@ -73,7 +79,8 @@ class LiveCluster final : public LiveTracers {
   LiveWork* work_ = nullptr;  // of the trace() under way
   bool all_given_ = false;    // it has no more
   std::shared_ptr<const std::string> wish_;
-  std::map<uint64_t, Lease> leases_;  // that stand
+  std::shared_ptr<const std::string> foreseen_;  // workers have not been told of it yet
+  std::map<uint64_t, Lease> leases_;             // that stand
   uint64_t last_lease_ = 0;
   std::map<NodeId, Peer> peers_;
   Counters counters_;

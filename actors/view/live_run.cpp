@@ -207,6 +207,12 @@ class LiveRun::Work final : public LiveWork {
     const auto g = static_cast<size_t>(group);
     return run_.give(g, std::min(most, goal_[g] - run_.given(g)));
   }
+  int64_t left() override {
+    const std::lock_guard lock(mutex_);
+    int64_t out = 0;
+    for (size_t g = 0; g < goal_.size(); ++g) out += std::max<int64_t>(0, goal_[g] - run_.given(g));
+    return out;
+  }
   void give_back(const LiveBatches& batches) override {
     const std::lock_guard lock(mutex_);
     run_.again_[static_cast<size_t>(batches.group)].push_back(batches);

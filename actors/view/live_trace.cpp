@@ -114,6 +114,7 @@ void LiveTrace::answer_all() {
 }
 
 void LiveTrace::begin(const LiveWish& wish) {
+  tracers_->foresee(wish);
   auto compiled = compile_live(*scene_, wish);
   if (!compiled.ok()) return audience_.refuses(compiled.problem().text());
   const bool same_air = run_ && traced_.scenario == wish.scenario && traced_.smoke == wish.smoke;

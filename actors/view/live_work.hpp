@@ -33,6 +33,8 @@ class LiveWork {
   /// Up to `most` batches; none where there are no more, or somebody wants it to stop. Whoever
   /// takes some merges what they give into totals(), or gives them back.
   virtual std::optional<LiveBatches> next(int64_t most) = 0;
+  /// Batches that next() has still to give, unless it is stopped.
+  virtual int64_t left() = 0;
   virtual void give_back(const LiveBatches& batches) = 0;
   virtual bool stopped() const = 0;
   virtual Totals& totals() = 0;
@@ -41,6 +43,8 @@ class LiveWork {
 class LiveTracers {
  public:
   virtual ~LiveTracers() = default;
+  /// A building that may be entered next: what takes time may begin.
+  virtual void foresee(const LiveWish& wish) = 0;
   /// The building of what is traced from now on.
   virtual void enter(const LiveWish& wish) = 0;
   /// Returns when next() has given none, and all that it gave is merged or given back.
@@ -52,6 +56,7 @@ class LiveThreads final : public LiveTracers {
  public:
   /// Requires: threads >= 1.
   explicit LiveThreads(int threads) : threads_(threads) {}
+  void foresee(const LiveWish&) override {}
   void enter(const LiveWish&) override {}
   void trace(LiveWork& work) override;
 

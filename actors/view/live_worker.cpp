@@ -92,14 +92,19 @@ bool LiveWorker::deliver(const Delivery& delivery) {
   const auto* order = std::get_if<TraceBatches>(&delivery.message);
   if (order == nullptr) return false;
   std::string wish(reinterpret_cast<const char*>(delivery.payload.data()), delivery.payload.size());
-  // Nobody waits for another state any more; what is in work ends.
-  const auto stale = [&](const Order& old) { return old.wish != wish; };
-  if (orders_.size() > 1)
-    orders_.erase(std::remove_if(orders_.begin() + 1, orders_.end(), stale), orders_.end());
+  // Nobody waits for another state any more.
+  if (!orders_.empty() && orders_.back().wish != wish) drop_orders();
   if (orders_.size() >= orders_most) return true;
   orders_.push_back({*order, std::move(wish)});
   wake();
   return true;
+}
+
+/// And what they have given.
+void LiveWorker::drop_orders() {
+  orders_.clear();
+  traced_ = 0;
+  tracing_.reset();
 }
 
 void LiveWorker::wake() {
@@ -141,6 +146,7 @@ Result<bool> LiveWorker::enter(const Order& order) {
 /// Why it cannot be traced; "" where it can.
 std::string LiveWorker::trace_portion(const Order& order) try {
   if (const auto entered = enter(order); !entered.ok()) return entered.problem().text();
+  if (order.what.batches == 0) return "";  // it was to be entered, no more
   const CompiledScene& scene = *tracing_->state->scene;
   if (order.what.group >= scene.groups.size() || order.what.batches > batches_most ||
       order.what.first_batch > uint64_t{1} << 40)

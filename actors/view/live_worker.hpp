@@ -76,6 +76,7 @@ class LiveWorker {
   void look();
   void work();
   void wake();
+  void drop_orders();
   Result<bool> enter(const Order& order);
   std::string trace_portion(const Order& order);
   void answer(std::string fault);

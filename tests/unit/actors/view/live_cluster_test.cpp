@@ -62,12 +62,29 @@ TEST_CASE("nodes give a live view the light of threads, state after state", "[vi
   first.tell(first.news());
   // A lamp moves: its group alone is traced by the nodes, in the other building.
   const int64_t particles = first.particles();
+  cluster.foresee(moved_lamp());
   cluster.enter(moved_lamp());
   LiveRun second(room.compiled(moved_lamp()), 1, 1, &first, true);
   CHECK(second.light(right) == ShownLight::own);
   CHECK(second.trace(level, LiveRun::Scope::all, cluster, never_stop, no_tick));
   same_light(second, traced_here(room, moved_lamp()));
   CHECK(second.particles() == particles);
+}
+
+TEST_CASE("a building that was foreseen and never entered changes nothing", "[view][nodes]") {
+  const LiveRoom room;
+  const auto nodes = nodes_for(room);
+  LiveCluster& cluster = *nodes->tracers();
+  cluster.enter({});
+  LiveRun run(room.compiled({}), 1, 1, nullptr, false);
+  CHECK(run.trace(4, LiveRun::Scope::all, cluster, never_stop, no_tick));
+  LiveWish refused;
+  refused.scenario = "there is none";
+  cluster.foresee(refused);
+  CHECK(run.trace(8, LiveRun::Scope::all, cluster, never_stop, no_tick));
+  cluster.foresee(moved_lamp());
+  CHECK(run.trace(level, LiveRun::Scope::all, cluster, never_stop, no_tick));
+  same_light(run, traced_here(room, {}));
 }
 
 TEST_CASE("what nodes have not given when tracing stops is traced later", "[view][nodes]") {
@@ -78,11 +95,12 @@ TEST_CASE("what nodes have not given when tracing stops is traced later", "[view
   LiveRun run(room.compiled({}), 1, 1, nullptr, false);
   int stops = 0;
   bool done = false;
-  while (!done) {
-    // Any thread may ask; after so many answers each call has to end.
+  // Any thread may ask; after so many answers each call has to end, the first long before all is
+  // lent.
+  for (int patience = 6; !done; patience *= 2) {
     std::atomic<int> asked = 0;
     done = run.trace(
-        level, LiveRun::Scope::all, cluster, [&] { return ++asked > 60; }, no_tick);
+        level, LiveRun::Scope::all, cluster, [&] { return ++asked > patience; }, no_tick);
     stops += done ? 0 : 1;
   }
   CHECK(stops > 0);
@@ -120,6 +138,8 @@ TEST_CASE("a live view without nodes waits until it is told to stop", "[view][no
   cluster.enter({});
   LiveRun run(room.compiled({}), 1, 1, nullptr, false);
   std::atomic<int> asked = 0;
+  constexpr int64_t endless = int64_t{1} << 30;
   CHECK_FALSE(run.trace(
-      level, LiveRun::Scope::all, cluster, [&] { return ++asked > 100; }, no_tick));
+      endless, LiveRun::Scope::all, cluster, [&] { return ++asked > 300; }, no_tick));
+  CHECK(cluster.counters().workers == 0);
 }
