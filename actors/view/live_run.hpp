@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "actors/source/rows.hpp"
+#include "actors/view/bin_map.hpp"
 #include "scenes/transport/readout.hpp"
 #include "scenes/transport/trace.hpp"
 
@@ -35,6 +36,8 @@ class LiveRun {
 
   /// Whether triangles and their patches are those of `before`.
   bool same_geometry() const { return same_geometry_; }
+  /// Where patches are found in those of `before`; none where they are of another building.
+  const std::optional<BinMap>& bins() const { return bins_; }
 
   /// Which groups are traced: without light, without light of before, all.
   enum class Scope { fresh, own, all };
@@ -85,13 +88,17 @@ class LiveRun {
     std::shared_ptr<const CompiledScene> scene;  // which the totals refer to
     Totals totals;
   };
-  void take_over(const LiveRun& before);
+  void take_over(const LiveRun& before, const BinMap& bins);
+  /// Groups that go on keep their random numbers under another number of their own, and no two
+  /// have the same.
+  void keep_streams(const LiveRun& before);
   bool is_of(Scope scope, size_t group) const;
   int64_t wanted(size_t group, int64_t level) const;
 
   std::shared_ptr<const CompiledScene> scene_;
   const uint64_t seed_;
   const int threads_;
+  const std::optional<BinMap> bins_;
   const bool same_geometry_;
   std::shared_ptr<const Geometry> geometry_;
   ResidentRows rows_;
@@ -100,6 +107,7 @@ class LiveRun {
   std::vector<ShownLight> lights_;
   std::vector<int64_t> issued_, told_;  // batches of each group
   std::vector<double> share_;           // of all batches
+  std::vector<int> stream_;             // what stands for a group in the ids of its particles
   double seconds_ = 0;
 };
 

@@ -1,8 +1,10 @@
 // What a state of a live building takes over from the one before, and what it traces anew.
 #include "actors/view/live_run.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstring>
 
 #include "actors/view/live_scene.hpp"
 #include "scenes/format/scene_file.hpp"
@@ -162,6 +164,150 @@ TEST_CASE("a moved sign leaves light of before, which ends when its own has caug
   told(after);
   CHECK(after.light(left) == ShownLight::own);
   CHECK(after.shown(left).batches(left) < before.shown(left).batches(left));
+}
+
+namespace {
+
+bool same_bits(const LiveRun& a, int in_a, const LiveRun& b, int in_b) {
+  const auto &x = a.shown(in_a).state(in_a).totals, &y = b.shown(in_b).state(in_b).totals;
+  return x.size() == y.size() && std::memcmp(x.data(), y.data(), x.size() * sizeof(Total)) == 0;
+}
+
+LiveWish added_lamp() {
+  LiveWish wish;
+  wish.added = {{false, "left", "left copy"}};
+  wish.luminaires["left copy"] = {{1, 1, 1}, std::nullopt};
+  return wish;
+}
+LiveWish added_sign() {
+  LiveWish wish;
+  wish.added = {{true, "exit", "exit copy"}};
+  wish.signs["exit copy"] = {{0.1, 2, 2.2}, glm::dvec3(1, 0, 0)};
+  return wish;
+}
+
+int group_of(const LiveRun& run, const std::string& name) {
+  const auto& groups = run.scene().groups;
+  const auto at = std::find_if(groups.begin(), groups.end(),
+                               [&](const Group& group) { return group.name == name; });
+  REQUIRE(at != groups.end());
+  return static_cast<int>(at - groups.begin());
+}
+
+}  // namespace
+
+TEST_CASE("an added luminaire is traced, and all other light is kept to the bit", "[view]") {
+  const Room room;
+  LiveRun before(room.compiled({}), 1, 1, nullptr, false);
+  reach(before, 8);
+  told(before);
+  LiveRun after(room.compiled(added_lamp()), 1, 1, &before, true);
+  CHECK(after.same_geometry());
+  const int copy = group_of(after, "left copy");
+  CHECK(after.light(copy) == ShownLight::none);
+  CHECK(after.groups_with(ShownLight::own) == 3);
+  for (const char* name : {"left", "right", "sign exit"}) {
+    const int now = group_of(after, name), was = group_of(before, name);
+    CHECK(same_bits(after, now, before, was));
+    CHECK(caught(after, now).value == caught(before, was).value);
+  }
+  reach(after, 4);
+  CHECK(told(after) == std::vector<int>{copy});
+  // A closed room of a half: each lumen arrives twice in all.
+  const Estimate light = caught(after, copy);
+  CHECK(std::abs(light.value - 2000) < 5 * light.standard_error + 5);
+  // It goes again: the others are still what they were.
+  const LiveRun again(room.compiled({}), 1, 1, &after, true);
+  CHECK(again.groups_with(ShownLight::own) == 3);
+  for (const int group : {left, right, sign}) CHECK(same_bits(again, group, before, group));
+}
+
+TEST_CASE("light that goes on beside an added luminaire is the light of one run", "[view]") {
+  const Room room;
+  LiveRun whole(room.compiled({}), 1, 1, nullptr, false);
+  reach(whole, 8);
+  LiveRun first(room.compiled({}), 1, 1, nullptr, false);
+  reach(first, 2);
+  told(first);
+  LiveRun second(room.compiled(added_lamp()), 1, 2, &first, true);
+  reach(second, 8);
+  const int now = group_of(second, "sign exit");
+  REQUIRE(now != sign);  // a luminaire more stands before it
+  REQUIRE(second.shown(now).batches(now) == whole.shown(sign).batches(sign));
+  CHECK(same_bits(second, now, whole, sign));
+}
+
+TEST_CASE("of two copies in one place, whatever came and went before, each has its own particles",
+          "[view]") {
+  const Room room;
+  const auto with = [&](const std::vector<std::string>& names) {
+    LiveWish wish;
+    for (const std::string& name : names) {
+      wish.added.push_back({false, "left", name});
+      wish.luminaires[name] = {{1, 1, 1}, std::nullopt};
+    }
+    return room.compiled(wish);
+  };
+  LiveRun first(with({"gone", "stays"}), 1, 1, nullptr, false);
+  reach(first, 4);
+  told(first);
+  LiveRun second(with({"stays", "comes"}), 1, 1, &first, true);
+  CHECK(second.light(group_of(second, "stays")) == ShownLight::own);
+  reach(second, 4);
+  const int stays = group_of(second, "stays"), comes = group_of(second, "comes");
+  CHECK(second.shown(stays).batches(stays) == second.shown(comes).batches(comes));
+  CHECK_FALSE(same_bits(second, stays, second, comes));
+}
+
+TEST_CASE("an added sign leaves light of before, in the bins of the new building", "[view]") {
+  const Room room;
+  LiveRun before(room.compiled({}), 1, 1, nullptr, false);
+  reach(before, 64);
+  told(before);
+  LiveRun after(room.compiled(added_sign()), 1, 1, &before, true);
+  CHECK_FALSE(after.same_geometry());
+  REQUIRE(after.bins());
+  CHECK_FALSE(after.bins()->is_same());
+  const int copy = group_of(after, "sign exit copy");
+  CHECK(after.light(copy) == ShownLight::none);
+  CHECK(after.groups_with(ShownLight::before) == 3);
+  for (const int group : {left, right, sign})
+    CHECK(caught(after, group).value == caught(before, group).value);
+  reach(after, 4, LiveRun::Scope::own);
+  CHECK(told(after) == std::vector<int>{copy});  // its own group first
+  reach(after, 24);
+  told(after);
+  CHECK(after.groups_with(ShownLight::own) == 4);
+  // The same as of a run that began with it.
+  LiveRun fresh(room.compiled(added_sign()), 1, 1, nullptr, false);
+  reach(fresh, 24);
+  CHECK(caught(fresh, left).value == caught(after, left).value);
+  // It goes again: light of before once more.
+  const LiveRun again(room.compiled({}), 1, 1, &after, true);
+  CHECK(again.groups_with(ShownLight::before) == 3);
+  CHECK(again.shown(left).batches(left) == after.shown(left).batches(left));
+}
+
+TEST_CASE("bins of a building with another sign are found surface by surface", "[view]") {
+  const Room room;
+  const auto a = room.compiled({}), b = room.compiled(added_sign());
+  const auto bins = BinMap::between(*a, *b), back = BinMap::between(*b, *a);
+  REQUIRE(bins);
+  REQUIRE(back);
+  for (const CompiledSurface& now : b->surfaces)
+    for (uint32_t p = 0; p < now.patches; ++p) {
+      const uint32_t was = bins->patch_before(now.first_patch + p);
+      if (now.name == "exit copy") CHECK(was == none_index);
+      if (now.name == "exit copy") continue;
+      REQUIRE(was != none_index);
+      CHECK(back->patch_before(was) == now.first_patch + p);
+    }
+  const auto same = BinMap::between(*a, *room.compiled(moved_sign()));
+  REQUIRE(same);
+  CHECK(same->is_same());
+  LiveWish beyond;  // the room's middle, from which all is measured, is elsewhere then
+  beyond.luminaires["left"] = {{-3, 1, 1}, std::nullopt};
+  CHECK_FALSE(BinMap::between(*a, *room.compiled(beyond)));
 }
 
 TEST_CASE("in other air nothing is kept but the geometry's frame", "[view]") {
