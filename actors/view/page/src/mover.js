@@ -5,6 +5,8 @@ import { add, cross, dot, scale, subtract, unit } from './walk/vectors.js';
 /** After the last press of a handle [ms]. */
 const patience = 600;
 const mark_m = 0.12;
+/** How far beside the original a copy stands at first. */
+const beside_m = 0.5;
 
 export class Mover {
   /** `say(message, key)` to the program; `outline(corners)`; `moved(position)` for the panel. */
@@ -71,6 +73,14 @@ export class Mover {
     this.thing.position = position;
     this.moved(position);
     this.draw();
+  }
+
+  /** Asks for a copy beside what is held: of a sign along its width. */
+  copy() {
+    if (this.pending) this.send();
+    const { name, position, facing } = this.thing;
+    this.say({ type: 'add', kind: this.kind, of: name,
+      position: add(position, scale(this.axes.right, beside_m)), ...(facing && { facing }) });
   }
 
   send() {
