@@ -50,12 +50,23 @@ emergency_white = 100
 emergency_green = 10
 )";
 
+/// Its body stands behind all signs.
+const std::string panel = R"(
+[[emitter]]
+name = "panel"
+shape = "rectangle"
+position = [3, 1, 2.9]
+size = [0.5, 0.5]
+flux_lm = 1000
+body_material = "grey50"
+)";
+
 constexpr int left = 0, right = 1, sign = 2;
 
 class Room {
  public:
-  Room() {
-    auto read = read_scene(folder_.write("room.toml", room));
+  explicit Room(const std::string& more = "") {
+    auto read = read_scene(folder_.write("room.toml", room + more));
     REQUIRE(read.scene);
     scene_ = std::move(*read.scene);
   }
@@ -289,7 +300,7 @@ TEST_CASE("an added sign leaves light of before, in the bins of the new building
 }
 
 TEST_CASE("bins of a building with another sign are found surface by surface", "[view]") {
-  const Room room;
+  const Room room(panel);
   const auto a = room.compiled({}), b = room.compiled(added_sign());
   const auto bins = BinMap::between(*a, *b), back = BinMap::between(*b, *a);
   REQUIRE(bins);
@@ -302,6 +313,29 @@ TEST_CASE("bins of a building with another sign are found surface by surface", "
       REQUIRE(was != none_index);
       CHECK(back->patch_before(was) == now.first_patch + p);
     }
+  const auto& body = b->surfaces.back();
+  REQUIRE(body.name == "panel body");
+  CHECK(bins->patch_before(body.first_patch) == a->surfaces.back().first_patch);
+  CHECK(a->surfaces.back().first_patch < body.first_patch);
+  LiveRun before(a, 1, 1, nullptr, false);
+  reach(before, 8);
+  told(before);
+  const LiveRun after(b, 1, 1, &before, true);
+  for (const char* name : {"left", "panel", "sign exit"}) {
+    const int was = group_of(before, name), now = group_of(after, name);
+    const Readout then(*a, before.shown(was)), here(*b, after.shown(now));
+    for (const uint32_t block : {a->blocks.patches, a->blocks.surfaces}) {
+      const bool patches = block == a->blocks.patches;
+      const auto last = [&](const CompiledScene& of) {
+        return patches ? of.patch_count - 2 : static_cast<uint32_t>(of.surfaces.size()) - 1;
+      };
+      const double caught_then = then.lumens(block, last(*a), 0, was).value;
+      CHECK(caught_then > 0);
+      CHECK(here.lumens(block, last(*b), 0, now).value == caught_then);
+    }
+    CHECK(here.lumens(b->blocks.escape, 0, 0, now).value ==
+          then.lumens(a->blocks.escape, 0, 0, was).value);
+  }
   const auto same = BinMap::between(*a, *room.compiled(moved_sign()));
   REQUIRE(same);
   CHECK(same->is_same());
