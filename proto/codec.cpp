@@ -116,6 +116,7 @@ void write_order(wire::TraceBatches::Builder out, const TraceBatches& m) {
   out.setGroup(m.group);
   out.setBatches(m.batches);
   out.setFirstBatch(m.first_batch);
+  out.setStream(m.stream);
 }
 
 void write(wire::Message::Builder out, const Message& message) {
@@ -392,8 +393,8 @@ Message read(wire::Message::Reader in) {
     }
     case wire::Message::TRACE_BATCHES: {
       const auto order = in.getTraceBatches();
-      return TraceBatches{order.getLease(), order.getSeed(), order.getGroup(), order.getBatches(),
-                          order.getFirstBatch()};
+      return TraceBatches{order.getLease(),   order.getSeed(),       order.getGroup(),
+                          order.getBatches(), order.getFirstBatch(), order.getStream()};
     }
     case wire::Message::BATCHES_TRACED: {
       const auto traced = in.getBatchesTraced();

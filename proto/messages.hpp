@@ -287,6 +287,7 @@ struct TraceBatches {
   uint32_t group = 0;
   uint32_t batches = 0;
   uint64_t first_batch = 0;  // of the group
+  uint32_t stream = 0;       // of random numbers, that the group has
   friend bool operator==(const TraceBatches&, const TraceBatches&) = default;
 };
 /// What they have given follows as payload, as of a flush.
@@ -296,12 +297,12 @@ struct BatchesTraced {
   friend bool operator==(const BatchesTraced&, const BatchesTraced&) = default;
 };
 
-using Message = std::variant<Hello, Welcome, Refuse, Bye, Beat, LinkChanges, FetchObject,
-                             ObjectFound, ObjectNotHere, RequestLease, LeaseGranted, LeasesFenced,
-                             Flush, FlushTaken, FlushRefused, RoundOpened, RunEnded, ProfileCounted,
-                             AskStatus, StatusAnswered, EnterPhase, FlushPart, PartHeld,
-                             FlushDecided, FlushSettled, AskTotals, TotalsTold, TraceBatches,
-                             BatchesTraced>;
+using Message =
+    std::variant<Hello, Welcome, Refuse, Bye, Beat, LinkChanges, FetchObject, ObjectFound,
+                 ObjectNotHere, RequestLease, LeaseGranted, LeasesFenced, Flush, FlushTaken,
+                 FlushRefused, RoundOpened, RunEnded, ProfileCounted, AskStatus, StatusAnswered,
+                 EnterPhase, FlushPart, PartHeld, FlushDecided, FlushSettled, AskTotals, TotalsTold,
+                 TraceBatches, BatchesTraced>;
 
 /// The kind whose buffers and credit a message uses.
 Kind kind_of(const Message& message);

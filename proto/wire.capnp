@@ -185,6 +185,7 @@ struct TraceBatches {
   group @2 :UInt32;
   batches @3 :UInt32;
   firstBatch @4 :UInt64;
+  stream @5 :UInt32;
 }
 
 struct BatchesTraced {

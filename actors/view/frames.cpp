@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <glm/gtc/packing.hpp>
+#include <unordered_map>
 
 #include "scenes/geometry/patches.hpp"
 #include "scenes/optics/media_set.hpp"
@@ -16,6 +17,8 @@ namespace {
 
 enum class FrameKind : uint32_t { geometry = 1, light = 2, smoke = 3, smoke_light = 4 };
 
+/// Front and back, r g b each, as half floats.
+constexpr size_t triangle_light_bytes = 2 * 3 * sizeof(uint16_t);
 constexpr double pi = 3.14159265358979323846;
 /// The largest half float: brighter patches are shown as bright as this [cd/m2].
 constexpr float half_most = 65504;
@@ -177,9 +180,12 @@ FrameHead head_of(const LiveFrame& frame) {
   return head;
 }
 
+bool is_surface_light(const FrameHead& head) {
+  return head.kind == static_cast<uint32_t>(FrameKind::light);
+}
+
 bool is_light(const FrameHead& head) {
-  return head.kind == static_cast<uint32_t>(FrameKind::light) ||
-         head.kind == static_cast<uint32_t>(FrameKind::smoke_light);
+  return is_surface_light(head) || head.kind == static_cast<uint32_t>(FrameKind::smoke_light);
 }
 
 LiveFrame readdressed(const LiveFrame& frame, uint32_t generation, uint32_t a) {
@@ -189,6 +195,31 @@ LiveFrame readdressed(const LiveFrame& frame, uint32_t generation, uint32_t a) {
   std::string text = *frame;
   std::memcpy(text.data(), &head, sizeof head);
   return std::make_shared<const std::string>(std::move(text));
+}
+
+std::shared_ptr<const std::vector<uint32_t>> triangles_from(const std::vector<LivePatch>& before,
+                                                            const std::vector<LivePatch>& now,
+                                                            const BinMap& bins) {
+  std::unordered_map<uint32_t, uint32_t> triangle;  // by the bin of its front
+  for (uint32_t i = 0; i < before.size(); ++i) triangle.try_emplace(before[i].front, i);
+  auto out = std::make_shared<std::vector<uint32_t>>();
+  out->reserve(now.size());
+  for (const LivePatch& patch : now) {
+    const auto at = triangle.find(bins.patch_before(patch.front));
+    out->push_back(at == triangle.end() ? none_index : at->second);
+  }
+  return out;
+}
+
+LiveFrame relaid(const LiveFrame& light, const std::vector<uint32_t>& triangles_before) {
+  std::string out = light->substr(0, sizeof(FrameHead));
+  out.resize(sizeof(FrameHead) + triangles_before.size() * triangle_light_bytes);
+  for (size_t i = 0; i < triangles_before.size(); ++i)
+    if (const size_t from = sizeof(FrameHead) + triangles_before[i] * triangle_light_bytes;
+        triangles_before[i] != none_index && from + triangle_light_bytes <= light->size())
+      std::memcpy(out.data() + sizeof(FrameHead) + i * triangle_light_bytes, light->data() + from,
+                  triangle_light_bytes);
+  return std::make_shared<const std::string>(std::move(out));
 }
 
 LiveFrame smoke_frame(const CompiledScene& scene, const SceneIndex& index, uint32_t generation) {

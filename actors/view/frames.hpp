@@ -38,8 +38,16 @@ struct FrameHead {
 FrameHead head_of(const LiveFrame& frame);
 /// Whether it is light of a group: then `a` is its number.
 bool is_light(const FrameHead& head);
+bool is_surface_light(const FrameHead& head);
 /// The same content in another generation; light as that of the group `a`.
 LiveFrame readdressed(const LiveFrame& frame, uint32_t generation, uint32_t a);
+
+/// Which triangle of before each of now was, or none_index.
+std::shared_ptr<const std::vector<uint32_t>> triangles_from(const std::vector<LivePatch>& before,
+                                                            const std::vector<LivePatch>& now,
+                                                            const BinMap& bins);
+/// Light on surfaces for other triangles: that of those that each was before, none on new ones.
+LiveFrame relaid(const LiveFrame& light, const std::vector<uint32_t>& triangles_before);
 
 /// Extinction of the voxels; none where no medium is.
 LiveFrame smoke_frame(const CompiledScene& scene, const SceneIndex& index, uint32_t generation);

@@ -200,9 +200,12 @@ void LiveCluster::lend(NodeId worker, Peer& peer) {
     const auto batches = work_->next(std::min(peer.batches, fair_share()));
     all_given_ = !batches;
     if (!batches) return;
-    const TraceBatches order{++last_lease_, work_->seed(), static_cast<uint32_t>(batches->group),
+    const TraceBatches order{++last_lease_,
+                             work_->seed(),
+                             static_cast<uint32_t>(batches->group),
                              static_cast<uint32_t>(batches->count),
-                             static_cast<uint64_t>(batches->first)};
+                             static_cast<uint64_t>(batches->first),
+                             static_cast<uint32_t>(batches->stream)};
     if (send(worker, order, wish_) != SendOutcome::taken) {
       work_->give_back(*batches);
       return;

@@ -1,5 +1,7 @@
 #include "actors/view/live_json.hpp"
 
+#include <algorithm>
+
 #include "scenes/format/base64.hpp"
 #include "scenes/optics/spectrum.hpp"
 
@@ -73,13 +75,19 @@ Json groups_json(const LiveGeneration& generation, const LiveDimming& dimming, b
   return out;
 }
 
+bool was_added(const LiveWish& wish, bool is_sign, const std::string& name) {
+  return std::any_of(wish.added.begin(), wish.added.end(), [&](const LiveWish::Copy& copy) {
+    return copy.is_sign == is_sign && copy.name == name;
+  });
+}
+
 std::string texels_of(const SignFace& face) {
   std::string bytes;
   for (const SignColour colour : face.colour) bytes.push_back(static_cast<char>(colour));
   return base64(bytes);
 }
 
-Json signs_json(const CompiledScene& scene) {
+Json signs_json(const CompiledScene& scene, const LiveWish& wish) {
   Json out = Json::array();
   for (const CompiledSign& face : scene.signs) {
     if (face.back) continue;
@@ -96,17 +104,19 @@ Json signs_json(const CompiledScene& scene) {
                    {"texels", texels_of(sign.face)},
                    {"white", colour(scene.bands, face.white_radiance)},
                    {"green", colour(scene.bands, face.green_radiance)},
-                   {"group", group_of_sign(sign.name)}});
+                   {"group", group_of_sign(sign.name)},
+                   {"added", was_added(wish, true, sign.name)}});
   }
   return out;
 }
 
-Json luminaires_json(const SceneDescription& scene) {
+Json luminaires_json(const SceneDescription& scene, const LiveWish& wish) {
   Json out = Json::array();
   for (const Emitter& e : scene.emitters)
     out.push_back({{"name", e.name},
                    {"position", place(e.frame.origin)},
-                   {"group", group_of_luminaire(e.name)}});
+                   {"group", group_of_luminaire(e.name)},
+                   {"added", was_added(wish, false, e.name)}});
   return out;
 }
 
@@ -148,9 +158,10 @@ Json live_scene_json(const SceneDescription& scene, const LiveGeneration& genera
           {"seconds", dimming.seconds ? Json(*dimming.seconds) : Json()},
           {"low", place(compiled.bounds.low)},
           {"high", place(compiled.bounds.high)},
+          {"relaid", follows && generation.triangles_before != nullptr},
           {"groups", groups_json(generation, dimming, follows)},
-          {"signs", signs_json(compiled)},
-          {"luminaires", luminaires_json(*compiled.description)},
+          {"signs", signs_json(compiled, generation.wish)},
+          {"luminaires", luminaires_json(*compiled.description, generation.wish)},
           {"observers", observers},
           {"cameras", cameras},
           {"voxels", voxels_json(compiled)},

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstring>
 #include <mutex>
+#include <numeric>
+#include <set>
 
 #include "actors/source/batch_plan.hpp"
 
@@ -24,32 +26,14 @@ double since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-bool same_bands(const Bands& a, const Bands& b) {
-  if (a.count() != b.count()) return false;
-  for (int i = 0; i < a.count(); ++i)
-    if (a[i].low_nm != b[i].low_nm || a[i].high_nm != b[i].high_nm ||
-        a[i].lm_per_w != b[i].lm_per_w || a[i].x_per_w != b[i].x_per_w ||
-        a[i].z_per_w != b[i].z_per_w)
-      return false;
-  return true;
-}
-
-/// Whether bins of totals mean the same in both.
-bool same_bins(const CompiledScene& a, const CompiledScene& b) {
-  return a.local_origin == b.local_origin && a.length_unit_m == b.length_unit_m &&
-         a.batch_particles == b.batch_particles && a.layout.totals() == b.layout.totals() &&
-         a.patch_count == b.patch_count && a.surfaces.size() == b.surfaces.size() &&
-         a.voxels.low == b.voxels.low && a.voxels.edge == b.voxels.edge &&
-         a.voxels.count() == b.voxels.count() && same_bands(a.bands, b.bands);
-}
-
-bool same_triangles(const CompiledScene& a, const CompiledScene& b) {
+bool same_triangles(const CompiledScene& a, const CompiledScene& b,
+                    const std::optional<BinMap>& bins) {
   const auto same = [](const GeometryCell& x, const GeometryCell& y) {
     return x.triangles.size() == y.triangles.size() &&
            std::memcmp(x.triangles.data(), y.triangles.data(),
                        x.triangles.size() * sizeof(TriangleRecord)) == 0;
   };
-  return same_bins(a, b) &&
+  return bins && bins->is_same() &&
          std::equal(a.cells.begin(), a.cells.end(), b.cells.begin(), b.cells.end(), same);
 }
 
@@ -86,7 +70,8 @@ LiveRun::LiveRun(std::shared_ptr<const CompiledScene> scene, uint64_t seed, int 
     : scene_(std::move(scene)),
       seed_(seed),
       threads_(threads),
-      same_geometry_(before != nullptr && same_triangles(*scene_, *before->scene_)),
+      bins_(before == nullptr ? std::nullopt : BinMap::between(*before->scene_, *scene_)),
+      same_geometry_(before != nullptr && same_triangles(*scene_, *before->scene_, bins_)),
       geometry_(same_geometry_ && same_air ? before->geometry_
                                            : std::make_shared<Geometry>(scene_)),
       rows_(geometry_->index, threads),
@@ -96,19 +81,22 @@ LiveRun::LiveRun(std::shared_ptr<const CompiledScene> scene, uint64_t seed, int 
       issued_(scene_->groups.size(), 0),
       told_(scene_->groups.size(), 0),
       again_(scene_->groups.size()),
-      share_(BatchPlan(*scene_).shares()) {
-  if (before != nullptr && same_air && same_bins(*scene_, *before->scene_)) take_over(*before);
+      share_(BatchPlan(*scene_).shares()),
+      stream_(scene_->groups.size()) {
+  std::iota(stream_.begin(), stream_.end(), 0);
+  if (before != nullptr && same_air && bins_) take_over(*before, *bins_);
 }
 
-void LiveRun::take_over(const LiveRun& before) {
-  const bool same_groups =
+void LiveRun::take_over(const LiveRun& before, const BinMap& bins) {
+  const bool shares =
+      bins.is_same() &&
       std::equal(scene_->groups.begin(), scene_->groups.end(), before.scene_->groups.begin(),
                  before.scene_->groups.end(), [](const Group& a, const Group& b) {
                    return a.name == b.name && a.band_share == b.band_share;
                  });
-  // With other groups, groups have other numbers: then what they have is copied.
-  const std::shared_ptr<Ledger> copies = same_groups ? nullptr : std::make_shared<Ledger>(scene_);
-  if (same_groups && same_geometry_) own_ = before.own_;
+  // With other groups or patches these have other numbers: then what they have is copied.
+  const std::shared_ptr<Ledger> copies = shares ? nullptr : std::make_shared<Ledger>(scene_);
+  if (shares && same_geometry_) own_ = before.own_;
   for (size_t g = 0; g < lights_.size(); ++g) {
     const int group = static_cast<int>(g);
     const int old = group_named(*before.scene_, scene_->groups[g].name);
@@ -120,7 +108,7 @@ void LiveRun::take_over(const LiveRun& before) {
     }
     const auto was = static_cast<size_t>(old);
     if (same_geometry_) {
-      if (!same_groups) own_->totals.restore(group, before.own_->totals.state(old));
+      if (!shares) own_->totals.restore(group, before.own_->totals.state(old));
       issued_[g] = before.issued_[was];
       again_[g] = before.again_[was];
       for (LiveBatches& batches : again_[g]) batches.group = group;
@@ -128,8 +116,24 @@ void LiveRun::take_over(const LiveRun& before) {
     }
     lights_[g] = same_geometry_ ? before.lights_[was] : ShownLight::before;
     if (lights_[g] != ShownLight::before) continue;
-    if (!same_groups) copies->totals.restore(group, before.shown(old).state(old));
-    before_[g] = same_groups ? (before.before_[was] ? before.before_[was] : before.own_) : copies;
+    if (!shares) copies->totals.restore(group, bins.moved(before.shown(old).state(old)));
+    before_[g] = shares ? (before.before_[was] ? before.before_[was] : before.own_) : copies;
+  }
+  keep_streams(before);
+}
+
+void LiveRun::keep_streams(const LiveRun& before) {
+  std::set<int> kept;
+  for (size_t g = 0; g < stream_.size(); ++g) {
+    if (issued_[g] == 0) continue;
+    const int old = group_named(*before.scene_, scene_->groups[g].name);
+    kept.insert(stream_[g] = before.stream_[static_cast<size_t>(old)]);
+  }
+  int free = 0;
+  for (size_t g = 0; g < stream_.size(); ++g) {
+    if (issued_[g] > 0) continue;
+    while (kept.count(free) > 0) ++free;
+    stream_[g] = free++;
   }
 }
 
@@ -170,12 +174,12 @@ int LiveRun::neediest(const std::vector<int64_t>& goal) const {
 /// The next batches of a group: first what was given back.
 LiveBatches LiveRun::give(size_t group, int64_t most) {
   if (again_[group].empty()) {
-    const LiveBatches out{static_cast<int>(group), issued_[group], most};
+    const LiveBatches out{static_cast<int>(group), stream_[group], issued_[group], most};
     issued_[group] += most;
     return out;
   }
   LiveBatches& left = again_[group].back();
-  const LiveBatches out{left.group, left.first, std::min(left.count, most)};
+  const LiveBatches out{left.group, left.stream, left.first, std::min(left.count, most)};
   left.first += out.count;
   left.count -= out.count;
   if (left.count == 0) again_[group].pop_back();

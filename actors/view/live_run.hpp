@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "actors/source/rows.hpp"
+#include "actors/view/bin_map.hpp"
 #include "actors/view/live_work.hpp"
 #include "scenes/transport/readout.hpp"
 #include "scenes/transport/trace.hpp"
@@ -36,6 +37,8 @@ class LiveRun {
 
   /// Whether triangles and their patches are those of `before`.
   bool same_geometry() const { return same_geometry_; }
+  /// Where patches are found in those of `before`; none where they are of another building.
+  const std::optional<BinMap>& bins() const { return bins_; }
 
   /// Which groups are traced: without light, without light of before, all.
   enum class Scope { fresh, own, all };
@@ -87,7 +90,10 @@ class LiveRun {
     Totals totals;
   };
   class Work;
-  void take_over(const LiveRun& before);
+  void take_over(const LiveRun& before, const BinMap& bins);
+  /// Groups that go on keep their random numbers under another number of their own, and no two
+  /// have the same.
+  void keep_streams(const LiveRun& before);
   bool is_of(Scope scope, size_t group) const;
   int64_t wanted(size_t group, int64_t level) const;
   int64_t given(size_t group) const;
@@ -97,6 +103,7 @@ class LiveRun {
   std::shared_ptr<const CompiledScene> scene_;
   const uint64_t seed_;
   const int threads_;
+  const std::optional<BinMap> bins_;
   const bool same_geometry_;
   std::shared_ptr<const Geometry> geometry_;
   ResidentRows rows_;
@@ -107,6 +114,7 @@ class LiveRun {
   std::vector<std::vector<LiveBatches>>
       again_;                  // of those issued, by group: nobody has traced them
   std::vector<double> share_;  // of all batches
+  std::vector<int> stream_;    // what stands for a group in the ids of its particles
   double seconds_ = 0;
 };
 

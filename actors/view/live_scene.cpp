@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 
 #include "scenes/emergency/onset.hpp"
 #include "scenes/emergency/sign_geometry.hpp"
@@ -34,6 +35,29 @@ std::string numbers(const glm::dvec3& v) {
          "]";
 }
 
+/// Adds a copy of the one named; false where there is none.
+template <class List>
+bool add_copy(List& list, const LiveWish::Copy& copy) {
+  const auto original =
+      std::find_if(list.begin(), list.end(), [&](const auto& one) { return one.name == copy.of; });
+  if (original == list.end()) return false;
+  auto added = *original;
+  added.name = copy.name;
+  list.push_back(std::move(added));
+  return true;
+}
+
+/// "exit" of "exit copy" and of "exit copy 2".
+std::string without_count(const std::string& name) {
+  constexpr std::string_view word = " copy";
+  const size_t at = name.rfind(word);
+  if (at == std::string::npos || at == 0) return name;
+  const std::string rest = name.substr(at + word.size());
+  const bool counted = rest.size() > 1 && rest.front() == ' ' &&
+                       rest.find_first_not_of("0123456789", 1) == std::string::npos;
+  return rest.empty() || counted ? name.substr(0, at) : name;
+}
+
 }  // namespace
 
 std::string group_of_luminaire(const std::string& name) {
@@ -51,6 +75,9 @@ Result<SceneDescription> live_description(const SceneDescription& scene, const L
   clear_measurements(out);
   out.run.batch_particles = live_batch_particles;
   out.run.groups = GroupRule::by_circuit;  // where a group that is named wins
+  for (const LiveWish::Copy& copy : wish.added)
+    if (!(copy.is_sign ? add_copy(out.signs, copy) : add_copy(out.emitters, copy)))
+      return Problem{{scene.file, 0}, "there is no \"" + copy.of + "\" to copy"};
   for (Emitter& e : out.emitters) {
     e.group = group_of_luminaire(e.name);
     if (const auto move = wish.luminaires.find(e.name); move != wish.luminaires.end()) {
@@ -100,8 +127,30 @@ Result<std::shared_ptr<const CompiledScene>> compile_live(const SceneDescription
   for (Scenario::Factor& medium : state.media) medium.factor *= wish.smoke;
   state.seconds_after_failure = 0;
   state.says_seconds = false;
+  CompileOptions options;
+  options.bands_of = &scene;
   return compile_scene(std::make_shared<SceneDescription>(std::move(description).value()), state,
-                       {});
+                       options);
+}
+
+std::string name_for_copy(const SceneDescription& scene, const LiveWish& wish,
+                          const std::string& of) {
+  // Groups are told apart by their names as well, and a luminaire's may look like that of a sign.
+  std::set<std::string> taken;
+  const auto take = [&](const std::string& name, const std::string& group) {
+    taken.insert(name);
+    taken.insert(group);
+  };
+  for (const Sign& sign : scene.signs) take(sign.name, group_of_sign(sign.name));
+  for (const Emitter& e : scene.emitters) take(e.name, group_of_luminaire(e.name));
+  for (const Medium& medium : scene.media) take(medium.name, group_of_flame(medium.name));
+  for (const LiveWish::Copy& copy : wish.added)
+    take(copy.name, copy.is_sign ? group_of_sign(copy.name) : group_of_luminaire(copy.name));
+  const std::string first = without_count(of) + " copy";
+  std::string name = first;
+  for (int i = 2; taken.count(name) + taken.count(group_of_sign(name)) > 0; ++i)
+    name = first + " " + std::to_string(i);
+  return name;
 }
 
 std::string variant_text(const SceneDescription& scene, const LiveWish& wish,
@@ -110,9 +159,10 @@ std::string variant_text(const SceneDescription& scene, const LiveWish& wish,
   std::string out = "# A variant that was made in a live view.\ntitle = \"" +
                     (scene.title.empty() ? scene.name : scene.title) + ": " + name +
                     "\"\ninclude = [\"" + original + "\"]\n";
-  const auto change = [&](const char* kind, const std::string& of, const LiveWish::Move* move,
-                          double factor) {
+  const auto change = [&](const char* kind, const std::string& of, const std::string& copy,
+                          const LiveWish::Move* move, double factor) {
     out += fmt::format("\n[[change]]\nkind = \"{}\"\nof = \"{}\"\n", kind, of);
+    if (!copy.empty()) out += "copy = \"" + copy + "\"\n";
     if (move != nullptr) out += "position = " + numbers(move->position) + "\n";
     if (move != nullptr && move->facing) out += "facing = " + numbers(*move->facing) + "\n";
     if (factor != 1) out += "factor = " + shortest_number(factor) + "\n";
@@ -125,15 +175,22 @@ std::string variant_text(const SceneDescription& scene, const LiveWish& wish,
     const auto at = moves.find(of);
     return at == moves.end() ? nullptr : &at->second;
   };
+  // Before all else: what they copy is as the original has it.
+  for (const LiveWish::Copy& copy : wish.added) {
+    const auto& moves = copy.is_sign ? wish.signs : wish.luminaires;
+    const auto group = copy.is_sign ? group_of_sign(copy.name) : group_of_luminaire(copy.name);
+    change(copy.is_sign ? "sign" : "luminaire", copy.of, copy.name, move_of(moves, copy.name),
+           factor_of(group));
+  }
   for (const Emitter& e : scene.emitters) {
     const double factor = factor_of(group_of_luminaire(e.name));
     const auto* move = move_of(wish.luminaires, e.name);
-    if (move != nullptr || factor != 1) change("luminaire", e.name, move, factor);
+    if (move != nullptr || factor != 1) change("luminaire", e.name, "", move, factor);
   }
   for (const Sign& sign : scene.signs) {
     const double factor = factor_of(group_of_sign(sign.name));
     const auto* move = move_of(wish.signs, sign.name);
-    if (move != nullptr || factor != 1) change("sign", sign.name, move, factor);
+    if (move != nullptr || factor != 1) change("sign", sign.name, "", move, factor);
   }
   if (wish.smoke != 1)
     for (const Medium& medium : scene.media)

@@ -18,7 +18,13 @@ struct LiveWish {
     glm::dvec3 position{0};
     std::optional<glm::dvec3> facing;
   };
-  std::map<std::string, Move> signs, luminaires;  // by name
+  std::map<std::string, Move> signs, luminaires;  // by name, copies' too
+  /// A copy of a sign or luminaire of the scene, which stands where its own move says.
+  struct Copy {
+    bool is_sign = true;
+    std::string of, name;
+  };
+  std::vector<Copy> added = {};  // in their order
 };
 
 /// Which source group an emitter, a sign or a flame has.
@@ -26,8 +32,8 @@ std::string group_of_luminaire(const std::string& name);
 std::string group_of_sign(const std::string& name);
 std::string group_of_flame(const std::string& medium);
 
-/// A copy to be compiled: moved, grouped, with nothing to tally but surfaces and smoke.
-/// Errors: a facing that has no upright.
+/// A description to be compiled: with what was added, moved, grouped, with nothing to tally but
+/// surfaces and smoke. Errors: a facing that has no upright; a copy of what is not there.
 Result<SceneDescription> live_description(const SceneDescription& scene, const LiveWish& wish);
 
 /// How long the mains have failed in a scenario; none where they have not, or it does not say.
@@ -39,10 +45,16 @@ std::map<std::string, double> shares_after(const SceneDescription& scene, Operat
                                            std::optional<double> seconds);
 
 /// Luminaires are traced as fully on, photoluminescent signs as they are at first: what they give
-/// at other times is a share of it. Errors: as compile_scene and live_description; no such
+/// at other times is a share of it. Bands are those of the scene without what was added, so that
+/// all other light stays what it is. Errors: as compile_scene and live_description; no such
 /// scenario.
 Result<std::shared_ptr<const CompiledScene>> compile_live(const SceneDescription& scene,
                                                           const LiveWish& wish);
+
+/// A name for a copy of a sign or luminaire, that nothing in the scene or in the wish has: "exit
+/// copy", then "exit copy 2"; also of copies, which are counted on.
+std::string name_for_copy(const SceneDescription& scene, const LiveWish& wish,
+                          const std::string& of);
 
 /// A scene file that includes the original and says what differs.
 std::string variant_text(const SceneDescription& scene, const LiveWish& wish,

@@ -121,9 +121,12 @@ void LiveTrace::begin(const LiveWish& wish) {
   auto run = std::make_unique<LiveRun>(compiled.value(), options_.seed, options_.threads,
                                        run_.get(), same_air);
   const uint32_t generation = generation_ + 1;
+  std::shared_ptr<const std::vector<uint32_t>> triangles_before;
   if (!run->same_geometry()) {
     auto geometry = geometry_of(run->scene(), generation);
     if (!geometry.ok()) return audience_.refuses(geometry.problem().text());
+    if (same_air && run->bins() && !run->bins()->is_same())
+      triangles_before = triangles_from(geometry_.patches, geometry->patches, *run->bins());
     geometry_ = std::move(geometry).value();
   }
   if (!same_air || !run->same_geometry())
@@ -134,7 +137,8 @@ void LiveTrace::begin(const LiveWish& wish) {
   generation_ = generation;
   refined_ = false;
   error_ = std::numeric_limits<double>::quiet_NaN();
-  audience_.begins({generation, wish, compiled.value(), geometry_.frame, smoke_, run_->lights()});
+  audience_.begins({generation, wish, compiled.value(), geometry_.frame, smoke_, run_->lights(),
+                    std::move(triangles_before)});
 }
 
 void LiveTrace::tell(bool done) {

@@ -45,6 +45,9 @@ struct LiveGeneration {
   LiveFrame geometry;  // the frame of the generation before where triangles are the same
   LiveFrame smoke;     // likewise; null where no medium is
   std::vector<ShownLight> lights;  // of each group: what it goes on showing
+  /// Which triangle of the generation before each was, or none_index; null where all are the same
+  /// ones, or none is.
+  std::shared_ptr<const std::vector<uint32_t>> triangles_before = nullptr;
 };
 
 /// Who is told. Called on the tracing thread.

@@ -9,8 +9,8 @@
 
 namespace luxodus {
 
-uint64_t first_particle_of(const CompiledScene& scene, int group, int64_t batch) {
-  return (static_cast<uint64_t>(group) << limits::group_id_shift) +
+uint64_t first_particle_of(const CompiledScene& scene, int stream, int64_t batch) {
+  return (static_cast<uint64_t>(stream) << limits::group_id_shift) +
          static_cast<uint64_t>(batch * scene.batch_particles);
 }
 
@@ -22,7 +22,7 @@ void LiveThreads::trace(LiveWork& work) {
     BatchScores scores;
     while (const auto batch = work.next(1)) {
       scores.reset(scene.layout);
-      tracer->trace(batch->group, first_particle_of(scene, batch->group, batch->first),
+      tracer->trace(batch->group, first_particle_of(scene, batch->stream, batch->first),
                     scene.batch_particles, scores);
       work.totals().merge(scores, batch->group);
     }

@@ -16,12 +16,13 @@ struct LiveWish;
 /// Batches [first, first + count) of a source group.
 struct LiveBatches {
   int group = 0;
+  int stream = 0;  // what stands for the group in the ids of its particles
   int64_t first = 0;
   int64_t count = 0;
 };
 
 /// The id of the first particle of a batch.
-uint64_t first_particle_of(const CompiledScene& scene, int group, int64_t batch);
+uint64_t first_particle_of(const CompiledScene& scene, int stream, int64_t batch);
 
 /// What is to be traced now.
 class LiveWork {

@@ -20,6 +20,9 @@ constexpr int64_t portion_particles = 128;
 /// Leases at hand; more are not taken. A live view lends two at a time.
 constexpr size_t orders_most = 8;
 constexpr uint32_t batches_most = 1 << 16;
+/// What particles' ids have room for: see first_particle_of.
+constexpr uint64_t batch_numbers_most = uint64_t{1} << 30;
+constexpr uint32_t streams_most = (uint32_t{1} << 20) - 1;
 
 }  // namespace
 
@@ -149,7 +152,7 @@ std::string LiveWorker::trace_portion(const Order& order) try {
   if (order.what.batches == 0) return "";  // it was to be entered, no more
   const CompiledScene& scene = *tracing_->state->scene;
   if (order.what.group >= scene.groups.size() || order.what.batches > batches_most ||
-      order.what.first_batch > uint64_t{1} << 40)
+      order.what.first_batch > batch_numbers_most || order.what.stream > streams_most)
     return "there are no such batches";
   const int group = static_cast<int>(order.what.group);
   const int64_t in_batch = traced_ % scene.batch_particles;
@@ -157,7 +160,8 @@ std::string LiveWorker::trace_portion(const Order& order) try {
   const auto batch = static_cast<int64_t>(order.what.first_batch) + traced_ / scene.batch_particles;
   const int64_t count = std::min(portion_particles, scene.batch_particles - in_batch);
   tracing_->tracer->trace(group,
-                          first_particle_of(scene, group, batch) + static_cast<uint64_t>(in_batch),
+                          first_particle_of(scene, static_cast<int>(order.what.stream), batch) +
+                              static_cast<uint64_t>(in_batch),
                           count, tracing_->scores);
   traced_ += count;
   if (in_batch + count == scene.batch_particles) tracing_->totals.merge(tracing_->scores, group);

@@ -44,11 +44,11 @@ Json sign_verdicts(const SceneDescription& scene, const LiveWish& wish,
   const auto refused = [](const std::string& why) -> Json {
     return {{"type", "refused"}, {"why", why}};
   };
-  if (std::none_of(scene.signs.begin(), scene.signs.end(),
-                   [&](const Sign& s) { return s.name == sign; }))
-    return refused("there is no sign \"" + sign + "\"");
   const auto now = as_it_stands(scene, wish, factors);
   if (!now.ok()) return refused(now.problem().what);
+  if (std::none_of(now->signs.begin(), now->signs.end(),
+                   [&](const Sign& s) { return s.name == sign; }))
+    return refused("there is no sign \"" + sign + "\"");
   auto scenario = find_scenario(scene, wish.scenario);
   if (!scenario.ok()) return refused(scenario.problem().what);
   scenario->smoke_factor *= wish.smoke;

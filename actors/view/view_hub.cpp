@@ -16,6 +16,18 @@ LiveFrame text_of(const Json& message) {
       message.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
+bool is_there(const SceneDescription& scene, bool is_sign, const std::string& name) {
+  const auto is_it = [&](const auto& one) { return one.name == name; };
+  return is_sign ? std::any_of(scene.signs.begin(), scene.signs.end(), is_it)
+                 : std::any_of(scene.emitters.begin(), scene.emitters.end(), is_it);
+}
+
+bool is_mesh(const SceneDescription& scene, const std::string& luminaire) {
+  return std::any_of(scene.emitters.begin(), scene.emitters.end(), [&](const Emitter& e) {
+    return e.name == luminaire && e.shape == EmitterShape::mesh;
+  });
+}
+
 /// A name that is a file of its own and nothing else.
 bool is_plain_name(const std::string& name) {
   return name.find_first_not_of(
@@ -57,8 +69,11 @@ void ViewHub::begins(const LiveGeneration& generation) {
       viewer->send_text(text_of(scene_json(*viewer, before.scene != nullptr)));
       if (!same_geometry) viewer->send_binary(generation.geometry, false);
       if (!same_smoke && generation.smoke) viewer->send_binary(generation.smoke, false);
-      for (const LiveFrame& frame : waiting)
-        if (const LiveFrame now = carried(frame, before)) viewer->send_binary(now, true);
+      if (generation.triangles_before)  // a viewer cannot carry over light of other triangles
+        for (const auto& [at, frame] : light_) viewer->send_binary(frame, true);
+      else
+        for (const LiveFrame& frame : waiting)
+          if (const LiveFrame now = carried(frame, before)) viewer->send_binary(now, true);
     }
   });
 }
@@ -67,10 +82,13 @@ LiveFrame ViewHub::carried(const LiveFrame& frame, const LiveGeneration& from) c
   const FrameHead head = head_of(frame);
   if (!from.scene || head.a >= from.scene->groups.size()) return nullptr;
   const std::vector<Group>& now = generation_.scene->groups;
-  for (uint32_t g = 0; g < now.size(); ++g)
-    if (now[g].name == from.scene->groups[head.a].name)
-      return generation_.lights[g] == ShownLight::none ? nullptr
-                                                       : readdressed(frame, generation_.number, g);
+  for (uint32_t g = 0; g < now.size(); ++g) {
+    if (now[g].name != from.scene->groups[head.a].name) continue;
+    if (generation_.lights[g] == ShownLight::none) return nullptr;
+    const bool moves = generation_.triangles_before && is_surface_light(head);
+    return readdressed(moves ? relaid(frame, *generation_.triangles_before) : frame,
+                       generation_.number, g);
+  }
   return nullptr;
 }
 
@@ -195,7 +213,8 @@ void ViewHub::handle(Viewer&, const SmokeEdit& edit) {
 }
 
 void ViewHub::share() {
-  dimming_.shares = shares_after(*scene_, generation_.scene->scenario.operation, dimming_.seconds);
+  const CompiledScene& now = *generation_.scene;
+  dimming_.shares = shares_after(*now.description, now.scenario.operation, dimming_.seconds);
 }
 
 void ViewHub::handle(Viewer& viewer, const TimeEdit& edit) {
@@ -214,18 +233,70 @@ void ViewHub::handle(Viewer& viewer, const TimeEdit& edit) {
 }
 
 void ViewHub::handle(Viewer& viewer, const MoveEdit& edit) {
-  const auto is_it = [&](const auto& one) { return one.name == edit.name; };
-  const bool known = edit.is_sign
-                         ? std::any_of(scene_->signs.begin(), scene_->signs.end(), is_it)
-                         : std::any_of(scene_->emitters.begin(), scene_->emitters.end(), is_it);
-  if (!known) return refuse(viewer, "there is no \"" + edit.name + "\" to move");
-  if (edit.facing) {
-    const auto aim = edit.is_sign ? frame_facing : frame_aiming;
-    if (const auto frame = aim(edit.position, *edit.facing, {0, 0, 1}); !frame.ok())
-      return refuse(viewer, frame.problem().what);
-  }
+  const auto copy = added(edit.name);
+  const bool is_copy = copy != wish_.added.end() && copy->is_sign == edit.is_sign;
+  if (!is_copy && !is_there(*scene_, edit.is_sign, edit.name))
+    return refuse(viewer, "there is no \"" + edit.name + "\" to move");
+  if (!can_stand(viewer, edit.is_sign, edit.position, edit.facing)) return;
   auto& moves = edit.is_sign ? wish_.signs : wish_.luminaires;
   moves[edit.name] = {edit.position, edit.facing};
+  trace_->wish(wish_);
+}
+
+std::vector<LiveWish::Copy>::const_iterator ViewHub::added(const std::string& name) const {
+  return std::find_if(wish_.added.begin(), wish_.added.end(),
+                      [&](const LiveWish::Copy& copy) { return copy.name == name; });
+}
+
+bool ViewHub::can_stand(Viewer& viewer, bool is_sign, const glm::dvec3& position,
+                        const std::optional<glm::dvec3>& facing) {
+  if (!facing) return true;
+  const auto frame = (is_sign ? frame_facing : frame_aiming)(position, *facing, {0, 0, 1});
+  if (!frame.ok()) refuse(viewer, frame.problem().what);
+  return frame.ok();
+}
+
+void ViewHub::handle(Viewer& viewer, const AddEdit& edit) {
+  if (wish_.added.size() >= limits::view_added)
+    return refuse(viewer, "no more than " + std::to_string(limits::view_added) +
+                              " can be added in one view: save it as a variant and view that");
+  // A copy of a copy is one of the scene's own, so that either may be removed.
+  const auto copied = added(edit.of);
+  const bool of_copy = copied != wish_.added.end() && copied->is_sign == edit.is_sign;
+  const LiveWish::Copy copy{edit.is_sign, of_copy ? copied->of : edit.of,
+                            name_for_copy(*scene_, wish_, edit.of)};
+  if (!is_there(*scene_, copy.is_sign, copy.of))
+    return refuse(viewer, "there is no \"" + edit.of + "\" to copy");
+  if (!copy.is_sign && is_mesh(*scene_, copy.of))
+    return refuse(viewer, "\"" + edit.of + "\" is a mesh, which does not move: it is not copied");
+  if (copy.name.size() > limits::view_name_chars)
+    return refuse(viewer, "the copy's name would be too long: give the original a shorter one");
+  if (!can_stand(viewer, edit.is_sign, edit.position, edit.facing)) return;
+  auto& moves = copy.is_sign ? wish_.signs : wish_.luminaires;
+  LiveWish::Move move{edit.position, edit.facing};
+  if (const auto at = moves.find(edit.of); !move.facing && at != moves.end())
+    move.facing = at->second.facing;  // as the one it is a copy of stands now
+  moves[copy.name] = move;
+  wish_.added.push_back(copy);
+  const auto group_of = copy.is_sign ? group_of_sign : group_of_luminaire;
+  if (const auto dimmed = dimming_.factors.find(group_of(edit.of));
+      dimmed != dimming_.factors.end())
+    dimming_.factors[group_of(copy.name)] = dimmed->second;
+  viewer.send_text(text_of({{"type", "added"},
+                            {"kind", copy.is_sign ? "sign" : "luminaire"},
+                            {"of", edit.of},
+                            {"name", copy.name}}));
+  trace_->wish(wish_);
+}
+
+void ViewHub::handle(Viewer& viewer, const RemoveEdit& edit) {
+  const auto copy = added(edit.name);
+  if (copy == wish_.added.end())
+    return refuse(viewer,
+                  "only what was added in this view is removed, and \"" + edit.name + "\" was not");
+  (copy->is_sign ? wish_.signs : wish_.luminaires).erase(edit.name);
+  dimming_.factors.erase(copy->is_sign ? group_of_sign(edit.name) : group_of_luminaire(edit.name));
+  wish_.added.erase(copy);
   trace_->wish(wish_);
 }
 
@@ -254,18 +325,33 @@ void ViewHub::handle(Viewer& viewer, const ProbeAsk& ask) {
 }
 
 void ViewHub::handle(Viewer& viewer, const JudgeAsk& ask) {
-  if (judging_) return refuse(viewer, "one sign after another: the last is not judged yet");
+  const uint64_t number = viewers_[&viewer];
+  const auto waits = std::find_if(to_judge_.begin(), to_judge_.end(),
+                                  [&](const auto& one) { return one.first == number; });
+  if (waits != to_judge_.end())
+    waits->second = ask;
+  else
+    to_judge_.emplace_back(number, ask);
+  judge_next();
+}
+
+void ViewHub::judge_next() {
+  if (judging_ || to_judge_.empty()) return;
+  const auto [number, ask] = to_judge_.front();
+  to_judge_.pop_front();
+  if (viewer_of(number) == nullptr) return judge_next();
   judging_ = true;
   if (judge_.joinable()) judge_.join();
-  const uint64_t number = viewers_[&viewer];
   // Beside the tracing: it shares the processors with it for some seconds.
-  judge_ = std::thread([this, number, sign = ask.sign, wish = wish_, factors = dimming_.both()] {
-    const Json verdicts = sign_verdicts(*scene_, wish, factors, sign, options_.live, ends_);
-    post_([this, number, verdicts] {
-      judging_ = false;
-      if (Viewer* const asked = viewer_of(number)) asked->send_text(text_of(verdicts));
-    });
-  });
+  judge_ =
+      std::thread([this, asker = number, sign = ask.sign, wish = wish_, factors = dimming_.both()] {
+        const Json verdicts = sign_verdicts(*scene_, wish, factors, sign, options_.live, ends_);
+        post_([this, asker, verdicts] {
+          judging_ = false;
+          if (Viewer* const asked = viewer_of(asker)) asked->send_text(text_of(verdicts));
+          judge_next();
+        });
+      });
 }
 
 }  // namespace luxodus

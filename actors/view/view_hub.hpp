@@ -55,6 +55,8 @@ class ViewHub final : private LiveAudience {
   void handle(Viewer& viewer, const SmokeEdit& edit);
   void handle(Viewer& viewer, const TimeEdit& edit);
   void handle(Viewer& viewer, const MoveEdit& edit);
+  void handle(Viewer& viewer, const AddEdit& edit);
+  void handle(Viewer& viewer, const RemoveEdit& edit);
   void handle(Viewer& viewer, const SaveEdit& edit);
   void handle(Viewer& viewer, const EditWish& wish);
   void handle(Viewer& viewer, const ProbeAsk& ask);
@@ -62,8 +64,15 @@ class ViewHub final : private LiveAudience {
   void refuse(Viewer& viewer, const std::string& why);
   void to_all(const Json& message);
   void greet(Viewer& viewer);
-  /// A frame of an earlier generation as one of this; null where its group is gone or begins anew.
+  /// A frame of the generation before as one of this; null where its group is gone or begins anew.
   LiveFrame carried(const LiveFrame& frame, const LiveGeneration& from) const;
+  /// The copy of that name, or the end of what was added.
+  std::vector<LiveWish::Copy>::const_iterator added(const std::string& name) const;
+  /// Whether something can stand there; the viewer is told why not.
+  bool can_stand(Viewer& viewer, bool is_sign, const glm::dvec3& position,
+                 const std::optional<glm::dvec3>& facing);
+  /// Begins with the next sign that somebody wants judged, where none is being judged.
+  void judge_next();
   void make_editor(Viewer* viewer);
   /// Brings the shares of groups up to the time and the scenario.
   void share();
@@ -85,7 +94,8 @@ class ViewHub final : private LiveAudience {
   std::atomic<bool> ends_{false};
   std::thread judge_;
   bool judging_ = false;
-  std::unique_ptr<LiveTrace> trace_;  // the last: it tells at once
+  std::deque<std::pair<uint64_t, JudgeAsk>> to_judge_;  // by viewer: the last that each asked for
+  std::unique_ptr<LiveTrace> trace_;                    // the last: it tells at once
 };
 
 }  // namespace luxodus

@@ -57,6 +57,11 @@ class Members {
     }
     return out;
   }
+  bool is_sign(const char* key) {
+    const std::string kind = text(key);
+    if (kind != "sign" && kind != "luminaire") refuse(key, "\"sign\" or \"luminaire\"");
+    return kind == "sign";
+  }
   bool has(const char* key) const { return object_.contains(key) && !object_[key].is_null(); }
   const std::string& problem() const { return problem_; }
 
@@ -75,8 +80,17 @@ class Members {
 
 MoveEdit read_move(Members& m) {
   MoveEdit out;
-  out.is_sign = m.text("kind") == "sign";
+  out.is_sign = m.is_sign("kind");
   out.name = m.text("name");
+  out.position = m.vector("position");
+  if (m.has("facing")) out.facing = m.vector("facing");
+  return out;
+}
+
+AddEdit read_add(Members& m) {
+  AddEdit out;
+  out.is_sign = m.is_sign("kind");
+  out.of = m.text("of");
   out.position = m.vector("position");
   if (m.has("facing")) out.facing = m.vector("facing");
   return out;
@@ -91,6 +105,8 @@ std::optional<ViewMessage> read_message(const std::string& type, Members& m) {
     return m.has("seconds") ? TimeEdit{m.number("seconds", 0, limits::view_seconds_most)}
                             : TimeEdit{};
   if (type == "move") return read_move(m);
+  if (type == "add") return read_add(m);
+  if (type == "remove") return RemoveEdit{m.text("name")};
   if (type == "save") return SaveEdit{m.text("name")};
   if (type == "edit") return EditWish{m.flag("wanted")};
   if (type == "probe")

@@ -16,6 +16,8 @@ namespace limits {
 inline constexpr size_t view_message_bytes = 64 << 10;
 inline constexpr double view_factor_most = 10, view_smoke_most = 100, view_seconds_most = 1e6;
 inline constexpr size_t view_name_chars = 200;
+/// Copies in one view: each is a source group of its own, with its totals and its light.
+inline constexpr size_t view_added = 256;
 }  // namespace limits
 
 struct FactorEdit {
@@ -37,6 +39,15 @@ struct MoveEdit {
   glm::dvec3 position{0};
   std::optional<glm::dvec3> facing;
 };
+struct AddEdit {
+  bool is_sign = true;  // else a luminaire
+  std::string of;
+  glm::dvec3 position{0};
+  std::optional<glm::dvec3> facing;
+};
+struct RemoveEdit {
+  std::string name;
+};
 struct SaveEdit {
   std::string name;
 };
@@ -51,8 +62,8 @@ struct ProbeAsk {
 struct JudgeAsk {
   std::string sign;
 };
-using ViewMessage = std::variant<FactorEdit, ScenarioEdit, SmokeEdit, TimeEdit, MoveEdit, SaveEdit,
-                                 EditWish, ProbeAsk, JudgeAsk>;
+using ViewMessage = std::variant<FactorEdit, ScenarioEdit, SmokeEdit, TimeEdit, MoveEdit, AddEdit,
+                                 RemoveEdit, SaveEdit, EditWish, ProbeAsk, JudgeAsk>;
 
 /// Errors: what is no message, one sentence.
 Result<ViewMessage> parse_view_message(std::string_view text);

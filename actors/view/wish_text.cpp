@@ -22,6 +22,13 @@ Json moves_json(const Moves& moves) {
   return out;
 }
 
+Json copies_json(const std::vector<LiveWish::Copy>& copies) {
+  Json out = Json::array();
+  for (const LiveWish::Copy& copy : copies)
+    out.push_back({{"is_sign", copy.is_sign}, {"of", copy.of}, {"name", copy.name}});
+  return out;
+}
+
 // What is not there or of another type is thrown by the library, and caught below.
 
 glm::dvec3 read_vector(const Json& list) {
@@ -44,7 +51,8 @@ std::string wish_text(const LiveWish& wish) {
   const Json object = {{"scenario", wish.scenario},
                        {"smoke", wish.smoke},
                        {"signs", moves_json(wish.signs)},
-                       {"luminaires", moves_json(wish.luminaires)}};
+                       {"luminaires", moves_json(wish.luminaires)},
+                       {"added", copies_json(wish.added)}};
   return object.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
@@ -57,6 +65,9 @@ Result<LiveWish> parse_wish(std::string_view text) {
     out.smoke = object.at("smoke").get<double>();
     out.signs = read_moves(object.at("signs"));
     out.luminaires = read_moves(object.at("luminaires"));
+    for (const Json& one : object.at("added"))
+      out.added.push_back({one.at("is_sign").get<bool>(), one.at("of").get<std::string>(),
+                           one.at("name").get<std::string>()});
     return out;
   } catch (const Json::exception& e) {
     return Problem{{}, std::string("this is no wish of a live view: ") + e.what()};

@@ -35,9 +35,44 @@ void move(KeyReader& keys, Frame& frame, Aim aim) {
     keys.problem("facing", turned.problem().what);
 }
 
-void brighten(SignState& state, double factor) {
-  state.white_cd_m2 *= factor;
-  state.green_cd_m2 *= factor;
+void brighten(Sign& sign, double factor) {
+  for (SignState* state : {&sign.mains, &sign.emergency}) {
+    state->white_cd_m2 *= factor;
+    state->green_cd_m2 *= factor;
+  }
+}
+void brighten(Emitter& emitter, double factor) {
+  emitter.mains_flux *= factor;
+  emitter.emergency_flux *= factor;
+}
+
+bool stays(const Sign&) {
+  return false;
+}
+/// A mesh has its corners where its file and its placement say.
+bool stays(const Emitter& emitter) {
+  return emitter.shape == EmitterShape::mesh;
+}
+
+/// What is to be changed: the one in `of`, or a copy of it where the change has a name for one.
+/// Null after a problem.
+template <class List>
+typename List::value_type* chosen(List& list, KeyReader& keys, const std::string& kind,
+                                  std::string_view declared_as) {
+  auto* const original = named(list, keys, kind);
+  const auto copy = keys.maybe_text("copy");
+  if (original == nullptr || !copy) return original;
+  keys.reading().declare(declared_as, *copy, keys.place("copy"));
+  if (!keys.has("position"))
+    keys.problem("copy", "'copy' needs 'position' beside it: two things are not in one place");
+  if (stays(*original))
+    keys.problem("copy", "an emitter of shape mesh is not copied: it does not move");
+  if (!keys.clean()) return nullptr;
+  auto added = *original;
+  added.name = *copy;
+  added.place = keys.place();
+  list.push_back(std::move(added));
+  return &list.back();
 }
 
 /// In every scenario, whether it names the medium or not.
@@ -64,19 +99,19 @@ void read_change(const toml::table& table, SceneReading& reading) {
   const double factor = keys.number("factor");
   SceneDescription& scene = reading.scene;
   if (kind == "sign") {
-    Sign* const sign = named(scene.signs, keys, kind);
+    Sign* const sign = chosen(scene.signs, keys, kind, "sign");
     if (sign == nullptr) return;
     move(keys, sign->frame, frame_facing);
-    brighten(sign->mains, factor);
-    brighten(sign->emergency, factor);
+    brighten(*sign, factor);
   } else if (kind == "luminaire") {
-    Emitter* const emitter = named(scene.emitters, keys, kind);
+    Emitter* const emitter = chosen(scene.emitters, keys, kind, "luminaire or emitter");
     if (emitter == nullptr) return;
     move(keys, emitter->frame, frame_aiming);
-    emitter->mains_flux *= factor;
-    emitter->emergency_flux *= factor;
+    brighten(*emitter, factor);
   } else if (const Medium* const medium = named(scene.media, keys, kind)) {
-    if (keys.has("position") || keys.has("facing"))
+    if (keys.has("copy"))
+      keys.problem("copy", "a medium is not copied: it takes a 'factor' alone");
+    else if (keys.has("position") || keys.has("facing"))
       keys.problem("kind", "a medium is not moved: it takes a 'factor' alone");
     thicken(scene, medium->name, factor);
   }

@@ -115,6 +115,9 @@ std::vector<TableSpec> measure_schema() {
            {"kind", "choice", "", "required", "sign, luminaire, medium",
             "what is changed; emitters are luminaires, too"},
            {"of", "text", "", "required", "", "its name"},
+           {"copy", "name", "", "", "",
+            "name of a copy that is added instead, the one in `of` staying as it is; of signs and "
+            "luminaires, with `position`; later changes may name it"},
            {"position", "point", "m", "", "[-1e7, 1e7]", "where it is, of signs and luminaires"},
            {"facing", "direction", "", "", "[-1e7, 1e7]",
             "where a sign's face looks, or a luminaire aims; with `position`"},

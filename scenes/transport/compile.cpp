@@ -503,7 +503,10 @@ Result<std::shared_ptr<const CompiledScene>> compile_scene(
                    "nothing emits light in scenario \"" + scenario.name +
                        "\": add an emitter, a luminaire or a lit sign, or switch a circuit on"};
   }
-  scene->bands = choose_bands(*description, scenario, sources);
+  scene->bands =
+      options.bands_of == nullptr
+          ? choose_bands(*description, scenario, sources)
+          : choose_bands(*options.bands_of, scenario, active_sources(*options.bands_of, scenario));
   if (auto ok = set_bounds(*scene); !ok.ok()) return ok.problem();
   for (const ActiveSource& s : sources) {
     if (s.emitter != nullptr && s.emitter->web &&

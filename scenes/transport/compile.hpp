@@ -12,6 +12,9 @@ namespace luxodus {
 struct CompileOptions {
   int cells = 1;  // geometry cells; 1 is one merged scene; a packed scene has been cut already
   std::vector<std::string> error_of = {};  // instead of the scene's [run] error_of, if not empty
+  /// Bands as for this one's light, if it is not null, so that totals of both can be compared to
+  /// the bit. Requires: every spectrum of the scene is in it.
+  const SceneDescription* bands_of = nullptr;
 };
 
 /// The scenario of that name; with an empty name the first, or plain mains where a scene has none.

@@ -46,7 +46,7 @@ inline std::vector<Message> sample_messages() {
       FlushSettled{false},
       AskTotals{46, 47},
       TotalsTold{48, 49, 50},
-      TraceBatches{51, 52, 53, 54, 55},
+      TraceBatches{51, 52, 53, 54, 55, 57},
       BatchesTraced{56, "no memory"},
   };
 }

@@ -11,7 +11,8 @@ const shots =
 const browserPath = process.env.LUX_CHROMIUM ?? '/usr/bin/chromium';
 const flags = ['--headless=new', '--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader',
   '--enable-unsafe-swiftshader'];
-const patience = { timeout: 30_000 };
+/** For what never comes. All that is waited for are states: how long they take counts for nothing. */
+const patience = { timeout: 180_000 };
 
 /** Shares of the screen's raster; screenshots are drawn fine where LUX_FINE asks for it. */
 const coarse = 0.4;
@@ -26,12 +27,14 @@ const complaints = [];
 async function open(options = {}) {
   const context = await browser.newContext({
     viewport: { width: 1024, height: 640 }, reducedMotion: 'reduce', ...options });
+  context.setDefaultTimeout(patience.timeout);
   const opened = await context.newPage();
   opened.on('console', (m) => ['error', 'warning'].includes(m.type()) && complaints.push(m.text()));
   opened.on('pageerror', (error) => complaints.push(error.stack));
   await opened.goto(address);
-  await opened.waitForFunction(() => window.luxodus?.page.live.shown?.surfaces?.groups.size === 6,
-    null, patience);
+  await opened.waitForFunction((groups) =>
+    window.luxodus?.page.live.shown?.surfaces?.groups.size === groups,
+    server.state.sources.length, patience);
   // A machine without a graphics card draws slowly; that it draws evenly is what counts here.
   await raster(opened, coarse);
   return opened;
@@ -238,6 +241,64 @@ test('a luminaire moves without the rest of the light fading', async () => {
   await page.keyboard.press('Escape');
 });
 
+/** A thing of the scene that is shown, and what is selected. */
+const thing = (list, name) => page.evaluate(([l, n]) =>
+  window.luxodus.page.live.scene[l].find((t) => t.name === n), [list, name]);
+const selected = (name) => page.waitForFunction((n) =>
+  (window.luxodus.page.inspect.subject?.name ?? null) === n, name, patience);
+const groupsShown = () => page.evaluate(() => window.luxodus.page.live.shown.surfaces.groups.size);
+
+test('a copy of a luminaire stands beside it, is selected, moves, and goes', async () => {
+  await page.evaluate(() => {
+    const { page: p } = window.luxodus;
+    p.selectLuminaire(p.live.scene.luminaires[0]);
+  });
+  assert.equal(await page.getByRole('button', { name: 'Remove' }).count(), 0);
+  const { position } = await thing('luminaires', 'lamp west');
+  await page.getByRole('button', { name: 'Add a copy' }).click();
+  await selected('lamp west copy');
+  assert.ok(await page.locator('#banner').isHidden());
+  assert.deepEqual((await thing('luminaires', 'lamp west copy')).position,
+    [position[0] + 0.5, position[1], position[2]]);
+  assert.equal(await groupsShown(), 7);
+  assert.equal(await slider('lamp west copy').count(), 1);
+  await shot('added_luminaire');
+  const old = await generation();
+  await page.getByRole('button', { name: 'Up', exact: true }).click();
+  await page.waitForFunction((g) => window.luxodus.page.live.number > g, old, patience);
+  assert.equal(server.heard.findLast((m) => m.type === 'move').name, 'lamp west copy');
+  await page.getByRole('button', { name: 'Remove' }).click();
+  await selected(null);
+  assert.equal(await slider('lamp west copy').count(), 0);
+  assert.equal(await groupsShown(), 6);
+});
+
+test('a copy of a sign stands beside it along its width, is judged, and goes', async () => {
+  await page.evaluate(() => {
+    const { page: p } = window.luxodus;
+    p.selectSign(p.live.scene.signs[0]);
+  });
+  const { position } = await thing('signs', 'exit sign');
+  const triangles = () => page.evaluate(() => window.luxodus.page.live.shown.surfaces.cells);
+  const count = await triangles();
+  await page.getByRole('button', { name: 'Add a copy' }).click();
+  await selected('exit sign copy');
+  const copy = await thing('signs', 'exit sign copy');
+  const apart = copy.position.map((x, i) => x - position[i]);
+  assert.ok(Math.abs(Math.hypot(...apart) - copy.width - 0.05) < 1e-6, `${apart}`);
+  assert.ok(Math.abs(apart[0]) < 1e-6, 'it stands on the same wall');
+  assert.equal(await triangles(), count + 2);
+  assert.equal(await groupsShown(), 7);
+  await page.locator('#panel table').waitFor(patience);
+  await shot('added_sign');
+  const before = await mean();
+  await page.getByRole('button', { name: 'Remove' }).click();
+  await selected(null);
+  assert.equal(await triangles(), count);
+  assert.equal(await page.evaluate(() => window.luxodus.page.live.scene.signs.length), 2);
+  assert.ok((await mean()) < before);
+});
+
 test('an edit that is refused is said so', async () => {
   await page.getByLabel('Name of the variant').fill('../out');
   await page.getByRole('button', { name: 'Save as' }).click();
@@ -249,6 +310,7 @@ test('an edit that is refused is said so', async () => {
 });
 
 test('of two viewers one edits; the other may take over', async () => {
+  await settled();  // who is at rest draws nothing, and leaves the machine to the other
   const second = await open();
   assert.ok(await second.locator('#smoke').isDisabled());
   assert.ok(await page.locator('#smoke').isEnabled());
@@ -263,6 +325,7 @@ test('of two viewers one edits; the other may take over', async () => {
 });
 
 test('a phone has room for it', async () => {
+  await settled();
   const phone = await open({ viewport: { width: 390, height: 780 }, hasTouch: true });
   await shot('phone', phone);
   await phone.locator('#fold').click();

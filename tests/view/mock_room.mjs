@@ -73,9 +73,29 @@ function makeMesh() {
 }
 
 const mesh = makeMesh();
-export const triangles = mesh.kinds.length;
 
-export function geometryFrame(generation) {
+/** The room with the faces of signs that were added, which come last. */
+function meshOf(state) {
+  const added = state?.signs.filter((sign) => sign.added) ?? [];
+  if (!added.length) return mesh;
+  const all = Object.assign(new Mesh(), { corners: [...mesh.corners], kinds: [...mesh.kinds] });
+  for (const { position, facing, up, width, height } of added) {
+    const right = cross(up, facing);
+    const low = plus(plus(position, right, -width / 2), up, -height / 2);
+    const [u, v] = [right.map((x) => x * width), up.map((x) => x * height)];
+    const [b, c, d] = [plus(low, u), plus(plus(low, u), v), plus(low, v)];
+    all.corners.push(...low, ...b, ...c, ...low, ...c, ...d);
+    const dark = surfaceNames.indexOf('table');
+    all.kinds.push(dark, dark);
+  }
+  return all;
+}
+
+export const trianglesOf = (state) => meshOf(state).kinds.length;
+
+export function geometryFrame(generation, state = null) {
+  const mesh = meshOf(state);
+  const triangles = mesh.kinds.length;
   const frame = new ArrayBuffer(16 + 40 * triangles);
   new Uint32Array(frame, 0, 4).set([1, generation, triangles, 0]);
   new Float32Array(frame, 16, 9 * triangles).set(mesh.corners);
@@ -115,6 +135,7 @@ export function startState() {
   return {
     scenario: 'smoke, mains',
     smoke: 1,
+    sources: [...sources],
     factors: Object.fromEntries(sources.map(({ name }) => [name, 1])),
     signs: [
       { ...face, name: 'exit sign', position: [6.49, 2.9, 2.4], facing: [-1, 0, 0],
@@ -166,7 +187,7 @@ function lit(source, state, point, normal) {
   return source.colour.map((c) => c * clear * ((seen * cosine) / far2 + around));
 }
 
-function triangleAt(t) {
+function triangleAt(t, mesh) {
   const at = (c) => mesh.corners.slice(9 * t + 3 * c, 9 * t + 3 * c + 3);
   const [a, b, c] = [at(0), at(1), at(2)];
   const n = cross(minus(b, a), minus(c, a));
@@ -183,12 +204,14 @@ function framed(kind, generation, group, halves) {
 }
 
 export function lightFrame(generation, group, state) {
+  const mesh = meshOf(state);
+  const triangles = mesh.kinds.length;
   const halves = new Uint16Array(6 * triangles);
   for (let t = 0; t < triangles; ++t) {
-    const { centre, normal, albedo } = triangleAt(t);
+    const { centre, normal, albedo } = triangleAt(t, mesh);
     [1, -1].forEach((side, s) => {
       const n = normal.map((x) => side * x);
-      const e = lit(sources[group], state, plus(centre, n, 0.01), n);
+      const e = lit(state.sources[group], state, plus(centre, n, 0.01), n);
       e.forEach((x, c) => (halves[6 * t + 3 * s + c] = toHalf((x * albedo[c]) / Math.PI)));
     });
   }
@@ -203,8 +226,8 @@ export function smokeFrame(generation, state) {
 
 export function smokeLightFrame(generation, group, state) {
   const halves = new Uint16Array(3 * voxelCount);
-  const { colour } = sources[group];
-  const position = positionOf(sources[group], state);
+  const { colour } = state.sources[group];
+  const position = positionOf(state.sources[group], state);
   for (let i = 0; i < voxelCount; ++i) {
     const centre = voxelCentre(i);
     const to = minus(position, centre);
@@ -217,10 +240,11 @@ export function smokeLightFrame(generation, group, state) {
 }
 
 export function probe(state, { triangle, front }) {
-  const { centre, normal, albedo } = triangleAt(triangle);
+  const mesh = meshOf(state);
+  const { centre, normal, albedo } = triangleAt(triangle, mesh);
   const n = normal.map((x) => (front ? x : -x));
   const e = [0, 0, 0];
-  for (const source of sources)
+  for (const source of state.sources)
     lit(source, state, centre, n).forEach((x, c) => (e[c] += state.factors[source.name] * x));
   const weigh = (c) => 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2];
   const illuminance = weigh(e);

@@ -26,6 +26,7 @@ export class MockServer {
     this.heard = [];
     this.frames = null;
     this.seconds = null;
+    this.relaid = false;
   }
 
   async listen(port = 0) {
@@ -54,7 +55,7 @@ export class MockServer {
   trace() {
     const { generation, state } = this;
     const frames = [room.smokeFrame(generation, state)];
-    room.sources.forEach((_, group) => frames.push(
+    state.sources.forEach((_, group) => frames.push(
       room.lightFrame(generation, group, state),
       room.smokeLightFrame(generation, group, state)));
     return frames;
@@ -62,11 +63,13 @@ export class MockServer {
 
   scene(viewer) {
     const { state, generation } = this;
-    const groups = room.sources.map(({ name, kind, position }) =>
-      ({ name, kind, position, factor: state.factors[name], share: this.share(kind), light: this.light?.(name) ?? 'new' }));
+    const groups = state.sources.map(({ name, kind, position }) =>
+      ({ name, kind, position, factor: state.factors[name], share: this.share(kind),
+        light: this.light?.(name) ?? 'new' }));
     return { type: 'scene', generation, name: 'mock', title: 'Two rooms and a fire in a bin',
       scenarios: scenarios.map(({ name, operation }) => ({ name, operation })),
-      scenario: state.scenario, smoke: state.smoke, seconds: this.seconds, low: room.low, high: room.high, groups,
+      scenario: state.scenario, smoke: state.smoke, seconds: this.seconds, low: room.low,
+      high: room.high, relaid: this.relaid, groups,
       signs: state.signs, luminaires: state.luminaires, observers: room.observers,
       cameras: room.cameras, voxels: room.voxels, editor: viewer !== null && viewer === this.editor,
     };
@@ -81,7 +84,7 @@ export class MockServer {
       if (this.editor === viewer) this.editor = null;
     });
     this.tell(viewer, this.scene(viewer));
-    viewer.send(room.geometryFrame(this.generation));
+    viewer.send(room.geometryFrame(this.generation, this.state));
     this.frames ??= this.trace();
     for (const frame of this.frames) viewer.send(frame);
   }
@@ -104,28 +107,40 @@ export class MockServer {
 
   hear(viewer, message) {
     this.heard.push(message);
-    const edits = ['factor', 'scenario', 'smoke', 'time', 'move', 'save'];
+    const edits = ['factor', 'scenario', 'smoke', 'time', 'move', 'add', 'remove', 'save'];
     if (edits.includes(message.type) && viewer !== this.editor)
       this.tell(viewer, { type: 'refused', why: 'somebody else is editing' });
     else this[`do_${message.type}`]?.(viewer, message);
   }
 
-  /** A new generation: announced at once, its light comes later; that of groups not `new` stays. */
-  begin(light = () => 'new') {
+  /**
+   * A new generation: announced at once, its light comes later; that of groups not `new` stays.
+   * `relaid`: its triangles are others, and light of before comes with them.
+   */
+  begin(light = () => 'new', relaid = false) {
     ++this.generation;
     this.particles = 0;
-    this.light = light;
+    Object.assign(this, { light, relaid });
     for (const viewer of this.viewers) this.tell(viewer, this.scene(viewer));
-    this.light = null;
+    Object.assign(this, { light: null, relaid: false });
+    if (relaid) this.lay(light);
     clearTimeout(this.tracing);
     this.tracing = setTimeout(() => {
       this.frames = this.trace();
       const sent = this.frames.filter((frame) => {
         const [kind, , group] = new Uint32Array(new Uint8Array(frame).slice(0, 12).buffer);
-        return ![2, 4].includes(kind) || light(room.sources[group].name) !== 'kept';
+        return ![2, 4].includes(kind) || light(this.state.sources[group].name) !== 'kept';
       });
       for (const viewer of this.viewers) for (const frame of sent) viewer.send(frame);
     }, this.traceMs);
+  }
+
+  lay(light) {
+    const { generation, state } = this;
+    const frames = [room.geometryFrame(generation, state)];
+    state.sources.forEach(({ name }, group) => light(name) === 'new' || frames.push(
+      room.lightFrame(generation, group, state), room.smokeLightFrame(generation, group, state)));
+    for (const viewer of this.viewers) for (const frame of frames) viewer.send(frame);
   }
 
   do_factor(_, { group, factor }) {
@@ -137,7 +152,7 @@ export class MockServer {
     const chosen = scenarios.find((s) => s.name === name);
     this.state.scenario = name;
     this.state.smoke = chosen.smoke;
-    for (const { name: group, kind } of room.sources)
+    for (const { name: group, kind } of this.state.sources)
       if (kind === 'luminaire') this.state.factors[group] = chosen.lamps;
     this.begin();
   }
@@ -150,7 +165,7 @@ export class MockServer {
   do_time(_, { seconds }) {
     this.seconds = seconds;
     const shares = Object.fromEntries(
-      room.sources.map(({ name, kind }) => [name, this.share(kind)]));
+      this.state.sources.map(({ name, kind }) => [name, this.share(kind)]));
     this.tellAll({ type: 'time', seconds, shares });
   }
 
@@ -165,6 +180,33 @@ export class MockServer {
     thing.position = position;
     const others = kind === 'sign' ? 'before' : 'kept';
     this.begin((group) => (group === thing.group ? 'new' : others));
+  }
+
+  do_add(viewer, { kind, of, position, facing }) {
+    const { state } = this;
+    const things = kind === 'sign' ? state.signs : state.luminaires;
+    const original = things.find((t) => t.name === of);
+    const count = things.filter((t) => t.added).length + 1;
+    const name = `${of.replace(/ copy.*/, '')} copy${count > 1 ? ` ${count}` : ''}`;
+    things.push({ ...original, name, position, facing: facing ?? original.facing, group: name,
+      added: true });
+    const source = state.sources.find((s) => s.name === original.group);
+    state.sources.push({ ...source, name, position });
+    state.factors[name] = state.factors[original.group];
+    this.tell(viewer, { type: 'added', kind, of, name });
+    this.begin((group) => (group === name ? 'new' : kind === 'sign' ? 'before' : 'kept'),
+      kind === 'sign');
+  }
+
+  do_remove(viewer, { name }) {
+    const { state } = this;
+    const is = (thing) => thing.name === name;
+    const sign = state.signs.some(is);
+    if (!(sign ? state.signs : state.luminaires).find(is)?.added)
+      return this.tell(viewer, { type: 'refused', why: `"${name}" was not added` });
+    for (const key of ['signs', 'luminaires', 'sources'])
+      state[key] = state[key].filter((thing) => !is(thing));
+    this.begin(() => (sign ? 'before' : 'kept'), sign);
   }
 
   do_save(viewer, { name }) {

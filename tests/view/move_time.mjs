@@ -1,6 +1,6 @@
-// How long after a move of a luminaire, and of a sign, the first new light is there:
-// `node move_time.mjs [SCENE SCENARIO LUMINAIRE SIGN]`; LUX_PROGRAM names the program, LUX_OPTIONS
-// what is said to it besides (`LUX_OPTIONS="--nodes 2"`).
+// How long after a move of a luminaire and of a sign, and after a copy of each, its first light is
+// there: `node move_time.mjs [SCENE SCENARIO LUMINAIRE SIGN]`; LUX_PROGRAM names the program,
+// LUX_OPTIONS what is said to it besides (`LUX_OPTIONS="--nodes 2"`).
 import { spawn } from 'node:child_process';
 import { WebSocket } from 'ws';
 
@@ -8,7 +8,7 @@ const root = new URL('../..', import.meta.url).pathname;
 const program = process.env.LUX_PROGRAM ?? `${root}/build/release/luxodus`;
 const [scene = `${root}/scenes/library/office_floor.toml`, scenario = 'smoke_emergency',
   luminaire = 'corridor emergency light 3', sign = 'exit east'] = process.argv.slice(2);
-const moves = 11;
+const moves = Number(process.env.LUX_MOVES ?? 11);
 /** So long the view traces undisturbed between moves. */
 const rest_ms = 3000;
 
@@ -41,35 +41,56 @@ const until = (holds) => new Promise((resolve) => {
 const pause = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
 const median = (list) => list.toSorted((a, b) => a - b)[list.length >> 1];
 
-async function move(kind, name, step) {
-  const thing = known[kind === 'sign' ? 'signs' : 'luminaires'].find((t) => t.name === name);
-  const position = [...thing.position];
-  position[1] += step;
+/** Until the light of a group in a generation to come. */
+async function light(message, group) {
   const before = known.generation;
   const start = performance.now();
   let bytes = 0;
   let announced = 0;
-  const light = until((message, size) => {
+  const lit = until((heardOf, size) => {
     bytes += size;
-    if (message.type === 'scene') announced = performance.now();
-    const moved = known.groups.findIndex((g) => g.name === thing.group);
-    return message.kind === 2 && message.generation > before && message.a === moved;
+    if (heardOf.type === 'scene') announced = performance.now();
+    const number = known.groups.findIndex((g) => g.name === group);
+    return heardOf.kind === 2 && heardOf.generation > before && heardOf.a === number;
   });
-  socket.send(JSON.stringify({ type: 'move', kind, name, position, facing: thing.facing }));
-  const lit = await light;
-  return { scene: announced - start, light: lit - start, kib: bytes / 1024 };
+  socket.send(JSON.stringify(message));
+  const end = await lit;
+  return { scene: announced - start, light: end - start, kib: bytes / 1024 };
+}
+
+function thingOf(kind, name) {
+  return known[kind === 'sign' ? 'signs' : 'luminaires'].find((t) => t.name === name);
+}
+
+function move(kind, name, i) {
+  const { position: [x, y, z], facing, group } = thingOf(kind, name);
+  const position = [x, y + (i % 2 ? -0.1 : 0.1), z];
+  return light({ type: 'move', kind, name, position, facing }, group);
+}
+
+/** Adds a copy, and takes it away again. */
+async function copy(kind, name) {
+  const { position: [x, y, z], facing, group } = thingOf(kind, name);
+  const found = await light(
+    { type: 'add', kind, of: name, position: [x, y + 0.3, z], facing }, `${group} copy`);
+  await pause(rest_ms);
+  const gone = until(({ type }) => type === 'scene');
+  socket.send(JSON.stringify({ type: 'remove', name: `${name} copy` }));
+  await gone;
+  return found;
 }
 
 await until((message) => message.kind === 2);
-for (const [kind, name] of [['luminaire', luminaire], ['sign', sign]]) {
-  const all = [];
-  for (let i = 0; i < moves; ++i) {
-    await pause(rest_ms);
-    all.push(await move(kind, name, i % 2 ? -0.1 : 0.1));
+for (const [word, change] of [['moved', move], ['copied', copy]])
+  for (const [kind, name] of [['luminaire', luminaire], ['sign', sign]]) {
+    const all = [];
+    for (let i = 0; i < moves; ++i) {
+      await pause(rest_ms);
+      all.push(await change(kind, name, i));
+    }
+    const of = (key) => median(all.map((one) => one[key])).toFixed(0);
+    console.log(`${kind} "${name}" ${word}: told after ${of('scene')} ms, its first light after ` +
+      `${of('light')} ms, ${of('kib')} KiB until then (medians of ${moves} times)`);
   }
-  const of = (key) => median(all.map((one) => one[key])).toFixed(0);
-  console.log(`${kind} "${name}": told after ${of('scene')} ms, its first light after ` +
-    `${of('light')} ms, ${of('kib')} KiB until then (medians of ${moves} moves)`);
-}
 socket.close();
 child.kill('SIGINT');

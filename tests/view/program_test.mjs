@@ -13,7 +13,8 @@ const scene = `${root}/scenes/library/office_floor.toml`;
 const shots = process.env.LUX_SHOTS ?? new URL('shots', import.meta.url).pathname;
 const flags = ['--headless=new', '--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader',
   '--enable-unsafe-swiftshader'];
-const patience = { timeout: 60_000 };
+/** For what never comes. All that is waited for are states: how long they take counts for nothing. */
+const patience = { timeout: 180_000 };
 const lamp = 'corridor emergency light 3';
 
 let served;
@@ -39,6 +40,7 @@ function started(child) {
 async function open() {
   const context = await browser.newContext({
     viewport: { width: 1024, height: 640 }, reducedMotion: 'reduce' });
+  context.setDefaultTimeout(patience.timeout);
   const opened = await context.newPage();
   opened.on('console', (m) => m.type() === 'error' && complaints.push(m.text()));
   opened.on('pageerror', (error) => complaints.push(error.stack));
@@ -154,6 +156,57 @@ test('a sign is judged, moved, and saved as a variant', async () => {
   await page.locator('.toast', { hasText: 'moved sign.toml' }).waitFor(patience);
   const saved = readFileSync(`${folder}/moved sign.toml`, 'utf8');
   assert.match(saved, /kind = "sign"\nof = "exit east"\nposition = /);
+});
+
+const selected = (name) => page.waitForFunction((n) =>
+  (window.luxodus.page.inspect.subject?.name ?? null) === n, name, patience);
+const lightOf = (light) => page.evaluate((l) =>
+  window.luxodus.page.live.scene.groups.filter((g) => g.light === l).map((g) => g.name), light);
+
+test('a luminaire is added, the others keep their light, and it goes again', async () => {
+  const old = await generation();
+  const others = await page.evaluate(() => window.luxodus.page.live.scene.groups.length);
+  await page.evaluate((name) => {
+    const { page: p } = window.luxodus;
+    p.selectLuminaire(p.live.scene.luminaires.find((l) => l.name === name));
+  }, lamp);
+  await page.getByRole('button', { name: 'Add a copy' }).click();
+  await selected(`${lamp} copy`);
+  assert.deepEqual(await lightOf('new'), [`${lamp} copy`]);
+  assert.equal((await lightOf('kept')).length + (await lightOf('before')).length, others);
+  assert.ok(await page.locator('#banner').isHidden());
+  await lit(page, old + 1);
+  await shot('program_added_lamp');
+  await page.getByRole('button', { name: 'Remove' }).click();
+  await selected(null);
+  assert.equal((await lightOf('kept')).length, others);
+});
+
+test('a sign is added, judged, saved as a variant, and goes again', async () => {
+  const old = await generation();
+  await page.evaluate(() => {
+    const { page: p } = window.luxodus;
+    p.selectSign(p.live.scene.signs.find((s) => s.name === 'exit east'));
+  });
+  await page.getByRole('button', { name: 'Add a copy' }).click();
+  await selected('exit east copy');
+  assert.deepEqual(await lightOf('new'), ['sign exit east copy']);
+  assert.equal((await lightOf('kept')).length, 0);
+  assert.ok(await page.locator('#banner').isHidden());
+  assert.ok((await mean()) > 0.001, 'the light of before is shown');
+  await page.locator('#panel table').waitFor(patience);
+  await lit(page, old + 1);
+  await shot('program_added_sign');
+  await page.getByLabel('Name of the variant').fill('one sign more');
+  await page.getByRole('button', { name: 'Save as' }).click();
+  await page.locator('.toast', { hasText: 'one sign more.toml' }).waitFor(patience);
+  const saved = readFileSync(`${folder}/one sign more.toml`, 'utf8');
+  assert.match(saved, /kind = "sign"\nof = "exit east"\ncopy = "exit east copy"\nposition = /);
+  await page.getByRole('button', { name: 'Remove' }).click();
+  await selected(null);
+  assert.deepEqual(await lightOf('new'), []);
+  assert.ok((await mean()) > 0.001);
+  assert.deepEqual(complaints, []);
 });
 
 test('a second viewer may look, not edit', async () => {

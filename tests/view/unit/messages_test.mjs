@@ -43,6 +43,20 @@ test('time since a failure is a number or none, and shares are numbers', () => {
   assert.throws(() => read({ type: 'time', seconds: 'now', shares: {} }), ProtocolError);
 });
 
+test('what was added is told apart, and the program says its name', () => {
+  const server = new MockServer();
+  assert.equal(read(server.scene(null)).signs[0].added, false);
+  assert.equal(read(server.scene(null)).relaid, false);
+  server.do_add({ send: () => {} }, { kind: 'sign', of: 'exit sign', position: [6.49, 2, 2.4] });
+  clearTimeout(server.tracing);
+  const { signs } = read(server.scene(null));
+  assert.deepEqual(signs.filter((s) => s.added).map((s) => s.name), ['exit sign copy']);
+  const added = { type: 'added', kind: 'sign', of: 'exit sign', name: 'exit sign copy' };
+  assert.deepEqual(read(added), added);
+  assert.throws(() => read({ ...added, kind: 'wall' }), ProtocolError);
+  assert.throws(() => read({ ...added, name: 7 }), ProtocolError);
+});
+
 test('text that is no message is refused', () => {
   for (const text of ['', '{', '[]', '7', 'null', '{"type":"toString"}', '{"type":"sudo"}'])
     assert.throws(() => parseMessage(text), ProtocolError);

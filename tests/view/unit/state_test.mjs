@@ -4,7 +4,8 @@ import { parseFrame, ProtocolError } from '../../../actors/view/page/src/protoco
 import { parseMessage } from '../../../actors/view/page/src/protocol/messages.js';
 import { intervalMs, Outbox } from '../../../actors/view/page/src/protocol/outbox.js';
 import { Live } from '../../../actors/view/page/src/state.js';
-import { geometryFrame, lightFrame, smokeFrame, sources, startState } from '../mock_room.mjs';
+import { geometryFrame, lightFrame, smokeFrame, sources, startState, trianglesOf }
+  from '../mock_room.mjs';
 import { MockServer } from '../mock_server.mjs';
 
 /** A scene in which the light of some groups goes on being shown. */
@@ -166,6 +167,60 @@ test('a generation that keeps all light is shown at once, and new geometry takes
   live.hear(geometry(2));
   assert.equal(named('geometry').length, 2);
   assert.equal(live.shown.surfaces.groups.size, sources.length);
+});
+
+/** The room with one sign more, its light and its triangles. */
+const more = startState();
+more.signs.push({ ...more.signs[0], name: 'new exit', position: [6.49, 2, 2.4], added: true });
+const lightOfMore = (generation, group) => parseFrame(lightFrame(generation, group, more));
+const relaid = (scene, kept) => ({ ...keeping(scene, kept, 'before'), relaid: true });
+
+test('other triangles wait for all the light that comes with them', () => {
+  const { live, scene, named } = started();
+  live.hear(relaid(scene(2), () => true));
+  assert.equal(live.number, 1, 'nothing of the old light fits');
+  assert.deepEqual(named('fading').filter(Boolean), []);
+  live.hear(parseFrame(geometryFrame(2, more)));
+  assert.throws(() => live.hear(light(2, 0)), ProtocolError);
+  sources.forEach((_, group) => {
+    assert.equal(live.number, 1);
+    live.hear(lightOfMore(2, group));
+  });
+  assert.equal(live.number, 2);
+  assert.equal(live.shown.surfaces.cells, trianglesOf(more));
+  assert.equal(live.shown.surfaces.groups.size, sources.length);
+});
+
+test('what moves after other triangles were laid waits for their light as well', () => {
+  const { live, scene } = started();
+  live.hear(relaid(scene(2), () => true));
+  live.hear(parseFrame(geometryFrame(2, more)));
+  live.hear(lightOfMore(2, 1));
+  live.hear(keeping(scene(3), (i) => i !== 0));
+  live.hear(lightOfMore(3, 0));
+  assert.equal(live.number, 1);
+  sources.forEach((_, group) => group > 1 && live.hear(lightOfMore(3, group)));
+  assert.equal(live.number, 3);
+  assert.equal(live.shown.surfaces.groups.size, sources.length);
+});
+
+test('triangles laid twice before any was shown are the last ones', () => {
+  const { live, scene } = started();
+  live.hear(relaid(scene(2), () => true));
+  live.hear(parseFrame(geometryFrame(2, more)));
+  live.hear(lightOfMore(2, 0));
+  live.hear(relaid(scene(3), () => true));
+  live.hear(geometry(3));
+  sources.forEach((_, group) => live.hear(light(3, group)));
+  assert.equal(live.number, 3);
+  assert.equal(live.shown.surfaces.cells, trianglesOf(state));
+});
+
+test('a copy that was asked for is no frame, whatever its kind', () => {
+  const { live, named } = started();
+  const said = { type: 'added', kind: 'sign', of: 'exit', name: 'exit copy' };
+  live.hear(said);
+  assert.deepEqual(named('added'), [said]);
 });
 
 test('what came for a generation that was overtaken is not lost', () => {

@@ -68,6 +68,8 @@ class Page {
     this.marksBox = this.rendition.check('marks', true, () => this.placeMarks());
     this.inspect = new Inspect({
       nudge: (way, metres) => this.mover.nudge(way, metres),
+      copy: () => this.mover.copy(),
+      remove: () => this.say({ type: 'remove', name: this.inspect.subject.name }),
       close: () => this.deselect(),
     });
     this.mover = new Mover({
@@ -183,6 +185,11 @@ class Page {
 
   on_sign(verdicts) {
     this.inspect.judged(verdicts);
+  }
+
+  /** A copy that was asked for here is selected when it is there. */
+  on_added({ kind, name }) {
+    this.copy = { kind, name };
   }
 
   on_saved({ file }) {
@@ -374,11 +381,15 @@ class Page {
   /** A new generation may have moved what is selected, or judged it anew. */
   keepSelection(scene) {
     if (this.mover.pending) return;
-    const { subject } = this.inspect;
-    const things = { sign: scene.signs, luminaire: scene.luminaires }[subject?.kind];
-    const thing = things?.find(({ name }) => name === subject.name);
-    if (thing && subject.kind === 'sign') this.selectSign(thing);
+    const lists = { sign: scene.signs, luminaire: scene.luminaires };
+    const found = (wanted) => lists[wanted?.kind]?.find(({ name }) => name === wanted.name);
+    const copy = found(this.copy);
+    const { kind } = copy ? this.copy : this.inspect.subject ?? {};
+    const thing = copy ?? found(this.inspect.subject);
+    if (copy) this.copy = null;
+    if (thing && kind === 'sign') this.selectSign(thing);
     else if (thing) this.selectLuminaire(thing);
+    else if (lists[kind]) this.deselect();
   }
 
   grab(x, y) {

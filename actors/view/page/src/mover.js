@@ -5,6 +5,9 @@ import { add, cross, dot, scale, subtract, unit } from './walk/vectors.js';
 /** After the last press of a handle [ms]. */
 const patience = 600;
 const mark_m = 0.12;
+/** How far beside the original a copy stands at first; of wide signs, the gap between the two. */
+const beside_m = 0.5;
+const gap_m = 0.05;
 
 export class Mover {
   /** `say(message, key)` to the program; `outline(corners)`; `moved(position)` for the panel. */
@@ -71,6 +74,15 @@ export class Mover {
     this.thing.position = position;
     this.moved(position);
     this.draw();
+  }
+
+  /** Asks for a copy beside what is held: of a sign along its width. */
+  copy() {
+    if (this.pending) this.send();
+    const { name, position, facing, width = 0 } = this.thing;
+    const apart = Math.max(beside_m, width + gap_m);
+    this.say({ type: 'add', kind: this.kind, of: name,
+      position: add(position, scale(this.axes.right, apart)), ...(facing && { facing }) });
   }
 
   send() {

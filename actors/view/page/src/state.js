@@ -20,6 +20,8 @@ class Generation {
     this.geometry = null;
     this.smoke = null;
     this.frames = new Map();
+    /** Whether its triangles are others: then all light comes with it, and none is carried over. */
+    this.relaid = scene.relaid;
   }
 }
 
@@ -52,7 +54,7 @@ export class Live {
   }
 
   hear(heard) {
-    if (heard.kind) this.frame(heard);
+    if (!heard.type) this.frame(heard);
     else if (heard.type === 'scene') this.announced(heard);
     else if (heard.type === 'factors') this.factors(heard.factors);
     else if (heard.type === 'time') this.time(heard);
@@ -83,8 +85,10 @@ export class Live {
 
   /** What was sent for a generation that was never shown, and is not sent again. */
   carry(waited, next) {
-    next.geometry = waited.geometry;
     next.smoke = waited.smoke;
+    if (next.relaid) return;
+    next.geometry = waited.geometry;
+    next.relaid = waited.relaid;
     for (const frame of waited.frames.values()) {
       const { name } = waited.scene.groups[frame.group];
       const group = next.scene.groups.findIndex((g) => g.name === name && g.light !== 'new');
@@ -92,10 +96,10 @@ export class Live {
     }
   }
 
-  /** Whether each group that begins anew has light. */
-  lit({ scene, frames }) {
+  /** Whether each group has light that cannot be carried over. */
+  lit({ scene, frames, relaid }) {
     return scene.groups.every(({ light }, group) =>
-      light !== 'new' || frames.has(`${kinds.surfaceLight} ${group}`));
+      (light !== 'new' && !relaid) || frames.has(`${kinds.surfaceLight} ${group}`));
   }
 
   frame(frame) {

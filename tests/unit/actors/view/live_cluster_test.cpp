@@ -27,7 +27,7 @@ std::unique_ptr<LiveNodes> nodes_for(const LiveRoom& room, NodesOptions options 
 }
 
 void same_light(const LiveRun& a, const LiveRun& b) {
-  for (const int group : {left, right, sign}) {
+  for (int group = 0; group < static_cast<int>(a.lights().size()); ++group) {
     const auto& x = a.shown(group).state(group);
     const auto& y = b.shown(group).state(group);
     CHECK(x.batches == y.batches);
@@ -69,6 +69,30 @@ TEST_CASE("nodes give a live view the light of threads, state after state", "[vi
   CHECK(second.trace(level, LiveRun::Scope::all, cluster, never_stop, no_tick));
   same_light(second, traced_here(room, moved_lamp()));
   CHECK(second.particles() == particles);
+}
+
+TEST_CASE("nodes trace what a viewer has added, by its own random numbers", "[view][nodes]") {
+  const LiveRoom room;
+  const auto nodes = nodes_for(room);
+  LiveCluster& cluster = *nodes->tracers();
+  LiveRun first(room.compiled({}), 1, 1, nullptr, false);
+  LiveRun beside(room.compiled({}), 1, 1, nullptr, false);
+  LiveThreads threads(1);
+  cluster.enter({});
+  CHECK(first.trace(level, LiveRun::Scope::all, cluster, never_stop, no_tick));
+  CHECK(beside.trace(level, LiveRun::Scope::all, threads, never_stop, no_tick));
+  first.tell(first.news());
+  beside.tell(beside.news());
+  LiveWish wish;
+  wish.added = {{false, "left", "left copy"}};
+  wish.luminaires["left copy"] = {{1, 1, 1}, std::nullopt};
+  cluster.enter(wish);
+  LiveRun second(room.compiled(wish), 1, 1, &first, true);
+  LiveRun second_beside(room.compiled(wish), 1, 1, &beside, true);
+  CHECK(second.trace(level, LiveRun::Scope::all, cluster, never_stop, no_tick));
+  CHECK(second_beside.trace(level, LiveRun::Scope::all, threads, never_stop, no_tick));
+  REQUIRE(second.lights().size() == 4);
+  same_light(second, second_beside);
 }
 
 TEST_CASE("a building that was foreseen and never entered changes nothing", "[view][nodes]") {

@@ -51,8 +51,9 @@ inline constexpr int left = 0, right = 1, sign = 2;
 
 class LiveRoom {
  public:
-  LiveRoom() {
-    auto read = read_scene(folder_.write("room.toml", live_room));
+  /// `more`: what is in it besides.
+  explicit LiveRoom(const std::string& more = "") {
+    auto read = read_scene(folder_.write("room.toml", live_room + more));
     REQUIRE(read.scene);
     scene_ = std::make_shared<const SceneDescription>(std::move(*read.scene));
   }

@@ -1,72 +1,28 @@
 // What a state of a live building takes over from the one before, and what it traces anew.
 #include "actors/view/live_run.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstring>
 
-#include "actors/view/live_scene.hpp"
-#include "scenes/format/scene_file.hpp"
-#include "tests/unit/scenes/format/temporary_folder.hpp"
+#include "tests/unit/actors/view/live_room.hpp"
 
 using namespace luxodus;
+using namespace luxodus::test;
 
 namespace {
 
-const std::string room = R"(
-[[object]]
-name = "room"
-shape = "room"
-low = [0, 0, 0]
-high = [6, 4, 3]
-material = "grey50"
-
+/// Its body stands behind all signs.
+const std::string panel = R"(
 [[emitter]]
-name = "left"
-shape = "point"
-distribution = "isotropic"
-position = [2, 2, 2]
+name = "panel"
+shape = "rectangle"
+position = [3, 1, 2.9]
+size = [0.5, 0.5]
 flux_lm = 1000
-
-[[emitter]]
-name = "right"
-shape = "point"
-distribution = "isotropic"
-position = [4, 2, 2]
-flux_lm = 1000
-
-[[sign]]
-name = "exit"
-position = [5.9, 2, 2.2]
-facing = [-1, 0, 0]
-width = 0.4
-height = 0.2
-text = "EXIT"
-letter_height = 0.15
-mains_white = 500
-mains_green = 50
-emergency_white = 100
-emergency_green = 10
+body_material = "grey50"
 )";
-
-constexpr int left = 0, right = 1, sign = 2;
-
-class Room {
- public:
-  Room() {
-    auto read = read_scene(folder_.write("room.toml", room));
-    REQUIRE(read.scene);
-    scene_ = std::move(*read.scene);
-  }
-  std::shared_ptr<const CompiledScene> compiled(const LiveWish& wish) const {
-    auto out = compile_live(scene_, wish);
-    REQUIRE(out.ok());
-    return out.value();
-  }
-
- private:
-  const test::TemporaryFolder folder_;
-  SceneDescription scene_;
-};
 
 void reach(LiveRun& run, int64_t level, LiveRun::Scope scope = LiveRun::Scope::all) {
   LiveThreads threads(2);
@@ -80,11 +36,6 @@ std::vector<int> told(LiveRun& run) {
   return groups;
 }
 
-LiveWish moved_lamp() {
-  LiveWish wish;
-  wish.luminaires["left"] = {{1, 1, 1}, std::nullopt};
-  return wish;
-}
 LiveWish moved_sign() {
   LiveWish wish;
   wish.signs["exit"] = {{5.9, 1, 2.2}, std::nullopt};
@@ -106,7 +57,7 @@ Estimate caught(const LiveRun& run, int group) {
 }  // namespace
 
 TEST_CASE("a moved luminaire begins anew, and all other light is kept to the bit", "[view]") {
-  const Room room;
+  const LiveRoom room;
   LiveRun before(room.compiled({}), 1, 1, nullptr, false);
   reach(before, 8);
   CHECK(told(before) == std::vector<int>{left, right, sign});
@@ -128,7 +79,7 @@ TEST_CASE("a moved luminaire begins anew, and all other light is kept to the bit
 }
 
 TEST_CASE("light that goes on after a move is the light of one run", "[view]") {
-  const Room room;
+  const LiveRoom room;
   LiveRun whole(room.compiled({}), 1, 1, nullptr, false);
   reach(whole, 8);
   LiveRun first(room.compiled({}), 1, 1, nullptr, false);
@@ -140,7 +91,7 @@ TEST_CASE("light that goes on after a move is the light of one run", "[view]") {
 }
 
 TEST_CASE("a moved sign leaves light of before, which ends when its own has caught up", "[view]") {
-  const Room room;
+  const LiveRoom room;
   LiveRun before(room.compiled({}), 1, 1, nullptr, false);
   reach(before, 64);
   told(before);
@@ -165,8 +116,175 @@ TEST_CASE("a moved sign leaves light of before, which ends when its own has caug
   CHECK(after.shown(left).batches(left) < before.shown(left).batches(left));
 }
 
+namespace {
+
+bool same_bits(const LiveRun& a, int in_a, const LiveRun& b, int in_b) {
+  const auto &x = a.shown(in_a).state(in_a).totals, &y = b.shown(in_b).state(in_b).totals;
+  return x.size() == y.size() && std::memcmp(x.data(), y.data(), x.size() * sizeof(Total)) == 0;
+}
+
+LiveWish added_lamp() {
+  LiveWish wish;
+  wish.added = {{false, "left", "left copy"}};
+  wish.luminaires["left copy"] = {{1, 1, 1}, std::nullopt};
+  return wish;
+}
+LiveWish added_sign() {
+  LiveWish wish;
+  wish.added = {{true, "exit", "exit copy"}};
+  wish.signs["exit copy"] = {{0.1, 2, 2.2}, glm::dvec3(1, 0, 0)};
+  return wish;
+}
+
+int group_of(const LiveRun& run, const std::string& name) {
+  const auto& groups = run.scene().groups;
+  const auto at = std::find_if(groups.begin(), groups.end(),
+                               [&](const Group& group) { return group.name == name; });
+  REQUIRE(at != groups.end());
+  return static_cast<int>(at - groups.begin());
+}
+
+}  // namespace
+
+TEST_CASE("an added luminaire is traced, and all other light is kept to the bit", "[view]") {
+  const LiveRoom room;
+  LiveRun before(room.compiled({}), 1, 1, nullptr, false);
+  reach(before, 8);
+  told(before);
+  LiveRun after(room.compiled(added_lamp()), 1, 1, &before, true);
+  CHECK(after.same_geometry());
+  const int copy = group_of(after, "left copy");
+  CHECK(after.light(copy) == ShownLight::none);
+  CHECK(after.groups_with(ShownLight::own) == 3);
+  for (const char* name : {"left", "right", "sign exit"}) {
+    const int now = group_of(after, name), was = group_of(before, name);
+    CHECK(same_bits(after, now, before, was));
+    CHECK(caught(after, now).value == caught(before, was).value);
+  }
+  reach(after, 4);
+  CHECK(told(after) == std::vector<int>{copy});
+  // A closed room of a half: each lumen arrives twice in all.
+  const Estimate light = caught(after, copy);
+  CHECK(std::abs(light.value - 2000) < 5 * light.standard_error + 5);
+  // It goes again: the others are still what they were.
+  const LiveRun again(room.compiled({}), 1, 1, &after, true);
+  CHECK(again.groups_with(ShownLight::own) == 3);
+  for (const int group : {left, right, sign}) CHECK(same_bits(again, group, before, group));
+}
+
+TEST_CASE("light that goes on beside an added luminaire is the light of one run", "[view]") {
+  const LiveRoom room;
+  LiveRun whole(room.compiled({}), 1, 1, nullptr, false);
+  reach(whole, 8);
+  LiveRun first(room.compiled({}), 1, 1, nullptr, false);
+  reach(first, 2);
+  told(first);
+  LiveRun second(room.compiled(added_lamp()), 1, 2, &first, true);
+  reach(second, 8);
+  const int now = group_of(second, "sign exit");
+  REQUIRE(now != sign);  // a luminaire more stands before it
+  REQUIRE(second.shown(now).batches(now) == whole.shown(sign).batches(sign));
+  CHECK(same_bits(second, now, whole, sign));
+}
+
+TEST_CASE("of two copies in one place, whatever came and went before, each has its own particles",
+          "[view]") {
+  const LiveRoom room;
+  const auto with = [&](const std::vector<std::string>& names) {
+    LiveWish wish;
+    for (const std::string& name : names) {
+      wish.added.push_back({false, "left", name});
+      wish.luminaires[name] = {{1, 1, 1}, std::nullopt};
+    }
+    return room.compiled(wish);
+  };
+  LiveRun first(with({"gone", "stays"}), 1, 1, nullptr, false);
+  reach(first, 4);
+  told(first);
+  LiveRun second(with({"stays", "comes"}), 1, 1, &first, true);
+  CHECK(second.light(group_of(second, "stays")) == ShownLight::own);
+  reach(second, 4);
+  const int stays = group_of(second, "stays"), comes = group_of(second, "comes");
+  CHECK(second.shown(stays).batches(stays) == second.shown(comes).batches(comes));
+  CHECK_FALSE(same_bits(second, stays, second, comes));
+}
+
+TEST_CASE("an added sign leaves light of before, in the bins of the new building", "[view]") {
+  const LiveRoom room;
+  LiveRun before(room.compiled({}), 1, 1, nullptr, false);
+  reach(before, 64);
+  told(before);
+  LiveRun after(room.compiled(added_sign()), 1, 1, &before, true);
+  CHECK_FALSE(after.same_geometry());
+  REQUIRE(after.bins());
+  CHECK_FALSE(after.bins()->is_same());
+  const int copy = group_of(after, "sign exit copy");
+  CHECK(after.light(copy) == ShownLight::none);
+  CHECK(after.groups_with(ShownLight::before) == 3);
+  for (const int group : {left, right, sign})
+    CHECK(caught(after, group).value == caught(before, group).value);
+  reach(after, 4, LiveRun::Scope::own);
+  CHECK(told(after) == std::vector<int>{copy});  // its own group first
+  reach(after, 24);
+  told(after);
+  CHECK(after.groups_with(ShownLight::own) == 4);
+  // The same as of a run that began with it.
+  LiveRun fresh(room.compiled(added_sign()), 1, 1, nullptr, false);
+  reach(fresh, 24);
+  CHECK(caught(fresh, left).value == caught(after, left).value);
+  // It goes again: light of before once more.
+  const LiveRun again(room.compiled({}), 1, 1, &after, true);
+  CHECK(again.groups_with(ShownLight::before) == 3);
+  CHECK(again.shown(left).batches(left) == after.shown(left).batches(left));
+}
+
+TEST_CASE("bins of a building with another sign are found surface by surface", "[view]") {
+  const LiveRoom room(panel);
+  const auto a = room.compiled({}), b = room.compiled(added_sign());
+  const auto bins = BinMap::between(*a, *b), back = BinMap::between(*b, *a);
+  REQUIRE(bins);
+  REQUIRE(back);
+  for (const CompiledSurface& now : b->surfaces)
+    for (uint32_t p = 0; p < now.patches; ++p) {
+      const uint32_t was = bins->patch_before(now.first_patch + p);
+      if (now.name == "exit copy") CHECK(was == none_index);
+      if (now.name == "exit copy") continue;
+      REQUIRE(was != none_index);
+      CHECK(back->patch_before(was) == now.first_patch + p);
+    }
+  const auto& body = b->surfaces.back();
+  REQUIRE(body.name == "panel body");
+  CHECK(bins->patch_before(body.first_patch) == a->surfaces.back().first_patch);
+  CHECK(a->surfaces.back().first_patch < body.first_patch);
+  LiveRun before(a, 1, 1, nullptr, false);
+  reach(before, 8);
+  told(before);
+  const LiveRun after(b, 1, 1, &before, true);
+  for (const char* name : {"left", "panel", "sign exit"}) {
+    const int was = group_of(before, name), now = group_of(after, name);
+    const Readout then(*a, before.shown(was)), here(*b, after.shown(now));
+    for (const uint32_t block : {a->blocks.patches, a->blocks.surfaces}) {
+      const bool patches = block == a->blocks.patches;
+      const auto last = [&](const CompiledScene& of) {
+        return patches ? of.patch_count - 2 : static_cast<uint32_t>(of.surfaces.size()) - 1;
+      };
+      const double caught_then = then.lumens(block, last(*a), 0, was).value;
+      CHECK(caught_then > 0);
+      CHECK(here.lumens(block, last(*b), 0, now).value == caught_then);
+    }
+    CHECK(here.lumens(b->blocks.escape, 0, 0, now).value ==
+          then.lumens(a->blocks.escape, 0, 0, was).value);
+  }
+  const auto same = BinMap::between(*a, *room.compiled(moved_sign()));
+  REQUIRE(same);
+  CHECK(same->is_same());
+  LiveWish beyond;  // the room's middle, from which all is measured, is elsewhere then
+  beyond.luminaires["left"] = {{-3, 1, 1}, std::nullopt};
+  CHECK_FALSE(BinMap::between(*a, *room.compiled(beyond)));
+}
+
 TEST_CASE("in other air nothing is kept but the geometry's frame", "[view]") {
-  const Room room;
+  const LiveRoom room;
   LiveRun before(room.compiled({}), 1, 1, nullptr, false);
   reach(before, 2);
   told(before);
@@ -176,7 +294,7 @@ TEST_CASE("in other air nothing is kept but the geometry's frame", "[view]") {
 }
 
 TEST_CASE("tracing stops between batches when it is told to, and goes on", "[view]") {
-  const Room room;
+  const LiveRoom room;
   LiveRun run(room.compiled({}), 1, 1, nullptr, false);
   int asked = 0;
   LiveThreads one(1);

@@ -110,6 +110,107 @@ TEST_CASE("a saved variant is the building as it was seen", "[view]") {
   CHECK(variant.scenarios[1].media.front().factor == 0);  // clear air stays clear
 }
 
+namespace {
+
+LiveWish added_to_room() {
+  LiveWish wish;
+  wish.added = {{false, "lamp", "lamp copy"}, {true, "exit", "exit copy"}};
+  wish.luminaires["lamp copy"] = {{1, 1, 2.9}, std::nullopt};
+  wish.signs["exit copy"] = {{0.1, 2, 2}, glm::dvec3(1, 0, 0)};
+  wish.signs["exit"] = {{5.9, 1, 2.2}, std::nullopt};
+  return wish;
+}
+
+}  // namespace
+
+TEST_CASE("what was added is a copy of the original as the file has it, at its own place",
+          "[view]") {
+  const test::TemporaryFolder folder;
+  const SceneDescription scene = scene_of(folder.write("room.toml", room));
+  const LiveWish wish = added_to_room();
+  const auto now = live_description(scene, wish);
+  REQUIRE(now.ok());
+  REQUIRE(now->signs.size() == 2);
+  CHECK(now->signs[0].frame.origin == glm::dvec3(5.9, 1, 2.2));
+  CHECK(now->signs[1].name == "exit copy");
+  CHECK(now->signs[1].group == group_of_sign("exit copy"));
+  CHECK(now->signs[1].frame.origin == glm::dvec3(0.1, 2, 2));
+  CHECK(now->signs[1].mains.white_cd_m2 == scene.signs[0].mains.white_cd_m2);
+  REQUIRE(now->emitters.size() == 2);
+  CHECK(now->emitters[1].frame.origin == glm::dvec3(1, 1, 2.9));
+  CHECK(now->emitters[1].frame.axes == scene.emitters[0].frame.axes);
+  LiveWish wrong = wish;
+  wrong.added.push_back({true, "none", "none copy"});
+  CHECK_FALSE(live_description(scene, wrong).ok());
+}
+
+TEST_CASE("a saved variant adds what was added, and compiles to the same building", "[view]") {
+  const test::TemporaryFolder folder;
+  const SceneDescription scene = scene_of(folder.write("room.toml", room));
+  const LiveWish wish = added_to_room();
+  const std::string text = variant_text(
+      scene, wish, {{"lamp", 0.5}, {"lamp copy", 0.25}, {group_of_sign("exit copy"), 2}}, "more");
+  const SceneDescription variant = scene_of(folder.write("more.toml", text));
+  REQUIRE(variant.signs.size() == 2);
+  REQUIRE(variant.emitters.size() == 2);
+  CHECK(variant.emitters[0].mains_flux == 500);
+  CHECK(variant.emitters[1].mains_flux == 250);  // of the original's own, not of the dimmed one's
+  CHECK(variant.signs[1].mains.white_cd_m2 == 1000);
+  const auto live = compile_live(scene, wish), fresh = compile_live(variant, {});
+  REQUIRE(live.ok());
+  REQUIRE(fresh.ok());
+  const CompiledScene &a = *live.value(), &b = *fresh.value();
+  CHECK(a.patch_count == b.patch_count);
+  REQUIRE(a.surfaces.size() == b.surfaces.size());
+  for (size_t s = 0; s < a.surfaces.size(); ++s) CHECK(a.surfaces[s].name == b.surfaces[s].name);
+  REQUIRE(a.emitters.size() == b.emitters.size());
+  for (size_t e = 0; e < a.emitters.size(); ++e) {
+    CHECK(a.emitters[e].name == b.emitters[e].name);
+    CHECK(a.emitters[e].origin == b.emitters[e].origin);
+    CHECK(a.emitters[e].axes == b.emitters[e].axes);
+  }
+  REQUIRE(a.groups.size() == b.groups.size());
+  for (size_t g = 0; g < a.groups.size(); ++g) CHECK(a.groups[g].name == b.groups[g].name);
+}
+
+TEST_CASE("bands stay those of the scene, whatever copies weigh", "[view]") {
+  const test::TemporaryFolder folder;
+  SceneDescription scene = scene_of(folder.write("room.toml", room));
+  scene.emitters[0].spectrum =
+      Spectrum::constant(1.0 / 400) * reflectance_from_linear_srgb(1, 0, 0);
+  LiveWish wish;
+  wish.added = {{false, "lamp", "lamp copy"}};
+  wish.luminaires["lamp copy"] = {{1, 1, 2.9}, std::nullopt};
+  const auto before = compile_live(scene, {}), after = compile_live(scene, wish);
+  REQUIRE(before.ok());
+  REQUIRE(after.ok());
+  const Bands &a = before.value()->bands, &b = after.value()->bands;
+  REQUIRE(a.count() == b.count());
+  for (int i = 0; i < a.count(); ++i) {
+    CHECK(a[i].high_nm == b[i].high_nm);
+    CHECK(a[i].lm_per_w == b[i].lm_per_w);
+  }
+}
+
+TEST_CASE("copies are counted, and no name is given twice", "[view]") {
+  const test::TemporaryFolder folder;
+  SceneDescription scene = scene_of(folder.write("room.toml", room));
+  LiveWish wish;
+  const auto add = [&](const std::string& of) {
+    const std::string name = name_for_copy(scene, wish, of);
+    wish.added.push_back({true, "exit", name});
+    return name;
+  };
+  CHECK(add("exit") == "exit copy");
+  CHECK(add("exit") == "exit copy 2");
+  CHECK(add("exit copy 2") == "exit copy 3");
+  CHECK(add("lamp") == "lamp copy");
+  scene.emitters[0].name = "sign door copy";  // its group's name is that of a sign's
+  CHECK(add("door") == "door copy 2");
+  CHECK(add("copy") == "copy copy");
+  CHECK(add("copy that") == "copy that copy");
+}
+
 TEST_CASE("after a failure luminaires come on and phosphor fades, by shares of what is traced",
           "[view]") {
   const test::TemporaryFolder folder;

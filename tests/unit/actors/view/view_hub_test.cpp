@@ -223,18 +223,182 @@ TEST_CASE("after a move others get no light again, who comes late gets all, who 
   hub.leaves(viewer);
 }
 
+namespace {
+
+Sign small_sign(const std::string& name) {
+  Sign out;
+  out.name = name;
+  out.frame.origin = {3, 2, 1};
+  out.width_m = 0.4;
+  out.height_m = 0.2;
+  out.face = {2, 1, {SignColour::white, SignColour::green}, {}, SignColour::white};
+  return out;
+}
+
+/// A hub with one viewer who edits, after all that it was told.
+class Edited {
+ public:
+  explicit Edited(std::shared_ptr<const SceneDescription> scene = nullptr)
+      : hub(scene ? scene : scene_in(folder), small_runs(folder), posts.post()) {
+    hub.joins(viewer);
+    until_done();
+  }
+  ~Edited() { hub.leaves(viewer); }
+  void says(const std::string& text) {
+    viewer.texts.clear();
+    hub.says(viewer, text);
+  }
+  /// Until the building as it is wished now is traced.
+  void until_done() {
+    posts.until([&] {
+      const Json* progress = viewer.last("progress");
+      return progress != nullptr && (*progress)["done"] == true;
+    });
+  }
+  const Json& scene() const { return *viewer.last("scene"); }
+  /// Of a group by its name.
+  const Json& group(const std::string& name) const { return named(scene()["groups"], name); }
+  static const Json& named(const Json& list, const std::string& name) {
+    const auto at = std::find_if(list.begin(), list.end(),
+                                 [&](const Json& one) { return one["name"] == name; });
+    REQUIRE(at != list.end());
+    return *at;
+  }
+  std::string why() const { return (*viewer.last("refused"))["why"].get<std::string>(); }
+
+  const test::TemporaryFolder folder;
+  Posts posts;
+  Remembers viewer;
+  ViewHub hub;
+};
+
+const std::string add_left = R"({"type":"add","kind":"luminaire","of":"left","position":[1,1,1]})";
+
+}  // namespace
+
+TEST_CASE("an added luminaire gets light, others keep theirs, and it moves, is saved, and goes",
+          "[view]") {
+  Edited live;
+  live.says(R"({"type":"factor","group":"left","factor":0.5})");
+  live.says(add_left);
+  REQUIRE(live.viewer.last("added") != nullptr);
+  CHECK(*live.viewer.last("added") ==
+        Json({{"type", "added"}, {"kind", "luminaire"}, {"of", "left"}, {"name", "left copy"}}));
+  live.until_done();
+  CHECK(live.scene()["relaid"] == false);
+  CHECK(live.group("left copy")["light"] == "new");
+  CHECK(live.group("left copy")["factor"] == 0.5);  // as the one that it is a copy of
+  CHECK(live.group("left")["light"] == "kept");
+  CHECK(live.group("right")["light"] == "kept");
+  CHECK(Edited::named(live.scene()["luminaires"], "left copy")["added"] == true);
+  CHECK(Edited::named(live.scene()["luminaires"], "left")["added"] == false);
+  CHECK(live.viewer.frames_of(1, 2) == 0);
+  CHECK(lit_groups(live.viewer, 2).count(2) == 1);
+  CHECK(lit_groups(live.viewer, 2).count(0) == 0);
+  live.says(R"({"type":"move","kind":"luminaire","name":"left copy","position":[2,1,1]})");
+  live.until_done();
+  CHECK(live.group("left copy")["light"] == "new");
+  CHECK(live.group("right")["light"] == "kept");
+  live.says(R"({"type":"save","name":"one more"})");
+  const auto saved = read_scene(live.folder / "one more.toml");
+  REQUIRE(saved.scene);
+  REQUIRE(saved.scene->emitters.size() == 3);
+  CHECK(saved.scene->emitters[2].frame.origin == glm::dvec3(2, 1, 1));
+  CHECK(saved.scene->emitters[2].mains_flux == 500);
+  live.says(R"({"type":"remove","name":"left"})");
+  CHECK(live.why().find("only what was added") == 0);
+  live.says(R"({"type":"remove","name":"left copy"})");
+  live.until_done();
+  CHECK(live.scene()["groups"].size() == 2);
+  CHECK(live.group("left")["light"] == "kept");
+  live.says(R"({"type":"move","kind":"luminaire","name":"left copy","position":[2,1,1]})");
+  CHECK(live.why().find("to move") != std::string::npos);
+}
+
+TEST_CASE("an added sign lays triangles anew, and light of before comes with them", "[view]") {
+  const test::TemporaryFolder folder;
+  auto scene = std::make_shared<SceneDescription>(*scene_in(folder));
+  Sign exit = small_sign("exit");
+  exit.mains = {100, 10};
+  scene->signs.push_back(exit);
+  Observer there;
+  there.name = "there";
+  there.eye = {4, 2, 1};
+  there.gaze = {-1, 0, 0};
+  scene->observers.push_back(there);
+  Edited live(scene);
+  const auto light_of = [&](uint32_t generation, uint32_t group) {
+    for (const LiveFrame& frame : live.viewer.frames)
+      if (const FrameHead head = head_of(frame);
+          head.kind == 2 && head.generation == generation && head.a == group)
+        return *frame;
+    return std::string();
+  };
+  std::string old;  // the last of the left lamp
+  for (const LiveFrame& frame : live.viewer.frames)
+    if (head_of(frame).kind == 2 && head_of(frame).a == 0) old = *frame;
+  live.says(R"({"type":"add","kind":"sign","of":"exit","position":[2,2,1],"facing":[1,0,0]})");
+  CHECK((*live.viewer.last("added"))["name"] == "exit copy");
+  live.until_done();
+  CHECK(live.scene()["relaid"] == true);
+  CHECK(live.group("sign exit copy")["light"] == "new");
+  CHECK(live.group("left")["light"] == "before");
+  CHECK(Edited::named(live.scene()["signs"], "exit copy")["added"] == true);
+  CHECK(Edited::named(live.scene()["signs"], "exit")["added"] == false);
+  CHECK(live.viewer.frames_of(1, 2) == 1);
+  const std::string relaid = light_of(2, 0);
+  REQUIRE(relaid.size() == old.size() + 2 * 12);  // the new face has two triangles
+  CHECK(relaid.compare(16, old.size() - 16, old, 16) == 0);
+  CHECK(relaid.find_first_not_of('\0', old.size()) == std::string::npos);
+  // Whoever comes later needs no light of before.
+  Remembers late;
+  live.hub.joins(late);
+  CHECK((*late.last("scene"))["relaid"] == false);
+  live.hub.leaves(late);
+  live.says(R"({"type":"judge","sign":"exit copy"})");
+  live.says(R"({"type":"judge","sign":"exit"})");  // waits until the first is judged
+  live.posts.until([&] {
+    const Json* verdicts = live.viewer.last("sign");
+    return verdicts != nullptr && (*verdicts)["name"] == "exit";
+  });
+  CHECK(live.viewer.last("refused") == nullptr);
+  live.says(R"({"type":"remove","name":"exit copy"})");
+  live.until_done();
+  CHECK(live.scene()["relaid"] == true);
+  CHECK(live.scene()["signs"].size() == 1);
+  CHECK(live.group("left")["light"] == "before");
+  CHECK(light_of(3, 0).size() == old.size());
+}
+
+TEST_CASE("what cannot be added is refused, and there is an end to it", "[view]") {
+  Edited live;
+  live.says(R"({"type":"add","kind":"luminaire","of":"none","position":[1,1,1]})");
+  CHECK(live.why().find("to copy") != std::string::npos);
+  live.says(R"({"type":"add","kind":"sign","of":"left","position":[1,1,1]})");
+  CHECK(live.why().find("to copy") != std::string::npos);
+  live.says(R"({"type":"add","kind":"luminaire","of":"left","position":[1,1,1],"facing":[0,0,0]})");
+  CHECK(live.viewer.last("added") == nullptr);
+  Remembers other;
+  live.hub.joins(other);
+  live.hub.says(other, add_left);
+  CHECK((*other.last("refused"))["why"].get<std::string>().find("somebody else") == 0);
+  live.hub.leaves(other);
+  for (size_t i = 0; i < limits::view_added; ++i) {
+    live.says(add_left);
+    REQUIRE(live.viewer.last("added") != nullptr);
+  }
+  CHECK((*live.viewer.last("added"))["name"] == "left copy 256");
+  live.says(add_left);
+  CHECK(live.why().find("no more than 256") == 0);
+}
+
 TEST_CASE("time after a failure is shares of light, nothing is traced, and mains know no time",
           "[view]") {
   const test::TemporaryFolder folder;
   auto scene = std::make_shared<SceneDescription>(*scene_in(folder));
   scene->emitters[0].emergency_flux = scene->emitters[1].emergency_flux = 100;
   scene->emitters[0].onset = {{0, 0}, {10, 1}};
-  Sign glow;
-  glow.name = "glow";
-  glow.frame.origin = {3, 2, 1};
-  glow.width_m = 0.4;
-  glow.height_m = 0.2;
-  glow.face = {2, 1, {SignColour::white, SignColour::green}, {}, SignColour::white};
+  Sign glow = small_sign("glow");
   glow.lighting = SignLighting::photoluminescent;
   glow.emergency = {1, 0.1};
   glow.decay = {{0, 1}, {10, 0}};

@@ -44,6 +44,18 @@ TEST_CASE("what a viewer may say is read", "[view]") {
   REQUIRE(settled.ok());
   CHECK_FALSE(std::get<TimeEdit>(settled.value()).seconds.has_value());
   CHECK(parse_view_message(R"({"type":"save","name":"brighter"})").ok());
+  const auto add =
+      parse_view_message(R"({"type":"add","kind":"luminaire","of":"lamp","position":[1,2,3]})");
+  REQUIRE(add.ok());
+  CHECK_FALSE(std::get<AddEdit>(add.value()).is_sign);
+  CHECK(std::get<AddEdit>(add.value()).of == "lamp");
+  CHECK(std::get<AddEdit>(add.value()).position == glm::dvec3(1, 2, 3));
+  CHECK_FALSE(std::get<AddEdit>(add.value()).facing.has_value());
+  CHECK(is_edit(add.value()));
+  const auto remove = parse_view_message(R"({"type":"remove","name":"lamp copy"})");
+  REQUIRE(remove.ok());
+  CHECK(std::get<RemoveEdit>(remove.value()).name == "lamp copy");
+  CHECK(is_edit(remove.value()));
 }
 
 TEST_CASE("all else is refused with a reason", "[view]") {
@@ -63,6 +75,19 @@ TEST_CASE("all else is refused with a reason", "[view]") {
             .find("three numbers") != std::string::npos);
   CHECK(refused(R"({"type":"move","kind":"sign","name":"a","position":[1,2,1e9]})").find("1e7") !=
         std::string::npos);
+  CHECK(refused(R"({"type":"move","kind":"wall","name":"a","position":[1,2,3]})")
+            .find("\"luminaire\"") != std::string::npos);
+  CHECK(refused(R"({"type":"add","kind":"flame","of":"a","position":[1,2,3]})")
+            .find("\"luminaire\"") != std::string::npos);
+  CHECK(refused(R"({"type":"add","kind":"sign","position":[1,2,3]})").find("\"of\"") !=
+        std::string::npos);
+  CHECK(refused(R"({"type":"add","kind":"sign","of":"a"})").find("three numbers") !=
+        std::string::npos);
+  CHECK(refused(R"({"type":"add","kind":"sign","of":"a","position":[1,2,3],"facing":[0,1]})")
+            .find("three numbers") != std::string::npos);
+  CHECK(refused(R"({"type":"remove","name":7})").find("a text") != std::string::npos);
+  CHECK(refused(R"({"type":"remove","name":")" + std::string(201, 'x') + "\"}").find("1 to 200") !=
+        std::string::npos);
   CHECK(refused(R"({"type":"probe","id":-1,"triangle":0,"front":true})").find("range") !=
         std::string::npos);
   CHECK(refused(R"({"type":"probe","id":1,"triangle":4294967296,"front":true})").find("range") !=
@@ -73,12 +98,14 @@ TEST_CASE("all else is refused with a reason", "[view]") {
 }
 
 TEST_CASE("rubbish is refused and never more than that", "[view]") {
-  const std::string good =
-      R"({"type":"move","kind":"sign","name":"exit","position":[1,2,3],"facing":[0,1,0]})";
+  const std::string said[] = {
+      R"({"type":"move","kind":"sign","name":"exit","position":[1,2,3],"facing":[0,1,0]})",
+      R"({"type":"add","kind":"sign","of":"exit","position":[1,2,3],"facing":[0,1,0]})",
+      R"({"type":"remove","name":"exit copy"})"};
   Random random(1, RandomStream::test);
   for (uint64_t round = 0; round < 20'000; ++round) {
     random.start(round);
-    std::string text = good;
+    std::string text = said[round % std::size(said)];
     const uint64_t changes = 1 + random.bits() % 6;
     for (uint64_t i = 0; i < changes; ++i) {
       const size_t at = random.bits() % text.size();

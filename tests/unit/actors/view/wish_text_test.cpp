@@ -11,6 +11,7 @@ TEST_CASE("a wish is the same after its way to a node", "[view]") {
   wish.smoke = 1.0 / 3;
   wish.signs["exit é"] = {{0.1, -2e-300, 3}, glm::dvec3(0, 1.0 / 7, 1)};
   wish.luminaires["lamp"] = {{1e6 + 1e-6, 0, 0}, std::nullopt};
+  wish.added = {{true, "exit é", "exit é copy"}, {false, "lamp", "lamp copy"}};
   const std::string text = wish_text(wish);
   const auto parsed = parse_wish(text);
   REQUIRE(parsed.ok());
@@ -21,15 +22,21 @@ TEST_CASE("a wish is the same after its way to a node", "[view]") {
   CHECK(read.signs.at("exit é").facing == wish.signs["exit é"].facing);
   CHECK(read.luminaires.at("lamp").position == wish.luminaires["lamp"].position);
   CHECK_FALSE(read.luminaires.at("lamp").facing);
+  REQUIRE(read.added.size() == 2);
+  CHECK(read.added[0].is_sign);
+  CHECK(read.added[1].of == "lamp");
+  CHECK(read.added[1].name == "lamp copy");
   CHECK(wish_text(read) == text);
 }
 
 TEST_CASE("what is no wish is refused with a reason", "[view][failure]") {
-  for (const char* text : {"", "[]", "{", "{\"scenario\":1}", "null",
-                           R"({"scenario":"","smoke":"thick","signs":{},"luminaires":{}})",
-                           R"({"scenario":"","smoke":1,"signs":{"a":{}},"luminaires":{}})",
-                           R"({"scenario":"","smoke":1,"signs":[1],"luminaires":{}})",
-                           R"({"scenario":"","smoke":1,"signs":{"a":{"position":[1,2]}}})"}) {
+  for (const char* text :
+       {"", "[]", "{", "{\"scenario\":1}", "null",
+        R"({"scenario":"","smoke":"thick","signs":{},"luminaires":{},"added":[]})",
+        R"({"scenario":"","smoke":1,"signs":{"a":{}},"luminaires":{},"added":[]})",
+        R"({"scenario":"","smoke":1,"signs":[1],"luminaires":{},"added":[]})",
+        R"({"scenario":"","smoke":1,"signs":{"a":{"position":[1,2]}},"luminaires":{},"added":[]})",
+        R"({"scenario":"","smoke":1,"signs":{},"luminaires":{},"added":[{"of":"a"}]})"}) {
     INFO(text);
     const auto read = parse_wish(text);
     REQUIRE_FALSE(read.ok());

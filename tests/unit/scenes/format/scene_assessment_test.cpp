@@ -100,4 +100,82 @@ TEST_CASE("a change wants something that is there", "[format][scene]") {
   CHECK(turned.problems.list().front().what.find("needs 'position'") != std::string::npos);
 }
 
+namespace {
+
+const std::string lamp_and_sign = R"(
+[[emitter]]
+name = "lamp"
+shape = "point"
+position = [0, 0, 1]
+flux_lm = 10
+[[sign]]
+name = "exit"
+position = [0, 1, 2]
+facing = [1, 0, 0]
+width = 0.4
+height = 0.2
+text = "EXIT"
+letter_height = 0.15
+mains_white = 500
+mains_green = 50
+emergency_white = 100
+emergency_green = 10
+)";
+
+std::string copy_of(const std::string& kind, const std::string& of, const std::string& rest) {
+  return "[[change]]\nkind = \"" + kind + "\"\nof = \"" + of + "\"\n" + rest;
+}
+
+}  // namespace
+
+TEST_CASE("a change adds a copy under another name, and leaves the original", "[format][scene]") {
+  SceneFolder f;
+  const auto s = good(
+      f,
+      lamp_and_sign +
+          copy_of("sign", "exit",
+                  "copy = \"way out\"\nposition = [3, 0, 2]\nfacing = [0, 1, 0]\n") +
+          copy_of("luminaire", "lamp", "copy = \"spare\"\nposition = [2, 2, 2]\nfactor = 0.5\n") +
+          copy_of("luminaire", "spare", "factor = 0.5\n") +
+          copy_of("sign", "way out", "copy = \"third\"\nposition = [4, 0, 2]\n"));
+  REQUIRE(s.signs.size() == 3);
+  CHECK(s.signs[0].frame.origin == glm::dvec3(0, 1, 2));
+  CHECK(s.signs[1].name == "way out");
+  CHECK(s.signs[1].frame.origin == glm::dvec3(3, 0, 2));
+  CHECK(s.signs[1].frame.axes[2].y == Approx(1));
+  CHECK(s.signs[1].mains.white_cd_m2 == 500);
+  CHECK(s.signs[2].frame.axes == s.signs[1].frame.axes);  // as what it is a copy of stands by then
+  REQUIRE(s.emitters.size() == 2);
+  CHECK(s.emitters[0].mains_flux == 10);
+  CHECK(s.emitters[1].name == "spare");
+  CHECK(s.emitters[1].mains_flux == 2.5);
+  CHECK(s.emitters[1].frame.origin == glm::dvec3(2, 2, 2));
+}
+
+TEST_CASE("a copy that cannot be is told once, with its line", "[format][scene]") {
+  SceneFolder f;
+  const auto told = [&](const std::string& text, const std::string& what) {
+    const auto read = f.read(lamp_and_sign + text);
+    INFO(all_problems(read));
+    REQUIRE(read.problems.list().size() == 1);
+    CHECK(read.problems.list().front().where.line > 19);
+    CHECK(read.problems.list().front().what.find(what) != std::string::npos);
+  };
+  const std::string here = "position = [1, 1, 1]\n";
+  told(copy_of("sign", "exit", "copy = \"exit\"\n" + here), "defined twice");
+  told(copy_of("luminaire", "lamp", "copy = \"lamp\"\n" + here), "defined twice");
+  told(copy_of("sign", "none", "copy = \"new\"\n" + here), "no sign \"none\"");
+  told(copy_of("sign", "exit", "copy = \"new\"\n"), "needs 'position'");
+  told(copy_of("sign", "exit", "copy = \"a/b\"\n" + here), "without control characters");
+  told("[[medium]]\nname = \"haze\"\nkind = \"homogeneous\"\nextinction = 0.2\nalbedo = 0.9\n" +
+           copy_of("medium", "haze", "copy = \"fog\"\n" + here),
+       "a medium is not copied");
+  f.put("glow.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  told(
+      "[[emitter]]\nname = \"glow\"\nshape = \"mesh\"\nfile = \"glow.obj\"\nunits = \"m\"\nup = "
+      "\"z\"\nflux_lm = 10\n" +
+          copy_of("luminaire", "glow", "copy = \"new\"\n" + here),
+      "shape mesh is not copied");
+}
+
 }  // namespace luxodus

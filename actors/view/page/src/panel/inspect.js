@@ -15,8 +15,10 @@ const figures = (pairs) => el('dl', {}, ...pairs.flatMap(([term, value]) =>
 const placeWords = (p) => `${p.map((x) => x.toFixed(2)).join(', ')} m`;
 
 export class Inspect {
-  constructor({ nudge, close }) {
+  constructor({ nudge, copy, remove, close }) {
     this.nudge = nudge;
+    this.copy = copy;
+    this.remove = remove;
     this.close = close;
     this.body = el('div', { aria: { live: 'polite' } });
     this.element = section('Selection', this.body);
@@ -53,7 +55,7 @@ export class Inspect {
     this.verdicts = el('div', {},
       el('p', { className: 'note', textContent: 'Asking for verdicts …' }));
     this.place = el('p', { className: 'note', textContent: placeWords(sign.position) });
-    this.put(sign.name, this.verdicts, this.handles(), this.place);
+    this.put(sign.name, this.handles(sign), this.place, this.verdicts);
   }
 
   judged({ name, rows }) {
@@ -73,17 +75,20 @@ export class Inspect {
   luminaire(luminaire) {
     this.subject = { kind: 'luminaire', name: luminaire.name };
     this.place = el('p', { className: 'note', textContent: placeWords(luminaire.position) });
-    this.put(luminaire.name, this.handles(), this.place);
+    this.put(luminaire.name, this.handles(luminaire), this.place);
   }
 
-  handles() {
+  /** What is of the scene file stays; what was added here may go again. */
+  handles({ added }) {
     const step = el('select', { aria: { label: 'Step' } });
     for (const metres of [0.05, 0.25, 1]) step.append(new Option(`${metres} m`, metres));
     step.value = 0.25;
     const keys = arrows.map(([label, way, title]) =>
       button(label, () => this.nudge(way, Number(step.value)), { title, aria: { label: title } }));
+    const more = el('div', { className: 'both' }, button('Add a copy', this.copy),
+      added ? button('Remove', this.remove) : null);
     this.moveControls = el('fieldset', { className: 'handles', disabled: !this.editor },
-      el('legend', { textContent: 'Move' }), ...keys, step);
+      el('legend', { textContent: 'Move' }), ...keys, step, more);
     return this.moveControls;
   }
 

@@ -90,6 +90,7 @@ function sign(value, path) {
     white: colour(s.white, `${path}.white`),
     green: colour(s.green, `${path}.green`),
     group: textOr(s.group, `${path}.group`, ''),
+    added: s.added === true,
   };
 }
 
@@ -115,6 +116,7 @@ const luminaire = (l, path) => ({
   name: text(l.name, `${path}.name`),
   position: place(l.position, `${path}.position`),
   group: textOr(l.group, `${path}.group`, ''),
+  added: l.added === true,
 });
 
 const observer = (o, path) => ({
@@ -146,6 +148,7 @@ const readers = {
     seconds: numberOrNull(m.seconds, 'seconds'),
     low: place(m.low, 'low'),
     high: place(m.high, 'high'),
+    relaid: m.relaid === true,
     groups: list(m.groups, 'groups', group),
     signs: list(m.signs ?? [], 'signs', sign),
     luminaires: list(m.luminaires ?? [], 'luminaires', luminaire),
@@ -186,6 +189,11 @@ const readers = {
       verdict: text(row.verdict, `${path}.verdict`),
       reason: textOr(row.reason, `${path}.reason`, ''),
     })),
+  }),
+  added: (m) => ({
+    kind: oneOf(m.kind, 'kind', ['sign', 'luminaire']),
+    of: text(m.of, 'of'),
+    name: text(m.name, 'name'),
   }),
   saved: (m) => ({ file: text(m.file, 'file') }),
   refused: (m) => ({ why: text(m.why, 'why') }),
