@@ -9,6 +9,10 @@ const densityOf = (place) => (place <= none + 0.05 ? 0 : 10 ** place);
 const placeOf = (density) => (density <= 0 ? none : Math.log10(density));
 const wordsFor = (density) => (density === 0 ? 'none' : `× ${words(density, 2)}`);
 
+/** A name that lines break behind its underscores. */
+const breakable = (name) => el('span', {},
+  ...name.split(/(?<=_)/).flatMap((part, i) => (i > 0 ? [el('wbr'), part] : [part])));
+
 /** When EN 1838 asks for light: half of it by 5 s, all of it by 60 s. */
 const times = [[0, '0 s'], [5, '5 s'], [60, '60 s'], [null, 'full']];
 
@@ -75,8 +79,8 @@ export class StatePanel {
     this.time(seconds);
     const buttons = scenarios.map(({ name, operation }) => {
       const chosen = () => this.say({ type: 'scenario', name }, 'scenario');
-      const b = button(name, chosen, { aria: { pressed: String(name === scenario) } });
-      b.append(el('small', { textContent: operation }));
+      const b = button('', chosen, { aria: { pressed: String(name === scenario) } });
+      b.append(breakable(name), el('small', { textContent: operation }));
       return b;
     });
     this.scenarios.replaceChildren(...buttons);
