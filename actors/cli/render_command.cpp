@@ -2,9 +2,9 @@
 #include <filesystem>
 
 #include "actors/cli/command.hpp"
+#include "actors/cli/finished_run.hpp"
 #include "actors/display/pictures.hpp"
 #include "actors/source/flux_store.hpp"
-#include "scenes/format/json_out.hpp"
 #include "scenes/transport/compile.hpp"
 
 namespace luxodus::cli {
@@ -21,37 +21,9 @@ struct RenderOptions {
   bool full_paths = false;
 };
 
-/// result.json of a run, as far as rendering needs it.
-struct Finished {
-  std::string scene_file, scenario;
-  uint64_t seed = 0;
-  int cells = 1;
-  std::vector<std::string> error_of;
-};
-
-Result<Finished> read_result(const fs::path& file) {
-  constexpr uint64_t most_bytes = uint64_t{1} << 30;
-  auto bytes = read_whole_file(file, most_bytes);
-  if (!bytes.ok()) return bytes.problem();
-  const auto* text = reinterpret_cast<const char*>(bytes->data());
-  const Json json = Json::parse(text, text + bytes->size(), nullptr, false);
-  const SourcePlace place{file.string(), 0};
-  if (!json.is_object() || !json.contains("scene_file") || !json["scene_file"].is_string() ||
-      !json.contains("scenario") || !json["scenario"].is_string() ||
-      !json.value("seed", Json()).is_number_unsigned() ||
-      !json.value("cells", Json()).is_number_integer()) {
-    return Problem{place, "this is no result of a run: run the scene again"};
-  }
-  Finished finished{json["scene_file"], json["scenario"], json["seed"], json["cells"], {}};
-  for (const Json& word : json.value("error_of", Json::array())) {
-    if (word.is_string()) finished.error_of.push_back(word);
-  }
-  return finished;
-}
-
 Result<Done> render(const RenderOptions& options) {
   const fs::path folder = options.folder;
-  auto finished = read_result(folder / "result.json");
+  const auto finished = read_finished_run(folder);
   if (!finished.ok()) return finished.problem();
   const auto description = load_scene(finished->scene_file);
   if (!description)

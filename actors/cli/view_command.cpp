@@ -1,5 +1,8 @@
 // luxodus view: a live walk through the building, in a browser.
+#include <filesystem>
+
 #include "actors/cli/command.hpp"
+#include "actors/cli/finished_run.hpp"
 #include "actors/cli/serve_view.hpp"
 #include "actors/view/live_nodes.hpp"
 
@@ -17,15 +20,27 @@ struct ViewOptions {
   int nodes = 0;
 };
 
+/// What is asked for: a folder stands for what it is of.
+Result<SceneState> wanted_state(const ViewOptions& options) {
+  std::error_code ignored;
+  if (!std::filesystem::is_directory(options.scene, ignored))
+    return SceneState{options.scene, options.scenario};
+  auto state = scene_of_folder(options.scene);
+  if (state.ok() && !options.scenario.empty()) state.value().scenario = options.scenario;
+  return state;
+}
+
 Result<ExitCode> view(const ViewOptions& options) {
-  const auto scene = load_scene(options.scene);
+  auto wanted = wanted_state(options);
+  if (!wanted.ok()) return wanted.problem();
+  const auto scene = load_scene(wanted->scene_file);
   if (!scene) return ExitCode::bad_input;
-  if (const auto found = find_scenario(*scene, options.scenario); !found.ok())
-    return found.problem();
+  const std::string scenario = scene->scenarios.empty() ? "" : wanted->scenario;
+  if (const auto found = find_scenario(*scene, scenario); !found.ok()) return found.problem();
   install_interrupt_handler();
   HubOptions hub{options.live, {}, options.save_folder};
   hub.live.particles = parse_count(options.particles).value();
-  hub.first.scenario = options.scenario;
+  hub.first.scenario = scenario;
   std::unique_ptr<LiveNodes> nodes;
   if (options.nodes > 0) {
     NodesOptions of_nodes;
@@ -52,8 +67,12 @@ void add_view(CLI::App& app, int& exit_code) {
       "  luxodus view scenes/library/office_floor.toml\n"
       "  luxodus view office.toml --address 0.0.0.0 --port 9000\n"
       "A cluster traces for a view where its file has a table [view]: luxodus cluster up FILE.");
-  command->add_option("scene", options->scene, "scene file (TOML)")->required();
-  command->add_option("--scenario", options->scenario, "state of the building [the first]");
+  command
+      ->add_option("scene", options->scene,
+                   "scene file (TOML), or the folder of a run or assessment of one")
+      ->required();
+  command->add_option("--scenario", options->scenario,
+                      "state of the building [the first, or the folder's]");
   command->add_option("--port", options->server.port, "port; 0: any that is free [8080]");
   command->add_option("--address", options->server.address, "to listen on [127.0.0.1]");
   command->add_option("--save-folder", options->save_folder, "where variants are saved [.]");

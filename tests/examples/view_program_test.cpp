@@ -1,4 +1,4 @@
-// A live view whose light comes from the processes of a cluster, as a person starts and uses it.
+// Live views as a person starts and uses them: of a folder, and on the processes of a cluster.
 #include <boost/asio/connect.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/beast/core.hpp>
@@ -106,6 +106,38 @@ TEST_CASE("a cluster traces for a live view, and retraces what is moved", "[clus
   CHECK(code == 0);
   CHECK(up.said("n0 is there"));
   CHECK(up.said("n1 is there"));
+}
+
+TEST_CASE("a live view of a folder is of the scene and state that were run", "[program][view]") {
+  const Folder folder;
+  const std::string scene =
+      (fs::path(LUX_SOURCE_DIR) / "scenes/library/office_floor.toml").string();
+  const std::string out = (folder.path / "out").string();
+  const Outcome run = run_luxodus(
+      folder,
+      "run " + scene + " --scenario clear_emergency --particles 20k --no-views --out " + out);
+  INFO(run.err);
+  REQUIRE(run.code == 0);
+  Process view(LUX_PROGRAM, {"view", out, "--port", "0", "--particles", "20k"});
+  {
+    Page page(port_of(view));
+    CHECK(page.hear("\"type\":\"scene\"").find("\"scenario\":\"clear_emergency\"") !=
+          std::string::npos);
+  }
+  view.kill(SIGINT);
+  CHECK(view.wait() == 0);
+}
+
+TEST_CASE("a folder of nothing cannot be viewed, nor one of something else",
+          "[program][view][failure]") {
+  const Folder folder;
+  const Outcome empty = run_luxodus(folder, "view " + folder.path.string());
+  CHECK(empty.code == 2);
+  CHECK(empty.err.find("result.json") != std::string::npos);
+  std::ofstream(folder.path / "assessment.json") << "{\"scene\": 3}";
+  const Outcome other = run_luxodus(folder, "view " + folder.path.string());
+  CHECK(other.code == 2);
+  CHECK(other.err.find("assessment.json") != std::string::npos);
 }
 
 TEST_CASE("a live view refuses nodes that do not hold the scene", "[cluster][view][failure]") {

@@ -1,0 +1,59 @@
+#include "actors/cli/finished_run.hpp"
+
+#include "scenes/format/atomic_file.hpp"
+#include "scenes/format/json_out.hpp"
+
+namespace luxodus::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+Result<Json> read_json(const fs::path& file) {
+  constexpr uint64_t most_bytes = uint64_t{1} << 30;
+  auto bytes = read_whole_file(file, most_bytes);
+  if (!bytes.ok()) return bytes.problem();
+  const auto* text = reinterpret_cast<const char*>(bytes->data());
+  return Json::parse(text, text + bytes->size(), nullptr, false);
+}
+
+bool has_text(const Json& object, const char* key) {
+  return object.is_object() && object.contains(key) && object[key].is_string();
+}
+
+}  // namespace
+
+Result<FinishedRun> read_finished_run(const fs::path& folder) {
+  const fs::path file = folder / "result.json";
+  const auto read = read_json(file);
+  if (!read.ok()) return read.problem();
+  const Json& json = read.value();
+  if (!has_text(json, "scene_file") || !has_text(json, "scenario") ||
+      !json.value("seed", Json()).is_number_unsigned() ||
+      !json.value("cells", Json()).is_number_integer()) {
+    return Problem{{file.string(), 0}, "this is no result of a run: run the scene again"};
+  }
+  FinishedRun out{json["scene_file"], json["scenario"], json["seed"], json["cells"], {}};
+  for (const Json& word : json.value("error_of", Json::array())) {
+    if (word.is_string()) out.error_of.push_back(word);
+  }
+  return out;
+}
+
+Result<SceneState> scene_of_folder(const fs::path& folder) {
+  std::error_code ignored;
+  const fs::path assessed = folder / "assessment.json";
+  if (!fs::exists(folder / "result.json", ignored) && fs::exists(assessed, ignored)) {
+    const auto read = read_json(assessed);
+    if (!read.ok()) return read.problem();
+    const Json scene = read->is_object() ? read->value("scene", Json()) : Json();
+    if (!has_text(scene, "file") || !has_text(scene, "scenario"))
+      return Problem{{assessed.string(), 0}, "this is no assessment: assess the scene again"};
+    return SceneState{scene["file"], scene["scenario"]};
+  }
+  const auto run = read_finished_run(folder);
+  if (!run.ok()) return run.problem();
+  return SceneState{run->scene_file, run->scenario};
+}
+
+}  // namespace luxodus::cli

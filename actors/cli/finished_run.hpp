@@ -1,0 +1,33 @@
+// What a finished run or assessment left says of the scene that it was of.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "runtime/core/result.hpp"
+
+namespace luxodus::cli {
+
+/// result.json of a run, as far as others need it.
+struct FinishedRun {
+  std::string scene_file, scenario;
+  uint64_t seed = 0;
+  int cells = 1;
+  std::vector<std::string> error_of;
+};
+
+/// Errors: no result.json in the folder, or one that is not of a run.
+Result<FinishedRun> read_finished_run(const std::filesystem::path& folder);
+
+/// A state of a building, by its scene file.
+struct SceneState {
+  std::string scene_file, scenario;
+};
+
+/// Of the folder of a run (result.json), or of an assessment (assessment.json).
+/// Errors: neither is there, or what is there is not of one.
+Result<SceneState> scene_of_folder(const std::filesystem::path& folder);
+
+}  // namespace luxodus::cli
