@@ -109,7 +109,18 @@ EmbreeDevice::~EmbreeDevice() {
   rtcReleaseDevice(device_);
 }
 
+namespace {
+
+/// A build that computes in double asks small cells' triangles itself, and of Embree's answers
+/// takes the triangle alone.
+bool asks_itself(const GeometryCell& cell) {
+  return computes_in_double && cell.triangles.size() <= limits::plain_triangles;
+}
+
+}  // namespace
+
 CellScene::CellScene(const EmbreeDevice& device, const GeometryCell& cell) : cell_(&cell) {
+  if (asks_itself(cell)) boxes_ = plain_boxes(cell.triangles);
   RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
   const size_t count = cell.triangles.size();
   auto* vertices = static_cast<glm::vec3*>(
@@ -146,18 +157,12 @@ CellScene::~CellScene() {
 
 namespace {
 
-/// A build that computes in double asks small cells' triangles itself, and of Embree's answers
-/// takes the triangle alone.
-bool asks_itself(const GeometryCell& cell) {
-  return computes_in_double && cell.triangles.size() <= limits::plain_triangles;
-}
-
 PlainRay<Real> plain(const Ray& ray) {
   return {ray.origin, ray.direction, ray.length};
 }
 
-Hit nearest_of_all(const GeometryCell& cell, const Ray& ray) {
-  const PlainHit<Real> found = plain_nearest(std::span(cell.triangles), plain(ray));
+Hit nearest_of_all(const GeometryCell& cell, std::span<const PlainBox> boxes, const Ray& ray) {
+  const PlainHit<Real> found = plain_nearest<Real>(cell.triangles, plain(ray), boxes);
   if (found.index == no_triangle) return {};
   return {found.distance, found.u, found.v, found.index, &cell.triangles[found.index], &cell};
 }
@@ -177,7 +182,7 @@ void recompute(Hit& hit, const Ray& ray) {
 }  // namespace
 
 Hit CellScene::nearest(const Ray& ray) const {
-  if (asks_itself(*cell_)) return nearest_of_all(*cell_, ray);
+  if (asks_itself(*cell_)) return nearest_of_all(*cell_, boxes_, ray);
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   RTCRayHit query = to_embree(ray);
@@ -195,7 +200,7 @@ Hit CellScene::nearest(const Ray& ray) const {
 }
 
 bool CellScene::occluded(const Ray& ray) const {
-  if (asks_itself(*cell_)) return plain_occluded(std::span(cell_->triangles), plain(ray));
+  if (asks_itself(*cell_)) return plain_occluded<Real>(cell_->triangles, plain(ray), boxes_);
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   RTCRayHit query = to_embree(ray);

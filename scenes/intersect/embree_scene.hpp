@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "scenes/geometry/mesh.hpp"
+#include "scenes/intersect/plain_intersector.hpp"
 #include "scenes/intersect/ray.hpp"
 
 struct RTCDeviceTy;
@@ -85,6 +86,7 @@ class CellScene {
  private:
   const GeometryCell* cell_;
   RTCSceneTy* scene_ = nullptr;
+  std::vector<PlainBox> boxes_;  // where a build that computes in double asks triangles itself
 };
 
 /// A cell that a ray may enter, and where.

@@ -1,14 +1,17 @@
 // Rays and triangles by arithmetic of any number type, without Embree: what a build that computes
-// in double answers rays with, every triangle in turn. Edges are told by volumes that two
-// neighbours compute from the same numbers with opposite signs to the last bit (Plücker products,
-// as in Embree's ROBUST mode), so that no ray passes between triangles that share an edge; one
-// aimed at a corner to the last bit may. Both sides count. Any thread, no state.
+// in double answers rays with, every triangle in turn but those whose group's box it misses. Edges
+// are told by volumes that two neighbours compute from the same numbers with opposite signs to the
+// last bit (Plücker products, as in Embree's ROBUST mode), so that no ray passes between triangles
+// that share an edge; one aimed at a corner to the last bit may. Both sides count. Any thread, no
+// state.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <limits>
 #include <span>
+#include <vector>
 
 #include "scenes/intersect/ray.hpp"
 
@@ -68,6 +71,72 @@ PlaneMeeting<T> meet_plane(const PlainRay<T>& ray, const TriangleRecord& triangl
           volumes.of_corner[1] / volumes.sum(), volumes.of_corner[2] / volumes.sum()};
 }
 
+/// So many triangles that follow one another have one box: most rays miss most boxes.
+inline constexpr size_t plain_group = 8;
+
+struct PlainBox {
+  glm::vec3 low, high;
+};
+
+/// The boxes of all groups, wider than their triangles by far more than the rounding of any test.
+inline std::vector<PlainBox> plain_boxes(std::span<const TriangleRecord> triangles) {
+  std::vector<PlainBox> boxes;
+  for (size_t i = 0; i < triangles.size(); ++i) {
+    const auto& corner = triangles[i].corner;
+    if (i % plain_group == 0) boxes.push_back({corner[0], corner[0]});
+    for (const glm::vec3& at : corner) {
+      boxes.back().low = glm::min(boxes.back().low, at);
+      boxes.back().high = glm::max(boxes.back().high, at);
+    }
+  }
+  for (PlainBox& box : boxes) {
+    const glm::vec3 wider = 1e-5f * (glm::max(glm::abs(box.low), glm::abs(box.high)) + 1.0f);
+    box.low -= wider;
+    box.high += wider;
+  }
+  return boxes;
+}
+
+/// Which boxes a ray meets within its length.
+template <class T>
+class BoxTest {
+ public:
+  explicit BoxTest(const PlainRay<T>& ray) : origin_(ray.origin), length_(ray.length) {
+    constexpr T least = T(1e-30);  // no direction is 0, so that no slab makes a NaN
+    for (int k = 0; k < 3; ++k)
+      per_metre_[k] = 1 / (ray.direction[k] == 0 ? least : ray.direction[k]);
+  }
+  bool meets(const PlainBox& box) const {
+    T enters = 0, leaves = length_;
+    for (int k = 0; k < 3; ++k) {
+      const T a = (static_cast<T>(box.low[k]) - origin_[k]) * per_metre_[k];
+      const T b = (static_cast<T>(box.high[k]) - origin_[k]) * per_metre_[k];
+      enters = std::max(enters, std::min(a, b));
+      leaves = std::min(leaves, std::max(a, b));
+    }
+    return enters <= leaves;
+  }
+
+ private:
+  glm::vec<3, T> origin_, per_metre_;
+  T length_;
+};
+
+/// Calls `ask(i)` for the triangles of groups whose box the ray meets, for all where there are no
+/// boxes, until it returns true.
+template <class T, class Ask>
+void ask_triangles(size_t count, std::span<const PlainBox> boxes, const PlainRay<T>& ray,
+                   Ask&& ask) {
+  const BoxTest<T> test(ray);
+  for (size_t first = 0; first < count; first += plain_group) {
+    if (!boxes.empty() && !test.meets(boxes[first / plain_group])) continue;
+    const size_t end = std::min(count, first + plain_group);
+    for (size_t i = first; i < end; ++i) {
+      if (ask(static_cast<uint32_t>(i))) return;
+    }
+  }
+}
+
 /// A hit among triangles; `index` is no_triangle where there is none.
 template <class T>
 struct PlainHit {
@@ -78,31 +147,36 @@ struct PlainHit {
 
 /// Nearest triangle within (0, ray.length]; equal distances go to the smaller global triangle.
 template <class T>
-PlainHit<T> plain_nearest(std::span<const TriangleRecord> triangles, const PlainRay<T>& ray) {
+PlainHit<T> plain_nearest(std::span<const TriangleRecord> triangles, const PlainRay<T>& ray,
+                          std::span<const PlainBox> boxes = {}) {
   PlainHit<T> best;
-  for (uint32_t i = 0; i < triangles.size(); ++i) {
+  ask_triangles(triangles.size(), boxes, ray, [&](uint32_t i) {
     const EdgeVolumes<T> volumes = edge_volumes(ray, triangles[i]);
-    if (!volumes.inside()) continue;
+    if (!volumes.inside()) return false;
     const PlaneMeeting<T> m = meet_plane(ray, triangles[i], volumes);
-    if (!(m.distance > 0 && m.distance <= ray.length)) continue;
+    if (!(m.distance > 0 && m.distance <= ray.length)) return false;
     const bool nearer = m.distance < best.distance;
     const bool tie = m.distance == best.distance && best.index != no_triangle &&
                      triangles[i].global_triangle < triangles[best.index].global_triangle;
     if (nearer || tie) best = {m.distance, m.u, m.v, i};
-  }
+    return false;
+  });
   return best;
 }
 
 /// Whether any triangle lies within (0, ray.length).
 template <class T>
-bool plain_occluded(std::span<const TriangleRecord> triangles, const PlainRay<T>& ray) {
-  for (const TriangleRecord& triangle : triangles) {
-    const EdgeVolumes<T> volumes = edge_volumes(ray, triangle);
-    if (!volumes.inside()) continue;
-    const T distance = meet_plane(ray, triangle, volumes).distance;
-    if (distance > 0 && distance < ray.length) return true;
-  }
-  return false;
+bool plain_occluded(std::span<const TriangleRecord> triangles, const PlainRay<T>& ray,
+                    std::span<const PlainBox> boxes = {}) {
+  bool met = false;
+  ask_triangles(triangles.size(), boxes, ray, [&](uint32_t i) {
+    const EdgeVolumes<T> volumes = edge_volumes(ray, triangles[i]);
+    if (!volumes.inside()) return false;
+    const T distance = meet_plane(ray, triangles[i], volumes).distance;
+    met = distance > 0 && distance < ray.length;
+    return met;
+  });
+  return met;
 }
 
 }  // namespace luxodus

@@ -429,7 +429,8 @@ Result<bool> set_bounds(CompiledScene& scene) {
 
 /// A voxel may be larger than all that stands in a scene, which may be a point.
 void choose_length_unit(CompiledScene& scene) {
-  const double most = static_cast<double>(std::max(scene.diagonal_m, scene.voxels.edge));
+  const double most =
+      std::max(static_cast<double>(scene.diagonal_m), static_cast<double>(scene.voxels.edge));
   scene.length_unit_m = std::exp2(std::ceil(std::log2(std::max(most, 1e-6))));
   scene.scores_per_metre = 1 / scene.length_unit_m;
 }

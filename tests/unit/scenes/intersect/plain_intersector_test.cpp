@@ -129,6 +129,37 @@ TEMPLATE_TEST_CASE("a closed ball lets no ray out through its shared edges, in a
   CHECK(escaped == 0);
 }
 
+TEMPLATE_TEST_CASE("boxes of groups change no hit, whether rays run along axes or not",
+                   "[intersect][plain]", float, double) {
+  std::vector<TriangleRecord> triangles = ball(9);  // 144, and one more below
+  triangles.push_back(triangle({-2, -2, -1.5f}, {2, -2, -1.5f}, {0, 2, -1.5f}, 144));
+  const std::vector<PlainBox> boxes = plain_boxes(triangles);
+  CHECK(boxes.size() == (triangles.size() + plain_group - 1) / plain_group);
+  Random random(4, RandomStream::test);
+  int wrong = 0, hits = 0;
+  for (uint64_t i = 0; i < 20'000; ++i) {
+    random.start(i);
+    glm::dvec3 origin = any_point(random, 2);
+    glm::dvec3 direction = any_direction(random);
+    if (i % 3 == 1) {  // from a corner's height, along an axis
+      const glm::dvec3 corner(triangles[random.bits() % triangles.size()].corner[0]);
+      origin = {corner.x, corner.y, origin.z};
+      direction = {0, 0, origin.z > 0 ? -1 : 1};
+    }
+    auto line = ray<TestType>(origin, direction);
+    if (i % 2 == 1) line.length = static_cast<TestType>(random.uniform_double() * 2);
+    const auto all = plain_nearest<TestType>(triangles, line);
+    const auto some = plain_nearest<TestType>(triangles, line, boxes);
+    const bool same = all.index == some.index && all.distance == some.distance &&
+                      plain_occluded<TestType>(triangles, line) ==
+                          plain_occluded<TestType>(triangles, line, boxes);
+    wrong += same ? 0 : 1;
+    hits += all.index != no_triangle ? 1 : 0;
+  }
+  CHECK(wrong == 0);
+  CHECK(hits > 5000);
+}
+
 TEST_CASE("the double intersector agrees with Embree but for its rounding", "[intersect][plain]") {
   GeometryCell cell;
   cell.triangles = ball(16);
