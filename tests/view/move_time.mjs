@@ -1,6 +1,7 @@
-// How long after a move of a luminaire and of a sign, and after a copy of each, its first light is
-// there: `node move_time.mjs [SCENE SCENARIO LUMINAIRE SIGN]`; LUX_PROGRAM names the program,
-// LUX_OPTIONS what is said to it besides (`LUX_OPTIONS="--nodes 2"`).
+// How long after other smoke all groups have light, after dimming the page is told, and after a move
+// of a luminaire and of a sign, and a copy of each, its first light is there:
+// `node move_time.mjs [SCENE SCENARIO LUMINAIRE SIGN]`; LUX_PROGRAM names the program, LUX_OPTIONS
+// what is said to it besides (`LUX_OPTIONS="--nodes 2"`).
 import { spawn } from 'node:child_process';
 import { WebSocket } from 'ws';
 
@@ -80,7 +81,37 @@ async function copy(kind, name) {
   return found;
 }
 
+/** Smoke is other, so that all light begins anew: until each group has some. */
+async function thicken(i) {
+  const before = known.generation;
+  const start = performance.now();
+  const lit = new Set();
+  const end = until((message) => {
+    if (message.kind === 2 && message.generation > before) lit.add(message.a);
+    return known.generation > before && lit.size === known.groups.length;
+  });
+  socket.send(JSON.stringify({ type: 'smoke', factor: i % 2 ? 1 : 1.1 }));
+  return (await end) - start;
+}
+
+/** Until the word that a group is dimmed has come to the page, which does the rest by itself. */
+async function dim(i) {
+  const start = performance.now();
+  const told = until(({ type }) => type === 'factors');
+  const { group } = thingOf('luminaire', luminaire);
+  socket.send(JSON.stringify({ type: 'factor', group, factor: i % 2 ? 1 : 0.5 }));
+  return (await told) - start;
+}
+
 await until((message) => message.kind === 2);
+for (const [words, change] of [['other smoke: all groups lit', thicken], ['dimmed: told', dim]]) {
+  const all = [];
+  for (let i = 0; i < moves; ++i) {
+    await pause(rest_ms);
+    all.push(await change(i));
+  }
+  console.log(`${words} after ${median(all).toFixed(0)} ms (median of ${moves} times)`);
+}
 for (const [word, change] of [['moved', move], ['copied', copy]])
   for (const [kind, name] of [['luminaire', luminaire], ['sign', sign]]) {
     const all = [];
