@@ -9,7 +9,10 @@
 #include "scenes/geometry/patches.hpp"
 #include "scenes/optics/media_set.hpp"
 #include "scenes/optics/spectrum.hpp"
+#include "scenes/transport/detectors.hpp"
+#include "scenes/transport/flame_points.hpp"
 #include "scenes/transport/packed_scene.hpp"
+#include "scenes/transport/resolver.hpp"
 
 namespace luxodus {
 
@@ -113,15 +116,46 @@ LiveFrame surface_light(const CompiledScene& scene, const Readout& readout,
   return out.take();
 }
 
-/// What a metre of each voxel sends towards an eye, scattered evenly.
-LiveFrame smoke_light(const CompiledScene& scene, const Readout& readout, uint32_t generation,
-                      int group) {
+/// What flames of a group send out themselves, by the voxels that they are in: X, Y, Z.
+std::unordered_map<uint32_t, Colour> flames_in_voxels(const CompiledScene& scene,
+                                                      const SceneIndex& index, int group) {
+  std::unordered_map<uint32_t, Colour> out;
+  for (const CompiledEmitter& e : scene.emitters) {
+    if (e.group != group || e.kind != EmitterKind::volume) continue;
+    Colour each{};  // of a point
+    for (int b = 0; b < scene.bands.count(); ++b) {
+      const double watts = e.power_w[static_cast<size_t>(b)] / limits::flame_points;
+      each[0] += watts * scene.bands[b].x_per_w;
+      each[1] += watts * scene.bands[b].lm_per_w;
+      each[2] += watts * scene.bands[b].z_per_w;
+    }
+    MergedResolver resolver(scene, index);
+    for (const glm::vec3& at : flame_points(scene.media, e.medium, resolver)) {
+      const uint32_t voxel = voxel_of(scene.voxels, at);
+      if (voxel == none_index) continue;
+      for (size_t i = 0; i < each.size(); ++i) out[voxel][i] += each[i];
+    }
+  }
+  return out;
+}
+
+/// What a metre of each voxel sends towards an eye: scattered light, evenly, and flames' own.
+LiveFrame smoke_light(const CompiledScene& scene, const SceneIndex& index, const Readout& readout,
+                      uint32_t generation, int group) {
   Writer out(FrameKind::smoke_light, generation, static_cast<uint32_t>(group));
   const auto edge = static_cast<double>(scene.voxels.edge);
   const double per_watt = 1 / (4 * pi * edge * edge * edge);
+  const auto flames = flames_in_voxels(scene, index, group);
   GroupColours colours(readout, scene, scene.blocks.voxel_power, group);
   for (uint32_t i = 0; i < scene.voxels.count(); ++i) colours.learn(i);
-  for (uint32_t i = 0; i < scene.voxels.count(); ++i) put_colour(out, colours.of(i, per_watt));
+  for (uint32_t i = 0; i < scene.voxels.count(); ++i) {
+    Colour light = colours.of(i, per_watt);
+    if (const auto flame = flames.find(i); flame != flames.end()) {
+      const Colour own = linear_srgb_from_xyz(flame->second);
+      for (size_t k = 0; k < light.size(); ++k) light[k] += own[k] * per_watt;
+    }
+    put_colour(out, light);
+  }
   return out.take();
 }
 
@@ -168,7 +202,7 @@ std::vector<LiveFrame> light_frames(const LiveRun& run, const std::vector<LivePa
       const int group = groups[at % count];
       const Readout readout(scene, run.shown(group));
       out[at] = at < count ? surface_light(scene, readout, patches, generation, group)
-                           : smoke_light(scene, readout, generation, group);
+                           : smoke_light(scene, run.index(), readout, generation, group);
     };
   });
   return out;
