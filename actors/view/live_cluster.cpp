@@ -144,7 +144,7 @@ void LiveCluster::look() {
   lend_all();
 }
 
-/// A lease of no batches has a worker compile what it refers to; its answer is dropped.
+/// A lease of no batches has a worker compile what it refers to, and gets no answer.
 void LiveCluster::tell_foreseen() {
   if (!foreseen_) return;
   for (const auto& [worker, peer] : peers_)

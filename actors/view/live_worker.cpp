@@ -120,7 +120,10 @@ void LiveWorker::wake() {
 void LiveWorker::work() {
   working_ = false;
   send_answers();
-  if (!orders_.empty()) {
+  if (!orders_.empty() && orders_.front().what.batches == 0) {
+    foresee(orders_.front().wish);
+    orders_.pop_front();
+  } else if (!orders_.empty()) {
     const Order& order = orders_.front();
     std::string fault = trace_portion(order);
     const int64_t all = tracing_ == nullptr
@@ -133,6 +136,12 @@ void LiveWorker::work() {
   working_ = true;
   shell_.scheduler().timers().set(shell_.scheduler().clock().now() + send_again_after,
                                   [this] { work(); });
+}
+
+/// Compiles what may be next. If it cannot be, that is said when it is asked for.
+void LiveWorker::foresee(const std::string& wish) try {
+  static_cast<void>(states_.get(wish));
+} catch (const std::exception&) {
 }
 
 Result<bool> LiveWorker::enter(const Order& order) {
@@ -149,7 +158,6 @@ Result<bool> LiveWorker::enter(const Order& order) {
 /// Why it cannot be traced; "" where it can.
 std::string LiveWorker::trace_portion(const Order& order) try {
   if (const auto entered = enter(order); !entered.ok()) return entered.problem().text();
-  if (order.what.batches == 0) return "";  // it was to be entered, no more
   const CompiledScene& scene = *tracing_->state->scene;
   if (order.what.group >= scene.groups.size() || order.what.batches > batches_most ||
       order.what.first_batch > batch_numbers_most || order.what.stream > streams_most)

@@ -77,6 +77,7 @@ class LiveWorker {
   void work();
   void wake();
   void drop_orders();
+  void foresee(const std::string& wish);
   Result<bool> enter(const Order& order);
   std::string trace_portion(const Order& order);
   void answer(std::string fault);
