@@ -187,13 +187,22 @@ void Controller::fail(const std::string& what) {
   end_run(StopReason::workers_lost);
 }
 
+/// Each node is told in as few messages as hold them: hundreds of leases may be fenced at once, and
+/// a message for each would leave no room for an answer that somebody waits for.
 void Controller::fence(const std::vector<Lease>& leases, const char* why) {
+  std::map<NodeId, LeasesFenced> told;
   for (const Lease& lease : leases) {
     ++counters_.fenced;
     spdlog::warn("lease=fenced lease={} node={} batch={} text=\"{}: lent again\"", lease.id,
                  lease.node.value, lease.batch, why);
-    send(lease.node, network_.next_id(), LeasesFenced{{lease.id}});
+    LeasesFenced& of_node = told[lease.node];
+    of_node.leases.push_back(lease.id);
+    if (of_node.leases.size() < limits::leases) continue;
+    send(lease.node, network_.next_id(), of_node);
+    of_node.leases.clear();
   }
+  for (const auto& [node, fenced] : told)
+    if (!fenced.leases.empty()) send(node, network_.next_id(), fenced);
 }
 
 /// A worker has tried these for as long as one waits for a lost node: it cannot have an object.
@@ -479,10 +488,11 @@ void Controller::answer_flush(const Arrived& arrived, const std::string& why) {
     last.answer = FlushRefused{{}, why};
     shards_.refuse(arrived.id);
     spdlog::warn("flush=refused node={} text=\"{}\"", arrived.worker.value, why);
-    fence(book_.fence_leases(arrived.worker, arrived.flush.leases), "its flush was refused");
   }
   counters_.flush_bytes += arrived.payload.size();
   send(arrived.worker, arrived.id, last.answer);
+  if (!why.empty())
+    fence(book_.fence_leases(arrived.worker, arrived.flush.leases), "its flush was refused");
 }
 
 /// Lets others have their turn. A node that is to end goes on: what is begun is whole in the end.
