@@ -41,7 +41,6 @@ class ReplayTracer final : public BatchTracer {
     for (uint32_t s = here.first_score; s < next.first_score; ++s)
       scores.scores.data()[group.scores[s].bin] += group.scores[s].value;
     scores.ledger.add(here.ledger);
-    scores.length_score_sum += here.length_score_sum;
   }
   bool ask(uint32_t object) {
     const ScenePart& part = recording_.part(object);
@@ -111,7 +110,6 @@ class Recorder {
         group_->scores.push_back({static_cast<uint32_t>(bin), value});
     particle.after_ns = static_cast<float>(costs_.particle_ns + computed_ns());
     particle.ledger = scores_.ledger;
-    particle.length_score_sum = scores_.length_score_sum;
     group_->particles.push_back(particle);
   }
 

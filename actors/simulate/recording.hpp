@@ -33,7 +33,6 @@ class Recording {
     uint32_t first_score = 0;
     float after_ns = 0;  // computed after the last step
     Ledger ledger;
-    double length_score_sum = 0;
   };
   struct Group {
     std::vector<Particle> particles;  // and one more, where the last one ends

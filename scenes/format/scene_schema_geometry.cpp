@@ -57,7 +57,7 @@ TableSpec run_keys() {
            "automatically"},
           {"band_tolerance", "number", "", "0.02", "(0, 1]",
            "relative difference at which two wavelengths are told apart"},
-          {"batch_particles", "integer", "", "0", "[0, 1e9]",
+          {"batch_particles", "integer", "", "0", "[0, 1e6]",
            "particles of a batch; 0: follows from the scene"},
           {"voxel_edge_m", "number", "m", "0", "[0, 1e4]",
            "edge of a voxel, only where a medium is; 0: follows from the scene"},

@@ -12,9 +12,6 @@ namespace luxodus {
 struct BatchScores {
   SparseArray<int64_t> scores;
   Ledger ledger;
-  // Sum of all path-length scores of the batch: while it is below 2^63, no single bin can have
-  // wrapped.
-  double length_score_sum = 0;
 
   /// Makes room for a layout's scores, or sets those of the same layout to zero.
   void reset(const TallyLayout& layout, Cleared cleared = Cleared::kept) {
@@ -25,7 +22,6 @@ struct BatchScores {
       scores = SparseArray<int64_t>(layout.scores(), cleared);
     }
     ledger = {};
-    length_score_sum = 0;
   }
 };
 

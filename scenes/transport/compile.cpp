@@ -427,10 +427,20 @@ Result<bool> set_bounds(CompiledScene& scene) {
   return true;
 }
 
-/// A voxel may be larger than all that stands in a scene, which may be a point.
+/// How far light may go within it; across, where it has no end.
+double extent_of(const VolumeGroupMeasure& group) {
+  using Shape = VolumeGroupMeasure::Shape;
+  if (group.shape == Shape::box) return glm::length(group.high - group.low);
+  if (group.shape == Shape::layer) return group.high.z - group.low.z;
+  return 2 * group.radius;
+}
+
+/// A voxel or a volume may be larger than all that stands in a scene, which may be a point.
 void choose_length_unit(CompiledScene& scene) {
-  const double most =
+  double most =
       std::max(static_cast<double>(scene.diagonal_m), static_cast<double>(scene.voxels.edge));
+  for (const VolumeGroupMeasure& group : scene.description->volume_groups)
+    most = std::max(most, extent_of(group));
   scene.length_unit_m = std::exp2(std::ceil(std::log2(std::max(most, 1e-6))));
   scene.scores_per_metre = 1 / scene.length_unit_m;
 }

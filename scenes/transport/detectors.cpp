@@ -87,13 +87,14 @@ void score_crossing(const CompiledScene& scene, size_t index, const FlightPiece&
 }
 
 void score_volumes(const CompiledScene& scene, const FlightPiece& piece, BatchScores& batch) {
+  // Along a layer without end light may fly for as long as single precision tells heights apart,
+  // 1e9 m and more, and the scores of a batch would leave 63 bits. What lies beyond does not count.
+  const auto longest = static_cast<Real>(1024 * scene.length_unit_m);
   for (uint32_t i = 0; i < scene.volume_groups.size(); ++i) {
-    const Real length = length_inside(scene.volume_groups[i], piece);
+    const Real length = std::min(length_inside(scene.volume_groups[i], piece), longest);
     if (length <= 0) continue;
-    const int64_t score = length_score(scene, piece.weight, length);
     const auto at = scene.layout.score_index(scene.blocks.volume_length, i, piece.band, 0);
-    batch.scores.data()[at] += score;
-    batch.length_score_sum += static_cast<double>(score);
+    batch.scores.data()[at] += length_score(scene, piece.weight, length);
   }
 }
 
@@ -129,7 +130,6 @@ void score_voxels(const CompiledScene& scene, const FlightPiece& piece, BatchSco
     sum += share;
     std::memcpy(score, &sum, sizeof sum);
   });
-  batch.length_score_sum += length * static_cast<double>(points.count);
 }
 
 void score_collision(const CompiledScene& scene, const Vec3& place, int band, uint32_t medium,

@@ -1,6 +1,7 @@
 #include "scenes/transport/detectors.hpp"
 
 #include <catch2/catch.hpp>
+#include <limits>
 #include <map>
 
 #include "runtime/core/random.hpp"
@@ -129,6 +130,26 @@ TEST_CASE("layers that touch share a flight between them without gap or overlap"
   CHECK(lengths(piece_of({5, 6, 1}, {1, 0, 0}, 3)) == glm::vec2(0, 3));
   CHECK(lengths(piece_of({5, 6, 1}, {1, 0, -0.0f}, 3)) == glm::vec2(0, 3));
   CHECK(lengths(piece_of({5, 6, 2}, {0, 1, 0}, 3)) == glm::vec2(0, 0));
+}
+
+TEST_CASE("a flight without end along a layer leaves room for those of a whole batch",
+          "[transport][detectors]") {
+  CompiledScene scene;
+  CompiledVolumeGroup& layer = scene.volume_groups.emplace_back();
+  layer.low = glm::vec3(-1e30f, -1e30f, 0);
+  layer.high = {1e30f, 1e30f, 1};
+  scene.blocks.volume_length =
+      scene.layout.add_block({"volume_length", 1, 1, ScoreUnit::weight_length});
+  BatchScores batch;
+  const auto score_of = [&](float length) {
+    batch.reset(scene.layout);
+    score_volumes(scene, piece_of({0, 0, 0.5f}, {1, 0, 0}, length), batch);
+    return batch.scores[0];
+  };
+  CHECK(score_of(1000) == 1000 * static_cast<int64_t>(unit_weight));
+  constexpr int64_t largest_batch = 1 << 18;
+  CHECK(score_of(1e9f) > 0);
+  CHECK(score_of(1e9f) < std::numeric_limits<int64_t>::max() / largest_batch);
 }
 
 TEST_CASE(
