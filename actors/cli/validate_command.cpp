@@ -18,6 +18,7 @@ struct ValidateOptions {
   bool list = false;
   std::string only;
   std::string error = "0.01%";
+  std::string case_time;
   std::string out = "out/validate";
   uint64_t seed = 1;
   int threads = default_threads();
@@ -65,12 +66,21 @@ Result<ExitCode> validate(const ValidateOptions& options) {
     return ExitCode::success;
   }
   install_interrupt_handler();
-  light::SuiteRecord record{options.seed, options.threads, options.full ? error.value() : 0,
-                            options.only};
+  light::SuiteRecord record;
+  record.seed = options.seed;
+  record.threads = options.threads;
+  record.only = options.only;
+  if (options.full) record.error = error.value();
+  if (!options.case_time.empty()) {
+    const auto most = parse_seconds(options.case_time);
+    if (!most.ok()) return most.problem();
+    record.case_seconds = most.value();
+  }
   light::SuiteOptions suite;
   suite.seed = record.seed;
   suite.threads = record.threads;
   suite.error = record.error;
+  suite.case_seconds = record.case_seconds;
   ProgressLine line("validate");
   const auto show = [&](const light::SuiteProgress& p) {
     line.put(fmt::format("{} of {} cases, {}, about {} left: {}", p.done, p.cases,
@@ -84,6 +94,9 @@ Result<ExitCode> validate(const ValidateOptions& options) {
   if (auto ok = light::write_suite(options.out, results, record, verdict); !ok.ok())
     return ok.problem();
   tell_failures(results, verdict);
+  if (const size_t short_of_error = light::cases_short_of_error(results); short_of_error > 0)
+    std::printf("%zu of %zu cases ended before all of their quantities had the error\n",
+                short_of_error, results.size());
   print_verdict(verdict, options.out, record.interrupted);
   if (record.interrupted) return ExitCode::interrupted;
   return verdict.passed ? ExitCode::success : ExitCode::failure;
@@ -106,12 +119,18 @@ void add_validate(CLI::App& app, int& exit_code) {
       "Exit code: 0 passed, 1 failed, 2 wrong options, 130 interrupted.\n"
       "  luxodus validate                       quickly, some two minutes of one core\n"
       "  luxodus validate --full                to 0.01 %; says how long it will take\n"
-      "  luxodus validate --full --error 0.1% --only \"cube\"");
+      "  luxodus validate --full --error 0.1% --only \"cube\"\n"
+      "  luxodus validate --full --case-time 1m  at most a minute a case: says what that misses");
   auto* quick = command->add_flag("--quick", options->quick, "as many particles as are quick [so]");
-  command->add_flag("--full", options->full, "particles until every quantity has the error")
-      ->excludes(quick);
+  auto* full =
+      command->add_flag("--full", options->full, "particles until every quantity has the error")
+          ->excludes(quick);
   command->add_option("--error", options->error,
                       "relative standard error of --full, as 0.1% or 0.001 [0.01%]");
+  command
+      ->add_option("--case-time", options->case_time,
+                   "most time for a case of --full, as 20s or 5m [until it has the error]")
+      ->needs(full);
   command->add_option("--only", options->only, "cases with this in their names [all]");
   command->add_flag("--list", options->list, "names of the cases, and their references");
   command->add_option("--out", options->out, "folder for validate.html and .json [out/validate]");

@@ -27,14 +27,22 @@ constexpr const char* head =
     "summary { cursor: pointer; margin: 0.3rem 0; }\n"
     "</style>\n</head>\n<body>\n<h1>How accurate Luxodus is</h1>\n";
 
-std::string verdict_part(const Verdict& verdict, const SuiteRecord& record) {
+std::string limit_text(const SuiteRecord& record, size_t short_of_error) {
+  if (!std::isfinite(record.case_seconds)) return "";
+  return fmt::format(
+      ", each case for {:g} s at most: {} of them would have needed longer, and say so",
+      record.case_seconds, short_of_error);
+}
+
+std::string verdict_part(const Verdict& verdict, const SuiteRecord& record, size_t short_of_error) {
   std::string out = fmt::format(
       "<p class=\"{0}\">{1}: {2} statistical and {3} computed quantities, {4} out of bounds.</p>\n",
       verdict.passed ? "passed" : "failed", verdict.passed ? "Passed" : "Failed",
       verdict.statistical, verdict.computed, verdict.failed);
-  const std::string how =
-      record.error > 0 ? fmt::format("to a relative standard error of {:g} %", 100 * record.error)
-                       : std::string("quickly");
+  const std::string how = record.error > 0
+                              ? fmt::format("to a relative standard error of {:g} %{}",
+                                            100 * record.error, limit_text(record, short_of_error))
+                              : std::string("quickly");
   out += fmt::format("<p>Run {}, seed {}, {} threads{}{}.</p>\n", how, record.seed, record.threads,
                      record.only.empty() ? "" : ", only " + xml_escape(record.only),
                      record.interrupted ? "; interrupted: later cases are missing" : "");
@@ -188,6 +196,11 @@ std::string case_part(const CaseResult& result, const std::vector<Judged>& judge
       fmt::format("<details{}><summary><b>{}</b>{}: {}</summary>\n", failed ? " open" : "",
                   xml_escape(result.name), failed ? " FAILED" : "", facts);
   out += "<p>Reference: " + xml_escape(result.source) + ".";
+  if (result.short_of > 1)
+    out += fmt::format(
+        " Ended before all quantities had the error: {} times as many particles "
+        "would bring it.",
+        readable_number(result.short_of, 2));
   if (std::isfinite(result.slope_particles)) {
     out += fmt::format(
         " Slope of the error: {:.3f} over particles, {:.3f} over seconds (Monte Carlo: -0.5).",
@@ -207,7 +220,7 @@ std::string case_part(const CaseResult& result, const std::vector<Judged>& judge
 
 Result<std::string> suite_page(const std::vector<CaseResult>& results, const Verdict& verdict,
                                const SuiteRecord& record) {
-  std::string page = head + verdict_part(verdict, record);
+  std::string page = head + verdict_part(verdict, record, cases_short_of_error(results));
   const auto distribution = distribution_part(verdict);
   if (!distribution.ok()) return distribution.problem();
   page += distribution.value();

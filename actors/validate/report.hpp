@@ -13,8 +13,9 @@ namespace luxodus::light {
 struct SuiteRecord {
   uint64_t seed = 1;
   int threads = 1;
-  double error = 0;  // 0: quick
-  std::string only;  // "" for all cases
+  double error = 0;                                               // 0: quick
+  double case_seconds = std::numeric_limits<double>::infinity();  // SuiteOptions
+  std::string only;                                               // "" for all cases
   bool interrupted = false;
 };
 

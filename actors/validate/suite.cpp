@@ -150,7 +150,8 @@ void Suite::predict() {
     const CaseResult quick = run_case(c, 0);
     const double most = static_cast<double>(limits::case_particles) /
                         static_cast<double>(std::max<int64_t>(1, quick.particles));
-    expected.push_back(quick.seconds * std::clamp(need(quick, options_.error), 1.0, most));
+    const double to_error = quick.seconds * std::clamp(need(quick, options_.error), 1.0, most);
+    expected.push_back(std::min(to_error, std::max(quick.seconds, options_.case_seconds)));
   }
   expected_s_ = std::move(expected);
 }
@@ -192,16 +193,23 @@ void Suite::trace(const Case& c, const Plan& plan, double error, CaseResult& res
       n = std::min(2 * n, plan.quick_particles);
       continue;
     }
-    const double more = error > 0 ? need(result, error) : 0;
-    if (more <= 1 || n >= limits::case_particles) break;
+    result.short_of = error > 0 ? need(result, error) : 0;
+    if (result.short_of <= 1 || n >= limits::case_particles) break;
     // A little more than the error asks for, since it is itself an estimate.
-    const double wanted = static_cast<double>(n) * std::clamp(1.02 * more, 1.1, 2.0);
-    n = std::min(static_cast<int64_t>(wanted), limits::case_particles);
+    const double growth = std::min(std::clamp(1.02 * result.short_of, 1.1, 2.0),
+                                   options_.case_seconds / result.seconds);
+    if (growth < 1.1) break;  // little more time than has passed
+    n = std::min(static_cast<int64_t>(static_cast<double>(n) * growth), limits::case_particles);
   }
   add_ledger(run.ledger(), result.findings);
 }
 
 }  // namespace
+
+size_t cases_short_of_error(const std::vector<CaseResult>& results) {
+  return static_cast<size_t>(std::count_if(results.begin(), results.end(),
+                                           [](const CaseResult& r) { return r.short_of > 1; }));
+}
 
 double figure_of_merit(const Finding& f, double seconds) {
   const double error = f.estimate.standard_error / std::abs(f.reference);

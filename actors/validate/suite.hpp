@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,9 @@ struct SuiteOptions {
   int threads = 1;
   /// Relative standard error that every quantity is to reach; 0: as many particles as are quick.
   double error = 0;
+  /// Of one case on its way to the error [s]; what it has not reached by then is told. Its quick
+  /// run is whole in any case.
+  double case_seconds = std::numeric_limits<double>::infinity();
   /// Instead of the program's own loop: for tests.
   LocalRun::MakeTracer make_tracer;
 };
@@ -58,10 +62,16 @@ struct CaseResult {
   int64_t particles = 0;
   int64_t batches = 0;
   double seconds = 0;
+  /// How many times as many particles would bring the error that was asked for; at most 1: it is
+  /// reached, or none was asked for.
+  double short_of = 0;
   std::vector<Finding> findings;
   std::vector<CoursePoint> course;
   double slope_particles = 0, slope_seconds = 0;  // of the standard error; NaN where none is known
 };
+
+/// Cases that ended before all of their quantities had the error asked for.
+size_t cases_short_of_error(const std::vector<CaseResult>& results);
 
 /// 1 / (relative error^2 x seconds) [1/s]; 0 where nothing is estimated.
 double figure_of_merit(const Finding& finding, double seconds);

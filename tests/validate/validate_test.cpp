@@ -62,7 +62,8 @@ TEST_CASE("every case with a reference passes quickly, and z is distributed as i
   // The file of a run reads back, with every case in it.
   const auto folder = std::filesystem::temp_directory_path() /
                       ("luxodus_validate_" + std::to_string(std::hash<std::string>{}(LUX_PROGRAM)));
-  const SuiteRecord record{1, 2, 0, ""};
+  SuiteRecord record;
+  record.threads = 2;
   REQUIRE(write_suite(folder, results, record, verdict).ok());
   std::ifstream in(folder / "validate.json");
   const Json json = Json::parse(in);
@@ -109,6 +110,17 @@ TEST_CASE(
     CHECK(r.course.size() >= 5);
   }
   CHECK(judge(results).passed);
+}
+
+TEST_CASE("a suite that is given less time than its error needs says how much is missing") {
+  SuiteOptions options;
+  options.error = 1e-9;
+  options.case_seconds = 1e-3;
+  const auto results = run(named({"plates r1=0.8;r2=0.3"}), options);
+  CHECK(cases_short_of_error(results) == 1);
+  CHECK(results[0].short_of > 1000);
+  CHECK(results[0].findings[0].estimate.standard_error > 0);  // of a whole quick run
+  CHECK(cases_short_of_error(run(named({"plates r1=0.8;r2=0.3"}), {})) == 0);
 }
 
 // ---- the rule ----------------------------------------------------------------------------------
