@@ -178,7 +178,7 @@ void Simulation::set_up(const PlannedNodes& nodes) {
     node.start = node.lost = options_.patience;
     node.stall = seconds(3600);
   }
-  if (!options_.draw_nodes) return;
+  if (!options_.draw_nodes && !options_.rare_ways) return;
   rare_ways_.reserve(setups_.size());
   for (NodeSetup& node : setups_) {
     rare_ways_.emplace_back(options_.seed, rare_ways_stream + node.net.self.value);

@@ -40,8 +40,9 @@ struct SimOptions {
   int links = 4;
   /// What the nodes are like is drawn from the seed: fibers, budgets, windows, times.
   bool draw_nodes = true;
-  NodesOptions fixed;  // otherwise
-  bool faults = true;  // drawn from the seed, unless there is a plan
+  NodesOptions fixed;      // otherwise
+  bool rare_ways = false;  // on purpose, of nodes that are not drawn as well
+  bool faults = true;      // drawn from the seed, unless there is a plan
   Nanoseconds faults_last = seconds(30);
   std::optional<FaultPlan> plan;
   /// All particles on one worker take so long.

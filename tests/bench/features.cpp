@@ -2,9 +2,12 @@
 // the program runs under callgrind (tests/tools/feature_costs.sh), processor time otherwise.
 #include <fmt/core.h>
 
+#include <array>
 #include <functional>
 #include <stdexcept>
 
+#include "actors/objects/scene_objects.hpp"
+#include "actors/simulate/simulation.hpp"
 #include "actors/supervise/in_process.hpp"
 #include "actors/validate/scene_kit.hpp"
 #include "scenes/transport/compile.hpp"
@@ -26,10 +29,11 @@ namespace {
 
 constexpr uint64_t seed = 1;
 constexpr int64_t batches_counted = 2;
+constexpr int64_t batches_of_node = 32;
 constexpr double seconds_per_turn = 0.15;
 
 /// How batches are done.
-enum class By { loop, loop_without_statistics, node };
+enum class By { loop, loop_without_statistics, node, node_by_turns };
 
 struct Variant {
   const char* feature;
@@ -37,6 +41,10 @@ struct Variant {
   std::function<void(SceneDescription&)> change;
   By by = By::loop;
   int cells = 1;
+  // By turns:
+  uint64_t trace_every = 0;  // particles of which one is traced
+  bool rare_ways = false;    // on purpose
+  size_t room = 0;           // for so many of the largest cells; 0: all are resident
 };
 
 void nothing(SceneDescription&) {}
@@ -217,6 +225,14 @@ const std::vector<Variant>& variants() {
       {"nodes and hooks", "absent (the loop)", nothing},
       {"", "one node", nothing, By::node},
       {"", "one node, 64 cells", nothing, By::node, 64},
+      {"nodes by turns", "absent (the loop)", nothing},
+      {"", "hooks unused", nothing, By::node_by_turns},
+      {"", "1 of 100 traced", nothing, By::node_by_turns, 1, 100},
+      {"", "rare ways taken", nothing, By::node_by_turns, 1, 0, true},
+      {"nodes and cells", "absent (the loop)", nothing, By::loop, 64},
+      {"", "64 cells, resident", nothing, By::node_by_turns, 64},
+      {"", "room for all", nothing, By::node_by_turns, 64, 0, false, 256},
+      {"", "room for a few", nothing, By::node_by_turns, 64, 0, false, 16},
   };
   return all;
 }
@@ -290,14 +306,46 @@ double speed(Batches& batches, By by) {
   return particles / seconds;
 }
 
+/// A node and its controller in a simulated world, on this thread: nobody waits, so instructions
+/// mean something. The node's start and the world's links are among them.
+int64_t trace_by_turns(const Variant& variant) {
+  const auto scene = compiled(variant);
+  const int64_t particles = batches_of_node * scene->batch_particles;
+  const SimScene whole(scene, seed, particles);
+  ObserveOptions observe;
+  observe.trace_every = variant.trace_every;
+  const auto seen = Observation::start(observe);
+  SimOptions options;
+  options.nodes = 1;
+  options.draw_nodes = options.faults = false;
+  options.rare_ways = variant.rare_ways;
+  options.work = particles * microseconds(10);
+  if (variant.trace_every > 0) options.fixed.observation = seen.value().get();
+  if (variant.room > 0) {
+    const std::array holders{NodeId{0}};
+    options.fixed.object_bytes =
+        variant.room * SceneObjects(*scene, holders, 1).largest_build_bytes();
+  }
+  CALLGRIND_ZERO_STATS;
+  const auto report = simulate(whole, options);
+  if (!report.ok()) throw std::runtime_error(report.problem().text());
+  if (!report->failure.empty()) throw std::runtime_error(report->failure);
+  return particles;
+}
+
 /// One dump for each variant, in this order: what was counted since the one before.
 void count_instructions() {
   for (const Variant& variant : variants()) {
     if (variant.by == By::node) continue;  // of threads that wait, no number is worth having
-    Batches batches(variant);
-    batches.trace(1);
-    CALLGRIND_ZERO_STATS;
-    const int64_t particles = batches.trace(batches_counted);
+    int64_t particles = 0;
+    if (variant.by == By::node_by_turns) {
+      particles = trace_by_turns(variant);
+    } else {
+      Batches batches(variant);
+      batches.trace(1);
+      CALLGRIND_ZERO_STATS;
+      particles = batches.trace(batches_counted);
+    }
     const std::string name = fmt::format("{}|{}|{}", variant.feature, variant.state, particles);
     CALLGRIND_DUMP_STATS_AT(name.c_str());
   }
@@ -314,6 +362,7 @@ void print_features(int repeats) {
   std::optional<Batches> base;
   const Variant* first = nullptr;
   for (const Variant& variant : variants()) {
+    if (variant.by == By::node_by_turns) continue;  // their instructions alone are counted
     const bool begins = *variant.feature != '\0';
     if (begins) {
       first = &variant;

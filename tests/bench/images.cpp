@@ -21,6 +21,7 @@ namespace {
 
 constexpr int width = 96, height = 64;
 constexpr int long_paths = 2048;
+constexpr int64_t all_particles = 1 << 24;
 /// Pixels darker than this share of the mean are judged as if they were that bright.
 constexpr double dark = 0.05;
 
@@ -37,6 +38,7 @@ std::shared_ptr<const CompiledScene> office(const char* scenario, bool stratifie
   if (!read.scene) throw std::runtime_error("scenes/library/office_floor.toml cannot be read");
   SceneDescription d = *read.scene;
   d.run.stratified = stratified;
+  d.run.eye_share = 0;  // pictures take their paths themselves
   d.cameras.resize(1);
   d.cameras[0].width = width;
   d.cameras[0].height = height;
@@ -106,13 +108,19 @@ Timed draw(const LocalRun& run, int paths, bool gather) {
   return {std::move(picture), process_seconds() - before};
 }
 
-void print_course(const char* scenario) {
+/// What is done of it all: a share of the particles and of the long picture's paths.
+struct Size {
+  int64_t particles;
+  int long_paths;
+};
+
+void print_course(const char* scenario, const Size& size) {
   // Other seeds than the pictures': a long run is not to share their chance.
-  const auto long_run = traced(office(scenario, true, 0), 77, 1 << 24);
+  const auto long_run = traced(office(scenario, true, 0), 77, size.particles);
   for (const bool gather : {true, false}) {
-    const TracedPicture wanted = draw(*long_run, long_paths, gather).picture;
+    const TracedPicture wanted = draw(*long_run, size.long_paths, gather).picture;
     for (const bool stratified : {false, true}) {
-      const auto run = traced(office(scenario, stratified, 0), 1, 1 << 24);
+      const auto run = traced(office(scenario, stratified, 0), 1, size.particles);
       for (const int paths : {4, 16, 64}) {
         const Timed timed = draw(*run, paths, gather);
         const Deviation d = deviation(timed.picture, wanted);
@@ -120,19 +128,21 @@ void print_course(const char* scenario) {
                    gather ? "gather" : "full", stratified ? "stratified" : "independent", paths,
                    timed.seconds, 100 * d.luminance, d.colour,
                    1 / (d.luminance * d.luminance * timed.seconds));
+        std::fflush(stdout);
       }
     }
   }
 }
 
-void print_halving(const char* scenario) {
+void print_halving(const char* scenario, const Size& size) {
   const auto exact = traced(office(scenario, true, 0), 1, 1 << 16);
-  const TracedPicture wanted = draw(*exact, long_paths, false).picture;
+  const TracedPicture wanted = draw(*exact, size.long_paths, false).picture;
   for (const double edge : {4.0, 2.0, 1.0, 0.5, 0.25}) {
-    const auto run = traced(office(scenario, true, edge), 1, 1 << 24);
+    const auto run = traced(office(scenario, true, edge), 1, size.particles);
     const Deviation d = deviation(draw(*run, 256, true).picture, wanted);
     fmt::print("{:<16} {:>8.2f} {:>9} {:>11.2f} % {:>11.2f} %\n", scenario, edge,
                run->scene().patch_count, 100 * d.luminance, 100 * d.mean);
+    std::fflush(stdout);
   }
 }
 
@@ -196,18 +206,20 @@ void print_veil() {
 
 }  // namespace
 
-void print_images() {
+void print_images(double share) {
+  const Size size{static_cast<int64_t>(share * static_cast<double>(all_particles)),
+                  std::max(1, static_cast<int>(share * long_paths))};
   fmt::print(
       "\nPictures of the office floor, {} x {} pixels, against one of {} paths a pixel in the same "
       "way\n{:<16} {:<7} {:<11} {:>5} {:>8} {:>11} {:>9} {:>10}\n",
-      width, height, long_paths, "scenario", "paths", "numbers", "each", "cpu [s]", "rms error",
-      "rms x, y", "merit [/s]");
-  for (const char* scenario : {"clear_emergency", "smoke_emergency"}) print_course(scenario);
+      width, height, size.long_paths, "scenario", "paths", "numbers", "each", "cpu [s]",
+      "rms error", "rms x, y", "merit [/s]");
+  for (const char* scenario : {"clear_emergency", "smoke_emergency"}) print_course(scenario, size);
   fmt::print(
       "\nFinal gathers in patches of an edge, against paths traced to their end\n"
       "{:<16} {:>8} {:>9} {:>13} {:>13}\n",
       "scenario", "edge [m]", "patches", "rms error", "mean is off");
-  for (const char* scenario : {"clear_emergency", "smoke_emergency"}) print_halving(scenario);
+  for (const char* scenario : {"clear_emergency", "smoke_emergency"}) print_halving(scenario, size);
   fmt::print(
       "\nVeil before a sign in the room's homogeneous smoke, by voxels and traced from the eye\n"
       "{:>8} {:>9} {:>10} {:>10}    error {:>11}\n",

@@ -1,4 +1,5 @@
-// luxodus_bench [--repeats N] [--pack FILE] [TABLE ...]: prints the tables named, or all.
+// luxodus_bench [--repeats N] [--share X] [--scene NAME] [--pack FILE] [TABLE ...]: prints the
+// tables named, or all.
 #include <xmmintrin.h>
 
 #include <charconv>
@@ -12,7 +13,9 @@ namespace {
 
 struct Options {
   int repeats = 9;
-  std::string pack;  // of residency
+  double share = 1;   // of the particles and paths of images and allocation
+  std::string scene;  // of merit: those that begin so
+  std::string pack;   // of residency
 };
 
 struct Table {
@@ -31,10 +34,10 @@ constexpr Table tables[] = {
     {"delay", [](const Options& o) { luxodus::bench::print_delay(o.repeats); }},
     {"flushes", [](const Options& o) { luxodus::bench::print_flushes(o.repeats); }},
     {"residency", [](const Options& o) { luxodus::bench::print_residency(o.pack); }},
-    {"merit", [](const Options& o) { luxodus::bench::print_merit(o.repeats); }},
-    {"images", [](const Options&) { luxodus::bench::print_images(); }},
+    {"merit", [](const Options& o) { luxodus::bench::print_merit(o.repeats, o.scene); }},
+    {"images", [](const Options& o) { luxodus::bench::print_images(o.share); }},
     {"features", [](const Options& o) { luxodus::bench::print_features(o.repeats); }},
-    {"allocation", [](const Options&) { luxodus::bench::print_allocation(); }},
+    {"allocation", [](const Options& o) { luxodus::bench::print_allocation(o.share); }},
     {"edits", [](const Options&) { luxodus::bench::print_edits(); }},
     {"smoke", [](const Options&) { luxodus::bench::print_smoke(); }},
 };
@@ -59,6 +62,16 @@ int main(int argc, char** argv) {
           std::from_chars(number.data(), number.data() + number.size(), options.repeats);
       if (read.ec == std::errc() && options.repeats >= 1 && options.repeats <= 1000) continue;
     }
+    if (word == "--share" && i + 1 < argc) {
+      const std::string number = argv[++i];
+      const auto read =
+          std::from_chars(number.data(), number.data() + number.size(), options.share);
+      if (read.ec == std::errc() && options.share > 0 && options.share <= 1) continue;
+    }
+    if (word == "--scene" && i + 1 < argc) {
+      options.scene = argv[++i];
+      continue;
+    }
     if (word == "--pack" && i + 1 < argc) {
       options.pack = argv[++i];
       continue;
@@ -67,7 +80,9 @@ int main(int argc, char** argv) {
       wanted.insert(word);
       continue;
     }
-    std::fprintf(stderr, "luxodus_bench [--repeats 1..1000] [--pack FILE] [TABLE ...]; tables:");
+    std::fprintf(stderr,
+                 "luxodus_bench [--repeats 1..1000] [--share 0..1] [--scene NAME] [--pack FILE] "
+                 "[TABLE ...]; tables:");
     for (const Table& table : tables) std::fprintf(stderr, " %s", table.name);
     std::fprintf(stderr, "\n");
     return 2;

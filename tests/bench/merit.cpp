@@ -161,7 +161,7 @@ double gain_in_variance(const Kind& kind, const Course& plain, const Course& way
 
 }  // namespace
 
-void print_merit(int turns) {
+void print_merit(int turns, const std::string& wanted) {
   fmt::print(
       "\nFigure of merit over that of the plain weighted game: geometric mean over results known\n"
       "to {:.0f} %; {} turns of {} batches for each group, one thread, processor time\n",
@@ -170,6 +170,7 @@ void print_merit(int turns) {
   for (const Kind& kind : kinds()) fmt::print(" {:>8}", kind.name);
   fmt::print("\n");
   for (const MeritScene& scene : scenes()) {
+    if (!std::string(scene.name).starts_with(wanted)) continue;
     for (const Way& way : ways()) {
       SceneDescription plain = scene.make();
       plain.run.stratified = false;

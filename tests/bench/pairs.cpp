@@ -49,9 +49,11 @@ double gain_of_allocation(const std::vector<Estimate>& by_group,
   return deviations > 0 ? now / (deviations * deviations) : 1;
 }
 
-void print_allocation(const char* scenario) {
+void print_allocation(const char* scenario, double share) {
   SceneDescription d = office();
   d.run.groups = GroupRule::by_emitter;
+  d.run.batch_particles = static_cast<int64_t>(share * 65536);
+  d.run.eye_share = 0;  // nothing here is seen by an eye
   const auto scene = compiled(std::move(d), scenario);
   LocalRun run(scene, seed, 2);
   StopRule stop;
@@ -155,12 +157,13 @@ void print_edit(const Edit& edit, Air air, bool stratified) {
 
 }  // namespace
 
-void print_allocation() {
+void print_allocation(double share) {
   fmt::print(
       "\nVariance now over that with batches dealt by the deviation of each group\n"
       "{:<16} {:<24} {:>6}\n",
       "office floor", "result", "gain");
-  for (const char* scenario : {"clear_emergency", "smoke_emergency"}) print_allocation(scenario);
+  for (const char* scenario : {"clear_emergency", "smoke_emergency"})
+    print_allocation(scenario, share);
 }
 
 void print_edits() {

@@ -29,14 +29,16 @@ void print_delay(int repeats);
 /// What flushes of a large scene send and cost, by their interval.
 void print_flushes(int repeats);
 
-/// What each way of sampling gains in figure of merit over the plain weighted game.
-void print_merit(int turns);
-/// How far pictures are from a long run, by paths and seconds, and by the size of patches.
-void print_images();
+/// What each way of sampling gains in figure of merit over the plain weighted game, on the scenes
+/// whose names begin so.
+void print_merit(int turns, const std::string& scene);
+/// How far pictures are from a long run, by paths and seconds, and by the size of patches; with a
+/// share of the particles and of the long picture's paths.
+void print_images(double share);
 /// What each feature of a scene costs where it is absent, unused and used.
 void print_features(int repeats);
-/// What leases by the variance of source groups would gain.
-void print_allocation();
+/// What leases by the variance of source groups would gain; with a share of the particles.
+void print_allocation(double share);
 /// What the same random numbers gain where two variants of a scene are compared.
 void print_edits();
 
