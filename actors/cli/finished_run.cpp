@@ -33,9 +33,17 @@ Result<FinishedRun> read_finished_run(const fs::path& folder) {
       !json.value("cells", Json()).is_number_integer()) {
     return Problem{{file.string(), 0}, "this is no result of a run: run the scene again"};
   }
-  FinishedRun out{json["scene_file"], json["scenario"], json["seed"], json["cells"], {}};
+  FinishedRun out{json["scene_file"], json["scenario"], json["seed"], json["cells"], {}, {}};
   for (const Json& word : json.value("error_of", Json::array())) {
     if (word.is_string()) out.error_of.push_back(word);
+  }
+  for (const Json& group : json.value("source_groups", Json::array())) {
+    if (!group.is_object() || !group.contains("batch_share")) continue;
+    const Json& share = group["batch_share"];
+    if (!share.is_number() || !(share > 0.0 && share <= 1.0))
+      return Problem{{file.string(), 0},
+                     "a batch_share is not between 0 and 1: run the scene again"};
+    out.batch_shares.push_back(share);
   }
   return out;
 }

@@ -16,6 +16,7 @@ struct FinishedRun {
   uint64_t seed = 0;
   int cells = 1;
   std::vector<std::string> error_of;
+  std::vector<double> batch_shares;  // of its source groups, where they were dealt by need
 };
 
 /// Errors: no result.json in the folder, or one that is not of a run.

@@ -31,7 +31,8 @@ Result<Done> render(const RenderOptions& options) {
   const std::string name = description->scenarios.empty() ? "" : finished->scenario;
   auto scenario = find_scenario(*description, name);
   if (!scenario.ok()) return scenario.problem();
-  auto scene = compile_scene(description, scenario.value(), {finished->cells, finished->error_of});
+  auto scene = compile_scene(description, scenario.value(),
+                             {finished->cells, finished->error_of, finished->batch_shares});
   if (!scene.ok()) return scene.problem();
   if (description->cameras.empty())
     return Problem{{finished->scene_file, 0}, "the scene has no [[camera]] to render"};

@@ -4,9 +4,11 @@
 #include <filesystem>
 
 #include "actors/cli/command.hpp"
+#include "actors/cli/finished_run.hpp"
 #include "actors/display/preview.hpp"
 #include "actors/display/report.hpp"
 #include "actors/source/flux_store.hpp"
+#include "actors/source/need.hpp"
 #include "actors/supervise/in_process.hpp"
 #include "actors/supervise/residency_setup.hpp"
 #include "actors/supervise/stored_rows.hpp"
@@ -41,6 +43,7 @@ struct RunOptions {
   uint64_t trace_every = 0;
   bool plan = false;
   bool resume = false;
+  bool by_need = false;
   bool no_views = false;
   bool json = false;
   int picture_paths = 32;
@@ -186,6 +189,21 @@ struct Traced {
   Json result;
 };
 
+/// Of the run that is to go on, or found by a first round. Empty: dealt as usual.
+Result<std::vector<double>> batch_shares(const std::shared_ptr<const CompiledScene>& scene,
+                                         uint64_t seed, const fs::path& folder, bool goes_on,
+                                         const RunOptions& options) {
+  if (goes_on && fs::exists(folder / "result.json")) {
+    auto before = read_finished_run(folder);
+    if (!before.ok()) return before.problem();
+    return before->batch_shares;
+  }
+  if (!options.by_need) return std::vector<double>();
+  ProgressLine line(scene->scenario.name + ", first round");
+  return find_shares_by_need(scene, seed, options.threads, interrupt_flag(),
+                             [&](const Progress& p) { line.show(p); });
+}
+
 /// One scenario into one folder.
 Result<Traced> run_scenario(std::shared_ptr<const SceneDescription> description,
                             const Scenario& scenario, const fs::path& folder,
@@ -194,6 +212,15 @@ Result<Traced> run_scenario(std::shared_ptr<const SceneDescription> description,
   if (!scene.ok()) return scene.problem();
   for (const Problem& w : scene.value()->warnings) spdlog::warn("{}", w.text());
   const uint64_t seed = options.seed.value_or(description->run.seed);
+  // Of several scenarios the later ones may not have been begun when the run was stopped.
+  const bool begun = options.scenario != "all" || fs::exists(folder / "flux.lux");
+  const bool goes_on = options.resume && begun;
+  const auto shares = batch_shares(scene.value(), seed, folder, goes_on, options);
+  if (!shares.ok()) return shares.problem();
+  if (!shares->empty()) {
+    scene = compile_scene(description, scenario, {options.cells, options.error_of, shares.value()});
+    if (!scene.ok()) return scene.problem();
+  }
   const auto prepared = prepare(scene.value(), seed, options);
   LocalRun& run = *prepared;
   if (options.plan) {
@@ -204,9 +231,7 @@ Result<Traced> run_scenario(std::shared_ptr<const SceneDescription> description,
     std::printf("%s\n%s", scenario.name.c_str(), plan.value().c_str());
     return Traced{StopReason::particles, {}};
   }
-  // Of several scenarios the later ones may not have been begun when the run was stopped.
-  const bool begun = options.scenario != "all" || fs::exists(folder / "flux.lux");
-  if (options.resume && begun) {
+  if (goes_on) {
     if (auto ok = load_flux(folder / "flux.lux", run); !ok.ok()) return ok.problem();
   }
   std::error_code error;
@@ -260,6 +285,12 @@ int run_scene(const RunOptions& options) {
   }
   if (options.nodes == 0 && (options.tally_mib > 0 || options.tally_shards > 1)) {
     tell({{}, "--tally-mib and --tally-shards are about nodes: say how many, --nodes N"});
+    return ExitCode::bad_input;
+  }
+  if (options.by_need && (options.object_mib > 0 || options.plan)) {
+    tell({{},
+          "--by-need traces a first round with all geometry at hand, not with --object-mib or "
+          "--plan"});
     return ExitCode::bad_input;
   }
   auto rule = stop_rule(options);
@@ -374,6 +405,10 @@ void add_run(CLI::App& app, int& exit_code) {
       "what --error is of, the worst of all that are given: planes, probes, signs, "
       "surfaces, patches (95 % of them), \"plane NAME\", \"probe NAME\", \"sign NAME\" "
       "[the scene's error_of, or planes, probes and signs]");
+  command->add_flag("--by-need", options->by_need,
+                    "deal particles to source groups ([run] groups: circuit or emitter) as planes, "
+                    "surfaces or patches of --error-of need them, by a first round that is not "
+                    "kept");
   command->add_option("--time", options->time, "how long, e.g. 60s, 5m");
   command->add_option("--seed", options->seed, "of the random numbers [the scene's]")
       ->transform(seed_number());

@@ -330,8 +330,12 @@ Json result_of(const LocalRun& run, const RunRecord& record, const PlaneMaps& ma
       {"figure_of_merit", exact_json(fom, "1/s")},
       {"ledger", ledger_json(run.totals().ledger())}};
   Json groups = Json::array();
-  for (const Group& g : scene.groups)
-    groups.push_back({{"name", g.name}, {"luminous_flux", exact_json(g.luminous_flux_lm, "lm")}});
+  for (size_t g = 0; g < scene.groups.size(); ++g) {
+    const Group& group = scene.groups[g];
+    groups.push_back(
+        {{"name", group.name}, {"luminous_flux", exact_json(group.luminous_flux_lm, "lm")}});
+    if (!scene.batch_shares.empty()) groups.back()["batch_share"] = scene.batch_shares[g];
+  }
   out["source_groups"] = std::move(groups);
   out["planes"] = planes_json(run, readout, maps);
   out["probes"] = probes_json(run, readout);

@@ -1,5 +1,6 @@
-// Groups take turns by largest deficit: half of the batches evenly, half in proportion to lumens,
-// since a designer may ask for a weak circuit alone.
+// Groups take turns by largest deficit. Their shares are the scene's; where it has none, half of
+// the batches go evenly, half in proportion to lumens, since a designer may ask for a weak circuit
+// alone.
 #include "actors/source/batch_plan.hpp"
 
 #include <algorithm>
@@ -11,17 +12,23 @@ namespace luxodus {
 namespace {
 /// Batches of the first round and group: enough for a standard error that is itself good to 25 %.
 constexpr int64_t first_round_batches = 8;
-}  // namespace
 
-BatchPlan::BatchPlan(const CompiledScene& scene) : batch_particles_(scene.batch_particles) {
+std::vector<double> shares_by_lumens(const CompiledScene& scene) {
   double total = 0;
   for (const Group& g : scene.groups) total += g.luminous_flux_lm;
   const auto n = static_cast<double>(scene.groups.size());
-  for (const Group& g : scene.groups) {
-    share_.push_back(0.5 / n + (total > 0 ? 0.5 * g.luminous_flux_lm / total : 0.5 / n));
-  }
-  issued_.assign(scene.groups.size(), 0);
+  std::vector<double> shares;
+  for (const Group& g : scene.groups)
+    shares.push_back(0.5 / n + (total > 0 ? 0.5 * g.luminous_flux_lm / total : 0.5 / n));
+  return shares;
 }
+
+}  // namespace
+
+BatchPlan::BatchPlan(const CompiledScene& scene)
+    : share_(scene.batch_shares.empty() ? shares_by_lumens(scene) : scene.batch_shares),
+      issued_(scene.groups.size()),
+      batch_particles_(scene.batch_particles) {}
 
 Batch BatchPlan::next() {
   size_t chosen = 0;

@@ -394,6 +394,7 @@ uint64_t hash_scene(const CompiledScene& scene, int cells) {
   for (const Group& g : scene.groups) {
     for (const double p : g.power_w) hash.add(std::bit_cast<uint64_t>(p));
   }
+  for (const double share : scene.batch_shares) hash.add(std::bit_cast<uint64_t>(share));
   return hash.value();
 }
 
@@ -557,6 +558,9 @@ Result<std::shared_ptr<const CompiledScene>> compile_scene(
   choose_features(*scene);
   lay_out_tally(*scene);
   choose_batch(*scene);
+  scene->batch_shares = options.batch_shares;
+  if (!scene->batch_shares.empty() && scene->batch_shares.size() != scene->groups.size())
+    return Problem{{description->file, 0}, "batches were dealt to other source groups than it has"};
   scene->scene_hash = hash_scene(*scene, packed != nullptr ? packed->partition : options.cells);
   return std::shared_ptr<const CompiledScene>(std::move(scene));
 }

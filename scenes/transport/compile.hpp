@@ -12,6 +12,9 @@ namespace luxodus {
 struct CompileOptions {
   int cells = 1;  // geometry cells; 1 is one merged scene; a packed scene has been cut already
   std::vector<std::string> error_of = {};  // instead of the scene's [run] error_of, if not empty
+  /// Of all batches, those of each source group, in their order [1]. Empty: by BatchPlan's own
+  /// rule. Requires: all above 0, 1 in all.
+  std::vector<double> batch_shares = {};
   /// Bands as for this one's light, if it is not null, so that totals of both can be compared to
   /// the bit. Requires: every spectrum of the scene is in it.
   const SceneDescription* bands_of = nullptr;
@@ -20,8 +23,8 @@ struct CompileOptions {
 /// The scenario of that name; with an empty name the first, or plain mains where a scene has none.
 Result<Scenario> find_scenario(const SceneDescription& description, const std::string& name);
 
-/// Errors: no light at all, nothing but media, a medium or emitter that cannot be; each with its
-/// place.
+/// Errors: no light at all, nothing but media, a medium or emitter that cannot be, batch_shares of
+/// other groups; each with its place.
 Result<std::shared_ptr<const CompiledScene>> compile_scene(
     std::shared_ptr<const SceneDescription> description, const Scenario& scenario,
     const CompileOptions& options);

@@ -241,8 +241,9 @@ struct CompiledScene {
   std::vector<GeometryCell> cells;          // by box; none where the triangles are in a pack
 
   int64_t batch_particles = 0;
-  int eye_paths_per_batch = 0;  // per eye target part and per probe
-  uint64_t scene_hash = 0;      // content, scenario, partition, seed
+  std::vector<double> batch_shares;  // of the groups, where BatchPlan has no rule of its own for it
+  int eye_paths_per_batch = 0;       // per eye target part and per probe
+  uint64_t scene_hash = 0;           // content, scenario, partition, seed
   uint64_t triangles = 0;
   uint32_t patch_count = 0;
   double total_area_m2 = 0;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "scenes/transport/look.hpp"
 
@@ -99,6 +100,32 @@ Estimate Readout::value(uint32_t block, uint32_t bin, uint32_t quantity) const {
   return {m.mean * limits::value_quantum, m.standard_error * limits::value_quantum};
 }
 
+std::vector<Readout::JudgedFlux> Readout::judged_planes() const {
+  std::vector<JudgedFlux> fluxes;
+  for (const uint32_t i : scene_.judged.planes)
+    fluxes.push_back({scene_.blocks.planes, i, 1, lumens(scene_.blocks.planes, i, 0).value});
+  return fluxes;
+}
+
+std::vector<Readout::JudgedFlux> Readout::judged_surfaces() const {
+  std::vector<JudgedFlux> fluxes;
+  if (!scene_.judged.surfaces) return fluxes;
+  std::vector<double> in;
+  for (uint32_t s = 0; s < scene_.surfaces.size(); ++s)
+    in.push_back(lumens(scene_.blocks.surfaces, s, 0).value);
+  const double total = std::accumulate(in.begin(), in.end(), 0.0);
+  for (uint32_t s = 0; s < scene_.surfaces.size(); ++s)
+    if (in[s] > 0.01 * total) fluxes.push_back({scene_.blocks.surfaces, s, 0});
+  return fluxes;
+}
+
+std::vector<Readout::JudgedFlux> Readout::judged_patches() const {
+  std::vector<JudgedFlux> fluxes;
+  if (!scene_.judged.patches) return fluxes;
+  for (uint32_t p = 0; p < scene_.patch_count; ++p) fluxes.push_back({scene_.blocks.patches, p, 0});
+  return fluxes;
+}
+
 double Readout::worst_relative_error() const {
   const Judged& judged = scene_.judged;
   double worst = 0;
@@ -108,39 +135,29 @@ double Readout::worst_relative_error() const {
     asked = true;
     worst = std::max(worst, known_error(e));
   };
-  for (const uint32_t i : judged.planes) {
-    const Estimate direct = lumens(scene_.blocks.planes, i, 0);
-    const Estimate indirect = lumens(scene_.blocks.planes, i, 1);
-    // Direct light is computed without chance: only the traced part errs.
-    judge({direct.value + indirect.value, indirect.standard_error});
-  }
+  const auto judge_flux = [&](const JudgedFlux& f) {
+    Estimate e = lumens(f.block, f.bin, f.quantity);
+    e.value += f.sure_lm;
+    judge(e);
+  };
+  for (const JudgedFlux& f : judged_planes()) judge_flux(f);
   for (const uint32_t i : judged.probes) judge(value(scene_.blocks.probes, i, 0));
   for (const uint32_t i : judged.targets) {
     const auto at_eye = static_cast<uint32_t>(EyeQuantity::at_eye);
     judge(value(scene_.blocks.views, scene_.eye_targets[i].first_bin, at_eye));
   }
-  if (judged.surfaces) {
-    double total = 0;
-    for (uint32_t s = 0; s < scene_.surfaces.size(); ++s)
-      total += lumens(scene_.blocks.surfaces, s, 0).value;
-    for (uint32_t s = 0; s < scene_.surfaces.size(); ++s) {
-      const Estimate in = lumens(scene_.blocks.surfaces, s, 0);
-      if (in.value > 0.01 * total) judge(in);
-    }
-  }
-  if (judged.patches) {
-    const std::optional<double> error = patch_error();
-    asked |= error.has_value();
-    worst = std::max(worst, error.value_or(0));
-  }
+  for (const JudgedFlux& f : judged_surfaces()) judge_flux(f);
+  const std::optional<double> of_patches = patch_error();
+  asked |= of_patches.has_value();
+  worst = std::max(worst, of_patches.value_or(0));
   return asked ? worst : std::numeric_limits<double>::infinity();
 }
 
 std::optional<double> Readout::patch_error() const {
   constexpr double percentile = 0.95;
   std::vector<double> errors;
-  for (uint32_t p = 0; p < scene_.patch_count; ++p) {
-    const Estimate in = lumens(scene_.blocks.patches, p, 0);
+  for (const JudgedFlux& f : judged_patches()) {
+    const Estimate in = lumens(f.block, f.bin, f.quantity);
     if (in.value > 0) errors.push_back(known_error(in));
   }
   if (errors.empty()) return std::nullopt;

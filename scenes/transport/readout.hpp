@@ -33,6 +33,17 @@ class Readout {
   /// A value score in its own unit.
   Estimate value(uint32_t block, uint32_t bin, uint32_t quantity) const;
 
+  /// What a run is judged by and all its batches of a group tell of: fluxes, of which lumens()
+  /// gives the estimate. Probes and signs are seen from the eye, whatever the group.
+  struct JudgedFlux {
+    uint32_t block = 0, bin = 0, quantity = 0;
+    double sure_lm = 0;  // direct light beside it, computed without chance
+  };
+  std::vector<JudgedFlux> judged_planes() const;
+  /// Those into which at least a hundredth of all light goes.
+  std::vector<JudgedFlux> judged_surfaces() const;
+  std::vector<JudgedFlux> judged_patches() const;
+
   /// The relative standard error that a run is judged by: the worst of what CompiledScene::judged
   /// names, of mean illuminances of planes, indirect illuminances of probes, luminances of signs at
   /// the eye, flux into surfaces and patches. Infinite where nothing of it has any light yet.

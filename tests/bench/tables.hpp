@@ -37,7 +37,7 @@ void print_merit(int turns, const std::string& scene);
 void print_images(double share);
 /// What each feature of a scene costs where it is absent, unused and used.
 void print_features(int repeats);
-/// What leases by the variance of source groups would gain; with a share of the particles.
+/// What batches dealt to source groups by need gain; with a share of the particles.
 void print_allocation(double share);
 /// What the same random numbers gain where two variants of a scene are compared.
 void print_edits();

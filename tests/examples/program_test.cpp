@@ -88,6 +88,30 @@ TEST_CASE("a resumed run equals an uninterrupted one bit for bit", "[program]") 
   CHECK(flux(folder, "whole") == flux(folder, "parts"));
 }
 
+TEST_CASE("a run by need has the same bits on nodes and resumed, and can be drawn", "[program]") {
+  const Folder folder;
+  const std::string scene = write_scene(
+      folder, readme_scene() +
+                  "[[emitter]]\nname = \"other\"\nshape = \"rectangle\"\nposition = [1, 1, 2.4]\n"
+                  "size = [0.2, 0.2]\nflux_lm = 50\n[run]\ngroups = \"emitter\"\n");
+  const std::string common = "run " + scene + " --no-views --by-need --out ";
+  REQUIRE(run_luxodus(folder, common + out(folder, "whole") + " --particles 200k").code == 0);
+  REQUIRE(run_luxodus(folder, common + out(folder, "parts") + " --particles 80k").code == 0);
+  REQUIRE(run_luxodus(folder, common + out(folder, "parts") + " --particles 200k --resume").code ==
+          0);
+  CHECK(flux(folder, "whole") == flux(folder, "parts"));
+  REQUIRE(run_luxodus(folder, common + out(folder, "nodes") + " --particles 200k --nodes 2").code ==
+          0);
+  CHECK(flux(folder, "whole") == flux(folder, "nodes"));
+  const auto result = nlohmann::json::parse(slurp(folder.path / "whole" / "result.json"));
+  CHECK(result["source_groups"].size() == 2);
+  CHECK(result["source_groups"][0]["batch_share"].get<double>() > 0);
+  CHECK(run_luxodus(folder, "render " + out(folder, "whole") + " --paths 1").code == 0);
+  CHECK(run_luxodus(folder, "run " + write_scene(folder, readme_scene()) + " --by-need --out " +
+                                out(folder, "one"))
+            .err.find("groups = \"emitter\"") != std::string::npos);
+}
+
 TEST_CASE("another seed is another flux, and resuming with it is refused by name", "[program]") {
   const Folder folder;
   const std::string scene = write_scene(folder, readme_scene());
