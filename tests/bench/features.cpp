@@ -232,7 +232,6 @@ const std::vector<Variant>& variants() {
       {"nodes and cells", "absent (the loop)", nothing, By::loop, 64},
       {"", "64 cells, resident", nothing, By::node_by_turns, 64},
       {"", "room for all", nothing, By::node_by_turns, 64, 0, false, 256},
-      {"", "room for a few", nothing, By::node_by_turns, 64, 0, false, 16},
   };
   return all;
 }
