@@ -1,5 +1,5 @@
 // Batches dealt by need: how many each source group gets, so that the error by which a run is
-// judged falls fastest. Pure functions of scene and seed: who resumes finds the same shares.
+// judged falls fastest. Pure functions of scene and seed.
 #pragma once
 
 #include <atomic>

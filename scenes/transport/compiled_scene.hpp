@@ -241,7 +241,7 @@ struct CompiledScene {
   std::vector<GeometryCell> cells;          // by box; none where the triangles are in a pack
 
   int64_t batch_particles = 0;
-  std::vector<double> batch_shares;  // of the groups, where BatchPlan has no rule of its own for it
+  std::vector<double> batch_shares;  // of each group [1]; empty: by BatchPlan's own rule
   int eye_paths_per_batch = 0;       // per eye target part and per probe
   uint64_t scene_hash = 0;           // content, scenario, partition, seed
   uint64_t triangles = 0;
