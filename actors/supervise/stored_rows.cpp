@@ -24,6 +24,7 @@ class NoTransport final : public Transport {
   Sent send(NodeId, Lane, std::span<const std::byte>, std::span<const std::byte>) override {
     return Sent::unreachable;
   }
+  void renew(NodeId) override {}
   std::optional<Arrival> receive() override { return std::nullopt; }
   void wait_until(Nanoseconds until) override { quiet_.wait_until(until); }
   void wake() noexcept override { quiet_.wake(); }

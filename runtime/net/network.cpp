@@ -369,6 +369,7 @@ void Network::watch_links() {
                   links_[i].neighbour().value);
     handler_.link_changed(links_[i].neighbour(), state.phase());
 
+    if (state.phase() == LinkPhase::down) transport_.renew(links_[i].neighbour());
     const bool gone = state.phase() == LinkPhase::down || state.phase() == LinkPhase::refused;
     if (!gone && !state.usable()) continue;  // on its way: the view waits for what comes of it
     const Edge edge = edge_between(config_.self, links_[i].neighbour());

@@ -38,6 +38,10 @@ class Transport {
   virtual Sent send(NodeId neighbour, Lane lane, std::span<const std::byte> head,
                     std::span<const std::byte> body) = 0;
 
+  /// The neighbour has fallen silent: a connection to it that was begun here begins anew, since the
+  /// old one may take bytes that will never make a frame again. What it held is lost.
+  virtual void renew(NodeId neighbour) = 0;
+
   /// The next frame that has come, control before bulk; nothing if none has. Never blocks.
   virtual std::optional<Arrival> receive() = 0;
 

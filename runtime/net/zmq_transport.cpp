@@ -1,7 +1,10 @@
 // What libzmq does and does not do decides the options (all in set_options): a ROUTER that is not
 // MANDATORY drops frames silently; HANDOVER lets a neighbour that lost its connection take its name
-// again; IMMEDIATE keeps frames from queueing for nobody; ZMTP heartbeats find dead hosts (stuck
-// nodes are found by the beats of Link, sent by the node's own loop).
+// again; IMMEDIATE keeps frames from queueing for nobody; TCP_MAXRT ends a connection whose bytes
+// nobody acknowledges. Dead hosts, stuck nodes and streams without sense are found by the beats of
+// Link, sent by the node's own loop, which then has connections begin anew. ZMTP heartbeats stay
+// off: libzmq 4.3.4 writes one to a connection that has gone while its input waited for room or for
+// the door, and aborts ("Assertion failed: !_io_error").
 #include "runtime/net/zmq_transport.hpp"
 
 #include <spdlog/spdlog.h>
@@ -92,8 +95,7 @@ void ZmqTransport::set_options(LaneSockets& lane) {
   s.set(zmq::sockopt::rcvhwm, config_.high_water_frames);
   s.set(zmq::sockopt::maxmsgsize, frame_bytes_most);
   s.set(zmq::sockopt::handshake_ivl, 2000);  // [ms], as all below
-  s.set(zmq::sockopt::heartbeat_ivl, 500);
-  s.set(zmq::sockopt::heartbeat_timeout, 1500);
+  s.set(zmq::sockopt::tcp_maxrt, 5000);
   s.set(zmq::sockopt::reconnect_ivl, 100);
   s.set(zmq::sockopt::reconnect_ivl_max, 5000);
 
@@ -108,7 +110,7 @@ void ZmqTransport::set_options(LaneSockets& lane) {
 
   spdlog::debug(
       "zmq=options node={} lane={} mandatory=1 handover=1 immediate=1 linger_ms=0 "
-      "hwm_frames={} frame_bytes_most={} handshake_ms=2000 heartbeat_ms=500/1500 "
+      "hwm_frames={} frame_bytes_most={} handshake_ms=2000 tcp_maxrt_ms=5000 "
       "reconnect_ms=100..5000 curve={}",
       config_.self.value, lane.name, config_.high_water_frames, frame_bytes_most,
       config_.keys.has_value());
@@ -178,7 +180,23 @@ Result<Endpoints> ZmqTransport::connect(NodeId neighbour, const Endpoints& where
       return Problem{{*endpoint, 0}, std::string("cannot connect there: ") + e.what()};
     }
   }
+  connected_[neighbour] = {where, server_key};
   return where;
+}
+
+/// What a network has harmed may have been the length of a frame: the rest of the stream is then
+/// taken for its bytes, and no end of it notices.
+void ZmqTransport::renew(NodeId neighbour) {
+  const auto found = connected_.find(neighbour);
+  if (found == connected_.end() || is_inproc(found->second.where.control)) return;
+  const Connected old = found->second;
+  for (const auto& [lane, endpoint] :
+       {std::pair{Lane::control, &old.where.control}, std::pair{Lane::bulk, &old.where.bulk}})
+    // It may have ended by itself, which is as good.
+    zmq_disconnect(lanes_[static_cast<size_t>(lane)]->router.handle(), endpoint->c_str());
+  const auto anew = connect(neighbour, old.where, old.server_key);
+  if (!anew)
+    spdlog::error("zmq=renew node={} text=\"{}\"", config_.self.value, anew.problem().text());
 }
 
 Sent ZmqTransport::send(NodeId neighbour, Lane lane, std::span<const std::byte> head,

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -63,6 +64,7 @@ class ZmqTransport final : public Transport {
 
   Sent send(NodeId neighbour, Lane lane, std::span<const std::byte> head,
             std::span<const std::byte> body) override;
+  void renew(NodeId neighbour) override;
   std::optional<Arrival> receive() override;
   void wait_until(Nanoseconds until) override;
   void wake() noexcept override;
@@ -71,6 +73,11 @@ class ZmqTransport final : public Transport {
 
  private:
   struct LaneSockets;
+  /// Where a neighbour was connected to, and whom to expect there.
+  struct Connected {
+    Endpoints where;
+    std::string server_key;
+  };
 
   void set_options(LaneSockets& lane);
   Result<std::string> secure(LaneSockets& lane, const std::string& endpoint, bool server,
@@ -85,6 +92,7 @@ class ZmqTransport final : public Transport {
   ZmqConfig config_;
   const Clock& clock_;
   std::array<std::unique_ptr<LaneSockets>, lanes> lanes_;
+  std::map<NodeId, Connected> connected_;
   std::vector<std::string> names_;  // routing ids of nodes met, by number
   ZmqCounters counters_;
   int wake_descriptor_ = -1;

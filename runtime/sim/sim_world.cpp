@@ -63,6 +63,7 @@ class SimWorld::Port final : public Transport {
             std::span<const std::byte> body) override {
     return world_.send(node_.id, neighbour, lane, head, body);
   }
+  void renew(NodeId) override {}  // frames come whole or not at all
   std::optional<Arrival> receive() override {
     for (const Lane lane : {Lane::control, Lane::bulk}) {
       auto& queue = node_.inbox[static_cast<size_t>(lane)];

@@ -151,11 +151,18 @@ struct Running {
   std::vector<std::unique_ptr<Process>> workers;
   std::unique_ptr<Process> controller;
 
+  void await_begin() const {
+    const bool begun = controller->says("run=begun");
+    INFO(controller->text());
+    REQUIRE(begun);
+  }
   /// Tells all to end, and waits for it.
   void end() const {
     for (const auto& worker : workers) worker->kill(SIGTERM);
     controller->kill(SIGTERM);
-    CHECK(controller->wait() == 130);
+    const int code = controller->wait();
+    INFO(controller->text());
+    CHECK(code == 130);
   }
 };
 
@@ -164,7 +171,7 @@ inline Running start(const std::string& cluster, int workers) {
   Running nodes;
   nodes.controller = node(cluster, "controller");
   for (int i = 0; i < workers; ++i) nodes.workers.push_back(node(cluster, "n" + std::to_string(i)));
-  REQUIRE(nodes.controller->says("run=begun"));
+  nodes.await_begin();
   return nodes;
 }
 

@@ -105,7 +105,7 @@ inline Running start(const ProxiedCluster& cluster, int workers, int worker) {
   for (int i = 0; i < workers; ++i)
     nodes.workers.push_back(
         node(i == worker ? cluster.its : cluster.others, "n" + std::to_string(i)));
-  REQUIRE(nodes.controller->says("run=begun"));
+  nodes.await_begin();
   return nodes;
 }
 
@@ -145,8 +145,9 @@ class FaultRow {
   }
   /// When the line with these words was written [s]; it begins with that moment.
   double await(const std::string& words) {
+    const bool came = log_.says(words, from_);
     INFO(what_ << ": waited for \"" << words << "\" in\n" << log_.text().substr(from_));
-    REQUIRE(log_.says(words, from_));
+    REQUIRE(came);
     const std::string& all = log_.text();
     const size_t at = all.find(words, from_);
     from_ = at;

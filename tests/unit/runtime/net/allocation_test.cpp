@@ -61,6 +61,7 @@ class WireTransport final : public Transport {
     frame.insert(frame.end(), body.begin(), body.end());
     return Sent::taken;
   }
+  void renew(NodeId) override {}
   std::optional<Arrival> receive() override {
     for (const Lane lane : {Lane::control, Lane::bulk}) {
       auto& queue = wire_.to(self_, lane);

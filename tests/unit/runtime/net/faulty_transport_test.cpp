@@ -66,6 +66,7 @@ class Waiting final : public Transport {
   Sent send(NodeId, Lane, std::span<const std::byte>, std::span<const std::byte>) override {
     return Sent::taken;
   }
+  void renew(NodeId) override {}
   std::optional<Arrival> receive() override {
     if (frames.empty()) return std::nullopt;
     given = std::move(frames.back());

@@ -121,6 +121,7 @@ class SimTransport final : public Transport {
             std::span<const std::byte> body) override {
     return net_.send(self_, neighbour, lane, head, body);
   }
+  void renew(NodeId neighbour) override { renewed.push_back(neighbour); }
   std::optional<Arrival> receive() override {
     const auto from = net_.receive(self_, frame_);
     if (!from) return std::nullopt;
@@ -131,6 +132,8 @@ class SimTransport final : public Transport {
   }
   void wait_until(Nanoseconds) override {}
   void wake() noexcept override {}
+
+  std::vector<NodeId> renewed;
 
  private:
   SimNet& net_;

@@ -1,5 +1,5 @@
-// Real sockets on this machine. Nothing here waits for a time: nodes are polled until what is
-// expected has happened; a bound on polls makes a failure end.
+// Real sockets on this machine. Nodes are polled until what is expected has happened; a bound on
+// polls makes a failure end. Only what libzmq does by its own clock is waited for.
 #include "runtime/net/zmq_transport.hpp"
 
 #include <arpa/inet.h>
@@ -207,6 +207,53 @@ TEST_CASE("a process that starts again is taken in over the same sockets", "[run
     exchange(one, other);
   }
   CHECK(one.network.counters().links_up == 2);
+}
+
+TEST_CASE("a connection that is renewed carries frames again", "[runtime][zmq]") {
+  const KeyPair keys_a = make_keypair(), keys_b = make_keypair();
+  CurvePair pair({{b, keys_b.public_key}}, keys_a, keys_b, keys_a.public_key);
+  REQUIRE(both_up(pair.one, pair.other));
+  for (int i = 0; i < 3; ++i) {
+    const uint64_t before = pair.one.transport.counters().connected;
+    pair.other.transport.renew(a);
+    pair.one.transport.renew(b);  // was not begun there: nothing happens
+    REQUIRE(poll_until({&pair.one, &pair.other},
+                       [&] { return pair.one.transport.counters().connected == before + lanes; }));
+    REQUIRE(both_up(pair.one, pair.other));
+    pair.one.handler.taken.clear();
+    exchange(pair.one, pair.other);
+  }
+}
+
+TEST_CASE("a peer that ends while nobody reads what it has sent harms no one",
+          "[runtime][zmq][hostile]") {
+  ZmqContext context_a({});
+  ZmqConfig config{a};
+  config.high_water_frames = 8;
+  ZmqTransport node(context_a, config, system_clock);
+  const auto where = node.listen(tcp());
+  REQUIRE(where.ok());
+  const auto frame = pattern(60'000);
+  int full = 0;
+  {
+    ZmqContext context_b({});
+    config.self = b;
+    ZmqTransport flood(context_b, config, system_clock);
+    REQUIRE(flood.connect(a, where.value()).ok());
+    for (int turn = 0; turn < 20'000 && full < 100; ++turn) {
+      full = flood.send(a, Lane::bulk, frame, {}) == Sent::full ? full + 1 : 0;
+      if (full > 0) flood.wait_until(system_clock.now() + milliseconds(1));
+    }
+  }
+  REQUIRE(full == 100);
+  // What libzmq does with the connection by its own clock, it does in these seconds.
+  ZmqContext quiet({});
+  ZmqTransport alone(quiet, {b}, system_clock);
+  for (const Nanoseconds end = system_clock.now() + seconds(3); system_clock.now() < end;)
+    alone.wait_until(end);
+  int come = 0;
+  while (node.receive()) ++come;
+  CHECK(come >= 8);
 }
 
 TEST_CASE("a wait ends when another thread wakes the node", "[runtime][zmq]") {
