@@ -204,8 +204,8 @@ TEST_CASE("what one sheet sends another through smoke, it gets from it") {
 
 namespace {
 
-/// A beam on a layer of gas between mirrors; what comes back.
-Estimate reflected_by_layer(double depth, double albedo, int64_t particles, bool passes = false) {
+/// A beam of 1 W on a layer of gas between mirrors: what comes back escapes upwards.
+Run beam_on_layer(double depth, double albedo, int64_t particles) {
   constexpr double edge = 4;
   SceneDescription scene;
   scene.run.voxels = false;
@@ -216,23 +216,36 @@ Estimate reflected_by_layer(double depth, double albedo, int64_t particles, bool
   RunOptions options;
   options.particles = particles * thrift;
   options.batch_particles = 256;
-  const Run run(std::move(scene), options);
-  return passes ? run.into("end") : run.escaped(5);
+  return Run(std::move(scene), options);
+}
+
+/// The share of a particle's weight that each collision has taken.
+double taken_by_collision(const Run& run) {
+  return static_cast<double>(run.ledger().absorbed_media) / static_cast<double>(unit_weight) /
+         static_cast<double>(run.ledger().collisions);
 }
 
 }  // namespace
 
 TEST_CASE("a layer of depth 1e-6 lets a beam pass, and one of 1e4 is a half space") {
-  CHECK(reflected_by_layer(1e-6, 0.5, 1 << 16, true).value == Approx(1).epsilon(1e-4));
+  const Run thin = beam_on_layer(1e-6, 0.5, int64_t{1} << 24);
+  CHECK(thin.into("end").value == Approx(1).epsilon(1e-5));
+  const double expected = 1e-6 * static_cast<double>(thin.ledger().particles);
+  CHECK(std::abs(static_cast<double>(thin.ledger().collisions) - expected) <
+        4 * std::sqrt(expected));
+  CHECK(taken_by_collision(thin) == Approx(0.5).epsilon(0.01));
   const Row half_space = rows_where("halfspace_H.csv", "albedo", "0.9").front();
-  check_within(reflected_by_layer(1e4, 0.9, 1 << 20), half_space.number("R(mu0=1)"), half_percent);
+  check_within(beam_on_layer(1e4, 0.9, 1 << 20).escaped(5), half_space.number("R(mu0=1)"),
+               half_percent);
 }
 
 TEST_CASE("gas of albedo 1 - 1e-6 reflects and passes as gas of albedo 1, but for what it takes") {
-  const Estimate all = reflected_by_layer(10, 1, 1 << 18),
-                 nearly = reflected_by_layer(10, 1 - 1e-6, 1 << 18);
+  const Run all = beam_on_layer(10, 1, 1 << 18), nearly = beam_on_layer(10, 1 - 1e-6, 1 << 18);
+  CHECK(all.ledger().absorbed_media == 0);
+  // Shares are multiples of 2^-32, and weights fall by some 2e-5.
+  CHECK(taken_by_collision(nearly) == Approx(1e-6).epsilon(5e-4));
   // Some 20 collisions each: 2e-5 of the light.
-  check_within(nearly, all.value, half_percent, 1e-4);
+  check_within(nearly.escaped(5), all.escaped(5).value, half_percent, 1e-4);
 }
 
 TEST_CASE("a layer of nothing between dense ones changes nothing") {
