@@ -289,7 +289,7 @@ TEST_CASE("particles that need objects which nobody has any more are lost, and t
   nodes.controller = node(cluster, "controller");
   for (const char* name : {"n0", "n1"}) nodes.workers.push_back(node(cluster, name));
   nodes.workers.push_back(node(write_cluster(folder, text, "of_n2"), "n2"));
-  REQUIRE(nodes.controller->says("run=begun"));
+  nodes.await_begin();
   REQUIRE(nodes.controller->says(flush_of(2)));
   FaultRow row("both holders of all objects are killed", *nodes.controller);
   nodes.workers[0]->kill(SIGKILL);

@@ -218,7 +218,7 @@ TEST_CASE("a connection that is renewed carries frames again", "[runtime][zmq]")
     pair.other.transport.renew(a);
     pair.one.transport.renew(b);  // was not begun there: nothing happens
     REQUIRE(poll_until({&pair.one, &pair.other},
-                       [&] { return pair.one.transport.counters().connected == before + lanes; }));
+                       [&] { return pair.one.transport.counters().connected >= before + lanes; }));
     REQUIRE(both_up(pair.one, pair.other));
     pair.one.handler.taken.clear();
     exchange(pair.one, pair.other);
