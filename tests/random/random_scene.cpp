@@ -63,12 +63,13 @@ Scenario draw_scenario(Draw& draw) {
   return s;
 }
 
-/// Known: in rooms of less than a hand's width, and where coordinates are a million times the
-/// room's size, rays may leave a surface on its other side (ARCHITECTURE.md, known limits).
+/// Flames may burn through a wall, and so may a sign, which is a centimetre wide at least, in a
+/// room of less than a hand's width.
 bool walls_hold(const Draw& draw) {
   const bool flames = std::any_of(draw.scene.media.begin(), draw.scene.media.end(),
                                   [](const Medium& m) { return m.emission.has_value(); });
-  return draw.enclosed && !flames && draw.size_m >= 0.1;
+  const bool room_for_signs = draw.scene.signs.empty() || draw.size_m >= 0.1;
+  return draw.enclosed && !flames && room_for_signs;
 }
 
 }  // namespace
