@@ -29,16 +29,6 @@ bool within_box(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& p) {
          p.y <= std::max(a.y, b.y);
 }
 
-/// Whether the closed segments a b and c d have a point in common.
-bool segments_meet(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c,
-                   const glm::dvec2& d) {
-  const int s1 = sign(side(a, b, c)), s2 = sign(side(a, b, d));
-  const int s3 = sign(side(c, d, a)), s4 = sign(side(c, d, b));
-  if (s1 != s2 && s3 != s4) return true;
-  return (s1 == 0 && within_box(a, b, c)) || (s2 == 0 && within_box(a, b, d)) ||
-         (s3 == 0 && within_box(c, d, a)) || (s4 == 0 && within_box(c, d, b));
-}
-
 std::optional<Problem> bad_points(std::span<const glm::dvec2> outline) {
   const size_t n = outline.size();
   if (n < 3) return refusal(fmt::format("an outline needs 3 points or more, this has {}", n));
@@ -75,7 +65,27 @@ bool in_closed_triangle(const glm::dvec2& a, const glm::dvec2& b, const glm::dve
   return side(a, b, p) >= flat && side(b, c, p) >= flat && side(c, a, p) >= flat;
 }
 
+/// Whether the boxes of a b and c d have a point in common.
+bool boxes_meet(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c,
+                const glm::dvec2& d) {
+  const glm::dvec2 low = glm::max(glm::min(a, b), glm::min(c, d));
+  const glm::dvec2 high = glm::min(glm::max(a, b), glm::max(c, d));
+  return low.x <= high.x && low.y <= high.y;
+}
+
 }  // namespace
+
+bool segments_meet(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c,
+                   const glm::dvec2& d) {
+  // Two pieces of one slanting wall: by their sides alone, which are rounding, they may seem to
+  // cross.
+  if (!boxes_meet(a, b, c, d)) return false;
+  const int s1 = sign(side(a, b, c)), s2 = sign(side(a, b, d));
+  const int s3 = sign(side(c, d, a)), s4 = sign(side(c, d, b));
+  if (s1 != s2 && s3 != s4) return true;
+  return (s1 == 0 && within_box(a, b, c)) || (s2 == 0 && within_box(a, b, d)) ||
+         (s3 == 0 && within_box(c, d, a)) || (s4 == 0 && within_box(c, d, b));
+}
 
 double signed_area(std::span<const glm::dvec2> outline) {
   if (outline.empty()) return 0;

@@ -16,6 +16,11 @@ namespace limits {
 inline constexpr size_t polygon_points = 2048;
 }  // namespace limits
 
+/// Whether the closed segments a b and c d have a point in common; pieces of one line that are
+/// apart have none, whichever way the line slants.
+bool segments_meet(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c,
+                   const glm::dvec2& d);
+
 /// Shoelace area [m2]: positive for counter-clockwise outlines.
 double signed_area(std::span<const glm::dvec2> outline);
 

@@ -4,35 +4,14 @@
 #include <cmath>
 #include <string>
 
+#include "scenes/geometry/polygon.hpp"
+
 namespace luxodus {
 
 namespace {
 
 double cross(const glm::dvec2& a, const glm::dvec2& b) {
   return a.x * b.y - a.y * b.x;
-}
-
-/// > 0 where c lies left of the line from a to b.
-double side(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
-  return cross(b - a, c - a);
-}
-
-bool within_box(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& p) {
-  return std::min(a.x, b.x) <= p.x && p.x <= std::max(a.x, b.x) && std::min(a.y, b.y) <= p.y &&
-         p.y <= std::max(a.y, b.y);
-}
-
-bool segments_meet(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c,
-                   const glm::dvec2& d) {
-  const double ca = side(c, d, a);
-  const double cb = side(c, d, b);
-  const double ac = side(a, b, c);
-  const double ad = side(a, b, d);
-  if (((ca > 0 && cb < 0) || (ca < 0 && cb > 0)) && ((ac > 0 && ad < 0) || (ac < 0 && ad > 0))) {
-    return true;
-  }
-  return (ca == 0 && within_box(c, d, a)) || (cb == 0 && within_box(c, d, b)) ||
-         (ac == 0 && within_box(a, b, c)) || (ad == 0 && within_box(a, b, d));
 }
 
 }  // namespace
