@@ -7,6 +7,7 @@
 // not meet the triangle again. Any thread, no state.
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -70,6 +71,12 @@ inline Vec3 offset_ray(const Vec3& position, const Vec3& normal, Real least_offs
   return {offset_coordinate(position.x, normal.x, least_offset_m),
           offset_coordinate(position.y, normal.y, least_offset_m),
           offset_coordinate(position.z, normal.z, least_offset_m)};
+}
+
+/// No start lies farther from a position whose coordinates are at most `farthest_m` from zero.
+inline double largest_offset(double farthest_m, double least_offset_m) {
+  constexpr double ulps = offset_limits::ulps_per_normal + offset_limits::least_ulps;
+  return std::max(least_offset_m, farthest_m * ulps * 0x1p-23) * std::sqrt(3.0);
 }
 
 }  // namespace luxodus

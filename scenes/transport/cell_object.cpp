@@ -7,7 +7,7 @@ namespace luxodus {
 
 namespace {
 
-constexpr uint64_t magic = 0x316c6c6563'78756c;  // "luxcell1"
+constexpr uint64_t magic = 0x326c6c6563'78756c;  // "luxcell2"
 
 struct Header {
   uint64_t magic;
@@ -24,7 +24,8 @@ bool finite(const glm::vec3& v) {
 
 bool fits(const TriangleRecord& t, const CellLimits& limits) {
   const uint64_t bins = 2 * uint64_t{t.subdivision} * t.subdivision;
-  return t.surface < limits.surfaces && t.subdivision > 0 && t.subdivision <= 0xFFFF &&
+  return t.surface < limits.surfaces && t.subdivision > 0 &&
+         t.edge_margin <= TriangleRecord::most_edge_margin &&
          uint64_t{t.first_patch} + bins <= limits.patches && finite(t.corner[0]) &&
          finite(t.corner[1]) && finite(t.corner[2]) && finite(t.normal);
 }

@@ -19,7 +19,7 @@ GeometryCell some_cell() {
     TriangleRecord t{};
     for (glm::vec3& c : t.corner) c = {random.uniform(), random.uniform(), random.uniform()};
     t.normal = {0, 0, 1};
-    t.subdivision = 1 + i % 3;
+    t.subdivision = static_cast<uint16_t>(1 + i % 3);
     t.first_patch = i * 18;
     t.surface = i % 4;
     t.global_triangle = 100 + i;
