@@ -104,13 +104,15 @@ bool compare(const Traced& single, const Traced& twice) {
   const size_t batches = single.rows.size();
   const double traced = static_cast<double>(batches) * single.batch_particles;
   std::map<std::string, Line> lines;
-  size_t equal = 0;
+  size_t equal = 0, left_out = 0;
   for (size_t k = 0; k < batches; ++k) equal += single.rows[k] == twice.rows[k] ? 1 : 0;
   for (size_t i = 0; i < single.names.size(); ++i) {
     const auto reached = std::count_if(single.rows.begin(), single.rows.end(),
                                        [&](const auto& row) { return row[i] != 0; });
-    if (static_cast<double>(reached) < least_share_of_batches * static_cast<double>(batches))
+    if (static_cast<double>(reached) < least_share_of_batches * static_cast<double>(batches)) {
+      ++left_out;
       continue;
+    }
     const Mean bin = mean_over(batches, [&](size_t k) { return twice.rows[k][i]; });
     const Mean difference =
         mean_over(batches, [&](size_t k) { return single.rows[k][i] - twice.rows[k][i]; });
@@ -144,6 +146,8 @@ bool compare(const Traced& single, const Traced& twice) {
                line.passes ? "" : "  FAILS");
     passes = passes && line.passes;
   }
+  fmt::print("left out, since too few batches reach them: {} of {} bins\n", left_out,
+             single.names.size());
   return passes;
 }
 
