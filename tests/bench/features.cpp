@@ -73,6 +73,17 @@ void add_glossy(SceneDescription& d) {
   m.specular = Spectrum::constant(0.1);
 }
 
+/// Mirrors take no light, so that histories last longer: of reflectance as the boxes.
+void add_mirror(SceneDescription& d) {
+  Material& m = material_named(d, "mirror");
+  m.kind = MaterialKind::mirror;
+  m.specular = Spectrum::constant(0.5);
+}
+
+void add_pane(SceneDescription& d) {
+  material_named(d, "pane").kind = MaterialKind::glass_pane;
+}
+
 void add_texture(SceneDescription& d) {
   Image image{64, 64, 1, std::vector<float>(64 * 64)};
   for (size_t i = 0; i < image.texels.size(); ++i) image.texels[i] = i % 2 == 0 ? 1.0f : 0.5f;
@@ -122,6 +133,36 @@ void homogeneous(SceneDescription& d) {
   light::add_homogeneous(d, light::smoke(0.1, 0.8));
 }
 
+/// Particles start in it by its share of the light.
+void add_flame(SceneDescription& d) {
+  without_voxels(d);
+  Medium& flame = light::add_ball(d, {5, 5, 0.5}, 0.4, light::smoke(0.5, 0.5));
+  flame.emission = MediumEmission{};
+  flame.emission->power_w = 1;
+}
+
+void put_flames_out(SceneDescription& d) {
+  Scenario out;
+  out.name = "no fire";
+  out.smoke_factor = 0;
+  out.emission_factor = 0;
+  d.scenarios.push_back(out);
+}
+
+void add_observer(SceneDescription& d) {
+  Observer observer;
+  observer.name = "observer";
+  observer.eye = {10, 7, 1.6};
+  d.observers.push_back(observer);
+}
+
+void add_probe(SceneDescription& d) {
+  ProbeMeasure probe;
+  probe.name = "probe";
+  probe.position = {10, 7, 1.2};
+  d.probes.push_back(probe);
+}
+
 void switch_smoke_off(SceneDescription& d) {
   Scenario clear;
   clear.name = "clear";
@@ -158,6 +199,11 @@ const std::vector<Variant>& variants() {
              {light::smoke(0.05, 0.8), light::smoke(0.08, 0.8), light::smoke(0.1, 0.8),
               light::smoke(0.1, 0.8), light::smoke(0.12, 0.8), light::smoke(0.15, 0.8)});
        }},
+      {"", "over an outline",
+       [](SceneDescription& d) {
+         homogeneous(d);
+         d.media.back().footprint.polygon = {{1, 1}, {19, 1}, {19, 14}, {10, 9}, {1, 14}};
+       }},
       {"", "a quadric",
        [](SceneDescription& d) {
          without_voxels(d);
@@ -169,6 +215,13 @@ const std::vector<Variant>& variants() {
          light::add_cells(
              d, {0, 0, 0}, {20, 15, 3}, 32, [](const glm::dvec3&) { return 0.1; }, 0.8);
        }},
+      {"flames", "absent", nothing},
+      {"", "unused (out)",
+       [](SceneDescription& d) {
+         add_flame(d);
+         put_flames_out(d);
+       }},
+      {"", "a ball of fire", add_flame},
       {"volume flux", "absent (medium)", homogeneous},
       {"", "unused (no medium)", [](SceneDescription& d) { d.run.voxels = true; }},
       {"", "20 000 voxels",
@@ -193,6 +246,22 @@ const std::vector<Variant>& variants() {
          add_glossy(d);
          use_last_material(d);
        }},
+      {"mirrors, glass", "absent", nothing},
+      {"", "unused",
+       [](SceneDescription& d) {
+         add_mirror(d);
+         add_pane(d);
+       }},
+      {"", "a tenth mirrors",
+       [](SceneDescription& d) {
+         add_mirror(d);
+         use_last_material(d);
+       }},
+      {"", "a tenth panes",
+       [](SceneDescription& d) {
+         add_pane(d);
+         use_last_material(d);
+       }},
       {"textures", "absent", nothing},
       {"", "unused", add_texture},
       {"", "a tenth of boxes",
@@ -209,6 +278,9 @@ const std::vector<Variant>& variants() {
          std::swap(d.emitters[0], d.emitters[1]);
        }},
       {"", "a lamp's", add_web},
+      {"eyes", "absent", nothing},
+      {"", "unused (no sign)", add_observer},
+      {"", "a probe", add_probe},
       {"source groups", "absent", nothing},
       {"", "unused (one lamp)", [](SceneDescription& d) { d.run.groups = GroupRule::by_emitter; }},
       {"", "two groups",
