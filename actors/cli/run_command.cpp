@@ -403,12 +403,14 @@ void add_run(CLI::App& app, int& exit_code) {
   command->add_option(
       "--error-of", options->error_of,
       "what --error is of, the worst of all that are given: planes, probes, signs, "
-      "surfaces, patches (95 % of them), \"plane NAME\", \"probe NAME\", \"sign NAME\" "
+      "surfaces, cells of planes and patches (95 % of them), \"plane NAME\", \"cells NAME\", "
+      "\"probe NAME\", \"sign NAME\" "
       "[the scene's error_of, or planes, probes and signs]");
-  command->add_flag("--by-need", options->by_need,
-                    "deal particles to source groups ([run] groups: circuit or emitter) as planes, "
-                    "surfaces or patches of --error-of need them, by a first round that is not "
-                    "kept");
+  command->add_flag(
+      "--by-need", options->by_need,
+      "deal particles to source groups ([run] groups: circuit or emitter) as planes, "
+      "cells, surfaces or patches of --error-of need them, by a first round that is not "
+      "kept");
   command->add_option("--time", options->time, "how long, e.g. 60s, 5m");
   command->add_option("--seed", options->seed, "of the random numbers [the scene's]")
       ->transform(seed_number());

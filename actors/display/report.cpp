@@ -327,6 +327,7 @@ Json result_of(const LocalRun& run, const RunRecord& record, const PlaneMaps& ma
       {"rays_per_second", exact_json(rays / seconds, "1/s")},
       {"worst_relative_error", exact_json(error, "1")},
       {"error_of", scene.judged.words},
+      {"unlit", readout.unlit()},
       {"figure_of_merit", exact_json(fom, "1/s")},
       {"ledger", ledger_json(run.totals().ledger())}};
   Json groups = Json::array();

@@ -2,6 +2,7 @@
 // sees is what the file says.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "actors/display/report.hpp"
@@ -82,14 +83,36 @@ std::string errors(const Json& result) {
   return "  standard errors: " + text.substr(2) + "\n";
 }
 
+std::string ledger(const Json& result) {
+  const Json& l = result["ledger"];
+  const double lost = std::ldexp(std::stod(l["lost"].get<std::string>()), -32);
+  return fmt::format("  ledger {}; {} particles{}\n",
+                     l["closes"].get<bool>() ? "closes exactly" : "DOES NOT CLOSE",
+                     result["particles"].get<int64_t>(),
+                     lost > 0
+                         ? fmt::format(", the light of {:.3g} of them LOST: their histories do "
+                                       "not end (no surface or medium takes any light)",
+                                       lost)
+                         : std::string());
+}
+
+/// What the run is judged by and has no light: no error tells of it.
+std::string unlit(const Json& result) {
+  constexpr size_t shown = 8;
+  const Json& names = result["unlit"];
+  if (names.empty()) return "";
+  std::string text;
+  for (size_t i = 0; i < std::min(names.size(), shown); ++i)
+    text += (i > 0 ? ", " : "") + names[i].get<std::string>();
+  if (names.size() > shown) text += fmt::format(" and {} more", names.size() - shown);
+  return "  no light so far, and no part in these errors: " + text + "\n";
+}
+
 }  // namespace
 
 std::string summary_text(const Json& result) {
-  return illuminances(result) + fluxes(result) + signs(result) +
-         fmt::format("  ledger {}; {} particles\n",
-                     result["ledger"]["closes"].get<bool>() ? "closes exactly" : "DOES NOT CLOSE",
-                     result["particles"].get<int64_t>()) +
-         errors(result);
+  return illuminances(result) + fluxes(result) + signs(result) + ledger(result) + errors(result) +
+         unlit(result);
 }
 
 }  // namespace luxodus

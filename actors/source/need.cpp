@@ -89,6 +89,8 @@ std::vector<double> shares_by_need(const CompiledScene& scene, const Totals& tot
   std::vector<Need> needs;
   add_needs(scene, totals, readout.judged_planes(), power_of_worst, needs);
   add_needs(scene, totals, readout.judged_surfaces(), power_of_worst, needs);
+  for (const uint32_t plane : scene.judged.cells)
+    add_needs(scene, totals, thinned(readout.judged_cells(plane)), 1, needs);
   add_needs(scene, totals, thinned(readout.judged_patches()), 1, needs);
   const auto none = [](const Need& n) {
     return std::all_of(n.variance.begin(), n.variance.end(), [](double v) { return v == 0; });
@@ -118,10 +120,11 @@ Result<std::vector<double>> find_shares_by_need(
                    "groups = \"emitter\" or \"circuit\""};
   }
   const Judged& judged = scene->judged;
-  if (judged.planes.empty() && !judged.surfaces && !judged.patches) {
-    return Problem{place,
-                   "batches are dealt by the need of planes, surfaces or patches, and the error is "
-                   "wanted of none of them: see --error-of"};
+  if (!judged.asks_bins()) {
+    return Problem{
+        place,
+        "batches are dealt by the need of planes, cells, surfaces or patches, and the error is "
+        "wanted of none of them: see --error-of"};
   }
   Hasher other_numbers;
   other_numbers.add(seed);

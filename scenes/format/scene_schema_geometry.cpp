@@ -75,8 +75,10 @@ TableSpec run_keys() {
           {"error_of", "texts", "", "[\"all\"]", "",
            "what the error of a run is judged by, the worst of them: \"all\" (planes, probes and "
            "signs, or surfaces where there are none of these), \"planes\", \"probes\", \"signs\", "
-           "\"surfaces\", \"patches\" (the error that 95 % of those that get light do not exceed), "
-           "\"plane NAME\", \"probe NAME\", \"sign NAME\". Paths go where it asks: to eyes or to "
+           "\"surfaces\", \"cells\" of planes and \"patches\" (the error that 95 % of those that "
+           "get "
+           "light do not exceed), \"plane NAME\", \"cells NAME\" (of that plane), \"probe NAME\", "
+           "\"sign NAME\". Paths go where it asks: to eyes or to "
            "bins"},
       }};
 }

@@ -16,7 +16,7 @@ struct Ledger {
   Int128 absorbed_media = 0;
   Int128 escaped = 0;
   Int128 roulette_loss = 0;
-  Int128 lost_too_long = 0;  // a history passed the cap on its events
+  Int128 lost_too_long = 0;  // a history passed the cap on its events, or a batch on its rays
   uint64_t particles = 0;
   uint64_t rays = 0;
   uint64_t hits = 0;

@@ -117,11 +117,12 @@ struct VoxelGrid {
 struct Judged {
   std::vector<std::string> words;                 // that said so
   std::vector<uint32_t> planes, probes, targets;  // targets: of the eye
+  std::vector<uint32_t> cells;                    // of these planes: the 95th percentile
   bool surfaces = false;                          // each that gets at least 1 % of the flux
   bool patches = false;                           // the 95th percentile
 
   bool asks_eyes() const { return !probes.empty() || !targets.empty(); }
-  bool asks_bins() const { return !planes.empty() || surfaces || patches; }
+  bool asks_bins() const { return !planes.empty() || !cells.empty() || surfaces || patches; }
 };
 
 /// Blocks of the tally, by what they count. none_index where a scene has no such thing.

@@ -19,8 +19,9 @@ Word split(const std::string& text) {
 /// Things of one kind that can be judged, by name; a name may stand for several (a sign that many
 /// observers see).
 struct Kind {
-  const char* one;
-  const char* all;
+  const char* one;   // the word before a name
+  const char* all;   // the word for all of them
+  const char* what;  // that the names are of
   std::vector<std::string> names;
   std::vector<uint32_t>* chosen;
 };
@@ -44,7 +45,9 @@ class Judging {
   Judging(const CompiledScene& scene, const std::vector<std::string>& words) : scene_(scene) {
     judged_.words = words;
     const SceneDescription& d = *scene.description;
-    for (const PlaneMeasure& p : d.planes) kinds_[0].names.push_back(p.name);
+    for (const PlaneMeasure& p : d.planes) {
+      for (const size_t kind : {0, 3}) kinds_[kind].names.push_back(p.name);
+    }
     for (const ProbeMeasure& p : d.probes) kinds_[1].names.push_back(p.name);
     for (const EyeTarget& t : scene.eye_targets)
       kinds_[2].names.push_back(d.signs[scene.signs[t.sign].sign].name);
@@ -64,7 +67,7 @@ class Judging {
   }
 
   void add_all() {
-    for (const Kind& kind : kinds_) *kind.chosen = all_of(kind);
+    for (const Kind& kind : {kinds_[0], kinds_[1], kinds_[2]}) *kind.chosen = all_of(kind);
     const bool any = !judged_.planes.empty() || !judged_.probes.empty() || !judged_.targets.empty();
     judged_.surfaces |= !any;
   }
@@ -75,15 +78,15 @@ class Judging {
   Result<bool> add_kind(const Word& word, const std::string& text) {
     for (const Kind& kind : kinds_) {
       if (word.kind == kind.all && word.name.empty()) {
-        if (kind.names.empty()) return fail("the scene has no " + std::string(kind.all));
+        if (kind.names.empty()) return fail("the scene has no " + std::string(kind.what) + "s");
         *kind.chosen = all_of(kind);
         return true;
       }
       if (word.kind == kind.one && !word.name.empty()) return add_named(kind, word.name);
     }
     return fail(
-        "an error can be of all, planes, probes, signs, surfaces, patches, \"plane NAME\", "
-        "\"probe NAME\" or \"sign NAME\", not of \"" +
+        "an error can be of all, planes, cells, probes, signs, surfaces, patches, \"plane NAME\", "
+        "\"cells NAME\", \"probe NAME\" or \"sign NAME\", not of \"" +
         text + "\"");
   }
 
@@ -97,7 +100,7 @@ class Judging {
     if (found) return true;
     const std::string known =
         kind.names.empty() ? "there are none" : "there are " + quoted_list(kind.names);
-    return fail("an error is wanted of the " + std::string(kind.one) + " \"" + name + "\", but " +
+    return fail("an error is wanted of the " + std::string(kind.what) + " \"" + name + "\", but " +
                 known);
   }
 
@@ -105,9 +108,10 @@ class Judging {
 
   const CompiledScene& scene_;
   Judged judged_;
-  Kind kinds_[3] = {{"plane", "planes", {}, &judged_.planes},
-                    {"probe", "probes", {}, &judged_.probes},
-                    {"sign", "signs", {}, &judged_.targets}};
+  Kind kinds_[4] = {{"plane", "planes", "plane", {}, &judged_.planes},
+                    {"probe", "probes", "probe", {}, &judged_.probes},
+                    {"sign", "signs", "sign", {}, &judged_.targets},
+                    {"cells", "cells", "plane", {}, &judged_.cells}};
 };
 
 }  // namespace

@@ -10,8 +10,9 @@
 namespace luxodus {
 
 /// The words: "all" (or nothing) for planes, probes and signs, and surfaces where a scene has none
-/// of these; "planes", "probes", "signs", "surfaces", "patches"; "plane NAME", "probe NAME", "sign
-/// NAME". Errors: another word, a name that the scene does not have, a kind that it has none of.
+/// of these; "planes", "cells" (of planes), "probes", "signs", "surfaces", "patches"; "plane NAME",
+/// "cells NAME" (of that plane), "probe NAME", "sign NAME". Errors: another word, a name that the
+/// scene does not have, a kind that it has none of.
 Result<Judged> judged_by(const CompiledScene& scene, const std::vector<std::string>& words);
 
 }  // namespace luxodus

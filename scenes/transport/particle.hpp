@@ -26,6 +26,11 @@ namespace limits {
 /// 0.999 in the analogue game needs about 1000 on average, 20 000 at one particle in 1e9; albedo 1
 /// in thick fog more.
 inline constexpr int events_per_history = 1'000'000;
+/// A ray adds at most one weight of birth, 2^32, to any score, so that none passes 2^63 while a
+/// batch has fewer than 2^31 rays. What is born later is lost: a million particles in a room that
+/// ends none of them.
+inline constexpr uint64_t rays_per_batch = (uint64_t{1} << 31) - events_per_history;
+static_assert(unit_weight == uint64_t{1} << 32);
 }  // namespace limits
 
 namespace defaults {
@@ -97,7 +102,8 @@ class ParticleTracer {
     Ledger& ledger = batch_->ledger;
     ++ledger.particles;
     ledger.emitted += p.weight;
-    for (int event = 0; event < limits::events_per_history; ++event) {
+    const int events = ledger.rays < limits::rays_per_batch ? limits::events_per_history : 0;
+    for (int event = 0; event < events; ++event) {
       ++ledger.rays;
       // The turn at the end of this flight is drawn before it: its arithmetic needs nothing of the
       // hit, and so runs beside the search for it.

@@ -126,38 +126,83 @@ std::vector<Readout::JudgedFlux> Readout::judged_patches() const {
   return fluxes;
 }
 
-double Readout::worst_relative_error() const {
-  const Judged& judged = scene_.judged;
-  double worst = 0;
-  bool asked = false;
-  const auto judge = [&](const Estimate& e) {
-    if (e.value <= 0) return;
-    asked = true;
-    worst = std::max(worst, known_error(e));
-  };
-  const auto judge_flux = [&](const JudgedFlux& f) {
-    Estimate e = lumens(f.block, f.bin, f.quantity);
-    e.value += f.sure_lm;
-    judge(e);
-  };
-  for (const JudgedFlux& f : judged_planes()) judge_flux(f);
-  for (const uint32_t i : judged.probes) judge(value(scene_.blocks.probes, i, 0));
-  for (const uint32_t i : judged.targets) {
-    const auto at_eye = static_cast<uint32_t>(EyeQuantity::at_eye);
-    judge(value(scene_.blocks.views, scene_.eye_targets[i].first_bin, at_eye));
-  }
-  for (const JudgedFlux& f : judged_surfaces()) judge_flux(f);
-  const std::optional<double> of_patches = patch_error();
-  asked |= of_patches.has_value();
-  worst = std::max(worst, of_patches.value_or(0));
-  return asked ? worst : std::numeric_limits<double>::infinity();
+std::vector<Readout::JudgedFlux> Readout::judged_cells(uint32_t plane) const {
+  std::vector<JudgedFlux> fluxes;
+  const CompiledPlane& p = scene_.planes[plane];
+  const uint32_t cells = scene_.blocks.plane_cells;
+  const auto end = p.first_bin + static_cast<uint32_t>(p.cells_u * p.cells_v);
+  for (uint32_t c = p.first_bin; c < end; ++c)
+    fluxes.push_back({cells, c, 1, lumens(cells, c, 0).value});
+  return fluxes;
 }
 
-std::optional<double> Readout::patch_error() const {
+Estimate Readout::flux(const JudgedFlux& judged) const {
+  Estimate e = lumens(judged.block, judged.bin, judged.quantity);
+  e.value += judged.sure_lm;
+  return e;
+}
+
+std::vector<Readout::JudgedValue> Readout::judged_values() const {
+  const SceneDescription& d = *scene_.description;
+  std::vector<JudgedValue> values;
+  for (const JudgedFlux& f : judged_planes())
+    values.push_back({"plane " + d.planes[f.bin].name, flux(f)});
+  for (const uint32_t i : scene_.judged.probes)
+    values.push_back(
+        {"indirect light at probe " + d.probes[i].name, value(scene_.blocks.probes, i, 0)});
+  for (const uint32_t i : scene_.judged.targets) {
+    const EyeTarget& target = scene_.eye_targets[i];
+    const auto at_eye = static_cast<uint32_t>(EyeQuantity::at_eye);
+    values.push_back({"sign " + d.signs[scene_.signs[target.sign].sign].name + " from " +
+                          d.observers[target.observer].name,
+                      value(scene_.blocks.views, target.first_bin, at_eye)});
+  }
+  for (const JudgedFlux& f : judged_surfaces())
+    values.push_back({"surface " + scene_.surfaces[f.bin].name, flux(f)});
+  return values;
+}
+
+std::vector<Readout::JudgedMany> Readout::judged_many() const {
+  std::vector<JudgedMany> many;
+  for (const uint32_t i : scene_.judged.cells)
+    many.push_back({"cells of plane " + scene_.description->planes[i].name, judged_cells(i)});
+  if (scene_.judged.patches) many.push_back({"patches", judged_patches()});
+  return many;
+}
+
+double Readout::worst_relative_error() const {
+  std::optional<double> worst;
+  const auto judge = [&](double error) { worst = std::max(worst.value_or(0), error); };
+  for (const JudgedValue& v : judged_values()) {
+    if (v.value.value > 0) judge(known_error(v.value));
+  }
+  for (const JudgedMany& many : judged_many()) {
+    if (const auto error = percentile_error(many.fluxes)) judge(*error);
+  }
+  return worst.value_or(std::numeric_limits<double>::infinity());
+}
+
+std::vector<std::string> Readout::unlit() const {
+  std::vector<std::string> names;
+  for (const JudgedValue& v : judged_values()) {
+    if (!(v.value.value > 0)) names.push_back(v.name);
+  }
+  for (const JudgedMany& many : judged_many()) {
+    const auto dark = std::count_if(many.fluxes.begin(), many.fluxes.end(),
+                                    [&](const JudgedFlux& f) { return !(flux(f).value > 0); });
+    if (dark > 0) {
+      names.push_back(std::to_string(dark) + " of " + std::to_string(many.fluxes.size()) + " " +
+                      many.name);
+    }
+  }
+  return names;
+}
+
+std::optional<double> Readout::percentile_error(const std::vector<JudgedFlux>& fluxes) const {
   constexpr double percentile = 0.95;
   std::vector<double> errors;
-  for (const JudgedFlux& f : judged_patches()) {
-    const Estimate in = lumens(f.block, f.bin, f.quantity);
+  for (const JudgedFlux& f : fluxes) {
+    const Estimate in = flux(f);
     if (in.value > 0) errors.push_back(known_error(in));
   }
   if (errors.empty()) return std::nullopt;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "scenes/tally/totals.hpp"
@@ -40,17 +41,35 @@ class Readout {
     double sure_lm = 0;  // direct light beside it, computed without chance
   };
   std::vector<JudgedFlux> judged_planes() const;
+  /// Of one plane, a number in the description.
+  std::vector<JudgedFlux> judged_cells(uint32_t plane) const;
   /// Those into which at least a hundredth of all light goes.
   std::vector<JudgedFlux> judged_surfaces() const;
   std::vector<JudgedFlux> judged_patches() const;
 
   /// The relative standard error that a run is judged by: the worst of what CompiledScene::judged
   /// names, of mean illuminances of planes, indirect illuminances of probes, luminances of signs at
-  /// the eye, flux into surfaces and patches. Infinite where nothing of it has any light yet.
+  /// the eye, flux into surfaces; of cells of a plane, and of patches, that which 95 % of those
+  /// that get light do not exceed. Infinite where nothing of it has any light yet.
   double worst_relative_error() const;
+  /// What is judged but has no light, and so no part in that error: "sign NAME", "3 of 40 patches".
+  std::vector<std::string> unlit() const;
 
  private:
-  std::optional<double> patch_error() const;
+  struct JudgedValue {
+    std::string name;  // "plane NAME"
+    Estimate value;
+  };
+  /// Those that are judged each by itself.
+  std::vector<JudgedValue> judged_values() const;
+  /// Those of which the 95th percentile is judged.
+  struct JudgedMany {
+    std::string name;  // "patches"
+    std::vector<JudgedFlux> fluxes;
+  };
+  std::vector<JudgedMany> judged_many() const;
+  Estimate flux(const JudgedFlux& judged) const;
+  std::optional<double> percentile_error(const std::vector<JudgedFlux>& fluxes) const;
   Estimate sum_groups(uint32_t block, uint32_t bin, int channel, uint32_t quantity,
                       int group) const;
   double scale(int group, int channel, ScoreUnit unit) const;

@@ -71,6 +71,17 @@ SceneFeature media(const CompiledScene& scene) {
   return {"media", true, "bounded: a footprint, a quadric or a data set"};
 }
 
+/// Where nothing has extinction, nothing scatters, whatever is described.
+SceneFeature phases(const CompiledScene& scene) {
+  const bool on = scene.features.media != MediaNeed::none &&
+                  std::any_of(scene.phases.begin(), scene.phases.end(), [](const auto& phase) {
+                    return phase.kind() != PhaseKind::isotropic;
+                  });
+  return {"phase functions", on,
+          on ? counted(scene.phases.size(), "function")
+             : "no medium scatters other than evenly, in all directions"};
+}
+
 SceneFeature glow(const CompiledScene& scene) {
   std::vector<std::string> names;
   for (const CompiledEmitter& e : scene.emitters) {
@@ -111,6 +122,23 @@ SceneFeature textures(const CompiledScene& scene) {
           n > 0 ? counted(n, "material") + " with a picture" : "no surface has a picture"};
 }
 
+SceneFeature patches(const CompiledScene& scene) {
+  const uint64_t least = 2 * scene.triangles;
+  const bool on = scene.patch_count > least;
+  return {"patches finer than triangles", on,
+          on ? counted(scene.patch_count, "side") + " of patches on " +
+                   counted(scene.triangles, "triangle") +
+                   ", for pictures and maps: `patch_edge_m = 0` leaves one a triangle"
+             : "`patch_edge_m` and `one_patch` ask for none"};
+}
+
+SceneFeature cells(const CompiledScene& scene) {
+  const size_t n = scene.cell_boxes.size();
+  return {"cells of geometry", n > 1,
+          n > 1 ? counted(n, "cell") + " that nodes may fetch"
+                : "one, resident: nothing asks for more (--cells, or a pack)"};
+}
+
 SceneFeature voxels(const CompiledScene& scene) {
   const VoxelGrid& grid = scene.voxels;
   if (grid.edge > 0) return {"voxels", true, counted(grid.count(), "voxel") + " for the media"};
@@ -149,9 +177,9 @@ SceneFeature sampling(const CompiledScene& scene) {
 }  // namespace
 
 std::vector<SceneFeature> features_of(const CompiledScene& scene) {
-  return {bands(scene),   groups(scene),   webs(scene),     media(scene),
-          glow(scene),    surfaces(scene), textures(scene), voxels(scene),
-          flights(scene), eyes(scene),     sampling(scene)};
+  return {bands(scene),  groups(scene),   webs(scene),     media(scene),   phases(scene),
+          glow(scene),   surfaces(scene), textures(scene), cells(scene),   patches(scene),
+          voxels(scene), flights(scene),  eyes(scene),     sampling(scene)};
 }
 
 }  // namespace luxodus

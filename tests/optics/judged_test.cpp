@@ -2,6 +2,7 @@
 #include "scenes/transport/judged.hpp"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "scenes/transport/compile.hpp"
 #include "tests/optics/light_kit.hpp"
@@ -103,6 +104,41 @@ TEST_CASE("the error of patches is what 95 of 100 that get light do not exceed")
   CHECK(within <= 0.96 * lit);
 }
 
+TEST_CASE("the error of a plane's cells is what 95 of 100 of them do not exceed") {
+  SceneDescription scene = scene_from_toml(lit_room);
+  scene.run.error_of = {"cells below"};
+  const Run run(std::move(scene), {.particles = 64 * 4096});
+  const Readout readout(run.scene(), run.local().totals());
+  const double error = readout.worst_relative_error();
+  const auto cells = readout.judged_cells(0);
+  REQUIRE(cells.size() == 60);
+  int within = 0;
+  for (const Readout::JudgedFlux& cell : cells) {
+    const Estimate indirect = readout.lumens(cell.block, cell.bin, 1);
+    const double direct = readout.lumens(cell.block, cell.bin, 0).value;
+    within += indirect.standard_error <= error * (indirect.value + direct) * (1 + 1e-12) ? 1 : 0;
+  }
+  CHECK(within == 57);
+  CHECK(error > 2 * error_by({"plane below"}));
+  CHECK(error_by({"cells"}) == std::max(error, error_by({"cells corner"})));
+}
+
+TEST_CASE("what is judged and has no light is named, and has no part in the error") {
+  SceneDescription scene = scene_from_toml(lit_room);
+  // Within a box of its own, where no lamp is.
+  for (const Face& f : faces_of_box({0.05, 0.05, 0.01}, {0.3, 0.3, 0.2}))
+    add_quad(scene, "box " + f.name, f.corner, f.u, f.v, add_grey(scene, 0.5));
+  scene.run.error_of = {"planes", "cells", "patches"};
+  const Run run(std::move(scene), {.particles = 64 * 4096});
+  const Readout readout(run.scene(), run.local().totals());
+  CHECK(std::isfinite(readout.worst_relative_error()));
+  const std::vector<std::string> unlit = readout.unlit();
+  REQUIRE(unlit.size() == 3);
+  CHECK(unlit[0] == "plane corner");
+  CHECK(unlit[1] == "1 of 1 cells of plane corner");
+  CHECK(unlit[2].ends_with(" of " + std::to_string(run.scene().patch_count) + " patches"));
+}
+
 TEST_CASE("paths go to eyes where only eyes are judged, to particles where only bins are") {
   const int usual = judged_scene({})->eye_paths_per_batch;
   CHECK(judged_scene({"all"})->eye_paths_per_batch == usual);
@@ -122,6 +158,8 @@ TEST_CASE("an error of what a scene does not have is refused with what it has") 
     return judged.problem().what;
   };
   CHECK(refusal("plane desk") ==
+        "an error is wanted of the plane \"desk\", but there are \"below\", \"corner\"");
+  CHECK(refusal("cells desk") ==
         "an error is wanted of the plane \"desk\", but there are \"below\", \"corner\"");
   CHECK(refusal("signs") == "the scene has no signs");
   CHECK(refusal("sign exit") == "an error is wanted of the sign \"exit\", but there are none");
