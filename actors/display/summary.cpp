@@ -79,6 +79,13 @@ std::string errors(const Json& result) {
     text += fmt::format(", signs {} in the median, {} for the worst seen",
                         percent(of["signs"]["median"]), percent(of["signs"]["worst"]));
   }
+  const Json& judged = result["error_of"];
+  if (!judged.empty()) {
+    std::string words;
+    for (const Json& word : judged) words += (words.empty() ? "" : ", ") + word.get<std::string>();
+    text +=
+        ", of " + words + " (what the run is judged by) " + percent(result["worst_relative_error"]);
+  }
   if (text.empty()) text = ", surfaces at most " + percent(result["worst_relative_error"]);
   return "  standard errors: " + text.substr(2) + "\n";
 }

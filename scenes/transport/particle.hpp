@@ -26,9 +26,10 @@ namespace limits {
 /// 0.999 in the analogue game needs about 1000 on average, 20 000 at one particle in 1e9; albedo 1
 /// in thick fog more.
 inline constexpr int events_per_history = 1'000'000;
-/// A ray adds at most one weight of birth, 2^32, to any score, so that none passes 2^63 while a
-/// batch has fewer than 2^31 rays. What is born later is lost: a million particles in a room that
-/// ends none of them.
+/// A ray adds at most one weight of birth, 2^32, to a score, so that none passes 2^63 while a batch
+/// has fewer than 2^31 rays; what is born later is lost. Only volumes without end count longer
+/// flights, up to 1024 sizes of the scene: there the million particles that a batch may have would
+/// have to fly 2000 sizes each.
 inline constexpr uint64_t rays_per_batch = (uint64_t{1} << 31) - events_per_history;
 static_assert(unit_weight == uint64_t{1} << 32);
 }  // namespace limits
