@@ -1,17 +1,20 @@
 // Radiance along a ray, traced from where it is seen. Paths run backwards (all laws are
 // reciprocal); at every event one emitter is asked directly, so that a path needs no luck to meet
-// it. Close to an emitter asking has no bounded variance (1/r2), so light from points nearer than
-// its half size is counted only where a path meets it, and from farther ones only where it is
-// asked: each pair of places once. Unbiased, except where pictures end a path in the patches' flux
-// (final gather). look.hpp makes of it what signs and probes are asked for. Not seen: point
-// emitters and caustics through mirrors and refracting solids; the forward tracer counts those.
-// Thread rule: one EyeTracer per thread or fiber.
+// it. Close to an emitter asking has no bounded variance (1/r2). At surfaces, therefore, light from
+// points nearer than its half size is counted only where a path meets it, and from farther ones
+// only where it is asked: each pair of places once. In smoke a second place is drawn where an
+// emitter is near a stretch of the path, as its light falls there (equiangular.hpp), and the two
+// are weighted by how likely each way was to find its own (balance heuristic). Unbiased, except
+// where pictures end a path in the patches' flux (final gather). look.hpp makes of it what signs
+// and probes are asked for. Not seen: point emitters and caustics through mirrors and refracting
+// solids; the forward tracer counts those. Thread rule: one EyeTracer per thread or fiber.
 #pragma once
 
 #include <cmath>
 
 #include "runtime/core/random.hpp"
 #include "scenes/geometry/real.hpp"
+#include "scenes/optics/equiangular.hpp"
 #include "scenes/tally/batch_scores.hpp"
 #include "scenes/transport/connect.hpp"
 #include "scenes/transport/emission.hpp"
@@ -23,6 +26,11 @@ namespace limits {
 inline constexpr int eye_events = 10'000;
 inline constexpr int emitters_per_line = 16;  // emitting faces that one straight line may cross
 inline constexpr int nearby_emitters = 256;   // up to here distance decides who is asked
+/// An emitter is near a stretch of a path where it is closer than this share of its length: there
+/// collisions, which are spread over all of it, would seldom come as close.
+inline constexpr Real near_line = 0.125_r;
+/// Of the size of a scene: where a stretch ends on which places are drawn by an emitter's light.
+inline constexpr Real longest_line = 4;
 }  // namespace limits
 
 /// Light of one source group on its way to an eye [W/(m2 sr)].
@@ -70,7 +78,7 @@ class PatchRadiance {
 
 /// Which emitters count when a path meets them on its way.
 enum class Met {
-  none,  // somebody else holds all direct light of this place
+  none,  // all were asked, or somebody else holds the direct light of this place
   near,  // those closer than their half size; the others were asked
   all,   // nothing was asked
 };
@@ -114,40 +122,43 @@ class EyeTracer {
     for (int event = 0; event < limits::eye_events; ++event) {
       const Hit hit = resolver_.nearest(path.ray);
       if (path.met != Met::none) add_emitted_along(path, hit);
-      const Flight flight = fly(path.ray, hit.distance, band);
-      if (flight.collided) {
-        if (!scatter(path, flight)) return;
-      } else {
-        if (!hit.found()) return;
-        if (gather != nullptr && path.diffused && reflects_diffusely(hit, path.ray)) {
-          const bool front = glm::dot(hit.triangle->unit_normal(), path.ray.direction) < 0;
-          into.add_of_all(path.weight * path.throughput * gather->radiance(hit, front, band));
-          return;
-        }
-        if (!bounce(path, hit)) return;
-      }
-      if (event >= 2 && !survives(path.throughput)) return;
+      const Ray stretch = path.ray;
+      const double throughput = path.throughput;
+      const Flight flight = fly(stretch, hit.distance, band);
+      const bool alive = flight.collided ? scatter(path, flight) : meet_surface(path, hit, gather);
+      // Last, since asking may drop the cell that the hit is of.
+      add_scattered_once(stretch, hit.distance, flight, 1, band, weight * throughput, into);
+      if (!alive || (event >= 2 && !survives(path.throughput))) return;
     }
   }
 
-  /// Light of an emitter that a medium at `place` turns against `direction`; one emitter is asked,
-  /// and divided by the probability of asking it.
-  SourceLight scattered_light(const Vec3& place, const Vec3& direction, const PhaseFunction& phase,
-                              int band) {
-    const Arriving a = arriving_light(place, band);
-    if (a.irradiance <= 0) return {};
-    return {a.group,
-            a.irradiance * static_cast<double>(evaluate(phase, glm::dot(a.direction, direction)))};
+  /// Adds `weight` times the radiance [W/(m2 sr)] that emitters send to the first `length` of the
+  /// ray and the medium there turns against it, once. `flight` is one along it whose collisions
+  /// have the density sigma_t exp(-depth) / `share`: 1 if it was free, less if a collision was
+  /// forced.
+  void add_scattered_once(const Ray& ray, Real length, const Flight& flight, double share, int band,
+                          double weight, GroupLight& into) {
+    if (scene_.features.media == MediaNeed::none) return;
+    const Stretch stretch{ray, std::min(length, limits::longest_line * scene_.diagonal_m), share,
+                          band, weigh_along(ray, length, band)};
+    if (flight.collided && flight.albedo > 0)
+      add_at_collision(stretch, flight, weight * share * flight.albedo, into);
+    if (stretch.emitters_weight > 0) add_near_emitter(stretch, weight, into);
   }
 
-  /// The same of a surface.
+  /// Light of an emitter that a surface sends against `direction`; one emitter is asked, and
+  /// divided by the probability of asking it.
   SourceLight reflected_light(const Vec3& place, const Vec3& direction, const Vec3& normal,
                               const SurfaceModel& model, int band) {
-    const Arriving a = arriving_light(place, band);
+    const Asked asked = ask(place, band);
+    if (asked.probability <= 0) return {};
+    const CompiledEmitter& e = scene_.emitters[asked.emitter];
+    const EmissionPoint point = emission_point(scene_, e, random_, resolver_);
+    const Arriving a = light_from(e, point, place, e.near_m, band);
     const Real cosine = glm::dot(a.direction, normal);
     if (a.irradiance <= 0 || cosine <= 0) return {};
-    return {a.group,
-            a.irradiance * static_cast<double>(cosine) *
+    return {e.group,
+            a.irradiance / asked.probability * static_cast<double>(cosine) *
                 static_cast<double>(evaluate_surface(model, -direction, a.direction, normal))};
   }
 
@@ -197,7 +208,7 @@ class EyeTracer {
     GroupLight& into;
     double throughput = 1;
     Real travelled = 0;     // from the last event to the ray's origin, through panes
-    bool diffused = false;  // a surface has spread it
+    bool diffused = false;  // a surface or a medium has spread it
 
     void add(const SourceLight& light) {
       into.add(light.group, weight * throughput * light.radiance);
@@ -226,19 +237,29 @@ class EyeTracer {
     return kind == MaterialKind::lambertian || kind == MaterialKind::glossy;
   }
 
-  /// Medium event: light asked from an emitter, then a new direction. False ends the path.
+  /// Medium event: a new direction. Its light from emitters, near ones too, is
+  /// `add_scattered_once`'s. False ends the path.
   bool scatter(Path& p, const Flight& flight) {
     p.throughput *= flight.albedo;
     if (p.throughput <= 0) return false;
     const PhaseFunction& phase = scene_.phases[static_cast<size_t>(flight.phase)];
     p.ray.origin += p.ray.direction * flight.t;
-    p.add(scattered_light(p.ray.origin, p.ray.direction, phase, p.band));
     const Real u = random_.uniform();
     const Real v = random_.uniform();
     p.ray.direction = sample(phase, p.ray.direction, u, v);
-    p.met = Met::near;
+    p.met = Met::none;
     p.travelled = 0;
+    p.diffused = true;
     return true;
+  }
+
+  /// Surface event, where a gather may end the path. False ends it.
+  bool meet_surface(Path& p, const Hit& hit, const PatchRadiance* gather) {
+    if (!hit.found()) return false;
+    if (gather == nullptr || !p.diffused || !reflects_diffusely(hit, p.ray)) return bounce(p, hit);
+    const bool front = glm::dot(hit.triangle->unit_normal(), p.ray.direction) < 0;
+    p.into.add_of_all(p.weight * p.throughput * gather->radiance(hit, front, p.band));
+    return false;
   }
 
   /// Surface event: light asked from an emitter, then a new direction. False ends the path.
@@ -359,54 +380,89 @@ class EyeTracer {
   // ---- asking an emitter
   // -------------------------------------------------------------------------
 
-  struct Asked {
-    const CompiledEmitter* emitter = nullptr;
-    double probability = 0;
-  };
-
-  /// An emitter, in proportion to power over squared distance where they are few.
-  Asked ask(const Vec3& place, int band) {
-    const auto b = static_cast<size_t>(band);
-    const size_t n = scene_.emitters.size();
-    weights_.resize(n);
-    double total = 0;
-    for (size_t i = 0; i < n; ++i) {
-      const CompiledEmitter& e = scene_.emitters[i];
-      double w = e.distribution == Distribution::collimated ? 0 : e.power_w[b];
-      if (n <= limits::nearby_emitters) {
-        const Vec3 d = (e.kind == EmitterKind::mesh ? e.corners[0] : e.origin) - place;
-        const Vec3 size = e.size;
-        w /= static_cast<double>(glm::dot(d, d) + 0.25_r * glm::dot(size, size)) + 1e-6;
-      }
-      total += w;
-      weights_[i] = total;
-    }
-    if (!(total > 0)) return {};
-    const double u = random_.uniform_double() * total;
-    const auto at = static_cast<size_t>(std::upper_bound(weights_.begin(), weights_.end(), u) -
-                                        weights_.begin());
-    const size_t chosen = std::min(at, n - 1);
-    const double share = (weights_[chosen] - (chosen > 0 ? weights_[chosen - 1] : 0)) / total;
-    if (!(share > 0)) return {};
-    return {&scene_.emitters[chosen], share};
+  static Vec3 centre_of(const CompiledEmitter& e) {
+    return e.kind == EmitterKind::mesh ? e.corners[0] : e.origin;
   }
 
-  /// Irradiance normal to the line from one point of one emitter, divided by the probability of
-  /// asking it.
+  /// Cumulative weights of all emitters, of which one is to be chosen; weight(emitter) of each that
+  /// sends light in more than one direction, in proportion to its power. Returns their sum.
+  template <class WeightOf>
+  double weigh(std::vector<double>& cumulative, int band, WeightOf&& weight) const {
+    cumulative.resize(scene_.emitters.size());
+    double total = 0;
+    for (size_t i = 0; i < cumulative.size(); ++i) {
+      const CompiledEmitter& e = scene_.emitters[i];
+      const double power =
+          e.distribution == Distribution::collimated ? 0 : e.power_w[static_cast<size_t>(band)];
+      if (power > 0) total += power * weight(e);
+      cumulative[i] = total;
+    }
+    return total;
+  }
+
+  /// By squared distance where they are few.
+  double weigh_at(const Vec3& place, int band) {
+    const bool few = scene_.emitters.size() <= limits::nearby_emitters;
+    return weigh(weights_, band, [&](const CompiledEmitter& e) {
+      if (!few) return 1.0;
+      const Vec3 d = centre_of(e) - place;
+      return 1 / (static_cast<double>(glm::dot(d, d) + 0.25_r * glm::dot(e.size, e.size)) + 1e-6);
+    });
+  }
+
+  /// By what an emitter sends to a stretch of a path, nearly: the angle at which it sees it, over
+  /// its distance. 0 where none is near, so that none need be asked by it.
+  double weigh_along(const Ray& ray, Real length, int band) {
+    const bool few = scene_.emitters.size() <= limits::nearby_emitters;
+    const Real end = std::min(length, limits::longest_line * scene_.diagonal_m);
+    bool near = !few;
+    const double total = weigh(weights_along_, band, [&](const CompiledEmitter& e) {
+      if (!few) return 1.0;
+      const Vec3 from_origin = centre_of(e) - ray.origin;
+      const Real t = glm::clamp(glm::dot(from_origin, ray.direction), 0.0_r, end);
+      const Real distance = glm::length(from_origin - ray.direction * t);
+      const Real half = 0.5_r * glm::length(e.size);
+      near |= distance - half < limits::near_line * end;
+      const Real least = distance + half + 1e-4_r * end;
+      return static_cast<double>(end / (least * (least + end / 3)));
+    });
+    return near ? total : 0;
+  }
+
+  size_t choose(const std::vector<double>& cumulative) {
+    const double u = random_.uniform_double() * cumulative.back();
+    const auto at = std::upper_bound(cumulative.begin(), cumulative.end(), u) - cumulative.begin();
+    return std::min(static_cast<size_t>(at), cumulative.size() - 1);
+  }
+
+  static double share_of(size_t chosen, const std::vector<double>& cumulative) {
+    const double before = chosen > 0 ? cumulative[chosen - 1] : 0;
+    return (cumulative[chosen] - before) / cumulative.back();
+  }
+
+  struct Asked {
+    size_t emitter = 0;
+    double probability = 0;  // 0: there is none to ask
+  };
+
+  Asked ask(const Vec3& place, int band) {
+    if (!(weigh_at(place, band) > 0)) return {};
+    const size_t chosen = choose(weights_);
+    return {chosen, share_of(chosen, weights_)};
+  }
+
+  /// Irradiance [W/m2] of a point of an emitter, normal to the line between.
   struct Arriving {
     Vec3 direction{0};  // towards the emitter
-    int group = 0;
     double irradiance = 0;
   };
 
-  Arriving arriving_light(const Vec3& place, int band) {
-    const Asked asked = ask(place, band);
-    if (asked.emitter == nullptr) return {};
-    const CompiledEmitter& e = *asked.emitter;
-    const EmissionPoint point = emission_point(scene_, e, random_, resolver_);
+  /// `at_least`: nothing from nearer points.
+  Arriving light_from(const CompiledEmitter& e, const EmissionPoint& point, const Vec3& place,
+                      Real at_least, int band) {
     const Connection c =
         connect(scene_, place, point.position, point.axis, e.kind != EmitterKind::volume);
-    if (!(c.distance > e.near_m)) return {};  // counted where paths meet it
+    if (!(c.distance > at_least)) return {};
     const auto density =
         static_cast<double>(directional_density(e, point, -c.ray.direction, resolver_));
     if (density <= 0) return {};
@@ -414,16 +470,91 @@ class EyeTracer {
     if (solid <= 0) return {};
     const double medium = medium_transmittance(scene_, c.ray, c.distance, band, resolver_);
     const auto d = static_cast<double>(c.distance);
-    return {c.ray.direction, e.group,
-            e.power_w[static_cast<size_t>(band)] * density * solid * medium /
-                (d * d * asked.probability)};
+    return {c.ray.direction,
+            e.power_w[static_cast<size_t>(band)] * density * solid * medium / (d * d)};
+  }
+
+  // ---- light scattered into a stretch of a path
+  // -------------------------------------------------------------------------
+
+  struct Stretch {
+    Ray ray;
+    Real end;      // places near emitters are drawn up to here
+    double share;  // see add_scattered_once
+    int band;
+    double emitters_weight;  // of weigh_along
+  };
+
+  double collision_density(const Stretch& s, Real t, double sigma_t) {
+    return sigma_t * medium_transmittance(scene_, s.ray, t, s.band, resolver_) / s.share;
+  }
+
+  double near_density(const Stretch& s, const EmissionPoint& point, Real t) const {
+    return EquiangularLine(glm::dvec3(s.ray.origin), glm::dvec3(s.ray.direction),
+                           static_cast<double>(s.end), glm::dvec3(point.position))
+        .density(static_cast<double>(t));
+  }
+
+  /// The place is where a flight has collided; an emitter is asked there.
+  void add_at_collision(const Stretch& s, const Flight& flight, double weight, GroupLight& into) {
+    const Vec3 place = s.ray.origin + s.ray.direction * flight.t;
+    const Asked asked = ask(place, s.band);
+    if (asked.probability <= 0) return;
+    const CompiledEmitter& e = scene_.emitters[asked.emitter];
+    const EmissionPoint point = emission_point(scene_, e, random_, resolver_);
+    const Arriving a = light_from(e, point, place, 0, s.band);
+    if (a.irradiance <= 0) return;
+    double probability = asked.probability;
+    if (s.emitters_weight > 0) {
+      const double sigma_t = extinction_at(scene_.media, s.band, place, resolver_);
+      const double here = collision_density(s, flight.t, sigma_t);
+      if (!(here > 0)) return;
+      probability +=
+          share_of(asked.emitter, weights_along_) * near_density(s, point, flight.t) / here;
+    }
+    const PhaseFunction& phase = scene_.phases[static_cast<size_t>(flight.phase)];
+    const auto turned =
+        static_cast<double>(evaluate(phase, glm::dot(a.direction, s.ray.direction)));
+    into.add(e.group, weight * turned * a.irradiance / probability);
+  }
+
+  /// The emitter is chosen first, and the place as its light falls on the stretch.
+  void add_near_emitter(const Stretch& s, double weight, GroupLight& into) {
+    const size_t chosen = choose(weights_along_);
+    const double share = share_of(chosen, weights_along_);
+    if (!(share > 0)) return;
+    const CompiledEmitter& e = scene_.emitters[chosen];
+    const EmissionPoint point = emission_point(scene_, e, random_, resolver_);
+    const EquiangularLine line(glm::dvec3(s.ray.origin), glm::dvec3(s.ray.direction),
+                               static_cast<double>(s.end), glm::dvec3(point.position));
+    const auto t = static_cast<Real>(line.sample(random_.uniform_double()));
+    const Vec3 place = s.ray.origin + s.ray.direction * t;
+    const double sigma_t = extinction_at(scene_.media, s.band, place, resolver_);
+    if (!(sigma_t > 0)) return;
+    const Arriving a = light_from(e, point, place, 0, s.band);
+    if (a.irradiance <= 0) return;
+    const Real cosine = glm::dot(a.direction, s.ray.direction);
+    double turned = 0;
+    for_each_medium_at(
+        scene_.media, s.band, place, resolver_, [&](int, int phase, double sigma, double albedo) {
+          turned +=
+              sigma * albedo *
+              static_cast<double>(evaluate(scene_.phases[static_cast<size_t>(phase)], cosine));
+        });
+    if (turned <= 0) return;
+    const double here = collision_density(s, t, sigma_t);
+    weigh_at(place, s.band);
+    const double probability =
+        share * line.density(static_cast<double>(t)) + share_of(chosen, weights_) * here;
+    // What passes up to here is in the density of collisions already.
+    into.add(e.group, weight * s.share * (here / sigma_t) * turned * a.irradiance / probability);
   }
 
   const CompiledScene& scene_;
   Resolver& resolver_;
   Random random_;
   std::vector<double> band_cdf_;
-  std::vector<double> weights_;
+  std::vector<double> weights_, weights_along_;  // of emitters: at a place, along a stretch
 };
 
 }  // namespace luxodus

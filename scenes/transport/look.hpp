@@ -230,15 +230,14 @@ class EyeScores {
     const Real choice = random_.uniform();
     const Flight flight = free_flight<MediaNeed::general>(
         scene_.media, band, c.ray.origin, c.ray.direction, c.distance, tau, choice, resolver_);
+    eye_.add_scattered_once(c.ray, c.distance, flight, collided, band, chosen.lm_per_w, light_);
     if (!flight.collided || flight.albedo <= 0) return;
     const PhaseFunction& phase = scene_.phases[static_cast<size_t>(flight.phase)];
     const Vec3 place = c.ray.origin + c.ray.direction * flight.t;
-    const double weight = chosen.lm_per_w * collided * flight.albedo;
-    const SourceLight asked = eye_.scattered_light(place, c.ray.direction, phase, band);
-    light_.add(asked.group, weight * asked.radiance);
     const Real u = random_.uniform();
     const Real v = random_.uniform();
-    eye_.radiance({place, sample(phase, c.ray.direction, u, v)}, band, Met::near, weight, light_);
+    eye_.radiance({place, sample(phase, c.ray.direction, u, v)}, band, Met::none,
+                  chosen.lm_per_w * collided * flight.albedo, light_);
   }
 
   // ---- probes

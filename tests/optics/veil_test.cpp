@@ -1,0 +1,100 @@
+// What smoke beside a lamp sends to an eye, against integrals along the line of sight.
+#include <cmath>
+
+#include "scenes/transport/look.hpp"
+#include "tests/optics/light_kit.hpp"
+
+namespace luxodus::light {
+namespace {
+
+constexpr double four_pi = 4 * 3.14159265358979324;
+/// So little that nothing is scattered twice, to what is known here.
+constexpr double albedo = 1e-3;
+constexpr double sigma = 0.2;  // [1/m]
+constexpr double sight_m = 10;
+
+/// An eye at the origin looks along x at a dark sign through smoke that is everywhere.
+SceneDescription eye_in_smoke(double g) {
+  SceneDescription scene;
+  scene.run.voxels = false;
+  scene.run.eye_share = 1000;
+  add_homogeneous(scene, smoke(sigma, albedo, g));
+  Sign sign;
+  sign.name = "sign";
+  sign.frame.origin = {sight_m, 0, 0};
+  sign.frame.axes = glm::dmat3(glm::dvec3(0, -1, 0), glm::dvec3(0, 0, 1), glm::dvec3(-1, 0, 0));
+  // So small that all lines to it are one.
+  sign.width_m = sign.height_m = sign.smallest_detail_m = 1e-5;
+  sign.face = {1, 1, {SignColour::white}, {}, SignColour::white};
+  scene.signs.push_back(sign);
+  Observer observer;
+  observer.name = "eye";
+  scene.observers.push_back(observer);
+  return scene;
+}
+
+/// The radiance of the smoke before the sign [W/(m2 sr)].
+Estimate veil(SceneDescription scene) {
+  const Run run(std::move(scene), {.particles = 1 << 16, .batch_particles = 256});
+  const uint32_t bin = run.scene().eye_targets.at(0).first_bin;
+  return Readout(run.scene(), run.local().totals())
+             .value(run.scene().blocks.views, bin, static_cast<uint32_t>(EyeQuantity::path)) *
+         (1 / run.scene().bands[0].lm_per_w);
+}
+
+double henyey_greenstein(double g, double cosine) {
+  return (1 - g * g) / (four_pi * std::pow(1 + g * g - 2 * g * cosine, 1.5));
+}
+
+/// Of a lamp of 1 W at (at, beside), a point or a Lambertian sphere: places along the line by the
+/// angle at which the lamp sees them, so that the integrand is smooth however near the lamp is.
+double veil_of_lamp(double at, double beside, double g, double radius = 0) {
+  constexpr int steps = 20000;
+  const double low = std::atan2(-at, beside), high = std::atan2(sight_m - at, beside);
+  double sum = 0;
+  for (int i = 0; i < steps; ++i) {
+    const double angle = low + (high - low) * (i + 0.5) / steps;
+    const double t = at + beside * std::tan(angle), d = beside / std::cos(angle);
+    // From the lamp to the line, and then back to the eye.
+    const double cosine = -std::sin(angle);
+    // More of a sphere is seen than of its disc, and it begins, on average over the disc, two
+    // thirds of its radius before its centre.
+    const double q = std::pow(radius / d, 2);
+    const double sphere = q > 0 ? 2 * (1 - std::sqrt(1 - q)) / q : 1;
+    sum += henyey_greenstein(g, cosine) * sphere * std::exp(-sigma * (t + d - radius * 2 / 3));
+  }
+  return sigma * albedo / four_pi * sum * (high - low) / steps / beside;
+}
+
+}  // namespace
+
+TEST_CASE("the veil of a lamp beside the line of sight is known, however near the lamp is") {
+  for (const double beside : {3.0, 0.3, 0.01, 1e-4}) {
+    for (const double g : {0.0, 0.7, -0.5}) {
+      INFO(beside << " m beside the line, g " << g);
+      SceneDescription scene = eye_in_smoke(g);
+      add_point(scene, {4, beside, 0}, 1);
+      const Estimate found = veil(std::move(scene));
+      check_within(found, veil_of_lamp(4, beside, g), half_percent, 2e-3);
+    }
+  }
+}
+
+TEST_CASE("the veils of a faint lamp that is near and of a bright one that is far add up") {
+  SceneDescription scene = eye_in_smoke(0.5);
+  add_point(scene, {4, 0.02, 0}, 1);
+  add_point(scene, {-2, 6, 0}, 1000);
+  check_within(veil(std::move(scene)), veil_of_lamp(4, 0.02, 0.5) + 1000 * veil_of_lamp(-2, 6, 0.5),
+               half_percent, 2e-3);
+}
+
+TEST_CASE("the veil of a globe is that of its size") {
+  for (const double beside : {0.15, 0.5, 3.0}) {
+    INFO(beside << " m beside the line");
+    SceneDescription scene = eye_in_smoke(0);
+    add_emitter(scene, EmitterShape::sphere, {4, beside, 0}, {0, 0, 1}, 1).size = glm::dvec3(0.2);
+    check_within(veil(std::move(scene)), veil_of_lamp(4, beside, 0, 0.1), half_percent, 3e-3);
+  }
+}
+
+}  // namespace luxodus::light
