@@ -214,11 +214,19 @@ inline Vec3 cosine_power(Real n, Real u, Real v) {
   return direction_from_one_minus_cos(-exp2_minus_one(log2_of(1.0_r - u) / (n + 1.0_r)), v);
 }
 
-/// Density [1/sr] of cosine_power; 0 below the horizon.
-inline Real cosine_power_pdf(Real n, Real cos_theta) {
-  if (!(cos_theta > 0.0_r)) return n == 0.0_r && cos_theta == 0.0_r ? 0.5_r * inverse_pi_f : 0.0_r;
-  const Real power = exp2_of(n * log2_of(std::min(1.0_r, cos_theta)));
-  return (n + 1.0_r) * 0.5_r * inverse_pi_f * power;
+/// 1 - cos of the angle between two unit vectors: of a narrow beam the cosine itself keeps nothing.
+inline Real one_minus_cosine(const Vec3& a, const Vec3& b) {
+  const Vec3 between = a - b;
+  return 0.5_r * glm::dot(between, between);
+}
+
+/// Density [1/sr] of cosine_power, x = 1 - cos(theta); 0 below the horizon.
+inline Real cosine_power_pdf(Real n, Real x) {
+  if (!(x < 1.0_r)) return n == 0.0_r && x == 1.0_r ? 0.5_r * inverse_pi_f : 0.0_r;
+  constexpr Real log2_e = 1.44269504088896341_r;
+  // Near the axis the series of log(1 - x): 1 - x is rounded, and a large power of it more so.
+  const Real log2_cos = x < 1e-3_r ? -log2_e * x * (1 + x * (0.5_r + x / 3)) : log2_of(1 - x);
+  return (n + 1.0_r) * 0.5_r * inverse_pi_f * exp2_of(n * log2_cos);
 }
 
 /// A spot about z: full intensity within the inner half angle, none beyond the outer, between them
@@ -238,9 +246,8 @@ struct SpotLobe {
   }
   /// Flux [lm] of 1 cd on the axis: the integral of the relative intensity [sr].
   Real solid_angle() const { return pi_f * (inner_one_minus_cos + outer_one_minus_cos); }
-  /// Intensity relative to the axis, [0, 1].
-  Real relative_intensity(Real cos_theta) const {
-    const Real x = 1.0_r - cos_theta;
+  /// Intensity relative to the axis, [0, 1]; x = 1 - cos(theta).
+  Real relative_intensity(Real x) const {
     if (x <= inner_one_minus_cos) return 1.0_r;
     if (x >= outer_one_minus_cos) return 0.0_r;
     const Real t = (outer_one_minus_cos - x) / (outer_one_minus_cos - inner_one_minus_cos);

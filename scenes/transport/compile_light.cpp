@@ -210,7 +210,6 @@ void compile_sign_face(CompiledEmitter& out, const ActiveSource& s, const Compil
   out.axes = face.axes;
   out.size = Vec3(sign.width_m, sign.height_m, 0);
   out.area_m2 = sign_colour_area_m2(sign, s.colour);
-  out.body = face.surface;
   out.texel_columns = sign.face.width;
   for (size_t i = 0; i < sign.face.colour.size(); ++i) {
     const bool on = sign.face.colour[i] == s.colour;
@@ -259,9 +258,6 @@ CompiledEmitter compile_emitter(const ActiveSource& s, const CompiledScene& scen
                                             glm::radians(e.spot_outer_deg));
     for (uint32_t i = 0; i < scene.webs.size(); ++i) {
       if (scene.webs[i] == e.web) out.web = i;
-    }
-    for (uint32_t i = 0; i < scene.surfaces.size(); ++i) {
-      if (scene.surfaces[i].body_emitter == s.description_index) out.body = i;
     }
   } else if (s.medium != nullptr) {
     out.kind = EmitterKind::volume;

@@ -66,7 +66,6 @@ struct CompiledEmitter {
   uint32_t web = none_index;
   uint32_t sign = none_index;
   uint32_t medium = none_index;  // volume
-  uint32_t body = none_index;    // surface that it sits on: rays leave by an offset
   int group = 0;
   double area_m2 = 0;
   Real near_m =

@@ -49,9 +49,10 @@ Real directional_density(const CompiledEmitter& emitter, const EmissionPoint& po
     case Distribution::lambertian:
       return std::max(0.0_r, cosine) / pi_f;
     case Distribution::cosine_power:
-      return cosine_power_pdf(emitter.exponent, cosine);
+      return cosine_power_pdf(emitter.exponent, one_minus_cosine(point.axis, direction));
     case Distribution::spot:
-      return emitter.spot.relative_intensity(cosine) / emitter.spot.solid_angle();
+      return emitter.spot.relative_intensity(one_minus_cosine(point.axis, direction)) /
+             emitter.spot.solid_angle();
     case Distribution::collimated:
       return 0;
     case Distribution::web: {

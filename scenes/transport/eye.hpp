@@ -1,13 +1,14 @@
 // Radiance along a ray, traced from where it is seen. Paths run backwards (all laws are
 // reciprocal); at every event one emitter is asked directly, so that a path needs no luck to meet
-// it. Close to an emitter asking has no bounded variance (1/r2). At surfaces, therefore, light from
-// points nearer than its half size is counted only where a path meets it, and from farther ones
-// only where it is asked: each pair of places once. In smoke a second place is drawn where an
-// emitter is near a stretch of the path, as its light falls there (equiangular.hpp), and the two
-// are weighted by how likely each way was to find its own (balance heuristic). Unbiased, except
-// where pictures end a path in the patches' flux (final gather). look.hpp makes of it what signs
-// and probes are asked for. Not seen: point emitters and caustics through mirrors and refracting
-// solids; the forward tracer counts those. Thread rule: one EyeTracer per thread or fiber.
+// it. Close to an emitter asking has no bounded variance (1/r2), so light from points nearer than
+// its half size is counted only where a path meets it, and from farther ones only where it is
+// asked: each pair of places once. A path in smoke seldom collides just where a small emitter is
+// near; there a second place is drawn, as the emitter's light falls on the stretch of the path
+// (equiangular.hpp), and the two are weighted by how likely each way was to find its own (balance
+// heuristic). Unbiased, except where pictures end a path in the patches' flux (final gather).
+// look.hpp makes of it what signs and probes are asked for. Not seen: point emitters and caustics
+// through mirrors and refracting solids; the forward tracer counts those. Thread rule: one
+// EyeTracer per thread or fiber.
 #pragma once
 
 #include <cmath>
@@ -29,6 +30,9 @@ inline constexpr int nearby_emitters = 256;   // up to here distance decides who
 /// An emitter is near a stretch of a path where it is closer than this share of its length: there
 /// collisions, which are spread over all of it, would seldom come as close.
 inline constexpr Real near_line = 0.125_r;
+/// Emitters whose half size is a smaller share than this of a stretch's length are asked at any
+/// distance from it; of large ones a path meets the near parts soon enough.
+inline constexpr Real small_emitter = near_line / 2;
 /// Of the size of a scene: where a stretch ends on which places are drawn by an emitter's light.
 inline constexpr Real longest_line = 4;
 }  // namespace limits
@@ -78,7 +82,7 @@ class PatchRadiance {
 
 /// Which emitters count when a path meets them on its way.
 enum class Met {
-  none,  // all were asked, or somebody else holds the direct light of this place
+  none,  // somebody else holds all direct light of this place
   near,  // those closer than their half size; the others were asked
   all,   // nothing was asked
 };
@@ -118,18 +122,16 @@ class EyeTracer {
   /// end after their first diffuse event; null traces them to their end.
   void radiance(const Ray& ray, int band, Met met, double weight, GroupLight& into,
                 const PatchRadiance* gather = nullptr) {
-    Path path{ray, band, met, weight, into};
-    for (int event = 0; event < limits::eye_events; ++event) {
-      const Hit hit = resolver_.nearest(path.ray);
-      if (path.met != Met::none) add_emitted_along(path, hit);
-      const Ray stretch = path.ray;
-      const double throughput = path.throughput;
-      const Flight flight = fly(stretch, hit.distance, band);
-      const bool alive = flight.collided ? scatter(path, flight) : meet_surface(path, hit, gather);
-      // Last, since asking may drop the cell that the hit is of.
-      add_scattered_once(stretch, hit.distance, flight, 1, band, weight * throughput, into);
-      if (!alive || (event >= 2 && !survives(path.throughput))) return;
-    }
+    trace({ray, band, met, weight, into}, gather);
+  }
+
+  /// The same of a path that a medium has turned to `ray`, somewhere on the first `length` of a ray
+  /// for which `add_scattered_once` has asked emitters.
+  void radiance_after_scattering(const Ray& ray, Real length, int band, double weight,
+                                 GroupLight& into) {
+    Path path{ray, band, Met::near, weight, into};
+    path.small_asked = limits::small_emitter * line_end(length);
+    trace(path, nullptr);
   }
 
   /// Adds `weight` times the radiance [W/(m2 sr)] that emitters send to the first `length` of the
@@ -139,8 +141,8 @@ class EyeTracer {
   void add_scattered_once(const Ray& ray, Real length, const Flight& flight, double share, int band,
                           double weight, GroupLight& into) {
     if (scene_.features.media == MediaNeed::none) return;
-    const Stretch stretch{ray, std::min(length, limits::longest_line * scene_.diagonal_m), share,
-                          band, weigh_along(ray, length, band)};
+    const Real end = line_end(length);
+    const Stretch stretch{ray, end, share, band, weigh_along(ray, end, band)};
     if (flight.collided && flight.albedo > 0)
       add_at_collision(stretch, flight, weight * share * flight.albedo, into);
     if (stretch.emitters_weight > 0) add_near_emitter(stretch, weight, into);
@@ -208,6 +210,7 @@ class EyeTracer {
     GroupLight& into;
     double throughput = 1;
     Real travelled = 0;     // from the last event to the ray's origin, through panes
+    Real small_asked = 0;   // emitters of a smaller half size were asked there at any distance
     bool diffused = false;  // a surface or a medium has spread it
 
     void add(const SourceLight& light) {
@@ -217,6 +220,26 @@ class EyeTracer {
 
   // ---- events
   // ------------------------------------------------------------------------------------
+
+  void trace(Path path, const PatchRadiance* gather) {
+    for (int event = 0; event < limits::eye_events; ++event) {
+      const Hit hit = resolver_.nearest(path.ray);
+      if (path.met != Met::none) add_emitted_along(path, hit);
+      const Ray stretch = path.ray;
+      const double weight = path.weight * path.throughput;
+      const Flight flight = fly(stretch, hit.distance, path.band);
+      const bool alive =
+          flight.collided ? scatter(path, flight, hit.distance) : meet_surface(path, hit, gather);
+      // Last, since asking may drop the cell that the hit is of.
+      add_scattered_once(stretch, hit.distance, flight, 1, path.band, weight, path.into);
+      if (!alive || (event >= 2 && !survives(path.throughput))) return;
+    }
+  }
+
+  /// Where a stretch of that length ends for emitters that are near it.
+  Real line_end(Real length) const {
+    return std::min(length, limits::longest_line * scene_.diagonal_m);
+  }
 
   Flight fly(const Ray& ray, Real length, int band) {
     if (scene_.features.media == MediaNeed::none) return {};
@@ -237,9 +260,9 @@ class EyeTracer {
     return kind == MaterialKind::lambertian || kind == MaterialKind::glossy;
   }
 
-  /// Medium event: a new direction. Its light from emitters, near ones too, is
-  /// `add_scattered_once`'s. False ends the path.
-  bool scatter(Path& p, const Flight& flight) {
+  /// Medium event: a new direction. Light asked from emitters is `add_scattered_once`'s. False ends
+  /// the path.
+  bool scatter(Path& p, const Flight& flight, Real length) {
     p.throughput *= flight.albedo;
     if (p.throughput <= 0) return false;
     const PhaseFunction& phase = scene_.phases[static_cast<size_t>(flight.phase)];
@@ -247,8 +270,9 @@ class EyeTracer {
     const Real u = random_.uniform();
     const Real v = random_.uniform();
     p.ray.direction = sample(phase, p.ray.direction, u, v);
-    p.met = Met::none;
+    p.met = Met::near;
     p.travelled = 0;
+    p.small_asked = limits::small_emitter * line_end(length);
     p.diffused = true;
     return true;
   }
@@ -287,6 +311,7 @@ class EyeTracer {
     } else {
       p.met = s.specular ? Met::all : Met::near;
       p.travelled = 0;
+      p.small_asked = 0;
     }
     if (!s.specular) p.diffused = true;
     p.ray.direction = s.direction;
@@ -334,7 +359,7 @@ class EyeTracer {
   }
 
   static bool counts(const Path& p, Real distance, Real near) {
-    return p.met == Met::all || p.travelled + distance < near;
+    return p.met == Met::all || (near >= p.small_asked && p.travelled + distance < near);
   }
 
   void add_emitted_by_sign(Path& p, const Hit& hit) {
@@ -357,7 +382,7 @@ class EyeTracer {
     for (const CompiledEmitter& e : scene_.emitters) {
       if (e.kind != EmitterKind::volume) continue;
       const Real rest = e.near_m - p.travelled;
-      if (rest > 0) {
+      if (rest > 0 && e.near_m >= p.small_asked) {
         add_flames(p.ray, std::min(length, rest), p.band, static_cast<int>(e.medium), weight,
                    p.into);
       }
@@ -403,18 +428,18 @@ class EyeTracer {
   /// By squared distance where they are few.
   double weigh_at(const Vec3& place, int band) {
     const bool few = scene_.emitters.size() <= limits::nearby_emitters;
+    const Real least = 1e-9_r * scene_.diagonal_m * scene_.diagonal_m;
     return weigh(weights_, band, [&](const CompiledEmitter& e) {
       if (!few) return 1.0;
       const Vec3 d = centre_of(e) - place;
-      return 1 / (static_cast<double>(glm::dot(d, d) + 0.25_r * glm::dot(e.size, e.size)) + 1e-6);
+      return 1 / static_cast<double>(glm::dot(d, d) + 0.25_r * glm::dot(e.size, e.size) + least);
     });
   }
 
   /// By what an emitter sends to a stretch of a path, nearly: the angle at which it sees it, over
   /// its distance. 0 where none is near, so that none need be asked by it.
-  double weigh_along(const Ray& ray, Real length, int band) {
+  double weigh_along(const Ray& ray, Real end, int band) {
     const bool few = scene_.emitters.size() <= limits::nearby_emitters;
-    const Real end = std::min(length, limits::longest_line * scene_.diagonal_m);
     bool near = !few;
     const double total = weigh(weights_along_, band, [&](const CompiledEmitter& e) {
       if (!few) return 1.0;
@@ -457,12 +482,12 @@ class EyeTracer {
     double irradiance = 0;
   };
 
-  /// `at_least`: nothing from nearer points.
+  /// Nothing from points that are not farther than `met`: paths meet them.
   Arriving light_from(const CompiledEmitter& e, const EmissionPoint& point, const Vec3& place,
-                      Real at_least, int band) {
+                      Real met, int band) {
     const Connection c =
         connect(scene_, place, point.position, point.axis, e.kind != EmitterKind::volume);
-    if (!(c.distance > at_least)) return {};
+    if (!(c.distance > met)) return {};
     const auto density =
         static_cast<double>(directional_density(e, point, -c.ray.direction, resolver_));
     if (density <= 0) return {};
@@ -483,6 +508,11 @@ class EyeTracer {
     double share;  // see add_scattered_once
     int band;
     double emitters_weight;  // of weigh_along
+
+    /// How near points of an emitter are only met.
+    Real met(const CompiledEmitter& e) const {
+      return e.near_m < limits::small_emitter * end ? 0 : e.near_m;
+    }
   };
 
   double collision_density(const Stretch& s, Real t, double sigma_t) {
@@ -502,7 +532,7 @@ class EyeTracer {
     if (asked.probability <= 0) return;
     const CompiledEmitter& e = scene_.emitters[asked.emitter];
     const EmissionPoint point = emission_point(scene_, e, random_, resolver_);
-    const Arriving a = light_from(e, point, place, 0, s.band);
+    const Arriving a = light_from(e, point, place, s.met(e), s.band);
     if (a.irradiance <= 0) return;
     double probability = asked.probability;
     if (s.emitters_weight > 0) {
@@ -531,7 +561,7 @@ class EyeTracer {
     const Vec3 place = s.ray.origin + s.ray.direction * t;
     const double sigma_t = extinction_at(scene_.media, s.band, place, resolver_);
     if (!(sigma_t > 0)) return;
-    const Arriving a = light_from(e, point, place, 0, s.band);
+    const Arriving a = light_from(e, point, place, s.met(e), s.band);
     if (a.irradiance <= 0) return;
     const Real cosine = glm::dot(a.direction, s.ray.direction);
     double turned = 0;

@@ -236,8 +236,8 @@ class EyeScores {
     const Vec3 place = c.ray.origin + c.ray.direction * flight.t;
     const Real u = random_.uniform();
     const Real v = random_.uniform();
-    eye_.radiance({place, sample(phase, c.ray.direction, u, v)}, band, Met::none,
-                  chosen.lm_per_w * collided * flight.albedo, light_);
+    eye_.radiance_after_scattering({place, sample(phase, c.ray.direction, u, v)}, c.distance, band,
+                                   chosen.lm_per_w * collided * flight.albedo, light_);
   }
 
   // ---- probes

@@ -132,9 +132,10 @@ class ParticleTracer {
     p.ray.direction = emission_direction(emitter, point, random_, resolver_);
     p.ray.origin = point.position;
     if constexpr (flawed) Flaws::birth(p.ray, point, emitter);
-    if (emitter.body != none_index) {
+    // Of one in the plane of a wall, or on its own body, all light would meet that from behind.
+    if (emitter.kind != EmitterKind::volume) {
       const Vec3 side = glm::dot(point.axis, p.ray.direction) >= 0 ? point.axis : -point.axis;
-      p.ray.origin = offset_ray(point.position, side, scene_.least_offset_m);
+      p.ray.origin = offset_ray(p.ray.origin, side, scene_.least_offset_m);
     }
     // Collimated light has no density of directions, so the deterministic part cannot hold it.
     p.direct = emitter.distribution != Distribution::collimated;
