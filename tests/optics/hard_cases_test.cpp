@@ -180,6 +180,7 @@ TEST_CASE("a thousand emitters a million times weaker than another get a thousan
   for (uint32_t cell = 0; cell < 2 * weak_emitters; ++cell) {
     const double hits = run.watts(run.blocks().plane_cells, cell, beams).value * particles;
     squares += (hits - particles) * (hits - particles) / particles;
+    if (thrift == 1) CHECK(hits > 0);
   }
   const double degrees = 2 * weak_emitters;
   // As of Poisson; stratified, they lie more evenly than that.
