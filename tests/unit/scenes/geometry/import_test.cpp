@@ -230,6 +230,16 @@ TEST_CASE("files that hold no usable mesh are refused with a sentence that names
     const char* says;
   };
   const std::string good_gltf = gltf(R"({"name":"n","mesh":0})", "0");
+  // The same with other coordinates of its second vertex.
+  const auto gltf_at = [&](float x, float y) {
+    const std::string good = base64(triangle_buffer());
+    const std::string other =
+        base64(bytes_of<float>({0, 0, 0, x, y, 0, 0, 2, 0}) + bytes_of<uint16_t>({0, 1, 2}));
+    std::string text = good_gltf;
+    return text.replace(text.find(good), good.size(), other);
+  };
+  constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+  constexpr float infinity = std::numeric_limits<float>::infinity();
   const Row rows[] = {
       {"empty.obj", "", "read"},
       {"points.obj", triangle + "p 1 2 3\n", "no triangles"},
@@ -238,6 +248,11 @@ TEST_CASE("files that hold no usable mesh are refused with a sentence that names
        "all 2 triangles are degenerate"},
       {"nan.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n", "not a finite number"},
       {"inf.obj", "v 0 0 0\nv 1 inf 0\nv 0 1 0\nf 1 2 3\n", "not a finite number"},
+      {"beyond.obj", "v 0 0 0\nv 1e39 0 0\nv 0 1 0\nf 1 2 3\n", "not a finite number"},
+      {"nan.gltf", gltf_at(nan, 0), "the position of vertex 2 is not a finite number"},
+      {"inf.gltf", gltf_at(1, -infinity), "the position of vertex 2 is not a finite number"},
+      {"node.gltf", gltf(R"({"name":"n","mesh":0,"translation":[1e39,0,0]})", "0"), "not finite"},
+      {"nan.stl", "solid s\nfacet normal 0 0 1\nouter loop\nvertex nan 0 0\n", "unknown kind"},
       {"words.obj", "v 1 x 2\n" + triangle + "f 2 3 4\n", "is \"x\": give three numbers"},
       {"index.obj", triangle + "f 1 2 9\n", ""},
       {"far.obj", "v 1000000 0 0\nv 1000001 0 0\nv 1000000 1 0\nf 1 2 3\n", "known to"},
