@@ -27,12 +27,13 @@ namespace limits {
 inline constexpr int eye_events = 10'000;
 inline constexpr int emitters_per_line = 16;  // emitting faces that one straight line may cross
 inline constexpr int nearby_emitters = 256;   // up to here distance decides who is asked
-/// An emitter is near a stretch of a path where it is closer than this share of its length: there
+/// An emitter whose half size is a smaller share than this of a stretch's length is small: it is
+/// asked at any distance, since a path that came near would still miss it. Large ones, as
+/// luminaires in a room are, a path meets soon enough.
+inline constexpr Real small_emitter = 0x1p-7_r;
+/// A small emitter is near where it is closer to the stretch than this share of its length:
 /// collisions, which are spread over all of it, would seldom come as close.
 inline constexpr Real near_line = 0.125_r;
-/// Emitters whose half size is a smaller share than this of a stretch's length are asked at any
-/// distance from it; of large ones a path meets the near parts soon enough.
-inline constexpr Real small_emitter = near_line / 2;
 /// Of the size of a scene: where a stretch ends on which places are drawn by an emitter's light.
 inline constexpr Real longest_line = 4;
 }  // namespace limits
@@ -236,6 +237,10 @@ class EyeTracer {
     }
   }
 
+  static bool is_small(const CompiledEmitter& e, Real end) {
+    return e.near_m < limits::small_emitter * end;
+  }
+
   /// Where a stretch of that length ends for emitters that are near it.
   Real line_end(Real length) const {
     return std::min(length, limits::longest_line * scene_.diagonal_m);
@@ -436,18 +441,19 @@ class EyeTracer {
     });
   }
 
-  /// By what an emitter sends to a stretch of a path, nearly: the angle at which it sees it, over
-  /// its distance. 0 where none is near, so that none need be asked by it.
+  /// Of small emitters, by what each sends to a stretch of a path, nearly: the angle at which it
+  /// sees it, over its distance. 0 where none is near, so that none need be asked by it.
   double weigh_along(const Ray& ray, Real end, int band) {
     const bool few = scene_.emitters.size() <= limits::nearby_emitters;
     bool near = !few;
     const double total = weigh(weights_along_, band, [&](const CompiledEmitter& e) {
+      if (!is_small(e, end)) return 0.0;
       if (!few) return 1.0;
       const Vec3 from_origin = centre_of(e) - ray.origin;
       const Real t = glm::clamp(glm::dot(from_origin, ray.direction), 0.0_r, end);
       const Real distance = glm::length(from_origin - ray.direction * t);
       const Real half = 0.5_r * glm::length(e.size);
-      near |= distance - half < limits::near_line * end;
+      near |= distance < limits::near_line * end;
       const Real least = distance + half + 1e-4_r * end;
       return static_cast<double>(end / (least * (least + end / 3)));
     });
@@ -510,9 +516,7 @@ class EyeTracer {
     double emitters_weight;  // of weigh_along
 
     /// How near points of an emitter are only met.
-    Real met(const CompiledEmitter& e) const {
-      return e.near_m < limits::small_emitter * end ? 0 : e.near_m;
-    }
+    Real met(const CompiledEmitter& e) const { return is_small(e, end) ? 0 : e.near_m; }
   };
 
   double collision_density(const Stretch& s, Real t, double sigma_t) {
