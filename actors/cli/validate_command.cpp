@@ -97,6 +97,11 @@ Result<ExitCode> validate(const ValidateOptions& options) {
   if (const size_t short_of_error = light::cases_short_of_error(results); short_of_error > 0)
     std::printf("%zu of %zu cases ended before all of their quantities had the error\n",
                 short_of_error, results.size());
+  std::printf("%s\n",
+              light::precision_text(light::precision_of(results, record.wanted_error())).c_str());
+  if (const light::Slopes slopes = light::slopes_of(results); std::isfinite(slopes.deviation))
+    std::printf("slopes over particles: standard errors %.3f, deviations %.3f\n",
+                slopes.standard_error, slopes.deviation);
   print_verdict(verdict, options.out, record.interrupted);
   if (record.interrupted) return ExitCode::interrupted;
   return verdict.passed ? ExitCode::success : ExitCode::failure;

@@ -12,12 +12,32 @@ Quantity& Plan::add(std::string name, double reference, std::function<Estimate(c
   return quantities.back();
 }
 
+void Plan::compute(std::string name, double reference, double value, double tolerance) {
+  computed.push_back(
+      {std::move(name), reference, [value](const DirectLightAt&) { return value; }, tolerance});
+}
+
+void Plan::compute_direct(std::string name, double lux, const std::shared_ptr<const Traced>& lamp,
+                          const glm::dvec3& point, const glm::dvec3& normal, double tolerance) {
+  computed.push_back({std::move(name), lux,
+                      [=](const DirectLightAt& direct_light) {
+                        return lamp->direct_lx(point, normal, direct_light);
+                      },
+                      tolerance});
+}
+
 void Plan::add_closed() {
   add("escaped", 0, [](const Traced& run) {
     double sum = 0;
     for (uint32_t side = 0; side < 6; ++side) sum += run.escaped(side).value;
     return Estimate{sum, 0};
   }).certain = true;
+}
+
+void Plan::look_rather(double paths_per_particle) {
+  quick_particles = 1 << 13;
+  // A share of 1 is a tenth of a path for each particle, divided among the three parts of a sign.
+  scene.run.eye_share = 30 * paths_per_particle;
 }
 
 Cases all_cases() {
@@ -34,6 +54,8 @@ Cases all_cases() {
   add_room_lighting_cases(cases);
   add_photometric_cases(cases);
   add_sight_cases(cases);
+  add_veil_cases(cases);
+  add_glossy_cases(cases);
   return cases;
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -29,7 +30,7 @@ struct Quantity {
 struct Computed {
   std::string name;
   double reference = 0;
-  double value = 0;
+  std::function<double(const DirectLightAt&)> value;
   double tolerance = 0;  // relative
 };
 
@@ -37,6 +38,7 @@ struct Computed {
 struct Plan {
   SceneDescription scene;
   std::vector<BinSum> sums;
+  std::vector<WeightedSum> weighted;
   std::vector<Quantity> quantities;  // none: nothing is traced
   std::vector<Computed> computed;
   int64_t quick_particles = 1 << 18;
@@ -45,8 +47,15 @@ struct Plan {
   /// `bias` is relative to the reference.
   Quantity& add(std::string name, double reference, std::function<Estimate(const Traced&)> read,
                 double bias = 0);
+  void compute(std::string name, double reference, double value, double tolerance);
+  /// Direct light in a scene that is compiled already [lx].
+  void compute_direct(std::string name, double lux, const std::shared_ptr<const Traced>& lamp,
+                      const glm::dvec3& point, const glm::dvec3& normal, double tolerance);
   /// No light leaves the scene.
   void add_closed();
+  /// Few particles, on which nothing here depends, and so many paths from the eye for each of them
+  /// to each part of the only sign.
+  void look_rather(double paths_per_particle);
 };
 
 struct Case {
@@ -70,6 +79,8 @@ void add_lamp_cases(Cases& cases);
 void add_room_lighting_cases(Cases& cases);
 void add_photometric_cases(Cases& cases);
 void add_sight_cases(Cases& cases);
+void add_veil_cases(Cases& cases);
+void add_glossy_cases(Cases& cases);
 
 /// Every case that has a reference.
 Cases all_cases();

@@ -82,14 +82,14 @@ Plan port_plan(double reflectance, double share, double exact_share) {
   add_point(plan.scene, {0, 0, 0}, 1);
   plan.sums.push_back(every_side());
   const double through = cut / (1 - reflectance * (1 - cut));
-  plan.computed.push_back({"through the port, of the mesh", exact_share, through, 2e-2});
+  plan.compute("through the port, of the mesh", exact_share, through, 2e-2);
   constexpr double of_facets = 2e-3;  // solid angle and area of the cut differ by so much
   plan.add(
       "through the port", through, [](const Traced& run) { return run.sum(0); }, of_facets);
   return plan;
 }
 
-Plan concentric_plan(const std::string& p, double absorbed) {
+Plan concentric_plan(const std::string& p, double inside, double outside) {
   Plan plan;
   SceneDescription& scene = plan.scene;
   const double r1 = parameter(p, "r1"), r2 = parameter(p, "r2");
@@ -102,10 +102,10 @@ Plan concentric_plan(const std::string& p, double absorbed) {
   const std::string body = e.name + " body";
   constexpr double of_facets = 2e-4;
   plan.add(
-      "absorbed outside", 1 - absorbed, [](const Traced& run) { return run.absorbed_by("outer"); },
-      of_facets * absorbed);
+      "absorbed outside", outside, [](const Traced& run) { return run.absorbed_by("outer"); },
+      of_facets * inside);
   plan.add(
-      "absorbed inside", absorbed, [body](const Traced& run) { return run.absorbed_by(body); },
+      "absorbed inside", inside, [body](const Traced& run) { return run.absorbed_by(body); },
       of_facets);
   return plan;
 }
@@ -188,8 +188,11 @@ void add_enclosure_cases(Cases& cases) {
   add("sphere_port_exit", "sphere with a port", [](const std::string& p, double value) {
     return port_plan(parameter(p, "rho"), parameter(p, "f"), value);
   });
-  add("concentric_absorbed_inner", "concentric spheres",
-      [](const std::string& p, double value) { return concentric_plan(p, value); });
+  for_each_pair("concentric_absorbed_inner", "concentric_absorbed_outer",
+                [&](const std::string& p, double inside, double outside) {
+                  cases.push_back({"sphere", "concentric spheres " + p, table,
+                                   [=] { return concentric_plan(p, inside, outside); }});
+                });
   add_plates(cases);
 }
 

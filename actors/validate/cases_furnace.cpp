@@ -169,7 +169,7 @@ Plan body_path_plan(const Mesh& body, double exact_mean) {
   // Of the mesh itself, for which the law is exact as well.
   const double mean = 4 * std::abs(signed_volume_of(body)) / area_of(body);
   add_path(plan, 0, "the body", mean);
-  plan.computed.push_back({"mean path of the mesh", exact_mean, mean, 3e-3});
+  plan.compute("mean path of the mesh", exact_mean, mean, 3e-3);
   return plan;
 }
 

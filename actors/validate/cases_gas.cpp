@@ -48,13 +48,20 @@ Plan layer_plan(const std::string& depth, double passed) {
   return plan;
 }
 
-Plan glowing_layer_plan(double tau, double escaping) {
+/// A black body's exitance would be 1 / (4 tau) where the gas gives off 1: what meets a plate is
+/// its emissivity times that.
+Plan glowing_layer_plan(double tau, double escaping, double emissivity) {
   Plan plan;
   plan.scene = black_plates(1);
   add_glowing_gas(plan.scene, 0, 1, tau);
   plan.sums.push_back({&TallyBlocks::surfaces, {4, 5}});
   plan.add("escaped", escaping, [](const Traced& run) { return run.sum(0); });
   plan.add("absorbed", 1 - escaping, [](const Traced& run) { return run.absorbed_by_medium(0); });
+  for (const std::string plate : {"floor", "ceiling"}) {
+    plan.add("emissivity towards the " + plate, emissivity,
+             [=](const Traced& run) { return run.into(plate) * (4 * tau); })
+        .unit = 4 * tau;
+  }
   return plan;
 }
 
@@ -106,9 +113,11 @@ void add_gas_cases(Cases& cases) {
                      [=] { return layer_plan(depth, passed); }});
   }
   for (const Row& row : rows_where(table, "id", "slab_emission_escape")) {
-    const double tau = parameter(row.text("parameters"), "tau"), escaping = row.number("value");
-    cases.push_back({"gas", "glowing layer, " + row.text("parameters"), table,
-                     [=] { return glowing_layer_plan(tau, escaping); }});
+    const std::string depth = row.text("parameters");
+    const double tau = parameter(depth, "tau"), escaping = row.number("value");
+    const double emissivity = exact("slab_emissivity", depth);
+    cases.push_back({"gas", "glowing layer, " + depth, table,
+                     [=] { return glowing_layer_plan(tau, escaping, emissivity); }});
   }
   add_flames(cases);
 }

@@ -47,16 +47,15 @@ std::string place_of(const Row& row) {
 /// Horizontal and upright receivers in clear air.
 Plan receivers_plan(const std::vector<Row>& points) {
   Plan plan;
-  const Traced lamp(compile(lamp_of(points.front())), 1, 1);
+  const auto lamp = lit(lamp_of(points.front()));
   for (const Row& row : points) {
     const double x = row.number("x"), y = row.number("y");
     // Where the receiver's horizon cuts the lamp, whole parts fall on one side of it: 5 %.
     const bool cut_by_horizon = x <= row.numbers("rect_x0;x1;y0;y1")[1];
-    plan.computed.push_back(
-        {place_of(row), row.number("E_lx_for_1000lm"), lamp.direct_lx({x, y, 0}, {0, 0, 1}), 2e-3});
-    plan.computed.push_back({place_of(row) + ", upright", row.number("E_vertical_lx"),
-                             lamp.direct_lx({x, y, 0.85}, {-1, 0, 0}),
-                             cut_by_horizon ? 5e-2 : 2e-3});
+    plan.compute_direct(place_of(row), row.number("E_lx_for_1000lm"), lamp, {x, y, 0}, {0, 0, 1},
+                        2e-3);
+    plan.compute_direct(place_of(row) + ", upright", row.number("E_vertical_lx"), lamp,
+                        {x, y, 0.85}, {-1, 0, 0}, cut_by_horizon ? 5e-2 : 2e-3);
   }
   return plan;
 }
@@ -70,15 +69,14 @@ Plan receivers_in_smoke_plan(const std::vector<Row>& points, const std::string& 
   const double sigma = std::stod(sigma_text);
   SceneDescription scene = lamp_of(points.front());
   add_homogeneous(scene, smoke(sigma, 0));
-  const Traced lamp(compile(std::move(scene)), 1, 1);
+  const auto lamp = lit(std::move(scene));
   for (const Row& row : points) {
     const std::vector<double> r = row.numbers("rect_x0;x1;y0;y1");
     const double x = row.number("x"), y = row.number("y");
     const double away = std::hypot(x, y, row.number("height"));
     const double width = sigma * std::min(away / 16, std::hypot(r[1] - r[0], r[3] - r[2]));
-    plan.computed.push_back({place_of(row), row.number("E_lx_sigma_a_" + sigma_text),
-                             lamp.direct_lx({x, y, 0}, {0, 0, 1}),
-                             1e-3 + (0.25 + width) * (0.25 + width) / 24});
+    plan.compute_direct(place_of(row), row.number("E_lx_sigma_a_" + sigma_text), lamp, {x, y, 0},
+                        {0, 0, 1}, 1e-3 + (0.25 + width) * (0.25 + width) / 24);
   }
   return plan;
 }
@@ -148,19 +146,16 @@ Plan pane_plan(double degrees, double transmittance) {
   add_room(lamp, true);
   add_room(bare, false);
   const glm::dvec3 place = glm::dvec3(0, 0, 1) + towards / std::cos(angle);
-  const auto lux = [&](SceneDescription scene) {
-    return Traced(compile(std::move(scene)), 1, 1).direct_lx(place, {0, 0, 1});
-  };
-  plan.computed.push_back({"passed along a shadow ray", transmittance,
-                           lux(std::move(lamp)) / lux(std::move(bare)), 1e-4});
+  const double bare_lux = lit(std::move(bare))->direct_lx(place, {0, 0, 1});
+  plan.compute_direct("lux along a shadow ray", transmittance * bare_lux, lit(std::move(lamp)),
+                      place, {0, 0, 1}, 1e-4);
   return plan;
 }
 
 Plan point_plan(const std::string& p, double lux) {
   Plan plan;
-  const Traced candle(compile(candle_at(parameter(p, "h"))), 1, 1);
-  plan.computed.push_back(
-      {"E on the floor", lux, candle.direct_lx({parameter(p, "r"), 0, 0}, {0, 0, 1}), 1e-4});
+  plan.compute_direct("E on the floor", lux, lit(candle_at(parameter(p, "h"))),
+                      {parameter(p, "r"), 0, 0}, {0, 0, 1}, 1e-4);
   return plan;
 }
 
@@ -168,9 +163,8 @@ Plan point_over_layers_plan(const std::string& p, double lux) {
   Plan plan;
   SceneDescription scene = candle_at(2.9);
   add_layers(scene, 0, {1, 1, 1}, {smoke(0.05, 0), smoke(0.3, 0), smoke(1.5, 0)});
-  const Traced candle(compile(std::move(scene)), 1, 1);
-  plan.computed.push_back(
-      {"E on the floor", lux, candle.direct_lx({parameter(p, "r"), 0, 0}, {0, 0, 1}), 2e-4});
+  plan.compute_direct("E on the floor", lux, lit(std::move(scene)), {parameter(p, "r"), 0, 0},
+                      {0, 0, 1}, 2e-4);
   return plan;
 }
 

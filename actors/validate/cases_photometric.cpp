@@ -8,6 +8,7 @@
 
 #include "actors/validate/case.hpp"
 #include "actors/validate/scene_kit.hpp"
+#include "actors/validate/veil.hpp"
 #include "runtime/core/check.hpp"
 #include "scenes/format/ies.hpp"
 #include "scenes/format/ldt.hpp"
@@ -80,6 +81,50 @@ PhotometricFile ies_file() {
   return std::move(file).value();
 }
 
+constexpr double flux_digits = 1e-5;  // of single precision, and of the files' numbers
+
+/// The lamp over a floor: its light there, computed, in directions that the table holds.
+void add_places(Plan& plan, const PhotometricFile& file) {
+  constexpr double height = 2;
+  SceneDescription scene;
+  Emitter& e = add_point(scene, {0, 0, height}, 0);
+  e.radiometric = false;
+  e.mains_flux = file.flux_lm;
+  e.distribution = Distribution::web;
+  e.web = file.web;
+  add_speck(scene, {-5, -5, 0});
+  add_speck(scene, {5, 5, 0});
+  scene.objects.back().name = "other speck";
+  const auto lamp = lit(std::move(scene));
+  for (const double c : {0, 60, 90, 180, 270}) {
+    for (const double gamma : {10, 40, 65}) {
+      const double away = height * std::tan(gamma * pi / 180), turn = c * pi / 180;
+      plan.compute_direct(
+          fmt::format("E at C {}, gamma {} [lx]", c, gamma),
+          intensity(c, gamma) * std::pow(std::cos(gamma * pi / 180), 3) / (height * height), lamp,
+          {away * std::cos(turn), away * std::sin(turn), 0}, {0, 0, 1}, flux_digits);
+    }
+  }
+}
+
+/// What scatters of its light into a line of sight.
+Plan luminaire_veil(const PhotometricFile& file) {
+  constexpr double g = 0.5;
+  Veil veil;
+  veil.phase.kind = PhaseKind::henyey_greenstein;
+  veil.phase.g = g;
+  veil.density = [](double cosine) {
+    return (1 - g * g) / (4 * pi * std::pow(1 + g * g - 2 * g * cosine, 1.5));
+  };
+  veil.flux_lm = file.flux_lm;
+  veil.web = file.web;
+  veil.candela = [](const glm::dvec3& way) {
+    return intensity(std::atan2(way.y, way.x) * 180 / pi, std::acos(-way.z) * 180 / pi);
+  };
+  veil.bias = 1e-3;  // between the angles of the table: (5 deg)^2 / 8 and (2.5 deg)^2 / 8 of it
+  return veil_plan(veil);
+}
+
 /// Trapezoids in C and lines in gamma are what the table says between its values: in both angles
 /// their integrals are closed forms. Mean of cos(C) over a half turn that is cut into steps, as a
 /// share of the true one, and integral of the polar part, as a share of I0 / 2.
@@ -103,13 +148,13 @@ Plan luminaire_plan(const PhotometricFile& file) {
   Plan plan;
   SceneDescription& scene = plan.scene;
   const double flux_lm = 2 * pi * peak_cd * polar_integral(0, 90);
-  plan.computed.push_back({"flux of the file [lm]", flux_lm, file.flux_lm, 1e-6});
-  plan.computed.push_back({"share downwards", 1, file.down_share, 1e-6});
-  plan.computed.push_back(
-      {"I at C 30, gamma 40 [cd]", intensity(30, 40),
-       file.web->intensity({std::sin(40 * pi / 180) * std::cos(pi / 6),
-                            std::sin(40 * pi / 180) * 0.5, -std::cos(40 * pi / 180)}),
-       1e-6});
+  plan.compute("flux of the file [lm]", flux_lm, file.flux_lm, 1e-6);
+  plan.compute("share downwards", 1, file.down_share, 1e-6);
+  plan.compute("I at C 30, gamma 40 [cd]", intensity(30, 40),
+               file.web->intensity({std::sin(40 * pi / 180) * std::cos(pi / 6),
+                                    std::sin(40 * pi / 180) * 0.5, -std::cos(40 * pi / 180)}),
+               1e-6);
+  add_places(plan, file);
   Emitter& e = add_point(scene, {0, 0, 0}, 1);
   e.distribution = Distribution::web;
   e.web = file.web;
@@ -135,6 +180,10 @@ void add_photometric_cases(Cases& cases) {
                    [] { return luminaire_plan(ldt_file()); }});
   cases.push_back({"photometry", "luminaire of an IES file", "integral of its table",
                    [] { return luminaire_plan(ies_file()); }});
+  cases.push_back({"photometry", "veil of a luminaire, LDT file",
+                   "integral along the line of sight", [] { return luminaire_veil(ldt_file()); }});
+  cases.push_back({"photometry", "veil of a luminaire, IES file",
+                   "integral along the line of sight", [] { return luminaire_veil(ies_file()); }});
 }
 
 }  // namespace luxodus::light

@@ -59,17 +59,19 @@ Plan point_behind_sheet() {
 
 /// A sheet hides one half of an area lamp from a point that it is symmetrical about.
 Plan half_hidden_lamp() {
-  const auto lux = [](bool sheet) {
+  const auto lamp = [](bool sheet) {
     SceneDescription scene;
     Emitter& e = add_rectangle(scene, {0, 0, 2}, {0, 0, -1}, 1, 1, 0);
     e.radiometric = false;
     e.mains_flux = 1000;
     add_floor(scene, "floor", -3, 3, -3, 3, 0);
     if (sheet) add_floor(scene, "sheet", 0, 2, -2, 2, 1);
-    return Traced(compile(std::move(scene)), 1, 1).direct_lx({0, 0, 0}, {0, 0, 1});
+    return lit(std::move(scene));
   };
   Plan plan;
-  plan.computed.push_back({"E behind the sheet", 0.5 * lux(false), lux(true), 1e-6});
+  const double whole_lux = lamp(false)->direct_lx({0, 0, 0}, {0, 0, 1});
+  plan.compute_direct("E behind the sheet", 0.5 * whole_lux, lamp(true), {0, 0, 0}, {0, 0, 1},
+                      1e-6);
   return plan;
 }
 

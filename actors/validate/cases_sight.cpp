@@ -54,8 +54,7 @@ Plan grey_plan(double cell_m) {
             of_the_density)
         .unit = 255;
     // Published greys are whole numbers.
-    plan.computed.push_back(
-        {where + ", rounded", greys[i].published, grey, 0.5 / greys[i].published});
+    plan.compute(where + ", rounded", greys[i].published, grey, 0.5 / greys[i].published);
   }
   return plan;
 }
@@ -64,7 +63,6 @@ Plan grey_plan(double cell_m) {
 
 constexpr double extinction = 3;  // [1/m]
 constexpr double sign_x = 4.8;
-constexpr double sign_edge = 1e-4;
 
 /// A sign of `luminance` that reflects nothing and is too small to light or shade the smoke that
 /// it is seen through; smoke that absorbs nothing, between walls that all glow: everything receives
@@ -81,20 +79,8 @@ SceneDescription lit_smoke(double lux, double luminance, double distance, double
     add_face_emitter(scene, f, flux).radiometric = false;
   }
   add_homogeneous(scene, smoke(extinction, 1, g));
-  Sign sign;
-  sign.name = "sign";
-  sign.frame.origin = {sign_x, 0.5, 0.5};
-  sign.frame.axes = glm::dmat3(glm::dvec3(0, -1, 0), glm::dvec3(0, 0, 1), glm::dvec3(-1, 0, 0));
-  sign.width_m = sign.height_m = sign.smallest_detail_m = sign_edge;
-  sign.face = {1, 1, {SignColour::white}, {}, SignColour::white};
-  sign.mains = {luminance, 0};
-  sign.white_reflectance = sign.green_reflectance = Spectrum::constant(0);
-  scene.signs.push_back(sign);
-  Observer eye;
-  eye.name = "eye";
-  eye.eye = {sign_x - distance, 0.5, 0.5};
-  scene.observers.push_back(eye);
-  scene.run.eye_share = 16;
+  add_tiny_sign(scene, {sign_x, 0.5, 0.5}, luminance);
+  add_eye(scene, {sign_x - distance, 0.5, 0.5});
   return scene;
 }
 
@@ -106,13 +92,13 @@ Estimate seen(const Traced& run, EyeQuantity quantity) {
 /// The sign's own light brightens the smoke right before it, over a length of about its edge: a
 /// share of what arrives of the sign. Measured with an edge of 2 mm: 0.72 of this bound with g =
 /// 0.6, 0.2 with g = 0.
-constexpr double of_the_sign = extinction * sign_edge;
+constexpr double of_the_sign = extinction * tiny_sign_m;
 
 Plan koschmieder_plan(double depth, double g) {
   constexpr double lux = 100, luminance = 100, horizon = lux / pi;
   Plan plan;
   plan.scene = lit_smoke(lux, luminance, depth / extinction, g);
-  plan.quick_particles = 1 << 15;
+  plan.look_rather(4);
   const double passed = std::exp(-depth);
   const auto add = [&](const std::string& name, double reference, EyeQuantity quantity) {
     plan.add(
@@ -151,7 +137,7 @@ constexpr JinRow jin_table[] = {{1, {6.27, 8.02, 10.20, 10.35, 11.96, 13.35}},
 Plan jin_plan(double lux, double luminance, double c) {
   Plan plan;
   plan.scene = lit_smoke(lux, luminance, c / extinction, 0);
-  plan.quick_particles = 1 << 16;
+  plan.look_rather(8);
   const double smoke_cd_m2 = lux / pi;
   const double sign = luminance > smoke_cd_m2 ? 1 : -1;
   constexpr double digits = 0.005;  // of the table, in C
@@ -168,6 +154,16 @@ Plan jin_plan(double lux, double luminance, double c) {
   });
   measured.bias = digits + of_the_sign;
   measured.unit = c;
+  // The veil is all chance in it, and smoke as bright as it is in an even field is known: what is
+  // passed of the sign's contrast says C to the digits of the table.
+  Quantity& passed = plan.add("C, of the contrast that is passed", c, [=](const Traced& run) {
+    const double own = seen(run, EyeQuantity::own).value;
+    const double contrast =
+        sign * (own / smoke_cd_m2 - 1) * seen(run, EyeQuantity::transmission).value;
+    return Estimate{c + std::log(contrast / threshold), 0};
+  });
+  passed.bias = digits;
+  passed.certain = true;
   return plan;
 }
 

@@ -1,5 +1,6 @@
 // A point source in endless fog (Case), balls of smoke (collision probabilities), and the glowing
 // cube of Burns and Christon (quadrature).
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -89,29 +90,78 @@ double kappa_of_burns_christon(const glm::dvec3& p) {
   return 0.9 * f(p.x) * f(p.y) * f(p.z) + 0.1;
 }
 
-/// Fluence at a point of the centre line, which is six half lines of one and the same field.
-void add_centre(Plan& plan, double x, double fluence) {
-  constexpr double half = 0.015;
-  const auto number = static_cast<uint32_t>(plan.sums.size());
-  plan.sums.push_back({&TallyBlocks::volume_length, {}});
+/// A box about a point of the cube's centre line and its five images: the line is six half lines of
+/// one and the same field. `from` and `to` are distances from the centre, `half` is half the width.
+std::vector<uint32_t> add_images(SceneDescription& scene, double from, double to, double half) {
+  std::vector<uint32_t> numbers;
   for (int axis = 0; axis < 3; ++axis) {
     for (const double sign : {-1.0, 1.0}) {
-      glm::dvec3 c(0.5);
-      c[axis] += sign * (x - 0.5);
-      plan.sums.back().bins.push_back(static_cast<uint32_t>(plan.scene.volume_groups.size()));
-      add_box_group(plan.scene, c - half, c + half);
+      glm::dvec3 low(0.5 - half), high(0.5 + half);
+      low[axis] = 0.5 + std::min(sign * from, sign * to);
+      high[axis] = 0.5 + std::max(sign * from, sign * to);
+      numbers.push_back(static_cast<uint32_t>(scene.volume_groups.size()));
+      add_box_group(scene, low, high);
     }
   }
-  // By quadrature along rays, cells of 1/80 and the average over a box of 3 cm take 0.37 % off the
-  // centre's value, where kappa has its peak, and up to 0.26 % off the others.
-  constexpr double of_cells = 4e-3;
+  return numbers;
+}
+
+std::string fluence_at(const Row& row) {
+  return "fluence at x = " + row.text("x");
+}
+
+/// Cells of 1/80 and the average over a box take that off the fluence: where kappa has its peak
+/// 0.37 % in a box of 3 cm, elsewhere up to 0.26 %, by quadrature along rays.
+constexpr double of_cells = 4e-3;
+
+/// [W]; every particle carries as much as the others.
+double emitted_in_all() {
+  return rows_where("burns_christon.csv", "x", "total emitted (4*int kappa)")
+      .front()
+      .number("divQ");
+}
+
+/// Fluence, and emission less absorption, at a point of the centre line.
+void add_centre(Plan& plan, const Row& row) {
+  constexpr double half = 0.015;
+  const double x = row.number("x"), kappa = row.number("kappa");
+  const auto number = static_cast<uint32_t>(plan.sums.size());
+  const auto images = add_images(plan.scene, x - 0.5 - half, x - 0.5 + half, half);
+  plan.sums.push_back({&TallyBlocks::volume_length, images});
+  plan.sums.push_back({&TallyBlocks::volume_power, images});
+  const double volume = 6 * std::pow(2 * half, 3), diagonal = 2 * half * std::sqrt(3.0);
   plan.add(
-          "fluence at x = " + std::to_string(x).substr(0, 5), fluence,
-          [number](const Traced& run) {
-            return run.sum(number) * (1 / (6 * std::pow(2 * half, 3)));
-          },
-          of_cells)
-      .unit = 1 / (half * half);
+          fluence_at(row), row.number("G_incident_radiation"),
+          [=](const Traced& run) { return run.sum(number) * (1 / volume); }, of_cells)
+      .unit = emitted_in_all() * diagonal / volume;
+  // Of the box: kappa is 0.1 + 0.9 times the product of three hats, each of them averaged.
+  const double side = 1 - half, along = x == 0.5 ? side : 2 * (1 - x);
+  const double mean_kappa = 0.1 + 0.9 * along * side * side;
+  plan.add("emission less absorption at x = " + row.text("x"), row.number("divQ"),
+           [=](const Traced& run) {
+             const Estimate absorbed = run.sum(number + 1) * (kappa / (mean_kappa * volume));
+             return Estimate{4 * kappa - absorbed.value, absorbed.standard_error};
+           })
+      .bias = 2 * of_cells * kappa * row.number("G_incident_radiation");
+  // As rare as what is absorbed.
+  const double absorbed = kappa * row.number("G_incident_radiation");
+  plan.quantities.back().unit = emitted_in_all() / volume * row.number("divQ") / absorbed;
+}
+
+/// At the wall, from three thin boxes before it: the quadratic whose averages they have.
+void add_wall_point(Plan& plan, const Row& row) {
+  constexpr double thin = 0.01, half = 0.015;
+  constexpr double shares[] = {11.0 / 6, -7.0 / 6, 2.0 / 6};
+  WeightedSum sum{&TallyBlocks::volume_length, {}};
+  for (int i = 0; i < 3; ++i) {
+    for (const uint32_t box : add_images(plan.scene, 0.5 - (i + 1) * thin, 0.5 - i * thin, half))
+      sum.terms.push_back({box, 0, shares[i] / (6 * thin * 4 * half * half)});
+  }
+  plan.weighted.push_back(std::move(sum));
+  plan.add(
+          fluence_at(row), row.number("G_incident_radiation"),
+          [](const Traced& run) { return run.weighted_sum(0); }, of_cells)
+      .unit = emitted_in_all() * shares[0] / (6 * thin * 2 * half);
 }
 
 Plan burns_christon_plan() {
@@ -126,28 +176,30 @@ Plan burns_christon_plan() {
   Medium& m = add_cells(scene, {0, 0, 0}, {1, 1, 1}, 80, kappa_of_burns_christon, 0);
   m.data.emission = m.data.extinction;
   m.emission = MediumEmission{};
-  constexpr double emitted = 0.85;
+  constexpr const char* table = "burns_christon.csv";
+  const auto total = [](const char* what) {
+    return rows_where(table, "x", what).front().number("divQ");
+  };
+  const double emitted = emitted_in_all(), escaping = total("total escaping to the 6 black walls");
   m.emission->power_w = emitted;
-  constexpr double of_cells = 1e-3;
-  const std::vector<Row> rows = reference_table("burns_christon.csv");
+  plan.quick_particles = 1 << 20;  // boxes about the points are small
+  constexpr double of_totals = 1e-3;
   plan.sums.push_back({&TallyBlocks::surfaces, {0, 1, 2, 3, 4, 5}});
-  for (const Row& row : rows) {
-    if (!row.text("x").starts_with("total escaping")) continue;
-    const double escaping = row.number("divQ");
+  plan.add(
+      "to all walls", escaping, [](const Traced& run) { return run.sum(0); }, of_totals);
+  plan.add(
+      "absorbed", emitted - escaping, [](const Traced& run) { return run.absorbed_by_medium(0); },
+      of_totals);
+  for (const std::string wall : {"x0", "x1", "y0", "y1", "z0", "z1"})
     plan.add(
-        "to all walls", escaping, [](const Traced& run) { return run.sum(0); }, of_cells);
-    plan.add(
-        "absorbed", emitted - escaping, [](const Traced& run) { return run.absorbed_by_medium(0); },
-        of_cells);
-    for (const std::string wall : {"x0", "x1", "y0", "y1", "z0", "z1"})
-      plan.add(
-          "to wall " + wall, escaping / 6, [wall](const Traced& run) { return run.into(wall); },
-          of_cells);
-  }
-  // Boxes nearer to a wall than their half would leave the cube.
-  for (size_t i = 0; i < rows.size() && !rows[i].text("x").starts_with("total"); i += 3) {
-    const double x = rows[i].number("x");
-    if (x < 0.97) add_centre(plan, x, rows[i].number("G_incident_radiation"));
+        "to wall " + wall, total("per wall"), [wall](const Traced& run) { return run.into(wall); },
+        of_totals);
+  for (const Row& row : reference_table(table)) {
+    if (row.text("x").starts_with("total") || row.text("x") == "per wall") continue;
+    if (row.number("x") < 1)
+      add_centre(plan, row);
+    else
+      add_wall_point(plan, row);
   }
   return plan;
 }

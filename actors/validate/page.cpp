@@ -34,7 +34,9 @@ std::string limit_text(const SuiteRecord& record, size_t short_of_error) {
       record.case_seconds, short_of_error);
 }
 
-std::string verdict_part(const Verdict& verdict, const SuiteRecord& record, size_t short_of_error) {
+std::string verdict_part(const Verdict& verdict, const SuiteRecord& record,
+                         const std::vector<CaseResult>& results) {
+  const size_t short_of_error = cases_short_of_error(results);
   std::string out = fmt::format(
       "<p class=\"{0}\">{1}: {2} statistical and {3} computed quantities, {4} out of bounds.</p>\n",
       verdict.passed ? "passed" : "failed", verdict.passed ? "Passed" : "Failed",
@@ -46,6 +48,7 @@ std::string verdict_part(const Verdict& verdict, const SuiteRecord& record, size
   out += fmt::format("<p>Run {}, seed {}, {} threads{}{}.</p>\n", how, record.seed, record.threads,
                      record.only.empty() ? "" : ", only " + xml_escape(record.only),
                      record.interrupted ? "; interrupted: later cases are missing" : "");
+  out += "<p>" + precision_text(precision_of(results, record.wanted_error())) + ".</p>\n";
   out += "<h2>The rule, written down beforehand</h2>\n<ul>\n";
   for (const std::string& sentence : rule_text()) out += "<li>" + xml_escape(sentence) + "</li>\n";
   out += "</ul>\n<table>\n<tr><th>test</th><th>found</th><th>allowed</th><th></th></tr>\n";
@@ -203,8 +206,9 @@ std::string case_part(const CaseResult& result, const std::vector<Judged>& judge
         readable_number(result.short_of, 2));
   if (std::isfinite(result.slope_particles)) {
     out += fmt::format(
-        " Slope of the error: {:.3f} over particles, {:.3f} over seconds (Monte Carlo: -0.5).",
-        result.slope_particles, result.slope_seconds);
+        " Slope of the standard error: {:.3f} over particles, {:.3f} over seconds (Monte Carlo: "
+        "-0.5); of the deviation, which is a matter of chance: {:.2f} over particles.",
+        result.slope_particles, result.slope_seconds, result.slope_deviation);
   }
   out += "</p>\n" + course_drawing(result.course, false) + course_drawing(result.course, true);
   out +=
@@ -220,7 +224,7 @@ std::string case_part(const CaseResult& result, const std::vector<Judged>& judge
 
 Result<std::string> suite_page(const std::vector<CaseResult>& results, const Verdict& verdict,
                                const SuiteRecord& record) {
-  std::string page = head + verdict_part(verdict, record, cases_short_of_error(results));
+  std::string page = head + verdict_part(verdict, record, results);
   const auto distribution = distribution_part(verdict);
   if (!distribution.ok()) return distribution.problem();
   page += distribution.value();
@@ -229,6 +233,11 @@ Result<std::string> suite_page(const std::vector<CaseResult>& results, const Ver
       "standard error (blue) and deviation from the references (red dots), root mean squares over "
       "the case's quantities, over particles and over seconds, both axes logarithmic. The merit is "
       "1 / (relative error<sup>2</sup> &times; seconds).</p>\n";
+  if (const Slopes slopes = slopes_of(results); std::isfinite(slopes.deviation))
+    page += fmt::format(
+        "<p>Over all cases together standard errors fall with particles by a slope of {:.3f}, "
+        "deviations from the references by {:.3f} (Monte Carlo: -0.5).</p>\n",
+        slopes.standard_error, slopes.deviation);
   std::string group;
   for (size_t i = 0; i < results.size(); ++i) {
     if (results[i].group != group) page += "<h3>" + xml_escape(results[i].group) + "</h3>\n";

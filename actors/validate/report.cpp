@@ -1,5 +1,7 @@
 #include "actors/validate/report.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 namespace luxodus::light {
@@ -54,8 +56,18 @@ Json case_json(const CaseResult& result, const std::vector<Judged>& judged) {
            result.short_of > 1 ? Json(result.short_of) : Json(nullptr)},
           {"slope_particles", number_json(result.slope_particles)},
           {"slope_seconds", number_json(result.slope_seconds)},
+          {"slope_deviation", number_json(result.slope_deviation)},
           {"course", course},
           {"quantities", quantities}};
+}
+
+Json precision_json(const Precision& p) {
+  return {{"relative_error", p.error},
+          {"known", p.known},
+          {"limited_by_reference", p.by_reference},
+          {"small_and_known_absolutely", p.small},
+          {"limited_by_particles", p.by_particles},
+          {"of", p.all()}};
 }
 
 Json sample_json(const Sample& sample, size_t count) {
@@ -67,6 +79,13 @@ Json sample_json(const Sample& sample, size_t count) {
 }
 
 }  // namespace
+
+std::string precision_text(const Precision& p) {
+  return fmt::format(
+      "{} of {} quantities are known to {:g} %; {} are limited by their references, {} are small "
+      "and known to as much of a hundredth of what could be, {} are limited by particles",
+      p.known, p.all(), 100 * p.error, p.by_reference, p.small, p.by_particles);
+}
 
 Json suite_json(const std::vector<CaseResult>& results, const Verdict& verdict,
                 const SuiteRecord& record) {
@@ -83,6 +102,9 @@ Json suite_json(const std::vector<CaseResult>& results, const Verdict& verdict,
           {"error_asked_for", record.error > 0 ? Json(record.error) : Json(nullptr)},
           {"seconds_of_a_case_at_most", number_json(record.case_seconds)},
           {"cases_short_of_the_error", cases_short_of_error(results)},
+          {"known_to", precision_json(precision_of(results, record.wanted_error()))},
+          {"slope_of_standard_errors", number_json(slopes_of(results).standard_error)},
+          {"slope_of_deviations", number_json(slopes_of(results).deviation)},
           {"only", record.only},
           {"rule", rule_text()},
           {"checks", checks},

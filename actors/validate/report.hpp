@@ -17,7 +17,12 @@ struct SuiteRecord {
   double case_seconds = std::numeric_limits<double>::infinity();  // SuiteOptions
   std::string only;                                               // "" for all cases
   bool interrupted = false;
+  /// What the record tells of: the error asked for, or that of a full run.
+  double wanted_error() const { return error > 0 ? error : defaults::suite_error; }
 };
+
+/// One sentence without its full stop.
+std::string precision_text(const Precision& precision);
 
 Json suite_json(const std::vector<CaseResult>& results, const Verdict& verdict,
                 const SuiteRecord& record);

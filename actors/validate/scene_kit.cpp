@@ -155,6 +155,25 @@ Medium& add_cells(SceneDescription& scene, const glm::dvec3& low, const glm::dve
   return m;
 }
 
+void add_tiny_sign(SceneDescription& scene, const glm::dvec3& at, double luminance_cd_m2) {
+  Sign sign;
+  sign.name = "sign";
+  sign.frame.origin = at;
+  sign.frame.axes = glm::dmat3(glm::dvec3(0, -1, 0), glm::dvec3(0, 0, 1), glm::dvec3(-1, 0, 0));
+  sign.width_m = sign.height_m = sign.smallest_detail_m = tiny_sign_m;
+  sign.face = {1, 1, {SignColour::white}, {}, SignColour::white};
+  sign.mains = {luminance_cd_m2, 0};
+  sign.white_reflectance = sign.green_reflectance = Spectrum::constant(0);
+  scene.signs.push_back(sign);
+}
+
+void add_eye(SceneDescription& scene, const glm::dvec3& at) {
+  Observer eye;
+  eye.name = "eye";
+  eye.eye = at;
+  scene.observers.push_back(eye);
+}
+
 void add_layer_group(SceneDescription& scene, double z_low, double z_high) {
   VolumeGroupMeasure g;
   g.shape = VolumeGroupMeasure::Shape::layer;

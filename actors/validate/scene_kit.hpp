@@ -45,6 +45,12 @@ Medium& add_cells(SceneDescription& scene, const glm::dvec3& low, const glm::dve
                   const std::function<double(const glm::dvec3&)>& extinction, double albedo,
                   double g = 0);
 
+/// A white sign that faces -x and reflects nothing, too small to light or shade what it is seen
+/// through.
+inline constexpr double tiny_sign_m = 1e-4;
+void add_tiny_sign(SceneDescription& scene, const glm::dvec3& at, double luminance_cd_m2);
+void add_eye(SceneDescription& scene, const glm::dvec3& at);
+
 void add_layer_group(SceneDescription& scene, double z_low, double z_high);
 void add_box_group(SceneDescription& scene, const glm::dvec3& low, const glm::dvec3& high);
 void add_shell_group(SceneDescription& scene, const glm::dvec3& centre, double inner, double outer);

@@ -22,20 +22,22 @@ uint64_t seed_of(const Case& c, uint64_t seed) {
 
 /// Enough batches for an error of a quick run to be known to 3 %.
 constexpr int64_t quick_batches = 512;
-constexpr int64_t first_share = 16;  // a course begins with a 16th of a quick run
+constexpr int64_t first_share = 16;  // a course begins with a 16th of a quick run, and doubles:
+constexpr size_t quick_checkpoints = 5;
 
 /// Shares of less than a hundredth of what a quantity could be are wanted to a hundredth of the
 /// error, absolutely.
 constexpr double least_share = 0.01;
+/// More particles tell little where the error bar is less than this share of the declared bias.
+constexpr double useful_share = 0.25;
 
 /// How many times more particles would bring the worst quantity to the error.
 double need(const CaseResult& result, double error) {
   double most = 0;
   for (const Finding& f : result.findings) {
     if (!f.statistical || !(f.estimate.standard_error > 0)) continue;
-    // More particles tell nothing where the declared bias is larger than the error bar.
-    const double wanted =
-        std::max(error * std::max(std::abs(f.reference), least_share * f.unit), 0.25 * f.bias);
+    const double wanted = std::max(error * std::max(std::abs(f.reference), least_share * f.unit),
+                                   useful_share * f.bias);
     most = std::max(most, std::pow(f.estimate.standard_error / wanted, 2));
   }
   return most;
@@ -80,15 +82,19 @@ CoursePoint course_point(const CaseResult& result) {
 }
 
 void fit_slopes(CaseResult& result) {
-  std::vector<double> particles, seconds, error;
+  std::vector<double> particles, seconds, error, deviation;
   for (const CoursePoint& p : result.course) {
     particles.push_back(static_cast<double>(p.particles));
     seconds.push_back(p.seconds);
     error.push_back(p.standard_error);
+    deviation.push_back(p.deviation);
   }
   // A standard error is known the better the more batches it comes from.
   result.slope_particles = log_slope(particles, error, particles);
   result.slope_seconds = log_slope(seconds, error, particles);
+  // A deviation is as much a matter of chance after many particles as after few.
+  const std::vector<double> alike(particles.size(), 1.0);
+  result.slope_deviation = log_slope(particles, deviation, alike);
 }
 
 class Suite {
@@ -165,8 +171,10 @@ CaseResult Suite::run_case(const Case& c, double error) {
   const Plan plan = c.plan();
   if (!plan.quantities.empty()) trace(c, plan, error, result);
   for (const Computed& q : plan.computed)
-    result.findings.push_back(
-        {q.name, q.reference, {q.value, 0}, q.tolerance * std::abs(q.reference)});
+    result.findings.push_back({q.name,
+                               q.reference,
+                               {q.value(options_.direct_light), 0},
+                               q.tolerance * std::abs(q.reference)});
   if (plan.quantities.empty()) result.seconds = static_cast<double>(clock_.now() - began) * 1e-9;
   fit_slopes(result);
   return result;
@@ -176,8 +184,9 @@ void Suite::trace(const Case& c, const Plan& plan, double error, CaseResult& res
   SceneDescription scene = plan.scene;
   scene.run.batch_particles =
       std::clamp(plan.quick_particles / quick_batches, int64_t{16}, plan.batch_particles);
-  Traced run(compile(std::move(scene)), seed_of(c, options_.seed), options_.threads, plan.sums);
-  if (options_.make_tracer) run.local().trace_with(options_.make_tracer);
+  Traced run(compile(std::move(scene)), seed_of(c, options_.seed), options_.threads, plan.sums,
+             plan.weighted);
+  if (options_.make_tracer) run.trace_with(options_.make_tracer);
   for (int64_t n = plan.quick_particles / first_share;;) {
     StopRule stop;
     stop.particles = n;
@@ -209,6 +218,46 @@ void Suite::trace(const Case& c, const Plan& plan, double error, CaseResult& res
 size_t cases_short_of_error(const std::vector<CaseResult>& results) {
   return static_cast<size_t>(std::count_if(results.begin(), results.end(),
                                            [](const CaseResult& r) { return r.short_of > 1; }));
+}
+
+Precision precision_of(const std::vector<CaseResult>& results, double error) {
+  Precision out;
+  out.error = error;
+  for (const CaseResult& r : results) {
+    for (const Finding& f : r.findings) {
+      if (!f.statistical || !(f.estimate.standard_error > 0)) continue;
+      const double wanted = error * std::abs(f.reference), floor = error * least_share * f.unit;
+      const bool reached = f.estimate.standard_error <= std::max(wanted, floor);
+      if (useful_share * f.bias > std::max(wanted, floor))
+        ++out.by_reference;
+      else if (f.estimate.standard_error <= wanted)
+        ++out.known;
+      else
+        ++(reached ? out.small : out.by_particles);
+    }
+  }
+  return out;
+}
+
+Slopes slopes_of(const std::vector<CaseResult>& results) {
+  std::vector<double> particles, error, deviation, alike;
+  for (size_t k = 0; k < quick_checkpoints; ++k) {
+    double n = 0, error2 = 0, deviation2 = 0;
+    for (const CaseResult& r : results) {
+      if (r.course.size() < quick_checkpoints) continue;
+      const double scale = r.course[quick_checkpoints - 1].standard_error;
+      const CoursePoint& p = r.course[k];
+      if (!(scale > 0 && p.standard_error > 0)) continue;
+      n += 1;
+      error2 += std::pow(p.standard_error / scale, 2);
+      deviation2 += std::pow(p.deviation / scale, 2);
+    }
+    particles.push_back(std::exp2(k));
+    error.push_back(std::sqrt(error2 / n));  // NaN for none
+    deviation.push_back(std::sqrt(deviation2 / n));
+    alike.push_back(1);
+  }
+  return {log_slope(particles, error, alike), log_slope(particles, deviation, alike)};
 }
 
 double figure_of_merit(const Finding& f, double seconds) {

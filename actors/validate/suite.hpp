@@ -17,6 +17,11 @@ namespace limits {
 inline constexpr int64_t case_particles = int64_t{1} << 34;
 }  // namespace limits
 
+namespace defaults {
+/// Relative: what `--full` is for.
+inline constexpr double suite_error = 1e-4;
+}  // namespace defaults
+
 struct SuiteOptions {
   uint64_t seed = 1;
   int threads = 1;
@@ -27,6 +32,7 @@ struct SuiteOptions {
   double case_seconds = std::numeric_limits<double>::infinity();
   /// Instead of the program's own loop: for tests.
   LocalRun::MakeTracer make_tracer;
+  DirectLightAt direct_light = direct_light_at;
 };
 
 /// How far a suite is.
@@ -68,10 +74,31 @@ struct CaseResult {
   std::vector<Finding> findings;
   std::vector<CoursePoint> course;
   double slope_particles = 0, slope_seconds = 0;  // of the standard error; NaN where none is known
+  double slope_deviation = 0;                     // over particles, of the deviation
 };
 
 /// Cases that ended before all of their quantities had the error asked for.
 size_t cases_short_of_error(const std::vector<CaseResult>& results);
+
+/// How many estimates are known to a relative error, and what keeps the others from it.
+struct Precision {
+  double error = 0;
+  size_t known = 0;         // standard error at most that
+  size_t by_reference = 0;  // a quarter of the declared bias is larger: none is wanted to that
+  size_t small = 0;         // less than a hundredth of what could be, known to a hundredth of that
+  size_t by_particles = 0;  // more would bring it
+  size_t all() const { return known + by_reference + small + by_particles; }
+};
+Precision precision_of(const std::vector<CaseResult>& results, double error);
+
+/// How errors of all cases together fall with particles: slopes over the checkpoints that all have,
+/// of root mean squares over the cases, each in units of its last standard error. Of honest Monte
+/// Carlo both are -0.5, the deviation's with some scatter. NaN where no case has two checkpoints.
+struct Slopes {
+  double standard_error = 0;
+  double deviation = 0;
+};
+Slopes slopes_of(const std::vector<CaseResult>& results);
 
 /// 1 / (relative error^2 x seconds) [1/s]; 0 where nothing is estimated.
 double figure_of_merit(const Finding& finding, double seconds);

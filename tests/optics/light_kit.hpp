@@ -46,7 +46,7 @@ struct RunOptions {
 class Run : public Traced {
  public:
   explicit Run(SceneDescription scene, const RunOptions& options = {},
-               const std::vector<BinSum>& sums = {});
+               const std::vector<BinSum>& sums = {}, const std::vector<WeightedSum>& weighted = {});
 };
 
 // ---- comparisons -------------------------------------------------------------------------------

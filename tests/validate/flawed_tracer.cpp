@@ -26,6 +26,17 @@ glm::vec3 even_hemisphere(const glm::vec3& direction, const glm::vec3& axis) {
   return glm::normalize(axis * even + flat * (std::sqrt(1 - even * even) / length));
 }
 
+/// Of a cosine-distributed direction about an axis the one that the next smaller number would have
+/// given: its cosine's square, from which none above 0.98 comes out.
+glm::vec3 from_fewer_points(const glm::vec3& direction, const glm::vec3& axis) {
+  const float cosine = glm::dot(direction, axis);
+  const glm::vec3 flat = direction - axis * cosine;
+  const float length = glm::length(flat);
+  if (length < 1e-6F) return direction;
+  const float square = 0.98F * cosine * cosine;
+  return glm::normalize(axis * std::sqrt(square) + flat * (std::sqrt(1 - square) / length));
+}
+
 /// Spoils, in place, what the loop has found out.
 struct OneFlaw {
   static void history(uint64_t& particle) {
@@ -37,6 +48,12 @@ struct OneFlaw {
   static void birth(Ray& ray, const EmissionPoint& point, const CompiledEmitter& emitter) {
     if (has(Flaw::even_emission) && emitter.distribution == Distribution::lambertian)
       ray.direction = even_hemisphere(ray.direction, point.axis);
+    if (has(Flaw::biased_points) && emitter.distribution == Distribution::lambertian)
+      ray.direction = from_fewer_points(ray.direction, point.axis);
+    if (has(Flaw::turned_web) && emitter.distribution == Distribution::web)
+      ray.direction = {-ray.direction.y, ray.direction.x, ray.direction.z};
+    if (has(Flaw::rising_flames) && emitter.kind == EmitterKind::volume)
+      ray.direction.z = std::abs(ray.direction.z);
     if (has(Flaw::small_emitter) && emitter.kind == EmitterKind::rectangle)
       ray.origin = emitter.origin;
   }
@@ -65,6 +82,7 @@ struct OneFlaw {
   }
   static void surface(SurfaceModel& model) {
     if (has(Flaw::wrong_glass) && model.kind == SurfaceKind::glass_pane) model.ior = 1.40F;
+    if (has(Flaw::rough_gloss) && model.kind == SurfaceKind::glossy) model.alpha *= 2;
   }
   static void lambertian(glm::vec3& local) {
     if (has(Flaw::no_cosine)) local = even_hemisphere(local, {0, 0, 1});
@@ -126,7 +144,11 @@ const char* name_of(Flaw flaw) {
                                    "backward phase",
                                    "wrong glass",
                                    "no offset",
-                                   "repeated histories"};
+                                   "repeated histories",
+                                   "biased points",
+                                   "rough gloss",
+                                   "turned web",
+                                   "rising flames"};
   static_assert(std::size(names) == static_cast<size_t>(flaws));
   return names[static_cast<size_t>(flaw)];
 }

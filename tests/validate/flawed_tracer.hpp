@@ -29,6 +29,10 @@ enum class Flaw {
   wrong_glass,         // refractive index 1.40 instead of 1.52
   no_offset,           // rays leave surfaces from the very hit point
   repeated_histories,  // particles take the random numbers of earlier ones
+  biased_points,  // the points that emission draws from leave out a fiftieth of the unit square
+  rough_gloss,    // glossy lobes twice as wide
+  turned_web,     // luminaires hang turned by 90 degrees
+  rising_flames,  // flames send all their light upwards
   end,
 };
 inline constexpr int flaws = static_cast<int>(Flaw::end);

@@ -1,13 +1,16 @@
 // `luxodus validate` itself: it passes, its rule finds what is wrong, and it finds every mistake
 // that the sampler can be given.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <set>
 
+#include "actors/validate/reference.hpp"
 #include "actors/validate/report.hpp"
 #include "runtime/core/random.hpp"
+#include "tests/validate/flawed_eyes.hpp"
 #include "tests/validate/flawed_tracer.hpp"
 
 namespace luxodus::light {
@@ -59,6 +62,20 @@ TEST_CASE("every case with a reference passes quickly, and z is distributed as i
   for (const std::string& line : failures(results, verdict)) UNSCOPED_INFO(line);
   CHECK(verdict.passed);
   CHECK(verdict.lead_count >= 200);
+  // The same run with standard errors that are a third too small, or too large, does not pass.
+  for (const double wrong : {0.75, 1.33}) {
+    std::vector<CaseResult> dishonest = results;
+    for (CaseResult& r : dishonest) {
+      for (Finding& f : r.findings) f.estimate.standard_error *= wrong;
+    }
+    const Verdict other = judge(dishonest);
+    INFO("variance of z with standard errors of " << wrong << ": " << other.leads.variance);
+    CHECK_FALSE(other.passed);
+    const auto variance = std::find_if(other.checks.begin(), other.checks.end(),
+                                       [](const Check& c) { return c.name == "variance of z"; });
+    REQUIRE(variance != other.checks.end());
+    CHECK_FALSE(variance->passed);
+  }
   // The file of a run reads back, with every case in it.
   const auto folder = std::filesystem::temp_directory_path() /
                       ("luxodus_validate_" + std::to_string(std::hash<std::string>{}(LUX_PROGRAM)));
@@ -79,6 +96,37 @@ TEST_CASE("names of cases are unique") {
     INFO(c.name);
     CHECK(names.insert(c.name).second);
     CHECK_FALSE(c.source.empty());
+  }
+}
+
+TEST_CASE("every value of the tables of closed forms and of glowing cells stands in a case") {
+  std::vector<double> compared;
+  for (const Case& c : all_cases()) {
+    const Plan plan = c.plan();
+    for (const Quantity& q : plan.quantities) compared.push_back(q.reference);
+    for (const Computed& q : plan.computed) compared.push_back(q.reference);
+  }
+  std::sort(compared.begin(), compared.end());
+  const auto stands = [&](double value) {
+    const double digits = 2e-9 * std::abs(value);
+    const auto at = std::lower_bound(compared.begin(), compared.end(), value - digits);
+    return at != compared.end() && *at <= value + digits;
+  };
+  CHECK_FALSE(stands(0.123456789));
+  for (const Row& row : reference_table("misc_exact.csv")) {
+    INFO(row.text("id") << " " << row.text("parameters"));
+    CHECK(stands(row.number("value")));
+  }
+  for (const Row& row : reference_table("burns_christon.csv")) {
+    INFO(row.text("x"));
+    const bool point = !row.text("kappa").empty();
+    if (point) CHECK(stands(row.number("G_incident_radiation")));
+    if (row.text("x") == "1.000" || row.text("x").starts_with("total emitted")) continue;
+    CHECK(stands(row.number("divQ")));
+  }
+  for (const Row& row : reference_table("layered_slab.csv")) {
+    INFO(row.text("case") << " " << row.text("incidence") << " " << row.text("from"));
+    for (const char* column : {"R", "T", "T_direct"}) CHECK(stands(row.number(column)));
   }
 }
 
@@ -221,14 +269,15 @@ namespace {
 
 /// Few cases that together use every step of the loop.
 Cases cases_of_every_step() {
-  return named({"stack 41 mixA of depth 3, normal from top",
-                "stack 41 mixA of depth 3, lambert from top",
-                "stack 36 L6 of depth 5, lambert from top", "half space, albedo 0.9, R(mu0=1)",
-                "cube c05_one_wall_emits_unequal", "cube p03_point_centre_rho.5",
-                "cube of gas, optical depth 1", "furnace, white smoke: all over one another",
-                "furnace, white smoke: homogeneous", "plates r1=0.8;r2=0.3",
-                "beam in fog, c=0.9;g=0.5", "glass pane theta=60", "diffuse wall under a beam",
-                "beams of 1, 2 and 5 W", "area lamp L5_large_4x4_h1, traced"});
+  return named(
+      {"stack 41 mixA of depth 3, normal from top", "stack 41 mixA of depth 3, lambert from top",
+       "stack 36 L6 of depth 5, lambert from top", "half space, albedo 0.9, R(mu0=1)",
+       "cube c05_one_wall_emits_unequal", "cube p03_point_centre_rho.5",
+       "cube of gas, optical depth 1", "furnace, white smoke: all over one another",
+       "furnace, white smoke: homogeneous", "plates r1=0.8;r2=0.3", "beam in fog, c=0.9;g=0.5",
+       "glass pane theta=60", "diffuse wall under a beam", "beams of 1, 2 and 5 W",
+       "area lamp L5_large_4x4_h1, traced", "beam on a glossy plate, 65 deg, alpha 0.1",
+       "luminaire of an LDT file", "flame between layers of depth 0.1|1|2"});
 }
 
 SuiteOptions flawed_options() {
@@ -261,6 +310,79 @@ TEST_CASE("every flaw of the sampler makes validation fail") {
                        << (found.empty() ? "none" : found.front()));
     CHECK_FALSE(verdict.passed);
   }
+}
+
+// ---- broken eyes -------------------------------------------------------------------------------
+
+namespace {
+
+Cases cases_of_eyes() {
+  return named({"veil of a lamp, even scattering",
+                "veil of a lamp, even scattering, half of it behind a sheet",
+                "veil of a lamp, g 0.7", "veil of a luminaire, LDT file",
+                "sign seen through glowing gas, depth 1", "Koschmieder, optical depth 0.5, g 0",
+                "probe over a glossy plate, alpha 0.3"});
+}
+
+Cases cases_of_direct_light() {
+  return named({"area lamp L5_large_4x4_h1, direct light",
+                "area lamp L5_large_4x4_h1, direct light in gas of 0.5 /m",
+                "area lamp half hidden by a sheet", "glass pane theta=60",
+                "luminaire of an IES file"});
+}
+
+/// Runs with a flaw and without, and says what the first failure was.
+void check_found(const Cases& cases, const SuiteOptions& options, const char* flaw, bool flawed) {
+  const auto results = run(cases, options);
+  const Verdict verdict = judge(results);
+  const std::vector<std::string> found = failures(results, verdict);
+  INFO(flaw << ": " << found.size() << " failures, first "
+            << (found.empty() ? "none" : found.front()));
+  CHECK(verdict.passed == !flawed);
+}
+
+}  // namespace
+
+TEST_CASE(
+    "every flaw of what eyes and probes see makes validation fail, and without one it passes") {
+  const Cases cases = cases_of_eyes();
+  for (int i = 0; i < eye_flaws; ++i) {
+    const auto flaw = static_cast<EyeFlaw>(i);
+    SuiteOptions options;
+    options.threads = 2;
+    options.make_tracer = eyes_with(flaw);
+    // Without walls light in white smoke never ends.
+    const bool ends = flaw != EyeFlaw::through_sheets;
+    check_found(
+        ends ? cases : named({"veil of a lamp, even scattering, half of it behind a sheet"}),
+        options, name_of(flaw), flaw != EyeFlaw::none);
+  }
+}
+
+TEST_CASE("every flaw of computed direct light makes validation fail, and without one it passes") {
+  const Cases cases = cases_of_direct_light();
+  for (int i = 0; i < direct_flaws; ++i) {
+    const auto flaw = static_cast<DirectFlaw>(i);
+    SuiteOptions options;
+    options.threads = 2;
+    options.direct_light = direct_light_with(flaw);
+    check_found(cases, options, name_of(flaw), flaw != DirectFlaw::none);
+  }
+}
+
+TEST_CASE("batches that repeat others make standard errors too small, and the spread of z tells") {
+  Cases cases = cases_named("layer of gas");
+  for (const char* more : {"glowing layer", "cubic room", "glossy plate", "glass pane"}) {
+    for (const Case& c : cases_named(more)) cases.push_back(c);
+  }
+  SuiteOptions options;
+  options.threads = 2;
+  CHECK(judge(run(cases, options)).passed);
+  options.make_tracer = repeated_batches();
+  const Verdict verdict = judge(run(cases, options));
+  CHECK_FALSE(verdict.passed);
+  CHECK(verdict.lead_count >= 20);
+  CHECK(verdict.leads.variance > 2);  // four, if errors are half of what they ought to be
 }
 
 }  // namespace luxodus::light
