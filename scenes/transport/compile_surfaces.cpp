@@ -122,14 +122,18 @@ Frame back_frame(const Sign& sign) {
 /// How far hits keep off the edges of a triangle, in offsets of the rays that leave it: in a corner
 /// of two walls none starts beyond the other down to an angle of 1 / 16, 3.6 degrees.
 constexpr double offsets_to_edge = 16;
-/// In 2^-16 of the triangle's least height; never 0, since an edge itself belongs to two.
-uint16_t edge_margin(const TriangleRecord& t, double least_height_m, double least_offset_m) {
+/// Nor farther along a sliver than so many times that: it has one margin for all of its edges.
+constexpr double along_slivers = 16;
+/// In 2^-16 of the triangle's heights; never 0, since an edge itself belongs to two.
+uint16_t edge_margin(const TriangleRecord& t, double twice_area_m2, double longest_m,
+                     double least_offset_m) {
   float farthest = 0;
   for (const glm::vec3& corner : t.corner) {
     for (int axis = 0; axis < 3; ++axis) farthest = std::max(farthest, std::fabs(corner[axis]));
   }
   const double off = offsets_to_edge * largest_offset(double{farthest}, least_offset_m);
-  const double share = off / least_height_m * 0x1p16;
+  const double share =
+      off * std::min(longest_m / twice_area_m2, along_slivers / longest_m) * 0x1p16;
   return static_cast<uint16_t>(std::clamp(share, 1.0, double{TriangleRecord::most_edge_margin}));
 }
 
@@ -184,7 +188,7 @@ class TriangleBuilder {
     r.normal = glm::vec3(cross / twice_area);
     const bool cut = patch_edge_m > 0 && !surface.one_patch;
     r.subdivision = static_cast<uint16_t>(cut ? subdivision_for(longest, patch_edge_m) : 1);
-    r.edge_margin = edge_margin(r, twice_area / longest, scene_.least_offset_m);
+    r.edge_margin = edge_margin(r, twice_area, longest, scene_.least_offset_m);
     r.first_patch = surface.one_patch ? surface.first_patch : patches();
     r.surface = index;
     r.global_triangle = static_cast<uint32_t>(records_.size());

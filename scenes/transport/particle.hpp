@@ -132,8 +132,9 @@ class ParticleTracer {
     p.ray.direction = emission_direction(emitter, point, random_, resolver_);
     p.ray.origin = point.position;
     if constexpr (flawed) Flaws::birth(p.ray, point, emitter);
-    // Of one in the plane of a wall, or on its own body, all light would meet that from behind.
-    if (emitter.kind != EmitterKind::volume) {
+    // Of one in the plane of a wall, or on its own body, all light would meet that from behind. A
+    // beam starts where it is said to: how far it goes is what it is for.
+    if (emitter.kind != EmitterKind::volume && emitter.distribution != Distribution::collimated) {
       const Vec3 side = glm::dot(point.axis, p.ray.direction) >= 0 ? point.axis : -point.axis;
       p.ray.origin = offset_ray(p.ray.origin, side, scene_.least_offset_m);
     }

@@ -231,6 +231,23 @@ void print_veil() {
   }
 }
 
+/// What a sign's face sends back of the room's light: by the bin that counts what leaves it, and
+/// traced from the eye.
+void print_face() {
+  SceneDescription d = room_with_sign(3);
+  d.signs[0].width_m = d.signs[0].height_m = 0.6;  // so that its bin gets some light
+  const auto run = traced(compiled(std::move(d), ""), 1, 1 << 24);
+  const CompiledScene& scene = run->scene();
+  const Readout readout(scene, run->totals());
+  const uint32_t surface = scene.signs[0].surface;
+  const Estimate of_bin = readout.lumens(scene.blocks.surfaces, surface, 1) *
+                          (1 / (M_PI * scene.surfaces[surface].area_m2));
+  const Estimate of_eye = readout.value(scene.blocks.views, scene.eye_targets[0].first_bin,
+                                        static_cast<uint32_t>(EyeQuantity::reflected));
+  fmt::print("by the bin {:.4f} +- {:.4f}, from the eye {:.4f} +- {:.4f}\n", of_bin.value,
+             of_bin.standard_error, of_eye.value, of_eye.standard_error);
+}
+
 }  // namespace
 
 void print_images(double share) {
@@ -256,6 +273,8 @@ void print_images(double share) {
       "{:>8} {:>9} {:>10} {:>10}    error {:>11}\n",
       "edge [m]", "voxels", "voxels", "eye", "off");
   print_veil();
+  fmt::print("\nLight of the room that a sign's face of 60 cm reflects there [cd/m2]\n");
+  print_face();
 }
 
 }  // namespace luxodus::bench

@@ -133,7 +133,8 @@ void check_case(const Case& one, const CaseOptions& options) {
       CHECK(std::abs(found.value - q.reference) <= q.bias);
     } else {
       const double unit = q.unit > 0 ? q.unit : emitted_w;
-      check_share(found * (1 / unit), q.reference / unit, run_options.particles, 1, q.bias / unit);
+      check_share(found * (1 / unit), q.reference / unit, run_options.particles, options.most,
+                  q.bias / unit);
     }
   }
 }

@@ -78,6 +78,7 @@ struct CaseOptions {
   double least_share = 0.005;
   int64_t least_particles = 1 << 18;
   int64_t most_particles = 1 << 24;
+  double most = 1;  // that a particle brings to a quantity, in its unit
 };
 /// Runs a case of `luxodus validate` and compares all its quantities, as check_share does.
 void check_case(const Case& one, const CaseOptions& options = {});
