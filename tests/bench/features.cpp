@@ -134,9 +134,9 @@ void homogeneous(SceneDescription& d) {
 }
 
 /// Particles start in it by its share of the light.
-void add_flame(SceneDescription& d) {
+void add_flame(SceneDescription& d, double sigma_t) {
   without_voxels(d);
-  Medium& flame = light::add_ball(d, {5, 5, 0.5}, 0.4, light::smoke(0.5, 0.5));
+  Medium& flame = light::add_ball(d, {5, 5, 0.5}, 0.4, light::smoke(sigma_t, 0.5));
   flame.emission = MediumEmission{};
   flame.emission->power_w = 1;
 }
@@ -218,10 +218,10 @@ const std::vector<Variant>& variants() {
       {"flames", "absent", nothing},
       {"", "unused (out)",
        [](SceneDescription& d) {
-         add_flame(d);
+         add_flame(d, 0);
          put_flames_out(d);
        }},
-      {"", "a ball of fire", add_flame},
+      {"", "a ball of fire", [](SceneDescription& d) { add_flame(d, 0.5); }},
       {"volume flux", "absent (medium)", homogeneous},
       {"", "unused (no medium)", [](SceneDescription& d) { d.run.voxels = true; }},
       {"", "20 000 voxels",
@@ -343,6 +343,8 @@ class Batches {
     const Batch batch = plan_.next();
     scores_.reset(scene_->layout);
     tracer_->trace(batch.group, batch.first_particle, scene_->batch_particles, scores_);
+    for (uint32_t unit = 0; unit < tracer_->look_units(); ++unit)
+      tracer_->look(batch.number, unit, scores_);
     if (by_ == By::loop) run_.totals().merge(scores_, batch.group);
   }
 
