@@ -239,9 +239,15 @@ void print_face() {
   const auto run = traced(compiled(std::move(d), ""), 1, 1 << 24);
   const CompiledScene& scene = run->scene();
   const Readout readout(scene, run->totals());
-  const uint32_t surface = scene.signs[0].surface;
-  const Estimate of_bin = readout.lumens(scene.blocks.surfaces, surface, 1) *
-                          (1 / (M_PI * scene.surfaces[surface].area_m2));
+  // Fronts of two triangles: the back of a sign is an object's other side, and not quite black.
+  const CompiledSurface& face = scene.surfaces[scene.signs[0].surface];
+  Estimate of_bin;
+  for (const uint32_t patch : {face.first_patch, face.first_patch + 2}) {
+    const Estimate out =
+        readout.lumens(scene.blocks.patches, patch, 1) * (1 / (M_PI * face.area_m2));
+    of_bin.value += out.value;
+    of_bin.standard_error = std::hypot(of_bin.standard_error, out.standard_error);
+  }
   const Estimate of_eye = readout.value(scene.blocks.views, scene.eye_targets[0].first_bin,
                                         static_cast<uint32_t>(EyeQuantity::reflected));
   fmt::print("by the bin {:.4f} +- {:.4f}, from the eye {:.4f} +- {:.4f}\n", of_bin.value,
