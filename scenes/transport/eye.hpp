@@ -515,18 +515,17 @@ class EyeTracer {
     int band;
     double emitters_weight;  // of weigh_along
 
+    /// Places on it as a point of an emitter sees them.
+    EquiangularLine seen_from(const EmissionPoint& point) const {
+      return {glm::dvec3(ray.origin), glm::dvec3(ray.direction), static_cast<double>(end),
+              glm::dvec3(point.position)};
+    }
     /// How near points of an emitter are only met.
     Real met(const CompiledEmitter& e) const { return is_small(e, end) ? 0 : e.near_m; }
   };
 
   double collision_density(const Stretch& s, Real t, double sigma_t) {
     return sigma_t * medium_transmittance(scene_, s.ray, t, s.band, resolver_) / s.share;
-  }
-
-  double near_density(const Stretch& s, const EmissionPoint& point, Real t) const {
-    return EquiangularLine(glm::dvec3(s.ray.origin), glm::dvec3(s.ray.direction),
-                           static_cast<double>(s.end), glm::dvec3(point.position))
-        .density(static_cast<double>(t));
   }
 
   /// The place is where a flight has collided; an emitter is asked there.
@@ -543,8 +542,8 @@ class EyeTracer {
       const double sigma_t = extinction_at(scene_.media, s.band, place, resolver_);
       const double here = collision_density(s, flight.t, sigma_t);
       if (!(here > 0)) return;
-      probability +=
-          share_of(asked.emitter, weights_along_) * near_density(s, point, flight.t) / here;
+      probability += share_of(asked.emitter, weights_along_) *
+                     s.seen_from(point).density(static_cast<double>(flight.t)) / here;
     }
     const PhaseFunction& phase = scene_.phases[static_cast<size_t>(flight.phase)];
     const auto turned =
@@ -559,8 +558,7 @@ class EyeTracer {
     if (!(share > 0)) return;
     const CompiledEmitter& e = scene_.emitters[chosen];
     const EmissionPoint point = emission_point(scene_, e, random_, resolver_);
-    const EquiangularLine line(glm::dvec3(s.ray.origin), glm::dvec3(s.ray.direction),
-                               static_cast<double>(s.end), glm::dvec3(point.position));
+    const EquiangularLine line = s.seen_from(point);
     const auto t = static_cast<Real>(line.sample(random_.uniform_double()));
     const Vec3 place = s.ray.origin + s.ray.direction * t;
     const double sigma_t = extinction_at(scene_.media, s.band, place, resolver_);
