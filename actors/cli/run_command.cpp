@@ -404,8 +404,7 @@ void add_run(CLI::App& app, int& exit_code) {
       "--error-of", options->error_of,
       "what --error is of, the worst of all that are given: planes, probes, signs, "
       "surfaces, cells of planes and patches (95 % of them), \"plane NAME\", \"cells NAME\", "
-      "\"probe NAME\", \"sign NAME\" "
-      "[the scene's error_of, or planes, probes and signs]");
+      "\"probe NAME\", \"sign NAME\" [the scene's error_of, or planes, probes and signs]");
   command->add_flag(
       "--by-need", options->by_need,
       "deal particles to source groups ([run] groups: circuit or emitter) as planes, "

@@ -76,10 +76,8 @@ TableSpec run_keys() {
            "what the error of a run is judged by, the worst of them: \"all\" (planes, probes and "
            "signs, or surfaces where there are none of these), \"planes\", \"probes\", \"signs\", "
            "\"surfaces\", \"cells\" of planes and \"patches\" (the error that 95 % of those that "
-           "get "
-           "light do not exceed), \"plane NAME\", \"cells NAME\" (of that plane), \"probe NAME\", "
-           "\"sign NAME\". Paths go where it asks: to eyes or to "
-           "bins"},
+           "get light do not exceed), \"plane NAME\", \"cells NAME\" (of that plane), "
+           "\"probe NAME\", \"sign NAME\". Paths go where it asks: to eyes or to bins"},
       }};
 }
 

@@ -46,11 +46,12 @@ class Judging {
     judged_.words = words;
     const SceneDescription& d = *scene.description;
     for (const PlaneMeasure& p : d.planes) {
-      for (const size_t kind : {0, 3}) kinds_[kind].names.push_back(p.name);
+      planes_.names.push_back(p.name);
+      cells_.names.push_back(p.name);
     }
-    for (const ProbeMeasure& p : d.probes) kinds_[1].names.push_back(p.name);
+    for (const ProbeMeasure& p : d.probes) probes_.names.push_back(p.name);
     for (const EyeTarget& t : scene.eye_targets)
-      kinds_[2].names.push_back(d.signs[scene.signs[t.sign].sign].name);
+      signs_.names.push_back(d.signs[scene.signs[t.sign].sign].name);
   }
 
   Result<bool> add(const std::string& text) {
@@ -67,7 +68,7 @@ class Judging {
   }
 
   void add_all() {
-    for (const Kind& kind : {kinds_[0], kinds_[1], kinds_[2]}) *kind.chosen = all_of(kind);
+    for (const Kind* kind : {&planes_, &probes_, &signs_}) *kind->chosen = all_of(*kind);
     const bool any = !judged_.planes.empty() || !judged_.probes.empty() || !judged_.targets.empty();
     judged_.surfaces |= !any;
   }
@@ -76,7 +77,8 @@ class Judging {
 
  private:
   Result<bool> add_kind(const Word& word, const std::string& text) {
-    for (const Kind& kind : kinds_) {
+    for (const Kind* each : {&planes_, &probes_, &signs_, &cells_}) {
+      const Kind& kind = *each;
       if (word.kind == kind.all && word.name.empty()) {
         if (kind.names.empty()) return fail("the scene has no " + std::string(kind.what) + "s");
         *kind.chosen = all_of(kind);
@@ -108,10 +110,10 @@ class Judging {
 
   const CompiledScene& scene_;
   Judged judged_;
-  Kind kinds_[4] = {{"plane", "planes", "plane", {}, &judged_.planes},
-                    {"probe", "probes", "probe", {}, &judged_.probes},
-                    {"sign", "signs", "sign", {}, &judged_.targets},
-                    {"cells", "cells", "plane", {}, &judged_.cells}};
+  Kind planes_{"plane", "planes", "plane", {}, &judged_.planes};
+  Kind probes_{"probe", "probes", "probe", {}, &judged_.probes};
+  Kind signs_{"sign", "signs", "sign", {}, &judged_.targets};
+  Kind cells_{"cells", "cells", "plane", {}, &judged_.cells};
 };
 
 }  // namespace
