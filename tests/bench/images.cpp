@@ -24,10 +24,12 @@ constexpr int long_paths = 2048;
 constexpr int64_t all_particles = 1 << 24;
 /// Pixels darker than this share of the mean are judged as if they were that bright.
 constexpr double dark = 0.05;
-/// Of luminances that are averaged: a luminaire in a few pixels, and whatever path happens to meet
-/// one, would decide alone [cd/m2].
+/// Of errors that are averaged: a luminaire in a few pixels, and whatever path happens to meet one,
+/// would decide alone [cd/m2].
 constexpr double counted_most = 10;
-constexpr int seeds = 8;  // of the long picture whose own error is asked for
+/// Of mean luminances: nothing that is lit is as bright, so that the cap takes nothing of them.
+constexpr double mean_most = 100;
+constexpr int seeds = 8;  // of pictures whose own error is asked for
 
 std::shared_ptr<const CompiledScene> compiled(SceneDescription d, const char* scenario) {
   const Scenario found = find_scenario(d, scenario).value();
@@ -98,7 +100,7 @@ Deviation deviation(const TracedPicture& is, const TracedPicture& wanted) {
 
 double mean_luminance(const TracedPicture& p) {
   double sum = 0;
-  for (size_t i = 0; i < p.light.pixels(); ++i) sum += std::min(luminance(p, i), counted_most);
+  for (size_t i = 0; i < p.light.pixels(); ++i) sum += std::min(luminance(p, i), mean_most);
   return sum / static_cast<double>(p.light.pixels());
 }
 
@@ -148,12 +150,15 @@ void print_course(const char* scenario, const Size& size) {
   }
 }
 
-/// Mean luminance of pictures of paths to their end, by seed.
-Estimate mean_of_full_paths(const char* scenario, const Size& size) {
+/// Mean luminance of pictures, of several seeds: `patch_edge` 0 for paths to their end.
+Estimate mean_of_pictures(const char* scenario, double patch_edge, const Size& size) {
+  const bool gather = patch_edge > 0;
+  const int64_t particles = gather ? size.particles : 1 << 16;
   double sum = 0, squares = 0;
   for (uint64_t seed = 1; seed <= seeds; ++seed) {
-    const auto run = traced(office(scenario, true, 0), seed, 1 << 16);
-    const double mean = mean_luminance(draw(*run, std::max(1, size.long_paths / 2), false).picture);
+    const auto run = traced(office(scenario, true, patch_edge), seed, particles);
+    const int paths = std::max(1, size.long_paths / 2);
+    const double mean = mean_luminance(draw(*run, paths, gather).picture);
     sum += mean;
     squares += mean * mean;
   }
@@ -162,13 +167,15 @@ Estimate mean_of_full_paths(const char* scenario, const Size& size) {
 }
 
 void print_halving(const char* scenario, const Size& size) {
-  const Estimate full = mean_of_full_paths(scenario, size);
+  const Estimate full = mean_of_pictures(scenario, 0, size);
+  fmt::print("{:<16} {:>8} {:>11.4f} +- {:.4f}\n", scenario, "full", full.value,
+             full.standard_error);
   for (const double edge : {4.0, 2.0, 1.0, 0.5, 0.25}) {
-    const auto run = traced(office(scenario, true, edge), 1, size.particles);
-    const double mean = mean_luminance(draw(*run, 256, true).picture);
-    fmt::print("{:<16} {:>8.2f} {:>9} {:>11.4f} {:>15.4f} +- {:.4f} {:>8.2f} %\n", scenario, edge,
-               run->scene().patch_count, mean, full.value, full.standard_error,
-               100 * (mean / full.value - 1));
+    const Estimate gathered = mean_of_pictures(scenario, edge, size);
+    const double off = gathered.value / full.value - 1;
+    const double error = std::hypot(gathered.relative_error(), full.relative_error());
+    fmt::print("{:<16} {:>8.2f} {:>11.4f} +- {:.4f} {:>8.2f} +- {:.2f} %\n", scenario, edge,
+               gathered.value, gathered.standard_error, 100 * off, 100 * error);
     std::fflush(stdout);
   }
 }
@@ -268,11 +275,10 @@ void print_images(double share) {
       "cpu [s]", "rms error", "counted", "rms x, y", "merit [/s]");
   for (const char* scenario : {"clear_emergency", "smoke_emergency"}) print_course(scenario, size);
   fmt::print(
-      "\nFinal gathers in patches of an edge, against paths traced to their end, of {} seeds: "
+      "\nFinal gathers in patches of an edge, against paths traced to their end, {} seeds each: "
       "mean\n"
-      "luminance [cd/m2] where a pixel counts {} at most\n"
-      "{:<16} {:>8} {:>9} {:>11} {:>15} {:>9} {:>10}\n",
-      seeds, counted_most, "scenario", "edge [m]", "patches", "gathered", "full", "error", "off");
+      "luminance [cd/m2] where a pixel counts {} at most\n{:<16} {:>8} {:>11} {:>18}\n",
+      seeds, mean_most, "scenario", "edge [m]", "luminance", "off");
   for (const char* scenario : {"clear_emergency", "smoke_emergency"}) print_halving(scenario, size);
   fmt::print(
       "\nVeil before a sign in the room's homogeneous smoke, by voxels and traced from the eye\n"
