@@ -242,14 +242,15 @@ void RoomRun::read_eyes() {
 
 namespace {
 
-/// Relative standard errors up to which readings mean something. A path from an eye that passes the
-/// point lamp by a centimetre brings a hundred times what others do.
+/// Relative standard errors up to which readings mean something. A path from an eye that comes
+/// within half a lamp's size and meets it brings its luminance, some hundred times what others do.
 double error_most(Known known) {
   return (known == Known::well ? 1e-2 : known == Known::rather ? 5e-2 : 0.25) * root_of_thrift;
 }
 
 /// Parts of a standard error that a few histories may change: some three times what was found.
-/// Single histories count for more where few come by, and of paths from eyes one may be all of it.
+/// Single histories count for more where few come by, and of paths from eyes one that meets a lamp
+/// may be all of it.
 double part_of_error(Known known) {
   return (known == Known::well ? 0.03 : known == Known::rather ? 0.1 : 1.0) * root_of_thrift;
 }
