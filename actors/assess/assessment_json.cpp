@@ -150,7 +150,7 @@ Json assessment_json(const SceneDescription& scene, const Assessment& assessment
               {"people",
                {{"age", exact_json(scene.assessment.age_years, "years")},
                 {"spacing", exact_json(scene.assessment.spacing_m, "m")},
-                {"irritant_smoke", scene.assessment.irritant_smoke}}},
+                {"irritant_smoke", scene.assessment.irritant_smoke.value_or(false)}}},
               {"method",
                {{"seed", assessment.seed},
                 {"eye_paths", assessment.paths},

@@ -278,7 +278,7 @@ SignLook RealityMode::look_at(const Readout& readout, const CompiledScene& scene
 
 void RealityMode::judge(const CompiledScene& scene, const Totals& totals) {
   const Readout readout(scene, totals);
-  const SightRules rules{{scene_.assessment.age_years}, scene_.assessment.irritant_smoke};
+  const SightRules rules{{scene_.assessment.age_years}, scene_.assessment.irritant_smoke.value_or(false)};
   std::map<std::tuple<size_t, uint32_t, bool>, const EyeTarget*> targets;
   for (const EyeTarget& target : scene.eye_targets) {
     const CompiledSign& face = scene.signs[target.sign];

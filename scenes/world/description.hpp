@@ -100,13 +100,19 @@ struct Emitter {
   // Flux emitted in each operating state, all factors applied. Photometric input is in lm,
   // radiometric in W.
   bool radiometric = false;
-  double mains_flux = 0;        // [lm] or [W]
-  double emergency_flux = 0;    // [lm] or [W]; 0 for a luminaire that fails with the mains
-  double emergency_ageing = 1;  // maintenance x end of duration: contained in emergency_flux
+  double mains_flux = 0;              // [lm] or [W]
+  double emergency_flux = 0;          // [lm] or [W]; 0 for a luminaire that fails with the mains
+  double emergency_ageing = 1;        // maintenance x end of duration: contained in emergency_flux
+  double maintenance_factor = 1;      // contained in both fluxes
+  double end_of_duration_factor = 1;  // contained in emergency_flux
+  bool maintained = false;            // of an emergency luminaire: lit with the mains, too
+  std::string file;         // of the photometric data, as the scene writes it; "" for none
+  std::string product;      // what that file calls the luminaire
+  glm::dvec3 opening_m{0};  // luminous opening: length, width, height; 0 where not said
   /// After a failure of the mains: time [s], share of emergency_flux; ascending in both, linear
   /// between, the last holds. Empty: not said.
   std::vector<glm::dvec2> onset;
-  std::string body_material;    // "" for none: returning light passes
+  std::string body_material;  // "" for none: returning light passes
 };
 
 // ---- signs ------------------------------------------------------------------------------------
@@ -148,6 +154,8 @@ struct Sign {
   double height_m = 0;
   double smallest_detail_m = 0;
   std::optional<SignLetters> letters;
+  std::string file;  // of the drawing of its face, as the scene writes it; "" for none
+  std::string text;  // of its face, if that is words
   bool double_sided = false;
   double thickness_m = 0.03;  // distance between the two faces
   SignFace face;
@@ -279,10 +287,26 @@ struct EmphasisPoint {
 struct AssessmentSettings {
   double age_years = 65;
   std::vector<double> eye_heights_m = {1.65, 1.2, 0.6};
-  double spacing_m = 2;         // of observers along routes
-  bool smoke_expected = true;   // smoke may occur where signs are (EN 1838)
-  bool irritant_smoke = false;  // it stings: people see less than their eyes could
+  double spacing_m = 2;                 // of observers along routes
+  bool smoke_expected = true;           // smoke may occur where signs are (EN 1838)
+  std::optional<bool> irritant_smoke;   // it stings: people see less than their eyes could
+  std::vector<std::string> rules;       // rule sets, by name; empty: not said
+  std::vector<std::string> deviations;  // national deviations from them, by name
+  SourcePlace place;
 };
+
+/// What a report says of the project, on its first page and in its footers. "" where not said.
+struct ProjectSettings {
+  std::string name, client, address, document, revision, date, author, checker;
+  std::string logo;      // the picture's file, as the scene writes it
+  double north_deg = 0;  // of north, from +y towards +x, seen from above
+  SourcePlace place;
+};
+
+/// A side of the scene's bounding box.
+enum class Side { west, east, south, north, bottom, top };  // -x, +x, -y, +y, -z, +z
+inline constexpr std::array<std::string_view, 6> side_words{"west",  "east",   "south",
+                                                            "north", "bottom", "top"};
 
 // ---- scenarios and run ------------------------------------------------------------------------
 
@@ -350,6 +374,8 @@ struct SceneDescription {
   std::vector<AssessedArea> task_areas;
   std::vector<EmphasisPoint> emphasis;
   AssessmentSettings assessment;
+  ProjectSettings project;
+  std::vector<Side> open_sides;      // through which light is meant to leave
   std::vector<Scenario> scenarios;   // empty: mains, as written
   uint64_t content_hash = 0;         // of every file read
   int64_t degenerate_triangles = 0;  // dropped on reading

@@ -36,7 +36,7 @@ facing = [0, -2, 0]
 )");
   CHECK(s.assessment.age_years == 70);
   CHECK(s.assessment.eye_heights_m == std::vector<double>{1.5});
-  CHECK(s.assessment.irritant_smoke);
+  CHECK(s.assessment.irritant_smoke == true);
   CHECK_FALSE(s.assessment.smoke_expected);
   REQUIRE(s.routes.size() == 1);
   CHECK(s.routes[0].path.back() == glm::dvec3(4, 3, 1));
