@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "scenes/emergency/legibility.hpp"
 #include "scenes/format/output_text.hpp"
 
 namespace luxodus {
@@ -105,7 +106,8 @@ std::string luminaire_row(const Json& state) {
 }
 
 std::string range_words(double low, double high) {
-  return low == high ? fmt::format("{:.3g}/m", low) : fmt::format("{:.3g} to {:.3g}/m", low, high);
+  return low == high ? fmt::format("{:.3g}/m", low)
+                     : fmt::format("{:.3g}/m to {:.3g}/m", low, high);
 }
 
 std::string smoke_row(const Json& state) {
@@ -220,6 +222,15 @@ std::string verdict_words(const Json& assessment) {
     for (size_t i = 0; i < counts.size(); ++i)
       if (text_at(check, "verdict") == name_of(static_cast<CheckVerdict>(i))) ++counts[i];
   return words_of(counts);
+}
+
+bool anything_open(const Json& assessment) {
+  const Json& counts = assessment.at("counts");
+  for (const char* verdict : {"fail", "not_assessed", "not_verified"})
+    if (number_at(counts, verdict) > 0) return true;
+  const Json& views = assessment.at("sight_counts");
+  return number_at(views, name_of(SightVerdict::undecided)) > 0 ||
+         number_at(views, name_of(SightVerdict::not_assessed)) > 0;
 }
 
 }  // namespace luxodus
