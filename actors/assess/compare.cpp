@@ -98,9 +98,13 @@ std::string shown(const Json& value) {
   return value.is_string() ? value.get<std::string>() : fmt::format("{:.4g}", value.get<double>());
 }
 
-/// What the judged states, and the verdicts on the whole, say differently.
+/// What the judged states, and the verdicts on the whole, say differently. Where in which file a
+/// medium stands is none of it.
 Json changed_state(const Json& before, const Json& after) {
-  const auto rows_of = [](const Json& assessment) {
+  const auto rows_of = [](Json assessment) {
+    const Json::json_pointer media("/state/smoke/media");
+    if (assessment.contains(media))
+      for (Json& medium : assessment[media]) medium.erase("source");
     std::map<std::string, std::string> out;
     for (const auto& [what, words] : state_rows(assessment))
       if (!what.empty() && what != "not assessed") out[what] = words;

@@ -78,8 +78,8 @@ bool same_factors(std::vector<Scenario::Factor> a, std::vector<Scenario::Factor>
 /// Whether two scenarios differ in their operation alone: had one lost its `operation`, judging the
 /// other would be judging it.
 bool differ_in_operation_alone(const Scenario& mains, const Scenario& other) {
-  return !mains.says_seconds && same_factors(mains.circuits, other.circuits) &&
-         same_factors(mains.media, other.media) && mains.smoke_factor == other.smoke_factor &&
+  return same_factors(mains.circuits, other.circuits) && same_factors(mains.media, other.media) &&
+         mains.smoke_factor == other.smoke_factor &&
          mains.emission_factor == other.emission_factor && mains.doors_open == other.doors_open &&
          mains.doors_closed == other.doors_closed;
 }

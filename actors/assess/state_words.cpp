@@ -120,11 +120,13 @@ std::string smoke_row(const Json& state) {
                       number_at(*all, "wavelength_nm"));
   else
     out = "none";
-  for (const Json& medium : list_at(*at, "media"))
+  for (const Json& medium : list_at(*at, "media")) {
     out += fmt::format(
-        "; {} \"{}\" {} ({})", text_at(medium, "kind"), text_at(medium, "name"),
-        range_words(number_at(medium, "extinction_min"), number_at(medium, "extinction_max")),
-        text_at(medium, "source"));
+        "; {} \"{}\" {}", text_at(medium, "kind"), text_at(medium, "name"),
+        range_words(number_at(medium, "extinction_min"), number_at(medium, "extinction_max")));
+    if (const std::string source = text_at(medium, "source"); !source.empty())
+      out += " (" + source + ")";
+  }
   return out;
 }
 

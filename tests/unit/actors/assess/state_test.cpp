@@ -68,11 +68,13 @@ TEST_CASE("a smoky scenario whose operation was forgotten is no reason to judge 
   CHECK(has(
       refused(in_states(state("thick", "media = { smoke = 5 }\n") + state("thin", emergency))).what,
       "its operation may have been forgotten"));
-  // Nor an early moment, nor open doors.
-  CHECK(has(
-      refused(in_states(state("soon", "seconds_after_failure = 5\n") + state("late", emergency)))
-          .what,
-      "its operation may have been forgotten"));
+  // Nor one with a luminaire's circuit off.
+  CHECK(
+      has(refused(in_states(state("cut", "circuits = { lamps = 0 }\n") + state("all", emergency)) +
+                  "[[emitter]]\nname = \"b\"\nshape = \"point\"\nposition = [3, 0, 2]\n"
+                  "flux_lm = 1\ncircuit = \"lamps\"\n")
+              .what,
+          "its operation may have been forgotten"));
 }
 
 TEST_CASE("the state is the one scenario in emergency operation, in smoke where any has it",
@@ -257,11 +259,12 @@ TEST_CASE("views are judged in aged and in new light, and the worse verdict coun
 
 TEST_CASE("a sign that only new light's glare hides is not legible", "[assess][state]") {
   // A lamp beside the line of sight, whose light falls to a hundredth in its time.
-  const std::string glare =
-      changed(changed(changed(changed(room, "position = [6, 0, 2.5]", "position = [6, 0.3, 2.3]"),
-                              "emergency_flux = 500", "emergency_flux = 60000"),
-                      "maintenance_factor = 0.8", "maintenance_factor = 0.1"),
-              "end_of_duration_factor = 0.75", "end_of_duration_factor = 0.1");
+  std::string glare = changed(room, "position = [6, 0, 2.5]", "position = [6, 0.3, 2.3]");
+  glare = changed(glare, "emergency_flux = 500", "emergency_flux = 60000");
+  glare = changed(glare, "maintenance_factor = 0.8", "maintenance_factor = 0.1");
+  glare = changed(glare, "end_of_duration_factor = 0.75", "end_of_duration_factor = 0.1");
+  glare = changed(glare, "emergency_white = 100\nemergency_green = 10",
+                  "emergency_white = 10\nemergency_green = 1");
   AssessOptions options;
   options.rounds = 4;
   bool turned = false;

@@ -76,7 +76,7 @@ TEST_CASE("rule sets and deviations are read, and unknown ones told with all the
   }
 }
 
-TEST_CASE("what one file of a scene leaves out of [assessment] another may say",
+TEST_CASE("what one file of a scene leaves out of its assessment another may say",
           "[format][scene]") {
   SceneFolder f;
   f.put("people.toml", "[assessment]\nage_years = 70\nspacing_m = 3\nirritant_smoke = true\n");
