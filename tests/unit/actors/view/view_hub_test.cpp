@@ -361,6 +361,8 @@ TEST_CASE("an added sign lays triangles anew, and light of before comes with the
     const Json* verdicts = live.viewer.last("sign");
     return verdicts != nullptr && (*verdicts)["name"] == "exit";
   });
+  // Verdicts come with the state that they are of.
+  CHECK((*live.viewer.last("sign"))["note"].get<std::string>().find("MAINS OPERATION") == 0);
   CHECK(live.viewer.last("refused") == nullptr);
   live.says(R"({"type":"remove","name":"exit copy"})");
   live.until_done();
