@@ -1,8 +1,10 @@
 // A cell's error is bounded by what changes within it. Light that is seen from all its points
 // alike is smooth, and the rule errs by the square of what one point would err by. Where the
 // visible share of an emitter differs between points, the edge of a shadow crosses the cell, and a
-// quarter of that light is at stake. Corners tell of edges that pass beside the four points: those
-// of quarters are always looked at, those of whole cells where a neighbour sees other emitters.
+// quarter of that light is at stake; the edges of several emitters' shadows lie independently.
+// Along one edge errors may be alike, so those of cells are added. Corners tell of edges that pass
+// beside the four points: those of quarters are always looked at, those of whole cells where a
+// neighbour sees other emitters.
 #include "actors/display/plane_light.hpp"
 
 #include <algorithm>
@@ -42,6 +44,8 @@ struct PieceLight {
   /// By source group, with media, then in clear air; kept only while it is needed, and only where
   /// there are several.
   std::vector<double> groups;
+  /// By emitter, of all its points: kept for quarters, which need look at the others alone.
+  std::vector<KnownSight> known;
 
   /// So little that it need not be followed.
   bool is_settled() const {
@@ -69,33 +73,33 @@ class PlanePoints {
   glm::dvec3 place(double u, double v) const {
     return plane_.corner + plane_.edge_u * u + plane_.edge_v * v;
   }
-  Lights look(double u, double v, double tolerance) const {
+  Lights look(double u, double v, double tolerance, std::span<const KnownSight> known = {}) const {
     DirectOptions options;
     options.tolerance = tolerance;
+    options.known = known;
     return direct_lights(scene_, access_, Vec3(place(u, v) - scene_.local_origin), normal_,
                          options);
   }
 
-  PieceLight mean(const Piece& piece, const Lights& centre, bool with_corners) const {
-    const double du = piece.u1 - piece.u0, dv = piece.v1 - piece.v0;
-    const auto at = [&](double u, double v) {
-      return look(piece.u0 + u * du, piece.v0 + v * dv, averaged_tolerance);
-    };
-    std::vector<Lights> points;
-    for (const double v : gauss)
-      for (const double u : gauss) points.push_back(at(u, v));
+  /// Of a whole cell, whose centre was looked at.
+  PieceLight mean(const Piece& piece, const Lights& centre) const {
+    std::vector<Lights> points = rule_points(piece, {});
     PieceLight out = sum_of(points);
     points.push_back(centre);
-    if (with_corners)
-      for (const double v : {inset, 1 - inset})
-        for (const double u : {inset, 1 - inset}) points.push_back(at(u, v));
     add_errors(points, out);
     return out;
   }
-  PieceLight mean(const Piece& piece, bool with_corners) const {
-    return mean(piece,
-                look((piece.u0 + piece.u1) / 2, (piece.v0 + piece.v1) / 2, averaged_tolerance),
-                with_corners);
+
+  /// With corners. `known`: from around.
+  PieceLight mean(const Piece& piece, std::span<const KnownSight> known) const {
+    std::vector<Lights> points = rule_points(piece, known);
+    PieceLight out = sum_of(points);
+    points.push_back(in(piece, 0.5, 0.5, known));
+    for (const double v : {inset, 1 - inset})
+      for (const double u : {inset, 1 - inset}) points.push_back(in(piece, u, v, known));
+    add_errors(points, out);
+    out.known = known_of(points);
+    return out;
   }
 
   double clear_of(const Lights& lights) const {
@@ -106,6 +110,32 @@ class PlanePoints {
   }
 
  private:
+  /// At a place of a piece, u and v from 0 to 1.
+  Lights in(const Piece& piece, double u, double v, std::span<const KnownSight> known) const {
+    return look(piece.u0 + u * (piece.u1 - piece.u0), piece.v0 + v * (piece.v1 - piece.v0),
+                averaged_tolerance, known);
+  }
+  std::vector<Lights> rule_points(const Piece& piece, std::span<const KnownSight> known) const {
+    std::vector<Lights> points;
+    for (const double v : gauss)
+      for (const double u : gauss) points.push_back(in(piece, u, v, known));
+    return points;
+  }
+
+  /// Emitters that all points see whole, or none at all.
+  static std::vector<KnownSight> known_of(const std::vector<Lights>& points) {
+    std::vector<KnownSight> known(points.front().size(), KnownSight::nothing);
+    for (size_t e = 0; e < known.size(); ++e) {
+      bool whole = true, hidden = true;
+      for (const Lights& lights : points) {
+        whole &= lights[e].open_lx > 0 && lights[e].illuminance_lx == lights[e].open_lx;
+        hidden &= !(lights[e].illuminance_lx > 0);
+      }
+      if (whole || hidden) known[e] = whole ? KnownSight::clear : KnownSight::hidden;
+    }
+    return known;
+  }
+
   PieceLight sum_of(const std::vector<Lights>& points) const {
     const size_t groups = scene_.groups.size();
     const double share = 1 / static_cast<double>(points.size());
@@ -127,6 +157,7 @@ class PlanePoints {
   /// The first four points are the rule's, the fifth is the centre.
   void add_errors(const std::vector<Lights>& points, PieceLight& out) const {
     double open_mean = 0, open_centre = 0;
+    double squares = 0, clear_squares = 0;
     for (size_t e = 0; e < points.front().size(); ++e) {
       double low = 1, high = 0, open = 0, clear = 0;
       for (const Lights& lights : points) {
@@ -138,12 +169,17 @@ class PlanePoints {
         open = std::max(open, light.open_lx);
         if (seen > 0) clear = std::max(clear, light.clear_air_lx / seen);
       }
+      if (!(high > 0)) continue;
       for (size_t p = 0; p < 4; ++p) open_mean += 0.25 * points[p][e].open_lx;
       open_centre += points[4][e].open_lx;
       if (!(high - low > same_share)) continue;
-      out.error_lx += edge_share * (high - low) * open;
-      if (is_luminaire(scene_.emitters[e])) out.error_clear_lx += edge_share * (high - low) * clear;
+      const double at_stake = edge_share * (high - low) * open;
+      const double clear_at_stake = edge_share * (high - low) * clear;
+      squares += at_stake * at_stake;
+      if (is_luminaire(scene_.emitters[e])) clear_squares += clear_at_stake * clear_at_stake;
     }
+    out.error_lx = std::sqrt(squares);
+    out.error_clear_lx = std::sqrt(clear_squares);
     if (!(open_mean > 0)) return;
     const double change = std::abs(open_mean - open_centre) / open_mean;
     const double smooth = change * std::min(1.0, 4 * change);
@@ -228,7 +264,7 @@ class PlaneQuadrature {
     for (const DirectFromEmitter& light : centre) out_.point_lx[cell] += light.illuminance_lx;
     out_.point_clear_lx[cell] = points.clear_of(centre);
     sight_[cell] = sight_hash(centre);
-    PieceLight light = points.mean(piece, centre, false);
+    PieceLight light = points.mean(piece, centre);
     out_.mean_lx[cell] = light.lx;
     out_.mean_clear_lx[cell] = light.clear_lx;
     for (size_t g = 0; g < 2 * groups_; ++g)
@@ -259,7 +295,10 @@ class PlaneQuadrature {
         keep(leaf);
     }
     measure(again);
-    for (Leaf& leaf : again) keep(leaf);
+    for (Leaf& leaf : again) {
+      leaf.light.known = {};  // of all cells they would take too much memory
+      keep(leaf);
+    }
   }
 
   /// Among those that may be quartered, or settled.
@@ -280,7 +319,7 @@ class PlaneQuadrature {
     const auto make = [&](const GeometryAccess& access) {
       return [&leaves, points = PlanePoints(scene_, index_, access)](int64_t i) {
         Leaf& leaf = leaves[static_cast<size_t>(i)];
-        leaf.light = points.mean(leaf.piece, true);
+        leaf.light = points.mean(leaf.piece, std::vector<KnownSight>(std::move(leaf.light.known)));
       };
     };
     runner_.run(static_cast<int64_t>(leaves.size()), make, {});
@@ -313,8 +352,9 @@ class PlaneQuadrature {
     };
     const Bounds allowed{limits::plane_tolerance * sum(out_.mean_lx),
                          limits::plane_tolerance * sum(out_.mean_clear_lx)};
-    int64_t left = limits::plane_splits + static_cast<int64_t>(limits::plane_splits_per_cell *
-                                                               static_cast<double>(cells()));
+    int64_t left = std::min(
+        limits::plane_splits_most,
+        limits::plane_splits + limits::plane_splits_per_cell * static_cast<int64_t>(cells()));
     while (left > 0) {
       const Bounds now = bounds();
       if (now.lx <= allowed.lx && now.clear_lx <= allowed.clear_lx) return;
@@ -343,27 +383,34 @@ class PlaneQuadrature {
   }
 
   void quarter(const std::vector<size_t>& worst) {
-    std::vector<Leaf> quarters;
-    for (const size_t i : worst) {
-      const Piece& p = leaves_[i].piece;
-      const double u = (p.u0 + p.u1) / 2, v = (p.v0 + p.v1) / 2;
-      quarters.push_back({{p.cell, p.u0, p.v0, u, v}, {}});
-      quarters.push_back({{p.cell, u, p.v0, p.u1, v}, {}});
-      quarters.push_back({{p.cell, p.u0, v, u, p.v1}, {}});
-      quarters.push_back({{p.cell, u, v, p.u1, p.v1}, {}});
-    }
-    // What a leaf gave to each source group is computed again: kept for all, it would take the
-    // memory of as many planes.
-    std::vector<Leaf> parents;
+    // What a leaf gave to each source group, and what it sees, is computed again where it was not
+    // kept.
+    std::vector<Leaf> parents, quarters;
     for (const size_t i : worst) parents.push_back(leaves_[i]);
-    if (groups_ > 1) measure(parents);
+    const bool all = groups_ > 1;
+    std::vector<Leaf> again;
+    for (const Leaf& leaf : parents)
+      if (all || leaf.light.known.empty()) again.push_back(leaf);
+    measure(again);
+    for (size_t i = 0, k = 0; i < parents.size(); ++i)
+      if (all || parents[i].light.known.empty()) parents[i] = std::move(again[k++]);
+    for (const Leaf& parent : parents) {
+      const Piece& p = parent.piece;
+      const double u = (p.u0 + p.u1) / 2, v = (p.v0 + p.v1) / 2;
+      for (const Piece& quarter :
+           {Piece{p.cell, p.u0, p.v0, u, v}, Piece{p.cell, u, p.v0, p.u1, v},
+            Piece{p.cell, p.u0, v, u, p.v1}, Piece{p.cell, u, v, p.u1, p.v1}}) {
+        quarters.push_back({quarter, {}});
+        quarters.back().light.known = parent.light.known;
+      }
+    }
     measure(quarters);
     std::vector<char> gone(leaves_.size(), 0);
     for (const size_t i : worst) gone[i] = 1;
-    std::vector<Leaf> all;
-    std::swap(all, leaves_);
-    for (size_t i = 0; i < all.size(); ++i)
-      if (gone[i] == 0) leaves_.push_back(std::move(all[i]));
+    std::vector<Leaf> old;
+    std::swap(old, leaves_);
+    for (size_t i = 0; i < old.size(); ++i)
+      if (gone[i] == 0) leaves_.push_back(std::move(old[i]));
     for (const Leaf& leaf : parents) take(leaf, -1);
     for (Leaf& leaf : quarters) {
       take(leaf, 1);

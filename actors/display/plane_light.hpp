@@ -17,9 +17,11 @@ namespace luxodus {
 namespace limits {
 /// Of a plane's mean: the bound at which its quadrature ends.
 inline constexpr double plane_tolerance = 1e-3;
-/// Quarterings for each cell, and for every plane besides; each takes 36 points.
-inline constexpr double plane_splits_per_cell = 0.5;
-inline constexpr int64_t plane_splits = 512;
+/// Quarterings for each cell, for every plane besides, and of a plane at most; each takes 36
+/// points, at which only emitters that are seen in part around them take shadow rays.
+inline constexpr int64_t plane_splits_per_cell = 1;
+inline constexpr int64_t plane_splits = 256;
+inline constexpr int64_t plane_splits_most = 20'000;
 }  // namespace limits
 
 /// Illuminance [lx] of one plane, cells by index v * cells_u + u. Clear: of luminaires alone, no

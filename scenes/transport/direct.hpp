@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "scenes/geometry/real.hpp"
@@ -37,12 +38,18 @@ struct DirectLight {
   }
 };
 
+/// What is known of an emitter before it is looked at, from places around.
+enum class KnownSight : uint8_t { nothing, hidden, clear };
+
 struct DirectOptions {
   bool media = true;             // false: as in clear air (what regulations calculate)
   double part_share = 1.0 / 16;  // spacing of an emitter's points over their distance
   /// Of all light that arrives, what shadows' edges across emitters may err by. Coarser where many
   /// points are averaged: their errors are of either sign.
   double tolerance = 1e-3;
+  /// By emitter; empty: nothing. Those that are hidden are left out, those that are clear take no
+  /// shadow rays.
+  std::span<const KnownSight> known{};
 };
 
 namespace limits {
@@ -160,13 +167,17 @@ class DirectSum {
     return view;
   }
 
+  bool is_known(uint32_t index, KnownSight sight) const {
+    return !options_.known.empty() && options_.known[index] == sight;
+  }
+
   static bool is_closed_form(const CompiledEmitter& e) {
     return has_flat_cells(e) && e.distribution == Distribution::lambertian;
   }
 
   void add_emitter(uint32_t index) {
     const CompiledEmitter& e = scene_.emitters[index];
-    if (e.distribution == Distribution::collimated) return;
+    if (e.distribution == Distribution::collimated || is_known(index, KnownSight::hidden)) return;
     const EmitterCells cells(scene_, e, viewpoint(e));
     std::vector<EmitterCell> cut = cells.cut();
     if (options_.tolerance <= fine && cells.can_be_cut() && !is_closed_form(e))
@@ -300,8 +311,9 @@ class DirectSum {
     Leaf leaf{index, cell, {}, {}, 0, 0};
     bool hidden = false, seen = false, all_clear = true, all_above = true;
     const CellPoints points = cells.points(cell);
+    const bool known_clear = is_known(index, KnownSight::clear);
     for (const EmitterPart& part : points.all()) {
-      const PointLight p = look_at(index, part, sigma_t);
+      const PointLight p = look_at(index, part, sigma_t, known_clear);
       leaf.light += p.light;
       leaf.arriving[leaf.count++] = p.arriving;
       hidden |= p.seen == Seen::hidden;
@@ -310,7 +322,7 @@ class DirectSum {
       all_above &= p.seen != Seen::not_at_all;
     }
     if (cells.can_be_cut()) {
-      if (options_.tolerance <= fine) look_at_corners(e, cells, cell, hidden, seen);
+      if (options_.tolerance <= fine && !known_clear) look_at_corners(e, cells, cell, hidden, seen);
       if (hidden && seen) {
         leaf.error_lx = quarter * leaf.light.open_lx;
         if (options_.tolerance <= fine && e.kind == EmitterKind::rectangle)
