@@ -355,6 +355,7 @@ class PlaneQuadrature {
     int64_t left = std::min(
         limits::plane_splits_most,
         limits::plane_splits + limits::plane_splits_per_cell * static_cast<int64_t>(cells()));
+    if (!scene_.volume_points.empty()) left /= limits::plane_splits_by_flames;
     while (left > 0) {
       const Bounds now = bounds();
       if (now.lx <= allowed.lx && now.clear_lx <= allowed.clear_lx) return;

@@ -22,6 +22,8 @@ inline constexpr double plane_tolerance = 1e-3;
 inline constexpr int64_t plane_splits_per_cell = 1;
 inline constexpr int64_t plane_splits = 256;
 inline constexpr int64_t plane_splits_most = 20'000;
+/// So many times fewer where flames shine: each is looked at by hundreds of points.
+inline constexpr int64_t plane_splits_by_flames = 4;
 }  // namespace limits
 
 /// Illuminance [lx] of one plane, cells by index v * cells_u + u. Clear: of luminaires alone, no

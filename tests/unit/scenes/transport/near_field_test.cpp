@@ -42,7 +42,7 @@ TEST_CASE("a plane nearer than five luminous openings is told with luminaire and
           "[transport][near_field]") {
   const std::string plane =
       "[[plane]]\nname = \"floor\"\ncorner = [0, 0, 0]\nedge_u = [10, 0, 0]\n"
-      "edge_v = [0, 10, 0]\n";
+      "edge_v = [0, 10, 0]\ncells = [4, 4]\n";
   const auto warnings = warnings_of(plane);
   REQUIRE(warnings.size() == 1);
   CHECK(warnings[0].what.find("plane \"floor\" is 0.9 m from luminaire \"low lamp\"") == 0);
