@@ -118,8 +118,8 @@ SightRow row_of(const Stand& stand, const Sign& sign) {
   return row;
 }
 
-/// Veiling luminance in the eye of all emitters but the sign itself. Each part of an emitter lays its
-/// veil from where it is, through the smoke before it: a flame is no point, and not in its middle.
+/// Veiling luminance in the eye of all emitters but the sign itself. Each part of an emitter lays
+/// its veil from where it is, through the smoke before it: a flame near by is no point.
 double veil_of(const Building& building, const GeometryAccess& access, const SightRow& row,
                uint32_t sign, double age_years) {
   const CompiledScene& scene = building.scene();
