@@ -8,7 +8,7 @@
 #include <map>
 #include <tuple>
 
-#include "actors/assess/building.hpp"
+#include "actors/inspect/building.hpp"
 #include "actors/source/local_run.hpp"
 #include "scenes/emergency/sign_face.hpp"
 #include "scenes/geometry/polygon.hpp"
