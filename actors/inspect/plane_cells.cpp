@@ -1,6 +1,6 @@
 #include "actors/inspect/plane_cells.hpp"
 
-#include <mutex>
+#include <algorithm>
 
 #include "actors/inspect/site.hpp"
 
@@ -18,12 +18,12 @@ std::vector<char> cells_in_bodies(const CompiledScene& scene, const RowRunner& r
   const auto columns = static_cast<size_t>(p.cells_u);
   std::vector<char> inside(columns * static_cast<size_t>(p.cells_v), 0);
   const glm::dvec3 normal = glm::normalize(glm::cross(p.edge_u, p.edge_v));
-  // Asked once, by whoever is first.
-  std::once_flag once;
   std::vector<char> turned;
+  rows.run(1, [&](const GeometryAccess& access) -> RowRunner::Worker {
+    return [&, access](int64_t) { turned = turned_surfaces(scene, access); };
+  });
   rows.run(p.cells_v, [&](const GeometryAccess& access) -> RowRunner::Worker {
     return [&, access](int64_t row) {
-      std::call_once(once, [&] { turned = turned_surfaces(scene, access); });
       for (size_t u = 0; u < columns; ++u) {
         const glm::dvec3 centre = p.corner +
                                   p.edge_u * ((static_cast<double>(u) + 0.5) / p.cells_u) +
