@@ -85,7 +85,7 @@ Result<ExitCode> assess_scene(const AssessCommandOptions& options) {
     spdlog::warn("interrupted; nothing was written");
     return ExitCode::interrupted;
   }
-  tell_findings(assessed->findings, stderr);
+  tell_findings(assessed->findings);
   for (const Problem& warning : assessed->warnings)
     if (std::none_of(assessed->findings.begin(), assessed->findings.end(),
                      [&](const Finding& f) { return f.problem.text() == warning.text(); }))

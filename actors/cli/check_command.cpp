@@ -176,6 +176,7 @@ int check(const CheckOptions& options) {
     if (!found.ok()) found = std::vector<Finding>{{Severity::error, "scene", found.problem()}};
     findings.insert(findings.begin(), found->begin(), found->end());
   }
+  tell_findings(findings);
   if (options.json) {
     std::fputs(json_text({{"scene", description->name},
                           {"scenarios", all},
@@ -185,7 +186,6 @@ int check(const CheckOptions& options) {
   } else {
     std::printf("%s: %s\n", description->name.c_str(), description->title.c_str());
     for (const Json& s : all) print(s);
-    tell_findings(findings, stdout);
     std::printf("%s\n", count_text(findings).c_str());
   }
   return has_error(findings) ? ExitCode::bad_input : ExitCode::success;

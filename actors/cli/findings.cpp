@@ -19,8 +19,8 @@ std::string counted(const std::vector<Finding>& findings, Severity severity) {
 
 }  // namespace
 
-void tell_findings(const std::vector<Finding>& findings, std::FILE* to) {
-  for (const Finding& f : findings) std::fprintf(to, "%s\n", f.text().c_str());
+void tell_findings(const std::vector<Finding>& findings) {
+  for (const Finding& f : findings) std::fprintf(stderr, "%s\n", f.text().c_str());
 }
 
 std::string count_text(const std::vector<Finding>& findings) {
@@ -46,7 +46,7 @@ bool passes_inspection(const std::shared_ptr<const SceneDescription>& scene,
     tell(found.problem());
     return false;
   }
-  tell_findings(found.value(), stderr);
+  tell_findings(found.value());
   return !has_error(found.value());
 }
 

@@ -1,15 +1,13 @@
 // What the inspection of a scene finds, as commands say it. One thread.
 #pragma once
 
-#include <cstdio>
-
 #include "actors/inspect/inspect.hpp"
 #include "scenes/format/json_out.hpp"
 
 namespace luxodus::cli {
 
-/// One line "warning: file:line: sentence" for each, in their order.
-void tell_findings(const std::vector<Finding>& findings, std::FILE* to);
+/// One line "warning: file:line: sentence" on standard error for each, in their order.
+void tell_findings(const std::vector<Finding>& findings);
 
 /// "2 errors, 1 warning, no notes"
 std::string count_text(const std::vector<Finding>& findings);

@@ -18,6 +18,8 @@ namespace {
 
 /// Light that ends so near has not left the wall [m].
 constexpr Real near_m = 0.02_r;
+/// A lamp outside whose light ends so near on the outer side of a room was meant to be in it [m].
+constexpr Real recess_m = 0.5_r;
 constexpr Real far_m = 1e5_r;
 /// Rays of a first look, by which most luminaires are right, and of a second one.
 constexpr int few_rays = 64;
@@ -45,7 +47,8 @@ glm::dvec3 middle_of(const Emitter& e) {
 /// Where the light of one emitter ends: shares of all that is sent out.
 struct Ends {
   double near = 0;                // within near_m
-  double back = 0;                // on the inner side of a body
+  double back = 0;                // on backs: the inner side of a body, or the outer of a room
+  double close_back = 0;          // of these, within recess_m
   uint32_t surface = none_index;  // on which most of either ends
 };
 
@@ -53,7 +56,7 @@ Ends ends_of(const Site& site, const GeometryAccess& access, uint32_t emitter, i
   const CompiledScene& scene = site.building.scene();
   const CompiledEmitter& e = scene.emitters[emitter];
   std::map<uint32_t, int> by_surface;
-  int near = 0, back = 0;
+  int near = 0, back = 0, close_back = 0;
   with_resolver(scene, access, [&](auto resolver) {
     Random random(seed, RandomStream::layout);
     for (int i = 0; i < rays; ++i) {
@@ -71,10 +74,12 @@ Ends ends_of(const Site& site, const GeometryAccess& access, uint32_t emitter, i
       if (!end) continue;
       near += end->distance_m <= near_m ? 1 : 0;
       back += site.is_back(*end) ? 1 : 0;
+      close_back += site.is_back(*end) && end->distance_m <= recess_m ? 1 : 0;
       if (end->distance_m <= near_m || site.is_back(*end)) ++by_surface[end->surface];
     }
   });
-  Ends out{near / static_cast<double>(rays), back / static_cast<double>(rays)};
+  const double all = rays;
+  Ends out{near / all, back / all, close_back / all};
   const auto most =
       std::max_element(by_surface.begin(), by_surface.end(),
                        [](const auto& a, const auto& b) { return a.second < b.second; });

@@ -76,6 +76,15 @@ material = "grey50"
   check_no_alarm(found_in(slab + ceiling + panel("[3, 0, 3.095]")));
 }
 
+TEST_CASE("a lamp above the ceiling, whose light does not come in, is told", "[inspect]") {
+  check_found(found_in(furnished_room + panel("[3, 0, 3.05]")), Severity::warning,
+              "emitter \"panel\" stands outside, and 100 % of its light ends on the outer side of");
+  // On the roof, and looking away from it.
+  const auto roof = found_in(furnished_room + panel("[3, 0, 3.05]", "direction = [0, 0, 1]\n"));
+  check_no_alarm(roof);
+  check_found(roof, Severity::note, "emitter \"panel\" stands outside the building");
+}
+
 TEST_CASE("light passes glass globes, so a lamp in one is right, and one in a box is not",
           "[inspect]") {
   const std::string in_box = furnished_room + lamp_at("boxed", "[3, 0, 1.5]");
