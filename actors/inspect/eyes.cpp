@@ -5,7 +5,6 @@
 
 #include "actors/inspect/site.hpp"
 #include "scenes/emergency/sign_geometry.hpp"
-#include "scenes/transport/emission.hpp"
 
 namespace luxodus {
 
@@ -25,11 +24,13 @@ struct Eye {
   std::string name;  // camera "hall"
   SourcePlace place;
   glm::dvec3 at{0};
-  std::vector<Vec3> directions;  // in which it looks
+  std::vector<Vec3> directions{};  // in which it looks
+  Vec3 ahead{0, 0, 1};             // their middle
+  Real least_cosine = -1;          // with it, of what it sees
 };
 
 Eye eye_of(const Camera& c) {
-  Eye eye{"camera \"" + c.name + "\"", c.place, c.eye, {}};
+  Eye eye{"camera \"" + c.name + "\"", c.place, c.eye};
   const glm::dvec3 ahead = glm::normalize(c.target - c.eye);
   const glm::dvec3 across = glm::cross(ahead, c.up);
   const glm::dvec3 right =
@@ -37,6 +38,8 @@ Eye eye_of(const Camera& c) {
   const glm::dvec3 up = glm::cross(right, ahead);
   const double high = std::tan(glm::radians(c.vertical_fov_deg) / 2);
   const double wide = high * c.width / std::max(c.height, 1);
+  eye.ahead = Vec3(ahead);
+  eye.least_cosine = static_cast<Real>(1 / std::sqrt(1 + high * high + wide * wide));
   for (int j = 0; j < rays_down; ++j)
     for (int i = 0; i < rays_across; ++i) {
       const double u = 2 * (i + 0.5) / rays_across - 1, v = 2 * (j + 0.5) / rays_down - 1;
@@ -50,7 +53,9 @@ Eye eye_of(const Observer& o) {
 }
 
 Eye eye_of(const ProbeMeasure& p) {
-  Eye eye{"probe \"" + p.name + "\"", p.place, p.position + p.normal * before_probe_m, {}};
+  Eye eye{"probe \"" + p.name + "\"", p.place, p.position + p.normal * before_probe_m};
+  eye.ahead = Vec3(p.normal);
+  eye.least_cosine = 0;
   for (const Vec3& d : sphere_directions(rays_around))
     if (glm::dot(d, Vec3(p.normal)) > 0) eye.directions.push_back(d);
   return eye;
@@ -69,14 +74,18 @@ bool is_open(const Facing& facing) {
   return facing.kind == MaterialKind::open;
 }
 
-/// Surfaces and lamps alike.
+/// Surfaces and lamps alike; where no surface is, nothing hides a lamp.
 bool sees_anything(const Site& site, const GeometryAccess& access, const Eye& eye) {
   const CompiledScene& scene = site.building.scene();
   const Vec3 at = site.building.local(eye.at);
-  return std::any_of(eye.directions.begin(), eye.directions.end(), [&](const Vec3& d) {
-    if (first_stop(scene, access, at, d, far_m, is_open)) return true;
-    return nearest_emitter(scene, {at, d}, far_m).emitter != none_index;
-  });
+  const bool surface = std::any_of(
+      eye.directions.begin(), eye.directions.end(),
+      [&](const Vec3& d) { return first_stop(scene, access, at, d, far_m, is_open).has_value(); });
+  return surface ||
+         std::any_of(site.scene.emitters.begin(), site.scene.emitters.end(), [&](const Emitter& e) {
+           const Vec3 way = Vec3(e.frame.origin - eye.at);
+           return glm::dot(way, eye.ahead) >= eye.least_cosine * glm::length(way);
+         });
 }
 
 /// Of those that this observer is asked about.

@@ -204,6 +204,11 @@ TEST_CASE("eyes and probes in bodies are errors, those that see nothing warnings
   check_no_alarm(found_in(furnished_room + block + probe + "[2.5, 0, 1.2]\n"));
   check_found(found_in(furnished_room + camera_at("[14, 0, 1.5]", "[20, 0, 1.5]")),
               Severity::warning, "camera \"view\" sees nothing");
+  // Under a lamp in the open, where there is nothing else; and with its back to it.
+  const std::string street = lamp_at("street", "[20, 0, 4]") + probe + "[20, 0, 0]\n";
+  check_no_alarm(found_in(furnished_room + street));
+  check_found(found_in(furnished_room + street + "normal = [0, 0, -1]\n"), Severity::warning,
+              "probe \"spot\" sees nothing");
   // Behind the sign.
   const std::string hung = replaced(furnished_room, "[11.95, 0, 2.2]", "[6, 1, 2.2]");
   check_found(found_in(hung + observer + "[9, 1, 1.6]\n"), Severity::warning,
