@@ -10,10 +10,15 @@ namespace luxodus {
 namespace {
 
 constexpr Real far_m = 1e5_r;
-/// Of a place in a body: of these many directions at least two thirds show backs. On a flat wall's
-/// outer side, half of all directions do.
+/// Of a place in a body: in these many directions, for at least two thirds of them, a line leaves
+/// the body more often than it enters it. Beside a lone surface half of all directions do. After
+/// the first few there must be some, which is what tells most places.
 constexpr int body_directions = 24;
 constexpr int body_backs = 16;
+constexpr int first_directions = 4;
+constexpr int first_backs = 2;
+/// Surfaces that one line may cross: as many as a hall of furniture has in a row.
+constexpr int crossings = 256;
 constexpr int sky_directions = 128;
 /// Before a long wall half of all directions are open, and nearly half of the level ones, which
 /// rise or fall by less than 30 degrees.
@@ -124,6 +129,34 @@ bool surrounds(const View& view, const std::array<int, 6>& backs) {
   return sides >= sides_of_room;
 }
 
+/// What one line crosses of a body, and in how many directions it came out of it. With no table:
+/// the first surface alone, whoever it belongs to, since a body may be drawn in several tables.
+struct Around {
+  const SourcePlace* table = nullptr;
+  int net = 0;  // backs less fronts
+  int backs = 0;
+};
+
+/// Goes on to the end: another body that stands in this one, or the floor that it is sunk into,
+/// shows its fronts in between.
+void cross(const CompiledScene& scene, const GeometryAccess& access, const Vec3& place,
+           const Vec3& direction, std::span<const char> turned, std::vector<Around>& all) {
+  int count = 0;
+  first_stop(scene, access, place, direction, far_m, [&](const Facing& f) {
+    if (!is_object(scene, f.surface) || lets_light_through(f.kind)) return ++count < crossings;
+    const SourcePlace& table = scene.description->objects[f.surface].place;
+    auto at = std::find_if(all.begin(), all.end(), [&](const Around& one) {
+      return one.table != nullptr && one.table->line == table.line && one.table->file == table.file;
+    });
+    if (at == all.end()) at = all.insert(all.end(), Around{&table, 0, 0});
+    const bool is_turned = f.surface < turned.size() && turned[f.surface] != 0;
+    const int step = f.front == is_turned ? 1 : -1;
+    at->net += step;
+    if (all.front().net == 0) all.front().net = step;
+    return ++count < crossings;
+  });
+}
+
 }  // namespace
 
 std::vector<Vec3> sphere_directions(int count) {
@@ -154,14 +187,20 @@ std::vector<char> turned_surfaces(const CompiledScene& scene, const GeometryAcce
 bool in_body(const CompiledScene& scene, const GeometryAccess& access, const Vec3& place,
              std::span<const char> turned) {
   static const std::vector<Vec3> directions = sphere_directions(body_directions);
-  int others = 0;
-  for (const Vec3& d : directions) {
-    const auto met = first_stop(scene, access, place, d, far_m, solid_objects(scene));
-    const bool drawn_round = met && met->surface < turned.size() && turned[met->surface] != 0;
-    if (!met || met->front != drawn_round) ++others;
-    if (others > body_directions - body_backs) return false;
+  std::vector<Around> all(1);
+  for (int i = 0; i < body_directions; ++i) {
+    for (Around& one : all) one.net = 0;
+    cross(scene, access, place, directions[static_cast<size_t>(i)], turned, all);
+    int most = 0;
+    for (Around& one : all) {
+      one.backs += one.net > 0 ? 1 : 0;
+      most = std::max(most, one.backs);
+    }
+    if (most >= body_backs) return true;
+    const bool hopeless = i + 1 >= first_directions && most < first_backs;
+    if (hopeless || most + body_directions - (i + 1) < body_backs) return false;
   }
-  return true;
+  return false;
 }
 
 bool is_outside(const CompiledScene& scene, const GeometryAccess& access, const Vec3& place) {

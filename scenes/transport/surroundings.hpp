@@ -11,8 +11,8 @@
 namespace luxodus {
 
 namespace limits {
-/// Surfaces that one line may pass; at one more it ends.
-inline constexpr int surfaces_passed = 64;
+/// Surfaces that one line may pass; at one more it ends. More than any `passes` allows.
+inline constexpr int surfaces_passed = 1024;
 }  // namespace limits
 
 /// Directions spread evenly over the sphere (Fibonacci lattice), none along an axis, so that rays
@@ -61,8 +61,9 @@ std::optional<Facing> first_stop(const CompiledScene& scene, const GeometryAcces
 /// that is drawn as it should be shows its back to its own inside alone, where nobody is.
 std::vector<char> turned_surfaces(const CompiledScene& scene, const GeometryAccess& access);
 
-/// Whether a place lies in a closed body: most of the surfaces around it show it their backs.
-/// `turned`: as turned_surfaces, or empty.
+/// Whether a place lies in a closed body: in most directions a line from it leaves one body, all
+/// that stands in one table of the scene file, more often than it enters it. `turned`: as
+/// turned_surfaces, or empty.
 bool in_body(const CompiledScene& scene, const GeometryAccess& access, const Vec3& place,
              std::span<const char> turned = {});
 

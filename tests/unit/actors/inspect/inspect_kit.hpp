@@ -33,6 +33,8 @@ position = [6, 0, 2.5]
 flux_lm = 1000
 emergency = "non-maintained"
 emergency_flux = 500
+maintenance_factor = 0.8
+end_of_duration_factor = 0.75
 )";
 inline const std::string exit_sign = R"(
 [[sign]]
