@@ -10,6 +10,20 @@ namespace {
 
 /// A plane that lies in a floor or a table's top is looked at from above it [m].
 constexpr double above_plane_m = 1e-3;
+/// Right above the floor half of all directions show a body's bottom, or the floor that it stands
+/// on and that lies in the same plane. So high up few do [m].
+constexpr Real off_the_floor_m = 0.25_r;
+
+/// In a body where it is, or as what is above it with nothing in between.
+bool lies_in_body(const CompiledScene& scene, const GeometryAccess& access, const Vec3& place,
+                  const Vec3& normal, std::span<const char> turned) {
+  if (in_body(scene, access, place, turned)) return true;
+  const Vec3 above = place + normal * off_the_floor_m;
+  return in_body(scene, access, above, turned) &&
+         !first_stop(scene, access, place, normal, off_the_floor_m, [&](const Facing& f) {
+           return f.surface >= scene.description->objects.size() || lets_light_through(f.kind);
+         });
+}
 
 }  // namespace
 
@@ -29,7 +43,7 @@ std::vector<char> cells_in_bodies(const CompiledScene& scene, const RowRunner& r
                                   p.edge_u * ((static_cast<double>(u) + 0.5) / p.cells_u) +
                                   p.edge_v * ((static_cast<double>(row) + 0.5) / p.cells_v);
         const Vec3 place(centre + normal * above_plane_m - scene.local_origin);
-        if (in_body(scene, access, place, turned))
+        if (lies_in_body(scene, access, place, Vec3(normal), turned))
           inside[static_cast<size_t>(row) * columns + u] = 1;
       }
     };

@@ -133,12 +133,12 @@ bool surrounds(const View& view, const std::array<int, 6>& backs) {
 /// the first surface alone, whoever it belongs to, since a body may be drawn in several tables.
 struct Around {
   const SourcePlace* table = nullptr;
-  int net = 0;  // backs less fronts
+  int side = 0;  // that its first surface shows: 1 back, -1 front, 0 none is met
   int backs = 0;
 };
 
-/// Goes on to the end: another body that stands in this one, or the floor that it is sunk into,
-/// shows its fronts in between.
+/// Goes on to the end: what stands in a body, or the floor that it is sunk into, shows its fronts
+/// before the body's own back.
 void cross(const CompiledScene& scene, const GeometryAccess& access, const Vec3& place,
            const Vec3& direction, std::span<const char> turned, std::vector<Around>& all) {
   int count = 0;
@@ -151,8 +151,8 @@ void cross(const CompiledScene& scene, const GeometryAccess& access, const Vec3&
     if (at == all.end()) at = all.insert(all.end(), Around{&table, 0, 0});
     const bool is_turned = f.surface < turned.size() && turned[f.surface] != 0;
     const int step = f.front == is_turned ? 1 : -1;
-    at->net += step;
-    if (all.front().net == 0) all.front().net = step;
+    if (at->side == 0) at->side = step;
+    if (all.front().side == 0) all.front().side = step;
     return ++count < crossings;
   });
 }
@@ -189,11 +189,11 @@ bool in_body(const CompiledScene& scene, const GeometryAccess& access, const Vec
   static const std::vector<Vec3> directions = sphere_directions(body_directions);
   std::vector<Around> all(1);
   for (int i = 0; i < body_directions; ++i) {
-    for (Around& one : all) one.net = 0;
+    for (Around& one : all) one.side = 0;
     cross(scene, access, place, directions[static_cast<size_t>(i)], turned, all);
     int most = 0;
     for (Around& one : all) {
-      one.backs += one.net > 0 ? 1 : 0;
+      one.backs += one.side > 0 ? 1 : 0;
       most = std::max(most, one.backs);
     }
     if (most >= body_backs) return true;

@@ -61,9 +61,8 @@ std::optional<Facing> first_stop(const CompiledScene& scene, const GeometryAcces
 /// that is drawn as it should be shows its back to its own inside alone, where nobody is.
 std::vector<char> turned_surfaces(const CompiledScene& scene, const GeometryAccess& access);
 
-/// Whether a place lies in a closed body: in most directions a line from it leaves one body, all
-/// that stands in one table of the scene file, more often than it enters it. `turned`: as
-/// turned_surfaces, or empty.
+/// Whether a place lies in a closed body: in most directions the first that is met of one body, all
+/// that stands in one table of the scene file, is a back. `turned`: as turned_surfaces, or empty.
 bool in_body(const CompiledScene& scene, const GeometryAccess& access, const Vec3& place,
              std::span<const char> turned = {});
 

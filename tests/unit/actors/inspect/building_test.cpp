@@ -212,6 +212,10 @@ TEST_CASE("cells of a plane in bodies are counted", "[inspect]") {
   const auto some = found_in(furnished_room + plane + block("[5, 1, 1]"));
   check_found(some, Severity::note, "plane \"floor\": 6 of 48 cells lie inside bodies");
   CHECK(found_in(furnished_room + plane).empty());
+  // Standing on the floor, its bottom in the floor's plane.
+  const std::string standing = replaced(block("[5, 1, 1]"), "[2, -1, -0.1]", "[2, -1, 0]");
+  check_found(found_in(furnished_room + plane + standing), Severity::note,
+              "plane \"floor\": 6 of 48 cells lie inside bodies");
   // The box of 3 m x 2 m below the plane: it looks at the box's top.
   CHECK(found_in(furnished_room + plane + block("[5, 1, 0.015]")).empty());
   check_found(found_in(furnished_room + plane + block("[14, 3, 1]") + ""), Severity::warning,
