@@ -118,20 +118,19 @@ SightRow row_of(const Stand& stand, const Sign& sign) {
   return row;
 }
 
-/// Veiling luminance in the eye of all emitters but the sign itself.
+/// Veiling luminance in the eye of all emitters but the sign itself. Each part of an emitter lays its
+/// veil from where it is, through the smoke before it: a flame is no point, and not in its middle.
 double veil_of(const Building& building, const GeometryAccess& access, const SightRow& row,
                uint32_t sign, double age_years) {
   const CompiledScene& scene = building.scene();
   const glm::dvec3 gaze = glm::normalize(row.view.centre - row.eye);
-  const auto lux = direct_by_emitter(scene, access, building.local(row.eye), glm::vec3(gaze), {});
   double veil = 0;
-  for (size_t i = 0; i < lux.size(); ++i) {
-    const CompiledEmitter& emitter = scene.emitters[i];
-    if (lux[i] <= 0) continue;
+  for (const ArrivingLight& light :
+       direct_arrivals(scene, access, building.local(row.eye), glm::vec3(gaze), {})) {
+    const CompiledEmitter& emitter = scene.emitters[light.emitter];
     if (emitter.sign != none_index && scene.signs[emitter.sign].sign == sign) continue;
-    const glm::vec3 place = emitter.corners.empty() ? emitter.origin : emitter.corners.front();
-    const glm::dvec3 to_source(place - building.local(row.eye));
-    veil += lux[i] * veil_per_lux(angle_deg(to_source, gaze), age_years);
+    veil += light.illuminance_lx *
+            veil_per_lux(angle_deg(glm::dvec3(light.direction), gaze), age_years);
   }
   return veil;
 }

@@ -82,7 +82,9 @@ std::string why_no_slope(const Course& course) {
   if (course.looks >= 2 && course.points.empty())
     return "no light reached what this scene measures, so there is no error: ask for more with "
            "--particles, or look at the scene with `luxodus check`";
-  return "too few particles for a slope: ask for more with --particles";
+  return "too few particles for a slope: an error needs two batches, and a slope two errors; ask "
+         "for "
+         "more with --particles";
 }
 
 SvgPlot plot_of(const std::vector<Point>& points, double Point::*x, const std::string& scene,

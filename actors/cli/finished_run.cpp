@@ -21,6 +21,16 @@ bool has_text(const Json& object, const char* key) {
   return object.is_object() && object.contains(key) && object[key].is_string();
 }
 
+/// What all particles took; nothing where a part of them was traced at a time that nobody wrote
+/// down.
+std::optional<double> seconds_in(const Json& result) {
+  const Json seconds = result.value("seconds", Json());
+  if (!seconds.is_object() || !seconds.value("value", Json()).is_number()) return std::nullopt;
+  if (result.value("timed_particles", Json()) != result.value("particles", Json()))
+    return std::nullopt;
+  return seconds["value"].get<double>();
+}
+
 }  // namespace
 
 Result<FinishedRun> read_finished_run(const fs::path& folder) {
@@ -33,7 +43,9 @@ Result<FinishedRun> read_finished_run(const fs::path& folder) {
       !json.value("cells", Json()).is_number_integer()) {
     return Problem{{file.string(), 0}, "this is no result of a run: run the scene again"};
   }
-  FinishedRun out{json["scene_file"], json["scenario"], json["seed"], json["cells"], {}, {}};
+  FinishedRun out{json["scene_file"], json["scenario"], json["seed"], json["cells"], {}, {}, 0, {}};
+  if (json.value("batches", Json()).is_number_integer()) out.batches = json["batches"];
+  out.seconds = seconds_in(json);
   for (const Json& word : json.value("error_of", Json::array())) {
     if (word.is_string()) out.error_of.push_back(word);
   }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,8 @@ struct FinishedRun {
   int cells = 1;
   std::vector<std::string> error_of;
   std::vector<double> batch_shares;  // of its source groups, where they were dealt by need
+  int64_t batches = 0;
+  std::optional<double> seconds;  // that these batches took, where all of it is known
 };
 
 /// Errors: no result.json in the folder, or one that is not of a run.

@@ -14,6 +14,8 @@
 #include "actors/supervise/residency_setup.hpp"
 #include "actors/supervise/stored_rows.hpp"
 #include "scenes/transport/compile.hpp"
+#include "scenes/transport/lines.hpp"
+#include "scenes/transport/near_field.hpp"
 
 namespace luxodus::cli {
 
@@ -205,6 +207,22 @@ Result<std::vector<double>> batch_shares(const std::shared_ptr<const CompiledSce
                              [&](const Progress& p) { line.show(p); });
 }
 
+/// Says where luminaires are nearer than their photometric files are good for.
+void warn_of_near_field(const LocalRun& run) {
+  const CompiledScene& scene = run.scene();
+  const auto local = [&](const glm::dvec3& p) { return Vec3(p - scene.local_origin); };
+  std::vector<Problem> warnings;
+  run.rows().run(1, [&](const GeometryAccess& access) {
+    return [&, access](int64_t) {
+      const auto sees = [&](const glm::dvec3& from, const glm::dvec3& to) {
+        return clear_share(scene, access, local(from), local(to)) > 0;
+      };
+      warnings = near_field_warnings(*scene.description, scene.scenario, sees);
+    };
+  });
+  for (const Problem& w : warnings) spdlog::warn("{}", w.text());
+}
+
 /// One scenario into one folder.
 Result<Traced> run_scenario(std::shared_ptr<const SceneDescription> description,
                             const Scenario& scenario, const fs::path& folder,
@@ -234,7 +252,12 @@ Result<Traced> run_scenario(std::shared_ptr<const SceneDescription> description,
   }
   if (goes_on) {
     if (auto ok = load_flux(folder / "flux.lux", run); !ok.ok()) return ok.problem();
+    // A flux file holds no time: the result beside it does, if it is of the same batches.
+    const auto before = read_finished_run(folder);
+    if (before.ok() && before->batches == run.traced() && before->seconds)
+      run.add_earlier_seconds(*before->seconds);
   }
+  warn_of_near_field(run);
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) return Problem{{folder.string(), 0}, "cannot make this folder: " + error.message()};

@@ -8,6 +8,7 @@
 #include "actors/display/result_files.hpp"
 #include "scenes/emergency/sign_face.hpp"
 #include "scenes/emergency/sign_geometry.hpp"
+#include "scenes/transport/lines.hpp"
 
 namespace luxodus {
 
@@ -127,16 +128,30 @@ Estimate probe_of_group(const CompiledScene& scene, const Readout& readout, uint
   return readout.value(scene.blocks.probes_by_group, probe * groups + group, quantity);
 }
 
-/// Direct light at every probe.
-std::vector<DirectLight> direct_at_probes(const LocalRun& run) {
+/// Direct light at a probe by source group, and of luminaires alone as if there were no media.
+struct ProbeLight {
+  DirectLight groups;
+  double luminaires_clear_lx = 0;
+};
+
+std::vector<ProbeLight> direct_at_probes(const LocalRun& run) {
   const CompiledScene& scene = run.scene();
-  std::vector<DirectLight> out(scene.description->probes.size());
+  std::vector<ProbeLight> out(scene.description->probes.size());
   run.rows().run(static_cast<int64_t>(out.size()), [&](const GeometryAccess& access) {
     return [&, access](int64_t i) {
       const ProbeMeasure& probe = scene.description->probes[static_cast<size_t>(i)];
-      out[static_cast<size_t>(i)] =
-          direct_light_at(scene, access, glm::vec3(probe.position - scene.local_origin),
-                          glm::vec3(probe.normal), {});
+      ProbeLight& light = out[static_cast<size_t>(i)];
+      light.groups.illuminance_lx.assign(scene.groups.size(), 0);
+      light.groups.fluence_lm_m2.assign(scene.groups.size(), 0);
+      const auto lights =
+          direct_lights(scene, access, glm::vec3(probe.position - scene.local_origin),
+                        glm::vec3(probe.normal), {});
+      for (size_t e = 0; e < lights.size(); ++e) {
+        const auto g = static_cast<size_t>(scene.emitters[e].group);
+        light.groups.illuminance_lx[g] += lights[e].illuminance_lx;
+        light.groups.fluence_lm_m2[g] += lights[e].fluence_lm_m2;
+        if (is_luminaire(scene.emitters[e])) light.luminaires_clear_lx += lights[e].clear_air_lx;
+      }
     };
   });
   return out;
@@ -144,11 +159,11 @@ std::vector<DirectLight> direct_at_probes(const LocalRun& run) {
 
 Json probes_json(const LocalRun& run, const Readout& readout) {
   const CompiledScene& scene = run.scene();
-  const std::vector<DirectLight> direct_light = direct_at_probes(run);
+  const std::vector<ProbeLight> direct_light = direct_at_probes(run);
   Json out = Json::array();
   for (uint32_t p = 0; p < scene.description->probes.size(); ++p) {
     const ProbeMeasure& probe = scene.description->probes[p];
-    const DirectLight& direct = direct_light[p];
+    const DirectLight& direct = direct_light[p].groups;
     const Estimate indirect = readout.value(scene.blocks.probes, p, 0);
     const Estimate fluence = readout.value(scene.blocks.probes, p, 1);
     Json groups;
@@ -164,6 +179,7 @@ Json probes_json(const LocalRun& run, const Readout& readout) {
          {"position", vector_json(probe.position)},
          {"normal", vector_json(probe.normal)},
          {"direct_illuminance", exact_json(direct.total_lx(), "lx")},
+         {"luminaires_direct_in_clear_air", exact_json(direct_light[p].luminaires_clear_lx, "lx")},
          {"indirect_illuminance", measured(indirect, "lx")},
          {"illuminance",
           measured({direct.total_lx() + indirect.value, indirect.standard_error}, "lx")},
@@ -297,6 +313,15 @@ Json relative_errors_json(const Json& result) {
        of("signs", [](const Json& s) -> const Json& { return s["white"]["luminance_at_eye"]; })}};
 }
 
+/// Why standard errors are null; "" where they are known.
+std::string why_no_errors(const LocalRun& run) {
+  int64_t least = run.traced();
+  for (int g = 0; g < run.totals().groups(); ++g) least = std::min(least, run.totals().batches(g));
+  if (least >= 2) return "";
+  return "an error needs two batches of every source group, and one of them has " +
+         std::to_string(least) + ": trace more particles";
+}
+
 Json result_of(const LocalRun& run, const RunRecord& record, const PlaneMaps& maps) {
   const CompiledScene& scene = run.scene();
   const Readout readout(scene, run.totals());
@@ -304,32 +329,42 @@ Json result_of(const LocalRun& run, const RunRecord& record, const PlaneMaps& ma
   const double seconds = run.seconds();
   char hash[17];
   std::snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(scene.scene_hash));
-  const auto rays = static_cast<double>(run.totals().ledger().rays);
-  const double fom = error > 0 && seconds > 0 ? 1 / (error * error * seconds) : std::nan("");
-  Json out = {
-      {"schema", result_schema},
-      {"program", "luxodus"},
-      {"scene", scene.description->name},
-      {"title", scene.description->title},
-      {"scene_file", record.scene_file},
-      {"scene_hash", hash},
-      {"scenario", scene.scenario.name},
-      {"cells", record.cells},
-      {"kernel", describe_kernel(scene)},
-      {"seed", run.seed()},
-      {"particles", run.particles()},
-      {"batches", run.traced()},
-      {"batch_particles", scene.batch_particles},
-      {"stopped_by", record.stopped_by},
-      {"threads", run.threads()},
-      {"seconds", exact_json(seconds, "s")},
-      {"particles_per_second", exact_json(static_cast<double>(run.particles()) / seconds, "1/s")},
-      {"rays_per_second", exact_json(rays / seconds, "1/s")},
-      {"worst_relative_error", exact_json(error, "1")},
-      {"error_of", scene.judged.words},
-      {"unlit", readout.unlit()},
-      {"figure_of_merit", exact_json(fom, "1/s")},
-      {"ledger", ledger_json(run.totals().ledger())}};
+  const auto rays = static_cast<double>(run.timed_rays());
+  // Of statistical errors and of the whole run's time.
+  const bool all_timed = run.timed_particles() == run.particles();
+  const double fom =
+      error > 0 && seconds > 0 && all_timed ? 1 / (error * error * seconds) : std::nan("");
+  Json out = {{"schema", result_schema},
+              {"program", "luxodus"},
+              {"scene", scene.description->name},
+              {"title", scene.description->title},
+              {"scene_file", record.scene_file},
+              {"scene_hash", hash},
+              {"scenario", scene.scenario.name},
+              {"cells", record.cells},
+              {"kernel", describe_kernel(scene)},
+              {"seed", run.seed()},
+              {"particles", run.particles()},
+              {"batches", run.traced()},
+              {"batch_particles", scene.batch_particles},
+              {"stopped_by", record.stopped_by},
+              {"threads", run.threads()},
+              {"seconds", exact_json(seconds, "s")},
+              {"timed_particles", run.timed_particles()},
+              {"particles_per_second",
+               exact_json(static_cast<double>(run.timed_particles()) / seconds, "1/s")},
+              {"rays_per_second", exact_json(rays / seconds, "1/s")},
+              {"worst_relative_error", exact_json(error, "1")},
+              {"error_of", scene.judged.words},
+              {"unlit", readout.unlit()},
+              {"figure_of_merit", exact_json(fom, "1/s")},
+              {"ledger", ledger_json(run.totals().ledger())}};
+  if (!all_timed)
+    out["timing"] =
+        "seconds and rates are of the particles traced since the run was resumed; nobody wrote "
+        "down how long the others took, so there is no figure of merit";
+  if (const std::string why = why_no_errors(run); !why.empty())
+    out["standard_errors_unknown"] = why;
   Json groups = Json::array();
   for (size_t g = 0; g < scene.groups.size(); ++g) {
     const Group& group = scene.groups[g];

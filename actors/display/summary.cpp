@@ -15,10 +15,16 @@ double number(const Json& j) {
   return j.is_number() ? j.get<double>() : std::nan("");
 }
 
-/// "  12.3 +- 0.4 lx"
+/// "  12.3 +- 0.4 lx", with the bound of what is computed, where there is one.
 std::string measured_text(const Json& m) {
-  return fmt::format("{:8.4g} +- {:<7.2g} {}", number(m["value"]), number(m["standard_error"]),
-                     m["unit"].get<std::string>());
+  const std::string unit = m["unit"].get<std::string>();
+  std::string text = fmt::format("{:8.4g} ", number(m["value"]));
+  text += m["standard_error"].is_number()
+              ? fmt::format("+- {:<7.2g} {}", number(m["standard_error"]), unit)
+              : unit + " (an error needs two batches)";
+  if (m.contains("quadrature_bound"))
+    text += fmt::format(", quadrature within {:.2g} {}", number(m["quadrature_bound"]), unit);
+  return text;
 }
 
 std::string name_of(const Json& item) {
@@ -70,6 +76,8 @@ std::string percent(const Json& error) {
 
 /// The errors of each kind of value, and where there is none, of what the run was judged by.
 std::string errors(const Json& result) {
+  if (result.contains("standard_errors_unknown"))
+    return "  standard errors: " + result["standard_errors_unknown"].get<std::string>() + "\n";
   const Json& of = result["relative_errors"];
   std::string text;
   if (!result["planes"].empty()) text += ", planes at most " + percent(of["planes"]["worst"]);

@@ -50,14 +50,18 @@ ExrImage exr_of(const LocalRun& run, const Camera& camera, const TracedPicture& 
     }
   }
   image.channels.push_back({"scotopic", traced.light.scotopic});
-  image.channels.push_back({"standard_error.Y", traced.standard_error_y});
+  // An error needs two paths: where there are none, there is no channel of it, instead of NaN.
+  const bool has_error = options.paths_per_pixel >= 2;
+  if (has_error) image.channels.push_back({"standard_error.Y", traced.standard_error_y});
   image.chromaticities = Chromaticities{};
   image.white_luminance_cd_m2 = 1.0f;
   image.text = texts_of(run, camera);
   image.text.emplace_back(
       "comments",
-      "X, Y, Z: CIE 1931, Y in cd/m2. R, G, B: linear sRGB of the same light, not "
-      "clipped. scotopic: scotopic cd/m2. standard_error.Y: of the pixel's paths.");
+      std::string("X, Y, Z: CIE 1931, Y in cd/m2. R, G, B: linear sRGB of the same light, not "
+                  "clipped. scotopic: scotopic cd/m2. ") +
+          (has_error ? "standard_error.Y: of the pixel's paths."
+                     : "No standard error: it needs two paths per pixel."));
   image.numbers = {{"paths_per_pixel", static_cast<double>(options.paths_per_pixel)},
                    {"particles", static_cast<double>(run.particles())}};
   return image;

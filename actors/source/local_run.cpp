@@ -62,6 +62,7 @@ const char* name_of(StopReason reason) {
 void LocalRun::resume(int64_t batches, std::vector<int64_t> missing) {
   plan_.skip(batches);
   missing_ = std::move(missing);
+  untimed_ = {traced(), totals_.ledger().rays};
 }
 
 Batch LocalRun::next_batch() {

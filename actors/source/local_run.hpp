@@ -79,6 +79,12 @@ class LocalRun {
   void resume(int64_t batches, std::vector<int64_t> missing = {});
   /// Adds time that somebody else has traced into the totals.
   void add_seconds(double seconds) { seconds_ += seconds; }
+  /// Adds the time that the batches resumed from took; without it their time is not known, and
+  /// rates are of what was traced since.
+  void add_earlier_seconds(double seconds) {
+    seconds_ += seconds;
+    untimed_ = {};
+  }
 
   /// Batches that a rule asks for by particles; unreachably many where it does not.
   int64_t target_batches(const StopRule& stop) const;
@@ -101,6 +107,11 @@ class LocalRun {
   int64_t traced() const { return plan_.given() - static_cast<int64_t>(missing_.size()); }
   int64_t particles() const { return traced() * scene_->batch_particles; }
   double seconds() const { return seconds_; }
+  /// Of particles() and their rays, those that took seconds().
+  int64_t timed_particles() const {
+    return particles() - untimed_.batches * scene_->batch_particles;
+  }
+  uint64_t timed_rays() const { return totals_.ledger().rays - untimed_.rays; }
   uint64_t seed() const { return seed_; }
   int threads() const { return threads_; }
 
@@ -125,6 +136,11 @@ class LocalRun {
   std::mutex plan_mutex_;
   std::atomic<bool> time_is_up_{false};
   double seconds_ = 0;
+  struct Untimed {
+    int64_t batches = 0;
+    uint64_t rays = 0;
+  };
+  Untimed untimed_;  // resumed from, of unknown time
   double error_ = 0;
   int64_t batches_at_start_ = 0;
   MakeTracer make_tracer_ = make_batch_tracer;

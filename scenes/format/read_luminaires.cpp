@@ -232,6 +232,9 @@ void read_luminaire(const toml::table& table, SceneReading& reading) {
   if (const auto path = keys.path("file")) {
     if (const auto file = read_photometry(*path, keys.place("file"), reading)) {
       e.web = file->web;
+      e.file = keys.node("file")->value_or(std::string());
+      e.product = file->luminaire;
+      e.opening_m = file->opening.size_m;
       rated = file->web->flux_lm();
       if (!point) take_opening(file->opening, e);
     }

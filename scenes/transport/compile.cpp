@@ -120,14 +120,28 @@ Result<bool> compile_media(CompiledScene& scene) {
   return true;
 }
 
+/// A flame is where its points are: their middle, and the box around them.
+void place_flame(CompiledEmitter& e, const std::vector<glm::vec3>& points) {
+  glm::dvec3 sum(0), low(points.front()), high = low;
+  for (const glm::vec3& p : points) {
+    sum += glm::dvec3(p);
+    low = glm::min(low, glm::dvec3(p));
+    high = glm::max(high, glm::dvec3(p));
+  }
+  e.origin = Vec3(sum / static_cast<double>(points.size()));
+  e.size = Vec3(high - low);
+  e.near_m = 0.5_r * std::max({e.size.x, e.size.y, e.size.z});
+}
+
 void scatter_volume_points(CompiledScene& scene) {
   ResidentBricks bricks(scene.media);
   const PackedScene* packed = scene.description->packed.get();
-  for (const CompiledEmitter& e : scene.emitters) {
+  for (CompiledEmitter& e : scene.emitters) {
     if (e.kind != EmitterKind::volume) continue;
     const bool stored = packed != nullptr && !packed->flame_points[e.medium].empty();
-    scene.volume_points[e.medium] =
-        stored ? packed->flame_points[e.medium] : flame_points(scene.media, e.medium, bricks);
+    std::vector<glm::vec3>& points = scene.volume_points[e.medium];
+    points = stored ? packed->flame_points[e.medium] : flame_points(scene.media, e.medium, bricks);
+    place_flame(e, points);
   }
 }
 
