@@ -23,7 +23,7 @@ struct FinishedRun {
   std::vector<double> batch_shares;  // of its source groups, where they were dealt by need
 };
 
-/// Errors: no result.json in the folder, or one that is not of a run; an assessment is named as such.
+/// Errors: no result.json in the folder, or one that is not of a run; an assessment is called that.
 Result<FinishedRun> read_finished_run(const std::filesystem::path& folder);
 
 /// A state of a building, by its scene file.

@@ -1,11 +1,10 @@
 // luxodus node: the nodes of one process of a cluster, started on the machine where they belong.
 #include <fmt/format.h>
+#include <poll.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
-#include <thread>
 
 #include "actors/cli/command.hpp"
 #include "actors/cli/serve_view.hpp"
@@ -35,14 +34,13 @@ struct NodeOptions {
 /// and it is tried again for ten minutes.
 Result<Done> save_patiently(const fs::path& file, const LocalRun& run) {
   constexpr int tries = 60;
-  constexpr auto pause = std::chrono::seconds(10);
+  constexpr int pause_ms = 10'000;
   for (int i = 1;; ++i) {
     auto saved = save_flux(file, run);
     if (saved.ok() || i == tries || interrupt_flag()) return saved;
     spdlog::error("{}: tried again in {} s; Ctrl-C ends without", saved.problem().text(),
-                  pause.count());
-    for (auto left = pause; left.count() > 0 && !interrupt_flag(); --left)
-      std::this_thread::sleep_for(std::chrono::seconds(1));
+                  pause_ms / 1000);
+    ::poll(nullptr, 0, pause_ms);  // a signal ends it
   }
 }
 

@@ -209,7 +209,8 @@ class Watchers {
     const auto every = parse_seconds(options.checkpoint);
     if (!every.ok()) return every.problem();
     if (every.value() < 1)
-      return Problem{{}, "--checkpoint " + options.checkpoint + ": write 1s or more, or 0 for none"};
+      return Problem{
+          {}, "--checkpoint " + options.checkpoint + ": write 1s or more, or 0 for none"};
     watchers.checkpoint_ = std::make_unique<Checkpoint>(folder.path(), run, record, every.value(),
                                                         folder.keep_particles);
     return watchers;

@@ -3,7 +3,7 @@
 // - files that no run has written are not, without --overwrite;
 // - a run of another scene, scenario or state of the scene file is;
 // - a run of the same scene is by one that is sure to be at least as long, so that a command can be
-//   repeated; by one that may be shorter only with --overwrite, since --resume was likely forgotten;
+//   repeated; by one that may be shorter with --overwrite only: --resume was likely forgotten;
 // - until a run that is allowed to replace a longer one has become longer, and where it is
 //   interrupted before, that one stays.
 #pragma once

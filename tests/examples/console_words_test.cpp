@@ -92,7 +92,8 @@ seconds_after_failure = 90
 )";
 
 const std::string sign = R"(<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 40 20">
-<rect width="40" height="20" fill="#008000"/><rect x="10" y="5" width="20" height="10" fill="#ffffff"/></svg>
+<rect width="40" height="20" fill="#008000"/>
+<rect x="10" y="5" width="20" height="10" fill="#ffffff"/></svg>
 )";
 
 struct Corridor {
