@@ -10,6 +10,7 @@
 #include <cmath>
 #include <csignal>
 #include <cstdio>
+#include <ctime>
 #include <thread>
 
 #include "scenes/format/scene_file.hpp"
@@ -132,9 +133,21 @@ int default_threads() {
 namespace {
 
 std::atomic<bool> interrupted_flag{false};
+std::atomic<int64_t> interrupted_at{0};
+static_assert(std::atomic<int64_t>::is_always_lock_free);
 
+/// The second time ends at once, if it is meant: one Ctrl-C may come twice, to the process and to
+/// its group.
 void on_interrupt(int) {
-  if (interrupted_flag.exchange(true)) std::_Exit(ExitCode::interrupted);
+  constexpr int64_t one_press_ns = 300'000'000;
+  timespec now{};
+  ::clock_gettime(CLOCK_MONOTONIC, &now);
+  const int64_t now_ns = int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
+  if (!interrupted_flag.exchange(true)) {
+    interrupted_at = now_ns;
+  } else if (now_ns - interrupted_at > one_press_ns) {
+    std::_Exit(ExitCode::interrupted);
+  }
 }
 
 }  // namespace

@@ -36,6 +36,9 @@ position = [6, 1.5, 2.9]
 size = [0.6, 0.6]
 flux_lm = 3000
 emergency_flux = 300
+emergency = "maintained"
+maintenance_factor = 1
+end_of_duration_factor = 1
 [[medium]]
 name = "thin smoke"
 kind = "homogeneous"
@@ -52,6 +55,8 @@ file = "sign.svg"
 smallest_detail = 0.01
 mains_white = 500
 mains_green = 100
+emergency_white = 50
+emergency_green = 10
 [[sign]]
 name = "exit south"
 position = [0.03, 2, 2.2]
@@ -63,6 +68,8 @@ file = "sign.svg"
 smallest_detail = 0.01
 mains_white = 500
 mains_green = 100
+emergency_white = 50
+emergency_green = 10
 [[observer]]
 name = "walker"
 eye = [8, 1.5, 1.6]
@@ -92,7 +99,7 @@ seconds_after_failure = 90
 )";
 
 const std::string sign = R"(<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 40 20">
-<rect width="40" height="20" fill="#008000"/>
+<rect width="40" height="20" fill="#237F52"/>
 <rect x="10" y="5" width="20" height="10" fill="#ffffff"/></svg>
 )";
 
@@ -129,7 +136,7 @@ TEST_CASE("a run's summary says the state, places, signs by observer and errors 
   REQUIRE(run.code == 0);
   CHECK_THAT(run.out,
              Contains("scenario \"mains out\": emergency operation 90 s after the failure; "
-                      "1 of 1 luminaire lit; 0 of 2 signs lit; smoke: thin smoke"));
+                      "1 of 1 luminaire lit; 2 of 2 signs lit; smoke: thin smoke"));
   CHECK_THAT(run.out, Contains("plane the floor") && Contains("least/mean") && Contains(" at ("));
   CHECK_THAT(run.out, Contains("signs from walker") && Contains("signs from crawler"));
   CHECK_THAT(run.out, Contains("(median), ") && Contains("(largest: \"the floor\")"));

@@ -130,9 +130,12 @@ TEST_CASE("a run that is killed goes on from its last checkpoint with the same b
   const Place place;
   const std::string nodes = GENERATE("", " --nodes 2");
   const Outcome killed =
-      place.run("--no-views --checkpoint 1s" + nodes + endless, "timeout --signal=KILL 4 ");
+      shell(place.folder, std::string(LUX_PROGRAM) + " run " + place.scene + " --out " +
+                              place.out.string() + " --no-views --checkpoint 1s" + nodes + endless +
+                              "& run=$!; until [ -e " + (place.out / "flux.lux").string() +
+                              " ]; do kill -0 $run || exit 9; done; kill -KILL $run; wait $run");
   INFO(killed.err);
-  REQUIRE(fs::exists(place.out / "flux.lux"));
+  REQUIRE(killed.code == 128 + 9);
   const auto begun = nlohmann::json::parse(slurp(place.out / "result.json"));
   CHECK(begun["finished"] == false);
   const auto particles = begun["particles"].get<int64_t>();
@@ -219,11 +222,10 @@ TEST_CASE("two runs do not write into one folder", "[program][keep]") {
   const std::string run = std::string(LUX_PROGRAM) + " run " + place.scene + " --out " +
                           place.out.string() + " --no-views" + endless;
   // The lock is there before the first particle; the second command waits for it, then is refused.
-  const Outcome both =
-      shell(place.folder, "timeout --signal=KILL 30 " + run + " & first=$!; until [ -s " +
-                              (place.out / ".luxodus.lock").string() +
-                              " ]; do kill -0 $first || exit 9; done; timeout --signal=KILL 20 " +
-                              run + "; code=$?; kill -KILL $first; wait $first; exit $code");
+  const Outcome both = shell(
+      place.folder, run + " & first=$!; until [ -s " + (place.out / ".luxodus.lock").string() +
+                        " ]; do kill -0 $first || exit 9; done; timeout --signal=KILL 20 " + run +
+                        "; code=$?; kill -KILL $first; wait $first; exit $code");
   INFO(both.err);
   CHECK(both.code == 2);
   CHECK_THAT(both.err, Contains("process ") && Contains("writes into this folder"));
