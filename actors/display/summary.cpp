@@ -90,7 +90,8 @@ std::string signs(const Json& result) {
 }
 
 std::string percent(double share) {
-  return fmt::format("{:.2g} %", 100 * share);
+  return share < 0.0995 ? fmt::format("{:.2g} %", 100 * share)
+                        : fmt::format("{:.0f} %", 100 * share);
 }
 
 std::string percent(const Json& error) {

@@ -84,7 +84,7 @@ TEST_CASE("the summary says the state first, where the light went, and nothing o
   INFO(text);
   CHECK(text.starts_with("  scenario \"as written\": mains operation; 1 of 1 luminaire lit"));
   // A closed room without smoke: what it does not absorb is nowhere.
-  CHECK(text.find("1e+02 % absorbed by surfaces, 0 % by smoke, 0 % escaped") != std::string::npos);
+  CHECK(text.find("100 % absorbed by surfaces, 0 % by smoke, 0 % escaped") != std::string::npos);
   CHECK(text.find("(largest: \"desk\")") != std::string::npos);
   CHECK(text.find("(largest: \"" + long_name + "\")") != std::string::npos);
   CHECK(text.find("ledger") == std::string::npos);
