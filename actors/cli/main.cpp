@@ -77,8 +77,8 @@ std::optional<std::string> unknown_command(const CLI::App& app, int argc, char**
     }
   }
   return "there is no command \"" + word + "\"" +
-         (nearest.empty() ? "" : ": did you mean " + nearest + "?") +
-         "; luxodus --help lists all commands";
+         (nearest.empty() ? "; " : ": did you mean " + nearest + "? ") +
+         "luxodus --help lists all commands";
 }
 
 /// What was printed has arrived, or the exit code says that it has not: a script that reads a
