@@ -122,6 +122,7 @@ void read_head(const Documents& documents, const fs::path& path, SceneReading& r
     if (const toml::table* run = keys.table("run")) read_run(*run, reading);
     if (const toml::table* assessment = keys.table("assessment"))
       read_assessment(*assessment, reading);
+    if (const toml::table* project = keys.table("project")) read_project(*project, reading);
   }
 }
 

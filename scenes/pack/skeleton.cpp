@@ -135,6 +135,11 @@ void serialize(A& a, AssessmentSettings& x) {
   a(x.age_years, x.eye_heights_m, x.spacing_m, x.smoke_expected, x.irritant_smoke);
 }
 template <class A>
+void serialize(A& a, ProjectSettings& x) {
+  a(x.name, x.client, x.address, x.document, x.revision, x.date, x.author, x.checker, x.logo,
+    x.north_deg, x.place);
+}
+template <class A>
 void serialize(A& a, Camera& x) {
   a(x.name, x.place, x.eye, x.target, x.up, x.vertical_fov_deg, x.width, x.height);
 }
@@ -199,7 +204,7 @@ template <class A>
 void serialize(A& a, SceneDescription& x) {
   a(x.name, x.title, x.file, x.run, x.materials, x.objects, x.emitters, x.media, x.signs);
   a(x.planes, x.probes, x.surface_groups, x.volume_groups, x.counting_planes, x.observers,
-    x.cameras, x.routes, x.open_areas, x.task_areas, x.emphasis, x.assessment, x.scenarios,
+    x.cameras, x.routes, x.open_areas, x.task_areas, x.emphasis, x.assessment, x.project, x.scenarios,
     x.content_hash, x.degenerate_triangles, x.warnings);
 }
 template <class A>
