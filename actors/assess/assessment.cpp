@@ -79,7 +79,7 @@ Result<Assessment> assess(const std::shared_ptr<const SceneDescription>& scene,
   out.scenario = scenario->name;
   out.seed = options.seed;
   out.scene_hash = scene->content_hash;
-  out.walls = walls_of(*scene);
+  out.levels = plan_levels(*scene, scenario.value());
   if (auto ok = assess_by_codes(*scene, scenario.value(), options, progress, out); !ok.ok())
     return ok.problem();
   if (options.reality)

@@ -53,6 +53,22 @@ struct PlanPoint {
   double lux = 0;
 };
 
+/// Direct light of all emergency luminaires on a grid over a floor, without furniture [lx].
+struct LightMap {
+  glm::dvec2 corner{0};  // of the first place
+  double spacing_m = 0;
+  int columns = 0, rows = 0;  // along x, along y
+  std::vector<double> lux;    // row by row; as many as columns times rows
+};
+
+/// One floor of the building, for its plan.
+struct PlanLevel {
+  double floor_m = 0;
+  std::vector<std::pair<glm::dvec2, glm::dvec2>> walls, furniture;  // cut at breast height
+  std::vector<PlanPoint> points;  // of calculation on its routes and open areas
+  LightMap map;
+};
+
 /// Of a sign, how many of the places that it faces it is legible from, in smoke of a density.
 struct SweepRow {
   double factor = 1;  // of all extinctions
@@ -65,8 +81,7 @@ struct Assessment {
   std::vector<Check> checks;
   std::vector<SightRow> sights;
   std::vector<SweepRow> sweep;
-  std::vector<PlanPoint> plan;                           // without furniture
-  std::vector<std::pair<glm::dvec2, glm::dvec2>> walls;  // as cut at breast height
+  std::vector<PlanLevel> levels;  // from below; at least one
   std::vector<Problem> warnings;
   int64_t paths = 0;  // from eyes, of all rounds
   double seconds = 0;

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <map>
 
+#include "actors/assess/assessment_inputs.hpp"
 #include "scenes/format/csv.hpp"
 
 namespace luxodus {
@@ -78,22 +79,6 @@ Json sight_json(const SightRow& row) {
   return out;
 }
 
-Json plan_json(const SceneDescription& scene, const Assessment& assessment) {
-  Json points = Json::array(), walls = Json::array(), routes = Json::array(), signs = Json::array();
-  for (const PlanPoint& p : assessment.plan) points.push_back({p.place.x, p.place.y, p.lux});
-  for (const auto& [a, b] : assessment.walls) walls.push_back({a.x, a.y, b.x, b.y});
-  for (const EscapeRoute& route : scene.routes) {
-    Json path = Json::array();
-    for (const glm::dvec3& p : route.path) path.push_back({p.x, p.y});
-    routes.push_back({{"name", route.name}, {"path", path}, {"width", route.width_m}});
-  }
-  for (const Sign& sign : scene.signs)
-    signs.push_back({{"name", sign.name},
-                     {"position", place_json(sign.frame.origin)},
-                     {"facing", place_json(sign.frame.axes[2])}});
-  return {{"points", points}, {"walls", walls}, {"routes", routes}, {"signs", signs}};
-}
-
 Json sweep_json(const Assessment& assessment) {
   Json out = Json::array();
   for (const SweepRow& row : assessment.sweep)
@@ -164,7 +149,16 @@ Json assessment_json(const SceneDescription& scene, const Assessment& assessment
   out["sweep"] = sweep_json(assessment);
   Json& warnings = out["warnings"] = Json::array();
   for (const Problem& warning : assessment.warnings) warnings.push_back(warning.text());
-  out["plan"] = plan_json(scene, assessment);
+  out["project"] = project_json(scene.project);
+  out["scenario"] = scenario_json(scene, assessment.scenario);
+  out["luminaires"] = luminaires_json(scene);
+  out["signs"] = signs_json(scene);
+  out["places"] = places_json(scene);
+  out["materials"] = materials_json(scene);
+  out["media"] = media_json(scene);
+  Json& cameras = out["cameras"] = Json::array();
+  for (const Camera& camera : scene.cameras) cameras.push_back(camera.name);
+  out["plan"] = plan_json(assessment);
   return out;
 }
 
@@ -203,8 +197,7 @@ Result<Done> write_assessment(const fs::path& folder, const Json& assessment) {
                                                     "jin.legible",
                                                     "viewing_distance.within"});
   if (auto ok = write_csv(folder / "sights.csv", sights); !ok.ok()) return ok;
-  return write_file_atomically(folder / "report.html",
-                               assessment_page(assessment, pictures_in(folder)));
+  return Done{};
 }
 
 Result<Json> read_assessment(const fs::path& folder) {
@@ -222,22 +215,6 @@ Result<Json> read_assessment(const fs::path& folder) {
     return Problem{{path.string(), 0},
                    std::string("is not a \"") + assessment_format + "\": make it anew"};
   return read;
-}
-
-std::vector<ReportPicture> pictures_in(const fs::path& folder) {
-  std::vector<ReportPicture> out;
-  std::error_code failed;
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(folder / "views", failed))
-    if (entry.path().extension() == ".png" &&
-        entry.file_size(failed) <= limits::report_picture_bytes)
-      files.push_back(entry.path());
-  std::sort(files.begin(), files.end());
-  for (const fs::path& path : files) {
-    std::ifstream file(path, std::ios::binary);
-    out.push_back({path.stem().string(), std::string(std::istreambuf_iterator<char>(file), {})});
-  }
-  return out;
 }
 
 }  // namespace luxodus

@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
+
+#include "actors/assess/plan_cut.hpp"
 
 namespace luxodus {
 
@@ -71,7 +74,8 @@ class CodeMode {
   /// Closed doors that routes lead through.
   std::vector<Problem> closed_doors() const;
   std::vector<Problem> blind_signs() const;
-  std::vector<PlanPoint> plan() const;
+  /// The points of calculation of each level, and its map of light.
+  void fill_plan(std::vector<PlanLevel>& levels) const;
 
  private:
   std::vector<Check> of_route(const EscapeRoute& route) const;
@@ -336,7 +340,10 @@ std::vector<Problem> CodeMode::blind_signs() const {
   return out;
 }
 
-std::vector<PlanPoint> CodeMode::plan() const {
+void CodeMode::fill_plan(std::vector<PlanLevel>& levels) const {
+  const auto sum = [](const LitPoint& p) {
+    return std::accumulate(p.lux.begin(), p.lux.end(), 0.0);
+  };
   std::vector<glm::dvec3> places;
   for (const EscapeRoute& route : scene_.routes) {
     const auto more = within(route, route.width_m / 2 - route_grid_m, 2 * route_grid_m);
@@ -346,12 +353,17 @@ std::vector<PlanPoint> CodeMode::plan() const {
     const auto more = within(area, area_grid_m / 2, area_grid_m);
     places.insert(places.end(), more.begin(), more.end());
   }
-  std::vector<PlanPoint> out;
-  for (const LitPoint& p : lit(places, {0, 0, 1}, floor_plane_m)) {
-    out.push_back({p.place, 0});
-    for (const double lux : p.lux) out.back().lux += lux;
+  const glm::dvec3 up(0, 0, 1);
+  for (const LitPoint& p : lit(places, up, floor_plane_m))
+    levels[level_of(levels, p.place.z)].points.push_back({p.place, sum(p)});
+  for (size_t i = 0; i < levels.size(); ++i) {
+    LightMap& map = levels[i].map = map_of(scene_, levels, i);
+    std::vector<glm::dvec3> grid;
+    for (int row = 0; row < map.rows; ++row)
+      for (int column = 0; column < map.columns; ++column)
+        grid.emplace_back(map.corner + glm::dvec2(column, row) * map.spacing_m, levels[i].floor_m);
+    for (const LitPoint& p : lit(grid, up, floor_plane_m)) map.lux.push_back(sum(p));
   }
-  return out;
 }
 
 void add_condition(std::vector<Check>& checks, const std::string& condition) {
@@ -373,7 +385,7 @@ Result<Done> assess_by_codes(const SceneDescription& scene, const Scenario& scen
     const CodeMode mode(scene, *building.value(), options);
     if (!furnished) {
       if (auto ok = mode.walkable(); !ok.ok()) return ok;
-      out.plan = mode.plan();
+      mode.fill_plan(out.levels);
       const auto doors = mode.closed_doors();
       out.warnings.insert(out.warnings.end(), doors.begin(), doors.end());
       const auto blind = mode.blind_signs();

@@ -126,9 +126,6 @@ Result<ExitCode> report_again(const std::string& folder, bool pdf) {
   const auto read = read_assessment(folder);
   if (!read.ok()) return read.problem();
   const fs::path page = fs::path(folder) / "report.html";
-  if (auto ok = write_file_atomically(page, assessment_page(read.value(), pictures_in(folder)));
-      !ok.ok())
-    return ok.problem();
   std::printf("written to %s\n", page.string().c_str());
   if (!pdf) return ExitCode::success;
   const fs::path printed = fs::path(folder) / "report.pdf";
