@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "actors/assess/assessment_json.hpp"
+#include "actors/assess/state_words.hpp"
 #include "actors/cli/command.hpp"
 
 namespace luxodus::cli {
@@ -19,26 +20,19 @@ namespace fs = std::filesystem;
 struct AssessCommandOptions {
   std::string scene;
   std::string out;
-  std::vector<std::string> rules = {"en1838-2013"};
   AssessOptions assess;
   bool codes_alone = false;
   bool strict = false;
 };
 
-CodeChoice codes_of(const std::vector<std::string>& rules) {
-  CodeChoice codes{false, false, false};
-  for (const std::string& rule : rules) {
-    codes.en_2013 = codes.en_2013 || rule == "en1838-2013";
-    codes.en_2024 = codes.en_2024 || rule == "en1838-2024";
-    codes.nfpa = codes.nfpa || rule == "nfpa101";
-  }
-  return codes;
+std::string ids_of(std::span<const NamedRules> rows) {
+  std::string out;
+  for (const NamedRules& row : rows) out += (out.empty() ? "" : ", ") + std::string(row.id);
+  return out;
 }
 
 void print_summary(const Json& a, const fs::path& out) {
-  const Json& counts = a["counts"];
-  std::printf("%d checks pass, %d fail, %d not assessed\n", counts["pass"].get<int>(),
-              counts["fail"].get<int>(), counts["not_assessed"].get<int>());
+  std::printf("%s%s\n", state_text(a).c_str(), verdict_words(a).c_str());
   for (const Json& check : a["checks"]) {
     if (check["verdict"] != "fail") continue;
     const std::string value =
@@ -59,7 +53,9 @@ void print_summary(const Json& a, const fs::path& out) {
 
 ExitCode verdict_of(const Json& a, bool strict) {
   const Json& counts = a["counts"];
-  const bool open = counts["fail"].get<int>() + counts["not_assessed"].get<int>() > 0 ||
+  const bool open = counts["fail"].get<int>() + counts["not_assessed"].get<int>() +
+                            counts["not_verified"].get<int>() >
+                        0 ||
                     a["sight_counts"].contains("undecided");
   return strict && open ? ExitCode::failure : ExitCode::success;
 }
@@ -69,7 +65,6 @@ Result<ExitCode> assess_scene(const AssessCommandOptions& options) {
   if (!scene) return ExitCode::bad_input;
   install_interrupt_handler();
   AssessOptions asked = options.assess;
-  asked.codes = codes_of(options.rules);
   asked.reality = !options.codes_alone;
   ProgressLine line("assess");
   const auto assessed =
@@ -165,17 +160,23 @@ void add_assess(CLI::App& app, int& exit_code) {
       "Needs routes, areas or observers in the scene (keys: scenes/format/README.md). Writes\n"
       "report.html, assessment.json, checks.csv and sights.csv.\n"
       "  luxodus assess scenes/library/office_floor.toml --out out/office\n"
+      "  luxodus assess office.toml --scenario fire --rules en1838-2013 --deviation de-asr-a3.4-3\n"
       "  luxodus assess office.toml --rules en1838-2024,nfpa101 --codes-alone\n"
       "  luxodus assess office.toml --smoke-scale 0.1,0.3,1,3,10");
   command->add_option("scene", options->scene, "scene file (TOML)")->required();
   command->add_option("--scenario", options->assess.scenario,
-                      "state of the building [the first in emergency operation, with smoke]");
+                      "state of the building [the one in emergency operation, with smoke where "
+                      "any has it; none is guessed]");
   command->add_option("--out", options->out, "folder of the results [out/NAME-assessed]");
   command
-      ->add_option("--rules", options->rules,
-                   "codes: en1838-2013, en1838-2024, nfpa101 [en1838-2013]")
-      ->delimiter(',')
-      ->check(CLI::IsMember({"en1838-2013", "en1838-2024", "nfpa101"}));
+      ->add_option("--rules", options->assess.rules,
+                   "rule sets: " + ids_of(rule_sets()) + " [those of the scene]")
+      ->delimiter(',');
+  command
+      ->add_option(
+          "--deviation", options->assess.deviations,
+          "national deviations from them: " + ids_of(deviations()) + " [those of the scene]")
+      ->delimiter(',');
   command->add_option("--seed", options->assess.seed, "of all random numbers [1]")
       ->check(seed_number());
   command->add_option("--threads", options->assess.threads, "threads [all]")
@@ -191,7 +192,7 @@ void add_assess(CLI::App& app, int& exit_code) {
       ->check(CLI::Range(0.0, 1e6));
   command->add_flag("--codes-alone", options->codes_alone, "no smoke, no reflections: codes only");
   command->add_flag("--strict", options->strict,
-                    "exit code 1 where anything fails, is undecided or not assessed");
+                    "exit code 1 where anything fails, is undecided, not assessed or not verified");
   command->callback([options, &exit_code] { exit_code = told(assess_scene(*options)); });
 }
 

@@ -57,7 +57,19 @@ std::string smoke_html(const Texts& t, const Json& smoke) {
     out += "<br>" + escaped(text_in(medium, "name")) + ": " +
            escaped(extinction_text(t, medium["extinction_min"], medium["extinction_max"], "1/m"));
     if (const std::string source = text_in(medium, "source"); !source.empty())
-      out += " (" + escaped(t.word("smoke_source", source)) + ")";
+      out += " (" + remark(source) + ")";
+  }
+  return out;
+}
+
+/// Rule sets or deviations: edition, id, what they ask, and what is to be said of them.
+std::string rules_html(const Json& rules) {
+  std::string out;
+  for (const Json& rule : rules) {
+    out += (out.empty() ? "<b>" : "<br><b>") + escaped(text_in(rule, "edition")) + "</b> (" +
+           escaped(text_in(rule, "id")) + ")";
+    for (const char* key : {"what", "status"})
+      if (const std::string text = text_in(rule, key); !text.empty()) out += ": " + remark(text);
   }
   return out;
 }
@@ -136,8 +148,9 @@ std::string state_section(const PageParts& parts) {
   facts.add("state.scenario", text_in(s, "scenario").empty() ? t("state.no_scenario")
                                                              : text_in(s, "scenario"));
   facts.add("state.operation", t.word("operation", text_in(s, "operation")));
-  facts.add("state.seconds", s["seconds_after_failure"].is_number()
-                                 ? t.number(s["seconds_after_failure"].get<double>(), 4) + " s"
+  const Json& seconds = s["seconds_after_failure"];
+  facts.add("state.seconds", seconds.is_object()
+                                 ? t.number(seconds["value"].get<double>(), 4) + " s"
                                  : t("state.seconds_unsaid"));
   const Json& lit = s["luminaires"];
   facts.add_html("state.luminaires",
@@ -146,13 +159,9 @@ std::string state_section(const PageParts& parts) {
                      "</b>" + (lit["lit_names"].empty() ? "" : "<br>") +
                      escaped(list_text(lit["lit_names"])));
   facts.add_html("state.smoke", smoke_html(t, s["smoke"]));
-  std::string rules;
-  for (const Json& rule : s["rules"])
-    rules += (rules.empty() ? "" : "<br>") + escaped(text_in(rule, "edition") + " (" +
-                                                     text_in(rule, "id") + ")");
-  facts.add_html("state.rules", rules);
-  facts.add("state.deviations",
-            s["deviations"].empty() ? t("word.none") : list_text(s["deviations"]));
+  facts.add_html("state.rules", rules_html(s["rules"]));
+  facts.add_html("state.deviations", s["deviations"].empty() ? escaped(t("state.no_deviations"))
+                                                             : rules_html(s["deviations"]));
   facts.add("state.doors_open", list_text(scenario["doors_open"]));
   facts.add("state.doors_closed", list_text(scenario["doors_closed"]));
   std::string remarks = remark(text_in(s, "light"));
