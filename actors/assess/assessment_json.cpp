@@ -6,6 +6,7 @@
 #include <fstream>
 #include <map>
 
+#include "actors/assess/assessment_check.hpp"
 #include "actors/assess/assessment_inputs.hpp"
 #include "actors/assess/state_words.hpp"
 #include "scenes/format/csv.hpp"
@@ -264,6 +265,11 @@ Result<Json> read_assessment(const fs::path& folder) {
   if (!read.is_object() || read.value("format", "") != assessment_format)
     return Problem{{path.string(), 0},
                    std::string("is not a \"") + assessment_format + "\": make it anew"};
+  if (const auto fault = fault_of_assessment(read))
+    return Problem{{path.string(), 0},
+                   *fault +
+                       ": this assessment is damaged or of another version; make it anew by "
+                       "luxodus assess"};
   return read;
 }
 

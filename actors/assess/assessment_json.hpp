@@ -1,6 +1,6 @@
-// An assessment on disk: assessment.json (all of it), checks.csv, sights.csv. Reports (actors/report)
-// and comparisons are made from the JSON alone, so that they can be made again later. Pure but for
-// write_assessment and read_assessment; any thread.
+// An assessment on disk: assessment.json (all of it), checks.csv, sights.csv. Reports
+// (actors/report) and comparisons are made from the JSON alone, so that they can be made again
+// later. Pure but for write_assessment and read_assessment; any thread.
 #pragma once
 
 #include <filesystem>

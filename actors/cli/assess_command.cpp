@@ -1,15 +1,13 @@
-// luxodus assess, report, compare: whether signs and routes do their job, as a page and as data.
+// luxodus assess, compare: whether signs and routes do their job, as data and as a report.
 #include <fmt/format.h>
-#include <spawn.h>
 #include <spdlog/spdlog.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <filesystem>
 
 #include "actors/assess/assessment_json.hpp"
 #include "actors/assess/state_words.hpp"
 #include "actors/cli/command.hpp"
+#include "actors/cli/report_options.hpp"
 
 namespace luxodus::cli {
 
@@ -23,6 +21,7 @@ struct AssessCommandOptions {
   AssessOptions assess;
   bool codes_alone = false;
   bool strict = false;
+  ReportWords report;
 };
 
 std::string ids_of(std::span<const NamedRules> rows) {
@@ -31,7 +30,7 @@ std::string ids_of(std::span<const NamedRules> rows) {
   return out;
 }
 
-void print_summary(const Json& a, const fs::path& out) {
+void print_summary(const Json& a) {
   std::printf("%s%s\n", state_text(a).c_str(), verdict_words(a).c_str());
   for (const Json& check : a["checks"]) {
     if (check["verdict"] != "fail") continue;
@@ -48,7 +47,6 @@ void print_summary(const Json& a, const fs::path& out) {
   for (const auto& [word, count] : a["sight_counts"].items())
     seen += fmt::format("{}{} {}", seen.empty() ? "" : ", ", count.get<int>(), word);
   if (!seen.empty()) std::printf("signs, from routes and areas: %s\n", seen.c_str());
-  std::printf("written to %s\n", (out / "report.html").string().c_str());
 }
 
 ExitCode verdict_of(const Json& a, bool strict) {
@@ -84,49 +82,9 @@ Result<ExitCode> assess_scene(const AssessCommandOptions& options) {
       options.out.empty() ? fs::path("out") / (scene->name + "-assessed") : fs::path(options.out);
   const Json json = assessment_json(*scene, assessed.value(), LUX_VERSION);
   if (auto ok = write_assessment(out, json); !ok.ok()) return ok.problem();
-  print_summary(json, out);
+  print_summary(json);
+  if (auto ok = write_report_and_tell(out, json, options.report); !ok.ok()) return ok.problem();
   return verdict_of(json, options.strict);
-}
-
-/// Runs a program and waits; whether it said that all went well. A program that is not there fails.
-bool runs(const std::vector<std::string>& words) {
-  std::vector<char*> arguments;
-  for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
-  arguments.push_back(nullptr);
-  pid_t pid = 0;
-  int status = 0;
-  return ::posix_spawnp(&pid, arguments[0], nullptr, nullptr, arguments.data(), environ) == 0 &&
-         ::waitpid(pid, &status, 0) == pid && status == 0;
-}
-
-/// Prints a page as PDF by whichever Chromium is installed.
-Result<Done> print_pdf(const fs::path& page, const fs::path& pdf) {
-  const std::string address = "file://" + fs::absolute(page).string();
-  std::error_code ignored;
-  fs::remove(pdf, ignored);
-  for (const char* browser : {"chromium", "chromium-browser", "google-chrome"}) {
-    std::vector<std::string> words{
-        browser,         "--headless=new",         "--disable-gpu",
-        "--log-level=3", "--no-pdf-header-footer", "--print-to-pdf=" + pdf.string()};
-    // It has no sandbox for root; the page is ours and fetches nothing.
-    if (::geteuid() == 0) words.emplace_back("--no-sandbox");
-    words.push_back(address);
-    if (runs(words) && fs::exists(pdf, ignored)) return Done{};
-  }
-  return Problem{{pdf.string(), 0},
-                 "no Chromium printed it: install one (Debian: chromium), or print report.html"};
-}
-
-Result<ExitCode> report_again(const std::string& folder, bool pdf) {
-  const auto read = read_assessment(folder);
-  if (!read.ok()) return read.problem();
-  const fs::path page = fs::path(folder) / "report.html";
-  std::printf("written to %s\n", page.string().c_str());
-  if (!pdf) return ExitCode::success;
-  const fs::path printed = fs::path(folder) / "report.pdf";
-  if (auto ok = print_pdf(page, printed); !ok.ok()) return ok.problem();
-  std::printf("written to %s\n", printed.string().c_str());
-  return ExitCode::success;
 }
 
 Result<ExitCode> compare_folders(const std::string& before, const std::string& after,
@@ -158,7 +116,7 @@ void add_assess(CLI::App& app, int& exit_code) {
       app.add_subcommand("assess", "Judge signs and escape routes, by codes and in smoke");
   command->footer(
       "Needs routes, areas or observers in the scene (keys: scenes/format/README.md). Writes\n"
-      "report.html, assessment.json, checks.csv and sights.csv.\n"
+      "report.html, assessment.json, checks.csv, sights.csv, plans/ (SVG, DXF), schedules/ (CSV).\n"
       "  luxodus assess scenes/library/office_floor.toml --out out/office\n"
       "  luxodus assess office.toml --scenario fire --rules en1838-2013 --deviation de-asr-a3.4-3\n"
       "  luxodus assess office.toml --rules en1838-2024,nfpa101 --codes-alone\n"
@@ -191,21 +149,10 @@ void add_assess(CLI::App& app, int& exit_code) {
       ->delimiter(',')
       ->check(CLI::Range(0.0, 1e6));
   command->add_flag("--codes-alone", options->codes_alone, "no smoke, no reflections: codes only");
+  add_report_options(*command, options->report);
   command->add_flag("--strict", options->strict,
                     "exit code 1 where anything fails, is undecided, not assessed or not verified");
   command->callback([options, &exit_code] { exit_code = told(assess_scene(*options)); });
-}
-
-void add_report(CLI::App& app, int& exit_code) {
-  auto folder = std::make_shared<std::string>();
-  auto pdf = std::make_shared<bool>(false);
-  CLI::App* command =
-      app.add_subcommand("report", "Write the page of an assessment again, with new pictures");
-  command->footer("Takes in the pictures of FOLDER/views, as `luxodus render` makes them.");
-  command->add_option("folder", *folder, "folder of luxodus assess")->required();
-  command->add_flag("--pdf", *pdf,
-                    "print it as report.pdf, too, by Chromium where one is installed");
-  command->callback([folder, pdf, &exit_code] { exit_code = told(report_again(*folder, *pdf)); });
 }
 
 void add_compare(CLI::App& app, int& exit_code) {

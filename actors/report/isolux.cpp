@@ -1,6 +1,6 @@
 // The grid is split where walls run: each crossed square is cut out of the grid before lines are
-// drawn, by drawing each maximal block of whole squares by itself. Blocks are rows of squares, whose
-// lines are joined again where they meet.
+// drawn, by drawing each maximal block of whole squares by itself. Blocks are rows of squares,
+// whose lines are joined again where they meet.
 #include "actors/report/isolux.hpp"
 
 #include <algorithm>

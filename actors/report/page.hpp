@@ -10,7 +10,7 @@
 namespace luxodus {
 
 struct PageOptions {
-  bool letter = false;  // paper: Letter, else A4
+  bool letter = false;               // paper: Letter, else A4
   std::map<std::string, int> pages;  // of the headings by their ids, for the contents on paper
 };
 

@@ -16,8 +16,8 @@ std::string plan_sheet(const PageParts& parts, const std::string& title, const s
   const double width = parts.paper_width_mm;
   const bool across = plan.width_mm > width;
   return "<section class=\"" + std::string(across ? "wide" : "sheet") + "\">\n" +
-         subheading(title) + "<figure class=\"plan\">" + plan.svg + "<figcaption>" +
-         escaped(note) + "</figcaption></figure>\n</section>\n";
+         subheading(title) + "<figure class=\"plan\">" + plan.svg + "<figcaption>" + escaped(note) +
+         "</figcaption></figure>\n</section>\n";
 }
 
 /// Coordinates of all members, by name.
@@ -56,9 +56,8 @@ std::string type_rows(const PageParts& parts, const LuminaireType& type) {
                                    : html_cell("–", "n");
   };
   const auto factor = [&](const char* key) {
-    return type.emergency() || std::string(key) == "maintenance_factor"
-               ? number_cell(t, one[key])
-               : html_cell("–", "n");
+    return type.emergency() || std::string(key) == "maintenance_factor" ? number_cell(t, one[key])
+                                                                        : html_cell("–", "n");
   };
   return "<tr class=\"lead\">" + html_cell("<b>" + type.letter + "</b>") + html_cell(what) +
          cell(t.word("lamp", text_in(one, "operation"))) + flux("mains_flux") +
@@ -106,9 +105,9 @@ std::string sign_row(const PageParts& parts, size_t number) {
          number_cell(t, Json(1000 * s["smallest_detail"]["value"].get<double>())) +
          html_cell(escaped(luminance), "n") +
          html_cell(escaped(t.place(p[0].get<double>(), p[1].get<double>(), p[2].get<double>())) +
-                   "<br>" + escaped(t.say("sign.height",
-                                          t.fixed(parts.schedule.above_floor(
-                                              p[2].get<double>()))))) +
+                   "<br>" +
+                   escaped(t.say("sign.height",
+                                 t.fixed(parts.schedule.above_floor(p[2].get<double>()))))) +
          html_cell(t.fixed(bearing, 0) + "°", "n") + "</tr>\n";
 }
 
@@ -161,14 +160,15 @@ std::string limit_text(const Texts& t, const Json& check) {
 
 std::string place_text(const Texts& t, const Json& check) {
   const auto at = check.find("worst_place");
-  return at == check.end() ? "–"
-                           : t.place((*at)[0].get<double>(), (*at)[1].get<double>(),
-                                     (*at)[2].get<double>());
+  return at == check.end()
+             ? "–"
+             : t.place((*at)[0].get<double>(), (*at)[1].get<double>(), (*at)[2].get<double>());
 }
 
 std::string check_row(const Texts& t, const Json& check, bool with_subject) {
   std::string what = escaped(rule_title(t, check));
-  if (with_subject) what = "<b>" + escaped(subject_text(t, text_in(check, "subject"))) + "</b><br>" + what;
+  if (with_subject)
+    what = "<b>" + escaped(subject_text(t, text_in(check, "subject"))) + "</b><br>" + what;
   std::string notes = escaped(condition_text(t, text_in(check, "condition")));
   if (const std::string reason = text_in(check, "reason"); !reason.empty())
     notes += (notes.empty() ? "" : "<br>") + remark(reason);
@@ -181,7 +181,7 @@ std::string check_row(const Texts& t, const Json& check, bool with_subject) {
          html_cell(escaped(place_text(t, check)), "n") + html_cell(notes) + "</tr>\n";
 }
 
-constexpr const char* check_columns[] = {"column.verdict", "column.check", "column.value",
+constexpr const char* check_columns[] = {"column.verdict", "column.check",  "column.value",
                                          "column.limit",   "column.margin", "column.worst_at",
                                          "column.remark"};
 
@@ -210,8 +210,7 @@ std::string plans_section(const PageParts& parts) {
   const Texts& t = parts.texts;
   const Json& levels = parts.a["plan"]["levels"];
   // Across a sheet; what is narrower than an upright sheet stands upright.
-  const Plans plans(parts.a, parts.schedule, t,
-                    {parts.paper_height_mm, parts.paper_width_mm - 34});
+  const Plans plans(parts.a, parts.schedule, t, {parts.paper_height_mm, parts.paper_width_mm - 34});
   std::string out;
   for (size_t i = 0; i < levels.size(); ++i) {
     const std::string where =

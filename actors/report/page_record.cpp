@@ -17,7 +17,8 @@ class Facts {
   void add(const char* key, const std::string& text) { add_html(key, escaped(text)); }
   void add_html(const char* key, const std::string& html) {
     if (!html.empty())
-      rows_ += "<tr><th scope=\"row\">" + escaped(texts_(key)) + "</th><td>" + html + "</td></tr>\n";
+      rows_ +=
+          "<tr><th scope=\"row\">" + escaped(texts_(key)) + "</th><td>" + html + "</td></tr>\n";
   }
   std::string table() const {
     return "<table class=\"facts\">\n<colgroup><col style=\"width:26%\"><col "
@@ -50,8 +51,7 @@ std::string smoke_html(const Texts& t, const Json& smoke) {
   if (const Json& k = smoke["extinction"]; k.is_object())
     out = "<b>" + escaped(extinction_text(t, k["min"], k["max"], text_in(k, "unit"))) + "</b>" +
           (k.contains("wavelength_nm") && k["wavelength_nm"].is_number()
-               ? escaped(t.say("state.at_wavelength",
-                               t.number(k["wavelength_nm"].get<double>())))
+               ? escaped(t.say("state.at_wavelength", t.number(k["wavelength_nm"].get<double>())))
                : "");
   for (const Json& medium : smoke["media"]) {
     out += "<br>" + escaped(text_in(medium, "name")) + ": " +
@@ -109,7 +109,8 @@ std::string media_table(const PageParts& parts) {
       const bool first = &layer == &medium["layers"].front();
       std::string height = "–";
       if (layer.contains("z_low"))
-        height = t.fixed(layer["z_low"].get<double>()) + "–" + t.fixed(layer["z_high"].get<double>());
+        height =
+            t.fixed(layer["z_low"].get<double>()) + "–" + t.fixed(layer["z_high"].get<double>());
       rows += "<tr>" + cell(first ? text_in(medium, "name") : "") +
               cell(first ? t.word("medium", text_in(medium, "kind")) : "") +
               html_cell(escaped(height), "n") +
@@ -121,11 +122,11 @@ std::string media_table(const PageParts& parts) {
                    : html_cell("–", "n")) +
               "</tr>\n";
     }
-  return table(t,
-               {"column.medium", "column.kind", "column.heights", "column.extinction",
-                "column.wavelength", "column.angstrom", "column.albedo", "column.asymmetry",
-                "column.flame"},
-               {20, 12, 12, 12, 10, 9, 8, 8, 9}, rows);
+  return table(
+      t,
+      {"column.medium", "column.kind", "column.heights", "column.extinction", "column.wavelength",
+       "column.angstrom", "column.albedo", "column.asymmetry", "column.flame"},
+      {20, 12, 12, 12, 10, 9, 8, 8, 9}, rows);
 }
 
 }  // namespace
@@ -145,19 +146,18 @@ std::string state_section(const PageParts& parts) {
   const Texts& t = parts.texts;
   const Json &s = parts.a["state"], &scenario = parts.a["scenario"];
   Facts facts(t);
-  facts.add("state.scenario", text_in(s, "scenario").empty() ? t("state.no_scenario")
-                                                             : text_in(s, "scenario"));
+  facts.add("state.scenario",
+            text_in(s, "scenario").empty() ? t("state.no_scenario") : text_in(s, "scenario"));
   facts.add("state.operation", t.word("operation", text_in(s, "operation")));
   const Json& seconds = s["seconds_after_failure"];
   facts.add("state.seconds", seconds.is_object()
                                  ? t.number(seconds["value"].get<double>(), 4) + " s"
                                  : t("state.seconds_unsaid"));
   const Json& lit = s["luminaires"];
-  facts.add_html("state.luminaires",
-                 "<b>" + escaped(t.say("state.lit", lit["lit"].get<int64_t>(),
-                                       lit["of"].get<int64_t>())) +
-                     "</b>" + (lit["lit_names"].empty() ? "" : "<br>") +
-                     escaped(list_text(lit["lit_names"])));
+  facts.add_html(
+      "state.luminaires",
+      "<b>" + escaped(t.say("state.lit", lit["lit"].get<int64_t>(), lit["of"].get<int64_t>())) +
+          "</b>" + (lit["lit_names"].empty() ? "" : "<br>") + escaped(list_text(lit["lit_names"])));
   facts.add_html("state.smoke", smoke_html(t, s["smoke"]));
   facts.add_html("state.rules", rules_html(s["rules"]));
   facts.add_html("state.deviations", s["deviations"].empty() ? escaped(t("state.no_deviations"))
@@ -166,7 +166,8 @@ std::string state_section(const PageParts& parts) {
   facts.add("state.doors_closed", list_text(scenario["doors_closed"]));
   std::string remarks = remark(text_in(s, "light"));
   for (const Json& one : s["remarks"])
-    if (one.is_string()) remarks += (remarks.empty() ? "" : "<br>") + remark(one.get<std::string>());
+    if (one.is_string())
+      remarks += (remarks.empty() ? "" : "<br>") + remark(one.get<std::string>());
   facts.add_html("state.remarks", remarks);
   return facts.table();
 }
@@ -177,10 +178,10 @@ std::string inputs_section(const PageParts& parts) {
   Facts facts(t);
   facts.add("inputs.age", t.say("inputs.years", t.number(people["age"]["value"].get<double>())));
   facts.add("inputs.spacing", t.number(people["spacing"]["value"].get<double>()) + " m");
-  facts.add("inputs.irritant", t(people["irritant_smoke"].is_boolean() &&
-                                         people["irritant_smoke"].get<bool>()
-                                     ? "word.yes"
-                                     : "word.no"));
+  facts.add(
+      "inputs.irritant",
+      t(people["irritant_smoke"].is_boolean() && people["irritant_smoke"].get<bool>() ? "word.yes"
+                                                                                      : "word.no"));
   facts.add("inputs.grid",
             t.say("inputs.grid_text", t.number(plan["route_grid"]["value"].get<double>()),
                   t.number(plan["area_grid"]["value"].get<double>()),
@@ -256,8 +257,7 @@ std::string method_section(const PageParts& parts) {
   facts.add("method.scene", text_in(parts.a["scene"], "file"));
   facts.add_html("method.hash",
                  "<code>" + escaped(text_in(parts.a["scene"], "content_hash")) + "</code>");
-  facts.add_html("method.seed",
-                 "<code>" + std::to_string(m["seed"].get<uint64_t>()) + "</code>");
+  facts.add_html("method.seed", "<code>" + std::to_string(m["seed"].get<uint64_t>()) + "</code>");
   facts.add("method.paths", std::to_string(m["eye_paths"].get<int64_t>()));
   facts.add("method.seconds", t.number(m["seconds"]["value"].get<double>()) + " s");
   facts.add("method.files", t("method.files_text"));

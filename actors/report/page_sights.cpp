@@ -13,9 +13,9 @@ namespace luxodus {
 
 namespace {
 
-constexpr std::array<const char*, 6> sight_order{"legible",      "undecided",
-                                                 "visible but not legible", "invisible",
-                                                 "not assessed", "hidden by the building"};
+constexpr std::array<const char*, 6> sight_order{
+    "legible",   "undecided",    "visible but not legible",
+    "invisible", "not assessed", "hidden by the building"};
 /// The smallest detail of a legend is read from this visibility level on.
 constexpr double reading_level = 7;
 constexpr size_t thumb_places = 10;
@@ -48,8 +48,7 @@ struct Amount {
   std::string text(const Texts& t) const {
     if (none()) return "–";
     std::string out = metres > 0 ? t.number(metres) + "\u00a0m" : "";
-    if (square_metres > 0)
-      out += (out.empty() ? "" : ", ") + t.number(square_metres) + "\u00a0m²";
+    if (square_metres > 0) out += (out.empty() ? "" : ", ") + t.number(square_metres) + "\u00a0m²";
     return out;
   }
 };
@@ -73,18 +72,17 @@ std::string heights_table(const PageParts& parts, const std::vector<double>& hei
       if (rank_of(sight) < known->second.first) known->second = {rank_of(sight), &sight};
     }
     std::array<Amount, 7> amounts;
-    for (const auto& [place, one] : best)
-      amounts[std::min<size_t>(one.first, 6)].take(*one.second);
+    for (const auto& [place, one] : best) amounts[std::min<size_t>(one.first, 6)].take(*one.second);
     rows += "<tr>" + html_cell("<b>" + escaped(t.fixed(height)) + "\u00a0m</b>", "n");
     for (size_t i = 0; i < sight_order.size(); ++i)
       rows += html_cell(escaped(amounts[i].text(t)), "n");
     rows += "</tr>\n";
   }
-  return table(t,
-               {"column.eye_height", "sight.legible", "sight.undecided",
-                "sight.visible but not legible", "sight.invisible", "sight.not assessed",
-                "sight.hidden by the building"},
-               {10, 15, 15, 15, 15, 15, 15}, rows);
+  return table(
+      t,
+      {"column.eye_height", "sight.legible", "sight.undecided", "sight.visible but not legible",
+       "sight.invisible", "sight.not assessed", "sight.hidden by the building"},
+      {10, 15, 15, 15, 15, 15, 15}, rows);
 }
 
 /// For one eye height, sign by sign.
@@ -124,15 +122,14 @@ std::string observers_table(const PageParts& parts) {
     rows += "<tr>" + verdict_cell(t, "sight", text_in(sight, "verdict")) +
             cell(subject_text(t, text_in(sight, "from"))) + cell(text_in(sight, "sign")) +
             number_cell(t, sight["distance"]["value"], "m") +
-            (sight.contains("reading_level")
-                 ? number_cell(t, sight["reading_level"]["value"])
-                 : html_cell("–", "n")) +
+            (sight.contains("reading_level") ? number_cell(t, sight["reading_level"]["value"])
+                                             : html_cell("–", "n")) +
             "</tr>\n";
   }
-  return table(t,
-               {"column.verdict", "column.from", "column.sign", "column.distance",
-                "column.reading_level"},
-               {26, 26, 24, 12, 12}, rows);
+  return table(
+      t,
+      {"column.verdict", "column.from", "column.sign", "column.distance", "column.reading_level"},
+      {26, 26, 24, 12, 12}, rows);
 }
 
 /// The end of a picture's name, and its kind: what an eye sees, then luminances.
@@ -246,23 +243,23 @@ std::string thumb_table(const PageParts& parts, const std::vector<Difference>& a
                        (rule != read ? "</b>" : ""));
     };
     const Json& e = s["eye"];
-    rows += "<tr>" + verdict_cell(t, "sight", text_in(s, "verdict")) + cell(text_in(s, "sign")) +
-            html_cell(escaped(subject_text(t, text_in(s, "from"))) + "<br>" +
-                      escaped(t.place(e[0].get<double>(), e[1].get<double>(),
-                                      e[2].get<double>()))) +
-            number_cell(t, s["distance"]["value"], "m") +
-            html_cell(escaped(measured(t, s, "reading_level")), "n") +
-            html_cell(escaped(measured(t, s, "legend") + " / " + measured(t, s, "ground")), "n") +
-            number_cell(t, s["transmission"]["value"]) +
-            said(s["jin"]["legible"].get<bool>(), "thumb.legible", "thumb.too_far") +
-            said(s["viewing_distance"]["within"].get<bool>(), "thumb.near", "thumb.too_far") +
-            "</tr>\n";
+    rows +=
+        "<tr>" + verdict_cell(t, "sight", text_in(s, "verdict")) + cell(text_in(s, "sign")) +
+        html_cell(escaped(subject_text(t, text_in(s, "from"))) + "<br>" +
+                  escaped(t.place(e[0].get<double>(), e[1].get<double>(), e[2].get<double>()))) +
+        number_cell(t, s["distance"]["value"], "m") +
+        html_cell(escaped(measured(t, s, "reading_level")), "n") +
+        html_cell(escaped(measured(t, s, "legend") + " / " + measured(t, s, "ground")), "n") +
+        number_cell(t, s["transmission"]["value"]) +
+        said(s["jin"]["legible"].get<bool>(), "thumb.legible", "thumb.too_far") +
+        said(s["viewing_distance"]["within"].get<bool>(), "thumb.near", "thumb.too_far") +
+        "</tr>\n";
   }
-  return table(t,
-               {"column.simulated", "column.sign", "column.from", "column.distance",
-                "column.reading_level", "column.luminances", "column.transmission", "column.jin",
-                "column.viewing"},
-               {14, 12, 17, 8, 10, 14, 8, 8, 9}, rows);
+  return table(
+      t,
+      {"column.simulated", "column.sign", "column.from", "column.distance", "column.reading_level",
+       "column.luminances", "column.transmission", "column.jin", "column.viewing"},
+      {14, 12, 17, 8, 10, 14, 8, 8, 9}, rows);
 }
 
 }  // namespace

@@ -71,9 +71,8 @@ class Sheet {
 
 std::string text_at(double x, double y, const std::string& text, const char* more = "",
                     double size = text_mm) {
-  return fmt::format(
-      "<text x=\"{:.2f}\" y=\"{:.2f}\" font-size=\"{:.2f}\" {}>{}</text>\n", x, y, size, more,
-      xml_escape(text));
+  return fmt::format("<text x=\"{:.2f}\" y=\"{:.2f}\" font-size=\"{:.2f}\" {}>{}</text>\n", x, y,
+                     size, more, xml_escape(text));
 }
 
 std::string lines_path(const Json& lines, const Sheet& sheet, const char* style) {
@@ -133,8 +132,7 @@ std::string places(const Json& a, const Schedule& schedule, size_t level, const 
 }
 
 /// Names of routes at a quarter of their length, so that those of two directions stand apart.
-std::string place_names(const Json& a, const Schedule& schedule, size_t level,
-                        const Sheet& sheet) {
+std::string place_names(const Json& a, const Schedule& schedule, size_t level, const Sheet& sheet) {
   std::string out = "<g class=\"names\" fill=\"#1f5fa8\" font-style=\"italic\">\n";
   for (const Json& area : a["places"]["areas"]) {
     if (schedule.level_of(number_of(area["z"])) != level) continue;
@@ -179,9 +177,9 @@ std::string luminaires(const Json& a, const Schedule& schedule, const Texts& tex
         y - (emergency ? 1.1 : 0.9), emergency ? 2.2 : 1.8, emergency ? 2.2 : 1.8,
         emergency ? emergency_colour : "#fff", emergency ? emergency_colour : "#777");
     if (labels)
-      out += text_at(x + 1.5, y + 0.85, type.letter + " " + texts.fixed(schedule.above_floor(z)),
-                     emergency ? "font-weight=\"bold\"" : "fill=\"#555\"",
-                     emergency ? text_mm : 1.9);
+      out +=
+          text_at(x + 1.5, y + 0.85, type.letter + " " + texts.fixed(schedule.above_floor(z)),
+                  emergency ? "font-weight=\"bold\"" : "fill=\"#555\"", emergency ? text_mm : 1.9);
   }
   return out + "</g>\n";
 }
@@ -207,9 +205,10 @@ std::string signs(const Json& a, const Schedule& schedule, size_t level, const S
     // The number stands beside the arrow, away from where the sign looks.
     const double cx = x - 2.9 * fx + (std::abs(fx) > 0.7 ? 0 : 2.6);
     const double cy = y - 2.9 * fy - (std::abs(fx) > 0.7 ? 2.6 : 0);
-    out += fmt::format("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"1.9\" fill=\"#fff\" "
-                       "stroke=\"#000\" stroke-width=\"0.3\"/>",
-                       cx, cy) +
+    out += fmt::format(
+               "<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"1.9\" fill=\"#fff\" "
+               "stroke=\"#000\" stroke-width=\"0.3\"/>",
+               cx, cy) +
            text_at(cx, cy + 0.8, std::to_string(i + 1),
                    "text-anchor=\"middle\" font-weight=\"bold\" stroke=\"none\"", 2.3) +
            "</g>\n";
@@ -306,10 +305,11 @@ std::string isolux_line(const IsoluxLine& one, const Sheet& sheet, const Texts& 
                          .c_str(),
                      2.4);
   }
-  return fmt::format("<path class=\"isolux\" data-lux=\"{}\" d=\"{}\" fill=\"none\" stroke=\"{}\" "
-                     "stroke-width=\"{}\" stroke-linejoin=\"round\"{}/>\n",
-                     one.lux, path, isolux_colour(one.lux), one.lux == 1 ? 0.6 : 0.35,
-                     one.lux < 0.7 ? " stroke-dasharray=\"1.6 0.8\"" : "") +
+  return fmt::format(
+             "<path class=\"isolux\" data-lux=\"{}\" d=\"{}\" fill=\"none\" stroke=\"{}\" "
+             "stroke-width=\"{}\" stroke-linejoin=\"round\"{}/>\n",
+             one.lux, path, isolux_colour(one.lux), one.lux == 1 ? 0.6 : 0.35,
+             one.lux < 0.7 ? " stroke-dasharray=\"1.6 0.8\"" : "") +
          labels;
 }
 
@@ -347,8 +347,8 @@ constexpr std::array<const char*, 6> ranks{"legible",   "undecided",    "visible
 std::string sight_legend(const Sheet& sheet, const Texts& texts) {
   std::string out;
   double x = border_mm + 85;
-  for (const char* rank : {"legible", "undecided", "visible but not legible", "invisible",
-                           "hidden by the building"}) {
+  for (const char* rank :
+       {"legible", "undecided", "visible but not legible", "invisible", "hidden by the building"}) {
     const std::string word = texts.word("sight", rank);
     if (x + 4 + 1.25 * static_cast<double>(word.size()) > sheet.width() - 18) break;
     out += verdict_shape(rank, x, sheet.height() + 5.7, 1.3) +
@@ -372,29 +372,35 @@ std::string verdict_shape(const std::string& verdict, double x, double y, double
   const char* colour = verdict_colour(verdict);
   std::string shape;
   if (verdict == "pass" || verdict == "legible")  // a disc with a tick
-    shape = fmt::format("<circle r=\"1\" fill=\"{}\"/><path d=\"M-.5 0L-.12 .4L.52 -.38\" "
-                        "fill=\"none\" stroke=\"#fff\" stroke-width=\".24\"/>",
-                        colour);
+    shape = fmt::format(
+        "<circle r=\"1\" fill=\"{}\"/><path d=\"M-.5 0L-.12 .4L.52 -.38\" "
+        "fill=\"none\" stroke=\"#fff\" stroke-width=\".24\"/>",
+        colour);
   else if (verdict == "fail" || verdict == "invisible")  // a square with a cross
-    shape = fmt::format("<path d=\"M-.95 -.95H.95V.95H-.95Z\" fill=\"{}\"/><path d=\"M-.48 "
-                        "-.48L.48 .48M.48 -.48L-.48 .48\" stroke=\"#fff\" stroke-width=\".26\"/>",
-                        colour);
+    shape = fmt::format(
+        "<path d=\"M-.95 -.95H.95V.95H-.95Z\" fill=\"{}\"/><path d=\"M-.48 "
+        "-.48L.48 .48M.48 -.48L-.48 .48\" stroke=\"#fff\" stroke-width=\".26\"/>",
+        colour);
   else if (verdict == "visible but not legible")  // a half-filled diamond
-    shape = fmt::format("<path d=\"M0 -1.15L1.15 0L0 1.15L-1.15 0Z\" fill=\"#fff\" stroke=\"{0}\" "
-                        "stroke-width=\".22\"/><path d=\"M0 -1.15L1.15 0L0 1.15Z\" fill=\"{0}\"/>",
-                        colour);
+    shape = fmt::format(
+        "<path d=\"M0 -1.15L1.15 0L0 1.15L-1.15 0Z\" fill=\"#fff\" stroke=\"{0}\" "
+        "stroke-width=\".22\"/><path d=\"M0 -1.15L1.15 0L0 1.15Z\" fill=\"{0}\"/>",
+        colour);
   else if (verdict == "undecided" || verdict == "not verified")  // a triangle with a stroke
-    shape = fmt::format("<path d=\"M0 -1.1L1.15 .9H-1.15Z\" fill=\"{}\"/><path d=\"M0 -.4V.25M0 "
-                        ".45V.68\" stroke=\"#fff\" stroke-width=\".24\"/>",
-                        colour);
+    shape = fmt::format(
+        "<path d=\"M0 -1.1L1.15 .9H-1.15Z\" fill=\"{}\"/><path d=\"M0 -.4V.25M0 "
+        ".45V.68\" stroke=\"#fff\" stroke-width=\".24\"/>",
+        colour);
   else if (verdict == "information")
-    shape = fmt::format("<circle r=\".9\" fill=\"#fff\" stroke=\"{0}\" stroke-width=\".22\"/><path "
-                        "d=\"M0 -.1V.55M0 -.5V-.28\" stroke=\"{0}\" stroke-width=\".24\"/>",
-                        colour);
+    shape = fmt::format(
+        "<circle r=\".9\" fill=\"#fff\" stroke=\"{0}\" stroke-width=\".22\"/><path "
+        "d=\"M0 -.1V.55M0 -.5V-.28\" stroke=\"{0}\" stroke-width=\".24\"/>",
+        colour);
   else  // a ring with a bar: no answer
-    shape = fmt::format("<circle r=\".85\" fill=\"#fff\" stroke=\"{0}\" stroke-width=\".25\"/><path "
-                        "d=\"M-.45 0H.45\" stroke=\"{0}\" stroke-width=\".25\"/>",
-                        colour);
+    shape = fmt::format(
+        "<circle r=\".85\" fill=\"#fff\" stroke=\"{0}\" stroke-width=\".25\"/><path "
+        "d=\"M-.45 0H.45\" stroke=\"{0}\" stroke-width=\".25\"/>",
+        colour);
   return fmt::format("<g transform=\"translate({:.2f} {:.2f}) scale({:.2f})\">{}</g>\n", x, y, r,
                      shape);
 }
@@ -431,8 +437,8 @@ Plan Plans::sights(size_t number, double eye_height_m, const std::string& sign) 
       continue;
     if (!sign.empty() && sight["sign"].get<std::string>() != sign) continue;
     const auto verdict = sight["verdict"].get<std::string>();
-    const auto rank = static_cast<size_t>(std::find(ranks.begin(), ranks.end(), verdict) -
-                                          ranks.begin());
+    const auto rank =
+        static_cast<size_t>(std::find(ranks.begin(), ranks.end(), verdict) - ranks.begin());
     const std::pair place{number_of(sight["eye"][0]), number_of(sight["eye"][1])};
     const auto known = best.try_emplace(place, rank).first;
     known->second = std::min(known->second, rank);

@@ -54,11 +54,13 @@ constexpr ReportText rows[] = {
       "Die Werte sind im fertigen Gebäude durch Messung zu prüfen.",
       "À vérifier par des mesures dans le bâtiment achevé."}},
     {"notice.footer",
-     {"Calculation under stated assumptions; certifies compliance with no law or code. Limits marked "
+     {"Calculation under stated assumptions; certifies compliance with no law or code. Limits "
+      "marked "
       "secondary were not read in the standard. Legibility is a model’s prediction, no ASET/RSET "
       "analysis. The authority having jurisdiction decides. Verify by measurement.",
       "Berechnung unter genannten Annahmen; bescheinigt die Einhaltung keines Gesetzes und keiner "
-      "Norm. Sekundäre Grenzwerte wurden nicht in der Norm gelesen. Lesbarkeit ist Vorhersage eines "
+      "Norm. Sekundäre Grenzwerte wurden nicht in der Norm gelesen. Lesbarkeit ist Vorhersage "
+      "eines "
       "Modells, keine ASET/RSET-Analyse. Die zuständige Behörde entscheidet. Durch Messung prüfen.",
       "Calcul sous hypothèses énoncées ; ne certifie la conformité à aucune loi ni norme. Les "
       "limites secondaires n’ont pas été lues dans la norme. La lisibilité est la prédiction d’un "
@@ -68,8 +70,7 @@ constexpr ReportText rows[] = {
     {"heading.plans", {"Plans", "Pläne", "Plans"}},
     {"heading.schedules", {"Schedules", "Stücklisten", "Nomenclatures"}},
     {"heading.places", {"Routes and areas", "Wege und Bereiche", "Chemins et espaces"}},
-    {"heading.sights",
-     {"What people read", "Was Menschen lesen", "Ce que les personnes lisent"}},
+    {"heading.sights", {"What people read", "Was Menschen lesen", "Ce que les personnes lisent"}},
     {"heading.thumb",
      {"Where rules of thumb disagree most", "Wo Faustregeln am stärksten abweichen",
       "Où les règles empiriques divergent le plus"}},
@@ -140,7 +141,8 @@ constexpr ReportText rows[] = {
       "without furniture and reflections: 0.5, 1, 5 and 10 lx. Drawn on a grid of {0} m; squares "
       "that a wall crosses are left out. Closed doors block light.",
       "Direktes Licht aller Notleuchten am Ende der Bemessungsbetriebsdauer, in klarer Luft, ohne "
-      "Möbel und Reflexionen: 0,5, 1, 5 und 10 lx. Auf einem Raster von {0} m gezeichnet; Quadrate, "
+      "Möbel und Reflexionen: 0,5, 1, 5 und 10 lx. Auf einem Raster von {0} m gezeichnet; "
+      "Quadrate, "
       "die eine Wand schneidet, sind ausgelassen. Geschlossene Türen halten Licht ab.",
       "Lumière directe de tous les luminaires de secours en fin d’autonomie, en air clair, sans "
       "mobilier ni réflexions : 0,5, 1, 5 et 10 lx. Tracé sur une grille de {0} m ; les carrés que "
