@@ -78,8 +78,8 @@ bool same_factors(std::vector<Scenario::Factor> a, std::vector<Scenario::Factor>
 /// Whether two scenarios differ in their operation alone: had one lost its `operation`, judging the
 /// other would be judging it.
 bool differ_in_operation_alone(const Scenario& mains, const Scenario& other) {
-  return !mains.says_seconds && same_factors(mains.circuits, other.circuits) &&
-         same_factors(mains.media, other.media) && mains.smoke_factor == other.smoke_factor &&
+  return same_factors(mains.circuits, other.circuits) && same_factors(mains.media, other.media) &&
+         mains.smoke_factor == other.smoke_factor &&
          mains.emission_factor == other.emission_factor && mains.doors_open == other.doors_open &&
          mains.doors_closed == other.doors_closed;
 }
@@ -140,6 +140,17 @@ void add_remarks(const SceneDescription& scene, AssessedState& state) {
         *state.seconds_after_failure, adapted_after_s));
   if (!state.smoke && !state.media.empty())
     remarks.emplace_back("flames burn in this state, but there is no smoke around them");
+  if (!state.smoke && std::any_of(scene.media.begin(), scene.media.end(),
+                                  [](const Medium& m) { return !is_flame(m); }))
+    remarks.emplace_back("CLEAR AIR: the scene has smoke, but not in this scenario");
+  const size_t dark = static_cast<size_t>(
+      std::count_if(scene.emitters.begin(), scene.emitters.end(), [&](const Emitter& e) {
+        return e.emergency_flux > 0 && !std::count(state.lit.begin(), state.lit.end(), e.name);
+      }));
+  if (state.operation == Operation::emergency && dark > 0)
+    remarks.push_back(fmt::format(
+        "{} emergency luminaire{} not lit in this state; checks by the codes take all as lit", dark,
+        dark == 1 ? " is" : "s are"));
   for (const CodeChoice& codes : state.codes)
     if (const NamedRules& set = named(codes.set); set.status[0] != '\0')
       remarks.push_back(fmt::format("{}: {}", set.edition, set.status));

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "scenes/emergency/legibility.hpp"
+
 namespace luxodus {
 
 namespace {
@@ -103,7 +105,8 @@ std::string luminaire_row(const Json& state) {
 }
 
 std::string range_words(double low, double high) {
-  return low == high ? fmt::format("{:.3g}/m", low) : fmt::format("{:.3g} to {:.3g}/m", low, high);
+  return low == high ? fmt::format("{:.3g}/m", low)
+                     : fmt::format("{:.3g}/m to {:.3g}/m", low, high);
 }
 
 std::string smoke_row(const Json& state) {
@@ -116,11 +119,13 @@ std::string smoke_row(const Json& state) {
                       number_at(*all, "wavelength_nm"));
   else
     out = "none";
-  for (const Json& medium : list_at(*at, "media"))
+  for (const Json& medium : list_at(*at, "media")) {
     out += fmt::format(
-        "; {} \"{}\" {} ({})", text_at(medium, "kind"), text_at(medium, "name"),
-        range_words(number_at(medium, "extinction_min"), number_at(medium, "extinction_max")),
-        text_at(medium, "source"));
+        "; {} \"{}\" {}", text_at(medium, "kind"), text_at(medium, "name"),
+        range_words(number_at(medium, "extinction_min"), number_at(medium, "extinction_max")));
+    if (const std::string source = text_at(medium, "source"); !source.empty())
+      out += " (" + source + ")";
+  }
   return out;
 }
 
@@ -205,6 +210,15 @@ std::string verdict_words(const Json& assessment) {
     for (size_t i = 0; i < counts.size(); ++i)
       if (text_at(check, "verdict") == name_of(static_cast<CheckVerdict>(i))) ++counts[i];
   return words_of(counts);
+}
+
+bool anything_open(const Json& assessment) {
+  const Json& counts = assessment.at("counts");
+  for (const char* verdict : {"fail", "not_assessed", "not_verified"})
+    if (number_at(counts, verdict) > 0) return true;
+  const Json& views = assessment.at("sight_counts");
+  return number_at(views, name_of(SightVerdict::undecided)) > 0 ||
+         number_at(views, name_of(SightVerdict::not_assessed)) > 0;
 }
 
 }  // namespace luxodus

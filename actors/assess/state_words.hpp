@@ -31,4 +31,7 @@ std::string state_text(const Json& assessment);
 /// The verdict on all checks; of an assessment without one, from its counts.
 std::string verdict_words(const Json& assessment);
 
+/// Whether a check fails, or a check or a view is not assessed, not verified or undecided.
+bool anything_open(const Json& assessment);
+
 }  // namespace luxodus
