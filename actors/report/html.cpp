@@ -1,9 +1,33 @@
 #include "actors/report/html.hpp"
 
+#include <algorithm>
+#include <iterator>
+
 #include "actors/report/plan_svg.hpp"
 #include "scenes/format/output_text.hpp"
 
 namespace luxodus {
+
+namespace {
+
+/// Columns whose cells stand to the right; so do their heads.
+bool numeric(std::string_view column) {
+  constexpr std::string_view keys[] = {
+      "column.mains_flux",    "column.emergency_flux", "column.maintenance",
+      "column.duration",      "column.count",          "column.number",
+      "column.detail",        "column.sign_luminance", "column.bearing",
+      "column.value",         "column.limit",          "column.margin",
+      "column.worst_at",      "column.eye_height",     "column.distance",
+      "column.reading_level", "column.luminances",     "column.transmission",
+      "column.reflectance",   "column.specular",       "column.internal_transmittance",
+      "column.ior",           "column.surfaces",       "column.heights",
+      "column.extinction",    "column.wavelength",     "column.angstrom",
+      "column.albedo",        "column.asymmetry",      "column.flame"};
+  return column.starts_with("sight.") ||
+         std::find(std::begin(keys), std::end(keys), column) != std::end(keys);
+}
+
+}  // namespace
 
 std::string escaped(const std::string& text) {
   return xml_escape(text);
@@ -64,7 +88,8 @@ std::string table(const Texts& texts, const std::vector<const char*>& columns,
   for (const int width : widths) out += fmt::format("<col style=\"width:{}%\">", width);
   out += "</colgroup>\n<thead><tr>";
   for (const char* column : columns)
-    out += "<th>" + (*column == '\0' ? "" : escaped(texts(column))) + "</th>";
+    out += (numeric(column) ? "<th class=\"n\">" : "<th>") +
+           (*column == '\0' ? "" : escaped(texts(column))) + "</th>";
   return out + "</tr></thead>\n<tbody>\n" + rows + "</tbody>\n</table>\n";
 }
 

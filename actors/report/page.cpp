@@ -44,7 +44,7 @@ std::string css_text(const std::string& text) {
     const auto byte = static_cast<unsigned char>(c);
     const bool plain = byte >= 0x80 || c == ' ' || (c >= '0' && c <= '9') ||
                        (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
-    out += plain ? std::string(1, c) : fmt::format("\\{:06x}", byte);
+    out += plain ? std::string(1, c) : fmt::format("\\{:06x} ", byte);
   }
   return out + "\"";
 }

@@ -187,7 +187,7 @@ constexpr const char* check_columns[] = {"column.verdict", "column.check",  "col
 
 std::string check_table(const PageParts& parts, const std::string& rows) {
   return table(parts.texts, {std::begin(check_columns), std::end(check_columns)},
-               {14, 28, 10, 10, 8, 14, 16}, rows, "checks");
+               {13, 25, 9, 9, 8, 14, 22}, rows, "checks");
 }
 
 bool is_place(const std::string& subject) {

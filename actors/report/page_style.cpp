@@ -53,7 +53,7 @@ thead th { border-bottom: 1.5px solid var(--ink); vertical-align: bottom; color:
   font-weight: bold; }
 thead { display: table-header-group; }
 tr { break-inside: avoid; }
-td.n { text-align: right; }
+td.n, th.n { text-align: right; }
 tr.group th { background: var(--pale); padding-top: 0.45rem; break-after: avoid; }
 tr.lead td { border-bottom: 0; }
 tr.places td { font-size: 0.74rem; color: var(--soft); break-inside: auto; }

@@ -14,7 +14,7 @@ namespace luxodus {
 
 namespace {
 
-constexpr double border_mm = 4, foot_mm = 14, text_mm = 2.5;
+constexpr double border_mm = 4, foot_mm = 19, text_mm = 2.5;
 constexpr const char* emergency_colour = "#0b6e3c";
 
 double number_of(const Json& value) {
@@ -131,17 +131,18 @@ std::string places(const Json& a, const Schedule& schedule, size_t level, const 
   return out + "</g>\n";
 }
 
-/// Names of routes at a quarter of their length, so that those of two directions stand apart.
+/// Names of routes at a third of their first leg, so that those of two directions stand apart.
 std::string place_names(const Json& a, const Schedule& schedule, size_t level, const Sheet& sheet) {
   std::string out = "<g class=\"names\" fill=\"#1f5fa8\" font-style=\"italic\">\n";
   for (const Json& area : a["places"]["areas"]) {
     if (schedule.level_of(number_of(area["z"])) != level) continue;
-    double x = 0, y = 0;
-    for (const Json& p : area["outline"]) {
-      x += number_of(p[0]) / static_cast<double>(area["outline"].size());
-      y += number_of(p[1]) / static_cast<double>(area["outline"].size());
-    }
-    out += text_at(sheet.x(x), sheet.y(y), area["name"], "text-anchor=\"middle\"");
+    // In the lower left of its outline, off the luminaires in its middle.
+    const Json* corner = &area["outline"][0];
+    for (const Json& p : area["outline"])
+      if (number_of(p[0]) + number_of(p[1]) < number_of((*corner)[0]) + number_of((*corner)[1]))
+        corner = &p;
+    out += text_at(sheet.x(number_of((*corner)[0])) + 1.5, sheet.y(number_of((*corner)[1])) - 1.5,
+                   area["name"]);
   }
   for (const Json& route : a["places"]["routes"]) {
     const Json &from = route["path"][0], &to = route["path"][1];
@@ -150,7 +151,7 @@ std::string place_names(const Json& a, const Schedule& schedule, size_t level, c
     const double dx = sheet.x(number_of(to[0])) - x0, dy = sheet.y(number_of(to[1])) - y0;
     double turn = std::atan2(dy, dx) * 180 / 3.14159265358979;
     if (turn > 90.01 || turn <= -89.99) turn += 180;
-    out += text_at(0, -0.9, route["name"],
+    out += text_at(0, 5.2, route["name"],
                    fmt::format("text-anchor=\"middle\" transform=\"translate({:.2f} {:.2f}) "
                                "rotate({:.1f})\"",
                                x0 + 0.3 * dx, y0 + 0.3 * dy, turn)
@@ -177,9 +178,11 @@ std::string luminaires(const Json& a, const Schedule& schedule, const Texts& tex
         y - (emergency ? 1.1 : 0.9), emergency ? 2.2 : 1.8, emergency ? 2.2 : 1.8,
         emergency ? emergency_colour : "#fff", emergency ? emergency_colour : "#777");
     if (labels)
-      out +=
-          text_at(x + 1.5, y + 0.85, type.letter + " " + texts.fixed(schedule.above_floor(z)),
-                  emergency ? "font-weight=\"bold\"" : "fill=\"#555\"", emergency ? text_mm : 1.9);
+      out += text_at(x, y + (emergency ? -1.7 : 2.7),
+                     type.letter + " " + texts.fixed(schedule.above_floor(z)),
+                     emergency ? "text-anchor=\"middle\" font-weight=\"bold\""
+                               : "text-anchor=\"middle\" fill=\"#666\"",
+                     emergency ? text_mm : 1.7);
   }
   return out + "</g>\n";
 }
@@ -315,8 +318,8 @@ std::string isolux_line(const IsoluxLine& one, const Sheet& sheet, const Texts& 
 
 std::string isolux_legend(const Sheet& sheet, const Texts& texts) {
   std::string out;
-  double x = border_mm + 85;
-  const double y = sheet.height() + 6.5;
+  double x = border_mm;
+  const double y = sheet.height() + 14.5;
   for (const double lux : isolux_levels) {
     out += fmt::format("<path d=\"M{:.2f} {:.2f}h8\" stroke=\"{}\" stroke-width=\"{}\"{}/>\n", x,
                        y - 0.8, isolux_colour(lux), lux == 1 ? 0.6 : 0.35,
@@ -346,13 +349,13 @@ constexpr std::array<const char*, 6> ranks{"legible",   "undecided",    "visible
 
 std::string sight_legend(const Sheet& sheet, const Texts& texts) {
   std::string out;
-  double x = border_mm + 85;
+  double x = border_mm + 1;
   for (const char* rank :
        {"legible", "undecided", "visible but not legible", "invisible", "hidden by the building"}) {
     const std::string word = texts.word("sight", rank);
-    if (x + 4 + 1.25 * static_cast<double>(word.size()) > sheet.width() - 18) break;
-    out += verdict_shape(rank, x, sheet.height() + 5.7, 1.3) +
-           text_at(x + 2.2, sheet.height() + 6.5, word);
+    if (x + 4 + 1.25 * static_cast<double>(word.size()) > sheet.width() - 4) break;
+    out += verdict_shape(rank, x, sheet.height() + 13.7, 1.3) +
+           text_at(x + 2.2, sheet.height() + 14.5, word);
     x += 7 + 1.25 * static_cast<double>(word.size());
   }
   return out;

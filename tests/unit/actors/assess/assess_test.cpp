@@ -4,6 +4,7 @@
 #include <map>
 
 #include "actors/assess/assessment_json.hpp"
+#include "actors/report/report.hpp"
 #include "tests/unit/actors/assess/assessed_room.hpp"
 
 using namespace luxodus;
@@ -65,8 +66,8 @@ TEST_CASE("people stand on routes and in areas, for all of their length and area
   CHECK(metres == Approx(10));
   CHECK(square_metres == Approx(24));
   const auto scene = scene_of(room + hall);
-  const std::string page = assessment_page(assessment_json(*scene, a, "1"), {});
-  CHECK(page.find("10 m, 24 m²") != std::string::npos);  // all of both is legible
+  const std::string page = report_html(assessment_json(*scene, a, "1"), {}, "out", {});
+  CHECK(page.find("10\u00a0m, 24\u00a0m²") != std::string::npos);  // all of both is legible
 }
 
 TEST_CASE("thick smoke takes a sign away that clear air shows, and a sweep says where",
@@ -199,8 +200,8 @@ TEST_CASE("the report counts, and never says that a building complies", "[assess
   const auto scene = scene_of(room);
   AssessOptions options;
   options.rounds = 1;
-  const std::string page =
-      assessment_page(assessment_json(*scene, assessed(room, options), "1"), {{"view", "png"}});
+  const std::string page = report_html(assessment_json(*scene, assessed(room, options), "1"),
+                                       {{"view", "png"}}, "out", {});
   CHECK(page.find(" not assessed") != std::string::npos);
   CHECK(page.find("complies with EN") == std::string::npos);
   CHECK(page.find("http-equiv") == std::string::npos);

@@ -5,6 +5,7 @@
 #include "actors/assess/assessment_json.hpp"
 #include "actors/assess/reality_mode.hpp"
 #include "actors/assess/state_words.hpp"
+#include "actors/report/report.hpp"
 #include "tests/unit/actors/assess/assessed_room.hpp"
 
 using namespace luxodus;
@@ -184,8 +185,9 @@ TEST_CASE("the judged state stands in the JSON, in words, and first on the page"
   CHECK(has(words, "emergency, 5 s after the failure of the mains"));
   CHECK(has(words, "1 of 2 lit: lamp"));
   CHECK(has(words, "eyes are not yet adapted"));
-  const std::string page = assessment_page(json, {});
-  CHECK(page.find("1 of 2 lit: lamp") < page.find(verdict_words(json)));
+  const std::string page = report_html(json, {}, "out", {});
+  CHECK(page.find("1 of 2 lit") < page.find("<h2 "));  // beside the verdict
+  CHECK(page.find(verdict_words(json)) < page.find("<h2 "));
   CHECK(has(page, "eyes are not yet adapted"));
   Json old = json;
   old.erase("state");
