@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 
+#include "actors/assess/judged_state.hpp"
 #include "scenes/emergency/legibility.hpp"
 #include "scenes/emergency/rules.hpp"
 
@@ -17,13 +18,14 @@ namespace limits {
 inline constexpr size_t sights = 200'000;
 /// Rounds of paths from the eye; each has four times the paths of the one before.
 inline constexpr int sight_rounds = 8;
+/// Different shares of new light that aged luminaires have: each costs tallies of its own.
+inline constexpr size_t ageings = 16;
 }  // namespace limits
 
 struct AssessOptions {
-  /// Of the reality mode; its doors are the code mode's too. Empty: the first in emergency
-  /// operation that has smoke, else the first in emergency operation, else the first.
+  /// Of the reality mode; its doors are the code mode's too. Empty: see judged_scenario.
   std::string scenario;
-  CodeChoice codes;
+  std::vector<std::string> rules, deviations;  // by name; empty: those of the scene
   uint64_t seed = 1;
   int threads = 1;
   int rounds = 4;                          // until nothing is undecided, or so many
@@ -43,8 +45,16 @@ struct SightRow {
   bool back_face = false;
   double gaze_deg = 0;  // between the direction of walking and the sign; NaN in areas
   SignView view;
+  /// As verdicts count: in the light, aged or new, that gives the worse one.
   SignLook look;
   Sight sight;
+  bool in_new_light = false;  // they are of new light; else of aged
+  /// In the other light; none where lit luminaires do not age, and where light does not matter.
+  struct Other {
+    SignLook look;
+    Sight sight;
+  };
+  std::optional<Other> other;
 };
 
 /// A point of calculation on a plan, with all emergency luminaires lit [lx].
@@ -61,7 +71,8 @@ struct SweepRow {
 };
 
 struct Assessment {
-  std::string scenario;
+  AssessedState state;
+  bool reality = true;  // views were judged
   std::vector<Check> checks;
   std::vector<SightRow> sights;
   std::vector<SweepRow> sweep;
@@ -77,8 +88,8 @@ struct Assessment {
 /// What is going on, and the share of it that is done.
 using AssessProgress = std::function<void(const std::string& what, double share)>;
 
-/// Errors: nothing to assess; routes outside the building or in walls; a scenario that is not
-/// there; a pack; `interrupt`.
+/// Errors: as judged_scenario, judged_codes, irritation_is_said; nothing to assess; routes outside
+/// the building or in walls; a pack; `interrupt`.
 Result<Assessment> assess(const std::shared_ptr<const SceneDescription>& scene,
                           const AssessOptions& options, const std::atomic<bool>& interrupt,
                           const AssessProgress& progress);

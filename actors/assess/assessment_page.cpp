@@ -10,6 +10,7 @@
 
 #include "actors/assess/assessment_json.hpp"
 #include "actors/assess/plan_drawing.hpp"
+#include "actors/assess/state_words.hpp"
 #include "scenes/format/base64.hpp"
 #include "scenes/format/output_text.hpp"
 
@@ -27,7 +28,7 @@ constexpr const char* style =
     "svg, img { width: 100%; height: auto; }\n"
     ".pass, .legible { background: #e0f3e4; }\n"
     ".fail, .invisible { background: #fbdcd9; }\n"
-    ".undecided, .not-assessed { background: #fdf3cf; }\n"
+    ".undecided, .not-assessed, .not-verified { background: #fdf3cf; }\n"
     ".visible-but-not-legible { background: #fde6c8; }\n"
     ".hidden-by-the-building, .information { background: #ececec; }\n"
     ".sum { font-size: 1.2rem; padding: 0.8rem; border: 1px solid #888; }\n"
@@ -226,10 +227,7 @@ std::string figure(const std::string& drawing, const std::string& caption) {
 }
 
 std::string summary(const Json& a) {
-  const Json& counts = a["counts"];
-  std::string out = fmt::format("<p class=\"sum\"><b>{} checks pass, {} fail, {} not assessed.</b>",
-                                counts["pass"].get<int>(), counts["fail"].get<int>(),
-                                counts["not_assessed"].get<int>());
+  std::string out = state_html(a) + "<p class=\"sum\"><b>" + xml_escape(verdict_words(a)) + ".</b>";
   if (!a["sights"].empty()) {
     out += " Signs, from all places on the routes: ";
     bool first = true;
@@ -328,7 +326,7 @@ std::string assessment_page(const Json& a, const std::vector<ReportPicture>& pic
   if (!a["sweep"].empty())
     out += "<h2>Density of the smoke</h2>\n<p>From how many places each sign is legible.</p>\n" +
            sweep_table(a["sweep"]);
-  for (const char* verdict : {"not assessed", "pass", "information"})
+  for (const char* verdict : {"not assessed", "not verified", "pass", "information"})
     if (const std::string table = checks_table(a["checks"], verdict); !table.empty())
       out += "<h2>Checks: " + std::string(verdict) + "</h2>\n" + table;
   if (!pictures.empty()) out += "<h2>Pictures</h2>\n";

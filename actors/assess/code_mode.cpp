@@ -49,10 +49,15 @@ std::string shown(const glm::dvec3& p) {
   return fmt::format("({:.2f}, {:.2f}, {:.2f})", p.x, p.y, p.z);
 }
 
+void append(std::vector<Check>& out, const std::vector<Check>& more) {
+  out.insert(out.end(), more.begin(), more.end());
+}
+
 class CodeMode {
  public:
-  CodeMode(const SceneDescription& scene, const Building& building, const AssessOptions& options)
-      : scene_(scene), building_(building), options_(options) {
+  CodeMode(const SceneDescription& scene, const Building& building,
+           const std::vector<CodeChoice>& codes)
+      : scene_(scene), building_(building), codes_(codes) {
     if (emergency_luminaires(scene).empty()) return;
     const auto& emitters = building.scene().emitters;
     for (size_t i = 0; i < emitters.size(); ++i)
@@ -90,7 +95,7 @@ class CodeMode {
 
   const SceneDescription& scene_;
   const Building& building_;
-  const AssessOptions& options_;
+  const std::vector<CodeChoice>& codes_;
   std::vector<size_t> columns_;  // luminaires among the compiled emitters
 };
 
@@ -122,16 +127,20 @@ std::vector<std::vector<ClearSign>> CodeMode::clear_signs(const std::vector<Walk
 }
 
 std::vector<Check> CodeMode::of_route(const EscapeRoute& route) const {
-  const RoutePoints points = points_of(route, options_.codes);
+  const RoutePoints points = points_of(route);
   const glm::dvec3 up(0, 0, 1);
   RouteLight light;
   light.centre = lit(points.centre, up, floor_plane_m);
   light.band = lit(points.band, up, floor_plane_m);
   light.inner = lit(points.inner, up, floor_plane_m);
-  auto out = checks_of_route(scene_, route, light, options_.codes);
   const auto people = walkers(route, scene_.assessment.spacing_m);
-  const auto far = checks_of_distance(scene_, route, people, clear_signs(people), options_.codes);
-  out.insert(out.end(), far.begin(), far.end());
+  const auto clear = clear_signs(people);
+  std::vector<Check> out;
+  for (const CodeChoice& codes : codes_) {
+    append(out, checks_of_route(scene_, route, light, codes));
+    append(out, checks_of_distance(scene_, route, people, clear, codes));
+  }
+  out.push_back(check_of_failure(scene_, "route \"" + route.name + "\"", light.centre));
   return out;
 }
 
@@ -185,37 +194,45 @@ std::vector<glm::dvec3> beside(const EmphasisPoint& point) {
   return out;
 }
 
-void append(std::vector<Check>& out, const std::vector<Check>& more) {
-  out.insert(out.end(), more.begin(), more.end());
-}
-
 std::vector<Check> CodeMode::checks_by_light() const {
   std::vector<Check> out;
-  const auto add = [&](const std::vector<Check>& more) { append(out, more); };
+  const auto add = [&](const auto& checks) {
+    for (const CodeChoice& codes : codes_) append(out, checks(codes));
+  };
   const glm::dvec3 up(0, 0, 1);
-  for (const EscapeRoute& route : scene_.routes) add(of_route(route));
-  for (const AssessedArea& area : scene_.open_areas)
-    add(checks_of_open_area(scene_, area, lit(within(area, 0.5, area_grid_m), up, floor_plane_m),
-                            options_.codes));
-  for (const AssessedArea& area : scene_.task_areas)
-    add(checks_of_task_area(scene_, area, lit(within(area, 0, area_grid_m), up, floor_plane_m),
-                            options_.codes));
-  for (const EmphasisPoint& point : emphasis_of(scene_))
-    add(checks_of_emphasis(scene_, point, seen_from(beside(point)), vertical_lux(point),
-                           options_.codes));
+  for (const EscapeRoute& route : scene_.routes) append(out, of_route(route));
+  for (const AssessedArea& area : scene_.open_areas) {
+    const auto core = lit(within(area, 0.5, area_grid_m), up, floor_plane_m);
+    add([&](const CodeChoice& codes) { return checks_of_open_area(scene_, area, core, codes); });
+    out.push_back(check_of_failure(scene_, "open area \"" + area.name + "\"", core));
+  }
+  for (const AssessedArea& area : scene_.task_areas) {
+    const auto plane = lit(within(area, 0, area_grid_m), up, floor_plane_m);
+    add([&](const CodeChoice& codes) { return checks_of_task_area(scene_, area, plane, codes); });
+  }
+  for (const EmphasisPoint& point : emphasis_of(scene_)) {
+    const LinesOfSight seen = seen_from(beside(point));
+    const auto lux = vertical_lux(point);
+    add([&](const CodeChoice& codes) {
+      return checks_of_emphasis(scene_, point, seen, lux, codes);
+    });
+  }
   return out;
 }
 
 std::vector<Check> CodeMode::checks_of_parts() const {
   std::vector<Check> out;
-  for (const Sign& sign : scene_.signs)
-    append(out,
-           checks_of_sign(scene_, sign, lux_on_face(sign),
-                          seen_from({sign.frame.origin +
-                                     sign.frame.axes[2] * (sign.thickness_m / 2 + floor_plane_m)}),
-                          options_.codes));
-  append(out, checks_of_glare(scene_, options_.codes));
-  append(out, checks_beyond(scene_, options_.codes));
+  for (const Sign& sign : scene_.signs) {
+    const double lux = lux_on_face(sign);
+    const LinesOfSight seen = seen_from(
+        {sign.frame.origin + sign.frame.axes[2] * (sign.thickness_m / 2 + floor_plane_m)});
+    for (const CodeChoice& codes : codes_)
+      append(out, checks_of_sign(scene_, sign, lux, seen, codes));
+  }
+  for (const CodeChoice& codes : codes_) {
+    append(out, checks_of_glare(scene_, codes));
+    append(out, checks_beyond(scene_, codes));
+  }
   return out;
 }
 
@@ -370,7 +387,7 @@ Result<Done> assess_by_codes(const SceneDescription& scene, const Scenario& scen
     auto building = Building::make(code_scene(scene, furnished), code_scenario(scene, scenario),
                                    options.threads);
     if (!building.ok()) return building.problem();
-    const CodeMode mode(scene, *building.value(), options);
+    const CodeMode mode(scene, *building.value(), out.state.codes);
     if (!furnished) {
       if (auto ok = mode.walkable(); !ok.ok()) return ok;
       out.plan = mode.plan();

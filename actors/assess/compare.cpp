@@ -6,6 +6,7 @@
 #include <map>
 
 #include "actors/assess/assessment_json.hpp"
+#include "actors/assess/state_words.hpp"
 
 namespace luxodus {
 
@@ -17,9 +18,11 @@ constexpr double different_errors = 3, different_share = 1e-6;
 
 using Key = std::string;
 
+/// By the edition, too: of two sets each has its own check of the same rule.
 Key check_key(const Json& check) {
-  return check["rule"].get<std::string>() + " " + check["subject"].get<std::string>() + " " +
-         check["condition"].get<std::string>();
+  return fmt::format("{} ({}) {} {}", check["rule"].get<std::string>(),
+                     check["edition"].get<std::string>(), check["subject"].get<std::string>(),
+                     check["condition"].get<std::string>());
 }
 
 Key sight_key(const Json& sight) {
@@ -95,10 +98,39 @@ std::string shown(const Json& value) {
   return value.is_string() ? value.get<std::string>() : fmt::format("{:.4g}", value.get<double>());
 }
 
+/// What the judged states, and the verdicts on the whole, say differently. Where in which file a
+/// medium stands is none of it.
+Json changed_state(const Json& before, const Json& after) {
+  const auto rows_of = [](Json assessment) {
+    const Json::json_pointer media("/state/smoke/media");
+    if (assessment.contains(media))
+      for (Json& medium : assessment[media]) medium.erase("source");
+    std::map<std::string, std::string> out;
+    for (const auto& [what, words] : state_rows(assessment))
+      if (!what.empty() && what != "not assessed") out[what] = words;
+    out["verdict"] = verdict_words(assessment);
+    return out;
+  };
+  const auto was = rows_of(before), is = rows_of(after);
+  Json out = Json::array();
+  const auto add = [&](const std::string& what) {
+    const auto a = was.find(what), b = is.find(what);
+    const Json old_words = a == was.end() ? Json() : Json(a->second);
+    const Json new_words = b == is.end() ? Json() : Json(b->second);
+    if (old_words != new_words)
+      out.push_back({{"what", what}, {"before", old_words}, {"after", new_words}});
+  };
+  for (const auto& [what, words] : was) add(what);
+  for (const auto& [what, words] : is)
+    if (!was.contains(what)) add(what);
+  return out;
+}
+
 }  // namespace
 
 Json comparison_of(const Json& before, const Json& after) {
-  return {{"checks", changed_verdicts(before["checks"], after["checks"], check_key)},
+  return {{"state", changed_state(before, after)},
+          {"checks", changed_verdicts(before["checks"], after["checks"], check_key)},
           {"values", changed_values(before["checks"], after["checks"])},
           {"sights", changed_verdicts(before["sights"], after["sights"], sight_key)},
           {"levels", changed_levels(before["sights"], after["sights"])}};
@@ -118,6 +150,7 @@ std::string comparison_text(const Json& comparison) {
       out += "\n";
     }
   };
+  part("state", "what is said of the judged state, and of all checks, differently");
   part("checks", "checks whose verdict changed");
   part("values", "values of checks that changed");
   part("sights", "views of signs whose verdict changed");
