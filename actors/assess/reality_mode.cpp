@@ -9,7 +9,7 @@
 #include <tuple>
 
 #include "actors/assess/aged_light.hpp"
-#include "actors/assess/building.hpp"
+#include "actors/inspect/building.hpp"
 #include "actors/source/local_run.hpp"
 #include "scenes/emergency/sign_face.hpp"
 #include "scenes/geometry/polygon.hpp"

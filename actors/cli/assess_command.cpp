@@ -10,6 +10,7 @@
 #include "actors/assess/assessment_json.hpp"
 #include "actors/assess/state_words.hpp"
 #include "actors/cli/command.hpp"
+#include "actors/cli/findings.hpp"
 
 namespace luxodus::cli {
 
@@ -77,7 +78,11 @@ Result<ExitCode> assess_scene(const AssessCommandOptions& options) {
     spdlog::warn("interrupted; nothing was written");
     return ExitCode::interrupted;
   }
-  for (const Problem& warning : assessed->warnings) spdlog::warn("{}", warning.text());
+  tell_findings(assessed->findings);
+  for (const Problem& warning : assessed->warnings)
+    if (std::none_of(assessed->findings.begin(), assessed->findings.end(),
+                     [&](const Finding& f) { return f.problem.text() == warning.text(); }))
+      spdlog::warn("{}", warning.text());
   const fs::path out =
       options.out.empty() ? fs::path("out") / (scene->name + "-assessed") : fs::path(options.out);
   const Json json = assessment_json(*scene, assessed.value(), LUX_VERSION);

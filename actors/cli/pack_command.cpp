@@ -2,6 +2,7 @@
 #include <filesystem>
 
 #include "actors/cli/command.hpp"
+#include "actors/cli/findings.hpp"
 #include "scenes/format/json_out.hpp"
 #include "scenes/pack/scene_pack.hpp"
 #include "scenes/transport/compile.hpp"
@@ -42,6 +43,8 @@ Result<PackReport> pack_scene(const PackOptions& options) {
   if (!description) return Problem{{options.scene, 0}, "the scene has problems, told above"};
   auto scenario = find_scenario(*description, options.scenario);
   if (!scenario.ok()) return scenario.problem();
+  if (!passes_inspection(description, {scenario.value()}, default_threads()))
+    return Problem{{options.scene, 0}, "the scene has errors, told above"};
   // Compiling tells how many triangles there are, and only then how many cells that makes.
   auto scene = compile_scene(description, scenario.value(), {});
   if (!scene.ok()) return scene.problem();

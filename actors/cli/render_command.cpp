@@ -2,6 +2,7 @@
 #include <filesystem>
 
 #include "actors/cli/command.hpp"
+#include "actors/cli/findings.hpp"
 #include "actors/cli/finished_run.hpp"
 #include "actors/display/pictures.hpp"
 #include "actors/source/flux_store.hpp"
@@ -36,6 +37,8 @@ Result<Done> render(const RenderOptions& options) {
   if (!scene.ok()) return scene.problem();
   if (description->cameras.empty())
     return Problem{{finished->scene_file, 0}, "the scene has no [[camera]] to render"};
+  if (!passes_inspection(description, {scenario.value()}, options.threads))
+    return Problem{{finished->scene_file, 0}, "the scene has errors, told above"};
   LocalRun run(scene.value(), finished->seed, options.threads);
   if (auto ok = load_flux(folder / "flux.lux", run); !ok.ok()) return ok.problem();
   ProgressLine line("pictures");

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "actors/cli/command.hpp"
+#include "actors/cli/findings.hpp"
 #include "actors/cli/finished_run.hpp"
 #include "actors/display/preview.hpp"
 #include "actors/display/report.hpp"
@@ -305,6 +306,8 @@ int run_scene(const RunOptions& options) {
     tell(scenarios.problem());
     return ExitCode::bad_input;
   }
+  if (!passes_inspection(description, scenarios.value(), options.threads))
+    return ExitCode::bad_input;
   install_interrupt_handler();
   Json results = Json::array();
   const int code = run_scenarios(description, scenarios.value(), options, rule.value(), results);

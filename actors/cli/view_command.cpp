@@ -2,6 +2,7 @@
 #include <filesystem>
 
 #include "actors/cli/command.hpp"
+#include "actors/cli/findings.hpp"
 #include "actors/cli/finished_run.hpp"
 #include "actors/cli/serve_view.hpp"
 #include "actors/view/live_nodes.hpp"
@@ -36,7 +37,9 @@ Result<ExitCode> view(const ViewOptions& options) {
   const auto scene = load_scene(wanted->scene_file);
   if (!scene) return ExitCode::bad_input;
   const std::string scenario = scene->scenarios.empty() ? "" : wanted->scenario;
-  if (const auto found = find_scenario(*scene, scenario); !found.ok()) return found.problem();
+  const auto found = find_scenario(*scene, scenario);
+  if (!found.ok()) return found.problem();
+  if (!passes_inspection(scene, {found.value()}, options.live.threads)) return ExitCode::bad_input;
   install_interrupt_handler();
   HubOptions hub{options.live, {}, options.save_folder};
   hub.live.particles = parse_count(options.particles).value();

@@ -28,6 +28,8 @@ struct PlaneMap {
   std::vector<Estimate> indirect_lx;       // traced: scattered, reflected, collimated
   std::vector<double> group_direct_lx;     // means over the plane, per source group
   std::vector<double> group_in_clear_lx;
+  /// Cells in bodies: their values are NaN, and they are in no mean.
+  std::vector<uint32_t> left_out;
 
   Estimate total(size_t cell) const {
     return {direct_lx[cell] + indirect_lx[cell].value, indirect_lx[cell].standard_error};
