@@ -2,15 +2,20 @@
 #include <fmt/format.h>
 #include <spawn.h>
 #include <spdlog/spdlog.h>
+#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "actors/assess/assessment_json.hpp"
+#include "actors/assess/check_words.hpp"
 #include "actors/assess/state_words.hpp"
 #include "actors/cli/command.hpp"
 #include "actors/cli/findings.hpp"
+#include "scenes/format/file_names.hpp"
+#include "scenes/format/output_folder.hpp"
 
 namespace luxodus::cli {
 
@@ -34,17 +39,11 @@ std::string ids_of(std::span<const NamedRules> rows) {
 
 /// A check that fails, or whose limit was read nowhere, in a line.
 void print_check(const Json& check) {
-  const auto text = [&](const char* key) { return check[key].get<std::string>(); };
-  const auto number = [&](const char* key) {
-    return check[key].is_number() ? short_number(check[key].get<double>()) : std::string("none");
-  };
-  const bool fails = check["verdict"] == "fail";
-  std::printf("  %s: %s: %s: %s %s, %s %s (%s%s%s)%s%s\n", fails ? "fails" : "not verified",
-              text("subject").c_str(), text("title").c_str(), number("value").c_str(),
-              text("unit").c_str(), text("sense").c_str(), number("limit").c_str(),
-              text("rule").c_str(), text("condition").empty() ? "" : ", ",
-              text("condition").c_str(), fails ? "" : ": ",
-              fails ? "" : check.value("reason", "").c_str());
+  if (check["verdict"] == "fail")
+    std::printf("  fails: %s\n", check_words(check).c_str());
+  else
+    std::printf("  not verified: %s: %s\n", check_words(check).c_str(),
+                check.value("reason", "").c_str());
 }
 
 void print_summary(const Json& a, const fs::path& out) {
@@ -62,13 +61,19 @@ void print_summary(const Json& a, const fs::path& out) {
 Result<ExitCode> assess_scene(const AssessCommandOptions& options) {
   const auto scene = load_scene(options.scene);
   if (!scene) return ExitCode::bad_input;
+  const fs::path folder = options.out.empty()
+                              ? fs::path("out") / file_name_of(scene->name + "-assessed")
+                              : fs::path(options.out);
+  const auto out = OutputFolder::claim(
+      folder, {{"report.html", "assessment.json", "checks.csv", "sights.csv"}, {}});
+  if (!out.ok()) return out.problem();
   install_interrupt_handler();
   AssessOptions asked = options.assess;
   asked.reality = !options.codes_alone;
   ProgressLine line("assess");
   const auto assessed =
       assess(scene, asked, interrupt_flag(), [&](const std::string& what, double share) {
-        line.put(fmt::format("{}: {:.0f} %", what, 100 * share), share >= 1);
+        line.put(fmt::format("{}: {:.0f} %", what, 100 * share), share >= 1, share);
       });
   if (!assessed.ok()) {
     if (!interrupt_flag()) {
@@ -83,23 +88,44 @@ Result<ExitCode> assess_scene(const AssessCommandOptions& options) {
     if (std::none_of(assessed->findings.begin(), assessed->findings.end(),
                      [&](const Finding& f) { return f.problem.text() == warning.text(); }))
       spdlog::warn("{}", warning.text());
-  const fs::path out =
-      options.out.empty() ? fs::path("out") / (scene->name + "-assessed") : fs::path(options.out);
   const Json json = assessment_json(*scene, assessed.value(), LUX_VERSION);
-  if (auto ok = write_assessment(out, json); !ok.ok()) return ok.problem();
-  print_summary(json, out);
+  if (auto ok = write_assessment(out->path(), json); !ok.ok()) return ok.problem();
+  print_summary(json, folder);
   return options.strict && anything_open(json) ? ExitCode::failure : ExitCode::success;
 }
 
-/// Runs a program and waits; whether it said that all went well. A program that is not there fails.
-bool runs(const std::vector<std::string>& words) {
+/// How a program ended: whether all went well, and else what it said.
+struct Ended {
+  bool well = false;
+  std::string said;
+};
+
+/// Runs a program and waits. What it prints is kept and not shown. A program that is not there
+/// fails and says nothing.
+Ended ended(const std::vector<std::string>& words) {
+  constexpr size_t most_said = 2000;  // of the end [bytes]
   std::vector<char*> arguments;
   for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
+  const int kept = ::memfd_create("said", MFD_CLOEXEC);
+  posix_spawn_file_actions_t redirect;
+  ::posix_spawn_file_actions_init(&redirect);
+  for (const int stream : {STDOUT_FILENO, STDERR_FILENO})
+    ::posix_spawn_file_actions_adddup2(&redirect, kept, stream);
   pid_t pid = 0;
   int status = 0;
-  return ::posix_spawnp(&pid, arguments[0], nullptr, nullptr, arguments.data(), environ) == 0 &&
-         ::waitpid(pid, &status, 0) == pid && status == 0;
+  Ended out;
+  if (::posix_spawnp(&pid, arguments[0], &redirect, nullptr, arguments.data(), environ) == 0) {
+    out.well = ::waitpid(pid, &status, 0) == pid && status == 0;
+    const auto bytes = static_cast<size_t>(std::max<off_t>(::lseek(kept, 0, SEEK_END), 0));
+    out.said.resize(std::min(bytes, most_said));
+    const ssize_t n = ::pread(kept, out.said.data(), out.said.size(),
+                              static_cast<off_t>(bytes - out.said.size()));
+    out.said.resize(n > 0 ? static_cast<size_t>(n) : 0);
+  }
+  ::posix_spawn_file_actions_destroy(&redirect);
+  ::close(kept);
+  return out;
 }
 
 /// Prints a page as PDF by whichever Chromium is installed.
@@ -107,6 +133,7 @@ Result<Done> print_pdf(const fs::path& page, const fs::path& pdf) {
   const std::string address = "file://" + fs::absolute(page).string();
   std::error_code ignored;
   fs::remove(pdf, ignored);
+  std::string said;
   for (const char* browser : {"chromium", "chromium-browser", "google-chrome"}) {
     std::vector<std::string> words{
         browser,         "--headless=new",         "--disable-gpu",
@@ -114,17 +141,21 @@ Result<Done> print_pdf(const fs::path& page, const fs::path& pdf) {
     // It has no sandbox for root; the page is ours and fetches nothing.
     if (::geteuid() == 0) words.emplace_back("--no-sandbox");
     words.push_back(address);
-    if (runs(words) && fs::exists(pdf, ignored)) return Done{};
+    const Ended printed = ended(words);
+    if (printed.well && fs::exists(pdf, ignored)) return Done{};
+    if (!printed.said.empty()) said = "; " + std::string(browser) + " said: " + printed.said;
   }
-  return Problem{{pdf.string(), 0},
-                 "no Chromium printed it: install one (Debian: chromium), or print report.html"};
+  return Problem{
+      {pdf.string(), 0},
+      "no Chromium printed it: install one (Debian: chromium), or print report.html" + said};
 }
 
 Result<ExitCode> report_again(const std::string& folder, bool pdf) {
   const auto read = read_assessment(folder);
   if (!read.ok()) return read.problem();
   const fs::path page = fs::path(folder) / "report.html";
-  if (auto ok = write_file_atomically(page, assessment_page(read.value(), pictures_in(folder)));
+  if (auto ok = write_file_atomically(behind_links(page),
+                                      assessment_page(read.value(), pictures_in(folder)));
       !ok.ok())
     return ok.problem();
   std::printf("written to %s\n", page.string().c_str());
@@ -144,7 +175,7 @@ Result<ExitCode> compare_folders(const std::string& before, const std::string& a
   const Json comparison = comparison_of(a.value(), b.value());
   std::printf("%s", comparison_text(comparison).c_str());
   if (!json.empty())
-    if (auto ok = write_json(json, comparison); !ok.ok()) return ok.problem();
+    if (auto ok = write_json(behind_links(json), comparison); !ok.ok()) return ok.problem();
   return ExitCode::success;
 }
 

@@ -1,8 +1,11 @@
 // luxodus check: read everything a scene names, compile it, and say what was found.
+#include <fmt/format.h>
+
 #include <filesystem>
 
 #include "actors/cli/command.hpp"
 #include "actors/cli/findings.hpp"
+#include "actors/cli/floors.hpp"
 #include "scenes/format/json_out.hpp"
 #include "scenes/transport/compile.hpp"
 #include "scenes/transport/packed_scene.hpp"
@@ -22,28 +25,6 @@ struct CheckOptions {
 
 Json point_json(const glm::dvec3& p) {
   return {p.x, p.y, p.z};
-}
-
-/// Heights at which horizontal, upward-facing surfaces of at least a square metre lie: the floors.
-std::vector<double> floor_heights(const CompiledScene& scene) {
-  std::map<int64_t, double> area_at;  // by millimetre
-  const auto read = for_each_cell(scene, [&](const GeometryCell& cell) {
-    for (const TriangleRecord& t : cell.triangles) {
-      if (t.normal.z < 0.999f) continue;
-      const float area =
-          0.5f * glm::length(glm::cross(t.corner[1] - t.corner[0], t.corner[2] - t.corner[0]));
-      const double z = static_cast<double>(t.corner[0].z) + scene.local_origin.z;
-      area_at[std::llround(z * 1000)] += static_cast<double>(area);
-    }
-  });
-  if (!read.ok()) tell(read.problem());
-  double most = 0;
-  for (const auto& [z, area] : area_at) most = std::max(most, area);
-  std::vector<double> out;
-  for (const auto& [z, area] : area_at) {
-    if (area >= 1 && area > 0.05 * most) out.push_back(static_cast<double>(z) / 1000);
-  }
-  return out;
 }
 
 Json memory_json(const CompiledScene& scene) {
@@ -115,11 +96,13 @@ void print(const Json& s) {
                 static_cast<long long>(dropped));
   const auto& low = s["bounds"]["low"];
   const auto& high = s["bounds"]["high"];
-  std::printf("  bounds     x %.4g .. %.4g, y %.4g .. %.4g, z %.4g .. %.4g m; floors at",
+  std::printf("  bounds     x %.4g .. %.4g, y %.4g .. %.4g, z %.4g .. %.4g m; ",
               low[0].get<double>(), high[0].get<double>(), low[1].get<double>(),
               high[1].get<double>(), low[2].get<double>(), high[2].get<double>());
-  for (const Json& z : s["floor_heights_m"]) std::printf(" %.4g", z.get<double>());
-  std::printf(" m\n");
+  std::string floors;
+  for (const Json& z : s["floor_heights_m"])
+    floors += (floors.empty() ? "floors at z = " : ", ") + fmt::format("{:.4g}", z.get<double>());
+  std::printf("%s\n", floors.empty() ? "no floor found" : (floors + " m").c_str());
   std::printf("  light      %zu emitters, %.6g lm\n", s["emitters"].size(),
               s["luminous_flux"]["value"].get<double>());
   for (const Json& e : s["emitters"]) {

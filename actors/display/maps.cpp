@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "actors/display/result_files.hpp"
 #include "actors/inspect/plane_cells.hpp"
 #include "actors/source/rows.hpp"
 #include "scenes/format/csv.hpp"
@@ -282,7 +283,8 @@ FalseColourPicture picture_of(const CompiledScene& scene, const PlaneMeasure& pl
   return p;
 }
 
-Result<Done> write_pictures(const std::filesystem::path& folder, const LocalRun& run, size_t index,
+/// `stem`: of its files, without their endings.
+Result<Done> write_pictures(const std::filesystem::path& stem, const LocalRun& run, size_t index,
                             const PlaneMap& map) {
   const CompiledScene& scene = run.scene();
   const PlaneMeasure& plane = scene.description->planes[index];
@@ -297,19 +299,14 @@ Result<Done> write_pictures(const std::filesystem::path& folder, const LocalRun&
   p.notes = {"Direct light computed at the centres of the cells; indirect light from " +
                  std::to_string(run.particles()) + " particles",
              "Largest standard error of a cell: " + signs_of(worst, 2) + " lx"};
-  if (auto ok = write_false_colour_png(folder / (plane.name + ".png"), p); !ok.ok()) return ok;
+  if (auto ok = write_false_colour_png(std::filesystem::path(stem) += ".png", p); !ok.ok())
+    return ok;
   p.title += ", direct light in clear air";
   p.values = map.direct_in_clear_lx;
   p.contours = contour_levels(p.values);
   p.notes = {
       "Without reflected light and without smoke, as codes for emergency lighting calculate"};
-  return write_false_colour_png(folder / (plane.name + "_direct_clear_air.png"), p);
-}
-
-bool can_be_drawn(const PlaneMeasure& p) {
-  return p.cells_u <= limits::grid_edge_most && p.cells_v <= limits::grid_edge_most &&
-         static_cast<uint64_t>(p.cells_u) * static_cast<uint64_t>(p.cells_v) <=
-             limits::drawn_cells_most;
+  return write_false_colour_png(std::filesystem::path(stem) += "_direct_clear_air.png", p);
 }
 
 }  // namespace
@@ -342,17 +339,20 @@ Json planes_json(const LocalRun& run, const Readout& readout, const PlaneMaps& m
   Json out = Json::array();
   for (uint32_t i = 0; i < maps.planes.size(); ++i) {
     out.push_back(plane_json(run.scene(), readout, maps.planes[i], i));
+    out.back()["files"] = files_of_plane(*run.scene().description, i);
   }
   return out;
 }
 
 Result<Done> write_plane_maps(const std::filesystem::path& folder, const LocalRun& run,
                               const PlaneMaps& maps) {
+  const std::vector<std::string> names = result_names(*run.scene().description).planes;
   for (size_t i = 0; i < maps.planes.size(); ++i) {
-    const PlaneMeasure& plane = run.scene().description->planes[i];
-    if (auto ok = write_table(folder / (plane.name + ".csv"), maps.planes[i]); !ok.ok()) return ok;
-    if (!can_be_drawn(plane)) continue;
-    if (auto ok = write_pictures(folder, run, i, maps.planes[i]); !ok.ok()) return ok;
+    const std::filesystem::path stem = folder / names[i];
+    if (auto ok = write_table(std::filesystem::path(stem) += ".csv", maps.planes[i]); !ok.ok())
+      return ok;
+    if (!is_drawn(run.scene().description->planes[i])) continue;
+    if (auto ok = write_pictures(stem, run, i, maps.planes[i]); !ok.ok()) return ok;
   }
   return Done{};
 }

@@ -48,7 +48,8 @@ PlaneMaps make_plane_maps(const LocalRun& run, const ShareDone& progress = {});
 /// maximum are cells, with the error of that cell.
 Json planes_json(const LocalRun& run, const Readout& readout, const PlaneMaps& maps);
 
-/// Writes NAME.csv, NAME.png and NAME_direct_clear_air.png of every plane. A plane of more cells
+/// Writes NAME.csv, NAME.png and NAME_direct_clear_air.png of every plane, NAME being that of
+/// result_names(). A plane of more cells
 /// than limits::drawn_cells_most or grid_edge_most is written as a table only. Errors: as write_csv
 /// and write_png.
 Result<Done> write_plane_maps(const std::filesystem::path& folder, const LocalRun& run,

@@ -294,6 +294,7 @@ void Controller::look_at_totals() {
       look_at_totals();
     });
   }
+  if (run_.pause_is_due()) run_.resume(book_.lent_end(), book_.missing());
   run_.pause_if_due();
   gathered_ = false;
   if (round_done) end_round();

@@ -13,6 +13,8 @@
 #include "runtime/config/cluster_file.hpp"
 #include "runtime/fiber/sanitizers.hpp"
 #include "scenes/format/atomic_file.hpp"
+#include "scenes/format/file_names.hpp"
+#include "scenes/format/output_path.hpp"
 #include "scenes/format/scene_file.hpp"
 #include "scenes/pack/scene_pack.hpp"
 #include "scenes/transport/compile.hpp"
@@ -274,6 +276,10 @@ void ClusterProcessRun::forget_journal() const {
   if (journal_) journal_->remove();
 }
 
+void ClusterProcessRun::make_room() const {
+  if (journal_) journal_->make_room();
+}
+
 /// Beside the results, under the name of the process: several may share the folder.
 Result<Done> ClusterProcessRun::write_trace(const Observation& seen) const {
   if (!seen.traces()) return Done{};
@@ -283,8 +289,8 @@ Result<Done> ClusterProcessRun::write_trace(const Observation& seen) const {
     return Problem{{cluster_.run.out.string(), 0},
                    "cannot make this folder for the trace: " + failed.message()};
   const size_t process = cluster_.node(nodes_.front()).process;
-  return seen.write_trace(cluster_.run.out /
-                          ("trace-" + cluster_.processes[process].name + ".json"));
+  return seen.write_trace(behind_links(
+      cluster_.run.out / ("trace-" + file_name_of(cluster_.processes[process].name) + ".json")));
 }
 
 /// What the nodes of the process are made from; they refer to it.

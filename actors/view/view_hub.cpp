@@ -5,6 +5,7 @@
 
 #include "actors/view/sign_verdicts.hpp"
 #include "scenes/format/atomic_file.hpp"
+#include "scenes/format/output_path.hpp"
 #include "scenes/geometry/transform.hpp"
 
 namespace luxodus {
@@ -307,8 +308,8 @@ void ViewHub::handle(Viewer& viewer, const SaveEdit& edit) {
   std::error_code ignored;
   if (std::filesystem::exists(file, ignored))
     return refuse(viewer, file.string() + " is there already: take another name");
-  const auto saved =
-      write_file_atomically(file, variant_text(*scene_, wish_, dimming_.factors, edit.name));
+  const auto saved = write_file_atomically(
+      behind_links(file), variant_text(*scene_, wish_, dimming_.factors, edit.name));
   if (!saved.ok()) return refuse(viewer, saved.problem().text());
   viewer.send_text(text_of({{"type", "saved"}, {"file", file.string()}}));
 }
