@@ -73,6 +73,16 @@ Result<Graph> graph_in_file(const ClusterConfig& cluster) {
                      cluster.topology.file.string());
 }
 
+/// Tells runs of one file apart, and is the same when a controller is started again.
+std::string where_results_go(const ClusterConfig& cluster) {
+  const std::string text =
+      cluster.view.live ? "a live view of " + cluster.file.string()
+                        : std::filesystem::absolute(cluster.run.out).lexically_normal().string();
+  // The end of a long path tells it apart. Two such names have room in a refusal.
+  constexpr size_t chars_most = 180;
+  return text.size() <= chars_most ? text : "..." + text.substr(text.size() - chars_most);
+}
+
 }  // namespace
 
 Result<Graph> graph_of(const ClusterConfig& cluster) {
@@ -220,6 +230,7 @@ Result<NodeSetup> ClusterProcessRun::setup_of(NodeId self, const RunSetup& run) 
   node.net = net_config(cluster_, self);
   node.net.incarnation = fresh_incarnation();
   complete(node.net, run);
+  if (self == cluster_.controller()) node.net.identity.results = where_results_go(cluster_);
   node.links = links_of(cluster_, self, node.net.edges);
   if (const auto own = keys_.find(self); own != keys_.end()) node.keys = own->second;
   node.public_keys = public_keys_;
