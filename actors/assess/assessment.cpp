@@ -43,6 +43,26 @@ void count_sweep(double factor, const std::vector<SightRow>& sights, std::vector
   }
 }
 
+/// Refuses what is wrong with the scene, and keeps what else was found.
+std::optional<Problem> inspected(const std::shared_ptr<const SceneDescription>& scene,
+                                 const Scenario& scenario, int threads, Assessment& out) {
+  auto found = inspect(scene, {scenario}, threads);
+  if (!found.ok()) return found.problem();
+  const auto errors = std::count_if(found->begin(), found->end(),
+                                    [](const Finding& f) { return f.severity == Severity::error; });
+  if (errors > 0) {  // they come first
+    Problem first = found->front().problem;
+    if (errors > 1)
+      first.what += " (the first of " + std::to_string(errors) +
+                    " errors; `luxodus check` names all of them)";
+    return first;
+  }
+  for (const Finding& finding : found.value())
+    if (finding.severity == Severity::warning) out.warnings.push_back(finding.problem);
+  out.findings = std::move(found).value();
+  return std::nullopt;
+}
+
 }  // namespace
 
 Result<Assessment> assess(const std::shared_ptr<const SceneDescription>& scene,
@@ -65,6 +85,7 @@ Result<Assessment> assess(const std::shared_ptr<const SceneDescription>& scene,
   out.seed = options.seed;
   out.scene_hash = scene->content_hash;
   out.levels = plan_levels(*scene, scenario.value());
+  if (auto problem = inspected(scene, scenario.value(), options.threads, out)) return *problem;
   if (auto ok = assess_by_codes(*scene, scenario.value(), options, progress, out); !ok.ok())
     return ok.problem();
   if (options.reality)

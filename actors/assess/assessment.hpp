@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "actors/assess/judged_state.hpp"
+#include "actors/inspect/inspect.hpp"
 #include "scenes/emergency/legibility.hpp"
 #include "scenes/emergency/rules.hpp"
 
@@ -94,6 +95,7 @@ struct Assessment {
   std::vector<SweepRow> sweep;
   std::vector<PlanLevel> levels;  // from below; at least one
   std::vector<Problem> warnings;
+  std::vector<Finding> findings;  // of the inspection; its warnings are among the above
   int64_t paths = 0;  // from eyes, of all rounds
   double seconds = 0;
   uint64_t scene_hash = 0;
@@ -103,8 +105,8 @@ struct Assessment {
 /// What is going on, and the share of it that is done.
 using AssessProgress = std::function<void(const std::string& what, double share)>;
 
-/// Errors: as judged_scenario, judged_codes, irritation_is_said; nothing to assess; routes outside
-/// the building or in walls; a pack; `interrupt`.
+/// Errors: as judged_scenario, judged_codes, irritation_is_said; nothing to assess; an error that
+/// `inspect` finds, such as routes outside the building or in walls; a pack; `interrupt`.
 Result<Assessment> assess(const std::shared_ptr<const SceneDescription>& scene,
                           const AssessOptions& options, const std::atomic<bool>& interrupt,
                           const AssessProgress& progress);

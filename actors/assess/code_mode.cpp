@@ -1,7 +1,5 @@
 #include "actors/assess/code_mode.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <numeric>
 
@@ -12,13 +10,7 @@ namespace luxodus {
 namespace {
 
 constexpr const char* furniture = "furniture";
-/// A route's floor is looked for within this above and below it [m].
-constexpr double floor_within_m = 0.3;
-/// A sign that has a surface as near before it shows itself to nobody [m].
-constexpr float before_sign_m = 0.3f;
 constexpr double standing_eye_m = 1.65;
-/// What stands from here to the eye is no step, sill or table [m].
-constexpr double waist_m = 1.0;
 /// A place that lies in a wall or a door is looked from so far beside it [m].
 constexpr double beside_m = 0.3;
 /// So far before a luminous opening a line ends: it may lie in a ceiling [m].
@@ -48,10 +40,6 @@ Scenario code_scenario(const SceneDescription& scene, const Scenario& doors) {
   return out;
 }
 
-std::string shown(const glm::dvec3& p) {
-  return fmt::format("({:.2f}, {:.2f}, {:.2f})", p.x, p.y, p.z);
-}
-
 void append(std::vector<Check>& out, const std::vector<Check>& more) {
   out.insert(out.end(), more.begin(), more.end());
 }
@@ -74,11 +62,6 @@ class CodeMode {
   std::vector<Check> checks_by_light() const;
   /// Those of signs and luminaires by themselves.
   std::vector<Check> checks_of_parts() const;
-  /// Errors: the first place that nobody can walk on.
-  Result<Done> walkable() const;
-  /// Closed doors that routes lead through.
-  std::vector<Problem> closed_doors() const;
-  std::vector<Problem> blind_signs() const;
   /// The points of calculation of each level, and its map of light.
   void fill_plan(std::vector<PlanLevel>& levels) const;
 
@@ -87,14 +70,6 @@ class CodeMode {
   std::vector<std::vector<ClearSign>> clear_signs(const std::vector<Walker>& people) const;
   double lux_on_face(const Sign& sign) const;
   std::optional<double> vertical_lux(const EmphasisPoint& point) const;
-  struct Obstacle {
-    const Object* object = nullptr;
-    glm::dvec3 place{0};  // on the floor
-  };
-  std::vector<Obstacle> obstacles(const EscapeRoute& route) const;
-  std::vector<Obstacle> met_between(const GeometryAccess& access, const glm::dvec3& from,
-                                    const glm::dvec3& to, double height_m) const;
-  std::string words_of(const EscapeRoute& route, const Obstacle& met) const;
   LinesOfSight seen_from(const std::vector<glm::dvec3>& places) const;
 
   const SceneDescription& scene_;
@@ -240,123 +215,6 @@ std::vector<Check> CodeMode::checks_of_parts() const {
   return out;
 }
 
-Result<Done> CodeMode::walkable() const {
-  for (const EscapeRoute& route : scene_.routes) {
-    const auto places = along(route, 0, 1);
-    std::vector<char> floorless(places.size(), 0), inside(places.size(), 0);
-    building_.each(places.size(), [&](const GeometryAccess& access, size_t i) {
-      const glm::dvec3 above = places[i] + glm::dvec3(0, 0, floor_within_m);
-      floorless[i] = !next_surface(building_.scene(), access, building_.local(above), {0, 0, -1},
-                                   static_cast<float>(2 * floor_within_m));
-      inside[i] = building_.in_solid(access, places[i] + glm::dvec3(0, 0, standing_eye_m));
-    });
-    const auto where = [&](const std::vector<char>& wrong) {
-      const auto at = std::find(wrong.begin(), wrong.end(), 1) - wrong.begin();
-      return static_cast<size_t>(at) < places.size()
-                 ? std::optional(shown(places[static_cast<size_t>(at)]))
-                 : std::nullopt;
-    };
-    const std::string named = "route \"" + route.name + "\" ";
-    if (const auto at = where(floorless))
-      return Problem{route.place, named +
-                                      "has no floor under it: is it outside the building, or at "
-                                      "another height? At " +
-                                      *at};
-    for (const Obstacle& met : obstacles(route))
-      if (!met.object->door) return Problem{route.place, words_of(route, met)};
-    if (const auto at = where(inside))
-      return Problem{route.place, named + "leads through a wall, at " + *at};
-  }
-  return Done{};
-}
-
-std::vector<Problem> CodeMode::closed_doors() const {
-  std::vector<Problem> out;
-  for (const EscapeRoute& route : scene_.routes)
-    for (const Obstacle& met : obstacles(route))
-      if (met.object->door)
-        out.push_back(
-            {route.place,
-             words_of(route, met) + ": behind it, light and signs are those of the closed door"});
-  return out;
-}
-
-/// What stands in the way from waist to eye, each object once. Signs, luminaires and what is not
-/// solid are passed under or through.
-std::vector<CodeMode::Obstacle> CodeMode::obstacles(const EscapeRoute& route) const {
-  const auto places = along(route, 0, 1);
-  const auto legs = places.empty() ? 0 : places.size() - 1;
-  std::vector<std::vector<Obstacle>> met(legs);
-  building_.each(legs, [&](const GeometryAccess& access, size_t i) {
-    auto low = met_between(access, places[i], places[i + 1], waist_m);
-    const auto high = met_between(access, places[i], places[i + 1], standing_eye_m);
-    for (const Obstacle& one : low)
-      if (std::any_of(high.begin(), high.end(),
-                      [&](const Obstacle& other) { return other.object == one.object; }))
-        met[i].push_back(one);
-  });
-  std::vector<Obstacle> out;
-  for (const auto& some : met)
-    for (const Obstacle& one : some)
-      if (std::none_of(out.begin(), out.end(),
-                       [&](const Obstacle& other) { return other.object == one.object; }))
-        out.push_back(one);
-  return out;
-}
-
-std::vector<CodeMode::Obstacle> CodeMode::met_between(const GeometryAccess& access,
-                                                      const glm::dvec3& from, const glm::dvec3& to,
-                                                      double height_m) const {
-  constexpr float beyond_m = 1e-3f;
-  const CompiledScene& compiled = building_.scene();
-  const auto& objects = compiled.description->objects;
-  const glm::vec3 start = building_.local(from + glm::dvec3(0, 0, height_m));
-  const glm::vec3 way = building_.local(to + glm::dvec3(0, 0, height_m)) - start;
-  const float length = glm::length(way);
-  std::vector<Obstacle> out;
-  if (!(length > beyond_m)) return out;
-  const glm::vec3 direction = way / length;
-  for (float gone = 0; gone < length;) {
-    const auto hit =
-        next_surface(compiled, access, start + direction * gone, direction, length - gone);
-    if (!hit) break;
-    gone += hit->distance_m;
-    const uint32_t material = compiled.surfaces[hit->surface].material[hit->front ? 0 : 1];
-    if (hit->surface < objects.size() && compiled.materials[material].kind != MaterialKind::open)
-      out.push_back(
-          {&objects[hit->surface], from + (to - from) * static_cast<double>(gone / length)});
-    gone += beyond_m;
-  }
-  return out;
-}
-
-std::string CodeMode::words_of(const EscapeRoute& route, const Obstacle& met) const {
-  const SourcePlace& place = met.object->place;
-  return fmt::format("route \"{}\" leads through {} \"{}\"{} at {}", route.name,
-                     met.object->door ? "the closed door" : "the wall or body", met.object->name,
-                     place.line > 0 ? fmt::format(" ({}:{})", place.file, place.line) : "",
-                     shown(met.place));
-}
-
-std::vector<Problem> CodeMode::blind_signs() const {
-  std::vector<char> blind(scene_.signs.size(), 0);
-  building_.each(scene_.signs.size(), [&](const GeometryAccess& access, size_t i) {
-    const Sign& sign = scene_.signs[i];
-    const glm::dvec3 normal = sign.frame.axes[2];
-    const auto met =
-        next_surface(building_.scene(), access,
-                     building_.local(sign.frame.origin + normal * (sign.thickness_m / 2 + 0.005)),
-                     glm::vec3(normal), before_sign_m);
-    blind[i] = met ? 1 : 0;
-  });
-  std::vector<Problem> out;
-  for (size_t i = 0; i < blind.size(); ++i)
-    if (blind[i] != 0)
-      out.push_back({scene_.signs[i].place, "sign \"" + scene_.signs[i].name +
-                                                "\" faces a wall less than 0.3 m before it"});
-  return out;
-}
-
 void CodeMode::fill_plan(std::vector<PlanLevel>& levels) const {
   const auto sum = [](const LitPoint& p) {
     return std::accumulate(p.lux.begin(), p.lux.end(), 0.0);
@@ -400,14 +258,7 @@ Result<Done> assess_by_codes(const SceneDescription& scene, const Scenario& scen
                                    options.threads);
     if (!building.ok()) return building.problem();
     const CodeMode mode(scene, *building.value(), out.state.codes);
-    if (!furnished) {
-      if (auto ok = mode.walkable(); !ok.ok()) return ok;
-      mode.fill_plan(out.levels);
-      const auto doors = mode.closed_doors();
-      out.warnings.insert(out.warnings.end(), doors.begin(), doors.end());
-      const auto blind = mode.blind_signs();
-      out.warnings.insert(out.warnings.end(), blind.begin(), blind.end());
-    }
+    if (!furnished) mode.fill_plan(out.levels);
     auto checks = mode.checks_by_light();
     if (has_furniture) add_condition(checks, furnished ? "with furniture" : "without furniture");
     append(out.checks, checks);

@@ -93,8 +93,9 @@ Json changed_levels(const Json& before, const Json& after) {
   return out;
 }
 
-std::string shown(const Json& value) {
-  if (value.is_null()) return "not there";
+/// A verdict or value; `where` says of which assessment it is missing.
+std::string shown(const Json& value, const char* where) {
+  if (value.is_null()) return std::string("not assessed ") + where;
   return value.is_string() ? value.get<std::string>() : fmt::format("{:.4g}", value.get<double>());
 }
 
@@ -142,8 +143,8 @@ std::string comparison_text(const Json& comparison) {
     const Json& rows = comparison[key];
     out += fmt::format("{}: {}\n", title, rows.size());
     for (const Json& row : rows) {
-      out += fmt::format("  {}: {} -> {}", row["what"].get<std::string>(), shown(row["before"]),
-                         shown(row["after"]));
+      out += fmt::format("  {}: {} -> {}", row["what"].get<std::string>(),
+                         shown(row["before"], "before"), shown(row["after"], "after"));
       if (row.contains("unit") && row["unit"] != "1") out += " " + row["unit"].get<std::string>();
       if (row.contains("standard_errors"))
         out += fmt::format(" ({:+.1f} standard errors)", row["standard_errors"].get<double>());

@@ -9,7 +9,7 @@
 #include <tuple>
 
 #include "actors/assess/aged_light.hpp"
-#include "actors/assess/building.hpp"
+#include "actors/inspect/building.hpp"
 #include "actors/source/local_run.hpp"
 #include "scenes/emergency/sign_face.hpp"
 #include "scenes/geometry/polygon.hpp"
@@ -342,30 +342,6 @@ SignLook ViewReadout::look(double veil, bool as_new) const {
   look.difference =
       plus(arrives(white_legend ? 0 : 1), product({-1, 0}, arrives(white_legend ? 1 : 0)));
   return look;
-}
-
-/// How bad a verdict is. What is undecided may still turn out invisible.
-int badness(SightVerdict verdict) {
-  switch (verdict) {
-    case SightVerdict::legible:
-      return 0;
-    case SightVerdict::visible:
-      return 1;
-    case SightVerdict::undecided:
-      return 2;
-    case SightVerdict::invisible:
-      return 3;
-    case SightVerdict::hidden:
-      return 4;
-    case SightVerdict::not_assessed:
-      return 5;
-  }
-  return 5;
-}
-
-bool is_worse(const Sight& a, const Sight& b) {
-  const int x = badness(a.verdict), y = badness(b.verdict);
-  return x != y ? x > y : a.reading_level.value < b.reading_level.value;
 }
 
 /// In aged light and, where it differs, in new: the worse verdict counts.

@@ -2,12 +2,17 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "actors/assess/assessment_json.hpp"
+#include "actors/assess/check_words.hpp"
 #include "actors/assess/state_words.hpp"
 #include "actors/cli/command.hpp"
+#include "actors/cli/findings.hpp"
 #include "actors/cli/report_options.hpp"
+#include "scenes/format/file_names.hpp"
+#include "scenes/format/output_folder.hpp"
 
 namespace luxodus::cli {
 
@@ -32,17 +37,11 @@ std::string ids_of(std::span<const NamedRules> rows) {
 
 /// A check that fails, or whose limit was read nowhere, in a line.
 void print_check(const Json& check) {
-  const auto text = [&](const char* key) { return check[key].get<std::string>(); };
-  const auto number = [&](const char* key) {
-    return check[key].is_number() ? short_number(check[key].get<double>()) : std::string("none");
-  };
-  const bool fails = check["verdict"] == "fail";
-  std::printf("  %s: %s: %s: %s %s, %s %s (%s%s%s)%s%s\n", fails ? "fails" : "not verified",
-              text("subject").c_str(), text("title").c_str(), number("value").c_str(),
-              text("unit").c_str(), text("sense").c_str(), number("limit").c_str(),
-              text("rule").c_str(), text("condition").empty() ? "" : ", ",
-              text("condition").c_str(), fails ? "" : ": ",
-              fails ? "" : check.value("reason", "").c_str());
+  if (check["verdict"] == "fail")
+    std::printf("  fails: %s\n", check_words(check).c_str());
+  else
+    std::printf("  not verified: %s: %s\n", check_words(check).c_str(),
+                check.value("reason", "").c_str());
 }
 
 void print_summary(const Json& a) {
@@ -59,13 +58,20 @@ void print_summary(const Json& a) {
 Result<ExitCode> assess_scene(const AssessCommandOptions& options) {
   const auto scene = load_scene(options.scene);
   if (!scene) return ExitCode::bad_input;
+  const fs::path folder = options.out.empty()
+                              ? fs::path("out") / file_name_of(scene->name + "-assessed")
+                              : fs::path(options.out);
+  const auto out = OutputFolder::claim(
+      folder, {{"report.html", "report.pdf", "assessment.json", "checks.csv", "sights.csv"},
+               {"plans", "schedules"}});
+  if (!out.ok()) return out.problem();
   install_interrupt_handler();
   AssessOptions asked = options.assess;
   asked.reality = !options.codes_alone;
   ProgressLine line("assess");
   const auto assessed =
       assess(scene, asked, interrupt_flag(), [&](const std::string& what, double share) {
-        line.put(fmt::format("{}: {:.0f} %", what, 100 * share), share >= 1);
+        line.put(fmt::format("{}: {:.0f} %", what, 100 * share), share >= 1, share);
       });
   if (!assessed.ok()) {
     if (!interrupt_flag()) {
@@ -75,13 +81,16 @@ Result<ExitCode> assess_scene(const AssessCommandOptions& options) {
     spdlog::warn("interrupted; nothing was written");
     return ExitCode::interrupted;
   }
-  for (const Problem& warning : assessed->warnings) spdlog::warn("{}", warning.text());
-  const fs::path out =
-      options.out.empty() ? fs::path("out") / (scene->name + "-assessed") : fs::path(options.out);
+  tell_findings(assessed->findings);
+  for (const Problem& warning : assessed->warnings)
+    if (std::none_of(assessed->findings.begin(), assessed->findings.end(),
+                     [&](const Finding& f) { return f.problem.text() == warning.text(); }))
+      spdlog::warn("{}", warning.text());
   const Json json = assessment_json(*scene, assessed.value(), LUX_VERSION);
-  if (auto ok = write_assessment(out, json); !ok.ok()) return ok.problem();
+  if (auto ok = write_assessment(out->path(), json); !ok.ok()) return ok.problem();
   print_summary(json);
-  if (auto ok = write_report_and_tell(out, json, options.report); !ok.ok()) return ok.problem();
+  if (auto ok = write_report_and_tell(out.value(), json, options.report); !ok.ok())
+    return ok.problem();
   return options.strict && anything_open(json) ? ExitCode::failure : ExitCode::success;
 }
 
@@ -94,7 +103,7 @@ Result<ExitCode> compare_folders(const std::string& before, const std::string& a
   const Json comparison = comparison_of(a.value(), b.value());
   std::printf("%s", comparison_text(comparison).c_str());
   if (!json.empty())
-    if (auto ok = write_json(json, comparison); !ok.ok()) return ok.problem();
+    if (auto ok = write_json(behind_links(json), comparison); !ok.ok()) return ok.problem();
   return ExitCode::success;
 }
 

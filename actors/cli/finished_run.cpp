@@ -1,7 +1,6 @@
 #include "actors/cli/finished_run.hpp"
 
 #include "scenes/format/atomic_file.hpp"
-#include "scenes/format/json_out.hpp"
 
 namespace luxodus::cli {
 
@@ -9,7 +8,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Result<Json> read_json(const fs::path& file) {
+bool has_text(const Json& object, const char* key) {
+  return object.is_object() && object.contains(key) && object[key].is_string();
+}
+
+}  // namespace
+
+Result<Json> read_json_file(const fs::path& file) {
   constexpr uint64_t most_bytes = uint64_t{1} << 30;
   auto bytes = read_whole_file(file, most_bytes);
   if (!bytes.ok()) return bytes.problem();
@@ -17,15 +22,18 @@ Result<Json> read_json(const fs::path& file) {
   return Json::parse(text, text + bytes->size(), nullptr, false);
 }
 
-bool has_text(const Json& object, const char* key) {
-  return object.is_object() && object.contains(key) && object[key].is_string();
-}
-
-}  // namespace
-
 Result<FinishedRun> read_finished_run(const fs::path& folder) {
   const fs::path file = folder / "result.json";
-  const auto read = read_json(file);
+  std::error_code ignored;
+  if (!fs::exists(file, ignored)) {
+    const bool assessed = fs::exists(folder / "assessment.json", ignored);
+    return Problem{{folder.string(), 0},
+                   assessed ? "this is the folder of an assessment, not of a run: give the folder "
+                              "that luxodus run has written"
+                            : "there is no result.json here: give the folder that luxodus run has "
+                              "written"};
+  }
+  const auto read = read_json_file(file);
   if (!read.ok()) return read.problem();
   const Json& json = read.value();
   if (!has_text(json, "scene_file") || !has_text(json, "scenario") ||
@@ -52,7 +60,7 @@ Result<SceneState> scene_of_folder(const fs::path& folder) {
   std::error_code ignored;
   const fs::path assessed = folder / "assessment.json";
   if (!fs::exists(folder / "result.json", ignored) && fs::exists(assessed, ignored)) {
-    const auto read = read_json(assessed);
+    const auto read = read_json_file(assessed);
     if (!read.ok()) return read.problem();
     const Json scene = read->is_object() ? read->value("scene", Json()) : Json();
     if (!has_text(scene, "file") || !has_text(scene, "scenario"))

@@ -7,8 +7,12 @@
 #include <vector>
 
 #include "runtime/core/result.hpp"
+#include "scenes/format/json_out.hpp"
 
 namespace luxodus::cli {
+
+/// Errors: as read_whole_file. What is no JSON is a discarded value.
+Result<Json> read_json_file(const std::filesystem::path& file);
 
 /// result.json of a run, as far as others need it.
 struct FinishedRun {
@@ -19,7 +23,7 @@ struct FinishedRun {
   std::vector<double> batch_shares;  // of its source groups, where they were dealt by need
 };
 
-/// Errors: no result.json in the folder, or one that is not of a run.
+/// Errors: no result.json in the folder, or one that is not of a run; an assessment is named as such.
 Result<FinishedRun> read_finished_run(const std::filesystem::path& folder);
 
 /// A state of a building, by its scene file.

@@ -27,13 +27,29 @@ void add_report_options(CLI::App& command, ReportWords& words) {
   command.add_flag("--pdf", words.pdf, "print report.pdf, too, by Chromium where one is installed");
 }
 
-Result<Done> write_report_and_tell(const fs::path& folder, const Json& assessment,
+Result<Done> write_report_and_tell(const OutputFolder& folder, const Json& assessment,
                                    const ReportWords& words) {
-  if (auto ok = write_report(folder, assessment, words.options()); !ok.ok()) return ok;
-  std::printf("written to %s\n", (folder / "report.html").string().c_str());
-  if (words.pdf) std::printf("written to %s\n", (folder / "report.pdf").string().c_str());
+  ReportOptions options = words.options();
+  options.named = folder.named().string();
+  if (auto ok = write_report(folder.path(), assessment, options); !ok.ok()) return ok;
+  for (const char* file : {"report.html", "report.pdf"})
+    if (words.pdf || std::string_view(file) == "report.html")
+      std::printf("written to %s\n", (folder.named() / file).string().c_str());
   return Done{};
 }
+
+namespace {
+
+Result<Done> report_again(const std::string& folder, const ReportWords& words) {
+  const auto read = read_assessment(folder);
+  if (!read.ok()) return read.problem();
+  const auto out =
+      OutputFolder::claim(folder, {{"report.html", "report.pdf"}, {"plans", "schedules"}});
+  if (!out.ok()) return out.problem();
+  return write_report_and_tell(out.value(), read.value(), words);
+}
+
+}  // namespace
 
 void add_report(CLI::App& app, int& exit_code) {
   auto folder = std::make_shared<std::string>();
@@ -49,9 +65,7 @@ void add_report(CLI::App& app, int& exit_code) {
   command->add_option("folder", *folder, "folder of luxodus assess")->required();
   add_report_options(*command, *words);
   command->callback([folder, words, &exit_code] {
-    const auto read = read_assessment(*folder);
-    const auto done = read.ok() ? write_report_and_tell(*folder, read.value(), *words)
-                                : Result<Done>(read.problem());
+    const auto done = report_again(*folder, *words);
     if (done.ok()) return;
     tell(done.problem());
     exit_code = ExitCode::bad_input;

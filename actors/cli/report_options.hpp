@@ -6,6 +6,7 @@
 #include <string>
 
 #include "actors/report/report.hpp"
+#include "scenes/format/output_folder.hpp"
 
 namespace luxodus::cli {
 
@@ -20,7 +21,7 @@ struct ReportWords {
 void add_report_options(CLI::App& command, ReportWords& words);
 
 /// Writes the report and says where it is. Errors: as write_report.
-Result<Done> write_report_and_tell(const std::filesystem::path& folder, const Json& assessment,
+Result<Done> write_report_and_tell(const OutputFolder& folder, const Json& assessment,
                                    const ReportWords& words);
 
 }  // namespace luxodus::cli

@@ -4,8 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
+#include "actors/display/result_files.hpp"
+#include "actors/inspect/plane_cells.hpp"
 #include "actors/source/rows.hpp"
 #include "scenes/format/csv.hpp"
 #include "scenes/format/false_colour_png.hpp"
@@ -19,8 +20,43 @@ glm::dvec3 centre_of_cell(const PlaneMeasure& plane, int u, int v) {
          plane.edge_v * ((v + 0.5) / plane.cells_v);
 }
 
+/// Of the cells that are not left out.
 double mean_of(const std::vector<double>& values) {
-  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+  double sum = 0, count = 0;
+  for (const double v : values) {
+    if (std::isnan(v)) continue;
+    sum += v;
+    ++count;
+  }
+  return sum / count;
+}
+
+/// Smallest and largest of the cells that are not left out; the first where all are.
+std::pair<size_t, size_t> extremes_of(const std::vector<double>& values) {
+  const auto first = std::find_if(values.begin(), values.end(), [](double v) { return v == v; });
+  const size_t start = first == values.end() ? 0 : static_cast<size_t>(first - values.begin());
+  std::pair<size_t, size_t> out{start, start};
+  for (size_t i = start; i < values.size(); ++i) {
+    if (values[i] < values[out.first]) out.first = i;
+    if (values[i] > values[out.second]) out.second = i;
+  }
+  return out;
+}
+
+/// Takes cells out of a map. At their middles, inside of bodies, is no direct light, so the sums
+/// over groups hold for the rest, over less area.
+void leave_out(const std::vector<char>& cells, PlaneMap& map) {
+  const auto nothing = std::nan("");
+  for (size_t i = 0; i < cells.size(); ++i) {
+    if (cells[i] == 0) continue;
+    map.left_out.push_back(static_cast<uint32_t>(i));
+    map.direct_lx[i] = map.direct_in_clear_lx[i] = nothing;
+    map.indirect_lx[i] = {nothing, nothing};
+  }
+  const auto all = static_cast<double>(cells.size());
+  const double more = all / (all - static_cast<double>(map.left_out.size()));
+  for (auto* groups : {&map.group_direct_lx, &map.group_in_clear_lx})
+    for (double& lux : *groups) lux *= more;
 }
 
 /// Direct light of all cells. Sums of groups are kept by row and added in order: the same bits for
@@ -74,6 +110,24 @@ double area_of(const CompiledPlane& plane) {
   return plane.cell_area_m2 * plane.cells_u * plane.cells_v;
 }
 
+/// Of the cells that are not left out.
+double area_of(const CompiledPlane& plane, const PlaneMap& map) {
+  return plane.cell_area_m2 * static_cast<double>(map.centres.size() - map.left_out.size());
+}
+
+/// What the run has traced to the cells of a plane that are not left out [lm]. The error is that of
+/// the whole plane: those in bodies have next to no light, and so no part in it.
+Estimate traced_lumens(const CompiledScene& scene, const Readout& readout, const PlaneMap& map,
+                       uint32_t index, uint32_t quantity, int group = -1) {
+  Estimate out = readout.lumens(scene.blocks.planes, index, quantity, group);
+  for (const uint32_t cell : map.left_out)
+    out.value -=
+        readout
+            .lumens(scene.blocks.plane_cells, scene.planes[index].first_bin + cell, quantity, group)
+            .value;
+  return out;
+}
+
 // ---- result.json -------------------------------------------------------------------------------
 
 Json vector_json(const glm::dvec3& v) {
@@ -92,13 +146,12 @@ Json with_position(Json item, const glm::dvec3& place) {
 /// Smallest and largest of exact values, and where.
 Json clear_air_json(const PlaneMap& map) {
   const auto& e = map.direct_in_clear_lx;
-  const auto [low, high] = std::minmax_element(e.begin(), e.end());
-  const auto place = [&](auto it) { return map.centres[static_cast<size_t>(it - e.begin())]; };
+  const auto [low, high] = extremes_of(e);
   const double mean = mean_of(e);
   return {{"mean", exact_json(mean, "lx")},
-          {"minimum", with_position(exact_json(*low, "lx"), place(low))},
-          {"maximum", with_position(exact_json(*high, "lx"), place(high))},
-          {"uniformity", exact_json(mean > 0 ? *low / mean : std::nan(""), "1")}};
+          {"minimum", with_position(exact_json(e[low], "lx"), map.centres[low])},
+          {"maximum", with_position(exact_json(e[high], "lx"), map.centres[high])},
+          {"uniformity", exact_json(mean > 0 ? e[low] / mean : std::nan(""), "1")}};
 }
 
 Estimate plus_exact(double exact, const Estimate& e) {
@@ -116,10 +169,10 @@ Json uniformity_json(const Estimate& least, const Estimate& mean) {
 Json groups_json(const CompiledScene& scene, const Readout& readout, const PlaneMap& map,
                  uint32_t index) {
   Json out = Json::array();
-  const double per_area = 1 / area_of(scene.planes[index]);
+  const double per_area = 1 / area_of(scene.planes[index], map);
   for (size_t g = 0; g < scene.groups.size(); ++g) {
     const Estimate indirect =
-        readout.lumens(scene.blocks.planes, index, 1, static_cast<int>(g)) * per_area;
+        traced_lumens(scene, readout, map, index, 1, static_cast<int>(g)) * per_area;
     out.push_back({{"name", scene.groups[g].name},
                    {"direct_illuminance", exact_json(map.group_direct_lx[g], "lx")},
                    {"direct_in_clear_air", exact_json(map.group_in_clear_lx[g], "lx")},
@@ -132,21 +185,20 @@ Json groups_json(const CompiledScene& scene, const Readout& readout, const Plane
 Json plane_json(const CompiledScene& scene, const Readout& readout, const PlaneMap& map,
                 uint32_t index) {
   const PlaneMeasure& plane = scene.description->planes[index];
-  const double per_area = 1 / area_of(scene.planes[index]);
+  const double per_area = 1 / area_of(scene.planes[index], map);
   const double direct = mean_of(map.direct_lx);
-  const Estimate indirect = readout.lumens(scene.blocks.planes, index, 1) * per_area;
+  const Estimate indirect = traced_lumens(scene, readout, map, index, 1) * per_area;
   const Estimate mean = plus_exact(direct, indirect);
-  size_t low = 0, high = 0;
-  for (size_t i = 0; i < map.centres.size(); ++i) {
-    if (map.total(i).value < map.total(low).value) low = i;
-    if (map.total(i).value > map.total(high).value) high = i;
-  }
+  std::vector<double> totals;
+  for (size_t i = 0; i < map.centres.size(); ++i) totals.push_back(map.total(i).value);
+  const auto [low, high] = extremes_of(totals);
   Json out = {
       {"name", plane.name},
       {"cells", {plane.cells_u, plane.cells_v}},
       {"corner", vector_json(plane.corner)},
       {"normal", vector_json(glm::normalize(glm::cross(plane.edge_u, plane.edge_v)))},
       {"area", exact_json(area_of(scene.planes[index]), "m2")},
+      {"cells_in_bodies", map.left_out.size()},
       {"mean_illuminance", lux(mean)},
       {"minimum", with_position(lux(map.total(low)), map.centres[low])},
       {"maximum", with_position(lux(map.total(high)), map.centres[high])},
@@ -154,7 +206,7 @@ Json plane_json(const CompiledScene& scene, const Readout& readout, const PlaneM
       {"direct_illuminance", exact_json(direct, "lx")},
       {"direct_in_clear_air", clear_air_json(map)},
       {"indirect_illuminance", lux(indirect)},
-      {"traced_direct_illuminance", lux(readout.lumens(scene.blocks.planes, index, 0) * per_area)}};
+      {"traced_direct_illuminance", lux(traced_lumens(scene, readout, map, index, 0) * per_area)}};
   if (scene.groups.size() > 1) out["by_source_group"] = groups_json(scene, readout, map, index);
   return out;
 }
@@ -177,12 +229,12 @@ Result<Done> write_table(const std::filesystem::path& path, const PlaneMap& map)
 /// Levels that lighting people know, where they cut the map: those of the codes first, 1, 2, 5 per
 /// decade where fewer than three of them fit.
 std::vector<double> contour_levels(const std::vector<double>& values) {
-  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  const auto [low, high] = extremes_of(values);
   std::vector<double> code, fine;
   for (int decade = -4; decade <= 5; ++decade) {
     for (const double digit : {1.0, 2.0, 5.0}) {
       const double level = digit * std::pow(10.0, decade);
-      if (level <= *low || level >= *high) continue;
+      if (level <= values[low] || level >= values[high]) continue;
       fine.push_back(level);
       if (digit != 2 && level >= 0.5) code.push_back(level);
     }
@@ -231,7 +283,8 @@ FalseColourPicture picture_of(const CompiledScene& scene, const PlaneMeasure& pl
   return p;
 }
 
-Result<Done> write_pictures(const std::filesystem::path& folder, const LocalRun& run, size_t index,
+/// `stem`: of its files, without their endings.
+Result<Done> write_pictures(const std::filesystem::path& stem, const LocalRun& run, size_t index,
                             const PlaneMap& map) {
   const CompiledScene& scene = run.scene();
   const PlaneMeasure& plane = scene.description->planes[index];
@@ -246,19 +299,14 @@ Result<Done> write_pictures(const std::filesystem::path& folder, const LocalRun&
   p.notes = {"Direct light computed at the centres of the cells; indirect light from " +
                  std::to_string(run.particles()) + " particles",
              "Largest standard error of a cell: " + signs_of(worst, 2) + " lx"};
-  if (auto ok = write_false_colour_png(folder / (plane.name + ".png"), p); !ok.ok()) return ok;
+  if (auto ok = write_false_colour_png(std::filesystem::path(stem) += ".png", p); !ok.ok())
+    return ok;
   p.title += ", direct light in clear air";
   p.values = map.direct_in_clear_lx;
   p.contours = contour_levels(p.values);
   p.notes = {
       "Without reflected light and without smoke, as codes for emergency lighting calculate"};
-  return write_false_colour_png(folder / (plane.name + "_direct_clear_air.png"), p);
-}
-
-bool can_be_drawn(const PlaneMeasure& p) {
-  return p.cells_u <= limits::grid_edge_most && p.cells_v <= limits::grid_edge_most &&
-         static_cast<uint64_t>(p.cells_u) * static_cast<uint64_t>(p.cells_v) <=
-             limits::drawn_cells_most;
+  return write_false_colour_png(std::filesystem::path(stem) += "_direct_clear_air.png", p);
 }
 
 }  // namespace
@@ -281,6 +329,7 @@ PlaneMaps make_plane_maps(const LocalRun& run, const ShareDone& progress) {
           readout.lumens(scene.blocks.plane_cells, plane.first_bin + cell, 1) *
           (1 / plane.cell_area_m2));
     }
+    leave_out(cells_in_bodies(scene, run.rows(), i), map);
     maps.planes.push_back(std::move(map));
   }
   return maps;
@@ -290,17 +339,20 @@ Json planes_json(const LocalRun& run, const Readout& readout, const PlaneMaps& m
   Json out = Json::array();
   for (uint32_t i = 0; i < maps.planes.size(); ++i) {
     out.push_back(plane_json(run.scene(), readout, maps.planes[i], i));
+    out.back()["files"] = files_of_plane(*run.scene().description, i);
   }
   return out;
 }
 
 Result<Done> write_plane_maps(const std::filesystem::path& folder, const LocalRun& run,
                               const PlaneMaps& maps) {
+  const std::vector<std::string> names = result_names(*run.scene().description).planes;
   for (size_t i = 0; i < maps.planes.size(); ++i) {
-    const PlaneMeasure& plane = run.scene().description->planes[i];
-    if (auto ok = write_table(folder / (plane.name + ".csv"), maps.planes[i]); !ok.ok()) return ok;
-    if (!can_be_drawn(plane)) continue;
-    if (auto ok = write_pictures(folder, run, i, maps.planes[i]); !ok.ok()) return ok;
+    const std::filesystem::path stem = folder / names[i];
+    if (auto ok = write_table(std::filesystem::path(stem) += ".csv", maps.planes[i]); !ok.ok())
+      return ok;
+    if (!is_drawn(run.scene().description->planes[i])) continue;
+    if (auto ok = write_pictures(stem, run, i, maps.planes[i]); !ok.ok()) return ok;
   }
   return Done{};
 }

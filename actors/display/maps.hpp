@@ -28,6 +28,8 @@ struct PlaneMap {
   std::vector<Estimate> indirect_lx;       // traced: scattered, reflected, collimated
   std::vector<double> group_direct_lx;     // means over the plane, per source group
   std::vector<double> group_in_clear_lx;
+  /// Cells in bodies: their values are NaN, and they are in no mean.
+  std::vector<uint32_t> left_out;
 
   Estimate total(size_t cell) const {
     return {direct_lx[cell] + indirect_lx[cell].value, indirect_lx[cell].standard_error};
@@ -46,7 +48,8 @@ PlaneMaps make_plane_maps(const LocalRun& run, const ShareDone& progress = {});
 /// maximum are cells, with the error of that cell.
 Json planes_json(const LocalRun& run, const Readout& readout, const PlaneMaps& maps);
 
-/// Writes NAME.csv, NAME.png and NAME_direct_clear_air.png of every plane. A plane of more cells
+/// Writes NAME.csv, NAME.png and NAME_direct_clear_air.png of every plane, NAME being that of
+/// result_names(). A plane of more cells
 /// than limits::drawn_cells_most or grid_edge_most is written as a table only. Errors: as write_csv
 /// and write_png.
 Result<Done> write_plane_maps(const std::filesystem::path& folder, const LocalRun& run,

@@ -6,6 +6,7 @@
 
 #include "actors/display/maps.hpp"
 #include "actors/display/result_files.hpp"
+#include "actors/display/run_state.hpp"
 #include "scenes/emergency/sign_face.hpp"
 #include "scenes/emergency/sign_geometry.hpp"
 
@@ -265,27 +266,44 @@ Json views_json(const CompiledScene& scene, const Readout& readout) {
   return out;
 }
 
+/// A relative standard error and what it is of.
+struct NamedError {
+  double error;
+  Json of;
+};
+
 /// Median and worst of the relative standard errors of one kind of values that are above 0, which
 /// are those a run is judged by. Null where there is none, or where a value has no error yet.
-Json spread_json(std::vector<double> errors) {
+Json spread_json(std::vector<NamedError> errors) {
   if (errors.empty())
-    return {{"median", exact_json(std::nan(""), "1")}, {"worst", exact_json(std::nan(""), "1")}};
-  std::sort(errors.begin(), errors.end());
+    return {{"median", exact_json(std::nan(""), "1")},
+            {"worst", exact_json(std::nan(""), "1")},
+            {"worst_of", nullptr}};
+  std::stable_sort(errors.begin(), errors.end(),
+                   [](const NamedError& a, const NamedError& b) { return a.error < b.error; });
   const size_t n = errors.size();
-  return {{"median", exact_json((errors[(n - 1) / 2] + errors[n / 2]) / 2, "1")},
-          {"worst", exact_json(errors.back(), "1")}};
+  return {{"median", exact_json((errors[(n - 1) / 2].error + errors[n / 2].error) / 2, "1")},
+          {"worst", exact_json(errors.back().error, "1")},
+          {"worst_of", errors.back().of}};
+}
+
+/// What a value is of: a name, or a sign and who looks at it.
+Json subject_of(const Json& item) {
+  if (!item.contains("sign")) return {{"name", item["name"]}};
+  return {{"sign", item["sign"]}, {"observer", item["observer"]}};
 }
 
 /// The parts of worst_relative_error: far signs in smoke must not hide how good the planes are.
 Json relative_errors_json(const Json& result) {
   const auto of = [&](const char* list, const auto& judged) {
-    std::vector<double> errors;
+    std::vector<NamedError> errors;
     for (const Json& item : result[list]) {
       const Json& value = judged(item);
       if (!value["value"].is_number() || value["value"].get<double>() <= 0) continue;
       const Json& error = value["standard_error"];
-      errors.push_back(error.is_number() ? error.get<double>() / value["value"].get<double>()
-                                         : std::numeric_limits<double>::infinity());
+      errors.push_back({error.is_number() ? error.get<double>() / value["value"].get<double>()
+                                          : std::numeric_limits<double>::infinity(),
+                        subject_of(item)});
     }
     return spread_json(std::move(errors));
   };
@@ -297,13 +315,45 @@ Json relative_errors_json(const Json& result) {
        of("signs", [](const Json& s) -> const Json& { return s["white"]["luminance_at_eye"]; })}};
 }
 
+Json optional_json(const auto& value) {
+  return value ? Json(*value) : Json();
+}
+
+Json stop_json(const StopRule& stop) {
+  return {{"particles", optional_json(stop.particles)},
+          {"relative_error", optional_json(stop.relative_error)},
+          {"seconds", optional_json(stop.seconds)}};
+}
+
+std::string hash_text(const CompiledScene& scene) {
+  char hash[17];
+  std::snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(scene.scene_hash));
+  return hash;
+}
+
+Json source_groups_json(const CompiledScene& scene) {
+  Json groups = Json::array();
+  for (size_t g = 0; g < scene.groups.size(); ++g) {
+    const Group& group = scene.groups[g];
+    groups.push_back(
+        {{"name", group.name}, {"luminous_flux", exact_json(group.luminous_flux_lm, "lm")}});
+    if (!scene.batch_shares.empty()) groups.back()["batch_share"] = scene.batch_shares[g];
+  }
+  return groups;
+}
+
+Json cameras_json(const SceneDescription& scene) {
+  Json cameras = Json::array();
+  for (size_t i = 0; i < scene.cameras.size(); ++i)
+    cameras.push_back({{"name", scene.cameras[i].name}, {"files", files_of_view(scene, i)}});
+  return cameras;
+}
+
 Json result_of(const LocalRun& run, const RunRecord& record, const PlaneMaps& maps) {
   const CompiledScene& scene = run.scene();
   const Readout readout(scene, run.totals());
   const double error = readout.worst_relative_error();
   const double seconds = run.seconds();
-  char hash[17];
-  std::snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(scene.scene_hash));
   const auto rays = static_cast<double>(run.totals().ledger().rays);
   const double fom = error > 0 && seconds > 0 ? 1 / (error * error * seconds) : std::nan("");
   Json out = {
@@ -312,15 +362,18 @@ Json result_of(const LocalRun& run, const RunRecord& record, const PlaneMaps& ma
       {"scene", scene.description->name},
       {"title", scene.description->title},
       {"scene_file", record.scene_file},
-      {"scene_hash", hash},
+      {"scene_hash", hash_text(scene)},
       {"scenario", scene.scenario.name},
+      {"state", state_json(scene)},
       {"cells", record.cells},
       {"kernel", describe_kernel(scene)},
       {"seed", run.seed()},
       {"particles", run.particles()},
       {"batches", run.traced()},
       {"batch_particles", scene.batch_particles},
+      {"finished", true},
       {"stopped_by", record.stopped_by},
+      {"stop_rule", stop_json(record.stop)},
       {"threads", run.threads()},
       {"seconds", exact_json(seconds, "s")},
       {"particles_per_second", exact_json(static_cast<double>(run.particles()) / seconds, "1/s")},
@@ -330,14 +383,7 @@ Json result_of(const LocalRun& run, const RunRecord& record, const PlaneMaps& ma
       {"unlit", readout.unlit()},
       {"figure_of_merit", exact_json(fom, "1/s")},
       {"ledger", ledger_json(run.totals().ledger())}};
-  Json groups = Json::array();
-  for (size_t g = 0; g < scene.groups.size(); ++g) {
-    const Group& group = scene.groups[g];
-    groups.push_back(
-        {{"name", group.name}, {"luminous_flux", exact_json(group.luminous_flux_lm, "lm")}});
-    if (!scene.batch_shares.empty()) groups.back()["batch_share"] = scene.batch_shares[g];
-  }
-  out["source_groups"] = std::move(groups);
+  out["source_groups"] = source_groups_json(scene);
   out["planes"] = planes_json(run, readout, maps);
   out["probes"] = probes_json(run, readout);
   out["signs"] = views_json(scene, readout);
@@ -348,8 +394,7 @@ Json result_of(const LocalRun& run, const RunRecord& record, const PlaneMaps& ma
   out["counting_planes"] = counting_json(scene, readout);
   out["escape"] = escape_json(scene, readout);
   out["relative_errors"] = relative_errors_json(out);
-  out["cameras"] = Json::array();
-  for (const Camera& c : scene.description->cameras) out["cameras"].push_back({{"name", c.name}});
+  out["cameras"] = cameras_json(*scene.description);
   return out;
 }
 
@@ -359,12 +404,42 @@ Json result_json(const LocalRun& run, const RunRecord& record) {
   return result_of(run, record, make_plane_maps(run));
 }
 
+Json begun_json(const LocalRun& run, const RunRecord& record, double seconds) {
+  const CompiledScene& scene = run.scene();
+  Json planes = Json::array();
+  for (size_t i = 0; i < scene.description->planes.size(); ++i)
+    planes.push_back({{"name", scene.description->planes[i].name},
+                      {"files", files_of_plane(*scene.description, i)}});
+  return {{"schema", result_schema},
+          {"program", "luxodus"},
+          {"scene", scene.description->name},
+          {"title", scene.description->title},
+          {"scene_file", record.scene_file},
+          {"scene_hash", hash_text(scene)},
+          {"scenario", scene.scenario.name},
+          {"state", state_json(scene)},
+          {"cells", record.cells},
+          {"seed", run.seed()},
+          {"particles", run.particles()},
+          {"finished", false},
+          {"stop_rule", stop_json(record.stop)},
+          {"seconds", exact_json(seconds, "s")},
+          {"error_of", scene.judged.words},
+          {"source_groups", source_groups_json(scene)},
+          {"planes", std::move(planes)},
+          {"cameras", cameras_json(*scene.description)}};
+}
+
 Result<Json> write_report(const std::filesystem::path& folder, const LocalRun& run,
                           const RunRecord& record, const ShareDone& progress) {
   if (auto ok = remove_old_maps(folder); !ok.ok()) return ok.problem();
   std::error_code error;
   std::filesystem::create_directories(folder / "planes", error);
   if (error) return Problem{{folder.string(), 0}, "cannot make this folder: " + error.message()};
+  // Should this process be killed before the end, the files below are known to be a run's.
+  if (auto ok = write_json(folder / "result.json", begun_json(run, record, run.seconds()));
+      !ok.ok())
+    return ok.problem();
   const PlaneMaps maps = make_plane_maps(run, progress);
   if (auto ok = write_plane_maps(folder / "planes", run, maps); !ok.ok()) return ok.problem();
   if (auto ok = write_flux_maps(folder, run); !ok.ok()) return ok.problem();

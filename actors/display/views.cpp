@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "actors/display/pictures.hpp"
+#include "actors/display/result_files.hpp"
 #include "scenes/format/false_colour_png.hpp"
 #include "scenes/format/write_image.hpp"
 #include "scenes/optics/chromaticity.hpp"
@@ -189,10 +190,11 @@ FalseColourPicture luminance_map(const LocalRun& run, const Camera& camera,
   return p;
 }
 
-Result<Done> write_view(const std::filesystem::path& folder, const LocalRun& run,
+/// `stem`: of its files, without their endings.
+Result<Done> write_view(const std::filesystem::path& stem, const LocalRun& run,
                         const Camera& camera, const TracedPicture& traced,
                         const PictureOptions& options) {
-  const auto path = [&](const char* ending) { return folder / (camera.name + ending); };
+  const auto path = [&](const char* ending) { return std::filesystem::path(stem) += ending; };
   if (auto ok = write_exr(path(".exr"), exr_of(run, camera, traced, options)); !ok.ok()) return ok;
   const auto texts = texts_of(run, camera);
   const XyzPicture balanced = white_balanced(run.scene(), with_calm_colour(traced));
@@ -208,10 +210,7 @@ Result<Done> write_view(const std::filesystem::path& folder, const LocalRun& run
              "What an adapted eye tells apart (Ward Larson, Rushmeier and Piatko 1997), shown on a "
              "monitor of 200 cd/m2; luminance data is in the EXR file");
   if (auto ok = write_png(path("_human.png"), seen); !ok.ok()) return ok;
-  if (std::max(camera.width, camera.height) > limits::grid_edge_most ||
-      traced.light.pixels() > limits::drawn_cells_most) {
-    return Done{};
-  }
+  if (!is_mapped(camera)) return Done{};
   return write_false_colour_png(path("_luminance.png"),
                                 luminance_map(run, camera, traced, options));
 }
@@ -222,7 +221,7 @@ Result<std::vector<size_t>> chosen_views(const SceneDescription& scene, const st
   std::string known;
   for (size_t i = 0; i < scene.cameras.size(); ++i) {
     if (only.empty() || scene.cameras[i].name == only) out.push_back(i);
-    known += (known.empty() ? "" : ", ") + scene.cameras[i].name;
+    known += (known.empty() ? "\"" : ", \"") + scene.cameras[i].name + "\"";
   }
   if (!only.empty() && out.empty()) {
     return Problem{{scene.file, 0},
@@ -252,6 +251,7 @@ Result<Done> render_views(const std::filesystem::path& folder, const LocalRun& r
     return Problem{{(folder / "views").string(), 0}, "cannot make this folder: " + error.message()};
   std::unique_ptr<PatchRadiance> flux;
   if (options.gather && run.batches() > 0) flux = flux_radiance(run);
+  const std::vector<std::string> names = result_names(scene).views;
   double all = 0, before = 0;
   const auto pixels = [&](size_t i) {
     return static_cast<double>(scene.cameras[i].width) * scene.cameras[i].height;
@@ -261,8 +261,10 @@ Result<Done> render_views(const std::filesystem::path& folder, const LocalRun& r
     const TracedPicture traced = trace_picture(run, i, options, flux.get(), [&](double share) {
       if (progress) progress((before + share * pixels(i)) / all);
     });
+    if (options.interrupted()) return Done{};
     before += pixels(i);
-    if (auto ok = write_view(folder / "views", run, scene.cameras[i], traced, options); !ok.ok())
+    if (auto ok = write_view(folder / "views" / names[i], run, scene.cameras[i], traced, options);
+        !ok.ok())
       return ok;
   }
   return Done{};

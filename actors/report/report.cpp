@@ -21,6 +21,10 @@ std::string bytes_text(const std::vector<std::byte>& bytes) {
   return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
 }
 
+std::string named(const fs::path& folder, const ReportOptions& options) {
+  return options.named.empty() ? folder.string() : options.named;
+}
+
 Result<Done> make_folder(const fs::path& folder) {
   std::error_code failed;
   fs::create_directories(folder, failed);
@@ -75,8 +79,8 @@ Result<Done> print_report(const fs::path& folder, const Json& a,
   const fs::path pdf = folder / "report.pdf";
   const fs::path page = folder / fmt::format(".report.{}.html", ::getpid());
   const auto print = [&](const std::map<std::string, int>& pages) -> Result<Done> {
-    const auto written =
-        write_file_atomically(page, report_html(a, pictures, folder.string(), options, pages));
+    const auto written = write_file_atomically(
+        page, report_html(a, pictures, named(folder, options), options, pages));
     return written.ok() ? print_pdf(page, pdf) : written;
   };
   Result<Done> done = print({});
@@ -131,7 +135,7 @@ Result<Done> write_report(const fs::path& folder, const Json& a, const ReportOpt
     return ok;
   if (auto ok = write_schedules(folder / "schedules", a, schedule); !ok.ok()) return ok;
   if (auto ok = write_file_atomically(folder / "report.html",
-                                      report_html(a, pictures, folder.string(), options));
+                                      report_html(a, pictures, named(folder, options), options));
       !ok.ok())
     return ok;
   return options.pdf ? print_report(folder, a, pictures, options) : Done{};

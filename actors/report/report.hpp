@@ -21,6 +21,7 @@ struct ReportOptions {
   bool letter = false;  // paper: Letter, else A4
   bool grid_values = false;
   bool pdf = false;
+  std::string named;  // the folder as people name it, for commands on the page; "": as it is
 };
 
 /// Pictures of `luxodus run` and `render` in folder/views and folder/run/views, by name.

@@ -3,11 +3,13 @@
 // fast, never what.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <vector>
 
 #include "actors/source/batch_plan.hpp"
 #include "actors/source/rows.hpp"
@@ -63,15 +65,21 @@ class LocalRun {
   /// Has batches traced by another loop than the program's own.
   void trace_with(MakeTracer make) { make_tracer_ = std::move(make); }
 
-  /// Has `pause` called between batches, while nobody adds to the totals, whenever `due` says so:
-  /// by run() on its thread, by a controller on its. Both functions outlive the run.
-  void set_pause(std::function<bool()> due, std::function<void()> pause) {
-    pause_due_ = std::move(due);
-    pause_ = std::move(pause);
+  /// Has `pause` called between batches, while nobody adds to the totals and these are of all
+  /// batches() but the missing ones, whenever `due` says so: by run() on its thread, by a controller
+  /// on its. Until remove_pause() of the same owner. Requires: the run does not go on meanwhile.
+  void add_pause(const void* owner, std::function<bool()> due, std::function<void()> pause) {
+    pauses_.push_back({owner, std::move(due), std::move(pause)});
   }
-  bool pause_is_due() const { return pause_due_ && pause_due_(); }
+  void remove_pause(const void* owner) {
+    std::erase_if(pauses_, [owner](const Pause& pause) { return pause.owner == owner; });
+  }
+  bool pause_is_due() const {
+    return std::any_of(pauses_.begin(), pauses_.end(), [](const Pause& p) { return p.due(); });
+  }
   void pause_if_due() {
-    if (pause_is_due()) pause_();
+    for (Pause& pause : pauses_)
+      if (pause.due()) pause.take();
   }
 
   /// Goes on from totals that hold the first `batches` batches, but for those `missing`: these are
@@ -128,8 +136,12 @@ class LocalRun {
   double error_ = 0;
   int64_t batches_at_start_ = 0;
   MakeTracer make_tracer_ = make_batch_tracer;
-  std::function<bool()> pause_due_;
-  std::function<void()> pause_;
+  struct Pause {
+    const void* owner;
+    std::function<bool()> due;
+    std::function<void()> take;
+  };
+  std::vector<Pause> pauses_;
 };
 
 }  // namespace luxodus

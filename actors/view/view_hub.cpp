@@ -5,6 +5,8 @@
 
 #include "actors/view/sign_verdicts.hpp"
 #include "scenes/format/atomic_file.hpp"
+#include "scenes/format/output_path.hpp"
+#include "scenes/format/scene_file.hpp"
 #include "scenes/geometry/transform.hpp"
 
 namespace luxodus {
@@ -34,6 +36,28 @@ bool is_plain_name(const std::string& name) {
              "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_- ") ==
              std::string::npos &&
          !name.empty() && name.front() != ' ' && name.back() != ' ';
+}
+
+/// Under another name first, where it is read back and compiled: a variant that is kept is a scene.
+Result<Done> save_variant(const std::filesystem::path& file, const std::string& text) {
+  const auto trial = file.parent_path() / ("." + file.stem().string() + ".trial.toml");
+  if (auto ok = write_file_atomically(trial, text); !ok.ok()) return ok;
+  auto read = read_scene(trial);
+  std::error_code ignored;
+  std::filesystem::remove(trial, ignored);
+  const auto unfit = [](const Problem& why) {
+    return Problem{{}, "it is not saved, since it would be no scene: " + why.what};
+  };
+  if (!read.scene) return unfit(read.problems.list().front());
+  const auto scene = std::make_shared<const SceneDescription>(std::move(*read.scene));
+  for (size_t i = 0; i < std::max<size_t>(1, scene->scenarios.size()); ++i) {
+    const auto state =
+        find_scenario(*scene, scene->scenarios.empty() ? "" : scene->scenarios[i].name);
+    if (!state.ok()) return unfit(state.problem());
+    if (auto compiled = compile_scene(scene, state.value(), {}); !compiled.ok())
+      return unfit(compiled.problem());
+  }
+  return write_file_atomically(file, text);
 }
 
 }  // namespace
@@ -126,8 +150,30 @@ void ViewHub::answers(const LiveAnswer& answer) {
   });
 }
 
-void ViewHub::refuses(const std::string& why) {
-  post_([this, why] { to_all({{"type", "refused"}, {"why", why}}); });
+void ViewHub::refuses(uint64_t number, const std::string& why) {
+  post_([this, number, why] {
+    // A later wish is judged by itself, with all that the refused one has left in it.
+    if (number == wish_number_) take_back();
+    to_all({{"type", "refused"}, {"why", why}});
+  });
+}
+
+void ViewHub::wish() {
+  trace_->wish(wish_, ++wish_number_);
+}
+
+/// What is traced is in force again.
+void ViewHub::take_back() {
+  if (!generation_.scene) return;
+  for (const LiveWish::Copy& copy : wish_.added)
+    if (std::none_of(generation_.wish.added.begin(), generation_.wish.added.end(),
+                     [&](const LiveWish::Copy& one) { return one.name == copy.name; }))
+      dimming_.factors.erase(copy.is_sign ? group_of_sign(copy.name)
+                                          : group_of_luminaire(copy.name));
+  if (wish_.scenario != generation_.wish.scenario)
+    if (const auto before = find_scenario(*scene_, generation_.wish.scenario); before.ok())
+      dimming_.seconds = seconds_said(before.value());
+  wish_ = generation_.wish;
 }
 
 // ---- viewers -----------------------------------------------------------------------------------
@@ -204,12 +250,12 @@ void ViewHub::handle(Viewer& viewer, const ScenarioEdit& edit) {
   if (!found.ok()) return refuse(viewer, found.problem().what);
   wish_.scenario = edit.name;
   dimming_.seconds = seconds_said(found.value());
-  trace_->wish(wish_);
+  wish();
 }
 
 void ViewHub::handle(Viewer&, const SmokeEdit& edit) {
   wish_.smoke = edit.factor;
-  trace_->wish(wish_);
+  wish();
 }
 
 void ViewHub::share() {
@@ -240,7 +286,7 @@ void ViewHub::handle(Viewer& viewer, const MoveEdit& edit) {
   if (!can_stand(viewer, edit.is_sign, edit.position, edit.facing)) return;
   auto& moves = edit.is_sign ? wish_.signs : wish_.luminaires;
   moves[edit.name] = {edit.position, edit.facing};
-  trace_->wish(wish_);
+  wish();
 }
 
 std::vector<LiveWish::Copy>::const_iterator ViewHub::added(const std::string& name) const {
@@ -286,7 +332,7 @@ void ViewHub::handle(Viewer& viewer, const AddEdit& edit) {
                             {"kind", copy.is_sign ? "sign" : "luminaire"},
                             {"of", edit.of},
                             {"name", copy.name}}));
-  trace_->wish(wish_);
+  wish();
 }
 
 void ViewHub::handle(Viewer& viewer, const RemoveEdit& edit) {
@@ -297,7 +343,7 @@ void ViewHub::handle(Viewer& viewer, const RemoveEdit& edit) {
   (copy->is_sign ? wish_.signs : wish_.luminaires).erase(edit.name);
   dimming_.factors.erase(copy->is_sign ? group_of_sign(edit.name) : group_of_luminaire(edit.name));
   wish_.added.erase(copy);
-  trace_->wish(wish_);
+  wish();
 }
 
 void ViewHub::handle(Viewer& viewer, const SaveEdit& edit) {
@@ -308,7 +354,7 @@ void ViewHub::handle(Viewer& viewer, const SaveEdit& edit) {
   if (std::filesystem::exists(file, ignored))
     return refuse(viewer, file.string() + " is there already: take another name");
   const auto saved =
-      write_file_atomically(file, variant_text(*scene_, wish_, dimming_.factors, edit.name));
+      save_variant(behind_links(file), variant_text(*scene_, wish_, dimming_.factors, edit.name));
   if (!saved.ok()) return refuse(viewer, saved.problem().text());
   viewer.send_text(text_of({{"type", "saved"}, {"file", file.string()}}));
 }

@@ -110,6 +110,24 @@ class Loader {
 using Documents = std::vector<std::unique_ptr<Document>>;
 using Reader = void (*)(const toml::table&, SceneReading&);
 
+/// A side is named once, and by one of its words. A file's own list replaces that of those it
+/// includes.
+void read_open_sides(KeyReader& keys, SceneReading& reading) {
+  if (!keys.has("open_sides")) return;
+  reading.scene.open_sides.clear();
+  for (const std::string& word : keys.texts("open_sides")) {
+    const auto at = std::find(side_words.begin(), side_words.end(), word);
+    if (at == side_words.end()) {
+      keys.problem("open_sides", "'open_sides' knows no side '" + word +
+                                     "'; write west, east, south, north, bottom or top");
+      continue;
+    }
+    const auto side = static_cast<Side>(at - side_words.begin());
+    auto& sides = reading.scene.open_sides;
+    if (std::find(sides.begin(), sides.end(), side) == sides.end()) sides.push_back(side);
+  }
+}
+
 void read_head(const Documents& documents, const fs::path& path, SceneReading& reading) {
   reading.scene.name = path.stem().string();
   reading.scene.file = path.string();
@@ -117,6 +135,7 @@ void read_head(const Documents& documents, const fs::path& path, SceneReading& r
     KeyReader& keys = *d->keys;
     if (keys.has("title")) reading.scene.title = keys.text("title");
     if (keys.has("patch_edge_m")) reading.patch_edge_m = keys.number("patch_edge_m");
+    read_open_sides(keys, reading);
     const auto name = keys.maybe_text("name");
     if (name) reading.scene.name = *name;
     if (const toml::table* run = keys.table("run")) read_run(*run, reading);

@@ -20,6 +20,9 @@ TableSpec scene_keys() {
           {"patch_edge_m", "number", "m", "0.5", "[0, 1e4]",
            "longest edge of a flux patch where an object does not say its own; 0: one patch per "
            "triangle"},
+          {"open_sides", "texts", "", "[]", "west, east, south, north, bottom, top",
+           "sides of the bounding box (-x, +x, -y, +y, -z, +z) through which light is meant to "
+           "leave: no warning that rooms are not closed there"},
           {"run", "table", "", "", "", "settings of a run"},
           {"material", "tables", "", "", "", "materials"},
           {"object", "tables", "", "", "", "surfaces written in the file"},

@@ -188,7 +188,7 @@ void PackReport::add(ScenePart::Kind kind, uint64_t bytes) {
 }
 
 Result<PackReport> write_pack(const std::filesystem::path& path, const CompiledScene& scene,
-                              int partition, const std::function<void(double)>& progress) {
+                              int partition, const std::function<bool(double)>& progress) {
   if (scene.triangles == 0)
     return Problem{{scene.description->file, 0}, "the scene has no triangles to pack"};
   auto writer = begin(path);
@@ -202,7 +202,9 @@ Result<PackReport> write_pack(const std::filesystem::path& path, const CompiledS
     writer->write(bytes);
     writer->align();
     report.add(parts[i].kind, bytes.size());
-    if (progress) progress(static_cast<double>(i + 1) / static_cast<double>(parts.count()));
+    const double share = static_cast<double>(i + 1) / static_cast<double>(parts.count());
+    if (progress && !progress(share))
+      return Problem{{path.string(), 0}, "interrupted; nothing was written"};
   }
   const std::vector<std::byte> skeleton = encode_skeleton(*scene.description, packed);
   auto bytes = writer->end(skeleton, true);

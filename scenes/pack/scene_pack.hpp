@@ -40,10 +40,10 @@ struct PackReport {
 };
 
 /// Writes a scene, compiled with `partition` cells from a description with triangles; whole or not
-/// at all. `progress`: share of the objects written. Errors: as AtomicFile; a scene without
-/// triangles.
+/// at all. `progress`: share of the objects written; false: no more of them are wanted. Errors: as
+/// AtomicFile; a scene without triangles; what `progress` has ended.
 Result<PackReport> write_pack(const std::filesystem::path& path, const CompiledScene& scene,
-                              int partition, const std::function<void(double)>& progress = {});
+                              int partition, const std::function<bool(double)>& progress = {});
 
 /// Copies a pack without its objects. Errors: as read_pack and AtomicFile.
 Result<PackReport> write_skeleton_pack(const std::filesystem::path& path,

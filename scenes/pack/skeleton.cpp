@@ -201,11 +201,22 @@ void serialize(A& a, Medium& x) {
     x.quadric, x.local_bounds, x.data, x.emission);
 }
 template <class A>
+void serialize_sides(A& a, std::vector<Side>& x) {
+  uint64_t count = x.size();
+  a(count);
+  if constexpr (A::is_loading::value) {
+    if (count > a.left()) throw DamagedArchive("it holds a list longer than itself");
+    x.resize(count);
+  }
+  for (Side& side : x) a(choice(side, Side::top));
+}
+template <class A>
 void serialize(A& a, SceneDescription& x) {
   a(x.name, x.title, x.file, x.run, x.materials, x.objects, x.emitters, x.media, x.signs);
   a(x.planes, x.probes, x.surface_groups, x.volume_groups, x.counting_planes, x.observers,
     x.cameras, x.routes, x.open_areas, x.task_areas, x.emphasis, x.assessment, x.project, x.scenarios,
     x.content_hash, x.degenerate_triangles, x.warnings);
+  serialize_sides(a, x.open_sides);
 }
 template <class A>
 void serialize(A& a, CompiledSurface& x) {

@@ -88,7 +88,7 @@ class Read : public DL_CreationAdapter {
   void addText(const DL_TextData& data) override { texts.push_back(data.text); }
 
  private:
-  std::string attributes_layer() const { return getAttributes().getLayer(); }
+  std::string attributes_layer() { return getAttributes().getLayer(); }
 };
 
 }  // namespace

@@ -102,6 +102,14 @@ TEST_CASE("a packed scene is the scene that was packed, and is traced to the sam
   }
 }
 
+TEST_CASE("the open sides of a scene go through a pack", "[pack]") {
+  const ScratchFolder folder;
+  auto scene = std::make_shared<SceneDescription>(*described("empty_room.toml"));
+  scene->open_sides = {Side::top, Side::west};
+  REQUIRE(write_pack(folder / "open.luxpack", *compiled(scene, "", 1), 1).ok());
+  CHECK(opened(folder / "open.luxpack")->open_sides == scene->open_sides);
+}
+
 TEST_CASE("smoke data and pictures go through a pack as objects, and not in its skeleton",
           "[pack]") {
   const ScratchFolder folder;

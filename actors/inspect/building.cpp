@@ -1,7 +1,8 @@
-#include "actors/assess/building.hpp"
+#include "actors/inspect/building.hpp"
 
 #include <algorithm>
 
+#include "scenes/transport/surroundings.hpp"
 #include "scenes/world/measurements.hpp"
 
 namespace luxodus {
@@ -10,9 +11,6 @@ namespace {
 
 /// Points along each edge of a face that are tried.
 constexpr int face_points = 3;
-/// Of six directions, so many that show a back: inside.
-constexpr int backs_of_solid = 4;
-constexpr float far_m = 1000;
 
 }  // namespace
 
@@ -23,7 +21,10 @@ SceneDescription without_measurements(const SceneDescription& scene) {
 }
 
 Building::Building(std::shared_ptr<const CompiledScene> scene, int threads)
-    : scene_(std::move(scene)), index_(device_, *scene_), rows_(index_, threads) {}
+    : scene_(std::move(scene)),
+      index_(device_, *scene_),
+      rows_(index_, threads),
+      turned_(turned_surfaces(*scene_, GeometryAccess::resident(index_))) {}
 
 Result<std::unique_ptr<Building>> Building::make(SceneDescription scene, const Scenario& scenario,
                                                  int threads) {
@@ -42,15 +43,7 @@ void Building::each(size_t count,
 }
 
 bool Building::in_solid(const GeometryAccess& access, const glm::dvec3& place) const {
-  int backs = 0;
-  for (int axis = 0; axis < 3; ++axis)
-    for (const float sign : {-1.0f, 1.0f}) {
-      glm::vec3 direction(0);
-      direction[axis] = sign;
-      const auto met = next_surface(*scene_, access, local(place), direction, far_m);
-      if (met && !met->front) ++backs;
-    }
-  return backs >= backs_of_solid;
+  return in_body(*scene_, access, local(place), turned_);
 }
 
 double Building::seen_share(const GeometryAccess& access, const Sign& sign, const SignView& view,

@@ -17,13 +17,17 @@ class Building {
                                                 int threads);
 
   const CompiledScene& scene() const { return *scene_; }
+  /// Surfaces of rooms that show their backs to the inside, as turned_surfaces.
+  const std::vector<char>& turned() const { return turned_; }
   glm::vec3 local(const glm::dvec3& place) const { return glm::vec3(place - scene_->local_origin); }
   /// Calls `work` with every number below `count`, on all threads.
   void each(size_t count,
             const std::function<void(const GeometryAccess& access, size_t i)>& work) const;
 
-  /// Whether a place lies in a closed body: most surfaces around it show their backs.
+  /// Whether a place lies in a closed body, as in_body says; rooms that are drawn with their faces
+  /// to the outside are none.
   bool in_solid(const GeometryAccess& access, const glm::dvec3& place) const;
+  const RowRunner& rows() const { return rows_; }
   /// Share of a sign's face that has a clear line to an eye.
   double seen_share(const GeometryAccess& access, const Sign& sign, const SignView& view,
                     const glm::dvec3& eye) const;
@@ -35,6 +39,7 @@ class Building {
   EmbreeDevice device_;
   SceneIndex index_;
   ResidentRows rows_;
+  std::vector<char> turned_;  // as turned_surfaces
 };
 
 /// A copy with nothing to tally: no planes, probes, groups, observers, cameras, voxels.
