@@ -198,7 +198,7 @@ Json assessment_json(const SceneDescription& scene, const Assessment& assessment
   Json& warnings = out["warnings"] = Json::array();
   for (const Problem& warning : assessment.warnings) warnings.push_back(warning.text());
   out["project"] = project_json(scene.project);
-  out["scenario"] = scenario_json(scene, assessment.scenario);
+  out["scenario"] = scenario_json(scene, assessment.state.scenario);
   out["luminaires"] = luminaires_json(scene);
   out["signs"] = signs_json(scene);
   out["places"] = places_json(scene);
