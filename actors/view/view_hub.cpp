@@ -5,12 +5,16 @@
 
 #include "actors/view/sign_verdicts.hpp"
 #include "scenes/format/atomic_file.hpp"
+#include "scenes/format/output_text.hpp"
 #include "scenes/format/scene_file.hpp"
 #include "scenes/geometry/transform.hpp"
 
 namespace luxodus {
 
 namespace {
+
+/// Of the building, that something may stand outside of it: across the street.
+constexpr double sizes_outside = 10;
 
 LiveFrame text_of(const Json& message) {
   return std::make_shared<const std::string>(
@@ -38,7 +42,8 @@ bool is_plain_name(const std::string& name) {
 }
 
 /// Under another name first, where it is read back and compiled: a variant that is kept is a scene.
-Result<Done> save_variant(const std::filesystem::path& file, const std::string& text) {
+Result<Done> save_variant(const std::filesystem::path& file, const std::string& text,
+                          const std::string& scenario) {
   const auto trial = file.parent_path() / ("." + file.stem().string() + ".trial.toml");
   if (auto ok = write_file_atomically(trial, text); !ok.ok()) return ok;
   auto read = read_scene(trial);
@@ -49,14 +54,16 @@ Result<Done> save_variant(const std::filesystem::path& file, const std::string& 
   };
   if (!read.scene) return unfit(read.problems.list().front());
   const auto scene = std::make_shared<const SceneDescription>(std::move(*read.scene));
-  for (size_t i = 0; i < std::max<size_t>(1, scene->scenarios.size()); ++i) {
-    const auto state =
-        find_scenario(*scene, scene->scenarios.empty() ? "" : scene->scenarios[i].name);
-    if (!state.ok()) return unfit(state.problem());
-    if (auto compiled = compile_scene(scene, state.value(), {}); !compiled.ok())
-      return unfit(compiled.problem());
-  }
+  const auto state = find_scenario(*scene, scenario);
+  if (!state.ok()) return unfit(state.problem());
+  if (auto compiled = compile_scene(scene, state.value(), {}); !compiled.ok())
+    return unfit(compiled.problem());
   return write_file_atomically(file, text);
+}
+
+/// How far a place is outside of the box [m].
+double outside(const Bounds& box, const glm::dvec3& place) {
+  return glm::length(glm::max(glm::max(box.low - place, place - box.high), glm::dvec3(0)));
 }
 
 }  // namespace
@@ -295,6 +302,15 @@ std::vector<LiveWish::Copy>::const_iterator ViewHub::added(const std::string& na
 
 bool ViewHub::can_stand(Viewer& viewer, bool is_sign, const glm::dvec3& position,
                         const std::optional<glm::dvec3>& facing) {
+  if (generation_.scene) {
+    const auto& box = generation_.scene->bounds;
+    const double size = glm::length(box.high - box.low);
+    // Farther away nothing is lit, and what measures from the middle of all loses the building.
+    if (const double far = outside(box, position); far > sizes_outside * size) {
+      refuse(viewer, "that place is " + readable_number(far, 3) + " m outside of the building");
+      return false;
+    }
+  }
   if (!facing) return true;
   const auto frame = (is_sign ? frame_facing : frame_aiming)(position, *facing, {0, 0, 1});
   if (!frame.ok()) refuse(viewer, frame.problem().what);
@@ -352,7 +368,8 @@ void ViewHub::handle(Viewer& viewer, const SaveEdit& edit) {
   std::error_code ignored;
   if (std::filesystem::exists(file, ignored))
     return refuse(viewer, file.string() + " is there already: take another name");
-  const auto saved = save_variant(file, variant_text(*scene_, wish_, dimming_.factors, edit.name));
+  const auto saved =
+      save_variant(file, variant_text(*scene_, wish_, dimming_.factors, edit.name), wish_.scenario);
   if (!saved.ok()) return refuse(viewer, saved.problem().text());
   viewer.send_text(text_of({{"type", "saved"}, {"file", file.string()}}));
 }

@@ -452,32 +452,69 @@ TEST_CASE("a variant is saved under a plain name, and never over a file", "[view
   hub.leaves(viewer);
 }
 
+namespace {
+
+/// With a scenario in which nothing is lit, so that it cannot be traced.
+const std::string dark_scenario = R"(
+[[scenario]]
+name = "day"
+operation = "mains"
+
+[[scenario]]
+name = "night"
+operation = "dark"
+)";
+
+}  // namespace
+
 TEST_CASE("an edit that is refused is not in force, and no variant has it", "[view]") {
-  const test::LiveRoom of_sign;
-  Edited live(of_sign.scene());
+  const test::LiveRoom of_dark(dark_scenario);
+  Edited live(of_dark.scene());
   const uint32_t before = live.scene()["generation"];
-  live.says(R"({"type":"move","kind":"sign","name":"exit","position":[1e7,0,0],"facing":[1,0,0]})");
+  live.says(R"({"type":"scenario","name":"night"})");
   live.posts.until([&] { return live.viewer.last("refused") != nullptr; });
+  CHECK(live.why().find("nothing emits light") != std::string::npos);
   CHECK(live.viewer.last("scene") == nullptr);
   // What is edited next does not carry it along.
   live.says(R"({"type":"move","kind":"luminaire","name":"left","position":[1,1,1]})");
-  live.posts.until([&] { return live.viewer.last("scene") != nullptr; });
+  live.posts.until([&] {
+    return live.viewer.last("scene") != nullptr || live.viewer.last("refused") != nullptr;
+  });
+  REQUIRE(live.viewer.last("refused") == nullptr);
   CHECK(live.scene()["generation"] == before + 1);
-  CHECK(live.viewer.last("refused") == nullptr);
+  CHECK(live.scene()["scenario"] == "day");
   live.says(R"({"type":"save","name":"moved"})");
   REQUIRE(live.viewer.last("saved") != nullptr);
   const auto saved = read_scene(live.folder / "moved.toml");
   REQUIRE(saved.scene);
-  CHECK(saved.scene->signs[0].frame.origin == of_sign.scene()->signs[0].frame.origin);
   CHECK(saved.scene->emitters[0].frame.origin == glm::dvec3(1, 1, 1));
 }
 
+TEST_CASE("nothing is moved out of the world, and a variant has it where it was", "[view]") {
+  const test::LiveRoom room;
+  Edited live(room.scene());
+  for (const char* edit :
+       {R"({"type":"move","kind":"sign","name":"exit","position":[1e7,0,0],"facing":[1,0,0]})",
+        R"({"type":"move","kind":"luminaire","name":"left","position":[0,-1e7,0]})",
+        R"({"type":"add","kind":"sign","of":"exit","position":[0,0,1e7]})"}) {
+    live.says(edit);
+    CHECK(live.why().find("outside of the building") != std::string::npos);
+  }
+  live.says(R"({"type":"save","name":"near"})");
+  REQUIRE(live.viewer.last("saved") != nullptr);
+  const auto saved = read_scene(live.folder / "near.toml");
+  REQUIRE(saved.scene);
+  REQUIRE(saved.scene->signs.size() == 1);
+  CHECK(saved.scene->signs[0].frame.origin == room.scene()->signs[0].frame.origin);
+  CHECK(saved.scene->emitters[0].frame.origin == room.scene()->emitters[0].frame.origin);
+}
+
 TEST_CASE("what would be no scene is not saved, whenever it is asked for", "[view]") {
-  const test::LiveRoom of_sign;
-  Edited live(of_sign.scene());
+  const test::LiveRoom of_dark(dark_scenario);
+  Edited live(of_dark.scene());
   // In one breath: nobody has looked at the edit yet.
-  live.says(R"({"type":"move","kind":"sign","name":"exit","position":[1e7,0,0],"facing":[1,0,0]})");
-  live.hub.says(live.viewer, R"({"type":"save","name":"far"})");
+  live.says(R"({"type":"scenario","name":"night"})");
+  live.hub.says(live.viewer, R"({"type":"save","name":"dark"})");
   CHECK(live.viewer.last("saved") == nullptr);
   REQUIRE(live.viewer.last("refused") != nullptr);
   CHECK(live.why().find("it is not saved") == 0);
