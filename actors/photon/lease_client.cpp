@@ -74,6 +74,7 @@ void LeaseClient::granted(const MessageId& answered, const LeaseGranted& grant) 
   round_ = grant.round;
   lease_time_ = milliseconds(grant.duration_ms);
   counters_.leases += grant.batches;
+  rumour_ = rumour_ && grant.batches == 0;
   for (uint32_t i = 0; i < grant.batches; ++i) {
     photons_->add(grant.first_lease + i, static_cast<int64_t>(grant.first_batch + i));
   }
@@ -257,10 +258,12 @@ void LeaseClient::end(std::optional<Problem> fault) {
 
 /// From the controller, which waits for an answer and lets all go when it has those of all; or from
 /// a neighbour that was let go. A neighbour's word could be of an earlier run, which that neighbour
-/// has outlived: it counts once the controller has lent this node something.
+/// has outlived: until the controller has lent this node something it is but a rumour, which is
+/// right if the controller never comes.
 void LeaseClient::hear_of_end(NodeId from, const RunEnded& over) {
-  if (from != config_.controller && counters_.leases == 0) return;
   end_word_ = over;
+  rumour_ = from != config_.controller && counters_.leases == 0;
+  if (rumour_) return;
   const auto says = [&] { return Problem{{}, "the controller says: " + over.text}; };
   stop_work(over.text.empty() ? std::nullopt : std::optional(says()));
   network_.send(config_.controller, network_.next_id(), RequestLease{0});
@@ -291,6 +294,7 @@ void LeaseClient::watch_controller(Nanoseconds now) {
   else if (!unreachable_since_)
     unreachable_since_ = now;
   const auto give_up = [&](const char* what, Nanoseconds after, const char* key) {
+    if (rumour_) return end(std::nullopt);
     end(Problem{{},
                 fmt::format("{} for {:g} s ({})", what, static_cast<double>(after) * 1e-9, key)});
   };

@@ -148,6 +148,7 @@ class LeaseClient final : public LeasePort {
   bool ended_ = false;
   RunEnded end_word_;                        // as it was heard
   std::optional<std::vector<NodeId>> tell_;  // neighbours that it has yet to be passed on to
+  bool rumour_ = false;  // a neighbour says that the run is over, of which nothing is known here
   bool draining_ = false;
   std::optional<Problem> fault_;
   bool heard_ = false;  // of the controller

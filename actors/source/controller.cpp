@@ -19,6 +19,8 @@ namespace {
 constexpr size_t bytes_of_a_step = 1 << 20;
 /// Between lines about who is waited for.
 constexpr Nanoseconds waiting_word = seconds(10);
+/// Looks, at each of which all are told of the end: an answer is as fresh as two of three.
+constexpr int heard_lately = 3;
 /// Until what found no room in the network is said again.
 constexpr Nanoseconds say_again_after = milliseconds(20);
 
@@ -89,7 +91,8 @@ bool Controller::meet(const Delivery& delivery) {
       lose_shard(delivery.source, "began anew");
     }
     peer.life = life;
-    peer.told = peer.left = false;
+    peer.told.reset();
+    peer.left = false;
   }
   peer.here = true;
   const auto here = [](const auto& entry) { return entry.second.here; };
@@ -332,15 +335,15 @@ void Controller::end_run(StopReason reason) {
 // `lost` and take a run that ended well for one that failed; and were workers to leave as soon as
 // they have heard, those behind them would be cut off. So all stay until each has answered, or is
 // lost: a worker that no way leads to gives the run up by itself after the same time. What a worker
-// has heard it forgets when it crashes, so who has answered and is out of reach is waited for, too.
+// has heard it forgets when it crashes, so all are asked again and again until all have answered
+// lately.
 // Then all are let go, and tell their neighbours as they leave. Who interrupts the run waits for
 // nobody who is out of reach.
 
 void Controller::tell_end() {
   const std::string text = fault_ ? fault_->what.substr(0, limits::text_bytes) : "";
   for (const auto& [worker, peer] : peers_)
-    if (!peer.told && (peer.here || done_before_))
-      send(worker, network_.next_id(), RunEnded{round(), text});
+    if (peer.here || done_before_) send(worker, network_.next_id(), RunEnded{round(), text});
   let_go_when_told();
 }
 
@@ -348,7 +351,8 @@ bool Controller::knows_end(NodeId worker, const Peer& peer) const {
   if (peer.left) return true;
   // Who has not been heard of may wait for a word of the end, when an earlier life counted it.
   if (!peer.here) return !done_before_;
-  return network_.reaches(worker) ? peer.told : interrupt_.load();
+  if (!network_.reaches(worker)) return interrupt_.load();
+  return peer.told && scheduler_.clock().now() - *peer.told <= heard_lately * config_.look_every;
 }
 
 void Controller::let_go_when_told() {
@@ -461,9 +465,9 @@ void Controller::lend(const Delivery& delivery, const RequestLease& request) {
   Peer& peer = peers_[delivery.source];
   peer.left = request.batches == 0 && !over_;
   if (request.batches == 0) {
-    peer.told = over_;
-    if (over_) let_go_when_told();
-    return;
+    if (!over_) return;
+    peer.told = scheduler_.clock().now();
+    return let_go_when_told();
   }
   Answered& last = last_grant_[delivery.source];
   if (last.question != delivery.id) {

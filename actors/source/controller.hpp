@@ -94,9 +94,9 @@ class Controller {
     Incarnation life;   // of which leases stand
     std::vector<Incarnation> former;
     std::optional<Nanoseconds> unreachable_since;
-    bool told = false;  // it has heard of the end
-    bool left = false;  // it said that it leaves before the end
-    bool gone = false;  // it was let go
+    std::optional<Nanoseconds> told;  // when it last said that it has heard of the end
+    bool left = false;                // it said that it leaves before the end
+    bool gone = false;                // it was let go
   };
 
   bool meet(const Delivery& delivery);
