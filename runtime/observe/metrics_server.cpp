@@ -106,7 +106,8 @@ void MetricsServer::serve() {
     for (const Client& client : clients)
       watched.push_back({client.connection.get(),
                          static_cast<short>(client.reply.empty() ? POLLIN : POLLOUT), 0});
-    const int wait_ms = wake == no_deadline ? -1 : static_cast<int>((wake - now) / milliseconds(1)) + 1;
+    const int wait_ms =
+        wake == no_deadline ? -1 : static_cast<int>((wake - now) / milliseconds(1)) + 1;
     if (poll(watched.data(), watched.size(), wait_ms) < 0 && errno != EINTR) return;
     if (watched[0].revents != 0) return;
     for (size_t i = clients.size(); i-- > 0;)
