@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <thread>
 
+#include "runtime/core/printable.hpp"
 #include "scenes/format/scene_file.hpp"
 #include "scenes/pack/scene_pack.hpp"
 #include "scenes/transport/compile.hpp"
@@ -182,7 +183,7 @@ std::string short_number(double v) {
 }
 
 ProgressLine::ProgressLine(std::string title)
-    : title_(std::move(title)), terminal_(isatty(STDERR_FILENO) != 0) {}
+    : title_(printable(title)), terminal_(isatty(STDERR_FILENO) != 0) {}
 
 ProgressLine::~ProgressLine() {
   if (terminal_) std::fputs("\n", stderr);

@@ -6,6 +6,8 @@
 #include <exception>
 
 #include "actors/cli/command.hpp"
+#include "actors/cli/terminal.hpp"
+#include "runtime/core/isolated_job.hpp"
 
 namespace {
 
@@ -27,9 +29,10 @@ bool processor_is_good_enough() {
 
 int main(int argc, char** argv) {
   using namespace luxodus::cli;
+  if (const auto served = luxodus::serve_isolated_job(argc, argv)) return *served;
   if (!processor_is_good_enough()) return ExitCode::failure;
   spdlog::set_default_logger(spdlog::stderr_color_mt("luxodus"));
-  spdlog::set_pattern("%^%l%$ %v");
+  guard_terminal();
 
   CLI::App app{
       "Luxodus simulates the light in a smoke-filled building by Monte Carlo particle tracing and "

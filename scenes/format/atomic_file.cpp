@@ -16,6 +16,8 @@
 #include <string>
 #include <system_error>
 
+#include "runtime/core/regular_file.hpp"
+
 namespace luxodus {
 namespace {
 
@@ -251,33 +253,28 @@ Result<Done> write_file_atomically(const std::filesystem::path& path, std::strin
 
 Result<std::vector<std::byte>> read_whole_file(const std::filesystem::path& path,
                                                uint64_t most_bytes) {
-  if (holds_nul(path)) return problem_of(path, "a path cannot hold a zero byte");
+  auto file = open_regular_file(path);
+  if (!file) return file.problem();
   const auto too_long = [&] {
     return problem_of(path, "this file is longer than " + std::to_string(most_bytes) +
                                 " bytes, the most that is read from a file of its kind");
   };
-  constexpr std::string_view doing = "cannot read this file";
-  Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
-  if (!file.valid()) return system_problem(path, doing, errno);
-  struct stat about {};
-  if (::fstat(file.get(), &about) != 0) return system_problem(path, doing, errno);
-  if (S_ISDIR(about.st_mode)) return system_problem(path, doing, EISDIR);
-  if (static_cast<uint64_t>(about.st_size) > most_bytes) return too_long();
+  if (file->bytes > most_bytes) return too_long();
 
-  // The size is a hint only: a pipe has none, and a file may grow while it is read.
+  // The size is a hint only: a file may grow while it is read.
   std::vector<std::byte> bytes;
-  uint64_t wanted = static_cast<uint64_t>(about.st_size);
+  uint64_t wanted = file->bytes;
   size_t filled = 0;
   while (true) {
     if (filled == bytes.size()) {
       wanted = std::min(std::max<uint64_t>(wanted, filled + filled / 2 + 4096), most_bytes + 1);
       bytes.resize(static_cast<size_t>(wanted));
     }
-    const ssize_t n =
-        ::read(file.get(), bytes.data() + filled, std::min(bytes.size() - filled, transfer_bytes));
+    const ssize_t n = ::read(file->descriptor.number(), bytes.data() + filled,
+                             std::min(bytes.size() - filled, transfer_bytes));
     if (n < 0) {
       if (errno == EINTR) continue;
-      return system_problem(path, doing, errno);
+      return system_problem(path, "cannot read this file", errno);
     }
     if (n == 0) break;
     filled += static_cast<size_t>(n);

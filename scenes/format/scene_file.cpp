@@ -4,9 +4,9 @@
 #include "scenes/format/scene_file.hpp"
 
 #include <algorithm>
-#include <fstream>
 #include <sstream>
 
+#include "runtime/core/regular_file.hpp"
 #include "runtime/core/toml_nesting.hpp"
 #include "scenes/format/scene_readers.hpp"
 
@@ -63,24 +63,21 @@ class Loader {
   std::optional<std::string> bytes_of(const fs::path& path) {
     std::error_code error;
     const auto size = fs::file_size(path, error);
-    if (error || !fs::is_regular_file(path, error)) {
+    if (!fs::exists(path, error)) {
       reading_.problem({path.string(), 0}, "there is no such scene file");
       return std::nullopt;
     }
-    if (size > scene_limits::file_bytes) {
+    if (fs::is_regular_file(path, error) && size > scene_limits::file_bytes) {
       reading_.problem({path.string(), 0},
                        "this scene file has " + std::to_string(size) + " bytes; at most " +
                            std::to_string(scene_limits::file_bytes) +
                            " are read; put large geometry into an OBJ or glTF file");
       return std::nullopt;
     }
-    std::ifstream in(path, std::ios::binary);
-    std::string text(static_cast<size_t>(size), '\0');
-    if (!in.read(text.data(), static_cast<std::streamsize>(size))) {
-      reading_.problem({path.string(), 0}, "this scene file cannot be read");
-      return std::nullopt;
-    }
-    return text;
+    auto text = read_regular_file(path, scene_limits::file_bytes);
+    if (text) return std::move(text).value();
+    reading_.problem(text.problem());
+    return std::nullopt;
   }
 
   std::unique_ptr<Document> parse(const std::string& text, const fs::path& path) {
@@ -97,8 +94,11 @@ class Loader {
                                       SourcePlace{path.string(), 1});
       return document;
     } catch (const toml::parse_error& e) {
+      // The words of an included file are not told: it may be any file of the machine.
+      const bool own = open_.empty() && done_.empty() && documents.empty();
       reading_.problem({path.string(), static_cast<int>(e.source().begin.line)},
-                       "this is not TOML: " + std::string(e.description()));
+                       own ? "this is not TOML: " + std::string(e.description())
+                           : "this is not TOML: an included file must be a scene file");
       return nullptr;
     }
   }
