@@ -158,6 +158,7 @@ TEST_CASE("a pack whose brick or tile is damaged is refused where it is read", "
   const auto whole = compiled(opened(file), "smoky", 1);
   REQUIRE(load_bricks(*whole).ok());
   REQUIRE(load_images(*whole).ok());
+  CHECK(check_objects(*whole).ok());
   auto bytes = bytes_of(file);
   const size_t cell = whole->description->packed->objects[0].wire_bytes;
   bytes[128 + cell + 64 + 1000] ^= std::byte{4};  // in the first brick
@@ -168,6 +169,9 @@ TEST_CASE("a pack whose brick or tile is damaged is refused where it is read", "
   REQUIRE_FALSE(bricks.ok());
   CHECK(bricks.problem().text().find("damaged") != std::string::npos);
   CHECK(load_images(*harmed).ok());
+  const auto all = check_objects(*harmed);
+  REQUIRE_FALSE(all.ok());
+  CHECK(all.problem().text().find(broken.string() + ": object 1 of this pack is damaged") == 0);
 }
 
 TEST_CASE("a pack serves every scenario that leaves its doors alone, and refuses the others",
