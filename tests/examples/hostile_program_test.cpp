@@ -147,6 +147,9 @@ TEST_CASE("the program is linked so that an overwritten pointer finds no table t
   REQUIRE(stack != std::string::npos);
   const std::string line = elf.out.substr(stack, elf.out.find('\n', stack) - stack);
   CHECK(line.find("RWE") == std::string::npos);  // and the stack is no code
+  const Outcome symbols = shell(folder, std::string("readelf -sW --dyn-syms ") + LUX_PROGRAM);
+  CHECK(symbols.out.find("__stack_chk_fail") != std::string::npos);
+  CHECK(symbols.out.find("_chk@GLIBC") != std::string::npos);
 #else
   WARN("skipped: only release builds are hardened");
 #endif
