@@ -20,7 +20,7 @@ packages=(
   # the live view's server
   libboost-dev
   # tests and formatting
-  catch2 python3 clang-format iproute2
+  catch2 python3 clang-format iproute2 mkdocs mkdocs-material
 )
 
 # Others' Node.js will do; Debian's comes where there is none.
