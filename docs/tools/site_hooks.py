@@ -58,7 +58,8 @@ def all_commands(path, command=()):
 
 
 def section(path, heading):
-    """A section of a Markdown file from its heading to the next one of its level or above."""
+    """A section of a Markdown file from its heading to the next one of its level or above. That of
+    the file's title is without it: the page has a title of its own."""
     with open(os.path.join(ROOT, path), encoding="utf-8") as file:
         lines = file.read().split("\n")
     level, start, fenced = 0, None, False
@@ -73,7 +74,7 @@ def section(path, heading):
             return "\n".join(lines[start:number])
     if start is None:
         raise ValueError(f"{path} has no heading '{heading}'")
-    return "\n".join(lines[start:])
+    return "\n".join(lines[start + 1 if level == 1 else start :])
 
 
 def moved_links(text, source, page):

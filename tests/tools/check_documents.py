@@ -224,6 +224,9 @@ def main():
     parser.add_argument("--program")
     parser.add_argument("--site")
     options = parser.parse_args()
+    if options.program and not os.access(options.program, os.X_OK):
+        print(f"{options.program} is not built")
+        return 1
     if options.site:
         if not shutil.which("mkdocs"):
             print("skipped: mkdocs is not installed (Debian: mkdocs mkdocs-material)")
