@@ -1,0 +1,103 @@
+// The guide as a newcomer follows it: its scene is judged right, and each mistake that it lists is
+// refused.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "tests/examples/program_kit.hpp"
+
+using namespace luxodus::program;
+
+namespace {
+
+const fs::path source = LUX_SOURCE_DIR;
+
+std::string guide() {
+  return slurp(source / "docs/guide/first-assessment.md");
+}
+
+std::string guide_scene() {
+  const std::string text = guide();
+  const std::string fence = "```toml\n";
+  const size_t first = text.find(fence) + fence.size();
+  return text.substr(first, text.find("```", first) - first);
+}
+
+/// The guide's folder, with its scene as `scene` has it.
+struct WaitingRoom {
+  explicit WaitingRoom(const std::string& scene) {
+    for (const char* name : {"luminaires/emergency_downlight.ldt", "signs/exit_straight.svg"}) {
+      fs::create_directories((folder.path / name).parent_path());
+      fs::copy_file(source / "scenes/library" / name, folder.path / name);
+    }
+    std::ofstream(folder.path / "waiting_room.toml") << scene;
+  }
+  Outcome assess() const {
+    return run_luxodus(folder, "assess " + (folder.path / "waiting_room.toml").string() +
+                                   " --out " + (folder.path / "out").string());
+  }
+  nlohmann::json assessment() const {
+    return nlohmann::json::parse(slurp(folder.path / "out" / "assessment.json"));
+  }
+  Folder folder;
+};
+
+std::string with(const std::string& what, const std::string& instead) {
+  std::string scene = guide_scene();
+  const size_t at = scene.find(what);
+  REQUIRE(at != std::string::npos);
+  return scene.replace(at, what.size(), instead);
+}
+
+}  // namespace
+
+TEST_CASE("the guide's room is judged, and its state is said first", "[program][guide]") {
+  const WaitingRoom room(guide_scene());
+  const Outcome run = room.assess();
+  INFO(run.err);
+  REQUIRE(run.code == 0);
+  CHECK(run.out.starts_with("judged state"));
+  CHECK(run.out.find("EN 1838:2024") != std::string::npos);
+  CHECK(run.out.find("complies") == std::string::npos);
+  const auto a = room.assessment();
+  CHECK(guide().find(a["verdict"]["words"].get<std::string>()) != std::string::npos);
+  CHECK(a["state"]["operation"] == "emergency");
+  CHECK(a["state"]["luminaires"]["lit"] == 2);
+}
+
+TEST_CASE("the guide's room has the illuminance that its luminaires give", "[program][guide]") {
+  // Two rotational luminaires at 2.95 m above the plane. At the worst place, (7.5, 2), linear
+  // interpolation in the table of the file, 0.8 x 0.7 of its flux, and I cos(gamma) / r^2 give
+  // 1.6820 lx.
+  const WaitingRoom room(guide_scene());
+  REQUIRE(room.assess().code == 0);
+  const auto a = room.assessment();
+  const auto check = std::find_if(a["checks"].begin(), a["checks"].end(),
+                                  [](const auto& one) { return one["rule"] == "E5"; });
+  REQUIRE(check != a["checks"].end());
+  CHECK((*check)["value"].get<double>() == Approx(1.6820).epsilon(1e-3));
+  CHECK((*check)["worst_place"][0].get<double>() == Approx(7.5));
+  CHECK((*check)["verdict"] == "pass");
+}
+
+TEST_CASE("each mistake that the guide lists is refused in words", "[program][guide]") {
+  struct Mistake {
+    std::string what, instead, words;
+  };
+  const std::vector<Mistake> mistakes{
+      {"[[scenario]]\nname = \"fire\"\noperation = \"emergency\"\nseconds_after_failure = 60\n", "",
+       "[[scenario]]"},
+      {"operation = \"emergency\"\nseconds_after_failure = 60\n", "", "operation = \"emergency\""},
+      {"rules = [\"en1838-2024\"]\n", "", "en1838-2013, en1838-2024, nfpa101"},
+      {"irritant_smoke = true\n", "", "irritant_smoke"},
+      {"smallest_detail = 0.012", "smallest_detail = 12", "smallest_detail"},
+  };
+  for (const Mistake& mistake : mistakes) {
+    INFO(mistake.what);
+    const WaitingRoom room(with(mistake.what, mistake.instead));
+    const Outcome run = room.assess();
+    CHECK(run.code != 0);
+    CHECK(run.err.find(mistake.words) != std::string::npos);
+    CHECK_FALSE(fs::exists(room.folder.path / "out" / "assessment.json"));
+  }
+}
