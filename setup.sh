@@ -19,8 +19,9 @@ packages=(
   libboost-context-dev libzmq3-dev cppzmq-dev libcapnp-dev capnproto
   # the live view's server
   libboost-dev
+  mkdocs mkdocs-material  # documents
   # tests and formatting
-  catch2 python3 clang-format iproute2 mkdocs mkdocs-material
+  catch2 python3 clang-format iproute2
 )
 
 # Others' Node.js will do; Debian's comes where there is none.
