@@ -14,13 +14,15 @@ packages=(
   # values as bytes
   libcereal-dev
   # pictures, drawings, data
+  libdxflib-dev
   libopenexr-dev libpng-dev librsvg2-dev libcairo2-dev fonts-dejavu-core libzstd-dev libxxhash-dev
   # nodes: fibers, links, messages
   libboost-context-dev libzmq3-dev cppzmq-dev libcapnp-dev capnproto
   # the live view's server
   libboost-dev
+  mkdocs mkdocs-material  # documents
   # tests and formatting
-  catch2 python3 clang-format iproute2
+  catch2 python3 clang-format iproute2 poppler-utils
 )
 
 # Others' Node.js will do; Debian's comes where there is none.

@@ -51,6 +51,7 @@ void write(wire::Identity::Builder out, const Identity& identity) {
   out.setFingerprint(identity.fingerprint);
   out.setBuild(identity.build.c_str());
   out.setIsa(identity.isa.c_str());
+  out.setResults(identity.results.c_str());
 }
 
 void write(wire::Beat::Builder out, const Beat& beat) {
@@ -204,7 +205,7 @@ bool within_limits(const Message& message) {
   const auto leases_fit = [](const auto& list) { return list.size() <= limits::leases; };
   const auto text_fits = [](const std::string& text) { return text.size() <= limits::text_bytes; };
   const auto identity_fits = [&](const Identity& i) {
-    return text_fits(i.build) && text_fits(i.isa);
+    return text_fits(i.build) && text_fits(i.isa) && text_fits(i.results);
   };
   return std::visit(
       Overloaded{
@@ -270,6 +271,7 @@ Identity read_identity(wire::Identity::Reader in) {
   out.fingerprint = in.getFingerprint();
   out.build = read_text(in.getBuild());
   out.isa = read_text(in.getIsa());
+  out.results = read_text(in.getResults());
   return out;
 }
 

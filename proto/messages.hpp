@@ -96,6 +96,9 @@ struct Identity {
   uint64_t fingerprint = 0;  // of particles traced on a tiny scene
   std::string build;
   std::string isa;
+  /// Where the results of its run go: what a controller says, and nobody else. Runs of one file are
+  /// told apart by it, and a controller that begins anew is known again.
+  std::string results = {};
   friend bool operator==(const Identity&, const Identity&) = default;
 };
 
@@ -108,9 +111,10 @@ enum class RefusalReason : uint8_t {
   topology,
   isa,
   build,
-  fingerprint
+  fingerprint,
+  taken  // it works for another run already
 };
-inline constexpr size_t refusal_reasons = 9;
+inline constexpr size_t refusal_reasons = 10;
 
 struct Hello {
   Identity identity;

@@ -72,6 +72,7 @@ struct Identity {
   fingerprint @6 :UInt64;
   build @7 :Text;
   isa @8 :Text;
+  results @9 :Text;
 }
 
 struct Refuse {

@@ -12,28 +12,6 @@ namespace luxodus {
 
 namespace {
 
-/// Whether any medium is left in a scenario.
-bool has_smoke(const SceneDescription& scene, const Scenario& scenario) {
-  return std::any_of(scene.media.begin(), scene.media.end(), [&](const Medium& medium) {
-    const auto named = std::find_if(scenario.media.begin(), scenario.media.end(),
-                                    [&](const auto& factor) { return factor.name == medium.name; });
-    return (named != scenario.media.end() ? named->factor : scenario.smoke_factor) > 0;
-  });
-}
-
-/// Of the reality mode: as named, else the first in emergency operation that has smoke, else the
-/// first in emergency operation, else the first.
-Result<Scenario> scenario_of(const SceneDescription& scene, const AssessOptions& options) {
-  if (!options.scenario.empty()) return find_scenario(scene, options.scenario);
-  const Scenario* best = nullptr;
-  for (const Scenario& scenario : scene.scenarios) {
-    if (scenario.operation != Operation::emergency) continue;
-    if (has_smoke(scene, scenario)) return scenario;
-    if (best == nullptr) best = &scenario;
-  }
-  return best != nullptr ? Result<Scenario>(*best) : find_scenario(scene, "");
-}
-
 std::optional<Problem> cannot_assess(const SceneDescription& scene) {
   if (scene.packed)
     return Problem{{scene.file, 0},
@@ -65,21 +43,49 @@ void count_sweep(double factor, const std::vector<SightRow>& sights, std::vector
   }
 }
 
+/// Refuses what is wrong with the scene, and keeps what else was found.
+std::optional<Problem> inspected(const std::shared_ptr<const SceneDescription>& scene,
+                                 const Scenario& scenario, int threads, Assessment& out) {
+  auto found = inspect(scene, {scenario}, threads);
+  if (!found.ok()) return found.problem();
+  const auto errors = std::count_if(found->begin(), found->end(),
+                                    [](const Finding& f) { return f.severity == Severity::error; });
+  if (errors > 0) {  // they come first
+    Problem first = found->front().problem;
+    if (errors > 1)
+      first.what += " (the first of " + std::to_string(errors) +
+                    " errors; `luxodus check` names all of them)";
+    return first;
+  }
+  for (const Finding& finding : found.value())
+    if (finding.severity == Severity::warning) out.warnings.push_back(finding.problem);
+  out.findings = std::move(found).value();
+  return std::nullopt;
+}
+
 }  // namespace
 
 Result<Assessment> assess(const std::shared_ptr<const SceneDescription>& scene,
                           const AssessOptions& options, const std::atomic<bool>& interrupt,
                           const AssessProgress& progress) {
   if (auto problem = cannot_assess(*scene)) return *problem;
-  auto scenario = scenario_of(*scene, options);
+  auto scenario = judged_scenario(*scene, options.scenario);
   if (!scenario.ok()) return scenario.problem();
+  const auto codes = judged_codes(*scene, options.rules, options.deviations);
+  if (!codes.ok()) return codes.problem();
+  if (options.reality)
+    if (auto ok = irritation_is_said(*scene, scenario.value()); !ok.ok()) return ok.problem();
   const SystemClock clock;
   const Nanoseconds began = clock.now();
   Assessment out;
-  out.scenario = scenario->name;
+  out.state = state_of(*scene, scenario.value(), codes.value());
+  out.reality = options.reality;
+  if (scenario->operation == Operation::mains)
+    out.warnings.push_back({scenario->place, out.state.remarks.front()});
   out.seed = options.seed;
   out.scene_hash = scene->content_hash;
-  out.walls = walls_of(*scene);
+  out.levels = plan_levels(*scene, scenario.value());
+  if (auto problem = inspected(scene, scenario.value(), options.threads, out)) return *problem;
   if (auto ok = assess_by_codes(*scene, scenario.value(), options, progress, out); !ok.ok())
     return ok.problem();
   if (options.reality)

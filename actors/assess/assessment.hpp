@@ -7,6 +7,8 @@
 #include <functional>
 #include <memory>
 
+#include "actors/assess/judged_state.hpp"
+#include "actors/inspect/inspect.hpp"
 #include "scenes/emergency/legibility.hpp"
 #include "scenes/emergency/rules.hpp"
 
@@ -17,13 +19,14 @@ namespace limits {
 inline constexpr size_t sights = 200'000;
 /// Rounds of paths from the eye; each has four times the paths of the one before.
 inline constexpr int sight_rounds = 8;
+/// Different shares of new light that aged luminaires have: each costs tallies of its own.
+inline constexpr size_t ageings = 16;
 }  // namespace limits
 
 struct AssessOptions {
-  /// Of the reality mode; its doors are the code mode's too. Empty: the first in emergency
-  /// operation that has smoke, else the first in emergency operation, else the first.
+  /// Of the reality mode; its doors are the code mode's too. Empty: see judged_scenario.
   std::string scenario;
-  CodeChoice codes;
+  std::vector<std::string> rules, deviations;  // by name; empty: those of the scene
   uint64_t seed = 1;
   int threads = 1;
   int rounds = 4;                          // until nothing is undecided, or so many
@@ -43,14 +46,38 @@ struct SightRow {
   bool back_face = false;
   double gaze_deg = 0;  // between the direction of walking and the sign; NaN in areas
   SignView view;
+  /// As verdicts count: in the light, aged or new, that gives the worse one.
   SignLook look;
   Sight sight;
+  bool in_new_light = false;  // they are of new light; else of aged
+  /// In the other light; none where lit luminaires do not age, and where light does not matter.
+  struct Other {
+    SignLook look;
+    Sight sight;
+  };
+  std::optional<Other> other;
 };
 
 /// A point of calculation on a plan, with all emergency luminaires lit [lx].
 struct PlanPoint {
   glm::dvec3 place;
   double lux = 0;
+};
+
+/// Direct light of all emergency luminaires on a grid over a floor, without furniture [lx].
+struct LightMap {
+  glm::dvec2 corner{0};  // of the first place
+  double spacing_m = 0;
+  int columns = 0, rows = 0;  // along x, along y
+  std::vector<double> lux;    // row by row; as many as columns times rows
+};
+
+/// One floor of the building, for its plan.
+struct PlanLevel {
+  double floor_m = 0;
+  std::vector<std::pair<glm::dvec2, glm::dvec2>> walls, furniture;  // cut at breast height
+  std::vector<PlanPoint> points;  // of calculation on its routes and open areas
+  LightMap map;
 };
 
 /// Of a sign, how many of the places that it faces it is legible from, in smoke of a density.
@@ -61,13 +88,14 @@ struct SweepRow {
 };
 
 struct Assessment {
-  std::string scenario;
+  AssessedState state;
+  bool reality = true;  // views were judged
   std::vector<Check> checks;
   std::vector<SightRow> sights;
   std::vector<SweepRow> sweep;
-  std::vector<PlanPoint> plan;                           // without furniture
-  std::vector<std::pair<glm::dvec2, glm::dvec2>> walls;  // as cut at breast height
+  std::vector<PlanLevel> levels;  // from below; at least one
   std::vector<Problem> warnings;
+  std::vector<Finding> findings;  // of the inspection; its warnings are among the above
   int64_t paths = 0;  // from eyes, of all rounds
   double seconds = 0;
   uint64_t scene_hash = 0;
@@ -77,8 +105,8 @@ struct Assessment {
 /// What is going on, and the share of it that is done.
 using AssessProgress = std::function<void(const std::string& what, double share)>;
 
-/// Errors: nothing to assess; routes outside the building or in walls; a scenario that is not
-/// there; a pack; `interrupt`.
+/// Errors: as judged_scenario, judged_codes, irritation_is_said; nothing to assess; an error that
+/// `inspect` finds, such as routes outside the building or in walls; a pack; `interrupt`.
 Result<Assessment> assess(const std::shared_ptr<const SceneDescription>& scene,
                           const AssessOptions& options, const std::atomic<bool>& interrupt,
                           const AssessProgress& progress);

@@ -6,6 +6,9 @@
 #include <fstream>
 #include <map>
 
+#include "actors/assess/assessment_check.hpp"
+#include "actors/assess/assessment_inputs.hpp"
+#include "actors/assess/state_words.hpp"
 #include "scenes/format/csv.hpp"
 
 namespace luxodus {
@@ -28,10 +31,13 @@ Json optional_json(const std::optional<double>& value) {
 
 Json check_json(const Check& check) {
   Json out = {{"rule", check.rule.id},
+              {"rule_set", check.rule.set},
+              {"deviation", check.rule.deviation},
               {"edition", check.rule.edition},
               {"clause", check.rule.clause},
               {"title", check.rule.title},
               {"quoted_from", check.rule.source},
+              {"status", check.rule.status},
               {"subject", check.subject},
               {"condition", check.condition},
               {"verdict", name_of(check.verdict)},
@@ -43,6 +49,18 @@ Json check_json(const Check& check) {
   if (check.worst) out["worst_place"] = place_json(*check.worst);
   if (!check.reason.empty()) out["reason"] = check.reason;
   return out;
+}
+
+/// What arrives at the eye and what it makes of it, in one light.
+Json look_json(const SignLook& look, const Sight& sight) {
+  return {{"legend", uncertain_json(look.legend, "cd/m2")},
+          {"ground", uncertain_json(look.ground, "cd/m2")},
+          {"surround", uncertain_json(look.surround, "cd/m2")},
+          {"transmission", exact_json(look.transmission, "1")},
+          {"glare_veil", exact_json(look.veil_cd_m2, "cd/m2")},
+          {"visible_share", exact_json(look.visible_share, "1")},
+          {"reading_level", uncertain_json(sight.reading_level, "1")},
+          {"seeing_level", uncertain_json(sight.seeing_level, "1")}};
 }
 
 Json sight_json(const SightRow& row) {
@@ -62,36 +80,42 @@ Json sight_json(const SightRow& row) {
   out["angular_detail"] = exact_json(row.view.detail_arcmin, "arcmin");
   if (row.sight.verdict == SightVerdict::hidden || row.look.legend.value + row.look.face.value == 0)
     return out;
-  out["legend"] = uncertain_json(row.look.legend, "cd/m2");
-  out["ground"] = uncertain_json(row.look.ground, "cd/m2");
-  out["surround"] = uncertain_json(row.look.surround, "cd/m2");
-  out["transmission"] = exact_json(row.look.transmission, "1");
-  out["glare_veil"] = exact_json(row.look.veil_cd_m2, "cd/m2");
-  out["visible_share"] = exact_json(row.look.visible_share, "1");
-  out["reading_level"] = uncertain_json(row.sight.reading_level, "1");
-  out["seeing_level"] = uncertain_json(row.sight.seeing_level, "1");
+  out["light"] = row.in_new_light ? "new" : "aged";
+  out.update(look_json(row.look, row.sight));
   out["extinction"] = exact_json(row.sight.extinction, "1/m");
   out["jin"] = {{"legible_within", exact_json(row.sight.jin_m, "m")},
                 {"legible", row.sight.jin_legible}};
   out["viewing_distance"] = {{"allowed", exact_json(row.sight.viewing.allowed_oblique_m, "m")},
                              {"within", row.sight.viewing.within}};
+  if (!row.other) return out;
+  Json& other = out["other_light"] = {{"light", row.in_new_light ? "aged" : "new"},
+                                      {"verdict", name_of(row.other->sight.verdict)}};
+  if (!row.other->sight.reason.empty()) other["reason"] = row.other->sight.reason;
+  other.update(look_json(row.other->look, row.other->sight));
   return out;
 }
 
-Json plan_json(const SceneDescription& scene, const Assessment& assessment) {
-  Json points = Json::array(), walls = Json::array(), routes = Json::array(), signs = Json::array();
-  for (const PlanPoint& p : assessment.plan) points.push_back({p.place.x, p.place.y, p.lux});
-  for (const auto& [a, b] : assessment.walls) walls.push_back({a.x, a.y, b.x, b.y});
-  for (const EscapeRoute& route : scene.routes) {
-    Json path = Json::array();
-    for (const glm::dvec3& p : route.path) path.push_back({p.x, p.y});
-    routes.push_back({{"name", route.name}, {"path", path}, {"width", route.width_m}});
+/// What was not judged and why, each reason once, the most frequent first.
+Json not_assessed_json(const Assessment& assessment) {
+  std::map<std::pair<std::string, std::string>, size_t> groups;
+  for (const Check& check : assessment.checks)
+    if (check.verdict == CheckVerdict::not_assessed)
+      ++groups[{check.rule.id + ", " + check.rule.edition + ": " + check.rule.title, check.reason}];
+  for (const SightRow& row : assessment.sights) {
+    if (row.sight.verdict == SightVerdict::not_assessed)
+      ++groups[{"views of signs", row.sight.reason}];
+    if (row.sight.verdict == SightVerdict::undecided)
+      ++groups[{"views of signs", "undecided: " + row.sight.reason}];
   }
-  for (const Sign& sign : scene.signs)
-    signs.push_back({{"name", sign.name},
-                     {"position", place_json(sign.frame.origin)},
-                     {"facing", place_json(sign.frame.axes[2])}});
-  return {{"points", points}, {"walls", walls}, {"routes", routes}, {"signs", signs}};
+  if (!assessment.reality) groups[{"views of signs", "only the codes were asked for"}] = 1;
+  std::vector<std::pair<std::pair<std::string, std::string>, size_t>> rows(groups.begin(),
+                                                                           groups.end());
+  std::stable_sort(rows.begin(), rows.end(),
+                   [](const auto& a, const auto& b) { return a.second > b.second; });
+  Json out = Json::array();
+  for (const auto& [what, count] : rows)
+    out.push_back({{"what", what.first}, {"why", what.second}, {"count", count}});
+  return out;
 }
 
 Json sweep_json(const Assessment& assessment) {
@@ -139,24 +163,33 @@ Json assessment_json(const SceneDescription& scene, const Assessment& assessment
   const CheckCounts counts = counts_of(assessment.checks);
   std::map<std::string, size_t> sight_counts;
   for (const SightRow& row : assessment.sights) ++sight_counts[name_of(row.sight.verdict)];
-  Json out = {{"format", assessment_format},
-              {"version", version},
-              {"scene",
-               {{"name", scene.name},
-                {"title", scene.title},
-                {"file", scene.file},
-                {"content_hash", fmt::format("{:016x}", assessment.scene_hash)},
-                {"scenario", assessment.scenario}}},
-              {"people",
-               {{"age", exact_json(scene.assessment.age_years, "years")},
-                {"spacing", exact_json(scene.assessment.spacing_m, "m")},
-                {"irritant_smoke", scene.assessment.irritant_smoke.value_or(false)}}},
-              {"method",
-               {{"seed", assessment.seed},
-                {"eye_paths", assessment.paths},
-                {"seconds", exact_json(assessment.seconds, "s")}}},
-              {"counts", {{"pass", counts[0]}, {"fail", counts[1]}, {"not_assessed", counts[2]}}},
-              {"sight_counts", sight_counts}};
+  Json out = {
+      {"format", assessment_format},
+      {"version", version},
+      {"scene",
+       {{"name", scene.name},
+        {"title", scene.title},
+        {"file", scene.file},
+        {"content_hash", fmt::format("{:016x}", assessment.scene_hash)},
+        {"scenario", assessment.state.scenario}}},
+      {"state", state_json(assessment.state)},
+      {"verdict", verdict_json(counts)},
+      {"not_assessed", not_assessed_json(assessment)},
+      {"people",
+       {{"age", exact_json(scene.assessment.age_years, "years")},
+        {"spacing", exact_json(scene.assessment.spacing_m, "m")},
+        {"irritant_smoke",
+         scene.assessment.irritant_smoke ? Json(*scene.assessment.irritant_smoke) : Json()}}},
+      {"method",
+       {{"seed", assessment.seed},
+        {"eye_paths", assessment.paths},
+        {"seconds", exact_json(assessment.seconds, "s")}}},
+      {"counts",
+       {{"pass", count_of(counts, CheckVerdict::pass)},
+        {"fail", count_of(counts, CheckVerdict::fail)},
+        {"not_assessed", count_of(counts, CheckVerdict::not_assessed)},
+        {"not_verified", count_of(counts, CheckVerdict::not_verified)}}},
+      {"sight_counts", sight_counts}};
   Json& checks = out["checks"] = Json::array();
   for (const Check& check : assessment.checks) checks.push_back(check_json(check));
   Json& sights = out["sights"] = Json::array();
@@ -164,7 +197,16 @@ Json assessment_json(const SceneDescription& scene, const Assessment& assessment
   out["sweep"] = sweep_json(assessment);
   Json& warnings = out["warnings"] = Json::array();
   for (const Problem& warning : assessment.warnings) warnings.push_back(warning.text());
-  out["plan"] = plan_json(scene, assessment);
+  out["project"] = project_json(scene.project);
+  out["scenario"] = scenario_json(scene, assessment.state.scenario);
+  out["luminaires"] = luminaires_json(scene);
+  out["signs"] = signs_json(scene);
+  out["places"] = places_json(scene);
+  out["materials"] = materials_json(scene);
+  out["media"] = media_json(scene);
+  Json& cameras = out["cameras"] = Json::array();
+  for (const Camera& camera : scene.cameras) cameras.push_back(camera.name);
+  out["plan"] = plan_json(assessment);
   return out;
 }
 
@@ -173,9 +215,10 @@ Result<Done> write_assessment(const fs::path& folder, const Json& assessment) {
   fs::create_directories(folder, failed);
   if (failed) return Problem{{folder.string(), 0}, "cannot make this folder: " + failed.message()};
   if (auto ok = write_json(folder / "assessment.json", assessment); !ok.ok()) return ok;
-  const auto checks = csv_of(assessment["checks"],
-                             {"rule", "edition", "clause", "title", "subject", "condition",
-                              "verdict", "value", "unit", "sense", "limit", "margin", "reason"});
+  const auto checks =
+      csv_of(assessment["checks"],
+             {"rule", "rule_set", "deviation", "edition", "clause", "status", "title", "subject",
+              "condition", "verdict", "value", "unit", "sense", "limit", "margin", "reason"});
   if (auto ok = write_csv(folder / "checks.csv", checks); !ok.ok()) return ok;
   const auto sights = csv_of(assessment["sights"], {"from",
                                                     "along.value",
@@ -186,6 +229,8 @@ Result<Done> write_assessment(const fs::path& folder, const Json& assessment) {
                                                     "eye.2",
                                                     "sign",
                                                     "verdict",
+                                                    "light",
+                                                    "other_light.verdict",
                                                     "reason",
                                                     "distance.value",
                                                     "angle_from_normal.value",
@@ -203,8 +248,7 @@ Result<Done> write_assessment(const fs::path& folder, const Json& assessment) {
                                                     "jin.legible",
                                                     "viewing_distance.within"});
   if (auto ok = write_csv(folder / "sights.csv", sights); !ok.ok()) return ok;
-  return write_file_atomically(folder / "report.html",
-                               assessment_page(assessment, pictures_in(folder)));
+  return Done{};
 }
 
 Result<Json> read_assessment(const fs::path& folder) {
@@ -221,23 +265,12 @@ Result<Json> read_assessment(const fs::path& folder) {
   if (!read.is_object() || read.value("format", "") != assessment_format)
     return Problem{{path.string(), 0},
                    std::string("is not a \"") + assessment_format + "\": make it anew"};
+  if (const auto fault = fault_of_assessment(read))
+    return Problem{{path.string(), 0},
+                   *fault +
+                       ": this assessment is damaged or of another version; make it anew by "
+                       "luxodus assess"};
   return read;
-}
-
-std::vector<ReportPicture> pictures_in(const fs::path& folder) {
-  std::vector<ReportPicture> out;
-  std::error_code failed;
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(folder / "views", failed))
-    if (entry.path().extension() == ".png" &&
-        entry.file_size(failed) <= limits::report_picture_bytes)
-      files.push_back(entry.path());
-  std::sort(files.begin(), files.end());
-  for (const fs::path& path : files) {
-    std::ifstream file(path, std::ios::binary);
-    out.push_back({path.stem().string(), std::string(std::istreambuf_iterator<char>(file), {})});
-  }
-  return out;
 }
 
 }  // namespace luxodus

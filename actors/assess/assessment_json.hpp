@@ -1,6 +1,6 @@
-// An assessment on disk: assessment.json (all of it), checks.csv, sights.csv, report.html. The page
-// and comparisons are made from the JSON alone, so that they can be made again later. Pure but for
-// write_assessment; any thread.
+// An assessment on disk: assessment.json (all of it), checks.csv, sights.csv. Reports
+// (actors/report) and comparisons are made from the JSON alone, so that they can be made again
+// later. Pure but for write_assessment and read_assessment; any thread.
 #pragma once
 
 #include <filesystem>
@@ -13,8 +13,6 @@ namespace luxodus {
 namespace limits {
 /// Largest assessment.json that is read back [bytes].
 inline constexpr uint64_t assessment_bytes = uint64_t{256} << 20;
-/// Largest picture that a report takes in [bytes].
-inline constexpr uint64_t report_picture_bytes = uint64_t{16} << 20;
 }  // namespace limits
 
 inline constexpr const char* assessment_format = "luxodus assessment 1";
@@ -22,21 +20,11 @@ inline constexpr const char* assessment_format = "luxodus assessment 1";
 Json assessment_json(const SceneDescription& scene, const Assessment& assessment,
                      const std::string& version);
 
-/// A page that needs nothing beside itself. `pictures`: names and PNG bytes of what stands in it.
-struct ReportPicture {
-  std::string caption;
-  std::string png;
-};
-std::string assessment_page(const Json& assessment, const std::vector<ReportPicture>& pictures);
-
 /// Errors: as write_file_atomically; a folder that cannot be made.
 Result<Done> write_assessment(const std::filesystem::path& folder, const Json& assessment);
 
 /// Errors: no assessment.json in the folder, or none of ours.
 Result<Json> read_assessment(const std::filesystem::path& folder);
-
-/// Pictures of `luxodus render` and `run` that lie beside an assessment.
-std::vector<ReportPicture> pictures_in(const std::filesystem::path& folder);
 
 /// What differs between two assessments: verdicts of checks and of sights, and values by how many
 /// standard errors. Lines for a terminal.

@@ -3,19 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
+
+#include "actors/assess/plan_cut.hpp"
 
 namespace luxodus {
 
 namespace {
 
 constexpr const char* furniture = "furniture";
-/// A route's floor is looked for within this above and below it [m].
-constexpr double floor_within_m = 0.3;
-/// A sign that has a surface as near before it shows itself to nobody [m].
-constexpr float before_sign_m = 0.3f;
 constexpr double standing_eye_m = 1.65;
-/// What stands from here to the eye is no step, sill or table [m].
-constexpr double waist_m = 1.0;
 /// A place that lies in a wall or a door is looked from so far beside it [m].
 constexpr double beside_m = 0.3;
 /// So far before a luminous opening a line ends: it may lie in a ceiling [m].
@@ -45,14 +42,19 @@ Scenario code_scenario(const SceneDescription& scene, const Scenario& doors) {
   return out;
 }
 
-std::string shown(const glm::dvec3& p) {
-  return fmt::format("({:.2f}, {:.2f}, {:.2f})", p.x, p.y, p.z);
+void append(std::vector<Check>& out, const std::vector<Check>& more) {
+  out.insert(out.end(), more.begin(), more.end());
+}
+
+void add_condition(std::vector<Check>& checks, const std::string& condition) {
+  for (Check& check : checks) check.condition += (check.condition.empty() ? "" : "; ") + condition;
 }
 
 class CodeMode {
  public:
-  CodeMode(const SceneDescription& scene, const Building& building, const AssessOptions& options)
-      : scene_(scene), building_(building), options_(options) {
+  CodeMode(const SceneDescription& scene, const Building& building,
+           const std::vector<CodeChoice>& codes)
+      : scene_(scene), building_(building), codes_(codes) {
     if (emergency_luminaires(scene).empty()) return;
     const auto& emitters = building.scene().emitters;
     for (size_t i = 0; i < emitters.size(); ++i)
@@ -66,31 +68,23 @@ class CodeMode {
   std::vector<Check> checks_by_light() const;
   /// Those of signs and luminaires by themselves.
   std::vector<Check> checks_of_parts() const;
-  /// Errors: the first place that nobody can walk on.
-  Result<Done> walkable() const;
-  /// Closed doors that routes lead through.
-  std::vector<Problem> closed_doors() const;
-  std::vector<Problem> blind_signs() const;
-  std::vector<PlanPoint> plan() const;
+  /// The points of calculation of each level, and its map of light.
+  void fill_plan(std::vector<PlanLevel>& levels) const;
 
  private:
   std::vector<Check> of_route(const EscapeRoute& route) const;
+  std::vector<Check> of_area(
+      const AssessedArea& area, double border_m,
+      const std::function<std::vector<Check>(const std::vector<LitPoint>&, const CodeChoice&)>&
+          checks) const;
   std::vector<std::vector<ClearSign>> clear_signs(const std::vector<Walker>& people) const;
   double lux_on_face(const Sign& sign) const;
   std::optional<double> vertical_lux(const EmphasisPoint& point) const;
-  struct Obstacle {
-    const Object* object = nullptr;
-    glm::dvec3 place{0};  // on the floor
-  };
-  std::vector<Obstacle> obstacles(const EscapeRoute& route) const;
-  std::vector<Obstacle> met_between(const GeometryAccess& access, const glm::dvec3& from,
-                                    const glm::dvec3& to, double height_m) const;
-  std::string words_of(const EscapeRoute& route, const Obstacle& met) const;
   LinesOfSight seen_from(const std::vector<glm::dvec3>& places) const;
 
   const SceneDescription& scene_;
   const Building& building_;
-  const AssessOptions& options_;
+  const std::vector<CodeChoice>& codes_;
   std::vector<size_t> columns_;  // luminaires among the compiled emitters
 };
 
@@ -122,16 +116,20 @@ std::vector<std::vector<ClearSign>> CodeMode::clear_signs(const std::vector<Walk
 }
 
 std::vector<Check> CodeMode::of_route(const EscapeRoute& route) const {
-  const RoutePoints points = points_of(route, options_.codes);
+  const RoutePoints points = points_of(route);
   const glm::dvec3 up(0, 0, 1);
   RouteLight light;
   light.centre = lit(points.centre, up, floor_plane_m);
   light.band = lit(points.band, up, floor_plane_m);
   light.inner = lit(points.inner, up, floor_plane_m);
-  auto out = checks_of_route(scene_, route, light, options_.codes);
   const auto people = walkers(route, scene_.assessment.spacing_m);
-  const auto far = checks_of_distance(scene_, route, people, clear_signs(people), options_.codes);
-  out.insert(out.end(), far.begin(), far.end());
+  const auto clear = clear_signs(people);
+  std::vector<Check> out;
+  for (const CodeChoice& codes : codes_) {
+    append(out, checks_of_route(scene_, route, light, codes));
+    append(out, checks_of_distance(scene_, route, people, clear, codes));
+  }
+  out.push_back(check_of_failure(scene_, "route \"" + route.name + "\"", light.centre));
   return out;
 }
 
@@ -185,158 +183,77 @@ std::vector<glm::dvec3> beside(const EmphasisPoint& point) {
   return out;
 }
 
-void append(std::vector<Check>& out, const std::vector<Check>& more) {
-  out.insert(out.end(), more.begin(), more.end());
+/// Points of an area within `border_m` of its edge are none of it, nor are those in furniture and
+/// walls: nobody walks or works there. How many these are stands beside the checks.
+std::vector<Check> CodeMode::of_area(
+    const AssessedArea& area, double border_m,
+    const std::function<std::vector<Check>(const std::vector<LitPoint>&, const CodeChoice&)>&
+        checks) const {
+  const glm::dvec3 up(0, 0, 1);
+  const auto all = within(area, border_m, area_grid_m);
+  std::vector<char> inside(all.size(), 0);
+  building_.each(all.size(), [&](const GeometryAccess& access, size_t i) {
+    inside[i] = building_.in_solid(access, all[i] + up * floor_plane_m) ? 1 : 0;
+  });
+  std::vector<glm::dvec3> places;
+  for (size_t i = 0; i < all.size(); ++i)
+    if (inside[i] == 0) places.push_back(all[i]);
+  const auto points = lit(places, up, floor_plane_m);
+  std::vector<Check> out;
+  for (const CodeChoice& codes : codes_) append(out, checks(points, codes));
+  if (places.size() < all.size())
+    add_condition(out, fmt::format("{} of {} points lie in bodies and are left out",
+                                   all.size() - places.size(), all.size()));
+  return out;
 }
 
 std::vector<Check> CodeMode::checks_by_light() const {
   std::vector<Check> out;
-  const auto add = [&](const std::vector<Check>& more) { append(out, more); };
-  const glm::dvec3 up(0, 0, 1);
-  for (const EscapeRoute& route : scene_.routes) add(of_route(route));
+  const auto add = [&](const auto& checks) {
+    for (const CodeChoice& codes : codes_) append(out, checks(codes));
+  };
+  for (const EscapeRoute& route : scene_.routes) append(out, of_route(route));
   for (const AssessedArea& area : scene_.open_areas)
-    add(checks_of_open_area(scene_, area, lit(within(area, 0.5, area_grid_m), up, floor_plane_m),
-                            options_.codes));
+    append(out, of_area(area, 0.5, [&](const auto& core, const CodeChoice& codes) {
+             auto checks = checks_of_open_area(scene_, area, core, codes);
+             if (&codes == &codes_.front())
+               checks.push_back(check_of_failure(scene_, "open area \"" + area.name + "\"", core));
+             return checks;
+           }));
   for (const AssessedArea& area : scene_.task_areas)
-    add(checks_of_task_area(scene_, area, lit(within(area, 0, area_grid_m), up, floor_plane_m),
-                            options_.codes));
-  for (const EmphasisPoint& point : emphasis_of(scene_))
-    add(checks_of_emphasis(scene_, point, seen_from(beside(point)), vertical_lux(point),
-                           options_.codes));
+    append(out, of_area(area, 0, [&](const auto& plane, const CodeChoice& codes) {
+             return checks_of_task_area(scene_, area, plane, codes);
+           }));
+  for (const EmphasisPoint& point : emphasis_of(scene_)) {
+    const LinesOfSight seen = seen_from(beside(point));
+    const auto lux = vertical_lux(point);
+    add([&](const CodeChoice& codes) {
+      return checks_of_emphasis(scene_, point, seen, lux, codes);
+    });
+  }
   return out;
 }
 
 std::vector<Check> CodeMode::checks_of_parts() const {
   std::vector<Check> out;
-  for (const Sign& sign : scene_.signs)
-    append(out,
-           checks_of_sign(scene_, sign, lux_on_face(sign),
-                          seen_from({sign.frame.origin +
-                                     sign.frame.axes[2] * (sign.thickness_m / 2 + floor_plane_m)}),
-                          options_.codes));
-  append(out, checks_of_glare(scene_, options_.codes));
-  append(out, checks_beyond(scene_, options_.codes));
-  return out;
-}
-
-Result<Done> CodeMode::walkable() const {
-  for (const EscapeRoute& route : scene_.routes) {
-    const auto places = along(route, 0, 1);
-    std::vector<char> floorless(places.size(), 0), inside(places.size(), 0);
-    building_.each(places.size(), [&](const GeometryAccess& access, size_t i) {
-      const glm::dvec3 above = places[i] + glm::dvec3(0, 0, floor_within_m);
-      floorless[i] = !next_surface(building_.scene(), access, building_.local(above), {0, 0, -1},
-                                   static_cast<float>(2 * floor_within_m));
-      inside[i] = building_.in_solid(access, places[i] + glm::dvec3(0, 0, standing_eye_m));
-    });
-    const auto where = [&](const std::vector<char>& wrong) {
-      const auto at = std::find(wrong.begin(), wrong.end(), 1) - wrong.begin();
-      return static_cast<size_t>(at) < places.size()
-                 ? std::optional(shown(places[static_cast<size_t>(at)]))
-                 : std::nullopt;
-    };
-    const std::string named = "route \"" + route.name + "\" ";
-    if (const auto at = where(floorless))
-      return Problem{route.place, named +
-                                      "has no floor under it: is it outside the building, or at "
-                                      "another height? At " +
-                                      *at};
-    for (const Obstacle& met : obstacles(route))
-      if (!met.object->door) return Problem{route.place, words_of(route, met)};
-    if (const auto at = where(inside))
-      return Problem{route.place, named + "leads through a wall, at " + *at};
+  for (const Sign& sign : scene_.signs) {
+    const double lux = lux_on_face(sign);
+    const LinesOfSight seen = seen_from(
+        {sign.frame.origin + sign.frame.axes[2] * (sign.thickness_m / 2 + floor_plane_m)});
+    for (const CodeChoice& codes : codes_)
+      append(out, checks_of_sign(scene_, sign, lux, seen, codes));
   }
-  return Done{};
-}
-
-std::vector<Problem> CodeMode::closed_doors() const {
-  std::vector<Problem> out;
-  for (const EscapeRoute& route : scene_.routes)
-    for (const Obstacle& met : obstacles(route))
-      if (met.object->door)
-        out.push_back(
-            {route.place,
-             words_of(route, met) + ": behind it, light and signs are those of the closed door"});
-  return out;
-}
-
-/// What stands in the way from waist to eye, each object once. Signs, luminaires and what is not
-/// solid are passed under or through.
-std::vector<CodeMode::Obstacle> CodeMode::obstacles(const EscapeRoute& route) const {
-  const auto places = along(route, 0, 1);
-  const auto legs = places.empty() ? 0 : places.size() - 1;
-  std::vector<std::vector<Obstacle>> met(legs);
-  building_.each(legs, [&](const GeometryAccess& access, size_t i) {
-    auto low = met_between(access, places[i], places[i + 1], waist_m);
-    const auto high = met_between(access, places[i], places[i + 1], standing_eye_m);
-    for (const Obstacle& one : low)
-      if (std::any_of(high.begin(), high.end(),
-                      [&](const Obstacle& other) { return other.object == one.object; }))
-        met[i].push_back(one);
-  });
-  std::vector<Obstacle> out;
-  for (const auto& some : met)
-    for (const Obstacle& one : some)
-      if (std::none_of(out.begin(), out.end(),
-                       [&](const Obstacle& other) { return other.object == one.object; }))
-        out.push_back(one);
-  return out;
-}
-
-std::vector<CodeMode::Obstacle> CodeMode::met_between(const GeometryAccess& access,
-                                                      const glm::dvec3& from, const glm::dvec3& to,
-                                                      double height_m) const {
-  constexpr float beyond_m = 1e-3f;
-  const CompiledScene& compiled = building_.scene();
-  const auto& objects = compiled.description->objects;
-  const glm::vec3 start = building_.local(from + glm::dvec3(0, 0, height_m));
-  const glm::vec3 way = building_.local(to + glm::dvec3(0, 0, height_m)) - start;
-  const float length = glm::length(way);
-  std::vector<Obstacle> out;
-  if (!(length > beyond_m)) return out;
-  const glm::vec3 direction = way / length;
-  for (float gone = 0; gone < length;) {
-    const auto hit =
-        next_surface(compiled, access, start + direction * gone, direction, length - gone);
-    if (!hit) break;
-    gone += hit->distance_m;
-    const uint32_t material = compiled.surfaces[hit->surface].material[hit->front ? 0 : 1];
-    if (hit->surface < objects.size() && compiled.materials[material].kind != MaterialKind::open)
-      out.push_back(
-          {&objects[hit->surface], from + (to - from) * static_cast<double>(gone / length)});
-    gone += beyond_m;
+  for (const CodeChoice& codes : codes_) {
+    append(out, checks_of_glare(scene_, codes));
+    append(out, checks_beyond(scene_, codes));
   }
   return out;
 }
 
-std::string CodeMode::words_of(const EscapeRoute& route, const Obstacle& met) const {
-  const SourcePlace& place = met.object->place;
-  return fmt::format("route \"{}\" leads through {} \"{}\"{} at {}", route.name,
-                     met.object->door ? "the closed door" : "the wall or body", met.object->name,
-                     place.line > 0 ? fmt::format(" ({}:{})", place.file, place.line) : "",
-                     shown(met.place));
-}
-
-std::vector<Problem> CodeMode::blind_signs() const {
-  std::vector<char> blind(scene_.signs.size(), 0);
-  building_.each(scene_.signs.size(), [&](const GeometryAccess& access, size_t i) {
-    const Sign& sign = scene_.signs[i];
-    const glm::dvec3 normal = sign.frame.axes[2];
-    const auto met =
-        next_surface(building_.scene(), access,
-                     building_.local(sign.frame.origin + normal * (sign.thickness_m / 2 + 0.005)),
-                     glm::vec3(normal), before_sign_m);
-    blind[i] = met ? 1 : 0;
-  });
-  std::vector<Problem> out;
-  for (size_t i = 0; i < blind.size(); ++i)
-    if (blind[i] != 0)
-      out.push_back({scene_.signs[i].place, "sign \"" + scene_.signs[i].name +
-                                                "\" faces a wall less than 0.3 m before it"});
-  return out;
-}
-
-std::vector<PlanPoint> CodeMode::plan() const {
+void CodeMode::fill_plan(std::vector<PlanLevel>& levels) const {
+  const auto sum = [](const LitPoint& p) {
+    return std::accumulate(p.lux.begin(), p.lux.end(), 0.0);
+  };
   std::vector<glm::dvec3> places;
   for (const EscapeRoute& route : scene_.routes) {
     const auto more = within(route, route.width_m / 2 - route_grid_m, 2 * route_grid_m);
@@ -346,16 +263,17 @@ std::vector<PlanPoint> CodeMode::plan() const {
     const auto more = within(area, area_grid_m / 2, area_grid_m);
     places.insert(places.end(), more.begin(), more.end());
   }
-  std::vector<PlanPoint> out;
-  for (const LitPoint& p : lit(places, {0, 0, 1}, floor_plane_m)) {
-    out.push_back({p.place, 0});
-    for (const double lux : p.lux) out.back().lux += lux;
+  const glm::dvec3 up(0, 0, 1);
+  for (const LitPoint& p : lit(places, up, floor_plane_m))
+    levels[level_of(levels, p.place.z)].points.push_back({p.place, sum(p)});
+  for (size_t i = 0; i < levels.size(); ++i) {
+    LightMap& map = levels[i].map = map_of(scene_, levels, i);
+    std::vector<glm::dvec3> grid;
+    for (int row = 0; row < map.rows; ++row)
+      for (int column = 0; column < map.columns; ++column)
+        grid.emplace_back(map.corner + glm::dvec2(column, row) * map.spacing_m, levels[i].floor_m);
+    for (const LitPoint& p : lit(grid, up, floor_plane_m)) map.lux.push_back(sum(p));
   }
-  return out;
-}
-
-void add_condition(std::vector<Check>& checks, const std::string& condition) {
-  for (Check& check : checks) check.condition += (check.condition.empty() ? "" : "; ") + condition;
 }
 
 }  // namespace
@@ -370,15 +288,8 @@ Result<Done> assess_by_codes(const SceneDescription& scene, const Scenario& scen
     auto building = Building::make(code_scene(scene, furnished), code_scenario(scene, scenario),
                                    options.threads);
     if (!building.ok()) return building.problem();
-    const CodeMode mode(scene, *building.value(), options);
-    if (!furnished) {
-      if (auto ok = mode.walkable(); !ok.ok()) return ok;
-      out.plan = mode.plan();
-      const auto doors = mode.closed_doors();
-      out.warnings.insert(out.warnings.end(), doors.begin(), doors.end());
-      const auto blind = mode.blind_signs();
-      out.warnings.insert(out.warnings.end(), blind.begin(), blind.end());
-    }
+    const CodeMode mode(scene, *building.value(), out.state.codes);
+    if (!furnished) mode.fill_plan(out.levels);
     auto checks = mode.checks_by_light();
     if (has_furniture) add_condition(checks, furnished ? "with furniture" : "without furniture");
     append(out.checks, checks);

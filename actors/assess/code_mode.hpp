@@ -3,13 +3,13 @@
 #pragma once
 
 #include "actors/assess/assessment.hpp"
-#include "actors/assess/building.hpp"
+#include "actors/inspect/building.hpp"
 #include "scenes/format/atomic_file.hpp"
 
 namespace luxodus {
 
-/// Adds checks, the plan and warnings to `out`. `scenario` gives the doors.
-/// Errors: routes outside the building or in walls.
+/// Adds checks and the plan to `out`. `scenario` gives the doors.
+/// Errors: a scene that cannot be compiled.
 Result<Done> assess_by_codes(const SceneDescription& scene, const Scenario& scenario,
                              const AssessOptions& options, const AssessProgress& progress,
                              Assessment& out);

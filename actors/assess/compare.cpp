@@ -6,6 +6,7 @@
 #include <map>
 
 #include "actors/assess/assessment_json.hpp"
+#include "actors/assess/state_words.hpp"
 
 namespace luxodus {
 
@@ -17,9 +18,11 @@ constexpr double different_errors = 3, different_share = 1e-6;
 
 using Key = std::string;
 
+/// By the edition, too: of two sets each has its own check of the same rule.
 Key check_key(const Json& check) {
-  return check["rule"].get<std::string>() + " " + check["subject"].get<std::string>() + " " +
-         check["condition"].get<std::string>();
+  return fmt::format("{} ({}) {} {}", check["rule"].get<std::string>(),
+                     check["edition"].get<std::string>(), check["subject"].get<std::string>(),
+                     check["condition"].get<std::string>());
 }
 
 Key sight_key(const Json& sight) {
@@ -90,15 +93,45 @@ Json changed_levels(const Json& before, const Json& after) {
   return out;
 }
 
-std::string shown(const Json& value) {
-  if (value.is_null()) return "not there";
+/// A verdict or value; `where` says of which assessment it is missing.
+std::string shown(const Json& value, const char* where) {
+  if (value.is_null()) return std::string("not assessed ") + where;
   return value.is_string() ? value.get<std::string>() : fmt::format("{:.4g}", value.get<double>());
+}
+
+/// What the judged states, and the verdicts on the whole, say differently. Where in which file a
+/// medium stands is none of it.
+Json changed_state(const Json& before, const Json& after) {
+  const auto rows_of = [](Json assessment) {
+    const Json::json_pointer media("/state/smoke/media");
+    if (assessment.contains(media))
+      for (Json& medium : assessment[media]) medium.erase("source");
+    std::map<std::string, std::string> out;
+    for (const auto& [what, words] : state_rows(assessment))
+      if (!what.empty() && what != "not assessed") out[what] = words;
+    out["verdict"] = verdict_words(assessment);
+    return out;
+  };
+  const auto was = rows_of(before), is = rows_of(after);
+  Json out = Json::array();
+  const auto add = [&](const std::string& what) {
+    const auto a = was.find(what), b = is.find(what);
+    const Json old_words = a == was.end() ? Json() : Json(a->second);
+    const Json new_words = b == is.end() ? Json() : Json(b->second);
+    if (old_words != new_words)
+      out.push_back({{"what", what}, {"before", old_words}, {"after", new_words}});
+  };
+  for (const auto& [what, words] : was) add(what);
+  for (const auto& [what, words] : is)
+    if (!was.contains(what)) add(what);
+  return out;
 }
 
 }  // namespace
 
 Json comparison_of(const Json& before, const Json& after) {
-  return {{"checks", changed_verdicts(before["checks"], after["checks"], check_key)},
+  return {{"state", changed_state(before, after)},
+          {"checks", changed_verdicts(before["checks"], after["checks"], check_key)},
           {"values", changed_values(before["checks"], after["checks"])},
           {"sights", changed_verdicts(before["sights"], after["sights"], sight_key)},
           {"levels", changed_levels(before["sights"], after["sights"])}};
@@ -110,14 +143,15 @@ std::string comparison_text(const Json& comparison) {
     const Json& rows = comparison[key];
     out += fmt::format("{}: {}\n", title, rows.size());
     for (const Json& row : rows) {
-      out += fmt::format("  {}: {} -> {}", row["what"].get<std::string>(), shown(row["before"]),
-                         shown(row["after"]));
+      out += fmt::format("  {}: {} -> {}", row["what"].get<std::string>(),
+                         shown(row["before"], "before"), shown(row["after"], "after"));
       if (row.contains("unit") && row["unit"] != "1") out += " " + row["unit"].get<std::string>();
       if (row.contains("standard_errors"))
         out += fmt::format(" ({:+.1f} standard errors)", row["standard_errors"].get<double>());
       out += "\n";
     }
   };
+  part("state", "what is said of the judged state, and of all checks, differently");
   part("checks", "checks whose verdict changed");
   part("values", "values of checks that changed");
   part("sights", "views of signs whose verdict changed");

@@ -8,7 +8,8 @@
 #include <map>
 #include <tuple>
 
-#include "actors/assess/building.hpp"
+#include "actors/assess/aged_light.hpp"
+#include "actors/inspect/building.hpp"
 #include "actors/source/local_run.hpp"
 #include "scenes/emergency/sign_face.hpp"
 #include "scenes/geometry/polygon.hpp"
@@ -74,11 +75,12 @@ void stand_in_areas(const SceneDescription& scene, std::vector<Stand>& out) {
   }
 }
 
-std::vector<Stand> stands_of(const SceneDescription& scene) {
+std::vector<Stand> stands_of(const SceneDescription& scene,
+                             const std::vector<Observer>& observers) {
   std::vector<Stand> out;
   stand_on_routes(scene, out);
   stand_in_areas(scene, out);
-  for (const Observer& observer : scene.observers) {
+  for (const Observer& observer : observers) {
     Stand stand;
     stand.from = "observer \"" + observer.name + "\"";
     stand.height_m = observer.eye.z;
@@ -118,20 +120,27 @@ SightRow row_of(const Stand& stand, const Sign& sign) {
   return row;
 }
 
-/// Veiling luminance in the eye of all emitters but the sign itself.
-double veil_of(const Building& building, const GeometryAccess& access, const SightRow& row,
-               uint32_t sign, double age_years) {
+/// Veiling luminance in the eye [cd/m2].
+struct Veil {
+  double aged = 0, as_new = 0;
+};
+
+/// Of all emitters but the sign itself. Each part of an emitter lays its veil from where it is,
+/// through the smoke before it: a flame is no point, and not in its middle. `renewals`: of source
+/// groups.
+Veil veil_of(const Building& building, const GeometryAccess& access, const SightRow& row,
+             uint32_t sign, double age_years, const std::vector<double>& renewals) {
   const CompiledScene& scene = building.scene();
   const glm::dvec3 gaze = glm::normalize(row.view.centre - row.eye);
-  const auto lux = direct_by_emitter(scene, access, building.local(row.eye), glm::vec3(gaze), {});
-  double veil = 0;
-  for (size_t i = 0; i < lux.size(); ++i) {
-    const CompiledEmitter& emitter = scene.emitters[i];
-    if (lux[i] <= 0) continue;
+  Veil veil;
+  for (const ArrivingLight& light :
+       direct_arrivals(scene, access, building.local(row.eye), glm::vec3(gaze), {})) {
+    const CompiledEmitter& emitter = scene.emitters[light.emitter];
     if (emitter.sign != none_index && scene.signs[emitter.sign].sign == sign) continue;
-    const glm::vec3 place = emitter.corners.empty() ? emitter.origin : emitter.corners.front();
-    const glm::dvec3 to_source(place - building.local(row.eye));
-    veil += lux[i] * veil_per_lux(angle_deg(to_source, gaze), age_years);
+    const double part = light.illuminance_lx *
+                        veil_per_lux(angle_deg(glm::dvec3(light.direction), gaze), age_years);
+    veil.aged += part;
+    veil.as_new += part * renewals[static_cast<size_t>(emitter.group)];
   }
   return veil;
 }
@@ -148,8 +157,14 @@ class RealityMode {
  public:
   RealityMode(const SceneDescription& scene, const Scenario& scenario, const AssessOptions& options,
               Assessment& out)
-      : scene_(scene), scenario_(scenario), options_(options), out_(out) {}
+      : scene_(without_measurements(scene)),
+        observers_(scene.observers),
+        scenario_(scenario),
+        options_(options),
+        out_(out) {}
 
+  /// Tells apart what has aged and what has not. Errors: as group_by_ageing.
+  Result<Done> tell_ageing_apart();
   /// Who can see what, by straight lines. Errors: as assess_sights.
   Result<Done> look_for_lines(const AssessProgress& progress);
   /// One round of paths for what is undecided. Errors: as assess_sights.
@@ -162,33 +177,45 @@ class RealityMode {
     size_t row;
     size_t stand;
     uint32_t sign;
+    Veil veil;
   };
   SceneDescription round_scene(int round) const;
-  SignLook look_at(const Readout& readout, const CompiledScene& scene, const EyeTarget& target,
-                   const SightRow& row) const;
+  void judge_view(const Readout& readout, const CompiledScene& scene, const EyeTarget& target,
+                  const Open& open) const;
   void judge(const CompiledScene& scene, const Totals& totals);
 
-  const SceneDescription& scene_;
+  SceneDescription scene_;  // measures nothing; sources are grouped by ageing
+  const std::vector<Observer>& observers_;
   const Scenario& scenario_;
   const AssessOptions& options_;
   Assessment& out_;
+  Ageing ageing_;
   std::vector<Stand> stands_;
   std::vector<Open> open_;
   std::vector<size_t> asked_;  // stands of the round's observers
 };
 
+Result<Done> RealityMode::tell_ageing_apart() {
+  auto ageing = group_by_ageing(scene_, scenario_.operation);
+  if (!ageing.ok()) return ageing.problem();
+  ageing_ = std::move(ageing).value();
+  return Done{};
+}
+
 Result<Done> RealityMode::look_for_lines(const AssessProgress& progress) {
   progress("lines of sight", 0);
-  auto made = Building::make(without_measurements(scene_), scenario_, options_.threads);
+  auto made = Building::make(scene_, scenario_, options_.threads);
   if (!made.ok()) return made.problem();
   const Building& building = *made.value();
-  stands_ = stands_of(scene_);
+  const std::vector<double> renewals = ageing_.renewals(building.scene());
+  stands_ = stands_of(scene_, observers_);
   if (stands_.size() * scene_.signs.size() > limits::sights)
     return Problem{{scene_.file, 0},
                    fmt::format("{} places and {} signs make more pairs than {}: take a larger "
                                "spacing_m or fewer eye heights",
                                stands_.size(), scene_.signs.size(), limits::sights)};
   std::vector<std::vector<SightRow>> rows(stands_.size());
+  std::vector<std::vector<Veil>> veils(stands_.size());
   std::vector<char> stuck(stands_.size(), 0);
   building.each(stands_.size(), [&](const GeometryAccess& access, size_t i) {
     const Stand& stand = stands_[i];
@@ -202,20 +229,24 @@ Result<Done> RealityMode::look_for_lines(const AssessProgress& progress) {
       row.look.visible_share = seen;
       if (seen == 0) row.sight.verdict = SightVerdict::hidden;
       if (stuck[i] != 0) row.sight.reason = "the eye is in a solid thing";
+      Veil veil;
       if (seen > 0 && stuck[i] == 0) {
         row.sight.verdict = SightVerdict::undecided;
-        row.look.veil_cd_m2 = veil_of(building, access, row, s, scene_.assessment.age_years);
+        veil = veil_of(building, access, row, s, scene_.assessment.age_years, renewals);
+        row.look.veil_cd_m2 = std::max(veil.aged, veil.as_new);
       }
+      veils[i].push_back(veil);
       rows[i].push_back(std::move(row));
     }
   });
   for (size_t i = 0; i < rows.size(); ++i)
-    for (SightRow& row : rows[i]) {
+    for (size_t k = 0; k < rows[i].size(); ++k) {
+      SightRow& row = rows[i][k];
       if (row.sight.verdict == SightVerdict::undecided) {
         const auto sign = std::find_if(scene_.signs.begin(), scene_.signs.end(),
                                        [&](const Sign& s) { return s.name == row.sign; });
-        open_.push_back(
-            {out_.sights.size(), i, static_cast<uint32_t>(sign - scene_.signs.begin())});
+        open_.push_back({out_.sights.size(), i, static_cast<uint32_t>(sign - scene_.signs.begin()),
+                         veils[i][k]});
       }
       out_.sights.push_back(std::move(row));
     }
@@ -224,7 +255,7 @@ Result<Done> RealityMode::look_for_lines(const AssessProgress& progress) {
 
 /// The scene with those who still have to look, and as many paths as the round has.
 SceneDescription RealityMode::round_scene(int round) const {
-  SceneDescription scene = without_measurements(scene_);
+  SceneDescription scene = scene_;
   size_t last = stands_.size();
   for (const Open& open : open_) {
     if (open.stand != last) {
@@ -242,15 +273,51 @@ SceneDescription RealityMode::round_scene(int round) const {
   return scene;
 }
 
-SignLook RealityMode::look_at(const Readout& readout, const CompiledScene& scene,
-                              const EyeTarget& target, const SightRow& row) const {
-  const SignFace& face = scene.description->signs[scene.signs[target.sign].sign].face;
-  const auto of = [&](uint32_t part, EyeQuantity quantity) {
-    const Estimate e =
-        readout.value(scene.blocks.views, target.first_bin + part, static_cast<uint32_t>(quantity));
-    return Uncertain{e.value, e.standard_error};
-  };
-  const Uncertain white = of(0, EyeQuantity::at_eye), green = of(1, EyeQuantity::at_eye);
+/// What arrives at the eye from one sign, in aged light, or in new: its source groups, each times
+/// its renewal.
+class ViewReadout {
+ public:
+  ViewReadout(const Readout& readout, const CompiledScene& scene, const EyeTarget& target,
+              std::vector<double> renewals)
+      : readout_(readout), scene_(scene), target_(target), renewals_(std::move(renewals)) {}
+
+  SignLook look(double veil, bool as_new) const;
+
+ private:
+  Uncertain of(uint32_t part, EyeQuantity quantity, bool as_new) const;
+
+  const Readout& readout_;
+  const CompiledScene& scene_;
+  const EyeTarget& target_;
+  std::vector<double> renewals_;  // of source groups
+};
+
+Uncertain ViewReadout::of(uint32_t part, EyeQuantity quantity, bool as_new) const {
+  const uint32_t bin = target_.first_bin + part;
+  const bool ages = quantity == EyeQuantity::at_eye || quantity == EyeQuantity::reflected;
+  if (!as_new || !ages || renewals_.size() == 1) {
+    const Estimate e = readout_.value(scene_.blocks.views, bin, static_cast<uint32_t>(quantity));
+    const double renewal = as_new && ages ? renewals_.front() : 1;
+    return {e.value * renewal, e.standard_error * renewal};
+  }
+  const auto part_of_group =
+      quantity == EyeQuantity::at_eye ? GroupEyeQuantity::at_eye : GroupEyeQuantity::reflected;
+  const auto groups = static_cast<uint32_t>(renewals_.size());
+  Uncertain sum;
+  for (uint32_t g = 0; g < groups; ++g) {
+    const Estimate e = readout_.value(scene_.blocks.views_by_group, bin * groups + g,
+                                      static_cast<uint32_t>(part_of_group));
+    sum.value += renewals_[g] * e.value;
+    // The groups' parts are of the same paths: errors may all go one way.
+    sum.error += renewals_[g] * e.standard_error;
+  }
+  return sum;
+}
+
+SignLook ViewReadout::look(double veil, bool as_new) const {
+  const SignFace& face = scene_.description->signs[scene_.signs[target_.sign].sign].face;
+  const Uncertain white = of(0, EyeQuantity::at_eye, as_new);
+  const Uncertain green = of(1, EyeQuantity::at_eye, as_new);
   const bool white_legend = face.legend == SignColour::white;
   const double w = colour_share(face, SignColour::white), g = colour_share(face, SignColour::green);
   const double all = std::max(w + g, 1e-12);
@@ -259,26 +326,49 @@ SignLook RealityMode::look_at(const Readout& readout, const CompiledScene& scene
   look.ground = white_legend ? green : white;
   look.face = {(w * white.value + g * green.value) / all,
                std::hypot(w * white.error, g * green.error) / all};
-  look.surround = of(2, EyeQuantity::at_eye);
+  look.surround = of(2, EyeQuantity::at_eye, as_new);
   const auto mean_of_colours = [&](EyeQuantity q) {
-    return (w * of(0, q).value + g * of(1, q).value) / all;
+    return (w * of(0, q, as_new).value + g * of(1, q, as_new).value) / all;
   };
   look.visible_share = mean_of_colours(EyeQuantity::visible);
   const double passed = mean_of_colours(EyeQuantity::transmission);
   look.transmission = look.visible_share > 0 ? passed / look.visible_share : 0;
-  look.veil_cd_m2 = row.look.veil_cd_m2;
+  look.veil_cd_m2 = veil;
   const auto arrives = [&](uint32_t part) {
-    return product(plus(of(part, EyeQuantity::own), of(part, EyeQuantity::reflected)),
-                   of(part, EyeQuantity::transmission));
+    return product(
+        plus(of(part, EyeQuantity::own, as_new), of(part, EyeQuantity::reflected, as_new)),
+        of(part, EyeQuantity::transmission, as_new));
   };
   look.difference =
       plus(arrives(white_legend ? 0 : 1), product({-1, 0}, arrives(white_legend ? 1 : 0)));
   return look;
 }
 
+/// In aged light and, where it differs, in new: the worse verdict counts.
+void RealityMode::judge_view(const Readout& readout, const CompiledScene& scene,
+                             const EyeTarget& target, const Open& open) const {
+  const SightRules rules{{scene_.assessment.age_years},
+                         scene_.assessment.irritant_smoke.value_or(false)};
+  const ViewReadout view(readout, scene, target, ageing_.renewals(scene));
+  const Sign& sign = scene_.signs[open.sign];
+  SightRow& row = out_.sights[open.row];
+  row.look = view.look(open.veil.aged, false);
+  row.sight = judge_sight(sign, row.view, row.look, rules);
+  row.in_new_light = false;
+  row.other.reset();
+  if (!ageing_.any()) return;
+  SightRow::Other as_new{view.look(open.veil.as_new, true), {}};
+  as_new.sight = judge_sight(sign, row.view, as_new.look, rules);
+  if (is_worse(as_new.sight, row.sight)) {
+    std::swap(row.look, as_new.look);
+    std::swap(row.sight, as_new.sight);
+    row.in_new_light = true;
+  }
+  row.other = std::move(as_new);
+}
+
 void RealityMode::judge(const CompiledScene& scene, const Totals& totals) {
   const Readout readout(scene, totals);
-  const SightRules rules{{scene_.assessment.age_years}, scene_.assessment.irritant_smoke.value_or(false)};
   std::map<std::tuple<size_t, uint32_t, bool>, const EyeTarget*> targets;
   for (const EyeTarget& target : scene.eye_targets) {
     const CompiledSign& face = scene.signs[target.sign];
@@ -293,8 +383,7 @@ void RealityMode::judge(const CompiledScene& scene, const Totals& totals) {
       row.sight.reason = "it is seen edge-on";
       continue;
     }
-    row.look = look_at(readout, scene, *target->second, row);
-    row.sight = judge_sight(scene_.signs[open.sign], row.view, row.look, rules);
+    judge_view(readout, scene, *target->second, open);
     if (row.sight.verdict == SightVerdict::undecided) still.push_back(open);
   }
   open_ = std::move(still);
@@ -329,7 +418,9 @@ Result<Done> RealityMode::trace(int round, const std::atomic<bool>& interrupt,
 Result<Done> assess_sights(const SceneDescription& scene, const Scenario& scenario,
                            const AssessOptions& options, const std::atomic<bool>& interrupt,
                            const AssessProgress& progress, Assessment& out) {
+  if (auto ok = irritation_is_said(scene, scenario); !ok.ok()) return ok;
   RealityMode mode(scene, scenario, options, out);
+  if (auto ok = mode.tell_ageing_apart(); !ok.ok()) return ok;
   if (auto ok = mode.look_for_lines(progress); !ok.ok()) return ok;
   for (int round = 0; round < options.rounds && mode.anything_open(); ++round)
     if (auto ok = mode.trace(round, interrupt, progress); !ok.ok()) return ok;

@@ -8,7 +8,8 @@
 
 namespace luxodus {
 
-/// Adds sights to `out`. Errors: `interrupt`; more pairs of place and sign than a limit.
+/// Adds sights to `out`. Errors: irritation_is_said; `interrupt`; more pairs of place and sign than
+/// a limit.
 Result<Done> assess_sights(const SceneDescription& scene, const Scenario& scenario,
                            const AssessOptions& options, const std::atomic<bool>& interrupt,
                            const AssessProgress& progress, Assessment& out);

@@ -1,14 +1,18 @@
-// luxodus assess, report, compare: whether signs and routes do their job, as a page and as data.
+// luxodus assess, compare: whether signs and routes do their job, as data and as a report.
 #include <fmt/format.h>
-#include <spawn.h>
 #include <spdlog/spdlog.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "actors/assess/assessment_json.hpp"
+#include "actors/assess/check_words.hpp"
+#include "actors/assess/state_words.hpp"
 #include "actors/cli/command.hpp"
+#include "actors/cli/findings.hpp"
+#include "actors/cli/report_options.hpp"
+#include "scenes/format/file_names.hpp"
+#include "scenes/format/output_folder.hpp"
 
 namespace luxodus::cli {
 
@@ -19,62 +23,55 @@ namespace fs = std::filesystem;
 struct AssessCommandOptions {
   std::string scene;
   std::string out;
-  std::vector<std::string> rules = {"en1838-2013"};
   AssessOptions assess;
   bool codes_alone = false;
   bool strict = false;
+  ReportWords report;
 };
 
-CodeChoice codes_of(const std::vector<std::string>& rules) {
-  CodeChoice codes{false, false, false};
-  for (const std::string& rule : rules) {
-    codes.en_2013 = codes.en_2013 || rule == "en1838-2013";
-    codes.en_2024 = codes.en_2024 || rule == "en1838-2024";
-    codes.nfpa = codes.nfpa || rule == "nfpa101";
-  }
-  return codes;
+std::string ids_of(std::span<const NamedRules> rows) {
+  std::string out;
+  for (const NamedRules& row : rows) out += (out.empty() ? "" : ", ") + std::string(row.id);
+  return out;
 }
 
-void print_summary(const Json& a, const fs::path& out) {
-  const Json& counts = a["counts"];
-  std::printf("%d checks pass, %d fail, %d not assessed\n", counts["pass"].get<int>(),
-              counts["fail"].get<int>(), counts["not_assessed"].get<int>());
-  for (const Json& check : a["checks"]) {
-    if (check["verdict"] != "fail") continue;
-    const std::string value =
-        check["value"].is_number() ? short_number(check["value"].get<double>()) : "none";
-    std::printf(
-        "  fails: %s: %s: %s %s, %s %s (%s, %s)\n", check["subject"].get<std::string>().c_str(),
-        check["title"].get<std::string>().c_str(), value.c_str(),
-        check["unit"].get<std::string>().c_str(), check["sense"].get<std::string>().c_str(),
-        short_number(check["limit"].get<double>()).c_str(),
-        check["rule"].get<std::string>().c_str(), check["condition"].get<std::string>().c_str());
-  }
+/// A check that fails, or whose limit was read nowhere, in a line.
+void print_check(const Json& check) {
+  if (check["verdict"] == "fail")
+    std::printf("  fails: %s\n", check_words(check).c_str());
+  else
+    std::printf("  not verified: %s: %s\n", check_words(check).c_str(),
+                check.value("reason", "").c_str());
+}
+
+void print_summary(const Json& a) {
+  std::printf("%s%s\n", state_text(a).c_str(), verdict_words(a).c_str());
+  for (const char* verdict : {"fail", "not verified"})
+    for (const Json& check : a["checks"])
+      if (check["verdict"] == verdict) print_check(check);
   std::string seen;
   for (const auto& [word, count] : a["sight_counts"].items())
     seen += fmt::format("{}{} {}", seen.empty() ? "" : ", ", count.get<int>(), word);
   if (!seen.empty()) std::printf("signs, from routes and areas: %s\n", seen.c_str());
-  std::printf("written to %s\n", (out / "report.html").string().c_str());
-}
-
-ExitCode verdict_of(const Json& a, bool strict) {
-  const Json& counts = a["counts"];
-  const bool open = counts["fail"].get<int>() + counts["not_assessed"].get<int>() > 0 ||
-                    a["sight_counts"].contains("undecided");
-  return strict && open ? ExitCode::failure : ExitCode::success;
 }
 
 Result<ExitCode> assess_scene(const AssessCommandOptions& options) {
   const auto scene = load_scene(options.scene);
   if (!scene) return ExitCode::bad_input;
+  const fs::path folder = options.out.empty()
+                              ? fs::path("out") / file_name_of(scene->name + "-assessed")
+                              : fs::path(options.out);
+  const auto out = OutputFolder::claim(
+      folder, {{"report.html", "report.pdf", "assessment.json", "checks.csv", "sights.csv"},
+               {"plans", "schedules"}});
+  if (!out.ok()) return out.problem();
   install_interrupt_handler();
   AssessOptions asked = options.assess;
-  asked.codes = codes_of(options.rules);
   asked.reality = !options.codes_alone;
   ProgressLine line("assess");
   const auto assessed =
       assess(scene, asked, interrupt_flag(), [&](const std::string& what, double share) {
-        line.put(fmt::format("{}: {:.0f} %", what, 100 * share), share >= 1);
+        line.put(fmt::format("{}: {:.0f} %", what, 100 * share), share >= 1, share);
       });
   if (!assessed.ok()) {
     if (!interrupt_flag()) {
@@ -84,57 +81,17 @@ Result<ExitCode> assess_scene(const AssessCommandOptions& options) {
     spdlog::warn("interrupted; nothing was written");
     return ExitCode::interrupted;
   }
-  for (const Problem& warning : assessed->warnings) spdlog::warn("{}", warning.text());
-  const fs::path out =
-      options.out.empty() ? fs::path("out") / (scene->name + "-assessed") : fs::path(options.out);
+  tell_findings(assessed->findings);
+  for (const Problem& warning : assessed->warnings)
+    if (std::none_of(assessed->findings.begin(), assessed->findings.end(),
+                     [&](const Finding& f) { return f.problem.text() == warning.text(); }))
+      spdlog::warn("{}", warning.text());
   const Json json = assessment_json(*scene, assessed.value(), LUX_VERSION);
-  if (auto ok = write_assessment(out, json); !ok.ok()) return ok.problem();
-  print_summary(json, out);
-  return verdict_of(json, options.strict);
-}
-
-/// Runs a program and waits; whether it said that all went well. A program that is not there fails.
-bool runs(const std::vector<std::string>& words) {
-  std::vector<char*> arguments;
-  for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
-  arguments.push_back(nullptr);
-  pid_t pid = 0;
-  int status = 0;
-  return ::posix_spawnp(&pid, arguments[0], nullptr, nullptr, arguments.data(), environ) == 0 &&
-         ::waitpid(pid, &status, 0) == pid && status == 0;
-}
-
-/// Prints a page as PDF by whichever Chromium is installed.
-Result<Done> print_pdf(const fs::path& page, const fs::path& pdf) {
-  const std::string address = "file://" + fs::absolute(page).string();
-  std::error_code ignored;
-  fs::remove(pdf, ignored);
-  for (const char* browser : {"chromium", "chromium-browser", "google-chrome"}) {
-    std::vector<std::string> words{
-        browser,         "--headless=new",         "--disable-gpu",
-        "--log-level=3", "--no-pdf-header-footer", "--print-to-pdf=" + pdf.string()};
-    // It has no sandbox for root; the page is ours and fetches nothing.
-    if (::geteuid() == 0) words.emplace_back("--no-sandbox");
-    words.push_back(address);
-    if (runs(words) && fs::exists(pdf, ignored)) return Done{};
-  }
-  return Problem{{pdf.string(), 0},
-                 "no Chromium printed it: install one (Debian: chromium), or print report.html"};
-}
-
-Result<ExitCode> report_again(const std::string& folder, bool pdf) {
-  const auto read = read_assessment(folder);
-  if (!read.ok()) return read.problem();
-  const fs::path page = fs::path(folder) / "report.html";
-  if (auto ok = write_file_atomically(page, assessment_page(read.value(), pictures_in(folder)));
-      !ok.ok())
+  if (auto ok = write_assessment(out->path(), json); !ok.ok()) return ok.problem();
+  print_summary(json);
+  if (auto ok = write_report_and_tell(out.value(), json, options.report); !ok.ok())
     return ok.problem();
-  std::printf("written to %s\n", page.string().c_str());
-  if (!pdf) return ExitCode::success;
-  const fs::path printed = fs::path(folder) / "report.pdf";
-  if (auto ok = print_pdf(page, printed); !ok.ok()) return ok.problem();
-  std::printf("written to %s\n", printed.string().c_str());
-  return ExitCode::success;
+  return options.strict && anything_open(json) ? ExitCode::failure : ExitCode::success;
 }
 
 Result<ExitCode> compare_folders(const std::string& before, const std::string& after,
@@ -146,7 +103,7 @@ Result<ExitCode> compare_folders(const std::string& before, const std::string& a
   const Json comparison = comparison_of(a.value(), b.value());
   std::printf("%s", comparison_text(comparison).c_str());
   if (!json.empty())
-    if (auto ok = write_json(json, comparison); !ok.ok()) return ok.problem();
+    if (auto ok = write_json(behind_links(json), comparison); !ok.ok()) return ok.problem();
   return ExitCode::success;
 }
 
@@ -166,19 +123,25 @@ void add_assess(CLI::App& app, int& exit_code) {
       app.add_subcommand("assess", "Judge signs and escape routes, by codes and in smoke");
   command->footer(
       "Needs routes, areas or observers in the scene (keys: scenes/format/README.md). Writes\n"
-      "report.html, assessment.json, checks.csv and sights.csv.\n"
+      "report.html, assessment.json, checks.csv, sights.csv, plans/ (SVG, DXF), schedules/ (CSV).\n"
       "  luxodus assess scenes/library/office_floor.toml --out out/office\n"
+      "  luxodus assess office.toml --scenario fire --rules en1838-2013 --deviation de-asr-a3.4-3\n"
       "  luxodus assess office.toml --rules en1838-2024,nfpa101 --codes-alone\n"
       "  luxodus assess office.toml --smoke-scale 0.1,0.3,1,3,10");
   command->add_option("scene", options->scene, "scene file (TOML)")->required();
   command->add_option("--scenario", options->assess.scenario,
-                      "state of the building [the first in emergency operation, with smoke]");
+                      "state of the building [the one in emergency operation, with smoke where "
+                      "any has it; none is guessed]");
   command->add_option("--out", options->out, "folder of the results [out/NAME-assessed]");
   command
-      ->add_option("--rules", options->rules,
-                   "codes: en1838-2013, en1838-2024, nfpa101 [en1838-2013]")
-      ->delimiter(',')
-      ->check(CLI::IsMember({"en1838-2013", "en1838-2024", "nfpa101"}));
+      ->add_option("--rules", options->assess.rules,
+                   "rule sets: " + ids_of(rule_sets()) + " [those of the scene]")
+      ->delimiter(',');
+  command
+      ->add_option(
+          "--deviation", options->assess.deviations,
+          "national deviations from them: " + ids_of(deviations()) + " [those of the scene]")
+      ->delimiter(',');
   command->add_option("--seed", options->assess.seed, "of all random numbers [1]")
       ->check(seed_number());
   command->add_option("--threads", options->assess.threads, "threads [all]")
@@ -193,21 +156,10 @@ void add_assess(CLI::App& app, int& exit_code) {
       ->delimiter(',')
       ->check(CLI::Range(0.0, 1e6));
   command->add_flag("--codes-alone", options->codes_alone, "no smoke, no reflections: codes only");
+  add_report_options(*command, options->report);
   command->add_flag("--strict", options->strict,
-                    "exit code 1 where anything fails, is undecided or not assessed");
+                    "exit code 1 where anything fails, is undecided, not assessed or not verified");
   command->callback([options, &exit_code] { exit_code = told(assess_scene(*options)); });
-}
-
-void add_report(CLI::App& app, int& exit_code) {
-  auto folder = std::make_shared<std::string>();
-  auto pdf = std::make_shared<bool>(false);
-  CLI::App* command =
-      app.add_subcommand("report", "Write the page of an assessment again, with new pictures");
-  command->footer("Takes in the pictures of FOLDER/views, as `luxodus render` makes them.");
-  command->add_option("folder", *folder, "folder of luxodus assess")->required();
-  command->add_flag("--pdf", *pdf,
-                    "print it as report.pdf, too, by Chromium where one is installed");
-  command->callback([folder, pdf, &exit_code] { exit_code = told(report_again(*folder, *pdf)); });
 }
 
 void add_compare(CLI::App& app, int& exit_code) {

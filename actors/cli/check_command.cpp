@@ -1,7 +1,12 @@
 // luxodus check: read everything a scene names, compile it, and say what was found.
+#include <fmt/format.h>
+
 #include <filesystem>
 
+#include "actors/assess/judged_state.hpp"
 #include "actors/cli/command.hpp"
+#include "actors/cli/findings.hpp"
+#include "actors/cli/floors.hpp"
 #include "scenes/format/json_out.hpp"
 #include "scenes/transport/compile.hpp"
 #include "scenes/transport/packed_scene.hpp"
@@ -21,28 +26,6 @@ struct CheckOptions {
 
 Json point_json(const glm::dvec3& p) {
   return {p.x, p.y, p.z};
-}
-
-/// Heights at which horizontal, upward-facing surfaces of at least a square metre lie: the floors.
-std::vector<double> floor_heights(const CompiledScene& scene) {
-  std::map<int64_t, double> area_at;  // by millimetre
-  const auto read = for_each_cell(scene, [&](const GeometryCell& cell) {
-    for (const TriangleRecord& t : cell.triangles) {
-      if (t.normal.z < 0.999f) continue;
-      const float area =
-          0.5f * glm::length(glm::cross(t.corner[1] - t.corner[0], t.corner[2] - t.corner[0]));
-      const double z = static_cast<double>(t.corner[0].z) + scene.local_origin.z;
-      area_at[std::llround(z * 1000)] += static_cast<double>(area);
-    }
-  });
-  if (!read.ok()) tell(read.problem());
-  double most = 0;
-  for (const auto& [z, area] : area_at) most = std::max(most, area);
-  std::vector<double> out;
-  for (const auto& [z, area] : area_at) {
-    if (area >= 1 && area > 0.05 * most) out.push_back(static_cast<double>(z) / 1000);
-  }
-  return out;
 }
 
 Json memory_json(const CompiledScene& scene) {
@@ -114,11 +97,13 @@ void print(const Json& s) {
                 static_cast<long long>(dropped));
   const auto& low = s["bounds"]["low"];
   const auto& high = s["bounds"]["high"];
-  std::printf("  bounds     x %.4g .. %.4g, y %.4g .. %.4g, z %.4g .. %.4g m; floors at",
+  std::printf("  bounds     x %.4g .. %.4g, y %.4g .. %.4g, z %.4g .. %.4g m; ",
               low[0].get<double>(), high[0].get<double>(), low[1].get<double>(),
               high[1].get<double>(), low[2].get<double>(), high[2].get<double>());
-  for (const Json& z : s["floor_heights_m"]) std::printf(" %.4g", z.get<double>());
-  std::printf(" m\n");
+  std::string floors;
+  for (const Json& z : s["floor_heights_m"])
+    floors += (floors.empty() ? "floors at z = " : ", ") + fmt::format("{:.4g}", z.get<double>());
+  std::printf("%s\n", floors.empty() ? "no floor found" : (floors + " m").c_str());
   std::printf("  light      %zu emitters, %.6g lm\n", s["emitters"].size(),
               s["luminous_flux"]["value"].get<double>());
   for (const Json& e : s["emitters"]) {
@@ -141,6 +126,31 @@ void print(const Json& s) {
   std::printf("  batch      %lld particles\n", s["batch_particles"].get<long long>());
 }
 
+/// What compiling warned of, as findings beside those of the inspection, each once.
+void add_warnings(const CompiledScene& scene, std::vector<Finding>& out) {
+  for (const Problem& w : scene.warnings) {
+    const Finding finding{Severity::warning, "geometry", w};
+    if (std::none_of(out.begin(), out.end(),
+                     [&](const Finding& f) { return f.text() == finding.text(); }))
+      out.push_back(finding);
+  }
+}
+
+/// What assess would ask to be said, where there is something that it judges. Its options may say
+/// it, too: notes.
+void add_refusals(const SceneDescription& scene, std::vector<Finding>& out) {
+  if (scene.packed ||
+      (scene.routes.empty() && scene.open_areas.empty() && scene.task_areas.empty()))
+    return;
+  const auto add = [&](const Problem& why) {
+    out.push_back({Severity::note, "assess", {why.where, "luxodus assess: " + why.what}});
+  };
+  if (const auto codes = judged_codes(scene, {}, {}); !codes.ok()) add(codes.problem());
+  const auto scenario = judged_scenario(scene, "");
+  if (!scenario.ok()) return add(scenario.problem());
+  if (auto said = irritation_is_said(scene, scenario.value()); !said.ok()) add(said.problem());
+}
+
 int check(const CheckOptions& options) {
   const auto description = load_scene(options.scene);
   if (!description) return ExitCode::bad_input;
@@ -149,25 +159,36 @@ int check(const CheckOptions& options) {
     tell(scenarios.problem());
     return ExitCode::bad_input;
   }
+  std::vector<Finding> findings;
   Json all = Json::array();
-  int code = ExitCode::success;
   for (const Scenario& scenario : scenarios.value()) {
     auto scene = compile_scene(description, scenario, {options.cells});
     if (!scene.ok()) {
-      tell(scene.problem());
-      code = ExitCode::bad_input;
+      findings.push_back({Severity::error, "scenario", scene.problem()});
       continue;
     }
-    for (const Problem& w : scene.value()->warnings) tell(w);
+    add_warnings(*scene.value(), findings);
     all.push_back(describe(*scene.value()));
   }
-  if (options.json)
-    std::fputs(json_text({{"scene", description->name}, {"scenarios", all}}).c_str(), stdout);
-  else {
+  if (!has_error(findings)) {
+    auto found = inspect(description, scenarios.value(), default_threads());
+    if (!found.ok()) found = std::vector<Finding>{{Severity::error, "scene", found.problem()}};
+    findings.insert(findings.begin(), found->begin(), found->end());
+  }
+  add_refusals(*description, findings);
+  tell_findings(findings);
+  if (options.json) {
+    std::fputs(json_text({{"scene", description->name},
+                          {"scenarios", all},
+                          {"findings", findings_json(findings)}})
+                   .c_str(),
+               stdout);
+  } else {
     std::printf("%s: %s\n", description->name.c_str(), description->title.c_str());
     for (const Json& s : all) print(s);
+    std::printf("%s\n", count_text(findings).c_str());
   }
-  return code;
+  return has_error(findings) ? ExitCode::bad_input : ExitCode::success;
 }
 
 }  // namespace
@@ -175,8 +196,10 @@ int check(const CheckOptions& options) {
 void add_check(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<CheckOptions>();
   CLI::App* command = app.add_subcommand(
-      "check", "Read everything a scene names and say what was found, without tracing");
-  command->footer("Every problem is told with its file and line; exit code 2 if there is any.");
+      "check", "Read everything a scene names, inspect it and say what was found");
+  command->footer(
+      "Findings are errors, warnings or notes, each with its file and line; exit code 2 if there\n"
+      "is an error. All that run, assess, render, pack and view refuse is found here.");
   command->add_option("scene", options->scene, "scene file (TOML), or a pack")->required();
   command->add_option("--scenario", options->scenario, "name of a scenario, or 'all' [all]");
   command->add_option("--cells", options->cells, "geometry cells [1]")

@@ -1,6 +1,7 @@
 #include "actors/cli/command.hpp"
 
 #include <spdlog/spdlog.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -9,8 +10,10 @@
 #include <cmath>
 #include <csignal>
 #include <cstdio>
+#include <ctime>
 #include <thread>
 
+#include "runtime/core/printable.hpp"
 #include "scenes/format/scene_file.hpp"
 #include "scenes/pack/scene_pack.hpp"
 #include "scenes/transport/compile.hpp"
@@ -131,9 +134,21 @@ int default_threads() {
 namespace {
 
 std::atomic<bool> interrupted_flag{false};
+std::atomic<int64_t> interrupted_at{0};
+static_assert(std::atomic<int64_t>::is_always_lock_free);
 
+/// The second time ends at once, if it is meant: one Ctrl-C may come twice, to the process and to
+/// its group.
 void on_interrupt(int) {
-  if (interrupted_flag.exchange(true)) std::_Exit(ExitCode::interrupted);
+  constexpr int64_t one_press_ns = 300'000'000;
+  timespec now{};
+  ::clock_gettime(CLOCK_MONOTONIC, &now);
+  const int64_t now_ns = int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
+  if (!interrupted_flag.exchange(true)) {
+    interrupted_at = now_ns;
+  } else if (now_ns - interrupted_at > one_press_ns) {
+    std::_Exit(ExitCode::interrupted);
+  }
 }
 
 }  // namespace
@@ -181,24 +196,64 @@ std::string short_number(double v) {
   return fmt::format("{:.3g}{}", v, unit);
 }
 
-ProgressLine::ProgressLine(std::string title)
-    : title_(std::move(title)), terminal_(isatty(STDERR_FILENO) != 0) {}
-
-ProgressLine::~ProgressLine() {
-  if (terminal_) std::fputs("\n", stderr);
+std::string time_text(double seconds) {
+  if (seconds < 100) return fmt::format("{:.0f} s", seconds);
+  if (seconds < 100 * 60) return fmt::format("{:.0f} min", seconds / 60);
+  return fmt::format("{:.1f} h", seconds / 3600);
 }
 
-void ProgressLine::put(const std::string& text, bool last) {
+namespace {
+
+double now_s() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// As much of a line as the terminal shows in one row: what wraps cannot be rewritten.
+std::string in_one_row(std::string text) {
+  winsize size{};
+  if (::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col < 2) return text;
+  const size_t columns = size.ws_col - size_t{1};
+  if (text.size() <= columns) return text;
+  size_t end = columns;
+  // Not within a character of several bytes.
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;
+  return text.substr(0, end);
+}
+
+}  // namespace
+
+ProgressLine::ProgressLine(const std::string& title)
+    : title_(printable(title)),
+      terminal_(isatty(STDERR_FILENO) != 0),
+      began_s_(now_s()),
+      logged_s_(began_s_) {}
+
+ProgressLine::~ProgressLine() {
+  if (terminal_ && shown_) std::fputs("\n", stderr);
+}
+
+bool ProgressLine::is_worth_a_line(bool last, std::optional<double> share) {
+  // Where nobody knows how much there is to do, a log of a day still has less than 300 lines.
+  constexpr double soonest_s = 30, unknown_s = 300;
+  const double waited = now_s() - logged_s_;
+  const int tenths = share ? static_cast<int>(10 * *share) : 0;
+  const bool due = last ? shown_ || waited >= soonest_s
+                        : waited >= (share ? soonest_s : unknown_s) && (!share || tenths > tenths_);
+  if (!due) return false;
+  tenths_ = tenths;
+  logged_s_ = now_s();
+  return true;
+}
+
+void ProgressLine::put(const std::string& text, bool last, std::optional<double> share) {
   if (terminal_) {
-    std::fprintf(stderr, "\r%s: %s\033[K", title_.c_str(), text.c_str());
+    std::fprintf(stderr, "\r%s\033[K", in_one_row(title_ + ": " + text).c_str());
     std::fflush(stderr);
+    shown_ = true;
     return;
   }
-  constexpr double log_every_s = 10;
-  const double now =
-      std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-  if (!last && now - logged_at_ < log_every_s) return;
-  logged_at_ = now;
+  if (!is_worth_a_line(last, share)) return;
+  shown_ = !last;  // one line at the end, however often it is said
   spdlog::info("{}: {}", title_, text);
 }
 
@@ -208,13 +263,21 @@ void ProgressLine::show(const Progress& p) {
                   short_number(p.particles_per_second));
   if (std::isfinite(p.relative_error))
     text += fmt::format(", error {:.2g} %", 100 * p.relative_error);
-  text += fmt::format(", {:.0f} s", p.seconds);
-  if (std::isfinite(p.seconds_left)) text += fmt::format(", {:.0f} s left", p.seconds_left);
-  put(text, p.seconds_left == 0);
+  text += ", " + time_text(p.seconds);
+  std::optional<double> share;
+  if (std::isfinite(p.seconds_left)) {
+    text += ", about " + time_text(p.seconds_left) + " left";
+    share = p.seconds / std::max(p.seconds + p.seconds_left, 1e-9);
+  }
+  put(text, p.seconds_left == 0, share);
 }
 
 void ProgressLine::show_share(double share) {
-  put(fmt::format("{:.0f} %", 100 * share), share >= 1);
+  std::string text = fmt::format("{:.0f} %", 100 * share);
+  const double passed = now_s() - began_s_;
+  if (share > 0.01 && share < 1 && passed > 1)
+    text += ", about " + time_text(passed * (1 - share) / share) + " left";
+  put(text, share >= 1, share);
 }
 
 Result<Json> write_report_aloud(const std::filesystem::path& folder, const LocalRun& run,

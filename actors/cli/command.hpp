@@ -69,21 +69,32 @@ void install_interrupt_handler();
 std::atomic<bool>& preview_flag();
 void install_preview_handler();
 
-/// A line that is rewritten on a terminal, and logged every ten seconds elsewhere.
+/// How far some work is. On a terminal one line that is rewritten; elsewhere a line in the log for
+/// each tenth of the work, not more often than every half minute, and one at the end of what took
+/// longer.
 class ProgressLine {
  public:
-  explicit ProgressLine(std::string title);
+  explicit ProgressLine(const std::string& title);
   ~ProgressLine();
   void show(const Progress& progress);
+  /// Adds an estimate of the time that is left.
   void show_share(double share);
-  /// `last`: it is logged, too.
-  void put(const std::string& text, bool last);
+  /// `last`: all is done. `share`: of the work, where it is known.
+  void put(const std::string& text, bool last, std::optional<double> share = {});
 
  private:
+  bool is_worth_a_line(bool last, std::optional<double> share);
+
   std::string title_;
   bool terminal_;
-  double logged_at_ = -1e9;
+  bool shown_ = false;
+  double began_s_;
+  double logged_s_;
+  int tenths_ = 0;
 };
+
+/// "45 s", "12 min", "3.4 h".
+std::string time_text(double seconds);
 
 /// write_report, with its progress shown where that takes more than a moment.
 Result<Json> write_report_aloud(const std::filesystem::path& folder, const LocalRun& run,

@@ -7,7 +7,9 @@
 
 #include "actors/cli/command.hpp"
 #include "scenes/format/csv.hpp"
+#include "scenes/format/file_names.hpp"
 #include "scenes/format/json_out.hpp"
+#include "scenes/format/output_folder.hpp"
 #include "scenes/format/svg_plot.hpp"
 #include "scenes/transport/compile.hpp"
 
@@ -82,7 +84,9 @@ std::string why_no_slope(const Course& course) {
   if (course.looks >= 2 && course.points.empty())
     return "no light reached what this scene measures, so there is no error: ask for more with "
            "--particles, or look at the scene with `luxodus check`";
-  return "too few particles for a slope: ask for more with --particles";
+  return "too few particles for a slope: an error needs two batches, and a slope two errors; ask "
+         "for "
+         "more with --particles";
 }
 
 SvgPlot plot_of(const std::vector<Point>& points, double Point::*x, const std::string& scene,
@@ -105,9 +109,6 @@ SvgPlot plot_of(const std::vector<Point>& points, double Point::*x, const std::s
 
 Result<Done> write_points(const fs::path& out, const std::vector<Point>& points,
                           const std::string& name) {
-  std::error_code error;
-  fs::create_directories(out, error);
-  if (error) return Problem{{out.string(), 0}, "cannot make this folder: " + error.message()};
   CsvTable table({"particles", "seconds", "relative_error", "figure_of_merit_per_s"});
   for (const Point& p : points) {
     table.cell(p.particles).cell(p.seconds).cell(p.error).cell(p.figure_of_merit);
@@ -158,19 +159,22 @@ Result<ExitCode> converge(const ConvergeOptions& options) {
   if (!scenario.ok()) return scenario.problem();
   auto scene = compile_scene(description, scenario.value(), {1, options.error_of});
   if (!scene.ok()) return scene.problem();
+  const fs::path folder =
+      options.out.empty()
+          ? fs::path("out") / file_name_of(fs::path(options.scene).stem().string() + "_converge")
+          : fs::path(options.out);
+  const auto out = OutputFolder::claim(
+      folder, {{"converge.csv", "error_particles.svg", "error_seconds.svg"}, {}});
+  if (!out.ok()) return out.problem();
   install_interrupt_handler();
   LocalRun run(scene.value(), options.seed.value_or(description->run.seed), options.threads);
   const Course course = trace_course(run, most.value());
   const bool enough = course.points.size() >= 2;
   if (!enough && !course.interrupted) return Problem{{options.scene, 0}, why_no_slope(course)};
-  const fs::path out =
-      options.out.empty()
-          ? fs::path("out") / (fs::path(options.scene).stem().string() + "_converge")
-          : fs::path(options.out);
   if (enough) {
-    if (auto ok = write_points(out, course.points, description->name); !ok.ok())
+    if (auto ok = write_points(out->path(), course.points, description->name); !ok.ok())
       return ok.problem();
-    print_points(course.points, options.json, out);
+    print_points(course.points, options.json, folder);
   }
   if (!course.interrupted) return ExitCode::success;
   spdlog::warn(enough ? "interrupted; the points measured until then were written"

@@ -8,6 +8,7 @@
 #include "actors/supervise/deploy.hpp"
 #include "runtime/config/cluster_file.hpp"
 #include "scenes/format/atomic_file.hpp"
+#include "scenes/format/output_path.hpp"
 
 namespace luxodus::cli {
 
@@ -38,7 +39,7 @@ constexpr std::array<Means, 3> all_means{{
 Result<Done> write_file(const fs::path& path, const DeployFile& file) {
   std::error_code failed;
   fs::create_directories(path.parent_path(), failed);
-  auto written = write_file_atomically(path, std::string_view(file.text));
+  auto written = write_file_atomically(behind_links(path), std::string_view(file.text));
   if (!written || !file.executable) return written;
   fs::permissions(path, fs::perms::owner_exec | fs::perms::group_exec | fs::perms::others_exec,
                   fs::perm_options::add, failed);

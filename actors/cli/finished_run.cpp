@@ -1,7 +1,6 @@
 #include "actors/cli/finished_run.hpp"
 
 #include "scenes/format/atomic_file.hpp"
-#include "scenes/format/json_out.hpp"
 
 namespace luxodus::cli {
 
@@ -9,7 +8,23 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Result<Json> read_json(const fs::path& file) {
+bool has_text(const Json& object, const char* key) {
+  return object.is_object() && object.contains(key) && object[key].is_string();
+}
+
+/// What all particles took; nothing where a part of them was traced at a time that nobody wrote
+/// down.
+std::optional<double> seconds_in(const Json& result) {
+  const Json seconds = result.value("seconds", Json());
+  if (!seconds.is_object() || !seconds.value("value", Json()).is_number()) return std::nullopt;
+  if (result.value("timed_particles", Json()) != result.value("particles", Json()))
+    return std::nullopt;
+  return seconds["value"].get<double>();
+}
+
+}  // namespace
+
+Result<Json> read_json_file(const fs::path& file) {
   constexpr uint64_t most_bytes = uint64_t{1} << 30;
   auto bytes = read_whole_file(file, most_bytes);
   if (!bytes.ok()) return bytes.problem();
@@ -17,15 +32,18 @@ Result<Json> read_json(const fs::path& file) {
   return Json::parse(text, text + bytes->size(), nullptr, false);
 }
 
-bool has_text(const Json& object, const char* key) {
-  return object.is_object() && object.contains(key) && object[key].is_string();
-}
-
-}  // namespace
-
 Result<FinishedRun> read_finished_run(const fs::path& folder) {
   const fs::path file = folder / "result.json";
-  const auto read = read_json(file);
+  std::error_code ignored;
+  if (!fs::exists(file, ignored)) {
+    const bool assessed = fs::exists(folder / "assessment.json", ignored);
+    return Problem{{folder.string(), 0},
+                   assessed ? "this is the folder of an assessment, not of a run: give the folder "
+                              "that luxodus run has written"
+                            : "there is no result.json here: give the folder that luxodus run has "
+                              "written"};
+  }
+  const auto read = read_json_file(file);
   if (!read.ok()) return read.problem();
   const Json& json = read.value();
   if (!has_text(json, "scene_file") || !has_text(json, "scenario") ||
@@ -33,7 +51,9 @@ Result<FinishedRun> read_finished_run(const fs::path& folder) {
       !json.value("cells", Json()).is_number_integer()) {
     return Problem{{file.string(), 0}, "this is no result of a run: run the scene again"};
   }
-  FinishedRun out{json["scene_file"], json["scenario"], json["seed"], json["cells"], {}, {}};
+  FinishedRun out{json["scene_file"], json["scenario"], json["seed"], json["cells"], {}, {}, 0, {}};
+  if (json.value("batches", Json()).is_number_integer()) out.batches = json["batches"];
+  out.seconds = seconds_in(json);
   for (const Json& word : json.value("error_of", Json::array())) {
     if (word.is_string()) out.error_of.push_back(word);
   }
@@ -52,7 +72,7 @@ Result<SceneState> scene_of_folder(const fs::path& folder) {
   std::error_code ignored;
   const fs::path assessed = folder / "assessment.json";
   if (!fs::exists(folder / "result.json", ignored) && fs::exists(assessed, ignored)) {
-    const auto read = read_json(assessed);
+    const auto read = read_json_file(assessed);
     if (!read.ok()) return read.problem();
     const Json scene = read->is_object() ? read->value("scene", Json()) : Json();
     if (!has_text(scene, "file") || !has_text(scene, "scenario"))

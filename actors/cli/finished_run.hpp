@@ -3,12 +3,17 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "runtime/core/result.hpp"
+#include "scenes/format/json_out.hpp"
 
 namespace luxodus::cli {
+
+/// Errors: as read_whole_file. What is no JSON is a discarded value.
+Result<Json> read_json_file(const std::filesystem::path& file);
 
 /// result.json of a run, as far as others need it.
 struct FinishedRun {
@@ -17,9 +22,11 @@ struct FinishedRun {
   int cells = 1;
   std::vector<std::string> error_of;
   std::vector<double> batch_shares;  // of its source groups, where they were dealt by need
+  int64_t batches = 0;
+  std::optional<double> seconds;  // that these batches took, where all of it is known
 };
 
-/// Errors: no result.json in the folder, or one that is not of a run.
+/// Errors: no result.json in the folder, or one that is not of a run; an assessment is called that.
 Result<FinishedRun> read_finished_run(const std::filesystem::path& folder);
 
 /// A state of a building, by its scene file.

@@ -1,5 +1,6 @@
 // luxodus node: the nodes of one process of a cluster, started on the machine where they belong.
 #include <fmt/format.h>
+#include <poll.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -9,11 +10,14 @@
 #include "actors/cli/serve_view.hpp"
 #include "actors/display/pictures.hpp"
 #include "actors/display/report.hpp"
+#include "actors/display/result_files.hpp"
 #include "actors/source/flux_store.hpp"
 #include "actors/supervise/cluster_process.hpp"
 #include "actors/view/live_cluster.hpp"
 #include "actors/view/live_worker.hpp"
 #include "runtime/config/cluster_file.hpp"
+#include "scenes/format/file_names.hpp"
+#include "scenes/format/output_folder.hpp"
 
 namespace luxodus::cli {
 
@@ -26,21 +30,46 @@ struct NodeOptions {
   std::vector<std::string> names;
 };
 
+/// A disk that is full when hours of work are to be written may have room soon: somebody is told,
+/// and it is tried again for ten minutes.
+Result<Done> save_patiently(const fs::path& file, const LocalRun& run) {
+  constexpr int tries = 60;
+  constexpr int pause_ms = 10'000;
+  for (int i = 1;; ++i) {
+    auto saved = save_flux(file, run);
+    if (saved.ok() || i == tries || interrupt_flag()) return saved;
+    spdlog::error("{}: tried again in {} s; Ctrl-C ends without", saved.problem().text(),
+                  pause_ms / 1000);
+    ::poll(nullptr, 0, pause_ms);  // a signal ends it
+  }
+}
+
+/// The folder of the results, where this process is to write them: held until it ends.
+Result<std::optional<OutputFolder>> claim_results(const ClusterConfig& cluster,
+                                                  const ClusterProcessRun& process,
+                                                  const std::vector<NodeId>& nodes) {
+  if (cluster.view.live || std::count(nodes.begin(), nodes.end(), cluster.controller()) == 0)
+    return std::optional<OutputFolder>();
+  const fs::path folder =
+      cluster.run.out.empty() ? fs::path("out") / file_name_of(cluster.run.name) : cluster.run.out;
+  OutputPlan plan = run_output(*process.local_run().scene().description, false);
+  auto out = OutputFolder::claim(folder, plan);
+  if (!out.ok()) return out.problem();
+  if (auto ok = refuse_foreign_files(out->path(), plan); !ok.ok()) return ok.problem();
+  return std::optional(std::move(out).value());
+}
+
 /// What the controller leaves, as `luxodus run` does, but for pictures: `luxodus render` makes
 /// them.
 Result<Done> write_results(const ClusterConfig& cluster, const ClusterProcessRun& process,
-                           StopReason reason) {
-  const fs::path folder =
-      cluster.run.out.empty() ? fs::path("out") / cluster.run.name : cluster.run.out;
-  std::error_code failed;
-  fs::create_directories(folder, failed);
-  if (failed) return Problem{{folder.string(), 0}, "cannot make this folder: " + failed.message()};
+                           const fs::path& folder, StopReason reason) {
   RunRecord record;
   record.scene_file = fs::absolute(cluster.run.scene).string();
   record.stopped_by = name_of(reason);
   record.cells = process.cells();
   const LocalRun& run = process.local_run();
-  if (auto ok = save_flux(folder / "flux.lux", run); !ok.ok()) return ok.problem();
+  process.make_room();
+  if (auto ok = save_patiently(folder / "flux.lux", run); !ok.ok()) return ok.problem();
   const auto result = write_report_aloud(folder, run, record);
   if (!result.ok()) return result.problem();
   process.forget_journal();
@@ -85,7 +114,9 @@ Result<std::optional<StopReason>> view_on_nodes(const ClusterConfig& cluster,
     if (cluster.run.relative_error) hub.live.relative_error = *cluster.run.relative_error;
     hub.live.tracers = std::move(started).value();
     hub.first.scenario = cluster.run.scenario;
-    const auto served = serve_view(scene, {cluster.view.address, cluster.view.port, ""}, hub);
+    ServerOptions server{cluster.view.address, cluster.view.port, ""};
+    if (!cluster.view.allow_host.empty()) server.allowed_hosts = {cluster.view.allow_host};
+    const auto served = serve_view(scene, server, hub);
     if (!served.ok()) return served.problem();
     return StopReason::interrupted;
   };
@@ -119,6 +150,11 @@ int run_nodes(const NodeOptions& options) {
     tell(process.problem());
     return ExitCode::bad_input;
   }
+  const auto out = claim_results(cluster, *process.value(), nodes);
+  if (!out.ok()) {
+    tell(out.problem());
+    return ExitCode::bad_input;
+  }
   install_interrupt_handler();
   if (cluster.view.live) {
     const auto viewed = view_on_nodes(cluster, *process.value());
@@ -134,7 +170,8 @@ int run_nodes(const NodeOptions& options) {
   }
   for (const std::string& text : process.value()->residency_lines()) spdlog::info("{}", text);
   if (!ended.value()) return ExitCode::success;
-  if (auto ok = write_results(cluster, *process.value(), *ended.value()); !ok.ok()) {
+  if (auto ok = write_results(cluster, *process.value(), out.value()->path(), *ended.value());
+      !ok.ok()) {
     tell(ok.problem());
     return ExitCode::failure;
   }

@@ -2,7 +2,10 @@
 #include <filesystem>
 
 #include "actors/cli/command.hpp"
+#include "actors/cli/findings.hpp"
+#include "scenes/format/file_names.hpp"
 #include "scenes/format/json_out.hpp"
+#include "scenes/format/output_folder.hpp"
 #include "scenes/pack/scene_pack.hpp"
 #include "scenes/transport/compile.hpp"
 
@@ -29,7 +32,7 @@ int cells_for(uint64_t triangles, double cell_kib) {
 
 Result<PackReport> pack_scene(const PackOptions& options) {
   if (is_pack(options.scene)) {
-    if (options.skeleton_only) return write_skeleton_pack(options.out, options.scene);
+    if (options.skeleton_only) return write_skeleton_pack(behind_links(options.out), options.scene);
     return Problem{{options.scene, 0},
                    "this is a pack already: pack the scene file, or add --skeleton-only"};
   }
@@ -40,8 +43,11 @@ Result<PackReport> pack_scene(const PackOptions& options) {
   }
   const auto description = load_scene(options.scene);
   if (!description) return Problem{{options.scene, 0}, "the scene has problems, told above"};
+  if (auto ok = check_output_file(options.out); !ok.ok()) return ok.problem();
   auto scenario = find_scenario(*description, options.scenario);
   if (!scenario.ok()) return scenario.problem();
+  if (!passes_inspection(description, {scenario.value()}, default_threads()))
+    return Problem{{options.scene, 0}, "the scene has errors, told above"};
   // Compiling tells how many triangles there are, and only then how many cells that makes.
   auto scene = compile_scene(description, scenario.value(), {});
   if (!scene.ok()) return scene.problem();
@@ -49,16 +55,20 @@ Result<PackReport> pack_scene(const PackOptions& options) {
   if (cells > 1) scene = compile_scene(description, scenario.value(), {cells});
   if (!scene.ok()) return scene.problem();
   ProgressLine line("pack");
-  return write_pack(options.out, *scene.value(), cells,
-                    [&](double share) { line.show_share(share); });
+  install_interrupt_handler();
+  return write_pack(behind_links(options.out), *scene.value(), cells, [&](double share) {
+    line.show_share(share);
+    return !interrupt_flag();
+  });
 }
 
 int pack(PackOptions options) {
-  if (options.out.empty()) options.out = fs::path(options.scene).stem().string() + ".luxpack";
+  if (options.out.empty())
+    options.out = file_name_of(fs::path(options.scene).stem().string()) + ".luxpack";
   const auto report = pack_scene(options);
   if (!report.ok()) {
     tell(report.problem());
-    return ExitCode::bad_input;
+    return interrupt_flag() ? ExitCode::interrupted : ExitCode::bad_input;
   }
   if (options.json) {
     std::fputs(json_text({{"file", options.out},

@@ -1,9 +1,13 @@
 // luxodus render: pictures from a finished run, without tracing particles again.
+#include <spdlog/spdlog.h>
+
 #include <filesystem>
 
 #include "actors/cli/command.hpp"
+#include "actors/cli/findings.hpp"
 #include "actors/cli/finished_run.hpp"
 #include "actors/display/pictures.hpp"
+#include "actors/display/result_files.hpp"
 #include "actors/source/flux_store.hpp"
 #include "scenes/transport/compile.hpp"
 
@@ -21,7 +25,7 @@ struct RenderOptions {
   bool full_paths = false;
 };
 
-Result<Done> render(const RenderOptions& options) {
+Result<ExitCode> render(const RenderOptions& options) {
   const fs::path folder = options.folder;
   const auto finished = read_finished_run(folder);
   if (!finished.ok()) return finished.problem();
@@ -36,14 +40,27 @@ Result<Done> render(const RenderOptions& options) {
   if (!scene.ok()) return scene.problem();
   if (description->cameras.empty())
     return Problem{{finished->scene_file, 0}, "the scene has no [[camera]] to render"};
+  if (!passes_inspection(description, {scenario.value()}, options.threads))
+    return Problem{{finished->scene_file, 0}, "the scene has errors, told above"};
+  OutputPlan plan{{}, {"views"}};
+  for (size_t i = 0; i < description->cameras.size(); ++i)
+    for (std::string& file : files_of_view(*description, i)) plan.files.push_back(std::move(file));
+  const auto out = OutputFolder::claim(folder, plan);
+  if (!out.ok()) return out.problem();
   LocalRun run(scene.value(), finished->seed, options.threads);
-  if (auto ok = load_flux(folder / "flux.lux", run); !ok.ok()) return ok.problem();
+  if (auto ok = load_flux(out->path() / "flux.lux", run); !ok.ok()) return ok.problem();
+  install_interrupt_handler();
   ProgressLine line("pictures");
   PictureOptions picture;
   picture.paths_per_pixel = options.paths;
   picture.gather = !options.full_paths;
-  return render_views(folder, run, options.view, picture,
-                      [&](double share) { line.show_share(share); });
+  picture.interrupt = &interrupt_flag();
+  const auto drawn = render_views(out->path(), run, options.view, picture,
+                                  [&](double share) { line.show_share(share); });
+  if (!drawn.ok()) return drawn.problem();
+  if (!interrupt_flag()) return ExitCode::success;
+  spdlog::warn("interrupted; the pictures that were whole are there");
+  return ExitCode::interrupted;
 }
 
 }  // namespace
@@ -63,10 +80,9 @@ void add_render(CLI::App& app, int& exit_code) {
                     "noisier, free of the patches' size");
   command->add_option("--threads", options->threads, "[all cores]")->check(CLI::Range(1, 1024));
   command->callback([options, &exit_code] {
-    auto done = render(*options);
-    if (done.ok()) return;
-    tell(done.problem());
-    exit_code = ExitCode::bad_input;
+    const auto done = render(*options);
+    if (!done.ok()) tell(done.problem());
+    exit_code = done.ok() ? done.value() : ExitCode::bad_input;
   });
 }
 

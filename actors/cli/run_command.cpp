@@ -1,10 +1,14 @@
 // luxodus run: trace a scene, write everything that came of it.
 #include <spdlog/spdlog.h>
 
+#include <array>
 #include <filesystem>
 
 #include "actors/cli/command.hpp"
+#include "actors/cli/findings.hpp"
 #include "actors/cli/finished_run.hpp"
+#include "actors/cli/run_folder.hpp"
+#include "actors/display/checkpoint.hpp"
 #include "actors/display/preview.hpp"
 #include "actors/display/report.hpp"
 #include "actors/source/flux_store.hpp"
@@ -12,7 +16,10 @@
 #include "actors/supervise/in_process.hpp"
 #include "actors/supervise/residency_setup.hpp"
 #include "actors/supervise/stored_rows.hpp"
+#include "scenes/format/file_names.hpp"
 #include "scenes/transport/compile.hpp"
+#include "scenes/transport/lines.hpp"
+#include "scenes/transport/near_field.hpp"
 
 namespace luxodus::cli {
 
@@ -42,10 +49,13 @@ struct RunOptions {
   std::optional<uint16_t> metrics_port;
   uint64_t trace_every = 0;
   bool plan = false;
+  std::string checkpoint = "5m";
   bool resume = false;
+  bool overwrite = false;
   bool by_need = false;
   bool no_views = false;
   bool json = false;
+  bool verbose = false;
   int picture_paths = 32;
 
   size_t object_bytes() const { return static_cast<size_t>(object_mib * 1024 * 1024); }
@@ -81,7 +91,7 @@ Result<Nanoseconds> link_delay_of(const RunOptions& options) {
   if (options.link_delay.empty()) return Nanoseconds{0};
   auto delay_s = parse_seconds(options.link_delay);
   if (!delay_s.ok()) return delay_s.problem();
-  if (options.nodes == 0) return Problem{{}, "links are those of nodes: say --nodes, too"};
+  if (options.nodes == 0) return Problem{{}, "--link-delay requires --nodes"};
   const double most_s = static_cast<double>(limits::link_delay) * 1e-9;
   if (delay_s.value() > most_s)
     return Problem{{}, "a link's delay must not be longer than 100 ms: beats count time"};
@@ -89,8 +99,10 @@ Result<Nanoseconds> link_delay_of(const RunOptions& options) {
 }
 
 /// Everything that a run leaves; returns result.json.
-Result<Json> write_all(const fs::path& folder, const LocalRun& run, const RunRecord& record,
+Result<Json> write_all(const RunFolder& out, const LocalRun& run, const RunRecord& record,
                        const RunOptions& options) {
+  const fs::path& folder = out.path();
+  out.room->release();
   if (auto ok = save_flux(folder / "flux.lux", run); !ok.ok()) return ok.problem();
   auto result = write_report_aloud(folder, run, record);
   const bool pictures = !options.no_views && !run.scene().description->cameras.empty();
@@ -98,6 +110,7 @@ Result<Json> write_all(const fs::path& folder, const LocalRun& run, const RunRec
   ProgressLine line("pictures");
   PictureOptions picture;
   picture.paths_per_pixel = options.picture_paths;
+  picture.interrupt = &interrupt_flag();
   const auto drawn =
       render_views(folder, run, "", picture, [&](double share) { line.show_share(share); });
   if (!drawn.ok()) return drawn.problem();
@@ -166,6 +179,7 @@ Result<std::unique_ptr<Preview>> preview_of(LocalRun& run, const fs::path& folde
   install_preview_handler();
   PictureOptions picture;
   picture.paths_per_pixel = preview_paths;
+  picture.interrupt = &interrupt_flag();
   return std::make_unique<Preview>(folder, run, every.value(), preview_flag(), picture);
 }
 
@@ -184,9 +198,35 @@ std::unique_ptr<LocalRun> prepare(std::shared_ptr<const CompiledScene> scene, ui
   return std::make_unique<LocalRun>(std::move(scene), seed, options.threads, std::move(rows));
 }
 
+/// What shows or saves the run while it goes on.
+class Watchers {
+ public:
+  /// Errors: spans of time that are none.
+  static Result<Watchers> start(LocalRun& run, const RunFolder& folder, const RunRecord& record,
+                                const RunOptions& options) {
+    Watchers watchers;
+    auto preview = preview_of(run, folder.path(), options);
+    if (!preview.ok()) return preview.problem();
+    watchers.preview_ = std::move(preview).value();
+    if (options.checkpoint == "0") return watchers;
+    const auto every = parse_seconds(options.checkpoint);
+    if (!every.ok()) return every.problem();
+    if (every.value() < 1)
+      return Problem{{},
+                     "--checkpoint " + options.checkpoint + ": write 1s or more, or 0 for none"};
+    watchers.checkpoint_ = std::make_unique<Checkpoint>(folder.path(), run, record, every.value(),
+                                                        folder.keep_particles);
+    return watchers;
+  }
+
+ private:
+  std::unique_ptr<Preview> preview_;
+  std::unique_ptr<Checkpoint> checkpoint_;
+};
+
 struct Traced {
   StopReason reason;
-  Json result;
+  Json result;  // null where the folder keeps a longer run
 };
 
 /// Of the run that is to go on, or found by a first round. Empty: dealt as usual.
@@ -204,72 +244,164 @@ Result<std::vector<double>> batch_shares(const std::shared_ptr<const CompiledSce
                              [&](const Progress& p) { line.show(p); });
 }
 
-/// One scenario into one folder.
-Result<Traced> run_scenario(std::shared_ptr<const SceneDescription> description,
-                            const Scenario& scenario, const fs::path& folder,
-                            const RunOptions& options, const StopRule& rule) {
+/// Says where luminaires are nearer than their photometric files are good for.
+void warn_of_near_field(const LocalRun& run) {
+  const CompiledScene& scene = run.scene();
+  const auto local = [&](const glm::dvec3& p) { return Vec3(p - scene.local_origin); };
+  std::vector<Problem> warnings;
+  run.rows().run(1, [&](const GeometryAccess& access) {
+    return [&, access](int64_t) {
+      const auto sees = [&](const glm::dvec3& from, const glm::dvec3& to) {
+        return clear_share(scene, access, local(from), local(to)) > 0;
+      };
+      warnings = near_field_warnings(*scene.description, scene.scenario, sees);
+    };
+  });
+  for (const Problem& w : warnings) spdlog::warn("{}", w.text());
+}
+
+/// One scenario, and the folder that is held for it.
+struct PreparedScenario {
+  Scenario scenario;
+  std::shared_ptr<const CompiledScene> scene;  // of several scenarios compiled when it is its turn
+  std::optional<RunFolder> folder;             // none where nothing is to be written
+};
+
+/// Checks that the scenario can be computed and written, before anything is traced.
+Result<PreparedScenario> prepare_scenario(
+    const std::shared_ptr<const SceneDescription>& description, const Scenario& scenario,
+    const fs::path& folder, const RunOptions& options, const StopRule& rule) {
   auto scene = compile_scene(description, scenario, {options.cells, options.error_of});
   if (!scene.ok()) return scene.problem();
   for (const Problem& w : scene.value()->warnings) spdlog::warn("{}", w.text());
-  const uint64_t seed = options.seed.value_or(description->run.seed);
+  PreparedScenario prepared{scenario, scene.value(), std::nullopt};
+  if (options.plan) return prepared;
   // Of several scenarios the later ones may not have been begun when the run was stopped.
   const bool begun = options.scenario != "all" || fs::exists(folder / "flux.lux");
-  const bool goes_on = options.resume && begun;
-  const auto shares = batch_shares(scene.value(), seed, folder, goes_on, options);
+  auto claimed =
+      claim_run_folder(folder, *scene.value(),
+                       {rule, options.resume && begun, options.overwrite, !options.no_views});
+  if (!claimed.ok()) return claimed.problem();
+  prepared.folder = std::move(claimed).value();
+  return prepared;
+}
+
+/// With the shares of its batches where these are dealt by need.
+Result<std::shared_ptr<const CompiledScene>> scene_to_trace(
+    const std::shared_ptr<const SceneDescription>& description, const PreparedScenario& prepared,
+    uint64_t seed, const RunOptions& options) {
+  auto scene = prepared.scene ? Result(prepared.scene)
+                              : compile_scene(description, prepared.scenario,
+                                              {options.cells, options.error_of});
+  if (!scene.ok()) return scene;
+  const bool goes_on = prepared.folder && prepared.folder->goes_on;
+  const auto shares =
+      batch_shares(scene.value(), seed, prepared.folder ? prepared.folder->path() : fs::path(),
+                   goes_on, options);
   if (!shares.ok()) return shares.problem();
-  if (!shares->empty()) {
-    scene = compile_scene(description, scenario, {options.cells, options.error_of, shares.value()});
-    if (!scene.ok()) return scene.problem();
+  if (shares->empty()) return scene;
+  return compile_scene(description, prepared.scenario,
+                       {options.cells, options.error_of, shares.value()});
+}
+
+Result<Traced> print_plan(const LocalRun& run, const Scenario& scenario,
+                          const RunOptions& options) {
+  const auto nodes = nodes_options(options, 0, nullptr);
+  if (!nodes.ok()) return nodes.problem();
+  auto plan = plan_on_nodes(run, nodes.value());
+  if (!plan.ok()) return plan.problem();
+  std::printf("%s\n%s", scenario.name.c_str(), plan.value().c_str());
+  return Traced{StopReason::particles, {}};
+}
+
+/// One scenario into one folder.
+Result<Traced> run_scenario(const std::shared_ptr<const SceneDescription>& description,
+                            const PreparedScenario& prepared, const RunOptions& options,
+                            const StopRule& rule) {
+  const Scenario& scenario = prepared.scenario;
+  const uint64_t seed = options.seed.value_or(description->run.seed);
+  const auto scene = scene_to_trace(description, prepared, seed, options);
+  if (!scene.ok()) return scene.problem();
+  const auto made = prepare(scene.value(), seed, options);
+  LocalRun& run = *made;
+  if (options.plan) return print_plan(run, scenario, options);
+  const RunFolder& folder = *prepared.folder;
+  if (folder.goes_on) {
+    if (auto ok = load_flux(folder.path() / "flux.lux", run); !ok.ok()) return ok.problem();
+    // A flux file holds no time: the result beside it does, if it is of the same batches.
+    const auto before = read_finished_run(folder.path());
+    if (before.ok() && before->batches == run.traced() && before->seconds)
+      run.add_earlier_seconds(*before->seconds);
   }
-  const auto prepared = prepare(scene.value(), seed, options);
-  LocalRun& run = *prepared;
-  if (options.plan) {
-    const auto nodes = nodes_options(options, 0, nullptr);
-    if (!nodes.ok()) return nodes.problem();
-    auto plan = plan_on_nodes(run, nodes.value());
-    if (!plan.ok()) return plan.problem();
-    std::printf("%s\n%s", scenario.name.c_str(), plan.value().c_str());
-    return Traced{StopReason::particles, {}};
-  }
-  if (goes_on) {
-    if (auto ok = load_flux(folder / "flux.lux", run); !ok.ok()) return ok.problem();
-  }
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) return Problem{{folder.string(), 0}, "cannot make this folder: " + error.message()};
-  auto preview = preview_of(run, folder, options);
-  if (!preview.ok()) return preview.problem();
-  auto reason = trace(run, scenario, folder, options, rule);
-  preview.value().reset();
-  if (!reason.ok()) return reason.problem();
+  warn_of_near_field(run);
   RunRecord record;
   record.scene_file = fs::absolute(options.scene).string();
-  record.stopped_by = name_of(reason.value());
   record.cells = options.cells;
+  record.stop = rule;
+  auto watchers = Watchers::start(run, folder, record, options);
+  if (!watchers.ok()) return watchers.problem();
+  auto reason = trace(run, scenario, folder.path(), options, rule);
+  { const Watchers ended = std::move(watchers).value(); }
+  if (!reason.ok()) return reason.problem();
+  if (reason.value() == StopReason::interrupted && run.particles() <= folder.keep_particles) {
+    spdlog::warn("{} keeps the run of {} particles that it held: this one had {}",
+                 folder.output.named().string(),
+                 short_number(static_cast<double>(folder.keep_particles)),
+                 short_number(static_cast<double>(run.particles())));
+    return Traced{StopReason::interrupted, {}};
+  }
+  record.stopped_by = name_of(reason.value());
   auto result = write_all(folder, run, record, options);
   if (!result.ok()) return result.problem();
   if (!options.json) {
-    std::printf("%s, scenario %s, in %s\n%s", description->name.c_str(), scenario.name.c_str(),
-                folder.string().c_str(), summary_text(result.value()).c_str());
+    std::printf("%s, in %s\n%s", description->name.c_str(), folder.output.named().string().c_str(),
+                summary_text(result.value(), options.verbose).c_str());
   }
+  // Pictures may have been interrupted; what was traced is written.
+  if (interrupt_flag()) reason = StopReason::interrupted;
   return Traced{reason.value(), std::move(result).value()};
+}
+
+/// Folders of all scenarios are held before the first begins: who waits for hours is not to learn
+/// then that the second cannot be written.
+Result<std::vector<PreparedScenario>> prepare_scenarios(
+    const std::shared_ptr<const SceneDescription>& description,
+    const std::vector<Scenario>& scenarios, const RunOptions& options, const StopRule& rule) {
+  const fs::path out = options.out.empty()
+                           ? fs::path("out") / file_name_of(fs::path(options.scene).stem().string())
+                           : fs::path(options.out);
+  const bool several = options.scenario == "all" && !description->scenarios.empty();
+  std::vector<std::string> names;
+  for (const Scenario& scenario : scenarios) names.push_back(scenario.name);
+  names = file_names_of(names, std::array{""});
+  std::vector<PreparedScenario> all;
+  for (size_t i = 0; i < scenarios.size(); ++i) {
+    const fs::path folder = several ? out / names[i] : out;
+    auto prepared = prepare_scenario(description, scenarios[i], folder, options, rule);
+    if (!prepared.ok()) return prepared.problem();
+    all.push_back(std::move(prepared).value());
+    if (scenarios.size() > 1) all.back().scene.reset();
+  }
+  return all;
 }
 
 /// The scenarios one after another, their results appended to `results`; an exit code.
 int run_scenarios(const std::shared_ptr<const SceneDescription>& description,
                   const std::vector<Scenario>& scenarios, const RunOptions& options,
                   const StopRule& rule, Json& results) {
-  const fs::path out = options.out.empty() ? fs::path("out") / fs::path(options.scene).stem()
-                                           : fs::path(options.out);
-  const bool several = options.scenario == "all" && description->scenarios.size() > 0;
-  for (const Scenario& scenario : scenarios) {
-    const fs::path folder = several ? out / scenario.name : out;
-    auto traced = run_scenario(description, scenario, folder, options, rule);
+  auto prepared = prepare_scenarios(description, scenarios, options, rule);
+  if (!prepared.ok()) {
+    tell(prepared.problem());
+    return ExitCode::bad_input;
+  }
+  for (PreparedScenario& one : prepared.value()) {
+    auto traced = run_scenario(description, one, options, rule);
     if (!traced.ok()) {
       tell(traced.problem());
       return ExitCode::bad_input;
     }
-    results.push_back(std::move(traced.value().result));
+    one.folder.reset();
+    if (!traced->result.is_null()) results.push_back(std::move(traced.value().result));
     if (traced.value().reason == StopReason::interrupted) {
       spdlog::warn("interrupted; what there is was written; go on with --resume");
       return ExitCode::interrupted;
@@ -305,6 +437,8 @@ int run_scene(const RunOptions& options) {
     tell(scenarios.problem());
     return ExitCode::bad_input;
   }
+  if (!passes_inspection(description, scenarios.value(), options.threads))
+    return ExitCode::bad_input;
   install_interrupt_handler();
   Json results = Json::array();
   const int code = run_scenarios(description, scenarios.value(), options, rule.value(), results);
@@ -367,6 +501,19 @@ void add_node_options(CLI::App& command, const std::shared_ptr<RunOptions>& opti
                      "a distance costs and how many fibers hide it, e.g. 1ms [0]");
 }
 
+void add_folder_options(CLI::App& command, const std::shared_ptr<RunOptions>& options) {
+  command.add_option("--checkpoint", options->checkpoint,
+                     "save flux.lux while the run goes on, so often: a run that is killed goes on "
+                     "from there with --resume; 0: at the end only [5m]");
+  auto* resume =
+      command.add_flag("--resume", options->resume,
+                       "go on from DIR's flux file; with --scenario all those not begun start");
+  command
+      .add_flag("--overwrite", options->overwrite,
+                "replace files in DIR that no run has written, and a longer run of the same scene")
+      ->excludes(resume);
+}
+
 }  // namespace
 
 void add_run(CLI::App& app, int& exit_code) {
@@ -390,7 +537,11 @@ void add_run(CLI::App& app, int& exit_code) {
       "Ctrl-C stops at a batch's end and writes what there is. Equal scene, seed, particles and "
       "cells give\n"
       "the same flux file, bit for bit, for any number of threads.\n\n"
-      "DIR then holds result.json, flux.lux, planes/, views/, patches.vtp and volume.vti.");
+      "DIR then holds result.json, flux.lux, planes/, views/, patches.vtp and volume.vti. A run "
+      "there of\n"
+      "the same scene is replaced by one that is as long or longer; by a shorter one, and files "
+      "that no\n"
+      "run has written, with --overwrite only. One process at a time writes into DIR.");
   command
       ->add_option("scene", options->scene,
                    "scene file (TOML; see scenes/format/README.md), or a pack")
@@ -423,11 +574,12 @@ void add_run(CLI::App& app, int& exit_code) {
   command->add_option("--preview", options->preview,
                       "pictures of the run while it goes on, into DIR/preview, so often: 60s; and "
                       "whenever the process gets SIGUSR1");
-  command->add_flag("--resume", options->resume,
-                    "go on from DIR's flux file; with --scenario all those not begun start");
+  add_folder_options(*command, options);
   command->add_flag("--no-views", options->no_views, "make no pictures");
   command->add_flag("--json", options->json,
                     "print result.json instead of a summary; an array of them with --scenario all");
+  command->add_flag("--verbose", options->verbose,
+                    "how it was computed, too: kernel, energy balance");
   command->callback([options, &exit_code] { exit_code = run_scene(*options); });
 }
 

@@ -2,10 +2,15 @@
 
 #include <fmt/format.h>
 #include <sys/random.h>
+#include <unistd.h>
 
 #include <array>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
 
 #include "actors/cli/command.hpp"
+#include "actors/view/view_host.hpp"
 
 namespace luxodus::cli {
 
@@ -25,19 +30,33 @@ std::string new_token() {
   return out;
 }
 
+/// By making a file there: permissions do not tell of a file system that is full or read-only.
+Result<Done> can_save_in(const std::filesystem::path& folder) {
+  std::string name = (folder / ".luxodus-view-XXXXXX").string();
+  const int file = ::mkstemp(name.data());
+  if (file < 0)
+    return Problem{{folder.string(), 0},
+                   std::string("variants cannot be saved in this folder: ") + std::strerror(errno) +
+                       "; make it, or name another (--save-folder)"};
+  ::close(file);
+  ::unlink(name.c_str());
+  return Done{};
+}
+
 }  // namespace
 
 Result<Done> serve_view(std::shared_ptr<const SceneDescription> scene, ServerOptions server,
                         const HubOptions& options) {
   if (scene->packed)
     return Problem{{scene->file, 0}, "a pack cannot be changed live: view its scene file"};
+  if (auto ok = can_save_in(options.save_folder); !ok.ok()) return ok.problem();
   if (!is_loopback(server.address)) server.token = new_token();
   auto listening = ViewServer::listen(server);
   if (!listening.ok()) return listening.problem();
   ViewServer& serving = *listening.value();
   ViewHub hub(std::move(scene), options,
               [&](std::function<void()> function) { serving.post(std::move(function)); });
-  std::printf("http://%s:%u/%s%s\nCtrl-C ends it.\n", server.address.c_str(), serving.port(),
+  std::printf("%s/%s%s\nCtrl-C ends it.\n", http_address(server.address, serving.port()).c_str(),
               server.token.empty() ? "" : "?token=", server.token.c_str());
   std::fflush(stdout);
   serving.run(hub, interrupt_flag());

@@ -8,7 +8,8 @@
 namespace luxodus::cli {
 
 /// Prints where the page is. Beyond this machine it makes a token, which the page then demands.
-/// Errors: a pack; an address that is none, a port that is taken.
+/// Errors: a pack; an address that is none, a port that is taken; a folder that nothing can be
+/// saved in.
 Result<Done> serve_view(std::shared_ptr<const SceneDescription> scene, ServerOptions server,
                         const HubOptions& options);
 

@@ -29,23 +29,25 @@ struct SimCommandOptions {
   bool log = false;
 };
 
-/// Seeds [first, end).
+/// So many seeds, from the first on: the last may be the largest number that there is.
 struct SeedRange {
-  uint64_t first = 0, end = 1;
+  uint64_t first = 0, count = 1;
 };
 
 /// "0..200", or one number.
 Result<SeedRange> parse_seeds(const SimCommandOptions& options) {
-  if (options.seeds.empty()) return SeedRange{options.seed, options.seed + 1};
+  if (options.seeds.empty()) return SeedRange{options.seed, 1};
   const std::string& text = options.seeds;
   SeedRange range;
+  uint64_t after = 0;
   const char* const end = text.data() + text.size();
   const auto first = std::from_chars(text.data(), end, range.first);
   const bool dots =
       first.ec == std::errc() && end - first.ptr > 2 && first.ptr[0] == '.' && first.ptr[1] == '.';
-  const auto last = dots ? std::from_chars(first.ptr + 2, end, range.end) : first;
-  if (!dots || last.ec != std::errc() || last.ptr != end || range.end <= range.first)
+  const auto last = dots ? std::from_chars(first.ptr + 2, end, after) : first;
+  if (!dots || last.ec != std::errc() || last.ptr != end || after <= range.first)
     return Problem{{}, "--seeds \"" + text + "\" is no range: write 0..200, the last not included"};
+  range.count = after - range.first;
   return range;
 }
 
@@ -171,12 +173,12 @@ Result<ExitCode> simulate_seeds(const SimCommandOptions& options) {
   if (!options.log) spdlog::set_level(spdlog::level::off);
   const SystemClock clock;
   const Nanoseconds began = clock.now();
-  const bool single = seeds->end - seeds->first == 1;
+  const bool single = seeds->count == 1;
   ProgressLine line("simulate");
   uint64_t done = 0, failed = 0, events = 0;
   double virtual_s = 0;
-  for (uint64_t seed = seeds->first; seed < seeds->end && !interrupt_flag(); ++seed, ++done) {
-    sim->seed = seed;
+  for (; done < seeds->count && !interrupt_flag(); ++done) {
+    const uint64_t seed = sim->seed = seeds->first + done;
     const auto report = simulated(*scene.value(), sim.value(), options.twice);
     if (!report.ok()) return report.problem();
     events += report->world.events;
@@ -186,9 +188,7 @@ Result<ExitCode> simulate_seeds(const SimCommandOptions& options) {
       ++failed;
       std::printf("  again    %s\n", command_of(options, seed).c_str());
     }
-    if (!single)
-      line.show_share(static_cast<double>(done + 1) /
-                      static_cast<double>(seeds->end - seeds->first));
+    if (!single) line.show_share(static_cast<double>(done + 1) / static_cast<double>(seeds->count));
   }
   const double passed = static_cast<double>(clock.now() - began) * 1e-9;
   std::printf(

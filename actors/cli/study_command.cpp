@@ -12,6 +12,7 @@
 #include "actors/study/runs.hpp"
 #include "actors/study/scenes.hpp"
 #include "runtime/core/clock.hpp"
+#include "scenes/format/file_names.hpp"
 
 namespace luxodus::cli {
 
@@ -176,6 +177,11 @@ void print_outcome(const StudyOutcome& outcome, const fs::path& out) {
 Result<ExitCode> study(const StudyCommandOptions& options) {
   const auto prepared = prepare(options.file);
   if (!prepared) return ExitCode::bad_input;
+  const fs::path folder =
+      options.out.empty() ? fs::path("out") / file_name_of(fs::path(options.file).stem().string())
+                          : fs::path(options.out);
+  const auto out = OutputFolder::claim(folder, study_output(prepared->study));
+  if (!out.ok()) return out.problem();
   install_interrupt_handler();
   Sweep sweep(*prepared, options.log);
   const auto done = sweep.run();
@@ -184,14 +190,13 @@ Result<ExitCode> study(const StudyCommandOptions& options) {
     spdlog::warn("interrupted; nothing was written");
     return ExitCode::interrupted;
   }
-  const fs::path out =
-      options.out.empty() ? fs::path("out") / fs::path(options.file).stem() : fs::path(options.out);
-  if (auto ok = write_study(out, sweep.outcome()); !ok.ok()) return ok.problem();
-  print_outcome(sweep.outcome(), out);
+  if (auto ok = write_study(out->path(), sweep.outcome()); !ok.ok()) return ok.problem();
+  print_outcome(sweep.outcome(), folder);
   return ExitCode::success;
 }
 
 Result<Done> write_costs(const CalibrateOptions& options) {
+  if (auto ok = check_output_file(options.out); !ok.ok()) return ok.problem();
   const auto description = load_scene(options.scene);
   if (!description) return Problem{{options.scene, 0}, "the scene has problems, told above"};
   Study study;
@@ -206,7 +211,8 @@ Result<Done> write_costs(const CalibrateOptions& options) {
   const auto measured = calibrate(*scene.value(), report);
   if (!measured.ok()) return measured.problem();
   const std::string text = costs_text(measured.value());
-  if (auto ok = write_file_atomically(options.out, text); !ok.ok()) return ok.problem();
+  if (auto ok = write_file_atomically(behind_links(options.out), text); !ok.ok())
+    return ok.problem();
   std::printf("%swritten to %s\n", text.c_str(), options.out.c_str());
   return Done{};
 }

@@ -9,6 +9,7 @@
 #include "actors/cli/topology_report.hpp"
 #include "runtime/core/clock.hpp"
 #include "scenes/format/atomic_file.hpp"
+#include "scenes/format/output_path.hpp"
 #include "topology/amp.hpp"
 #include "topology/builders.hpp"
 #include "topology/draw.hpp"
@@ -41,7 +42,8 @@ Result<Graph> read_graph(const std::string& file) {
 /// Writes the graph, if it was asked for, and says what it is worth.
 int save_and_report(const TopologyOptions& options, const Graph& graph) {
   if (!options.out.empty()) {
-    const auto written = write_file_atomically(options.out, std::string_view(graph_text(graph)));
+    const auto written =
+        write_file_atomically(behind_links(options.out), std::string_view(graph_text(graph)));
     if (!written.ok()) return refuse(written.problem());
   }
   const Measures measures = measure(graph);
@@ -151,7 +153,7 @@ int draw(const TopologyOptions& options) {
     drawing = graph_dot(graph.value(), title);
   else
     return refuse({{options.out, 0}, "a drawing is named *.svg or *.dot"});
-  const auto written = write_file_atomically(options.out, std::string_view(drawing));
+  const auto written = write_file_atomically(behind_links(options.out), std::string_view(drawing));
   return written.ok() ? ExitCode::success : refuse(written.problem());
 }
 

@@ -7,6 +7,7 @@
 
 #include "actors/cli/command.hpp"
 #include "actors/validate/report.hpp"
+#include "scenes/format/output_folder.hpp"
 
 namespace luxodus::cli {
 
@@ -65,6 +66,8 @@ Result<ExitCode> validate(const ValidateOptions& options) {
     for (const light::Case& c : cases) std::printf("%s  (%s)\n", c.name.c_str(), c.source.c_str());
     return ExitCode::success;
   }
+  const auto out = OutputFolder::claim(options.out, {{"validate.html", "validate.json"}, {}});
+  if (!out.ok()) return out.problem();
   install_interrupt_handler();
   light::SuiteRecord record;
   record.seed = options.seed;
@@ -85,13 +88,14 @@ Result<ExitCode> validate(const ValidateOptions& options) {
   const auto show = [&](const light::SuiteProgress& p) {
     line.put(fmt::format("{} of {} cases, {}, about {} left: {}", p.done, p.cases,
                          seconds_text(p.seconds), seconds_text(p.seconds_left), p.name),
-             false);
+             false,
+             static_cast<double>(p.done) / static_cast<double>(std::max<size_t>(p.cases, 1)));
   };
   const auto results = light::run_suite(cases, suite, interrupt_flag(), show);
   line.put(fmt::format("{} of {} cases", results.size(), cases.size()), true);
   record.interrupted = interrupt_flag().load();
   const light::Verdict verdict = light::judge(results);
-  if (auto ok = light::write_suite(options.out, results, record, verdict); !ok.ok())
+  if (auto ok = light::write_suite(out->path(), results, record, verdict); !ok.ok())
     return ok.problem();
   tell_failures(results, verdict);
   if (const size_t short_of_error = light::cases_short_of_error(results); short_of_error > 0)

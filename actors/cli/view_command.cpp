@@ -2,9 +2,11 @@
 #include <filesystem>
 
 #include "actors/cli/command.hpp"
+#include "actors/cli/findings.hpp"
 #include "actors/cli/finished_run.hpp"
 #include "actors/cli/serve_view.hpp"
 #include "actors/view/live_nodes.hpp"
+#include "actors/view/view_host.hpp"
 
 namespace luxodus::cli {
 
@@ -36,7 +38,9 @@ Result<ExitCode> view(const ViewOptions& options) {
   const auto scene = load_scene(wanted->scene_file);
   if (!scene) return ExitCode::bad_input;
   const std::string scenario = scene->scenarios.empty() ? "" : wanted->scenario;
-  if (const auto found = find_scenario(*scene, scenario); !found.ok()) return found.problem();
+  const auto found = find_scenario(*scene, scenario);
+  if (!found.ok()) return found.problem();
+  if (!passes_inspection(scene, {found.value()}, options.live.threads)) return ExitCode::bad_input;
   install_interrupt_handler();
   HubOptions hub{options.live, {}, options.save_folder};
   hub.live.particles = parse_count(options.particles).value();
@@ -75,6 +79,11 @@ void add_view(CLI::App& app, int& exit_code) {
                       "state of the building [the first, or the folder's]");
   command->add_option("--port", options->server.port, "port; 0: any that is free [8080]");
   command->add_option("--address", options->server.address, "to listen on [127.0.0.1]");
+  command
+      ->add_option("--allow-host", options->server.allowed_hosts,
+                   "a name under which browsers may ask for the page, as behind a proxy; may be "
+                   "repeated [the address]")
+      ->check(CLI::Validator(allowed_host_fault, "NAME[:PORT]"));
   command->add_option("--save-folder", options->save_folder, "where variants are saved [.]");
   command
       ->add_option("--particles", options->particles,

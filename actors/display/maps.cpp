@@ -1,11 +1,13 @@
-// Planes. A cell's direct light is that of its centre; the mean of cells stands for the plane. The
-// indirect light of a cell is a mean over its area.
+// Planes. Maps and means are of cells' areas; minimum, maximum and uniformity are of the grid
+// points, the cells' centres, as codes want them. The indirect light of a grid point is the mean of
+// its cell.
 #include "actors/display/maps.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
+#include "actors/display/result_files.hpp"
+#include "actors/inspect/plane_cells.hpp"
 #include "actors/source/rows.hpp"
 #include "scenes/format/csv.hpp"
 #include "scenes/format/false_colour_png.hpp"
@@ -14,64 +16,49 @@ namespace luxodus {
 
 namespace {
 
-glm::dvec3 centre_of_cell(const PlaneMeasure& plane, int u, int v) {
-  return plane.corner + plane.edge_u * ((u + 0.5) / plane.cells_u) +
-         plane.edge_v * ((v + 0.5) / plane.cells_v);
-}
-
+/// Of the cells that are not left out.
 double mean_of(const std::vector<double>& values) {
-  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+  double sum = 0, count = 0;
+  for (const double v : values) {
+    if (std::isnan(v)) continue;
+    sum += v;
+    ++count;
+  }
+  return sum / count;
 }
 
-/// Direct light of all cells. Sums of groups are kept by row and added in order: the same bits for
-/// any number of threads.
-void fill_direct(const LocalRun& run, size_t index, PlaneMap& map,
-                 const RowRunner::Finished& finished) {
-  const CompiledScene& scene = run.scene();
-  const PlaneMeasure& plane = scene.description->planes[index];
-  const glm::vec3 normal = scene.planes[index].normal;
-  const auto columns = static_cast<size_t>(plane.cells_u);
-  const auto rows = static_cast<size_t>(plane.cells_v);
-  const size_t groups = scene.groups.size();
-  const bool has_media = scene.features.media != MediaNeed::none;
-  map.centres.resize(rows * columns);
-  map.direct_lx.resize(rows * columns);
-  map.direct_in_clear_lx.resize(rows * columns);
-  std::vector<double> direct_sums(rows * groups, 0), clear_sums(rows * groups, 0);
-  const auto do_row = [&](const GeometryAccess& access, int64_t row) {
-    const auto v = static_cast<size_t>(row);
-    for (size_t u = 0; u < columns; ++u) {
-      const size_t cell = v * columns + u;
-      map.centres[cell] = centre_of_cell(plane, static_cast<int>(u), static_cast<int>(v));
-      const glm::vec3 place(map.centres[cell] - scene.local_origin);
-      const DirectLight direct = direct_light_at(scene, access, place, normal, {});
-      DirectOptions in_clear_air;
-      in_clear_air.media = false;
-      const DirectLight clear =
-          has_media ? direct_light_at(scene, access, place, normal, in_clear_air) : direct;
-      map.direct_lx[cell] = direct.total_lx();
-      map.direct_in_clear_lx[cell] = clear.total_lx();
-      for (size_t g = 0; g < groups; ++g) {
-        direct_sums[v * groups + g] += direct.illuminance_lx[g];
-        clear_sums[v * groups + g] += clear.illuminance_lx[g];
-      }
-    }
-  };
-  const auto make = [&](const GeometryAccess& access) {
-    return [&, access](int64_t row) { do_row(access, row); };
-  };
-  run.rows().run(plane.cells_v, make, finished);
-  map.group_direct_lx.assign(groups, 0);
-  map.group_in_clear_lx.assign(groups, 0);
-  const double share = 1 / static_cast<double>(rows * columns);
-  for (size_t i = 0; i < direct_sums.size(); ++i) {
-    map.group_direct_lx[i % groups] += direct_sums[i] * share;
-    map.group_in_clear_lx[i % groups] += clear_sums[i] * share;
+/// Smallest and largest of the cells that are not left out; the first where all are.
+std::pair<size_t, size_t> extremes_of(const std::vector<double>& values) {
+  const auto first =
+      std::find_if_not(values.begin(), values.end(), [](double v) { return std::isnan(v); });
+  const size_t start = first == values.end() ? 0 : static_cast<size_t>(first - values.begin());
+  std::pair<size_t, size_t> out{start, start};
+  for (size_t i = start; i < values.size(); ++i) {
+    if (values[i] < values[out.first]) out.first = i;
+    if (values[i] > values[out.second]) out.second = i;
   }
+  return out;
 }
 
 double area_of(const CompiledPlane& plane) {
   return plane.cell_area_m2 * plane.cells_u * plane.cells_v;
+}
+
+/// Of the cells that are not left out.
+double area_of(const CompiledPlane& plane, const PlaneMap& map) {
+  return plane.cell_area_m2 * static_cast<double>(map.centres().size() - map.left_out.size());
+}
+
+/// What the run has traced to the cells of a plane that are not left out [lm]. The error is that of
+/// the whole plane: those in bodies have next to no light, and so no part in it.
+Estimate traced_lumens(const CompiledScene& scene, const Readout& readout, const PlaneMap& map,
+                       uint32_t index, uint32_t quantity, int group = -1) {
+  Estimate out = readout.lumens(scene.blocks.planes, index, quantity, group);
+  for (const uint32_t cell : map.left_out) {
+    const uint32_t bin = scene.planes[index].first_bin + cell;
+    out.value -= readout.lumens(scene.blocks.plane_cells, bin, quantity, group).value;
+  }
+  return out;
 }
 
 // ---- result.json -------------------------------------------------------------------------------
@@ -89,16 +76,48 @@ Json with_position(Json item, const glm::dvec3& place) {
   return item;
 }
 
-/// Smallest and largest of exact values, and where.
-Json clear_air_json(const PlaneMap& map) {
-  const auto& e = map.direct_in_clear_lx;
-  const auto [low, high] = std::minmax_element(e.begin(), e.end());
-  const auto place = [&](auto it) { return map.centres[static_cast<size_t>(it - e.begin())]; };
+Json at_grid_points(Json item) {
+  item["at"] = "grid points";
+  return item;
+}
+
+/// A value computed without chance and what its quadrature may err by.
+Json bounded_json(double value, double bound) {
+  Json item = exact_json(value, "lx");
+  item["quadrature_bound"] = number_json(bound);
+  return item;
+}
+
+/// A mean over a plane: standard error of its traced part, bound of its computed part, and where it
+/// lies: within two standard errors and the bound.
+Json mean_json(const Estimate& mean, double bound) {
+  Json item = lux(mean);
+  item["quadrature_bound"] = number_json(bound);
+  const double reach = 2 * mean.standard_error + bound;
+  item["interval"] = {number_json(mean.value - reach), number_json(mean.value + reach)};
+  return item;
+}
+
+const char* word_of(Operation operation) {
+  constexpr const char* words[] = {"mains", "emergency", "dark"};
+  return words[static_cast<size_t>(operation)];
+}
+
+/// What codes calculate: of luminaires alone, in clear air; the mean over the area, extremes at the
+/// grid points.
+Json clear_air_json(const PlaneMap& map, Operation operation) {
+  const std::vector<double>& e = map.light.point_clear_lx;
+  const auto [low, high] = extremes_of(e);
+  const auto at = [&](size_t cell) {
+    return at_grid_points(with_position(exact_json(e[cell], "lx"), map.centres()[cell]));
+  };
   const double mean = mean_of(e);
-  return {{"mean", exact_json(mean, "lx")},
-          {"minimum", with_position(exact_json(*low, "lx"), place(low))},
-          {"maximum", with_position(exact_json(*high, "lx"), place(high))},
-          {"uniformity", exact_json(mean > 0 ? *low / mean : std::nan(""), "1")}};
+  return {{"operation", word_of(operation)},
+          {"mean", bounded_json(mean_of(map.light.mean_clear_lx), map.light.bound_clear_lx)},
+          {"mean_at_grid_points", exact_json(mean, "lx")},
+          {"minimum", at(low)},
+          {"maximum", at(high)},
+          {"uniformity", at_grid_points(exact_json(mean > 0 ? e[low] / mean : std::nan(""), "1"))}};
 }
 
 Estimate plus_exact(double exact, const Estimate& e) {
@@ -116,15 +135,16 @@ Json uniformity_json(const Estimate& least, const Estimate& mean) {
 Json groups_json(const CompiledScene& scene, const Readout& readout, const PlaneMap& map,
                  uint32_t index) {
   Json out = Json::array();
-  const double per_area = 1 / area_of(scene.planes[index]);
+  const double per_area = 1 / area_of(scene.planes[index], map);
   for (size_t g = 0; g < scene.groups.size(); ++g) {
     const Estimate indirect =
-        readout.lumens(scene.blocks.planes, index, 1, static_cast<int>(g)) * per_area;
-    out.push_back({{"name", scene.groups[g].name},
-                   {"direct_illuminance", exact_json(map.group_direct_lx[g], "lx")},
-                   {"direct_in_clear_air", exact_json(map.group_in_clear_lx[g], "lx")},
-                   {"indirect_illuminance", lux(indirect)},
-                   {"mean_illuminance", lux(plus_exact(map.group_direct_lx[g], indirect))}});
+        traced_lumens(scene, readout, map, index, 1, static_cast<int>(g)) * per_area;
+    out.push_back(
+        {{"name", scene.groups[g].name},
+         {"direct_illuminance", exact_json(map.light.group_lx[g], "lx")},
+         {"luminaires_direct_in_clear_air", exact_json(map.light.group_clear_lx[g], "lx")},
+         {"indirect_illuminance", lux(indirect)},
+         {"mean_illuminance", lux(plus_exact(map.light.group_lx[g], indirect))}});
   }
   return out;
 }
@@ -132,29 +152,30 @@ Json groups_json(const CompiledScene& scene, const Readout& readout, const Plane
 Json plane_json(const CompiledScene& scene, const Readout& readout, const PlaneMap& map,
                 uint32_t index) {
   const PlaneMeasure& plane = scene.description->planes[index];
-  const double per_area = 1 / area_of(scene.planes[index]);
-  const double direct = mean_of(map.direct_lx);
-  const Estimate indirect = readout.lumens(scene.blocks.planes, index, 1) * per_area;
+  const double per_area = 1 / area_of(scene.planes[index], map);
+  const double direct = mean_of(map.light.mean_lx);
+  const Estimate indirect = traced_lumens(scene, readout, map, index, 1) * per_area;
   const Estimate mean = plus_exact(direct, indirect);
-  size_t low = 0, high = 0;
-  for (size_t i = 0; i < map.centres.size(); ++i) {
-    if (map.total(i).value < map.total(low).value) low = i;
-    if (map.total(i).value > map.total(high).value) high = i;
-  }
+  const Estimate mean_at_points = plus_exact(mean_of(map.light.point_lx), indirect);
+  std::vector<double> points;
+  for (size_t i = 0; i < map.centres().size(); ++i) points.push_back(map.at_point(i).value);
+  const auto [low, high] = extremes_of(points);
   Json out = {
       {"name", plane.name},
       {"cells", {plane.cells_u, plane.cells_v}},
       {"corner", vector_json(plane.corner)},
       {"normal", vector_json(glm::normalize(glm::cross(plane.edge_u, plane.edge_v)))},
       {"area", exact_json(area_of(scene.planes[index]), "m2")},
-      {"mean_illuminance", lux(mean)},
-      {"minimum", with_position(lux(map.total(low)), map.centres[low])},
-      {"maximum", with_position(lux(map.total(high)), map.centres[high])},
-      {"uniformity", uniformity_json(map.total(low), mean)},
-      {"direct_illuminance", exact_json(direct, "lx")},
-      {"direct_in_clear_air", clear_air_json(map)},
+      {"cells_in_bodies", map.left_out.size()},
+      {"mean_illuminance", mean_json(mean, map.light.bound_lx)},
+      {"mean_at_grid_points", lux(mean_at_points)},
+      {"minimum", at_grid_points(with_position(lux(map.at_point(low)), map.centres()[low]))},
+      {"maximum", at_grid_points(with_position(lux(map.at_point(high)), map.centres()[high]))},
+      {"uniformity", at_grid_points(uniformity_json(map.at_point(low), mean_at_points))},
+      {"direct_illuminance", bounded_json(direct, map.light.bound_lx)},
+      {"luminaires_direct_in_clear_air", clear_air_json(map, scene.scenario.operation)},
       {"indirect_illuminance", lux(indirect)},
-      {"traced_direct_illuminance", lux(readout.lumens(scene.blocks.planes, index, 0) * per_area)}};
+      {"traced_direct_illuminance", lux(traced_lumens(scene, readout, map, index, 0) * per_area)}};
   if (scene.groups.size() > 1) out["by_source_group"] = groups_json(scene, readout, map, index);
   return out;
 }
@@ -162,13 +183,20 @@ Json plane_json(const CompiledScene& scene, const Readout& readout, const PlaneM
 // ---- files -------------------------------------------------------------------------------------
 
 Result<Done> write_table(const std::filesystem::path& path, const PlaneMap& map) {
+  // Cells' means, then the values at their centres.
   CsvTable table({"x", "y", "z", "direct_lx", "indirect_lx", "indirect_se_lx", "total_lx",
-                  "direct_clear_air_lx"});
-  for (size_t i = 0; i < map.centres.size(); ++i) {
-    const glm::dvec3& p = map.centres[i];
-    table.cell(p.x).cell(p.y).cell(p.z).cell(map.direct_lx[i]);
-    table.cell(map.indirect_lx[i].value).cell(map.indirect_lx[i].standard_error);
-    table.cell(map.total(i).value).cell(map.direct_in_clear_lx[i]);
+                  "luminaires_direct_clear_air_lx", "point_direct_lx",
+                  "point_luminaires_direct_clear_air_lx"});
+  for (size_t i = 0; i < map.centres().size(); ++i) {
+    const glm::dvec3& p = map.centres()[i];
+    table.cell(p.x).cell(p.y).cell(p.z).cell(map.light.mean_lx[i]);
+    table.cell(map.indirect_lx[i].value);
+    if (std::isnan(map.indirect_lx[i].standard_error) && !std::isnan(map.indirect_lx[i].value))
+      table.cell("needs two batches");
+    else
+      table.cell(map.indirect_lx[i].standard_error);
+    table.cell(map.total(i).value).cell(map.light.mean_clear_lx[i]);
+    table.cell(map.light.point_lx[i]).cell(map.light.point_clear_lx[i]);
     table.end_row();
   }
   return write_csv(path, table);
@@ -177,12 +205,12 @@ Result<Done> write_table(const std::filesystem::path& path, const PlaneMap& map)
 /// Levels that lighting people know, where they cut the map: those of the codes first, 1, 2, 5 per
 /// decade where fewer than three of them fit.
 std::vector<double> contour_levels(const std::vector<double>& values) {
-  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  const auto [low, high] = extremes_of(values);
   std::vector<double> code, fine;
   for (int decade = -4; decade <= 5; ++decade) {
     for (const double digit : {1.0, 2.0, 5.0}) {
       const double level = digit * std::pow(10.0, decade);
-      if (level <= *low || level >= *high) continue;
+      if (level <= values[low] || level >= values[high]) continue;
       fine.push_back(level);
       if (digit != 2 && level >= 0.5) code.push_back(level);
     }
@@ -231,34 +259,33 @@ FalseColourPicture picture_of(const CompiledScene& scene, const PlaneMeasure& pl
   return p;
 }
 
-Result<Done> write_pictures(const std::filesystem::path& folder, const LocalRun& run, size_t index,
+/// `stem`: of its files, without their endings.
+Result<Done> write_pictures(const std::filesystem::path& stem, const LocalRun& run, size_t index,
                             const PlaneMap& map) {
   const CompiledScene& scene = run.scene();
   const PlaneMeasure& plane = scene.description->planes[index];
   FalseColourPicture p = picture_of(scene, plane);
   p.title = "Plane \"" + plane.name + "\"";
   double worst = 0;
-  for (size_t i = 0; i < map.centres.size(); ++i) {
+  for (size_t i = 0; i < map.centres().size(); ++i) {
     p.values.push_back(map.total(i).value);
-    worst = std::max(worst, map.indirect_lx[i].standard_error);
+    if (std::isnan(map.indirect_lx[i].value)) continue;  // left out
+    const double error = map.indirect_lx[i].standard_error;
+    worst = std::isnan(error) ? -1 : std::max(worst, error);
   }
   p.contours = contour_levels(p.values);
-  p.notes = {"Direct light computed at the centres of the cells; indirect light from " +
+  p.notes = {"Direct light: means over the cells, computed; indirect light from " +
                  std::to_string(run.particles()) + " particles",
-             "Largest standard error of a cell: " + signs_of(worst, 2) + " lx"};
-  if (auto ok = write_false_colour_png(folder / (plane.name + ".png"), p); !ok.ok()) return ok;
-  p.title += ", direct light in clear air";
-  p.values = map.direct_in_clear_lx;
+             worst >= 0 ? "Largest standard error of a cell: " + signs_of(worst, 2) + " lx"
+                        : std::string("Standard errors need two batches")};
+  if (auto ok = write_false_colour_png(std::filesystem::path(stem) += ".png", p); !ok.ok())
+    return ok;
+  p.title += ", direct light of luminaires in clear air";
+  p.values = map.light.mean_clear_lx;
   p.contours = contour_levels(p.values);
-  p.notes = {
-      "Without reflected light and without smoke, as codes for emergency lighting calculate"};
-  return write_false_colour_png(folder / (plane.name + "_direct_clear_air.png"), p);
-}
-
-bool can_be_drawn(const PlaneMeasure& p) {
-  return p.cells_u <= limits::grid_edge_most && p.cells_v <= limits::grid_edge_most &&
-         static_cast<uint64_t>(p.cells_u) * static_cast<uint64_t>(p.cells_v) <=
-             limits::drawn_cells_most;
+  p.notes = {"Luminaires of " + std::string(word_of(scene.scenario.operation)) +
+             " operation, without signs, flames, reflected light and smoke, as codes calculate"};
+  return write_false_colour_png(std::filesystem::path(stem) += "_direct_clear_air.png", p);
 }
 
 }  // namespace
@@ -271,15 +298,20 @@ PlaneMaps make_plane_maps(const LocalRun& run, const ShareDone& progress) {
   PlaneMaps maps;
   for (size_t i = 0; i < scene.planes.size(); ++i) {
     PlaneMap map;
-    fill_direct(run, i, map, [&](int64_t done) {
+    const std::vector<char> left_out = cells_in_bodies(scene, run.rows(), i);
+    const auto finished = [&](int64_t done) {
       if (progress) progress(static_cast<double>(before + done) / static_cast<double>(rows));
-    });
+    };
+    map.light = plane_light(scene, i, run.rows(), finished, left_out);
     before += scene.description->planes[i].cells_v;
     const CompiledPlane& plane = scene.planes[i];
-    for (uint32_t cell = 0; cell < map.centres.size(); ++cell) {
+    for (uint32_t cell = 0; cell < map.centres().size(); ++cell) {
       map.indirect_lx.push_back(
           readout.lumens(scene.blocks.plane_cells, plane.first_bin + cell, 1) *
           (1 / plane.cell_area_m2));
+      if (left_out[cell] == 0) continue;
+      map.left_out.push_back(cell);
+      map.indirect_lx.back() = {std::nan(""), std::nan("")};
     }
     maps.planes.push_back(std::move(map));
   }
@@ -290,17 +322,20 @@ Json planes_json(const LocalRun& run, const Readout& readout, const PlaneMaps& m
   Json out = Json::array();
   for (uint32_t i = 0; i < maps.planes.size(); ++i) {
     out.push_back(plane_json(run.scene(), readout, maps.planes[i], i));
+    out.back()["files"] = files_of_plane(*run.scene().description, i);
   }
   return out;
 }
 
 Result<Done> write_plane_maps(const std::filesystem::path& folder, const LocalRun& run,
                               const PlaneMaps& maps) {
+  const std::vector<std::string> names = result_names(*run.scene().description).planes;
   for (size_t i = 0; i < maps.planes.size(); ++i) {
-    const PlaneMeasure& plane = run.scene().description->planes[i];
-    if (auto ok = write_table(folder / (plane.name + ".csv"), maps.planes[i]); !ok.ok()) return ok;
-    if (!can_be_drawn(plane)) continue;
-    if (auto ok = write_pictures(folder, run, i, maps.planes[i]); !ok.ok()) return ok;
+    const std::filesystem::path stem = folder / names[i];
+    if (auto ok = write_table(std::filesystem::path(stem) += ".csv", maps.planes[i]); !ok.ok())
+      return ok;
+    if (!is_drawn(run.scene().description->planes[i])) continue;
+    if (auto ok = write_pictures(stem, run, i, maps.planes[i]); !ok.ok()) return ok;
   }
   return Done{};
 }

@@ -1,13 +1,15 @@
 // Results over places: planes as tables and false-colour pictures, patches and voxels for ParaView,
-// and what result.json says of planes. Direct light is computed without chance at the centres of a
-// plane's cells; indirect light is what the run has traced, with its standard error. Positions are
-// scene coordinates [m]. Reads the run, changes nothing; one call at a time per run.
+// and what result.json says of planes. Direct light is computed without chance, at the centres of a
+// plane's cells and as means over them (plane_light.hpp); indirect light is what the run has
+// traced, with its standard error. Positions are scene coordinates [m]. Reads the run, changes
+// nothing; one call at a time per run.
 #pragma once
 
 #include <filesystem>
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "actors/display/plane_light.hpp"
 #include "actors/source/local_run.hpp"
 #include "scenes/format/json_out.hpp"
 
@@ -22,15 +24,19 @@ inline constexpr uint64_t triangles_drawn = 4'000'000;
 
 /// Illuminance in the cells of one plane [lx], index v * cells_u + u.
 struct PlaneMap {
-  std::vector<glm::dvec3> centres;         // scene coordinates
-  std::vector<double> direct_lx;           // with media
-  std::vector<double> direct_in_clear_lx;  // without: what codes calculate
-  std::vector<Estimate> indirect_lx;       // traced: scattered, reflected, collimated
-  std::vector<double> group_direct_lx;     // means over the plane, per source group
-  std::vector<double> group_in_clear_lx;
+  PlaneLight light;                   // direct
+  std::vector<Estimate> indirect_lx;  // traced: scattered, reflected, collimated; means over cells
+  /// Cells in bodies: their values are NaN, and they are in no mean and no extreme.
+  std::vector<uint32_t> left_out;
 
+  const std::vector<glm::dvec3>& centres() const { return light.centres; }
+  /// Mean over a cell.
   Estimate total(size_t cell) const {
-    return {direct_lx[cell] + indirect_lx[cell].value, indirect_lx[cell].standard_error};
+    return {light.mean_lx[cell] + indirect_lx[cell].value, indirect_lx[cell].standard_error};
+  }
+  /// At a cell's centre, a grid point of the codes.
+  Estimate at_point(size_t cell) const {
+    return {light.point_lx[cell] + indirect_lx[cell].value, indirect_lx[cell].standard_error};
   }
 };
 
@@ -43,10 +49,11 @@ struct PlaneMaps {
 PlaneMaps make_plane_maps(const LocalRun& run, const ShareDone& progress = {});
 
 /// The planes of result.json. Means are bins of their own, so that their errors are; minimum and
-/// maximum are cells, with the error of that cell.
+/// maximum are grid points, with the error of their cell's indirect light.
 Json planes_json(const LocalRun& run, const Readout& readout, const PlaneMaps& maps);
 
-/// Writes NAME.csv, NAME.png and NAME_direct_clear_air.png of every plane. A plane of more cells
+/// Writes NAME.csv, NAME.png and NAME_direct_clear_air.png of every plane, NAME being that of
+/// result_names(). A plane of more cells
 /// than limits::drawn_cells_most or grid_edge_most is written as a table only. Errors: as write_csv
 /// and write_png.
 Result<Done> write_plane_maps(const std::filesystem::path& folder, const LocalRun& run,

@@ -185,6 +185,7 @@ TracedPicture trace_picture(const LocalRun& run, size_t camera, const PictureOpt
       const int row = static_cast<int>(unit / parts);
       const int first = static_cast<int>(unit % parts) * columns_at_once;
       for (int column = first; column < std::min(first + columns_at_once, view.width); ++column) {
+        if (options.interrupted()) return;
         const auto pixel = static_cast<size_t>(int64_t{row} * view.width + column);
         const PixelSums sums = tracer->trace(column, row, pixel);
         out.light.xyz[3 * pixel] = static_cast<float>(sums.x / paths);

@@ -6,6 +6,7 @@
 // never on the number of threads. One call at a time per run.
 #pragma once
 
+#include <atomic>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -27,6 +28,11 @@ struct PictureOptions {
   /// End paths in the run's flux. Without it they are traced to their end: slower and noisier, free
   /// of the patches' size. A run that has traced nothing has no flux to end in.
   bool gather = true;
+  /// When it is set, what is under way ends within a pixel, and pictures that are not whole are not
+  /// written. Null: nobody interrupts.
+  const std::atomic<bool>* interrupt = nullptr;
+
+  bool interrupted() const { return interrupt != nullptr && interrupt->load(); }
 };
 
 /// A camera's picture and the standard error of its luminance.
@@ -38,15 +44,17 @@ struct TracedPicture {
 /// Outgoing radiance of every patch of the run [W/(m2 sr)], spread evenly over directions.
 std::unique_ptr<PatchRadiance> flux_radiance(const LocalRun& run);
 
-/// One camera's picture. `flux`: where paths end, or null.
-/// Requires: camera is one of the scene's; 1 <= paths_per_pixel <= limits::paths_per_pixel_most.
+/// One camera's picture; without meaning where it was interrupted. `flux`: where paths end, or
+/// null. Requires: camera is one of the scene's; 1 <= paths_per_pixel <=
+/// limits::paths_per_pixel_most.
 TracedPicture trace_picture(const LocalRun& run, size_t camera, const PictureOptions& options,
                             const PatchRadiance* flux, const ShareDone& progress = {});
 
 /// Traces every camera, or the one named `only_view`, and writes into folder/views (made if
 /// missing): NAME.exr (X, Y, Z, R, G, B, scotopic, standard_error.Y), NAME.png (one exposure),
 /// NAME_human.png (what an adapted eye tells apart), NAME_luminance.png (false colours with a
-/// scale; up to 8192 pixels an edge). A scene without cameras has no pictures, which is no error.
+/// scale; up to 8192 pixels an edge); NAME is that of result_names(). A scene without cameras has
+/// no pictures, which is no error. Where it is interrupted, the pictures that are whole are there.
 /// Errors: no camera of that name, paths per pixel out of range, a file that cannot be written.
 Result<Done> render_views(const std::filesystem::path& folder, const LocalRun& run,
                           const std::string& only_view, const PictureOptions& options,

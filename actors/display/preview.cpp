@@ -30,11 +30,12 @@ Preview::Preview(std::filesystem::path folder, LocalRun& run, double every_s,
       every_(every_s),
       requested_(requested),
       options_(options) {
-  run_.set_pause([this] { return due(); }, [this] { take(); });
+  run_.add_pause(
+      this, [this] { return due(); }, [this] { take(); });
 }
 
 Preview::~Preview() {
-  run_.set_pause({}, {});
+  run_.remove_pause(this);
   if (thread_.joinable()) thread_.join();
 }
 

@@ -6,8 +6,10 @@
 
 #include "actors/display/maps.hpp"
 #include "actors/display/result_files.hpp"
+#include "actors/display/run_state.hpp"
 #include "scenes/emergency/sign_face.hpp"
 #include "scenes/emergency/sign_geometry.hpp"
+#include "scenes/transport/lines.hpp"
 
 namespace luxodus {
 
@@ -127,16 +129,30 @@ Estimate probe_of_group(const CompiledScene& scene, const Readout& readout, uint
   return readout.value(scene.blocks.probes_by_group, probe * groups + group, quantity);
 }
 
-/// Direct light at every probe.
-std::vector<DirectLight> direct_at_probes(const LocalRun& run) {
+/// Direct light at a probe by source group, and of luminaires alone as if there were no media.
+struct ProbeLight {
+  DirectLight groups;
+  double luminaires_clear_lx = 0;
+};
+
+std::vector<ProbeLight> direct_at_probes(const LocalRun& run) {
   const CompiledScene& scene = run.scene();
-  std::vector<DirectLight> out(scene.description->probes.size());
+  std::vector<ProbeLight> out(scene.description->probes.size());
   run.rows().run(static_cast<int64_t>(out.size()), [&](const GeometryAccess& access) {
     return [&, access](int64_t i) {
       const ProbeMeasure& probe = scene.description->probes[static_cast<size_t>(i)];
-      out[static_cast<size_t>(i)] =
-          direct_light_at(scene, access, glm::vec3(probe.position - scene.local_origin),
-                          glm::vec3(probe.normal), {});
+      ProbeLight& light = out[static_cast<size_t>(i)];
+      light.groups.illuminance_lx.assign(scene.groups.size(), 0);
+      light.groups.fluence_lm_m2.assign(scene.groups.size(), 0);
+      const auto lights =
+          direct_lights(scene, access, glm::vec3(probe.position - scene.local_origin),
+                        glm::vec3(probe.normal), {});
+      for (size_t e = 0; e < lights.size(); ++e) {
+        const auto g = static_cast<size_t>(scene.emitters[e].group);
+        light.groups.illuminance_lx[g] += lights[e].illuminance_lx;
+        light.groups.fluence_lm_m2[g] += lights[e].fluence_lm_m2;
+        if (is_luminaire(scene.emitters[e])) light.luminaires_clear_lx += lights[e].clear_air_lx;
+      }
     };
   });
   return out;
@@ -144,11 +160,11 @@ std::vector<DirectLight> direct_at_probes(const LocalRun& run) {
 
 Json probes_json(const LocalRun& run, const Readout& readout) {
   const CompiledScene& scene = run.scene();
-  const std::vector<DirectLight> direct_light = direct_at_probes(run);
+  const std::vector<ProbeLight> direct_light = direct_at_probes(run);
   Json out = Json::array();
   for (uint32_t p = 0; p < scene.description->probes.size(); ++p) {
     const ProbeMeasure& probe = scene.description->probes[p];
-    const DirectLight& direct = direct_light[p];
+    const DirectLight& direct = direct_light[p].groups;
     const Estimate indirect = readout.value(scene.blocks.probes, p, 0);
     const Estimate fluence = readout.value(scene.blocks.probes, p, 1);
     Json groups;
@@ -164,6 +180,7 @@ Json probes_json(const LocalRun& run, const Readout& readout) {
          {"position", vector_json(probe.position)},
          {"normal", vector_json(probe.normal)},
          {"direct_illuminance", exact_json(direct.total_lx(), "lx")},
+         {"luminaires_direct_in_clear_air", exact_json(direct_light[p].luminaires_clear_lx, "lx")},
          {"indirect_illuminance", measured(indirect, "lx")},
          {"illuminance",
           measured({direct.total_lx() + indirect.value, indirect.standard_error}, "lx")},
@@ -265,27 +282,44 @@ Json views_json(const CompiledScene& scene, const Readout& readout) {
   return out;
 }
 
+/// A relative standard error and what it is of.
+struct NamedError {
+  double error;
+  Json of;
+};
+
 /// Median and worst of the relative standard errors of one kind of values that are above 0, which
 /// are those a run is judged by. Null where there is none, or where a value has no error yet.
-Json spread_json(std::vector<double> errors) {
+Json spread_json(std::vector<NamedError> errors) {
   if (errors.empty())
-    return {{"median", exact_json(std::nan(""), "1")}, {"worst", exact_json(std::nan(""), "1")}};
-  std::sort(errors.begin(), errors.end());
+    return {{"median", exact_json(std::nan(""), "1")},
+            {"worst", exact_json(std::nan(""), "1")},
+            {"worst_of", nullptr}};
+  std::stable_sort(errors.begin(), errors.end(),
+                   [](const NamedError& a, const NamedError& b) { return a.error < b.error; });
   const size_t n = errors.size();
-  return {{"median", exact_json((errors[(n - 1) / 2] + errors[n / 2]) / 2, "1")},
-          {"worst", exact_json(errors.back(), "1")}};
+  return {{"median", exact_json((errors[(n - 1) / 2].error + errors[n / 2].error) / 2, "1")},
+          {"worst", exact_json(errors.back().error, "1")},
+          {"worst_of", errors.back().of}};
+}
+
+/// What a value is of: a name, or a sign and who looks at it.
+Json subject_of(const Json& item) {
+  if (!item.contains("sign")) return {{"name", item["name"]}};
+  return {{"sign", item["sign"]}, {"observer", item["observer"]}};
 }
 
 /// The parts of worst_relative_error: far signs in smoke must not hide how good the planes are.
 Json relative_errors_json(const Json& result) {
   const auto of = [&](const char* list, const auto& judged) {
-    std::vector<double> errors;
+    std::vector<NamedError> errors;
     for (const Json& item : result[list]) {
       const Json& value = judged(item);
       if (!value["value"].is_number() || value["value"].get<double>() <= 0) continue;
       const Json& error = value["standard_error"];
-      errors.push_back(error.is_number() ? error.get<double>() / value["value"].get<double>()
-                                         : std::numeric_limits<double>::infinity());
+      errors.push_back({error.is_number() ? error.get<double>() / value["value"].get<double>()
+                                          : std::numeric_limits<double>::infinity(),
+                        subject_of(item)});
     }
     return spread_json(std::move(errors));
   };
@@ -297,39 +331,23 @@ Json relative_errors_json(const Json& result) {
        of("signs", [](const Json& s) -> const Json& { return s["white"]["luminance_at_eye"]; })}};
 }
 
-Json result_of(const LocalRun& run, const RunRecord& record, const PlaneMaps& maps) {
-  const CompiledScene& scene = run.scene();
-  const Readout readout(scene, run.totals());
-  const double error = readout.worst_relative_error();
-  const double seconds = run.seconds();
+Json optional_json(const auto& value) {
+  return value ? Json(*value) : Json();
+}
+
+Json stop_json(const StopRule& stop) {
+  return {{"particles", optional_json(stop.particles)},
+          {"relative_error", optional_json(stop.relative_error)},
+          {"seconds", optional_json(stop.seconds)}};
+}
+
+std::string hash_text(const CompiledScene& scene) {
   char hash[17];
   std::snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(scene.scene_hash));
-  const auto rays = static_cast<double>(run.totals().ledger().rays);
-  const double fom = error > 0 && seconds > 0 ? 1 / (error * error * seconds) : std::nan("");
-  Json out = {
-      {"schema", result_schema},
-      {"program", "luxodus"},
-      {"scene", scene.description->name},
-      {"title", scene.description->title},
-      {"scene_file", record.scene_file},
-      {"scene_hash", hash},
-      {"scenario", scene.scenario.name},
-      {"cells", record.cells},
-      {"kernel", describe_kernel(scene)},
-      {"seed", run.seed()},
-      {"particles", run.particles()},
-      {"batches", run.traced()},
-      {"batch_particles", scene.batch_particles},
-      {"stopped_by", record.stopped_by},
-      {"threads", run.threads()},
-      {"seconds", exact_json(seconds, "s")},
-      {"particles_per_second", exact_json(static_cast<double>(run.particles()) / seconds, "1/s")},
-      {"rays_per_second", exact_json(rays / seconds, "1/s")},
-      {"worst_relative_error", exact_json(error, "1")},
-      {"error_of", scene.judged.words},
-      {"unlit", readout.unlit()},
-      {"figure_of_merit", exact_json(fom, "1/s")},
-      {"ledger", ledger_json(run.totals().ledger())}};
+  return hash;
+}
+
+Json source_groups_json(const CompiledScene& scene) {
   Json groups = Json::array();
   for (size_t g = 0; g < scene.groups.size(); ++g) {
     const Group& group = scene.groups[g];
@@ -337,7 +355,70 @@ Json result_of(const LocalRun& run, const RunRecord& record, const PlaneMaps& ma
         {{"name", group.name}, {"luminous_flux", exact_json(group.luminous_flux_lm, "lm")}});
     if (!scene.batch_shares.empty()) groups.back()["batch_share"] = scene.batch_shares[g];
   }
-  out["source_groups"] = std::move(groups);
+  return groups;
+}
+
+Json cameras_json(const SceneDescription& scene) {
+  Json cameras = Json::array();
+  for (size_t i = 0; i < scene.cameras.size(); ++i)
+    cameras.push_back({{"name", scene.cameras[i].name}, {"files", files_of_view(scene, i)}});
+  return cameras;
+}
+
+/// Why standard errors are null; "" where they are known.
+std::string why_no_errors(const LocalRun& run) {
+  int64_t least = run.traced();
+  for (int g = 0; g < run.totals().groups(); ++g) least = std::min(least, run.totals().batches(g));
+  if (least >= 2) return "";
+  return "an error needs two batches of every source group, and one of them has " +
+         std::to_string(least) + ": trace more particles";
+}
+
+Json result_of(const LocalRun& run, const RunRecord& record, const PlaneMaps& maps) {
+  const CompiledScene& scene = run.scene();
+  const Readout readout(scene, run.totals());
+  const double error = readout.worst_relative_error();
+  const double seconds = run.seconds();
+  const auto rays = static_cast<double>(run.timed_rays());
+  // Of statistical errors and of the whole run's time.
+  const bool all_timed = run.timed_particles() == run.particles();
+  const double fom =
+      error > 0 && seconds > 0 && all_timed ? 1 / (error * error * seconds) : std::nan("");
+  Json out = {{"schema", result_schema},
+              {"program", "luxodus"},
+              {"scene", scene.description->name},
+              {"title", scene.description->title},
+              {"scene_file", record.scene_file},
+              {"scene_hash", hash_text(scene)},
+              {"scenario", scene.scenario.name},
+              {"state", run_state_json(scene)},
+              {"cells", record.cells},
+              {"kernel", describe_kernel(scene)},
+              {"seed", run.seed()},
+              {"particles", run.particles()},
+              {"batches", run.traced()},
+              {"batch_particles", scene.batch_particles},
+              {"finished", true},
+              {"stopped_by", record.stopped_by},
+              {"stop_rule", stop_json(record.stop)},
+              {"threads", run.threads()},
+              {"seconds", exact_json(seconds, "s")},
+              {"timed_particles", run.timed_particles()},
+              {"particles_per_second",
+               exact_json(static_cast<double>(run.timed_particles()) / seconds, "1/s")},
+              {"rays_per_second", exact_json(rays / seconds, "1/s")},
+              {"worst_relative_error", exact_json(error, "1")},
+              {"error_of", scene.judged.words},
+              {"unlit", readout.unlit()},
+              {"figure_of_merit", exact_json(fom, "1/s")},
+              {"ledger", ledger_json(run.totals().ledger())}};
+  if (!all_timed)
+    out["timing"] =
+        "seconds and rates are of the particles traced since the run was resumed; nobody wrote "
+        "down how long the others took, so there is no figure of merit";
+  if (const std::string why = why_no_errors(run); !why.empty())
+    out["standard_errors_unknown"] = why;
+  out["source_groups"] = source_groups_json(scene);
   out["planes"] = planes_json(run, readout, maps);
   out["probes"] = probes_json(run, readout);
   out["signs"] = views_json(scene, readout);
@@ -348,8 +429,7 @@ Json result_of(const LocalRun& run, const RunRecord& record, const PlaneMaps& ma
   out["counting_planes"] = counting_json(scene, readout);
   out["escape"] = escape_json(scene, readout);
   out["relative_errors"] = relative_errors_json(out);
-  out["cameras"] = Json::array();
-  for (const Camera& c : scene.description->cameras) out["cameras"].push_back({{"name", c.name}});
+  out["cameras"] = cameras_json(*scene.description);
   return out;
 }
 
@@ -359,12 +439,44 @@ Json result_json(const LocalRun& run, const RunRecord& record) {
   return result_of(run, record, make_plane_maps(run));
 }
 
+Json begun_json(const LocalRun& run, const RunRecord& record, double seconds) {
+  const CompiledScene& scene = run.scene();
+  Json planes = Json::array();
+  for (size_t i = 0; i < scene.description->planes.size(); ++i)
+    planes.push_back({{"name", scene.description->planes[i].name},
+                      {"files", files_of_plane(*scene.description, i)}});
+  return {{"schema", result_schema},
+          {"program", "luxodus"},
+          {"scene", scene.description->name},
+          {"title", scene.description->title},
+          {"scene_file", record.scene_file},
+          {"scene_hash", hash_text(scene)},
+          {"scenario", scene.scenario.name},
+          {"state", run_state_json(scene)},
+          {"cells", record.cells},
+          {"seed", run.seed()},
+          {"particles", run.particles()},
+          {"timed_particles", run.timed_particles()},
+          {"batches", run.traced()},
+          {"finished", false},
+          {"stop_rule", stop_json(record.stop)},
+          {"seconds", exact_json(seconds, "s")},
+          {"error_of", scene.judged.words},
+          {"source_groups", source_groups_json(scene)},
+          {"planes", std::move(planes)},
+          {"cameras", cameras_json(*scene.description)}};
+}
+
 Result<Json> write_report(const std::filesystem::path& folder, const LocalRun& run,
                           const RunRecord& record, const ShareDone& progress) {
   if (auto ok = remove_old_maps(folder); !ok.ok()) return ok.problem();
   std::error_code error;
   std::filesystem::create_directories(folder / "planes", error);
   if (error) return Problem{{folder.string(), 0}, "cannot make this folder: " + error.message()};
+  // Should this process be killed before the end, the files below are known to be a run's.
+  if (auto ok = write_json(folder / "result.json", begun_json(run, record, run.seconds()));
+      !ok.ok())
+    return ok.problem();
   const PlaneMaps maps = make_plane_maps(run, progress);
   if (auto ok = write_plane_maps(folder / "planes", run, maps); !ok.ok()) return ok.problem();
   if (auto ok = write_flux_maps(folder, run); !ok.ok()) return ok.problem();

@@ -14,19 +14,26 @@ struct RunRecord {
   std::string scene_file;
   std::string stopped_by;  // name_of(StopReason)
   int cells = 1;
+  StopRule stop = {};  // what was asked for
 };
 
 /// result.json as a value.
 Json result_json(const LocalRun& run, const RunRecord& record);
 
+/// What result.json says while a run goes on or its results are being written: what `luxodus
+/// render` and `run --resume` need, which files are its own, and that it has not ended.
+Json begun_json(const LocalRun& run, const RunRecord& record, double seconds);
+
 /// Writes result.json, planes/*.csv and *.png, patches.vtp and volume.vti into `folder` (made if
 /// missing). Maps and pictures of an earlier run are removed first; nothing else in the folder is.
-/// Returns what it wrote as result.json. `progress` is of the direct light, which takes longest.
+/// Until all is written, result.json is begun_json. Returns what it wrote as result.json.
+/// `progress` is of the direct light, which takes longest.
 Result<Json> write_report(const std::filesystem::path& folder, const LocalRun& run,
                           const RunRecord& record, const ShareDone& progress = {});
 
-/// The values asked for, a line each, and the errors, for the terminal: planes, probes, groups of
-/// surfaces, counting planes and signs. Requires: `result` is the run's result_json.
-std::string summary_text(const Json& result);
+/// For the terminal: the state that was computed; the values asked for, a line each (planes,
+/// probes, groups of surfaces, counting planes, signs by observer); where the light went; the
+/// errors. `verbose`: and how it was computed. Requires: `result` is the run's result_json.
+std::string summary_text(const Json& result, bool verbose = false);
 
 }  // namespace luxodus

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "actors/display/report.hpp"
+#include "actors/display/run_state.hpp"
 
 namespace luxodus {
 
@@ -15,21 +16,37 @@ double number(const Json& j) {
   return j.is_number() ? j.get<double>() : std::nan("");
 }
 
-/// "  12.3 +- 0.4 lx"
+/// "  12.3 +- 0.4 lx", with the bound of what is computed, where there is one.
 std::string measured_text(const Json& m) {
-  return fmt::format("{:8.4g} +- {:<7.2g} {}", number(m["value"]), number(m["standard_error"]),
-                     m["unit"].get<std::string>());
+  const std::string unit = m["unit"].get<std::string>();
+  std::string text = fmt::format("{:8.4g} ", number(m["value"]));
+  text += m["standard_error"].is_number()
+              ? fmt::format("+- {:<7.2g} {}", number(m["standard_error"]), unit)
+              : unit + " (an error needs two batches)";
+  if (m.contains("quadrature_bound"))
+    text += fmt::format(", quadrature within {:.2g} {}", number(m["quadrature_bound"]), unit);
+  return text;
 }
 
 std::string name_of(const Json& item) {
   return item["name"].get<std::string>();
 }
 
+/// "0.8 at (1.2, 3, 0)", of a value with its place [m].
+std::string placed_text(const Json& value) {
+  std::string text = fmt::format("{:.3g}", number(value["value"]));
+  if (!value.contains("position")) return text;
+  const Json& p = value["position"];
+  return text +
+         fmt::format(" at ({:.4g}, {:.4g}, {:.4g})", number(p[0]), number(p[1]), number(p[2]));
+}
+
 std::string illuminances(const Json& result) {
   std::string text;
   for (const Json& p : result["planes"]) {
-    text += fmt::format("  plane {:<24} min {:8.3g}  mean {}\n", name_of(p),
-                        number(p["minimum"]["value"]), measured_text(p["mean_illuminance"]));
+    text += fmt::format("  plane {:<24} mean {}, least {}, most {}, least/mean {:.2g}\n",
+                        name_of(p), measured_text(p["mean_illuminance"]), placed_text(p["minimum"]),
+                        placed_text(p["maximum"]), number(p["uniformity"]["value"]));
   }
   for (const Json& p : result["probes"])
     text += fmt::format("  probe {:<24} {}\n", name_of(p), measured_text(p["illuminance"]));
@@ -50,57 +67,109 @@ std::string fluxes(const Json& result) {
   return text;
 }
 
+/// What each observer has before him, in the scene's order.
 std::string signs(const Json& result) {
+  std::vector<std::string> observers;
+  for (const Json& s : result["signs"])
+    if (std::find(observers.begin(), observers.end(), s["observer"]) == observers.end())
+      observers.push_back(s["observer"]);
   std::string text;
-  for (const Json& s : result["signs"]) {
-    text +=
-        fmt::format("  sign {:<26} from {:<18} {:5.1f} m  white {}  green {}  surround {:.3g}\n",
-                    s["sign"].get<std::string>(), s["observer"].get<std::string>(),
-                    number(s["distance"]["value"]), measured_text(s["white"]["luminance_at_eye"]),
-                    measured_text(s["green"]["luminance_at_eye"]),
-                    number(s["surround"]["luminance_at_eye"]["value"]));
+  for (const std::string& observer : observers) {
+    text += fmt::format("  signs from {}: luminance at the eye\n", observer);
+    for (const Json& s : result["signs"]) {
+      if (s["observer"] != observer) continue;
+      text +=
+          fmt::format("    {:<26} {:5.1f} m  white {}  green {}  surround {:.3g}\n",
+                      s["sign"].get<std::string>() + (s["back_face"].get<bool>() ? ", back" : ""),
+                      number(s["distance"]["value"]), measured_text(s["white"]["luminance_at_eye"]),
+                      measured_text(s["green"]["luminance_at_eye"]),
+                      number(s["surround"]["luminance_at_eye"]["value"]));
+    }
   }
   return text;
 }
 
-std::string percent(const Json& error) {
-  return error["value"].is_number() ? fmt::format("{:.2g} %", 100 * number(error["value"]))
-                                    : std::string("not known yet");
+std::string percent(double share) {
+  return share < 0.0995 ? fmt::format("{:.2g} %", 100 * share)
+                        : fmt::format("{:.0f} %", 100 * share);
 }
 
-/// The errors of each kind of value, and where there is none, of what the run was judged by.
+std::string percent(const Json& error) {
+  return error["value"].is_number() ? percent(number(error["value"])) : "not known yet";
+}
+
+/// "exit north" from "crawler", or "floor".
+std::string subject_text(const Json& of) {
+  if (of.contains("name")) return "\"" + name_of(of) + "\"";
+  return "\"" + of["sign"].get<std::string>() + "\" from \"" + of["observer"].get<std::string>() +
+         "\"";
+}
+
+/// "signs 4.4 % (median), 36 % (largest: "exit north" from "crawler")".
+std::string spread_text(const char* what, const Json& spread) {
+  if (!spread["worst_of"].is_object()) return std::string(what) + " without light so far";
+  if (!spread["worst"]["value"].is_number()) return std::string(what) + " not known yet";
+  return fmt::format("{} {} (median), {} (largest: {})", what, percent(spread["median"]),
+                     percent(spread["worst"]), subject_text(spread["worst_of"]));
+}
+
+/// The errors of each kind of value, and of what the run was judged by where that was chosen.
 std::string errors(const Json& result) {
+  if (result.contains("standard_errors_unknown"))
+    return "  standard errors: " + result["standard_errors_unknown"].get<std::string>() + "\n";
   const Json& of = result["relative_errors"];
   std::string text;
-  if (!result["planes"].empty()) text += ", planes at most " + percent(of["planes"]["worst"]);
-  if (!result["probes"].empty())
-    text += ", indirect light at probes at most " + percent(of["probes"]["worst"]);
-  if (!result["signs"].empty()) {
-    text += fmt::format(", signs {} in the median, {} for the worst seen",
-                        percent(of["signs"]["median"]), percent(of["signs"]["worst"]));
-  }
+  const auto add = [&](const std::string& part) { text += (text.empty() ? "" : "; ") + part; };
+  if (!result["planes"].empty()) add(spread_text("planes", of["planes"]));
+  if (!result["probes"].empty()) add(spread_text("indirect light at probes", of["probes"]));
+  if (!result["signs"].empty()) add(spread_text("signs", of["signs"]));
   const Json& judged = result["error_of"];
   if (!judged.empty()) {
     std::string words;
     for (const Json& word : judged) words += (words.empty() ? "" : ", ") + word.get<std::string>();
-    text +=
-        ", of " + words + " (what the run is judged by) " + percent(result["worst_relative_error"]);
+    add("what the run is judged by (" + words + ") " + percent(result["worst_relative_error"]));
   }
-  if (text.empty()) text = ", surfaces at most " + percent(result["worst_relative_error"]);
-  return "  standard errors: " + text.substr(2) + "\n";
+  if (text.empty()) add("surfaces " + percent(result["worst_relative_error"]) + " (largest)");
+  return "  relative standard errors: " + text + "\n";
 }
 
-std::string ledger(const Json& result) {
-  const Json& l = result["ledger"];
-  const double lost = std::ldexp(std::stod(l["lost"].get<std::string>()), -32);
-  return fmt::format("  ledger {}; {} particles{}\n",
-                     l["closes"].get<bool>() ? "closes exactly" : "DOES NOT CLOSE",
-                     result["particles"].get<int64_t>(),
-                     lost > 0
-                         ? fmt::format(", the light of {:.3g} of them LOST: their histories do "
-                                       "not end (no surface or medium takes any light)",
-                                       lost)
-                         : std::string());
+/// Of the light that left the sources; sums of 128 bits stand in result.json as text.
+double share_of(const Json& balance, const char* part) {
+  const double emitted = std::stod(balance["emitted"].get<std::string>());
+  return emitted > 0 ? std::stod(balance[part].get<std::string>()) / emitted : 0;
+}
+
+/// Sides of the building's box that light leaves by, the largest first.
+std::string sides_text(const Json& escape, double escaped) {
+  std::vector<std::pair<double, std::string>> sides;
+  double all = 0;
+  for (const auto& [side, flux] : escape.items()) {
+    sides.emplace_back(std::max(0.0, number(flux["value"])), side);
+    all += sides.back().first;
+  }
+  std::sort(sides.rbegin(), sides.rend());
+  std::string text;
+  for (const auto& [flux, side] : sides)
+    if (all > 0 && flux > 0.01 * all)
+      text += (text.empty() ? " (by " : ", ") + side + " " + percent(escaped * flux / all);
+  return text.empty() ? "" : text + ")";
+}
+
+/// Where the light went.
+std::string whereabouts(const Json& result) {
+  const Json& balance = result["ledger"];
+  const double escaped = share_of(balance, "escaped"), lost = share_of(balance, "lost");
+  std::string text = "  light: " + percent(share_of(balance, "absorbed_surfaces")) +
+                     " absorbed by surfaces, " + percent(share_of(balance, "absorbed_media")) +
+                     " by smoke, " + percent(escaped) + " escaped" +
+                     (escaped > 0 ? sides_text(result["escape"], escaped) : "") + "\n";
+  if (lost > 0)
+    text += "  " + percent(lost) +
+            " of the light is LOST: its histories do not end (no surface or medium takes any "
+            "light)\n";
+  if (!balance["closes"].get<bool>())
+    text += "  THE ENERGY BALANCE DOES NOT CLOSE: these results are wrong; report it\n";
+  return text;
 }
 
 /// What the run is judged by and has no light: no error tells of it.
@@ -115,11 +184,33 @@ std::string unlit(const Json& result) {
   return "  no light so far, and no part in these errors: " + text + "\n";
 }
 
+std::string effort(const Json& result) {
+  return fmt::format("  {} particles in {:.3g} s; stopped by: {}\n",
+                     result["particles"].get<int64_t>(), number(result["seconds"]["value"]),
+                     result["stopped_by"].get<std::string>());
+}
+
+/// For who looks into the program.
+std::string internals(const Json& result) {
+  const Json& balance = result["ledger"];
+  return fmt::format(
+      "  kernel: {}; {} batches of {} particles; {} threads; {:.4g} rays/s\n"
+      "  energy balance (ledger, exact to 2^-32 of a particle) {}: {} rays, {} hits, {} "
+      "collisions\n",
+      result["kernel"].get<std::string>(), result["batches"].get<int64_t>(),
+      result["batch_particles"].get<int64_t>(), result["threads"].get<int>(),
+      number(result["rays_per_second"]["value"]),
+      balance["closes"].get<bool>() ? "closes exactly" : "DOES NOT CLOSE",
+      balance["rays"].get<uint64_t>(), balance["hits"].get<uint64_t>(),
+      balance["collisions"].get<uint64_t>());
+}
+
 }  // namespace
 
-std::string summary_text(const Json& result) {
-  return illuminances(result) + fluxes(result) + signs(result) + ledger(result) + errors(result) +
-         unlit(result);
+std::string summary_text(const Json& result, bool verbose) {
+  return "  " + run_state_text(result["state"]) + "\n" + illuminances(result) + fluxes(result) +
+         signs(result) + whereabouts(result) + errors(result) + unlit(result) + effort(result) +
+         (verbose ? internals(result) : "");
 }
 
 }  // namespace luxodus

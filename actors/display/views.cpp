@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "actors/display/pictures.hpp"
+#include "actors/display/result_files.hpp"
 #include "scenes/format/false_colour_png.hpp"
 #include "scenes/format/write_image.hpp"
 #include "scenes/optics/chromaticity.hpp"
@@ -50,14 +51,18 @@ ExrImage exr_of(const LocalRun& run, const Camera& camera, const TracedPicture& 
     }
   }
   image.channels.push_back({"scotopic", traced.light.scotopic});
-  image.channels.push_back({"standard_error.Y", traced.standard_error_y});
+  // An error needs two paths: where there are none, there is no channel of it, instead of NaN.
+  const bool has_error = options.paths_per_pixel >= 2;
+  if (has_error) image.channels.push_back({"standard_error.Y", traced.standard_error_y});
   image.chromaticities = Chromaticities{};
   image.white_luminance_cd_m2 = 1.0f;
   image.text = texts_of(run, camera);
   image.text.emplace_back(
       "comments",
-      "X, Y, Z: CIE 1931, Y in cd/m2. R, G, B: linear sRGB of the same light, not "
-      "clipped. scotopic: scotopic cd/m2. standard_error.Y: of the pixel's paths.");
+      std::string("X, Y, Z: CIE 1931, Y in cd/m2. R, G, B: linear sRGB of the same light, not "
+                  "clipped. scotopic: scotopic cd/m2. ") +
+          (has_error ? "standard_error.Y: of the pixel's paths."
+                     : "No standard error: it needs two paths per pixel."));
   image.numbers = {{"paths_per_pixel", static_cast<double>(options.paths_per_pixel)},
                    {"particles", static_cast<double>(run.particles())}};
   return image;
@@ -189,10 +194,11 @@ FalseColourPicture luminance_map(const LocalRun& run, const Camera& camera,
   return p;
 }
 
-Result<Done> write_view(const std::filesystem::path& folder, const LocalRun& run,
+/// `stem`: of its files, without their endings.
+Result<Done> write_view(const std::filesystem::path& stem, const LocalRun& run,
                         const Camera& camera, const TracedPicture& traced,
                         const PictureOptions& options) {
-  const auto path = [&](const char* ending) { return folder / (camera.name + ending); };
+  const auto path = [&](const char* ending) { return std::filesystem::path(stem) += ending; };
   if (auto ok = write_exr(path(".exr"), exr_of(run, camera, traced, options)); !ok.ok()) return ok;
   const auto texts = texts_of(run, camera);
   const XyzPicture balanced = white_balanced(run.scene(), with_calm_colour(traced));
@@ -208,10 +214,7 @@ Result<Done> write_view(const std::filesystem::path& folder, const LocalRun& run
              "What an adapted eye tells apart (Ward Larson, Rushmeier and Piatko 1997), shown on a "
              "monitor of 200 cd/m2; luminance data is in the EXR file");
   if (auto ok = write_png(path("_human.png"), seen); !ok.ok()) return ok;
-  if (std::max(camera.width, camera.height) > limits::grid_edge_most ||
-      traced.light.pixels() > limits::drawn_cells_most) {
-    return Done{};
-  }
+  if (!is_mapped(camera)) return Done{};
   return write_false_colour_png(path("_luminance.png"),
                                 luminance_map(run, camera, traced, options));
 }
@@ -222,7 +225,7 @@ Result<std::vector<size_t>> chosen_views(const SceneDescription& scene, const st
   std::string known;
   for (size_t i = 0; i < scene.cameras.size(); ++i) {
     if (only.empty() || scene.cameras[i].name == only) out.push_back(i);
-    known += (known.empty() ? "" : ", ") + scene.cameras[i].name;
+    known += (known.empty() ? "\"" : ", \"") + scene.cameras[i].name + "\"";
   }
   if (!only.empty() && out.empty()) {
     return Problem{{scene.file, 0},
@@ -252,6 +255,7 @@ Result<Done> render_views(const std::filesystem::path& folder, const LocalRun& r
     return Problem{{(folder / "views").string(), 0}, "cannot make this folder: " + error.message()};
   std::unique_ptr<PatchRadiance> flux;
   if (options.gather && run.batches() > 0) flux = flux_radiance(run);
+  const std::vector<std::string> names = result_names(scene).views;
   double all = 0, before = 0;
   const auto pixels = [&](size_t i) {
     return static_cast<double>(scene.cameras[i].width) * scene.cameras[i].height;
@@ -261,8 +265,10 @@ Result<Done> render_views(const std::filesystem::path& folder, const LocalRun& r
     const TracedPicture traced = trace_picture(run, i, options, flux.get(), [&](double share) {
       if (progress) progress((before + share * pixels(i)) / all);
     });
+    if (options.interrupted()) return Done{};
     before += pixels(i);
-    if (auto ok = write_view(folder / "views", run, scene.cameras[i], traced, options); !ok.ok())
+    if (auto ok = write_view(folder / "views" / names[i], run, scene.cameras[i], traced, options);
+        !ok.ok())
       return ok;
   }
   return Done{};

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "runtime/core/check.hpp"
 #include "runtime/core/hash.hpp"
@@ -59,7 +60,7 @@ void LeaseClient::want_leases(size_t count) {
 }
 
 void LeaseClient::ask() {
-  if (asking_ || ended_ || draining_ || round_empty_ || wanted_ == 0) return;
+  if (asking_ || over_ || draining_ || round_empty_ || wanted_ == 0) return;
   if (scheduler_.rarely(Buggify::Site::small_wish)) wanted_ = 1;
   asking_ = Question{network_.next_id(), RequestLease{static_cast<uint32_t>(wanted_)}, {}};
   wanted_ = 0;
@@ -73,6 +74,7 @@ void LeaseClient::granted(const MessageId& answered, const LeaseGranted& grant) 
   round_ = grant.round;
   lease_time_ = milliseconds(grant.duration_ms);
   counters_.leases += grant.batches;
+  rumour_ = rumour_ && grant.batches == 0;
   for (uint32_t i = 0; i < grant.batches; ++i) {
     photons_->add(grant.first_lease + i, static_cast<int64_t>(grant.first_batch + i));
   }
@@ -115,7 +117,7 @@ bool LeaseClient::rested(Nanoseconds now) const {
 /// lasts for as long as one waits for a lost node is for good: others may have the object.
 void LeaseClient::lease_failed(uint64_t lease, int64_t batch) {
   ++counters_.leases_failed;
-  if (ended_) return;
+  if (over_) return;
   if (scheduler_.clock().now() - vain_since(lease, batch) < config_.lost)
     return photons_->add(lease, batch);
   ++counters_.leases_given_back;
@@ -147,7 +149,8 @@ void LeaseClient::flush_when_idle() {
 }
 
 void LeaseClient::flush() {
-  if (packing_ || flushing_ || done_.empty()) return;  // the answer to that one sends the next
+  if (packing_ || flushing_ || over_ || done_.empty())
+    return;  // the answer to that one sends the next
   flush_due_ = !encoder_is_free();
   if (flush_due_) return;
   room_wanted_ = false;
@@ -172,6 +175,7 @@ void LeaseClient::pack(Totals& totals) {
   const std::span<const std::byte> payload = encoder_->bytes();
   const uint64_t hash = XXH3_64bits(payload.data(), payload.size());  // as Hasher, in no memory
   packing_ = false;
+  if (over_) return;
   flushing_ = Question{
       network_.next_id(), Flush{round_, hash, std::move(packed_leases_), {}}, {payload, encoder_}};
   if (config_.trace != nullptr)
@@ -235,26 +239,71 @@ bool LeaseClient::drained() const {
   return !asking_ && !packing_ && !flushing_ && done_.empty() && photons_->at_hand() == 0;
 }
 
-void LeaseClient::end(std::optional<Problem> fault) {
-  if (ended_) return;
-  ended_ = true;
+void LeaseClient::say_goodbye() {
+  network_.send(config_.controller, network_.next_id(), RequestLease{0});
+}
+
+void LeaseClient::stop_work(std::optional<Problem> fault) {
+  if (std::exchange(over_, true)) return;
   fault_ = std::move(fault);
+  asking_.reset();
+  flushing_.reset();  // all is counted, or nothing more will be
   photons_->end();
 }
 
+void LeaseClient::end(std::optional<Problem> fault) {
+  stop_work(std::move(fault));
+  ended_ = true;
+}
+
+/// From the controller, which waits for an answer and lets all go when it has those of all; or from
+/// a neighbour that was let go. A neighbour's word could be of an earlier run, which that neighbour
+/// has outlived: until the controller has lent this node something it is but a rumour, which is
+/// right if the controller never comes.
+void LeaseClient::hear_of_end(NodeId from, const RunEnded& over) {
+  end_word_ = over;
+  rumour_ = from != config_.controller && counters_.leases == 0;
+  if (rumour_) return;
+  const auto says = [&] { return Problem{{}, "the controller says: " + over.text}; };
+  stop_work(over.text.empty() ? std::nullopt : std::optional(says()));
+  network_.send(config_.controller, network_.next_id(), RequestLease{0});
+  if (from != config_.controller) let_go();
+}
+
+/// Neighbours are told first: with this node they may lose their way to the controller.
+void LeaseClient::let_go() {
+  stop_work(std::nullopt);
+  if (tell_) return;
+  tell_ = network_.neighbours();
+  std::erase(*tell_, config_.controller);
+  pass_on();
+}
+
+void LeaseClient::pass_on() {
+  std::erase_if(*tell_, [&](NodeId neighbour) {
+    return network_.send(neighbour, network_.next_id(), end_word_) != SendOutcome::full;
+  });
+  if (tell_->empty()) return end(std::nullopt);
+  scheduler_.timers().set(scheduler_.clock().now() + retry_after, [this] { pass_on(); });
+}
+
 void LeaseClient::watch_controller(Nanoseconds now) {
-  if (ended_) return;
+  if (ended_ || tell_) return;
   if (network_.reaches(config_.controller))
     unreachable_since_.reset();
   else if (!unreachable_since_)
     unreachable_since_ = now;
   const auto give_up = [&](const char* what, Nanoseconds after, const char* key) {
+    if (rumour_) return end(std::nullopt);
     end(Problem{{},
                 fmt::format("{} for {:g} s ({})", what, static_cast<double>(after) * 1e-9, key)});
   };
+  // Begun again after a crash the controller would ask anew who has heard of the end.
+  const bool lost = unreachable_since_ && now - *unreachable_since_ >= config_.lost;
+  if (over_) return lost ? end(std::nullopt) : void();
   if (!heard_ && now - began_ >= config_.start)
     give_up("the controller has not been heard of", config_.start, "start_s");
-  else if (heard_ && unreachable_since_ && now - *unreachable_since_ >= config_.lost)
+  else if (heard_ && lost)
     give_up("no way has led to the controller", config_.lost, "lost_s");
 }
 
@@ -291,13 +340,18 @@ void LeaseClient::on_timer() {
   }
   if (flushing_) parts_.ask_again(now, config_.answer_patience);
   if (rested(now) || flush_due_) flush();
-  if (round_empty_ && !ended_ && now - emptied_ >= config_.answer_patience) begin_round();
+  if (round_empty_ && !over_ && now - emptied_ >= config_.answer_patience) begin_round();
   watch_controller(now);
   set_timer();
 }
 
 bool LeaseClient::deliver(const Delivery& delivery) {
   if (shard_answered(delivery)) return true;
+  if (const auto* over = std::get_if<RunEnded>(&delivery.message)) {
+    heard_ = heard_ || delivery.source == config_.controller;
+    hear_of_end(delivery.source, *over);
+    return true;
+  }
   if (delivery.source != config_.controller) return false;
   heard_ = true;
   if (const auto* grant = std::get_if<LeaseGranted>(&delivery.message)) {
@@ -310,12 +364,8 @@ bool LeaseClient::deliver(const Delivery& delivery) {
     for (const uint64_t lease : fenced->leases) photons_->drop(lease);
   } else if (std::holds_alternative<RoundOpened>(delivery.message)) {
     begin_round();
-  } else if (const auto* over = std::get_if<RunEnded>(&delivery.message)) {
-    if (over->text.empty())
-      end(std::nullopt);
-    else
-      end(Problem{{}, "the controller says: " + over->text});
-    network_.send(config_.controller, network_.next_id(), RequestLease{0});
+  } else if (const auto* phase = std::get_if<EnterPhase>(&delivery.message)) {
+    if (phase->phase == EndPhase::leave) let_go();
   } else {
     return false;
   }

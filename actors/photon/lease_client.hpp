@@ -54,7 +54,10 @@ class LeaseClient final : public LeasePort {
 
   /// A message of the controller or a shard; false where it is none of these.
   bool deliver(const Delivery& delivery);
-  /// Whether the run has ended, or the controller was given up.
+  /// Whether the run is over, as this node has heard; or the controller was given up.
+  bool over() const { return over_; }
+  /// Whether it is over and this node may leave. A node that has heard of the end stays until it is
+  /// let go, since others' word of it may have to pass through it.
   bool ended() const { return ended_; }
   /// Why the run ended without this node, or could not begin.
   const std::optional<Problem>& fault() const { return fault_; }
@@ -63,6 +66,8 @@ class LeaseClient final : public LeasePort {
   void drain();
   /// Whether all that was at hand is with the controller.
   bool drained() const;
+  /// Tells the controller that this node leaves before the run has ended.
+  void say_goodbye();
 
   struct Counters {
     uint64_t leases = 0;
@@ -102,6 +107,10 @@ class LeaseClient final : public LeasePort {
   void flush_when_idle();
   void watch_controller(Nanoseconds now);
   void end(std::optional<Problem> fault);
+  void stop_work(std::optional<Problem> fault);
+  void hear_of_end(NodeId from, const RunEnded& over);
+  void let_go();
+  void pass_on();
   void flush_answered(const MessageId& answered, bool taken);
   Nanoseconds vain_since(uint64_t lease, int64_t batch);
 
@@ -134,7 +143,12 @@ class LeaseClient final : public LeasePort {
   uint32_t round_ = 0;        // of the last grant: a round begins when all before is counted
   bool round_empty_ = false;  // the controller had none: flush, and wait for the next round
   Nanoseconds emptied_ = 0;
+  // working --the run's end is heard of--> over --let go, or the controller is lost--> ended
+  bool over_ = false;
   bool ended_ = false;
+  RunEnded end_word_;                        // as it was heard
+  std::optional<std::vector<NodeId>> tell_;  // neighbours that it has yet to be passed on to
+  bool rumour_ = false;  // a neighbour says that the run is over, of which nothing is known here
   bool draining_ = false;
   std::optional<Problem> fault_;
   bool heard_ = false;  // of the controller

@@ -75,6 +75,11 @@ std::string SimWorker::fault() const {
   return "";
 }
 
+std::string SimWorker::regret() const {
+  const auto result = worker_.result();
+  return result.ok() ? "" : result.problem().what;
+}
+
 // ---- the controller ----------------------------------------------------------------------------
 
 SimController::SimController(const RunSetup& setup, const NodeSetup& node, LocalRun& run,
@@ -110,6 +115,10 @@ std::string SimController::fault() const {
   if (!controller().adding() && !run_.totals().ledger().closes())
     return "the ledger does not close";
   return "";
+}
+
+std::string SimController::regret() const {
+  return controller().fault() ? controller().fault()->what : "";
 }
 
 }  // namespace luxodus

@@ -16,6 +16,8 @@ class CheckedNode : public SimNode {
  public:
   /// The first of its invariants that does not hold, for people; "" where all do. Cheap.
   virtual std::string fault() const = 0;
+  /// Why it has left without having done its part, for people; "" where it has done it.
+  virtual std::string regret() const = 0;
 };
 
 /// A node's place in the world, where work is real and takes what it costs.
@@ -33,6 +35,7 @@ class SimWorker final : public CheckedNode {
   bool finished() const override { return worker_.shell().finished(); }
   void die() override;
   std::string fault() const override;
+  std::string regret() const override;
   const Worker& worker() const { return worker_; }
 
  private:
@@ -57,6 +60,7 @@ class SimController final : public CheckedNode {
   bool finished() const override { return node_.shell().finished(); }
   void die() override;
   std::string fault() const override;
+  std::string regret() const override;
   const Controller& controller() const { return node_.controller(); }
 
  private:

@@ -124,6 +124,7 @@ class Simulation {
   std::string ended_well() const;
   NodeId controller() const { return {static_cast<uint16_t>(setups_.size() - 1)}; }
   void note_last(const SimController& controller);
+  void note_left(NodeId node, const CheckedNode& left);
   bool sharded() const { return !setup_.shards.owners.empty(); }
 
   const SimScene& scene_;
@@ -139,6 +140,8 @@ class Simulation {
   SimReport report_;
   std::unique_ptr<SimWorld> world_;
   std::optional<StopReason> reason_;
+  bool let_go_ = false;     // the controller has let all nodes go
+  std::vector<bool> late_;  // of each: its life began after that
 };
 
 Simulation::Simulation(const SimScene& scene, const SimOptions& options, PlannedNodes& nodes)
@@ -152,6 +155,7 @@ Simulation::Simulation(const SimScene& scene, const SimOptions& options, Planned
   world.plan = fault_plan();
   for (NodeSetup& node : setups_) node.faults = world.plan;  // of its stores
   world_ = std::make_unique<SimWorld>(world);
+  late_.resize(setups_.size());
 }
 
 void Simulation::set_up(const PlannedNodes& nodes) {
@@ -174,8 +178,8 @@ void Simulation::set_up(const PlannedNodes& nodes) {
     node.photons.leases = habits.photons.leases;
     node.photons.open_batches = habits.photons.open_batches;
     node.photons.portion = std::min(node.photons.portion, portion);
-    // Who waits long enough sees the healing.
-    node.start = node.lost = options_.patience;
+    // Who waits so long sees the healing, and the world sees who has waited in vain.
+    node.start = node.lost = options_.patience / 2;
     node.stall = seconds(3600);
   }
   if (!options_.draw_nodes && !options_.rare_ways) return;
@@ -213,6 +217,7 @@ FaultPlan Simulation::fault_plan() const {
 }
 
 std::unique_ptr<SimNode> Simulation::make(NodeId node, uint32_t life) {
+  late_[node.value] = let_go_;
   NodeSetup& setup = setups_[node.value];
   setup.net.incarnation = {draw_life(options_.seed, node, life)};
   if (node == controller()) {
@@ -248,7 +253,17 @@ void Simulation::note_last(const SimController& controller) {
   report_.leases = c.leases;
   report_.leases_fenced = c.fenced;
   report_.flushes_refused = c.flushes_refused;
-  if (controller.controller().ended()) reason_ = controller.controller().reason();
+  if (!controller.controller().ended()) return;
+  reason_ = controller.controller().reason();
+  let_go_ = true;
+}
+
+/// A worker has heard of the end, however it was parted from the others. Who begins anew when all
+/// have been let go finds nobody who could tell it.
+void Simulation::note_left(NodeId node, const CheckedNode& left) {
+  if (late_[node.value]) return;
+  if (auto why = left.regret(); !why.empty())
+    report_.failure = fmt::format("{} has left with \"{}\"", setup_.name_of(node), why);
 }
 
 void Simulation::go() {
@@ -262,6 +277,7 @@ void Simulation::go() {
     if (node == nullptr) continue;
     if (auto fault = node->fault(); !fault.empty())
       report_.failure = fmt::format("{}: {}", setup_.name_of(last), fault);
+    if (here == nullptr && report_.failure.empty()) note_left(last, *node);
     if (last == controller()) note_last(*static_cast<const SimController*>(node));
     if (world_->now() > end)
       report_.failure =

@@ -19,6 +19,10 @@ namespace {
 constexpr size_t bytes_of_a_step = 1 << 20;
 /// Between lines about who is waited for.
 constexpr Nanoseconds waiting_word = seconds(10);
+/// Looks, at each of which all are told of the end: an answer is as fresh as two of three.
+constexpr int heard_lately = 3;
+/// Until what found no room in the network is said again.
+constexpr Nanoseconds say_again_after = milliseconds(20);
 
 double seconds_of(Nanoseconds span) {
   return static_cast<double>(span) * 1e-9;
@@ -87,7 +91,8 @@ bool Controller::meet(const Delivery& delivery) {
       lose_shard(delivery.source, "began anew");
     }
     peer.life = life;
-    peer.told = false;
+    peer.told.reset();
+    peer.left = false;
   }
   peer.here = true;
   const auto here = [](const auto& entry) { return entry.second.here; };
@@ -104,6 +109,14 @@ void Controller::begin() {
 }
 
 void Controller::await_workers(Nanoseconds now) {
+  if (const auto taken = network_.taken_elsewhere()) {
+    // Where its results go is in the words of the refusal, which the node adds to this.
+    fault_ = Problem{{},
+                     fmt::format("the run did not begin, since its workers are not free: let the "
+                                 "run that {} works for end first, or give this one other workers",
+                                 name_of(*taken))};
+    return end_run(StopReason::workers_lost);
+  }
   if (interrupt_.load()) {
     closing_ = true;
     return end_run(StopReason::interrupted);
@@ -294,6 +307,7 @@ void Controller::look_at_totals() {
       look_at_totals();
     });
   }
+  if (run_.pause_is_due()) run_.resume(book_.lent_end(), book_.missing());
   run_.pause_if_due();
   gathered_ = false;
   if (round_done) end_round();
@@ -313,25 +327,63 @@ void Controller::end_run(StopReason reason) {
   reason_ = reason;
   over_ = true;
   over_since_ = scheduler_.clock().now();
+  next_word_ = over_since_ + waiting_word;
   run_.resume(book_.lent_end(), book_.missing());
   tell_end();
 }
 
+// The end. Were this node to leave before a worker has heard of it, that worker would wait for
+// `lost` and take a run that ended well for one that failed; and were workers to leave as soon as
+// they have heard, those behind them would be cut off. So all stay until each has answered, or is
+// lost: a worker that no way leads to gives the run up by itself after the same time. What a worker
+// has heard it forgets when it crashes, so all are asked again and again until all have answered
+// lately.
+// Then all are let go, and tell their neighbours as they leave. Who interrupts the run waits for
+// nobody who is out of reach.
+
 void Controller::tell_end() {
   const std::string text = fault_ ? fault_->what.substr(0, limits::text_bytes) : "";
   for (const auto& [worker, peer] : peers_)
-    if (peer.here && !peer.told) send(worker, network_.next_id(), RunEnded{round(), text});
+    if (peer.here || done_before_) send(worker, network_.next_id(), RunEnded{round(), text});
+  let_go_when_told();
+}
+
+bool Controller::knows_end(NodeId worker, const Peer& peer) const {
+  if (peer.left) return true;
+  // Who has not been heard of may wait for a word of the end, when an earlier life counted it.
+  if (!peer.here) return !done_before_;
+  if (!network_.reaches(worker)) return interrupt_.load();
+  return peer.told && scheduler_.clock().now() - *peer.told <= heard_lately * config_.look_every;
+}
+
+void Controller::let_go_when_told() {
+  if (letting_go_) return;
+  const auto knows = [&](const auto& entry) { return knows_end(entry.first, entry.second); };
+  if (!std::all_of(peers_.begin(), peers_.end(), knows) && over_for() < config_.lost) return;
+  letting_go_ = true;
+  let_go();
+}
+
+/// Until the network has taken the word for each that it can reach.
+void Controller::let_go() {
+  const EnterPhase leave{EndPhase::leave, 0};
+  for (auto& [worker, peer] : peers_)
+    if (!peer.gone)
+      peer.gone = network_.send(worker, network_.next_id(), leave) != SendOutcome::full;
+  if (ended()) return;
+  scheduler_.timers().set(scheduler_.clock().now() + say_again_after, [this] { let_go(); });
 }
 
 bool Controller::ended() const {
-  if (!over_) return false;
-  const auto done = [&](const auto& entry) {
-    const Peer& peer = entry.second;
-    // Who has not been heard of may wait for a word of the end, when an earlier life counted it.
-    return (!peer.here && !done_before_) || peer.told || (closing_ && peer.unreachable_since);
-  };
-  return std::all_of(peers_.begin(), peers_.end(), done) ||
-         scheduler_.clock().now() - over_since_ >= config_.farewell;
+  return letting_go_ &&
+         std::all_of(peers_.begin(), peers_.end(), [](const auto& at) { return at.second.gone; });
+}
+
+std::string Controller::who_lacks_end() const {
+  std::string text;
+  for (const auto& [worker, peer] : peers_)
+    if (!knows_end(worker, peer)) text += (text.empty() ? "" : ", ") + name_of(worker);
+  return text;
 }
 
 // ---- what passes with time -------------------------------------------------------------------
@@ -344,7 +396,7 @@ void Controller::look() {
   const Nanoseconds now = scheduler_.clock().now();
   set_timer();
   watch_workers(now);
-  if (over_) return tell_end();
+  if (over_) return wait_for_farewells(now);
   if (!begun_) return await_workers(now);
   report_(progress());
   shards_.look();
@@ -358,6 +410,15 @@ void Controller::look() {
     book_.close();
   }
   look_at_totals();
+}
+
+void Controller::wait_for_farewells(Nanoseconds now) {
+  tell_end();
+  if (letting_go_ || now < next_word_) return;
+  next_word_ = now + waiting_word;
+  spdlog::info(
+      "run=over text=\"{} must hear of it, or be lost: that takes {:g} s (lost_s) at most\"",
+      who_lacks_end(), seconds_of(config_.lost));
 }
 
 Progress Controller::progress() const {
@@ -402,9 +463,12 @@ uint32_t Controller::most_to_lend() const {
 }
 
 void Controller::lend(const Delivery& delivery, const RequestLease& request) {
-  if (over_ && request.batches == 0) {
-    peers_[delivery.source].told = true;
-    return;
+  Peer& peer = peers_[delivery.source];
+  peer.left = request.batches == 0 && !over_;
+  if (request.batches == 0) {
+    if (!over_) return;
+    peer.told = scheduler_.clock().now();
+    return let_go_when_told();
   }
   Answered& last = last_grant_[delivery.source];
   if (last.question != delivery.id) {

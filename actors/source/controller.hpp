@@ -43,7 +43,6 @@ struct ControllerConfig {
   Nanoseconds lease_time = seconds(120);
   Nanoseconds look_every = milliseconds(250);  // at time, interrupt and late leases
   uint32_t leases_most = 64;                   // for one question
-  Nanoseconds farewell = seconds(5);  // a worker that does not answer to the end is given up then
 };
 
 class Controller {
@@ -58,8 +57,10 @@ class Controller {
   /// A message of a worker; false where it is none of these.
   bool deliver(const Delivery& delivery);
 
-  /// All batches are counted and every worker has been told, or has been silent for too long.
+  /// All is over, every worker has heard so, or is lost, and has been let go.
   bool ended() const;
+  /// How long ago the run was over.
+  Nanoseconds over_for() const { return over_ ? scheduler_.clock().now() - over_since_ : 0; }
   StopReason reason() const { return reason_; }
   /// From the moment when all workers were here to that when all was counted; 0 before it.
   Nanoseconds took() const { return over_ ? over_since_ - began_ : 0; }
@@ -93,7 +94,9 @@ class Controller {
     Incarnation life;   // of which leases stand
     std::vector<Incarnation> former;
     std::optional<Nanoseconds> unreachable_since;
-    bool told = false;  // it knows of the end
+    std::optional<Nanoseconds> told;  // when it last said that it has heard of the end
+    bool left = false;                // it said that it leaves before the end
+    bool gone = false;                // it was let go
   };
 
   bool meet(const Delivery& delivery);
@@ -108,6 +111,7 @@ class Controller {
   void lose_batches();
   void open_round();
   void look();
+  void wait_for_farewells(Nanoseconds now);
   void set_timer();
   bool nothing_left() const;
   uint32_t most_to_lend() const;
@@ -130,6 +134,10 @@ class Controller {
   void end_round();
   void end_run(StopReason reason);
   void tell_end();
+  bool knows_end(NodeId worker, const Peer& peer) const;
+  void let_go_when_told();
+  void let_go();
+  std::string who_lacks_end() const;
   void note_book();
   uint32_t round() const { return static_cast<uint32_t>(counters_.round); }
   Progress progress() const;
@@ -158,6 +166,7 @@ class Controller {
   bool closing_ = false;  // no lease beyond the last: time is up or somebody interrupts
   bool over_ = false;
   Nanoseconds over_since_ = 0;
+  bool letting_go_ = false;
   StopReason reason_ = StopReason::particles;
   /// The last answer to each worker's question of each kind, by the question's sequence: a question
   /// that comes twice is answered alike.

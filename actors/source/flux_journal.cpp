@@ -55,6 +55,7 @@ class Recovery {
     for (int64_t batch = 0; batch < end; ++batch)
       if (done_.count(batch) == 0) missing.push_back(batch);
     run_.resume(end, std::move(missing));
+    run_.forget_time();
   }
 
  private:

@@ -1,11 +1,18 @@
 #include "actors/source/flux_store.hpp"
 
+#include <algorithm>
 #include <cstring>
 
+#include "actors/source/batch_plan.hpp"
 #include "scenes/format/flux_file.hpp"
 #include "scenes/format/json_out.hpp"
 
 namespace luxodus {
+
+namespace limits {
+/// Squares of their scores leave 128 bits beyond: see Totals::square_shift.
+inline constexpr int64_t batches = int64_t{1} << 26;
+}  // namespace limits
 
 namespace {
 
@@ -69,7 +76,9 @@ Json describe_run(const LocalRun& run) {
 Result<std::vector<int64_t>> missing_of(const Json& header, int64_t batches,
                                         const SourcePlace& place) {
   std::vector<int64_t> missing;
-  for (const Json& number : header.value("missing", Json::array())) {
+  const Json numbers = header.contains("missing") ? header["missing"] : Json::array();
+  if (!numbers.is_array()) return Problem{place, "the flux file's missing batches are no list"};
+  for (const Json& number : numbers) {
     const int64_t batch = number.is_number_integer() ? number.get<int64_t>() : -1;
     if (batch < 0 || batch >= batches || (!missing.empty() && batch <= missing.back()))
       return Problem{place,
@@ -78,6 +87,54 @@ Result<std::vector<int64_t>> missing_of(const Json& header, int64_t batches,
     missing.push_back(batch);
   }
   return missing;
+}
+
+/// What the totals hold, as the header says it.
+struct Counted {
+  int64_t batches = 0;           // given out
+  std::vector<int64_t> missing;  // of them, those that the totals lack
+  std::vector<int64_t> groups;   // batches of each source group in the totals
+
+  int64_t traced() const { return batches - static_cast<int64_t>(missing.size()); }
+};
+
+/// Errors: counts that are no counts, or not those of the plan that all runs of the scene have:
+/// with fewer than there are, batches would be traced and counted once more.
+Result<Counted> counted_of(const Json& header, const LocalRun& run, const SourcePlace& place) {
+  const auto count_in = [](const Json& object) -> int64_t {
+    if (!object.is_object() || !object.contains("batches")) return -1;
+    const Json& number = object["batches"];
+    if (!number.is_number_integer()) return -1;
+    const bool small = !number.is_number_unsigned() || number.get<uint64_t>() <= limits::batches;
+    return small ? std::min<int64_t>(number.get<int64_t>(), limits::batches) : -1;
+  };
+  Counted out;
+  out.batches = count_in(header);
+  if (out.batches < 0)
+    return Problem{place, "the flux file does not say how many batches it holds: it is damaged"};
+  auto missing = missing_of(header, out.batches, place);
+  if (!missing.ok()) return missing.problem();
+  out.missing = std::move(missing).value();
+  const CompiledScene& scene = run.scene();
+  std::vector<int64_t> planned(scene.groups.size(), 0);
+  BatchPlan plan(scene);
+  auto lacks = out.missing.begin();
+  for (int64_t batch = 0; batch < out.batches; ++batch) {
+    const auto group = static_cast<size_t>(plan.next().group);
+    const bool is_missing = lacks != out.missing.end() && *lacks == batch;
+    if (is_missing) ++lacks;
+    planned[group] += is_missing ? 0 : 1;
+  }
+  const Json groups = header.contains("groups") ? header["groups"] : Json();
+  if (!groups.is_array() || groups.size() != planned.size())
+    return Problem{place, "the flux file has not the source groups of this scene: it is damaged"};
+  for (size_t g = 0; g < planned.size(); ++g) {
+    if (count_in(groups[g]) != planned[g])
+      return Problem{place, "the flux file counts batches of source group " + std::to_string(g) +
+                                " that are not those of its run: it is damaged"};
+  }
+  out.groups = std::move(planned);
+  return out;
 }
 
 Result<bool> same(const Json& header, const Json& wanted, const char* key,
@@ -120,12 +177,18 @@ Result<Done> load_flux(const std::filesystem::path& path, LocalRun& run) {
     return Problem{place, "the flux file holds no ledger of the expected size"};
   Ledger ledger;
   std::memcpy(&ledger, ledger_block->bytes.data(), sizeof ledger);
-  const Json& groups = header["groups"];
+  auto counted = counted_of(header, run, place);
+  if (!counted.ok()) return counted.problem();
+  const auto particles =
+      static_cast<uint64_t>(counted->traced()) * static_cast<uint64_t>(run.scene().batch_particles);
+  if (ledger.particles != particles)
+    return Problem{place, "the flux file's ledger has " + std::to_string(ledger.particles) +
+                              " particles, its batches " + std::to_string(particles) +
+                              ": it is damaged"};
   for (int g = 0; g < totals.groups(); ++g) {
     const Block* block = read->find(group_block_name(g));
     const size_t count = static_cast<size_t>(run.scene().layout.totals());
-    if (block == nullptr || block->bytes.size() != count * sizeof(Total) || !groups.is_array() ||
-        groups.size() <= static_cast<size_t>(g)) {
+    if (block == nullptr || block->bytes.size() != count * sizeof(Total)) {
       return Problem{place, "the flux file lacks totals of source group " + std::to_string(g)};
     }
     Totals::GroupState state;
@@ -136,14 +199,12 @@ Result<Done> load_flux(const std::filesystem::path& path, LocalRun& run) {
       if (total.sum != 0 || total.squares != 0)
         *state.totals.touch(static_cast<int64_t>(i)) = total;
     }
-    state.batches = groups[static_cast<size_t>(g)].value("batches", int64_t{0});
+    state.batches = counted->groups[static_cast<size_t>(g)];
     totals.restore(g, std::move(state));
   }
   totals.restore_ledger(ledger);
-  const auto batches = header.value("batches", int64_t{0});
-  auto missing = missing_of(header, batches, place);
-  if (!missing.ok()) return missing.problem();
-  run.resume(batches, std::move(missing).value());
+  run.resume(counted->batches, std::move(counted->missing));
+  run.forget_time();
   return Done{};
 }
 

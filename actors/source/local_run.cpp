@@ -113,7 +113,7 @@ void LocalRun::trace_until(int64_t end, const StopRule& stop, const std::atomic<
         const double now = clock.seconds();
         if (stop.seconds && now >= *stop.seconds) time_is_up_ = true;
         if (interrupt.load() || time_is_up_ || (missing_.empty() && plan_.given() >= end)) return;
-        if (pause_due_ && pause_due_()) return;
+        if (pause_is_due()) return;
         if (now - last_report >= report_every_s) {
           last_report = now;
           report(progress(stop, now));

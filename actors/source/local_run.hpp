@@ -3,11 +3,13 @@
 // fast, never what.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <vector>
 
 #include "actors/source/batch_plan.hpp"
 #include "actors/source/rows.hpp"
@@ -63,15 +65,21 @@ class LocalRun {
   /// Has batches traced by another loop than the program's own.
   void trace_with(MakeTracer make) { make_tracer_ = std::move(make); }
 
-  /// Has `pause` called between batches, while nobody adds to the totals, whenever `due` says so:
-  /// by run() on its thread, by a controller on its. Both functions outlive the run.
-  void set_pause(std::function<bool()> due, std::function<void()> pause) {
-    pause_due_ = std::move(due);
-    pause_ = std::move(pause);
+  /// Has `pause` called between batches whenever `due` says so, while nobody adds to the totals and
+  /// these hold all batches() but the missing ones: by run() on its thread, by a controller on its.
+  /// Until remove_pause() of the same owner. Requires: the run does not go on meanwhile.
+  void add_pause(const void* owner, std::function<bool()> due, std::function<void()> pause) {
+    pauses_.push_back({owner, std::move(due), std::move(pause)});
   }
-  bool pause_is_due() const { return pause_due_ && pause_due_(); }
+  void remove_pause(const void* owner) {
+    std::erase_if(pauses_, [owner](const Pause& pause) { return pause.owner == owner; });
+  }
+  bool pause_is_due() const {
+    return std::any_of(pauses_.begin(), pauses_.end(), [](const Pause& p) { return p.due(); });
+  }
   void pause_if_due() {
-    if (pause_is_due()) pause_();
+    for (Pause& pause : pauses_)
+      if (pause.due()) pause.take();
   }
 
   /// Goes on from totals that hold the first `batches` batches, but for those `missing`: these are
@@ -79,6 +87,13 @@ class LocalRun {
   void resume(int64_t batches, std::vector<int64_t> missing = {});
   /// Adds time that somebody else has traced into the totals.
   void add_seconds(double seconds) { seconds_ += seconds; }
+  /// What the totals hold took a time that is not known: rates are of what is traced from here on.
+  void forget_time() { untimed_ = {traced(), totals_.ledger().rays}; }
+  /// The time that the batches resumed from took is known after all.
+  void add_earlier_seconds(double seconds) {
+    seconds_ += seconds;
+    untimed_ = {};
+  }
 
   /// Batches that a rule asks for by particles; unreachably many where it does not.
   int64_t target_batches(const StopRule& stop) const;
@@ -101,6 +116,11 @@ class LocalRun {
   int64_t traced() const { return plan_.given() - static_cast<int64_t>(missing_.size()); }
   int64_t particles() const { return traced() * scene_->batch_particles; }
   double seconds() const { return seconds_; }
+  /// Of particles() and their rays, those that took seconds().
+  int64_t timed_particles() const {
+    return particles() - untimed_.batches * scene_->batch_particles;
+  }
+  uint64_t timed_rays() const { return totals_.ledger().rays - untimed_.rays; }
   uint64_t seed() const { return seed_; }
   int threads() const { return threads_; }
 
@@ -125,11 +145,20 @@ class LocalRun {
   std::mutex plan_mutex_;
   std::atomic<bool> time_is_up_{false};
   double seconds_ = 0;
+  struct Untimed {
+    int64_t batches = 0;
+    uint64_t rays = 0;
+  };
+  Untimed untimed_;  // resumed from, of unknown time
   double error_ = 0;
   int64_t batches_at_start_ = 0;
   MakeTracer make_tracer_ = make_batch_tracer;
-  std::function<bool()> pause_due_;
-  std::function<void()> pause_;
+  struct Pause {
+    const void* owner;
+    std::function<bool()> due;
+    std::function<void()> take;
+  };
+  std::vector<Pause> pauses_;
 };
 
 }  // namespace luxodus

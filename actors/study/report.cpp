@@ -6,6 +6,8 @@
 #include <cmath>
 #include <map>
 
+#include "scenes/format/file_names.hpp"
+
 namespace luxodus {
 
 namespace {
@@ -203,6 +205,12 @@ SvgPlot study_plot(const StudyOutcome& outcome, const StudyPlot& plot) {
   return out;
 }
 
+OutputPlan study_output(const Study& study) {
+  OutputPlan plan{{"results.csv", "results.json", "index.html"}, {}};
+  for (const StudyPlot& plot : study.plots) plan.files.push_back(file_name_of(plot.name) + ".svg");
+  return plan;
+}
+
 Result<Done> write_study(const std::filesystem::path& folder, const StudyOutcome& outcome) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
@@ -212,7 +220,8 @@ Result<Done> write_study(const std::filesystem::path& folder, const StudyOutcome
   if (auto ok = write_json(folder / "results.json", study_json(outcome)); !ok.ok())
     return ok.problem();
   for (const StudyPlot& plot : outcome.study.plots) {
-    const auto ok = write_svg_plot(folder / (plot.name + ".svg"), study_plot(outcome, plot));
+    const auto ok =
+        write_svg_plot(folder / (file_name_of(plot.name) + ".svg"), study_plot(outcome, plot));
     if (!ok.ok()) return ok.problem();
   }
   const auto page = study_page(outcome);

@@ -9,6 +9,7 @@
 #include "actors/study/study_file.hpp"
 #include "scenes/format/csv.hpp"
 #include "scenes/format/json_out.hpp"
+#include "scenes/format/output_folder.hpp"
 #include "scenes/format/svg_plot.hpp"
 
 namespace luxodus {
@@ -61,6 +62,9 @@ Json study_json(const StudyOutcome& outcome);
 SvgPlot study_plot(const StudyOutcome& outcome, const StudyPlot& plot);
 /// Errors: as svg_plot_text.
 Result<std::string> study_page(const StudyOutcome& outcome);
+
+/// What write_study writes.
+OutputPlan study_output(const Study& study);
 
 /// results.csv, results.json, NAME.svg of each plot, index.html.
 /// Errors: as write_file_atomically; a folder that cannot be made.

@@ -13,6 +13,8 @@
 #include "runtime/config/cluster_file.hpp"
 #include "runtime/fiber/sanitizers.hpp"
 #include "scenes/format/atomic_file.hpp"
+#include "scenes/format/file_names.hpp"
+#include "scenes/format/output_path.hpp"
 #include "scenes/format/scene_file.hpp"
 #include "scenes/pack/scene_pack.hpp"
 #include "scenes/transport/compile.hpp"
@@ -69,6 +71,16 @@ Result<Graph> graph_in_file(const ClusterConfig& cluster) {
   const auto& bytes = text.value();
   return parse_graph({reinterpret_cast<const char*>(bytes.data()), bytes.size()},
                      cluster.topology.file.string());
+}
+
+/// Tells runs of one file apart, and is the same when a controller is started again.
+std::string where_results_go(const ClusterConfig& cluster) {
+  const std::string text =
+      cluster.view.live ? "a live view of " + cluster.file.string()
+                        : std::filesystem::absolute(cluster.run.out).lexically_normal().string();
+  // The end of a long path tells it apart. Two such names have room in a refusal.
+  constexpr size_t chars_most = 180;
+  return text.size() <= chars_most ? text : "..." + text.substr(text.size() - chars_most);
 }
 
 }  // namespace
@@ -218,6 +230,7 @@ Result<NodeSetup> ClusterProcessRun::setup_of(NodeId self, const RunSetup& run) 
   node.net = net_config(cluster_, self);
   node.net.incarnation = fresh_incarnation();
   complete(node.net, run);
+  if (self == cluster_.controller()) node.net.identity.results = where_results_go(cluster_);
   node.links = links_of(cluster_, self, node.net.edges);
   if (const auto own = keys_.find(self); own != keys_.end()) node.keys = own->second;
   node.public_keys = public_keys_;
@@ -274,6 +287,10 @@ void ClusterProcessRun::forget_journal() const {
   if (journal_) journal_->remove();
 }
 
+void ClusterProcessRun::make_room() const {
+  if (journal_) journal_->make_room();
+}
+
 /// Beside the results, under the name of the process: several may share the folder.
 Result<Done> ClusterProcessRun::write_trace(const Observation& seen) const {
   if (!seen.traces()) return Done{};
@@ -283,8 +300,8 @@ Result<Done> ClusterProcessRun::write_trace(const Observation& seen) const {
     return Problem{{cluster_.run.out.string(), 0},
                    "cannot make this folder for the trace: " + failed.message()};
   const size_t process = cluster_.node(nodes_.front()).process;
-  return seen.write_trace(cluster_.run.out /
-                          ("trace-" + cluster_.processes[process].name + ".json"));
+  return seen.write_trace(behind_links(
+      cluster_.run.out / ("trace-" + file_name_of(cluster_.processes[process].name) + ".json")));
 }
 
 /// What the nodes of the process are made from; they refer to it.

@@ -67,6 +67,8 @@ class ClusterProcessRun {
   const LocalRun& local_run() const { return *run_; }
   /// The results are written: what was kept of the run for a crash goes.
   void forget_journal() const;
+  /// The journal gives back the room that it has kept on its disk, for the results.
+  void make_room() const;
   int cells() const { return cells_; }
 
  private:

@@ -13,7 +13,6 @@ ControllerConfig controller_config(const RunSetup& setup, const NodeSetup& node,
   config.lease_time = node.lease_time;
   config.group_ranks = node.group_ranks;
   config.leases_most = static_cast<uint32_t>(node.photons.leases);
-  config.farewell = node.shutdown_phase;
   config.start = node.start;
   config.lost = node.lost;
   config.names = setup.names;

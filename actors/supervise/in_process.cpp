@@ -1,6 +1,7 @@
 #include "actors/supervise/in_process.hpp"
 
 #include "actors/supervise/node_plan.hpp"
+#include "scenes/transport/packed_scene.hpp"
 
 namespace luxodus {
 
@@ -17,6 +18,9 @@ Result<StopReason> run_on_nodes(LocalRun& run, const NodesOptions& options, cons
                                 const std::atomic<bool>& interrupt,
                                 const std::function<void(const Progress&)>& report,
                                 NodesReport* counted) {
+  // All nodes have their objects of one file: what is damaged in it, none of them can give.
+  if (!run.resident())
+    if (auto whole = check_objects(run.scene()); !whole.ok()) return whole.problem();
   const SystemClock clock;
   auto made = PlannedNodes::make(run, options, stop, static_cast<uint64_t>(clock.now()) | 1);
   if (!made.ok()) return made.problem();

@@ -98,8 +98,8 @@ Result<StopReason> run_controller(const RunSetup& setup, const Machine& machine,
   const Nanoseconds began = machine.clock.now();
   here.start(broken);
   here.shell().run();
-  run.add_seconds(static_cast<double>(machine.clock.now() - began) * 1e-9);
   const Controller& controller = here.controller();
+  run.add_seconds(static_cast<double>(machine.clock.now() - began - controller.over_for()) * 1e-9);
   const Network& network = here.shell().network();
   if (controller.fault())
     return Problem{{},

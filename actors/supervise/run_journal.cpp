@@ -2,6 +2,8 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+
 #include "actors/source/flux_store.hpp"
 #include "runtime/storage/faulty_store.hpp"
 
@@ -9,14 +11,27 @@ namespace luxodus {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+/// Room that is kept for a flux file at most [bytes]: large ones are mostly zeros, which take none.
+constexpr uint64_t room_most = uint64_t{256} << 20;
+/// And for what is written beside it.
+constexpr uint64_t room_beside = uint64_t{4} << 20;
+
+}  // namespace
+
 Result<std::unique_ptr<RunJournal>> RunJournal::open(const RunJournalConfig& config, LocalRun& run,
                                                      const Clock& clock) {
   std::error_code failed;
-  std::unique_ptr<RunJournal> made(new RunJournal(config, run));
-  made->made_folder_ = fs::create_directories(config.folder, failed);
+  const bool made_folder = fs::create_directories(config.folder, failed);
+  RunJournalConfig real = config;
+  // Files are written into no folder that is a link; what the run's file names may be one.
+  if (!failed) real.folder = fs::canonical(config.folder, failed);
   if (failed)
     return Problem{{config.folder.string(), 0},
                    "cannot make this folder for the journal: " + failed.message()};
+  std::unique_ptr<RunJournal> made(new RunJournal(real, run, clock));
+  made->made_folder_ = made_folder;
   const int64_t before = run.traced();
   if (fs::exists(made->snapshot(), failed))
     if (auto ok = load_flux(made->snapshot(), run); !ok.ok()) return ok.problem();
@@ -29,18 +44,44 @@ Result<std::unique_ptr<RunJournal>> RunJournal::open(const RunJournalConfig& con
   if (!journal.ok()) return Problem{{made->journal().string(), 0}, journal.problem().what};
   made->journal_ = std::move(journal).value();
   made->recovered_ = run.traced() - before;
+  made->keep_room();
   return made;
 }
 
+void RunJournal::keep_room() {
+  const auto groups = static_cast<uint64_t>(run_.totals().groups());
+  const auto bins = static_cast<uint64_t>(run_.scene().layout.totals());
+  const uint64_t bytes = std::min(room_most, groups * bins * sizeof(Total)) + room_beside;
+  if (auto kept = room_.take(config_.folder, bytes); !kept.ok())
+    spdlog::warn("journal=no_room text=\"{}\"", kept.problem().text());
+}
+
+Result<bool> RunJournal::keep(std::span<const int64_t> batches, std::span<const std::byte> flush) {
+  auto kept = journal_->keep(batches, flush);
+  if (!kept.ok()) lacks_ = true;
+  return kept;
+}
+
+/// The snapshot has its name before the journal is cut: between the two, what the journal holds is
+/// known to be in the snapshot.
+Result<bool> RunJournal::make_snapshot() {
+  if (auto saved = save_flux(snapshot(), run_); !saved.ok()) return saved.problem();
+  return journal_->restart();
+}
+
 void RunJournal::rest() {
-  // The snapshot has its name before the journal is cut: between the two, what the journal holds is
-  // known to be in the snapshot.
-  if (auto saved = save_flux(snapshot(), run_); !saved.ok()) {
-    spdlog::error("journal=snapshot_failed text=\"{}\"", saved.problem().text());
+  room_.release();
+  const auto made = make_snapshot();
+  keep_room();
+  // A disk that stays full would have a snapshot made after every flush.
+  if (lacks_ || !made.ok()) not_before_ = clock_.now() + config_.retry;
+  if (made.ok()) {
+    if (lacks_) spdlog::info("journal=whole text=\"a snapshot has what the journal lacked\"");
+    lacks_ = false;
     return;
   }
-  if (auto cut = journal_->restart(); !cut.ok())
-    spdlog::error("journal=restart_failed text=\"{}\"", cut.problem().text());
+  spdlog::error("journal=snapshot_failed text=\"{}: tried again in {:g} s\"", made.problem().text(),
+                static_cast<double>(config_.retry) * 1e-9);
 }
 
 void RunJournal::leave_no_trace() {

@@ -5,6 +5,11 @@
 //   OUT/run.snapshot   a flux file, where there was reason for one
 //   OUT/run.journal    flushes since
 //
+// A disk that fills up: room for a flux file is kept from the start. A flush that the journal
+// cannot take is in the totals; so the room is given back, the totals become a snapshot, and the
+// journal is cut, which gives room again. Where even that fails it is tried again every so often.
+// At the end the room is given back for the results.
+//
 // Thread rule: the controller's thread.
 #pragma once
 
@@ -14,29 +19,34 @@
 #include "actors/source/flux_journal.hpp"
 #include "runtime/core/clock.hpp"
 #include "runtime/core/faults.hpp"
+#include "runtime/storage/room_reserve.hpp"
 
 namespace luxodus {
 
 struct RunJournalConfig {
   std::filesystem::path folder;
   uint64_t bytes_most = 256 << 20;  // then it becomes a snapshot
+  Nanoseconds retry = seconds(10);  // between snapshots for want of room
   NodeId self;
   FaultPlan faults;
 };
 
 class RunJournal final : public FlushKeeper {
  public:
-  /// Makes the folder if need be, and counts into `run` what is kept there. Requires: both outlive
+  /// Makes the folder if need be, and counts into `run` what is kept there. Requires: all outlive
   /// this. Errors: as FileStore::open, load_flux and FluxJournal::open.
   static Result<std::unique_ptr<RunJournal>> open(const RunJournalConfig& config, LocalRun& run,
                                                   const Clock& clock);
 
-  Result<bool> keep(std::span<const int64_t> batches, std::span<const std::byte> flush) override {
-    return journal_->keep(batches, flush);
+  Result<bool> keep(std::span<const int64_t> batches, std::span<const std::byte> flush) override;
+  /// Where the journal is long, or lacks a flush that the totals have.
+  bool rest_is_due() const override {
+    return (lacks_ || journal_->bytes() >= config_.bytes_most) && clock_.now() >= not_before_;
   }
-  bool rest_is_due() const override { return journal_->bytes() >= config_.bytes_most; }
   /// Makes a snapshot, from which on the journal begins anew.
   void rest() override;
+  /// Gives back the room that was kept: now the results are written.
+  void make_room() { room_.release(); }
 
   /// Batches that were counted before this began.
   int64_t recovered() const { return recovered_; }
@@ -47,12 +57,19 @@ class RunJournal final : public FlushKeeper {
   void leave_no_trace();
 
  private:
-  RunJournal(const RunJournalConfig& config, LocalRun& run) : config_(config), run_(run) {}
+  RunJournal(const RunJournalConfig& config, LocalRun& run, const Clock& clock)
+      : config_(config), run_(run), clock_(clock) {}
+  void keep_room();
+  Result<bool> make_snapshot();
   std::filesystem::path snapshot() const { return config_.folder / "run.snapshot"; }
   std::filesystem::path journal() const { return config_.folder / "run.journal"; }
 
   const RunJournalConfig config_;
   LocalRun& run_;
+  const Clock& clock_;
+  RoomReserve room_;
+  bool lacks_ = false;  // a flush that the totals have
+  Nanoseconds not_before_ = 0;
   std::unique_ptr<FluxJournal> journal_;
   int64_t recovered_ = 0;
   bool made_folder_ = false;

@@ -103,13 +103,16 @@ void Worker::start(std::function<bool()> stop) {
 bool Worker::may_leave() {
   if (leases_.ended()) return true;
   if (!stop_()) return false;
+  if (leases_.over()) return true;  // it would but have passed others' word on
   const Nanoseconds now = shell_.scheduler().clock().now();
   if (leave_at_ == never) {
     leave_at_ = now + node_.shutdown_phase;
     leases_.drain();
   }
   // What it holds of the totals goes with it: it stays until the run ends, if that is soon.
-  return (leases_.drained() && !shard_) || now >= leave_at_;
+  const bool leaves = (leases_.drained() && !shard_) || now >= leave_at_;
+  if (leaves) leases_.say_goodbye();
+  return leaves;
 }
 
 Result<WorkerReport> Worker::result() const {

@@ -14,6 +14,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 constexpr double lamp_lm = 1000;
+constexpr double computed = 1e-3;  // what computed direct light may err by
 constexpr double cell = 0.25;  // edge of those that the table averages over [m]
 constexpr const char* points_table = "area_light_points.csv";
 
@@ -50,33 +51,23 @@ Plan receivers_plan(const std::vector<Row>& points) {
   const auto lamp = lit(lamp_of(points.front()));
   for (const Row& row : points) {
     const double x = row.number("x"), y = row.number("y");
-    // Where the receiver's horizon cuts the lamp, whole parts fall on one side of it: 5 %.
-    const bool cut_by_horizon = x <= row.numbers("rect_x0;x1;y0;y1")[1];
     plan.compute_direct(place_of(row), row.number("E_lx_for_1000lm"), lamp, {x, y, 0}, {0, 0, 1},
-                        2e-3);
+                        computed);
     plan.compute_direct(place_of(row) + ", upright", row.number("E_vertical_lx"), lamp,
-                        {x, y, 0.85}, {-1, 0, 0}, cut_by_horizon ? 5e-2 : 2e-3);
+                        {x, y, 0.85}, {-1, 0, 0}, computed);
   }
   return plan;
 }
 
-/// Parts of a lamp are a sixteenth of their distance wide, whatever their optical width s. Light
-/// falls with the fourth power of distance and with exp(-s), so the midpoint rule errs by (4/16 +
-/// s)^2 / 24: percents for large lamps in dense smoke, far away, where little is left of their
-/// light.
 Plan receivers_in_smoke_plan(const std::vector<Row>& points, const std::string& sigma_text) {
   Plan plan;
-  const double sigma = std::stod(sigma_text);
   SceneDescription scene = lamp_of(points.front());
-  add_homogeneous(scene, smoke(sigma, 0));
+  add_homogeneous(scene, smoke(std::stod(sigma_text), 0));
   const auto lamp = lit(std::move(scene));
   for (const Row& row : points) {
-    const std::vector<double> r = row.numbers("rect_x0;x1;y0;y1");
     const double x = row.number("x"), y = row.number("y");
-    const double away = std::hypot(x, y, row.number("height"));
-    const double width = sigma * std::min(away / 16, std::hypot(r[1] - r[0], r[3] - r[2]));
     plan.compute_direct(place_of(row), row.number("E_lx_sigma_a_" + sigma_text), lamp, {x, y, 0},
-                        {0, 0, 1}, 1e-3 + (0.25 + width) * (0.25 + width) / 24);
+                        {0, 0, 1}, computed);
   }
   return plan;
 }

@@ -63,10 +63,11 @@ LiveTrace::~LiveTrace() {
   thread_.join();
 }
 
-void LiveTrace::wish(LiveWish wish) {
+void LiveTrace::wish(LiveWish wish, uint64_t number) {
   {
     const std::lock_guard lock(mutex_);
     next_ = std::move(wish);
+    next_number_ = number;
   }
   interrupt_ = true;
   changed_.notify_all();
@@ -90,13 +91,14 @@ void LiveTrace::work() {
       changed_.wait(lock, [&] { return ends_ || next_ || (run_ && !questions_.empty()); });
       if (ends_) return;
       wish = std::exchange(next_, std::nullopt);
+      number_ = next_number_;
       interrupt_ = false;
     }
     try {
       if (wish) begin(*wish);
       if (run_) refine();
     } catch (const std::exception& e) {
-      audience_.refuses(e.what());
+      audience_.refuses(number_, e.what());
     }
   }
 }
@@ -116,7 +118,7 @@ void LiveTrace::answer_all() {
 void LiveTrace::begin(const LiveWish& wish) {
   tracers_->foresee(wish);
   auto compiled = compile_live(*scene_, wish);
-  if (!compiled.ok()) return audience_.refuses(compiled.problem().text());
+  if (!compiled.ok()) return audience_.refuses(number_, compiled.problem().text());
   const bool same_air = run_ && traced_.scenario == wish.scenario && traced_.smoke == wish.smoke;
   auto run = std::make_unique<LiveRun>(compiled.value(), options_.seed, options_.threads,
                                        run_.get(), same_air);
@@ -124,7 +126,7 @@ void LiveTrace::begin(const LiveWish& wish) {
   std::shared_ptr<const std::vector<uint32_t>> triangles_before;
   if (!run->same_geometry()) {
     auto geometry = geometry_of(run->scene(), generation);
-    if (!geometry.ok()) return audience_.refuses(geometry.problem().text());
+    if (!geometry.ok()) return audience_.refuses(number_, geometry.problem().text());
     if (same_air && run->bins() && !run->bins()->is_same())
       triangles_before = triangles_from(geometry_.patches, geometry->patches, *run->bins());
     geometry_ = std::move(geometry).value();

@@ -58,7 +58,8 @@ class LiveAudience {
   virtual void lit(uint32_t generation, std::vector<LiveFrame> frames) = 0;
   virtual void goes_on(const LiveProgress& progress) = 0;
   virtual void answers(const LiveAnswer& answer) = 0;
-  virtual void refuses(const std::string& why) = 0;
+  /// The wish of that number cannot be had: what was traced before goes on.
+  virtual void refuses(uint64_t number, const std::string& why) = 0;
 };
 
 struct LiveOptions {
@@ -78,7 +79,8 @@ class LiveTrace {
   LiveTrace(const LiveTrace&) = delete;
   LiveTrace& operator=(const LiveTrace&) = delete;
 
-  void wish(LiveWish wish);
+  /// `number`: under which it is refused, if it is; the first has 0.
+  void wish(LiveWish wish, uint64_t number);
   void ask(LiveQuestion question);
 
  private:
@@ -98,12 +100,14 @@ class LiveTrace {
   std::mutex mutex_;
   std::condition_variable changed_;
   std::optional<LiveWish> next_;
+  uint64_t next_number_ = 0;
   std::vector<LiveQuestion> questions_;
   bool ends_ = false;
   std::atomic<bool> interrupt_{false};
   std::atomic<bool> asked_{false};
   // Of the tracing thread.
   uint32_t generation_ = 0;
+  uint64_t number_ = 0;  // of the wish that it looked at last
   LiveWish traced_;
   LiveGeometry geometry_;
   LiveFrame smoke_;

@@ -1,5 +1,7 @@
 #include "actors/view/sign_verdicts.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "actors/assess/reality_mode.hpp"
@@ -34,6 +36,26 @@ Result<SceneDescription> as_it_stands(const SceneDescription& scene, const LiveW
   out->observers = scene.observers;
   out->run = scene.run;
   return out;
+}
+
+/// Why, and in which light, where that decides.
+std::string reason_of(const SightRow& row) {
+  std::string out = row.sight.reason;
+  if (row.other && row.other->sight.verdict != row.sight.verdict)
+    out += std::string(out.empty() ? "" : "; ") + "in " + (row.in_new_light ? "new" : "aged") +
+           " light; in " + (row.in_new_light ? "aged" : "new") + " light it is " +
+           name_of(row.other->sight.verdict);
+  return out;
+}
+
+/// The state that verdicts are of, and what limits them. Its time is that of the view.
+std::string state_note(const SceneDescription& scene, const Scenario& scenario) {
+  const AssessedState state = state_of(scene, scenario, {});
+  if (state.operation == Operation::mains) return state.remarks.front() + ".";
+  return fmt::format(
+      "{} operation. Light: {}. Eyes are taken as adapted to it: within {:g} s of a failure of the "
+      "mains people see less.",
+      name_of(state.operation), state.light, adapted_after_s);
 }
 
 }  // namespace
@@ -71,8 +93,11 @@ Json sign_verdicts(const SceneDescription& scene, const LiveWish& wish,
                     {"eye_height", row.height_m},
                     {"distance", row.view.distance_m},
                     {"verdict", name_of(row.sight.verdict)},
-                    {"reason", row.sight.reason}});
-  return {{"type", "sign"}, {"name", sign}, {"rows", rows}};
+                    {"reason", reason_of(row)}});
+  return {{"type", "sign"},
+          {"name", sign},
+          {"rows", rows},
+          {"note", state_note(now.value(), scenario.value())}};
 }
 
 }  // namespace luxodus

@@ -3,13 +3,20 @@
 #include <algorithm>
 #include <cmath>
 
+#include "actors/inspect/inspect.hpp"
 #include "actors/view/sign_verdicts.hpp"
 #include "scenes/format/atomic_file.hpp"
+#include "scenes/format/output_path.hpp"
+#include "scenes/format/output_text.hpp"
+#include "scenes/format/scene_file.hpp"
 #include "scenes/geometry/transform.hpp"
 
 namespace luxodus {
 
 namespace {
+
+/// Of the building, that something may stand outside of it: across the street.
+constexpr double sizes_outside = 10;
 
 LiveFrame text_of(const Json& message) {
   return std::make_shared<const std::string>(
@@ -34,6 +41,35 @@ bool is_plain_name(const std::string& name) {
              "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_- ") ==
              std::string::npos &&
          !name.empty() && name.front() != ' ' && name.back() != ' ';
+}
+
+/// Under another name first, where it is read back and inspected as `luxodus check` does: a variant
+/// that is kept is a scene that may be computed.
+Result<Done> save_variant(const std::filesystem::path& file, const std::string& text,
+                          const std::string& scenario) {
+  const auto trial = file.parent_path() / ("." + file.stem().string() + ".trial.toml");
+  if (auto ok = write_file_atomically(trial, text); !ok.ok()) return ok;
+  auto read = read_scene(trial);
+  std::error_code ignored;
+  std::filesystem::remove(trial, ignored);
+  const auto unfit = [](const Problem& why) {
+    return Problem{{}, "it is not saved, since it would be no scene: " + why.what};
+  };
+  if (!read.scene) return unfit(read.problems.list().front());
+  const auto scene = std::make_shared<const SceneDescription>(std::move(*read.scene));
+  const auto state = find_scenario(*scene, scenario);
+  if (!state.ok()) return unfit(state.problem());
+  if (auto compiled = compile_scene(scene, state.value(), {}); !compiled.ok())
+    return unfit(compiled.problem());
+  const auto found = inspect(scene, {state.value()}, 1);
+  if (!found.ok()) return unfit(found.problem());
+  if (has_error(found.value())) return unfit(found->front().problem);  // errors come first
+  return write_file_atomically(file, text);
+}
+
+/// How far a place is outside of the box [m].
+double outside(const Bounds& box, const glm::dvec3& place) {
+  return glm::length(glm::max(glm::max(box.low - place, place - box.high), glm::dvec3(0)));
 }
 
 }  // namespace
@@ -126,8 +162,30 @@ void ViewHub::answers(const LiveAnswer& answer) {
   });
 }
 
-void ViewHub::refuses(const std::string& why) {
-  post_([this, why] { to_all({{"type", "refused"}, {"why", why}}); });
+void ViewHub::refuses(uint64_t number, const std::string& why) {
+  post_([this, number, why] {
+    // A later wish is judged by itself, with all that the refused one has left in it.
+    if (number == wish_number_) take_back();
+    to_all({{"type", "refused"}, {"why", why}});
+  });
+}
+
+void ViewHub::wish() {
+  trace_->wish(wish_, ++wish_number_);
+}
+
+/// What is traced is in force again.
+void ViewHub::take_back() {
+  if (!generation_.scene) return;
+  for (const LiveWish::Copy& copy : wish_.added)
+    if (std::none_of(generation_.wish.added.begin(), generation_.wish.added.end(),
+                     [&](const LiveWish::Copy& one) { return one.name == copy.name; }))
+      dimming_.factors.erase(copy.is_sign ? group_of_sign(copy.name)
+                                          : group_of_luminaire(copy.name));
+  if (wish_.scenario != generation_.wish.scenario)
+    if (const auto before = find_scenario(*scene_, generation_.wish.scenario); before.ok())
+      dimming_.seconds = seconds_said(before.value());
+  wish_ = generation_.wish;
 }
 
 // ---- viewers -----------------------------------------------------------------------------------
@@ -204,12 +262,12 @@ void ViewHub::handle(Viewer& viewer, const ScenarioEdit& edit) {
   if (!found.ok()) return refuse(viewer, found.problem().what);
   wish_.scenario = edit.name;
   dimming_.seconds = seconds_said(found.value());
-  trace_->wish(wish_);
+  wish();
 }
 
 void ViewHub::handle(Viewer&, const SmokeEdit& edit) {
   wish_.smoke = edit.factor;
-  trace_->wish(wish_);
+  wish();
 }
 
 void ViewHub::share() {
@@ -240,7 +298,7 @@ void ViewHub::handle(Viewer& viewer, const MoveEdit& edit) {
   if (!can_stand(viewer, edit.is_sign, edit.position, edit.facing)) return;
   auto& moves = edit.is_sign ? wish_.signs : wish_.luminaires;
   moves[edit.name] = {edit.position, edit.facing};
-  trace_->wish(wish_);
+  wish();
 }
 
 std::vector<LiveWish::Copy>::const_iterator ViewHub::added(const std::string& name) const {
@@ -250,6 +308,15 @@ std::vector<LiveWish::Copy>::const_iterator ViewHub::added(const std::string& na
 
 bool ViewHub::can_stand(Viewer& viewer, bool is_sign, const glm::dvec3& position,
                         const std::optional<glm::dvec3>& facing) {
+  if (generation_.scene) {
+    const auto& box = generation_.scene->bounds;
+    const double size = glm::length(box.high - box.low);
+    // Farther away nothing is lit, and what measures from the middle of all loses the building.
+    if (const double far = outside(box, position); far > sizes_outside * size) {
+      refuse(viewer, "that place is " + readable_number(far, 3) + " m outside of the building");
+      return false;
+    }
+  }
   if (!facing) return true;
   const auto frame = (is_sign ? frame_facing : frame_aiming)(position, *facing, {0, 0, 1});
   if (!frame.ok()) refuse(viewer, frame.problem().what);
@@ -286,7 +353,7 @@ void ViewHub::handle(Viewer& viewer, const AddEdit& edit) {
                             {"kind", copy.is_sign ? "sign" : "luminaire"},
                             {"of", edit.of},
                             {"name", copy.name}}));
-  trace_->wish(wish_);
+  wish();
 }
 
 void ViewHub::handle(Viewer& viewer, const RemoveEdit& edit) {
@@ -297,7 +364,7 @@ void ViewHub::handle(Viewer& viewer, const RemoveEdit& edit) {
   (copy->is_sign ? wish_.signs : wish_.luminaires).erase(edit.name);
   dimming_.factors.erase(copy->is_sign ? group_of_sign(edit.name) : group_of_luminaire(edit.name));
   wish_.added.erase(copy);
-  trace_->wish(wish_);
+  wish();
 }
 
 void ViewHub::handle(Viewer& viewer, const SaveEdit& edit) {
@@ -308,7 +375,8 @@ void ViewHub::handle(Viewer& viewer, const SaveEdit& edit) {
   if (std::filesystem::exists(file, ignored))
     return refuse(viewer, file.string() + " is there already: take another name");
   const auto saved =
-      write_file_atomically(file, variant_text(*scene_, wish_, dimming_.factors, edit.name));
+      save_variant(behind_links(file), variant_text(*scene_, wish_, dimming_.factors, edit.name),
+                   wish_.scenario);
   if (!saved.ok()) return refuse(viewer, saved.problem().text());
   viewer.send_text(text_of({{"type", "saved"}, {"file", file.string()}}));
 }

@@ -48,7 +48,7 @@ class ViewHub final : private LiveAudience {
   void lit(uint32_t generation, std::vector<LiveFrame> frames) override;
   void goes_on(const LiveProgress& progress) override;
   void answers(const LiveAnswer& answer) override;
-  void refuses(const std::string& why) override;
+  void refuses(uint64_t number, const std::string& why) override;
 
   void handle(Viewer& viewer, const FactorEdit& edit);
   void handle(Viewer& viewer, const ScenarioEdit& edit);
@@ -61,6 +61,9 @@ class ViewHub final : private LiveAudience {
   void handle(Viewer& viewer, const EditWish& wish);
   void handle(Viewer& viewer, const ProbeAsk& ask);
   void handle(Viewer& viewer, const JudgeAsk& ask);
+  /// Has the wish traced. Until that begins it may be refused, and is taken back then.
+  void wish();
+  void take_back();
   void refuse(Viewer& viewer, const std::string& why);
   void to_all(const Json& message);
   void greet(Viewer& viewer);
@@ -85,7 +88,8 @@ class ViewHub final : private LiveAudience {
   std::map<Viewer*, uint64_t> viewers_;
   uint64_t next_number_ = 1;
   Viewer* editor_ = nullptr;
-  LiveWish wish_;
+  LiveWish wish_;  // what the last edit made of it
+  uint64_t wish_number_ = 0;
   LiveDimming dimming_;
   LiveGeneration generation_;
   /// The latest by kind and group, of any generation that it holds for.

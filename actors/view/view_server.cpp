@@ -1,12 +1,16 @@
 #include "actors/view/view_server.hpp"
 
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
 #include <boost/asio.hpp>
 #include <boost/beast.hpp>
 #include <chrono>
 #include <deque>
 
+#include "actors/view/view_host.hpp"
 #include "actors/view/view_hub.hpp"
+#include "runtime/core/once_a_minute.hpp"
 
 namespace luxodus {
 
@@ -22,11 +26,16 @@ constexpr auto request_patience = std::chrono::seconds(15);
 /// Whether somebody has interrupted.
 constexpr auto look_every = std::chrono::milliseconds(100);
 constexpr uint32_t header_bytes = 8 << 10;
+/// Until a connection is accepted again, after one could not be: doubled, up to the second. Each
+/// viewer who leaves frees a descriptor.
+constexpr auto accept_again = std::chrono::milliseconds(50);
+constexpr auto accept_again_most = std::chrono::milliseconds(1000);
 
 /// What all connections need to know.
 struct Shared {
   ViewHub* hub = nullptr;
   std::string token;
+  std::vector<std::string> allowed_hosts;
   size_t viewers = 0;
 };
 
@@ -58,13 +67,16 @@ Target target_of(std::string_view text) {
   return out;
 }
 
-/// A page of another site must not speak to this one through somebody's browser.
+std::string_view view_of(beast::string_view text) {
+  return {text.data(), text.size()};
+}
+
+/// A page of another site must not speak to this one through somebody's browser. Programs that are
+/// no browsers say no origin.
 bool same_origin(const http::request<http::empty_body>& request) {
   const auto origin = request.find(http::field::origin);
-  if (origin == request.end()) return true;
-  const auto text = origin->value();
-  const size_t host = text.find("://");
-  return host != beast::string_view::npos && text.substr(host + 3) == request[http::field::host];
+  return origin == request.end() ||
+         is_own_page(view_of(origin->value()), view_of(request[http::field::host]));
 }
 
 /// One viewer's socket.
@@ -188,7 +200,11 @@ class Request final : public std::enable_shared_from_this<Request> {
  private:
   void answer() {
     const auto& request = parser_.get();
-    const Target target = target_of({request.target().data(), request.target().size()});
+    if (!names_place(view_of(request[http::field::host]), place(), shared_.allowed_hosts))
+      return reply(http::status::forbidden, "text/plain",
+                   "The page is not served under this name. Open the address that luxodus view has "
+                   "printed, or allow the name with --allow-host.\n");
+    const Target target = target_of(view_of(request.target()));
     if (!shared_.token.empty() && !same_token(target.token, shared_.token))
       return reply(http::status::forbidden, "text/plain",
                    "The address needs the token that luxodus view has printed.\n");
@@ -204,6 +220,16 @@ class Request final : public std::enable_shared_from_this<Request> {
     reply(http::status::not_found, "text/plain", "There is nothing here but the page.\n");
   }
 
+  ServedAt place() {
+    beast::error_code failed;  // a connection that has gone is at no place
+    const tcp::endpoint here = stream_.socket().local_endpoint(failed);
+    if (failed) return {};
+    asio::ip::address address = here.address();
+    if (address.is_v6() && address.to_v6().is_v4_mapped())
+      address = asio::ip::make_address_v4(asio::ip::v4_mapped, address.to_v6());
+    return {address.to_string(), address.is_loopback(), here.port()};
+  }
+
   void reply(http::status status, const char* type, std::string_view body) {
     response_.result(status);
     response_.version(parser_.get().version());
@@ -216,8 +242,8 @@ class Request final : public std::enable_shared_from_this<Request> {
                   "'unsafe-inline'; img-src data: blob:; connect-src 'self'; worker-src blob:; "
                   "frame-ancestors 'none'");
     response_.keep_alive(false);
-    response_.body() = std::string(body);
-    response_.prepare_payload();
+    response_.content_length(body.size());
+    if (parser_.get().method() != http::verb::head) response_.body() = std::string(body);
     http::async_write(stream_, response_, [self = shared_from_this()](beast::error_code, size_t) {
       beast::error_code ignored;
       self->stream_.socket().shutdown(tcp::socket::shutdown_send, ignored);
@@ -235,7 +261,7 @@ class Request final : public std::enable_shared_from_this<Request> {
 
 class ViewServer::Implementation {
  public:
-  Implementation() : acceptor_(context_) {}
+  Implementation() : acceptor_(context_), again_(context_) {}
 
   Result<bool> listen(const ServerOptions& options) {
     beast::error_code failed;
@@ -248,9 +274,10 @@ class ViewServer::Implementation {
     if (!failed) acceptor_.listen(asio::socket_base::max_listen_connections, failed);
     if (failed)
       return Problem{{},
-                     "cannot listen on " + options.address + ":" + std::to_string(options.port) +
-                         ": " + failed.message()};
+                     "cannot listen on " + http_address(options.address, options.port) + ": " +
+                         failed.message()};
     shared_.token = options.token;
+    shared_.allowed_hosts = options.allowed_hosts;
     return true;
   }
   uint16_t port() const { return acceptor_.local_endpoint().port(); }
@@ -260,19 +287,37 @@ class ViewServer::Implementation {
     while (!interrupt) context_.run_for(look_every);
     shared_.hub = nullptr;
   }
+  uint64_t accepts_failed() const { return accepts_failed_; }
   void post(std::function<void()> function) { asio::post(context_, std::move(function)); }
 
  private:
   void accept() {
     acceptor_.async_accept([this](beast::error_code failed, tcp::socket socket) {
-      if (!failed) std::make_shared<Request>(std::move(socket), shared_)->begin();
+      if (failed) return rest(failed);
+      pause_ = accept_again;
+      std::make_shared<Request>(std::move(socket), shared_)->begin();
       accept();
     });
+  }
+
+  /// Who waits to be accepted would otherwise have this thread try without end.
+  void rest(beast::error_code failed) {
+    ++accepts_failed_;
+    if (log_.may(clock_.now()))
+      spdlog::warn("view=full failed={} text=\"a connection cannot be accepted: {}\"",
+                   accepts_failed_.load(), failed.message());
+    again_.expires_after(std::exchange(pause_, std::min(2 * pause_, accept_again_most)));
+    again_.async_wait([this](beast::error_code) { accept(); });
   }
 
   Shared shared_;
   asio::io_context context_{1};
   tcp::acceptor acceptor_;
+  asio::steady_timer again_;
+  std::chrono::milliseconds pause_ = accept_again;
+  std::atomic<uint64_t> accepts_failed_{0};
+  OnceAMinute log_;
+  SystemClock clock_;
 };
 
 ViewServer::ViewServer(std::unique_ptr<Implementation> implementation)
@@ -287,6 +332,9 @@ Result<std::unique_ptr<ViewServer>> ViewServer::listen(const ServerOptions& opti
 
 uint16_t ViewServer::port() const {
   return implementation_->port();
+}
+uint64_t ViewServer::accepts_failed() const {
+  return implementation_->accepts_failed();
 }
 void ViewServer::run(ViewHub& hub, const std::atomic<bool>& interrupt) {
   implementation_->run(hub, interrupt);

@@ -9,6 +9,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "runtime/core/result.hpp"
 
@@ -28,6 +29,8 @@ struct ServerOptions {
   std::string address = "127.0.0.1";
   uint16_t port = 8080;  // 0: any that is free
   std::string token;     // demanded in the address of page and socket; "": none
+  /// Names under which the page may be asked for, beside the address: see view_host.hpp.
+  std::vector<std::string> allowed_hosts = {};
 };
 
 class ViewServer {
@@ -39,6 +42,8 @@ class ViewServer {
   ViewServer& operator=(const ViewServer&) = delete;
 
   uint16_t port() const;
+  /// Connections that could not be accepted, as where descriptors have run out. Any thread.
+  uint64_t accepts_failed() const;
   /// Serves until `interrupt` is set. Requires: `hub` outlives the call.
   void run(ViewHub& hub, const std::atomic<bool>& interrupt);
   /// Runs a function on the thread of run().

@@ -138,6 +138,7 @@ struct ViewChoice {
   bool live = false;
   std::string address;
   uint16_t port = 0;                  // 0: any that is free
+  std::string allow_host;             // under which the page may be asked for; "": none
   std::filesystem::path save_folder;  // of variants, on the controller's host
 };
 

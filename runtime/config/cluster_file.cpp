@@ -110,6 +110,7 @@ void read_view(TableReader& top, ClusterReading& reading) {
   TableReader keys = reader_of(top, "view", reading);
   view.port = static_cast<uint16_t>(keys.integer("port"));
   view.address = keys.address("address");
+  if (keys.has("allow_host")) view.allow_host = keys.address("allow_host");
   view.save_folder = keys.path("save_folder");
 }
 

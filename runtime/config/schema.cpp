@@ -240,6 +240,8 @@ std::vector<TableSpec> service_tables() {
            {"port", "integer", "", "8080", "[0, 65535]", "of the page; 0: any that is free"},
            {"address", "address", "", "\"127.0.0.1\"", "",
             "to listen on; beyond this machine a token is demanded, which the controller prints"},
+           {"allow_host", "address", "", "", "",
+            "a name under which browsers may ask for the page, beside the address"},
            {"save_folder", "path", "", "", "",
             "where variants are saved, on the controller's host; the folder it was started in "
             "unless said"},

@@ -84,7 +84,8 @@ inline constexpr std::array net_counter_names{
 /// The word under which a reason is counted, logged and told to the other end.
 constexpr const char* name_of(RefusalReason reason) {
   constexpr std::array<const char*, refusal_reasons> names{
-      "protocol", "wrong_node", "run", "level", "scene", "topology", "isa", "build", "fingerprint"};
+      "protocol", "wrong_node", "run",   "level",       "scene",
+      "topology", "isa",        "build", "fingerprint", "taken"};
   return names[static_cast<size_t>(reason)];
 }
 

@@ -49,6 +49,7 @@ class FaultyTransport final : public Transport {
   Sent send(NodeId neighbour, Lane lane, std::span<const std::byte> head,
             std::span<const std::byte> body) override;
   void renew(NodeId neighbour) override { below_.renew(neighbour); }
+  void part(NodeId neighbour) override { below_.part(neighbour); }
   std::optional<Arrival> receive() override;
   void wait_until(Nanoseconds until) override;
   void wake() noexcept override { below_.wake(); }

@@ -66,10 +66,12 @@ Result<std::string> write_new(const fs::path& path, const std::string& text, mod
 
 /// The first word of the file that has the length of a key. `secret`: refuse what others may read.
 Result<std::string> read_key(const fs::path& path, bool secret) {
-  const File file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  // A pipe without a writer would be waited for.
+  const File file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
   if (file.descriptor < 0) return system_trouble(path, "cannot be read");
   struct stat state {};
   if (::fstat(file.descriptor, &state) != 0) return system_trouble(path, "cannot be read");
+  if (!S_ISREG(state.st_mode)) return trouble(path, "is no file: a key is read from a file");
   if (secret && (state.st_mode & (S_IRWXG | S_IRWXO)) != 0)
     return trouble(path,
                    "holds a secret key that others may read: chmod 600 it, and if they may "

@@ -1,14 +1,21 @@
 #include "runtime/net/link.hpp"
 
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include <array>
 #include <stdexcept>
+#include <utility>
 #include <variant>
 
 #include "runtime/net/handshake.hpp"
 
 namespace luxodus {
+
+namespace {
+/// Between connecting to a neighbour that has refused this node and saying hello again.
+constexpr Nanoseconds reconnection = seconds(1);
+}  // namespace
 
 Link::Link(const LinkSurroundings& around, NodeId neighbour, Nanoseconds now)
     : around_(around), neighbour_(neighbour), state_(around.config.times, now) {
@@ -79,10 +86,11 @@ Envelope Link::link_envelope() const {
   return envelope;
 }
 
-Sent Link::say(const Message& message, Lane lane) {
+Sent Link::say(const Message& message, Lane lane, std::optional<Incarnation> to) {
   const auto bytes = around_.codec.encode(message, around_.scratch);
   if (!bytes) throw std::logic_error("link: " + bytes.problem().what);
   Envelope envelope = link_envelope();
+  if (to) envelope.to_incarnation = *to;
   envelope.total_bytes = static_cast<uint32_t>(bytes.value());
   return give(envelope, around_.scratch.first(bytes.value()), lane);
 }
@@ -90,6 +98,10 @@ Sent Link::say(const Message& message, Lane lane) {
 void Link::tick(Nanoseconds now) {
   state_.tick(now);
   if (!state_.hello_due(now)) return;
+  if (std::exchange(parted_, false)) {
+    around_.transport.renew(neighbour_);
+    return state_.postpone_until(now + reconnection);
+  }
   const Sent sent = say(Message{Hello{around_.config.identity}}, Lane::control);
   if (sent == Sent::taken)
     state_.greeted(now);
@@ -178,11 +190,17 @@ bool Link::take(const Envelope& envelope, Lane lane, const Message& message, Nan
     meet(envelope, welcome->identity, true, now);
   } else if (const auto* refuse = std::get_if<Refuse>(&message)) {
     // Who refuses has accepted nobody, so it names no life of ours; but it may be gone itself.
-    current = !state_.accepted() || envelope.from_incarnation == state_.peer();
+    // It names the life that it refuses, if that is an earlier one of this node.
+    current = (!state_.accepted() || envelope.from_incarnation == state_.peer()) &&
+              (envelope.to_incarnation == Incarnation{} ||
+               envelope.to_incarnation == around_.config.incarnation);
     if (current) be_refused(*refuse, now);
   } else {
     current = admits(envelope, now);
-    if (current && std::holds_alternative<Bye>(message)) state_.bye(now);
+    if (current && std::holds_alternative<Bye>(message)) {
+      state_.bye(now);
+      works_for_.clear();
+    }
     if (const auto* beat = std::get_if<Beat>(&message); current && beat) settle(*beat, lane);
   }
   if (!current) ++around_.counters.dropped_stale;
@@ -199,9 +217,12 @@ void Link::meet(const Envelope& envelope, const Identity& theirs, bool welcomed,
                     around_.config.self.value, neighbour_.value, name_of(no->reason), no->text);
     state_.refuse(now);
     refusal_ = no->text;
+    refused_for_ = no->reason;
     (void)say(Message{*no}, Lane::control);  // a peer that does not hear it asks again
     return;
   }
+  if (taken(envelope, theirs, now)) return;
+  if (!theirs.results.empty()) works_for_ = theirs.results;
   if (state_.accept(envelope.from_incarnation, now))
     for (Pool& pool : pools_) {
       pool.out.restart();
@@ -209,6 +230,25 @@ void Link::meet(const Envelope& envelope, const Identity& theirs, bool welcomed,
     }
   if (envelope.to_incarnation == around_.config.incarnation) state_.acknowledge(now);
   if (!welcomed) (void)say(Message{Welcome{around_.config.identity}}, Lane::control);
+}
+
+/// Two controllers of one file have the same name and the same identity, but for where their
+/// results go. A node works for the first that it hears: were the second taken for a new life of
+/// the first, each would take the node from the other for ever. The link itself stays as it is.
+bool Link::taken(const Envelope& envelope, const Identity& theirs, Nanoseconds now) {
+  if (theirs.results.empty() || works_for_.empty() || theirs.results == works_for_) return false;
+  const auto reason = static_cast<size_t>(RefusalReason::taken);
+  const Refuse no{
+      RefusalReason::taken,
+      fmt::format("node {} works for the run whose results go to {}, not for that of {}",
+                  around_.config.self.value, works_for_, theirs.results)
+          .substr(0, limits::text_bytes)};
+  ++around_.counters.refused[reason];
+  if (log_refusal_[reason].may(now))
+    spdlog::error("link=refused node={} neighbour={} reason={} text=\"{}\"",
+                  around_.config.self.value, neighbour_.value, name_of(no.reason), no.text);
+  (void)say(Message{no}, Lane::control, envelope.from_incarnation);
+  return true;
 }
 
 void Link::be_refused(const Refuse& refuse, Nanoseconds now) {
@@ -219,6 +259,9 @@ void Link::be_refused(const Refuse& refuse, Nanoseconds now) {
   ++around_.counters.refused_by_peer[reason];
   state_.refuse(now);
   refusal_ = refuse.text;
+  refused_for_ = refuse.reason;
+  parted_ = true;
+  around_.transport.part(neighbour_);
 }
 
 void Link::note_rise(bool was_usable, Nanoseconds now) {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -42,6 +43,10 @@ class Link {
   /// Why it is refused, for people; "" where it is not.
   std::string refusal_text() const {
     return state_.phase() == LinkPhase::refused ? refusal_ : std::string();
+  }
+  /// Whether the neighbour works for another run, and has said so.
+  bool refused_as_taken() const {
+    return state_.phase() == LinkPhase::refused && refused_for_ == RefusalReason::taken;
   }
   /// Times that it came up: tells a link that fell and rose from one that stood.
   uint64_t sessions() const { return sessions_; }
@@ -101,12 +106,14 @@ class Link {
   const Pool& at(Kind kind, uint8_t hop_class) const { return pools_[index(kind, hop_class)]; }
 
   void meet(const Envelope& envelope, const Identity& theirs, bool welcomed, Nanoseconds now);
+  bool taken(const Envelope& envelope, const Identity& theirs, Nanoseconds now);
   void be_refused(const Refuse& refuse, Nanoseconds now);
   void settle(const Beat& beat, Lane lane);
   void use(const Grant& grant);
   Grant next_grant();
   Envelope link_envelope() const;
-  Sent say(const Message& message, Lane lane);
+  /// `to`: another life of the neighbour than the one that is accepted.
+  Sent say(const Message& message, Lane lane, std::optional<Incarnation> to = {});
   Sent give(const Envelope& envelope, std::span<const std::byte> body, Lane lane);
   void note_rise(bool was_usable, Nanoseconds now);
 
@@ -117,6 +124,11 @@ class Link {
   size_t grant_cursor_ = 0;
   uint64_t sessions_ = 0;
   std::string refusal_;  // the last one
+  RefusalReason refused_for_ = RefusalReason::protocol;
+  bool parted_ = false;  // refused, and the connection ended: it is made again before a hello
+  /// Where the results go of the run that this node works for, as the neighbour said; "": it has
+  /// not. Once said, it holds until the neighbour says bye.
+  std::string works_for_;
   /// Refusals, by reason: ours, and the neighbour's. One who asks and asks cannot fill the log.
   std::array<OnceAMinute, refusal_reasons> log_refusal_, log_being_refused_;
   uint64_t bytes_sent_ = 0;

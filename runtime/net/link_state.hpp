@@ -66,6 +66,8 @@ class LinkState {
   void heard(Nanoseconds now);
   void bye(Nanoseconds now) { fall(now); }
   void refuse(Nanoseconds now);
+  /// The next hello is due at `at`: before it the connection has to be made.
+  void postpone_until(Nanoseconds at) { hello_at_ = at; }
   void tick(Nanoseconds now);
   /// This node itself stood still for so long: it heard nobody, and blames nobody.
   void forgive(Nanoseconds span);

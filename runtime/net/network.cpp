@@ -121,6 +121,12 @@ std::string Network::refusal_of(NodeId neighbour) const {
   return "";
 }
 
+std::optional<NodeId> Network::taken_elsewhere() const {
+  for (const Link& link : links_)
+    if (link.refused_as_taken()) return link.neighbour();
+  return std::nullopt;
+}
+
 std::vector<NodeId> Network::neighbours() const {
   std::vector<NodeId> nodes;
   for (const Link& link : links_) nodes.push_back(link.neighbour());

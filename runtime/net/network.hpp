@@ -9,6 +9,7 @@
 #include <array>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -122,6 +123,8 @@ class Network {
   bool reaches(NodeId node) const { return router_.reaches(node); }
   /// Why the link to a neighbour is refused, in the words of who refused it; "" where it is not.
   std::string refusal_of(NodeId neighbour) const;
+  /// A neighbour that works for another run, as it has said: refusal_of() has its words.
+  std::optional<NodeId> taken_elsewhere() const;
   std::vector<NodeId> neighbours() const;
   uint64_t epoch() const { return view_.epoch(); }
   /// Bytes of the fixed buffers.

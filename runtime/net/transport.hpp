@@ -42,6 +42,10 @@ class Transport {
   /// old one may take bytes that will never make a frame again. What it held is lost.
   virtual void renew(NodeId neighbour) = 0;
 
+  /// The neighbour has refused this node: a connection to it that was begun here ends, until
+  /// renew(). Where another process has this node's name, it would take that one's connection away.
+  virtual void part(NodeId) {}
+
   /// The next frame that has come, control before bulk; nothing if none has. Never blocks.
   virtual std::optional<Arrival> receive() = 0;
 

@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cstring>
+#include <set>
 #include <stdexcept>
 #include <string_view>
 #include <zmq.hpp>
@@ -63,6 +64,8 @@ struct ZmqTransport::LaneSockets {
   zmq::socket_t monitor;  // tells of connections made and lost
   zmq::message_t sender;
   zmq::message_t frame;  // what the last arrival points into
+  /// Endpoints, listened at or connected to, at which a handshake has succeeded.
+  std::set<std::string> met;
 };
 
 ZmqTransport::ZmqTransport(ZmqContext& context, const ZmqConfig& config, const Clock& clock)
@@ -190,13 +193,20 @@ void ZmqTransport::renew(NodeId neighbour) {
   const auto found = connected_.find(neighbour);
   if (found == connected_.end() || is_inproc(found->second.where.control)) return;
   const Connected old = found->second;
-  for (const auto& [lane, endpoint] :
-       {std::pair{Lane::control, &old.where.control}, std::pair{Lane::bulk, &old.where.bulk}})
-    // It may have ended by itself, which is as good.
-    zmq_disconnect(lanes_[static_cast<size_t>(lane)]->router.handle(), endpoint->c_str());
+  part(neighbour);
   const auto anew = connect(neighbour, old.where, old.server_key);
   if (!anew)
     spdlog::error("zmq=renew node={} text=\"{}\"", config_.self.value, anew.problem().text());
+}
+
+void ZmqTransport::part(NodeId neighbour) {
+  const auto found = connected_.find(neighbour);
+  if (found == connected_.end() || is_inproc(found->second.where.control)) return;
+  const Endpoints& where = found->second.where;
+  for (const auto& [lane, endpoint] :
+       {std::pair{Lane::control, &where.control}, std::pair{Lane::bulk, &where.bulk}})
+    // It may have ended by itself, which is as good.
+    zmq_disconnect(lanes_[static_cast<size_t>(lane)]->router.handle(), endpoint->c_str());
 }
 
 Sent ZmqTransport::send(NodeId neighbour, Lane lane, std::span<const std::byte> head,
@@ -303,6 +313,7 @@ void ZmqTransport::take_event(Lane lane) {
     switch (kind) {
       case ZMQ_EVENT_HANDSHAKE_SUCCEEDED:
         ++counters_.connected;
+        sockets.met.insert(where.to_string());
         break;
       case ZMQ_EVENT_DISCONNECTED:
         ++counters_.disconnected;
@@ -314,6 +325,13 @@ void ZmqTransport::take_event(Lane lane) {
               "node's public key, and start it again");
         break;
       case ZMQ_EVENT_HANDSHAKE_FAILED_NO_DETAIL:
+        // A node that leaves breaks off the handshakes of those who connect to it again. Keys that
+        // were right there once still are; one that is wrong at its own end is told of there.
+        if (sockets.met.count(where.to_string()) > 0) {
+          ++counters_.broken_off;
+          break;
+        }
+        [[fallthrough]];
       case ZMQ_EVENT_HANDSHAKE_FAILED_PROTOCOL:
         if (counters_.handshake_failed++ == 0)
           say("handshake_failed",

@@ -45,6 +45,7 @@ struct ZmqCounters {
   uint64_t disconnected = 0;
   uint64_t refused_us = 0;        // the other end does not list our key
   uint64_t handshake_failed = 0;  // not our protocol, or a wrong server key
+  uint64_t broken_off = 0;        // by an end that leaves, where others have succeeded
   uint64_t strangers = 0;         // frames of senders that are no nodes, or not who they say
 };
 
@@ -65,6 +66,7 @@ class ZmqTransport final : public Transport {
   Sent send(NodeId neighbour, Lane lane, std::span<const std::byte> head,
             std::span<const std::byte> body) override;
   void renew(NodeId neighbour) override;
+  void part(NodeId neighbour) override;
   std::optional<Arrival> receive() override;
   void wait_until(Nanoseconds until) override;
   void wake() noexcept override;

@@ -6,7 +6,6 @@
 #include <poll.h>
 #include <sys/eventfd.h>
 #include <sys/socket.h>
-#include <sys/time.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -15,12 +14,15 @@
 #include <cstring>
 #include <limits>
 #include <string_view>
+#include <utility>
 
 namespace luxodus {
 
 namespace {
 
 constexpr Nanoseconds no_deadline = std::numeric_limits<Nanoseconds>::max();
+/// Until a connection is accepted again, after one could not be: descriptors have run out.
+constexpr Nanoseconds accept_again = milliseconds(100);
 constexpr const char* text_type = "text/plain; version=0.0.4; charset=utf-8";
 
 std::string reply(const char* status, const std::string& body, bool with_body = true) {
@@ -36,20 +38,6 @@ std::string_view next_word(std::string_view& line) {
   const std::string_view word = line.substr(0, end);
   line.remove_prefix(std::min(end + 1, line.size()));
   return word;
-}
-
-void send_all(int client, std::string_view bytes) {
-  while (!bytes.empty()) {
-    const ssize_t sent = send(client, bytes.data(), bytes.size(), MSG_NOSIGNAL);
-    if (sent <= 0) return;  // gone, or too slow: there is nobody to tell
-    bytes.remove_prefix(static_cast<size_t>(sent));
-  }
-}
-
-void limit_sending(int client) {
-  timeval limit{};
-  limit.tv_sec = limits::http_client / seconds(1);
-  setsockopt(client, SOL_SOCKET, SO_SNDTIMEO, &limit, sizeof limit);
 }
 
 }  // namespace
@@ -69,7 +57,7 @@ Result<std::unique_ptr<MetricsServer>> MetricsServer::start(const std::string& a
   place.sin_port = htons(port);
   if (inet_pton(AF_INET, address.c_str(), &place.sin_addr) != 1)
     return refused("the address is no IPv4 address such as 127.0.0.1");
-  Descriptor listener(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
+  Descriptor listener(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
   Descriptor stop(eventfd(0, EFD_CLOEXEC));
   const int yes = 1;
   setsockopt(listener.get(), SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
@@ -96,48 +84,69 @@ MetricsServer::~MetricsServer() {
   thread_.join();
 }
 
+struct MetricsServer::Client {
+  Descriptor connection;
+  Nanoseconds deadline;
+  std::string request = {};
+  std::string reply = {};  // empty while the request is read
+  size_t sent = 0;
+};
+
+/// Waits for all at once: who says nothing, or reads nothing, keeps nobody else waiting.
 void MetricsServer::serve() {
-  while (readable(listener_.get(), no_deadline)) {
-    const Descriptor client(accept4(listener_.get(), nullptr, nullptr, SOCK_CLOEXEC));
-    if (client.get() >= 0) answer(client.get());
-  }
-}
-
-/// Waits until `fd` can be read; false when the deadline comes first, or the server should end.
-bool MetricsServer::readable(int fd, Nanoseconds deadline) const {
-  std::array<pollfd, 2> watched{pollfd{fd, POLLIN, 0}, pollfd{stop_.get(), POLLIN, 0}};
+  std::vector<Client> clients;
+  Nanoseconds accept_at = 0;
   for (;;) {
-    int wait_ms = -1;
-    if (deadline != no_deadline) {
-      const Nanoseconds left = deadline - clock_.now();
-      if (left <= 0) return false;
-      wait_ms = static_cast<int>(left / milliseconds(1)) + 1;
-    }
-    const int ready = poll(watched.data(), watched.size(), wait_ms);
-    if (ready < 0 && errno != EINTR) return false;
-    if (watched[1].revents != 0) return false;
-    if (ready > 0 && watched[0].revents != 0) return true;
+    const Nanoseconds now = clock_.now();
+    std::erase_if(clients, [&](const Client& client) { return client.deadline <= now; });
+    Nanoseconds wake = accept_at > now ? accept_at : no_deadline;
+    for (const Client& client : clients) wake = std::min(wake, client.deadline);
+    std::vector<pollfd> watched{{stop_.get(), POLLIN, 0}};
+    watched.push_back({accept_at > now ? -1 : listener_.get(), POLLIN, 0});
+    for (const Client& client : clients)
+      watched.push_back({client.connection.get(),
+                         static_cast<short>(client.reply.empty() ? POLLIN : POLLOUT), 0});
+    const int wait_ms =
+        wake == no_deadline ? -1 : static_cast<int>((wake - now) / milliseconds(1)) + 1;
+    if (poll(watched.data(), watched.size(), wait_ms) < 0 && errno != EINTR) return;
+    if (watched[0].revents != 0) return;
+    for (size_t i = clients.size(); i-- > 0;)
+      if (watched[i + 2].revents != 0 && !go_on(clients[i]))
+        clients.erase(clients.begin() + static_cast<std::ptrdiff_t>(i));
+    if (watched[1].revents != 0 && !accept_one(clients, clock_.now()))
+      accept_at = clock_.now() + accept_again;
   }
 }
 
-void MetricsServer::answer(int client) const {
-  limit_sending(client);
-  const std::string request = read_request(client, clock_.now() + limits::http_client);
-  if (!request.empty()) send_all(client, reply_to(request));
+/// False: none could be accepted, for want of descriptors or memory.
+bool MetricsServer::accept_one(std::vector<Client>& clients, Nanoseconds now) const {
+  Descriptor connection(accept4(listener_.get(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));
+  if (connection.get() < 0)  // gone before it was accepted, or what more is there to take
+    return errno == EAGAIN || errno == EINTR || errno == ECONNABORTED;
+  if (clients.size() == limits::http_clients) clients.erase(clients.begin());
+  clients.push_back({std::move(connection), now + limits::http_client});
+  return true;
 }
 
-/// All up to the empty line, or more than is allowed; nothing where the client is gone or too slow.
-std::string MetricsServer::read_request(int client, Nanoseconds deadline) const {
-  std::string request;
-  std::array<char, 1024> part{};
-  while (request.find("\r\n\r\n") == std::string::npos &&
-         request.size() <= limits::http_request_bytes) {
-    if (!readable(client, deadline)) return {};
-    const ssize_t received = recv(client, part.data(), part.size(), 0);
-    if (received <= 0) return {};
-    request.append(part.data(), static_cast<size_t>(received));
+/// Reads or sends what can be; false when the client has its answer, or is gone.
+bool MetricsServer::go_on(Client& client) const {
+  const auto later = [] { return errno == EAGAIN || errno == EINTR; };
+  const int fd = client.connection.get();
+  if (client.reply.empty()) {
+    std::array<char, 1024> part{};
+    const ssize_t received = recv(fd, part.data(), part.size(), 0);
+    if (received <= 0) return received < 0 && later();
+    client.request.append(part.data(), static_cast<size_t>(received));
+    if (client.request.find("\r\n\r\n") == std::string::npos &&
+        client.request.size() <= limits::http_request_bytes)
+      return true;
+    client.reply = reply_to(client.request);
   }
-  return request;
+  const std::string_view rest = std::string_view(client.reply).substr(client.sent);
+  const ssize_t sent = send(fd, rest.data(), rest.size(), MSG_NOSIGNAL);
+  if (sent < 0) return later();
+  client.sent += static_cast<size_t>(sent);
+  return client.sent < client.reply.size();
 }
 
 std::string MetricsServer::reply_to(const std::string& request) const {

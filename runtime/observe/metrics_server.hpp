@@ -1,6 +1,7 @@
 // Answers GET /metrics over HTTP/1.1, for Prometheus or curl: one thread of its own, one request
-// after another, nothing kept. It asks a function for the page and touches no node. What comes from
-// outside is bounded: bytes of a request, and the time a client may take for it.
+// a connection, nothing kept. It asks a function for the page and touches no node. Clients do not
+// wait for each other. What comes from outside is bounded: connections, bytes of a request, and the
+// time a client may take for it.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +9,8 @@
 #include <memory>
 #include <string>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include "runtime/core/clock.hpp"
 #include "runtime/core/result.hpp"
@@ -17,8 +20,11 @@ namespace luxodus {
 namespace limits {
 /// A request's line and headers [bytes]; a scraper sends about 200.
 inline constexpr size_t http_request_bytes = 8 * 1024;
-/// From accepting a client to its answer; who is slower would keep others waiting.
+/// From accepting a client to the last byte of its answer.
 inline constexpr Nanoseconds http_client = seconds(2);
+/// At once; one more takes the place of the one that has been there longest. Scrapers and people
+/// who look are a handful.
+inline constexpr size_t http_clients = 32;
 }  // namespace limits
 
 class MetricsServer {
@@ -29,7 +35,7 @@ class MetricsServer {
                                                       std::function<std::string()> page);
   MetricsServer(const MetricsServer&) = delete;
   MetricsServer& operator=(const MetricsServer&) = delete;
-  /// Ends after the request that is being answered.
+  /// Ends at once: clients that are being answered are cut off.
   ~MetricsServer();
 
   uint16_t port() const { return port_; }
@@ -40,7 +46,10 @@ class MetricsServer {
    public:
     explicit Descriptor(int fd) : fd_(fd) {}
     Descriptor(Descriptor&& other) noexcept : fd_(other.fd_) { other.fd_ = -1; }
-    Descriptor& operator=(Descriptor&&) = delete;
+    Descriptor& operator=(Descriptor&& other) noexcept {
+      std::swap(fd_, other.fd_);
+      return *this;
+    }
     ~Descriptor();
     int get() const { return fd_; }
 
@@ -50,10 +59,11 @@ class MetricsServer {
 
   MetricsServer(Descriptor listener, Descriptor stop, uint16_t port,
                 std::function<std::string()> page);
+  /// A client from its connection to the end of its answer.
+  struct Client;
   void serve();
-  bool readable(int fd, Nanoseconds deadline) const;
-  void answer(int client) const;
-  std::string read_request(int client, Nanoseconds deadline) const;
+  bool accept_one(std::vector<Client>& clients, Nanoseconds now) const;
+  bool go_on(Client& client) const;
   std::string reply_to(const std::string& request) const;
 
   Descriptor listener_;

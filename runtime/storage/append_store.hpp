@@ -30,7 +30,8 @@ class AppendStore {
 /// A file. One at a time: it is locked while it is open.
 class FileStore final : public AppendStore {
  public:
-  /// Opens or makes it. Errors: no such folder, no right to, no regular file, another process has
+  /// Opens or makes it. Errors: no such folder, no right to, no regular file (a link is none: it is
+  /// not followed), another process has
   /// it open.
   static Result<std::unique_ptr<FileStore>> open(const std::filesystem::path& path);
   ~FileStore() override;

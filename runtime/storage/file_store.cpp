@@ -29,7 +29,8 @@ bool sync_folder_of(const std::filesystem::path& path) {
 }  // namespace
 
 Result<std::unique_ptr<FileStore>> FileStore::open(const std::filesystem::path& path) {
-  const int descriptor = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+  constexpr int how = O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC;
+  const int descriptor = ::open(path.c_str(), how, 0644);
   if (descriptor < 0) return system_problem(path, "cannot open this file to append to");
   struct stat about {};
   const bool regular = ::fstat(descriptor, &about) == 0 && S_ISREG(about.st_mode);

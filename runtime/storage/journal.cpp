@@ -1,5 +1,6 @@
 #include "runtime/storage/journal.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 
@@ -88,7 +89,40 @@ Result<bool> Journal::go_on(uint64_t identity, const Visit& visit) {
     ++records_;
   }
   torn_bytes_ = store_->size() - end_;
+  const auto follows = whole_record_follows();
+  if (!follows.ok()) return follows;
+  if (follows.value())
+    return Problem{{},
+                   "record " + std::to_string(records_) + " of the journal (from byte " +
+                       std::to_string(end_) +
+                       " on) is damaged, and whole records follow it: nothing was cut; restore "
+                       "the file from a copy, or move it away to begin anew"};
   return cut_torn();
+}
+
+Result<bool> Journal::whole_record_follows() {
+  const uint64_t size = store_->size();
+  // Hashing costs: what looks like the length of a record seldom is one, but may be made to.
+  uint64_t budget = 16 * (size - end_) + (uint64_t{64} << 20);
+  std::vector<std::byte> window(uint64_t{1} << 20), content;
+  for (uint64_t first = end_ + 1; first + sizeof(RecordHead) <= size;) {
+    const uint64_t read = std::min<uint64_t>(window.size(), size - first);
+    if (auto got = store_->read(first, std::span(window).first(read)); !got.ok()) return got;
+    const uint64_t places = read - sizeof(RecordHead) + 1;
+    for (uint64_t i = 0; i < places; ++i) {
+      RecordHead head{};
+      std::memcpy(&head, window.data() + i, sizeof head);
+      const uint64_t begin = first + i + sizeof head;
+      if (head.bytes > limits::journal_record_bytes || head.bytes > size - begin) continue;
+      if (head.bytes > budget) return true;  // not known: then nothing may be cut
+      budget -= head.bytes;
+      content.resize(head.bytes);
+      if (auto got = store_->read(begin, content); !got.ok()) return got;
+      if (head.check == check_of(first + i, content)) return true;
+    }
+    first += places;
+  }
+  return false;
 }
 
 Result<bool> Journal::cut_torn() {

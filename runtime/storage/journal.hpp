@@ -1,6 +1,7 @@
 // Records that survive a crash: a head that says what they are of, then records one after another,
 // each with its length and check. A record is whole or it is not there: what a crash has torn off
-// at the end is cut when the journal is opened again. It knows nothing of what the records mean.
+// at the end is cut when the journal is opened again. Damage before whole records is an error, and
+// nothing is cut then. It knows nothing of what the records mean.
 //
 //   head:    "LUXJRNL1" ‖ identity (8 B) ‖ check (8 B)
 //   record:  bytes (8 B) ‖ check of bytes and content, chained to the place (8 B) ‖ content
@@ -29,7 +30,8 @@ class Journal {
 
   /// Begins a journal in an empty store, or goes on with one of the same identity: its records are
   /// shown in their order, and a torn end is cut. The store is written to only in these two cases.
-  /// Errors: a store that is another journal or none, a failed read or write, `visit` said so.
+  /// Errors: a store that is another journal or none, a damaged record before whole ones, a failed
+  /// read or write, `visit` said so.
   static Result<Journal> open(std::unique_ptr<AppendStore> store, uint64_t identity,
                               const Visit& visit);
 
@@ -51,6 +53,10 @@ class Journal {
   Result<bool> begin(uint64_t identity);
   Result<bool> go_on(uint64_t identity, const Visit& visit);
   Result<bool> cut_torn();
+  /// Whether a whole record begins anywhere behind the last one that was reached: then what lies
+  /// between is damage, since a crash tears off nothing but the end. Checks are chained to places,
+  /// so that no other bytes look like one.
+  Result<bool> whole_record_follows();
 
   std::unique_ptr<AppendStore> store_;
   std::vector<std::byte> scratch_;

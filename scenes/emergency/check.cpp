@@ -14,6 +14,8 @@ const char* name_of(CheckVerdict verdict) {
       return "not assessed";
     case CheckVerdict::information:
       return "information";
+    case CheckVerdict::not_verified:
+      return "not verified";
   }
   return "";
 }
@@ -40,6 +42,12 @@ Check judged(Rule rule, std::string subject, double value, double limit, bool at
   }
   const bool holds = at_least ? value >= limit : value <= limit;
   check.verdict = holds ? CheckVerdict::pass : CheckVerdict::fail;
+  if (check.rule.recollected) {
+    check.verdict = CheckVerdict::not_verified;
+    check.reason += (check.reason.empty() ? "" : "; ") +
+                    std::string(holds ? "the value keeps" : "the value breaks") +
+                    " a limit that was read nowhere: look it up";
+  }
   return check;
 }
 
@@ -57,9 +65,19 @@ CheckCounts counts_of(const std::vector<Check>& checks) {
   return counts;
 }
 
+size_t count_of(const CheckCounts& counts, CheckVerdict verdict) {
+  return counts[static_cast<size_t>(verdict)];
+}
+
 std::string words_of(const CheckCounts& counts) {
-  return std::to_string(counts[0]) + " checks pass, " + std::to_string(counts[1]) + " fail, " +
-         std::to_string(counts[2]) + " not assessed";
+  const size_t fail = count_of(counts, CheckVerdict::fail);
+  const size_t unverified = count_of(counts, CheckVerdict::not_verified);
+  std::string out = fail == 0   ? "no check made fails"
+                    : fail == 1 ? "1 check fails"
+                                : std::to_string(fail) + " checks fail";
+  out += ", " + std::to_string(count_of(counts, CheckVerdict::not_assessed)) + " not assessed";
+  if (unverified > 0) out += ", " + std::to_string(unverified) + " not verified";
+  return out;
 }
 
 }  // namespace luxodus

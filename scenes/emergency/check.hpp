@@ -11,16 +11,22 @@
 
 namespace luxodus {
 
-enum class CheckVerdict { pass, fail, not_assessed, information };
+/// not_verified: a value was found, but the limit that it was held against is known from memory
+/// alone, so that it can neither pass nor fail.
+enum class CheckVerdict { pass, fail, not_assessed, information, not_verified };
 const char* name_of(CheckVerdict verdict);
 
 /// A rule of a code.
 struct Rule {
-  std::string id;       // of ours: "E1"
-  std::string edition;  // "EN 1838:2013"
-  std::string clause;   // "4.2.1"; "" where it is not known
+  std::string set;        // "en1838-2024"; "" for what is of no code
+  std::string deviation;  // "de-asr-a3.4-3"; "" where the set itself has it
+  std::string id;         // of ours: "E1"
+  std::string edition;    // "EN 1838:2013"
+  std::string clause;     // "4.2.1"; "" where it is not known
   std::string title;
-  std::string source;  // what it is quoted from: the codes themselves are not at hand
+  std::string source;        // what it is quoted from: the codes themselves are not at hand
+  std::string status;        // "superseded by EN 1838:2024"; "" where there is nothing to say
+  bool recollected = false;  // its limit was read nowhere
 };
 
 struct Check {
@@ -38,15 +44,17 @@ struct Check {
   std::optional<double> margin() const;
 };
 
-/// Judged by its limit.
+/// Judged by its limit; not verified where that is known from memory alone.
 Check judged(Rule rule, std::string subject, double value, double limit, bool at_least,
              std::string unit, std::optional<glm::dvec3> worst = std::nullopt);
 Check not_assessed(Rule rule, std::string subject, std::string reason);
 
 /// How many of each verdict, by CheckVerdict.
-using CheckCounts = std::array<size_t, 4>;
+using CheckCounts = std::array<size_t, 5>;
 CheckCounts counts_of(const std::vector<Check>& checks);
-/// "12 checks pass, 3 fail, 2 not assessed".
+size_t count_of(const CheckCounts& counts, CheckVerdict verdict);
+/// "3 checks fail, 2 not assessed", "no check made fails, 2 not assessed, 1 not verified": what
+/// passes is no verdict on the whole.
 std::string words_of(const CheckCounts& counts);
 
 }  // namespace luxodus

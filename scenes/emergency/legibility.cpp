@@ -128,4 +128,26 @@ Sight judge_sight(const Sign& sign, const SignView& view, const SignLook& look,
   return sight;
 }
 
+bool is_worse(const Sight& a, const Sight& b) {
+  const auto badness = [](const Sight& sight) {
+    switch (sight.verdict) {
+      case SightVerdict::legible:
+        return 0;
+      case SightVerdict::undecided:
+        return surely_above(sight.seeing_level, level_seen) ? 1 : 3;
+      case SightVerdict::visible:
+        return 2;
+      case SightVerdict::invisible:
+        return 4;
+      case SightVerdict::hidden:
+        return 5;
+      case SightVerdict::not_assessed:
+        return 6;
+    }
+    return 6;
+  };
+  const int x = badness(a), y = badness(b);
+  return x != y ? x > y : a.reading_level.value < b.reading_level.value;
+}
+
 }  // namespace luxodus

@@ -53,4 +53,8 @@ struct SightRules {
 Sight judge_sight(const Sign& sign, const SignView& view, const SignLook& look,
                   const SightRules& rules);
 
+/// Which of two verdicts on one view, in two lights, counts: the one that is worse, or may be. What
+/// is undecided may be invisible, unless it is surely seen: then it is legible or visible.
+bool is_worse(const Sight& a, const Sight& b);
+
 }  // namespace luxodus

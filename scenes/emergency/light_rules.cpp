@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 
 #include "scenes/emergency/rule_table.hpp"
 #include "scenes/emergency/rules.hpp"
@@ -19,6 +20,9 @@ constexpr double wide_edge_m = 0.5, open_border_m = 0.5;                 // E5, 
 constexpr double first_mean_lx = 10.8, first_least_lx = 1.1;             // N1
 constexpr double last_mean_lx = 6.5, last_least_lx = 0.65;               // N2
 constexpr double failed_least_lx = 2.2;                                  // N4
+constexpr double ibc_first_mean_lx = 11, ibc_first_least_lx = 1;         // I1
+constexpr double ibc_last_mean_lx = 6, ibc_last_least_lx = 0.6;          // I2
+constexpr double bs_open_lx = 1;                                         // E6k
 
 struct Spread {
   double least = std::numeric_limits<double>::infinity();
@@ -59,38 +63,69 @@ std::vector<double> as_new(const SceneDescription& scene) {
   return factors;
 }
 
-Check at_least(const char* id, const std::string& subject, const Spread& spread, double limit) {
-  return judged(rule_of(id), subject, spread.least, limit, true, "lx", spread.darkest);
+Check at_least(const Rule& rule, const std::string& subject, const Spread& spread, double limit) {
+  return judged(rule, subject, spread.least, limit, true, "lx", spread.darkest);
 }
 
-Check even(const char* id, const std::string& subject, const Spread& spread) {
-  return judged(rule_of(id), subject, spread.diversity(), diversity_most, false, "1",
-                spread.darkest);
+Check even(const Rule& rule, const std::string& subject, const Spread& spread) {
+  return judged(rule, subject, spread.diversity(), diversity_most, false, "1", spread.darkest);
 }
 
-/// The least of the illuminance when one luminaire fails, whichever is worst.
-Check with_one_failed(const SceneDescription& scene, const std::string& subject,
-                      const std::vector<LitPoint>& points) {
+/// Where it is darkest when one luminaire fails, and which.
+struct Failure {
+  Spread spread;
+  std::string luminaire;
+};
+
+std::optional<Failure> worst_failure(const SceneDescription& scene,
+                                     const std::vector<LitPoint>& points) {
   const auto luminaires = emergency_luminaires(scene);
-  Check worst;
-  worst.rule = rule_of("N4");
-  worst.subject = subject;
-  worst.unit = "lx";
-  worst.verdict = CheckVerdict::information;
-  worst.reason = "there is no emergency luminaire";
+  std::optional<Failure> worst;
   for (size_t i = 0; i < luminaires.size(); ++i) {
     std::vector<double> factors = all_lit(points);
-    factors[i] = 0;
+    if (i < factors.size()) factors[i] = 0;
     const Spread spread = spread_of(points, factors);
-    if (worst.value && *worst.value <= spread.least) continue;
-    worst.value = spread.least;
-    worst.limit = failed_least_lx;
-    worst.worst = spread.darkest;
-    worst.condition = "\"" + scene.emitters[luminaires[i]].name + "\" has failed";
-    worst.reason = "the worst of " + std::to_string(luminaires.size()) +
-                   " single failures; the limit is that of group I-2 alone";
+    if (!worst || spread.least < worst->spread.least)
+      worst = Failure{spread, scene.emitters[luminaires[i]].name};
   }
   return worst;
+}
+
+constexpr const char* no_luminaire = "there is no emergency luminaire";
+
+/// Of hospitals: what is left must be enough.
+Check enough_with_one_failed(const Rule& rule, const SceneDescription& scene,
+                             const std::string& subject, const std::vector<LitPoint>& points) {
+  const auto worst = worst_failure(scene, points);
+  if (!worst) {
+    Check check = judged(rule, subject, 0, failed_least_lx, true, "lx");
+    check.reason = no_luminaire;
+    return check;
+  }
+  Check check = at_least(rule, subject, worst->spread, failed_least_lx);
+  check.condition = "\"" + worst->luminaire + "\" has failed";
+  return check;
+}
+
+std::vector<Check> american_checks(const SceneDescription& scene, const std::string& subject,
+                                   const Spread& centre, const std::vector<LitPoint>& points,
+                                   const CodeChoice& codes) {
+  const bool ibc = codes.has(Deviation::us_ibc);
+  const auto rule = [&](const char* nfpa, const char* other) {
+    return rule_of(ibc ? other : nfpa, codes);
+  };
+  const Spread first = spread_of(points, as_new(scene));
+  std::vector<Check> out{
+      judged(rule("N1", "I1"), subject, first.mean, ibc ? ibc_first_mean_lx : first_mean_lx, true,
+             "lx"),
+      at_least(rule("N1m", "I1m"), subject, first, ibc ? ibc_first_least_lx : first_least_lx),
+      judged(rule("N2", "I2"), subject, centre.mean, ibc ? ibc_last_mean_lx : last_mean_lx, true,
+             "lx"),
+      at_least(rule("N2m", "I2m"), subject, centre, ibc ? ibc_last_least_lx : last_least_lx),
+      even(rule_of("N3", codes), subject, centre)};
+  if (codes.has(Deviation::us_ibc_i2))
+    out.push_back(enough_with_one_failed(rule_of("N4", codes), scene, subject, points));
+  return out;
 }
 
 }  // namespace
@@ -102,7 +137,27 @@ std::vector<uint32_t> emergency_luminaires(const SceneDescription& scene) {
   return out;
 }
 
-RoutePoints points_of(const EscapeRoute& route, const CodeChoice& codes) {
+Check check_of_failure(const SceneDescription& scene, const std::string& subject,
+                       const std::vector<LitPoint>& points) {
+  Check check;
+  check.rule = own_rule("F1");
+  check.subject = subject;
+  check.unit = "lx";
+  check.verdict = CheckVerdict::information;
+  const auto worst = worst_failure(scene, points);
+  if (!worst || points.empty()) {
+    check.reason = worst ? "there is no place to assess" : no_luminaire;
+    return check;
+  }
+  check.value = worst->spread.least;
+  check.worst = worst->spread.darkest;
+  check.condition = "\"" + worst->luminaire + "\" has failed";
+  check.reason =
+      "the worst of " + std::to_string(emergency_luminaires(scene).size()) + " single failures";
+  return check;
+}
+
+RoutePoints points_of(const EscapeRoute& route) {
   RoutePoints points;
   const int strips = std::max(1, static_cast<int>(std::ceil(route.width_m / strip_m * (1 - 1e-9))));
   const double strip = route.width_m / strips;
@@ -115,10 +170,8 @@ RoutePoints points_of(const EscapeRoute& route, const CodeChoice& codes) {
     for (const double aside : {-0.25, -0.125, 0.0, 0.125, 0.25})
       add(points.band, along(route, middle + aside * strip, route_grid_m));
   }
-  if (codes.en_2024) {
-    const double edge = route.width_m > strip_m ? wide_edge_m : route.width_m / 4;
-    points.inner = within(route, route.width_m / 2 - edge, route_grid_m);
-  }
+  const double edge = route.width_m > strip_m ? wide_edge_m : route.width_m / 4;
+  points.inner = within(route, route.width_m / 2 - edge, route_grid_m);
   return points;
 }
 
@@ -127,38 +180,38 @@ std::vector<Check> checks_of_route(const SceneDescription& scene, const EscapeRo
   const std::string subject = "route \"" + route.name + "\"";
   const Spread centre = spread_of(light.centre, all_lit(light.centre));
   std::vector<Check> out;
-  if (codes.en_2013) {
-    out.push_back(at_least("E1", subject, centre, route_lx));
-    out.push_back(at_least("E2", subject, spread_of(light.band, all_lit(light.band)), band_lx));
+  const auto rule = [&](const char* id) { return rule_of(id, codes); };
+  if (codes.set == RuleSet::en1838_2013) {
+    out.push_back(at_least(rule("E1"), subject, centre, route_lx));
+    out.push_back(
+        at_least(rule("E2"), subject, spread_of(light.band, all_lit(light.band)), band_lx));
   }
-  if (codes.en_2024)
-    out.push_back(at_least("E5", subject, spread_of(light.inner, all_lit(light.inner)), route_lx));
-  if (codes.en_2013 || codes.en_2024) out.push_back(even("E4", subject, centre));
-  if (codes.nfpa) {
-    const Spread first = spread_of(light.centre, as_new(scene));
-    out.push_back(judged(rule_of("N1"), subject, first.mean, first_mean_lx, true, "lx"));
-    out.push_back(at_least("N1m", subject, first, first_least_lx));
-    out.push_back(judged(rule_of("N2"), subject, centre.mean, last_mean_lx, true, "lx"));
-    out.push_back(at_least("N2m", subject, centre, last_least_lx));
-    out.push_back(even("N3", subject, centre));
-  }
+  if (codes.set == RuleSet::en1838_2024)
+    out.push_back(
+        at_least(rule("E5"), subject, spread_of(light.inner, all_lit(light.inner)), route_lx));
+  if (codes.european())
+    out.push_back(even(rule("E4"), subject, centre));
+  else
+    out = american_checks(scene, subject, centre, light.centre, codes);
   for (Check& check : checks_of_onset(scene, subject, light.centre, route_lx, codes))
     out.push_back(std::move(check));
-  out.push_back(with_one_failed(scene, subject, light.centre));
   return out;
 }
 
 std::vector<Check> checks_of_open_area(const SceneDescription& scene, const AssessedArea& area,
                                        const std::vector<LitPoint>& core, const CodeChoice& codes) {
   const std::string subject = "open area \"" + area.name + "\"";
-  if (!codes.en_2013 && !codes.en_2024) return {};
+  if (!codes.european()) return {};
+  const auto rule = [&](const char* id) { return rule_of(id, codes); };
   if (core.empty())
-    return {not_assessed(rule_of("E6"), subject,
+    return {not_assessed(rule("E6"), subject,
                          "it is narrower than its two borders of 0.5 m: it has no core")};
   const Spread spread = spread_of(core, all_lit(core));
-  std::vector<Check> out{at_least("E6", subject, spread, open_lx), even("E6d", subject, spread),
-                         with_one_failed(scene, subject, core)};
-  for (Check& check : checks_of_onset(scene, subject, core, open_lx, {true, false, false}))
+  std::vector<Check> out{at_least(rule("E6"), subject, spread, open_lx),
+                         even(rule("E6d"), subject, spread)};
+  if (codes.has(Deviation::uk_bs_5266))
+    out.push_back(at_least(rule("E6k"), subject, spread, bs_open_lx));
+  for (Check& check : checks_of_onset(scene, subject, core, open_lx, codes))
     out.push_back(std::move(check));
   return out;
 }
@@ -167,12 +220,12 @@ std::vector<Check> checks_of_task_area(const SceneDescription& scene, const Asse
                                        const std::vector<LitPoint>& plane,
                                        const CodeChoice& codes) {
   const std::string subject = "task area \"" + area.name + "\"";
-  if (!codes.en_2013 && !codes.en_2024) return {};
+  if (!codes.european()) return {};
   const Spread spread = spread_of(plane, all_lit(plane));
   const double limit = std::max(task_lx, task_share * area.mains_lx);
   std::vector<Check> out{
-      at_least("E7", subject, spread, limit),
-      judged(rule_of("E7u"), subject, spread.most > 0 ? spread.least / spread.most : 0,
+      at_least(rule_of("E7", codes), subject, spread, limit),
+      judged(rule_of("E7u", codes), subject, spread.most > 0 ? spread.least / spread.most : 0,
              task_uniformity, true, "1", spread.darkest)};
   for (Check& check : checks_of_task_onset(scene, subject, plane, limit, codes))
     out.push_back(std::move(check));

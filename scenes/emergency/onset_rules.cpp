@@ -12,7 +12,8 @@ namespace luxodus {
 
 namespace {
 
-constexpr double half_s = 5, full_s = 60, task_s = 0.5, nfpa_s = 10;
+constexpr double half_s = 5, full_s = 60, task_s = 0.5, nfpa_s = 10, german_s = 15;
+constexpr double duration_h = 1, national_duration_h = 3, us_duration_h = 1.5;  // E11, N10
 constexpr double nfpa_lx = 0.65;  // N2: what has to be there at the end
 
 /// Of each luminaire; 0 of those that state no onset.
@@ -47,7 +48,7 @@ std::string seconds_text(double seconds) {
   return seconds < 1 ? "0.5 s" : std::to_string(static_cast<int>(seconds)) + " s";
 }
 
-Check in_time(const char* id, const SceneDescription& scene, const std::string& subject,
+Check in_time(const Rule& rule, const SceneDescription& scene, const std::string& subject,
               const std::vector<LitPoint>& points, double seconds, double limit_lx) {
   const std::vector<double> shares = shares_after(scene, seconds);
   double least = std::numeric_limits<double>::infinity();
@@ -58,12 +59,11 @@ Check in_time(const char* id, const SceneDescription& scene, const std::string& 
     least = lux;
     darkest = point.place;
   }
-  if (points.empty()) return not_assessed(rule_of(id), subject, "there is no place to assess");
+  if (points.empty()) return not_assessed(rule, subject, "there is no place to assess");
   const std::string unsaid = silent(scene);
   if (least < limit_lx && !unsaid.empty())
-    return not_assessed(rule_of(id), subject,
-                        "how fast they come on ('onset') is not said of " + unsaid);
-  Check check = judged(rule_of(id), subject, least, limit_lx, true, "lx", darkest);
+    return not_assessed(rule, subject, "how fast they come on ('onset') is not said of " + unsaid);
+  Check check = judged(rule, subject, least, limit_lx, true, "lx", darkest);
   check.condition = seconds_text(seconds) + " after the mains have failed";
   return check;
 }
@@ -75,40 +75,55 @@ std::vector<Check> checks_of_onset(const SceneDescription& scene, const std::str
                                    const CodeChoice& codes) {
   if (none_states(scene)) return {};
   std::vector<Check> out;
-  if (codes.en_2013 || codes.en_2024) {
-    out.push_back(in_time("E10h", scene, subject, points, half_s, demanded_lx / 2));
-    out.push_back(in_time("E10f", scene, subject, points, full_s, demanded_lx));
+  const auto add = [&](const char* id, double seconds, double limit_lx) {
+    out.push_back(in_time(rule_of(id, codes), scene, subject, points, seconds, limit_lx));
+  };
+  if (codes.european()) {
+    add("E10h", half_s, demanded_lx / 2);
+    add("E10f", full_s, demanded_lx);
+  } else {
+    add("N5", nfpa_s, nfpa_lx);
   }
-  if (codes.nfpa) out.push_back(in_time("N5", scene, subject, points, nfpa_s, nfpa_lx));
+  if (codes.has(Deviation::de_asr)) add("E10g", german_s, demanded_lx);
   return out;
 }
 
 std::vector<Check> checks_of_task_onset(const SceneDescription& scene, const std::string& subject,
                                         const std::vector<LitPoint>& plane, double demanded_lx,
                                         const CodeChoice& codes) {
-  if (none_states(scene) || (!codes.en_2013 && !codes.en_2024)) return {};
-  return {in_time("E10t", scene, subject, plane, task_s, demanded_lx)};
+  if (none_states(scene) || !codes.european()) return {};
+  return {in_time(rule_of("E10t", codes), scene, subject, plane, task_s, demanded_lx)};
 }
 
 std::vector<Check> checks_beyond(const SceneDescription& scene, const CodeChoice& codes) {
   std::vector<Check> out;
   const auto add = [&](const char* id, const char* subject, const char* reason) {
-    out.push_back(not_assessed(rule_of(id), subject, reason));
+    out.push_back(not_assessed(rule_of(id, codes), subject, reason));
+  };
+  const auto add_duration = [&](const char* id, double hours) {
+    add(id, "all luminaires and signs", "a scene says nothing of how long their batteries last");
+    out.back().limit = hours;
+    out.back().unit = "h";
   };
   const char* const all = "all luminaires and signs";
   const bool unsaid = none_states(scene);
   const char* const no_onset = "no luminaire says how fast it comes on ('onset')";
-  if (codes.en_2013 || codes.en_2024) {
-    add("E9", all, "a scene says how its light is spread over wavelengths only roughly");
-    if (unsaid) add("E10", "all luminaires", no_onset);
-    add("E10", "all signs", "a sign says nothing of how fast it comes on");
-    add("E11", all, "a scene says nothing of how long their batteries last");
-    add("S8", all, "the boxes of the standard are not at hand");
-  }
-  if (codes.nfpa) {
+  if (!codes.european()) {
     if (unsaid) add("N5", "all luminaires", no_onset);
-    add("N10", all, "a scene says nothing of how long their batteries last");
+    add_duration("N10", us_duration_h);
+    return out;
   }
+  add("E9", all, "a scene says how its light is spread over wavelengths only roughly");
+  if (unsaid) add("E10", "all luminaires", no_onset);
+  if (unsaid && codes.has(Deviation::de_asr)) add("E10g", "all luminaires", no_onset);
+  add("E10", "all signs", "a sign says nothing of how fast it comes on");
+  if (codes.has(Deviation::uk_bs_5266))
+    add_duration("E11u", national_duration_h);
+  else if (codes.has(Deviation::duration_3h))
+    add_duration("E11n", national_duration_h);
+  else
+    add_duration("E11", duration_h);
+  add("S8", all, "the boxes of the standard are not at hand");
   return out;
 }
 

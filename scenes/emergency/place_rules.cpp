@@ -171,7 +171,7 @@ bool is_equipment(EmphasisKind kind) {
 
 std::vector<Check> checks_of_glare(const SceneDescription& scene, const CodeChoice& codes) {
   std::vector<Check> out;
-  if (!codes.en_2013 && !codes.en_2024) return out;
+  if (!codes.european()) return out;
   for (const uint32_t number : emergency_luminaires(scene)) {
     const Emitter& e = scene.emitters[number];
     const std::string subject = "luminaire \"" + e.name + "\"";
@@ -182,15 +182,15 @@ std::vector<Check> checks_of_glare(const SceneDescription& scene, const CodeChoi
     const Zone zone = zone_alone ? Zone{zone_low_deg, zone_high_deg} : Zone{};
     const auto candela = glaring(e, lumens / e.emergency_ageing, zone);
     if (!floor) {
-      out.push_back(not_assessed(rule_of("E8"), subject,
+      out.push_back(not_assessed(rule_of("E8", codes), subject,
                                  "no route or open area lies below it: its height is not known"));
     } else if (!candela) {
-      out.push_back(not_assessed(rule_of("E8"), subject,
+      out.push_back(not_assessed(rule_of("E8", codes), subject,
                                  "a beam of parallel light has no intensity, and it points where "
                                  "glare counts"));
     } else {
-      Check check = judged(rule_of("E8"), subject, *candela, glare_limit(e.frame.origin.z - *floor),
-                           false, "cd", e.frame.origin);
+      Check check = judged(rule_of("E8", codes), subject, *candela,
+                           glare_limit(e.frame.origin.z - *floor), false, "cd", e.frame.origin);
       if (e.shape == EmitterShape::mesh && check.verdict == CheckVerdict::fail)
         check.reason = "as if no part of the mesh hid another";
       check.condition = zone_alone ? "60 to 90 degrees from straight down" : "all directions";
@@ -217,7 +217,7 @@ std::vector<EmphasisPoint> emphasis_of(const SceneDescription& scene) {
   return out;
 }
 
-Check luminaire_near(const char* id, const SceneDescription& scene, const std::string& subject,
+Check luminaire_near(const Rule& rule, const SceneDescription& scene, const std::string& subject,
                      const glm::dvec3& place, bool above, const LinesOfSight& seen) {
   constexpr double none = std::numeric_limits<double>::infinity();
   struct Near {
@@ -232,7 +232,7 @@ Check luminaire_near(const char* id, const SceneDescription& scene, const std::s
     if ((!above || e.frame.origin.z >= place.z) && distance < nearest.distance_m)
       nearest = {distance, "\"" + e.name + "\""};
   }
-  Check check = judged(rule_of(id), subject, open.distance_m, near_m, false, "m", place);
+  Check check = judged(rule, subject, open.distance_m, near_m, false, "m", place);
   const std::string there = above ? "above it " : "";
   check.reason = !open.name.empty() ? "the nearest is " + open.name
                  : hidden.name.empty()
@@ -247,14 +247,16 @@ Check luminaire_near(const char* id, const SceneDescription& scene, const std::s
 std::vector<Check> checks_of_emphasis(const SceneDescription& scene, const EmphasisPoint& point,
                                       const LinesOfSight& seen, std::optional<double> vertical_lx,
                                       const CodeChoice& codes) {
-  if (!codes.en_2013 && !codes.en_2024) return {};
+  if (!codes.european()) return {};
   const std::string subject = "\"" + point.name + "\" (" +
                               std::string(emphasis_words[static_cast<size_t>(point.kind)]) + ")";
-  std::vector<Check> out = {luminaire_near("E12", scene, subject, point.position, true, seen)};
+  std::vector<Check> out = {
+      luminaire_near(rule_of("E12", codes), scene, subject, point.position, true, seen)};
   if (!is_equipment(point.kind)) return out;
-  out.push_back(vertical_lx ? judged(rule_of("E13"), subject, *vertical_lx, equipment_lx, true,
-                                     "lx", point.position)
-                            : not_assessed(rule_of("E13"), subject, "'facing' is not given"));
+  out.push_back(vertical_lx
+                    ? judged(rule_of("E13", codes), subject, *vertical_lx, equipment_lx, true, "lx",
+                             point.position)
+                    : not_assessed(rule_of("E13", codes), subject, "'facing' is not given"));
   return out;
 }
 

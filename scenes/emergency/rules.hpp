@@ -1,23 +1,17 @@
 // The rules of the codes that geometry and photometry can decide, each applied to what was
 // computed: illuminance on routes, areas and task planes, glare, what luminaires must be near to,
-// signs. EN 1838 (2013, and the route rule of its 2024 revision) and NFPA 101. Values are those of
-// direct light in clear air, at the end of the rated duration, unless a rule asks otherwise. The
-// codes' texts were not at hand: every rule says what it is quoted from. Pure functions; any
-// thread.
+// signs. EN 1838 (2013, and 2024) and NFPA 101, with deviations from them: each call applies one
+// set (rule_sets.hpp). Values are those of direct light in clear air, at the end of the rated
+// duration, unless a rule asks otherwise. The codes' texts were not at hand: every rule says what
+// it is quoted from. Pure functions; any thread.
 #pragma once
 
 #include "scenes/emergency/check.hpp"
+#include "scenes/emergency/rule_sets.hpp"
 #include "scenes/emergency/sign_geometry.hpp"
 #include "scenes/emergency/way.hpp"
 
 namespace luxodus {
-
-/// Which codes are applied.
-struct CodeChoice {
-  bool en_2013 = true;
-  bool en_2024 = false;
-  bool nfpa = false;
-};
 
 /// Measured in its own height above the floor [m] (EN 1838: at most 2 cm).
 inline constexpr double floor_plane_m = 0.02;
@@ -43,19 +37,22 @@ struct RoutePoints {
   std::vector<glm::dvec3> band;    // half the width of each strip
   std::vector<glm::dvec3> inner;   // all but the edges (2024)
 };
-RoutePoints points_of(const EscapeRoute& route, const CodeChoice& codes);
+RoutePoints points_of(const EscapeRoute& route);
 
 struct RouteLight {
   std::vector<LitPoint> centre, band, inner;
 };
 
-/// `luminaires` are those of the columns of lux; each may fail in turn.
 std::vector<Check> checks_of_route(const SceneDescription& scene, const EscapeRoute& route,
                                    const RouteLight& light, const CodeChoice& codes);
 std::vector<Check> checks_of_open_area(const SceneDescription& scene, const AssessedArea& area,
                                        const std::vector<LitPoint>& core, const CodeChoice& codes);
 std::vector<Check> checks_of_task_area(const SceneDescription& scene, const AssessedArea& area,
                                        const std::vector<LitPoint>& plane, const CodeChoice& codes);
+/// The least of the illuminance when one luminaire fails, whichever is worst: `luminaires` are
+/// those of the columns of lux. Information; no code's.
+Check check_of_failure(const SceneDescription& scene, const std::string& subject,
+                       const std::vector<LitPoint>& points);
 /// Disability glare of a luminaire by its intensity, with the highest emergency flux.
 std::vector<Check> checks_of_glare(const SceneDescription& scene, const CodeChoice& codes);
 
@@ -63,7 +60,7 @@ std::vector<Check> checks_of_glare(const SceneDescription& scene, const CodeChoi
 std::vector<EmphasisPoint> emphasis_of(const SceneDescription& scene);
 /// A luminaire is near by its distance in plan, if it is in sight of the place, and higher where
 /// `above` asks for it; one that is nearer behind something solid is named.
-Check luminaire_near(const char* id, const SceneDescription& scene, const std::string& subject,
+Check luminaire_near(const Rule& rule, const SceneDescription& scene, const std::string& subject,
                      const glm::dvec3& place, bool above, const LinesOfSight& seen);
 /// `vertical_lx`: on the front of equipment; none where it says no facing.
 std::vector<Check> checks_of_emphasis(const SceneDescription& scene, const EmphasisPoint& point,

@@ -5,34 +5,26 @@
 #include "scenes/emergency/sign_face.hpp"
 
 #include <cairo.h>
-#include <librsvg/rsvg.h>
 #include <png.h>
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <memory>
 #include <optional>
 #include <string>
 #include <system_error>
 #include <utility>
 
+#include "runtime/core/regular_file.hpp"
+#include "scenes/emergency/draw_svg.hpp"
 #include "scenes/emergency/fault.hpp"
+#include "scenes/emergency/surface_pixels.hpp"
 
 namespace luxodus {
 namespace {
 
-using Rgba = std::array<uint8_t, 4>;
-
 constexpr Rgba iso_green{0x23, 0x7f, 0x52, 0xff};
 constexpr Rgba iso_white{0xec, 0xec, 0xe7, 0xff};
-
-/// Straight (not premultiplied) 8 bit sRGB, top row first.
-struct Pixels {
-  int width = 0;
-  int height = 0;
-  std::vector<Rgba> rgba;
-};
 
 template <auto release>
 struct Release {
@@ -43,8 +35,6 @@ struct Release {
 };
 using Surface = std::unique_ptr<cairo_surface_t, Release<cairo_surface_destroy>>;
 using Pen = std::unique_ptr<cairo_t, Release<cairo_destroy>>;
-using Drawing = std::unique_ptr<RsvgHandle, Release<g_object_unref>>;
-using Failure = std::unique_ptr<GError, Release<g_error_free>>;
 
 Problem problem_of(const std::filesystem::path& file, std::string what) {
   return {{file.string(), 0}, std::move(what)};
@@ -180,64 +170,15 @@ std::optional<std::string> wrong_aspect(double width, double height, double widt
 
 // ---- cairo, librsvg, libpng --------------------------------------------------------------------
 
-/// Cairo's native-endian premultiplied ARGB as straight RGBA.
-Pixels pixels_of(cairo_surface_t* surface) {
-  cairo_surface_flush(surface);
-  Pixels out;
-  out.width = cairo_image_surface_get_width(surface);
-  out.height = cairo_image_surface_get_height(surface);
-  out.rgba.reserve(static_cast<size_t>(out.width) * static_cast<size_t>(out.height));
-  const unsigned char* data = cairo_image_surface_get_data(surface);
-  const int stride = cairo_image_surface_get_stride(surface);
-  for (int y = 0; y < out.height; ++y) {
-    const auto* row = reinterpret_cast<const uint32_t*>(data + static_cast<ptrdiff_t>(y) * stride);
-    for (int x = 0; x < out.width; ++x) {
-      const uint32_t argb = row[x];
-      const uint32_t alpha = argb >> 24;
-      const auto straight = [&](uint32_t channel) {
-        return alpha == 0
-                   ? uint8_t{0}
-                   : static_cast<uint8_t>(std::min(255u, (channel * 255 + alpha / 2) / alpha));
-      };
-      out.rgba.push_back({straight((argb >> 16) & 255), straight((argb >> 8) & 255),
-                          straight(argb & 255), static_cast<uint8_t>(alpha)});
-    }
-  }
-  return out;
-}
-
 Result<std::string> read_drawing(const std::filesystem::path& file) {
   std::error_code failed;
   if (!std::filesystem::is_regular_file(file, failed))
     return problem_of(file, "there is no such file; give the path of the sign's SVG drawing");
-  std::ifstream in(file, std::ios::binary);
-  std::string bytes(static_cast<size_t>(limits::drawing_bytes_most) + 1, '\0');
-  in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  bytes.resize(static_cast<size_t>(std::max<std::streamsize>(in.gcount(), 0)));
-  if (in.bad() || bytes.empty()) return problem_of(file, "the file is empty or cannot be read");
-  if (bytes.size() > static_cast<size_t>(limits::drawing_bytes_most))
+  if (std::filesystem::file_size(file, failed) > static_cast<uint64_t>(limits::drawing_bytes_most))
     return problem_of(file, "the drawing is larger than 4 MiB; simplify it");
-  // librsvg would inflate it without a bound.
-  if (bytes.size() > 2 && bytes[0] == '\x1f' && bytes[1] == '\x8b')
-    return problem_of(file, "the drawing is compressed; unpack it to plain SVG");
+  auto bytes = read_regular_file(file, static_cast<uint64_t>(limits::drawing_bytes_most));
+  if (bytes && bytes->empty()) return problem_of(file, "the file is empty or cannot be read");
   return bytes;
-}
-
-/// The size that the drawing itself states: width and height, else its viewBox.
-std::optional<std::pair<double, double>> stated_size(RsvgHandle* drawing) {
-  double width = 0, height = 0;
-  if (!rsvg_handle_get_intrinsic_size_in_pixels(drawing, &width, &height)) {
-    RsvgRectangle box{};
-    gboolean has_box = FALSE;
-    rsvg_handle_get_intrinsic_dimensions(drawing, nullptr, nullptr, nullptr, nullptr, &has_box,
-                                         &box);
-    if (!has_box) return std::nullopt;
-    width = box.width;
-    height = box.height;
-  }
-  const auto sound = [](double v) { return std::isfinite(v) && v > 0 && v < 1e9; };
-  if (!sound(width) || !sound(height)) return std::nullopt;
-  return std::pair{width, height};
 }
 
 /// Sets libpng's state free on every way out.
@@ -341,33 +282,13 @@ Result<SignFace> face_from_svg(const std::filesystem::path& file, double width_m
   if (!face) return problem_of(file, face.problem().what);
   Result<std::string> bytes = read_drawing(file);
   if (!bytes) return bytes.problem();
-  GError* error = nullptr;
-  // Read from memory the drawing has no folder of its own, so it can load no other file.
-  Drawing drawing(rsvg_handle_new_from_data(reinterpret_cast<const guint8*>(bytes->data()),
-                                            bytes->size(), &error));
-  if (!drawing) {
-    Failure failure(error);
-    return problem_of(file, std::string("it is not an SVG drawing (") +
-                                (failure ? failure->message : "no reason given") + ")");
-  }
-  const auto size = stated_size(drawing.get());
-  if (!size) return problem_of(file, "the drawing states no size; give its svg element a viewBox");
-  if (auto wrong = wrong_aspect(size->first, size->second, width_m, height_m))
-    return problem_of(file, *wrong);
-
   const int samples = samples_per_texel(face.value());
-  const int across = face->width * samples, down = face->height * samples;
-  Surface surface(cairo_image_surface_create(CAIRO_FORMAT_ARGB32, across, down));
-  Pen pen(cairo_create(surface.get()));
-  // The drawing fills the face exactly, stretched by no more than the aspect's tolerance.
-  cairo_scale(pen.get(), across / size->first, down / size->second);
-  const RsvgRectangle viewport{0, 0, size->first, size->second};
-  const bool drawn = rsvg_handle_render_document(drawing.get(), pen.get(), &viewport, &error);
-  Failure failure(error);
-  if (!drawn || cairo_status(pen.get()) != CAIRO_STATUS_SUCCESS)
-    return problem_of(file, std::string("the drawing cannot be rendered (") +
-                                (failure ? failure->message : "out of memory") + ")");
-  vote(face.value(), pixels_of(surface.get()));
+  const Result<DrawnSvg> svg =
+      draw_svg(bytes.value(), face->width * samples, face->height * samples);
+  if (!svg) return problem_of(file, svg.problem().what);
+  if (auto wrong = wrong_aspect(svg->width, svg->height, width_m, height_m))
+    return problem_of(file, *wrong);
+  vote(face.value(), svg->pixels);
   if (auto missing = missing_colour(face.value())) return problem_of(file, *missing);
   return face;
 }

@@ -44,11 +44,12 @@ constexpr const char* one_number =
 
 /// A mean that is too low is too low somewhere; one that is high enough says nothing of the dimmest
 /// place.
-Check smallest_green(const SceneDescription& scene, const Sign& sign, const std::string& subject) {
+Check smallest_green(const SceneDescription& scene, const Sign& sign, const std::string& subject,
+                     const CodeChoice& codes) {
   const double limit = scene.assessment.smoke_expected ? green_least_in_smoke : green_least;
   const double mean = sign.emergency.green_cd_m2;
   const bool mapped = !sign.face.relative_luminance.empty();
-  Check check = judged(rule_of("S1"), subject,
+  Check check = judged(rule_of("S1", codes), subject,
                        mapped ? mean * pattern_of(sign.face, SignColour::green).least : mean, limit,
                        true, "cd/m2", sign.frame.origin);
   check.condition = scene.assessment.smoke_expected ? "smoke may occur" : "no smoke is expected";
@@ -59,8 +60,9 @@ Check smallest_green(const SceneDescription& scene, const Sign& sign, const std:
   return check;
 }
 
-Check evenness(const Sign& sign, const std::string& subject) {
-  if (sign.face.relative_luminance.empty()) return not_assessed(rule_of("S2"), subject, one_number);
+Check evenness(const Sign& sign, const std::string& subject, const CodeChoice& codes) {
+  if (sign.face.relative_luminance.empty())
+    return not_assessed(rule_of("S2", codes), subject, one_number);
   double worst = 0;
   for (const SignColour colour : {SignColour::white, SignColour::green}) {
     const Extremes e = pattern_of(sign.face, colour);
@@ -68,54 +70,58 @@ Check evenness(const Sign& sign, const std::string& subject) {
       worst =
           std::max(worst, e.least > 0 ? e.most / e.least : std::numeric_limits<double>::infinity());
   }
-  return judged(rule_of("S2"), subject, worst, evenness_most, false, "1", sign.frame.origin);
+  return judged(rule_of("S2", codes), subject, worst, evenness_most, false, "1", sign.frame.origin);
 }
 
 /// By the means of the colours.
-std::vector<Check> contrast(const Sign& sign, const std::string& subject) {
+std::vector<Check> contrast(const Sign& sign, const std::string& subject, const CodeChoice& codes) {
   const double green = sign.emergency.green_cd_m2;
-  if (!(green > 0)) return {not_assessed(rule_of("S3"), subject, "green has no luminance")};
+  if (!(green > 0)) return {not_assessed(rule_of("S3", codes), subject, "green has no luminance")};
   const double ratio = sign.emergency.white_cd_m2 / green;
   const bool low = ratio < contrast_least;
-  Check check = judged(rule_of("S3"), subject, ratio, low ? contrast_least : contrast_most, low,
-                       "1", sign.frame.origin);
+  Check check = judged(rule_of("S3", codes), subject, ratio, low ? contrast_least : contrast_most,
+                       low, "1", sign.frame.origin);
   check.condition = "5 to 15, of the means";
   return {check};
 }
 
 std::vector<Check> mounting(const SceneDescription& scene, const Sign& sign,
-                            const std::string& subject) {
+                            const std::string& subject, const CodeChoice& codes) {
   const auto floor = floor_below(scene, sign.frame.origin);
   if (!floor)
-    return {not_assessed(rule_of("S6"), subject,
+    return {not_assessed(rule_of("S6", codes), subject,
                          "no route or open area lies below it: its height is not known")};
   const double height = sign.frame.origin.z - sign.height_m / 2 - *floor;
   if (height < low_level_m)
-    return {not_assessed(rule_of("S6"), subject,
+    return {not_assessed(rule_of("S6", codes), subject,
                          "it is a low one, which may stand beside those above (ISO 16069)")};
   SignView from_ahead;
   const double farthest = viewing_distance(sign, from_ahead).allowed_m;
   const double above = sign.frame.origin.z - *floor - standing_eye_m;
   const double elevation =
       std::asin(std::clamp(above / std::max(farthest, 1e-9), -1.0, 1.0)) * 180 / 3.14159265358979;
-  return {judged(rule_of("S6"), subject, height, height_least_m, true, "m", sign.frame.origin),
-          judged(rule_of("S6a"), subject, elevation, elevation_most_deg, false, "deg",
-                 sign.frame.origin)};
+  return {
+      judged(rule_of("S6", codes), subject, height, height_least_m, true, "m", sign.frame.origin),
+      judged(rule_of("S6a", codes), subject, elevation, elevation_most_deg, false, "deg",
+             sign.frame.origin)};
 }
 
 std::vector<Check> en_checks(const SceneDescription& scene, const Sign& sign,
-                             const std::string& subject, const LinesOfSight& seen) {
+                             const std::string& subject, const LinesOfSight& seen,
+                             const CodeChoice& codes) {
   std::vector<Check> out;
   if (sign.lighting == SignLighting::internal) {
-    out.push_back(smallest_green(scene, sign, subject));
-    out.push_back(evenness(sign, subject));
-    for (Check& check : contrast(sign, subject)) out.push_back(std::move(check));
-    out.push_back(judged(rule_of("S5"), subject, sign.mains.white_cd_m2, mains_white, true, "cd/m2",
-                         sign.frame.origin));
+    out.push_back(smallest_green(scene, sign, subject, codes));
+    out.push_back(evenness(sign, subject, codes));
+    for (Check& check : contrast(sign, subject, codes)) out.push_back(std::move(check));
+    if (codes.has(Deviation::de_din_4844))
+      out.push_back(judged(rule_of("S5", codes), subject, sign.mains.white_cd_m2, mains_white, true,
+                           "cd/m2", sign.frame.origin));
   }
   if (sign.lighting == SignLighting::external)
-    out.push_back(luminaire_near("S6l", scene, subject, sign.frame.origin, false, seen));
-  for (Check& check : mounting(scene, sign, subject)) out.push_back(std::move(check));
+    out.push_back(
+        luminaire_near(rule_of("S6l", codes), scene, subject, sign.frame.origin, false, seen));
+  for (Check& check : mounting(scene, sign, subject, codes)) out.push_back(std::move(check));
   return out;
 }
 
@@ -125,15 +131,15 @@ std::vector<Check> checks_of_sign(const SceneDescription& scene, const Sign& sig
                                   const LinesOfSight& seen, const CodeChoice& codes) {
   const std::string subject = "sign \"" + sign.name + "\"";
   std::vector<Check> out;
-  if (codes.en_2013 || codes.en_2024) out = en_checks(scene, sign, subject, seen);
-  if (!codes.nfpa) return out;
+  if (codes.european()) return en_checks(scene, sign, subject, seen, codes);
   if (sign.lighting == SignLighting::external)
-    out.push_back(judged(rule_of("N6"), subject, lux, face_lx, true, "lx", sign.frame.origin));
+    out.push_back(
+        judged(rule_of("N6", codes), subject, lux, face_lx, true, "lx", sign.frame.origin));
   if (sign.letters) {
-    out.push_back(judged(rule_of("N7"), subject, sign.letters->height_m, letter_least_m, true, "m",
-                         sign.frame.origin));
-    out.push_back(judged(rule_of("N7s"), subject, sign.letters->stroke_m, stroke_least_m, true, "m",
-                         sign.frame.origin));
+    out.push_back(judged(rule_of("N7", codes), subject, sign.letters->height_m, letter_least_m,
+                         true, "m", sign.frame.origin));
+    out.push_back(judged(rule_of("N7s", codes), subject, sign.letters->stroke_m, stroke_least_m,
+                         true, "m", sign.frame.origin));
   }
   return out;
 }
@@ -143,7 +149,6 @@ std::vector<Check> checks_of_distance(const SceneDescription& scene, const Escap
                                       const std::vector<std::vector<ClearSign>>& clear,
                                       const CodeChoice& codes) {
   const std::string subject = "route \"" + route.name + "\"";
-  const bool en = codes.en_2013 || codes.en_2024;
   // Of the best sign, as a share of what its rule allows; and the nearest in metres.
   double worst_share = 0, worst_distance = 0;
   glm::dvec3 where_share(0), where_distance(0);
@@ -164,13 +169,14 @@ std::vector<Check> checks_of_distance(const SceneDescription& scene, const Escap
     }
   }
   std::vector<Check> out;
-  if (en) {
-    out.push_back(judged(rule_of("S4"), subject, worst_share, 1, false, "of z h", where_share));
+  if (codes.european()) {
+    out.push_back(judged(rule_of("S4", codes), subject, worst_share, 1, false,
+                         "of the viewing distance", where_share));
     if (std::isinf(worst_share)) out.back().reason = "no sign faces this place";
   }
-  if (codes.nfpa) {
-    out.push_back(
-        judged(rule_of("N8"), subject, worst_distance, nearest_most_m, false, "m", where_distance));
+  if (!codes.european()) {
+    out.push_back(judged(rule_of("N8", codes), subject, worst_distance, nearest_most_m, false, "m",
+                         where_distance));
     if (std::isinf(worst_distance)) out.back().reason = "no sign faces this place";
   }
   return out;

@@ -44,8 +44,8 @@ class AtomicFile {
   std::unique_ptr<State> state_;
 };
 
-/// Replaces or makes the file `path`. The target's permissions are kept where it exists; a symbolic
-/// link is followed; anything that is not a regular file (a folder, a device, a pipe) is refused.
+/// Replaces or makes the file `path`, keeping its permissions. What is no regular file (a symbolic
+/// link, a folder, a device) is refused, and so is a folder that is a link: see output_path.hpp.
 /// Errors: the folder is missing or not writable, no space, a name the system does not take. The
 /// old file is then untouched and no temporary file is left.
 Result<Done> write_file_atomically(const std::filesystem::path& path,

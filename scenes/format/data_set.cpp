@@ -1,12 +1,14 @@
 #include "scenes/format/data_set.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <bit>
 #include <cctype>
 #include <cmath>
 #include <filesystem>
+#include <new>
 
 #include "scenes/format/data_set_fields.hpp"
 
@@ -34,6 +36,19 @@ std::string grid_fault(uint64_t nx, uint64_t ny, uint64_t nz) {
                        limits::data_set_cells);
   }
   return "";
+}
+
+std::string memory_fault(uint64_t cells, uint64_t fields) {
+  const auto pages = ::sysconf(_SC_PHYS_PAGES), page_bytes = ::sysconf(_SC_PAGESIZE);
+  if (pages <= 0 || page_bytes <= 0) return "";
+  const uint64_t has = static_cast<uint64_t>(pages) * static_cast<uint64_t>(page_bytes);
+  const uint64_t takes = cells * fields * sizeof(float);
+  if (takes <= has) return "";
+  constexpr double gib = 1 << 30;
+  return fmt::format(
+      "its {} cells take {:.1f} GiB of memory, this machine has {:.1f}: make them "
+      "coarser",
+      cells, static_cast<double>(takes) / gib, static_cast<double>(has) / gib);
 }
 
 }  // namespace data_set
@@ -71,9 +86,11 @@ std::optional<Problem> bad_value(const std::string& path, const Grid& grid, cons
     const float v = field.value[i];
     if (v >= 0 && v <= range.most) continue;  // NaN fails
     const uint64_t x = i % grid.nx, y = i / grid.nx % grid.ny, z = i / grid.nx / grid.ny;
+    // Samples out of a file that the header names are not told: it may be any file of the machine.
+    const std::string found = grid.files_read.size() > 1 ? "out of range" : fmt::format("{}", v);
     return fault(path, 0,
                  fmt::format("{} of cell ({}, {}, {}), index {}, is {}: give {}", field.name, x, y,
-                             z, i, v, range.words));
+                             z, i, found, range.words));
   }
   return std::nullopt;
 }
@@ -95,7 +112,7 @@ Result<LoadedDataSet> assembled(const std::string& path, Grid grid, const DataSe
   LoadedDataSet out;
   out.origin = grid.origin;
   out.spacing = grid.spacing;
-  out.files_read = std::move(grid.files_read);
+  out.files_read = grid.files_read;
   DataSet& data = out.data;
   data.nx = static_cast<int>(grid.nx);
   data.ny = static_cast<int>(grid.ny);
@@ -141,9 +158,13 @@ Result<LoadedDataSet> read_data_set(const std::string& path, const DataSetOption
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error))
     return fault(path, 0, "there is no such file");
-  Result<Grid> grid = nrrd ? data_set::read_nrrd(path, options) : data_set::read_vti(path);
-  if (!grid) return grid.problem();
-  return assembled(path, std::move(grid.value()), options);
+  try {
+    Result<Grid> grid = nrrd ? data_set::read_nrrd(path, options) : data_set::read_vti(path);
+    if (!grid) return grid.problem();
+    return assembled(path, std::move(grid.value()), options);
+  } catch (const std::bad_alloc&) {
+    return fault(path, 0, "its cells take more memory than this process gets: make them coarser");
+  }
 }
 
 }  // namespace luxodus

@@ -11,6 +11,7 @@
 #include <map>
 #include <optional>
 
+#include "runtime/core/regular_file.hpp"
 #include "scenes/format/data_set_fields.hpp"
 #include "scenes/geometry/transform.hpp"
 
@@ -90,6 +91,7 @@ class Reader {
   // ---- the header ------------------------------------------------------------------------------
 
   Fault read_header() {
+    if (auto file = open_regular_file(path_); !file) return file.problem();
     std::ifstream in(path_, std::ios::binary);
     std::string text(limits::nrrd_header_bytes, '\0');
     in.read(text.data(), static_cast<std::streamsize>(text.size()));
@@ -367,6 +369,8 @@ class Reader {
     const uint64_t cells = grid_.nx * grid_.ny * grid_.nz;
     const size_t fields = grid_.fields.size();
     const size_t stride = fields * bytes_of(type_);
+    const std::string too_large = memory_fault(cells, fields);
+    if (!too_large.empty()) return fault(path_, 0, too_large);
     for (Field& field : grid_.fields) field.value.resize(cells);
     std::vector<char> block(std::min(cells, block_samples) * stride);
     for (uint64_t done = 0; done < cells;) {

@@ -8,9 +8,9 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <optional>
 
+#include "runtime/core/regular_file.hpp"
 #include "scenes/format/data_set_fields.hpp"
 
 namespace luxodus::data_set {
@@ -113,6 +113,7 @@ class Reader {
   Result<Grid> read() {
     if (auto wrong = load()) return *wrong;
     if (auto wrong = scan()) return *wrong;
+    if (auto wrong = doubles()) return *wrong;
     if (!seen_image_) return bad(0, "no ImageData element: other kinds of VTK files are not read");
     if (pieces_ != 1) return bad(0, fmt::format("{} pieces: write the grid as one piece", pieces_));
     for (const Array& array : arrays_) {
@@ -143,11 +144,9 @@ class Reader {
           path_, 0,
           fmt::format("the file has {} bytes, the most are {}", size, limits::vti_file_bytes));
     }
-    text_.resize(size);
-    std::ifstream in(path_, std::ios::binary);
-    if (!in.read(text_.data(), static_cast<std::streamsize>(size))) {
-      return fault(path_, 0, "the file cannot be read");
-    }
+    auto text = read_regular_file(path_, limits::vti_file_bytes);
+    if (!text) return text.problem();
+    text_ = std::move(text).value();
     grid_.files_read = {path_};
     return std::nullopt;
   }
@@ -385,6 +384,25 @@ class Reader {
 
   // ---- values ----------------------------------------------------------------------------------
 
+  /// Before any is decoded: each of 256 arrays may say that the same bytes of the file are its own.
+  Fault doubles() const {
+    std::vector<std::string_view> names, offsets;
+    for (const Array& array : arrays_) {
+      if (!is_known_field(array.name)) continue;
+      if (std::find(names.begin(), names.end(), array.name) != names.end())
+        return bad(array.first, fmt::format("\"{}\" would be given twice: keep one", array.name));
+      names.push_back(array.name);
+      if (array.format != "appended") continue;
+      if (std::find(offsets.begin(), offsets.end(), array.offset) != offsets.end())
+        return bad(array.first,
+                   fmt::format("\"{}\" has the same offset as another array: each has bytes of "
+                               "its own",
+                               array.name));
+      offsets.push_back(array.offset);
+    }
+    return std::nullopt;
+  }
+
   Fault take(const Array& array) {
     if (!is_known_field(array.name)) {
       if (others_.size() < 200)
@@ -406,6 +424,8 @@ class Reader {
                  fmt::format("\"{}\" is of type \"{}\": Float32, Float64 and UInt8 are read",
                              array.name, array.type.substr(0, 40)));
     }
+    const std::string too_large = memory_fault(grid_.nx * grid_.ny * grid_.nz, 1);
+    if (!too_large.empty()) return bad(array.first, too_large);
     const uint64_t one_more = array.of_points ? 1 : 0;
     const uint64_t count = (grid_.nx + one_more) * (grid_.ny + one_more) * (grid_.nz + one_more);
     std::vector<float> values;
@@ -445,7 +465,7 @@ class Reader {
       const auto value = number_in<double>(word);
       if (!value) {
         return bad(static_cast<size_t>(word.data() - text_.data()),
-                   fmt::format("\"{}\" is not a number", word.substr(0, 40)));
+                   fmt::format("a value of \"{}\" is not a number", array.name));
       }
       if (values.size() == count) return wrong_count(array, count);
       values.push_back(static_cast<float>(*value));

@@ -146,8 +146,7 @@ class TokenReader {
     line_ = token.line;
     const std::optional<double> value = decimal(token.text, false);
     if (!value) {
-      fail(line_,
-           what + " must be a number, not \"" + std::string(token.text.substr(0, 40)) + "\"");
+      fail(line_, what + " must be a number");
       return 0;
     }
     if (*value < low || *value > high) {

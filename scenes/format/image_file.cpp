@@ -10,8 +10,9 @@
 #include <csetjmp>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <vector>
+
+#include "runtime/core/regular_file.hpp"
 
 namespace luxodus {
 namespace {
@@ -99,18 +100,11 @@ void make_rows(Decoding& state) {
 
 Result<bool> load(const std::string& path, Decoding& state) {
   std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) return fault(path, "there is no such file");
-  const uint64_t size = std::filesystem::file_size(path, error);
-  if (error || size > limits::image_file_bytes) {
-    return fault(path, fmt::format("the file has {} bytes, the most are {}", size,
-                                   limits::image_file_bytes));
-  }
-  state.file.resize(size);
-  std::ifstream in(path, std::ios::binary);
-  if (!in.read(reinterpret_cast<char*>(state.file.data()), static_cast<std::streamsize>(size))) {
-    return fault(path, "the file cannot be read");
-  }
-  if (size < 8 || png_sig_cmp(state.file.data(), 0, 8) != 0)
+  if (!std::filesystem::exists(path, error)) return fault(path, "there is no such file");
+  auto bytes = read_regular_file(path, limits::image_file_bytes);
+  if (!bytes) return bytes.problem();
+  state.file.assign(bytes->begin(), bytes->end());
+  if (state.file.size() < 8 || png_sig_cmp(state.file.data(), 0, 8) != 0)
     return fault(path, "this is not a PNG file");
   return true;
 }

@@ -211,6 +211,8 @@ std::optional<double> KeyReader::checked(std::string_view key, const toml::node&
   } else if (const auto range = interval_of(s.range); range && !range->holds(*v)) {
     wrong =
         subject + " is " + shown(*v) + " but must lie in " + std::string(s.range) + with_unit(s);
+    if (s.unit == "m" && *v > range->high)
+      wrong += "; metres? " + shown(*v) + " mm is " + shown(*v / 1000);
   }
   if (wrong.empty()) return v;
   clean_ = false;

@@ -75,7 +75,7 @@ class LdtReader {
     if (field.empty() && blank == Blank::is_zero) return 0;
     const std::optional<double> value = decimal(field, true);
     if (!value) {
-      fail(line_, what + " must be a number, not \"" + std::string(field.substr(0, 40)) + "\"");
+      fail(line_, what + " must be a number");
       return 0;
     }
     if (*value < low || *value > high) {

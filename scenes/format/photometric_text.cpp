@@ -2,8 +2,9 @@
 
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <system_error>
+
+#include "runtime/core/regular_file.hpp"
 
 namespace luxodus {
 namespace {
@@ -113,12 +114,7 @@ Result<std::string> read_photometric_bytes(const std::filesystem::path& path) {
   if (size > limits::file_bytes) {
     return Problem{place, "the file is larger than 16 MiB, more than any photometric file needs"};
   }
-  std::ifstream in(path, std::ios::binary);
-  std::string bytes(static_cast<size_t>(size), '\0');
-  if (!in.read(bytes.data(), static_cast<std::streamsize>(size)) && size > 0) {
-    return Problem{place, "the photometric file cannot be read; check its permissions"};
-  }
-  return bytes;
+  return read_regular_file(path, limits::file_bytes);
 }
 
 Result<std::vector<std::string>> photometric_lines(std::string_view bytes,

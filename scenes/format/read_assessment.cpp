@@ -1,6 +1,8 @@
 // Routes, areas, points of emphasis, and how people are taken to be.
 #include <algorithm>
+#include <span>
 
+#include "scenes/emergency/rule_sets.hpp"
 #include "scenes/format/scene_readers.hpp"
 #include "scenes/geometry/polygon.hpp"
 
@@ -26,20 +28,43 @@ AssessedArea read_area(KeyReader& keys, const char* kind) {
   return area;
 }
 
+/// Names that are none are told here, with their line; what goes with what, where all files are
+/// read.
+void check_names(KeyReader& keys, const char* key, const std::vector<std::string>& names,
+                 std::span<const NamedRules> known) {
+  std::string all;
+  for (const NamedRules& one : known) all += (all.empty() ? "" : ", ") + std::string(one.id);
+  for (const std::string& name : names)
+    if (std::none_of(known.begin(), known.end(),
+                     [&](const NamedRules& one) { return one.id == name; }))
+      keys.problem(key, "there is no \"" + name + "\" in '" + key + "'; there are: " + all);
+}
+
 }  // namespace
 
 void read_assessment(const toml::table& table, SceneReading& reading) {
   KeyReader keys(table, {"assessment"}, reading);
   AssessmentSettings& s = reading.scene.assessment;
-  s.age_years = keys.number("age_years");
-  if (keys.has("eye_heights_m")) {
+  // Of several files of a scene each may say a part: what one leaves out stands.
+  const auto says = [&](const char* key) { return keys.has(key); };
+  s.place = keys.place();
+  if (says("age_years")) s.age_years = keys.number("age_years");
+  if (says("eye_heights_m")) {
     s.eye_heights_m = keys.numbers("eye_heights_m");
     if (keys.clean() && s.eye_heights_m.empty())
       keys.problem("eye_heights_m", "'eye_heights_m' names no height");
   }
-  s.spacing_m = keys.number("spacing_m");
-  s.smoke_expected = keys.flag("smoke_expected");
-  s.irritant_smoke = keys.flag("irritant_smoke");
+  if (says("spacing_m")) s.spacing_m = keys.number("spacing_m");
+  if (says("smoke_expected")) s.smoke_expected = keys.flag("smoke_expected");
+  if (says("irritant_smoke")) s.irritant_smoke = keys.flag("irritant_smoke");
+  if (says("rules")) {
+    s.rules = keys.texts("rules");
+    check_names(keys, "rules", s.rules, rule_sets());
+  }
+  if (says("deviations")) {
+    s.deviations = keys.texts("deviations");
+    check_names(keys, "deviations", s.deviations, deviations());
+  }
 }
 
 void read_route(const toml::table& table, SceneReading& reading) {

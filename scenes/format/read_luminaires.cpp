@@ -44,6 +44,7 @@ void read_operation(KeyReader& keys, Emitter& e, double rated) {
   const auto flux = keys.maybe_number("emergency_flux");
   const auto factor = keys.maybe_number("emergency_factor");
   const bool mains = emergency != "non-maintained";
+  e.maintenance_factor = maintenance.value_or(1);
   e.mains_flux = mains ? rated * dimming * maintenance.value_or(1) : 0;
   if (emergency == "false") {
     for (const char* key :
@@ -61,6 +62,8 @@ void read_operation(KeyReader& keys, Emitter& e, double rated) {
   keys.exactly_one({"emergency_flux", "emergency_factor"}, true);
   if (!keys.has("maintenance_factor")) keys.problem("'maintenance_factor'" + why);
   if (!keys.has("end_of_duration_factor")) keys.problem("'end_of_duration_factor'" + why);
+  e.end_of_duration_factor = end_of_duration.value_or(1);
+  e.maintained = mains;
   e.emergency_ageing = maintenance.value_or(1) * end_of_duration.value_or(1);
   e.emergency_flux = flux.value_or(rated * factor.value_or(0)) * e.emergency_ageing;
   read_onset(keys, e);
@@ -232,6 +235,9 @@ void read_luminaire(const toml::table& table, SceneReading& reading) {
   if (const auto path = keys.path("file")) {
     if (const auto file = read_photometry(*path, keys.place("file"), reading)) {
       e.web = file->web;
+      e.file = keys.node("file")->value_or(std::string());
+      e.product = file->luminaire;
+      e.opening_m = file->opening.size_m;
       rated = file->web->flux_lm();
       if (!point) take_opening(file->opening, e);
     }

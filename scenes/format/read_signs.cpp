@@ -1,8 +1,10 @@
 // Safety signs.
+#include <algorithm>
 #include <cctype>
 
 #include "scenes/emergency/sign_face.hpp"
 #include "scenes/format/image_file.hpp"
+#include "scenes/format/output_text.hpp"
 #include "scenes/format/read_files.hpp"
 #include "scenes/format/read_placement.hpp"
 #include "scenes/format/read_spectrum.hpp"
@@ -33,6 +35,30 @@ Result<SignFace> drawn_face(const std::filesystem::path& path, const Sign& sign,
                  "a pictogram is an .svg or a .png file, not '" + path.filename().string() + "'"};
 }
 
+/// A length of a sign that is written and longer than `most` is a slip of the unit more often than
+/// not, and would make small details large.
+void bound_length(KeyReader& keys, const char* key, double value, double most, const char* of,
+                  const Sign& sign) {
+  if (!keys.has(key) || !keys.clean() || value <= most) return;
+  keys.problem(key, "'" + std::string(key) + "' is " + shortest_number(value) +
+                        " m but must not exceed " + shortest_number(most) + " m, " + of +
+                        " of a face of " + shortest_number(sign.width_m) + " x " +
+                        shortest_number(sign.height_m) + " m; metres? " + shortest_number(value) +
+                        " mm is " + shortest_number(value / 1000));
+}
+
+/// Every length of a sign is bounded by its face.
+void bound_lengths(KeyReader& keys, const Sign& sign) {
+  const double shorter = std::min(sign.width_m, sign.height_m);
+  const double longer = std::max(sign.width_m, sign.height_m);
+  bound_length(keys, "smallest_detail", sign.smallest_detail_m, shorter, "the shorter side", sign);
+  bound_length(keys, "thickness", sign.thickness_m, longer, "the longer side", sign);
+  if (!sign.letters) return;
+  bound_length(keys, "letter_height", sign.letters->height_m, sign.height_m, "the height", sign);
+  bound_length(keys, "stroke", sign.letters->stroke_m, shorter, "the shorter side", sign);
+  bound_length(keys, "spacing", keys.number("spacing"), sign.width_m, "the width", sign);
+}
+
 void read_face(KeyReader& keys, Sign& sign) {
   const std::string given = keys.exactly_one({"file", "text", "plain"}, true);
   const int texels = static_cast<int>(keys.integer("texels"));
@@ -58,12 +84,17 @@ void read_face(KeyReader& keys, Sign& sign) {
         "understand the sign?");
   }
   sign.smallest_detail_m = detail.value_or(stroke);
-  if (given == "text") sign.letters = SignLetters{letter, stroke};
+  if (given == "text") {
+    sign.letters = SignLetters{letter, stroke};
+    sign.text = keys.text("text");
+  }
+  if (given == "file") sign.file = keys.node("file")->value_or(std::string());
+  bound_lengths(keys, sign);
   if (!keys.clean()) return;
   auto face = given == "file" ? drawn_face(*path, sign, texels)
               : given == "text"
-                  ? face_from_text(keys.text("text"), sign.width_m, sign.height_m, letter, stroke,
-                                   spacing, legend, texels)
+                  ? face_from_text(sign.text, sign.width_m, sign.height_m, letter, stroke, spacing,
+                                   legend, texels)
                   : uniform_face(plain == "green" ? SignColour::green : SignColour::white,
                                  sign.width_m, sign.height_m, texels);
   if (path) take_hash(*path, keys.place("file"), keys.reading());

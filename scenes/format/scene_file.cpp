@@ -4,9 +4,9 @@
 #include "scenes/format/scene_file.hpp"
 
 #include <algorithm>
-#include <fstream>
 #include <sstream>
 
+#include "runtime/core/regular_file.hpp"
 #include "runtime/core/toml_nesting.hpp"
 #include "scenes/format/scene_readers.hpp"
 
@@ -63,24 +63,21 @@ class Loader {
   std::optional<std::string> bytes_of(const fs::path& path) {
     std::error_code error;
     const auto size = fs::file_size(path, error);
-    if (error || !fs::is_regular_file(path, error)) {
+    if (!fs::exists(path, error)) {
       reading_.problem({path.string(), 0}, "there is no such scene file");
       return std::nullopt;
     }
-    if (size > scene_limits::file_bytes) {
+    if (fs::is_regular_file(path, error) && size > scene_limits::file_bytes) {
       reading_.problem({path.string(), 0},
                        "this scene file has " + std::to_string(size) + " bytes; at most " +
                            std::to_string(scene_limits::file_bytes) +
                            " are read; put large geometry into an OBJ or glTF file");
       return std::nullopt;
     }
-    std::ifstream in(path, std::ios::binary);
-    std::string text(static_cast<size_t>(size), '\0');
-    if (!in.read(text.data(), static_cast<std::streamsize>(size))) {
-      reading_.problem({path.string(), 0}, "this scene file cannot be read");
-      return std::nullopt;
-    }
-    return text;
+    auto text = read_regular_file(path, scene_limits::file_bytes);
+    if (text) return std::move(text).value();
+    reading_.problem(text.problem());
+    return std::nullopt;
   }
 
   std::unique_ptr<Document> parse(const std::string& text, const fs::path& path) {
@@ -97,8 +94,11 @@ class Loader {
                                       SourcePlace{path.string(), 1});
       return document;
     } catch (const toml::parse_error& e) {
+      // The words of an included file are not told: it may be any file of the machine.
+      const bool own = open_.empty() && done_.empty() && documents.empty();
       reading_.problem({path.string(), static_cast<int>(e.source().begin.line)},
-                       "this is not TOML: " + std::string(e.description()));
+                       own ? "this is not TOML: " + std::string(e.description())
+                           : "this is not TOML: an included file must be a scene file");
       return nullptr;
     }
   }
@@ -110,6 +110,24 @@ class Loader {
 using Documents = std::vector<std::unique_ptr<Document>>;
 using Reader = void (*)(const toml::table&, SceneReading&);
 
+/// A side is named once, and by one of its words. A file's own list replaces that of those it
+/// includes.
+void read_open_sides(KeyReader& keys, SceneReading& reading) {
+  if (!keys.has("open_sides")) return;
+  reading.scene.open_sides.clear();
+  for (const std::string& word : keys.texts("open_sides")) {
+    const auto at = std::find(side_words.begin(), side_words.end(), word);
+    if (at == side_words.end()) {
+      keys.problem("open_sides", "'open_sides' knows no side '" + word +
+                                     "'; write west, east, south, north, bottom or top");
+      continue;
+    }
+    const auto side = static_cast<Side>(at - side_words.begin());
+    auto& sides = reading.scene.open_sides;
+    if (std::find(sides.begin(), sides.end(), side) == sides.end()) sides.push_back(side);
+  }
+}
+
 void read_head(const Documents& documents, const fs::path& path, SceneReading& reading) {
   reading.scene.name = path.stem().string();
   reading.scene.file = path.string();
@@ -117,11 +135,13 @@ void read_head(const Documents& documents, const fs::path& path, SceneReading& r
     KeyReader& keys = *d->keys;
     if (keys.has("title")) reading.scene.title = keys.text("title");
     if (keys.has("patch_edge_m")) reading.patch_edge_m = keys.number("patch_edge_m");
+    read_open_sides(keys, reading);
     const auto name = keys.maybe_text("name");
     if (name) reading.scene.name = *name;
     if (const toml::table* run = keys.table("run")) read_run(*run, reading);
     if (const toml::table* assessment = keys.table("assessment"))
       read_assessment(*assessment, reading);
+    if (const toml::table* project = keys.table("project")) read_project(*project, reading);
   }
 }
 

@@ -26,6 +26,7 @@ void read_counting_plane(const toml::table& table, SceneReading& reading);
 void read_observer(const toml::table& table, SceneReading& reading);
 void read_camera(const toml::table& table, SceneReading& reading);
 void read_assessment(const toml::table& table, SceneReading& reading);
+void read_project(const toml::table& table, SceneReading& reading);
 void read_route(const toml::table& table, SceneReading& reading);
 void read_open_area(const toml::table& table, SceneReading& reading);
 void read_task_area(const toml::table& table, SceneReading& reading);

@@ -1,10 +1,12 @@
 #include "scenes/format/scene_reading.hpp"
 
+#include <unistd.h>
 #include <xxhash.h>
 
 #include <algorithm>
 #include <array>
-#include <fstream>
+
+#include "runtime/core/regular_file.hpp"
 
 namespace luxodus {
 
@@ -123,15 +125,16 @@ void SceneReading::hash_bytes(std::string_view bytes) {
 
 std::optional<Problem> SceneReading::hash_file(const std::filesystem::path& path) {
   if (!hashed_.insert(path.lexically_normal().string()).second) return std::nullopt;
-  std::ifstream in(path, std::ios::binary);
+  auto file = open_regular_file(path);
+  if (!file) return file.problem();
   const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(),
                                                                        &XXH3_freeState);
   XXH3_64bits_reset_withSeed(state.get(), scene.content_hash);
   std::array<char, 65536> part;
-  while (in.read(part.data(), part.size()) || in.gcount() > 0) {
-    XXH3_64bits_update(state.get(), part.data(), static_cast<size_t>(in.gcount()));
-  }
-  if (!in.eof()) return Problem{{path.string(), 0}, "this file cannot be read"};
+  ssize_t n = 0;
+  while ((n = ::read(file->descriptor.number(), part.data(), part.size())) > 0)
+    XXH3_64bits_update(state.get(), part.data(), static_cast<size_t>(n));
+  if (n < 0) return Problem{{path.string(), 0}, "this file cannot be read"};
   scene.content_hash = XXH3_64bits_digest(state.get());
   return std::nullopt;
 }

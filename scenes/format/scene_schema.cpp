@@ -11,6 +11,7 @@ const std::vector<TableSpec>& scene_schema() {
     for (auto& t : light_schema()) tables.push_back(std::move(t));
     for (auto& t : measure_schema()) tables.push_back(std::move(t));
     for (auto& t : assessment_schema()) tables.push_back(std::move(t));
+    for (auto& t : project_schema()) tables.push_back(std::move(t));
     return tables;
   }();
   return all;

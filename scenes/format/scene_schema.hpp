@@ -62,5 +62,6 @@ std::vector<TableSpec> data_set_schema();  // part of light_schema
 std::vector<TableSpec> light_schema();
 std::vector<TableSpec> measure_schema();
 std::vector<TableSpec> assessment_schema();
+std::vector<TableSpec> project_schema();
 
 }  // namespace luxodus

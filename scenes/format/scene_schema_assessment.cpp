@@ -14,9 +14,14 @@ std::vector<TableSpec> assessment_schema() {
            {"spacing_m", "number", "m", "2", "[0.1, 100]", "between observers along a route"},
            {"smoke_expected", "flag", "", "true", "",
             "smoke may occur where signs are: EN 1838 then asks for brighter ones"},
-           {"irritant_smoke", "flag", "", "false", "",
+           {"irritant_smoke", "flag", "", "", "",
             "the smoke stings: from 0.25/m people see less than their eyes could (Jin and Yamada "
-            "1985)"},
+            "1985); needed where signs are judged in smoke"},
+           {"rules", "texts", "", "", "",
+            "rule sets that are judged by: en1838-2013, en1838-2024, nfpa101; none is assumed"},
+           {"deviations", "texts", "", "", "",
+            "national deviations from them: duration-3h, de-asr-a3.4-3, de-din4844-1, "
+            "uk-bs5266-1, us-ibc, us-ibc-group-i2"},
        }},
       {"route",
        "`[[route]]`: an escape route",

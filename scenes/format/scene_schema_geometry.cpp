@@ -20,6 +20,9 @@ TableSpec scene_keys() {
           {"patch_edge_m", "number", "m", "0.5", "[0, 1e4]",
            "longest edge of a flux patch where an object does not say its own; 0: one patch per "
            "triangle"},
+          {"open_sides", "texts", "", "[]", "west, east, south, north, bottom, top",
+           "sides of the bounding box (-x, +x, -y, +y, -z, +z) through which light is meant to "
+           "leave: no warning that rooms are not closed there"},
           {"run", "table", "", "", "", "settings of a run"},
           {"material", "tables", "", "", "", "materials"},
           {"object", "tables", "", "", "", "surfaces written in the file"},
@@ -36,6 +39,7 @@ TableSpec scene_keys() {
           {"observer", "tables", "", "", "", "eyes"},
           {"camera", "tables", "", "", "", "pictures"},
           {"assessment", "table", "", "", "", "how people and smoke are taken to be"},
+          {"project", "table", "", "", "", "what reports say of the project"},
           {"route", "tables", "", "", "", "escape routes"},
           {"open_area", "tables", "", "", "", "floors without a defined route"},
           {"task_area", "tables", "", "", "", "places of high-risk work"},

@@ -1,27 +1,18 @@
-// Assimp is kept at arm's length: it opens files only through a gate that knows our limits, it is
-// asked for as little as possible (parse, validate, triangulate), and all arithmetic on positions
-// is ours, in double.
+// This side checks what it can without reading, asks the other process, and believes nothing of the
+// answer: a part is held against its own counts and limits before anybody sees it.
 #include "scenes/geometry/import.hpp"
 
-#include <assimp/DefaultIOSystem.h>
-#include <assimp/config.h>
-#include <assimp/material.h>
-#include <assimp/postprocess.h>
-#include <assimp/scene.h>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <assimp/Importer.hpp>
-#include <cctype>
 #include <cmath>
 #include <exception>
 #include <filesystem>
-#include <fstream>
-#include <optional>
-#include <string_view>
-#include <unordered_map>
-#include <utility>
+#include <new>
 
+#include "runtime/core/isolated_job.hpp"
+#include "scenes/geometry/assimp_import.hpp"
+#include "scenes/geometry/mesh_text.hpp"
 #include "scenes/geometry/refusal.hpp"
 
 namespace luxodus {
@@ -29,291 +20,122 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Lets Assimp open regular files within the limit and remembers which; a refusal is kept for the
-/// message, because Assimp itself only says that it could not open the file.
-class GuardedFiles : public Assimp::DefaultIOSystem {
- public:
-  Assimp::IOStream* Open(const char* file, const char* mode) override {
-    std::error_code error;
-    const bool regular = fs::is_regular_file(file, error);
-    const uint64_t bytes = regular ? fs::file_size(file, error) : 0;
-    if (!regular || error) return nullptr;
-    if (bytes > limits::mesh_file_bytes) {
-      refusal_ =
-          fmt::format("\"{}\" has {} bytes, the most are {}", file, bytes, limits::mesh_file_bytes);
-      return nullptr;
-    }
-    if (std::find(opened_.begin(), opened_.end(), file) == opened_.end()) opened_.push_back(file);
-    return Assimp::DefaultIOSystem::Open(file, mode);
-  }
+/// What reading any file may take, instances of small files included.
+constexpr IsolatedLimits for_all{uint64_t{2} << 30, 30};
 
-  const std::string& refusal() const { return refusal_; }
-  const std::vector<std::string>& opened() const { return opened_; }
+// ---- in the other process ----------------------------------------------------------------------
 
- private:
-  std::string refusal_;
-  std::vector<std::string> opened_;
-};
-
-std::string ending_of(const std::string& path) {
-  std::string ending = fs::path(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending;
+void put(PlainWriter& out, const Problem& problem) {
+  out.put(problem.where.file);
+  out.put(problem.where.line);
+  out.put(problem.what);
 }
 
-/// Takes the first word off a line; "" where there is none.
-std::string_view take_word(std::string_view& line) {
-  constexpr std::string_view blanks = " \t\r";
-  line.remove_prefix(std::min(line.find_first_not_of(blanks), line.size()));
-  const std::string_view word = line.substr(0, line.find_first_of(blanks));
-  line.remove_prefix(word.size());
-  return word;
+void put(PlainWriter& out, const ImportedPart& part) {
+  out.put(part.name);
+  out.put(part.material_name);
+  out.put(part.mesh.positions);
+  out.put(part.mesh.triangles);
+  out.put(part.mesh.texture_uv);
+  out.put(static_cast<uint8_t>(part.base_colour ? 1 : 0));
+  out.put(part.base_colour.value_or(glm::dvec3(0)));
+  out.put(part.degenerate_triangles);
 }
 
-/// Whether a word could be a number, NaN and infinity included.
-bool starts_like_number(std::string_view word) {
-  if (word.front() == '-' || word.front() == '+') word.remove_prefix(1);
-  return word.find_first_of("0123456789.nNiI") == 0;
+Result<std::vector<ImportedPart>> imported(const std::string& path, double metres_per_unit,
+                                           UpAxis up, std::vector<std::string>& files_read) {
+  try {
+    return import_by_assimp(path, metres_per_unit, up, files_read);
+  } catch (const std::bad_alloc&) {
+    throw;  // said with the limit
+  } catch (const std::exception& e) {
+    return refusal(fmt::format("cannot be read: {:.200}", e.what()), path);
+  } catch (...) {
+    return refusal("cannot be read: the importer failed without a reason", path);
+  }
 }
 
-/// The first vertex of an OBJ whose position has a word for a number. Assimp passes over such a
-/// line, and every face after it would mean other vertices than the file does.
-std::optional<Problem> vertex_of_words(const std::string& path) {
-  std::error_code error;
-  if (fs::file_size(path, error) > limits::mesh_file_bytes || error) return std::nullopt;
-  std::ifstream in(path, std::ios::binary);
-  std::string line;
-  for (int number = 1; std::getline(in, line); ++number) {
-    std::string_view rest = line;
-    if (take_word(rest) != "v") continue;
-    for (int axis = 0; axis < 3; ++axis) {
-      const std::string_view word = take_word(rest);
-      if (word.empty() || word == "\\") break;  // goes on in the next line, or Assimp's to judge
-      if (starts_like_number(word)) continue;
-      return Problem{
-          {path, number},
-          fmt::format("a coordinate of this vertex is \"{:.40}\": give three numbers", word)};
-    }
-  }
-  return std::nullopt;
+void answer(PlainReader& question, PlainWriter& out) {
+  std::string path;
+  double metres_per_unit = 0;
+  UpAxis up = UpAxis::z;
+  if (!question.get(path) || !question.get(metres_per_unit) || !question.get(up))
+    throw std::runtime_error("no question");
+  std::vector<std::string> files;
+  const auto parts = imported(path, metres_per_unit, up, files);
+  out.put(static_cast<uint64_t>(files.size()));
+  for (const std::string& file : files) out.put(file);
+  out.put(static_cast<uint8_t>(parts.ok() ? 1 : 0));
+  if (!parts) return put(out, parts.problem());
+  out.put(static_cast<uint64_t>(parts->size()));
+  for (const ImportedPart& part : parts.value()) put(out, part);
 }
 
-std::string text_of(const aiString& text) {
-  return {text.data, text.length};
+const IsolatedJob import_job("import", answer);
+
+// ---- in this one -------------------------------------------------------------------------------
+
+bool sound(const Mesh& mesh) {
+  const auto in_mesh = [&](const glm::uvec3& t) {
+    return std::max({t.x, t.y, t.z}) < mesh.positions.size();
+  };
+  const auto finite = [](const auto& v) {
+    bool all = true;
+    for (glm::length_t i = 0; i < v.length(); ++i) all = all && std::isfinite(v[i]);
+    return all;
+  };
+  const auto all_finite = [&](const auto& list) {
+    return std::all_of(list.begin(), list.end(), finite);
+  };
+  return (mesh.texture_uv.empty() || mesh.texture_uv.size() == mesh.positions.size()) &&
+         std::all_of(mesh.triangles.begin(), mesh.triangles.end(), in_mesh) &&
+         all_finite(mesh.positions) && all_finite(mesh.texture_uv);
 }
 
-Transform transform_of(const aiMatrix4x4& m) {
-  Transform out;
-  out.linear = glm::dmat3(glm::dvec3(m.a1, m.b1, m.c1), glm::dvec3(m.a2, m.b2, m.c2),
-                          glm::dvec3(m.a3, m.b3, m.c3));
-  out.offset = {m.a4, m.b4, m.c4};
-  return out;
+/// A part of the answer; false where it is none.
+bool get(PlainReader& in, ImportedPart& part) {
+  uint8_t has_colour = 0;
+  glm::dvec3 colour(0);
+  if (!in.get(part.name) || !in.get(part.material_name) || !in.get(part.mesh.positions) ||
+      !in.get(part.mesh.triangles) || !in.get(part.mesh.texture_uv) || !in.get(has_colour) ||
+      !in.get(colour) || !in.get(part.degenerate_triangles))
+    return false;
+  for (glm::length_t i = 0; i < 3; ++i)
+    if (!(colour[i] >= 0 && colour[i] <= 1)) return false;
+  if (has_colour == 1) part.base_colour = colour;
+  return has_colour <= 1 && part.degenerate_triangles >= 0 && sound(part.mesh);
 }
 
-bool finite(const glm::dvec3& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+std::optional<Problem> get_problem(PlainReader& in) {
+  Problem problem;
+  const bool told =
+      in.get(problem.where.file) && in.get(problem.where.line) && in.get(problem.what);
+  return told ? std::optional(std::move(problem)) : std::nullopt;
 }
 
-/// Step between neighbouring floats at a coordinate.
-double float_step(double coordinate) {
-  const auto magnitude = static_cast<float>(std::abs(coordinate));
-  return static_cast<double>(std::nextafter(magnitude, INFINITY)) - static_cast<double>(magnitude);
-}
-
-/// Walks the tree of nodes and copies what it places.
-class Collector {
- public:
-  Collector(const aiScene& scene, const std::string& path, double metres_per_unit, UpAxis up)
-      : scene_(scene),
-        path_(path),
-        to_scene_(to_z_up(up) * scaling(glm::dvec3(metres_per_unit))),
-        metres_per_unit_(metres_per_unit) {}
-
-  Result<std::vector<ImportedPart>> collect() {
-    if (scene_.mRootNode == nullptr) return problem("the file holds no objects");
-    std::vector<std::pair<const aiNode*, Transform>> open = {{scene_.mRootNode, to_scene_}};
-    while (!open.empty()) {
-      const auto [node, above] = open.back();
-      open.pop_back();
-      const Transform here = above * transform_of(node->mTransformation);
-      for (unsigned i = 0; i < node->mNumMeshes; ++i) {
-        if (auto bad = add_part(*node, node->mMeshes[i], here)) return *bad;
-      }
-      // Reversed, so that the stack gives children in the file's order.
-      for (unsigned i = node->mNumChildren; i-- > 0;) open.push_back({node->mChildren[i], here});
-    }
-    if (parts_.empty() && homeless_degenerates_ > 0) {
-      return problem(
-          fmt::format("all {} triangles are degenerate: none has an area", homeless_degenerates_));
-    }
-    if (parts_.empty()) {
-      return problem("the file holds no triangles: points, lines and empty objects are not read");
-    }
-    parts_.front().degenerate_triangles += homeless_degenerates_;
-    return std::move(parts_);
+Result<std::vector<ImportedPart>> parts_of(PlainReader& in, const std::string& path,
+                                           std::vector<std::string>* files_read) {
+  const Problem damaged = refusal("cannot be read: the importer gave no sound answer", path);
+  uint64_t files = 0, count = 0;
+  if (!in.get(files)) return damaged;
+  for (; files > 0; --files) {
+    std::string file;
+    if (!in.get(file)) return damaged;
+    if (files_read != nullptr) files_read->push_back(std::move(file));
   }
-
- private:
-  Problem problem(std::string what) const { return refusal(std::move(what), path_); }
-
-  std::string part_name(const aiNode& node, const aiMesh& mesh) const {
-    std::string name = text_of(node.mName);
-    const std::string mesh_name = text_of(mesh.mName);
-    if (name.empty()) name = mesh_name;
-    if (node.mNumMeshes > 1 && !mesh_name.empty() && mesh_name != name) name += "/" + mesh_name;
-    return name.empty() ? "part" : name;
+  uint8_t good = 0;
+  if (!in.get(good)) return damaged;
+  if (good != 1) return get_problem(in).value_or(damaged);
+  if (!in.get(count) || count == 0 || count > limits::mesh_parts) return damaged;
+  std::vector<ImportedPart> parts;
+  uint64_t vertices = 0, triangles = 0;
+  for (uint64_t i = 0; i < count; ++i) {
+    if (!get(in, parts.emplace_back())) return damaged;
+    vertices += parts.back().mesh.positions.size();
+    triangles += parts.back().mesh.triangles.size();
+    if (vertices > limits::mesh_vertices || triangles > limits::mesh_triangles) return damaged;
   }
-
-  std::string unique_name(const std::string& wish) {
-    std::string name = wish;
-    while (times_used_.contains(name)) name = fmt::format("{}#{}", wish, ++times_used_[wish]);
-    times_used_[name] = 1;
-    return name;
-  }
-
-  std::optional<Problem> add_part(const aiNode& node, unsigned index, const Transform& place) {
-    const aiMesh& from = *scene_.mMeshes[index];
-    vertices_ += from.mNumVertices;
-    triangles_ += from.mNumFaces;
-    if (vertices_ > limits::mesh_vertices || triangles_ > limits::mesh_triangles ||
-        parts_.size() >= limits::mesh_parts) {
-      return problem(
-          fmt::format("more than {} vertices, {} triangles or {} parts: simplify or split the file",
-                      limits::mesh_vertices, limits::mesh_triangles, limits::mesh_parts));
-    }
-    ImportedPart part;
-    part.name = part_name(node, from);
-    if (!place.usable()) {
-      return problem(fmt::format("part \"{}\": its node is scaled by 0 or not finite", part.name));
-    }
-    if (auto bad = copy_triangles(from, part)) return bad;
-    if (part.mesh.triangles.empty()) return std::nullopt;
-    apply(place, part.mesh);
-    // Finite numbers may have overflowed on the way.
-    if (auto bad = bad_position(part)) return bad;
-    join_identical_vertices(part.mesh);
-    part.degenerate_triangles = clean_mesh(part.mesh);
-    if (part.mesh.triangles.empty()) {
-      homeless_degenerates_ += part.degenerate_triangles;
-      return std::nullopt;
-    }
-    if (auto bad = copy_material(from.mMaterialIndex, part)) return bad;
-    part.name = unique_name(part.name);
-    parts_.push_back(std::move(part));
-    return std::nullopt;
-  }
-
-  std::optional<Problem> copy_triangles(const aiMesh& from, ImportedPart& part) const {
-    Mesh& mesh = part.mesh;
-    mesh.positions.reserve(from.mNumVertices);
-    for (unsigned i = 0; i < from.mNumVertices; ++i) {
-      const aiVector3D& p = from.mVertices[i];
-      mesh.positions.push_back({p.x, p.y, p.z});
-    }
-    if (auto bad = bad_position(part)) return bad;
-    if (auto bad = coarse_position(part)) return bad;
-    if (from.HasTextureCoords(0)) {
-      for (unsigned i = 0; i < from.mNumVertices; ++i) {
-        const aiVector3D& uv = from.mTextureCoords[0][i];
-        if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) {
-          return problem(
-              fmt::format("part \"{}\": the texture coordinate of vertex {} is not a finite number",
-                          part.name, i + 1));
-        }
-        mesh.texture_uv.push_back({uv.x, uv.y});
-      }
-    }
-    mesh.triangles.reserve(from.mNumFaces);
-    for (unsigned i = 0; i < from.mNumFaces; ++i) {
-      const aiFace& face = from.mFaces[i];
-      if (face.mNumIndices != 3) continue;  // points and lines
-      const glm::uvec3 t(face.mIndices[0], face.mIndices[1], face.mIndices[2]);
-      if (std::max({t.x, t.y, t.z}) >= from.mNumVertices) {
-        return problem(fmt::format("part \"{}\": triangle {} names a vertex that does not exist",
-                                   part.name, i + 1));
-      }
-      mesh.triangles.push_back(t);
-    }
-    return std::nullopt;
-  }
-
-  std::optional<Problem> bad_position(const ImportedPart& part) const {
-    for (size_t i = 0; i < part.mesh.positions.size(); ++i) {
-      if (finite(part.mesh.positions[i])) continue;
-      return problem(fmt::format("part \"{}\": the position of vertex {} is not a finite number",
-                                 part.name, i + 1));
-    }
-    return std::nullopt;
-  }
-
-  std::optional<Problem> coarse_position(const ImportedPart& part) const {
-    for (const glm::dvec3& p : part.mesh.positions) {
-      const double farthest = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-      const double step_m = float_step(farthest) * metres_per_unit_;
-      if (step_m <= limits::mesh_coordinate_step_m) continue;
-      return problem(fmt::format(
-          "part \"{}\": a coordinate of {:g} is known to {:.3g} m only; export the model "
-          "about an origin of its own and move it in the scene",
-          part.name, farthest, step_m));
-    }
-    return std::nullopt;
-  }
-
-  std::optional<Problem> copy_material(unsigned index, ImportedPart& part) const {
-    if (index >= scene_.mNumMaterials) return std::nullopt;
-    const aiMaterial& material = *scene_.mMaterials[index];
-    aiString name;
-    if (material.Get(AI_MATKEY_NAME, name) == AI_SUCCESS) part.material_name = text_of(name);
-    // What Assimp makes up where the file has no material.
-    if (part.material_name == AI_DEFAULT_MATERIAL_NAME) {
-      part.material_name.clear();
-      return std::nullopt;
-    }
-    aiColor4D colour;
-    if (material.Get(AI_MATKEY_BASE_COLOR, colour) != AI_SUCCESS &&
-        material.Get(AI_MATKEY_COLOR_DIFFUSE, colour) != AI_SUCCESS) {
-      return std::nullopt;
-    }
-    for (const float c : {colour.r, colour.g, colour.b}) {
-      if (c >= 0 && c <= 1) continue;  // NaN fails
-      return problem(
-          fmt::format("material \"{}\": a component of its base colour is {}: give 0 to 1",
-                      part.material_name, c));
-    }
-    part.base_colour = glm::dvec3(colour.r, colour.g, colour.b);
-    return std::nullopt;
-  }
-
-  const aiScene& scene_;
-  const std::string& path_;
-  Transform to_scene_;
-  double metres_per_unit_;
-  uint64_t vertices_ = 0, triangles_ = 0;
-  int64_t homeless_degenerates_ = 0;
-  std::unordered_map<std::string, int> times_used_;
-  std::vector<ImportedPart> parts_;
-};
-
-Result<std::vector<ImportedPart>> import_checked(const std::string& path, double metres_per_unit,
-                                                 UpAxis up, std::vector<std::string>* files_read) {
-  Assimp::Importer importer;
-  auto* files = new GuardedFiles;  // the importer owns it from here
-  importer.SetIOHandler(files);
-  // Normals would keep vertices of one position apart; the rest is not read.
-  importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS,
-                              aiComponent_NORMALS | aiComponent_TANGENTS_AND_BITANGENTS |
-                                  aiComponent_COLORS | aiComponent_BONEWEIGHTS |
-                                  aiComponent_ANIMATIONS | aiComponent_LIGHTS |
-                                  aiComponent_CAMERAS);
-  const aiScene* scene = importer.ReadFile(
-      path, aiProcess_Triangulate | aiProcess_RemoveComponent | aiProcess_ValidateDataStructure);
-  if (files_read != nullptr) *files_read = files->opened();
-  if (!files->refusal().empty()) return refusal(files->refusal(), path);
-  if (scene == nullptr) {
-    return refusal(fmt::format("cannot be read: {}", importer.GetErrorString()), path);
-  }
-  return Collector(*scene, path, metres_per_unit, up).collect();
+  return parts;
 }
 
 }  // namespace
@@ -323,22 +145,28 @@ Result<std::vector<ImportedPart>> import_mesh(const std::string& path, double me
   if (!(metres_per_unit > 0) || !std::isfinite(metres_per_unit)) {
     return refusal(fmt::format("a unit of {} m: give a length above 0", metres_per_unit), path);
   }
-  const std::string ending = ending_of(path);
+  const std::string ending = mesh_ending(path);
   if (ending != ".obj" && ending != ".gltf" && ending != ".glb") {
     return refusal("unknown kind of mesh: .obj, .gltf and .glb are read", path);
   }
   std::error_code error;
   if (!fs::is_regular_file(path, error)) return refusal("there is no such file", path);
-  try {
-    if (ending == ".obj") {
-      if (auto bad = vertex_of_words(path)) return *bad;
-    }
-    return import_checked(path, metres_per_unit, up, files_read);
-  } catch (const std::exception& e) {
-    return refusal(fmt::format("cannot be read: {}", e.what()), path);
-  } catch (...) {
-    return refusal("cannot be read: the importer failed without a reason", path);
+  const uint64_t bytes = fs::file_size(path, error);
+  if (error || bytes > limits::mesh_file_bytes) {
+    return refusal(fmt::format("it has {} bytes, the most are {}: simplify or split it", bytes,
+                               limits::mesh_file_bytes),
+                   path);
   }
+  const IsolatedLimits more = import_limits(bytes);
+  auto in = import_job.run(
+      [&](PlainWriter& question) {
+        question.put(path);
+        question.put(metres_per_unit);
+        question.put(up);
+      },
+      {for_all.memory_bytes + more.memory_bytes, for_all.processor_s + more.processor_s});
+  if (!in) return refusal(in.problem().what, path);
+  return parts_of(in.value(), path, files_read);
 }
 
 }  // namespace luxodus

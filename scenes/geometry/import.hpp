@@ -1,7 +1,8 @@
 // Meshes from files of other programs: Wavefront OBJ and glTF 2.0 (.gltf, .glb), read through
-// Assimp, which appears in import.cpp only. Positions come out in metres with z up, node transforms
-// applied, faces cut into triangles, equal vertices joined, degenerate triangles dropped and
-// counted.
+// Assimp, which appears in assimp_import.cpp only and runs in a process of its own: a file that
+// makes it crash, or take all memory or time, is a problem like any other. Positions come out in
+// metres with z up, node transforms applied, faces cut into triangles, equal vertices joined,
+// degenerate triangles dropped and counted.
 //
 // Not read: normals (flat triangles are what is traced), lights, cameras, pictures, animation,
 // points and lines. Assimp keeps coordinates in single precision: files whose coordinates are so
@@ -15,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "runtime/core/isolated_job.hpp"
 #include "runtime/core/result.hpp"
 #include "scenes/geometry/mesh.hpp"
 #include "scenes/geometry/mesh_tools.hpp"
@@ -38,9 +40,21 @@ inline constexpr uint64_t mesh_file_bytes = 1ull << 30;
 inline constexpr uint64_t mesh_vertices = 100'000'000;
 inline constexpr uint64_t mesh_triangles = 100'000'000;
 inline constexpr uint64_t mesh_parts = 1'000'000;
+/// Objects and groups of an OBJ: Assimp looks each up among all, which took 54 s for 200 000.
+inline constexpr uint64_t obj_groups = 50'000;
+/// Of the JSON of a glTF, whose own words nest 6 deep; and of its tree of nodes. Assimp follows
+/// both by recursion.
+inline constexpr int gltf_nesting = 64;
+inline constexpr int gltf_node_depth = 1000;
 /// Largest step between neighbouring single-precision coordinates that is accepted [m].
 inline constexpr double mesh_coordinate_step_m = 0.01;
 }  // namespace limits
+
+/// What reading a file of so many bytes may take beyond what all reading takes: OBJ and glTF take
+/// about five times their size, and a slow processor a second for 10 MiB.
+inline IsolatedLimits import_limits(uint64_t bytes) {
+  return {16 * bytes, static_cast<uint32_t>(bytes >> 20)};
+}
 
 /// One part per mesh and place in the file, in the file's order. `metres_per_unit` scales the
 /// file's numbers (1 for glTF, which is in metres); `up` is the file's upward axis (glTF: y).

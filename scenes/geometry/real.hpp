@@ -2,7 +2,7 @@
 // texels, files, pictures) is float in every build; what is computed from it, rays, hits,
 // directions, densities, is Real: float, or double where the build says LUX_PRECISION=double, which
 // asks whether float is enough (tests/precision). Optical depths and all that is read out are
-// double in both. Where which, and what it costs, stands in ARCHITECTURE.md, "Precision".
+// double in both. Where which, and what it costs, stands in docs/precision.md.
 #pragma once
 
 #include <glm/glm.hpp>

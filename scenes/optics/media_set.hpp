@@ -7,7 +7,7 @@
 // Coordinates are Real, relative to the scene's local origin; optical depths are double. A factor
 // of 0 takes a medium's extinction away but not its glow: whether it glows is the caller's question
 // of power. Immutable once compiled; any thread. Calls may wait where the resolver waits. Design:
-// light.md, "Media".
+// docs/decisions/0030-exact-free-flight.md.
 #pragma once
 
 #include <functional>

@@ -1,6 +1,7 @@
 // Plain values to bytes and back, by cereal: archives that write into memory, and that read bytes
 // nobody vouches for. A count is held against the bytes that are left before anything is taken for
-// it, an enumeration against its last value; what does not fit throws DamagedArchive. Native byte
+// it, an enumeration against its last value, a number must be finite; what does not fit throws
+// DamagedArchive. Native byte
 // order (little endian). Any thread, one archive per thread.
 #pragma once
 
@@ -9,6 +10,7 @@
 #include <cereal/types/optional.hpp>
 #include <cereal/types/string.hpp>
 #include <cereal/types/vector.hpp>
+#include <cmath>
 #include <cstring>
 #include <glm/glm.hpp>
 #include <span>
@@ -65,6 +67,9 @@ void CEREAL_LOAD_FUNCTION_NAME(BytesIn& in, T& value) {
     value = byte == 1;
   } else {
     in.get(&value, sizeof value);
+  }
+  if constexpr (std::is_floating_point_v<T>) {
+    if (!std::isfinite(value)) throw DamagedArchive("it holds a number that is not finite");
   }
 }
 template <class T>

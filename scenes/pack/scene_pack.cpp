@@ -1,18 +1,16 @@
 #include "scenes/pack/scene_pack.hpp"
 
-#include <fcntl.h>
 #include <sys/mman.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
 #include <numeric>
 #include <system_error>
 
 #include "runtime/core/hash.hpp"
+#include "runtime/core/regular_file.hpp"
 #include "scenes/format/atomic_file.hpp"
 #include "scenes/pack/skeleton.hpp"
 
@@ -96,17 +94,12 @@ class MappedPack final : public ObjectFile {
       return Problem{{path.string(), 0},
                      std::string(doing) + ": " + std::generic_category().message(errno)};
     };
-    const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-    if (fd < 0) return failed("cannot read this file");
-    struct stat about {};
+    auto file = open_regular_file(path);
+    if (!file.ok()) return file.problem();
     void* at = MAP_FAILED;
-    const bool known = ::fstat(fd, &about) == 0;
-    const auto bytes = static_cast<uint64_t>(about.st_size);
-    if (known && bytes >= sizeof(Head)) at = ::mmap(nullptr, bytes, PROT_READ, MAP_SHARED, fd, 0);
-    const int error = errno;
-    ::close(fd);
-    errno = error;
-    if (!known) return failed("cannot read this file");
+    const uint64_t bytes = file->bytes;
+    if (bytes >= sizeof(Head))
+      at = ::mmap(nullptr, bytes, PROT_READ, MAP_SHARED, file->descriptor.number(), 0);
     if (bytes < sizeof(Head))
       return Problem{{path.string(), 0}, "this is no pack: it is too short"};
     if (at == MAP_FAILED) return failed("cannot map this file");
@@ -188,7 +181,7 @@ void PackReport::add(ScenePart::Kind kind, uint64_t bytes) {
 }
 
 Result<PackReport> write_pack(const std::filesystem::path& path, const CompiledScene& scene,
-                              int partition, const std::function<void(double)>& progress) {
+                              int partition, const std::function<bool(double)>& progress) {
   if (scene.triangles == 0)
     return Problem{{scene.description->file, 0}, "the scene has no triangles to pack"};
   auto writer = begin(path);
@@ -202,7 +195,9 @@ Result<PackReport> write_pack(const std::filesystem::path& path, const CompiledS
     writer->write(bytes);
     writer->align();
     report.add(parts[i].kind, bytes.size());
-    if (progress) progress(static_cast<double>(i + 1) / static_cast<double>(parts.count()));
+    const double share = static_cast<double>(i + 1) / static_cast<double>(parts.count());
+    if (progress && !progress(share))
+      return Problem{{path.string(), 0}, "interrupted; nothing was written"};
   }
   const std::vector<std::byte> skeleton = encode_skeleton(*scene.description, packed);
   auto bytes = writer->end(skeleton, true);
@@ -229,8 +224,10 @@ Result<PackReport> write_skeleton_pack(const std::filesystem::path& path,
 
 bool is_pack(const std::filesystem::path& path) {
   std::array<char, 8> begin{};
-  std::ifstream file(path, std::ios::binary);
-  return file.read(begin.data(), begin.size()) && begin == magic;
+  const auto file = open_regular_file(path);
+  return file.ok() &&
+         ::read(file->descriptor.number(), begin.data(), begin.size()) == ssize_t{begin.size()} &&
+         begin == magic;
 }
 
 Result<std::shared_ptr<const SceneDescription>> read_pack(const std::filesystem::path& path) {

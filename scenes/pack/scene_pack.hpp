@@ -6,8 +6,9 @@
 //
 //   head (128 B) | object 0 | object 1 | ... | skeleton        objects begin at multiples of 64
 //
-// Reading checks the head and the skeleton by their hashes; an object is checked by whoever takes
-// it. Thread rule: an open pack is immutable. Nobody may shorten the file while it is open.
+// Reading checks the head and the skeleton by their hashes, and the skeleton's values by what a
+// scene may say: whoever forges a pack computes its hashes anew. An object is checked by whoever
+// takes it. Thread rule: an open pack is immutable. Nobody may shorten the file while it is open.
 #pragma once
 
 #include <filesystem>
@@ -21,7 +22,7 @@
 namespace luxodus {
 
 namespace limits {
-inline constexpr uint32_t pack_version = 5;
+inline constexpr uint32_t pack_version = 6;
 /// Of the skeleton: 100 times that of a tower of six million triangles.
 inline constexpr uint64_t skeleton_bytes_most = uint64_t{1} << 30;
 }  // namespace limits
@@ -40,10 +41,10 @@ struct PackReport {
 };
 
 /// Writes a scene, compiled with `partition` cells from a description with triangles; whole or not
-/// at all. `progress`: share of the objects written. Errors: as AtomicFile; a scene without
-/// triangles.
+/// at all. `progress`: share of the objects written; false: no more of them are wanted. Errors: as
+/// AtomicFile; a scene without triangles; what `progress` has ended.
 Result<PackReport> write_pack(const std::filesystem::path& path, const CompiledScene& scene,
-                              int partition, const std::function<void(double)>& progress = {});
+                              int partition, const std::function<bool(double)>& progress = {});
 
 /// Copies a pack without its objects. Errors: as read_pack and AtomicFile.
 Result<PackReport> write_skeleton_pack(const std::filesystem::path& path,

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "scenes/pack/archive.hpp"
-#include "scenes/transport/flame_points.hpp"
+#include "scenes/pack/check_skeleton.hpp"
 
 namespace luxodus {
 
@@ -135,6 +135,11 @@ void serialize(A& a, AssessmentSettings& x) {
   a(x.age_years, x.eye_heights_m, x.spacing_m, x.smoke_expected, x.irritant_smoke);
 }
 template <class A>
+void serialize(A& a, ProjectSettings& x) {
+  a(x.name, x.client, x.address, x.document, x.revision, x.date, x.author, x.checker, x.logo,
+    x.north_deg, x.place);
+}
+template <class A>
 void serialize(A& a, Camera& x) {
   a(x.name, x.place, x.eye, x.target, x.up, x.vertical_fov_deg, x.width, x.height);
 }
@@ -196,11 +201,22 @@ void serialize(A& a, Medium& x) {
     x.quadric, x.local_bounds, x.data, x.emission);
 }
 template <class A>
+void serialize_sides(A& a, std::vector<Side>& x) {
+  uint64_t count = x.size();
+  a(count);
+  if constexpr (A::is_loading::value) {
+    if (count > a.left()) throw DamagedArchive("it holds a list longer than itself");
+    x.resize(count);
+  }
+  for (Side& side : x) a(choice(side, Side::top));
+}
+template <class A>
 void serialize(A& a, SceneDescription& x) {
   a(x.name, x.title, x.file, x.run, x.materials, x.objects, x.emitters, x.media, x.signs);
   a(x.planes, x.probes, x.surface_groups, x.volume_groups, x.counting_planes, x.observers,
-    x.cameras, x.routes, x.open_areas, x.task_areas, x.emphasis, x.assessment, x.scenarios,
-    x.content_hash, x.degenerate_triangles, x.warnings);
+    x.cameras, x.routes, x.open_areas, x.task_areas, x.emphasis, x.assessment, x.project,
+    x.scenarios, x.content_hash, x.degenerate_triangles, x.warnings);
+  serialize_sides(a, x.open_sides);
 }
 template <class A>
 void serialize(A& a, CompiledSurface& x) {
@@ -289,7 +305,9 @@ Shared shared_of(const SceneDescription& description) {
 }
 
 bool sound(const Image& image) {
-  return image.width > 0 && image.height > 0 && image.channels > 0 && image.channels <= 4;
+  constexpr int side_most = 1 << 16;  // of a PNG that is read
+  return image.width > 0 && image.width <= side_most && image.height > 0 &&
+         image.height <= side_most && image.channels > 0 && image.channels <= 4;
 }
 
 /// The things a list names by place, each `none_index` or within it.
@@ -324,68 +342,6 @@ void give_shared(Shared& shared, SceneDescription& description) {
   }
 }
 
-/// Tables of data sets, of as many bricks as these have; objects, one for each part of the scene.
-void check_parts(const Skeleton& skeleton) {
-  const std::vector<Medium>& media = skeleton.description.media;
-  const PackedScene& packed = skeleton.packed;
-  if (packed.tables.size() != media.size() || packed.flame_points.size() != media.size())
-    throw DamagedArchive("its tables are not those of its media");
-  for (size_t m = 0; m < media.size(); ++m) {
-    const DataSet& data = media[m].data;
-    const bool is_grid = media[m].kind == MediumKind::data_set;
-    for (const int side : {data.nx, data.ny, data.nz})
-      if (is_grid && (side < 1 || side > limits::grid_side_most))
-        throw DamagedArchive("a data set has no size");
-    if (packed.tables[m].bricks.size() != (is_grid ? brick_count(data) : 0))
-      throw DamagedArchive("a table is not that of its data set");
-    const bool glows = is_grid && media[m].emission.has_value();
-    if (packed.flame_points[m].size() != (glows ? size_t{limits::flame_points} : 0))
-      throw DamagedArchive("a flame has not the points that it should have");
-  }
-  if (SceneParts::count_of(skeleton.description, packed.cells.size(), packed.tables) !=
-      packed.objects.size())
-    throw DamagedArchive("it has not an object for each of its parts");
-}
-
-/// What the compiler takes for granted of a description that a reader has made.
-void check_references(const Skeleton& skeleton) {
-  const SceneDescription& d = skeleton.description;
-  const auto within = [](int64_t i, size_t count) {
-    return i >= 0 && static_cast<size_t>(i) < count;
-  };
-  for (const Object& o : d.objects) {
-    if (!within(o.material, d.materials.size()) || !within(o.back_material, d.materials.size()))
-      throw DamagedArchive("an object has no material");
-  }
-  for (const Sign& s : d.signs) {
-    const auto texels = static_cast<size_t>(std::max(s.face.width, 0)) *
-                        static_cast<size_t>(std::max(s.face.height, 0));
-    if (texels == 0 || s.face.colour.size() != texels ||
-        (!s.face.relative_luminance.empty() && s.face.relative_luminance.size() != texels))
-      throw DamagedArchive("a sign's face has not the size that it says");
-  }
-  for (const Emitter& e : d.emitters) {
-    for (const glm::uvec3& t : e.mesh.triangles)
-      if (std::max({t.x, t.y, t.z}) >= e.mesh.positions.size())
-        throw DamagedArchive("an emitter's triangle has no corner");
-    if ((e.distribution == Distribution::web) != (e.web != nullptr))
-      throw DamagedArchive("a luminaire has no photometric web");
-  }
-  size_t faces = 0;
-  for (const Sign& s : d.signs) faces += s.double_sided ? 2 : 1;
-  const PackedScene& g = skeleton.packed;
-  for (const CompiledSurface& s : g.surfaces) {
-    // One more material than described: the dark back of signs.
-    if (std::max(s.material[0], s.material[1]) > d.materials.size() ||
-        (s.sign != none_index && s.sign >= faces) ||
-        (s.body_emitter != none_index && s.body_emitter >= d.emitters.size()) ||
-        uint64_t{s.first_patch} + s.patches > g.patch_count)
-      throw DamagedArchive("a surface refers to what there is not");
-  }
-  if (g.partition < 1 || g.cells.empty() || g.surfaces.size() < d.objects.size())
-    throw DamagedArchive("its geometry is not whole");
-}
-
 }  // namespace
 
 std::vector<std::byte> encode_skeleton(const SceneDescription& description,
@@ -403,8 +359,7 @@ Result<Skeleton> decode_skeleton(std::span<const std::byte> bytes) {
     in(skeleton.description, shared, skeleton.packed);
     if (in.left() != 0) throw DamagedArchive("there is more behind its end");
     give_shared(shared, skeleton.description);
-    check_references(skeleton);
-    check_parts(skeleton);
+    check_skeleton(skeleton);
     return skeleton;
   } catch (const DamagedArchive& damage) {
     return Problem{{}, std::string("the skeleton of this pack is damaged: ") + damage.what()};

@@ -1,7 +1,7 @@
 // The part of a packed scene that every machine keeps: all that the description says but triangles,
 // arrays of data sets and texels, and what compiling left of those. As bytes for a file, and back.
-// Bytes are held to what can be held cheaply (lengths, words, places in lists); whether values make
-// sense is found when the scene is compiled. Any thread.
+// Bytes are held to what a reader of scenes would have let pass (check_skeleton.hpp): lengths,
+// words, places in lists, numbers in their ranges. Any thread.
 #pragma once
 
 #include <cstddef>

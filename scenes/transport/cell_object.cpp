@@ -1,7 +1,9 @@
 #include "scenes/transport/cell_object.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 
 namespace luxodus {
 
@@ -18,16 +20,30 @@ struct Header {
 static_assert(sizeof(Header) == 40);
 static_assert(sizeof(GeometryCell::TriangleUv) == 28);
 
-bool finite(const glm::vec3& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+/// Farther than any scene reaches; squares of it are far from a float's end.
+constexpr float farthest_m = 1e9f;
+
+bool near(const glm::vec3& v) {
+  const float most = std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)});
+  return most <= farthest_m && !std::isnan(v.x + v.y + v.z);
+}
+
+bool is_direction(const glm::vec3& v) {
+  return near(v) && std::fabs(glm::dot(v, v) - 1) < 1e-3f;
+}
+
+bool finite(const GeometryCell::TriangleUv& t) {
+  return std::all_of(std::begin(t.corner), std::end(t.corner), [](const glm::vec2& uv) {
+    return std::isfinite(uv.x) && std::isfinite(uv.y);
+  });
 }
 
 bool fits(const TriangleRecord& t, const CellLimits& limits) {
   const uint64_t bins = 2 * uint64_t{t.subdivision} * t.subdivision;
   return t.surface < limits.surfaces && t.subdivision > 0 &&
          t.edge_margin <= TriangleRecord::most_edge_margin &&
-         uint64_t{t.first_patch} + bins <= limits.patches && finite(t.corner[0]) &&
-         finite(t.corner[1]) && finite(t.corner[2]) && finite(t.normal);
+         uint64_t{t.first_patch} + bins <= limits.patches && near(t.corner[0]) &&
+         near(t.corner[1]) && near(t.corner[2]) && is_direction(t.normal);
 }
 
 }  // namespace
@@ -56,6 +72,7 @@ Result<GeometryCell> decode_cell(std::span<const std::byte> bytes, const CellLim
   const size_t uv_bytes = size_t{header.texture_uvs} * sizeof(GeometryCell::TriangleUv);
   if (bytes.size() != triangle_bytes + uv_bytes)
     return Problem{{}, "a geometry cell has not the length that it says"};
+  if (!near(header.low) || !near(header.high)) return Problem{{}, "a geometry cell has no size"};
   GeometryCell cell;
   cell.low = header.low;
   cell.high = header.high;
@@ -68,7 +85,7 @@ Result<GeometryCell> decode_cell(std::span<const std::byte> bytes, const CellLim
   }
   uint32_t next = 0;
   for (const GeometryCell::TriangleUv& uv : cell.texture_uv) {
-    if (uv.triangle < next || uv.triangle >= header.triangles)
+    if (uv.triangle < next || uv.triangle >= header.triangles || !finite(uv))
       return Problem{{}, "texture coordinates of a geometry cell are out of order"};
     next = uv.triangle + 1;
   }

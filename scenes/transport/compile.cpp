@@ -6,7 +6,10 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <fstream>
+#include <iomanip>
 #include <set>
+#include <sstream>
 
 #include "runtime/core/hash.hpp"
 #include "scenes/optics/offset_ray.hpp"
@@ -120,14 +123,28 @@ Result<bool> compile_media(CompiledScene& scene) {
   return true;
 }
 
+/// A flame is where its points are: their middle, and the box around them.
+void place_flame(CompiledEmitter& e, const std::vector<glm::vec3>& points) {
+  glm::dvec3 sum(0), low(points.front()), high = low;
+  for (const glm::vec3& p : points) {
+    sum += glm::dvec3(p);
+    low = glm::min(low, glm::dvec3(p));
+    high = glm::max(high, glm::dvec3(p));
+  }
+  e.origin = Vec3(sum / static_cast<double>(points.size()));
+  e.size = Vec3(high - low);
+  e.near_m = 0.5_r * std::max({e.size.x, e.size.y, e.size.z});
+}
+
 void scatter_volume_points(CompiledScene& scene) {
   ResidentBricks bricks(scene.media);
   const PackedScene* packed = scene.description->packed.get();
-  for (const CompiledEmitter& e : scene.emitters) {
+  for (CompiledEmitter& e : scene.emitters) {
     if (e.kind != EmitterKind::volume) continue;
     const bool stored = packed != nullptr && !packed->flame_points[e.medium].empty();
-    scene.volume_points[e.medium] =
-        stored ? packed->flame_points[e.medium] : flame_points(scene.media, e.medium, bricks);
+    std::vector<glm::vec3>& points = scene.volume_points[e.medium];
+    points = stored ? packed->flame_points[e.medium] : flame_points(scene.media, e.medium, bricks);
+    place_flame(e, points);
   }
 }
 
@@ -486,6 +503,37 @@ Result<bool> compile_emitters(CompiledScene& scene, const std::vector<ActiveSour
 
 }  // namespace
 
+namespace {
+
+/// Where a key stands in a scene's main file; line 0 where it does not, or where that is a pack.
+/// Values carry no place of their own that far.
+SourcePlace place_of_key(const std::string& file, const std::string& key) {
+  std::ifstream in(file);
+  std::string line;
+  for (int number = 1; std::getline(in, line); ++number) {
+    const size_t at = line.find_first_not_of(" \t");
+    if (at == std::string::npos || line.compare(at, key.size(), key) != 0) continue;
+    const size_t next = line.find_first_not_of(" \t", at + key.size());
+    if (next != std::string::npos && line[next] == '=') return {file, number};
+  }
+  return {file, 0};
+}
+
+Problem too_many_voxels(const CompiledScene& scene) {
+  const Bounds box = media_bounds(active_media(scene), scene.bounds);
+  const glm::dvec3 size = box.high - box.low;
+  // A little more than the cube root says: a side has whole voxels.
+  const double least =
+      1.1 * std::cbrt(size.x * size.y * size.z / static_cast<double>(limits::voxels));
+  std::ostringstream what;
+  what << "the voxel grid would have more than " << limits::voxels / 1'000'000
+       << " million voxels: set voxel_edge_m in [run] to about " << std::setprecision(2) << least
+       << " or more";
+  return {place_of_key(scene.description->file, "voxel_edge_m"), what.str()};
+}
+
+}  // namespace
+
 Result<Scenario> find_scenario(const SceneDescription& description, const std::string& name) {
   if (description.scenarios.empty() && name.empty()) {
     Scenario plain;
@@ -496,7 +544,7 @@ Result<Scenario> find_scenario(const SceneDescription& description, const std::s
   std::string known;
   for (const Scenario& s : description.scenarios) {
     if (s.name == name) return s;
-    known += (known.empty() ? "" : ", ") + s.name;
+    known += (known.empty() ? "\"" : ", \"") + s.name + "\"";
   }
   return Problem{{description.file, 0},
                  "there is no scenario \"" + name + "\"; there " +
@@ -548,9 +596,7 @@ Result<std::shared_ptr<const CompiledScene>> compile_scene(
   choose_voxels(*scene);
   if (1.0 * scene->voxels.nx * scene->voxels.ny * scene->voxels.nz >
       static_cast<double>(limits::voxels)) {
-    return Problem{{description->file, 0},
-                   "the voxel grid would have more than 50 million voxels: "
-                   "make voxel_edge larger"};
+    return too_many_voxels(*scene);
   }
   choose_length_unit(*scene);
   choose_eye_targets(*scene);

@@ -1,5 +1,5 @@
 // Choosing a kernel at run time. Each medium need is compiled in a source of its own
-// (kernel_*.cpp), so that the sixteen loops of each build side by side.
+// (kernel_*.cpp), so that the loops of each build side by side.
 #pragma once
 
 #include "scenes/transport/particle.hpp"

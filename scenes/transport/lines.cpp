@@ -2,15 +2,28 @@
 
 namespace luxodus {
 
+std::vector<DirectFromEmitter> direct_lights(const CompiledScene& scene,
+                                             const GeometryAccess& access, const Vec3& point,
+                                             const Vec3& normal, const DirectOptions& options) {
+  return with_resolver(scene, access, [&](auto resolver) {
+    return DirectSum<decltype(resolver)>(scene, point, normal, options, resolver).by_emitter();
+  });
+}
+
 std::vector<double> direct_by_emitter(const CompiledScene& scene, const GeometryAccess& access,
                                       const Vec3& point, const Vec3& normal,
                                       const DirectOptions& options) {
+  std::vector<double> lux;
+  for (const DirectFromEmitter& light : direct_lights(scene, access, point, normal, options))
+    lux.push_back(light.illuminance_lx);
+  return lux;
+}
+
+std::vector<ArrivingLight> direct_arrivals(const CompiledScene& scene, const GeometryAccess& access,
+                                           const Vec3& point, const Vec3& normal,
+                                           const DirectOptions& options) {
   return with_resolver(scene, access, [&](auto resolver) {
-    std::vector<double> lux;
-    const Vec3 from = offset_ray(point, normal, scene.least_offset_m);
-    for (const CompiledEmitter& emitter : scene.emitters)
-      lux.push_back(direct_from(scene, emitter, from, normal, options, resolver).illuminance_lx);
-    return lux;
+    return DirectSum<decltype(resolver)>(scene, point, normal, options, resolver).arriving();
   });
 }
 

@@ -17,6 +17,23 @@ std::vector<double> direct_by_emitter(const CompiledScene& scene, const Geometry
                                       const Vec3& point, const Vec3& normal,
                                       const DirectOptions& options);
 
+/// All direct light at a point by each emitter, in their order: with and without media, and as if
+/// nothing solid were in the way.
+std::vector<DirectFromEmitter> direct_lights(const CompiledScene& scene,
+                                             const GeometryAccess& access, const Vec3& point,
+                                             const Vec3& normal, const DirectOptions& options);
+
+/// Direct light at a point by where it comes from: emitters that are large as seen from there come
+/// in parts, each with what the media leave of it on its own way.
+std::vector<ArrivingLight> direct_arrivals(const CompiledScene& scene, const GeometryAccess& access,
+                                           const Vec3& point, const Vec3& normal,
+                                           const DirectOptions& options);
+
+/// Whether an emitter is a luminaire: neither a sign's own light nor a flame.
+inline bool is_luminaire(const CompiledEmitter& e) {
+  return e.kind != EmitterKind::sign_face && e.kind != EmitterKind::volume;
+}
+
 /// Share of light in the middle band that whatever is solid lets pass between two points.
 double clear_share(const CompiledScene& scene, const GeometryAccess& access, const Vec3& from,
                    const Vec3& to);

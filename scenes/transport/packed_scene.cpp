@@ -1,5 +1,7 @@
 #include "scenes/transport/packed_scene.hpp"
 
+#include <optional>
+
 #include "runtime/core/hash.hpp"
 #include "scenes/transport/brick_object.hpp"
 #include "scenes/transport/cell_object.hpp"
@@ -33,6 +35,15 @@ Result<Brick> load_brick(const PackedScene& packed, const SceneParts& parts, uin
   return decoded;
 }
 
+Result<ImageTile> load_tile(const PackedScene& packed, const SceneParts& parts, uint32_t index,
+                            const Image& image, uint32_t tile) {
+  const auto bytes = object_bytes(packed, parts.of_tile(index, tile));
+  if (!bytes.ok()) return bytes.problem();
+  auto decoded = decode_tile(bytes.value(), image, tile);
+  if (!decoded.ok()) return Problem{{packed.file->name(), 0}, decoded.problem().what};
+  return decoded;
+}
+
 Result<std::shared_ptr<const Image>> load_image(const CompiledScene& scene, const SceneParts& parts,
                                                 uint32_t index) {
   const PackedScene& packed = *scene.description->packed;
@@ -40,10 +51,8 @@ Result<std::shared_ptr<const Image>> load_image(const CompiledScene& scene, cons
   image->texels.resize(static_cast<size_t>(image->width) * static_cast<size_t>(image->height) *
                        static_cast<size_t>(image->channels));
   for (uint32_t tile = 0; tile < tile_columns(*image) * tile_rows(*image); ++tile) {
-    const auto bytes = object_bytes(packed, parts.of_tile(index, tile));
-    if (!bytes.ok()) return bytes.problem();
-    const auto decoded = decode_tile(bytes.value(), *image, tile);
-    if (!decoded.ok()) return Problem{{packed.file->name(), 0}, decoded.problem().what};
+    const auto decoded = load_tile(packed, parts, index, *image, tile);
+    if (!decoded.ok()) return decoded.problem();
     place_tile(decoded.value(), tile, *image);
   }
   return std::shared_ptr<const Image>(std::move(image));
@@ -92,6 +101,28 @@ Result<GeometryCell> load_cell(const CompiledScene& scene, uint32_t cell) {
       decode_cell(bytes.value(), {static_cast<uint32_t>(scene.surfaces.size()), scene.patch_count});
   if (!decoded.ok()) return Problem{{packed.file->name(), 0}, decoded.problem().what};
   return decoded;
+}
+
+Result<bool> check_objects(const CompiledScene& scene) {
+  if (scene.description->packed == nullptr) return true;
+  const PackedScene& packed = *scene.description->packed;
+  const SceneParts parts(scene);
+  for (uint32_t i = 0; i < parts.count(); ++i) {
+    const ScenePart part = parts[i];
+    const auto problem_in = [](const auto& read) {
+      return read.ok() ? std::nullopt : std::optional(read.problem());
+    };
+    std::optional<Problem> bad;
+    if (part.kind == ScenePart::Kind::cell) {
+      bad = problem_in(load_cell(scene, part.index));
+    } else if (part.kind == ScenePart::Kind::brick) {
+      bad = problem_in(load_brick(packed, parts, part.owner, part.index));
+    } else {
+      bad = problem_in(load_tile(packed, parts, part.owner, *scene.images[part.owner], part.index));
+    }
+    if (bad) return *bad;
+  }
+  return true;
 }
 
 Result<std::shared_ptr<const MediaBricks>> load_bricks(const CompiledScene& scene) {

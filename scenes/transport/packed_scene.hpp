@@ -74,6 +74,10 @@ Result<std::shared_ptr<const MediaBricks>> load_bricks(const CompiledScene& scen
 /// All pictures with their texels, as CompiledScene::images. Errors: likewise.
 Result<std::vector<std::shared_ptr<const Image>>> load_images(const CompiledScene& scene);
 
+/// Reads every object of a packed scene, one at a time in memory. Nodes find damage only when a
+/// batch needs the object, and then ask each other for it in vain. Errors: as those above.
+Result<bool> check_objects(const CompiledScene& scene);
+
 /// Calls `visit(const GeometryCell&)` for every cell in turn, one of a packed scene at a time in
 /// memory. Errors: as load_cell; the first ends it.
 template <class Visit>

@@ -158,11 +158,20 @@ SceneFeature flights(const CompiledScene& scene) {
           asked.empty() ? "no plane, volume group or voxel asks for them" : joined(asked)};
 }
 
+/// "2 signs seen by 2 observers": each pair of them is a target of its own.
+std::string sight_of_signs(const CompiledScene& scene) {
+  std::set<uint32_t> signs, observers;
+  for (const EyeTarget& target : scene.eye_targets) {
+    signs.insert(scene.signs[target.sign].sign);
+    observers.insert(target.observer);
+  }
+  return counted(signs.size(), "sign") + " seen by " + counted(observers.size(), "observer");
+}
+
 SceneFeature eyes(const CompiledScene& scene) {
   const size_t probes = scene.description->probes.size();
   std::vector<std::string> asked;
-  if (!scene.eye_targets.empty())
-    asked.push_back(counted(scene.eye_targets.size(), "sign") + " seen by observers");
+  if (!scene.eye_targets.empty()) asked.push_back(sight_of_signs(scene));
   if (probes > 0) asked.push_back(counted(probes, "probe"));
   return {"paths from eyes", !asked.empty(),
           asked.empty() ? "no probe, and no observer with a sign before him" : joined(asked)};

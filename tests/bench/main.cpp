@@ -7,6 +7,7 @@
 #include <set>
 #include <string>
 
+#include "runtime/core/isolated_job.hpp"
 #include "tests/bench/tables.hpp"
 
 namespace {
@@ -51,6 +52,7 @@ bool is_table(const std::string& word) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (const auto served = luxodus::serve_isolated_job(argc, argv)) return *served;
   _mm_setcsr(_mm_getcsr() | 0x8040);  // denormals to zero, as in a run
   Options options;
   std::set<std::string> wanted;

@@ -111,6 +111,7 @@ struct ClusterText {
   int workers = 1;
   std::string scene = smoke_tank();
   std::string run = "particles = 400_000\n";  // more of [run]
+  std::string out = "out";                    // in the folder
   std::string more = "[timeouts]\nstart_s = 2\nlost_s = 1\n";
   std::string links;                           // of [links]
   std::map<std::string, std::string> of_node;  // by name: more of its [[node]]
@@ -126,7 +127,7 @@ inline std::string write_cluster(const Folder& folder, const ClusterText& text,
   const fs::path path = folder.path / (file + ".toml");
   std::ofstream out(path);
   out << "[run]\nname = \"" << folder.path.filename().string().substr(8) << "\"\nscene = \""
-      << text.scene << "\"\nout = \"" << (folder.path / "out").string() << "\"\n"
+      << text.scene << "\"\nout = \"" << (folder.path / text.out).string() << "\"\n"
       << text.run << "[[host]]\nname = \"here\"\n";
   for (int i = 0; i <= text.workers; ++i) {
     const std::string name = i < text.workers ? "n" + std::to_string(i) : "controller";

@@ -155,6 +155,30 @@ TEST_CASE("a disk that fills up under the journal costs the journal, and not the
   check_plain_flux(folder, "3M");
 }
 
+TEST_CASE("a disk that is really full when a cluster ends has room for the results",
+          "[cluster][loss]") {
+  const Folder folder;
+  const fs::path out = folder.path / "out", kept = folder.path / "kept";
+  fs::create_directories(out);
+  fs::create_directories(kept);
+  const std::string mount = "mount -t tmpfs -o size=8m none " + out.string();
+  if (std::system(("unshare -rm " + mount + " 2>/dev/null").c_str()) != 0) {
+    WARN("skipped: no file system of a few MiB can be mounted here");
+    return;
+  }
+  // The room that is kept for the results is all that this disk has: nothing is left for a journal.
+  const std::string cluster = write_cluster(folder, workers(1, "particles = 400_000\n"));
+  const Outcome up =
+      shell(folder, "unshare -rm sh -c '" + mount + " && " + LUX_PROGRAM + " cluster up " +
+                        cluster + " && cp -r " + out.string() + "/. " + kept.string() + "'");
+  INFO(up.err);
+  REQUIRE(up.code == 0);
+  CHECK(up.err.find("journal=failed") != std::string::npos);
+  fs::remove(out);
+  fs::rename(kept, out);
+  check_plain_flux(folder, "400k");
+}
+
 TEST_CASE("who stops cluster up stops all its nodes, and the results are written",
           "[cluster][loss]") {
   const Folder folder;

@@ -126,6 +126,52 @@ TEST_CASE("a node whose key the other end does not list is turned away, and both
   }
 }
 
+TEST_CASE("a second cluster of one file with other results is refused, and the first goes on",
+          "[cluster]") {
+  const Folder folder;
+  ClusterText text;
+  text.workers = 3;
+  text.run = "particles = 3_000_000\n";
+  text.more = "[timeouts]\nlost_s = 20\n";
+  const std::string first = write_cluster(folder, text, "first");
+  text.out = "elsewhere";
+  const std::string second = write_cluster(folder, text, "second");
+  SECTION("its controller alone") {
+    const Running nodes = start(first, 3);
+    const auto intruder = node(second, "controller");
+    CHECK(intruder->wait() == 1);
+    INFO(intruder->text() << nodes.controller->text());
+    CHECK(intruder->said("its workers are not free"));
+    CHECK(
+        intruder->said("works for the run whose results go to " + (folder.path / "out").string()));
+    CHECK_FALSE(fs::exists(folder.path / "elsewhere"));
+    CHECK(nodes.controller->wait() == 0);
+    for (const auto& worker : nodes.workers) CHECK(worker->wait() == 0);
+    CHECK_FALSE(nodes.controller->said("lease=fenced"));
+  }
+  SECTION("all of it") {
+    const Running nodes = start(first, 3);
+    Process up(LUX_PROGRAM, {"cluster", "up", second});
+    CHECK(up.wait() == 1);
+    INFO(up.text());
+    CHECK(up.said("its workers are not free"));
+    CHECK(nodes.controller->wait() == 0);
+  }
+  SECTION("while the first is killed and begins anew") {
+    Running nodes = start(first, 3);
+    nodes.controller->kill(SIGKILL);
+    CHECK(nodes.controller->wait() == 128 + SIGKILL);
+    const auto intruder = node(second, "controller");
+    CHECK(intruder->wait() == 1);
+    CHECK(intruder->said("its workers are not free"));
+    nodes.controller = node(first, "controller");
+    CHECK(nodes.controller->wait() == 0);
+    INFO(nodes.controller->text());
+    for (const auto& worker : nodes.workers) CHECK(worker->wait() == 0);
+  }
+  check_plain_flux(folder, "3000k");
+}
+
 TEST_CASE("a run without one of its workers does not begin, and names it", "[cluster]") {
   const Folder folder;
   ClusterText text;

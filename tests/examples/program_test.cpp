@@ -14,12 +14,16 @@ using namespace luxodus::program;
 
 namespace {
 
-/// The first scene of the README, which a newcomer copies.
+std::string first_guide() {
+  return slurp(fs::path(LUX_SOURCE_DIR) / "docs/guide/first-scene.md");
+}
+
+/// The first scene of the guide, which a newcomer copies.
 std::string readme_scene() {
-  const std::string readme = slurp(fs::path(LUX_SOURCE_DIR) / "README.md");
+  const std::string guide = first_guide();
   const std::string fence = "```toml\n";
-  const size_t first = readme.find(fence) + fence.size();
-  return readme.substr(first, readme.find("```", first) - first);
+  const size_t first = guide.find(fence) + fence.size();
+  return guide.substr(first, guide.find("```", first) - first);
 }
 
 /// The same with its haze and without.
@@ -46,8 +50,9 @@ std::string flux(const Folder& folder, const char* name) {
 
 }  // namespace
 
-TEST_CASE("the README's first scene runs and leaves what the README lists", "[program]") {
+TEST_CASE("the guide's first scene runs and leaves what the guide lists", "[program]") {
   const Folder folder;
+  const std::string guide = first_guide();
   const std::string scene = write_scene(folder, readme_scene());
   const Outcome run = run_luxodus(folder, "run " + scene + " --out " + out(folder, "room") +
                                               " --particles 50k --picture-paths 1");
@@ -57,6 +62,7 @@ TEST_CASE("the README's first scene runs and leaves what the README lists", "[pr
                            "views/door.exr", "views/door.png", "patches.vtp", "volume.vti"}) {
     INFO(file);
     CHECK(fs::file_size(folder.path / "room" / file) > 0);
+    CHECK(guide.find("`" + std::string(file) + "`") != std::string::npos);
   }
   const auto result = nlohmann::json::parse(slurp(folder.path / "room" / "result.json"));
   CHECK(result["ledger"]["closes"] == true);

@@ -1,7 +1,9 @@
 // Live views as a person starts and uses them: of a folder, and on the processes of a cluster.
 #include <boost/asio/connect.hpp>
 #include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/write.hpp>
 #include <boost/beast/core.hpp>
+#include <boost/beast/http.hpp>
 #include <boost/beast/websocket.hpp>
 #include <cstring>
 #include <set>
@@ -148,4 +150,56 @@ TEST_CASE("a live view refuses nodes that do not hold the scene", "[cluster][vie
                {"node", "--config", write_cluster(folder, text), "--name", "controller"});
   CHECK(node.wait() == 1);
   CHECK(node.said("object_bytes"));
+}
+
+TEST_CASE("a live view says an address that a browser takes, and serves it there alone",
+          "[program][view]") {
+  const Folder folder;
+  const std::string scene = (fs::path(LUX_SOURCE_DIR) / "scenes/library/empty_room.toml").string();
+  Process view(LUX_PROGRAM, {"view", scene, "--port", "0", "--particles", "10k", "--address", "::1",
+                             "--save-folder", folder.path.string()});
+  if (!view.says("Ctrl-C")) {
+    CHECK(view.wait() == 2);
+    WARN("skipped: this machine has no IPv6 loopback: " << view.text());
+    return;
+  }
+  const std::string head = "http://[::1]:";
+  INFO(view.text());
+  REQUIRE(view.said(head));
+  const size_t from = view.text().find(head) + head.size();
+  const std::string port = view.text().substr(from, view.text().find('/', from) - from);
+  const auto status_of = [&](const std::string& host) {
+    net::io_context context;
+    net::ip::tcp::socket socket(context);
+    socket.connect({net::ip::make_address("::1"), static_cast<uint16_t>(std::stoi(port))});
+    const std::string request = "HEAD / HTTP/1.1\r\nHost: " + host + "\r\n\r\n";
+    net::write(socket, net::buffer(request));
+    beast::flat_buffer buffer;
+    beast::http::response_parser<beast::http::empty_body> answer;
+    answer.skip(true);
+    beast::http::read(socket, buffer, answer);
+    return answer.get().result_int();
+  };
+  CHECK(status_of("[::1]:" + port) == 200);
+  CHECK(status_of("evil.example:" + port) == 403);
+  view.kill(SIGINT);
+  CHECK(view.wait() == 0);
+}
+
+TEST_CASE("a live view whose variants could not be saved says so before it begins",
+          "[program][view][failure]") {
+  const Folder folder;
+  const std::string scene = (fs::path(LUX_SOURCE_DIR) / "scenes/library/empty_room.toml").string();
+  const fs::path missing = folder.path / "missing";
+  const Outcome none =
+      run_luxodus(folder, "view " + scene + " --port 0 --save-folder " + missing.string());
+  CHECK(none.code == 2);
+  CHECK(none.err.find(missing.string() + ": variants cannot be saved in this folder: No such file "
+                                         "or directory") != std::string::npos);
+  const Outcome file = run_luxodus(folder, "view " + scene + " --port 0 --save-folder " + scene);
+  CHECK(file.code == 2);
+  CHECK(file.err.find("Not a directory") != std::string::npos);
+  const Outcome name = run_luxodus(folder, "view " + scene + " --port 0 --allow-host http://a/");
+  CHECK(name.code != 0);
+  CHECK(name.err.find("is no name of a host") != std::string::npos);
 }

@@ -11,7 +11,8 @@
 namespace luxodus::test {
 
 inline std::vector<Message> sample_messages() {
-  const Identity identity{1, {3}, Level::statistical, 5, 6, 7, 8, "0.1.0 release", "avx2"};
+  const Identity identity{1, {3}, Level::statistical, 5,      6,
+                          7, 8,   "0.1.0 release",    "avx2", "/results"};
   Beat beat;
   beat.epoch = 9;
   beat.pool_count = 3;

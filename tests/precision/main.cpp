@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <stdexcept>
 
+#include "runtime/core/isolated_job.hpp"
 #include "scenes/format/scene_file.hpp"
 #include "scenes/transport/compile.hpp"
 #include "tests/precision/batches.hpp"
@@ -67,6 +68,7 @@ int run(int count, char** words) {
 }  // namespace luxodus::precision
 
 int main(int count, char** words) {
+  if (const auto served = luxodus::serve_isolated_job(count, words)) return *served;
   try {
     return luxodus::precision::run(count, words);
   } catch (const std::exception& e) {

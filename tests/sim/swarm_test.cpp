@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 
@@ -203,4 +204,23 @@ TEST_CASE("seeds that found a fault of the program do so no more", "[sim]") {
     CHECK(std::system(command.c_str()) == 0);
   }
   CHECK(seeds > 0);
+}
+
+TEST_CASE("the largest seed that there is runs once, and those before it end", "[sim]") {
+  const auto said = [](const std::string& words) {
+    const std::string command =
+        std::string("cd " LUX_SOURCE_DIR " && ") + LUX_PROGRAM +
+        " sim scenes/library/empty_room.toml --particles 100 --faults none " + words + " 2>&1";
+    std::string text;
+    FILE* const pipe = ::popen(command.c_str(), "r");
+    REQUIRE(pipe != nullptr);
+    char piece[512];
+    while (std::fgets(piece, sizeof piece, pipe) != nullptr) text += piece;
+    INFO(command << "\n" << text);
+    CHECK(::pclose(pipe) == 0);
+    return text;
+  };
+  CHECK(said("--seed 18446744073709551615").find("1 seeds, 0 failed") != std::string::npos);
+  CHECK(said("--seeds 18446744073709551612..18446744073709551615").find("3 seeds, 0 failed") !=
+        std::string::npos);
 }

@@ -9,6 +9,7 @@
 #include "actors/supervise/cluster_process.hpp"
 #include "actors/supervise/node_threads.hpp"
 #include "runtime/config/cluster_file.hpp"
+#include "runtime/core/isolated_job.hpp"
 #include "scenes/format/scene_file.hpp"
 #include "scenes/transport/compile.hpp"
 
@@ -63,6 +64,7 @@ int run(const std::string& file, const std::string& name, const std::string& wha
 }  // namespace
 
 int main(int count, char** words) {
+  if (const auto served = luxodus::serve_isolated_job(count, words)) return *served;
   if (count == 4) return run(words[1], words[2], words[3]);
   std::fprintf(stderr, "usage: odd_node CLUSTER NODE protocol|isa|build|fingerprint\n");
   return 2;

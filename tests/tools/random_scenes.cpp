@@ -15,6 +15,7 @@
 #include <mutex>
 #include <thread>
 
+#include "runtime/core/isolated_job.hpp"
 #include "tests/random/check_scene.hpp"
 #include "tests/random/features.hpp"
 #include "tests/random/random_text.hpp"
@@ -226,6 +227,7 @@ void print_summary(const Summary& s, const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (const auto served = luxodus::serve_isolated_job(argc, argv)) return *served;
   Options options;
   CLI::App app{"Tries random scenes; ends with 1 and their numbers where one shows a mistake."};
   app.add_option("--first", options.first, "number of the first scene")->capture_default_str();

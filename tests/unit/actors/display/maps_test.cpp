@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "actors/display/report.hpp"
+#include "actors/source/flux_store.hpp"
 #include "scenes/geometry/patches.hpp"
 #include "tests/unit/actors/display/display_fixture.hpp"
 
@@ -50,7 +51,9 @@ std::vector<std::vector<double>> table_of(const std::string& csv) {
   std::istringstream in(csv);
   std::string line;
   std::getline(in, line);
-  CHECK(line == "x,y,z,direct_lx,indirect_lx,indirect_se_lx,total_lx,direct_clear_air_lx");
+  CHECK(line ==
+        "x,y,z,direct_lx,indirect_lx,indirect_se_lx,total_lx,luminaires_direct_clear_air_lx,"
+        "point_direct_lx,point_luminaires_direct_clear_air_lx");
   while (std::getline(in, line)) {
     std::vector<double> row;
     std::istringstream cells(line);
@@ -94,13 +97,13 @@ TEST_CASE("a plane's direct light is the inverse square law, with and without sm
   const PlaneMaps maps = make_plane_maps(*run);
   REQUIRE(maps.planes.size() == 1);
   const PlaneMap& map = maps.planes[0];
-  REQUIRE(map.centres.size() == 15);
-  for (size_t i = 0; i < map.centres.size(); ++i) {
-    const glm::dvec3 d = glm::dvec3(12, 22, 2) - map.centres[i];
+  REQUIRE(map.centres().size() == 15);
+  for (size_t i = 0; i < map.centres().size(); ++i) {
+    const glm::dvec3 d = glm::dvec3(12, 22, 2) - map.centres()[i];
     const double distance = glm::length(d);
     const double clear = 100 * d.z / (distance * distance * distance);  // 100 cd
-    CHECK(map.direct_in_clear_lx[i] == Approx(clear).epsilon(1e-4));
-    CHECK(map.direct_lx[i] == Approx(clear * std::exp(-0.2 * distance)).epsilon(1e-4));
+    CHECK(map.light.point_clear_lx[i] == Approx(clear).epsilon(1e-4));
+    CHECK(map.light.point_lx[i] == Approx(clear * std::exp(-0.2 * distance)).epsilon(1e-4));
   }
 }
 
@@ -119,29 +122,35 @@ TEST_CASE("the means of a plane's table are those of result.json, and extremes a
   CHECK(mean_of_column(rows, 4) == Approx(value("indirect_illuminance")));
   CHECK(mean_of_column(rows, 6) == Approx(value("mean_illuminance")));
   CHECK(mean_of_column(rows, 7) ==
-        Approx(plane["direct_in_clear_air"]["mean"]["value"].get<double>()));
-  double least = 1e300, most = 0;
+        Approx(plane["luminaires_direct_in_clear_air"]["mean"]["value"].get<double>()));
+  double mean_at_points = 0, least = 1e300, most = 0;
   std::vector<double> place;
   for (const auto& row : rows) {
     CHECK(row[6] == Approx(row[3] + row[4]));
-    if (row[6] < least) place = {row[0], row[1], row[2]};
-    least = std::min(least, row[6]);
-    most = std::max(most, row[6]);
+    const double at_point = row[8] + row[4];
+    if (at_point < least) place = {row[0], row[1], row[2]};
+    least = std::min(least, at_point);
+    most = std::max(most, at_point);
+    mean_at_points += at_point / 15;
   }
+  CHECK(plane["minimum"]["at"] == "grid points");
+  CHECK(value("mean_at_grid_points") == Approx(mean_at_points).epsilon(1e-3));
   CHECK(value("minimum") == Approx(least));
   CHECK(value("maximum") == Approx(most));
   CHECK(plane["minimum"]["position"].get<std::vector<double>>() == place);
-  CHECK(value("uniformity") == Approx(least / value("mean_illuminance")));
+  CHECK(value("uniformity") == Approx(least / value("mean_at_grid_points")));
+  const Json& mean = plane["mean_illuminance"];
+  const double reach =
+      2 * mean["standard_error"].get<double>() + mean["quadrature_bound"].get<double>();
+  CHECK(mean["interval"][0].get<double>() == Approx(value("mean_illuminance") - reach));
+  CHECK(mean["interval"][1].get<double>() == Approx(value("mean_illuminance") + reach));
   CHECK(plane["cells"] == Json({5, 3}));
   CHECK(file_text(folder.path() / "planes" / "floor.png").substr(1, 3) == "PNG");
   CHECK(file_text(folder.path() / "planes" / "floor_direct_clear_air.png").substr(1, 3) == "PNG");
 }
 
 TEST_CASE("traced direct light confirms the computed one within its error", "[display]") {
-  // Cells of 0.1 m, so that their centres stand for them to 0.1 %.
-  std::string fine = smoky_room;
-  fine.replace(fine.find("cells = [5, 3]"), 14, "cells = [30, 30]");
-  const auto run = traced(fine, 1 << 17);
+  const auto run = traced(smoky_room, 1 << 17);
   const Readout readout(run->scene(), run->totals());
   const Json plane = planes_json(*run, readout, make_plane_maps(*run))[0];
   const double direct = plane["direct_illuminance"]["value"];
@@ -178,8 +187,158 @@ TEST_CASE("direct light on a plane is the same bits for one and three threads", 
   const auto scene = scene_of(smoky_room);
   const LocalRun one(scene, 1, 1), three(scene, 1, 3);
   const PlaneMaps a = make_plane_maps(one), b = make_plane_maps(three);
-  CHECK(a.planes[0].direct_lx == b.planes[0].direct_lx);
-  CHECK(a.planes[0].group_direct_lx == b.planes[0].group_direct_lx);
+  CHECK(a.planes[0].light.mean_lx == b.planes[0].light.mean_lx);
+  CHECK(a.planes[0].light.group_lx == b.planes[0].light.group_lx);
+  CHECK(a.planes[0].light.bound_lx == b.planes[0].light.bound_lx);
+}
+
+TEST_CASE("a plane's mean is that over its area, within the bound that stands beside it",
+          "[display]") {
+  // A point 2 m up, over the middle of a square of 3 m: the flux through it is a closed form.
+  std::string clear = smoky_room;
+  clear = clear.substr(0, clear.find("[[medium]]")) + clear.substr(clear.find("[[plane]]"));
+  const int cells = GENERATE(1, 2, 7);
+  const auto at = clear.find("cells = [5, 3]");
+  clear.replace(at, 14, "cells = [" + std::to_string(cells) + ", 3]");
+  const LocalRun run(scene_of(clear), 1, 2);
+  const PlaneLight light = make_plane_maps(run).planes[0].light;
+  const double a = 1.5, h = 2;
+  const double solid_angle = 4 * std::asin(a * a / (a * a + h * h));
+  const double expected = 100 * solid_angle / 9;
+  double mean = 0;
+  for (const double lx : light.mean_lx) mean += lx / static_cast<double>(light.mean_lx.size());
+  INFO(cells << " cells: " << mean << " +- " << light.bound_lx << ", expected " << expected);
+  CHECK(std::abs(mean - expected) <= light.bound_lx + 1e-5 * expected);
+  CHECK(light.bound_lx <= limits::plane_tolerance * expected);
+  CHECK(light.group_lx[0] == Approx(mean));
+}
+
+TEST_CASE("the mean of a plane in shadows of boxes is right though cells' centres are not",
+          "[display]") {
+  // A point 2 m up and a shelf that shades a square of the floor exactly: edges beside cells'
+  // centres.
+  std::string shaded = smoky_room;
+  shaded = shaded.substr(0, shaded.find("[[medium]]")) + shaded.substr(shaded.find("[[plane]]"));
+  shaded += R"(
+[[object]]
+name = "shelf"
+shape = "quad"
+corner = [12, 22, 1]
+edge_u = [0.53, 0, 0]
+edge_v = [0, 0.47, 0]
+material = "grey"
+)";
+  const LocalRun run(scene_of(shaded), 1, 2);
+  const PlaneLight light = make_plane_maps(run).planes[0].light;
+  const auto quarter = [](double a, double b, double h) {
+    return std::asin(a * b / std::sqrt((a * a + h * h) * (b * b + h * h)));
+  };
+  // Seen from the lamp the shelf is a quarter of a rectangle of twice its size on the floor.
+  const double expected = 100 * (4 * quarter(1.5, 1.5, 2) - quarter(1.06, 0.94, 2)) / 9;
+  double mean = 0, at_centres = 0;
+  for (const double lx : light.mean_lx) mean += lx / 15;
+  for (const double lx : light.point_lx) at_centres += lx / 15;
+  INFO(mean << " +- " << light.bound_lx << ", at centres " << at_centres << ", expected "
+            << expected);
+  CHECK(std::abs(mean - expected) <= light.bound_lx);
+  CHECK(light.bound_lx < 3e-3 * expected);
+  CHECK(std::abs(at_centres - expected) > 5 * light.bound_lx);  // what it was before
+}
+
+TEST_CASE("light of signs and flames is no part of what luminaires give in clear air",
+          "[display]") {
+  std::string with_sign = smoky_room;
+  with_sign += R"(
+[[sign]]
+name = "exit"
+position = [12, 20.02, 2.2]
+facing = [0, 1, 0]
+width = 0.4
+height = 0.2
+plain = "white"
+smallest_detail = 0.02
+mains_white = 5000
+mains_green = 500
+emergency_white = 50
+emergency_green = 5
+[[medium]]
+name = "flame"
+kind = "bounded"
+body = "ellipsoid"
+position = [13, 23, 0.8]
+radii = [0.2, 0.2, 0.2]
+extinction = 0.5
+albedo = 0
+[medium.emission]
+power_w = 50000
+temperature_k = 1400
+[[probe]]
+name = "p"
+position = [11, 21, 0]
+)";
+  const auto plain = traced(smoky_room, 1 << 14);
+  const auto run = traced(with_sign, 1 << 14);
+  const PlaneMap without = make_plane_maps(*plain).planes[0];
+  const PlaneMap with = make_plane_maps(*run).planes[0];
+  for (size_t i = 0; i < with.centres().size(); ++i) {
+    CHECK(with.light.point_clear_lx[i] == Approx(without.light.point_clear_lx[i]).epsilon(1e-6));
+    CHECK(with.light.point_lx[i] > 1.05 * without.light.point_lx[i]);
+  }
+  const Json result = result_json(*run, {"test.toml", "particles", 1});
+  const Json& clear = result["planes"][0]["luminaires_direct_in_clear_air"];
+  CHECK(clear["operation"] == "mains");
+  const glm::dvec3 d(1, 1, 2);
+  const double expected = 100 * d.z / std::pow(glm::length(d), 3);
+  CHECK(result["probes"][0]["luminaires_direct_in_clear_air"]["value"].get<double>() ==
+        Approx(expected).epsilon(1e-4));
+  CHECK(result["probes"][0]["direct_illuminance"]["value"].get<double>() > 1.1 * expected);
+}
+
+TEST_CASE("a run of one batch says that an error needs two", "[display]") {
+  const ScratchFolder folder;
+  const auto run = traced(smoky_room, 1);
+  REQUIRE(run->traced() == 1);
+  const auto result = write_report(folder.path(), *run, {"test.toml", "particles", 1});
+  REQUIRE(result.ok());
+  const std::string text = summary_text(result.value());
+  INFO(text);
+  CHECK(text.find("nan") == std::string::npos);
+  CHECK(text.find("an error needs two batches") != std::string::npos);
+  CHECK(result.value()["standard_errors_unknown"].get<std::string>().find("two batches") !=
+        std::string::npos);
+  CHECK(result.value()["planes"][0]["mean_illuminance"]["standard_error"].is_null());
+  const std::string csv = file_text(folder.path() / "planes" / "floor.csv");
+  CHECK(csv.find("nan") == std::string::npos);
+  CHECK(csv.find("needs two batches") != std::string::npos);
+  const auto two = traced(smoky_room, 8 * run->scene().batch_particles);
+  CHECK_FALSE(result_json(*two, {"test.toml", "particles", 1}).contains("standard_errors_unknown"));
+}
+
+TEST_CASE("rates of a resumed run are of all its time, or of the part whose time is known",
+          "[display]") {
+  const auto first = traced(smoky_room, 1 << 17);
+  const ScratchFolder folder;
+  REQUIRE(save_flux(folder / "flux.lux", *first).ok());
+  const auto go_on = [&](std::optional<double> earlier_s) {
+    auto run = std::make_unique<LocalRun>(scene_of(smoky_room), 11, 1);
+    REQUIRE(load_flux(folder / "flux.lux", *run).ok());
+    if (earlier_s) run->add_earlier_seconds(*earlier_s);
+    StopRule stop;
+    stop.particles = 1 << 18;
+    run->run(stop, std::atomic<bool>{false}, [](const Progress&) {});
+    return result_json(*run, {"test.toml", "particles", 1});
+  };
+  const Json known = go_on(1000.0), unknown = go_on(std::nullopt);
+  const auto rate = [](const Json& r) { return r["particles_per_second"]["value"].get<double>(); };
+  const auto seconds = [](const Json& r) { return r["seconds"]["value"].get<double>(); };
+  CHECK(seconds(known) > 1000);
+  CHECK(rate(known) == Approx((1 << 18) / seconds(known)));
+  CHECK_FALSE(known.contains("timing"));
+  CHECK(known["figure_of_merit"]["value"].is_number());
+  CHECK(rate(unknown) * seconds(unknown) == Approx(1 << 17));
+  CHECK(unknown["timed_particles"] == 1 << 17);
+  CHECK(unknown["figure_of_merit"]["value"].is_null());
+  CHECK(unknown.contains("timing"));
 }
 
 TEST_CASE("patches and voxels on disk hold the run's flux, in scene coordinates", "[display]") {

@@ -250,6 +250,21 @@ TEST_CASE("views are written as luminance data and as pixels", "[display]") {
     CHECK(file_text(folder.path() / "views" / name).substr(1, 3) == "PNG");
 }
 
+TEST_CASE("pictures that are interrupted end at once, and what is not whole is not written",
+          "[display]") {
+  const ScratchFolder folder;
+  const auto run = traced(ulbricht_sphere("0.6"), 1 << 13);
+  std::atomic<bool> interrupt{false};
+  PictureOptions options;
+  options.paths_per_pixel = 4;
+  options.interrupt = &interrupt;
+  REQUIRE(render_views(folder.path(), *run, "", options, [&](double) { interrupt = true; }).ok());
+  CHECK(std::filesystem::is_empty(folder.path() / "views"));
+  interrupt = false;
+  REQUIRE(render_views(folder.path(), *run, "", options, {}).ok());
+  CHECK_FALSE(std::filesystem::is_empty(folder.path() / "views"));
+}
+
 TEST_CASE("a view that the scene does not have is refused by name", "[display]") {
   const ScratchFolder folder;
   const auto run = traced(ulbricht_sphere("0.6"), 1 << 13);

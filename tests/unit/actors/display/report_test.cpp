@@ -1,6 +1,9 @@
 #include "actors/display/report.hpp"
 
+#include "actors/display/checkpoint.hpp"
+#include "actors/display/pictures.hpp"
 #include "actors/display/result_files.hpp"
+#include "actors/source/flux_store.hpp"
 #include "tests/unit/actors/display/display_fixture.hpp"
 
 using namespace luxodus;
@@ -64,12 +67,146 @@ TEST_CASE("the summary tells every value that was asked for, however long its na
   const Json result = result_json(*run, {});
   const std::string text = summary_text(result);
   INFO(text);
-  for (const std::string& name : {"plane " + long_name + " min ", std::string("probe desk"),
+  for (const std::string& name : {"plane " + long_name + " mean ", std::string("probe desk"),
                                   std::string("surfaces walls"), std::string("through half way")})
     CHECK(text.find(name) != std::string::npos);
   const size_t plane = text.find(long_name);
-  CHECK(text.substr(plane, text.find('\n', plane) - plane).ends_with(" lx"));
-  CHECK(text.find("ledger closes exactly") != std::string::npos);
+  const std::string line = text.substr(plane, text.find('\n', plane) - plane);
+  for (const char* part : {" lx", "least ", " at (", "most ", "least/mean "})
+    CHECK(line.find(part) != std::string::npos);
+}
+
+TEST_CASE("the summary says the state first, where the light went, and nothing of the inside",
+          "[display]") {
+  const auto run = traced(asking_room, 1 << 15);
+  const Json result = result_json(*run, {});
+  const std::string text = summary_text(result);
+  INFO(text);
+  CHECK(text.starts_with("  scenario \"as written\": mains operation; 1 of 1 luminaire lit"));
+  // A closed room without smoke: what it does not absorb is nowhere.
+  CHECK(text.find("100 % absorbed by surfaces, 0 % by smoke, 0 % escaped") != std::string::npos);
+  CHECK(text.find("(largest: \"desk\")") != std::string::npos);
+  CHECK(text.find("(largest: \"" + long_name + "\")") != std::string::npos);
+  CHECK(text.find("ledger") == std::string::npos);
+  CHECK(text.find("2^-32") == std::string::npos);
+  const std::string verbose = summary_text(result, true);
+  CHECK(verbose.starts_with(text));
+  CHECK(verbose.find("closes exactly") != std::string::npos);
+}
+
+TEST_CASE("a run of one batch has no error, and the summary says no half sentence", "[display]") {
+  const auto run = traced(asking_room, 1);
+  REQUIRE(run->traced() == 1);
+  const std::string text = summary_text(result_json(*run, {}));
+  INFO(text);
+  CHECK(text.find("nan") == std::string::npos);
+  CHECK(text.find("at most not known") == std::string::npos);
+}
+
+TEST_CASE("names of the scene become names of files without blanks, and the result says which",
+          "[display]") {
+  std::string text = asking_room;
+  text.replace(text.find(long_name), long_name.size(), "under the sign");
+  text +=
+      "[[camera]]\nname = \"the door\"\neye = [1, 1, 1]\ntarget = [2, 2, 1]\nwidth = 8\n"
+      "height = 8\n[[camera]]\nname = \"the_door\"\neye = [1, 1, 1]\ntarget = [2, 2, 1]\n"
+      "width = 8\nheight = 8\n";
+  const auto run = traced(text, 1 << 13);
+  const ScratchFolder scratch;
+  const auto written = write_report(scratch.path(), *run, {"test.toml", "particles", 1});
+  REQUIRE(written.ok());
+  PictureOptions options;
+  options.paths_per_pixel = 2;
+  REQUIRE(render_views(scratch.path(), *run, "", options, {}).ok());
+  const Json& result = written.value();
+  CHECK(result["planes"][0]["name"] == "under the sign");
+  CHECK(result["planes"][0]["files"][0] == "planes/under_the_sign.csv");
+  CHECK(result["cameras"][1]["files"][0] == "views/the_door.exr");
+  CHECK(result["cameras"][2]["files"][0] == "views/the_door-2.exr");
+  size_t named = 2;  // result.json and patches.vtp
+  for (const char* list : {"planes", "cameras"})
+    for (const Json& item : result[list])
+      for (const Json& file : item["files"]) {
+        CHECK(std::filesystem::exists(scratch.path() / file.get<std::string>()));
+        ++named;
+      }
+  size_t found = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(scratch.path())) {
+    CHECK(entry.path().filename().string().find(' ') == std::string::npos);
+    if (entry.is_regular_file()) ++found;
+  }
+  CHECK(found == named);
+}
+
+TEST_CASE("files that no run has written are refused, those of a run are not", "[display]") {
+  const ScratchFolder scratch;
+  const auto run = traced(asking_room, 1 << 13);
+  const OutputPlan plan = run_output(*run->scene().description, true);
+  CHECK(refuse_foreign_files(scratch.path(), plan).ok());
+  const auto refused = [&] {
+    const auto done = refuse_foreign_files(scratch.path(), plan);
+    return done.ok() ? std::string() : done.problem().text();
+  };
+  for (const std::string name : {"result.json", "flux.lux", "patches.vtp", "views/door.png"}) {
+    put(scratch.path() / name);
+    CHECK(refused().find(name) != std::string::npos);
+    std::filesystem::remove(scratch.path() / name);
+  }
+  put(scratch.path() / "notes.txt");  // in nobody's way
+  REQUIRE(write_report(scratch.path(), *run, {"test.toml", "particles", 1}).ok());
+  REQUIRE(save_flux(scratch.path() / "flux.lux", *run).ok());
+  CHECK(refused().empty());
+  // A run that was killed before it had a result.json.
+  std::filesystem::remove(scratch.path() / "result.json");
+  CHECK(refused().find("flux.lux") == std::string::npos);
+}
+
+TEST_CASE("a run that is killed goes on from its checkpoint with the same bits", "[display]") {
+  const ScratchFolder scratch;
+  const auto scene = scene_of(asking_room);
+  StopRule stop;
+  stop.particles = 12 * scene->batch_particles;
+  LocalRun whole(scene, 11, 2);
+  whole.run(stop, std::atomic<bool>{false}, [](const Progress&) {});
+  REQUIRE(save_flux(scratch / "whole.lux", whole).ok());
+  std::filesystem::create_directory(scratch / "run");
+  int64_t saved = 0;
+  {
+    // Pauses are looked for before every batch, which takes longer than this.
+    LocalRun first(scene, 11, 1);
+    Checkpoint checkpoint(scratch / "run", first, {"test.toml", "", 1, stop}, 1e-4, 0);
+    StopRule part;
+    part.particles = 5 * scene->batch_particles;
+    first.run(part, std::atomic<bool>{false}, [](const Progress&) {});
+    CHECK(checkpoint.taken() > 0);
+  }
+  const Json begun = Json::parse(file_text(scratch / "run" / "result.json"));
+  CHECK(begun["finished"] == false);
+  CHECK(begun["scene_file"] == "test.toml");
+  LocalRun second(scene, 11, 1);
+  REQUIRE(load_flux(scratch / "run" / "flux.lux", second).ok());
+  saved = second.traced();
+  CHECK(saved > 0);
+  CHECK(saved <= 5);
+  second.run(stop, std::atomic<bool>{false}, [](const Progress&) {});
+  REQUIRE(save_flux(scratch / "second.lux", second).ok());
+  CHECK(file_text(scratch / "second.lux") == file_text(scratch / "whole.lux"));
+}
+
+TEST_CASE("a checkpoint does not take the place of a longer run", "[display]") {
+  const ScratchFolder scratch;
+  const auto scene = scene_of(asking_room);
+  put(scratch / "flux.lux");
+  LocalRun run(scene, 11, 1);
+  Checkpoint checkpoint(scratch.path(), run, {}, 1e-4, 3 * scene->batch_particles);
+  StopRule stop;
+  stop.particles = 3 * scene->batch_particles;
+  run.run(stop, std::atomic<bool>{false}, [](const Progress&) {});
+  CHECK(checkpoint.taken() == 0);
+  CHECK(file_text(scratch / "flux.lux") == "x");
+  stop.particles = 6 * scene->batch_particles;
+  run.run(stop, std::atomic<bool>{false}, [](const Progress&) {});
+  CHECK(checkpoint.taken() > 0);
 }
 
 TEST_CASE("the worst relative error is the worst of those of planes, probes and signs",

@@ -155,6 +155,85 @@ TEST_CASE("a journal that has become a snapshot, and one that was about to, end 
   std::filesystem::remove_all(folder);
 }
 
+TEST_CASE("what a journal on a full disk could not take is in a snapshot, and nothing is lost",
+          "[journal]") {
+  const auto scene = scene_of("smoke_tank", "", 1);
+  LocalRun whole(scene, 1, 1);
+  trace(whole, 4);
+  const Worker worker(whole);
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("luxodus_full_" + std::to_string(::getpid()));
+  std::filesystem::remove_all(folder);
+  ManualClock clock;
+  RunJournalConfig config;
+  config.folder = folder;
+  config.retry = seconds(10);
+  config.faults.faults.push_back({Fault::Kind::full_disk, seconds(5), seconds(60), {}, {}});
+  {
+    LocalRun first(scene, 1, 1);
+    const auto journal = RunJournal::open(config, first, clock);
+    REQUIRE(journal.ok());
+    const auto keep = [&](int64_t batch) {
+      const bool kept = journal.value()->keep(std::array{batch}, worker.flush_of(batch)).ok();
+      trace(first, batch + 1);  // it is counted all the same
+      return kept;
+    };
+    CHECK(keep(0));
+    CHECK_FALSE(journal.value()->rest_is_due());
+    clock.advance(seconds(6));
+    CHECK_FALSE(keep(1));
+    REQUIRE(journal.value()->rest_is_due());
+    journal.value()->rest();
+    CHECK_FALSE(journal.value()->rest_is_due());
+    CHECK_FALSE(keep(2));
+    CHECK_FALSE(journal.value()->rest_is_due());  // not after every flush
+    clock.advance(seconds(10));
+    REQUIRE(journal.value()->rest_is_due());
+    journal.value()->rest();
+    clock.advance(seconds(60));
+    CHECK(keep(3));  // there is room again
+  }
+  LocalRun second(scene, 1, 1);
+  config.faults = {};
+  const auto journal = RunJournal::open(config, second, clock);
+  REQUIRE(journal.ok());
+  CHECK(journal.value()->recovered() == 4);
+  CHECK(same(whole, second));
+  std::filesystem::remove_all(folder);
+}
+
+TEST_CASE("a snapshot that cannot be written is tried again, and the journal stays as it is",
+          "[journal]") {
+  const auto scene = scene_of("smoke_tank", "", 1);
+  LocalRun run(scene, 1, 1);
+  const Worker worker(run);
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("luxodus_retry_" + std::to_string(::getpid()));
+  std::filesystem::remove_all(folder);
+  ManualClock clock;
+  RunJournalConfig config;
+  config.folder = folder;
+  config.bytes_most = 1;
+  const auto journal = RunJournal::open(config, run, clock);
+  REQUIRE(journal.ok());
+  REQUIRE(journal.value()->keep(std::array<int64_t, 1>{0}, worker.flush_of(0)).ok());
+  trace(run, 1);
+  const auto journal_bytes = [&] { return std::filesystem::file_size(folder / "run.journal"); };
+  const auto before = journal_bytes();
+  std::filesystem::create_directory(folder / "run.snapshot");  // no file can take its place
+  REQUIRE(journal.value()->rest_is_due());
+  journal.value()->rest();
+  CHECK(journal_bytes() == before);
+  CHECK_FALSE(journal.value()->rest_is_due());
+  std::filesystem::remove(folder / "run.snapshot");
+  clock.advance(config.retry);
+  REQUIRE(journal.value()->rest_is_due());
+  journal.value()->rest();
+  CHECK(std::filesystem::is_regular_file(folder / "run.snapshot"));
+  CHECK(journal_bytes() < before);
+  std::filesystem::remove_all(folder);
+}
+
 TEST_CASE("a run that goes on from its flux file, after any batch, ends as one that never stopped",
           "[journal]") {
   const auto scene = scene_of("smoke_tank", "", 1);

@@ -120,7 +120,7 @@ TEST_CASE("who looks at totals in shards while a run goes on sees whole flushes"
   LocalRun run(scene, 1, 1);
   int looks = 0;
   bool due = false;
-  run.set_pause([&] { return due; },
+  run.add_pause(&due, [&] { return due; },
                 [&] {
                   due = false;
                   ++looks;
@@ -138,7 +138,7 @@ TEST_CASE("who looks at totals in shards while a run goes on sees whole flushes"
                   CHECK(absorbed == run.totals().ledger().absorbed_surfaces);
                 });
   REQUIRE(run_on_nodes(run, options, stop, nobody, [&](const Progress&) { due = true; }).ok());
-  run.set_pause({}, {});
+  run.remove_pause(&due);
   CHECK(looks > 0);
   LocalRun plain(scene, 1, 2);
   plain.run(stop, nobody, ignore);

@@ -176,14 +176,18 @@ TEST_CASE("an object that is lost for a while spoils batches, which are traced a
   for (const uint32_t object : {parts.of_brick(1, 0), parts.of_tile(0, 1)}) {
     INFO("object " << object);
     const uint64_t at = offset_of(gallery, object) + 2000;
-    flip(gallery.file, at);
     const auto seen = Observation::start({std::string("127.0.0.1"), uint16_t{0}, 0});
     REQUIRE(seen.ok());
     NodesOptions options = nodes_of(2, tight_budget(*gallery.packed));
     options.profile_share = 0;  // which would be refused
     options.observation = seen.value().get();
-    std::atomic<bool> lost{true};
+    // Nodes begin with a pack that is whole; then it is damaged until somebody has noticed.
+    std::atomic<bool> begun{false}, lost{true};
     options.stop = [&] {  // on the workers' threads, between their turns
+      if (!begun.exchange(true)) {
+        flip(gallery.file, at);
+        return false;
+      }
       if (lost && shown(*seen.value(), "luxodus_batches_failed_total") > 0 && lost.exchange(false))
         flip(gallery.file, at);
       return false;

@@ -1,10 +1,5 @@
-// The hub with viewers that remember, and the server with raw sockets.
+// The hub with viewers that remember.
 #include "actors/view/view_hub.hpp"
-
-#include <arpa/inet.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 #include <catch2/catch.hpp>
 #include <condition_variable>
@@ -12,8 +7,8 @@
 #include <mutex>
 #include <set>
 
-#include "actors/view/view_server.hpp"
 #include "scenes/format/scene_file.hpp"
+#include "tests/unit/actors/view/live_room.hpp"
 #include "tests/unit/scenes/format/temporary_folder.hpp"
 
 using namespace luxodus;
@@ -361,6 +356,8 @@ TEST_CASE("an added sign lays triangles anew, and light of before comes with the
     const Json* verdicts = live.viewer.last("sign");
     return verdicts != nullptr && (*verdicts)["name"] == "exit";
   });
+  // Verdicts come with the state that they are of.
+  CHECK((*live.viewer.last("sign"))["note"].get<std::string>().find("MAINS OPERATION") == 0);
   CHECK(live.viewer.last("refused") == nullptr);
   live.says(R"({"type":"remove","name":"exit copy"})");
   live.until_done();
@@ -459,97 +456,69 @@ TEST_CASE("a variant is saved under a plain name, and never over a file", "[view
 
 namespace {
 
-/// What the server answers to these bytes, to the end of its line.
-std::string answer(uint16_t port, const std::string& bytes) {
-  const int socket = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-  sockaddr_in place{};
-  place.sin_family = AF_INET;
-  place.sin_port = htons(port);
-  place.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  REQUIRE(::connect(socket, reinterpret_cast<sockaddr*>(&place), sizeof place) == 0);
-  REQUIRE(::send(socket, bytes.data(), bytes.size(), MSG_NOSIGNAL) ==
-          static_cast<ssize_t>(bytes.size()));
-  ::shutdown(socket, SHUT_WR);
-  std::string out(4096, '\0');
-  const ssize_t count = ::recv(socket, out.data(), out.size(), 0);
-  ::close(socket);
-  out.resize(static_cast<size_t>(std::max<ssize_t>(0, count)));
-  return out.substr(0, out.find("\r\n"));
-}
+/// With a scenario in which nothing is lit, so that it cannot be traced.
+const std::string dark_scenario = R"(
+[[scenario]]
+name = "day"
+operation = "mains"
 
-class Serving {
- public:
-  explicit Serving(const std::string& token) {
-    ServerOptions options;
-    options.port = 0;
-    options.token = token;
-    server_ = std::move(ViewServer::listen(options)).value();
-    hub_ = std::make_unique<ViewHub>(
-        scene_in(folder_), small_runs(folder_),
-        [this](std::function<void()> function) { server_->post(std::move(function)); });
-    thread_ = std::thread([this] { server_->run(*hub_, ends_); });
-  }
-  ~Serving() {
-    ends_ = true;
-    thread_.join();
-  }
-  uint16_t port() const { return server_->port(); }
-
- private:
-  const test::TemporaryFolder folder_;
-  std::unique_ptr<ViewServer> server_;
-  std::unique_ptr<ViewHub> hub_;
-  std::atomic<bool> ends_{false};
-  std::thread thread_;
-};
-
-std::string get(const std::string& target) {
-  return "GET " + target + " HTTP/1.1\r\nHost: here\r\n\r\n";
-}
-std::string upgrade(const std::string& target, const std::string& more = "") {
-  return "GET " + target +
-         " HTTP/1.1\r\nHost: here\r\nConnection: Upgrade\r\nUpgrade: websocket\r\n"
-         "Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n" +
-         more + "\r\n";
-}
+[[scenario]]
+name = "night"
+operation = "dark"
+)";
 
 }  // namespace
 
-TEST_CASE("the server has a page and a socket, and no other path of the machine", "[view]") {
-  const Serving serving("");
-  const uint16_t port = serving.port();
-  CHECK(answer(port, get("/")) == "HTTP/1.1 200 OK");
-  for (const char* path : {"/etc/passwd", "/../../etc/passwd", "/live", "/index.html", "//"})
-    CHECK(answer(port, get(path)) == "HTTP/1.1 404 Not Found");
-  CHECK(answer(port, "POST / HTTP/1.1\r\nHost: here\r\n\r\n") == "HTTP/1.1 405 Method Not Allowed");
-  CHECK(answer(port, upgrade("/live")) == "HTTP/1.1 101 Switching Protocols");
-  CHECK(answer(port, upgrade("/live", "Origin: http://here\r\n")) ==
-        "HTTP/1.1 101 Switching Protocols");
-  CHECK(answer(port, upgrade("/live", "Origin: http://elsewhere\r\n")) == "HTTP/1.1 403 Forbidden");
+TEST_CASE("an edit that is refused is not in force, and no variant has it", "[view]") {
+  const test::LiveRoom of_dark(dark_scenario);
+  Edited live(of_dark.scene());
+  const uint32_t before = live.scene()["generation"];
+  live.says(R"({"type":"scenario","name":"night"})");
+  live.posts.until([&] { return live.viewer.last("refused") != nullptr; });
+  CHECK(live.why().find("nothing emits light") != std::string::npos);
+  CHECK(live.viewer.last("scene") == nullptr);
+  // What is edited next does not carry it along.
+  live.says(R"({"type":"move","kind":"luminaire","name":"left","position":[1,1,1]})");
+  live.posts.until([&] {
+    return live.viewer.last("scene") != nullptr || live.viewer.last("refused") != nullptr;
+  });
+  REQUIRE(live.viewer.last("refused") == nullptr);
+  CHECK(live.scene()["generation"] == before + 1);
+  CHECK(live.scene()["scenario"] == "day");
+  live.says(R"({"type":"save","name":"moved"})");
+  REQUIRE(live.viewer.last("saved") != nullptr);
+  const auto saved = read_scene(live.folder / "moved.toml");
+  REQUIRE(saved.scene);
+  CHECK(saved.scene->emitters[0].frame.origin == glm::dvec3(1, 1, 1));
 }
 
-TEST_CASE("a server with a token wants it for page and socket", "[view]") {
-  const Serving serving("secret");
-  const uint16_t port = serving.port();
-  CHECK(answer(port, get("/")) == "HTTP/1.1 403 Forbidden");
-  CHECK(answer(port, get("/?token=secreT")) == "HTTP/1.1 403 Forbidden");
-  CHECK(answer(port, get("/?token=secret")) == "HTTP/1.1 200 OK");
-  CHECK(answer(port, upgrade("/live")) == "HTTP/1.1 403 Forbidden");
-  CHECK(answer(port, upgrade("/live?token=secret")) == "HTTP/1.1 101 Switching Protocols");
+TEST_CASE("nothing is moved out of the world, and a variant has it where it was", "[view]") {
+  const test::LiveRoom room;
+  Edited live(room.scene());
+  for (const char* edit :
+       {R"({"type":"move","kind":"sign","name":"exit","position":[1e7,0,0],"facing":[1,0,0]})",
+        R"({"type":"move","kind":"luminaire","name":"left","position":[0,-1e7,0]})",
+        R"({"type":"add","kind":"sign","of":"exit","position":[0,0,1e7]})"}) {
+    live.says(edit);
+    CHECK(live.why().find("outside of the building") != std::string::npos);
+  }
+  live.says(R"({"type":"save","name":"near"})");
+  REQUIRE(live.viewer.last("saved") != nullptr);
+  const auto saved = read_scene(live.folder / "near.toml");
+  REQUIRE(saved.scene);
+  REQUIRE(saved.scene->signs.size() == 1);
+  CHECK(saved.scene->signs[0].frame.origin == room.scene()->signs[0].frame.origin);
+  CHECK(saved.scene->emitters[0].frame.origin == room.scene()->emitters[0].frame.origin);
 }
 
-TEST_CASE("rubbish ends its own connection alone", "[view]") {
-  const Serving serving("");
-  const uint16_t port = serving.port();
-  std::string noise(3000, 'x');
-  for (size_t i = 0; i < noise.size(); ++i) noise[i] = static_cast<char>((i * 7919 + i / 3) & 0xff);
-  CHECK(answer(port, noise).find("200") == std::string::npos);
-  CHECK(answer(port, "GET / HTTP/1.1\r\n" + std::string(20'000, 'a')).find("200") ==
-        std::string::npos);
-  // Frames that lie: reserved bits, a length of exabytes, an unmasked text.
-  for (const std::string& frame :
-       {std::string("\xff\xff\xff\xff", 4),
-        std::string("\x82\xff\x7f\xff\xff\xff\xff\xff\xff\xff", 10), std::string("\x81\x05hello")})
-    CHECK(answer(port, upgrade("/live") + frame) == "HTTP/1.1 101 Switching Protocols");
-  CHECK(answer(port, get("/")) == "HTTP/1.1 200 OK");
+TEST_CASE("what would be no scene is not saved, whenever it is asked for", "[view]") {
+  const test::LiveRoom of_dark(dark_scenario);
+  Edited live(of_dark.scene());
+  // In one breath: nobody has looked at the edit yet.
+  live.says(R"({"type":"scenario","name":"night"})");
+  live.hub.says(live.viewer, R"({"type":"save","name":"dark"})");
+  CHECK(live.viewer.last("saved") == nullptr);
+  REQUIRE(live.viewer.last("refused") != nullptr);
+  CHECK(live.why().find("it is not saved") == 0);
+  CHECK(std::filesystem::is_empty(live.folder / ""));
 }

@@ -206,7 +206,7 @@ TEST_CASE("a file that is too long, no file, or a folder is refused with a reaso
   CHECK(only_problem(std::string(limits::cluster_file_bytes + 1, '\n')).what.find("longer than") !=
         std::string::npos);
   CHECK(all_problems(read_cluster("/nowhere/c.toml")).find("cannot be read") != std::string::npos);
-  CHECK(all_problems(read_cluster("/")).find("is a folder") != std::string::npos);
+  CHECK(all_problems(read_cluster("/")).find("Is a directory") != std::string::npos);
   const ReadCluster read = parse_cluster(
       std::string("[run]\n") +
           [] {

@@ -2,6 +2,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "runtime/core/printable.hpp"
+
 using namespace luxodus;
 
 TEST_CASE("a problem prints as file:line: sentence, and without a line as file: sentence",
@@ -19,6 +21,11 @@ TEST_CASE("a problem's text is one line without characters that a terminal obeys
   CHECK(Problem{{}, "\xC2\x9B[2J"}.text() == "\\xC2\\x9B[2J");
   const std::string umlauts = "\xC3\xA4 \xC2\xB0 \xE2\x82\xAC \xC2";  // the last is cut off
   CHECK(Problem{{}, umlauts}.text() == umlauts);
+}
+
+TEST_CASE("printable text keeps what its layout needs", "[core]") {
+  CHECK(printable("a\tb\n\x1b[2J", "\n\t") == "a\tb\n\\x1B[2J");
+  CHECK(printable("\xC2\x9B", "\n\t") == "\\xC2\\x9B");
 }
 
 TEST_CASE("a result holds either its value or its problem", "[core]") {

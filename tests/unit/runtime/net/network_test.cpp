@@ -123,6 +123,62 @@ TEST_CASE("nodes that disagree refuse each other with the reason at both ends",
   }
 }
 
+namespace {
+
+/// A worker and a controller whose results go somewhere, which are up.
+Cluster working_pair() {
+  Cluster pair(2, ring(2), [](NetConfig& config) {
+    if (config.self == b) config.identity.results = "/results/first";
+  });
+  pair.bring_up();
+  return pair;
+}
+
+}  // namespace
+
+TEST_CASE("a node that works for a run refuses the controller of another, and its link stands",
+          "[runtime][network]") {
+  Cluster pair = working_pair();
+  REQUIRE(pair[0].network.phase(b) == LinkPhase::up);
+  NetConfig second = pair[1].config;
+  second.incarnation = {2001};
+  second.identity.results = "/results/second";
+  pair.stop(1);
+  pair.start(second);
+  pair.bring_up();
+  CHECK(pair[1].network.phase(a) == LinkPhase::refused);
+  CHECK(pair[1].network.taken_elsewhere() == a);
+  const std::string words = pair[1].network.refusal_of(a);
+  CHECK(words.find("/results/first") != std::string::npos);
+  CHECK(words.find("/results/second") != std::string::npos);
+  CHECK(pair[0].network.phase(b) != LinkPhase::refused);
+  CHECK(pair[0].network.counters().links_up == 1);
+  // The first, which was paused or begins anew, is taken back.
+  NetConfig first = second;
+  first.incarnation = {3001};
+  first.identity.results = "/results/first";
+  pair.stop(1);
+  pair.start(first);
+  pair.bring_up();
+  CHECK(pair[0].network.phase(b) == LinkPhase::up);
+  CHECK(pair[1].network.phase(a) == LinkPhase::up);
+  CHECK_FALSE(pair[1].network.taken_elsewhere());
+}
+
+TEST_CASE("a node whose run has said bye is free for another", "[runtime][network]") {
+  Cluster pair = working_pair();
+  pair[1].network.say_bye();
+  pair.run(milliseconds(50));
+  NetConfig second = pair[1].config;
+  second.incarnation = {2001};
+  second.identity.results = "/results/second";
+  pair.stop(1);
+  pair.start(second);
+  pair.bring_up();
+  CHECK(pair[0].network.phase(b) == LinkPhase::up);
+  CHECK(pair[1].network.phase(a) == LinkPhase::up);
+}
+
 TEST_CASE("at level statistical the instruction set is free", "[runtime][network]") {
   Cluster pair(2, ring(2), [](NetConfig& config) {
     config.identity.level = Level::statistical;

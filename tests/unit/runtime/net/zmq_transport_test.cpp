@@ -136,6 +136,38 @@ TEST_CASE("a wrong server key ends the handshake, and both ends count it", "[run
   CHECK(pair.other.network.phase(a) != LinkPhase::up);
 }
 
+TEST_CASE("who breaks off a handshake where others have succeeded is not said to have another key",
+          "[runtime][zmq]") {
+  const KeyPair keys_a = make_keypair(), keys_b = make_keypair();
+  ZmqContext context_b({});
+  RealNode other(context_b, {b, keys_b}, config_of(1, 2, ring(2), 1001));
+  Endpoints where;
+  {
+    ZmqContext context_a({{b, keys_b.public_key}});
+    RealNode one(context_a, {a, keys_a}, config_of(0, 2, ring(2), 1000));
+    where = one.transport.listen(tcp()).value();
+    REQUIRE(other.transport.connect(a, where, keys_a.public_key).ok());
+    REQUIRE(both_up(one, other));
+  }
+  // What a node that leaves is for who connects to it again: it accepts, and is gone.
+  const int leaving = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+  const int yes = 1;
+  ::setsockopt(leaving, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+  sockaddr_in place{};
+  place.sin_family = AF_INET;
+  place.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  place.sin_port =
+      htons(static_cast<uint16_t>(std::stoi(where.control.substr(where.control.rfind(':') + 1))));
+  REQUIRE(::bind(leaving, reinterpret_cast<sockaddr*>(&place), sizeof place) == 0);
+  REQUIRE(::listen(leaving, 8) == 0);
+  CHECK(poll_until({&other}, [&] {
+    if (const int came = ::accept(leaving, nullptr, nullptr); came >= 0) ::close(came);
+    return other.transport.counters().broken_off >= 1;
+  }));
+  ::close(leaving);
+  CHECK(other.transport.counters().handshake_failed == 0);
+}
+
 TEST_CASE("a node without keys does not get in where keys are asked for", "[runtime][zmq]") {
   const KeyPair keys_a = make_keypair();
   ZmqContext context_a({}), context_b({});

@@ -9,12 +9,23 @@
 #include <catch2/catch.hpp>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "runtime/observe/metrics_server.hpp"
 
 using namespace luxodus;
 
 namespace {
+
+int connected(uint16_t port) {
+  const int fd = socket(AF_INET, SOCK_STREAM, 0);
+  sockaddr_in place{};
+  place.sin_family = AF_INET;
+  place.sin_port = htons(port);
+  place.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  REQUIRE(connect(fd, reinterpret_cast<sockaddr*>(&place), sizeof place) == 0);
+  return fd;
+}
 
 /// Sends `request` as it is to the server and gives all that comes back.
 std::string exchange(uint16_t port, const std::string& request) {
@@ -154,6 +165,39 @@ TEST_CASE("the server refuses what it does not know, and lives on", "[runtime][m
   CHECK(begins(head, "HTTP/1.1 200 OK\r\n"));
   CHECK(head.ends_with("\r\n\r\n"));
   CHECK(begins(ask("GET /metrics HTTP/1.0\r\n\r\n"), "HTTP/1.1 200"));
+}
+
+TEST_CASE("an answer does not wait for the end of a client that says nothing",
+          "[runtime][metrics][server]") {
+  const auto server = serving([] { return std::string("page\n"); });
+  // On a machine that stands still for seconds its time may be over: then once more.
+  bool answered_before = false;
+  for (int i = 0; i < 5 && !answered_before; ++i) {
+    const int mute = connected(server->port());
+    CHECK(begins(exchange(server->port(), "GET /metrics HTTP/1.1\r\n\r\n"), "HTTP/1.1 200"));
+    char part[8];
+    answered_before = recv(mute, part, sizeof part, MSG_DONTWAIT) < 0;  // it is there still
+    close(mute);
+  }
+  CHECK(answered_before);
+}
+
+TEST_CASE("clients that say nothing or read nothing keep nobody waiting, however many they are",
+          "[runtime][metrics][server]") {
+  const std::string page(8 << 20, 'p');  // more than a socket takes at once
+  const auto server = serving([&] { return page; });
+  std::vector<int> mute;
+  for (size_t i = 0; i < 3 * limits::http_clients; ++i) {
+    mute.push_back(connected(server->port()));
+    const std::string request = i % 3 == 0 ? "GET /metrics HTTP/1.1\r\n\r\n" : "GET /met";
+    if (i % 3 > 0)
+      CHECK(send(mute.back(), request.data(), request.size(), MSG_NOSIGNAL) ==
+            static_cast<ssize_t>(request.size()));
+  }
+  // One after another the mute would take limits::http_client each: three minutes.
+  for (int i = 0; i < 3; ++i)
+    CHECK(exchange(server->port(), "GET /metrics HTTP/1.1\r\n\r\n").size() > page.size());
+  for (const int fd : mute) close(fd);
 }
 
 TEST_CASE("a server that cannot listen says where and why", "[runtime][metrics][server]") {

@@ -1,6 +1,7 @@
 #include "scenes/emergency/legibility.hpp"
 
 #include <catch2/catch.hpp>
+#include <vector>
 
 #include "scenes/emergency/sign_face.hpp"
 
@@ -111,4 +112,27 @@ TEST_CASE("irritant smoke caps what optics would allow", "[emergency][legibility
   CHECK(stung.verdict == SightVerdict::visible);
   CHECK(stung.reason.find("Jin and Yamada") != std::string::npos);
   CHECK(judged_at(6, look, {{65}, true}).verdict != SightVerdict::undecided);
+}
+
+TEST_CASE("of two verdicts on a view that which is or may be worse counts",
+          "[emergency][legibility]") {
+  const auto sight = [](SightVerdict verdict, double seeing) {
+    Sight out;
+    out.verdict = verdict;
+    out.seeing_level = {seeing, 0.1};
+    return out;
+  };
+  // From the best to the worst.
+  const std::vector<Sight> order{
+      sight(SightVerdict::legible, 50),     sight(SightVerdict::undecided, 50),
+      sight(SightVerdict::visible, 50),     sight(SightVerdict::undecided, 1.1),
+      sight(SightVerdict::invisible, 0.1),  sight(SightVerdict::hidden, 0),
+      sight(SightVerdict::not_assessed, 0),
+  };
+  for (size_t i = 0; i < order.size(); ++i)
+    for (size_t j = 0; j < order.size(); ++j) CHECK(is_worse(order[i], order[j]) == (i > j));
+  Sight clearer = order[0];
+  clearer.reading_level.value = 9;
+  CHECK(is_worse(order[0], clearer));
+  CHECK_FALSE(is_worse(clearer, order[0]));
 }

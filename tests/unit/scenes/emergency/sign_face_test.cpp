@@ -390,3 +390,27 @@ TEST_CASE("drawings of ISO 7010 signs by others become green and white faces",
   CHECK(problem_of(face_from_svg(folder / "F001.svg", 0.2, 0.2, 256)).find("green") !=
         std::string::npos);
 }
+
+TEST_CASE("a drawing that would draw for minutes is refused before it does",
+          "[emergency][sign_face][hostile]") {
+  const Scratch scratch;
+  const auto refusal = [&](const std::string& body) {
+    return problem_of(face_from_svg(scratch.write("bad.svg", svg(body)), 0.4, 0.2, 100));
+  };
+  const std::string noise =
+      "<filter id='n'><feTurbulence baseFrequency='0.9' numOctaves='200'/></filter>";
+  CHECK(refusal(noise + "<rect width='200' height='100' filter='url(#n)'/>").find("filters") !=
+        std::string::npos);
+  CHECK(refusal("<s:filter xmlns:s='http://www.w3.org/2000/svg' id='n'/>").find("filters") !=
+        std::string::npos);
+  std::string circles;
+  for (int i = 0; i < 65'000; ++i) circles += "<circle r='90' fill='#fff' opacity='.5'/>";
+  CHECK(refusal(circles).find("elements; simplify") != std::string::npos);
+}
+
+TEST_CASE("a drawing may speak of filters where it uses none", "[emergency][sign_face]") {
+  const Scratch scratch;
+  const auto file = scratch.write(
+      "a.svg", svg(left_green + std::string("<!-- no filter --><g style='filter:none'/>")));
+  CHECK(face_from_svg(file, 0.4, 0.2, 64).ok());
+}

@@ -1,12 +1,17 @@
 #include "scenes/format/atomic_file.hpp"
 
+#include <fcntl.h>
+#include <sys/file.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <catch2/catch.hpp>
 #include <csignal>
 #include <string>
 
+#include "scenes/format/output_path.hpp"
 #include "tests/unit/scenes/format/scratch_folder.hpp"
 
 using namespace luxodus;
@@ -124,22 +129,73 @@ TEST_CASE("a folder without permission to write refuses, except to root", "[form
   ::chmod((folder / "locked").c_str(), 0755);
 }
 
-TEST_CASE("a replaced file keeps its permissions, and a link stays a link", "[format]") {
+TEST_CASE("a replaced file keeps its permissions, and no link is followed", "[format]") {
   const ScratchFolder folder;
   REQUIRE(write_file_atomically(folder / "real", std::string_view("1")).ok());
   ::chmod((folder / "real").c_str(), 0640);
-  std::filesystem::create_symlink("real", folder / "link");
-  REQUIRE(write_file_atomically(folder / "link", std::string_view("2")).ok());
-  CHECK(std::filesystem::is_symlink(folder / "link"));
-  CHECK(read(folder / "real") == "2");
+  REQUIRE(write_file_atomically(folder / "real", std::string_view("2")).ok());
   struct stat about {};
   REQUIRE(::stat((folder / "real").c_str(), &about) == 0);
   CHECK((about.st_mode & 0777) == 0640);
 
+  std::filesystem::create_symlink("real", folder / "link");
   std::filesystem::create_symlink("nowhere", folder / "dangling");
-  const auto dangling = write_file_atomically(folder / "dangling", std::string_view("3"));
-  REQUIRE_FALSE(dangling.ok());
-  CHECK(says(dangling.problem(), "leads nowhere"));
+  for (const char* link : {"link", "dangling"}) {
+    const auto refused = write_file_atomically(folder / link, std::string_view("3"));
+    REQUIRE_FALSE(refused.ok());
+    CHECK(says(refused.problem(), "symbolic link"));
+    CHECK(std::filesystem::is_symlink(folder / link));
+  }
+  CHECK(read(folder / "real") == "2");
+  CHECK_FALSE(std::filesystem::exists(folder / "nowhere"));
+}
+
+TEST_CASE("a folder that is a link is not written into, unless who named it resolves it",
+          "[format]") {
+  const ScratchFolder folder;
+  std::filesystem::create_directory(folder / "real");
+  std::filesystem::create_directory_symlink("real", folder / "link");
+  const std::filesystem::path file = folder / "link" / "a";
+  const auto refused = write_file_atomically(file, std::string_view("1"));
+  REQUIRE_FALSE(refused.ok());
+  CHECK(says(refused.problem(), "its folder is a symbolic link"));
+  CHECK(std::filesystem::is_empty(folder / "real"));
+  REQUIRE(write_file_atomically(behind_links(file), std::string_view("1")).ok());
+  CHECK(read(folder / "real" / "a") == "1");
+}
+
+TEST_CASE("a writer that is killed leaves nothing", "[format]") {
+  const ScratchFolder folder;
+  const pid_t child = ::fork();
+  if (child == 0) {
+    auto file = AtomicFile::create(folder / "a");
+    if (file.ok()) file->write(std::as_bytes(std::span("half of it", 10)));
+    ::kill(::getpid(), SIGKILL);
+  }
+  int status = 0;
+  REQUIRE(::waitpid(child, &status, 0) == child);
+  REQUIRE(WIFSIGNALED(status));
+  // Where files cannot be without a name, what is left is removed by the next that looks.
+  remove_stale_temporaries(folder.path());
+  CHECK(folder.entries() == 0);
+}
+
+TEST_CASE("stale temporary files are removed, those of living writers and of others are not",
+          "[format]") {
+  const ScratchFolder folder;
+  const auto make = [&](const char* name) {
+    return ::open((folder / name).c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0644);
+  };
+  const int living = make(".luxodus-1-0.tmp");
+  REQUIRE(::flock(living, LOCK_EX | LOCK_NB) == 0);
+  for (const char* name : {".luxodus-999999-3.tmp", "mine.tmp", ".luxodus-notes"})
+    ::close(make(name));
+  remove_stale_temporaries(folder.path());
+  CHECK(std::filesystem::exists(folder / ".luxodus-1-0.tmp"));
+  CHECK_FALSE(std::filesystem::exists(folder / ".luxodus-999999-3.tmp"));
+  CHECK(std::filesystem::exists(folder / "mine.tmp"));
+  CHECK(std::filesystem::exists(folder / ".luxodus-notes"));
+  ::close(living);
 }
 
 TEST_CASE("a reader gets a whole file up to its limit and refuses a longer one", "[format]") {

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <limits>
 
+#include "scenes/format/data_set_fields.hpp"
 #include "tests/unit/scenes/format/temporary_folder.hpp"
 
 using namespace luxodus;
@@ -420,6 +421,15 @@ TEST_CASE("malformed VTI files are refused with the line and what to do", "[form
        vti(cell_array("extinction", "Float32", "ascii", "0 1 2 3 4 5") +
            cell_array("soot_density", "Float32", "ascii", "0 1 2 3 4 5")),
        "twice"},
+      {"the same field twice",
+       vti(cell_array("extinction", "Float32", "ascii", "0 1 2 3 4 5") +
+           cell_array("extinction", "Float32", "ascii", "0 1 2 3 4 5")),
+       "twice"},
+      {"one offset for two",
+       with(appended(header + bytes_of(six)), "</CellData>",
+            "<DataArray type=\"Float32\" Name=\"albedo\" format=\"appended\" "
+            "offset=\"0\"/></CellData>"),
+       "the same offset"},
       {"no base64", binary("?" + base64(header + bytes_of(six))), "values"},
       {"base64 breaks", binary(base64(header + bytes_of(six)).replace(20, 1, "?")), "base64"},
       {"base64 is short", binary(base64(header + bytes_of(six)).substr(0, 20)), "6 values"},
@@ -502,4 +512,37 @@ TEST_CASE("a damaged data set is refused or read, and never more than it holds",
     }
   }
   CHECK(read > 0);
+}
+
+TEST_CASE("256 arrays that share their bytes are refused before any is decoded",
+          "[format][vti][hostile]") {
+  const TemporaryFolder folder;
+  std::string arrays = "<CellData>";
+  for (int i = 0; i < 256; ++i)
+    arrays += "<DataArray type=\"UInt8\" Name=\"extinction\" format=\"appended\" offset=\"0\"/>";
+  const std::string text =
+      vti(arrays + "</CellData>\n",
+          "<AppendedData encoding=\"raw\">_" + bytes_of<uint32_t>({6}) + "abcdef</AppendedData>");
+  const auto read = read_data_set(folder.write("many.vti", text), {});
+  REQUIRE_FALSE(read.ok());
+  CHECK(read.problem().what.find("\"extinction\" would be given twice") != std::string::npos);
+}
+
+TEST_CASE("a sparse file that claims more memory than the machine has is refused unread",
+          "[format][nrrd][hostile]") {
+  CHECK(data_set::memory_fault(1000, 8).empty());
+  const std::string told = data_set::memory_fault(uint64_t{1} << 45, 2);
+  CHECK(told.find("GiB of memory, this machine has") != std::string::npos);
+}
+
+TEST_CASE("samples of a file that a header names are not told", "[format][nrrd][hostile]") {
+  const TemporaryFolder folder;
+  const std::string secret = folder.write("secret", "root:x:0:0:abcdefgh");
+  const std::string header =
+      "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 2 2 2\nspacings: 1 1 1\nencoding: raw\n"
+      "content: albedo\nfield:=albedo\ndata file: secret\n\n";
+  const auto read = read_data_set(folder.write("a.nhdr", header), {});
+  REQUIRE_FALSE(read.ok());
+  INFO(read.problem().what);
+  CHECK(read.problem().what.find("114") == std::string::npos);  // the letter r
 }

@@ -366,7 +366,7 @@ TEST_CASE("a broken EULUMDAT file is one problem that names the line", "[format]
        }},
       {48, "intensity in plane C0 must lie", [](Ldt& f) { f.candela[1] = "-1"; }},
       {48, "must be a number", [](Ldt& f) { f.candela[1] = "inf"; }},
-      {48, "must be a number, not \"1 2\"", [](Ldt& f) { f.candela[1] = "1 2"; }},
+      {48, "must be a number", [](Ldt& f) { f.candela[1] = "1 2"; }},
       {48, "cut off", [](Ldt& f) { f.candela.pop_back(); }},
       {49, "no light",
        [](Ldt& f) {

@@ -58,6 +58,53 @@ TEST_CASE("what is not said of people has its default", "[format][scene]") {
   CHECK(s.assessment.eye_heights_m == std::vector<double>{1.65, 1.2, 0.6});
 }
 
+TEST_CASE("rule sets and deviations are read, and unknown ones told with all there are",
+          "[format][scene]") {
+  SceneFolder f;
+  const auto s = good(f,
+                      "[assessment]\nrules = [\"en1838-2024\", \"nfpa101\"]\n"
+                      "deviations = [\"de-asr-a3.4-3\"]\n");
+  CHECK(s.assessment.rules == std::vector<std::string>{"en1838-2024", "nfpa101"});
+  CHECK(s.assessment.deviations == std::vector<std::string>{"de-asr-a3.4-3"});
+  CHECK(s.assessment.place.line == 1);
+  CHECK_FALSE(s.assessment.irritant_smoke.has_value());
+  for (const char* wrong : {"\nrules = [\"en1838\"]\n", "\ndeviations = [\"en1838\"]\n"}) {
+    const auto read = f.read(std::string("[assessment]") + wrong);
+    REQUIRE_FALSE(read.problems.empty());
+    CHECK(read.problems.list().front().where.line == 2);
+    CHECK(read.problems.list().front().what.find("there is no \"en1838\"") == 0);
+  }
+}
+
+TEST_CASE("what one file of a scene leaves out of its assessment another may say",
+          "[format][scene]") {
+  SceneFolder f;
+  f.put("people.toml", "[assessment]\nage_years = 70\nspacing_m = 3\nirritant_smoke = true\n");
+  const auto s = good(f, "include = [\"people.toml\"]\n[assessment]\nspacing_m = 1\n");
+  CHECK(s.assessment.age_years == 70);
+  CHECK(s.assessment.spacing_m == 1);
+  CHECK(s.assessment.irritant_smoke == true);
+}
+
+TEST_CASE("a luminaire keeps the factors that its fluxes contain", "[format][scene]") {
+  SceneFolder f;
+  const std::string lamp =
+      "[[emitter]]\nname = \"a\"\nshape = \"point\"\nposition = [0, 0, 1]\nflux_lm = 100\n"
+      "maintenance_factor = 0.8\n";
+  const auto mains = good(f, lamp).emitters[0];
+  CHECK(mains.maintenance_factor == 0.8);
+  CHECK(mains.end_of_duration_factor == 1);
+  CHECK_FALSE(mains.maintained);
+  for (const std::string kind : {"maintained", "non-maintained"}) {
+    const auto e = good(f, lamp + "emergency = \"" + kind +
+                               "\"\nemergency_factor = 0.5\nend_of_duration_factor = 0.7\n")
+                       .emitters[0];
+    CHECK(e.end_of_duration_factor == 0.7);
+    CHECK(e.emergency_flux == Approx(100 * 0.5 * e.maintenance_factor * e.end_of_duration_factor));
+    CHECK(e.maintained == (kind == "maintained"));
+  }
+}
+
 TEST_CASE("mistakes in routes and areas are told with their lines", "[format][scene]") {
   SceneFolder f;
   const auto told = [&](const std::string& text) {

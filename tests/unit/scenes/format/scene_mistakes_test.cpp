@@ -221,7 +221,7 @@ TEST_CASE("signs that say too little or too much are refused", "[format][scene]"
       {sign + lit + "plain = \"white\"\n", 1, "'smallest_detail' [m] is needed"},
       {sign + lit + "text = \"EXIT\"\nplain = \"white\"\nsmallest_detail = 0.1\n", 12,
        "say the same"},
-      {sign + lit + "text = \"EXIT\"\nletter_height = 0.5\nstroke = 0.02\n", 11, ""},
+      {sign + lit + "text = \"EXIT\"\nletter_height = 0.5\nstroke = 0.02\n", 12, "exceed 0.3 m"},
       {sign + lit + "file = \"exit.svg\"\nsmallest_detail = 0.1\n", 11,
        "there is no file 'exit.svg'"},
       {sign + plain + "mains_white = 1\nmains_green = 1\nemergency_white = 1\n", 1,
@@ -238,6 +238,25 @@ TEST_CASE("signs that say too little or too much are refused", "[format][scene]"
       {sign + plain + lit + "up = [1, 0, 0]\n", 13, "must not be parallel to 'facing'"},
       {sign + plain + lit + "stroke = 0.01\n", 13, "belongs to a sign with 'text'"},
   });
+}
+
+TEST_CASE("a length of a sign beyond its face is refused with value, bound and what mm are in m",
+          "[format][scene]") {
+  const std::string metres = "10 mm is 0.01";
+  check({
+      {sign + lit + "plain = \"white\"\nsmallest_detail = 10\n", 12, metres},
+      {sign + lit + "plain = \"white\"\nsmallest_detail = 10\n", 12, "must not exceed 0.3 m"},
+      {sign + lit + "plain = \"white\"\nsmallest_detail = 12\n", 12, "12 mm is 0.012"},
+      {sign + lit + "plain = \"white\"\nsmallest_detail = 0.31\n", 12, "must not exceed 0.3 m"},
+      {sign + lit + "text = \"EXIT\"\nletter_height = 10\n", 12, metres},
+      {sign + lit + "text = \"EXIT\"\nletter_height = 0.1\nstroke = 1.5\n", 13, "1.5 mm is 0.0015"},
+      {sign + lit + "text = \"EXIT\"\nletter_height = 0.1\nstroke = 0.01\nspacing = 2\n", 14,
+       "2 mm is 0.002"},
+      {sign + lit + "plain = \"white\"\nsmallest_detail = 0.1\nthickness = 0.9\n", 13,
+       "must not exceed 0.6 m"},
+  });
+  SceneFolder folder;
+  good(folder, sign + lit + "plain = \"white\"\nsmallest_detail = 0.3\nthickness = 0.1\n");
 }
 
 TEST_CASE("media that contradict themselves or physics are refused", "[format][scene]") {

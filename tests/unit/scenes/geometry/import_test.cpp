@@ -253,7 +253,7 @@ TEST_CASE("files that hold no usable mesh are refused with a sentence that names
       {"inf.gltf", gltf_at(1, -infinity), "the position of vertex 2 is not a finite number"},
       {"node.gltf", gltf(R"({"name":"n","mesh":0,"translation":[1e39,0,0]})", "0"), "not finite"},
       {"nan.stl", "solid s\nfacet normal 0 0 1\nouter loop\nvertex nan 0 0\n", "unknown kind"},
-      {"words.obj", "v 1 x 2\n" + triangle + "f 2 3 4\n", "is \"x\": give three numbers"},
+      {"words.obj", "v 1 x 2\n" + triangle + "f 2 3 4\n", "is no number: give 3 numbers"},
       {"index.obj", triangle + "f 1 2 9\n", ""},
       {"far.obj", "v 1000000 0 0\nv 1000001 0 0\nv 1000000 1 0\nf 1 2 3\n", "known to"},
       {"binary.obj", std::string("\x00\x01\xff\xfe", 4), ""},
@@ -287,6 +287,99 @@ TEST_CASE("a missing file, a folder and a unit of nothing are refused", "[geomet
   CHECK(import_mesh(path, 1, UpAxis::z).ok());
   for (const double unit : {0.0, -1.0, std::numeric_limits<double>::infinity()}) {
     CHECK_FALSE(import_mesh(path, unit, UpAxis::z).ok());
+  }
+}
+
+namespace {
+
+/// Fails, with the file at fault and a sentence that has these words.
+void refuses(const std::string& path, const std::string& at_fault, int line,
+             const std::string& says) {
+  const auto result = import_mesh(path, 1, UpAxis::z);
+  REQUIRE_FALSE(result.ok());
+  INFO(result.problem().text());
+  CHECK(result.problem().where.file == at_fault);
+  CHECK(result.problem().where.line == line);
+  CHECK(result.problem().what.find(says) != std::string::npos);
+}
+
+}  // namespace
+
+TEST_CASE("a material library that gives maps to no material is refused, not followed",
+          "[geometry][import][hostile]") {
+  const Folder folder;
+  const std::string obj =
+      folder.write("tex.obj", "mtllib tex.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nusemtl red\nf 1 2 3\n");
+  for (const char* words : {"map_Kd grey.png\n", "ndwmtl red\nKd 1 0 0\nmap_Kd grey.png\n"}) {
+    const std::string mtl = folder.write("tex.mtl", std::string("# made by\n\n") + words);
+    refuses(obj, mtl, 3, "before the first material");
+  }
+  folder.write("tex.mtl", "# made by\n\n newmtl red\nKd 1 0 0\nmap_Kd grey.png\n");
+  CHECK(import_mesh(obj, 1, UpAxis::z).ok());
+}
+
+TEST_CASE("glTF that nests or chains too deep, or names nodes twice, is refused",
+          "[geometry][import][hostile]") {
+  const Folder folder;
+  const auto repeat = [](const std::string& text, int times) {
+    std::string out;
+    for (int i = 0; i < times; ++i) out += text;
+    return out;
+  };
+  const std::string deep = folder.write(
+      "deep.gltf",
+      gltf(R"({"name":"n","mesh":0,"extras":)" + repeat("[", 100'000) + repeat("]", 100'000) + "}",
+           "0"));
+  refuses(deep, deep, 0, "nested deeper than 64");
+
+  std::string chain;
+  for (int i = 1; i < 20'000; ++i) chain += R"({"children":[)" + std::to_string(i) + "]},";
+  const std::string chained =
+      folder.write("chain.gltf", gltf(chain + R"({"name":"end","mesh":0})", "0"));
+  refuses(chained, chained, 0, "more than 1000 deep");
+
+  // Each names the next ten times: 10^12 nodes, once they are copied.
+  std::string bomb;
+  for (int i = 1; i < 13; ++i) {
+    const std::string next = std::to_string(i);
+    bomb += R"({"children":[)" + repeat(next + ",", 9) + next + "]},";
+  }
+  const std::string exploded =
+      folder.write("bomb.gltf", gltf(bomb + R"({"name":"end","mesh":0})", "0"));
+  refuses(exploded, exploded, 0, "is a child of node 0 and again of node 0");
+
+  const std::string round = folder.write(
+      "round.gltf", gltf(R"({"children":[1]},{"children":[0]},{"name":"n","mesh":0})", "2"));
+  refuses(round, round, 0, "its own ancestor");
+  const std::string odd = folder.write("odd.gltf", gltf(R"({"mesh":0,"children":[-1]})", "0"));
+  refuses(odd, odd, 0, "a child that there is not");
+}
+
+TEST_CASE("an OBJ with texture coordinates that are no numbers, or endless objects, is refused",
+          "[geometry][import][hostile]") {
+  const Folder folder;
+  const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  for (const char* word : {"nan", "-inf", "1e99", "NaN(7)"}) {
+    const std::string path =
+        folder.write("uv.obj", triangle + "vt 0 0\nvt 1 " + word + "\nvt 0 1\nf 1/1 2/2 3/3\n");
+    refuses(path, path, 5, "not a finite number");
+  }
+  const std::string tiny =
+      folder.write("tiny.obj", triangle + "vt 0 1e-999\nvt 0.5 1\nvt -1E2 1\nf 1/1 2/2 3/3\n");
+  CHECK(import_ok(tiny)[0].mesh.texture_uv.size() == 3);
+  std::string objects = triangle;
+  for (uint64_t i = 0; i <= limits::obj_groups; ++i)
+    objects += "o " + std::to_string(i) + "\nf 1 2 3\n";
+  const std::string many = folder.write("many.obj", objects);
+  refuses(many, many, static_cast<int>(4 + 2 * limits::obj_groups), "join some");
+}
+
+TEST_CASE("what the importer says of a file does not quote it", "[geometry][import][hostile]") {
+  const Folder folder;
+  for (const char* name : {"a.obj", "a.gltf", "a.glb"}) {
+    const auto result = import_mesh(folder.write(name, "v root:secret:0:0 1 2\n"), 1, UpAxis::z);
+    REQUIRE_FALSE(result.ok());
+    CHECK(result.problem().what.find("secret") == std::string::npos);
   }
 }
 

@@ -102,6 +102,14 @@ TEST_CASE("a packed scene is the scene that was packed, and is traced to the sam
   }
 }
 
+TEST_CASE("the open sides of a scene go through a pack", "[pack]") {
+  const ScratchFolder folder;
+  auto scene = std::make_shared<SceneDescription>(*described("empty_room.toml"));
+  scene->open_sides = {Side::top, Side::west};
+  REQUIRE(write_pack(folder / "open.luxpack", *compiled(scene, "", 1), 1).ok());
+  CHECK(opened(folder / "open.luxpack")->open_sides == scene->open_sides);
+}
+
 TEST_CASE("smoke data and pictures go through a pack as objects, and not in its skeleton",
           "[pack]") {
   const ScratchFolder folder;
@@ -158,6 +166,7 @@ TEST_CASE("a pack whose brick or tile is damaged is refused where it is read", "
   const auto whole = compiled(opened(file), "smoky", 1);
   REQUIRE(load_bricks(*whole).ok());
   REQUIRE(load_images(*whole).ok());
+  CHECK(check_objects(*whole).ok());
   auto bytes = bytes_of(file);
   const size_t cell = whole->description->packed->objects[0].wire_bytes;
   bytes[128 + cell + 64 + 1000] ^= std::byte{4};  // in the first brick
@@ -168,6 +177,9 @@ TEST_CASE("a pack whose brick or tile is damaged is refused where it is read", "
   REQUIRE_FALSE(bricks.ok());
   CHECK(bricks.problem().text().find("damaged") != std::string::npos);
   CHECK(load_images(*harmed).ok());
+  const auto all = check_objects(*harmed);
+  REQUIRE_FALSE(all.ok());
+  CHECK(all.problem().text().find(broken.string() + ": object 1 of this pack is damaged") == 0);
 }
 
 TEST_CASE("a pack serves every scenario that leaves its doors alone, and refuses the others",

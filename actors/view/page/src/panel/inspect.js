@@ -58,7 +58,7 @@ export class Inspect {
     this.put(sign.name, this.handles(sign), this.place, this.verdicts);
   }
 
-  judged({ name, rows }) {
+  judged({ name, rows, note }) {
     if (this.subject?.kind !== 'sign' || this.subject.name !== name) return;
     const head = el('tr', {}, ...['From', 'Distance', 'Verdict'].map((t) =>
       el('th', { textContent: t, scope: 'col' })));
@@ -68,8 +68,9 @@ export class Inspect {
       el('td', { className: toneOf(row.verdict) },
         el('b', { textContent: row.verdict }), el('small', { textContent: row.reason }))));
     const table = el('table', {}, el('thead', {}, head), el('tbody', {}, ...body));
-    this.verdicts.replaceChildren(rows.length ? table
-      : el('p', { className: 'note', textContent: 'No observers: nothing to judge from.' }));
+    this.verdicts.replaceChildren(el('p', { className: 'note', textContent: note }),
+      rows.length ? table
+        : el('p', { className: 'note', textContent: 'No observers: nothing to judge from.' }));
   }
 
   luminaire(luminaire) {

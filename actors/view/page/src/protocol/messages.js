@@ -189,6 +189,7 @@ const readers = {
       verdict: text(row.verdict, `${path}.verdict`),
       reason: textOr(row.reason, `${path}.reason`, ''),
     })),
+    note: textOr(m.note, 'note', ''),
   }),
   added: (m) => ({
     kind: oneOf(m.kind, 'kind', ['sign', 'luminaire']),

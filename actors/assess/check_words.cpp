@@ -1,0 +1,39 @@
+#include "actors/assess/check_words.hpp"
+
+#include "scenes/format/output_text.hpp"
+
+namespace luxodus {
+
+namespace {
+
+std::string text_at(const Json& check, const char* key) {
+  const auto at = check.find(key);
+  return at != check.end() && at->is_string() ? at->get<std::string>() : "";
+}
+
+/// " lx"; a share of 1 has none.
+std::string unit_words(const std::string& unit) {
+  if (unit.empty() || unit == "1") return "";
+  return " " + unit;
+}
+
+std::string value_words(const Json& check) {
+  const Json value = check.value("value", Json());
+  if (value.is_number())
+    return readable_number(value.get<double>()) + unit_words(text_at(check, "unit"));
+  const std::string reason = text_at(check, "reason");
+  return reason.empty() ? "no value" : reason;
+}
+
+}  // namespace
+
+std::string check_words(const Json& check) {
+  std::string text =
+      text_at(check, "subject") + ": " + text_at(check, "title") + ": " + value_words(check);
+  if (const Json limit = check.value("limit", Json()); limit.is_number())
+    text += ", " + text_at(check, "sense") + " " + readable_number(limit.get<double>());
+  const std::string condition = text_at(check, "condition");
+  return text + " (" + text_at(check, "rule") + (condition.empty() ? "" : ", ") + condition + ")";
+}
+
+}  // namespace luxodus

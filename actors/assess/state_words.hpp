@@ -1,0 +1,37 @@
+// What an assessment is of, in words: the judged state, the verdict on the whole, and what was not
+// assessed. For a terminal, from assessment.json alone; reports (actors/report)
+// have their own words in several languages. Pure; any thread.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "actors/assess/judged_state.hpp"
+#include "scenes/emergency/check.hpp"
+#include "scenes/format/json_out.hpp"
+
+namespace luxodus {
+
+/// "state" of assessment.json.
+Json state_json(const AssessedState& state);
+
+/// "verdict" of assessment.json: {"words", "pass", "fail", "not_assessed", "not_verified"}.
+Json verdict_json(const CheckCounts& counts);
+
+/// Of what a row is, and what it says: ("operation", "emergency, 600 s after the failure of the
+/// mains"); "" where it goes on from the one before. Of an assessment without a "state", made
+/// before it was written, one row that says so.
+using StateRow = std::pair<std::string, std::string>;
+std::vector<StateRow> state_rows(const Json& assessment);
+
+/// The rows, then the remarks, each on a line of its own, for a terminal.
+std::string state_text(const Json& assessment);
+
+/// The verdict on all checks; of an assessment without one, from its counts.
+std::string verdict_words(const Json& assessment);
+
+/// Whether a check fails, or a check or a view is not assessed, not verified or undecided.
+bool anything_open(const Json& assessment);
+
+}  // namespace luxodus

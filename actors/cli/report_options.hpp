@@ -1,0 +1,27 @@
+// Options of a report that `luxodus assess` and `luxodus report` have in common. For one thread.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+
+#include "actors/report/report.hpp"
+#include "scenes/format/output_folder.hpp"
+
+namespace luxodus::cli {
+
+struct ReportWords {
+  std::string language = "en", paper = "a4";
+  bool grid_values = false, pdf = false;
+
+  ReportOptions options() const;
+};
+
+/// --language, --paper, --grid-values, --pdf. Requires: `words` outlives the command.
+void add_report_options(CLI::App& command, ReportWords& words);
+
+/// Writes the report and says where it is. Errors: as write_report.
+Result<Done> write_report_and_tell(const OutputFolder& folder, const Json& assessment,
+                                   const ReportWords& words);
+
+}  // namespace luxodus::cli

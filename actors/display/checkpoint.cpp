@@ -1,0 +1,48 @@
+// Order: the maps of the earlier run go, result.json names the run that goes on, then its totals
+// take the place of those before. Should the process end between two of these, flux.lux is still
+// whole, and of the earlier run.
+#include "actors/display/checkpoint.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include "actors/display/result_files.hpp"
+#include "actors/source/flux_store.hpp"
+
+namespace luxodus {
+
+Checkpoint::Checkpoint(std::filesystem::path folder, LocalRun& run, RunRecord record,
+                       double every_s, int64_t keep_particles)
+    : folder_(std::move(folder)),
+      run_(run),
+      record_(std::move(record)),
+      every_(every_s),
+      keep_particles_(keep_particles) {
+  run_.add_pause(
+      this, [this] { return due(); }, [this] { take(); });
+}
+
+Checkpoint::~Checkpoint() {
+  run_.remove_pause(this);
+}
+
+void Checkpoint::take() {
+  if (run_.traced() > 0 && run_.particles() > keep_particles_) {
+    const auto saved = save();
+    if (saved.ok())
+      ++taken_;
+    else
+      spdlog::warn("checkpoint: {}; the run goes on", saved.problem().text());
+  }
+  last_ = Clock::now();  // not before: a slow disk must not have the run do nothing else
+}
+
+Result<Done> Checkpoint::save() {
+  if (taken_ == 0)
+    if (auto ok = remove_old_maps(folder_); !ok.ok()) return ok;
+  const double passed = std::chrono::duration<double>(Clock::now() - began_).count();
+  const Json begun = begun_json(run_, record_, run_.seconds() + passed);
+  if (auto ok = write_json(folder_ / "result.json", begun); !ok.ok()) return ok;
+  return save_flux(folder_ / "flux.lux", run_);
+}
+
+}  // namespace luxodus

@@ -1,0 +1,257 @@
+// Luminaires and emitters: where they stand. Whether one is in a wall is asked of its light, sent
+// out as the tracer sends it, so that lamps in a ceiling's plane or in a body of their own are
+// right where the tracer gets their light out.
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "actors/inspect/site.hpp"
+#include "runtime/core/random.hpp"
+#include "scenes/emergency/rules.hpp"
+#include "scenes/emergency/way.hpp"
+#include "scenes/optics/offset_ray.hpp"
+
+namespace luxodus {
+
+namespace {
+
+/// Light that ends so near has not left the wall [m].
+constexpr Real near_m = 0.02_r;
+/// A lamp outside whose light ends so near on the outer side of a room was meant to be in it [m].
+constexpr Real recess_m = 0.5_r;
+constexpr Real far_m = 1e5_r;
+/// Rays of a first look, by which most luminaires are right, and of a second one.
+constexpr int few_rays = 64;
+constexpr int many_rays = 1024;
+constexpr double few_share = 0.25;
+/// More than a half by two standard errors of the second look: a lamp that hangs right before a
+/// wall and shines all ways loses a half and is no mistake.
+constexpr double lost_share = 0.5 + 2 * 0.5 / 32;
+constexpr uint64_t seed = 17;
+/// Two things nearer than this stand in one place [m].
+constexpr double one_place_m = 0.01;
+/// Two directions within 8 degrees are one.
+constexpr double one_direction = 0.99;
+
+std::string name_of(const Emitter& e) {
+  return (e.distribution == Distribution::web ? "luminaire \"" : "emitter \"") + e.name + "\"";
+}
+
+glm::dvec3 middle_of(const Emitter& e) {
+  if (e.shape != EmitterShape::mesh || e.mesh.positions.empty()) return e.frame.origin;
+  const auto& p = e.mesh.positions;
+  return std::accumulate(p.begin(), p.end(), glm::dvec3(0)) / static_cast<double>(p.size());
+}
+
+/// Where the light of one emitter ends: shares of all that is sent out.
+struct Ends {
+  double near = 0;                // within near_m
+  double back = 0;                // on backs: the inner side of a body, or the outer of a room
+  double close_back = 0;          // of these, within recess_m
+  uint32_t surface = none_index;  // on which most of either ends
+};
+
+Ends ends_of(const Site& site, const GeometryAccess& access, uint32_t emitter, int rays) {
+  const CompiledScene& scene = site.building.scene();
+  const CompiledEmitter& e = scene.emitters[emitter];
+  std::map<uint32_t, int> by_surface;
+  int near = 0, back = 0, close_back = 0;
+  with_resolver(scene, access, [&](auto resolver) {
+    Random random(seed, RandomStream::layout);
+    for (int i = 0; i < rays; ++i) {
+      random.start(static_cast<uint64_t>(i));
+      const EmissionPoint point = emission_point(scene, e, random, resolver);
+      const Vec3 direction = emission_direction(e, point, random, resolver);
+      Vec3 origin = point.position;
+      if (e.distribution != Distribution::collimated) {
+        const Vec3 side = glm::dot(point.axis, direction) >= 0 ? point.axis : -point.axis;
+        origin = offset_ray(origin, side, scene.least_offset_m);
+      }
+      const auto end = first_stop(scene, access, origin, direction, far_m, [&](const Facing& f) {
+        return lets_light_through(f.kind) || scene.surfaces[f.surface].body_emitter == emitter;
+      });
+      if (!end) continue;
+      near += end->distance_m <= near_m ? 1 : 0;
+      back += site.is_back(*end) ? 1 : 0;
+      close_back += site.is_back(*end) && end->distance_m <= recess_m ? 1 : 0;
+      if (end->distance_m <= near_m || site.is_back(*end)) ++by_surface[end->surface];
+    }
+  });
+  const double all = rays;
+  Ends out{near / all, back / all, close_back / all};
+  const auto most =
+      std::max_element(by_surface.begin(), by_surface.end(),
+                       [](const auto& a, const auto& b) { return a.second < b.second; });
+  if (most != by_surface.end()) out.surface = most->first;
+  return out;
+}
+
+std::string surface_text(const Site& site, uint32_t surface) {
+  if (surface < site.scene.objects.size()) return object_text(site.scene.objects[surface]);
+  return surface == none_index ? "a body"
+                               : "\"" + site.building.scene().surfaces[surface].name + "\"";
+}
+
+/// What is wrong with one emitter's place; `stands_outside` where it is outside.
+std::optional<Finding> placed_wrong(const Site& site, const GeometryAccess& access,
+                                    uint32_t emitter, char& stands_outside) {
+  const Emitter& e = site.scene.emitters[emitter];
+  const glm::dvec3 middle = middle_of(e);
+  if (auto far = site.remote.told(name_of(e), middle)) {
+    stands_outside = 1;
+    return Finding{Severity::error, "far", {e.place, *far}};
+  }
+  Ends ends = ends_of(site, access, emitter, few_rays);
+  if (ends.near > few_share) ends = ends_of(site, access, emitter, many_rays);
+  if (ends.near > lost_share)
+    return Finding{
+        Severity::error,
+        "inside",
+        {e.place, fmt::format("{} lies in a wall or body: {:.0f} % of its light ends "
+                              "within 2 cm, most of that on {}: move it out",
+                              name_of(e), 100 * ends.near, surface_text(site, ends.surface))}};
+  if (ends.back > 0.5 && site.in_body(access, middle))
+    return Finding{
+        Severity::error,
+        "inside",
+        {e.place, fmt::format("{} lies inside {}, where {:.0f} % of its light ends: "
+                              "move it out",
+                              name_of(e), surface_text(site, ends.surface), 100 * ends.back)}};
+  if (!site.is_outside(access, middle)) return std::nullopt;
+  stands_outside = 1;
+  if (ends.close_back > 0.5)
+    return Finding{
+        Severity::warning,
+        "outside",
+        {e.place,
+         fmt::format("{} stands outside, and {:.0f} % of its light ends on the outer side "
+                     "of {} near by: is it above the ceiling? Move it into the room",
+                     name_of(e), 100 * ends.close_back, surface_text(site, ends.surface))}};
+  return Finding{
+      Severity::note,
+      "outside",
+      {e.place, name_of(e) + " stands outside the building, as luminaires at final exits do"}};
+}
+
+/// Both shine in one operation, alike, and to one side.
+bool same_light(const Emitter& a, const Emitter& b) {
+  const bool together =
+      (a.mains_flux > 0 && b.mains_flux > 0) || (a.emergency_flux > 0 && b.emergency_flux > 0);
+  return together && a.web == b.web && a.shape == b.shape && a.distribution == b.distribution &&
+         glm::dot(a.frame.axes[2], b.frame.axes[2]) > one_direction;
+}
+
+void find_doubles(const SceneDescription& scene, Findings& out) {
+  std::vector<size_t> order;
+  for (size_t i = 0; i < scene.emitters.size(); ++i)
+    if (scene.emitters[i].shape != EmitterShape::mesh) order.push_back(i);
+  const auto x = [&](size_t i) { return scene.emitters[i].frame.origin.x; };
+  std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return x(a) < x(b); });
+  for (size_t k = 0; k < order.size(); ++k)
+    for (size_t l = k + 1; l < order.size() && x(order[l]) - x(order[k]) < one_place_m; ++l) {
+      const Emitter& first = scene.emitters[std::min(order[k], order[l])];
+      const Emitter& second = scene.emitters[std::max(order[k], order[l])];
+      if (glm::length(first.frame.origin - second.frame.origin) >= one_place_m ||
+          !same_light(first, second))
+        continue;
+      out.push_back({Severity::warning,
+                     "same place",
+                     {second.place, fmt::format("{} stands where {} (line {}) does, at {}: its "
+                                                "light counts twice; remove one of them",
+                                                name_of(second), name_of(first), first.place.line,
+                                                place_text(second.frame.origin))}});
+    }
+}
+
+// ---- places that are judged ---------------------------------------------------------------------
+
+/// Points of calculation are this far apart, and so far above a floor [m].
+constexpr double grid_m = 1;
+constexpr double above_floor_m = 0.02;
+constexpr size_t most_places = 4000;
+/// A fiftieth of the 0.5 lx that EN 1838 asks for: less lights nothing.
+constexpr double least_lx = 0.01;
+
+std::vector<glm::dvec3> judged_places(const SceneDescription& scene) {
+  std::vector<glm::dvec3> all;
+  const auto add = [&](const std::vector<glm::dvec3>& more) {
+    all.insert(all.end(), more.begin(), more.end());
+  };
+  for (const EscapeRoute& route : scene.routes) add(within(route, route.width_m / 4, grid_m));
+  for (const AssessedArea& area : scene.open_areas) add(within(area, 0.5, grid_m));
+  for (const AssessedArea& area : scene.task_areas) add(within(area, 0, grid_m));
+  for (glm::dvec3& p : all) p.z += above_floor_m;
+  if (all.empty()) return all;
+  std::vector<glm::dvec3> out;
+  for (const EmphasisPoint& point : scene.emphasis)
+    out.push_back(point.position + (point.facing ? *point.facing : glm::dvec3(0, 0, 1)) * 0.05);
+  for (const Sign& sign : scene.signs)
+    if (sign.lighting == SignLighting::external)
+      out.push_back(sign.frame.origin + sign.frame.axes[2] * 0.01);
+  const size_t step = all.size() / most_places + 1;
+  for (size_t i = 0; i < all.size(); i += step) out.push_back(all[i]);
+  return out;
+}
+
+bool lights(const Site& site, const GeometryAccess& access, uint32_t emitter,
+            const std::vector<glm::dvec3>& places) {
+  const CompiledScene& scene = site.building.scene();
+  const CompiledEmitter& e = scene.emitters[emitter];
+  const double lumens = site.scene.emitters[emitter].emergency_flux;
+  const Vec3 middle =
+      e.kind == EmitterKind::mesh ? emission_point(e, 0.4_r, 0.4_r, 0.5).position : e.origin;
+  return with_resolver(scene, access, [&](auto resolver) {
+    return std::any_of(places.begin(), places.end(), [&](const glm::dvec3& place) {
+      const Vec3 way = Vec3(site.building.local(place)) - middle;
+      const auto distance = static_cast<double>(glm::length(way));
+      if (!(distance > 0)) return true;
+      const Vec3 direction = way / static_cast<Real>(distance);
+      // Round bodies shine from the side that is turned to the place.
+      const bool round = e.kind == EmitterKind::sphere || e.kind == EmitterKind::tube;
+      const EmissionPoint point{middle, round ? direction : -e.axes[2]};
+      const auto density = static_cast<double>(directional_density(e, point, direction, resolver));
+      const double watt_to_lm = site.scene.emitters[emitter].radiometric ? 100 : 1;
+      if (lumens * watt_to_lm * density / (distance * distance) < least_lx) return false;
+      const Vec3 before = middle + direction * std::min(0.01_r, static_cast<Real>(distance) / 2);
+      return clear_share(scene, access, site.building.local(place), before) > 0;
+    });
+  });
+}
+
+}  // namespace
+
+void inspect_luminaires(const Site& site, Findings& out, std::vector<char>& outside) {
+  const size_t count = site.scene.emitters.size();
+  std::vector<std::optional<Finding>> found(count);
+  outside.assign(count, 0);
+  site.building.each(count, [&](const GeometryAccess& access, size_t i) {
+    found[i] = placed_wrong(site, access, static_cast<uint32_t>(i), outside[i]);
+  });
+  for (auto& finding : found)
+    if (finding) out.push_back(std::move(*finding));
+  find_doubles(site.scene, out);
+}
+
+void inspect_judged_places(const Site& site, Findings& out) {
+  const auto places = judged_places(site.scene);
+  if (places.empty()) return;
+  const auto luminaires = emergency_luminaires(site.scene);
+  std::vector<char> useful(luminaires.size(), 0);
+  site.building.each(luminaires.size(), [&](const GeometryAccess& access, size_t i) {
+    const bool beam = site.scene.emitters[luminaires[i]].distribution == Distribution::collimated;
+    useful[i] = beam || lights(site, access, luminaires[i], places) ? 1 : 0;
+  });
+  for (size_t i = 0; i < luminaires.size(); ++i) {
+    if (useful[i] != 0) continue;
+    const Emitter& e = site.scene.emitters[luminaires[i]];
+    out.push_back(
+        {Severity::note,
+         "no judged place",
+         {e.place, name_of(e) + " is an emergency luminaire whose direct light reaches no route, "
+                                "area, point of emphasis or externally lit sign: nothing there "
+                                "is judged"}});
+  }
+}
+
+}  // namespace luxodus

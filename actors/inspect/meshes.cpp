@@ -1,0 +1,95 @@
+// Meshes as wholes: whether their size is that of anything in a building, and whether rooms are
+// drawn with their faces to the inside. The parts of one import, or the faces of one room, stand in
+// one table of the scene file and are one thing here.
+#include <algorithm>
+#include <map>
+
+#include "actors/inspect/site.hpp"
+
+namespace luxodus {
+
+namespace {
+
+/// Smaller than a button, larger than any site: metres for millimetres, or the other way round [m].
+constexpr double least_size_m = 0.02;
+constexpr double most_size_m = 1000;
+constexpr size_t shown_names = 4;
+
+using Table = std::pair<std::string, int>;
+
+Table table_of(const Object& object) {
+  return {object.place.file, object.place.line};
+}
+
+/// NAME of NAME.PART, which is what imports and rooms are called by.
+std::string whole_name(const Object& object) {
+  return object.name.substr(0, object.name.find('.'));
+}
+
+struct Whole {
+  const Object* first = nullptr;
+  bool in_parts = false;  // of an import, or of a room
+  Bounds bounds;
+};
+
+std::vector<Whole> wholes_of(const SceneDescription& scene) {
+  std::vector<Whole> out;
+  std::map<Table, size_t> index;
+  for (const Object& object : scene.objects) {
+    const auto [at, fresh] = index.try_emplace(table_of(object), out.size());
+    if (fresh) out.push_back({&object, object.name.find('.') != std::string::npos, {}});
+    for (const glm::dvec3& p : object.mesh.positions) out[at->second].bounds.extend(p);
+  }
+  return out;
+}
+
+std::string size_text(const glm::dvec3& size) {
+  return length_text(size.x) + " x " + length_text(size.y) + " x " + length_text(size.z);
+}
+
+}  // namespace
+
+void inspect_sizes(const SceneDescription& scene, Findings& out) {
+  for (const Whole& whole : wholes_of(scene)) {
+    if (whole.bounds.empty()) continue;
+    const glm::dvec3 size = whole.bounds.high - whole.bounds.low;
+    const double largest = std::max({size.x, size.y, size.z});
+    const double least = std::min({size.x, size.y, size.z});
+    // A lone disc or quad may be a pilot lamp, or a plain to the horizon.
+    const bool small = whole.in_parts && largest < least_size_m;
+    const bool large = largest > most_size_m && least > 0;
+    if (!small && !large) continue;
+    out.push_back({Severity::warning,
+                   "unit",
+                   {whole.first->place,
+                    fmt::format("\"{}\" is {} large: is it drawn in another unit? The scene is in "
+                                "metres; an import says units = \"mm\", \"cm\" or \"m\"",
+                                whole_name(*whole.first), size_text(size))}});
+  }
+}
+
+void inspect_turned_rooms(const Site& site, Findings& out) {
+  std::map<Table, std::vector<const Object*>> turned;
+  for (size_t i = 0; i < site.scene.objects.size(); ++i)
+    if (site.building.turned()[i] != 0)
+      turned[table_of(site.scene.objects[i])].push_back(&site.scene.objects[i]);
+  const SceneDescription& s = site.scene;
+  const bool asks_for_walls = !s.routes.empty() || !s.open_areas.empty() || !s.planes.empty();
+  for (const auto& [table, objects] : turned) {
+    std::string names;
+    for (size_t i = 0; i < std::min(objects.size(), shown_names); ++i)
+      names += (i > 0 ? ", \"" : "\"") + objects[i]->name + "\"";
+    if (objects.size() > shown_names)
+      names += fmt::format(" and {} more", objects.size() - shown_names);
+    out.push_back(
+        {asks_for_walls ? Severity::warning : Severity::note,
+         "turned",
+         {objects.front()->place,
+          fmt::format("the room \"{}\" is drawn with its faces to the outside ({}): seen from "
+                      "within, where lamps or people are, it shows its backs. It is taken as a "
+                      "room, not as a solid body; turn its normals round, or use shape = \"room\"",
+                      whole_name(*objects.front()), names)}});
+  }
+}
+
+}  // namespace luxodus

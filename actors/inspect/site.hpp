@@ -1,0 +1,81 @@
+// What the inspectors of this room share: the scene with the doors of one scenario and all lights
+// lit, in clear air, and where findings go. Each inspector is a function of one family of findings.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <optional>
+
+#include "actors/inspect/building.hpp"
+#include "actors/inspect/inspect.hpp"
+#include "scenes/transport/surroundings.hpp"
+
+namespace luxodus {
+
+using Findings = std::vector<Finding>;
+
+/// "0.15 m", "4 mm", "12.3 km"; "(1.00, 2.50, 0.00)".
+std::string length_text(double length_m);
+std::string place_text(const glm::dvec3& place);
+/// "wall" (scene.toml:12)
+std::string object_text(const Object& object);
+
+/// Tells places that are farther from everything solid than ten times the height of the building.
+class Remoteness {
+ public:
+  explicit Remoteness(const SceneDescription& scene);
+  /// The sentence that says so of `subject`; none where the place is near enough.
+  std::optional<std::string> told(const std::string& subject, const glm::dvec3& place) const;
+
+ private:
+  std::vector<Bounds> objects_;
+  double height_m_ = 0;
+};
+
+struct Site {
+  const SceneDescription& scene;  // as it is described
+  const Building& building;       // of it: first the emitters, in their order
+  Remoteness remote;
+
+  bool in_body(const GeometryAccess& access, const glm::dvec3& place) const {
+    return building.in_solid(access, place);
+  }
+  bool is_outside(const GeometryAccess& access, const glm::dvec3& place) const {
+    return luxodus::is_outside(building.scene(), access, building.local(place));
+  }
+  /// Whether a surface that is met shows the side that its body's inside sees.
+  bool is_back(const Facing& facing) const {
+    return facing.surface < scene.objects.size() &&
+           facing.front == (building.turned()[facing.surface] != 0);
+  }
+};
+
+// Of one state of the doors. `outside`: by emitter, those that stand outside.
+void inspect_luminaires(const Site& site, Findings& out, std::vector<char>& outside);
+void inspect_judged_places(const Site& site, Findings& out);
+void inspect_signs(const Site& site, Findings& out);
+void inspect_eyes(const Site& site, Findings& out);
+void inspect_routes(const Site& site, Findings& out);
+void inspect_areas(const Site& site, Findings& out);
+void inspect_planes(const Site& site, Findings& out);
+void inspect_turned_rooms(const Site& site, Findings& out);
+// Of the scene as it is written.
+void inspect_sizes(const SceneDescription& scene, Findings& out);
+
+/// Media of a scenario that overlap. `scene`: compiled with its media.
+void inspect_media(const CompiledScene& scene, Findings& out);
+/// Eyes in smoke through which nothing can be seen. `smoky`: a building with its media.
+void inspect_smoke(const SceneDescription& scene, const Building& smoky, Findings& out);
+
+/// Of the light of a scenario in clear air, the share that leaves the scene by each side and not
+/// through a pane, lamps outside left out; none where nothing is lit.
+struct EscapeShares {
+  std::array<double, 6> by_side{};
+  double standard_error = 0;  // of their sum
+};
+std::optional<EscapeShares> escape_shares(const SceneDescription& scene, const Scenario& scenario,
+                                          const std::vector<char>& outside, int threads);
+/// The warning, if more than 1 % leaves by sides that are not declared open.
+std::optional<Finding> open_rooms(const SceneDescription& scene, const EscapeShares& shares);
+
+}  // namespace luxodus

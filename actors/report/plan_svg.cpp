@@ -1,0 +1,458 @@
+// A drawing's units are millimetres on paper. Everything is drawn back to front; texts have a white
+// rim, so that they read on lines.
+#include "actors/report/plan_svg.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "actors/report/isolux.hpp"
+#include "scenes/format/output_text.hpp"
+
+namespace luxodus {
+
+namespace {
+
+constexpr double border_mm = 4, foot_mm = 19, text_mm = 2.5;
+constexpr const char* emergency_colour = "#0b6e3c";
+
+double number_of(const Json& value) {
+  return value.get<double>();
+}
+
+/// Metres of a level to millimetres of paper, +y up.
+class Sheet {
+ public:
+  Sheet(const Json& a, const Json& level, const Schedule& schedule, size_t number,
+        const PlanSize& size) {
+    for (const char* kind : {"walls", "furniture"})
+      for (const Json& line : level[kind])
+        for (const size_t k : {size_t{0}, size_t{2}})
+          take(number_of(line[k]), number_of(line[k + 1]));
+    for (const Json& p : level["points"]) take(number_of(p[0]), number_of(p[1]));
+    for (const char* kind : {"luminaires", "signs"})
+      for (const Json& thing : a[kind])
+        if (schedule.level_of(number_of(thing["position"][2])) == number)
+          take(number_of(thing["position"][0]), number_of(thing["position"][1]));
+    if (low_[0] > high_[0]) low_[0] = low_[1] = 0, high_[0] = high_[1] = 1;
+    const double across = std::max(high_[0] - low_[0], 0.5), up = std::max(high_[1] - low_[1], 0.5);
+    unit_ = std::min((size.width_mm - 2 * border_mm) / across,
+                     (size.height_mm - foot_mm - 2 * border_mm) / up);
+    unit_ = 1000 / round_scale(1000 / unit_);
+    width_ = std::max(across * unit_ + 2 * border_mm, std::min(120.0, size.width_mm));
+    left_ = (width_ - across * unit_) / 2;
+    height_ = up * unit_ + 2 * border_mm;
+  }
+  double x(double metres) const { return left_ + (metres - low_[0]) * unit_; }
+  double y(double metres) const { return border_mm + (high_[1] - metres) * unit_; }
+  double mm(double metres) const { return metres * unit_; }
+  double width() const { return width_; }
+  double height() const { return height_; }
+  double scale() const { return 1000 / unit_; }
+
+ private:
+  void take(double x, double y) {
+    low_[0] = std::min(low_[0], x);
+    low_[1] = std::min(low_[1], y);
+    high_[0] = std::max(high_[0], x);
+    high_[1] = std::max(high_[1], y);
+  }
+  /// The next of 1, 1.25, 1.5, 2, 2.5, 3, 4, 5, 7.5 times a power of ten.
+  static double round_scale(double scale) {
+    const double ten = std::pow(10, std::floor(std::log10(scale)));
+    for (const double step : {1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 7.5})
+      if (step * ten >= scale * (1 - 1e-9)) return step * ten;
+    return 10 * ten;
+  }
+  double low_[2] = {1e300, 1e300}, high_[2] = {-1e300, -1e300};
+  double unit_ = 1, width_ = 0, height_ = 0, left_ = 0;
+};
+
+std::string text_at(double x, double y, const std::string& text, const char* more = "",
+                    double size = text_mm) {
+  return fmt::format("<text x=\"{:.2f}\" y=\"{:.2f}\" font-size=\"{:.2f}\" {}>{}</text>\n", x, y,
+                     size, more, xml_escape(text));
+}
+
+std::string lines_path(const Json& lines, const Sheet& sheet, const char* style) {
+  std::string path;
+  for (const Json& line : lines)
+    path += fmt::format("M{:.2f} {:.2f}L{:.2f} {:.2f}", sheet.x(number_of(line[0])),
+                        sheet.y(number_of(line[1])), sheet.x(number_of(line[2])),
+                        sheet.y(number_of(line[3])));
+  return path.empty() ? "" : "<path d=\"" + path + "\" fill=\"none\" " + style + "/>\n";
+}
+
+std::string building(const Json& level, const Sheet& sheet) {
+  return "<g class=\"furniture\">" +
+         lines_path(level["furniture"], sheet, "stroke=\"#b9b9b9\" stroke-width=\"0.15\"") +
+         "</g>\n<g class=\"walls\">" +
+         lines_path(level["walls"], sheet,
+                    "stroke=\"#222\" stroke-width=\"0.35\" stroke-linecap=\"round\"") +
+         "</g>\n";
+}
+
+std::string path_of(const Json& points, const Sheet& sheet, bool closed) {
+  std::string out;
+  for (const Json& p : points)
+    out += fmt::format("{}{:.2f} {:.2f}", out.empty() ? "M" : "L", sheet.x(number_of(p[0])),
+                       sheet.y(number_of(p[1])));
+  return out + (closed ? "Z" : "");
+}
+
+/// Routes with an arrow at their ends and their names beside their middles, and areas.
+std::string places(const Json& a, const Schedule& schedule, size_t level, const Sheet& sheet) {
+  std::string out = "<g class=\"places\">\n";
+  for (const Json& area : a["places"]["areas"]) {
+    if (schedule.level_of(number_of(area["z"])) != level) continue;
+    out += "<path d=\"" + path_of(area["outline"], sheet, true) +
+           "\" fill=\"none\" stroke=\"#1f5fa8\" stroke-width=\"0.3\" "
+           "stroke-dasharray=\"0.3 1\" stroke-linecap=\"round\"/>\n";
+  }
+  for (const Json& route : a["places"]["routes"]) {
+    const Json& path = route["path"];
+    const bool here = std::any_of(path.begin(), path.end(), [&](const Json& p) {
+      return schedule.level_of(number_of(p[2])) == level;
+    });
+    if (!here) continue;
+    out += "<path d=\"" + path_of(path, sheet, false) +
+           "\" fill=\"none\" stroke=\"#1f5fa8\" stroke-width=\"0.5\" "
+           "stroke-dasharray=\"2.4 1.2\"/>\n";
+    const Json &end = path[path.size() - 1], &before = path[path.size() - 2];
+    const double dx = sheet.x(number_of(end[0])) - sheet.x(number_of(before[0]));
+    const double dy = sheet.y(number_of(end[1])) - sheet.y(number_of(before[1]));
+    out += fmt::format(
+        "<path d=\"M0 0L-2.6 -1.1V1.1Z\" fill=\"#1f5fa8\" transform=\"translate({:.2f} {:.2f}) "
+        "rotate({:.1f})\"/>\n",
+        sheet.x(number_of(end[0])), sheet.y(number_of(end[1])),
+        std::atan2(dy, dx) * 180 / 3.14159265358979);
+  }
+  return out + "</g>\n";
+}
+
+/// Names of routes at a third of their first leg, so that those of two directions stand apart.
+std::string place_names(const Json& a, const Schedule& schedule, size_t level, const Sheet& sheet) {
+  std::string out = "<g class=\"names\" fill=\"#1f5fa8\" font-style=\"italic\">\n";
+  for (const Json& area : a["places"]["areas"]) {
+    if (schedule.level_of(number_of(area["z"])) != level) continue;
+    // In the lower left of its outline, off the luminaires in its middle.
+    const Json* corner = &area["outline"][0];
+    for (const Json& p : area["outline"])
+      if (number_of(p[0]) + number_of(p[1]) < number_of((*corner)[0]) + number_of((*corner)[1]))
+        corner = &p;
+    out += text_at(sheet.x(number_of((*corner)[0])) + 1.5, sheet.y(number_of((*corner)[1])) - 1.5,
+                   area["name"]);
+  }
+  for (const Json& route : a["places"]["routes"]) {
+    const Json &from = route["path"][0], &to = route["path"][1];
+    if (schedule.level_of(number_of(from[2])) != level) continue;
+    const double x0 = sheet.x(number_of(from[0])), y0 = sheet.y(number_of(from[1]));
+    const double dx = sheet.x(number_of(to[0])) - x0, dy = sheet.y(number_of(to[1])) - y0;
+    double turn = std::atan2(dy, dx) * 180 / 3.14159265358979;
+    if (turn > 90.01 || turn <= -89.99) turn += 180;
+    out += text_at(0, 5.2, route["name"],
+                   fmt::format("text-anchor=\"middle\" transform=\"translate({:.2f} {:.2f}) "
+                               "rotate({:.1f})\"",
+                               x0 + 0.3 * dx, y0 + 0.3 * dy, turn)
+                       .c_str());
+  }
+  return out + "</g>\n";
+}
+
+std::string luminaires(const Json& a, const Schedule& schedule, const Texts& texts, size_t level,
+                       const Sheet& sheet, bool labels) {
+  std::string out = "<g class=\"luminaires\">\n";
+  const Json& all = a["luminaires"];
+  for (size_t i = 0; i < all.size(); ++i) {
+    const double z = number_of(all[i]["position"][2]);
+    if (schedule.level_of(z) != level) continue;
+    const LuminaireType& type = schedule.type_of(i);
+    const double x = sheet.x(number_of(all[i]["position"][0]));
+    const double y = sheet.y(number_of(all[i]["position"][1]));
+    const bool emergency = type.emergency();
+    out += fmt::format(
+        "<g><title>{}</title><rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{}\" height=\"{}\" "
+        "fill=\"{}\" stroke=\"{}\" stroke-width=\"0.25\"/></g>\n",
+        xml_escape(all[i]["name"].get<std::string>()), x - (emergency ? 1.1 : 0.9),
+        y - (emergency ? 1.1 : 0.9), emergency ? 2.2 : 1.8, emergency ? 2.2 : 1.8,
+        emergency ? emergency_colour : "#fff", emergency ? emergency_colour : "#777");
+    if (labels)
+      out += text_at(x, y + (emergency ? -1.7 : 2.7),
+                     type.letter + " " + texts.fixed(schedule.above_floor(z)),
+                     emergency ? "text-anchor=\"middle\" font-weight=\"bold\""
+                               : "text-anchor=\"middle\" fill=\"#666\"",
+                     emergency ? text_mm : 1.7);
+  }
+  return out + "</g>\n";
+}
+
+/// A circled number beside each sign, and an arrow from the sign to where it faces.
+std::string signs(const Json& a, const Schedule& schedule, size_t level, const Sheet& sheet,
+                  const std::string& only = "") {
+  std::string out = "<g class=\"signs\">\n";
+  const Json& all = a["signs"];
+  for (size_t i = 0; i < all.size(); ++i) {
+    const Json& position = all[i]["position"];
+    if (schedule.level_of(number_of(position[2])) != level) continue;
+    if (!only.empty() && all[i]["name"].get<std::string>() != only) continue;
+    const double x = sheet.x(number_of(position[0])), y = sheet.y(number_of(position[1]));
+    const double fx = number_of(all[i]["facing"][0]), fy = -number_of(all[i]["facing"][1]);
+    const double turn = std::atan2(fy, fx) * 180 / 3.14159265358979;
+    out += fmt::format(
+        "<g><title>{}</title><g transform=\"translate({:.2f} {:.2f}) rotate({:.1f})\"><path "
+        "d=\"M0 -1.8V1.8M0 0H2.2\" stroke=\"#000\" stroke-width=\"0.6\"/><path d=\"M4 0L1.9 "
+        "-1V1Z\"/>{}</g>\n",
+        xml_escape(all[i]["name"].get<std::string>()), x, y, turn,
+        all[i]["double_sided"].get<bool>() ? "<path d=\"M-4 0L-1.9 -1V1Z\"/>" : "");
+    // The number stands beside the arrow, away from where the sign looks.
+    const double cx = x - 2.9 * fx + (std::abs(fx) > 0.7 ? 0 : 2.6);
+    const double cy = y - 2.9 * fy - (std::abs(fx) > 0.7 ? 2.6 : 0);
+    out += fmt::format(
+               "<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"1.9\" fill=\"#fff\" "
+               "stroke=\"#000\" stroke-width=\"0.3\"/>",
+               cx, cy) +
+           text_at(cx, cy + 0.8, std::to_string(i + 1),
+                   "text-anchor=\"middle\" font-weight=\"bold\" stroke=\"none\"", 2.3) +
+           "</g>\n";
+  }
+  return out + "</g>\n";
+}
+
+std::string emphasis(const Json& a, const Schedule& schedule, size_t level, const Sheet& sheet) {
+  std::string out;
+  for (const Json& point : a["places"]["emphasis"]) {
+    const Json& p = point["position"];
+    if (schedule.level_of(number_of(p[2])) != level) continue;
+    out += fmt::format(
+        "<g><title>{}</title><path d=\"M{:.2f} {:.2f}l1.3 1.3l-1.3 1.3l-1.3 -1.3Z\" fill=\"#fff\" "
+        "stroke=\"#8a2be2\" stroke-width=\"0.35\"/></g>\n",
+        xml_escape(point["name"].get<std::string>()), sheet.x(number_of(p[0])),
+        sheet.y(number_of(p[1])) - 1.3);
+  }
+  return out;
+}
+
+/// A scale bar in round metres, the scale, and an arrow to the north.
+std::string foot(const Json& a, const Sheet& sheet, const Texts& texts) {
+  const double y = sheet.height() + 5;
+  double bar = 1;
+  for (const double metres : {0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 1000.0})
+    if (sheet.mm(metres) <= 50) bar = metres;
+  std::string out = "<g class=\"scale\">\n";
+  for (int i = 0; i < 4; ++i)
+    out += fmt::format(
+        "<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.3f}\" height=\"1.4\" fill=\"{}\" "
+        "stroke=\"#000\" stroke-width=\"0.2\"/>\n",
+        border_mm + sheet.mm(bar) * i / 4, y, sheet.mm(bar) / 4, i % 2 == 0 ? "#000" : "#fff");
+  out += text_at(border_mm, y + 4.4, "0") +
+         text_at(border_mm + sheet.mm(bar), y + 4.4, texts.number(bar) + " m",
+                 "text-anchor=\"middle\"") +
+         text_at(border_mm + sheet.mm(bar) + 6, y + 1.5, fmt::format("1:{:g}", sheet.scale()));
+  const double turn = number_of(a["project"]["north_deg"]);
+  out += fmt::format(
+             "<g class=\"north\" transform=\"translate({:.2f} {:.2f}) rotate({:g})\"><circle "
+             "r=\"3.4\" fill=\"#fff\" stroke=\"#000\" stroke-width=\"0.25\"/><path d=\"M0 "
+             "-3.4L1.5 2.4L0 1.3L-1.5 2.4Z\"/></g>\n",
+             sheet.width() - border_mm - 4, sheet.height() + 6, turn) +
+         text_at(sheet.width() - border_mm - 9.6, sheet.height() + 7, texts("plan.north"),
+                 "text-anchor=\"middle\" font-weight=\"bold\"", 3);
+  return out + "</g>\n";
+}
+
+Plan finished(const Sheet& sheet, const std::string& body) {
+  Plan plan;
+  plan.width_mm = sheet.width();
+  plan.scale = sheet.scale();
+  plan.svg = fmt::format(
+                 "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.2f} {1:.2f}\" "
+                 "width=\"{0:.2f}mm\" height=\"{1:.2f}mm\" font-family=\"Liberation Sans, Arial, "
+                 "Helvetica, DejaVu Sans, sans-serif\">\n<style>text {{ paint-order: stroke; "
+                 "stroke: #fff; stroke-width: 0.5px; stroke-linejoin: round }}</style>\n"
+                 "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n",
+                 sheet.width(), sheet.height() + foot_mm) +
+             body + "</svg>\n";
+  return plan;
+}
+
+const char* isolux_colour(double lux) {
+  // Okabe and Ito (2008), told apart by colour-blind eyes; widths differ as well.
+  return lux < 0.7 ? "#cc79a7" : lux < 2 ? "#d55e00" : lux < 7 ? "#0072b2" : "#009e73";
+}
+
+/// The line, and its value about every 60 mm, where there is room for it.
+std::string isolux_line(const IsoluxLine& one, const Sheet& sheet, const Texts& texts) {
+  std::string path;
+  double length = 0, labelled = -30;
+  std::string labels;
+  const auto& points = one.line.points;
+  for (size_t i = 0; i < points.size(); ++i) {
+    const double x = sheet.x(points[i].x), y = sheet.y(points[i].y);
+    path += fmt::format("{}{:.2f} {:.2f}", i == 0 ? "M" : "L", x, y);
+    if (i == 0) continue;
+    length += std::hypot(x - sheet.x(points[i - 1].x), y - sheet.y(points[i - 1].y));
+    if (length - labelled < 36) continue;
+    labelled = length;
+    labels += text_at(x, y + 0.8, texts.number(one.lux),
+                      fmt::format("text-anchor=\"middle\" font-weight=\"bold\" fill=\"{}\"",
+                                  isolux_colour(one.lux))
+                          .c_str(),
+                      2.4);
+  }
+  if (length < 3) return "";  // a speck
+  if (labels.empty() && length >= 8) {
+    const auto& p = points[points.size() / 2];
+    labels = text_at(sheet.x(p.x), sheet.y(p.y) + 0.8, texts.number(one.lux),
+                     fmt::format("text-anchor=\"middle\" font-weight=\"bold\" fill=\"{}\"",
+                                 isolux_colour(one.lux))
+                         .c_str(),
+                     2.4);
+  }
+  return fmt::format(
+             "<path class=\"isolux\" data-lux=\"{}\" d=\"{}\" fill=\"none\" stroke=\"{}\" "
+             "stroke-width=\"{}\" stroke-linejoin=\"round\"{}/>\n",
+             one.lux, path, isolux_colour(one.lux), one.lux == 1 ? 0.6 : 0.35,
+             one.lux < 0.7 ? " stroke-dasharray=\"1.6 0.8\"" : "") +
+         labels;
+}
+
+std::string isolux_legend(const Sheet& sheet, const Texts& texts) {
+  std::string out;
+  double x = border_mm;
+  const double y = sheet.height() + 14.5;
+  for (const double lux : isolux_levels) {
+    out += fmt::format("<path d=\"M{:.2f} {:.2f}h8\" stroke=\"{}\" stroke-width=\"{}\"{}/>\n", x,
+                       y - 0.8, isolux_colour(lux), lux == 1 ? 0.6 : 0.35,
+                       lux < 0.7 ? " stroke-dasharray=\"1.6 0.8\"" : "") +
+           text_at(x + 9, y, texts.number(lux) + " lx");
+    x += 23;
+  }
+  return out;
+}
+
+std::string grid_values(const Json& level, const Sheet& sheet, const Texts& texts) {
+  std::string out = "<g class=\"values\" fill=\"#333\">\n";
+  // Where numbers would lie on each other, every other one is left out.
+  std::map<std::pair<long, long>, bool> taken;
+  for (const Json& p : level["points"]) {
+    const double x = sheet.x(number_of(p[0])), y = sheet.y(number_of(p[1]));
+    const std::pair cell{std::lround(x / 4.2), std::lround(y / 2.2)};
+    if (!taken.emplace(cell, true).second) continue;
+    out += text_at(x, y + 0.6, texts.number(number_of(p[3]), 2), "text-anchor=\"middle\"", 1.6);
+  }
+  return out + "</g>\n";
+}
+
+/// From best to worst of what a place can have.
+constexpr std::array<const char*, 6> ranks{"legible",   "undecided",    "visible but not legible",
+                                           "invisible", "not assessed", "hidden by the building"};
+
+std::string sight_legend(const Sheet& sheet, const Texts& texts) {
+  std::string out;
+  double x = border_mm + 1;
+  for (const char* rank :
+       {"legible", "undecided", "visible but not legible", "invisible", "hidden by the building"}) {
+    const std::string word = texts.word("sight", rank);
+    if (x + 4 + 1.25 * static_cast<double>(word.size()) > sheet.width() - 4) break;
+    out += verdict_shape(rank, x, sheet.height() + 13.7, 1.3) +
+           text_at(x + 2.2, sheet.height() + 14.5, word);
+    x += 7 + 1.25 * static_cast<double>(word.size());
+  }
+  return out;
+}
+
+}  // namespace
+
+const char* verdict_colour(const std::string& verdict) {
+  if (verdict == "pass" || verdict == "legible") return "#1a7f3c";
+  if (verdict == "fail" || verdict == "invisible") return "#b3261e";
+  if (verdict == "undecided" || verdict == "not verified") return "#8a6100";
+  if (verdict == "visible but not legible") return "#c25700";
+  return "#5f6368";
+}
+
+std::string verdict_shape(const std::string& verdict, double x, double y, double r) {
+  const char* colour = verdict_colour(verdict);
+  std::string shape;
+  if (verdict == "pass" || verdict == "legible")  // a disc with a tick
+    shape = fmt::format(
+        "<circle r=\"1\" fill=\"{}\"/><path d=\"M-.5 0L-.12 .4L.52 -.38\" "
+        "fill=\"none\" stroke=\"#fff\" stroke-width=\".24\"/>",
+        colour);
+  else if (verdict == "fail" || verdict == "invisible")  // a square with a cross
+    shape = fmt::format(
+        "<path d=\"M-.95 -.95H.95V.95H-.95Z\" fill=\"{}\"/><path d=\"M-.48 "
+        "-.48L.48 .48M.48 -.48L-.48 .48\" stroke=\"#fff\" stroke-width=\".26\"/>",
+        colour);
+  else if (verdict == "visible but not legible")  // a half-filled diamond
+    shape = fmt::format(
+        "<path d=\"M0 -1.15L1.15 0L0 1.15L-1.15 0Z\" fill=\"#fff\" stroke=\"{0}\" "
+        "stroke-width=\".22\"/><path d=\"M0 -1.15L1.15 0L0 1.15Z\" fill=\"{0}\"/>",
+        colour);
+  else if (verdict == "undecided" || verdict == "not verified")  // a triangle with a stroke
+    shape = fmt::format(
+        "<path d=\"M0 -1.1L1.15 .9H-1.15Z\" fill=\"{}\"/><path d=\"M0 -.4V.25M0 "
+        ".45V.68\" stroke=\"#fff\" stroke-width=\".24\"/>",
+        colour);
+  else if (verdict == "information")
+    shape = fmt::format(
+        "<circle r=\".9\" fill=\"#fff\" stroke=\"{0}\" stroke-width=\".22\"/><path "
+        "d=\"M0 -.1V.55M0 -.5V-.28\" stroke=\"{0}\" stroke-width=\".24\"/>",
+        colour);
+  else  // a ring with a bar: no answer
+    shape = fmt::format(
+        "<circle r=\".85\" fill=\"#fff\" stroke=\"{0}\" stroke-width=\".25\"/><path "
+        "d=\"M-.45 0H.45\" stroke=\"{0}\" stroke-width=\".25\"/>",
+        colour);
+  return fmt::format("<g transform=\"translate({:.2f} {:.2f}) scale({:.2f})\">{}</g>\n", x, y, r,
+                     shape);
+}
+
+Plan Plans::installation(size_t number) const {
+  const Json& level = a_["plan"]["levels"][number];
+  const Sheet sheet(a_, level, schedule_, number, size_);
+  return finished(sheet, building(level, sheet) + places(a_, schedule_, number, sheet) +
+                             emphasis(a_, schedule_, number, sheet) +
+                             luminaires(a_, schedule_, texts_, number, sheet, true) +
+                             signs(a_, schedule_, number, sheet) +
+                             place_names(a_, schedule_, number, sheet) + foot(a_, sheet, texts_));
+}
+
+Plan Plans::isolux(size_t number, bool values) const {
+  const Json& level = a_["plan"]["levels"][number];
+  const Sheet sheet(a_, level, schedule_, number, size_);
+  std::string lines = "<g class=\"lines\">\n";
+  for (const IsoluxLine& one : isolux_lines(level)) lines += isolux_line(one, sheet, texts_);
+  return finished(sheet, building(level, sheet) + places(a_, schedule_, number, sheet) +
+                             luminaires(a_, schedule_, texts_, number, sheet, false) +
+                             (values ? grid_values(level, sheet, texts_) : "") + lines + "</g>\n" +
+                             isolux_legend(sheet, texts_) + foot(a_, sheet, texts_));
+}
+
+Plan Plans::sights(size_t number, double eye_height_m, const std::string& sign) const {
+  const Json& level = a_["plan"]["levels"][number];
+  const Sheet sheet(a_, level, schedule_, number, size_);
+  std::map<std::pair<double, double>, size_t> best;  // by place, a number of ranks
+  for (const Json& sight : a_["sights"]) {
+    const double eye = number_of(sight["eye_height"]["value"]);
+    if (sight["from"].get<std::string>().starts_with("observer")) continue;
+    if (eye != eye_height_m || schedule_.level_of(number_of(sight["eye"][2]) - eye) != number)
+      continue;
+    if (!sign.empty() && sight["sign"].get<std::string>() != sign) continue;
+    const auto verdict = sight["verdict"].get<std::string>();
+    const auto rank =
+        static_cast<size_t>(std::find(ranks.begin(), ranks.end(), verdict) - ranks.begin());
+    const std::pair place{number_of(sight["eye"][0]), number_of(sight["eye"][1])};
+    const auto known = best.try_emplace(place, rank).first;
+    known->second = std::min(known->second, rank);
+  }
+  std::string marks = "<g class=\"sights\">\n";
+  for (const auto& [place, rank] : best)
+    marks += verdict_shape(ranks[std::min(rank, ranks.size() - 1)], sheet.x(place.first),
+                           sheet.y(place.second), 1.3);
+  return finished(sheet, building(level, sheet) + marks + "</g>\n" +
+                             signs(a_, schedule_, number, sheet, sign) +
+                             sight_legend(sheet, texts_) + foot(a_, sheet, texts_));
+}
+
+}  // namespace luxodus

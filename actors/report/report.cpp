@@ -1,0 +1,144 @@
+#include "actors/report/report.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <set>
+
+#include "actors/report/hand_over.hpp"
+#include "actors/report/pdf.hpp"
+#include "actors/report/plan_svg.hpp"
+
+namespace luxodus {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr uint64_t pdf_bytes = uint64_t{512} << 20;
+
+std::string bytes_text(const std::vector<std::byte>& bytes) {
+  return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+}
+
+std::string named(const fs::path& folder, const ReportOptions& options) {
+  return options.named.empty() ? folder.string() : options.named;
+}
+
+Result<Done> make_folder(const fs::path& folder) {
+  std::error_code failed;
+  fs::create_directories(folder, failed);
+  if (failed) return Problem{{folder.string(), 0}, "cannot make this folder: " + failed.message()};
+  return Done{};
+}
+
+/// "1.65" as it stands in a file's name.
+std::string height_name(double metres) {
+  return fmt::format("{:.2f}m", metres);
+}
+
+Result<Done> write_plans(const fs::path& folder, const Json& a, const Schedule& schedule,
+                         const Texts& texts, bool values) {
+  if (auto ok = make_folder(folder); !ok.ok()) return ok;
+  const Plans plans(a, schedule, texts, {});
+  std::set<double> heights;
+  for (const Json& sight : a["sights"])
+    if (!sight["from"].get<std::string>().starts_with("observer"))
+      heights.insert(sight["eye_height"]["value"].get<double>());
+  for (size_t i = 0; i < schedule.levels(); ++i) {
+    const std::string level =
+        schedule.levels() > 1 ? "level_" + std::to_string(i + 1) + "_" : std::string();
+    std::vector<std::pair<std::string, std::string>> drawings{
+        {"installation", plans.installation(i).svg}, {"isolux", plans.isolux(i, values).svg}};
+    for (const double height : heights)
+      drawings.emplace_back("legibility_" + height_name(height), plans.sights(i, height, "").svg);
+    for (const auto& [name, svg] : drawings)
+      if (auto ok = write_file_atomically(folder / (level + name + ".svg"), svg); !ok.ok())
+        return ok;
+    if (auto ok = write_plan_dxf(folder / (level + "plan.dxf"), a, schedule, i); !ok.ok())
+      return ok;
+  }
+  return Done{};
+}
+
+Result<Done> write_schedules(const fs::path& folder, const Json& a, const Schedule& schedule) {
+  if (auto ok = make_folder(folder); !ok.ok()) return ok;
+  for (const auto& [name, table] : {std::pair{"luminaires.csv", luminaires_csv(a, schedule)},
+                                    std::pair{"signs.csv", signs_csv(a, schedule)},
+                                    std::pair{"bill_of_materials.csv", materials_csv(a, schedule)},
+                                    std::pair{"checks_with_places.csv", places_csv(a)},
+                                    std::pair{"illuminance_points.csv", points_csv(a, schedule)}})
+    if (auto ok = write_csv(folder / name, table); !ok.ok()) return ok;
+  return Done{};
+}
+
+/// Twice: the first print says on which page each heading is, the second has that in its contents.
+Result<Done> print_report(const fs::path& folder, const Json& a,
+                          const std::vector<ReportPicture>& pictures,
+                          const ReportOptions& options) {
+  const fs::path pdf = folder / "report.pdf";
+  const fs::path page = folder / fmt::format(".report.{}.html", ::getpid());
+  const auto print = [&](const std::map<std::string, int>& pages) -> Result<Done> {
+    const auto written = write_file_atomically(
+        page, report_html(a, pictures, named(folder, options), options, pages));
+    return written.ok() ? print_pdf(page, pdf) : written;
+  };
+  Result<Done> done = print({});
+  if (done.ok()) {
+    const auto bytes = read_whole_file(pdf, pdf_bytes);
+    if (bytes.ok()) done = print(pages_of_destinations(bytes_text(bytes.value())));
+  }
+  std::error_code ignored;
+  fs::remove(page, ignored);
+  return done;
+}
+
+}  // namespace
+
+std::vector<ReportPicture> pictures_in(const fs::path& folder) {
+  std::vector<ReportPicture> out;
+  for (const fs::path& views : {folder / "views", folder / "run" / "views"}) {
+    std::error_code failed;
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::directory_iterator(views, failed))
+      if (entry.path().extension() == ".png" && entry.is_regular_file(failed) &&
+          entry.file_size(failed) <= limits::report_picture_bytes)
+        files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    for (const fs::path& path : files) {
+      const auto bytes = read_whole_file(path, limits::report_picture_bytes);
+      if (bytes.ok() && out.size() < limits::report_pictures)
+        out.push_back({path.stem().string(), bytes_text(bytes.value())});
+    }
+    if (!out.empty()) break;
+  }
+  return out;
+}
+
+std::string report_html(const Json& a, const std::vector<ReportPicture>& pictures,
+                        const std::string& folder, const ReportOptions& options,
+                        const std::map<std::string, int>& pages) {
+  const Schedule schedule(a);
+  const Texts texts(options.language);
+  // Within margins of 15 mm aside, 20 mm above and below; a sheet across has those turned.
+  const double width = (options.letter ? 215.9 : 210) - 30;
+  const double height = (options.letter ? 279.4 : 297) - 30;
+  return report_page({a, schedule, texts, pictures, folder, width, height, options.grid_values},
+                     {options.letter, pages});
+}
+
+Result<Done> write_report(const fs::path& folder, const Json& a, const ReportOptions& options) {
+  const Schedule schedule(a);
+  const Texts texts(options.language);
+  const auto pictures = pictures_in(folder);
+  if (auto ok = write_plans(folder / "plans", a, schedule, texts, options.grid_values); !ok.ok())
+    return ok;
+  if (auto ok = write_schedules(folder / "schedules", a, schedule); !ok.ok()) return ok;
+  if (auto ok = write_file_atomically(folder / "report.html",
+                                      report_html(a, pictures, named(folder, options), options));
+      !ok.ok())
+    return ok;
+  return options.pdf ? print_report(folder, a, pictures, options) : Done{};
+}
+
+}  // namespace luxodus

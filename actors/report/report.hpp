@@ -1,0 +1,40 @@
+// The report of an assessment, from its JSON alone: report.html, report.pdf, plans (SVG, DXF) and
+// schedules (CSV) in the assessment's folder. It calculates nothing and certifies nothing. Any
+// thread; one report of a folder at a time.
+#pragma once
+
+#include <filesystem>
+
+#include "actors/report/page.hpp"
+
+namespace luxodus {
+
+namespace limits {
+/// Largest picture that a report takes in [bytes].
+inline constexpr uint64_t report_picture_bytes = uint64_t{16} << 20;
+/// Pictures that a report takes in; cameras have up to three each.
+inline constexpr size_t report_pictures = 60;
+}  // namespace limits
+
+struct ReportOptions {
+  Language language = Language::en;
+  bool letter = false;  // paper: Letter, else A4
+  bool grid_values = false;
+  bool pdf = false;
+  std::string named;  // the folder as people name it, for commands on the page; "": as it is
+};
+
+/// Pictures of `luxodus run` and `render` in folder/views and folder/run/views, by name.
+std::vector<ReportPicture> pictures_in(const std::filesystem::path& folder);
+
+/// The page alone.
+std::string report_html(const Json& assessment, const std::vector<ReportPicture>& pictures,
+                        const std::string& folder, const ReportOptions& options,
+                        const std::map<std::string, int>& pages = {});
+
+/// Writes all files of a report. Requires: a JSON that check_assessment (actors/assess) has passed.
+/// Errors: a file that cannot be written; with `pdf` also no Chromium (all else is written then).
+Result<Done> write_report(const std::filesystem::path& folder, const Json& assessment,
+                          const ReportOptions& options);
+
+}  // namespace luxodus

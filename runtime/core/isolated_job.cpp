@@ -1,0 +1,221 @@
+// The other process sets its own limits before it looks at anything: a limit on address space that
+// is set from outside would have to know how much the program and its libraries map. An answer
+// counts only if the process ended well, and begins with a mark: a program whose main() does not
+// serve jobs would otherwise be taken at its word.
+#include "runtime/core/isolated_job.hpp"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <new>
+#include <system_error>
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define LUX_UNDER_SANITIZERS 1
+#endif
+
+namespace luxodus {
+
+namespace {
+
+constexpr char verb[] = "--isolated-job";
+constexpr uint64_t mark = 0x31424F4A'5855'4CULL;  // "LUXJOB1"
+constexpr uint32_t waits = 10;                    // times as long as it computes, at most
+constexpr int out_of_memory = 3, has_thrown = 4;  // exit codes of the other process
+#ifdef LUX_UNDER_SANITIZERS
+constexpr bool limits_memory = false;
+constexpr uint32_t slower = 20;  // than a release build, at most
+#else
+constexpr bool limits_memory = true;
+constexpr uint32_t slower = 1;
+#endif
+
+/// All jobs, the youngest first; constant at start-up, so that no order of globals matters.
+constinit const IsolatedJob* first_job = nullptr;
+
+std::string of_system(int error) {
+  return std::generic_category().message(error);
+}
+
+Problem failed(std::string what) {
+  return Problem{{}, std::move(what)};
+}
+
+// ---- in the other process ----------------------------------------------------------------------
+
+uint64_t mapped_bytes() {
+  unsigned long pages = 0;
+  std::FILE* file = std::fopen("/proc/self/statm", "re");  // proc(5): the first number is all
+  if (file == nullptr) return 0;
+  const bool read = std::fscanf(file, "%lu", &pages) == 1;
+  std::fclose(file);
+  return read ? uint64_t{pages} * static_cast<uint64_t>(::sysconf(_SC_PAGESIZE)) : 0;
+}
+
+using Resource = decltype(RLIMIT_AS);
+
+void limit(Resource what, uint64_t most) {
+  rlimit now{};
+  if (::getrlimit(what, &now) != 0) return;
+  now.rlim_cur = std::min<rlim_t>(now.rlim_max, most);
+  (void)::setrlimit(what, &now);
+}
+
+void raise(Resource what, uint64_t by) {
+  rlimit now{};
+  if (::getrlimit(what, &now) == 0 && now.rlim_cur != RLIM_INFINITY) limit(what, now.rlim_cur + by);
+}
+
+void limit_this_process(const IsolatedLimits& most) {
+  (void)::prctl(PR_SET_PDEATHSIG, SIGKILL);  // nobody waits for it any more
+  limit(RLIMIT_CORE, 0);
+  if (const uint64_t mapped = mapped_bytes(); limits_memory && mapped > 0)
+    limit(RLIMIT_AS, mapped + most.memory_bytes);
+  limit(RLIMIT_FSIZE, most.memory_bytes);
+  limit(RLIMIT_CPU, uint64_t{most.processor_s} * slower);
+  ::alarm(waits * most.processor_s * slower);
+  ::signal(SIGINT, SIG_IGN);  // the terminal's: its parent decides
+}
+
+// ---- in this process ---------------------------------------------------------------------------
+
+/// A file in memory, not among the three first descriptors, which the other process gets anew.
+FileDescriptor memory_file() {
+  const FileDescriptor file(::memfd_create("luxodus job", MFD_CLOEXEC));
+  return FileDescriptor(file.valid() ? ::fcntl(file.number(), F_DUPFD_CLOEXEC, 3) : -1);
+}
+
+/// What posix_spawn has to do and to reset, freed at the end.
+class Orders {
+ public:
+  Orders(int question, int answer) {
+    posix_spawn_file_actions_init(&actions_);
+    posix_spawn_file_actions_adddup2(&actions_, question, 0);
+    posix_spawn_file_actions_adddup2(&actions_, answer, 1);
+    if (limits_memory)  // what a sanitizer has found is worth reading
+      posix_spawn_file_actions_addopen(&actions_, 2, "/dev/null", O_WRONLY, 0);
+    posix_spawn_file_actions_addclosefrom_np(&actions_, 3);
+    posix_spawnattr_init(&attributes_);
+    sigset_t none, all;
+    sigemptyset(&none);
+    sigfillset(&all);
+    posix_spawnattr_setsigmask(&attributes_, &none);
+    posix_spawnattr_setsigdefault(&attributes_, &all);
+    posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+  }
+  ~Orders() {
+    posix_spawn_file_actions_destroy(&actions_);
+    posix_spawnattr_destroy(&attributes_);
+  }
+  Orders(const Orders&) = delete;
+
+  /// 0 or an errno.
+  int spawn(pid_t& process, const char* name) const {
+    // The running program, also where its file was replaced or removed since.
+    constexpr char self[] = "/proc/self/exe";
+    std::string words[] = {self, verb, name};
+    char* const argv[] = {words[0].data(), words[1].data(), words[2].data(), nullptr};
+    return ::posix_spawn(&process, self, &actions_, &attributes_, argv, environ);
+  }
+
+ private:
+  posix_spawn_file_actions_t actions_;
+  posix_spawnattr_t attributes_;
+};
+
+std::string told(uint64_t bytes) {
+  return std::to_string(bytes >> 20) + " MiB of memory";
+}
+
+/// How the other process ended, where not well.
+std::optional<Problem> end_of(int status, const IsolatedLimits& most) {
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return std::nullopt;
+  if (WIFEXITED(status) && WEXITSTATUS(status) == out_of_memory)
+    return failed("reading it takes more than " + told(most.memory_bytes) +
+                  ": it is damaged, or too large for what it holds");
+  const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+  if (signal == SIGXCPU || signal == SIGALRM)
+    return failed("reading it takes longer than " + std::to_string(most.processor_s * slower) +
+                  " s: it is damaged, or has to be made simpler");
+  if (signal == SIGXFSZ)
+    return failed("it makes more than " + told(most.memory_bytes) + " of triangles or pixels");
+  if (signal != 0)
+    return failed(std::string("reading it ended in a crash (") + ::strsignal(signal) +
+                  "): it is damaged; write it anew");
+  return failed("reading it failed without a reason: it is damaged; write it anew");
+}
+
+}  // namespace
+
+IsolatedJob::IsolatedJob(const char* name, Work work) : name_(name), work_(work), next_(first_job) {
+  first_job = this;
+}
+
+Result<PlainReader> IsolatedJob::run(const std::function<void(PlainWriter& question)>& ask,
+                                     const IsolatedLimits& most) const {
+  FileDescriptor question = memory_file(), answer = memory_file();
+  if (!question.valid() || !answer.valid())
+    return failed("no process can be begun to read it: " + of_system(errno));
+  PlainWriter writer(question.number());
+  writer.put(most);
+  ask(writer);
+  if (!writer.flush() || ::lseek(question.number(), 0, SEEK_SET) != 0)
+    return failed("no process can be begun to read it: " + of_system(errno));
+  pid_t process = 0;
+  if (const int error = Orders(question.number(), answer.number()).spawn(process, name_); error)
+    return failed("no process can be begun to read it: " + of_system(error));
+  int status = 0;
+  while (::waitpid(process, &status, 0) < 0)
+    if (errno != EINTR) return failed("the process that reads it was lost: " + of_system(errno));
+  if (auto bad = end_of(status, most)) return *bad;
+  PlainReader reader(std::move(answer));
+  uint64_t first = 0;
+  if (!reader.get(first) || first != mark)
+    return failed("this program reads such files in a process of its own, and cannot begin one");
+  return reader;
+}
+
+void allow_more(const IsolatedLimits& more) {
+  rlimit core{};
+  const uint32_t alarm_s = ::alarm(0);  // running in jobs only
+  if (alarm_s == 0 || ::getrlimit(RLIMIT_CORE, &core) != 0 || core.rlim_cur != 0) return;
+  ::alarm(alarm_s + waits * more.processor_s * slower);
+  raise(RLIMIT_AS, more.memory_bytes);
+  raise(RLIMIT_FSIZE, more.memory_bytes);
+  raise(RLIMIT_CPU, uint64_t{more.processor_s} * slower);
+}
+
+std::optional<int> serve_isolated_job(int argc, char** argv) {
+  if (argc != 3 || std::strcmp(argv[1], verb) != 0) return std::nullopt;
+  const IsolatedJob* job = first_job;
+  while (job != nullptr && std::strcmp(job->name_, argv[2]) != 0) job = job->next_;
+  PlainReader question(FileDescriptor(::fcntl(0, F_DUPFD_CLOEXEC, 3)));
+  IsolatedLimits most;
+  if (job == nullptr || !question.get(most)) return has_thrown;
+  limit_this_process(most);
+  int code = 0;
+  try {
+    PlainWriter answer(1);
+    answer.put(mark);
+    job->work_(question, answer);
+    if (!answer.flush()) code = has_thrown;
+  } catch (const std::bad_alloc&) {
+    code = out_of_memory;
+  } catch (...) {
+    code = has_thrown;
+  }
+  ::_exit(code);  // nothing of it is worth tidying up
+}
+
+}  // namespace luxodus

@@ -1,0 +1,64 @@
+// Work on bytes that nobody vouches for, by code of others (Assimp, librsvg), in a process of its
+// own with limits on memory and time: what such code does with a damaged file, be it a crash, a
+// loop or all the memory there is, becomes one Problem here. The process is this program again,
+// begun anew (posix_spawn, not fork: other threads may hold locks), which finds the job by its name
+// in main(). It is no defence against code that breaks out on purpose: it may read what we may.
+//
+//   this process                        the other one
+//   question -> memory file ----------> 0
+//   answer   <- memory file <---------- 1   limits set first; ends when its parent does
+//
+// Any thread may run a job. Jobs are made before main() begins, as globals: the one exception to
+// "main wires everything", because test programs link different rooms, and each only its jobs.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "runtime/core/plain_stream.hpp"
+#include "runtime/core/result.hpp"
+
+namespace luxodus {
+
+struct IsolatedLimits {
+  /// Beyond what the program has mapped when it begins. Builds with sanitizers have none: their
+  /// shadow is all the address space there is.
+  uint64_t memory_bytes = uint64_t{512} << 20;
+  /// Of one processor; waiting for a disk may take ten times as long.
+  uint32_t processor_s = 20;
+};
+
+class IsolatedJob {
+ public:
+  /// Runs in the other process. What it throws is an error of the job.
+  using Work = void (*)(PlainReader& question, PlainWriter& answer);
+
+  /// Requires: a name of its own; a global, so that it is there when main() begins.
+  IsolatedJob(const char* name, Work work);
+  IsolatedJob(const IsolatedJob&) = delete;
+
+  /// Asks, waits, and gives what was answered; the answer is to be read without trust.
+  /// Errors: more memory or time than the limits, a crash, an exception, a process that cannot be
+  /// started. No file is named: the caller knows it.
+  Result<PlainReader> run(const std::function<void(PlainWriter& question)>& ask,
+                          const IsolatedLimits& limits) const;
+
+ private:
+  friend std::optional<int> serve_isolated_job(int argc, char** argv);
+
+  const char* name_;
+  Work work_;
+  const IsolatedJob* next_;  // of all jobs
+};
+
+/// In a job that has found how much there is to do: so much more than it was given. Elsewhere it
+/// does nothing.
+void allow_more(const IsolatedLimits& more);
+
+/// To be called first in main(): where this process was begun for a job, does it and gives the exit
+/// code; otherwise nothing.
+std::optional<int> serve_isolated_job(int argc, char** argv);
+
+}  // namespace luxodus

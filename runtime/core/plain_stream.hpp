@@ -1,0 +1,98 @@
+// Plain values through a file descriptor, in the order they were put: what two processes of one
+// program tell each other. The reader trusts nothing: no list is longer than the bytes that are
+// left, and after the first value that is not there every other is missing, too.
+// Not a format for files: layout and byte order are those of this build. One thread.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace luxodus {
+
+/// Owns a file descriptor.
+class FileDescriptor {
+ public:
+  explicit FileDescriptor(int number = -1) : number_(number) {}
+  FileDescriptor(FileDescriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
+  FileDescriptor& operator=(FileDescriptor&& other) noexcept {
+    std::swap(number_, other.number_);
+    return *this;
+  }
+  ~FileDescriptor();
+
+  int number() const { return number_; }
+  bool valid() const { return number_ >= 0; }
+
+ private:
+  int number_;
+};
+
+class PlainWriter {
+ public:
+  /// Writes to a descriptor of somebody else's.
+  explicit PlainWriter(int descriptor) : descriptor_(descriptor) {}
+
+  template <class T>
+  requires std::is_trivially_copyable_v<T>
+  void put(const T& value) { add(std::as_bytes(std::span(&value, 1))); }
+  template <class T>
+  requires std::is_trivially_copyable_v<T>
+  void put(const std::vector<T>& values) {
+    put(static_cast<uint64_t>(values.size()));
+    add(std::as_bytes(std::span(values)));
+  }
+  void put(const std::string& text) {
+    put(static_cast<uint64_t>(text.size()));
+    add(std::as_bytes(std::span(text.data(), text.size())));
+  }
+  /// Writes what is still held back. False: not all could be written, now or before.
+  bool flush();
+
+ private:
+  void add(std::span<const std::byte> bytes);
+
+  int descriptor_;
+  std::vector<std::byte> held_;
+  bool failed_ = false;
+};
+
+class PlainReader {
+ public:
+  /// Reads a file from its beginning to where it ends now.
+  explicit PlainReader(FileDescriptor file);
+
+  /// Each is false, and leaves the value as it was, where the bytes that are left do not hold it.
+  template <class T>
+  requires std::is_trivially_copyable_v<T>
+  [[nodiscard]] bool get(T& value) { return take(std::as_writable_bytes(std::span(&value, 1))); }
+  template <class T>
+  requires std::is_trivially_copyable_v<T>
+  [[nodiscard]] bool get(std::vector<T>& values) {
+    uint64_t count = 0;
+    if (!get(count) || count > left_ / sizeof(T)) return fail();
+    std::vector<T> read(static_cast<size_t>(count));
+    if (!take(std::as_writable_bytes(std::span(read)))) return false;
+    values = std::move(read);
+    return true;
+  }
+  [[nodiscard]] bool get(std::string& text);
+  uint64_t left() const { return left_; }
+
+ private:
+  bool take(std::span<std::byte> to);
+  bool fail();
+
+  FileDescriptor file_;
+  uint64_t at_ = 0;              // of the file
+  uint64_t left_ = 0;            // from there
+  std::vector<std::byte> held_;  // read ahead: most values are small
+  size_t given_ = 0;             // of held_
+};
+
+}  // namespace luxodus

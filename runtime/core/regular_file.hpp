@@ -1,0 +1,26 @@
+// The one way in for files that somebody names: opened without waiting, and only if they are files.
+// A pipe or a terminal would be waited for without end, a device gives bytes without end or does
+// something when it is opened. Memory is never asked for beyond a limit. Any thread.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "runtime/core/plain_stream.hpp"
+#include "runtime/core/result.hpp"
+
+namespace luxodus {
+
+struct RegularFile {
+  FileDescriptor descriptor;
+  uint64_t bytes = 0;  // when it was opened
+};
+
+/// Opens a file for reading. Errors: not there, not readable, a folder, pipe, socket or device.
+Result<RegularFile> open_regular_file(const std::filesystem::path& path);
+
+/// All bytes of a file. Errors: as open_regular_file; longer than `most_bytes`; a failed read.
+Result<std::string> read_regular_file(const std::filesystem::path& path, uint64_t most_bytes);
+
+}  // namespace luxodus

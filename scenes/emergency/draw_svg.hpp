@@ -1,0 +1,39 @@
+// Drawings as pixels, by librsvg, which appears in draw_svg.cpp only and runs in a process of its
+// own: a drawing that makes it crash, or takes too much memory or time, is a problem like any
+// other. A drawing can load no other file. Internal to sign_face. Any thread.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "runtime/core/result.hpp"
+
+namespace luxodus {
+
+namespace limits {
+/// Elements of a drawing: a hundred times those of a pictogram with its arrow.
+inline constexpr int64_t drawing_elements_most = 20'000;
+}  // namespace limits
+
+using Rgba = std::array<uint8_t, 4>;
+
+/// Straight (not premultiplied) 8 bit sRGB, top row first.
+struct Pixels {
+  int width = 0;
+  int height = 0;
+  std::vector<Rgba> rgba;
+};
+
+struct DrawnSvg {
+  double width = 0, height = 0;  // that the drawing itself states, in its own units
+  Pixels pixels;                 // stretched to fill the size asked for
+};
+
+/// Draws the bytes of an SVG file onto `across` by `down` pixels.
+/// Errors (without a file): not SVG, compressed, with filters, more elements than the limit, no
+/// size of its own, more memory or time than drawing a sign takes.
+Result<DrawnSvg> draw_svg(const std::string& bytes, int across, int down);
+
+}  // namespace luxodus

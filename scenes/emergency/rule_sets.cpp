@@ -1,0 +1,110 @@
+#include "scenes/emergency/rule_sets.hpp"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+namespace luxodus {
+
+namespace {
+
+constexpr std::array sets{
+    NamedRules{"en1838-2013", "EN 1838:2013", "emergency lighting, European",
+               "secondary texts: BSI excerpt, licht.wissen 10, makers' guides",
+               "superseded by EN 1838:2024"},
+    NamedRules{"en1838-2024", "EN 1838:2024", "emergency lighting for buildings, European",
+               "liteplan.com on the draft FprEN 1838 of June 2024; what the draft is not known to "
+               "change is carried over from EN 1838:2013",
+               "not verified against the text of 2024"},
+    NamedRules{"nfpa101", "NFPA 101", "life safety code, United States",
+               "secondary texts: Signify, NYC code, UBC", ""},
+};
+
+constexpr std::array deviation_rows{
+    NamedRules{"duration-3h", "national practice, United Kingdom and Germany",
+               "three hours of rated duration instead of one", "fernkorn, table of durations", ""},
+    NamedRules{"de-asr-a3.4-3", "ASR A3.4/3 (Germany)",
+               "all of the light asked for within 15 s, beside the onset of EN 1838",
+               "messefrankfurt", ""},
+    NamedRules{"de-din4844-1", "DIN 4844-1 (Germany)",
+               "signs lit from within have 500 cd/m2 of white in mains operation",
+               "licht.wissen 10", ""},
+    NamedRules{"uk-bs5266-1", "BS 5266-1 (United Kingdom)",
+               "1 lx on the core of open areas instead of 0.5 lx, and three hours of duration",
+               "recollection of the 1 lx; fernkorn for the duration", "1 lx is not verified"},
+    NamedRules{"us-ibc", "IBC 1008.3.5", "11 lx and 1 lx at first, 6 lx and 0.6 lx at the end",
+               "NYC code", ""},
+    NamedRules{"us-ibc-group-i2", "IBC 1008.3.5, group I-2",
+               "2.2 lx with any one luminaire failed (hospitals)", "NYC code", ""},
+};
+
+std::string listed(std::span<const NamedRules> rows) {
+  std::string out;
+  for (const NamedRules& row : rows) out += (out.empty() ? "" : ", ") + std::string(row.id);
+  return out;
+}
+
+std::optional<size_t> number_of(std::span<const NamedRules> rows, const std::string& id) {
+  const auto at =
+      std::find_if(rows.begin(), rows.end(), [&](const NamedRules& row) { return row.id == id; });
+  return at == rows.end() ? std::nullopt : std::optional(static_cast<size_t>(at - rows.begin()));
+}
+
+}  // namespace
+
+std::span<const NamedRules> rule_sets() {
+  return sets;
+}
+
+std::span<const NamedRules> deviations() {
+  return deviation_rows;
+}
+
+const NamedRules& named(RuleSet set) {
+  return sets.at(static_cast<size_t>(set));
+}
+
+const NamedRules& named(Deviation deviation) {
+  return deviation_rows.at(static_cast<size_t>(deviation));
+}
+
+bool deviates_from(Deviation deviation, RuleSet set) {
+  const bool american = deviation == Deviation::us_ibc || deviation == Deviation::us_ibc_i2;
+  return american == (set == RuleSet::nfpa101);
+}
+
+Result<std::vector<CodeChoice>> chosen_codes(const std::vector<std::string>& sets_named,
+                                             const std::vector<std::string>& deviations_named) {
+  if (sets_named.empty())
+    return Problem{{},
+                   "no rule set is named, and none is assumed: give --rules, or rules = [\"" +
+                       std::string(named(RuleSet::en1838_2024).id) +
+                       "\"] in [assessment]; there are: " + listed(sets)};
+  std::set<RuleSet> wanted;
+  for (const std::string& id : sets_named) {
+    const auto number = number_of(sets, id);
+    if (!number)
+      return Problem{{}, "there is no rule set \"" + id + "\"; there are: " + listed(sets)};
+    wanted.insert(static_cast<RuleSet>(*number));
+  }
+  std::vector<CodeChoice> out;
+  for (const RuleSet set : wanted) out.push_back({set, {}});
+  for (const std::string& id : deviations_named) {
+    const auto number = number_of(deviation_rows, id);
+    if (!number)
+      return Problem{{},
+                     "there is no deviation \"" + id + "\"; there are: " + listed(deviation_rows)};
+    const auto deviation = static_cast<Deviation>(*number);
+    bool used = false;
+    for (CodeChoice& codes : out) {
+      if (!deviates_from(deviation, codes.set)) continue;
+      codes.deviations.insert(deviation);
+      used = true;
+    }
+    if (!used)
+      return Problem{{}, "\"" + id + "\" deviates from none of the rule sets that are named"};
+  }
+  return out;
+}
+
+}  // namespace luxodus

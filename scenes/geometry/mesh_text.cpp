@@ -1,0 +1,213 @@
+#include "scenes/geometry/mesh_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string_view>
+#include <vector>
+
+#include "scenes/geometry/import.hpp"
+#include "scenes/geometry/refusal.hpp"
+
+namespace luxodus {
+namespace {
+
+// ---- lines of words: OBJ and MTL ---------------------------------------------------------------
+
+/// Takes the first word off a line; "" where there is none.
+std::string_view take_word(std::string_view& line) {
+  constexpr std::string_view blanks = " \t\r";
+  line.remove_prefix(std::min(line.find_first_not_of(blanks), line.size()));
+  const std::string_view word = line.substr(0, line.find_first_of(blanks));
+  line.remove_prefix(word.size());
+  return word;
+}
+
+/// Whether a word could be a number, NaN and infinity included.
+bool starts_like_number(std::string_view word) {
+  if (word.front() == '-' || word.front() == '+') word.remove_prefix(1);
+  return word.find_first_of("0123456789.nNiI") == 0;
+}
+
+/// Whether a word that starts like one is a number that a float can hold.
+bool is_finite(std::string_view word) {
+  if (word.front() == '+') word.remove_prefix(1);
+  double value = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (error == std::errc::result_out_of_range) return word.find("e-") != std::string_view::npos;
+  return error == std::errc() && std::isfinite(static_cast<float>(value));
+}
+
+/// What is wrong with the words of a vertex or texture vertex; "" where nothing is.
+std::string fault_of_vertex(std::string_view rest, int numbers, bool must_be_finite) {
+  for (int i = 0; i < numbers; ++i) {
+    const std::string_view word = take_word(rest);
+    if (word.empty() || word == "\\") break;  // goes on in the next line, or Assimp's to judge
+    if (!starts_like_number(word))
+      return fmt::format("a coordinate of this vertex is no number: give {} numbers", numbers);
+    if (must_be_finite && !is_finite(word))
+      return "a texture coordinate is not a finite number: give two numbers";
+  }
+  return {};
+}
+
+// ---- glTF --------------------------------------------------------------------------------------
+
+/// The JSON of a glTF, text or binary. Errors: no binary glTF of version 2, one cut short.
+Result<std::string> json_of(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::string text(12, '\0');
+  in.read(text.data(), 12);
+  text.resize(static_cast<size_t>(in.gcount()));
+  if (!text.starts_with("glTF")) {
+    in.clear();
+    in.seekg(0);
+    return std::string(std::istreambuf_iterator<char>(in), {});
+  }
+  // glTF 2.0, 4.4: a chunk begins with its length and its type; the first is the JSON.
+  uint32_t words[2] = {0, 0};
+  in.read(reinterpret_cast<char*>(words), sizeof words);
+  if (!in || words[1] != 0x4E4F534A || words[0] > limits::mesh_file_bytes)
+    return refusal("it is no binary glTF 2.0: no chunk of JSON follows its head", path);
+  text.clear();
+  std::copy_n(std::istreambuf_iterator<char>(in), words[0], std::back_inserter(text));
+  if (text.size() < words[0]) return refusal("it is cut short: copy it again", path);
+  return text;
+}
+
+/// Whether brackets outside of strings nest deeper than the limit.
+bool nests_too_deep(std::string_view json) {
+  int depth = 0;
+  bool in_string = false;
+  for (size_t i = 0; i < json.size(); ++i) {
+    const char c = json[i];
+    if (in_string) {
+      if (c == '\\') ++i;
+      in_string = c != '"';
+    } else if (c == '"') {
+      in_string = true;
+    } else if (c == '[' || c == '{') {
+      if (++depth > limits::gltf_nesting) return true;
+    } else if (c == ']' || c == '}') {
+      --depth;
+    }
+  }
+  return false;
+}
+
+/// The node above each; -1 for those under none. Errors: nodes that are under two.
+Result<std::vector<int64_t>> parents_of(const nlohmann::json& nodes, const std::string& path) {
+  std::vector<int64_t> parents(nodes.size(), -1);
+  for (size_t i = 0; i < nodes.size(); ++i) {
+    const auto children = nodes[i].is_object() ? nodes[i].find("children") : nodes[i].end();
+    if (children == nodes[i].end() || !children->is_array()) continue;
+    for (const nlohmann::json& child : *children) {
+      if (!child.is_number_unsigned() || child.get<uint64_t>() >= nodes.size())
+        return refusal(fmt::format("node {} has a child that there is not", i), path);
+      int64_t& parent = parents[child.get<uint64_t>()];
+      if (parent >= 0)
+        return refusal(fmt::format("node {} is a child of node {} and again of node {}: the nodes "
+                                   "of a glTF form trees; export it anew",
+                                   child.get<uint64_t>(), parent, i),
+                       path);
+      parent = static_cast<int64_t>(i);
+    }
+  }
+  return parents;
+}
+
+std::optional<Problem> fault_of_nodes(const nlohmann::json& gltf, const std::string& path) {
+  const auto nodes = gltf.find("nodes");
+  if (nodes == gltf.end() || !nodes->is_array()) return std::nullopt;
+  if (nodes->size() > limits::mesh_parts)
+    return refusal(fmt::format("it has {} nodes, the most are {}: simplify or split it",
+                               nodes->size(), limits::mesh_parts),
+                   path);
+  const auto parents = parents_of(*nodes, path);
+  if (!parents) return parents.problem();
+  // Depth by depth from each node upwards; what is known already is not walked again.
+  std::vector<int> depth(nodes->size(), 0);
+  std::vector<size_t> way;
+  for (size_t start = 0; start < depth.size(); ++start) {
+    way.clear();
+    auto at = static_cast<int64_t>(start);
+    for (; at >= 0 && depth[static_cast<size_t>(at)] == 0;
+         at = parents.value()[static_cast<size_t>(at)]) {
+      way.push_back(static_cast<size_t>(at));
+      depth[static_cast<size_t>(at)] = -1;
+    }
+    int above = at < 0 ? 0 : depth[static_cast<size_t>(at)];
+    if (above < 0) return refusal(fmt::format("node {} is its own ancestor", at), path);
+    for (auto node = way.rbegin(); node != way.rend(); ++node) depth[*node] = ++above;
+    if (above > limits::gltf_node_depth)
+      return refusal(fmt::format("its nodes are more than {} deep: flatten the tree of objects "
+                                 "before exporting",
+                                 limits::gltf_node_depth),
+                     path);
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::string mesh_ending(const std::string& path) {
+  std::string ending = std::filesystem::path(path).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return ending;
+}
+
+std::optional<Problem> fault_of_obj(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::string line;
+  uint64_t groups = 0;
+  for (int number = 1; std::getline(in, line); ++number) {
+    std::string_view rest = line;
+    const std::string_view word = take_word(rest);
+    if (word == "v" || word == "vt") {
+      std::string wrong = fault_of_vertex(rest, word == "v" ? 3 : 2, word == "vt");
+      if (!wrong.empty()) return Problem{{path, number}, std::move(wrong)};
+    } else if (word == "o" || word == "g") {
+      if (++groups > limits::obj_groups)
+        return Problem{{path, number},
+                       fmt::format("more than {} objects and groups: join some before exporting",
+                                   limits::obj_groups)};
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<Problem> fault_of_mtl(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::string line;
+  for (int number = 1; std::getline(in, line); ++number) {
+    std::string_view rest = line;
+    const std::string_view word = take_word(rest);
+    if (word == "newmtl") return std::nullopt;
+    if (word.empty() || word.front() == '#') continue;
+    return Problem{{path, number},
+                   "this stands before the first material: begin it with \"newmtl NAME\""};
+  }
+  return std::nullopt;
+}
+
+std::optional<Problem> fault_of_gltf(const std::string& path) {
+  const Result<std::string> text = json_of(path);
+  if (!text) return text.problem();
+  if (nests_too_deep(text.value()))
+    return refusal(fmt::format("its JSON is nested deeper than {}: export it anew, without extras",
+                               limits::gltf_nesting),
+                   path);
+  const auto gltf = nlohmann::json::parse(text.value(), nullptr, false);
+  if (!gltf.is_object()) return refusal("it is no glTF: its JSON is damaged", path);
+  return fault_of_nodes(gltf, path);
+}
+
+}  // namespace luxodus

@@ -1,0 +1,135 @@
+// `luxodus assess` as it is typed: what is refused, what is said first, what --strict counts.
+#include "tests/examples/program_kit.hpp"
+
+using namespace luxodus::program;
+
+namespace {
+
+/// A short corridor in thin smoke, one luminaire on its ceiling, one sign at its end.
+const std::string corridor = R"(
+[[object]]
+name = "corridor"
+shape = "room"
+low = [0, 0, 0]
+high = [6, 2, 2.8]
+material = "grey50"
+
+[[medium]]
+name = "smoke"
+kind = "homogeneous"
+extinction = 0.3
+albedo = 0.3
+
+[[emitter]]
+name = "em 1"
+shape = "point"
+distribution = "isotropic"
+position = [3, 1, 2.7]
+flux_lm = 200
+emergency = "non-maintained"
+emergency_flux = 200
+maintenance_factor = 0.8
+end_of_duration_factor = 0.7
+onset = [[0, 1]]
+
+[[sign]]
+name = "exit"
+position = [5.95, 1, 2.3]
+facing = [-1, 0, 0]
+width = 0.4
+height = 0.2
+text = "EXIT"
+letter_height = 0.16
+mains_white = 500
+mains_green = 100
+emergency_white = 100
+emergency_green = 20
+
+[[route]]
+name = "way out"
+path = [[0.5, 1, 0], [5.5, 1, 0]]
+width = 1.6
+)";
+
+const std::string smoky = "[[scenario]]\nname = \"fire\"\n";
+const std::string clear =
+    "[[scenario]]\nname = \"clear\"\noperation = \"emergency\"\nmedia = { smoke = 0 }\n";
+const std::string emergency = "operation = \"emergency\"\n";
+
+Outcome assess(const Folder& folder, const std::string& scene, const std::string& options) {
+  std::ofstream(folder.path / "scene.toml") << scene;
+  return run_luxodus(folder, "assess " + (folder.path / "scene.toml").string() + " --out " +
+                                 (folder.path / "out").string() + " " + options);
+}
+
+bool has(const std::string& text, const std::string& words) {
+  return text.find(words) != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("assess refuses what was not named, with what to write, and writes nothing",
+          "[program][assess]") {
+  const Folder folder;
+  const std::string rules = "--rules en1838-2024 ";
+  const auto refused = [&](const std::string& scene, const std::string& options,
+                           const std::string& words) {
+    const Outcome outcome = assess(folder, scene, options);
+    INFO(outcome.err);
+    CHECK(outcome.code == 2);
+    CHECK(has(outcome.err, words));
+    CHECK_FALSE(fs::exists(folder.path / "out"));
+  };
+  refused(corridor, rules, "there is no [[scenario]]");
+  refused(corridor + smoky + clear, rules, "\"fire\" (mains operation, with smoke)");
+  refused(corridor + smoky + emergency, "--codes-alone", "en1838-2013, en1838-2024, nfpa101");
+  refused(corridor + smoky + emergency, rules, "irritant_smoke = true");
+  refused(corridor + smoky + emergency, "--codes-alone --rules en1838", "no rule set \"en1838\"");
+  refused(corridor + smoky + emergency, "--codes-alone --deviation us-ibc " + rules,
+          "deviates from none");
+}
+
+TEST_CASE("assess says the judged state before any verdict, and never that a building complies",
+          "[program][assess]") {
+  const Folder folder;
+  const std::string scene =
+      corridor + smoky + emergency + "seconds_after_failure = 5\n" + clear +
+      "[assessment]\nirritant_smoke = true\nspacing_m = 4\nrules = [\"en1838-2024\"]\n";
+  const Outcome outcome = assess(folder, scene, "--rounds 1");
+  INFO(outcome.err << outcome.out);
+  CHECK(outcome.code == 0);
+  CHECK(outcome.out.starts_with("judged state\n"));
+  CHECK(has(outcome.out, "scenario      fire"));
+  CHECK(has(outcome.out, "emergency, 5 s after the failure of the mains"));
+  CHECK(has(outcome.out, "1 of 1 lit: em 1"));
+  CHECK(has(outcome.out, "extinction 0.3/m at 633 nm"));
+  CHECK(has(outcome.out, "EN 1838:2024"));
+  CHECK(has(outcome.out, "eyes are not yet adapted"));
+  CHECK(outcome.out.find("not assessed") < outcome.out.find("written to"));
+  CHECK_FALSE(has(outcome.out, "checks pass"));
+  CHECK_FALSE(has(outcome.out, "complies"));
+  const std::string page = slurp(folder.path / "out" / "report.html");
+  CHECK(has(page, "1 of 1 lit"));
+  CHECK(has(page, "em 1"));
+  CHECK_FALSE(has(page, "checks pass"));
+}
+
+TEST_CASE("mains operation is judged where it is named, with a warning", "[program][assess]") {
+  const Folder folder;
+  const Outcome outcome =
+      assess(folder, corridor + smoky, "--scenario fire --codes-alone --rules en1838-2024");
+  CHECK(outcome.code == 0);
+  CHECK(has(outcome.err, "MAINS OPERATION"));
+  CHECK(has(outcome.out, "MAINS: not an emergency"));
+}
+
+TEST_CASE("a limit that was read nowhere is told, and with --strict it is open",
+          "[program][assess]") {
+  const Folder folder;
+  const std::string scene = corridor + smoky + emergency;
+  const Outcome said = assess(folder, scene, "--codes-alone --rules en1838-2024");
+  CHECK(said.code == 0);
+  CHECK(has(said.out, "  not verified: sign \"exit\": Angle of a sign above the horizontal"));
+  CHECK(has(said.out, " 1 not verified"));
+  CHECK(assess(folder, scene, "--codes-alone --strict --rules en1838-2024").code == 1);
+}

@@ -1,0 +1,156 @@
+// The program with files that were made to harm it or whoever runs it, and its own defences: each
+// ends with exit code 2 and one clear sentence, in time, with nothing of other files in it.
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <fstream>
+#include <string>
+
+#include "tests/examples/program_kit.hpp"
+#include "tests/unit/scenes/pack/burning_gallery.hpp"
+
+using namespace luxodus::program;
+
+namespace {
+
+constexpr const char* room = R"(
+[[object]]
+name = "room"
+shape = "room"
+low = [0, 0, 0]
+high = [4, 3, 3]
+material = "grey50"
+[[emitter]]
+name = "lamp"
+shape = "point"
+position = [2, 2, 2]
+flux_lm = 100
+)";
+
+std::string write(const Folder& folder, const char* name, const std::string& text) {
+  const fs::path file = folder.path / name;
+  std::ofstream(file, std::ios::binary) << text;
+  return file.string();
+}
+
+/// Nothing that a terminal would obey, but for the ends of lines.
+bool printable(const std::string& text) {
+  return std::none_of(text.begin(), text.end(),
+                      [](char c) { return (c >= 0 && c < 0x20 && c != '\n') || c == 0x7F; });
+}
+
+}  // namespace
+
+TEST_CASE("control characters in names and titles do not reach the terminal",
+          "[program][hostile]") {
+  const Folder folder;
+  const std::string scene = write(
+      folder, "evil.toml", "title = \"a\\u001B]0;owned\\u0007b\\u009Bc\"\n" + std::string(room));
+  for (const char* verb : {"check ", "run --particles 1k --out "}) {
+    const std::string arguments = verb == std::string("check ")
+                                      ? verb + scene
+                                      : verb + (folder.path / "out").string() + " " + scene;
+    const Outcome told = run_luxodus(folder, arguments);
+    INFO(told.out << told.err);
+    CHECK(printable(told.out));
+    CHECK(printable(told.err));
+  }
+  CHECK(run_luxodus(folder, "check " + scene).out.find("a\\x1B]0;owned") != std::string::npos);
+}
+
+TEST_CASE("a pipe in the place of a file is refused and not waited for", "[program][hostile]") {
+  const Folder folder;
+  const std::string pipe = (folder.path / "pipe.toml").string();
+  REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+  const std::string image = (folder.path / "pipe.png").string();
+  REQUIRE(::mkfifo(image.c_str(), 0600) == 0);
+  const std::string painted = write(folder, "painted.toml",
+                                    std::string(room) +
+                                        "[[material]]\nname = \"painted\"\nkind = \"lambertian\"\n"
+                                        "reflectance = 0.9\nimage = \"pipe.png\"\n");
+  const std::string including = write(folder, "including.toml", "include = [\"pipe.toml\"]\n");
+  for (const std::string& arguments :
+       {"check " + pipe, "run " + pipe, "check " + painted, "check " + including, "cluster " + pipe,
+        "topology " + pipe}) {
+    INFO(arguments);
+    const Outcome told = run_luxodus(folder, arguments, "timeout 60 ");
+    INFO(told.err);
+    CHECK(told.code != 0);
+    CHECK(told.code != 124);  // of timeout(1)
+  }
+}
+
+TEST_CASE("a file that a scene includes is not told to whoever reads the errors",
+          "[program][hostile]") {
+  const Folder folder;
+  write(folder, "shadow", "root:$6$secret$hash:19000:0:99999:7:::\n");
+  const std::string scene = write(folder, "s.toml", "include = [\"shadow\"]\n");
+  const Outcome told = run_luxodus(folder, "check " + scene);
+  CHECK(told.code == 2);
+  CHECK(told.err.find("an included file must be a scene file") != std::string::npos);
+  for (const char* words : {"root", "secret", "19000"})
+    CHECK((told.out + told.err).find(words) == std::string::npos);
+}
+
+TEST_CASE("a mesh that makes the importer crash is one error with its file and line",
+          "[program][hostile]") {
+  const Folder folder;
+  write(folder, "tex.mtl", "map_Kd grey.png\nnewmtl red\n");
+  write(folder, "tex.obj", "mtllib tex.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nusemtl red\nf 1 2 3\n");
+  const std::string scene =
+      write(folder, "s.toml",
+            std::string(room) +
+                "[[import]]\nname = \"m\"\nfile = \"tex.obj\"\nunits = \"m\"\n"
+                "up = \"y\"\nmaterial = \"grey50\"\n");
+  const Outcome told = run_luxodus(folder, "check " + scene);
+  INFO(told.err);
+  CHECK(told.code == 2);
+  CHECK(told.err.find("tex.mtl:1: this stands before the first material") != std::string::npos);
+}
+
+TEST_CASE("a damaged object of a pack is named with its file before nodes begin",
+          "[program][hostile]") {
+  const Folder folder;
+  const std::string scene = luxodus::write_gallery(folder.path).string();
+  const std::string pack = (folder.path / "x.luxpack").string();
+  REQUIRE(run_luxodus(folder, "pack " + scene + " --scenario smoky --out " + pack).code == 0);
+  std::string bytes = slurp(pack);
+  bytes[300] = static_cast<char>(bytes[300] ^ 4);  // behind the head: the first object
+  std::ofstream(pack, std::ios::binary) << bytes;
+  const Outcome told = run_luxodus(folder,
+                                   "run " + pack +
+                                       " --scenario smoky --nodes 2 --object-mib 1 "
+                                       "--particles 10k --out " +
+                                       (folder.path / "out").string(),
+                                   "timeout 60 ");
+  INFO(told.err);
+  CHECK(told.code != 0);
+  CHECK(told.code != 124);
+  CHECK(told.err.find("x.luxpack: object 0 of this pack is damaged") != std::string::npos);
+}
+
+TEST_CASE("the program is linked so that an overwritten pointer finds no table to lead astray",
+          "[program][hostile]") {
+#if defined(LUX_HARDENED)
+  const Folder folder;
+  const Outcome elf = shell(folder, std::string("readelf -hldW ") + LUX_PROGRAM);
+  if (elf.code != 0) {
+    WARN("skipped: there is no readelf here");
+    return;
+  }
+  CHECK(elf.out.find("DYN (") != std::string::npos);      // at another address each time
+  CHECK(elf.out.find("GNU_RELRO") != std::string::npos);  // tables are read-only,
+  CHECK(elf.out.find("BIND_NOW") != std::string::npos);   // all of them,
+  CHECK(elf.out.find("Flags: NOW PIE") != std::string::npos);
+  const size_t stack = elf.out.find("GNU_STACK");
+  REQUIRE(stack != std::string::npos);
+  const std::string line = elf.out.substr(stack, elf.out.find('\n', stack) - stack);
+  CHECK(line.find("RWE") == std::string::npos);  // and the stack is no code
+  const Outcome symbols = shell(folder, std::string("readelf -sW --dyn-syms ") + LUX_PROGRAM);
+  CHECK(symbols.out.find("__stack_chk_fail") != std::string::npos);
+  CHECK(symbols.out.find("_chk@GLIBC") != std::string::npos);
+#else
+  WARN("skipped: only release builds are hardened");
+#endif
+}

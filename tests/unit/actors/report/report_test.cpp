@@ -1,0 +1,373 @@
+// A room with one luminaire and one sign, assessed and reported: what the page, the drawings and
+// the tables say is what the assessment says.
+#include "actors/report/report.hpp"
+
+#include <dxflib/dl_creationadapter.h>
+#include <dxflib/dl_dxf.h>
+#include <librsvg/rsvg.h>
+
+#include <catch2/catch.hpp>
+#include <cstdlib>
+#include <map>
+#include <regex>
+
+#include "actors/assess/assessment_check.hpp"
+#include "actors/assess/assessment_json.hpp"
+#include "actors/report/hand_over.hpp"
+#include "actors/report/isolux.hpp"
+#include "actors/report/pdf.hpp"
+#include "tests/unit/actors/assess/assessed_room.hpp"
+#include "tests/unit/scenes/format/temporary_folder.hpp"
+
+using namespace luxodus;
+using namespace luxodus::test;
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::string project = R"(
+[project]
+name = "Hall <of> tests"
+client = "A & B"
+document = "T-17"
+revision = "C"
+date = 2026-11-23
+)";
+
+/// Of one round, so that it takes a second.
+const Json& assessed_json() {
+  static const Json json = [] {
+    AssessOptions options;
+    options.rounds = 1;
+    const std::string text = project + room;
+    return assessment_json(*scene_of(text), assessed(text, options), "1.2.3");
+  }();
+  return json;
+}
+
+std::string page_in(Language language) {
+  ReportOptions options;
+  options.language = language;
+  return report_html(assessed_json(), {}, "out/x", options);
+}
+
+bool has(const std::string& text, const std::string& piece) {
+  return text.find(piece) != std::string::npos;
+}
+
+std::string content(const fs::path& path) {
+  const auto bytes = read_whole_file(path, uint64_t{64} << 20);
+  INFO(path);
+  REQUIRE(bytes.ok());
+  return std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+}
+
+bool runs(const std::string& command) {
+  return std::system((command + " >/dev/null 2>&1").c_str()) == 0;
+}
+
+/// {0}, {1}, ... of a text, sorted.
+std::multiset<std::string> gaps(const std::string& text) {
+  static const std::regex gap("\\{[0-9]\\}");
+  return {std::sregex_token_iterator(text.begin(), text.end(), gap), {}};
+}
+
+/// What dxflib reads of a drawing.
+class Read : public DL_CreationAdapter {
+ public:
+  std::map<std::string, int> on_layer;
+  std::vector<DL_InsertData> inserts;
+  std::map<std::string, std::string> attributes;
+  std::vector<std::string> texts;
+
+  void addLayer(const DL_LayerData& data) override { on_layer.try_emplace(data.name, 0); }
+  void addLine(const DL_LineData&) override { ++on_layer[attributes_layer()]; }
+  void addPolyline(const DL_PolylineData&) override { ++on_layer[attributes_layer()]; }
+  void addInsert(const DL_InsertData& data) override { inserts.push_back(data); }
+  void addAttribute(const DL_AttributeData& data) override { attributes[data.tag] += data.text; }
+  void addText(const DL_TextData& data) override { texts.push_back(data.text); }
+
+ private:
+  std::string attributes_layer() { return getAttributes().getLayer(); }
+};
+
+}  // namespace
+
+TEST_CASE("every text of a report is there in every language, with the same gaps", "[report]") {
+  size_t count = 0;
+  for (const auto rows : {page_texts(), section_texts(), word_texts(), rule_texts()})
+    for (const ReportText& row : rows) {
+      INFO(row.key);
+      ++count;
+      for (const char* text : row.text) {
+        REQUIRE(text != nullptr);
+        CHECK(*text != '\0');
+        CHECK(gaps(text) == gaps(row.text[0]));
+      }
+    }
+  CHECK(count > 200);
+}
+
+TEST_CASE("a report says what it is not, on its first page and in its footer, in each language",
+          "[report]") {
+  for (const Language language : {Language::en, Language::de, Language::fr}) {
+    const Texts texts(language);
+    const std::string page = page_in(language);
+    INFO(texts.code());
+    CHECK(has(page, "<html lang=\"" + std::string(texts.code()) + "\">"));
+    const size_t first_section = page.find("<h2 ");
+    for (const char* notice : {"notice.calculation", "notice.secondary", "notice.legibility",
+                               "notice.authority", "notice.measure"})
+      CHECK(page.find(escaped(texts(notice))) < first_section);
+    CHECK(page.find("@bottom-left") < page.find("@bottom-right"));
+    CHECK(has(page, "counter(pages)"));
+    CHECK_FALSE(has(page, "complies with EN"));
+    CHECK_FALSE(has(page, "http-equiv"));
+    CHECK_FALSE(has(page, "src=\"http"));
+    CHECK_FALSE(has(page, "<script"));
+    CHECK(has(page, "</html>"));
+  }
+  CHECK(has(page_in(Language::en), "1.65"));
+  CHECK(has(page_in(Language::de), "1,65"));
+  CHECK(has(page_in(Language::fr), "1,65"));
+  CHECK_FALSE(has(page_in(Language::de), ">1.65"));
+}
+
+TEST_CASE("a report's sections follow each other from the verdict to the method", "[report]") {
+  const std::string page = page_in(Language::en);
+  size_t before = 0;
+  for (const char* id : {"verdict", "state", "plans", "schedules", "places", "sights", "thumb",
+                         "inputs", "clauses", "not-assessed", "method"}) {
+    const size_t at = page.find("<h2 id=\"" + std::string(id) + "\"");
+    INFO(id);
+    REQUIRE(at != std::string::npos);
+    CHECK(at > before);
+    before = at;
+  }
+  const Json& a = assessed_json();
+  CHECK(page.find(a["verdict"]["words"].get<std::string>()) < page.find("<h2 "));
+  CHECK(has(page, "Hall &lt;of&gt; tests"));
+  CHECK(has(page, "A &amp; B"));
+  CHECK(has(page, a["scene"]["content_hash"].get<std::string>()));
+  CHECK(has(page, "Luxodus 1.2.3"));
+  for (const Json& check : a["checks"])
+    CHECK(has(page, escaped(check["edition"].get<std::string>())));
+  // No pictures: the command that makes them.
+  CHECK((has(page, "luxodus run") || has(page, "[[camera]]")));
+}
+
+TEST_CASE("verdicts have a shape and a word beside their colour", "[report]") {
+  const Texts texts(Language::en);
+  std::set<std::string> shapes;
+  for (const char* verdict : {"pass", "fail", "not assessed", "not verified", "information"}) {
+    const std::string mark = verdict_mark(texts, "verdict", verdict);
+    CHECK(has(mark, texts.word("verdict", verdict)));
+    const std::string shape = std::regex_replace(mark, std::regex("#[0-9a-f]{6}"), "");
+    shapes.insert(shape.substr(shape.find("<svg"), shape.find("</svg>") - shape.find("<svg")));
+  }
+  CHECK(shapes.size() == 5);
+}
+
+TEST_CASE("every key that a report reads is missed by name, and without it nothing ends",
+          "[report]") {
+  REQUIRE_FALSE(fault_of_assessment(assessed_json()));
+  const Json flat = assessed_json().flatten();
+  std::set<std::string> tried;
+  size_t faults = 0;
+  for (const auto& [path, value] : flat.items()) {
+    // One of each kind: of lists the first entry.
+    const std::string kind = std::regex_replace(path, std::regex("/[0-9]+"), "/0");
+    if (kind != path || !tried.insert(kind).second) continue;
+    Json cut = assessed_json();
+    const Json::json_pointer at(path);
+    if (!at.back().empty() && at.back()[0] >= '0' && at.back()[0] <= '9') continue;
+    cut[at.parent_pointer()].erase(at.back());
+    INFO(path);
+    if (const auto fault = fault_of_assessment(cut)) {
+      ++faults;
+      CHECK(has(*fault, at.back()));
+    } else {
+      CHECK(has(report_html(cut, {}, "x", {}), "</html>"));
+    }
+  }
+  CHECK(faults > 60);
+  Json wrong = assessed_json();
+  wrong["checks"][0]["verdict"] = 3;
+  CHECK(fault_of_assessment(wrong) == "checks[0].verdict is not a text");
+  wrong = assessed_json();
+  wrong["signs"][0]["position"][0] = 1e300;
+  CHECK(fault_of_assessment(wrong));
+  wrong = assessed_json();
+  wrong["project"]["logo_png"] = "\"><script>";
+  CHECK(fault_of_assessment(wrong) == "project.logo_png is no picture");
+  wrong = assessed_json();
+  wrong["plan"]["levels"][0]["map"]["columns"] = 1e6;
+  CHECK(fault_of_assessment(wrong));
+}
+
+TEST_CASE("a damaged assessment is refused with its file and the missing key", "[report]") {
+  const TemporaryFolder folder;
+  Json cut = assessed_json();
+  cut.erase("signs");
+  folder.write("assessment.json", json_text(cut));
+  const auto read = read_assessment(fs::path(folder / ""));
+  REQUIRE_FALSE(read.ok());
+  CHECK(has(read.problem().text(), "assessment.json"));
+  CHECK(has(read.problem().text(), "has no \"signs\""));
+  const fs::path hostile = fs::path(LUX_SHARED_DATA) / "traps" / "hostile" / "assessment_739.json";
+  if (!fs::exists(hostile)) {
+    WARN("skipped: " << hostile << " is not there");
+    return;
+  }
+  folder.write("assessment.json", content(hostile));
+  CHECK_FALSE(read_assessment(fs::path(folder / "")).ok());
+}
+
+TEST_CASE("lines of equal illuminance lie where the closed form has them, and end at walls",
+          "[report]") {
+  // I h / (h^2 + r^2)^1.5 of 300 lm in all directions, 2.48 m above the plane.
+  const double intensity = 300 / (4 * 3.14159265358979323846), h = 2.5 - 0.02;
+  const auto lux = [&](double r) { return intensity * h / std::pow(h * h + r * r, 1.5); };
+  size_t points = 0;
+  for (const IsoluxLine& one : isolux_lines(assessed_json()["plan"]["levels"][0]))
+    for (const glm::dvec2& p : one.line.points) {
+      ++points;
+      CHECK(lux(glm::length(p - glm::dvec2(6, 0))) == Approx(one.lux).epsilon(0.03));
+    }
+  CHECK(points > 10);
+  // A wall across the room: the line ends on both of its sides.
+  Json walled = assessed_json()["plan"]["levels"][0];
+  walled["walls"].push_back({6.0, -2.0, 6.0, 2.0});
+  for (const IsoluxLine& one : isolux_lines(walled))
+    for (const glm::dvec2& p : one.line.points) CHECK(std::abs(p.x - 6) > 0.1);
+}
+
+TEST_CASE("a plan in DXF is read back with its layers, luminaires and lines", "[report]") {
+  const TemporaryFolder folder;
+  const Json& a = assessed_json();
+  const Schedule schedule(a);
+  const fs::path path = folder / "plan.dxf";
+  REQUIRE(write_plan_dxf(path, a, schedule, 0).ok());
+  Read read;
+  DL_Dxf dxf;
+  REQUIRE(dxf.in(path.string(), &read));
+  for (const char* layer : {"WALLS", "LUMINAIRES", "SIGNS", "ROUTES", "AREAS", "ISOLUX_0_5",
+                            "ISOLUX_1", "ISOLUX_5", "ISOLUX_10", "TEXT", "SCALE"}) {
+    INFO(layer);
+    CHECK(read.on_layer.contains(layer));
+  }
+  CHECK(read.on_layer["WALLS"] == static_cast<int>(a["plan"]["levels"][0]["walls"].size()));
+  const auto lines = isolux_lines(a["plan"]["levels"][0]);
+  const auto count = [&](double lux) {
+    return std::count_if(lines.begin(), lines.end(),
+                         [&](const IsoluxLine& one) { return one.lux == lux; });
+  };
+  CHECK(count(1) > 0);
+  CHECK(read.on_layer["ISOLUX_1"] == count(1));
+  CHECK(read.on_layer["ISOLUX_0_5"] == count(0.5));
+  REQUIRE(read.inserts.size() == a["luminaires"].size() + a["signs"].size());
+  CHECK(read.inserts[0].name == "LUMINAIRE_A");
+  CHECK(read.inserts[0].ipx == Approx(6));
+  CHECK(read.inserts[0].ipz == Approx(2.5));
+  CHECK(read.inserts[1].angle == Approx(180));
+  CHECK(read.attributes["NAME"] == "lampexit");
+  CHECK(has(read.attributes["TYPE"], "A"));
+  CHECK(std::count(read.texts.begin(), read.texts.end(), "A 2.50") == 1);
+}
+
+TEST_CASE("plans are drawings that a reader of SVG takes, with a scale and a north", "[report]") {
+  const TemporaryFolder folder;
+  ReportOptions options;
+  options.grid_values = true;
+  REQUIRE(write_report(fs::path(folder / ""), assessed_json(), options).ok());
+  for (const char* name : {"installation.svg", "isolux.svg", "legibility_1.65m.svg"}) {
+    const std::string svg = content(fs::path(folder / "plans") / name);
+    INFO(name);
+    GError* error = nullptr;
+    RsvgHandle* handle =
+        rsvg_handle_new_from_data(reinterpret_cast<const guint8*>(svg.data()), svg.size(), &error);
+    CHECK(handle != nullptr);
+    if (handle != nullptr) g_object_unref(handle);
+    CHECK(has(svg, "class=\"scale\""));
+    CHECK(has(svg, "class=\"north\""));
+    CHECK(has(svg, "1:"));
+  }
+  const std::string isolux = content(fs::path(folder / "plans") / "isolux.svg");
+  CHECK(has(isolux, "data-lux=\"1\""));
+  CHECK(has(isolux, "class=\"values\""));
+  CHECK(has(content(fs::path(folder / "plans") / "installation.svg"), ">A 2.50<"));
+}
+
+TEST_CASE("schedules have units in their headers and a place in every row", "[report]") {
+  const Json& a = assessed_json();
+  const Schedule schedule(a);
+  const std::string lamps = luminaires_csv(a, schedule).text();
+  CHECK(has(lamps, "x [m],y [m],z [m],height above floor [m]"));
+  CHECK(has(lamps, "lamp,A,"));
+  CHECK(has(lamps, ",6,0,2.5,2.5,"));
+  CHECK(has(lamps, ",lm,0.8,0.75"));
+  CHECK(a["luminaires"][0]["emergency_flux"]["value"].get<double>() == Approx(300));
+  CHECK(has(signs_csv(a, schedule).text(), "1,exit,"));
+  CHECK(has(signs_csv(a, schedule).text(), ",11.95,0,2.2,2.2,-1,0,0,0.4,0.2,"));
+  const std::string points = points_csv(a, schedule).text();
+  CHECK(std::count(points.begin(), points.end(), '\n') ==
+        static_cast<std::ptrdiff_t>(a["plan"]["levels"][0]["points"].size()) + 1);
+  CHECK(has(points, "illuminance [lx]"));
+  CHECK(has(materials_csv(a, schedule).text(), "6.000 0.000 2.500"));
+  CHECK(has(places_csv(a).text(), "worst x [m],worst y [m],worst z [m]"));
+}
+
+TEST_CASE("the pages of a PDF's destinations are found through its tree of pages", "[report]") {
+  const std::string pdf =
+      "%PDF-1.4\n1 0 obj\n<</Type /Catalog\n/Pages 2 0 R\n/Dests 7 0 R>>\nendobj\n"
+      "2 0 obj\n<</Type /Pages\n/Kids [3 0 R 4 0 R]>>\nendobj\n"
+      "4 0 obj\n<</Type /Page>>\nendobj\n3 0 obj\n<</Type /Pages\n/Kids [5 0 R 6 0 R]>>\nendobj\n"
+      "5 0 obj\n<</Type /Page>>\nendobj\n6 0 obj\n<</Type /Page>>\nendobj\n"
+      "7 0 obj\n<</state [6 0 R /XYZ 1 2 0]\n/method [4 0 R /XYZ 1 2 0]>>\nendobj\n";
+  CHECK(pages_of_destinations(pdf) == std::map<std::string, int>{{"state", 2}, {"method", 3}});
+  for (size_t cut = 0; cut < pdf.size(); ++cut) pages_of_destinations(pdf.substr(0, cut));
+}
+
+TEST_CASE("a printed report holds its verdict, footers and the pages of its contents", "[report]") {
+  if (!runs("chromium --version") || !runs("pdftotext -v") || !runs("pdftoppm -v")) {
+    WARN("skipped: Chromium or poppler-utils are not installed");
+    return;
+  }
+  const TemporaryFolder folder;
+  const std::string root = folder / "";
+  for (const bool letter : {false, true}) {
+    ReportOptions options;
+    options.pdf = true;
+    options.letter = letter;
+    const auto done = write_report(root, assessed_json(), options);
+    INFO((done.ok() ? "" : done.problem().text()));
+    REQUIRE(done.ok());
+    REQUIRE(runs("pdfinfo -f 1 -l 1 '" + root + "report.pdf' > /dev/null"));
+    REQUIRE(std::system(("pdfinfo '" + root + "report.pdf' > '" + root + "info.txt'").c_str()) ==
+            0);
+    CHECK(has(content(root + "info.txt"), letter ? "(letter)" : "(A4)"));
+  }
+  REQUIRE(runs("pdftotext -layout '" + root + "report.pdf' '" + root + "text.txt'"));
+  const std::string text = content(root + "text.txt");
+  std::vector<std::string> pages;
+  for (size_t from = 0; from < text.size();) {
+    const size_t to = std::min(text.find('\f', from), text.size());
+    pages.push_back(text.substr(from, to - from));
+    from = to + 1;
+  }
+  REQUIRE(pages.size() > 5);
+  CHECK(has(pages[0], assessed_json()["verdict"]["words"].get<std::string>()));
+  for (size_t i = 0; i < pages.size(); ++i) {
+    CHECK(has(pages[i], fmt::format("Page {} of {}", i + 1, pages.size())));
+    CHECK(has(pages[i], "certifies compliance with no law or code"));
+    CHECK(has(pages[i], "T-17"));
+  }
+  std::smatch found;
+  REQUIRE(std::regex_search(pages[0], found, std::regex("Schedules +([0-9]+)")));
+  CHECK(has(pages.at(static_cast<size_t>(std::stoi(found[1])) - 1), "Bill of materials"));
+  REQUIRE(runs("pdftoppm -r 30 -png '" + root + "report.pdf' '" + root + "page'"));
+  size_t drawn = 0;
+  for (const auto& entry : fs::directory_iterator(root))
+    if (entry.path().extension() == ".png" && entry.file_size() > 500) ++drawn;
+  CHECK(drawn == pages.size());
+}

@@ -1,0 +1,132 @@
+#include "runtime/core/isolated_job.hpp"
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <csignal>
+#include <cstdlib>
+#include <numeric>
+#include <stdexcept>
+#include <thread>
+
+using namespace luxodus;
+
+namespace {
+
+/// What the other process is to do with its question.
+enum class Task { answer, crash, take_memory, loop, throw_up, write_much, lie, count };
+
+volatile uint64_t spun = 0;
+
+void work(PlainReader& question, PlainWriter& answer) {
+  auto task = Task::answer;
+  std::string text;
+  std::vector<uint32_t> numbers;
+  if (!question.get(task) || !question.get(text) || !question.get(numbers))
+    throw std::runtime_error("no question");
+  std::vector<std::string> taken;
+  switch (task) {
+    case Task::crash:
+      std::raise(SIGSEGV);
+      break;
+    case Task::take_memory:
+      for (;;) taken.emplace_back(size_t{1} << 20, 'x');
+    case Task::loop:
+      for (;;) spun = spun + 1;
+    case Task::throw_up:
+      throw std::runtime_error("no");
+    case Task::write_much:
+      for (;;) answer.put(std::string(size_t{1} << 20, 'x'));
+    case Task::lie:
+      answer.put(uint64_t{1} << 60);  // numbers that do not follow
+      return;
+    default:
+      break;
+  }
+  answer.put(text + "!");
+  answer.put(std::accumulate(numbers.begin(), numbers.end(), uint64_t{0}));
+}
+
+const IsolatedJob job("test", work);
+constexpr IsolatedLimits little{uint64_t{64} << 20, 1};
+
+Result<PlainReader> run(Task task, const std::vector<uint32_t>& numbers = {}) {
+  return job.run(
+      [&](PlainWriter& question) {
+        question.put(task);
+        question.put(std::string("text"));
+        question.put(numbers);
+      },
+      little);
+}
+
+std::string failure(Task task) {
+  const auto done = run(task);
+  REQUIRE_FALSE(done.ok());
+  return done.problem().what;
+}
+
+}  // namespace
+
+TEST_CASE("a job in a process of its own gets its question and gives its answer",
+          "[runtime][isolated]") {
+  std::vector<uint32_t> numbers(100'000);
+  std::iota(numbers.begin(), numbers.end(), 0u);
+  auto answer = run(Task::answer, numbers);
+  INFO((answer.ok() ? std::string() : answer.problem().what));
+  REQUIRE(answer.ok());
+  std::string text;
+  uint64_t sum = 0;
+  REQUIRE((answer->get(text) && answer->get(sum)));
+  CHECK(text == "text!");
+  CHECK(sum == uint64_t{99'999} * 50'000);
+  CHECK(answer->left() == 0);
+  CHECK_FALSE(answer->get(sum));
+}
+
+TEST_CASE("a crash, a loop and a flood of a job are problems of their own words",
+          "[runtime][isolated]") {
+  CHECK(failure(Task::crash).find("crash (Segmentation fault)") != std::string::npos);
+  CHECK(failure(Task::loop).find("takes longer than") != std::string::npos);
+  CHECK(failure(Task::throw_up).find("without a reason") != std::string::npos);
+  CHECK(failure(Task::write_much).find("more than 64 MiB") != std::string::npos);
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+  CHECK(failure(Task::take_memory).find("more than 64 MiB of memory") != std::string::npos);
+#endif
+}
+
+TEST_CASE("an answer that claims more than it holds takes no memory", "[runtime][isolated]") {
+  auto answer = run(Task::lie);
+  REQUIRE(answer.ok());
+  std::vector<double> numbers;
+  CHECK_FALSE(answer->get(numbers));
+  CHECK(numbers.empty());
+}
+
+TEST_CASE("threads run jobs side by side, and none leaves a descriptor", "[runtime][isolated]") {
+  std::vector<int> good(4, 0);
+  {
+    std::vector<std::jthread> threads;
+    for (int& mine : good)
+      threads.emplace_back([&mine] {
+        for (int i = 0; i < 5; ++i) mine += run(Task::answer).ok() ? 1 : 0;
+      });
+  }
+  CHECK(good == std::vector<int>(4, 5));
+  const int first = ::dup(0);
+  for (int i = 0; i < 3; ++i) CHECK_FALSE(run(Task::crash).ok());
+  const int second = ::dup(0);
+  CHECK(second == first + 1);
+  ::close(first);
+  ::close(second);
+}
+
+TEST_CASE("more memory is allowed in a job only", "[runtime][isolated]") {
+  rlimit before{}, after{};
+  REQUIRE(::getrlimit(RLIMIT_CPU, &before) == 0);
+  allow_more({1, 1});
+  REQUIRE(::getrlimit(RLIMIT_CPU, &after) == 0);
+  CHECK(after.rlim_cur == before.rlim_cur);
+}

@@ -1,0 +1,57 @@
+#include "runtime/core/regular_file.hpp"
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <fstream>
+
+using namespace luxodus;
+namespace fs = std::filesystem;
+
+namespace {
+
+class Folder {
+ public:
+  Folder() {
+    std::string name = (fs::temp_directory_path() / "luxodus_regular_XXXXXX").string();
+    REQUIRE(::mkdtemp(name.data()) != nullptr);
+    path = name;
+  }
+  ~Folder() { fs::remove_all(path); }
+  fs::path path;
+};
+
+std::string refusal(const fs::path& path) {
+  const auto read = read_regular_file(path, 100);
+  REQUIRE_FALSE(read.ok());
+  CHECK(read.problem().where.file == path.string());
+  return read.problem().what;
+}
+
+}  // namespace
+
+TEST_CASE("a file is read whole, up to its limit", "[core][files]") {
+  const Folder folder;
+  const fs::path file = folder.path / "a";
+  for (const size_t bytes : {size_t{0}, size_t{1}, size_t{99}, size_t{100}}) {
+    std::ofstream(file, std::ios::binary) << std::string(bytes, 'x');
+    const auto read = read_regular_file(file, 100);
+    REQUIRE(read.ok());
+    CHECK(read.value() == std::string(bytes, 'x'));
+  }
+  std::ofstream(file, std::ios::binary) << std::string(101, 'x');
+  CHECK(refusal(file).find("longer than 100 bytes") != std::string::npos);
+  CHECK(read_regular_file("/proc/self/status", 1 << 20).ok());  // which says that it has 0 bytes
+}
+
+TEST_CASE("what is no file is refused, and never waited for", "[core][files]") {
+  const Folder folder;
+  const fs::path pipe = folder.path / "pipe";
+  REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+  CHECK(refusal(pipe).find("a pipe, a socket or a device") != std::string::npos);
+  CHECK(refusal("/dev/zero").find("a pipe, a socket or a device") != std::string::npos);
+  CHECK(refusal(folder.path).find("Is a directory") != std::string::npos);
+  CHECK(refusal(folder.path / "absent").find("No such file") != std::string::npos);
+  CHECK(refusal(folder.path / std::string("a\0b", 3)).find("zero byte") != std::string::npos);
+}

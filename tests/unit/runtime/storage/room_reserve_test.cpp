@@ -1,0 +1,32 @@
+#include "runtime/storage/room_reserve.hpp"
+
+#include <sys/statvfs.h>
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+
+using namespace luxodus;
+
+TEST_CASE("room is kept without a file that anybody sees, and more than there is is refused",
+          "[storage]") {
+  std::string name = (std::filesystem::temp_directory_path() / "luxodus-room-XXXXXX").string();
+  REQUIRE(::mkdtemp(name.data()) != nullptr);
+  struct statvfs before {};
+  REQUIRE(::statvfs(name.c_str(), &before) == 0);
+  RoomReserve room;
+  REQUIRE(room.take(name, 1 << 20).ok());
+  CHECK(std::filesystem::is_empty(name));
+  if (!room.held()) {
+    WARN("skipped: this file system does not promise room");
+  } else {
+    const uint64_t all = uint64_t{before.f_blocks} * before.f_frsize;
+    const auto refused = room.take(name, all + (uint64_t{1} << 30));
+    CHECK_FALSE(room.held());
+    REQUIRE_FALSE(refused.ok());
+    CHECK(refused.problem().text().find("MiB") != std::string::npos);
+    REQUIRE(room.take(name, 1 << 20).ok());
+    room.release();
+    CHECK_FALSE(room.held());
+  }
+  std::filesystem::remove_all(name);
+}

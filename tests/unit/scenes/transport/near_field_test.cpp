@@ -1,0 +1,71 @@
+// Photometric files near by: who is told of, and how far.
+#include "scenes/transport/near_field.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "scenes/format/scene_file.hpp"
+#include "scenes/transport/compile.hpp"
+#include "tests/unit/scenes/format/scene_fixture.hpp"
+
+using namespace luxodus;
+
+namespace {
+
+/// lamp.ies has a round opening of 0.2 m and shines down: five openings are 1 m.
+const std::string room = R"(
+[[object]]
+name = "room"
+shape = "room"
+low = [0, 0, 0]
+high = [10, 10, 3]
+material = "grey50"
+[[luminaire]]
+name = "low lamp"
+file = "lamp.ies"
+position = [5, 5, 0.9]
+circuit = "a"
+[[luminaire]]
+name = "high lamp"
+file = "lamp.ies"
+position = [8, 8, 2.9]
+)";
+
+std::vector<Problem> warnings_of(const std::string& text, const SeesPlace& sees = {}) {
+  SceneFolder folder;
+  const SceneDescription scene = good(folder, room + text);
+  return near_field_warnings(scene, find_scenario(scene, "").value(), sees);
+}
+
+}  // namespace
+
+TEST_CASE("a plane nearer than five luminous openings is told with luminaire and distance",
+          "[transport][near_field]") {
+  const std::string plane =
+      "[[plane]]\nname = \"floor\"\ncorner = [0, 0, 0]\nedge_u = [10, 0, 0]\n"
+      "edge_v = [0, 10, 0]\ncells = [4, 4]\n";
+  const auto warnings = warnings_of(plane);
+  REQUIRE(warnings.size() == 1);
+  CHECK(warnings[0].what.find("plane \"floor\" is 0.9 m from luminaire \"low lamp\"") == 0);
+  CHECK(warnings[0].what.find("(1 m)") != std::string::npos);
+  CHECK(warnings[0].where.line > 0);
+  CHECK(warnings_of(plane, [](const glm::dvec3&, const glm::dvec3&) { return false; }).empty());
+}
+
+TEST_CASE("probes, routes and signs are told of and what is far, dark or behind a luminaire is not",
+          "[transport][near_field]") {
+  CHECK(warnings_of("[[probe]]\nname = \"p\"\nposition = [5, 5.2, 0.2]\n").size() == 1);
+  CHECK(warnings_of("[[probe]]\nname = \"far\"\nposition = [8, 8, 1.8]\n").empty());
+  CHECK(warnings_of("[[probe]]\nname = \"behind\"\nposition = [5, 5, 1.2]\n").empty());
+  CHECK(warnings_of("[[route]]\nname = \"r\"\npath = [[0.5, 5.4, 0], [9.5, 5.4, 0]]\nwidth = 1\n")
+            .size() == 1);
+  CHECK(warnings_of("[[probe]]\nname = \"p\"\nposition = [5, 5.2, 0.2]\n[[scenario]]\n"
+                    "name = \"off\"\ncircuits = { a = 0 }\n")
+            .empty());
+}
+
+TEST_CASE("a luminaire knows its file, its product and its opening", "[format][scene]") {
+  SceneFolder folder;
+  const SceneDescription scene = good(folder, room);
+  CHECK(scene.emitters[0].file == "lamp.ies");
+  CHECK(scene.emitters[0].opening_m.x == Approx(0.2));
+}
