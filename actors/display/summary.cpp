@@ -7,6 +7,7 @@
 
 #include "actors/display/report.hpp"
 #include "actors/display/run_state.hpp"
+#include "scenes/world/description.hpp"
 
 namespace luxodus {
 
@@ -139,6 +140,13 @@ double share_of(const Json& balance, const char* part) {
   return emitted > 0 ? std::stod(balance[part].get<std::string>()) / emitted : 0;
 }
 
+/// "west" of "x-", as `open_sides` names it.
+std::string side_word(const std::string& side) {
+  if (side.size() != 2 || side[0] < 'x' || side[0] > 'z') return side;
+  const auto axis = static_cast<size_t>(side[0] - 'x');
+  return std::string(side_words[2 * axis + (side[1] == '+' ? 1 : 0)]);
+}
+
 /// Sides of the building's box that light leaves by, the largest first.
 std::string sides_text(const Json& escape, double escaped) {
   std::vector<std::pair<double, std::string>> sides;
@@ -151,7 +159,8 @@ std::string sides_text(const Json& escape, double escaped) {
   std::string text;
   for (const auto& [flux, side] : sides)
     if (all > 0 && flux > 0.01 * all)
-      text += (text.empty() ? " (by " : ", ") + side + " " + percent(escaped * flux / all);
+      text +=
+          (text.empty() ? " (by " : ", ") + side_word(side) + " " + percent(escaped * flux / all);
   return text.empty() ? "" : text + ")";
 }
 
