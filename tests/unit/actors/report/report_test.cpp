@@ -108,6 +108,19 @@ TEST_CASE("every text of a report is there in every language, with the same gaps
   CHECK(count > 200);
 }
 
+TEST_CASE("a verdict without failures is said in each language", "[report]") {
+  const Json one = {{"verdict",
+                     {{"words", "no check made fails, 6 not assessed, 1 not verified"},
+                      {"fail", 0},
+                      {"not_assessed", 6},
+                      {"not_verified", 1}}}};
+  CHECK(verdict_words(Texts(Language::en), one) == one["verdict"]["words"]);
+  CHECK(verdict_words(Texts(Language::de), one) ==
+        "Keine der durchgeführten Prüfungen schlägt fehl, 6 nicht bewertet, 1 nicht belegt");
+  CHECK(verdict_words(Texts(Language::fr), one) ==
+        "Aucun contrôle effectué n’échoue, 6 non évalués, 1 non vérifiés");
+}
+
 TEST_CASE("a report says what it is not, on its first page and in its footer, in each language",
           "[report]") {
   for (const Language language : {Language::en, Language::de, Language::fr}) {
