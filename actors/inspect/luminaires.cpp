@@ -124,10 +124,9 @@ std::optional<Finding> placed_wrong(const Site& site, const GeometryAccess& acce
     return Finding{
         Severity::warning,
         "outside",
-        {e.place,
-         fmt::format("{} stands outside, and {:.0f} % of its light ends on the outer side "
-                     "of {} near by: is it above the ceiling? Move it into the room",
-                     name_of(e), 100 * ends.close_back, surface_text(site, ends.surface))}};
+        {e.place, fmt::format("{} stands outside, and {:.0f} % of its light ends on the outer side "
+                              "of {}: is it above the ceiling? Move it into the room",
+                              name_of(e), 100 * ends.back, surface_text(site, ends.surface))}};
   return Finding{
       Severity::note,
       "outside",
