@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "actors/assess/judged_state.hpp"
 #include "scenes/emergency/rules.hpp"
 #include "scenes/format/base64.hpp"
 #include "scenes/format/logo.hpp"
@@ -50,11 +51,6 @@ const char* word_of(MaterialKind kind) {
 const char* word_of(MediumKind kind) {
   constexpr const char* words[] = {"homogeneous", "layered", "bounded", "data_set"};
   return words[static_cast<size_t>(kind)];
-}
-
-const char* word_of(Operation operation) {
-  constexpr const char* words[] = {"mains", "emergency", "dark"};
-  return words[static_cast<size_t>(operation)];
 }
 
 /// Mean over wavelength, as the eye weighs it (V(lambda), equal-energy light).
@@ -218,7 +214,7 @@ Json scenario_json(const SceneDescription& scene, const std::string& name) {
   Json &media = out["media"] = Json::array(), &open = out["doors_open"] = Json::array(),
        &closed = out["doors_closed"] = Json::array(), &circuits = out["circuits"] = Json::array();
   if (at == scene.scenarios.end()) return out;
-  out["operation"] = word_of(at->operation);
+  out["operation"] = name_of(at->operation);
   if (at->says_seconds) out["seconds_after_failure"] = at->seconds_after_failure;
   out["smoke_factor"] = at->smoke_factor;
   for (const Scenario::Factor& f : at->media)

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "actors/display/result_files.hpp"
+#include "actors/display/run_state.hpp"
 #include "actors/inspect/plane_cells.hpp"
 #include "actors/source/rows.hpp"
 #include "scenes/format/csv.hpp"
@@ -98,11 +99,6 @@ Json mean_json(const Estimate& mean, double bound) {
   return item;
 }
 
-const char* word_of(Operation operation) {
-  constexpr const char* words[] = {"mains", "emergency", "dark"};
-  return words[static_cast<size_t>(operation)];
-}
-
 /// What codes calculate: of luminaires alone, in clear air; the mean over the area, extremes at the
 /// grid points.
 Json clear_air_json(const PlaneMap& map, Operation operation) {
@@ -112,7 +108,7 @@ Json clear_air_json(const PlaneMap& map, Operation operation) {
     return at_grid_points(with_position(exact_json(e[cell], "lx"), map.centres()[cell]));
   };
   const double mean = mean_of(e);
-  return {{"operation", word_of(operation)},
+  return {{"operation", operation_word(operation)},
           {"mean", bounded_json(mean_of(map.light.mean_clear_lx), map.light.bound_clear_lx)},
           {"mean_at_grid_points", exact_json(mean, "lx")},
           {"minimum", at(low)},
@@ -283,7 +279,7 @@ Result<Done> write_pictures(const std::filesystem::path& stem, const LocalRun& r
   p.title += ", direct light of luminaires in clear air";
   p.values = map.light.mean_clear_lx;
   p.contours = contour_levels(p.values);
-  p.notes = {"Luminaires of " + std::string(word_of(scene.scenario.operation)) +
+  p.notes = {"Luminaires of " + std::string(operation_word(scene.scenario.operation)) +
              " operation, without signs, flames, reflected light and smoke, as codes calculate"};
   return write_false_colour_png(std::filesystem::path(stem) += "_direct_clear_air.png", p);
 }

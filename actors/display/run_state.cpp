@@ -9,11 +9,6 @@ namespace luxodus {
 
 namespace {
 
-const char* word_of(Operation operation) {
-  constexpr const char* words[] = {"mains", "emergency", "dark"};
-  return words[static_cast<size_t>(operation)];
-}
-
 double factor_of(const Scenario& scenario, const std::string& smoke) {
   for (const Scenario::Factor& factor : scenario.media)
     if (factor.name == smoke) return factor.factor;
@@ -30,6 +25,11 @@ std::string lit_text(const Json& lit, const char* what) {
 }
 
 }  // namespace
+
+const char* operation_word(Operation operation) {
+  constexpr const char* words[] = {"mains", "emergency", "dark"};
+  return words[static_cast<size_t>(operation)];
+}
 
 Json run_state_json(const CompiledScene& scene) {
   const SceneDescription& d = *scene.description;
@@ -54,7 +54,7 @@ Json run_state_json(const CompiledScene& scene) {
   }
   const bool failed = scenario.operation != Operation::mains && scenario.says_seconds;
   return {{"scenario", scenario.name},
-          {"operation", word_of(scenario.operation)},
+          {"operation", operation_word(scenario.operation)},
           {"after_failure", failed ? exact_json(scenario.seconds_after_failure, "s") : Json()},
           {"luminaires", lit_json(luminaires.size(), d.emitters.size())},
           {"signs", lit_json(signs.size(), d.signs.size())},
