@@ -3,10 +3,10 @@
 // on several.
 #pragma once
 
-#include "actors/source/rows.hpp"
+#include "actors/run/parallel_for.hpp"
 #include "scenes/emergency/sign_geometry.hpp"
 #include "scenes/transport/compile.hpp"
-#include "scenes/transport/lines.hpp"
+#include "scenes/transport/visibility.hpp"
 
 namespace luxodus {
 
@@ -27,7 +27,7 @@ class Building {
   /// Whether a place lies in a closed body, as in_body says; rooms that are drawn with their faces
   /// to the outside are none.
   bool in_solid(const GeometryAccess& access, const glm::dvec3& place) const;
-  const RowRunner& rows() const { return rows_; }
+  const ParallelFor& rows() const { return rows_; }
   /// Share of a sign's face that has a clear line to an eye.
   double seen_share(const GeometryAccess& access, const Sign& sign, const SignView& view,
                     const glm::dvec3& eye) const;
@@ -38,7 +38,7 @@ class Building {
   std::shared_ptr<const CompiledScene> scene_;
   EmbreeDevice device_;
   SceneIndex index_;
-  ResidentRows rows_;
+  ResidentParallelFor rows_;
   std::vector<char> turned_;  // as turned_surfaces
 };
 

@@ -4,7 +4,7 @@
 #include <map>
 #include <stdexcept>
 
-#include "scenes/format/output_text.hpp"
+#include "runtime/core/output_text.hpp"
 
 namespace luxodus {
 

@@ -459,7 +459,7 @@ uint32_t Controller::most_to_lend() const {
   if (scheduler_.rarely(Buggify::Site::small_grant)) return 1;
   const auto workers = static_cast<int64_t>(peers_.size());
   const int64_t share = (book_.waiting() + workers - 1) / workers;
-  return static_cast<uint32_t>(std::clamp<int64_t>(share, 1, config_.leases_most));
+  return static_cast<uint32_t>(std::clamp<int64_t>(share, 1, config_.max_leases));
 }
 
 void Controller::lend(const Delivery& delivery, const RequestLease& request) {
@@ -602,7 +602,7 @@ std::string Controller::count_flush(const Arrived& arrived) {
   const auto gain = decode_flush(arrived.payload, run_.totals().groups(),
                                  config_.shards.range(0, run_.scene().layout.totals()), rest);
   if (!gain.ok()) return gain.problem().what;
-  if (gain->batches() != static_cast<int64_t>(leases.size()) || !gain->ledger().closes())
+  if (gain->batches() != static_cast<int64_t>(leases.size()) || !gain->balance().closes())
     return "its batches or its ledger do not add up";
   if (over_) return "the run has ended";
   // Committed before anything is added, so that no lease of it is fenced while others have turns.
