@@ -402,19 +402,27 @@ TEST_CASE("the documents that every repository has are there", "[tidy]") {
   CHECK_NONE(missing);
 }
 
-TEST_CASE("documents are at most 100 columns wide, tables and addresses aside", "[tidy]") {
-  std::vector<fs::path> documents{root / "README.md", root / "ARCHITECTURE.md",
-                                  root / "CONTRIBUTING.md", root / "CHANGELOG.md"};
-  for (const fs::path& file : files_below(root / "docs"))
-    if (file.extension() == ".md") documents.push_back(file);
-  CHECK(documents.size() > 50);
+TEST_CASE("documents are at most 100 columns wide, tables, headings and addresses aside",
+          "[tidy]") {
+  std::vector<fs::path> documents;
+  for (const auto& entry : fs::directory_iterator(root))
+    if (entry.path().extension() == ".md") documents.push_back(entry.path());
+  std::vector<std::string> folders(std::begin(top_folders), std::end(top_folders));
+  folders.push_back("docs");
+  for (const std::string& folder : folders)
+    for (const fs::path& file : files_below(root / folder))
+      if (file.extension() == ".md") documents.push_back(file);
+  CHECK(documents.size() > 100);
   Findings bad;
   for (const fs::path& document : documents) {
     const std::vector<std::string> lines = lines_of(document);
+    bool code = false;
     for (size_t i = 0; i < lines.size(); ++i) {
+      if (lines[i].rfind("```", 0) == 0) code = !code;
       const bool table = lines[i].rfind('|', 0) == 0;
+      const bool heading = !code && lines[i].rfind('#', 0) == 0;  // cannot go on in another line
       const bool address = lines[i].find("://") != std::string::npos;
-      if (columns_of(lines[i]) > max_columns && !table && !address)
+      if (columns_of(lines[i]) > max_columns && !table && !heading && !address)
         bad.push_back(fs::relative(document, root).generic_string() + ":" + std::to_string(i + 1) +
                       ": " + std::to_string(columns_of(lines[i])) + " columns");
     }
