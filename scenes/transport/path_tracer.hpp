@@ -226,7 +226,7 @@ class PathTracer {
           flight.collided ? scatter(path, flight, hit.distance) : meet_surface(path, hit, gather);
       // Last, since asking may drop the cell that the hit is of.
       add_single_scattering(stretch, hit.distance, flight, 1, path.band, weight, path.into);
-      if (!alive || (event >= 2 && !survives(path.throughput))) return;
+      if (!alive || (event >= 2 && !survives_roulette(path.throughput))) return;
     }
   }
 
@@ -313,7 +313,7 @@ class PathTracer {
     return true;
   }
 
-  bool survives(double& throughput) {
+  bool survives_roulette(double& throughput) {
     if (throughput >= 0.2) return true;
     const double survival = throughput / 0.4;
     const auto u = static_cast<double>(random_.uniform());
