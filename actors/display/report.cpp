@@ -469,19 +469,18 @@ Json begun_json(const LocalRun& run, const RunRecord& record, double seconds) {
 
 Result<Json> write_report(const std::filesystem::path& folder, const LocalRun& run,
                           const RunRecord& record, const ShareDone& progress) {
-  if (auto ok = remove_old_maps(folder); !ok.ok()) return ok.problem();
+  if (auto ok = remove_old_maps(folder); !ok) return ok.problem();
   std::error_code error;
   std::filesystem::create_directories(folder / "planes", error);
-  if (error) return Problem{{folder.string(), 0}, "cannot make this folder: " + error.message()};
+  if (error) return problem_in(folder, "cannot make this folder: " + error.message());
   // Should this process be killed before the end, the files below are known to be a run's.
-  if (auto ok = write_json(folder / "result.json", begun_json(run, record, run.seconds()));
-      !ok.ok())
+  if (auto ok = write_json(folder / "result.json", begun_json(run, record, run.seconds())); !ok)
     return ok.problem();
   const PlaneMaps maps = make_plane_maps(run, progress);
-  if (auto ok = write_plane_maps(folder / "planes", run, maps); !ok.ok()) return ok.problem();
-  if (auto ok = write_flux_maps(folder, run); !ok.ok()) return ok.problem();
+  if (auto ok = write_plane_maps(folder / "planes", run, maps); !ok) return ok.problem();
+  if (auto ok = write_flux_maps(folder, run); !ok) return ok.problem();
   Json result = result_of(run, record, maps);
-  if (auto ok = write_json(folder / "result.json", result); !ok.ok()) return ok.problem();
+  if (auto ok = write_json(folder / "result.json", result); !ok) return ok.problem();
   return result;
 }
 

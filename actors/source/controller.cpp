@@ -111,10 +111,10 @@ void Controller::begin() {
 void Controller::await_workers(Nanoseconds now) {
   if (const auto taken = network_.taken_elsewhere()) {
     // Where its results go is in the words of the refusal, which the node adds to this.
-    fault_ = Problem{{},
-                     fmt::format("the run did not begin, since its workers are not free: let the "
-                                 "run that {} works for end first, or give this one other workers",
-                                 name_of(*taken))};
+    fault_ =
+        problem(fmt::format("the run did not begin, since its workers are not free: let the "
+                            "run that {} works for end first, or give this one other workers",
+                            name_of(*taken)));
     return end_run(StopReason::workers_lost);
   }
   if (interrupt_.load()) {
@@ -127,9 +127,8 @@ void Controller::await_workers(Nanoseconds now) {
     spdlog::info("run=waiting text=\"{}\"", missing_workers());
     return;
   }
-  fault_ = Problem{{},
-                   fmt::format("the run did not begin: after {:g} s (start_s) {}",
-                               seconds_of(config_.start), missing_workers())};
+  fault_ = problem(fmt::format("the run did not begin: after {:g} s (start_s) {}",
+                               seconds_of(config_.start), missing_workers()));
   end_run(StopReason::workers_lost);
 }
 
@@ -195,7 +194,7 @@ void Controller::lose_shard(NodeId worker, const char* how) {
 
 void Controller::fail(const std::string& what) {
   if (over_) return;
-  fault_ = Problem{{}, what};
+  fault_ = problem(what);
   spdlog::error("run=failed text=\"{}\"", what);
   end_run(StopReason::workers_lost);
 }
@@ -571,7 +570,7 @@ void Controller::keep(const Arrived& arrived) {
   if (config_.keeper == nullptr) return;
   const std::vector<int64_t> batches = book_.batches_of(arrived.flush.leases);
   const auto kept = config_.keeper->keep(batches, arrived.payload);
-  if (kept.ok()) return;
+  if (kept) return;
   ++counters_.flushes_not_kept;
   spdlog::error(
       "journal=failed flushes={} text=\"{}: should this node crash, they are traced again\"",
@@ -601,7 +600,7 @@ std::string Controller::count_flush(const Arrived& arrived) {
   const auto rest = [this] { return take_turns(); };
   const auto gain = decode_flush(arrived.payload, run_.totals().groups(),
                                  config_.shards.range(0, run_.scene().layout.totals()), rest);
-  if (!gain.ok()) return gain.problem().what;
+  if (!gain) return gain.problem().what;
   if (gain->batches() != static_cast<int64_t>(leases.size()) || !gain->balance().closes())
     return "its batches or its ledger do not add up";
   if (over_) return "the run has ended";

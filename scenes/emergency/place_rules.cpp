@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "scenes/emergency/rule_table.hpp"
 #include "scenes/emergency/rules.hpp"
@@ -15,7 +16,7 @@ using namespace std::string_literals;
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+constexpr double pi = std::numbers::pi;
 constexpr double near_m = 2;                             // E12, S6
 constexpr double equipment_lx = 5;                       // E13
 constexpr double bend_deg = 30;                          // a change of direction, ours

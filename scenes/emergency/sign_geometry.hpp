@@ -54,9 +54,4 @@ double decay_share(const std::vector<glm::dvec2>& decay, double seconds);
 double sign_luminance(const Sign& sign, SignColour colour, Operation operation,
                       double seconds_after_failure, double cos_from_normal);
 
-/// Luminous flux [lm] that one face sends out by one colour: the integral of L cos^n cos over area
-/// and half space, L area 2 pi / (n + 2). A double-sided sign sends out twice that.
-double face_flux_lm(const Sign& sign, SignColour colour, Operation operation,
-                    double seconds_after_failure);
-
 }  // namespace luxodus

@@ -71,20 +71,6 @@ double signed_volume_of(const Mesh& mesh) {
   return sum;
 }
 
-double longest_edge_of(const Mesh& mesh, uint32_t triangle) {
-  return longest_edge(corners_of(mesh, mesh.triangles[triangle]));
-}
-
-std::vector<glm::dvec3> triangle_centroids(const Mesh& mesh) {
-  std::vector<glm::dvec3> centroids;
-  centroids.reserve(mesh.triangles.size());
-  for (const glm::uvec3& triangle : mesh.triangles) {
-    const Corners t = corners_of(mesh, triangle);
-    centroids.push_back((t.a + t.b + t.c) / 3.0);
-  }
-  return centroids;
-}
-
 void flip(Mesh& mesh) {
   for (glm::uvec3& triangle : mesh.triangles) std::swap(triangle.y, triangle.z);
 }

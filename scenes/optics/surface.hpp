@@ -60,11 +60,6 @@ struct SurfaceSample {
 SurfaceModel make_surface(SurfaceKind kind, double reflectance, double specular, double roughness,
                           double ior, double internal_transmittance);
 
-/// Reflectance for perfectly diffuse incident light from the front (mean over cosine-weighted
-/// directions); to summarise a surface as Lambertian. Deterministic to 1e-3, not for the tracer's
-/// loop.
-double mean_hemispherical_reflectance(const SurfaceModel& model);
-
 // ---- glass -------------------------------------------------------------------------------------
 
 /// Reflectance r and 1 - r of one boundary for one polarisation; the second has its own accuracy.
@@ -93,12 +88,6 @@ inline FresnelTerms fresnel(Real cos_theta, Real ior) {
     return FresnelShares{amplitude * amplitude, 4.0_r * (x * inverse) * (y * inverse)};
   };
   return {shares(c, b), shares(ior * c, cos_behind), cos_behind};
-}
-
-/// Share of unpolarised power that a smooth boundary reflects. `ior` = n behind / n in front.
-inline Real fresnel_reflectance(Real cos_theta, Real ior) {
-  const FresnelTerms terms = fresnel(cos_theta, ior);
-  return 0.5_r * (terms.s.r + terms.p.r);
 }
 
 struct PaneShares {

@@ -178,7 +178,7 @@ class TokenReader {
   }
 
   void fail(int line, std::string what) {
-    if (!fault_) fault_ = Problem{{file_, line}, std::move(what)};
+    if (!fault_) fault_ = problem_in(file_, line, std::move(what));
   }
   void fail(Problem problem) {
     if (!fault_) fault_ = std::move(problem);
@@ -244,7 +244,7 @@ class IesReader {
 
  private:
   void warn(int line, std::string what) {
-    out_.warnings.push_back(Problem{{file_, line}, std::move(what)});
+    out_.warnings.push_back(problem_in(file_, line, std::move(what)));
   }
 
   void read_edition() {
@@ -580,8 +580,8 @@ Result<PhotometricFile> read_ies(std::string_view bytes, const std::string& file
     if (!upper(bare(lines.value()[i])).starts_with("TILT=")) continue;
     return IesReader(lines.value(), i, file, folder).read();
   }
-  return Problem{{file, std::max(1, static_cast<int>(lines.value().size()))},
-                 "no line starts with TILT=; this is no IES LM-63 file, or it is cut off"};
+  return problem_in(file, std::max(1, static_cast<int>(lines.value().size())),
+                    "no line starts with TILT=; this is no IES LM-63 file, or it is cut off");
 }
 
 }  // namespace luxodus

@@ -54,10 +54,10 @@ class LdtReader {
   enum class Blank { is_fault, is_zero };
 
   void fail(int line, std::string what) {
-    if (!fault_) fault_ = Problem{{file_, line}, std::move(what)};
+    if (!fault_) fault_ = problem_in(file_, line, std::move(what));
   }
   void warn(int line, std::string what) {
-    out_.warnings.push_back(Problem{{file_, line}, std::move(what)});
+    out_.warnings.push_back(problem_in(file_, line, std::move(what)));
   }
 
   /// The next line; its number is line_.

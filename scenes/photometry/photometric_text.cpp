@@ -63,14 +63,6 @@ std::string from_latin1(std::string_view text) {
 
 /// Member by member: GCC 12 reports the nested braces falsely as uninitialised here
 /// (-Wmaybe-uninitialized).
-Problem problem_at(const std::string& file, size_t line, const char* what) {
-  Problem problem;
-  problem.where.file = file;
-  problem.where.line = static_cast<int>(line);
-  problem.what = what;
-  return problem;
-}
-
 /// The runs of digits in a text, each with where it starts; fractions are not split off.
 struct DigitRun {
   size_t start;
@@ -120,7 +112,7 @@ Result<std::string> read_photometric_bytes(const std::filesystem::path& path) {
 Result<std::vector<std::string>> photometric_lines(std::string_view bytes,
                                                    const std::string& file) {
   if (bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF")) {
-    return problem_at(file, 1, "the text is UTF-16; save it as UTF-8 or Latin-1");
+    return problem_in(file, 1, "the text is UTF-16; save it as UTF-8 or Latin-1");
   }
   if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);
   const bool utf8 = is_utf8(bytes);
@@ -128,7 +120,7 @@ Result<std::vector<std::string>> photometric_lines(std::string_view bytes,
   size_t start = 0;
   for (size_t i = 0; i <= bytes.size(); ++i) {
     if (i < bytes.size() && bytes[i] == '\0') {
-      return problem_at(file, lines.size() + 1,
+      return problem_in(file, static_cast<int>(lines.size()) + 1,
                         "a NUL byte: this is no text file; export it again as plain text");
     }
     const bool end = i == bytes.size() || bytes[i] == '\x1A';  // 1A: DOS end of file

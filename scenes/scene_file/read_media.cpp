@@ -1,4 +1,4 @@
-// Smoke and flames, but for data sets (read_data_set.cpp).
+// Smoke and flames. What their files hold is read in scenes/fields.
 #include "scenes/scene_file/read_media.hpp"
 
 #include <algorithm>

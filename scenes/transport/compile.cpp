@@ -58,7 +58,7 @@ std::vector<Spectrum> scene_properties(const SceneDescription& scene, const Scen
     add_unique(out, s.green_reflectance);
   }
   for (const Medium& m : scene.media) {
-    if (factor_of(scenario.media, m.name, scenario.smoke_factor) <= 0) continue;
+    if (extinction_factor(scenario, m.name) <= 0) continue;
     const auto add_optics = [&](const SmokeOptics& o) {
       if (o.extinction.sigma_t > 0 || o.extinction.table) add_unique(out, o.extinction.spectrum());
       add_unique(out, o.albedo);
@@ -112,11 +112,11 @@ Result<void> compile_media(CompiledScene& scene) {
       inputs, scene.bands.count(),
       [&](const Spectrum& s, int band) { return scene.bands.average(s, band); },
       scene.local_origin);
-  if (!media.ok()) return media.problem();
+  if (!media) return media.problem();
   scene.media = std::move(media).value();
   for (const Phase& phase : scene.media.phases()) {
     auto made = PhaseFunction::make(phase, {d.file, 0});
-    if (!made.ok()) return made.problem();
+    if (!made) return made.problem();
     scene.phases.push_back(std::move(made).value());
   }
   scene.features.media = scene.media.need();
@@ -329,7 +329,7 @@ Result<void> choose_error_target(CompiledScene& scene, const std::vector<std::st
   const RunSettings& run = scene.description->run;
   const bool own = wanted.empty();
   auto judged = error_target_of(scene, own ? run.error_of : wanted);
-  if (!judged.ok()) {
+  if (!judged) {
     Problem problem = judged.problem();
     problem.where = own ? run.error_of_place : SourcePlace{};
     return problem;
@@ -431,9 +431,10 @@ std::string group_name(const ActiveSource& s, GroupRule rule) {
 Result<void> set_bounds(CompiledScene& scene) {
   scene.bounds = solid_bounds(*scene.description, scene.scenario);
   if (scene.bounds.empty()) {
-    return Problem{{scene.description->file, 0},
-                   "there is nothing but media in the scene, so it has no size: add an object, an "
-                   "emitter, a plane or an observer"};
+    return problem_in(
+        scene.description->file,
+        "there is nothing but media in the scene, so it has no size: add an object, an "
+        "emitter, a plane or an observer");
   }
   const glm::dvec3 centre = 0.5 * (scene.bounds.low + scene.bounds.high);
   scene.local_origin = centre;
@@ -546,9 +547,8 @@ Result<Scenario> find_scenario(const SceneDescription& description, const std::s
     if (s.name == name) return s;
     known += (known.empty() ? "\"" : ", \"") + s.name + "\"";
   }
-  return Problem{{description.file, 0},
-                 "there is no scenario \"" + name + "\"; there " +
-                     (known.empty() ? "are none" : "are: " + known)};
+  return problem_in(description.file, "there is no scenario \"" + name + "\"; there " +
+                                          (known.empty() ? "are none" : "are: " + known));
 }
 
 Result<std::shared_ptr<const CompiledScene>> compile_scene(
@@ -559,15 +559,15 @@ Result<std::shared_ptr<const CompiledScene>> compile_scene(
   scene->scenario = scenario;
   const std::vector<ActiveSource> sources = active_sources(*description, scenario);
   if (sources.empty()) {
-    return Problem{{description->file, 0},
-                   "nothing emits light in scenario \"" + scenario.name +
-                       "\": add an emitter, a luminaire or a lit sign, or switch a circuit on"};
+    return problem_in(description->file,
+                      "nothing emits light in scenario \"" + scenario.name +
+                          "\": add an emitter, a luminaire or a lit sign, or switch a circuit on");
   }
   scene->bands =
       options.bands_of == nullptr
           ? choose_bands(*description, scenario, sources)
           : choose_bands(*options.bands_of, scenario, active_sources(*options.bands_of, scenario));
-  if (auto ok = set_bounds(*scene); !ok.ok()) return ok.problem();
+  if (auto ok = set_bounds(*scene); !ok) return ok.problem();
   for (const ActiveSource& s : sources) {
     if (s.emitter != nullptr && s.emitter->web &&
         std::find(scene->webs.begin(), scene->webs.end(), s.emitter->web) == scene->webs.end()) {
@@ -579,20 +579,19 @@ Result<std::shared_ptr<const CompiledScene>> compile_scene(
   const PackedScene* packed = description->packed.get();
   auto solid =
       packed != nullptr ? adopt_packed_geometry(*scene) : compile_triangles(*scene, options.cells);
-  if (!solid.ok()) return solid.problem();
+  if (!solid) return solid.problem();
   compile_lambert_fractions(*scene);
-  if (auto ok = compile_emitters(*scene, sources); !ok.ok()) return ok.problem();
-  if (auto ok = compile_media(*scene); !ok.ok()) return ok.problem();
+  if (auto ok = compile_emitters(*scene, sources); !ok) return ok.problem();
+  if (auto ok = compile_media(*scene); !ok) return ok.problem();
   scatter_volume_points(*scene);
   int64_t plane_cells = 0;
   for (const PlaneMeasure& p : description->planes) plane_cells += int64_t{p.cells_u} * p.cells_v;
   if (plane_cells > limits::all_plane_cells) {
-    return Problem{{description->file, 0},
-                   "the planes have " + std::to_string(plane_cells) +
-                       " cells in all: make their cells larger"};
+    return problem_in(description->file, "the planes have " + std::to_string(plane_cells) +
+                                             " cells in all: make their cells larger");
   }
   compile_detectors(*scene);
-  if (auto ok = resolve_surface_groups(*scene); !ok.ok()) return ok.problem();
+  if (auto ok = resolve_surface_groups(*scene); !ok) return ok.problem();
   choose_voxels(*scene);
   if (1.0 * scene->voxels.nx * scene->voxels.ny * scene->voxels.nz >
       static_cast<double>(limits::voxels)) {
@@ -600,13 +599,13 @@ Result<std::shared_ptr<const CompiledScene>> compile_scene(
   }
   choose_length_unit(*scene);
   choose_eye_targets(*scene);
-  if (auto ok = choose_error_target(*scene, options.error_of); !ok.ok()) return ok.problem();
+  if (auto ok = choose_error_target(*scene, options.error_of); !ok) return ok.problem();
   choose_features(*scene);
   lay_out_tally(*scene);
   choose_batch(*scene);
   scene->batch_shares = options.batch_shares;
   if (!scene->batch_shares.empty() && scene->batch_shares.size() != scene->groups.size())
-    return Problem{{description->file, 0}, "batches were dealt to other source groups than it has"};
+    return problem_in(description->file, "batches were dealt to other source groups than it has");
   scene->scene_hash = hash_scene(*scene, packed != nullptr ? packed->partition : options.cells);
   return std::shared_ptr<const CompiledScene>(std::move(scene));
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <numeric>
 
 #include "scenes/emergency/onset.hpp"
@@ -15,7 +16,7 @@ namespace luxodus {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+constexpr double pi = std::numbers::pi;
 
 double emitter_flux(const Emitter& e, const Scenario& scenario) {
   switch (scenario.operation) {
@@ -108,6 +109,10 @@ double factor_of(const std::vector<Scenario::Factor>& factors, const std::string
     if (f.name == name) return f.factor;
   }
   return other;
+}
+
+double extinction_factor(const Scenario& scenario, const std::string& medium) {
+  return factor_of(scenario.media, medium, scenario.smoke_factor);
 }
 
 double scenario_luminance(const Sign& sign, SignColour colour, const Scenario& scenario) {

@@ -27,6 +27,9 @@ struct ActiveSource {
 double factor_of(const std::vector<Scenario::Factor>& factors, const std::string& name,
                  double other);
 
+/// What multiplies the extinction of the medium of this name; 0: it is not there.
+double extinction_factor(const Scenario& scenario, const std::string& medium);
+
 /// Luminance [cd/m2] along the normal of a colour of a sign in this scenario.
 double scenario_luminance(const Sign& sign, SignColour colour, const Scenario& scenario);
 

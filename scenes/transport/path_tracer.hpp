@@ -6,8 +6,8 @@
 // near; there a second place is drawn, as the emitter's light falls on the stretch of the path
 // (equiangular.hpp), and the two are weighted by how likely each way was to find its own (balance
 // heuristic). Unbiased, except where pictures end a path in the patches' flux (final gather).
-// look.hpp makes of it what signs and probes are asked for. Not seen: point emitters and caustics
-// through mirrors and refracting solids; the forward tracer counts those. Thread rule: one
+// eye_paths.hpp makes of it what signs and probes are asked for. Not seen: point emitters and
+// caustics through mirrors and refracting solids; the forward tracer counts those. Thread rule: one
 // PathTracer per thread or fiber.
 #pragma once
 
@@ -491,7 +491,7 @@ class PathTracer {
   /// Nothing from points that are not farther than `met`: paths meet them.
   Arriving light_from(const CompiledEmitter& e, const EmissionPoint& point, const Vec3& place,
                       Real met, int band) {
-    const Connection c =
+    const ShadowRay c =
         connect(scene_, place, point.position, point.axis, e.kind != EmitterKind::volume);
     if (!(c.distance > met)) return {};
     const auto density =

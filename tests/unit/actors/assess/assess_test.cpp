@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <map>
+#include <numbers>
 
 #include "actors/assess/assessment_json.hpp"
 #include "actors/report/report.hpp"
@@ -24,7 +25,7 @@ const Check& check_of(const Assessment& a, const std::string& id, const std::str
 TEST_CASE("the code mode is direct light at the end of the duration, without smoke or walls",
           "[assess]") {
   // I cos^3 / h^2 of 500 lm x 0.8 x 0.75, 5 m aside, 2.48 m above the plane.
-  const double intensity = 300 / (4 * 3.14159265358979323846), h = 2.5 - 0.02;
+  const double intensity = 300 / (4 * std::numbers::pi), h = 2.5 - 0.02;
   const double expected = intensity * h / std::pow(h * h + 25, 1.5);
   for (const std::string& text : {room, with_smoke(2, 0.3)}) {
     const Assessment a = assessed(text, codes_alone());
@@ -42,7 +43,7 @@ TEST_CASE("in absorbing smoke a sign's difference follows Koschmieder's law", "[
   const Assessment a = assessed(with_smoke(0.4, 0), options);
   REQUIRE(a.sights.size() == 3);
   for (const SightRow& row : a.sights) {
-    const double cosine = std::cos(row.view.angle_deg * 3.14159265358979323846 / 180);
+    const double cosine = std::cos(row.view.angle_deg * std::numbers::pi / 180);
     CHECK(cosine > 0.9);
     CHECK(row.look.transmission == Approx(std::exp(-0.4 * row.view.distance_m)).epsilon(0.01));
     // 100 - 10 cd/m2 of the sign itself, and the lamp's light on white and green letters.

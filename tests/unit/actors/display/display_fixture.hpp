@@ -10,13 +10,13 @@
 #include "actors/run/local_run.hpp"
 #include "scenes/scene_file/scene_file.hpp"
 #include "scenes/transport/compile.hpp"
-#include "tests/kit/scratch_folder.hpp"
+#include "tests/kit/temporary_folder.hpp"
 
 namespace luxodus::test {
 
 /// Reads and compiles a scene, first scenario; a problem fails the test with its text.
 inline std::shared_ptr<const CompiledScene> scene_of(const std::string& toml, int cells = 1) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   std::ofstream(folder / "test.toml", std::ios::binary) << toml;
   ReadScene read = read_scene(folder / "test.toml");
   std::string problems;

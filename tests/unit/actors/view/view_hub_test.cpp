@@ -5,6 +5,7 @@
 #include <condition_variable>
 #include <cstring>
 #include <mutex>
+#include <numbers>
 #include <set>
 
 #include "scenes/scene_file/scene_file.hpp"
@@ -151,7 +152,7 @@ TEST_CASE("what moves begins a new generation, and light answers for its place",
   CHECK(full["illuminance"].get<double>() > 10);
   // Lambertian grey of a half: luminance = 0.5 E / pi.
   CHECK(full["luminance"].get<double>() ==
-        Approx(0.5 * full["illuminance"].get<double>() / 3.14159265).epsilon(1e-6));
+        Approx(0.5 * full["illuminance"].get<double>() / std::numbers::pi).epsilon(1e-6));
   for (const char* group : {"left", "right"})
     hub.says(viewer, std::string(R"({"type":"factor","factor":0.5,"group":")") + group + "\"}");
   viewer.texts.clear();

@@ -9,6 +9,8 @@
 #include <functional>
 #include <numbers>
 
+#include "tests/kit/temporary_folder.hpp"
+
 using namespace luxodus;
 
 namespace {
@@ -41,7 +43,7 @@ struct Ies {
 };
 
 PhotometricFile read(const Ies& ies, const std::filesystem::path& folder = ".") {
-  auto file = read_ies(ies.text(), "test.ies", folder);
+  auto file = read_ies(ies.text(), "test.ies", folder.path());
   if (!file) FAIL(file.problem().text());
   return std::move(file).value();
 }
@@ -300,19 +302,17 @@ TEST_CASE("a tilt table is kept, and the level luminaire's factor is used", "[fo
   CHECK(inside.lamp_tilt.value().angle_deg.size() == 3);
   CHECK(warns(inside, "tilted"));
 
-  const auto folder = std::filesystem::temp_directory_path() / "luxodus_ies_tilt_test";
-  std::filesystem::create_directories(folder);
-  std::ofstream(folder / "lamp.tlt") << "2\n2\n0 90\n0.9 0.5\n";
+  const test::TemporaryFolder folder;
+  folder.write("lamp.tlt", "2\n2\n0 90\n0.9 0.5\n");
   ies.tilt = "TILT=lamp.tlt\n";
-  const PhotometricFile beside = read(ies, folder);
+  const PhotometricFile beside = read(ies, folder.path());
   CHECK(beside.web->peak_cd() == Approx(90));
   CHECK(beside.lamp_tilt.value().geometry == 2);
   CHECK(beside.files_read.size() == 1);
-  std::ofstream(folder / "lamp.tlt") << "2\n2\n0 90\n0.9\n";
-  const auto broken = read_ies(ies.text(), "test.ies", folder);
+  folder.write("lamp.tlt", "2\n2\n0 90\n0.9\n");
+  const auto broken = read_ies(ies.text(), "test.ies", folder.path());
   REQUIRE_FALSE(broken.ok());
   CHECK(broken.problem().where.file == (folder / "lamp.tlt").string());
-  std::filesystem::remove_all(folder);
 }
 
 TEST_CASE("signs of width, length and height give the opening of their edition", "[format][ies]") {
@@ -437,12 +437,10 @@ TEST_CASE("every cut of an IES file is refused, none is half read", "[format][ie
 }
 
 TEST_CASE("a file's contents, not only its name, tell IES from EULUMDAT", "[format][ies]") {
-  const auto folder = std::filesystem::temp_directory_path() / "luxodus_ies_name_test";
-  std::filesystem::create_directories(folder);
-  std::ofstream(folder / "lamp.txt", std::ios::binary) << Ies{}.text();
+  const test::TemporaryFolder folder;
+  folder.write("lamp.txt", Ies{}.text());
   const auto file = read_photometric_file(folder / "lamp.txt");
   CHECK(file.ok());
   CHECK(file->format == "IES LM-63-2002");
   CHECK(file->files_read.front() == folder / "lamp.txt");
-  std::filesystem::remove_all(folder);
 }
