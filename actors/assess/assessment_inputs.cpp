@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "actors/assess/judged_state.hpp"
-#include "actors/output/base64.hpp"
+#include "runtime/core/base64.hpp"
 #include "scenes/emergency/rules.hpp"
 #include "scenes/images/logo.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "actors/output/base64.hpp"
+#include "runtime/core/base64.hpp"
 #include "scenes/optics/spectrum.hpp"
 
 namespace luxodus {

@@ -1,4 +1,4 @@
-// Smoke and flames. What their files hold is read in scenes/fields.
+// Smoke and flames, but for bodies and data sets (read_bodies.cpp).
 #include "scenes/scene_file/read_media.hpp"
 
 #include <algorithm>

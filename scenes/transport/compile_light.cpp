@@ -115,6 +115,13 @@ double extinction_factor(const Scenario& scenario, const std::string& medium) {
   return factor_of(scenario.media, medium, scenario.smoke_factor);
 }
 
+double factor_of_medium(const Scenario& scenario, const Medium& medium) {
+  const double named = factor_of(scenario.media, medium.name, -1);
+  if (named >= 0) return named;
+  // A flame is no smoke: the general factor leaves it alone.
+  return medium.emission ? 1.0 : scenario.smoke_factor;
+}
+
 double scenario_luminance(const Sign& sign, SignColour colour, const Scenario& scenario) {
   // A photoluminescent face glows from its own store, whatever the circuits do.
   const double circuit = sign.lighting == SignLighting::photoluminescent

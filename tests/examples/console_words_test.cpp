@@ -5,9 +5,11 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/examples/program_kit.hpp"
+#include "tests/kit/replaced.hpp"
 
 using namespace luxodus::program;
 using Catch::Matchers::Contains;
+using luxodus::test::replaced;
 
 namespace {
 
@@ -119,12 +121,6 @@ struct Corridor {
     return luxodus("run " + scene + " --out " + out.string() + " " + options);
   }
 };
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const size_t at = text.find(from);
-  REQUIRE(at != std::string::npos);
-  return text.replace(at, from.size(), to);
-}
 
 }  // namespace
 

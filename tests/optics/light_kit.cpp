@@ -4,16 +4,12 @@
 #include <cmath>
 
 #include "scenes/scene_file/scene_file.hpp"
-#include "tests/kit/temporary_folder.hpp"
+#include "tests/kit/described.hpp"
 
 namespace luxodus::light {
 
 SceneDescription scene_from_toml(const std::string& text) {
-  const test::TemporaryFolder folder;
-  ReadScene read = read_scene(folder.write("scene.toml", text));
-  for (const Problem& p : read.problems.list()) UNSCOPED_INFO(p.text());
-  REQUIRE(read.scene);
-  return std::move(*read.scene);
+  return *test::described_text(text);
 }
 
 namespace {

@@ -66,7 +66,7 @@ TEST_CASE("people stand on routes and in areas, for all of their length and area
   }
   CHECK(metres == Approx(10));
   CHECK(square_metres == Approx(24));
-  const auto scene = scene_of(room + hall);
+  const auto scene = described_text(room + hall);
   const std::string page = report_html(assessment_json(*scene, a, "1"), {}, "out", {});
   CHECK(page.find("10\u00a0m, 24\u00a0m²") != std::string::npos);  // all of both is legible
 }
@@ -180,7 +180,7 @@ TEST_CASE("an assessment is read back, and a comparison says what has changed", 
   const test::TemporaryFolder folder;
   AssessOptions options;
   options.rounds = 1;
-  const auto scene = scene_of(with_smoke(0.4, 0));
+  const auto scene = described_text(with_smoke(0.4, 0));
   const Json before = assessment_json(*scene, assessed(with_smoke(0.4, 0), options), "1");
   REQUIRE(write_assessment(folder / "a", before).ok());
   const auto again = read_assessment(folder / "a");
@@ -190,7 +190,7 @@ TEST_CASE("an assessment is read back, and a comparison says what has changed", 
   for (const auto& [key, rows] : nothing.items()) CHECK(rows.empty());
   std::string dimmer = with_smoke(0.4, 0);
   dimmer.replace(dimmer.find("emergency_flux = 500"), 20, "emergency_flux = 250");
-  const Json after = assessment_json(*scene_of(dimmer), assessed(dimmer, options), "1");
+  const Json after = assessment_json(*described_text(dimmer), assessed(dimmer, options), "1");
   const Json changed = comparison_of(before, after);
   CHECK_FALSE(changed["values"].empty());
   CHECK(comparison_text(changed).find("E1 (EN 1838:2013) route \"way\"") != std::string::npos);
@@ -198,7 +198,7 @@ TEST_CASE("an assessment is read back, and a comparison says what has changed", 
 }
 
 TEST_CASE("the report counts, and never says that a building complies", "[assess]") {
-  const auto scene = scene_of(room);
+  const auto scene = described_text(room);
   AssessOptions options;
   options.rounds = 1;
   const std::string page = report_html(assessment_json(*scene, assessed(room, options), "1"),

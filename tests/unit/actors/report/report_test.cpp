@@ -42,7 +42,7 @@ const Json& assessed_json() {
     AssessOptions options;
     options.rounds = 1;
     const std::string text = project + room;
-    return assessment_json(*scene_of(text), assessed(text, options), "1.2.3");
+    return assessment_json(*described_text(text), assessed(text, options), "1.2.3");
   }();
   return json;
 }

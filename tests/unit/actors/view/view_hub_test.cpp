@@ -16,33 +16,8 @@ using namespace luxodus;
 
 namespace {
 
-const std::string room = R"(
-[[object]]
-name = "room"
-shape = "room"
-low = [0, 0, 0]
-high = [6, 4, 3]
-material = "grey50"
-
-[[emitter]]
-name = "left"
-shape = "point"
-distribution = "isotropic"
-position = [2, 2, 2]
-flux_lm = 1000
-
-[[emitter]]
-name = "right"
-shape = "point"
-distribution = "isotropic"
-position = [4, 2, 2]
-flux_lm = 1000
-)";
-
 std::shared_ptr<const SceneDescription> scene_in(const test::TemporaryFolder& folder) {
-  auto read = read_scene(folder.write("room.toml", room));
-  REQUIRE(read.scene);
-  return std::make_shared<SceneDescription>(std::move(*read.scene));
+  return test::described(folder.write("room.toml", test::two_lamps));
 }
 
 struct Remembers final : Viewer {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "runtime/core/base64.hpp"
 #include "tests/kit/temporary_folder.hpp"
 #include "tests/unit/scenes/geometry/mesh_checks.hpp"
 
@@ -13,21 +14,6 @@ using namespace luxodus::test;
 namespace fs = std::filesystem;
 
 namespace {
-
-std::string base64(const std::string& bytes) {
-  static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string out;
-  for (size_t i = 0; i < bytes.size(); i += 3) {
-    uint32_t group = 0;
-    for (size_t k = 0; k < 3; ++k) {
-      group = group << 8 | (i + k < bytes.size() ? static_cast<uint8_t>(bytes[i + k]) : 0u);
-    }
-    for (size_t k = 0; k < 4; ++k) {
-      out += i + k > bytes.size() ? '=' : digits[group >> (18 - 6 * k) & 63];
-    }
-  }
-  return out;
-}
 
 template <class T>
 std::string bytes_of(std::initializer_list<T> values) {
