@@ -168,6 +168,23 @@ std::string shown(double value) {
   return error == std::errc() ? std::string(buffer, end) : std::string("?");
 }
 
+double PhotometricNumbers::number(int line, std::string_view text, bool comma,
+                                  const std::string& what, double low, double high) {
+  if (fault_) return 0;
+  const std::optional<double> value = decimal(text, comma);
+  if (value && *value >= low && *value <= high) return *value;
+  fail(line, what + (value ? " must lie between " + shown(low) + " and " + shown(high) + ", not " +
+                                 shown(*value)
+                           : " must be a number"));
+  return 0;
+}
+
+int PhotometricNumbers::whole(int line, double value, const std::string& what) {
+  if (!fault_ && value != std::floor(value))
+    fail(line, what + " must be a whole number, not " + shown(value));
+  return static_cast<int>(value);
+}
+
 std::optional<double> colour_temperature_k(std::string_view text) {
   const std::vector<DigitRun> runs = digit_runs(text);
   for (const DigitRun& run : runs) {
