@@ -52,7 +52,7 @@ bool is_table(const std::string& word) {
 
 int main(int argc, char** argv) {
   if (const auto served = luxodus::serve_isolated_job(argc, argv)) return *served;
-  flush_denormals();
+  luxodus::flush_denormals();
   Options options;
   std::set<std::string> wanted;
   for (int i = 1; i < argc; ++i) {
