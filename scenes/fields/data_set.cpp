@@ -55,7 +55,6 @@ std::string memory_fault(uint64_t cells, uint64_t fields) {
 
 namespace {
 
-using data_set::fault;
 using data_set::Field;
 using data_set::Grid;
 

@@ -21,10 +21,6 @@ Corners corners_of(const Mesh& mesh, const glm::uvec3& triangle) {
   return {mesh.positions[triangle.x], mesh.positions[triangle.y], mesh.positions[triangle.z]};
 }
 
-double longest_edge(const Corners& t) {
-  return std::max({glm::length(t.b - t.a), glm::length(t.c - t.b), glm::length(t.a - t.c)});
-}
-
 bool is_degenerate(const Mesh& mesh, const glm::uvec3& triangle) {
   if (triangle.x == triangle.y || triangle.y == triangle.z || triangle.z == triangle.x) return true;
   const Corners t = corners_of(mesh, triangle);
