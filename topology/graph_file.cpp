@@ -73,15 +73,16 @@ class GraphParser {
     if (fault_) return *fault_;
     if (const auto wrong = fault_of(plan_)) {
       line_ = wrong->link ? link_lines_[*wrong->link] : key_lines_[links_key];
-      return Problem{{file_, line_}, wrong->what};
+      return problem_in(file_, line_, wrong->what);
     }
     Graph graph(std::move(plan_));
     const std::string hash = fmt::format("{:016x}", graph.hash());
     if (hash != hash_) {
-      return Problem{{file_, key_lines_[hash_key]},
-                     fmt::format("the hash of this graph is {}: the file was changed or cut; write "
-                                 "that hash if the change is meant",
-                                 hash)};
+      return problem_in(
+          file_, key_lines_[hash_key],
+          fmt::format("the hash of this graph is {}: the file was changed or cut; write "
+                      "that hash if the change is meant",
+                      hash));
     }
     return graph;
   }
@@ -183,7 +184,7 @@ class GraphParser {
   }
 
   void fail(std::string what) {
-    if (!fault_) fault_ = Problem{{file_, line_}, std::move(what)};
+    if (!fault_) fault_ = problem_in(file_, line_, std::move(what));
   }
 
   void skip_blanks() {

@@ -145,17 +145,17 @@ void add_refusals(const SceneDescription& scene, std::vector<Finding>& out) {
   const auto add = [&](const Problem& why) {
     out.push_back({Severity::note, "assess", {why.where, "luxodus assess: " + why.what}});
   };
-  if (const auto codes = judged_codes(scene, {}, {}); !codes.ok()) add(codes.problem());
+  if (const auto codes = judged_codes(scene, {}, {}); !codes) add(codes.problem());
   const auto scenario = judged_scenario(scene, "");
-  if (!scenario.ok()) return add(scenario.problem());
-  if (auto said = irritation_is_said(scene, scenario.value()); !said.ok()) add(said.problem());
+  if (!scenario) return add(scenario.problem());
+  if (auto said = irritation_is_said(scene, scenario.value()); !said) add(said.problem());
 }
 
 int check(const CheckOptions& options) {
   const auto description = load_scene(options.scene);
   if (!description) return ExitCode::bad_input;
   auto scenarios = chosen_scenarios(*description, options.scenario);
-  if (!scenarios.ok()) {
+  if (!scenarios) {
     tell(scenarios.problem());
     return ExitCode::bad_input;
   }
@@ -163,7 +163,7 @@ int check(const CheckOptions& options) {
   Json all = Json::array();
   for (const Scenario& scenario : scenarios.value()) {
     auto scene = compile_scene(description, scenario, {options.cells});
-    if (!scene.ok()) {
+    if (!scene) {
       findings.push_back({Severity::error, "scenario", scene.problem()});
       continue;
     }
@@ -172,7 +172,7 @@ int check(const CheckOptions& options) {
   }
   if (!has_error(findings)) {
     auto found = inspect(description, scenarios.value(), default_threads());
-    if (!found.ok()) found = std::vector<Finding>{{Severity::error, "scene", found.problem()}};
+    if (!found) found = std::vector<Finding>{{Severity::error, "scene", found.problem()}};
     findings.insert(findings.begin(), found->begin(), found->end());
   }
   add_refusals(*description, findings);

@@ -27,7 +27,7 @@ void tell(const Problem& problem) {
 std::shared_ptr<const SceneDescription> load_scene(const std::string& file) {
   if (is_pack(file)) {
     auto packed = read_pack(file);
-    if (packed.ok()) return packed.value();
+    if (packed) return packed.value();
     tell(packed.problem());
     return nullptr;
   }
@@ -42,7 +42,7 @@ Result<std::vector<Scenario>> chosen_scenarios(const SceneDescription& scene,
                                                const std::string& name) {
   if (name == "all" && !scene.scenarios.empty()) return scene.scenarios;
   auto one = find_scenario(scene, name == "all" ? "" : name);
-  if (!one.ok()) return one.problem();
+  if (!one) return one.problem();
   return std::vector<Scenario>{one.value()};
 }
 
@@ -119,8 +119,7 @@ CLI::Validator seed_number() {
     uint64_t value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size())
-      return Problem{{}, "\"" + text + "\" is no whole number from 0 to 18446744073709551615"}
-          .text();
+      return problem("\"" + text + "\" is no whole number from 0 to 18446744073709551615").text();
     text = std::to_string(value);
     return "";
   };

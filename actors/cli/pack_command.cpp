@@ -33,27 +33,28 @@ int cells_for(uint64_t triangles, double cell_kib) {
 Result<PackReport> pack_scene(const PackOptions& options) {
   if (is_pack(options.scene)) {
     if (options.skeleton_only) return write_skeleton_pack(behind_links(options.out), options.scene);
-    return Problem{{options.scene, 0},
-                   "this is a pack already: pack the scene file, or add --skeleton-only"};
+    return problem_in(options.scene,
+                      "this is a pack already: pack the scene file, or add --skeleton-only");
   }
   if (options.skeleton_only) {
-    return Problem{{options.scene, 0},
-                   "--skeleton-only copies from a pack, so that both are of the same cells: pack "
-                   "the scene first"};
+    return problem_in(
+        options.scene,
+        "--skeleton-only copies from a pack, so that both are of the same cells: pack "
+        "the scene first");
   }
   const auto description = load_scene(options.scene);
-  if (!description) return Problem{{options.scene, 0}, "the scene has problems, told above"};
-  if (auto ok = check_output_file(options.out); !ok.ok()) return ok.problem();
+  if (!description) return problem_in(options.scene, "the scene has problems, told above");
+  if (auto ok = check_output_file(options.out); !ok) return ok.problem();
   auto scenario = find_scenario(*description, options.scenario);
-  if (!scenario.ok()) return scenario.problem();
+  if (!scenario) return scenario.problem();
   if (!passes_inspection(description, {scenario.value()}, default_threads()))
-    return Problem{{options.scene, 0}, "the scene has errors, told above"};
+    return problem_in(options.scene, "the scene has errors, told above");
   // Compiling tells how many triangles there are, and only then how many cells that makes.
   auto scene = compile_scene(description, scenario.value(), {});
-  if (!scene.ok()) return scene.problem();
+  if (!scene) return scene.problem();
   const int cells = cells_for(scene.value()->triangles, options.cell_kib);
   if (cells > 1) scene = compile_scene(description, scenario.value(), {cells});
-  if (!scene.ok()) return scene.problem();
+  if (!scene) return scene.problem();
   ProgressLine line("pack");
   install_interrupt_handler();
   return write_pack(behind_links(options.out), *scene.value(), cells, [&](double share) {
@@ -66,7 +67,7 @@ int pack(PackOptions options) {
   if (options.out.empty())
     options.out = file_name_of(fs::path(options.scene).stem().string()) + ".luxpack";
   const auto report = pack_scene(options);
-  if (!report.ok()) {
+  if (!report) {
     tell(report.problem());
     return interrupt_flag() ? ExitCode::interrupted : ExitCode::bad_input;
   }

@@ -31,7 +31,7 @@ Result<void> write_report_and_tell(const OutputFolder& folder, const Json& asses
                                    const ReportWords& words) {
   ReportOptions options = words.options();
   options.named = folder.named().string();
-  if (auto ok = write_report(folder.path(), assessment, options); !ok.ok()) return ok;
+  if (auto ok = write_report(folder.path(), assessment, options); !ok) return ok.problem();
   for (const char* file : {"report.html", "report.pdf"})
     if (words.pdf || std::string_view(file) == "report.html")
       std::printf("written to %s\n", (folder.named() / file).string().c_str());
@@ -42,10 +42,10 @@ namespace {
 
 Result<void> report_again(const std::string& folder, const ReportWords& words) {
   const auto read = read_assessment(folder);
-  if (!read.ok()) return read.problem();
+  if (!read) return read.problem();
   const auto out =
       OutputFolder::claim(folder, {{"report.html", "report.pdf"}, {"plans", "schedules"}});
-  if (!out.ok()) return out.problem();
+  if (!out) return out.problem();
   return write_report_and_tell(out.value(), read.value(), words);
 }
 
@@ -66,7 +66,7 @@ void add_report(CLI::App& app, int& exit_code) {
   add_report_options(*command, *words);
   command->callback([folder, words, &exit_code] {
     const auto done = report_again(*folder, *words);
-    if (done.ok()) return;
+    if (done) return;
     tell(done.problem());
     exit_code = ExitCode::bad_input;
   });

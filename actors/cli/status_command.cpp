@@ -42,14 +42,14 @@ Result<std::vector<AskedProcess>> processes_from(const StatusOptions& options) {
   std::vector<AskedProcess> asked;
   for (const std::string& text : options.urls) {
     auto url = parse_http_url(text);
-    if (!url.ok()) return url.problem();
+    if (!url) return url.problem();
     asked.push_back({fmt::format("{}:{}", url.value().host, url.value().port), url.value(), {}});
   }
   if (options.config.empty()) return asked;
   const ReadCluster read = read_cluster(options.config);
   if (!read.cluster) return read.problems.list().front();
   auto processes = processes_of(*read.cluster);
-  if (!processes.ok()) return processes.problem();
+  if (!processes) return processes.problem();
   for (AskedProcess& process : processes.value()) asked.push_back(std::move(process));
   return asked;
 }
@@ -57,8 +57,8 @@ Result<std::vector<AskedProcess>> processes_from(const StatusOptions& options) {
 int show_status(const StatusOptions& options) {
   const auto patience = parse_seconds(options.patience);
   const auto processes = processes_from(options);
-  if (!patience.ok() || !processes.ok()) {
-    tell(patience.ok() ? processes.problem() : patience.problem());
+  if (!patience || !processes) {
+    tell(patience ? processes.problem() : patience.problem());
     return ExitCode::bad_input;
   }
   if (processes.value().empty()) {

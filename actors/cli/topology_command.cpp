@@ -10,6 +10,7 @@
 #include "runtime/core/atomic_file.hpp"
 #include "runtime/core/clock.hpp"
 #include "runtime/core/output_path.hpp"
+#include "runtime/core/regular_file.hpp"
 #include "topology/amp.hpp"
 #include "topology/builders.hpp"
 #include "topology/draw.hpp"
@@ -35,7 +36,7 @@ int refuse(const Problem& problem) {
 
 Result<Graph> read_graph(const std::string& file) {
   const auto bytes = read_whole_file(file, limits::graph_file_bytes);
-  if (!bytes.ok()) return bytes.problem();
+  if (!bytes) return bytes.problem();
   return parse_graph({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, file);
 }
 
@@ -44,7 +45,7 @@ int save_and_report(const TopologyOptions& options, const Graph& graph) {
   if (!options.out.empty()) {
     const auto written =
         write_file_atomically(behind_links(options.out), std::string_view(graph_text(graph)));
-    if (!written.ok()) return refuse(written.problem());
+    if (!written) return refuse(written.problem());
   }
   const Measures measures = measure(graph);
   const std::string report =
@@ -71,13 +72,13 @@ Result<Graph> amp_graph(const TopologyOptions& options) {
   std::optional<Nanoseconds> end;
   if (!options.seconds.empty()) {
     const auto given = parse_seconds(options.seconds);
-    if (!given.ok()) return given.problem();
+    if (!given) return given.problem();
     end = start + static_cast<Nanoseconds>(given.value() * 1e9);
     request.runs = UINT32_MAX;
   }
   install_interrupt_handler();
   auto found = find_amp(request, [&] { return interrupt_flag() || (end && clock.now() >= *end); });
-  if (!found.ok()) return found.problem();
+  if (!found) return found.problem();
   spdlog::info("searched {:.2f} s: {} runs, {} moves, seed {}",
                static_cast<double>(clock.now() - start) / 1e9, found->runs, found->moves,
                request.seed);
@@ -86,7 +87,7 @@ Result<Graph> amp_graph(const TopologyOptions& options) {
 
 int amp(const TopologyOptions& options) {
   const auto graph = amp_graph(options);
-  if (!graph.ok()) return refuse(graph.problem());
+  if (!graph) return refuse(graph.problem());
   return save_and_report(options, graph.value());
 }
 
@@ -112,7 +113,7 @@ int build(const TopologyOptions& options) {
   for (const Kind& kind : kinds()) {
     if (options.kind != kind.name) continue;
     const auto graph = kind.make(options.amp);
-    if (!graph.ok()) return refuse(graph.problem());
+    if (!graph) return refuse(graph.problem());
     return save_and_report(options, graph.value());
   }
   return refuse({{}, fmt::format("there is no kind \"{}\"", options.kind)});
@@ -120,14 +121,14 @@ int build(const TopologyOptions& options) {
 
 int measure_file(const TopologyOptions& options) {
   const auto graph = read_graph(options.in);
-  if (!graph.ok()) return refuse(graph.problem());
+  if (!graph) return refuse(graph.problem());
   return save_and_report(options, graph.value());
 }
 
 int compare(const TopologyOptions& options) {
   std::vector<Compared> compared;
   const auto add = [&](const std::string& name, const Result<Graph>& graph) {
-    if (graph.ok())
+    if (graph)
       compared.push_back({name, graph.value(), ""});
     else
       compared.push_back({name, std::nullopt, graph.problem().what});
@@ -142,7 +143,7 @@ int compare(const TopologyOptions& options) {
 
 int draw(const TopologyOptions& options) {
   const auto graph = read_graph(options.in);
-  if (!graph.ok()) return refuse(graph.problem());
+  if (!graph) return refuse(graph.problem());
   const PathLengths paths = path_lengths(graph->all());
   const std::string title = fmt::format("{}: diameter {}, average path {:.6f}",
                                         title_of(graph.value()), paths.diameter, paths.average());
@@ -154,7 +155,7 @@ int draw(const TopologyOptions& options) {
   else
     return refuse({{options.out, 0}, "a drawing is named *.svg or *.dot"});
   const auto written = write_file_atomically(behind_links(options.out), std::string_view(drawing));
-  return written.ok() ? ExitCode::success : refuse(written.problem());
+  return written ? ExitCode::success : refuse(written.problem());
 }
 
 using OptionsPtr = std::shared_ptr<TopologyOptions>;

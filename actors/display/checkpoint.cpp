@@ -28,7 +28,7 @@ Checkpoint::~Checkpoint() {
 void Checkpoint::take() {
   if (run_.traced() > 0 && run_.particles() > keep_particles_) {
     const auto saved = save();
-    if (saved.ok())
+    if (saved)
       ++taken_;
     else
       spdlog::warn("checkpoint: {}; the run goes on", saved.problem().text());
@@ -38,10 +38,10 @@ void Checkpoint::take() {
 
 Result<void> Checkpoint::save() {
   if (taken_ == 0)
-    if (auto ok = remove_old_maps(folder_); !ok.ok()) return ok;
+    if (auto ok = remove_old_maps(folder_); !ok) return ok.problem();
   const double passed = std::chrono::duration<double>(Clock::now() - began_).count();
   const Json begun = begun_json(run_, record_, run_.seconds() + passed);
-  if (auto ok = write_json(folder_ / "result.json", begun); !ok.ok()) return ok;
+  if (auto ok = write_json(folder_ / "result.json", begun); !ok) return ok.problem();
   return save_flux(folder_ / "flux.lux", run_);
 }
 

@@ -157,8 +157,8 @@ Result<void> write_flux_maps(const std::filesystem::path& folder, const LocalRun
     const auto read = for_each_cell(scene, [&](const GeometryCell& cell) {
       for (const TriangleRecord& t : cell.triangles) collector.add(t);
     });
-    if (!read.ok()) return read.problem();
-    if (auto ok = write_vtp(folder / "patches.vtp", collector.take()); !ok.ok()) return ok;
+    if (!read) return read.problem();
+    if (auto ok = write_vtp(folder / "patches.vtp", collector.take()); !ok) return ok.problem();
   }
   if (!(scene.voxels.edge > 0)) return {};
   return write_vti(folder / "volume.vti", volume_of(scene, readout));

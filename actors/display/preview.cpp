@@ -60,7 +60,7 @@ void Preview::take() {
   thread_ = std::thread([this] {
     try {
       const auto done = render_views(folder_ / "preview", copy_, "", options_, {});
-      if (!done.ok()) spdlog::warn("preview: {}", done.problem().text());
+      if (!done) spdlog::warn("preview: {}", done.problem().text());
     } catch (const std::exception& e) {
       spdlog::warn("preview: {}", e.what());
     }

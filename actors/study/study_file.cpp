@@ -207,7 +207,7 @@ ReadStudy parse_study(std::string_view text, const std::filesystem::path& file) 
 
 ReadStudy read_study(const std::filesystem::path& file) {
   const auto text = config::text_of_file(file, limits::study_file_bytes);
-  if (!text.ok()) return {std::nullopt, only(text.problem())};
+  if (!text) return {std::nullopt, only(text.problem())};
   return parse_study(text.value(), file);
 }
 
@@ -215,7 +215,7 @@ ReadStudy read_study(const std::filesystem::path& file) {
 
 ReadCosts read_costs(const std::filesystem::path& file) {
   const auto text = config::text_of_file(file, limits::study_file_bytes);
-  if (!text.ok()) return {std::nullopt, only(text.problem())};
+  if (!text) return {std::nullopt, only(text.problem())};
   MeasuredCosts measured;
   Findings findings;
   const SourcePlace start{file.string(), 1};

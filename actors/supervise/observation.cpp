@@ -13,7 +13,7 @@ Result<std::unique_ptr<Observation>> Observation::start(const ObserveOptions& op
   if (!options.metrics_port) return seen;
   auto server = MetricsServer::start(options.address, *options.metrics_port,
                                      [page_of = seen.get()] { return page_of->page(); });
-  if (!server.ok()) return server.problem();
+  if (!server) return server.problem();
   seen->server_ = std::move(server).value();
   return seen;
 }

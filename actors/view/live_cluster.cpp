@@ -96,7 +96,7 @@ void LiveCluster::work(const Machine& machine) {
     NodeShell shell({controller_net(run_, node_), controller_limits(node_),
                      ShellConfig{}.max_room_bytes, node_.shutdown_phase, run_.routes},
                     run_.graph, machine.clock, transport.transport());
-    if (auto joined = join_links(transport.sockets(), node_); !joined.ok())
+    if (auto joined = join_links(transport.sockets(), node_); !joined)
       return begun(joined.problem());
     shell_ = &shell;
     last_lease_ = node_.net.incarnation.value;  // no lease of an earlier life is taken for one
@@ -117,7 +117,7 @@ void LiveCluster::work(const Machine& machine) {
     shell.run();
   } catch (const std::exception& e) {
     spdlog::error("view=broken text=\"{}\"", e.what());
-    begun(Problem{{}, e.what()});
+    begun(problem(e.what()));
   }
 }
 
@@ -260,8 +260,8 @@ void LiveCluster::take(const Delivery& delivery, const BatchesTraced& traced) {
   Totals& totals = work_->totals();
   const auto gain = traced.fault.empty()
                         ? decode_flush(delivery.payload, totals.groups(), totals.layout().totals())
-                        : Result<FlushGain>(Problem{{}, traced.fault});
-  if (!gain.ok() || gain.value().batches() != lease.batches.count) {
+                        : Result<FlushGain>(problem(traced.fault));
+  if (!gain || gain.value().batches() != lease.batches.count) {
     spdlog::error("worker=fails node={} text=\"{}: {}\"", delivery.source.value,
                   run_.name_of(delivery.source),
                   gain.ok() ? "other batches than it was lent" : gain.problem().what);

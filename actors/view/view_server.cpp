@@ -266,16 +266,15 @@ class ViewServer::Implementation {
   Result<void> listen(const ServerOptions& options) {
     beast::error_code failed;
     const auto address = asio::ip::make_address(options.address, failed);
-    if (failed) return Problem{{}, "\"" + options.address + "\" is no address"};
+    if (failed) return problem("\"" + options.address + "\" is no address");
     const tcp::endpoint at(address, options.port);
     acceptor_.open(at.protocol(), failed);
     if (!failed) acceptor_.set_option(asio::socket_base::reuse_address(true), failed);
     if (!failed) acceptor_.bind(at, failed);
     if (!failed) acceptor_.listen(asio::socket_base::max_listen_connections, failed);
     if (failed)
-      return Problem{{},
-                     "cannot listen on " + http_address(options.address, options.port) + ": " +
-                         failed.message()};
+      return problem("cannot listen on " + http_address(options.address, options.port) + ": " +
+                     failed.message());
     shared_.token = options.token;
     shared_.allowed_hosts = options.allowed_hosts;
     return {};
@@ -326,7 +325,7 @@ ViewServer::~ViewServer() = default;
 
 Result<std::unique_ptr<ViewServer>> ViewServer::listen(const ServerOptions& options) {
   auto implementation = std::make_unique<Implementation>();
-  if (auto ok = implementation->listen(options); !ok.ok()) return ok.problem();
+  if (auto ok = implementation->listen(options); !ok) return ok.problem();
   return std::unique_ptr<ViewServer>(new ViewServer(std::move(implementation)));
 }
 

@@ -174,14 +174,14 @@ ReadCluster parse_cluster(std::string_view text, const std::filesystem::path& fi
 
 ReadCluster read_cluster(const std::filesystem::path& file) {
   const auto text = text_of(file);
-  if (!text.ok()) return {std::nullopt, only(text.problem())};
+  if (!text) return {std::nullopt, only(text.problem())};
   return parse_cluster(text.value(), file);
 }
 
 ReadFaults read_fault_file(const std::filesystem::path& file,
                            const std::vector<std::string>& names) {
   const auto text = text_of(file);
-  if (!text.ok()) return {std::nullopt, only(text.problem())};
+  if (!text) return {std::nullopt, only(text.problem())};
   ClusterReading reading;
   reading.start = {file.string(), 1};
   for (const std::string& name : names) reading.cluster.nodes.emplace_back().name = name;

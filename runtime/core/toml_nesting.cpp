@@ -92,9 +92,10 @@ std::optional<Problem> too_deep_toml(std::string_view text, const std::string& f
       ++at;
     } else {
       const auto lines = std::count(text.begin(), text.begin() + static_cast<ptrdiff_t>(at), '\n');
-      return Problem{{file, 1 + static_cast<int>(lines)},
-                     "a key of more than " + std::to_string(limits::toml_nesting) +
-                         " dots, or as many brackets one in another: tables do not nest so deep"};
+      return problem_in(
+          file, 1 + static_cast<int>(lines),
+          "a key of more than " + std::to_string(limits::toml_nesting) +
+              " dots, or as many brackets one in another: tables do not nest so deep");
     }
   }
   return std::nullopt;

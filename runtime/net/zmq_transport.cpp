@@ -128,9 +128,9 @@ Result<std::string> ZmqTransport::secure(LaneSockets& lane, const std::string& e
   if (!curve) {
     if (!stays_on_host(endpoint)) {
       if (!config_.insecure)
-        return Problem{{endpoint, 0},
-                       "leads beyond this host and there are no keys: make them "
-                       "with `luxodus keygen`, or say insecure"};
+        return problem_in(endpoint,
+                          "leads beyond this host and there are no keys: make them "
+                          "with `luxodus keygen`, or say insecure");
       open_to_all_ = true;
     }
     s.set(zmq::sockopt::curve_server, false);  // back to no mechanism
@@ -141,8 +141,7 @@ Result<std::string> ZmqTransport::secure(LaneSockets& lane, const std::string& e
     s.set(zmq::sockopt::curve_server, true);
     s.set(zmq::sockopt::curve_secretkey, config_.keys->secret_key);
   } else {
-    if (server_key.size() != 40)
-      return Problem{{endpoint, 0}, "the neighbour's public key is none"};
+    if (server_key.size() != 40) return problem_in(endpoint, "the neighbour's public key is none");
     s.set(zmq::sockopt::curve_serverkey, server_key);
     s.set(zmq::sockopt::curve_publickey, config_.keys->public_key);
     s.set(zmq::sockopt::curve_secretkey, config_.keys->secret_key);
@@ -161,7 +160,7 @@ Result<Endpoints> ZmqTransport::listen(const Endpoints& where) {
       sockets.router.bind(*endpoint);
       *endpoint = sockets.router.get(zmq::sockopt::last_endpoint);
     } catch (const zmq::error_t& e) {
-      return Problem{{*endpoint, 0}, std::string("cannot listen there: ") + e.what()};
+      return problem_in(*endpoint, std::string("cannot listen there: ") + e.what());
     }
   }
   return bound;
@@ -180,7 +179,7 @@ Result<Endpoints> ZmqTransport::connect(NodeId neighbour, const Endpoints& where
         sockets.router.set(zmq::sockopt::connect_routing_id, routing_id(neighbour));
       sockets.router.connect(*endpoint);
     } catch (const zmq::error_t& e) {
-      return Problem{{*endpoint, 0}, std::string("cannot connect there: ") + e.what()};
+      return problem_in(*endpoint, std::string("cannot connect there: ") + e.what());
     }
   }
   connected_[neighbour] = {where, server_key};

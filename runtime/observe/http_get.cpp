@@ -136,7 +136,7 @@ Result<HttpUrl> parse_http_url(const std::string& text) {
 
 Result<std::string> http_get(const HttpUrl& url, Nanoseconds patience) {
   const auto refused = [&](const std::string& why) {
-    return Problem{{}, fmt::format("{}: {}", url.text(), why)};
+    return problem(fmt::format("{}: {}", url.text(), why));
   };
   Connection connection(patience);
   std::string answer;

@@ -50,7 +50,7 @@ Result<std::unique_ptr<MetricsServer>> MetricsServer::start(const std::string& a
                                                             uint16_t port,
                                                             std::function<std::string()> page) {
   const auto refused = [&](const std::string& why) {
-    return Problem{{}, fmt::format("cannot serve metrics on {}:{}: {}", address, port, why)};
+    return problem(fmt::format("cannot serve metrics on {}:{}: {}", address, port, why));
   };
   sockaddr_in place{};
   place.sin_family = AF_INET;

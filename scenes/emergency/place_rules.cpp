@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "scenes/emergency/rule_limits.hpp"
 #include "scenes/emergency/rule_table.hpp"
@@ -18,7 +19,7 @@ using namespace rule_limit;
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+constexpr double pi = std::numbers::pi;
 constexpr int directions_azimuth = 72, directions_polar = 90, tube_steps = 360;
 
 double glare_limit(double height_m) {

@@ -2,9 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
-
-#include "scenes/emergency/sign_face.hpp"
 
 namespace luxodus {
 namespace {
@@ -39,13 +36,6 @@ double sign_luminance(const Sign& sign, SignColour colour, Operation operation,
   const double normal_cd_m2 = colour == SignColour::white ? state.white_cd_m2 : state.green_cd_m2;
   const double left = glows && !mains ? decay_share(sign.decay, seconds_after_failure) : 1.0;
   return normal_cd_m2 * left * std::pow(std::min(cos_from_normal, 1.0), sign.angular_exponent);
-}
-
-double face_flux_lm(const Sign& sign, SignColour colour, Operation operation,
-                    double seconds_after_failure) {
-  const double area_m2 = sign.width_m * sign.height_m * colour_share(sign.face, colour);
-  return sign_luminance(sign, colour, operation, seconds_after_failure, 1.0) * area_m2 * 2 *
-         std::numbers::pi / (sign.angular_exponent + 2);
 }
 
 }  // namespace luxodus

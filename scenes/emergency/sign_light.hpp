@@ -1,5 +1,5 @@
-// How bright a sign is of itself: the luminance of its colours, the decay of photoluminescent
-// material, the flux that a face sends out. It says nothing about light that falls on the face or
+// How bright a sign is of itself: the luminance of its colours and the decay of photoluminescent
+// material. It says nothing about light that falls on the face or
 // about smoke before it. Pure functions; any thread. Design: README.md of this folder.
 #pragma once
 
@@ -23,10 +23,5 @@ double decay_share(const std::vector<glm::dvec2>& decay, double seconds);
 /// `other` never does. A circuit's factor and a face's luminance map are the caller's to apply.
 double sign_luminance(const Sign& sign, SignColour colour, Operation operation,
                       double seconds_after_failure, double cos_from_normal);
-
-/// Luminous flux [lm] that one face sends out by one colour: the integral of L cos^n cos over area
-/// and half space, L area 2 pi / (n + 2). A double-sided sign sends out twice that.
-double face_flux_lm(const Sign& sign, SignColour colour, Operation operation,
-                    double seconds_after_failure);
 
 }  // namespace luxodus

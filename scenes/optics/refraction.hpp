@@ -47,12 +47,6 @@ inline FresnelTerms fresnel(Real cos_theta, Real ior) {
   return {shares(c, b), shares(ior * c, cos_behind), cos_behind};
 }
 
-/// Share of unpolarised power that a smooth boundary reflects. `ior` = n behind / n in front.
-inline Real fresnel_reflectance(Real cos_theta, Real ior) {
-  const FresnelTerms terms = fresnel(cos_theta, ior);
-  return 0.5_r * (terms.s.r + terms.p.r);
-}
-
 /// Snell's law: the part along the surface shrinks by 1 / ior, the rest is `cos_behind` of
 /// fresnel(). `incoming` travels towards the surface, against `normal`; both unit.
 /// Requires: cos_behind > 0.

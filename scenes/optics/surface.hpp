@@ -55,11 +55,6 @@ struct SurfaceSample {
 SurfaceModel make_surface(SurfaceKind kind, double reflectance, double specular, double roughness,
                           double ior, double internal_transmittance);
 
-/// Reflectance for perfectly diffuse incident light from the front (mean over cosine-weighted
-/// directions); to summarise a surface as Lambertian. Deterministic to 1e-3, not for the tracer's
-/// loop.
-double mean_hemispherical_reflectance(const SurfaceModel& model);
-
 // ---- glass -------------------------------------------------------------------------------------
 
 struct PaneShares {

@@ -21,7 +21,7 @@ AssessedArea read_area(KeyReader& keys, const char* kind) {
   const auto outline = keys.corners("outline");
   if (!keys.clean()) return area;
   auto checked = checked_outline(outline);
-  if (!checked.ok())
+  if (!checked)
     keys.problem("outline", checked.problem().what);
   else
     area.outline = std::move(checked).value();

@@ -29,7 +29,7 @@ void move(KeyReader& keys, Frame& frame, Aim aim) {
   const auto facing = keys.maybe_direction("facing");
   if (!facing || !keys.clean()) return;
   const auto turned = aim(frame.origin, *facing, {0, 0, 1});
-  if (turned.ok())
+  if (turned)
     frame = turned.value();
   else
     keys.problem("facing", turned.problem().what);

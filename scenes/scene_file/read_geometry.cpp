@@ -41,7 +41,7 @@ Result<Shape> wall_shape(KeyReader& keys) {
   }
   if (!keys.clean()) return Problem{};
   if (std::abs(from.z - to.z) > 1e-6) {
-    return Problem{{}, "a wall's 'from' and 'to' must be at the same height"};
+    return problem("a wall's 'from' and 'to' must be at the same height");
   }
   auto shape = shapes::wall(glm::length(to - from), height, thickness, openings);
   if (!shape) return shape;
@@ -55,7 +55,7 @@ Result<Shape> wall_shape(KeyReader& keys) {
 Result<Shape> box_shape(KeyReader& keys) {
   const glm::dvec3 low = keys.point("low"), high = keys.point("high");
   if (keys.clean() && !glm::all(glm::lessThan(low, high))) {
-    return Problem{{}, "'high' must lie above 'low' in x, y and z"};
+    return problem("'high' must lie above 'low' in x, y and z");
   }
   if (!keys.clean()) return Problem{};
   auto shape = shapes::box(high - low, shapes::BoxAt::corner);
@@ -83,7 +83,7 @@ Result<Shape> round_shape(KeyReader& keys, const std::string& kind) {
     const double outer = keys.number("outer_radius"), inner = keys.number("inner_radius");
     const double length = keys.number("length");
     if (keys.clean() && inner >= outer) {
-      return Problem{{}, "'inner_radius' must be less than 'outer_radius'"};
+      return problem("'inner_radius' must be less than 'outer_radius'");
     }
     if (!keys.clean()) return Problem{};
     if (!segments) return segments.problem();

@@ -1,4 +1,4 @@
-// Smoke and flames, but for data sets (read_data_set.cpp).
+// Smoke and flames, but for bodies and data sets (read_bodies.cpp).
 #include "scenes/scene_file/read_media.hpp"
 
 #include <algorithm>

@@ -39,7 +39,7 @@ void read_project(const toml::table& table, SceneReading& reading) {
   if (!keys.has("logo")) return;
   const auto path = keys.path("logo");
   if (!path || !take_hash(*path, keys.place("logo"), reading)) return;
-  if (auto logo = read_logo(*path); !logo.ok())
+  if (auto logo = read_logo(*path); !logo)
     take_problem(logo.problem(), keys.place("logo"), reading);
   else
     p.logo = path->string();

@@ -31,8 +31,7 @@ Result<SignFace> drawn_face(const std::filesystem::path& path, const Sign& sign,
   const std::string extension = lower_extension(path);
   if (extension == ".svg") return face_from_svg(path, sign.width_m, sign.height_m, texels);
   if (extension == ".png") return face_from_png(path, sign.width_m, sign.height_m, texels);
-  return Problem{{},
-                 "a pictogram is an .svg or a .png file, not '" + path.filename().string() + "'"};
+  return problem("a pictogram is an .svg or a .png file, not '" + path.filename().string() + "'");
 }
 
 /// A length of a sign that is written and longer than `most` is a slip of the unit more often than

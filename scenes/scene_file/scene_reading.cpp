@@ -134,7 +134,7 @@ std::optional<Problem> SceneReading::hash_file(const std::filesystem::path& path
   ssize_t n = 0;
   while ((n = ::read(file->descriptor.number(), part.data(), part.size())) > 0)
     XXH3_64bits_update(state.get(), part.data(), static_cast<size_t>(n));
-  if (n < 0) return Problem{{path.string(), 0}, "this file cannot be read"};
+  if (n < 0) return problem_in(path, "this file cannot be read");
   scene.content_hash = XXH3_64bits_digest(state.get());
   return std::nullopt;
 }

@@ -237,7 +237,7 @@ class DirectSum {
     return lumens;
   }
 
-  Connection line_to(const CompiledEmitter& e, const EmitterPart& part) const {
+  ShadowRay line_to(const CompiledEmitter& e, const EmitterPart& part) const {
     return connect(scene_, from_, part.point.position, part.point.axis,
                    e.kind != EmitterKind::volume);
   }
@@ -248,7 +248,7 @@ class DirectSum {
                      bool known_clear = false) {
     const CompiledEmitter& e = scene_.emitters[index];
     PointLight out;
-    const Connection c = line_to(e, part);
+    const ShadowRay c = line_to(e, part);
     const Vec3 to_part = part.point.position - place_;
     const Real away = glm::length(to_part);
     if (!(c.distance > 0) || !(away > 0) || !(part.share > 0)) return out;
@@ -296,7 +296,7 @@ class DirectSum {
     const CellPoints corners = cells.corner_points(cell);
     for (const EmitterPart& part : corners.all()) {
       if (hidden && seen) return;
-      const Connection c = line_to(e, part);
+      const ShadowRay c = line_to(e, part);
       if (!(c.distance > 0) || glm::dot(normal_, c.ray.direction) <= 0) continue;
       if (directional_density(e, part.point, -c.ray.direction, resolver_) <= 0) continue;
       const bool passes =
@@ -336,7 +336,7 @@ class DirectSum {
 
   /// Whether the place sees a point of an emitter.
   bool sees(const CompiledEmitter& e, const EmitterPart& part) {
-    const Connection c = line_to(e, part);
+    const ShadowRay c = line_to(e, part);
     return c.distance > 0 && solid_transmittance(scene_, c.ray, c.ray.length,
                                                  scene_.bands.count() / 2, resolver_) == 1;
   }

@@ -414,7 +414,7 @@ class PathTracer {
   /// Nothing from points that are not farther than `min_distance`: paths hit them.
   Arriving light_from(const CompiledEmitter& e, const EmissionPoint& point, const Vec3& place,
                       Real min_distance, int band) {
-    const Connection c =
+    const ShadowRay c =
         connect(scene_, place, point.position, point.axis, e.kind != EmitterKind::volume);
     if (!(c.distance > min_distance)) return {};
     const auto density =

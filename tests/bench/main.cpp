@@ -1,12 +1,11 @@
 // luxodus_bench [--repeats N] [--share X] [--scene NAME] [--pack FILE] [TABLE ...]: prints the
 // tables named, or all.
-#include <xmmintrin.h>
-
 #include <charconv>
 #include <cstdio>
 #include <set>
 #include <string>
 
+#include "runtime/core/denormals.hpp"
 #include "runtime/core/isolated_job.hpp"
 #include "tests/bench/tables.hpp"
 
@@ -53,7 +52,7 @@ bool is_table(const std::string& word) {
 
 int main(int argc, char** argv) {
   if (const auto served = luxodus::serve_isolated_job(argc, argv)) return *served;
-  _mm_setcsr(_mm_getcsr() | 0x8040);  // denormals to zero, as in a run
+  luxodus::flush_denormals();
   Options options;
   std::set<std::string> wanted;
   for (int i = 1; i < argc; ++i) {

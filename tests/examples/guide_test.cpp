@@ -29,19 +29,19 @@ std::string guide_scene() {
 struct WaitingRoom {
   explicit WaitingRoom(const std::string& scene) {
     for (const char* name : {"luminaires/emergency_downlight.ldt", "signs/exit_straight.svg"}) {
-      fs::create_directories((folder.path / name).parent_path());
-      fs::copy_file(source / "scenes/library" / name, folder.path / name);
+      fs::create_directories((folder / name).parent_path());
+      fs::copy_file(source / "scenes/library" / name, folder / name);
     }
-    std::ofstream(folder.path / "waiting_room.toml") << scene;
+    std::ofstream(folder / "waiting_room.toml") << scene;
   }
   Outcome assess() const {
-    return run_luxodus(folder, "assess " + (folder.path / "waiting_room.toml").string() +
-                                   " --out " + (folder.path / "out").string());
+    return run_luxodus(folder, "assess " + (folder / "waiting_room.toml").string() + " --out " +
+                                   (folder / "out").string());
   }
   nlohmann::json assessment() const {
-    return nlohmann::json::parse(slurp(folder.path / "out" / "assessment.json"));
+    return nlohmann::json::parse(slurp(folder / "out" / "assessment.json"));
   }
-  Folder folder;
+  TemporaryFolder folder;
 };
 
 std::string with(const std::string& what, const std::string& instead) {
@@ -100,7 +100,7 @@ TEST_CASE("each mistake that the guide lists is refused in words", "[program][gu
     const Outcome run = room.assess();
     CHECK(run.code != 0);
     CHECK(run.err.find(mistake.words) != std::string::npos);
-    CHECK_FALSE(fs::exists(room.folder.path / "out" / "assessment.json"));
+    CHECK_FALSE(fs::exists(room.folder / "out" / "assessment.json"));
   }
 }
 

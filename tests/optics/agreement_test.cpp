@@ -227,7 +227,7 @@ TEST_CASE("error bars are honest, and if they were 20 % too small or too large i
   scene.run.voxels = false;
   scene.run.batch_particles = 128;
   const int wall = add_grey(scene, 0.5);
-  for (const Face& f : faces_of_box({0, 0, 0}, {1, 1, 1})) {
+  for (const BoxFace& f : faces_of_box({0, 0, 0}, {1, 1, 1})) {
     add_quad(scene, f.name, f.corner, f.u, f.v, wall);
     add_face_emitter(scene, f, 0.5);
   }

@@ -28,7 +28,7 @@ SceneDescription room_of_everything() {
   scene.run.voxel_edge_m = 0.5;
   const int wall = add_grey(scene, 0.6);
   scene.materials.back().reflectance = reflectance_from_linear_srgb(0.7, 0.5, 0.3);
-  for (const Face& f : faces_of_box({0, 0, 0}, {4, 3, 2.5})) {
+  for (const BoxFace& f : faces_of_box({0, 0, 0}, {4, 3, 2.5})) {
     add_quad(scene, f.name, f.corner, f.u, f.v, wall).patch_edge_m = 0.7;
   }
   const int picture = add_grey(scene, 0.9);

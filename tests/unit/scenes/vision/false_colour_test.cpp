@@ -8,6 +8,7 @@
 #include <string>
 
 #include "scenes/optics/chromaticity.hpp"
+#include "tests/unit/scenes/vision/linear_of_srgb.hpp"
 
 using namespace luxodus;
 
@@ -15,8 +16,9 @@ namespace {
 
 // CIELAB of an sRGB colour, written apart from the map's own arithmetic.
 std::array<double, 3> lab(Rgb8 c) {
-  const Xyz xyz = xyz_from_linear_srgb(
-      {linear_of_srgb_byte(c.r), linear_of_srgb_byte(c.g), linear_of_srgb_byte(c.b)});
+  const Xyz xyz =
+      xyz_from_linear_srgb({test::linear_of_srgb_byte(c.r), test::linear_of_srgb_byte(c.g),
+                            test::linear_of_srgb_byte(c.b)});
   const auto f = [](double t) {
     return t > 216.0 / 24389 ? std::cbrt(t) : (24389.0 / 27 * t + 16) / 116;
   };
@@ -38,7 +40,8 @@ std::string texts(const std::vector<Tick>& ticks) {
 }  // namespace
 
 TEST_CASE("sRGB bytes survive the way through linear light", "[vision][picture]") {
-  for (int i = 0; i < 256; ++i) CHECK(srgb_byte(linear_of_srgb_byte(static_cast<uint8_t>(i))) == i);
+  for (int i = 0; i < 256; ++i)
+    CHECK(srgb_byte(test::linear_of_srgb_byte(static_cast<uint8_t>(i))) == i);
   CHECK(srgb_byte(-1) == 0);
   CHECK(srgb_byte(2) == 255);
   CHECK(srgb_byte(std::nan("")) == 0);

@@ -1,4 +1,4 @@
-#include "actors/output/base64.hpp"
+#include "runtime/core/base64.hpp"
 
 #include <cstdint>
 
