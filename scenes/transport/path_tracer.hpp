@@ -6,8 +6,8 @@
 // near; there a second place is drawn, as the emitter's light falls on the stretch of the path
 // (equiangular.hpp), and the two are weighted by how likely each way was to find its own (balance
 // heuristic). Unbiased, except where pictures end a path in the patches' flux (final gather).
-// look.hpp makes of it what signs and probes are asked for. Not seen: point emitters and caustics
-// through mirrors and refracting solids; the forward tracer counts those. Thread rule: one
+// eye_paths.hpp makes of it what signs and probes are asked for. Not seen: point emitters and
+// caustics through mirrors and refracting solids; the forward tracer counts those. Thread rule: one
 // PathTracer per thread or fiber.
 #pragma once
 
@@ -19,6 +19,7 @@
 #include "scenes/tally/batch_scores.hpp"
 #include "scenes/transport/connect.hpp"
 #include "scenes/transport/emission.hpp"
+#include "scenes/transport/patch_radiance.hpp"
 #include "scenes/transport/textures.hpp"
 
 namespace luxodus {
@@ -71,14 +72,6 @@ class GroupLight {
  private:
   std::vector<double> by_group_;
   double total_ = 0;
-};
-
-/// Outgoing radiance of a patch, for final gathers: [W/(m2 sr)]. Implemented where flux is
-/// collected.
-class PatchRadiance {
- public:
-  virtual ~PatchRadiance() = default;
-  virtual double radiance(const Hit& hit, bool front, int band) const = 0;
 };
 
 /// Which emitters count when a path meets them on its way.

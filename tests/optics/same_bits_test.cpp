@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "scenes/geometry/primitives.hpp"
+#include "scenes/transport/eye_paths.hpp"
 #include "scenes/transport/kernels.hpp"
 #include "scenes/transport/trace.hpp"
 #include "tests/optics/light_kit.hpp"
