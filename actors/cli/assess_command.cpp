@@ -1,6 +1,5 @@
 // luxodus assess, compare: whether signs and routes do their job, as data and as a report.
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -13,6 +12,7 @@
 #include "actors/cli/report_options.hpp"
 #include "actors/output/file_names.hpp"
 #include "actors/output/output_folder.hpp"
+#include "runtime/core/log.hpp"
 
 namespace luxodus::cli {
 
@@ -78,14 +78,14 @@ Result<ExitCode> assess_scene(const AssessCommandOptions& options) {
       tell(assessed.problem());
       return ExitCode::bad_input;
     }
-    spdlog::warn("interrupted; nothing was written");
+    log_warning("interrupted; nothing was written");
     return ExitCode::interrupted;
   }
   tell_findings(assessed->findings);
   for (const Problem& warning : assessed->warnings)
     if (std::none_of(assessed->findings.begin(), assessed->findings.end(),
                      [&](const Finding& f) { return f.problem.text() == warning.text(); }))
-      spdlog::warn("{}", warning.text());
+      log_warning("{}", warning.text());
   const Json json = assessment_json(*scene, assessed.value(), LUX_VERSION);
   if (auto ok = write_assessment(out->path(), json); !ok) return ok.problem();
   print_summary(json);

@@ -2,7 +2,6 @@
 // one. When it ends, they have ended.
 #include <signal.h>
 #include <spawn.h>
-#include <spdlog/spdlog.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -13,6 +12,7 @@
 
 #include "actors/cli/command.hpp"
 #include "runtime/config/cluster_file.hpp"
+#include "runtime/core/log.hpp"
 
 namespace luxodus::cli {
 
@@ -96,7 +96,7 @@ class Children {
       const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
       const bool decides = controller.empty() ? result_ == 0 : child->name == controller;
       const bool all_end = code != 0 && child->name == controller;
-      if (code != 0) spdlog::error("process {} ended with {}", child->name, code);
+      if (code != 0) log_error("process {} ended with {}", child->name, code);
       if (decides) result_ = code;
       living_.erase(child);
       if (all_end) tell_all();

@@ -1,6 +1,5 @@
 #include "actors/cli/command.hpp"
 
-#include <spdlog/spdlog.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
@@ -13,6 +12,7 @@
 #include <ctime>
 #include <thread>
 
+#include "runtime/core/log.hpp"
 #include "runtime/core/printable.hpp"
 #include "scenes/pack/scene_pack.hpp"
 #include "scenes/scene_file/scene_file.hpp"
@@ -34,7 +34,7 @@ std::shared_ptr<const SceneDescription> load_scene(const std::string& file) {
   ReadScene read = read_scene(file);
   for (const Problem& p : read.problems.list()) tell(p);
   if (!read.scene) return nullptr;
-  for (const Problem& w : read.scene->warnings) spdlog::warn("{}", w.text());
+  for (const Problem& w : read.scene->warnings) log_warning("{}", w.text());
   return std::make_shared<const SceneDescription>(std::move(*read.scene));
 }
 
@@ -253,7 +253,7 @@ void ProgressLine::put(const std::string& text, bool last, std::optional<double>
   }
   if (!is_worth_a_line(last, share)) return;
   shown_ = !last;  // one line at the end, however often it is said
-  spdlog::info("{}: {}", title_, text);
+  log_info("{}: {}", title_, text);
 }
 
 void ProgressLine::show(const Progress& p) {

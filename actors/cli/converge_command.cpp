@@ -1,5 +1,4 @@
 // luxodus converge: how the error falls with particles and with seconds.
-#include <spdlog/spdlog.h>
 
 #include <cmath>
 #include <filesystem>
@@ -11,6 +10,7 @@
 #include "actors/output/json_out.hpp"
 #include "actors/output/output_folder.hpp"
 #include "actors/output/svg_plot.hpp"
+#include "runtime/core/log.hpp"
 #include "scenes/transport/compile.hpp"
 
 namespace luxodus::cli {
@@ -177,8 +177,8 @@ Result<ExitCode> converge(const ConvergeOptions& options) {
     print_points(course.points, options.json, folder);
   }
   if (!course.interrupted) return ExitCode::success;
-  spdlog::warn(enough ? "interrupted; the points measured until then were written"
-                      : "interrupted before there were two points; nothing was written");
+  log_warning("{}", enough ? "interrupted; the points measured until then were written"
+                           : "interrupted before there were two points; nothing was written");
   return ExitCode::interrupted;
 }
 

@@ -19,6 +19,7 @@
 #include "actors/cli/command.hpp"
 #include "actors/cli/terminal.hpp"
 #include "runtime/core/isolated_job.hpp"
+#include "runtime/core/log.hpp"
 
 namespace {
 
@@ -149,7 +150,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& e) {
     return when_printed(app.exit(e) == 0 ? ExitCode::success : ExitCode::bad_input);
   } catch (const std::exception& e) {
-    spdlog::error("{}", e.what());
+    log_error("{}", e.what());
     return when_printed(ExitCode::failure);
   }
   return when_printed(exit_code);

@@ -18,6 +18,7 @@
 #include "actors/view/live_cluster.hpp"
 #include "actors/view/live_worker.hpp"
 #include "runtime/config/cluster_file.hpp"
+#include "runtime/core/log.hpp"
 
 namespace luxodus::cli {
 
@@ -38,8 +39,8 @@ Result<void> save_patiently(const fs::path& file, const LocalRun& run) {
   for (int i = 1;; ++i) {
     auto saved = save_flux(file, run);
     if (saved || i == tries || interrupt_flag()) return saved;
-    spdlog::error("{}: tried again in {} s; Ctrl-C ends without", saved.problem().text(),
-                  pause_ms / 1000);
+    log_error("{}: tried again in {} s; Ctrl-C ends without", saved.problem().text(),
+              pause_ms / 1000);
     ::poll(nullptr, 0, pause_ms);  // a signal ends it
   }
 }
@@ -168,7 +169,7 @@ int run_nodes(const NodeOptions& options) {
     tell(ended.problem());
     return ExitCode::failure;
   }
-  for (const std::string& text : process.value()->residency_lines()) spdlog::info("{}", text);
+  for (const std::string& text : process.value()->residency_lines()) log_info("{}", text);
   if (!ended.value()) return ExitCode::success;
   if (auto ok = write_results(cluster, *process.value(), out.value()->path(), *ended.value());
       !ok) {

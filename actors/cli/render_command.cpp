@@ -1,5 +1,4 @@
 // luxodus render: pictures from a finished run, without tracing particles again.
-#include <spdlog/spdlog.h>
 
 #include <filesystem>
 
@@ -9,6 +8,7 @@
 #include "actors/display/pictures.hpp"
 #include "actors/display/result_files.hpp"
 #include "actors/run/flux_store.hpp"
+#include "runtime/core/log.hpp"
 #include "scenes/transport/compile.hpp"
 
 namespace luxodus::cli {
@@ -59,7 +59,7 @@ Result<ExitCode> render(const RenderOptions& options) {
                                   [&](double share) { line.show_share(share); });
   if (!drawn) return drawn.problem();
   if (!interrupt_flag()) return ExitCode::success;
-  spdlog::warn("interrupted; the pictures that were whole are there");
+  log_warning("interrupted; the pictures that were whole are there");
   return ExitCode::interrupted;
 }
 

@@ -1,5 +1,4 @@
 // luxodus run: trace a scene, write everything that came of it.
-#include <spdlog/spdlog.h>
 
 #include <array>
 #include <filesystem>
@@ -17,6 +16,7 @@
 #include "actors/supervise/in_process.hpp"
 #include "actors/supervise/out_of_core_for.hpp"
 #include "actors/supervise/residency_setup.hpp"
+#include "runtime/core/log.hpp"
 #include "scenes/transport/compile.hpp"
 #include "scenes/transport/near_field.hpp"
 #include "scenes/transport/visibility.hpp"
@@ -155,7 +155,7 @@ Result<StopReason> trace(LocalRun& run, const Scenario& scenario, const fs::path
   auto seen = Observation::start(observe);
   if (!seen) return seen.problem();
   const auto port = seen.value()->port();
-  if (port) spdlog::info("metrics at http://{}:{}/metrics", observe.address, *port);
+  if (port) log_info("metrics at http://{}:{}/metrics", observe.address, *port);
   Observation* const watched = seen.value()->watches() ? seen.value().get() : nullptr;
   const auto nodes = nodes_options(options, delay.value(), watched);
   if (!nodes) return nodes.problem();
@@ -256,7 +256,7 @@ void warn_of_near_field(const LocalRun& run) {
       warnings = near_field_warnings(*scene.description, scene.scenario, sees);
     };
   });
-  for (const Problem& w : warnings) spdlog::warn("{}", w.text());
+  for (const Problem& w : warnings) log_warning("{}", w.text());
 }
 
 /// One scenario, and the folder that is held for it.
@@ -272,7 +272,7 @@ Result<PreparedScenario> prepare_scenario(
     const fs::path& folder, const RunOptions& options, const StopRule& rule) {
   auto scene = compile_scene(description, scenario, {options.cells, options.error_of});
   if (!scene) return scene.problem();
-  for (const Problem& w : scene.value()->warnings) spdlog::warn("{}", w.text());
+  for (const Problem& w : scene.value()->warnings) log_warning("{}", w.text());
   PreparedScenario prepared{scenario, scene.value(), std::nullopt};
   if (options.plan) return prepared;
   // Of several scenarios the later ones may not have been begun when the run was stopped.
@@ -343,10 +343,10 @@ Result<RunOutcome> run_scenario(const std::shared_ptr<const SceneDescription>& d
   { const Watchers ended = std::move(watchers).value(); }
   if (!reason) return reason.problem();
   if (reason.value() == StopReason::interrupted && run.particles() <= folder.keep_particles) {
-    spdlog::warn("{} keeps the run of {} particles that it held: this one had {}",
-                 folder.output.named().string(),
-                 short_number(static_cast<double>(folder.keep_particles)),
-                 short_number(static_cast<double>(run.particles())));
+    log_warning("{} keeps the run of {} particles that it held: this one had {}",
+                folder.output.named().string(),
+                short_number(static_cast<double>(folder.keep_particles)),
+                short_number(static_cast<double>(run.particles())));
     return RunOutcome{StopReason::interrupted, {}};
   }
   record.stopped_by = name_of(reason.value());
@@ -402,7 +402,7 @@ int run_scenarios(const std::shared_ptr<const SceneDescription>& description,
     one.folder.reset();
     if (!traced->result.is_null()) results.push_back(std::move(traced.value().result));
     if (traced.value().reason == StopReason::interrupted) {
-      spdlog::warn("interrupted; what there is was written; go on with --resume");
+      log_warning("interrupted; what there is was written; go on with --resume");
       return ExitCode::interrupted;
     }
   }

@@ -13,6 +13,7 @@
 #include "actors/study/runs.hpp"
 #include "actors/study/scenes.hpp"
 #include "runtime/core/clock.hpp"
+#include "runtime/core/log.hpp"
 
 namespace luxodus::cli {
 
@@ -187,7 +188,7 @@ Result<ExitCode> study(const StudyCommandOptions& options) {
   const auto done = sweep.run();
   if (!done) return done.problem();
   if (interrupt_flag()) {
-    spdlog::warn("interrupted; nothing was written");
+    log_warning("interrupted; nothing was written");
     return ExitCode::interrupted;
   }
   if (auto ok = write_study(out->path(), sweep.outcome()); !ok) return ok.problem();

@@ -1,7 +1,6 @@
 // luxodus topology: who talks to whom. Makes, measures, compares and draws the graphs of links that
 // a cluster may have.
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <functional>
 
@@ -9,6 +8,7 @@
 #include "actors/cli/topology_report.hpp"
 #include "runtime/core/atomic_file.hpp"
 #include "runtime/core/clock.hpp"
+#include "runtime/core/log.hpp"
 #include "runtime/core/output_path.hpp"
 #include "runtime/core/regular_file.hpp"
 #include "topology/amp.hpp"
@@ -63,7 +63,7 @@ Result<Graph> amp_graph(const TopologyOptions& options) {
   if (!search) {
     if (auto shipped =
             shipped_graph({request.nodes, request.links, request.controller_links}, role)) {
-      spdlog::info("this graph ships with the program; --search looks for another");
+      log_info("this graph ships with the program; --search looks for another");
       return *shipped;
     }
   }
@@ -79,9 +79,8 @@ Result<Graph> amp_graph(const TopologyOptions& options) {
   install_interrupt_handler();
   auto found = find_amp(request, [&] { return interrupt_flag() || (end && clock.now() >= *end); });
   if (!found) return found.problem();
-  spdlog::info("searched {:.2f} s: {} runs, {} moves, seed {}",
-               static_cast<double>(clock.now() - start) / 1e9, found->runs, found->moves,
-               request.seed);
+  log_info("searched {:.2f} s: {} runs, {} moves, seed {}",
+           static_cast<double>(clock.now() - start) / 1e9, found->runs, found->moves, request.seed);
   return found->graph;
 }
 

@@ -1,13 +1,13 @@
 // luxodus validate: every case with a known answer, and a verdict by a rule written down
 // beforehand.
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <cmath>
 
 #include "actors/cli/command.hpp"
 #include "actors/output/output_folder.hpp"
 #include "actors/validate/report.hpp"
+#include "runtime/core/log.hpp"
 
 namespace luxodus::cli {
 
@@ -48,9 +48,8 @@ void tell_failures(const std::vector<light::CaseResult>& results, const light::V
     for (size_t k = 0; k < results[i].findings.size(); ++k) {
       const light::Finding& f = results[i].findings[k];
       if (verdict.judged[i][k].judgement != light::Judgement::failed) continue;
-      spdlog::error("{}: {}: {} +- {}, reference {}, z {:.2f}", results[i].name, f.quantity,
-                    f.estimate.value, f.estimate.standard_error, f.reference,
-                    verdict.judged[i][k].z);
+      log_error("{}: {}: {} +- {}, reference {}, z {:.2f}", results[i].name, f.quantity,
+                f.estimate.value, f.estimate.standard_error, f.reference, verdict.judged[i][k].z);
     }
   }
 }

@@ -5,6 +5,7 @@
 
 #include "actors/inspect/site.hpp"
 #include "scenes/emergency/sign_geometry.hpp"
+#include "scenes/transport/connect.hpp"
 
 namespace luxodus {
 

@@ -1,7 +1,6 @@
 #include "actors/source/controller.hpp"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +8,8 @@
 #include <utility>
 
 #include "runtime/core/check.hpp"
+#include "runtime/core/hash.hpp"
+#include "runtime/core/log.hpp"
 
 namespace luxodus {
 
@@ -99,7 +100,7 @@ bool Controller::meet(const Delivery& delivery) {
 void Controller::begin() {
   begun_ = true;
   began_ = scheduler_.clock().now();
-  spdlog::info("run=begun workers={}", peers_.size());
+  log_info("run=begun workers={}", peers_.size());
   note_book();
   open_round();
 }
@@ -120,7 +121,7 @@ void Controller::await_workers(Nanoseconds now) {
   if (now - began_ < config_.start) {
     if (now < next_word_) return;
     next_word_ = now + waiting_word;
-    spdlog::info("run=waiting text=\"{}\"", missing_workers());
+    log_info("run=waiting text=\"{}\"", missing_workers());
     return;
   }
   fault_ = problem(fmt::format("the run did not begin: after {:g} s (start_s) {}",
@@ -159,7 +160,7 @@ void Controller::watch_workers(Nanoseconds now) {
     if (!begun_ || !peer.here || now - *peer.unreachable_since < config_.lost) continue;
     peer.here = false;
     ++counters_.workers_lost;
-    spdlog::error(
+    log_error(
         "worker=lost node={} text=\"no way has led to {} for {:g} s: its batches are lent "
         "again\"",
         worker.value, name_of(worker), seconds_of(config_.lost));
@@ -191,7 +192,7 @@ void Controller::lose_shard(NodeId worker, const char* how) {
 void Controller::fail(const std::string& what) {
   if (over_) return;
   fault_ = problem(what);
-  spdlog::error("run=failed text=\"{}\"", what);
+  log_error("run=failed text=\"{}\"", what);
   end_run(StopReason::workers_lost);
 }
 
@@ -201,8 +202,8 @@ void Controller::fence(const std::vector<Lease>& leases, const char* why) {
   std::map<NodeId, LeasesFenced> told;
   for (const Lease& lease : leases) {
     ++counters_.fenced;
-    spdlog::warn("lease=fenced lease={} node={} batch={} text=\"{}: lent again\"", lease.id,
-                 lease.node.value, lease.batch, why);
+    log_warning("lease=fenced lease={} node={} batch={} text=\"{}: lent again\"", lease.id,
+                lease.node.value, lease.batch, why);
     LeasesFenced& of_node = told[lease.node];
     of_node.leases.push_back(lease.id);
     if (of_node.leases.size() < limits::leases) continue;
@@ -216,7 +217,7 @@ void Controller::fence(const std::vector<Lease>& leases, const char* why) {
 /// A worker has tried these for as long as one waits for a lost node: it cannot have an object.
 void Controller::take_back(NodeId worker, const LeasesFenced& leases) {
   for (const Lease& lease : book_.give_back(worker, leases.leases))
-    spdlog::warn(
+    log_warning(
         "lease=given_back lease={} node={} batch={} text=\"{} cannot have an object that it needs: "
         "lent to others\"",
         lease.id, worker.value, lease.batch, name_of(worker));
@@ -231,7 +232,7 @@ void Controller::lose_batches() {
   const int64_t lost = book_.lose_what_all_gave_back(here);
   if (lost == 0) return;
   counters_.batches_lost += static_cast<uint64_t>(lost);
-  spdlog::error(
+  log_error(
       "run=lost batches={} particles={} text=\"nobody who is left can have the objects that these "
       "need: the run ends without them\"",
       lost, lost * run_.scene().batch_particles);
@@ -410,9 +411,8 @@ void Controller::wait_for_farewells(Nanoseconds now) {
   tell_end();
   if (letting_go_ || now < next_word_) return;
   next_word_ = now + waiting_word;
-  spdlog::info(
-      "run=over text=\"{} must hear of it, or be lost: that takes {:g} s (lost_s) at most\"",
-      who_lacks_end(), seconds_of(config_.lost));
+  log_info("run=over text=\"{} must hear of it, or be lost: that takes {:g} s (lost_s) at most\"",
+           who_lacks_end(), seconds_of(config_.lost));
 }
 
 Progress Controller::progress() const {

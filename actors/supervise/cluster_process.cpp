@@ -1,6 +1,5 @@
 #include "actors/supervise/cluster_process.hpp"
 
-#include <spdlog/spdlog.h>
 #include <sys/random.h>
 
 #include <algorithm>
@@ -12,6 +11,8 @@
 #include "actors/supervise/out_of_core_for.hpp"
 #include "actors/supervise/residency_setup.hpp"
 #include "runtime/config/cluster_file.hpp"
+#include "runtime/core/atomic_file.hpp"
+#include "runtime/core/log.hpp"
 #include "runtime/core/output_path.hpp"
 #include "runtime/core/regular_file.hpp"
 #include "runtime/fiber/sanitizers.hpp"
@@ -276,11 +277,11 @@ Result<void> ClusterProcessRun::open_journal(const Clock& clock) {
   if (!journal) return journal.problem();
   journal_ = std::move(journal).value();
   if (journal_->torn_bytes() > 0)
-    spdlog::warn("journal=torn bytes={} text=\"the end of it was cut: a crash tore it\"",
-                 journal_->torn_bytes());
+    log_warning("journal=torn bytes={} text=\"the end of it was cut: a crash tore it\"",
+                journal_->torn_bytes());
   if (journal_->recovered() > 0)
-    spdlog::warn("run=recovered batches={} text=\"an earlier life of this node has counted them\"",
-                 journal_->recovered());
+    log_warning("run=recovered batches={} text=\"an earlier life of this node has counted them\"",
+                journal_->recovered());
   return {};
 }
 
@@ -362,7 +363,7 @@ Result<std::unique_ptr<ClusterProcessRun::Prepared>> ClusterProcessRun::prepare_
   }
   for (const NodeSetup& node : out->workers)
     if (auto fault = budget_fault(setup, node)) return problem_in(cluster_.file, *fault);
-  spdlog::info("memory plan\n{}", plan_text(setup, out->workers, out->controller));
+  log_info("memory plan\n{}", plan_text(setup, out->workers, out->controller));
   return out;
 }
 

@@ -1,10 +1,9 @@
 #include "actors/supervise/run_journal.hpp"
 
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
 
 #include "actors/run/flux_store.hpp"
+#include "runtime/core/log.hpp"
 #include "runtime/storage/faulty_store.hpp"
 
 namespace luxodus {
@@ -53,7 +52,7 @@ void RunJournal::keep_room() {
   const auto bins = static_cast<uint64_t>(run_.scene().layout.totals());
   const uint64_t bytes = std::min(max_room, groups * bins * sizeof(Total)) + room_beside;
   if (auto kept = room_.take(config_.folder, bytes); !kept)
-    spdlog::warn("journal=no_room text=\"{}\"", kept.problem().text());
+    log_warning("journal=no_room text=\"{}\"", kept.problem().text());
 }
 
 Result<void> RunJournal::keep(std::span<const int64_t> batches, std::span<const std::byte> flush) {
@@ -76,12 +75,12 @@ void RunJournal::rest() {
   // A disk that stays full would have a snapshot made after every flush.
   if (lacks_ || !made) not_before_ = clock_.now() + config_.retry;
   if (made) {
-    if (lacks_) spdlog::info("journal=whole text=\"a snapshot has what the journal lacked\"");
+    if (lacks_) log_info("journal=whole text=\"a snapshot has what the journal lacked\"");
     lacks_ = false;
     return;
   }
-  spdlog::error("journal=snapshot_failed text=\"{}: tried again in {:g} s\"", made.problem().text(),
-                static_cast<double>(config_.retry) * 1e-9);
+  log_error("journal=snapshot_failed text=\"{}: tried again in {:g} s\"", made.problem().text(),
+            static_cast<double>(config_.retry) * 1e-9);
 }
 
 void RunJournal::leave_no_trace() {

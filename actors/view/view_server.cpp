@@ -1,7 +1,5 @@
 #include "actors/view/view_server.hpp"
 
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
 #include <boost/asio.hpp>
 #include <boost/beast.hpp>
@@ -10,6 +8,7 @@
 
 #include "actors/view/view_host.hpp"
 #include "actors/view/view_hub.hpp"
+#include "runtime/core/log.hpp"
 #include "runtime/core/once_a_minute.hpp"
 
 namespace luxodus {
@@ -303,8 +302,8 @@ class ViewServer::Implementation {
   void rest(beast::error_code failed) {
     ++accepts_failed_;
     if (log_.may(clock_.now()))
-      spdlog::warn("view=full failed={} text=\"a connection cannot be accepted: {}\"",
-                   accepts_failed_.load(), failed.message());
+      log_warning("view=full failed={} text=\"a connection cannot be accepted: {}\"",
+                  accepts_failed_.load(), failed.message());
     again_.expires_after(std::exchange(pause_, std::min(2 * pause_, max_accept_again)));
     again_.async_wait([this](beast::error_code) { accept(); });
   }

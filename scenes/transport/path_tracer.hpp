@@ -20,6 +20,7 @@
 #include "scenes/transport/connect.hpp"
 #include "scenes/transport/emission.hpp"
 #include "scenes/transport/emitter_choice.hpp"
+#include "scenes/transport/patch_radiance.hpp"
 #include "scenes/transport/textures.hpp"
 
 namespace luxodus {
@@ -64,14 +65,6 @@ class GroupLight {
  private:
   std::vector<double> by_group_;
   double total_ = 0;
-};
-
-/// Outgoing radiance of a patch, for final gathers: [W/(m2 sr)]. Implemented where flux is
-/// collected.
-class PatchRadiance {
- public:
-  virtual ~PatchRadiance() = default;
-  virtual double radiance(const Hit& hit, bool front, int band) const = 0;
 };
 
 /// Which emitters count when a path meets them on its way.

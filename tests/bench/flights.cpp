@@ -1,14 +1,14 @@
-// How long flights take, printed for whoever asks for it ([.bench]); nothing is asserted about
-// time.
+// Nanoseconds of a free flight and of an optical depth, by kind of media.
 #include <chrono>
 #include <cstdio>
 
+#include "tests/bench/tables.hpp"
 #include "tests/unit/scenes/optics/media_test_tools.hpp"
 
-using namespace luxodus;
-using namespace luxodus::media_test;
-
+namespace luxodus::bench {
 namespace {
+
+using namespace media_test;
 
 struct Ray {
   glm::vec3 o;
@@ -59,7 +59,7 @@ Medium stack_of(int n) {
 
 }  // namespace
 
-TEST_CASE("time of a flight", "[.bench]") {
+void print_flights() {
   time_it<MediaNeed::homogeneous>("homogeneous", {everywhere(smoke(0.3))});
   for (const int n : {2, 6, 16, 17, 24, 100}) {
     const std::string name = std::to_string(n) + " layers";
@@ -80,3 +80,5 @@ TEST_CASE("time of a flight", "[.bench]") {
     cells.data.extinction.push_back(static_cast<float>(0.6 * draw()));
   time_it<MediaNeed::general>("60 x 60 x 30 cells of 0.1 m", {cells});
 }
+
+}  // namespace luxodus::bench
