@@ -11,7 +11,7 @@ const shots =
 const browserPath = process.env.LUX_CHROMIUM ?? '/usr/bin/chromium';
 const flags = ['--headless=new', '--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader',
   '--enable-unsafe-swiftshader'];
-/** For what never comes. All that is waited for are states: how long they take counts for nothing. */
+/** For what never comes. All waits are for states: how long they take counts for nothing. */
 const patience = { timeout: 180_000 };
 
 /** Shares of the screen's raster; screenshots are drawn fine where LUX_FINE asks for it. */

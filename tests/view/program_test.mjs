@@ -13,7 +13,7 @@ const scene = `${root}/scenes/library/office_floor.toml`;
 const shots = process.env.LUX_SHOTS ?? new URL('shots', import.meta.url).pathname;
 const flags = ['--headless=new', '--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader',
   '--enable-unsafe-swiftshader'];
-/** For what never comes. All that is waited for are states: how long they take counts for nothing. */
+/** For what never comes. All waits are for states: how long they take counts for nothing. */
 const patience = { timeout: 180_000 };
 const lamp = 'corridor emergency light 3';
 

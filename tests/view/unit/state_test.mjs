@@ -160,7 +160,7 @@ test('what moves waits for its own light alone, and nothing fades', () => {
   assert.equal(live.shown.surfaces.groups.get(1).halves, others, 'the others keep their light');
 });
 
-test('a generation that keeps all light is shown at once, and new geometry takes none of it', () => {
+test('a generation that keeps all light is shown at once; new geometry takes none of it', () => {
   const { live, scene, named } = started();
   live.hear(keeping(scene(2), () => true, 'before'));
   assert.equal(live.number, 2);
