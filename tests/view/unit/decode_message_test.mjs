@@ -1,12 +1,12 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { ProtocolError } from '../../../actors/view/page/src/protocol/frames.js';
-import { parseMessage } from '../../../actors/view/page/src/protocol/messages.js';
+import { ProtocolError } from '../../../actors/view/page/src/protocol/decode_frame.js';
+import { decodeMessage } from '../../../actors/view/page/src/protocol/decode_message.js';
 import { liveAddress } from '../../../actors/view/page/src/protocol/connection.js';
 import { MockServer } from '../mock_server.mjs';
 
 const scene = () => new MockServer().scene(null);
-const read = (message) => parseMessage(JSON.stringify(message));
+const read = (message) => decodeMessage(JSON.stringify(message));
 
 test('a scene is taken over field by field', () => {
   const { groups, signs, voxels, editor } = read({ ...scene(), surprise: 1 });
@@ -59,7 +59,7 @@ test('what was added is told apart, and the program says its name', () => {
 
 test('text that is no message is refused', () => {
   for (const text of ['', '{', '[]', '7', 'null', '{"type":"toString"}', '{"type":"sudo"}'])
-    assert.throws(() => parseMessage(text), ProtocolError);
+    assert.throws(() => decodeMessage(text), ProtocolError);
 });
 
 test('an error that is not known stays unknown', () => {

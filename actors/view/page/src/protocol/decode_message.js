@@ -1,6 +1,6 @@
 // Text frames: JSON, taken apart field by field. What leaves here has the fields, types and sizes
 // that the rest of the page relies on, and nothing else.
-import { limits as frameLimits, ProtocolError } from './frames.js';
+import { limits as frameLimits, ProtocolError } from './decode_frame.js';
 
 export const limits = {
   textBytes: 1 << 24,
@@ -202,7 +202,7 @@ const readers = {
 };
 
 /** Checks and opens a text frame; throws ProtocolError. */
-export function parseMessage(json) {
+export function decodeMessage(json) {
   if (json.length > limits.textBytes) throw new ProtocolError('a text frame too long to be read');
   let message;
   try {

@@ -1,6 +1,6 @@
 // Moving a sign or a luminaire: an outline goes ahead, the program is told when hands let go.
-import { faceOf } from './draw/signs.js';
-import { add, cross, dot, scale, subtract, unit } from './walk/vectors.js';
+import { faceOf } from '../draw/signs.js';
+import { add, cross, dot, scale, subtract, unit } from '../walk/vectors.js';
 
 /** After the last press of a handle [ms]. */
 const patience = 600;

@@ -31,7 +31,7 @@ function halvesOf(buffer) {
 }
 
 /** Checks and opens a frame; throws ProtocolError. The result points into the buffer. */
-export function parseFrame(buffer) {
+export function decodeFrame(buffer) {
   demand(buffer.byteLength >= headerBytes, 'a frame without a header');
   const [kind, generation, a] = new Uint32Array(buffer, 0, 4);
   switch (kind) {

@@ -1,9 +1,11 @@
+#include "actors/output/light_colours.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
-#include "actors/output/false_colour_png.hpp"
+#include "scenes/vision/picture.hpp"
 
 namespace luxodus {
 namespace {
@@ -27,7 +29,7 @@ bool in_gamut(const std::array<double, 3>& rgb) {
   return std::all_of(rgb.begin(), rgb.end(), [](double c) { return c >= 0 && c <= 1; });
 }
 
-std::array<uint8_t, 3> computed_colour(double t) {
+LightColour computed_colour(double t) {
   const double lightness = 0.10 + 0.87 * t;
   const double hue = (-78 + 186 * t) * std::numbers::pi / 180;  // violet, red, orange, yellow
   // Less colour at both ends, where sRGB holds little; the rest is cut to what it holds, by
@@ -43,27 +45,29 @@ std::array<uint8_t, 3> computed_colour(double t) {
     chroma = inside;
   }
   const std::array<double, 3> rgb = linear_srgb_of_oklch(lightness, chroma, hue);
-  std::array<uint8_t, 3> out{};
-  for (size_t i = 0; i < 3; ++i) {
-    const double c = std::clamp(rgb[i], 0.0, 1.0);
-    const double encoded = c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1 / 2.4) - 0.055;
-    out[i] = static_cast<uint8_t>(std::lround(255 * encoded));
-  }
-  return out;
+  return {srgb_byte(rgb[0]), srgb_byte(rgb[1]), srgb_byte(rgb[2])};
 }
 
 }  // namespace
 
-std::array<uint8_t, 3> glow_colour(double t) {
+LightColour light_colour(double t) {
   // A picture asks for millions of colours; 8 bits a channel tell fewer than these apart.
-  static const std::vector<std::array<uint8_t, 3>> table = [] {
-    std::vector<std::array<uint8_t, 3>> out;
+  static const std::vector<LightColour> table = [] {
+    std::vector<LightColour> out;
     for (int i = 0; i <= table_steps; ++i)
       out.push_back(computed_colour(static_cast<double>(i) / table_steps));
     return out;
   }();
   t = std::isnan(t) ? 0 : std::clamp(t, 0.0, 1.0);
   return table[static_cast<size_t>(std::lround(t * table_steps))];
+}
+
+double LightScale::place(double value) const {
+  return value > 0 ? std::log(value / low) / std::log(high / low) : -1;
+}
+
+LightColour colour_of_illuminance(double illuminance_lx) {
+  return light_colour(illuminance_scale.place(illuminance_lx));
 }
 
 }  // namespace luxodus
