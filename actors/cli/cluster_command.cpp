@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "actors/cli/command.hpp"
-#include "runtime/config/cluster_file.hpp"
+#include "actors/cli/load_cluster.hpp"
 #include "runtime/core/log.hpp"
 
 namespace luxodus::cli {
@@ -117,10 +117,9 @@ class Children {
 };
 
 int cluster_up(const ClusterOptions& options) {
-  const ReadCluster read = read_cluster(options.config);
-  for (const Problem& problem : read.problems.list()) tell(problem);
-  if (!read.cluster) return ExitCode::bad_input;
-  const ClusterConfig& cluster = *read.cluster;
+  const std::optional<ClusterConfig> read = load_cluster(options.config);
+  if (!read) return ExitCode::bad_input;
+  const ClusterConfig& cluster = *read;
   const auto host = std::find_if(
       cluster.hosts.begin(), cluster.hosts.end(),
       [&](const ClusterHost& h) { return options.host.empty() || h.name == options.host; });

@@ -5,8 +5,8 @@
 #include <filesystem>
 
 #include "actors/cli/command.hpp"
+#include "actors/cli/load_cluster.hpp"
 #include "actors/supervise/deploy.hpp"
-#include "runtime/config/cluster_file.hpp"
 #include "runtime/core/atomic_file.hpp"
 #include "runtime/core/output_path.hpp"
 
@@ -53,14 +53,13 @@ bool is_user_name(const std::string& name) {
 }
 
 int deploy(const DeployChoice& choice) {
-  const ReadCluster read = read_cluster(choice.cluster);
-  for (const Problem& problem : read.problems.list()) tell(problem);
-  if (!read.cluster) return ExitCode::bad_input;
+  const std::optional<ClusterConfig> read = load_cluster(choice.cluster);
+  if (!read) return ExitCode::bad_input;
   if (!is_user_name(choice.user)) {
     tell({{}, fmt::format("\"{}\" is no user's name", choice.user)});
     return ExitCode::bad_input;
   }
-  ClusterConfig cluster = *read.cluster;
+  ClusterConfig cluster = *read;
   cluster.run.out = fs::absolute(cluster.run.out).lexically_normal();
   const fs::path program =
       choice.program.empty() ? fs::read_symlink("/proc/self/exe") : fs::absolute(choice.program);

@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "actors/cli/command.hpp"
-#include "runtime/config/cluster_file.hpp"
+#include "actors/cli/load_cluster.hpp"
 #include "runtime/net/keys.hpp"
 
 namespace luxodus::cli {
@@ -23,16 +23,15 @@ struct KeygenOptions {
 /// Takes names and folder from the cluster's file, where one is given. False: it was told why not.
 bool take_cluster(KeygenOptions& options) {
   if (options.cluster.empty()) return true;
-  const ReadCluster read = read_cluster(options.cluster);
-  for (const Problem& problem : read.problems.list()) tell(problem);
-  if (!read.cluster) return false;
-  if (options.out.empty()) options.out = read.cluster->keys.folder.string();
+  const std::optional<ClusterConfig> read = load_cluster(options.cluster);
+  if (!read) return false;
+  if (options.out.empty()) options.out = read->keys.folder.string();
   if (options.names.empty()) {
-    for (const ClusterNode& node : read.cluster->nodes) options.names.push_back(node.name);
+    for (const ClusterNode& node : read->nodes) options.names.push_back(node.name);
     return true;
   }
   for (const std::string& name : options.names) {
-    if (find_node(*read.cluster, name)) continue;
+    if (find_node(*read, name)) continue;
     tell({{options.cluster, 0}, fmt::format("there is no node \"{}\"", name)});
     return false;
   }

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "actors/cli/command.hpp"
+#include "actors/cli/load_cluster.hpp"
 #include "actors/cli/serve_view.hpp"
 #include "actors/display/pictures.hpp"
 #include "actors/display/report.hpp"
@@ -17,7 +18,6 @@
 #include "actors/supervise/cluster_process.hpp"
 #include "actors/view/live_cluster.hpp"
 #include "actors/view/live_worker.hpp"
-#include "runtime/config/cluster_file.hpp"
 #include "runtime/core/log.hpp"
 
 namespace luxodus::cli {
@@ -126,10 +126,9 @@ Result<std::optional<StopReason>> view_on_nodes(const ClusterConfig& cluster,
 
 int run_nodes(const NodeOptions& options) {
   tell_the_time();
-  const ReadCluster read = read_cluster(options.config);
-  for (const Problem& problem : read.problems.list()) tell(problem);
-  if (!read.cluster) return ExitCode::bad_input;
-  const ClusterConfig& cluster = *read.cluster;
+  const std::optional<ClusterConfig> read = load_cluster(options.config);
+  if (!read) return ExitCode::bad_input;
+  const ClusterConfig& cluster = *read;
   spdlog::set_level(spdlog::level::from_str(cluster.observe.log_level));
   std::vector<NodeId> nodes;
   for (const std::string& name : options.names) {

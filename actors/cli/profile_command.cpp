@@ -2,9 +2,9 @@
 #include <filesystem>
 
 #include "actors/cli/command.hpp"
+#include "actors/cli/load_cluster.hpp"
 #include "actors/objects/profile_file.hpp"
 #include "actors/supervise/cluster_process.hpp"
-#include "runtime/config/cluster_file.hpp"
 
 namespace luxodus::cli {
 
@@ -17,10 +17,9 @@ struct ProfileOptions {
 };
 
 int make_profile(const ProfileOptions& options) {
-  ReadCluster read = read_cluster(options.config);
-  for (const Problem& problem : read.problems.list()) tell(problem);
-  if (!read.cluster) return ExitCode::bad_input;
-  ClusterConfig& cluster = *read.cluster;
+  std::optional<ClusterConfig> read = load_cluster(options.config);
+  if (!read) return ExitCode::bad_input;
+  ClusterConfig& cluster = *read;
   const std::filesystem::path out =
       options.out.empty() ? cluster.run.profile : std::filesystem::path(options.out);
   if (out.empty()) {

@@ -1,5 +1,6 @@
 // luxodus status: one line for each node of a run, asked of the processes that serve metrics.
 #include <fmt/core.h>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
 
@@ -48,6 +49,7 @@ Result<std::vector<AskedProcess>> processes_from(const StatusOptions& options) {
   if (options.config.empty()) return asked;
   const ReadCluster read = read_cluster(options.config);
   if (!read.cluster) return read.problems.list().front();
+  for (const Problem& warning : read.warnings) spdlog::warn("{}", warning.text());
   auto processes = processes_of(*read.cluster);
   if (!processes) return processes.problem();
   for (AskedProcess& process : processes.value()) asked.push_back(std::move(process));

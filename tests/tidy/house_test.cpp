@@ -110,9 +110,10 @@ const std::map<std::string, std::vector<std::string>> arrows{
     {"runtime/fiber", {}},
     {"runtime/observe", {}},
     {"runtime/storage", {}},
+    {"runtime/toml", {}},
     {"runtime/actor", {"runtime/fiber", "runtime/observe"}},
     {"runtime/net", {"proto", "runtime/observe"}},
-    {"runtime/config", {"runtime/net"}},
+    {"runtime/config", {"runtime/net", "runtime/toml"}},
     {"runtime/fetch", {"runtime/actor", "runtime/fiber", "runtime/net", "runtime/observe"}},
     {"runtime/sim", {"runtime/actor", "runtime/net", "runtime/storage"}},
 
@@ -127,8 +128,8 @@ const std::map<std::string, std::vector<std::string>> arrows{
     {"scenes/images", {"scenes/world"}},
     {"scenes/emergency", {"scenes/world"}},
     {"scenes/scene_file",
-     {"scenes/emergency", "scenes/fields", "scenes/geometry", "scenes/images", "scenes/optics",
-      "scenes/photometry", "scenes/world"}},
+     {"runtime/toml", "scenes/emergency", "scenes/fields", "scenes/geometry", "scenes/images",
+      "scenes/optics", "scenes/photometry", "scenes/world"}},
     {"scenes/transport",
      {"scenes/emergency", "scenes/geometry", "scenes/intersect", "scenes/optics", "scenes/tally",
       "scenes/world"}},
@@ -281,6 +282,7 @@ TEST_CASE("only the room of a library includes it", "[tidy]") {
       {"dxflib", "actors/report"},
       {"capnp", "proto"},
       {"kj", "proto"},
+      {"toml++", "runtime/toml"},
   };
   const auto may_draw = [](const Source& source, const std::string& library) {
     const bool drawing = source.path == "actors/output/drawing.hpp" || source.in("tests");

@@ -1,8 +1,13 @@
-#include "runtime/config/schema.hpp"
+#include "actors/study/study_schema.hpp"
 
-namespace luxodus::config {
+#include "runtime/config/cluster_schema.hpp"
+
+namespace luxodus {
 
 namespace {
+
+using toml::KeySpec;
+using toml::TableSpec;
 
 TableSpec top_table() {
   return {"study",
@@ -35,35 +40,37 @@ TableSpec sweep_table() {
       "sweep",
       "`[sweep]`: every combination is a point",
       {
-          {"on", "choices", "", "\"simulation\"", "simulation, replay, nodes, processes",
+          {"on", "choice sweep", "", "\"simulation\"", "simulation, replay, nodes, processes",
            "nodes simulated by virtual time, with real tracing or with recorded references; or "
            "real nodes by the clock on the wall, in one process or each in its own"},
-          {"topology", "choices", "", "\"amp\"",
+          {"topology", "choice sweep", "", "\"amp\"",
            "amp, torus, mesh, hypercube, ring, chordal-ring, ternary-tree, random-regular",
            "of the links; the controller is one vertex more, linked to up to four nodes"},
-          {"nodes", "integers", "", "4", "[1, 1023]", "workers"},
-          {"links", "integers", "", "4", "[1, 16]",
+          {"nodes", "integer sweep", "", "4", "[1, 1023]", "workers"},
+          {"links", "integer sweep", "", "4", "[1, 16]",
            "of a node at most, for amp and random-regular"},
-          {"delay_ms", "numbers", "ms", "0.05", "[0, 10000]", "of every link, one way"},
-          {"bytes_per_second", "numbers", "B/s", "1e9", "[0, 1e13]",
+          {"delay_ms", "number sweep", "ms", "0.05", "[0, 10000]", "of every link, one way"},
+          {"bytes_per_second", "number sweep", "B/s", "1e9", "[0, 1e13]",
            "of every link, each way; 0: no limit"},
-          {"fibers", "integers", "", "16", "[1, 16384]", "photon-threads of a node"},
-          {"cache", "numbers", "", "0.25", "[0, 100]",
+          {"fibers", "integer sweep", "", "16", "[1, 16384]", "photon-threads of a node"},
+          {"cache", "number sweep", "", "0.25", "[0, 100]",
            "budget of a node for objects, as a share of what all take once built; 0: everything "
            "is resident"},
-          {"profile", "numbers", "", "0", "[0, 1]",
+          {"profile", "number sweep", "", "0", "[0, 1]",
            "share of the particles that is traced beforehand, to plan who traces, holds and keeps "
            "what; 0: no plan"},
-          {"prefetch", "integers", "", "0", "[0, 64]",
+          {"prefetch", "integer sweep", "", "0", "[0, 64]",
            "cells that a ray enters next, asked for ahead of the one that is waited for"},
-          {"cells", "integers", "", "64", "[1, 100000]", "parts that the geometry is cut into"},
-          {"particles", "integers", "", "4096", "[1, 1e12]", "of the run"},
-          {"scaling", "choices", "", "\"strong\"", "strong, weak",
+          {"cells", "integer sweep", "", "64", "[1, 100000]",
+           "parts that the geometry is cut into"},
+          {"particles", "integer sweep", "", "4096", "[1, 1e12]", "of the run"},
+          {"scaling", "choice sweep", "", "\"strong\"", "strong, weak",
            "`particles` are those of the run, or of each node"},
-          {"lease_particles", "integers", "", "64", "[1, 1e9]", "of one batch, which is one lease"},
-          {"lease_s", "numbers", "s", "120", "(0, 1e6]",
+          {"lease_particles", "integer sweep", "", "64", "[1, 1e9]",
+           "of one batch, which is one lease"},
+          {"lease_s", "number sweep", "s", "120", "(0, 1e6]",
            "a batch that is not back by then is lent to another"},
-          {"crash_s", "numbers", "s", "0", "[0, 1e6]",
+          {"crash_s", "number sweep", "s", "0", "[0, 1e6]",
            "of simulated time: when a node crashes; 0: none does"},
       }};
 }
@@ -114,9 +121,10 @@ TableSpec costs_table() {
 
 }  // namespace
 
-const std::vector<TableSpec>& study_schema() {
-  static const std::vector<TableSpec> all{top_table(), sweep_table(), plot_table(), costs_table()};
-  return all;
+const toml::Schema& study_schema() {
+  static const toml::Schema schema{{top_table(), sweep_table(), plot_table(), costs_table()},
+                                   config::text_rules()};
+  return schema;
 }
 
-}  // namespace luxodus::config
+}  // namespace luxodus

@@ -1,13 +1,17 @@
-#include "runtime/config/schema.hpp"
+#include "runtime/config/cluster_schema.hpp"
 
-#include <charconv>
-#include <stdexcept>
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "runtime/config/cluster_config.hpp"
 
 namespace luxodus::config {
 
 namespace {
 
-using Keys = std::vector<KeySpec>;
+using toml::KeySpec;
+using toml::TableSpec;
 
 std::vector<TableSpec> run_tables() {
   return {
@@ -109,8 +113,9 @@ std::vector<TableSpec> node_tables() {
            {"prefetch", "integer", "", "0", "[0, 64]",
             "cells that a ray enters next, asked for ahead of the one that is waited for"},
            {"stack_kb", "integer", "KiB", "32", "[16, 1024]", "stack of one fiber"},
-           {"maps_most", "integer", "", "0", "[0, 1e7]",
-            "memory maps for guards between stacks; 0: its part of the system's limit"},
+           {"max_maps", "integer", "", "0", "[0, 1e7]",
+            "memory maps for guards between stacks; 0: its part of the system's limit",
+            "maps_most"},
        }},
   };
 }
@@ -135,7 +140,8 @@ TableSpec link_table() {
            "messages of a kind made by a node that wait for the network"},
           {"assemblies", "integer", "", "64", "[1, 65536]",
            "messages in several pieces that come in at once"},
-          {"message_most", "size", "B", "\"64 MiB\"", "[65536, 1e9]", "longest message"},
+          {"max_message_bytes", "size", "B", "\"64 MiB\"", "[65536, 1e9]", "longest message",
+           "message_most"},
           {"beat_ms", "integer", "ms", "250", "[10, 60000]", "between signs of life"},
           {"suspect_after", "integer", "", "3", "[1, 100]", "missed beats"},
           {"down_after", "integer", "", "8", "[2, 1000]",
@@ -174,7 +180,7 @@ std::vector<TableSpec> topology_tables() {
        {{"file", "path", "", "required", "", "as `luxodus topology` writes it"}}},
       {"topology.links",
        "`[topology]` with `kind = \"links\"`",
-       {{"pairs", "pairs", "", "required", "", "`[[\"n0\", \"n1\"], ...]`: names of nodes"},
+       {{"pairs", "name pairs", "", "required", "", "`[[\"n0\", \"n1\"], ...]`: names of nodes"},
         max_links,
         controller,
         controller_links}},
@@ -291,78 +297,40 @@ std::vector<TableSpec> fault_tables() {
   };
 }
 
-std::string_view trimmed(std::string_view s) {
-  while (!s.empty() && s.front() == ' ') s.remove_prefix(1);
-  while (!s.empty() && s.back() == ' ') s.remove_suffix(1);
-  return s;
+bool is_plain(std::string_view text) {
+  return std::none_of(text.begin(), text.end(),
+                      [](char c) { return static_cast<unsigned char>(c) < 0x20; });
 }
-
-std::optional<double> number_of(std::string_view s) {
-  s = trimmed(s);
-  double v = 0;
-  const auto [end, error] = std::from_chars(s.data(), s.data() + s.size(), v);
-  if (error != std::errc() || end != s.data() + s.size()) return std::nullopt;
-  return v;
+bool is_name(std::string_view text) {
+  return name_fault(text).empty();
+}
+bool is_address(std::string_view text) {
+  return address_fault(std::string(text)).empty();
 }
 
 }  // namespace
 
-const std::vector<TableSpec>& cluster_schema() {
-  static const std::vector<TableSpec> all = [] {
-    std::vector<TableSpec> tables;
+std::vector<toml::TextRule> text_rules() {
+  return {
+      {"text", is_plain, "a text without control characters"},
+      {"name", is_name,
+       fmt::format("1 to {} letters, digits, '-', '_' or '.', the first no '-' and no '.'",
+                   limits::cluster_name_chars)},
+      {"address", is_address, "an IPv4 address or a host's name"},
+  };
+}
+
+const toml::Schema& cluster_schema() {
+  static const toml::Schema schema = [] {
+    toml::Schema all;
     for (auto part :
          {run_tables(), node_tables(), topology_tables(), service_tables(), fault_tables()}) {
-      for (auto& table : part) tables.push_back(std::move(table));
+      for (auto& table : part) all.tables.push_back(std::move(table));
     }
-    return tables;
+    all.text_rules = text_rules();
+    return all;
   }();
-  return all;
-}
-
-const TableSpec& table_spec(std::string_view name) {
-  for (const auto* schema : {&cluster_schema(), &study_schema()}) {
-    for (const TableSpec& table : *schema) {
-      if (table.name == name) return table;
-    }
-  }
-  throw std::logic_error("no table '" + std::string(name) + "' in any schema");
-}
-
-std::optional<Interval> interval_of(std::string_view range) {
-  const size_t comma = range.find(',');
-  if (range.size() < 5 || comma == std::string_view::npos || range.back() != ']')
-    return std::nullopt;
-  if (range.front() != '[' && range.front() != '(') return std::nullopt;
-  const auto low = number_of(range.substr(1, comma - 1));
-  const auto high = number_of(range.substr(comma + 1, range.size() - comma - 2));
-  if (!low || !high) return std::nullopt;
-  return Interval{*low, *high, range.front() == '('};
-}
-
-std::vector<std::string_view> words_of(std::string_view range) {
-  std::vector<std::string_view> words;
-  while (!range.empty()) {
-    const size_t comma = range.find(',');
-    words.push_back(trimmed(range.substr(0, comma)));
-    range = comma == std::string_view::npos ? std::string_view() : range.substr(comma + 1);
-  }
-  return words;
-}
-
-std::string schema_markdown(const std::vector<TableSpec>& tables) {
-  std::string out;
-  for (const TableSpec& table : tables) {
-    out += "### " + std::string(table.heading) + "\n\n";
-    out += "| key | type | unit | default | range | meaning |\n|---|---|---|---|---|---|\n";
-    for (const KeySpec& k : table.keys) {
-      out += "| `" + std::string(k.name) + "` | ";
-      for (const auto cell : {k.type, k.unit, k.fallback, k.range})
-        out += std::string(cell) + " | ";
-      out += std::string(k.meaning) + " |\n";
-    }
-    out += "\n";
-  }
-  return out;
+  return schema;
 }
 
 }  // namespace luxodus::config

@@ -1,8 +1,9 @@
-#include "runtime/core/toml_nesting.hpp"
+#include "runtime/toml/text_scan.hpp"
 
 #include <algorithm>
+#include <map>
 
-namespace luxodus {
+namespace luxodus::toml {
 
 namespace {
 
@@ -47,6 +48,22 @@ size_t after_string(std::string_view text, size_t at) {
   return at;
 }
 
+/// Behind the string or comment that starts at `at`; `at` where none does.
+size_t after_quiet(std::string_view text, size_t at) {
+  if (text[at] == '#') return after_comment(text, at);
+  return text[at] == '"' || text[at] == '\'' ? after_string(text, at) : at;
+}
+
+/// Behind the bare word that starts at `at`; `at` where none does.
+size_t after_word(std::string_view text, size_t at) {
+  const auto bare = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+           c == '-';
+  };
+  while (at < text.size() && bare(text[at])) ++at;
+  return at;
+}
+
 /// Counts the dots since the last sign that ends a key, and the brackets that are open.
 class Nesting {
  public:
@@ -80,15 +97,12 @@ class Nesting {
 
 }  // namespace
 
-std::optional<Problem> too_deep_toml(std::string_view text, const std::string& file) {
+std::optional<Problem> too_deep(std::string_view text, const std::string& file) {
   Nesting nesting;
   for (size_t at = 0; at < text.size();) {
-    const char c = text[at];
-    if (c == '#') {
-      at = after_comment(text, at);
-    } else if (c == '"' || c == '\'') {
-      at = after_string(text, at);
-    } else if (nesting.take(c)) {
+    if (const size_t behind = after_quiet(text, at); behind > at) {
+      at = behind;
+    } else if (nesting.take(text[at])) {
       ++at;
     } else {
       const auto lines = std::count(text.begin(), text.begin() + static_cast<ptrdiff_t>(at), '\n');
@@ -101,4 +115,28 @@ std::optional<Problem> too_deep_toml(std::string_view text, const std::string& f
   return std::nullopt;
 }
 
-}  // namespace luxodus
+std::string with_oldest_names(std::string_view text, const Schema& schema) {
+  std::map<std::string_view, std::string_view> oldest;
+  for (const TableSpec& table : schema.tables) {
+    for (const KeySpec& key : table.keys) {
+      const auto names = words_of(key.formerly);
+      if (names.empty()) continue;
+      oldest[key.name] = names.front();
+      for (const auto name : names) oldest[name] = names.front();
+    }
+  }
+  std::string out;
+  out.reserve(text.size());
+  for (size_t at = 0; at < text.size();) {
+    size_t behind = after_quiet(text, at);
+    if (behind == at) behind = after_word(text, at);
+    if (behind == at) ++behind;
+    const std::string_view part = text.substr(at, behind - at);
+    const auto renamed = oldest.find(part);
+    out += renamed == oldest.end() ? part : renamed->second;
+    at = behind;
+  }
+  return out;
+}
+
+}  // namespace luxodus::toml

@@ -1,4 +1,4 @@
-#include "runtime/core/toml_nesting.hpp"
+#include "runtime/toml/text_scan.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -14,7 +14,7 @@ std::string repeated(const std::string& part, size_t times) {
 
 /// The line that is refused, 0 where none is.
 int refused_line(const std::string& text) {
-  const auto problem = too_deep_toml(text, "deep.toml");
+  const auto problem = toml::too_deep(text, "deep.toml");
   return problem ? problem->where.line : 0;
 }
 
@@ -30,7 +30,7 @@ std::string list(size_t brackets) {
 }  // namespace
 
 TEST_CASE("keys and brackets nest up to the limit and no deeper, and the line is told",
-          "[core][toml]") {
+          "[runtime][toml]") {
   const size_t most = limits::toml_nesting;
   CHECK(refused_line(key(most) + " = 1\n" + list(most)) == 0);
   CHECK(refused_line("x = 1\n\n" + key(most + 1) + " = 1\n") == 3);
@@ -42,13 +42,13 @@ TEST_CASE("keys and brackets nest up to the limit and no deeper, and the line is
   CHECK(refused_line("x = " + repeated("{a=", most + 1)) == 1);
 }
 
-TEST_CASE("width is not depth: long lists of fractions and many keys pass", "[core][toml]") {
+TEST_CASE("width is not depth: long lists of fractions and many keys pass", "[runtime][toml]") {
   CHECK(refused_line("x = [" + repeated("1.5, ", 1000) + "]\n") == 0);
   CHECK(refused_line("x = [" + repeated("[1.5, 2.5], ", 1000) + "]\n") == 0);
   CHECK(refused_line(repeated("[[t]]\na.b = 1.5\n", 1000)) == 0);
 }
 
-TEST_CASE("strings and comments do not count, and what follows them does", "[core][toml]") {
+TEST_CASE("strings and comments do not count, and what follows them does", "[runtime][toml]") {
   const std::string noise = repeated(".", 99) + repeated("[", 99);
   for (const std::string& quiet : {
            "# " + noise + " \" ' \"\"\"\n",
@@ -65,4 +65,21 @@ TEST_CASE("strings and comments do not count, and what follows them does", "[cor
   }
   CHECK(refused_line("x = \"\"\" never closed " + noise) == 0);
   CHECK(refused_line("\"\\") == 0);
+}
+
+TEST_CASE("a text with the oldest names of its keys is the text that said them",
+          "[runtime][toml]") {
+  const toml::Schema schema{{{"t",
+                              "`[t]`",
+                              {{"max_bands", "integer", "", "8", "", "m", "bands_most"},
+                               {"width_m", "number", "m", "1", "", "m", "w, width"},
+                               {"name", "text", "", "", "", "m"}}}}};
+  const auto old = [&](std::string_view text) { return toml::with_oldest_names(text, schema); };
+  CHECK(old("max_bands = 3 # max_bands\n") == "bands_most = 3 # max_bands\n");
+  CHECK(old("t.max_bands=3\r\n[t]\n") == "t.bands_most=3\r\n[t]\n");
+  CHECK(old("x = [{ name = \"max_bands\", width_m = 1 }, {width=2}]") ==
+        "x = [{ name = \"max_bands\", w = 1 }, {w=2}]");
+  CHECK(old("max_bands_2 = 1\nnot-max_bands = 1\n") == "max_bands_2 = 1\nnot-max_bands = 1\n");
+  CHECK(old("x = '''max_bands\n''' \xc3\xa9 width_m") == "x = '''max_bands\n''' \xc3\xa9 w");
+  CHECK(old("").empty());
 }
