@@ -12,6 +12,6 @@ if [ "${1:-}" = --sanitize ]; then
   shift
 fi
 
-./setup.sh
+./setup.sh --tests
 ./.ci/build "$preset"
 exec ctest --preset "$preset" -j "$(nproc)" --output-on-failure --no-tests=error "$@"
