@@ -107,7 +107,8 @@ Result<bool> Journal::whole_record_follows() {
   std::vector<std::byte> window(uint64_t{1} << 20), content;
   for (uint64_t first = end_ + 1; first + sizeof(RecordHead) <= size;) {
     const uint64_t read = std::min<uint64_t>(window.size(), size - first);
-    if (auto got = store_->read(first, std::span(window).first(read)); !got.ok()) return got.problem();
+    if (auto got = store_->read(first, std::span(window).first(read)); !got.ok())
+      return got.problem();
     const uint64_t places = read - sizeof(RecordHead) + 1;
     for (uint64_t i = 0; i < places; ++i) {
       RecordHead head{};
