@@ -20,7 +20,7 @@ case ${1:-} in
     ;;
 esac
 
-./setup.sh
+./setup.sh --tests
 ./.ci/build "$preset"
 status=0
 ctest --preset "$preset" -j "$(nproc)" --output-on-failure --no-tests=error -LE '^long$' "$@" ||

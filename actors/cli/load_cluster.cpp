@@ -1,16 +1,15 @@
 #include "actors/cli/load_cluster.hpp"
 
-#include <spdlog/spdlog.h>
-
 #include "actors/cli/command.hpp"
 #include "runtime/config/cluster_file.hpp"
+#include "runtime/core/log.hpp"
 
 namespace luxodus::cli {
 
 std::optional<ClusterConfig> load_cluster(const std::filesystem::path& file) {
   ReadCluster read = read_cluster(file);
   for (const Problem& problem : read.problems.list()) tell(problem);
-  for (const Problem& warning : read.warnings) spdlog::warn("{}", warning.text());
+  for (const Problem& warning : read.warnings) log_warning("{}", warning.text());
   return std::move(read.cluster);
 }
 

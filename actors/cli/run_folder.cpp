@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "actors/cli/command.hpp"
 #include "actors/cli/finished_run.hpp"
+#include "actors/cli/quantities.hpp"
 #include "actors/display/result_files.hpp"
 #include "actors/output/flux_file.hpp"
 #include "actors/output/json_out.hpp"

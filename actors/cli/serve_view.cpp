@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "actors/cli/command.hpp"
+#include "actors/cli/signals.hpp"
 #include "actors/view/view_host.hpp"
 
 namespace luxodus::cli {

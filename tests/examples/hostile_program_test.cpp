@@ -120,7 +120,7 @@ TEST_CASE("a damaged object of a pack is named with its file before nodes begin"
   std::ofstream(pack, std::ios::binary) << bytes;
   const Outcome told = run_luxodus(folder,
                                    "run " + pack +
-                                       " --scenario smoky --nodes 2 --object-mib 1 "
+                                       " --scenario smoky --nodes 2 --part-cache-mib 1 "
                                        "--particles 10k --out " +
                                        (folder / "out").string(),
                                    "timeout 60 ");
