@@ -53,6 +53,7 @@ void tell_all(const Problems& problems) {
 std::optional<Prepared> prepare(const std::string& file) {
   ReadStudy read = read_study(file);
   tell_all(read.problems);
+  for (const Problem& warning : read.warnings) log_warning("{}", warning.text());
   if (!read.study) return std::nullopt;
   Prepared prepared{std::move(*read.study), {}, nullptr};
   if (!prepared.study.costs.empty()) {
