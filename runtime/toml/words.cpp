@@ -37,12 +37,12 @@ std::optional<std::string_view> nearest_word(std::string_view word,
                                              const std::vector<std::string_view>& known) {
   if (word.size() > max_misspelt_chars) return std::nullopt;
   std::optional<std::string_view> nearest;
-  size_t least = word.size() / 3 + 1;
+  size_t too_far = word.size() / 3 + 1;
   for (const auto candidate : known) {
     const size_t steps = distance(word, candidate);
     // A word of which nothing is left was not meant.
-    if (steps >= candidate.size() || steps > least || (steps == least && nearest)) continue;
-    least = steps;
+    if (steps >= std::min(too_far, candidate.size())) continue;
+    too_far = steps;
     nearest = candidate;
   }
   return nearest;

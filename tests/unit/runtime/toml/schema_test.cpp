@@ -58,7 +58,8 @@ TEST_CASE("the nearest word is what was meant, or nothing", "[runtime][toml]") {
   CHECK(nearest_word("reflectence", materials) == "reflectance");
   CHECK(nearest_word("oir", materials) == "ior");
   CHECK_FALSE(nearest_word("transparency", materials).has_value());
-  CHECK_FALSE(nearest_word("m", {"n"}).has_value());  // of "n" nothing would be left
+  CHECK_FALSE(nearest_word("n9", {"n0"}).has_value());  // half of it, not a third
+  CHECK_FALSE(nearest_word("m", {"n"}).has_value());    // of "n" nothing would be left
 }
 
 }  // namespace luxodus::toml

@@ -43,7 +43,7 @@ TEST_CASE("a scene with former names of keys is the same scene, by its hash, wit
           "[format][scene]") {
   const std::string balls =
       "[[object]]\nname = \"a\"\nshape = \"sphere\"\nradius = 1\nmaterial = \"grey50\"\n"
-      "bound_m = 0.01 # bound_m\n[[object]]\nname = \"b\"\nshape = \"disk\"\n"
+      "bound_m = 0.01 # bound_m\n[[object]]\nname = \"b\"\nshape = \"disc\"\n"
       "material = \"grey20\"\nradius = 2\n" +
       std::string("bound_m = 0.02\n");
   const std::string old = "[run]\nbands_most = 3\neye_share = 0.5\n" + balls;
