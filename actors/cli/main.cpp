@@ -150,7 +150,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& e) {
     return when_printed(app.exit(e) == 0 ? ExitCode::success : ExitCode::bad_input);
   } catch (const std::exception& e) {
-    log_error("{}", e.what());
+    luxodus::log_error("{}", e.what());
     return when_printed(ExitCode::failure);
   }
   return when_printed(exit_code);
