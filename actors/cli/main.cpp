@@ -100,7 +100,7 @@ int main(int argc, char** argv) {
     const std::string version = std::string("luxodus ") + build.version + " (" + build.commit + ")";
     exit_code = run_command_line(luxodus_command(), version, argc, argv);
   } catch (const std::exception& e) {
-    log_error("{}", e.what());
+    luxodus::log_error("{}", e.what());
     exit_code = ExitCode::failure;
   }
   return when_printed(exit_code);
