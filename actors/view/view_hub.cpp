@@ -232,7 +232,7 @@ void ViewHub::refuse(Viewer& viewer, const std::string& why) {
 }
 
 void ViewHub::says(Viewer& viewer, std::string_view text) {
-  const auto message = parse_view_message(text);
+  const auto message = decode_page_message(text);
   if (!message.ok()) return refuse(viewer, message.problem().what);
   if (is_edit(message.value()) && editor_ != &viewer)
     return refuse(viewer, "somebody else edits: take over first");
