@@ -119,7 +119,7 @@ Result<std::optional<StopReason>> view_on_nodes(const ClusterConfig& cluster,
     if (cluster.run.relative_error) hub.live.relative_error = *cluster.run.relative_error;
     hub.live.tracers = std::move(started).value();
     hub.first.scenario = cluster.run.scenario;
-    ServerOptions server{cluster.view.address, cluster.view.port, ""};
+    HttpAddress server{cluster.view.address, cluster.view.port, ""};
     if (!cluster.view.allow_host.empty()) server.allowed_hosts = {cluster.view.allow_host};
     const auto served = serve_view(scene, server, hub);
     if (!served.ok()) return served.problem();

@@ -10,7 +10,7 @@
 #include <cstring>
 
 #include "actors/cli/signals.hpp"
-#include "actors/view/view_host.hpp"
+#include "runtime/http/served_names.hpp"
 
 namespace luxodus::cli {
 
@@ -45,7 +45,7 @@ Result<void> can_save_in(const std::filesystem::path& folder) {
 
 }  // namespace
 
-Result<void> serve_view(std::shared_ptr<const SceneDescription> scene, ServerOptions server,
+Result<void> serve_view(std::shared_ptr<const SceneDescription> scene, HttpAddress server,
                         const HubOptions& options) {
   if (scene->packed)
     return problem_in(scene->file, "a pack cannot be changed live: view its scene file");

@@ -10,7 +10,7 @@
 #include "actors/cli/serve_view.hpp"
 #include "actors/cli/signals.hpp"
 #include "actors/view/live_nodes.hpp"
-#include "actors/view/view_host.hpp"
+#include "runtime/http/served_names.hpp"
 
 namespace luxodus::cli {
 
@@ -18,7 +18,7 @@ namespace {
 
 struct ViewOptions {
   std::string scene;
-  ServerOptions server;
+  HttpAddress server{"127.0.0.1", 8080};
   LiveOptions live;
   std::string scenario;
   std::string save_folder = ".";

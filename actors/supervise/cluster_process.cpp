@@ -262,8 +262,12 @@ Result<NodeSetup> ClusterProcessRun::setup_of(NodeId self, const RunSetup& run) 
 ObserveOptions ClusterProcessRun::observe_options() const {
   ObserveOptions options;
   options.address = cluster_.observe.metrics_address;
-  const uint16_t port = cluster_.processes[cluster_.node(nodes_.front()).process].metrics_port;
-  if (port != 0) options.metrics_port = port;
+  const ClusterProcess& process = cluster_.processes[cluster_.node(nodes_.front()).process];
+  if (process.metrics_port != 0) options.metrics_port = process.metrics_port;
+  // As `luxodus status` asks for it; behind address translation the host itself knows another.
+  options.allowed_hosts = {cluster_.hosts[process.host].address};
+  if (!cluster_.observe.allow_host.empty())
+    options.allowed_hosts.push_back(cluster_.observe.allow_host);
   options.trace_every = cluster_.observe.trace_every;
   return options;
 }

@@ -235,6 +235,8 @@ std::vector<TableSpec> service_tables() {
            {"metrics_port", "integer", "", "0", "[0, 65535]",
             "of a host's first process, the next port of its second, ...; 0: none"},
            {"metrics_address", "address", "", "\"127.0.0.1\"", "", "IPv4 address to answer on"},
+           {"allow_host", "address", "", "", "",
+            "a name under which the numbers may be asked for, beside the address and the host's"},
            {"trace_every", "integer", "", "0", "[0, 1e12]",
             "particles of which one is traced; 0: none"},
            {"log_level", "choice", "", "\"info\"", "debug, info, warn, error", "what is logged"},

@@ -1,6 +1,6 @@
 // Fetches one page over HTTP/1.x: a question without a body, an answer of bounded length within a
 // bounded time, one connection each. For pages of numbers on a network that is one's own: no
-// encryption, no redirects, no encodings beside plain ones. Blocks the thread that calls; any may.
+// encryption, no redirects, no compression. Blocks the thread that calls; any may.
 #pragma once
 
 #include <cstdint>
@@ -16,9 +16,10 @@ namespace limits {
 inline constexpr size_t http_page_bytes = 8 << 20;
 }  // namespace limits
 
-/// "http://host:port/path", "host:port/path" or "host:port", which asks for /metrics.
+/// "http://host:port/path", "host:port/path" or "host:port", which asks for /metrics. An IPv6
+/// address stands in brackets.
 struct HttpUrl {
-  std::string host;
+  std::string host;  // without brackets
   uint16_t port = 0;
   std::string path = "/metrics";
 

@@ -13,7 +13,7 @@
 namespace luxodus {
 
 namespace limits {
-inline constexpr size_t view_message_bytes = 64 << 10;
+inline constexpr size_t page_message_bytes = 64 << 10;
 inline constexpr double max_view_factor = 10, max_view_smoke = 100, max_view_seconds = 1e6;
 inline constexpr size_t view_name_chars = 200;
 /// Copies in one view: each is a source group of its own, with its totals and its light.
@@ -62,13 +62,13 @@ struct ProbeAsk {
 struct JudgeAsk {
   std::string sign;
 };
-using ViewMessage = std::variant<FactorEdit, ScenarioEdit, SmokeEdit, TimeEdit, MoveEdit, AddEdit,
+using PageMessage = std::variant<FactorEdit, ScenarioEdit, SmokeEdit, TimeEdit, MoveEdit, AddEdit,
                                  RemoveEdit, SaveEdit, EditWish, ProbeAsk, JudgeAsk>;
 
 /// Errors: what is no message, one sentence.
-Result<ViewMessage> parse_view_message(std::string_view text);
+Result<PageMessage> decode_page_message(std::string_view text);
 
 /// Whether only the editor may say it.
-bool is_edit(const ViewMessage& message);
+bool is_edit(const PageMessage& message);
 
 }  // namespace luxodus

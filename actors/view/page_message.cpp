@@ -1,4 +1,4 @@
-#include "actors/view/view_messages.hpp"
+#include "actors/view/page_message.hpp"
 
 #include <cmath>
 
@@ -92,7 +92,7 @@ AddEdit read_add(Members& m) {
   return out;
 }
 
-std::optional<ViewMessage> read_message(const std::string& type, Members& m) {
+std::optional<PageMessage> read_message(const std::string& type, Members& m) {
   if (type == "factor")
     return FactorEdit{m.text("group"), m.number("factor", 0, limits::max_view_factor)};
   if (type == "scenario") return ScenarioEdit{m.text("name")};
@@ -114,8 +114,8 @@ std::optional<ViewMessage> read_message(const std::string& type, Members& m) {
 
 }  // namespace
 
-Result<ViewMessage> parse_view_message(std::string_view text) {
-  if (text.size() > limits::view_message_bytes) return problem("a message is at most 64 KiB");
+Result<PageMessage> decode_page_message(std::string_view text) {
+  if (text.size() > limits::page_message_bytes) return problem("a message is at most 64 KiB");
   // Not by recursion: a text of brackets alone would take the stack.
   int depth = 0;
   for (const char c : text) {
@@ -133,7 +133,7 @@ Result<ViewMessage> parse_view_message(std::string_view text) {
   return std::move(*message);
 }
 
-bool is_edit(const ViewMessage& message) {
+bool is_edit(const PageMessage& message) {
   return !std::holds_alternative<EditWish>(message) && !std::holds_alternative<ProbeAsk>(message) &&
          !std::holds_alternative<JudgeAsk>(message);
 }

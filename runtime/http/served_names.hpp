@@ -1,15 +1,28 @@
-// Under which names a live view is asked for. A page of another site can have its name lead to this
+// Under which names a server is asked for. A page of another site can have its name lead to this
 // machine (DNS rebinding) and then speaks to this server as its own: Host and Origin agree, and
 // both are that site's. So every request has to name the place where it arrived, or a name that was
 // allowed. Pure functions; any thread.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace luxodus {
+
+/// A name or an address with a port, as a Host header and an URL write them.
+struct NamedPlace {
+  std::string name;  // in small letters, without brackets
+  std::optional<uint16_t> port;
+};
+
+/// "name", "name:port", "[address]" or "[address]:port"; none where it is something else.
+std::optional<NamedPlace> named_place_of(std::string_view text);
+
+/// "host:port", with brackets around an IPv6 address.
+std::string named_place(const std::string& host, uint16_t port);
 
 /// Where a request arrived.
 struct ServedAt {

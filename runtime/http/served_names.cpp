@@ -1,4 +1,4 @@
-#include "actors/view/view_host.hpp"
+#include "runtime/http/served_names.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -10,11 +10,6 @@ namespace {
 
 constexpr uint16_t http_port = 80;  // meant where none is said
 
-struct HostParts {
-  std::string name;  // in small letters, without brackets
-  std::optional<uint16_t> port;
-};
-
 std::string in_small_letters(std::string_view text) {
   std::string out(text);
   for (char& c : out)
@@ -22,12 +17,13 @@ std::string in_small_letters(std::string_view text) {
   return out;
 }
 
-/// "name", "name:port", "[address]" or "[address]:port"; none where it is something else.
-std::optional<HostParts> parts_of(std::string_view text) {
+}  // namespace
+
+std::optional<NamedPlace> named_place_of(std::string_view text) {
   const bool bracketed = !text.empty() && text.front() == '[';
   const size_t end = bracketed ? text.find(']') : std::min(text.find(':'), text.size());
   if (end == std::string_view::npos || end == 0) return std::nullopt;
-  HostParts out{in_small_letters(bracketed ? text.substr(1, end - 1) : text.substr(0, end)), {}};
+  NamedPlace out{in_small_letters(bracketed ? text.substr(1, end - 1) : text.substr(0, end)), {}};
   const std::string_view rest = text.substr(bracketed ? end + 1 : end);
   if (out.name.empty()) return std::nullopt;
   if (rest.empty()) return out;
@@ -39,18 +35,16 @@ std::optional<HostParts> parts_of(std::string_view text) {
   return out;
 }
 
-}  // namespace
-
 bool names_place(std::string_view host, const ServedAt& place,
                  const std::vector<std::string>& allowed) {
-  const auto asked = parts_of(host);
+  const auto asked = named_place_of(host);
   if (!asked) return false;
   const bool here = asked->name == in_small_letters(place.address) ||
                     (place.loopback && (asked->name == "localhost" || asked->name == "127.0.0.1" ||
                                         asked->name == "::1"));
   if (here && asked->port.value_or(http_port) == place.port) return true;
   return std::any_of(allowed.begin(), allowed.end(), [&](const std::string& text) {
-    const auto one = parts_of(text);
+    const auto one = named_place_of(text);
     return one && one->name == asked->name &&
            (!one->port || *one->port == asked->port.value_or(http_port));
   });
@@ -64,13 +58,17 @@ bool is_own_page(std::string_view origin, std::string_view host) {
          in_small_letters(origin.substr(scheme + 3)) == in_small_letters(host);
 }
 
+std::string named_place(const std::string& host, uint16_t port) {
+  const bool v6 = host.find(':') != std::string::npos;
+  return (v6 ? "[" + host + "]" : host) + ":" + std::to_string(port);
+}
+
 std::string http_address(const std::string& address, uint16_t port) {
-  const bool v6 = address.find(':') != std::string::npos;
-  return "http://" + (v6 ? "[" + address + "]" : address) + ":" + std::to_string(port);
+  return "http://" + named_place(address, port);
 }
 
 std::string allowed_host_fault(const std::string& text) {
-  if (parts_of(text) && text.find_first_of("/*@ ") == std::string::npos) return "";
+  if (named_place_of(text) && text.find_first_of("/*@ ") == std::string::npos) return "";
   return "\"" + text + "\" is no name of a host: write view.example.org or localhost:9000";
 }
 

@@ -1,4 +1,4 @@
-#include "actors/view/view_messages.hpp"
+#include "actors/view/page_message.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -9,7 +9,7 @@ using namespace luxodus;
 namespace {
 
 std::string refused(const std::string& text) {
-  const auto message = parse_view_message(text);
+  const auto message = decode_page_message(text);
   INFO(text);
   REQUIRE_FALSE(message.ok());
   return message.problem().what;
@@ -18,41 +18,41 @@ std::string refused(const std::string& text) {
 }  // namespace
 
 TEST_CASE("what a viewer may say is read", "[view]") {
-  const auto factor = parse_view_message(R"({"type":"factor","group":"lamp","factor":0.25})");
+  const auto factor = decode_page_message(R"({"type":"factor","group":"lamp","factor":0.25})");
   REQUIRE(factor.ok());
   CHECK(std::get<FactorEdit>(factor.value()).group == "lamp");
   CHECK(std::get<FactorEdit>(factor.value()).factor == 0.25);
   CHECK(is_edit(factor.value()));
-  const auto move = parse_view_message(
+  const auto move = decode_page_message(
       R"({"type":"move","kind":"sign","name":"exit","position":[1,2,3],"facing":[0,1,0]})");
   REQUIRE(move.ok());
   CHECK(std::get<MoveEdit>(move.value()).position == glm::dvec3(1, 2, 3));
   CHECK(std::get<MoveEdit>(move.value()).facing == glm::dvec3(0, 1, 0));
-  const auto probe = parse_view_message(R"({"type":"probe","id":3,"triangle":9,"front":false})");
+  const auto probe = decode_page_message(R"({"type":"probe","id":3,"triangle":9,"front":false})");
   REQUIRE(probe.ok());
   CHECK(std::get<ProbeAsk>(probe.value()).triangle == 9);
   CHECK_FALSE(is_edit(probe.value()));
-  CHECK(parse_view_message(R"({"type":"edit","wanted":true})").ok());
-  CHECK(parse_view_message(R"({"type":"judge","sign":"exit"})").ok());
-  CHECK(parse_view_message(R"({"type":"smoke","factor":0})").ok());
-  CHECK(parse_view_message(R"({"type":"scenario","name":"dark"})").ok());
-  const auto time = parse_view_message(R"({"type":"time","seconds":5})");
+  CHECK(decode_page_message(R"({"type":"edit","wanted":true})").ok());
+  CHECK(decode_page_message(R"({"type":"judge","sign":"exit"})").ok());
+  CHECK(decode_page_message(R"({"type":"smoke","factor":0})").ok());
+  CHECK(decode_page_message(R"({"type":"scenario","name":"dark"})").ok());
+  const auto time = decode_page_message(R"({"type":"time","seconds":5})");
   REQUIRE(time.ok());
   CHECK(std::get<TimeEdit>(time.value()).seconds == 5.0);
   CHECK(is_edit(time.value()));
-  const auto settled = parse_view_message(R"({"type":"time","seconds":null})");
+  const auto settled = decode_page_message(R"({"type":"time","seconds":null})");
   REQUIRE(settled.ok());
   CHECK_FALSE(std::get<TimeEdit>(settled.value()).seconds.has_value());
-  CHECK(parse_view_message(R"({"type":"save","name":"brighter"})").ok());
+  CHECK(decode_page_message(R"({"type":"save","name":"brighter"})").ok());
   const auto add =
-      parse_view_message(R"({"type":"add","kind":"luminaire","of":"lamp","position":[1,2,3]})");
+      decode_page_message(R"({"type":"add","kind":"luminaire","of":"lamp","position":[1,2,3]})");
   REQUIRE(add.ok());
   CHECK_FALSE(std::get<AddEdit>(add.value()).is_sign);
   CHECK(std::get<AddEdit>(add.value()).of == "lamp");
   CHECK(std::get<AddEdit>(add.value()).position == glm::dvec3(1, 2, 3));
   CHECK_FALSE(std::get<AddEdit>(add.value()).facing.has_value());
   CHECK(is_edit(add.value()));
-  const auto remove = parse_view_message(R"({"type":"remove","name":"lamp copy"})");
+  const auto remove = decode_page_message(R"({"type":"remove","name":"lamp copy"})");
   REQUIRE(remove.ok());
   CHECK(std::get<RemoveEdit>(remove.value()).name == "lamp copy");
   CHECK(is_edit(remove.value()));
@@ -92,7 +92,7 @@ TEST_CASE("all else is refused with a reason", "[view]") {
         std::string::npos);
   CHECK(refused(R"({"type":"probe","id":1,"triangle":4294967296,"front":true})").find("range") !=
         std::string::npos);
-  CHECK(refused(std::string(limits::view_message_bytes + 1, ' ')).find("64 KiB") !=
+  CHECK(refused(std::string(limits::page_message_bytes + 1, ' ')).find("64 KiB") !=
         std::string::npos);
   CHECK(refused(std::string(60'000, '[')).find("brackets") != std::string::npos);
 }
@@ -115,7 +115,7 @@ TEST_CASE("rubbish is refused and never more than that", "[view]") {
         text[at] = static_cast<char>(random.bits() & 0xff);
       if (text.empty()) text = "x";
     }
-    const auto message = parse_view_message(text);
+    const auto message = decode_page_message(text);
     if (!message.ok()) CHECK_FALSE(message.problem().what.empty());
   }
 }
