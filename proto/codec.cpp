@@ -19,7 +19,7 @@ constexpr size_t word = sizeof(uint64_t);
 static_assert(word == sizeof(capnp::word));
 
 /// Messages are a struct, lists of structs, and text: depth 4. Deeper is malformed.
-constexpr int nesting_most = 8;
+constexpr int max_nesting = 8;
 
 /// Cap'n Proto counts the words it visits; every word is visited once, and the roots a few times.
 constexpr uint64_t spare_words = 16;
@@ -175,8 +175,8 @@ void write(wire::Message::Builder out, const Message& message) {
             enter.setPhase(static_cast<uint8_t>(m.phase));
             enter.setDurationMs(m.duration_ms);
           },
-          [&](const FlushPart& m) { out.initFlushPart().setPayloadHash(m.payload_hash); },
-          [&](const PartHeld&) { out.setPartHeld(); },
+          [&](const FlushSlice& m) { out.initFlushPart().setPayloadHash(m.payload_hash); },
+          [&](const SliceHeld&) { out.setPartHeld(); },
           [&](const FlushDecided& m) { write_decision(out.initFlushDecided(), m); },
           [&](const FlushSettled& m) { out.initFlushSettled().setWhole(m.whole); },
           [&](const AskTotals& m) {
@@ -380,9 +380,9 @@ Message read(wire::Message::Reader in) {
                         enter.getDurationMs()};
     }
     case wire::Message::FLUSH_PART:
-      return FlushPart{in.getFlushPart().getPayloadHash()};
+      return FlushSlice{in.getFlushPart().getPayloadHash()};
     case wire::Message::PART_HELD:
-      return PartHeld{};
+      return SliceHeld{};
     case wire::Message::FLUSH_DECIDED:
       return read_decision(in.getFlushDecided());
     case wire::Message::FLUSH_SETTLED:
@@ -474,7 +474,7 @@ auto decode_segment(const std::byte* begin, size_t bytes)
     const size_t words = bytes / word;
     capnp::ReaderOptions options;
     options.traversalLimitInWords = words + spare_words;
-    options.nestingLimit = nesting_most;
+    options.nestingLimit = max_nesting;
     capnp::FlatArrayMessageReader reader(
         kj::arrayPtr(reinterpret_cast<const capnp::word*>(begin), words), options);
     return read(reader.getRoot<Schema>());
@@ -500,7 +500,7 @@ Kind kind_of(const Message& message) {
                         [](const ObjectNotHere&) { return Kind::reply; },
                         [](const Flush&) { return Kind::commit; },
                         [](const ProfileCounted&) { return Kind::commit; },
-                        [](const FlushPart&) { return Kind::commit; },
+                        [](const FlushSlice&) { return Kind::commit; },
                         [](const TotalsTold&) { return Kind::commit; },
                         [](const BatchesTraced&) { return Kind::commit; },
                         [](const auto&) { return Kind::control; },

@@ -247,13 +247,13 @@ struct EnterPhase {
 };
 
 /// Part of the flush of this id, for one shard: its bins and squares follow as payload.
-struct FlushPart {
+struct FlushSlice {
   uint64_t payload_hash = 0;
-  friend bool operator==(const FlushPart&, const FlushPart&) = default;
+  friend bool operator==(const FlushSlice&, const FlushSlice&) = default;
 };
 /// The part has been read, found right, and waits for what is decided about the flush.
-struct PartHeld {
-  friend bool operator==(const PartHeld&, const PartHeld&) = default;
+struct SliceHeld {
+  friend bool operator==(const SliceHeld&, const SliceHeld&) = default;
 };
 /// What became of a flush. One that was not taken goes for all earlier ones of the same life that
 /// were not decided about, too: they never will be.
@@ -305,8 +305,8 @@ using Message =
     std::variant<Hello, Welcome, Refuse, Bye, Beat, LinkChanges, FetchObject, ObjectFound,
                  ObjectNotHere, RequestLease, LeaseGranted, LeasesFenced, Flush, FlushTaken,
                  FlushRefused, RoundOpened, RunEnded, ProfileCounted, AskStatus, StatusAnswered,
-                 EnterPhase, FlushPart, PartHeld, FlushDecided, FlushSettled, AskTotals, TotalsTold,
-                 TraceBatches, BatchesTraced>;
+                 EnterPhase, FlushSlice, SliceHeld, FlushDecided, FlushSettled, AskTotals,
+                 TotalsTold, TraceBatches, BatchesTraced>;
 
 /// The kind whose buffers and credit a message uses.
 Kind kind_of(const Message& message);

@@ -18,8 +18,8 @@ namespace {
 
 // Base vertices of a rotational search: more symmetry forces short cycles, less costs time and
 // misses (40 nodes meet the bound at once with 8 or 10, and within 8 s not with 40).
-constexpr uint32_t base_least = 8;
-constexpr uint32_t base_most = 16;
+constexpr uint32_t min_base = 8;
+constexpr uint32_t max_base = 16;
 // Up to so many nodes every rotation is tried: runs are short.
 constexpr uint32_t small_nodes = 16;
 
@@ -63,9 +63,9 @@ std::vector<LiftShape> shapes_for(const AmpRequest& request) {
   for (uint32_t turns = request.nodes; turns >= 1; --turns) {
     if (request.nodes % turns != 0 || request.controller_links % turns != 0) continue;
     const LiftShape shape{request.nodes / turns, turns, request.links, request.controller_links};
-    const bool fits = shape.base >= base_least && shape.base <= base_most;
+    const bool fits = shape.base >= min_base && shape.base <= max_base;
     if (fits || request.nodes <= small_nodes) shapes.push_back(shape);
-    if (shape.base > base_most) larger.push_back(shape);
+    if (shape.base > max_base) larger.push_back(shape);
   }
   if (shapes.empty()) shapes.push_back(larger.front());
   return shapes;
@@ -94,11 +94,11 @@ Effort effort_for(const LiftShape& costliest) {
   // Joints are read once a hop for each 64 sources. So many reads take from half a minute to two,
   // the larger the base the longer; a size without a useful rotation, a large prime, has fewer
   // moves.
-  constexpr uint64_t reads_most = 5'000'000'000;
-  constexpr uint64_t runs_least = 8;
+  constexpr uint64_t max_reads = 5'000'000'000;
+  constexpr uint64_t min_runs = 8;
   const uint64_t reads = uint64_t{costliest.base} * costliest.links * (costliest.base / 64 + 1);
-  const uint64_t all_moves = reads_most / reads;
-  const uint64_t moves = std::min<uint64_t>(500'000, all_moves / runs_least);
+  const uint64_t all_moves = max_reads / reads;
+  const uint64_t moves = std::min<uint64_t>(500'000, all_moves / min_runs);
   return {std::min<uint64_t>(80, all_moves / moves), moves};
 }
 
@@ -155,8 +155,8 @@ class AmpSearch {
   std::optional<Graph> run() {
     const std::vector<LiftShape> shapes = shapes_for(request_);
     const Effort effort = effort_for(shapes.back());  // the bases grow
-    const uint64_t runs_most = request_.runs > 0 ? request_.runs : effort.runs;
-    for (; runs_ < runs_most && at_bound_ < compared_at_bound && !stopped_; ++runs_) {
+    const uint64_t max_runs = request_.runs > 0 ? request_.runs : effort.runs;
+    for (; runs_ < max_runs && at_bound_ < compared_at_bound && !stopped_; ++runs_) {
       anneal(shapes[runs_ % shapes.size()], effort.moves);
     }
     if (!best_) return std::nullopt;
@@ -240,7 +240,7 @@ std::optional<Graph> complete_graph(const AmpRequest& request) {
 }
 
 Graph with_role(const Graph& graph, ControllerRole role) {
-  return Graph({graph.workers(), graph.links_most(), role, graph.rotation(), graph.links()});
+  return Graph({graph.workers(), graph.max_links(), role, graph.rotation(), graph.links()});
 }
 
 }  // namespace

@@ -122,7 +122,7 @@ Result<Graph> make_random_regular(uint32_t nodes, uint32_t links, uint64_t seed)
   // Links are exchanged so often each: after 10 nothing of the order is left to be measured.
   constexpr uint64_t exchanges_per_link = 50;
   // At random a graph of 3 links and more falls apart once in many thousand times.
-  constexpr uint64_t attempts_most = 100;
+  constexpr uint64_t max_attempts = 100;
   if (auto problem = size_problem(nodes)) return *problem;
   if (links >= nodes || links > limits::vertex_links || uint64_t{nodes} * links % 2 == 1) {
     return Problem{{}, fmt::format("no graph of {} nodes has {} links at each", nodes, links)};
@@ -134,7 +134,7 @@ Result<Graph> make_random_regular(uint32_t nodes, uint32_t links, uint64_t seed)
   std::set<GraphLink> present(list.begin(), list.end());
 
   Random random(seed, RandomStream::graph);
-  for (uint64_t attempt = 0; attempt < attempts_most; ++attempt) {
+  for (uint64_t attempt = 0; attempt < max_attempts; ++attempt) {
     random.start(attempt);
     for (uint64_t i = 0; i < exchanges_per_link * list.size(); ++i) {
       GraphLink& one = list[random.bits() % list.size()];
@@ -165,7 +165,7 @@ Result<Graph> with_controller(const Graph& graph, uint32_t links) {
   const uint32_t own = std::min(links, workers);
   for (uint32_t i = 0; i < own; ++i) all.push_back({i * workers / own, workers});
   std::sort(all.begin(), all.end());
-  GraphPlan plan{workers, graph.links_most() + 1, ControllerRole::endpoint, 1, std::move(all)};
+  GraphPlan plan{workers, graph.max_links() + 1, ControllerRole::endpoint, 1, std::move(all)};
   if (const auto fault = fault_of(plan)) return Problem{{}, fault->what};
   return Graph(std::move(plan));
 }

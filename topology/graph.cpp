@@ -53,9 +53,9 @@ std::optional<std::string> fault_of_sizes(const GraphPlan& plan, uint32_t vertic
     return fmt::format("{} vertices are more than {}, the most there may be", vertices,
                        limits::graph_vertices);
   }
-  if (plan.links_most > limits::vertex_links) {
-    return fmt::format("{} links of a node are more than {}, the most there may be",
-                       plan.links_most, limits::vertex_links);
+  if (plan.max_links > limits::vertex_links) {
+    return fmt::format("{} links of a node are more than {}, the most there may be", plan.max_links,
+                       limits::vertex_links);
   }
   if (plan.rotation == 0 || plan.workers % plan.rotation != 0) {
     return fmt::format("rotation {} does not divide {} nodes", plan.rotation, plan.workers);
@@ -82,7 +82,7 @@ std::optional<GraphFault> fault_of_links(const GraphPlan& plan, uint32_t vertice
     neighbours[a].push_back(b);
     neighbours[b].push_back(a);
     for (const Vertex v : {a, b}) {
-      const uint32_t most = v < plan.workers ? plan.links_most : limits::vertex_links;
+      const uint32_t most = v < plan.workers ? plan.max_links : limits::vertex_links;
       if (neighbours[v].size() > most) {
         return GraphFault{fmt::format("vertex {} has more than {} links", v, most), i};
       }
@@ -165,7 +165,7 @@ Adjacency Graph::among_workers() const {
 uint64_t Graph::hash() const {
   Hasher hasher;
   for (const uint64_t number :
-       {uint64_t{workers()}, uint64_t{links_most()}, static_cast<uint64_t>(controller_role()),
+       {uint64_t{workers()}, uint64_t{max_links()}, static_cast<uint64_t>(controller_role()),
         uint64_t{rotation()}, uint64_t{links().size()}}) {
     hasher.add(number);
   }

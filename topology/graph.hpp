@@ -68,7 +68,7 @@ enum class ControllerRole {
 /// What a graph is made from.
 struct GraphPlan {
   uint32_t workers = 0;
-  uint32_t links_most = 0;  // of a worker; the controller may have more or fewer
+  uint32_t max_links = 0;  // of a worker; the controller may have more or fewer
   ControllerRole controller = ControllerRole::none;
   uint32_t rotation = 1;
   std::vector<GraphLink> links;
@@ -89,7 +89,7 @@ class Graph {
 
   uint32_t workers() const { return plan_.workers; }
   uint32_t vertices() const { return workers() + (has_controller() ? 1 : 0); }
-  uint32_t links_most() const { return plan_.links_most; }
+  uint32_t max_links() const { return plan_.max_links; }
   uint32_t rotation() const { return plan_.rotation; }
   /// Sorted.
   const std::vector<GraphLink>& links() const { return plan_.links; }

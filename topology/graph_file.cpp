@@ -13,7 +13,7 @@ namespace luxodus {
 namespace {
 
 // Characters of a file that are repeated in a message about it.
-constexpr size_t shown_most = 40;
+constexpr size_t max_shown = 40;
 
 constexpr std::string_view format_name = "luxodus graph 1";
 
@@ -41,7 +41,7 @@ std::string graph_text(const Graph& graph) {
       "controller = \"{}\"{}\n"
       "rotation = {}  # turned by 1/{}, node v becomes v + {}, the links stay the same\n"
       "links = [  # {}\n",
-      format_name, graph.workers(), graph.links_most(), name_of(graph.controller_role()),
+      format_name, graph.workers(), graph.max_links(), name_of(graph.controller_role()),
       graph.has_controller() ? fmt::format("  # vertex {}", graph.controller()) : "",
       graph.rotation(), graph.rotation(), graph.workers() / graph.rotation(), graph.links().size());
   std::string line = " ";
@@ -107,7 +107,7 @@ class GraphParser {
       size_t key = 0;
       while (key < keys && key_names[key] != name) ++key;
       if (key == keys)
-        return fail(fmt::format("there is no key \"{}\" in a graph", name.substr(0, shown_most)));
+        return fail(fmt::format("there is no key \"{}\" in a graph", name.substr(0, max_shown)));
       if (key_lines_[key] > 0) return fail(fmt::format("\"{}\" is given twice", name));
       if (key != format_key && key_lines_[format_key] == 0) break;
       key_lines_[key] = line;
@@ -135,7 +135,7 @@ class GraphParser {
         plan_.workers = number();
         return;
       case links_most_key:
-        plan_.links_most = number();
+        plan_.max_links = number();
         return;
       case controller_key:
         read_role();

@@ -12,7 +12,7 @@ namespace luxodus {
 namespace {
 
 // Half turns look the same in every drawing; from thirds on a circle says more.
-constexpr uint32_t circle_rotation_least = 3;
+constexpr uint32_t min_circle_rotation = 3;
 
 /// Places of a rotational graph on its circle: base vertex b stands at place slot(b) of each part,
 /// and its copies begin some parts later. Both are exchanged while the links get shorter.
@@ -99,14 +99,14 @@ class CircleOrder {
 std::vector<DrawnPlace> on_circle(const Graph& graph) {
   // Links between neighbours would lie on the rim, one over the other: every second vertex steps
   // in.
-  constexpr uint32_t zigzag_base_least = 4;
+  constexpr uint32_t min_zigzag_base = 4;
   constexpr double inner_radius = 0.78;
   const uint32_t base = graph.workers() / graph.rotation();
   const std::vector<uint32_t> order = CircleOrder(graph).best();
   std::vector<DrawnPlace> places(graph.vertices());  // the controller stays in the middle
   for (Vertex v = 0; v < graph.workers(); ++v) {
     const double angle = 2 * std::numbers::pi * order[v] / graph.workers();
-    const double radius = order[v] % base % 2 == 0 || base < zigzag_base_least ? 1 : inner_radius;
+    const double radius = order[v] % base % 2 == 0 || base < min_zigzag_base ? 1 : inner_radius;
     places[v] = {radius * std::sin(angle), radius * std::cos(angle)};
   }
   return places;
@@ -212,7 +212,7 @@ void fit_into_disc(std::vector<DrawnPlace>& places) {
 }  // namespace
 
 std::vector<DrawnPlace> layout(const Graph& graph) {
-  if (graph.rotation() >= circle_rotation_least) return on_circle(graph);
+  if (graph.rotation() >= min_circle_rotation) return on_circle(graph);
   const std::vector<double> hops = hops_of_all(graph.all());
   std::vector<DrawnPlace> places = main_axes(hops, graph.vertices());
   // Points of the axes have length 1 together; hops are as long as the graph is wide.

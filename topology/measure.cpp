@@ -83,7 +83,7 @@ PathLengths paths_from_controller(const Graph& graph, const Routes& routes) {
 
 Measures measure(const Graph& graph) {
   const uint32_t nodes = graph.workers();
-  const uint32_t links = graph.links_most();
+  const uint32_t links = graph.max_links();
   const uint32_t controller_links = graph.controller_links();
   const Routes routes = balanced_routes(graph);
 

@@ -17,9 +17,9 @@ namespace {
 
 // Every choice is looked at so often at most. Twice as often changes the heaviest links of graphs
 // of 6 to 1024 vertices by one message at most, and a thousand vertices take some seconds then.
-constexpr uint64_t passes_most = 100;
+constexpr uint64_t max_passes = 100;
 // So many passes in a row without gain end the search.
-constexpr int idle_passes_most = 20;
+constexpr int max_idle_passes = 20;
 
 }  // namespace
 
@@ -179,7 +179,7 @@ class RouteBalancer {
         open.push_back({choice, first, count});
     }
     int idle = 0;
-    for (uint64_t pass = 0; pass < passes_most && idle < idle_passes_most; ++pass) {
+    for (uint64_t pass = 0; pass < max_passes && idle < max_idle_passes; ++pass) {
       random_.start(pass);
       bool gained = false;
       for (const auto& [choice, first, count] : open) {

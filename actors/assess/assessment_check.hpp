@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "scenes/format/json_out.hpp"
+#include "actors/output/json_out.hpp"
 
 namespace luxodus {
 

@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "actors/assess/judged_state.hpp"
+#include "actors/output/base64.hpp"
 #include "scenes/emergency/rules.hpp"
-#include "scenes/format/base64.hpp"
-#include "scenes/format/logo.hpp"
+#include "scenes/images/logo.hpp"
 
 namespace luxodus {
 

@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "actors/assess/assessment.hpp"
-#include "scenes/format/json_out.hpp"
+#include "actors/output/json_out.hpp"
 
 namespace luxodus {
 

@@ -9,7 +9,7 @@
 #include "actors/assess/assessment_check.hpp"
 #include "actors/assess/assessment_inputs.hpp"
 #include "actors/assess/state_words.hpp"
-#include "scenes/format/csv.hpp"
+#include "actors/output/csv.hpp"
 
 namespace luxodus {
 
@@ -210,7 +210,7 @@ Json assessment_json(const SceneDescription& scene, const Assessment& assessment
   return out;
 }
 
-Result<Done> write_assessment(const fs::path& folder, const Json& assessment) {
+Result<void> write_assessment(const fs::path& folder, const Json& assessment) {
   std::error_code failed;
   fs::create_directories(folder, failed);
   if (failed) return Problem{{folder.string(), 0}, "cannot make this folder: " + failed.message()};
@@ -248,7 +248,7 @@ Result<Done> write_assessment(const fs::path& folder, const Json& assessment) {
                                                     "jin.legible",
                                                     "viewing_distance.within"});
   if (auto ok = write_csv(folder / "sights.csv", sights); !ok.ok()) return ok;
-  return Done{};
+  return {};
 }
 
 Result<Json> read_assessment(const fs::path& folder) {

@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "actors/assess/assessment.hpp"
-#include "scenes/format/json_out.hpp"
+#include "actors/output/json_out.hpp"
 
 namespace luxodus {
 
@@ -21,7 +21,7 @@ Json assessment_json(const SceneDescription& scene, const Assessment& assessment
                      const std::string& version);
 
 /// Errors: as write_file_atomically; a folder that cannot be made.
-Result<Done> write_assessment(const std::filesystem::path& folder, const Json& assessment);
+Result<void> write_assessment(const std::filesystem::path& folder, const Json& assessment);
 
 /// Errors: no assessment.json in the folder, or none of ours.
 Result<Json> read_assessment(const std::filesystem::path& folder);

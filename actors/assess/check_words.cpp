@@ -1,6 +1,6 @@
 #include "actors/assess/check_words.hpp"
 
-#include "scenes/format/output_text.hpp"
+#include "runtime/core/output_text.hpp"
 
 namespace luxodus {
 

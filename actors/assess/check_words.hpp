@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "scenes/format/json_out.hpp"
+#include "actors/output/json_out.hpp"
 
 namespace luxodus {
 

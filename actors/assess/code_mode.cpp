@@ -278,7 +278,7 @@ void CodeMode::fill_plan(std::vector<PlanLevel>& levels) const {
 
 }  // namespace
 
-Result<Done> assess_by_codes(const SceneDescription& scene, const Scenario& scenario,
+Result<void> assess_by_codes(const SceneDescription& scene, const Scenario& scenario,
                              const AssessOptions& options, const AssessProgress& progress,
                              Assessment& out) {
   const bool has_furniture = std::any_of(scene.objects.begin(), scene.objects.end(), is_furniture);
@@ -296,7 +296,7 @@ Result<Done> assess_by_codes(const SceneDescription& scene, const Scenario& scen
     if (!furnished) append(out.checks, mode.checks_of_parts());
   }
   progress("codes", 1);
-  return Done{};
+  return {};
 }
 
 }  // namespace luxodus

@@ -4,13 +4,13 @@
 
 #include "actors/assess/assessment.hpp"
 #include "actors/inspect/building.hpp"
-#include "scenes/format/atomic_file.hpp"
+#include "runtime/core/atomic_file.hpp"
 
 namespace luxodus {
 
 /// Adds checks and the plan to `out`. `scenario` gives the doors.
 /// Errors: a scene that cannot be compiled.
-Result<Done> assess_by_codes(const SceneDescription& scene, const Scenario& scenario,
+Result<void> assess_by_codes(const SceneDescription& scene, const Scenario& scenario,
                              const AssessOptions& options, const AssessProgress& progress,
                              Assessment& out);
 

@@ -212,8 +212,8 @@ Result<std::vector<CodeChoice>> judged_codes(const SceneDescription& scene,
   return Problem{by_scene ? said.place : SourcePlace{scene.file, 0}, codes.problem().what};
 }
 
-Result<Done> irritation_is_said(const SceneDescription& scene, const Scenario& scenario) {
-  if (scene.assessment.irritant_smoke || !has_smoke(scene, scenario)) return Done{};
+Result<void> irritation_is_said(const SceneDescription& scene, const Scenario& scenario) {
+  if (scene.assessment.irritant_smoke || !has_smoke(scene, scenario)) return {};
   const auto smoke = std::find_if(scene.media.begin(), scene.media.end(), [&](const Medium& m) {
     return !is_flame(m) && extinction_factor(scenario, m) > 0;
   });

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "runtime/core/atomic_file.hpp"
 #include "scenes/emergency/rule_sets.hpp"
-#include "scenes/format/atomic_file.hpp"
 #include "scenes/world/description.hpp"
 
 namespace luxodus {
@@ -60,7 +60,7 @@ Result<std::vector<CodeChoice>> judged_codes(const SceneDescription& scene,
 bool has_smoke(const SceneDescription& scene, const Scenario& scenario);
 
 /// Errors: there is smoke, and the scene does not say whether it stings.
-Result<Done> irritation_is_said(const SceneDescription& scene, const Scenario& scenario);
+Result<void> irritation_is_said(const SceneDescription& scene, const Scenario& scenario);
 
 AssessedState state_of(const SceneDescription& scene, const Scenario& scenario,
                        std::vector<CodeChoice> codes);

@@ -10,7 +10,7 @@
 
 #include "actors/assess/aged_light.hpp"
 #include "actors/inspect/building.hpp"
-#include "actors/source/local_run.hpp"
+#include "actors/run/local_run.hpp"
 #include "scenes/emergency/sign_face.hpp"
 #include "scenes/geometry/polygon.hpp"
 
@@ -20,7 +20,7 @@ namespace {
 
 /// Batches of a round at least, whose spread is the error; paths to each part of a sign in the
 /// first round's batches, and at most in any: beyond that a round has more batches.
-constexpr int64_t batches_least = 64, first_paths = 8, paths_most = 512;
+constexpr int64_t min_batches = 64, first_paths = 8, max_paths = 512;
 /// Paths from the eye cost far more than particles, of which a run traces some beside them.
 constexpr int64_t batch_particles = 256;
 /// compile's share of paths: 0.1 of the particles, divided among the parts.
@@ -93,8 +93,8 @@ std::vector<Stand> stands_of(const SceneDescription& scene,
 /// Each round has four times the paths of the one before.
 struct RoundSize {
   explicit RoundSize(int round)
-      : paths(std::min(paths_most, first_paths << (2 * round))),
-        batches(batches_least * ((first_paths << (2 * round)) / paths)) {}
+      : paths(std::min(max_paths, first_paths << (2 * round))),
+        batches(min_batches * ((first_paths << (2 * round)) / paths)) {}
   int64_t paths;  // of a batch, to each part
   int64_t batches;
 };
@@ -164,11 +164,11 @@ class RealityMode {
         out_(out) {}
 
   /// Tells apart what has aged and what has not. Errors: as group_by_ageing.
-  Result<Done> tell_ageing_apart();
+  Result<void> tell_ageing_apart();
   /// Who can see what, by straight lines. Errors: as assess_sights.
-  Result<Done> look_for_lines(const AssessProgress& progress);
+  Result<void> look_for_lines(const AssessProgress& progress);
   /// One round of paths for what is undecided. Errors: as assess_sights.
-  Result<Done> trace(int round, const std::atomic<bool>& interrupt, const AssessProgress& progress);
+  Result<void> trace(int round, const std::atomic<bool>& interrupt, const AssessProgress& progress);
   bool anything_open() const { return !open_.empty(); }
 
  private:
@@ -195,14 +195,14 @@ class RealityMode {
   std::vector<size_t> asked_;  // stands of the round's observers
 };
 
-Result<Done> RealityMode::tell_ageing_apart() {
+Result<void> RealityMode::tell_ageing_apart() {
   auto ageing = group_by_ageing(scene_, scenario_.operation);
   if (!ageing.ok()) return ageing.problem();
   ageing_ = std::move(ageing).value();
-  return Done{};
+  return {};
 }
 
-Result<Done> RealityMode::look_for_lines(const AssessProgress& progress) {
+Result<void> RealityMode::look_for_lines(const AssessProgress& progress) {
   progress("lines of sight", 0);
   auto made = Building::make(scene_, scenario_, options_.threads);
   if (!made.ok()) return made.problem();
@@ -250,7 +250,7 @@ Result<Done> RealityMode::look_for_lines(const AssessProgress& progress) {
       }
       out_.sights.push_back(std::move(row));
     }
-  return Done{};
+  return {};
 }
 
 /// The scene with those who still have to look, and as many paths as the round has.
@@ -389,7 +389,7 @@ void RealityMode::judge(const CompiledScene& scene, const Totals& totals) {
   open_ = std::move(still);
 }
 
-Result<Done> RealityMode::trace(int round, const std::atomic<bool>& interrupt,
+Result<void> RealityMode::trace(int round, const std::atomic<bool>& interrupt,
                                 const AssessProgress& progress) {
   const std::string what = fmt::format("round {}: {} views", round + 1, open_.size());
   progress(what, 0);
@@ -410,12 +410,12 @@ Result<Done> RealityMode::trace(int round, const std::atomic<bool>& interrupt,
                 static_cast<int64_t>(3 * run.scene().eye_targets.size());
   judge(run.scene(), run.totals());
   progress(what, 1);
-  return Done{};
+  return {};
 }
 
 }  // namespace
 
-Result<Done> assess_sights(const SceneDescription& scene, const Scenario& scenario,
+Result<void> assess_sights(const SceneDescription& scene, const Scenario& scenario,
                            const AssessOptions& options, const std::atomic<bool>& interrupt,
                            const AssessProgress& progress, Assessment& out) {
   if (auto ok = irritation_is_said(scene, scenario); !ok.ok()) return ok;
@@ -424,7 +424,7 @@ Result<Done> assess_sights(const SceneDescription& scene, const Scenario& scenar
   if (auto ok = mode.look_for_lines(progress); !ok.ok()) return ok;
   for (int round = 0; round < options.rounds && mode.anything_open(); ++round)
     if (auto ok = mode.trace(round, interrupt, progress); !ok.ok()) return ok;
-  return Done{};
+  return {};
 }
 
 }  // namespace luxodus

@@ -4,13 +4,13 @@
 #pragma once
 
 #include "actors/assess/assessment.hpp"
-#include "scenes/format/atomic_file.hpp"
+#include "runtime/core/atomic_file.hpp"
 
 namespace luxodus {
 
 /// Adds sights to `out`. Errors: irritation_is_said; `interrupt`; more pairs of place and sign than
 /// a limit.
-Result<Done> assess_sights(const SceneDescription& scene, const Scenario& scenario,
+Result<void> assess_sights(const SceneDescription& scene, const Scenario& scenario,
                            const AssessOptions& options, const std::atomic<bool>& interrupt,
                            const AssessProgress& progress, Assessment& out);
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "actors/assess/judged_state.hpp"
+#include "actors/output/json_out.hpp"
 #include "scenes/emergency/check.hpp"
-#include "scenes/format/json_out.hpp"
 
 namespace luxodus {
 

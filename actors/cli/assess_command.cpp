@@ -11,8 +11,8 @@
 #include "actors/cli/command.hpp"
 #include "actors/cli/findings.hpp"
 #include "actors/cli/report_options.hpp"
-#include "scenes/format/file_names.hpp"
-#include "scenes/format/output_folder.hpp"
+#include "actors/output/file_names.hpp"
+#include "actors/output/output_folder.hpp"
 
 namespace luxodus::cli {
 
@@ -122,7 +122,7 @@ void add_assess(CLI::App& app, int& exit_code) {
   CLI::App* command =
       app.add_subcommand("assess", "Judge signs and escape routes, by codes and in smoke");
   command->footer(
-      "Needs routes, areas or observers in the scene (keys: scenes/format/README.md). Writes\n"
+      "Needs routes, areas or observers in the scene (keys: scenes/scene_file/README.md). Writes\n"
       "report.html, assessment.json, checks.csv, sights.csv, plans/ (SVG, DXF), schedules/ (CSV).\n"
       "  luxodus assess scenes/library/office_floor.toml --out out/office\n"
       "  luxodus assess office.toml --scenario fire --rules en1838-2013 --deviation de-asr-a3.4-3\n"

@@ -7,7 +7,7 @@
 #include "actors/cli/command.hpp"
 #include "actors/cli/findings.hpp"
 #include "actors/cli/floors.hpp"
-#include "scenes/format/json_out.hpp"
+#include "actors/output/json_out.hpp"
 #include "scenes/transport/compile.hpp"
 #include "scenes/transport/packed_scene.hpp"
 #include "scenes/transport/scene_features.hpp"

@@ -43,7 +43,7 @@ class Children {
   Children& operator=(const Children&) = delete;
 
   /// Errors: the system starts no more.
-  Result<bool> start(const ClusterConfig& cluster, const ClusterProcess& process) {
+  Result<void> start(const ClusterConfig& cluster, const ClusterProcess& process) {
     std::vector<std::string> words{"luxodus", "node", "--config",
                                    fs::absolute(cluster.file).string()};
     for (const NodeId node : process.nodes) {
@@ -64,7 +64,7 @@ class Children {
     ::posix_spawnattr_destroy(&apart);
     if (failed != 0) return Problem{{process.name, 0}, "cannot be started"};
     living_.push_back({pid, process.name});
-    return true;
+    return {};
   }
 
   /// Waits until all have ended. The process of the controller decides: where it fails, the others

@@ -14,8 +14,8 @@
 #include <thread>
 
 #include "runtime/core/printable.hpp"
-#include "scenes/format/scene_file.hpp"
 #include "scenes/pack/scene_pack.hpp"
+#include "scenes/scene_file/scene_file.hpp"
 #include "scenes/transport/compile.hpp"
 
 namespace luxodus::cli {

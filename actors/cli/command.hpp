@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "actors/display/report.hpp"
-#include "actors/source/local_run.hpp"
+#include "actors/run/local_run.hpp"
 #include "scenes/world/description.hpp"
 
 namespace luxodus::cli {

@@ -6,11 +6,11 @@
 #include <limits>
 
 #include "actors/cli/command.hpp"
-#include "scenes/format/csv.hpp"
-#include "scenes/format/file_names.hpp"
-#include "scenes/format/json_out.hpp"
-#include "scenes/format/output_folder.hpp"
-#include "scenes/format/svg_plot.hpp"
+#include "actors/output/csv.hpp"
+#include "actors/output/file_names.hpp"
+#include "actors/output/json_out.hpp"
+#include "actors/output/output_folder.hpp"
+#include "actors/output/svg_plot.hpp"
 #include "scenes/transport/compile.hpp"
 
 namespace luxodus::cli {
@@ -107,7 +107,7 @@ SvgPlot plot_of(const std::vector<Point>& points, double Point::*x, const std::s
   return plot;
 }
 
-Result<Done> write_points(const fs::path& out, const std::vector<Point>& points,
+Result<void> write_points(const fs::path& out, const std::vector<Point>& points,
                           const std::string& name) {
   CsvTable table({"particles", "seconds", "relative_error", "figure_of_merit_per_s"});
   for (const Point& p : points) {

@@ -7,8 +7,8 @@
 #include "actors/cli/command.hpp"
 #include "actors/supervise/deploy.hpp"
 #include "runtime/config/cluster_file.hpp"
-#include "scenes/format/atomic_file.hpp"
-#include "scenes/format/output_path.hpp"
+#include "runtime/core/atomic_file.hpp"
+#include "runtime/core/output_path.hpp"
 
 namespace luxodus::cli {
 
@@ -36,7 +36,7 @@ constexpr std::array<Means, 3> all_means{{
     {"ssh", ssh_files, "run the script; with the argument stop it stops all"},
 }};
 
-Result<Done> write_file(const fs::path& path, const DeployFile& file) {
+Result<void> write_file(const fs::path& path, const DeployFile& file) {
   std::error_code failed;
   fs::create_directories(path.parent_path(), failed);
   auto written = write_file_atomically(behind_links(path), std::string_view(file.text));

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "actors/inspect/inspect.hpp"
-#include "scenes/format/json_out.hpp"
+#include "actors/output/json_out.hpp"
 
 namespace luxodus::cli {
 

@@ -1,6 +1,6 @@
 #include "actors/cli/finished_run.hpp"
 
-#include "scenes/format/atomic_file.hpp"
+#include "runtime/core/atomic_file.hpp"
 
 namespace luxodus::cli {
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "actors/output/json_out.hpp"
 #include "runtime/core/result.hpp"
-#include "scenes/format/json_out.hpp"
 
 namespace luxodus::cli {
 

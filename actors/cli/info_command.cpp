@@ -5,7 +5,7 @@
 #include <string>
 
 #include "actors/cli/command.hpp"
-#include "scenes/format/json_out.hpp"
+#include "actors/output/json_out.hpp"
 #include "scenes/intersect/embree_scene.hpp"
 
 namespace luxodus::cli {

@@ -118,7 +118,7 @@ int main(int argc, char** argv) {
       "First steps:\n"
       "  luxodus check scenes/library/office_floor.toml\n"
       "  luxodus run scenes/library/office_floor.toml --out out/floor --time 30s\n"
-      "`luxodus COMMAND --help` tells more; scenes/format/README.md explains scene files.");
+      "`luxodus COMMAND --help` tells more; scenes/scene_file/README.md explains scene files.");
   int exit_code = ExitCode::success;
   add_run(app, exit_code);
   add_check(app, exit_code);

@@ -11,13 +11,13 @@
 #include "actors/display/pictures.hpp"
 #include "actors/display/report.hpp"
 #include "actors/display/result_files.hpp"
-#include "actors/source/flux_store.hpp"
+#include "actors/output/file_names.hpp"
+#include "actors/output/output_folder.hpp"
+#include "actors/run/flux_store.hpp"
 #include "actors/supervise/cluster_process.hpp"
 #include "actors/view/live_cluster.hpp"
 #include "actors/view/live_worker.hpp"
 #include "runtime/config/cluster_file.hpp"
-#include "scenes/format/file_names.hpp"
-#include "scenes/format/output_folder.hpp"
 
 namespace luxodus::cli {
 
@@ -32,7 +32,7 @@ struct NodeOptions {
 
 /// A disk that is full when hours of work are to be written may have room soon: somebody is told,
 /// and it is tried again for ten minutes.
-Result<Done> save_patiently(const fs::path& file, const LocalRun& run) {
+Result<void> save_patiently(const fs::path& file, const LocalRun& run) {
   constexpr int tries = 60;
   constexpr int pause_ms = 10'000;
   for (int i = 1;; ++i) {
@@ -61,7 +61,7 @@ Result<std::optional<OutputFolder>> claim_results(const ClusterConfig& cluster,
 
 /// What the controller leaves, as `luxodus run` does, but for pictures: `luxodus render` makes
 /// them.
-Result<Done> write_results(const ClusterConfig& cluster, const ClusterProcessRun& process,
+Result<void> write_results(const ClusterConfig& cluster, const ClusterProcessRun& process,
                            const fs::path& folder, StopReason reason) {
   RunRecord record;
   record.scene_file = fs::absolute(cluster.run.scene).string();
@@ -75,7 +75,7 @@ Result<Done> write_results(const ClusterConfig& cluster, const ClusterProcessRun
   process.forget_journal();
   std::printf("%s in %s\n%s", cluster.run.name.c_str(), folder.string().c_str(),
               summary_text(result.value()).c_str());
-  return Done{};
+  return {};
 }
 
 /// A controller that traces brings its worker.

@@ -3,9 +3,9 @@
 
 #include "actors/cli/command.hpp"
 #include "actors/cli/findings.hpp"
-#include "scenes/format/file_names.hpp"
-#include "scenes/format/json_out.hpp"
-#include "scenes/format/output_folder.hpp"
+#include "actors/output/file_names.hpp"
+#include "actors/output/json_out.hpp"
+#include "actors/output/output_folder.hpp"
 #include "scenes/pack/scene_pack.hpp"
 #include "scenes/transport/compile.hpp"
 

@@ -8,7 +8,7 @@
 #include "actors/cli/finished_run.hpp"
 #include "actors/display/pictures.hpp"
 #include "actors/display/result_files.hpp"
-#include "actors/source/flux_store.hpp"
+#include "actors/run/flux_store.hpp"
 #include "scenes/transport/compile.hpp"
 
 namespace luxodus::cli {

@@ -27,7 +27,7 @@ void add_report_options(CLI::App& command, ReportWords& words) {
   command.add_flag("--pdf", words.pdf, "print report.pdf, too, by Chromium where one is installed");
 }
 
-Result<Done> write_report_and_tell(const OutputFolder& folder, const Json& assessment,
+Result<void> write_report_and_tell(const OutputFolder& folder, const Json& assessment,
                                    const ReportWords& words) {
   ReportOptions options = words.options();
   options.named = folder.named().string();
@@ -35,12 +35,12 @@ Result<Done> write_report_and_tell(const OutputFolder& folder, const Json& asses
   for (const char* file : {"report.html", "report.pdf"})
     if (words.pdf || std::string_view(file) == "report.html")
       std::printf("written to %s\n", (folder.named() / file).string().c_str());
-  return Done{};
+  return {};
 }
 
 namespace {
 
-Result<Done> report_again(const std::string& folder, const ReportWords& words) {
+Result<void> report_again(const std::string& folder, const ReportWords& words) {
   const auto read = read_assessment(folder);
   if (!read.ok()) return read.problem();
   const auto out =

@@ -5,8 +5,8 @@
 #include <memory>
 #include <string>
 
+#include "actors/output/output_folder.hpp"
 #include "actors/report/report.hpp"
-#include "scenes/format/output_folder.hpp"
 
 namespace luxodus::cli {
 
@@ -21,7 +21,7 @@ struct ReportWords {
 void add_report_options(CLI::App& command, ReportWords& words);
 
 /// Writes the report and says where it is. Errors: as write_report.
-Result<Done> write_report_and_tell(const OutputFolder& folder, const Json& assessment,
+Result<void> write_report_and_tell(const OutputFolder& folder, const Json& assessment,
                                    const ReportWords& words);
 
 }  // namespace luxodus::cli

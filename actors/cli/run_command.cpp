@@ -11,15 +11,15 @@
 #include "actors/display/checkpoint.hpp"
 #include "actors/display/preview.hpp"
 #include "actors/display/report.hpp"
-#include "actors/source/flux_store.hpp"
-#include "actors/source/need.hpp"
+#include "actors/output/file_names.hpp"
+#include "actors/run/adaptive_shares.hpp"
+#include "actors/run/flux_store.hpp"
 #include "actors/supervise/in_process.hpp"
+#include "actors/supervise/out_of_core_for.hpp"
 #include "actors/supervise/residency_setup.hpp"
-#include "actors/supervise/stored_rows.hpp"
-#include "scenes/format/file_names.hpp"
 #include "scenes/transport/compile.hpp"
-#include "scenes/transport/lines.hpp"
 #include "scenes/transport/near_field.hpp"
+#include "scenes/transport/visibility.hpp"
 
 namespace luxodus::cli {
 
@@ -188,13 +188,13 @@ std::unique_ptr<LocalRun> prepare(std::shared_ptr<const CompiledScene> scene, ui
                                   const RunOptions& options) {
   if (options.nodes == 0 || options.object_mib == 0)
     return std::make_unique<LocalRun>(std::move(scene), seed, options.threads);
-  StoredRowsConfig config;
+  OutOfCoreConfig config;
   config.threads = options.threads;
   // The nodes have ended by then, and left room for as much again.
   config.object_bytes =
       options.object_bytes() * static_cast<size_t>(std::max(options.threads, options.nodes));
   config.sharing = !options.no_sharing;
-  auto rows = std::make_unique<StoredRows>(scene, config);
+  auto rows = std::make_unique<OutOfCoreParallelFor>(scene, config);
   return std::make_unique<LocalRun>(std::move(scene), seed, options.threads, std::move(rows));
 }
 
@@ -240,8 +240,8 @@ Result<std::vector<double>> batch_shares(const std::shared_ptr<const CompiledSce
   }
   if (!options.by_need) return std::vector<double>();
   ProgressLine line(scene->scenario.name + ", first round");
-  return find_shares_by_need(scene, seed, options.threads, interrupt_flag(),
-                             [&](const Progress& p) { line.show(p); });
+  return find_adaptive_shares(scene, seed, options.threads, interrupt_flag(),
+                              [&](const Progress& p) { line.show(p); });
 }
 
 /// Says where luminaires are nearer than their photometric files are good for.
@@ -544,7 +544,7 @@ void add_run(CLI::App& app, int& exit_code) {
       "run has written, with --overwrite only. One process at a time writes into DIR.");
   command
       ->add_option("scene", options->scene,
-                   "scene file (TOML; see scenes/format/README.md), or a pack")
+                   "scene file (TOML; see scenes/scene_file/README.md), or a pack")
       ->required();
   command->add_option("--out", options->out, "folder for the results [out/NAME]");
   command->add_option("--scenario", options->scenario, "name of a scenario, or 'all' [the first]");

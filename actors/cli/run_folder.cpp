@@ -8,8 +8,8 @@
 #include "actors/cli/command.hpp"
 #include "actors/cli/finished_run.hpp"
 #include "actors/display/result_files.hpp"
-#include "scenes/format/flux_file.hpp"
-#include "scenes/format/json_out.hpp"
+#include "actors/output/flux_file.hpp"
+#include "actors/output/json_out.hpp"
 
 namespace luxodus::cli {
 
@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Most room that is kept for a flux file [bytes]: large ones are mostly zeros, which take none.
-constexpr uint64_t room_most = uint64_t{256} << 20;
+constexpr uint64_t max_room = uint64_t{256} << 20;
 /// Two runs of the same time differ by a batch on every thread and by how busy the machine is.
 constexpr double time_slack = 1.1, time_slack_s = 2;
 
@@ -90,7 +90,7 @@ Problem nothing_to_resume(const fs::path& folder) {
 
 uint64_t flux_bytes(const CompiledScene& scene) {
   const auto totals = static_cast<uint64_t>(scene.layout.totals());
-  return std::min(room_most, totals * sizeof(Total) * scene.groups.size()) + (uint64_t{4} << 20);
+  return std::min(max_room, totals * sizeof(Total) * scene.groups.size()) + (uint64_t{4} << 20);
 }
 
 }  // namespace

@@ -10,9 +10,9 @@
 
 #include <memory>
 
-#include "actors/source/local_run.hpp"
+#include "actors/output/output_folder.hpp"
+#include "actors/run/local_run.hpp"
 #include "runtime/storage/room_reserve.hpp"
-#include "scenes/format/output_folder.hpp"
 
 namespace luxodus::cli {
 

@@ -31,7 +31,7 @@ std::string new_token() {
 }
 
 /// By making a file there: permissions do not tell of a file system that is full or read-only.
-Result<Done> can_save_in(const std::filesystem::path& folder) {
+Result<void> can_save_in(const std::filesystem::path& folder) {
   std::string name = (folder / ".luxodus-view-XXXXXX").string();
   const int file = ::mkstemp(name.data());
   if (file < 0)
@@ -40,12 +40,12 @@ Result<Done> can_save_in(const std::filesystem::path& folder) {
                        "; make it, or name another (--save-folder)"};
   ::close(file);
   ::unlink(name.c_str());
-  return Done{};
+  return {};
 }
 
 }  // namespace
 
-Result<Done> serve_view(std::shared_ptr<const SceneDescription> scene, ServerOptions server,
+Result<void> serve_view(std::shared_ptr<const SceneDescription> scene, ServerOptions server,
                         const HubOptions& options) {
   if (scene->packed)
     return Problem{{scene->file, 0}, "a pack cannot be changed live: view its scene file"};
@@ -60,7 +60,7 @@ Result<Done> serve_view(std::shared_ptr<const SceneDescription> scene, ServerOpt
               server.token.empty() ? "" : "?token=", server.token.c_str());
   std::fflush(stdout);
   serving.run(hub, interrupt_flag());
-  return Done{};
+  return {};
 }
 
 }  // namespace luxodus::cli

@@ -10,7 +10,7 @@ namespace luxodus::cli {
 /// Prints where the page is. Beyond this machine it makes a token, which the page then demands.
 /// Errors: a pack; an address that is none, a port that is taken; a folder that nothing can be
 /// saved in.
-Result<Done> serve_view(std::shared_ptr<const SceneDescription> scene, ServerOptions server,
+Result<void> serve_view(std::shared_ptr<const SceneDescription> scene, ServerOptions server,
                         const HubOptions& options);
 
 }  // namespace luxodus::cli

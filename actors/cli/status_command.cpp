@@ -4,9 +4,9 @@
 #include <algorithm>
 
 #include "actors/cli/command.hpp"
+#include "actors/output/json_out.hpp"
 #include "actors/supervise/cluster_status.hpp"
 #include "runtime/config/cluster_file.hpp"
-#include "scenes/format/json_out.hpp"
 
 namespace luxodus::cli {
 

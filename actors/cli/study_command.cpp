@@ -7,12 +7,12 @@
 #include <tuple>
 
 #include "actors/cli/command.hpp"
+#include "actors/output/file_names.hpp"
 #include "actors/study/calibrate.hpp"
 #include "actors/study/report.hpp"
 #include "actors/study/runs.hpp"
 #include "actors/study/scenes.hpp"
 #include "runtime/core/clock.hpp"
-#include "scenes/format/file_names.hpp"
 
 namespace luxodus::cli {
 
@@ -72,7 +72,7 @@ class Sweep {
         outcome_{prepared.study, prepared.measured, {}} {}
 
   /// Errors: a scene that cannot be compiled.
-  Result<Done> run();
+  Result<void> run();
   const StudyOutcome& outcome() const { return outcome_; }
 
  private:
@@ -141,7 +141,7 @@ Result<std::shared_ptr<const Recording>> Sweep::recorded(const StudyRun& run) {
   return kept;
 }
 
-Result<Done> Sweep::run() {
+Result<void> Sweep::run() {
   const auto points = study_.points();
   began_ = clock_.now();
   runs_ = points.size() * static_cast<size_t>(study_.seeds);
@@ -150,14 +150,14 @@ Result<Done> Sweep::run() {
   for (const StudyPoint& point : points) {
     for (int i = 0; i < study_.seeds; ++i) {
       auto row = run_one(point, study_.first_seed + static_cast<uint64_t>(i));
-      if (interrupt_flag()) return Done{};
+      if (interrupt_flag()) return {};
       if (!row.ok()) return row.problem();
       outcome_.rows.push_back(std::move(row).value());
       done += weight(point);
       show(done);
     }
   }
-  return Done{};
+  return {};
 }
 
 void print_outcome(const StudyOutcome& outcome, const fs::path& out) {
@@ -195,7 +195,7 @@ Result<ExitCode> study(const StudyCommandOptions& options) {
   return ExitCode::success;
 }
 
-Result<Done> write_costs(const CalibrateOptions& options) {
+Result<void> write_costs(const CalibrateOptions& options) {
   if (auto ok = check_output_file(options.out); !ok.ok()) return ok.problem();
   const auto description = load_scene(options.scene);
   if (!description) return Problem{{options.scene, 0}, "the scene has problems, told above"};
@@ -214,7 +214,7 @@ Result<Done> write_costs(const CalibrateOptions& options) {
   if (auto ok = write_file_atomically(behind_links(options.out), text); !ok.ok())
     return ok.problem();
   std::printf("%swritten to %s\n", text.c_str(), options.out.c_str());
-  return Done{};
+  return {};
 }
 
 void add_calibrate(CLI::App& app, int& exit_code) {

@@ -7,9 +7,9 @@
 
 #include "actors/cli/command.hpp"
 #include "actors/cli/topology_report.hpp"
+#include "runtime/core/atomic_file.hpp"
 #include "runtime/core/clock.hpp"
-#include "scenes/format/atomic_file.hpp"
-#include "scenes/format/output_path.hpp"
+#include "runtime/core/output_path.hpp"
 #include "topology/amp.hpp"
 #include "topology/builders.hpp"
 #include "topology/draw.hpp"

@@ -26,7 +26,7 @@ std::string hex(uint64_t hash) {
 std::string standing(const Graph& graph, const PartMeasures& all) {
   if (all.paths.hops == all.bound.hops) return "meets the bound: no wiring is shorter";
   if (graph.has_controller()) return "";
-  const auto known = known_best(graph.workers(), graph.links_most());
+  const auto known = known_best(graph.workers(), graph.max_links());
   if (!known) return "";
   // Known to six digits.
   constexpr double equal = 1e-6;
@@ -76,7 +76,7 @@ std::string loads_text(const char* name, const LinkLoads& loads) {
 std::string title_of(const Graph& graph) {
   std::string title =
       fmt::format("{} nodes, {} links (at most {} a node), rotation {}", graph.workers(),
-                  graph.links().size(), graph.links_most(), graph.rotation());
+                  graph.links().size(), graph.max_links(), graph.rotation());
   if (graph.has_controller()) {
     title +=
         fmt::format("; controller {} with {} links{}", graph.controller(), graph.controller_links(),
@@ -141,7 +141,7 @@ Json loads_json(const LinkLoads& loads) {
 
 Json measures_json(const Graph& graph, const Measures& m) {
   Json json = {
-      {"nodes", graph.workers()},          {"links_most", graph.links_most()},
+      {"nodes", graph.workers()},          {"links_most", graph.max_links()},
       {"links", graph.links().size()},     {"controller", name_of(graph.controller_role())},
       {"rotation", graph.rotation()},      {"hash", hex(graph.hash())},
       {"routes_hash", hex(m.routes_hash)}, {"all", part_json(m.all)}};
@@ -172,7 +172,7 @@ std::string comparison_text(const std::vector<Compared>& graphs) {
     const FailureHarm& link = m.all.any_link;
     const FailureHarm& vertex = m.all.any_vertex;
     text += fmt::format("{:<18}{:>6}{:>7}{:>10}{:>11.6f}{:>9}{:>11}  {}\n", compared.name,
-                        graph.links_most(), graph.links().size(), m.all.paths.diameter,
+                        graph.max_links(), graph.links().size(), m.all.paths.diameter,
                         m.all.paths.average(), m.all_to_all.heaviest, m.all.bisection_upper_bound,
                         link.falls_apart || vertex.falls_apart
                             ? "falls apart"

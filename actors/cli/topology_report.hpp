@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "scenes/format/json_out.hpp"
+#include "actors/output/json_out.hpp"
 #include "topology/graph.hpp"
 #include "topology/measure.hpp"
 

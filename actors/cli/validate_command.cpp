@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "actors/cli/command.hpp"
+#include "actors/output/output_folder.hpp"
 #include "actors/validate/report.hpp"
-#include "scenes/format/output_folder.hpp"
 
 namespace luxodus::cli {
 

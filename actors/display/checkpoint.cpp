@@ -6,7 +6,7 @@
 #include <spdlog/spdlog.h>
 
 #include "actors/display/result_files.hpp"
-#include "actors/source/flux_store.hpp"
+#include "actors/run/flux_store.hpp"
 
 namespace luxodus {
 
@@ -36,7 +36,7 @@ void Checkpoint::take() {
   last_ = Clock::now();  // not before: a slow disk must not have the run do nothing else
 }
 
-Result<Done> Checkpoint::save() {
+Result<void> Checkpoint::save() {
   if (taken_ == 0)
     if (auto ok = remove_old_maps(folder_); !ok.ok()) return ok;
   const double passed = std::chrono::duration<double>(Clock::now() - began_).count();

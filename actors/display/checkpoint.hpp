@@ -29,7 +29,7 @@ class Checkpoint {
 
   bool due() const { return Clock::now() - last_ >= every_; }
   void take();
-  Result<Done> save();
+  Result<void> save();
 
   const std::filesystem::path folder_;
   LocalRun& run_;

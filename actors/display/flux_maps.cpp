@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "actors/display/maps.hpp"
-#include "scenes/format/write_vtk.hpp"
+#include "actors/output/write_vtk.hpp"
 #include "scenes/geometry/patches.hpp"
 #include "scenes/transport/packed_scene.hpp"
 
@@ -146,7 +146,7 @@ VtkVolume volume_of(const CompiledScene& scene, const Readout& readout) {
 
 }  // namespace
 
-Result<Done> write_flux_maps(const std::filesystem::path& folder, const LocalRun& run) {
+Result<void> write_flux_maps(const std::filesystem::path& folder, const LocalRun& run) {
   const CompiledScene& scene = run.scene();
   const Readout readout(scene, run.totals());
   SurfaceCollector collector(scene, readout, scene.patch_count / 2 > limits::patches_drawn);
@@ -160,7 +160,7 @@ Result<Done> write_flux_maps(const std::filesystem::path& folder, const LocalRun
     if (!read.ok()) return read.problem();
     if (auto ok = write_vtp(folder / "patches.vtp", collector.take()); !ok.ok()) return ok;
   }
-  if (!(scene.voxels.edge > 0)) return Done{};
+  if (!(scene.voxels.edge > 0)) return {};
   return write_vti(folder / "volume.vti", volume_of(scene, readout));
 }
 

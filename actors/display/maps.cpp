@@ -9,9 +9,9 @@
 #include "actors/display/result_files.hpp"
 #include "actors/display/run_state.hpp"
 #include "actors/inspect/plane_cells.hpp"
-#include "actors/source/rows.hpp"
-#include "scenes/format/csv.hpp"
-#include "scenes/format/false_colour_png.hpp"
+#include "actors/output/csv.hpp"
+#include "actors/output/false_colour_png.hpp"
+#include "actors/run/parallel_for.hpp"
 
 namespace luxodus {
 
@@ -178,7 +178,7 @@ Json plane_json(const CompiledScene& scene, const Readout& readout, const PlaneM
 
 // ---- files -------------------------------------------------------------------------------------
 
-Result<Done> write_table(const std::filesystem::path& path, const PlaneMap& map) {
+Result<void> write_table(const std::filesystem::path& path, const PlaneMap& map) {
   // Cells' means, then the values at their centres.
   CsvTable table({"x", "y", "z", "direct_lx", "indirect_lx", "indirect_se_lx", "total_lx",
                   "luminaires_direct_clear_air_lx", "point_direct_lx",
@@ -256,7 +256,7 @@ FalseColourPicture picture_of(const CompiledScene& scene, const PlaneMeasure& pl
 }
 
 /// `stem`: of its files, without their endings.
-Result<Done> write_pictures(const std::filesystem::path& stem, const LocalRun& run, size_t index,
+Result<void> write_pictures(const std::filesystem::path& stem, const LocalRun& run, size_t index,
                             const PlaneMap& map) {
   const CompiledScene& scene = run.scene();
   const PlaneMeasure& plane = scene.description->planes[index];
@@ -323,7 +323,7 @@ Json planes_json(const LocalRun& run, const Readout& readout, const PlaneMaps& m
   return out;
 }
 
-Result<Done> write_plane_maps(const std::filesystem::path& folder, const LocalRun& run,
+Result<void> write_plane_maps(const std::filesystem::path& folder, const LocalRun& run,
                               const PlaneMaps& maps) {
   const std::vector<std::string> names = result_names(*run.scene().description).planes;
   for (size_t i = 0; i < maps.planes.size(); ++i) {
@@ -333,7 +333,7 @@ Result<Done> write_plane_maps(const std::filesystem::path& folder, const LocalRu
     if (!is_drawn(run.scene().description->planes[i])) continue;
     if (auto ok = write_pictures(stem, run, i, maps.planes[i]); !ok.ok()) return ok;
   }
-  return Done{};
+  return {};
 }
 
 }  // namespace luxodus

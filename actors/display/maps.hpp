@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "actors/display/plane_light.hpp"
-#include "actors/source/local_run.hpp"
-#include "scenes/format/json_out.hpp"
+#include "actors/output/json_out.hpp"
+#include "actors/run/local_run.hpp"
 
 namespace luxodus {
 
@@ -54,12 +54,12 @@ Json planes_json(const LocalRun& run, const Readout& readout, const PlaneMaps& m
 
 /// Writes NAME.csv, NAME.png and NAME_direct_clear_air.png of every plane, NAME being that of
 /// result_names(). A plane of more cells
-/// than limits::drawn_cells_most or grid_edge_most is written as a table only. Errors: as write_csv
+/// than limits::max_drawn_cells or max_grid_edge is written as a table only. Errors: as write_csv
 /// and write_png.
-Result<Done> write_plane_maps(const std::filesystem::path& folder, const LocalRun& run,
+Result<void> write_plane_maps(const std::filesystem::path& folder, const LocalRun& run,
                               const PlaneMaps& maps);
 
 /// Writes patches.vtp and, where the run has voxels, volume.vti. Errors: as write_vtp.
-Result<Done> write_flux_maps(const std::filesystem::path& folder, const LocalRun& run);
+Result<void> write_flux_maps(const std::filesystem::path& folder, const LocalRun& run);
 
 }  // namespace luxodus

@@ -9,7 +9,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "actors/source/rows.hpp"
+#include "actors/run/parallel_for.hpp"
 #include "scenes/geometry/patches.hpp"
 #include "scenes/optics/sampling.hpp"
 #include "scenes/transport/packed_scene.hpp"
@@ -39,7 +39,7 @@ class FluxRadiance final : public PatchRadiance {
           fill_triangle(scene, readout, cell.triangles[static_cast<size_t>(i)]);
         }
       };
-      for_each_row((count + per_row - 1) / per_row, run.threads(), [&] { return fill_row; });
+      parallel_for((count + per_row - 1) / per_row, run.threads(), [&] { return fill_row; });
     });
     if (!read.ok()) throw std::runtime_error(read.problem().text());
   }

@@ -13,14 +13,14 @@
 #include <string>
 #include <vector>
 
-#include "actors/source/local_run.hpp"
-#include "scenes/format/atomic_file.hpp"
+#include "actors/run/local_run.hpp"
+#include "runtime/core/atomic_file.hpp"
 #include "scenes/vision/picture.hpp"
 
 namespace luxodus {
 
 namespace limits {
-inline constexpr int paths_per_pixel_most = 1 << 16;  // 17 bits of a path's number
+inline constexpr int max_paths_per_pixel = 1 << 16;  // 17 bits of a path's number
 }
 
 struct PictureOptions {
@@ -46,7 +46,7 @@ std::unique_ptr<PatchRadiance> flux_radiance(const LocalRun& run);
 
 /// One camera's picture; without meaning where it was interrupted. `flux`: where paths end, or
 /// null. Requires: camera is one of the scene's; 1 <= paths_per_pixel <=
-/// limits::paths_per_pixel_most.
+/// limits::max_paths_per_pixel.
 TracedPicture trace_picture(const LocalRun& run, size_t camera, const PictureOptions& options,
                             const PatchRadiance* flux, const ShareDone& progress = {});
 
@@ -56,7 +56,7 @@ TracedPicture trace_picture(const LocalRun& run, size_t camera, const PictureOpt
 /// scale; up to 8192 pixels an edge); NAME is that of result_names(). A scene without cameras has
 /// no pictures, which is no error. Where it is interrupted, the pictures that are whole are there.
 /// Errors: no camera of that name, paths per pixel out of range, a file that cannot be written.
-Result<Done> render_views(const std::filesystem::path& folder, const LocalRun& run,
+Result<void> render_views(const std::filesystem::path& folder, const LocalRun& run,
                           const std::string& only_view, const PictureOptions& options,
                           const ShareDone& progress);
 

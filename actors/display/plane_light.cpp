@@ -14,7 +14,7 @@
 #include <utility>
 
 #include "runtime/core/hash.hpp"
-#include "scenes/transport/lines.hpp"
+#include "scenes/transport/visibility.hpp"
 
 namespace luxodus {
 
@@ -208,7 +208,7 @@ uint64_t sight_hash(const Lights& lights) {
 
 class PlaneQuadrature {
  public:
-  PlaneQuadrature(const CompiledScene& scene, size_t index, const RowRunner& runner,
+  PlaneQuadrature(const CompiledScene& scene, size_t index, const ParallelFor& runner,
                   const std::vector<char>& left_out)
       : scene_(scene),
         index_(index),
@@ -218,7 +218,7 @@ class PlaneQuadrature {
         rows_(static_cast<size_t>(scene.description->planes[index].cells_v)),
         groups_(scene.groups.size()) {}
 
-  PlaneLight compute(const RowRunner::Finished& finished) {
+  PlaneLight compute(const ParallelFor::Finished& finished) {
     look_at_cells(finished);
     look_at_corners();
     quarter_the_worst();
@@ -244,7 +244,7 @@ class PlaneQuadrature {
     return {static_cast<uint32_t>(cell), u / nu, v / nv, (u + 1) / nu, (v + 1) / nv};
   }
 
-  void look_at_cells(const RowRunner::Finished& finished) {
+  void look_at_cells(const ParallelFor::Finished& finished) {
     out_.centres.resize(cells());
     for (std::vector<double>* lux :
          {&out_.point_lx, &out_.point_clear_lx, &out_.mean_lx, &out_.mean_clear_lx})
@@ -363,7 +363,7 @@ class PlaneQuadrature {
     const Bounds allowed{limits::plane_tolerance * sum(out_.mean_lx),
                          limits::plane_tolerance * sum(out_.mean_clear_lx)};
     int64_t left = std::min(
-        limits::plane_splits_most,
+        limits::max_plane_splits,
         limits::plane_splits + limits::plane_splits_per_cell * static_cast<int64_t>(cells()));
     if (!scene_.volume_points.empty()) left /= limits::plane_splits_by_flames;
     while (left > 0) {
@@ -467,7 +467,7 @@ class PlaneQuadrature {
 
   const CompiledScene& scene_;
   const size_t index_;
-  const RowRunner& runner_;
+  const ParallelFor& runner_;
   const std::vector<char>& left_out_;
   const size_t columns_, rows_, groups_;
   PlaneLight out_;
@@ -480,8 +480,8 @@ class PlaneQuadrature {
 
 }  // namespace
 
-PlaneLight plane_light(const CompiledScene& scene, size_t index, const RowRunner& runner,
-                       const RowRunner::Finished& finished, const std::vector<char>& left_out) {
+PlaneLight plane_light(const CompiledScene& scene, size_t index, const ParallelFor& runner,
+                       const ParallelFor::Finished& finished, const std::vector<char>& left_out) {
   return PlaneQuadrature(scene, index, runner, left_out).compute(finished);
 }
 

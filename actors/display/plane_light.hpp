@@ -9,7 +9,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "actors/source/rows.hpp"
+#include "actors/run/parallel_for.hpp"
 #include "scenes/transport/compiled_scene.hpp"
 
 namespace luxodus {
@@ -21,7 +21,7 @@ inline constexpr double plane_tolerance = 1e-3;
 /// points, at which only emitters that are seen in part around them take shadow rays.
 inline constexpr int64_t plane_splits_per_cell = 1;
 inline constexpr int64_t plane_splits = 256;
-inline constexpr int64_t plane_splits_most = 20'000;
+inline constexpr int64_t max_plane_splits = 20'000;
 /// So many times fewer where flames shine: each is looked at by hundreds of points.
 inline constexpr int64_t plane_splits_by_flames = 4;
 }  // namespace limits
@@ -39,8 +39,8 @@ struct PlaneLight {
 /// Of plane `index` of the scene. `finished`: cells' rows that are done, before the quarterings.
 /// `left_out`: by cell, whether it is no part of the plane: its values are NaN, and it is in no
 /// mean; empty for none.
-PlaneLight plane_light(const CompiledScene& scene, size_t index, const RowRunner& runner,
-                       const RowRunner::Finished& finished = {},
+PlaneLight plane_light(const CompiledScene& scene, size_t index, const ParallelFor& runner,
+                       const ParallelFor::Finished& finished = {},
                        const std::vector<char>& left_out = {});
 
 }  // namespace luxodus

@@ -9,15 +9,15 @@ namespace luxodus {
 namespace {
 
 /// Another run's way to geometry.
-class RowsOf final : public RowRunner {
+class RowsOf final : public ParallelFor {
  public:
-  explicit RowsOf(const RowRunner& rows) : rows_(rows) {}
+  explicit RowsOf(const ParallelFor& rows) : rows_(rows) {}
   void run(int64_t rows, const MakeWorker& make, const Finished& finished) const override {
     rows_.run(rows, make, finished);
   }
 
  private:
-  const RowRunner& rows_;
+  const ParallelFor& rows_;
 };
 
 }  // namespace
@@ -47,7 +47,7 @@ bool Preview::due() const {
 void Preview::take() {
   requested_ = false;
   last_ = Clock::now();
-  if (run_.totals().ledger().rays == 0) return;
+  if (run_.totals().balance().rays == 0) return;
   if (thread_.joinable()) thread_.join();
   int64_t batches = 0;
   for (int g = 0; g < run_.totals().groups(); ++g) {

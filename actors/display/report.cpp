@@ -9,7 +9,7 @@
 #include "actors/display/run_state.hpp"
 #include "scenes/emergency/sign_face.hpp"
 #include "scenes/emergency/sign_geometry.hpp"
-#include "scenes/transport/lines.hpp"
+#include "scenes/transport/visibility.hpp"
 
 namespace luxodus {
 
@@ -25,7 +25,7 @@ Json vector_json(const glm::dvec3& v) {
   return {v.x, v.y, v.z};
 }
 
-Json ledger_json(const Ledger& l) {
+Json ledger_json(const EnergyBalance& l) {
   const auto units = [](Int128 v) { return to_string(v); };
   return {{"unit", "2^-32 of a particle's birth weight"},
           {"emitted", units(l.emitted)},
@@ -408,10 +408,10 @@ Json result_of(const LocalRun& run, const RunRecord& record, const PlaneMaps& ma
                exact_json(static_cast<double>(run.timed_particles()) / seconds, "1/s")},
               {"rays_per_second", exact_json(rays / seconds, "1/s")},
               {"worst_relative_error", exact_json(error, "1")},
-              {"error_of", scene.judged.words},
+              {"error_of", scene.error_target.words},
               {"unlit", readout.unlit()},
               {"figure_of_merit", exact_json(fom, "1/s")},
-              {"ledger", ledger_json(run.totals().ledger())}};
+              {"ledger", ledger_json(run.totals().balance())}};
   if (!all_timed)
     out["timing"] =
         "seconds and rates are of the particles traced since the run was resumed; nobody wrote "
@@ -461,7 +461,7 @@ Json begun_json(const LocalRun& run, const RunRecord& record, double seconds) {
           {"finished", false},
           {"stop_rule", stop_json(record.stop)},
           {"seconds", exact_json(seconds, "s")},
-          {"error_of", scene.judged.words},
+          {"error_of", scene.error_target.words},
           {"source_groups", source_groups_json(scene)},
           {"planes", std::move(planes)},
           {"cameras", cameras_json(*scene.description)}};

@@ -4,8 +4,8 @@
 
 #include <filesystem>
 
-#include "actors/source/local_run.hpp"
-#include "scenes/format/json_out.hpp"
+#include "actors/output/json_out.hpp"
+#include "actors/run/local_run.hpp"
 
 namespace luxodus {
 

@@ -6,9 +6,9 @@
 #include <set>
 #include <span>
 
-#include "scenes/format/false_colour_png.hpp"
-#include "scenes/format/file_names.hpp"
-#include "scenes/format/json_out.hpp"
+#include "actors/output/false_colour_png.hpp"
+#include "actors/output/file_names.hpp"
+#include "actors/output/json_out.hpp"
 
 namespace luxodus {
 
@@ -24,7 +24,7 @@ constexpr std::array own_files{"flux.lux", "result.json", "patches.vtp", "volume
 
 /// The folder's result.json; null where there is none, or none of a run.
 Json old_result(const fs::path& folder) {
-  const auto bytes = read_whole_file(folder / "result.json", limits::result_bytes_most);
+  const auto bytes = read_whole_file(folder / "result.json", limits::max_result_bytes);
   if (!bytes.ok()) return nullptr;
   const auto* text = reinterpret_cast<const char*>(bytes->data());
   Json result = Json::parse(text, text + bytes->size(), nullptr, false);
@@ -91,15 +91,15 @@ ResultNames result_names(const SceneDescription& scene) {
 }
 
 bool is_drawn(const PlaneMeasure& p) {
-  return p.cells_u <= limits::grid_edge_most && p.cells_v <= limits::grid_edge_most &&
+  return p.cells_u <= limits::max_grid_edge && p.cells_v <= limits::max_grid_edge &&
          static_cast<uint64_t>(p.cells_u) * static_cast<uint64_t>(p.cells_v) <=
-             limits::drawn_cells_most;
+             limits::max_drawn_cells;
 }
 
 bool is_mapped(const Camera& camera) {
-  return std::max(camera.width, camera.height) <= limits::grid_edge_most &&
+  return std::max(camera.width, camera.height) <= limits::max_grid_edge &&
          static_cast<uint64_t>(camera.width) * static_cast<uint64_t>(camera.height) <=
-             limits::drawn_cells_most;
+             limits::max_drawn_cells;
 }
 
 std::vector<std::string> files_of_plane(const SceneDescription& scene, size_t plane) {
@@ -130,9 +130,9 @@ OutputPlan run_output(const SceneDescription& scene, bool views) {
   return plan;
 }
 
-Result<Done> remove_old_maps(const fs::path& folder) {
+Result<void> remove_old_maps(const fs::path& folder) {
   const Json result = old_result(folder);
-  if (result.is_null()) return Done{};
+  if (result.is_null()) return {};
   std::error_code error;
   // Through a link in a subfolder's place something else would be removed.
   const auto is_own = [&](const std::string& file) {
@@ -153,10 +153,10 @@ Result<Done> remove_old_maps(const fs::path& folder) {
     if (fs::is_directory(fs::symlink_status(folder / name, error)))
       fs::remove(folder / name, error);
   }
-  return Done{};
+  return {};
 }
 
-Result<Done> refuse_foreign_files(const fs::path& folder, const OutputPlan& plan) {
+Result<void> refuse_foreign_files(const fs::path& folder, const OutputPlan& plan) {
   const Json result = old_result(folder);
   std::set<std::string> own;
   if (!result.is_null()) {
@@ -171,7 +171,7 @@ Result<Done> refuse_foreign_files(const fs::path& folder, const OutputPlan& plan
                    "this file is there and no run has written it: move it away, give another "
                    "folder, or add --overwrite to luxodus run to replace it"};
   }
-  return Done{};
+  return {};
 }
 
 }  // namespace luxodus

@@ -1,21 +1,21 @@
 // What a run leaves in its folder: how the files are called, what may be replaced, and what the
 // next run there clears away. Only files that the folder's own result.json names are ever removed
 // or replaced; what else lies there is somebody's own. Not for two runs into one folder at a time:
-// see scenes/format/output_folder.hpp.
+// see actors/output/output_folder.hpp.
 #pragma once
 
 #include <filesystem>
 #include <string>
 #include <vector>
 
-#include "scenes/format/output_folder.hpp"
+#include "actors/output/output_folder.hpp"
 #include "scenes/world/description.hpp"
 
 namespace luxodus {
 
 namespace limits {
 /// Largest result.json that is read back [bytes]: 1 GiB, far above a million surfaces in 40 bands.
-inline constexpr uint64_t result_bytes_most = uint64_t{1} << 30;
+inline constexpr uint64_t max_result_bytes = uint64_t{1} << 30;
 }  // namespace limits
 
 /// The files of each plane and each camera, without folder and ending, in the scene's order: names
@@ -41,10 +41,10 @@ OutputPlan run_output(const SceneDescription& scene, bool views);
 /// volume.vti. Keeps flux.lux and result.json, which the next run replaces whole. A folder without
 /// a result of ours is left as it is.
 /// Errors: a file that cannot be removed, with the system's reason.
-Result<Done> remove_old_maps(const std::filesystem::path& folder);
+Result<void> remove_old_maps(const std::filesystem::path& folder);
 
 /// Errors: a file that is to be written, is there, and is not of a run: one that the folder's
 /// result.json does not name, or any where result.json is no result of a run.
-Result<Done> refuse_foreign_files(const std::filesystem::path& folder, const OutputPlan& plan);
+Result<void> refuse_foreign_files(const std::filesystem::path& folder, const OutputPlan& plan);
 
 }  // namespace luxodus

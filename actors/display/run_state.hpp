@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "scenes/format/json_out.hpp"
+#include "actors/output/json_out.hpp"
 #include "scenes/transport/compiled_scene.hpp"
 
 namespace luxodus {

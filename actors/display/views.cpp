@@ -4,8 +4,8 @@
 
 #include "actors/display/pictures.hpp"
 #include "actors/display/result_files.hpp"
-#include "scenes/format/false_colour_png.hpp"
-#include "scenes/format/write_image.hpp"
+#include "actors/output/false_colour_png.hpp"
+#include "scenes/images/write_image.hpp"
 #include "scenes/optics/chromaticity.hpp"
 #include "scenes/vision/tone.hpp"
 
@@ -72,7 +72,7 @@ ExrImage exr_of(const LocalRun& run, const Camera& camera, const TracedPicture& 
 /// this many standard errors: beyond it they show something else, the legend of a sign beside its
 /// background.
 constexpr int calm_reach_px = 3;
-constexpr double calm_errors_most = 3;
+constexpr double max_calm_errors = 3;
 
 /// Calls `with` with the index of every pixel near (x, y), itself included.
 template <class With>
@@ -98,7 +98,7 @@ glm::dvec3 colour_near(const TracedPicture& traced, int x, int y) {
   });
   const auto self = static_cast<size_t>(y * in.width + x);
   const auto own_error = static_cast<double>(traced.standard_error_y[self]);
-  const double most = calm_errors_most * std::hypot(own_error, std::sqrt(variance / pixels));
+  const double most = max_calm_errors * std::hypot(own_error, std::sqrt(variance / pixels));
   const double own = light(self).y;
   glm::dvec3 sum(0);
   for_each_near(in, x, y, [&](size_t i) {
@@ -128,7 +128,7 @@ XyzPicture with_calm_colour(const TracedPicture& traced) {
 
 /// Light that an eye or a camera takes for white: within this of black bodies of these
 /// temperatures. Flames alone stay orange.
-constexpr double white_kelvin_least = 2500, white_kelvin_most = 10000, white_duv_most = 0.02;
+constexpr double min_white_kelvin = 2500, max_white_kelvin = 10000, max_white_duv = 0.02;
 
 /// The picture as it looks to who is adapted to the scene's lamps, on a monitor whose white is D65.
 XyzPicture white_balanced(const CompiledScene& scene, XyzPicture picture) {
@@ -142,8 +142,8 @@ XyzPicture white_balanced(const CompiledScene& scene, XyzPicture picture) {
     }
   }
   const ColourTemperature white = correlated_colour_temperature(light);
-  if (white.kelvin < white_kelvin_least || white.kelvin > white_kelvin_most ||
-      white.duv > white_duv_most) {
+  if (white.kelvin < min_white_kelvin || white.kelvin > max_white_kelvin ||
+      white.duv > max_white_duv) {
     return picture;
   }
   for (size_t i = 0; i < picture.pixels(); ++i) {
@@ -195,7 +195,7 @@ FalseColourPicture luminance_map(const LocalRun& run, const Camera& camera,
 }
 
 /// `stem`: of its files, without their endings.
-Result<Done> write_view(const std::filesystem::path& stem, const LocalRun& run,
+Result<void> write_view(const std::filesystem::path& stem, const LocalRun& run,
                         const Camera& camera, const TracedPicture& traced,
                         const PictureOptions& options) {
   const auto path = [&](const char* ending) { return std::filesystem::path(stem) += ending; };
@@ -214,7 +214,7 @@ Result<Done> write_view(const std::filesystem::path& stem, const LocalRun& run,
              "What an adapted eye tells apart (Ward Larson, Rushmeier and Piatko 1997), shown on a "
              "monitor of 200 cd/m2; luminance data is in the EXR file");
   if (auto ok = write_png(path("_human.png"), seen); !ok.ok()) return ok;
-  if (!is_mapped(camera)) return Done{};
+  if (!is_mapped(camera)) return {};
   return write_false_colour_png(path("_luminance.png"),
                                 luminance_map(run, camera, traced, options));
 }
@@ -237,18 +237,18 @@ Result<std::vector<size_t>> chosen_views(const SceneDescription& scene, const st
 
 }  // namespace
 
-Result<Done> render_views(const std::filesystem::path& folder, const LocalRun& run,
+Result<void> render_views(const std::filesystem::path& folder, const LocalRun& run,
                           const std::string& only_view, const PictureOptions& options,
                           const ShareDone& progress) {
   const SceneDescription& scene = *run.scene().description;
-  if (options.paths_per_pixel < 1 || options.paths_per_pixel > limits::paths_per_pixel_most) {
+  if (options.paths_per_pixel < 1 || options.paths_per_pixel > limits::max_paths_per_pixel) {
     return Problem{{scene.file, 0},
-                   "paths per pixel must be 1 to " + std::to_string(limits::paths_per_pixel_most) +
+                   "paths per pixel must be 1 to " + std::to_string(limits::max_paths_per_pixel) +
                        ", not " + std::to_string(options.paths_per_pixel)};
   }
   const auto views = chosen_views(scene, only_view);
   if (!views.ok()) return views.problem();
-  if (views.value().empty()) return Done{};
+  if (views.value().empty()) return {};
   std::error_code error;
   std::filesystem::create_directories(folder / "views", error);
   if (error)
@@ -265,13 +265,13 @@ Result<Done> render_views(const std::filesystem::path& folder, const LocalRun& r
     const TracedPicture traced = trace_picture(run, i, options, flux.get(), [&](double share) {
       if (progress) progress((before + share * pixels(i)) / all);
     });
-    if (options.interrupted()) return Done{};
+    if (options.interrupted()) return {};
     before += pixels(i);
     if (auto ok = write_view(folder / "views" / names[i], run, scene.cameras[i], traced, options);
         !ok.ok())
       return ok;
   }
-  return Done{};
+  return {};
 }
 
 }  // namespace luxodus

@@ -3,10 +3,10 @@
 // on several.
 #pragma once
 
-#include "actors/source/rows.hpp"
+#include "actors/run/parallel_for.hpp"
 #include "scenes/emergency/sign_geometry.hpp"
 #include "scenes/transport/compile.hpp"
-#include "scenes/transport/lines.hpp"
+#include "scenes/transport/visibility.hpp"
 
 namespace luxodus {
 
@@ -28,7 +28,7 @@ class Building {
   /// to the outside are none, and neither is what is `ignored`, by surface.
   bool in_solid(const GeometryAccess& access, const glm::dvec3& place,
                 std::span<const char> ignored = {}) const;
-  const RowRunner& rows() const { return rows_; }
+  const ParallelFor& rows() const { return rows_; }
   /// Share of a sign's face that has a clear line to an eye.
   double seen_share(const GeometryAccess& access, const Sign& sign, const SignView& view,
                     const glm::dvec3& eye) const;
@@ -39,7 +39,7 @@ class Building {
   std::shared_ptr<const CompiledScene> scene_;
   EmbreeDevice device_;
   SceneIndex index_;
-  ResidentRows rows_;
+  ResidentParallelFor rows_;
   std::vector<char> turned_;  // as turned_surfaces
 };
 

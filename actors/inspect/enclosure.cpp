@@ -26,7 +26,7 @@ constexpr double no_smoke = 1e-9;
 SceneDescription bare(const SceneDescription& scene, const Misplaced& misplaced) {
   SceneDescription out = without_measurements(scene);
   out.run.error_of.clear();
-  out.run.bands_most = 1;
+  out.run.max_bands = 1;
   out.run.band_edges_nm.clear();
   out.run.groups = GroupRule::one;
   out.run.batch_particles = particles;

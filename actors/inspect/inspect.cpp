@@ -107,7 +107,7 @@ SceneDescription all_lit(const SceneDescription& scene) {
   out.counting_planes.clear();
   out.run.error_of.clear();
   out.run.voxels = false;
-  out.run.bands_most = 1;
+  out.run.max_bands = 1;
   out.run.band_edges_nm.clear();
   for (Object& object : out.objects) object.one_patch = true;
   for (Emitter& e : out.emitters) e.mains_flux = std::max({e.mains_flux, e.emergency_flux, 1e-3});

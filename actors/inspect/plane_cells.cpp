@@ -101,16 +101,17 @@ void tell_places(const Site& site, const PlaneMeasure& plane, const CellPlaces& 
 
 }  // namespace
 
-std::vector<char> cells_in_bodies(const CompiledScene& scene, const RowRunner& rows, size_t plane) {
+std::vector<char> cells_in_bodies(const CompiledScene& scene, const ParallelFor& rows,
+                                  size_t plane) {
   const PlaneMeasure& p = scene.description->planes[plane];
   const auto columns = static_cast<size_t>(p.cells_u);
   std::vector<char> inside(columns * static_cast<size_t>(p.cells_v), 0);
   const glm::dvec3 normal = glm::normalize(glm::cross(p.edge_u, p.edge_v));
   std::vector<char> turned;
-  rows.run(1, [&](const GeometryAccess& access) -> RowRunner::Worker {
+  rows.run(1, [&](const GeometryAccess& access) -> ParallelFor::Worker {
     return [&, access](int64_t) { turned = turned_surfaces(scene, access); };
   });
-  rows.run(p.cells_v, [&](const GeometryAccess& access) -> RowRunner::Worker {
+  rows.run(p.cells_v, [&](const GeometryAccess& access) -> ParallelFor::Worker {
     return [&, access](int64_t row) {
       for (size_t u = 0; u < columns; ++u) {
         const glm::dvec3 centre = p.corner +

@@ -4,12 +4,13 @@
 
 #include <vector>
 
-#include "actors/source/rows.hpp"
+#include "actors/run/parallel_for.hpp"
 
 namespace luxodus {
 
 /// Whether the middle of each cell of a plane lies in a body, index v * cells_u + u. A pure
 /// function of the scene, whatever the rows are run by.
-std::vector<char> cells_in_bodies(const CompiledScene& scene, const RowRunner& rows, size_t plane);
+std::vector<char> cells_in_bodies(const CompiledScene& scene, const ParallelFor& rows,
+                                  size_t plane);
 
 }  // namespace luxodus

@@ -5,8 +5,8 @@
 #include <bit>
 #include <cstring>
 
-#include "scenes/format/flux_file.hpp"
-#include "scenes/format/json_out.hpp"
+#include "actors/output/flux_file.hpp"
+#include "actors/output/json_out.hpp"
 
 namespace luxodus {
 
@@ -63,7 +63,7 @@ class Blocks {
 
 }  // namespace
 
-Result<Done> write_profile(const std::filesystem::path& path, const ReferenceProfile& profile) {
+Result<void> write_profile(const std::filesystem::path& path, const ReferenceProfile& profile) {
   FluxFile file;
   file.header_json = Json{{"profile", schema_version},
                           {"scene_hash", fmt::format("{:016x}", profile.scene_hash)},

@@ -1,18 +1,18 @@
 // A profile as a file, so that all processes of a cluster plan from the same counts without tracing
 // them again: `luxodus profile` writes it, `profile` in [run] names it. The container is that of
-// flux files (scenes/format/flux_file.hpp): whole and checked, or refused. Plain values; any
+// flux files (actors/output/flux_file.hpp): whole and checked, or refused. Plain values; any
 // thread.
 #pragma once
 
 #include <filesystem>
 
 #include "actors/objects/reference_profile.hpp"
-#include "scenes/format/atomic_file.hpp"
+#include "runtime/core/atomic_file.hpp"
 
 namespace luxodus {
 
 /// Errors: as write_flux_file.
-Result<Done> write_profile(const std::filesystem::path& path, const ReferenceProfile& profile);
+Result<void> write_profile(const std::filesystem::path& path, const ReferenceProfile& profile);
 
 /// `objects`: how many data objects the scene has. Errors: as read_flux_file; a file that is no
 /// profile; one of another scene, scenario or partition.

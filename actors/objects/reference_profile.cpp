@@ -15,7 +15,7 @@ namespace luxodus {
 namespace {
 
 /// Of a group that has next to no share: enough to see where its light goes.
-constexpr int64_t particles_least = 256;
+constexpr int64_t min_particles = 256;
 /// Added to the seed: the profile's histories are none of the run's.
 constexpr uint64_t other_histories = 0x9E3779B97F4A7C15;
 
@@ -102,7 +102,7 @@ std::vector<int64_t> profile_particles(const std::vector<double>& group_share, i
   std::vector<int64_t> by_group;
   for (const double share : group_share)
     by_group.push_back(
-        std::max<int64_t>(particles_least, std::llround(share * static_cast<double>(all))));
+        std::max<int64_t>(min_particles, std::llround(share * static_cast<double>(all))));
   return by_group;
 }
 

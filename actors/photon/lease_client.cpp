@@ -18,7 +18,7 @@ constexpr Nanoseconds retry_after = milliseconds(20);
 }  // namespace
 
 LeaseClient::LeaseClient(const LeaseClientConfig& config, Scheduler& scheduler, Network& network,
-                         PartSender& parts)
+                         SliceSender& parts)
     : config_(config),
       scheduler_(scheduler),
       network_(network),

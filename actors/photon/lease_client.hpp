@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "actors/photon/photon_threads.hpp"
-#include "actors/tally/part_sender.hpp"
+#include "actors/tally/slice_sender.hpp"
 #include "runtime/net/network.hpp"
 
 namespace luxodus {
@@ -39,7 +39,7 @@ class LeaseClient final : public LeasePort {
  public:
   /// `parts` outlives it.
   LeaseClient(const LeaseClientConfig& config, Scheduler& scheduler, Network& network,
-              PartSender& parts);
+              SliceSender& parts);
 
   /// Requires: once, before the photon-threads start.
   void start(PhotonThreads& photons);
@@ -117,7 +117,7 @@ class LeaseClient final : public LeasePort {
   LeaseClientConfig config_;
   Scheduler& scheduler_;
   Network& network_;
-  PartSender& parts_;
+  SliceSender& parts_;
   PhotonThreads* photons_ = nullptr;
   std::optional<Question> asking_;    // for leases
   std::optional<Question> flushing_;  // one at a time; put when all its parts are held

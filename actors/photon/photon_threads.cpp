@@ -115,7 +115,7 @@ void PhotonThreads::add_metrics(Metrics& metrics) const {
                      "The most that the tally has taken, where its budget "
                      "is less than all bins take.",
                      ""},
-                    c.tally_bytes_most);
+                    c.max_tally_bytes);
   metrics.add_histogram({"batch", "", "From a batch's opening to its merging.", ""}, batch_time_);
 }
 
@@ -305,7 +305,7 @@ bool PhotonThreads::make_room(OpenBatch& open, size_t more) {
     port_.want_room();
     if (scheduler_.fibers().wait(work_, "tally") == Wake::cancelled || ending_) return false;
   }
-  counters_.tally_bytes_most = std::max<uint64_t>(counters_.tally_bytes_most, tally_bytes_);
+  counters_.max_tally_bytes = std::max<uint64_t>(counters_.max_tally_bytes, tally_bytes_);
   return true;
 }
 
@@ -357,8 +357,8 @@ void PhotonThreads::close(OpenBatch& open) {
   }
   totals_[merging_].merge(open.scores, open.batch.group);
   ++counters_.batches;
-  counters_.rays += open.scores.ledger.rays;
-  counters_.collisions += open.scores.ledger.collisions;
+  counters_.rays += open.scores.balance.rays;
+  counters_.collisions += open.scores.balance.collisions;
   batch_time_.add(scheduler_.clock().now() - open.since);
   port_.lease_done(open.lease);
 }

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "actors/photon/tally_need.hpp"
-#include "actors/source/batch_plan.hpp"
+#include "actors/run/batch_plan.hpp"
 #include "runtime/actor/scheduler.hpp"
 #include "runtime/observe/node_trace.hpp"
 #include "scenes/transport/trace.hpp"
@@ -108,7 +108,7 @@ class PhotonThreads {
     uint64_t batches_open = 0;
     uint64_t fibers_idle = 0;  // that wait for work
     uint64_t tally_full = 0;   // times that a batch waited for room
-    uint64_t tally_bytes_most = 0;
+    uint64_t max_tally_bytes = 0;
   };
   const Counters& counters() const { return counters_; }
   void add_metrics(Metrics& metrics) const;

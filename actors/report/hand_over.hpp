@@ -6,8 +6,8 @@
 
 #include <filesystem>
 
+#include "actors/output/csv.hpp"
 #include "actors/report/schedule.hpp"
-#include "scenes/format/csv.hpp"
 
 namespace luxodus {
 
@@ -25,7 +25,7 @@ CsvTable points_csv(const Json& assessment, const Schedule& schedule);
 /// ISOLUX_0.5, ISOLUX_1, ISOLUX_5, ISOLUX_10, TEXT and SCALE. Luminaires and signs are blocks with
 /// attributes NAME and TYPE (of signs NUMBER and FACE).
 /// Errors: as write_file_atomically.
-Result<Done> write_plan_dxf(const std::filesystem::path& path, const Json& assessment,
+Result<void> write_plan_dxf(const std::filesystem::path& path, const Json& assessment,
                             const Schedule& schedule, size_t level);
 
 }  // namespace luxodus

@@ -4,7 +4,7 @@
 #include <iterator>
 
 #include "actors/report/plan_svg.hpp"
-#include "scenes/format/output_text.hpp"
+#include "runtime/core/output_text.hpp"
 
 namespace luxodus {
 

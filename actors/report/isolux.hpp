@@ -5,8 +5,8 @@
 #include <array>
 #include <vector>
 
-#include "scenes/format/contour_lines.hpp"
-#include "scenes/format/json_out.hpp"
+#include "actors/output/contour_lines.hpp"
+#include "actors/output/json_out.hpp"
 
 namespace luxodus {
 

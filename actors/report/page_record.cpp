@@ -4,7 +4,7 @@
 #include <map>
 
 #include "actors/report/page.hpp"
-#include "scenes/format/output_text.hpp"
+#include "runtime/core/output_text.hpp"
 
 namespace luxodus {
 

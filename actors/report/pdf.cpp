@@ -113,7 +113,7 @@ std::optional<int> reference(std::string_view object, std::string_view key) {
 
 }  // namespace
 
-Result<Done> print_pdf(const fs::path& page, const fs::path& pdf) {
+Result<void> print_pdf(const fs::path& page, const fs::path& pdf) {
   const std::string address = "file://" + fs::absolute(page).string();
   const fs::path said = pdf.string() + ".browser.txt";
   std::error_code ignored;
@@ -135,7 +135,7 @@ Result<Done> print_pdf(const fs::path& page, const fs::path& pdf) {
     if (!printed && ran != Ran::not_there)
       failed = std::string(browser) + " did not print it" + last_words(said);
     fs::remove(said, ignored);
-    if (printed) return Done{};
+    if (printed) return {};
   }
   return Problem{{pdf.string(), 0},
                  failed.empty() ? "no Chromium is installed to print it: install one (Debian: "

@@ -7,12 +7,12 @@
 #include <string>
 #include <string_view>
 
-#include "scenes/format/atomic_file.hpp"
+#include "runtime/core/atomic_file.hpp"
 
 namespace luxodus {
 
 /// Errors: no Chromium is installed, or none printed it; with what it said then.
-Result<Done> print_pdf(const std::filesystem::path& page, const std::filesystem::path& pdf);
+Result<void> print_pdf(const std::filesystem::path& page, const std::filesystem::path& pdf);
 
 /// Number of the page, from 1, that each named destination of a PDF is on, as Chromium writes them
 /// for links within a document. Empty where the file has none or is written another way.

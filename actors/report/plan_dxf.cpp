@@ -11,7 +11,7 @@
 
 #include "actors/report/hand_over.hpp"
 #include "actors/report/isolux.hpp"
-#include "scenes/format/output_text.hpp"
+#include "runtime/core/output_text.hpp"
 
 namespace luxodus {
 
@@ -307,7 +307,7 @@ void scale(Drawing& out, glm::dvec2 low) {
 
 }  // namespace
 
-Result<Done> write_plan_dxf(const fs::path& path, const Json& a, const Schedule& schedule,
+Result<void> write_plan_dxf(const fs::path& path, const Json& a, const Schedule& schedule,
                             size_t number) {
   const Json& level = a["plan"]["levels"][number];
   glm::dvec2 low(1e300), high(-1e300);

@@ -8,7 +8,7 @@
 #include <map>
 
 #include "actors/report/isolux.hpp"
-#include "scenes/format/output_text.hpp"
+#include "runtime/core/output_text.hpp"
 
 namespace luxodus {
 

@@ -25,11 +25,11 @@ std::string named(const fs::path& folder, const ReportOptions& options) {
   return options.named.empty() ? folder.string() : options.named;
 }
 
-Result<Done> make_folder(const fs::path& folder) {
+Result<void> make_folder(const fs::path& folder) {
   std::error_code failed;
   fs::create_directories(folder, failed);
   if (failed) return Problem{{folder.string(), 0}, "cannot make this folder: " + failed.message()};
-  return Done{};
+  return {};
 }
 
 /// "1.65" as it stands in a file's name.
@@ -37,7 +37,7 @@ std::string height_name(double metres) {
   return fmt::format("{:.2f}m", metres);
 }
 
-Result<Done> write_plans(const fs::path& folder, const Json& a, const Schedule& schedule,
+Result<void> write_plans(const fs::path& folder, const Json& a, const Schedule& schedule,
                          const Texts& texts, bool values) {
   if (auto ok = make_folder(folder); !ok.ok()) return ok;
   const Plans plans(a, schedule, texts, {});
@@ -58,10 +58,10 @@ Result<Done> write_plans(const fs::path& folder, const Json& a, const Schedule& 
     if (auto ok = write_plan_dxf(folder / (level + "plan.dxf"), a, schedule, i); !ok.ok())
       return ok;
   }
-  return Done{};
+  return {};
 }
 
-Result<Done> write_schedules(const fs::path& folder, const Json& a, const Schedule& schedule) {
+Result<void> write_schedules(const fs::path& folder, const Json& a, const Schedule& schedule) {
   if (auto ok = make_folder(folder); !ok.ok()) return ok;
   for (const auto& [name, table] : {std::pair{"luminaires.csv", luminaires_csv(a, schedule)},
                                     std::pair{"signs.csv", signs_csv(a, schedule)},
@@ -69,21 +69,21 @@ Result<Done> write_schedules(const fs::path& folder, const Json& a, const Schedu
                                     std::pair{"checks_with_places.csv", places_csv(a)},
                                     std::pair{"illuminance_points.csv", points_csv(a, schedule)}})
     if (auto ok = write_csv(folder / name, table); !ok.ok()) return ok;
-  return Done{};
+  return {};
 }
 
 /// Twice: the first print says on which page each heading is, the second has that in its contents.
-Result<Done> print_report(const fs::path& folder, const Json& a,
+Result<void> print_report(const fs::path& folder, const Json& a,
                           const std::vector<ReportPicture>& pictures,
                           const ReportOptions& options) {
   const fs::path pdf = folder / "report.pdf";
   const fs::path page = folder / fmt::format(".report.{}.html", ::getpid());
-  const auto print = [&](const std::map<std::string, int>& pages) -> Result<Done> {
+  const auto print = [&](const std::map<std::string, int>& pages) -> Result<void> {
     const auto written = write_file_atomically(
         page, report_html(a, pictures, named(folder, options), options, pages));
     return written.ok() ? print_pdf(page, pdf) : written;
   };
-  Result<Done> done = print({});
+  Result<void> done = print({});
   if (done.ok()) {
     const auto bytes = read_whole_file(pdf, pdf_bytes);
     if (bytes.ok()) done = print(pages_of_destinations(bytes_text(bytes.value())));
@@ -127,7 +127,7 @@ std::string report_html(const Json& a, const std::vector<ReportPicture>& picture
                      {options.letter, pages});
 }
 
-Result<Done> write_report(const fs::path& folder, const Json& a, const ReportOptions& options) {
+Result<void> write_report(const fs::path& folder, const Json& a, const ReportOptions& options) {
   const Schedule schedule(a);
   const Texts texts(options.language);
   const auto pictures = pictures_in(folder);
@@ -138,7 +138,7 @@ Result<Done> write_report(const fs::path& folder, const Json& a, const ReportOpt
                                       report_html(a, pictures, named(folder, options), options));
       !ok.ok())
     return ok;
-  return options.pdf ? print_report(folder, a, pictures, options) : Done{};
+  return options.pdf ? print_report(folder, a, pictures, options) : Result<void>{};
 }
 
 }  // namespace luxodus

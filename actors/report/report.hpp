@@ -34,7 +34,7 @@ std::string report_html(const Json& assessment, const std::vector<ReportPicture>
 
 /// Writes all files of a report. Requires: a JSON that check_assessment (actors/assess) has passed.
 /// Errors: a file that cannot be written; with `pdf` also no Chromium (all else is written then).
-Result<Done> write_report(const std::filesystem::path& folder, const Json& assessment,
+Result<void> write_report(const std::filesystem::path& folder, const Json& assessment,
                           const ReportOptions& options);
 
 }  // namespace luxodus

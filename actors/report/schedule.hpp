@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "scenes/format/json_out.hpp"
+#include "actors/output/json_out.hpp"
 
 namespace luxodus {
 

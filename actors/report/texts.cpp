@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "scenes/format/output_text.hpp"
+#include "runtime/core/output_text.hpp"
 
 namespace luxodus {
 

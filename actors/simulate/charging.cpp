@@ -4,19 +4,19 @@ namespace luxodus {
 
 namespace {
 
-/// What a fiber has computed since it was last charged: a batch's ledger counts it. Other fibers
+/// What a fiber has computed since it was last charged: a batch's balance counts it. Other fibers
 /// count there too, but only while this one is suspended.
 class TracingMeter {
  public:
   TracingMeter(SimClock& clock, const SimCosts& costs) : meter_(clock), costs_(costs) {}
 
   void begin(const BatchScores& scores) {
-    ledger_ = &scores.ledger;
+    ledger_ = &scores.balance;
     look_up();
   }
   /// Charges for what was counted since.
   void settle() {
-    const Ledger& now = *ledger_;
+    const EnergyBalance& now = *ledger_;
     meter_.charge(costs_.ray_ns * static_cast<double>(now.rays - rays_) +
                   costs_.collision_ns * static_cast<double>(now.collisions - collisions_));
     look_up();
@@ -32,7 +32,7 @@ class TracingMeter {
  private:
   Meter meter_;
   const SimCosts costs_;
-  const Ledger* ledger_ = nullptr;
+  const EnergyBalance* ledger_ = nullptr;
   uint64_t rays_ = 0;
   uint64_t collisions_ = 0;
 };

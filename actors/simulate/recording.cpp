@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "actors/run/batch_plan.hpp"
 #include "actors/simulate/resident_parts.hpp"
-#include "actors/source/batch_plan.hpp"
 #include "runtime/core/check.hpp"
 
 namespace luxodus {
@@ -11,7 +11,7 @@ namespace luxodus {
 namespace {
 
 /// Of every group, however small its share.
-constexpr int64_t recorded_least = 256;
+constexpr int64_t min_recorded = 256;
 
 class ReplayTracer final : public BatchTracer {
  public:
@@ -40,7 +40,7 @@ class ReplayTracer final : public BatchTracer {
     meter_.charge(here.after_ns);
     for (uint32_t s = here.first_score; s < next.first_score; ++s)
       scores.scores.data()[group.scores[s].bin] += group.scores[s].value;
-    scores.ledger.add(here.ledger);
+    scores.balance.add(here.balance);
   }
   bool ask(uint32_t object) {
     const ScenePart& part = recording_.part(object);
@@ -84,7 +84,7 @@ class Recorder {
 
  private:
   double computed_ns() {
-    const Ledger& now = scores_.ledger;
+    const EnergyBalance& now = scores_.balance;
     const double ns = costs_.ray_ns * static_cast<double>(now.rays - rays_) +
                       costs_.collision_ns * static_cast<double>(now.collisions - collisions_);
     rays_ = now.rays;
@@ -109,7 +109,7 @@ class Recorder {
       if (const int64_t value = scores_.scores[bin]; value != 0)
         group_->scores.push_back({static_cast<uint32_t>(bin), value});
     particle.after_ns = static_cast<float>(costs_.particle_ns + computed_ns());
-    particle.ledger = scores_.ledger;
+    particle.balance = scores_.balance;
     group_->particles.push_back(particle);
   }
 
@@ -143,7 +143,7 @@ Result<std::shared_ptr<const Recording>> Recording::make(const CompiledScene& sc
     const int64_t wanted = static_cast<int64_t>(shares[g] * static_cast<double>(particles)) +
                            2 * scene.batch_particles;
     recorder.record(made->groups_[g], static_cast<int>(g),
-                    std::clamp(wanted, recorded_least, limits::recorded_particles));
+                    std::clamp(wanted, min_recorded, limits::recorded_particles));
   }
   if (recorder.problem()) return *recorder.problem();
   return std::shared_ptr<const Recording>(std::move(made));

@@ -32,7 +32,7 @@ class Recording {
     uint32_t first_step = 0;
     uint32_t first_score = 0;
     float after_ns = 0;  // computed after the last step
-    Ledger ledger;
+    EnergyBalance balance;
   };
   struct Group {
     std::vector<Particle> particles;  // and one more, where the last one ends

@@ -13,10 +13,10 @@ namespace luxodus {
 class ResidentParts final : public PartsSource<ResidentParts> {
  public:
   /// Told of an object before it is given.
-  using Asked = std::function<void(uint32_t object)>;
+  using EmitterSample = std::function<void(uint32_t object)>;
 
   /// Requires: both outlive this.
-  ResidentParts(const CompiledScene& scene, const SceneObjects& objects, Asked asked = {})
+  ResidentParts(const CompiledScene& scene, const SceneObjects& objects, EmitterSample asked = {})
       : PartsSource(objects.parts()),
         objects_(objects),
         builder_(scene, objects.parts()),
@@ -52,7 +52,7 @@ class ResidentParts final : public PartsSource<ResidentParts> {
 
   const SceneObjects& objects_;
   PartBuilder builder_;
-  const Asked asked_;
+  const EmitterSample asked_;
   std::vector<std::shared_ptr<const BuiltObject>> built_;
   std::optional<Problem> problem_;
   uint64_t references_ = 0;

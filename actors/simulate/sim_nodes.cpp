@@ -112,7 +112,7 @@ std::string SimController::fault() const {
   if (auto fault = fault_of(node_.shell(), node_.shell().scheduler().fibers()); !fault.empty())
     return fault;
   if (went_back_) return "counted batches have become fewer";
-  if (!controller().adding() && !run_.totals().ledger().closes())
+  if (!controller().adding() && !run_.totals().balance().closes())
     return "the ledger does not close";
   return "";
 }

@@ -37,7 +37,7 @@ std::string SimScene::difference(const LocalRun& run) const {
     if (std::memcmp(a.data(), b.data(), b.size() * sizeof(Total)) != 0)
       return fmt::format("totals of source group {} differ from the plain loop's", g);
   }
-  if (std::memcmp(&ours.ledger(), &theirs.ledger(), sizeof(Ledger)) != 0)
+  if (std::memcmp(&ours.balance(), &theirs.balance(), sizeof(EnergyBalance)) != 0)
     return "the ledger differs from the plain loop's";
   return "";
 }

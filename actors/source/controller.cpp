@@ -47,7 +47,7 @@ Controller::Controller(const ControllerConfig& config, LocalRun& run, const Stop
           [&network](NodeId to, const MessageId& id, const Message& message,
                      const SharedBytes& payload) { network.send(to, id, message, payload); }),
       plan_(run.scene()),
-      target_(run.target_batches(stop)),
+      target_(stop.target_batches(run.scene().batch_particles)),
       batches_at_start_(run.traced()),
       began_(scheduler.clock().now()),
       error_(std::numeric_limits<double>::quiet_NaN()) {
@@ -69,8 +69,8 @@ void Controller::start() {
 bool Controller::nothing_left() const {
   if (book_.committed() >= target_) return true;
   if (!stop_.relative_error || book_.committed() == 0 || !book_.missing().empty()) return false;
-  if (run_.round_end(book_.committed() - 1) != book_.committed()) return false;
-  return Readout(run_.scene(), run_.totals()).worst_relative_error() <= *stop_.relative_error;
+  if (run_.plan().round_end(book_.committed() - 1) != book_.committed()) return false;
+  return stop_.error_is_reached(Readout(run_.scene(), run_.totals()).worst_relative_error());
 }
 
 // ---- workers that come and go ------------------------------------------------------------------
@@ -279,10 +279,9 @@ void Controller::note_book() {
 
 // ---- rounds ----------------------------------------------------------------------------------
 
-/// Rounds end where workers wait for one another: only an error target needs them.
 void Controller::open_round() {
   const int64_t planned =
-      stop_.relative_error ? std::min(target_, run_.round_end(book_.committed())) : target_;
+      stop_.next_wait(book_.committed(), run_.scene().batch_particles, run_.plan());
   const int64_t end = std::max(planned, book_.lent_end());  // of an earlier run, that lacks some
   book_.open_until(end);
   ++counters_.round;
@@ -317,10 +316,10 @@ void Controller::look_at_totals() {
 void Controller::end_round() {
   error_ = Readout(run_.scene(), run_.totals()).worst_relative_error();
   if (book_.lost() > 0) return end_run(StopReason::objects_lost);
-  if (closing_) return end_run(interrupt_.load() ? StopReason::interrupted : StopReason::time);
-  if (stop_.relative_error && error_ <= *stop_.relative_error) return end_run(StopReason::error);
-  if (book_.committed() >= target_) return end_run(StopReason::particles);
-  open_round();
+  const bool interrupted = closing_ && interrupt_.load();
+  const RunProgress here{book_.committed(), error_, interrupted, closing_ && !interrupted};
+  const auto reason = stop_.reason_to_stop(here, run_.scene().batch_particles);
+  reason ? end_run(*reason) : open_round();
 }
 
 void Controller::end_run(StopReason reason) {
@@ -405,7 +404,7 @@ void Controller::look() {
   note_book();
   let_keeper_rest();
   const double passed = static_cast<double>(now - began_) * 1e-9;
-  if (!closing_ && (interrupt_.load() || (stop_.seconds && passed >= *stop_.seconds))) {
+  if (!closing_ && (interrupt_.load() || stop_.time_is_up(passed))) {
     closing_ = true;
     book_.close();
   }
@@ -459,7 +458,7 @@ uint32_t Controller::most_to_lend() const {
   if (scheduler_.rarely(Buggify::Site::small_grant)) return 1;
   const auto workers = static_cast<int64_t>(peers_.size());
   const int64_t share = (book_.waiting() + workers - 1) / workers;
-  return static_cast<uint32_t>(std::clamp<int64_t>(share, 1, config_.leases_most));
+  return static_cast<uint32_t>(std::clamp<int64_t>(share, 1, config_.max_leases));
 }
 
 void Controller::lend(const Delivery& delivery, const RequestLease& request) {
@@ -602,7 +601,7 @@ std::string Controller::count_flush(const Arrived& arrived) {
   const auto gain = decode_flush(arrived.payload, run_.totals().groups(),
                                  config_.shards.range(0, run_.scene().layout.totals()), rest);
   if (!gain.ok()) return gain.problem().what;
-  if (gain->batches() != static_cast<int64_t>(leases.size()) || !gain->ledger().closes())
+  if (gain->batches() != static_cast<int64_t>(leases.size()) || !gain->balance().closes())
     return "its batches or its ledger do not add up";
   if (over_) return "the run has ended";
   // Committed before anything is added, so that no lease of it is fenced while others have turns.

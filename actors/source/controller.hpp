@@ -13,9 +13,9 @@
 #include <optional>
 #include <string>
 
+#include "actors/run/local_run.hpp"
 #include "actors/source/flush_keeper.hpp"
 #include "actors/source/lease_book.hpp"
-#include "actors/source/local_run.hpp"
 #include "actors/tally/shard_control.hpp"
 #include "runtime/actor/scheduler.hpp"
 #include "runtime/net/network.hpp"
@@ -42,7 +42,7 @@ struct ControllerConfig {
   /// A batch that is not back by then is lent to another: long against the slowest batch.
   Nanoseconds lease_time = seconds(120);
   Nanoseconds look_every = milliseconds(250);  // at time, interrupt and late leases
-  uint32_t leases_most = 64;                   // for one question
+  uint32_t max_leases = 64;                    // for one question
 };
 
 class Controller {

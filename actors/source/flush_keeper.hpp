@@ -14,7 +14,7 @@ class FlushKeeper {
   virtual ~FlushKeeper() = default;
   /// Keeps a flush and the numbers of its batches, whatever happens after this has returned true.
   /// Errors: it could not; the controller counts the flush all the same.
-  virtual Result<bool> keep(std::span<const int64_t> batches, std::span<const std::byte> flush) = 0;
+  virtual Result<void> keep(std::span<const int64_t> batches, std::span<const std::byte> flush) = 0;
   /// Whether it wants to tidy up; then rest() is called soon, off any fiber, when the run and its
   /// totals hold all that was kept.
   virtual bool rest_is_due() const { return false; }

@@ -88,7 +88,7 @@ Result<std::unique_ptr<FluxJournal>> FluxJournal::open(std::unique_ptr<AppendSto
       new FluxJournal(std::move(journal).value(), recovery.recovered()));
 }
 
-Result<bool> FluxJournal::keep(std::span<const int64_t> batches, std::span<const std::byte> flush) {
+Result<void> FluxJournal::keep(std::span<const int64_t> batches, std::span<const std::byte> flush) {
   const uint64_t count = batches.size();
   const size_t head = sizeof count + batches.size_bytes();
   record_.resize(head + flush.size());

@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
+#include "actors/run/local_run.hpp"
 #include "actors/source/flush_keeper.hpp"
-#include "actors/source/local_run.hpp"
 #include "runtime/storage/journal.hpp"
 
 namespace luxodus {
@@ -23,9 +23,9 @@ class FluxJournal final : public FlushKeeper {
                                                    LocalRun& run);
 
   /// Errors: as Journal::append.
-  Result<bool> keep(std::span<const int64_t> batches, std::span<const std::byte> flush) override;
+  Result<void> keep(std::span<const int64_t> batches, std::span<const std::byte> flush) override;
   /// The run's flux file holds everything now. Errors: as Journal::restart.
-  Result<bool> restart() { return journal_.restart(); }
+  Result<void> restart() { return journal_.restart(); }
 
   uint64_t bytes() const { return journal_.bytes(); }
   uint64_t records() const { return journal_.records(); }

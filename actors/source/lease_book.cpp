@@ -35,9 +35,9 @@ void LeaseBook::take(int64_t batch) {
 }
 
 Nanoseconds LeaseBook::patience(int64_t batch, Nanoseconds span) const {
-  constexpr int doublings_most = 10;
+  constexpr int max_doublings = 10;
   const auto late = late_.find(batch);
-  return late == late_.end() ? span : span << std::min(late->second, doublings_most);
+  return late == late_.end() ? span : span << std::min(late->second, max_doublings);
 }
 
 LentBatches LeaseBook::lend(NodeId node, int64_t most, Nanoseconds now, Nanoseconds span,

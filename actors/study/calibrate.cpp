@@ -4,8 +4,8 @@
 #include <fstream>
 #include <limits>
 
+#include "actors/run/batch_plan.hpp"
 #include "actors/simulate/resident_parts.hpp"
-#include "actors/source/batch_plan.hpp"
 #include "actors/tally/flush_codec.hpp"
 #include "runtime/core/processor_time.hpp"
 #include "scenes/transport/readout.hpp"
@@ -39,7 +39,7 @@ std::string machine_name() {
 
 /// Of every part, by its bytes. All are built in turn, so that none finds its data in a near cache
 /// from the last time: a node builds what has just come, and after much else.
-Result<Done> measure_builds(const CompiledScene& scene, const SceneObjects& objects,
+Result<void> measure_builds(const CompiledScene& scene, const SceneObjects& objects,
                             SimCosts& costs) {
   PartBuilder builder(scene, objects.parts());
   std::vector<std::vector<double>> rows;
@@ -56,7 +56,7 @@ Result<Done> measure_builds(const CompiledScene& scene, const SceneObjects& obje
   const auto fitted = fitted_costs(rows, values, std::numeric_limits<double>::infinity());
   costs.build_ns = fitted[0];
   costs.build_byte_ns = fitted[1];
-  return Done{};
+  return {};
 }
 
 /// Rounds over batches in their order, a piece of each.
@@ -72,15 +72,15 @@ void measure_pieces(const CompiledScene& scene, BatchTracer& tracer, const Resid
     const int64_t count =
         std::min<int64_t>(piece_particles[static_cast<size_t>(piece) % std::size(piece_particles)],
                           scene.batch_particles);
-    const Ledger before = scores.ledger;
+    const EnergyBalance before = scores.balance;
     const uint64_t references = parts.references();
     const double start = thread_seconds();
     tracer.trace(batch.group, batch.first_particle, count, scores);
     const double taken = nanoseconds_since(start);
     if (piece < warm_pieces) continue;
     rows.push_back({static_cast<double>(count),
-                    static_cast<double>(scores.ledger.rays - before.rays),
-                    static_cast<double>(scores.ledger.collisions - before.collisions),
+                    static_cast<double>(scores.balance.rays - before.rays),
+                    static_cast<double>(scores.balance.collisions - before.collisions),
                     static_cast<double>(parts.references() - references)});
     values.push_back(taken);
   }
@@ -108,7 +108,7 @@ void measure_looks(const CompiledScene& scene, BatchTracer& tracer, const Reside
 
 }  // namespace
 
-Result<Done> measure_tracing(const CompiledScene& scene, SimCosts& costs) {
+Result<void> measure_tracing(const CompiledScene& scene, SimCosts& costs) {
   const std::array holders{NodeId{0}};
   const SceneObjects objects(scene, holders, 1);
   if (auto built = measure_builds(scene, objects, costs); !built.ok()) return built;
@@ -119,10 +119,10 @@ Result<Done> measure_tracing(const CompiledScene& scene, SimCosts& costs) {
   measure_pieces(scene, *tracer, parts, costs);
   measure_looks(scene, *tracer, parts, costs);
   if (parts.problem()) return *parts.problem();
-  return Done{};
+  return {};
 }
 
-Result<Done> measure_counting(const CompiledScene& scene, SimCosts& costs) {
+Result<void> measure_counting(const CompiledScene& scene, SimCosts& costs) {
   const std::array holders{NodeId{0}};
   const SceneObjects objects(scene, holders, 1);
   const EmbreeDevice device;
@@ -162,7 +162,7 @@ Result<Done> measure_counting(const CompiledScene& scene, SimCosts& costs) {
   costs.lease_ns = leases_ns / static_cast<double>(merged_batches);
   costs.pack_byte_ns = pack_ns / bytes;
   costs.count_byte_ns = count_ns / bytes;
-  return Done{};
+  return {};
 }
 
 Result<MeasuredCosts> calibrate(const CompiledScene& scene,

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "actors/study/study_file.hpp"
-#include "scenes/format/atomic_file.hpp"
+#include "runtime/core/atomic_file.hpp"
 #include "scenes/transport/compiled_scene.hpp"
 
 namespace luxodus {
@@ -20,11 +20,11 @@ Result<MeasuredCosts> calibrate(const CompiledScene& scene,
 // The parts of it.
 
 /// particle, ray, collision, reference, look, build, build_byte.
-Result<Done> measure_tracing(const CompiledScene& scene, SimCosts& costs);
+Result<void> measure_tracing(const CompiledScene& scene, SimCosts& costs);
 /// lease, pack_byte, count_byte.
-Result<Done> measure_counting(const CompiledScene& scene, SimCosts& costs);
+Result<void> measure_counting(const CompiledScene& scene, SimCosts& costs);
 /// switch, turn, receive, send, frame_byte, wake.
-Result<Done> measure_loop(SimCosts& costs);
+Result<void> measure_loop(SimCosts& costs);
 
 /// Non-negative x with the least squares of the relative errors of `rows` x = `values`, scaled so
 /// that the sums agree. Rows of more than `disturbed` times what the others say, which something

@@ -160,7 +160,7 @@ RoundTrip round_trip(Peer& first, Peer& second) {
   return {spans[trips / 2], work};
 }
 
-Result<Done> measure_frames(SimCosts& costs) {
+Result<void> measure_frames(SimCosts& costs) {
   ZmqContext context({});
   Peer first(context, asker), second(context, holder);
   const Endpoints where{"inproc://calibrate", "inproc://calibrate-bulk"};
@@ -183,12 +183,12 @@ Result<Done> measure_frames(SimCosts& costs) {
   // Each end sends a frame and receives one, and rests once.
   costs.rest_ns = std::max(0.0, trip.work - small / 2);
   costs.wake_ns = std::max(0.0, trip.span / 2 - small / 2 - costs.rest_ns);
-  return Done{};
+  return {};
 }
 
 }  // namespace
 
-Result<Done> measure_loop(SimCosts& costs) {
+Result<void> measure_loop(SimCosts& costs) {
   measure_switches(costs);
   return measure_frames(costs);
 }

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "actors/study/report.hpp"
-#include "scenes/format/output_text.hpp"
+#include "runtime/core/output_text.hpp"
 
 namespace luxodus {
 

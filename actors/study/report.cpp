@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 
-#include "scenes/format/file_names.hpp"
+#include "actors/output/file_names.hpp"
 
 namespace luxodus {
 
@@ -199,7 +199,7 @@ SvgPlot study_plot(const StudyOutcome& outcome, const StudyPlot& plot) {
       series.y.push_back(spread.mean);
       series.error.push_back(spread.deviation);
     }
-    if (!series.x.empty() && out.series.size() < limits::plot_series_most)
+    if (!series.x.empty() && out.series.size() < limits::max_plot_series)
       out.series.push_back(std::move(series));
   }
   return out;
@@ -211,7 +211,7 @@ OutputPlan study_output(const Study& study) {
   return plan;
 }
 
-Result<Done> write_study(const std::filesystem::path& folder, const StudyOutcome& outcome) {
+Result<void> write_study(const std::filesystem::path& folder, const StudyOutcome& outcome) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) return Problem{{folder.string(), 0}, "cannot make this folder: " + error.message()};

@@ -5,12 +5,12 @@
 
 #include <filesystem>
 
+#include "actors/output/csv.hpp"
+#include "actors/output/json_out.hpp"
+#include "actors/output/output_folder.hpp"
+#include "actors/output/svg_plot.hpp"
 #include "actors/study/results.hpp"
 #include "actors/study/study_file.hpp"
-#include "scenes/format/csv.hpp"
-#include "scenes/format/json_out.hpp"
-#include "scenes/format/output_folder.hpp"
-#include "scenes/format/svg_plot.hpp"
 
 namespace luxodus {
 
@@ -68,6 +68,6 @@ OutputPlan study_output(const Study& study);
 
 /// results.csv, results.json, NAME.svg of each plot, index.html.
 /// Errors: as write_file_atomically; a folder that cannot be made.
-Result<Done> write_study(const std::filesystem::path& folder, const StudyOutcome& outcome);
+Result<void> write_study(const std::filesystem::path& folder, const StudyOutcome& outcome);
 
 }  // namespace luxodus

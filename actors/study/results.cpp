@@ -102,7 +102,7 @@ uint64_t flux_hash_of(const Totals& totals) {
     const auto& bins = totals.state(g).totals;
     hash.add(bins.data(), bins.size() * sizeof(Total));
   }
-  hash.add(&totals.ledger(), sizeof(Ledger));
+  hash.add(&totals.balance(), sizeof(EnergyBalance));
   return hash.value();
 }
 

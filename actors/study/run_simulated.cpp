@@ -69,7 +69,7 @@ class SimulatedRun {
 void SimulatedRun::settle_in(NodeSetup& node) {
   node.start = node.lost = longest_run;
   node.stall = seconds(3600);
-  node.fibers.maps_most = std::max<size_t>(2, maps_of_all_nodes / setups_.size());
+  node.fibers.max_maps = std::max<size_t>(2, maps_of_all_nodes / setups_.size());
   node.faults = {};  // the world's links do it
 }
 
@@ -137,7 +137,7 @@ void SimulatedRun::note_world() {
     const double busy_s = 1e-9 * static_cast<double>(world_->clock(node.net.self).busy());
     (node.net.self == controller() ? result_.controller_s : result_.busy_s) += busy_s;
   }
-  result_.particles = static_cast<double>(local_->totals().ledger().particles);
+  result_.particles = static_cast<double>(local_->totals().balance().particles);
   result_.nodes = options_.nodes;
   result_.flux_hash = flux_hash_of(local_->totals());
   result_.frames = static_cast<double>(world_->counters().frames);

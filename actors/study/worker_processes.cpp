@@ -51,7 +51,7 @@ WorkerProcesses::~WorkerProcesses() {
   }
 }
 
-Result<Done> WorkerProcesses::start(const PlannedNodes& nodes) {
+Result<void> WorkerProcesses::start(const PlannedNodes& nodes) {
   for (const NodeSetup& node : nodes.workers()) {
     std::array<int, 2> pipe{};
     if (::pipe(pipe.data()) != 0) return Problem{{}, "the system opens no more pipes"};
@@ -64,7 +64,7 @@ Result<Done> WorkerProcesses::start(const PlannedNodes& nodes) {
     }
     workers_.push_back({pid, pipe[0], true});
   }
-  return Done{};
+  return {};
 }
 
 void WorkerProcesses::reap(Worker& worker, int options) {

@@ -22,7 +22,7 @@ class WorkerProcesses {
 
   /// All workers of the plan. Requires: no context of sockets is open here yet.
   /// Errors: the system starts no more.
-  Result<Done> start(const PlannedNodes& nodes);
+  Result<void> start(const PlannedNodes& nodes);
   /// Whether one has ended with an error.
   bool failed();
   /// Waits until all have ended: what they did, together. Errors: one that failed.

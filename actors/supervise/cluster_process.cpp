@@ -7,16 +7,16 @@
 #include <array>
 
 #include "actors/objects/profile_file.hpp"
+#include "actors/output/file_names.hpp"
 #include "actors/supervise/node_plan.hpp"
+#include "actors/supervise/out_of_core_for.hpp"
 #include "actors/supervise/residency_setup.hpp"
-#include "actors/supervise/stored_rows.hpp"
 #include "runtime/config/cluster_file.hpp"
+#include "runtime/core/atomic_file.hpp"
+#include "runtime/core/output_path.hpp"
 #include "runtime/fiber/sanitizers.hpp"
-#include "scenes/format/atomic_file.hpp"
-#include "scenes/format/file_names.hpp"
-#include "scenes/format/output_path.hpp"
-#include "scenes/format/scene_file.hpp"
 #include "scenes/pack/scene_pack.hpp"
+#include "scenes/scene_file/scene_file.hpp"
 #include "scenes/transport/compile.hpp"
 #include "topology/graph_file.hpp"
 #include "topology/shipped.hpp"
@@ -43,8 +43,8 @@ Result<Graph> found_graph(const ClusterConfig& cluster) {
   const TopologyChoice& choice = cluster.topology;
   AmpRequest request;
   request.nodes = static_cast<uint32_t>(cluster.workers());
-  request.links = choice.links_most;
-  request.controller_links = std::min(choice.controller_links_most, request.nodes);
+  request.links = choice.max_links;
+  request.controller_links = std::min(choice.max_controller_links, request.nodes);
   request.controller_forwards = choice.controller == TopologyChoice::Controller::forwards;
   auto graph = minimum_path_graph(request);
   if (!graph.ok()) return Problem{{cluster.file.string(), 0}, graph.problem().what};
@@ -54,7 +54,7 @@ Result<Graph> found_graph(const ClusterConfig& cluster) {
 Result<Graph> listed_graph(const ClusterConfig& cluster) {
   GraphPlan plan;
   plan.workers = static_cast<uint32_t>(cluster.workers());
-  plan.links_most = cluster.topology.links_most;
+  plan.max_links = cluster.topology.max_links;
   plan.controller = cluster.topology.controller == TopologyChoice::Controller::forwards
                         ? ControllerRole::forwards
                         : ControllerRole::endpoint;
@@ -79,8 +79,8 @@ std::string where_results_go(const ClusterConfig& cluster) {
       cluster.view.live ? "a live view of " + cluster.file.string()
                         : std::filesystem::absolute(cluster.run.out).lexically_normal().string();
   // The end of a long path tells it apart. Two such names have room in a refusal.
-  constexpr size_t chars_most = 180;
-  return text.size() <= chars_most ? text : "..." + text.substr(text.size() - chars_most);
+  constexpr size_t max_chars = 180;
+  return text.size() <= max_chars ? text : "..." + text.substr(text.size() - max_chars);
 }
 
 }  // namespace
@@ -137,8 +137,8 @@ Result<std::unique_ptr<ClusterProcessRun>> ClusterProcessRun::prepare(
   return process;
 }
 
-Result<bool> ClusterProcessRun::load_keys(const std::vector<NodeId>& nodes) {
-  if (cluster_.keys.folder.empty()) return true;
+Result<void> ClusterProcessRun::load_keys(const std::vector<NodeId>& nodes) {
+  if (cluster_.keys.folder.empty()) return {};
   for (const NodeId node : nodes) {
     auto keys = read_keys(key_path(cluster_.keys.folder, cluster_.node(node).name));
     if (!keys.ok()) return keys.problem();
@@ -149,7 +149,7 @@ Result<bool> ClusterProcessRun::load_keys(const std::vector<NodeId>& nodes) {
     if (!key.ok()) return key.problem();
     public_keys_.emplace(NodeId{i}, std::move(key).value());
   }
-  return true;
+  return {};
 }
 
 namespace {
@@ -163,7 +163,7 @@ Result<std::shared_ptr<const SceneDescription>> described(const std::filesystem:
 
 }  // namespace
 
-Result<bool> ClusterProcessRun::load_scene() {
+Result<void> ClusterProcessRun::load_scene() {
   auto description = described(cluster_.run.scene);
   if (!description.ok()) return description.problem();
   auto scenario = find_scenario(*description.value(), cluster_.run.scenario);
@@ -182,19 +182,19 @@ Result<bool> ClusterProcessRun::load_scene() {
   const uint64_t seed = description.value()->run.seed;
   if (!fetches_) {
     run_ = std::make_unique<LocalRun>(scene.value(), seed, 1);
-    return true;
+    return {};
   }
   if (!in_parts(*scene.value())) {
     return Problem{{cluster_.run.scene.string(), 0},
                    "this pack is of one cell, which is more than a node's object_bytes: pack the "
                    "scene with a smaller --cell-kib"};
   }
-  StoredRowsConfig rows;
+  OutOfCoreConfig rows;
   rows.object_bytes = cluster_.node(cluster_.controller()).budget.object_bytes;
   rows.sharing = cluster_.run.sharing;
   run_ = std::make_unique<LocalRun>(scene.value(), seed, 1,
-                                    std::make_unique<StoredRows>(scene.value(), rows));
-  return true;
+                                    std::make_unique<OutOfCoreParallelFor>(scene.value(), rows));
+  return {};
 }
 
 Result<ReferenceProfile> ClusterProcessRun::profile(double share) const {
@@ -242,7 +242,7 @@ Result<NodeSetup> ClusterProcessRun::setup_of(NodeId self, const RunSetup& run) 
   node.prefetch = budget.prefetch;
   node.pinned_share = cluster_.run.profile.empty() ? 0 : pinned_share;
   node.fibers.stack_bytes = budget.stack_bytes * sanitizers::stack_factor;
-  if (budget.maps_most > 0) node.fibers.maps_most = budget.maps_most;
+  if (budget.max_maps > 0) node.fibers.max_maps = budget.max_maps;
   node.stall = cluster_.timeouts.stall;
   node.start = cluster_.timeouts.start;
   node.lost = cluster_.timeouts.lost;
@@ -266,7 +266,7 @@ ObserveOptions ClusterProcessRun::observe_options() const {
   return options;
 }
 
-Result<bool> ClusterProcessRun::open_journal(const Clock& clock) {
+Result<void> ClusterProcessRun::open_journal(const Clock& clock) {
   RunJournalConfig config;
   config.folder = cluster_.run.out;
   config.self = cluster_.controller();
@@ -280,7 +280,7 @@ Result<bool> ClusterProcessRun::open_journal(const Clock& clock) {
   if (journal_->recovered() > 0)
     spdlog::warn("run=recovered batches={} text=\"an earlier life of this node has counted them\"",
                  journal_->recovered());
-  return true;
+  return {};
 }
 
 void ClusterProcessRun::forget_journal() const {
@@ -292,8 +292,8 @@ void ClusterProcessRun::make_room() const {
 }
 
 /// Beside the results, under the name of the process: several may share the folder.
-Result<Done> ClusterProcessRun::write_trace(const Observation& seen) const {
-  if (!seen.traces()) return Done{};
+Result<void> ClusterProcessRun::write_trace(const Observation& seen) const {
+  if (!seen.traces()) return {};
   std::error_code failed;
   std::filesystem::create_directories(cluster_.run.out, failed);
   if (failed)

@@ -81,13 +81,13 @@ class ClusterProcessRun {
   }
   struct Prepared;
   Result<std::unique_ptr<Prepared>> prepare_nodes();
-  Result<bool> load_scene();
-  Result<bool> load_keys(const std::vector<NodeId>& nodes);
+  Result<void> load_scene();
+  Result<void> load_keys(const std::vector<NodeId>& nodes);
   Result<std::optional<Residency>> planned_residency(const RunSetup& run) const;
   Result<NodeSetup> setup_of(NodeId self, const RunSetup& run) const;
-  Result<bool> open_journal(const Clock& clock);
+  Result<void> open_journal(const Clock& clock);
   ObserveOptions observe_options() const;
-  Result<Done> write_trace(const Observation& seen) const;
+  Result<void> write_trace(const Observation& seen) const;
 
   const ClusterConfig cluster_;
   const Graph graph_;

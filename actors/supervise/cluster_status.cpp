@@ -15,7 +15,7 @@ namespace luxodus {
 
 namespace {
 
-/// Asked at once: dead hosts then cost their patience once, and a thread is cheap.
+/// EmitterSample at once: dead hosts then cost their patience once, and a thread is cheap.
 constexpr size_t asked_at_once = 32;
 
 /// What one page says of one node, by the numbers' names; of several links or hops the sum.

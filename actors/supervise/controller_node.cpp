@@ -12,7 +12,7 @@ ControllerConfig controller_config(const RunSetup& setup, const NodeSetup& node,
   config.keeper = keeper;
   config.lease_time = node.lease_time;
   config.group_ranks = node.group_ranks;
-  config.leases_most = static_cast<uint32_t>(node.photons.leases);
+  config.max_leases = static_cast<uint32_t>(node.photons.leases);
   config.start = node.start;
   config.lost = node.lost;
   config.names = setup.names;
@@ -30,7 +30,7 @@ ControllerNode::ControllerNode(const RunSetup& setup, const NodeSetup& node, Loc
                                FlushKeeper* keeper)
     : setup_(setup),
       self_(node.net.self),
-      shell_({controller_net(setup, node), controller_limits(node), ShellConfig{}.room_bytes_most,
+      shell_({controller_net(setup, node), controller_limits(node), ShellConfig{}.max_room_bytes,
               node.shutdown_phase, setup.routes},
              setup.graph, seams.clock, seams.transport),
       controller_(controller_config(setup, node, keeper), run, stop, interrupt, std::move(report),

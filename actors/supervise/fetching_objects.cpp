@@ -52,7 +52,7 @@ void WorkerReport::add(const WorkerReport& other) {
   largest_resident_bytes = std::max(largest_resident_bytes, other.largest_resident_bytes);
   pinned_bytes += other.pinned_bytes;
   tally_full += other.tally_full;
-  tally_bytes_most = std::max(tally_bytes_most, other.tally_bytes_most);
+  max_tally_bytes = std::max(max_tally_bytes, other.max_tally_bytes);
   fetch_delay.merge(other.fetch_delay);
   object_wait.merge(other.object_wait);
   hops += other.hops;

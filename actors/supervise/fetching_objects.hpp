@@ -22,12 +22,12 @@ struct WorkerReport {
   uint64_t fetched_bytes = 0;
   uint64_t largest_resident_bytes = 0;  // of one node, when it ended
   uint64_t pinned_bytes = 0;
-  uint64_t tally_full = 0;        // times that a batch waited for room in the tally
-  uint64_t tally_bytes_most = 0;  // of one node, where its budget is less than all bins take
-  Histogram fetch_delay;          // of objects that came over links: from the wish to the bytes
-  Histogram object_wait;          // of fibers: from asking for an object to going on with it
-  uint64_t hops = 0;              // links that fetched objects passed, all together
-  uint64_t processor_ns = 0;      // of real nodes' threads while they ran
+  uint64_t tally_full = 0;       // times that a batch waited for room in the tally
+  uint64_t max_tally_bytes = 0;  // of one node, where its budget is less than all bins take
+  Histogram fetch_delay;         // of objects that came over links: from the wish to the bytes
+  Histogram object_wait;         // of fibers: from asking for an object to going on with it
+  uint64_t hops = 0;             // links that fetched objects passed, all together
+  uint64_t processor_ns = 0;     // of real nodes' threads while they ran
 
   void add(const WorkerReport& other);
   /// Of all references to objects, those that found the object resident; 1 where there was none.

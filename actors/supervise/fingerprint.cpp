@@ -45,7 +45,7 @@ std::shared_ptr<const CompiledScene> tiny_room() {
     smoke.layers.push_back({1.25 * i, 1.25 * (i + 1), optics});
   }
   scene->media.push_back(smoke);
-  scene->run.bands_most = 1;
+  scene->run.max_bands = 1;
   auto compiled = compile_scene(scene, find_scenario(*scene, "").value(), {});
   if (!compiled.ok()) throw std::logic_error("fingerprint: " + compiled.problem().text());
   return compiled.value();

@@ -96,7 +96,7 @@ SchedulerLimits worker_limits(const RunSetup& run, const NodeSetup& node) {
   limits.stall = node.stall;
   limits.buggify = node.buggify;
   // Leases, the watch for the end, publishing, and a few to spare.
-  limits.timers_beside_fibers = 16 + Fetcher::timers_most(node.fetch) + ObjectCache::timers_most;
+  limits.timers_beside_fibers = 16 + Fetcher::max_timers(node.fetch) + ObjectCache::max_timers;
   return limits;
 }
 
@@ -170,9 +170,9 @@ MemoryPlan controller_plan(const RunSetup& run, const NodeSetup& node) {
                        sizeof(TotalsGain::Bin)));
   const size_t workers = run.graph.workers();
   plan.add("flushes coming in",
-           std::min<uint64_t>(ShellConfig{}.room_bytes_most, workers * bins * flush_bytes_of_bin),
+           std::min<uint64_t>(ShellConfig{}.max_room_bytes, workers * bins * flush_bytes_of_bin),
            fmt::format("of {} workers at once, at most {} B of all", workers,
-                       ShellConfig{}.room_bytes_most));
+                       ShellConfig{}.max_room_bytes));
   add_metrics(plan, run, 0);
   return plan;
 }
@@ -193,7 +193,7 @@ std::optional<std::string> budget_fault(const RunSetup& run, const NodeSetup& no
         name, mebibytes(least), mebibytes(node.tally_bytes));
   if (run.objects == nullptr) return std::nullopt;
   const CacheConfig cache = cache_config(*run.objects, node);
-  const uint64_t needed = 2 * cache.largest_build_bytes + cache.pinned_bytes_most();
+  const uint64_t needed = 2 * cache.largest_build_bytes + cache.max_pinned_bytes();
   if (cache.budget_bytes < needed)
     return fmt::format(
         "node {}: its cache needs {}, room for the largest object and one more being built, and "

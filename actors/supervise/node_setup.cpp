@@ -27,7 +27,7 @@ uint64_t hash_of(const RunSetup& run) {
 constexpr size_t longest_message = 1u << 30;
 }  // namespace
 
-Result<bool> join_links(ZmqTransport& transport, const NodeSetup& node) {
+Result<void> join_links(ZmqTransport& transport, const NodeSetup& node) {
   for (const Endpoints& where : node.links.listen) {
     if (auto at = transport.listen(where); !at.ok()) return at.problem();
   }
@@ -37,7 +37,7 @@ Result<bool> join_links(ZmqTransport& transport, const NodeSetup& node) {
                                 key == node.public_keys.end() ? std::string() : key->second);
     if (!to.ok()) return to.problem();
   }
-  return true;
+  return {};
 }
 
 std::string NodeTransport::meeting_trouble(const Network& network) const {
@@ -75,7 +75,7 @@ void complete(NetConfig& net, const RunSetup& run) {
   const uint32_t hops = routes.longest() + 2;  // a detour around one failure
   net.hop_limit =
       std::max(net.hop_limit, static_cast<uint8_t>(std::min<uint32_t>(limits::hops, hops)));
-  net.message_bytes_most = std::max(net.message_bytes_most, longest_message);
+  net.max_message_bytes = std::max(net.max_message_bytes, longest_message);
 }
 
 }  // namespace luxodus

@@ -118,7 +118,7 @@ class NodeTransport {
 
 /// Listens and connects as the setup says.
 /// Errors: an endpoint that is taken, is none, or asks for keys that there are not.
-Result<bool> join_links(ZmqTransport& transport, const NodeSetup& node);
+Result<void> join_links(ZmqTransport& transport, const NodeSetup& node);
 
 /// The identity that all nodes of a run share, and limits that follow from its graph.
 void complete(NetConfig& net, const RunSetup& run);

@@ -69,7 +69,7 @@ class NodeShell::Handler final : public NetHandler {
     }
     size_t taken = 0;
     for (const auto& [key, room] : rooms_) taken += room.size() * sizeof(uint64_t);
-    if (taken + bytes > shell_.config_.room_bytes_most ||
+    if (taken + bytes > shell_.config_.max_room_bytes ||
         rarely(shell_.config_.net.buggify, Buggify::Site::no_room))
       return {};
     auto& room = rooms_[key_of(id)];

@@ -23,7 +23,7 @@ struct ShellConfig {
   NetConfig net;
   SchedulerLimits scheduler;
   /// Bytes of one message in pieces that is taken in at once, and of all of them.
-  size_t room_bytes_most = 1 << 30;
+  size_t max_room_bytes = 1 << 30;
   Nanoseconds shutdown_phase = seconds(5);  // for each step of its end
   /// Of the whole graph, where somebody has made them: they take seconds for a thousand nodes.
   const Routes* routes = nullptr;

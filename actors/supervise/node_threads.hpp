@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "actors/objects/residency.hpp"
-#include "actors/source/local_run.hpp"
+#include "actors/run/local_run.hpp"
 #include "actors/supervise/worker.hpp"
 #include "runtime/core/result.hpp"
 

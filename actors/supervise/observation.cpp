@@ -59,8 +59,8 @@ NodeTrace* Observation::trace_of(NodeId node) {
   return before->get();
 }
 
-Result<Done> Observation::write_trace(const std::filesystem::path& file) const {
-  if (trace_every_ == 0) return Done{};
+Result<void> Observation::write_trace(const std::filesystem::path& file) const {
+  if (trace_every_ == 0) return {};
   const std::lock_guard lock(mutex_);
   std::vector<TraceTrack> tracks;
   for (const auto& trace : traces_) tracks.push_back({trace->node(), trace->ring().kept()});

@@ -11,10 +11,10 @@
 #include <string>
 #include <vector>
 
+#include "runtime/core/atomic_file.hpp"
 #include "runtime/observe/metrics.hpp"
 #include "runtime/observe/metrics_server.hpp"
 #include "runtime/observe/node_trace.hpp"
-#include "scenes/format/atomic_file.hpp"
 
 namespace luxodus {
 
@@ -51,7 +51,7 @@ class Observation {
   bool watches() const { return server_ != nullptr || traces(); }
   /// Writes what all nodes have told as Chrome's trace format, whole or not at all; nothing where
   /// nothing is traced. Requires: the nodes have ended. Errors: as write_file_atomically.
-  Result<Done> write_trace(const std::filesystem::path& file) const;
+  Result<void> write_trace(const std::filesystem::path& file) const;
 
  private:
   explicit Observation(uint64_t trace_every) : trace_every_(trace_every) {}

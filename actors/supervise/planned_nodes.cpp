@@ -11,14 +11,14 @@ namespace luxodus {
 
 namespace {
 
-constexpr uint32_t controller_links_most = 4;
+constexpr uint32_t max_controller_links = 4;
 
 Result<Graph> graph_for(const NodesOptions& options) {
   if (options.graph) return *options.graph;
   AmpRequest request;
   request.nodes = static_cast<uint32_t>(options.nodes);
   request.links = static_cast<uint32_t>(options.links);
-  request.controller_links = std::min(request.nodes, controller_links_most);
+  request.controller_links = std::min(request.nodes, max_controller_links);
   return minimum_path_graph(request);
 }
 
@@ -139,14 +139,14 @@ PlannedNodes::PlannedNodes(const LocalRun& run, const NodesOptions& options, Gra
 }
 
 /// Who traces, holds and keeps what: before the nodes are set up, whose handshake covers it.
-Result<bool> PlannedNodes::plan_residency(const LocalRun& run, const NodesOptions& options,
+Result<void> PlannedNodes::plan_residency(const LocalRun& run, const NodesOptions& options,
                                           const StopRule& stop) {
-  if (!objects_) return true;
+  if (!objects_) return {};
   auto planned = planned_residency(setup_, options, profile_size(run, stop, options));
   if (!planned.ok()) return planned.problem();
   residency_ = std::move(planned).value();
   if (residency_) objects_->place(residency_->holders);
-  return true;
+  return {};
 }
 
 void PlannedNodes::set_up(const NodesOptions& options, uint64_t run_id) {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "actors/objects/residency.hpp"
-#include "actors/source/local_run.hpp"
+#include "actors/run/local_run.hpp"
 #include "actors/supervise/node_setup.hpp"
 #include "runtime/core/result.hpp"
 
@@ -49,8 +49,8 @@ struct NodesOptions {
   uint64_t tally_bytes = NodeSetup{}.tally_bytes;  // of each node, for scores, totals and flushes
   int tally_shards = 1;  // of the totals: the controller's, and those of the first workers
   Observation* observation = nullptr;  // where somebody watches
-  /// Asked by each worker every few milliseconds, on its own thread: whether it shall end before
-  /// the run does.
+  /// EmitterSample by each worker every few milliseconds, on its own thread: whether it shall end
+  /// before the run does.
   std::function<bool()> stop = [] { return false; };
 };
 
@@ -71,7 +71,7 @@ class PlannedNodes {
 
  private:
   PlannedNodes(const LocalRun& run, const NodesOptions& options, Graph graph);
-  Result<bool> plan_residency(const LocalRun& run, const NodesOptions& options,
+  Result<void> plan_residency(const LocalRun& run, const NodesOptions& options,
                               const StopRule& stop);
   void set_up(const NodesOptions& options, uint64_t run_id);
 

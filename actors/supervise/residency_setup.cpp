@@ -6,7 +6,7 @@
 #include <deque>
 #include <limits>
 
-#include "actors/source/batch_plan.hpp"
+#include "actors/run/batch_plan.hpp"
 
 namespace luxodus {
 
@@ -53,8 +53,8 @@ Residency residency_for(const ReferenceProfile& profile, const CompiledScene& sc
   for (Vertex node = 0; node < graph.workers(); ++node) {
     const CacheConfig cache =
         object_cache(objects, budgets.object_bytes[node], budgets.pinned_share);
-    request.resident_bytes.push_back(cache.resident_bytes_most());
-    request.pinned_bytes.push_back(cache.pinned_bytes_most());
+    request.resident_bytes.push_back(cache.max_resident_bytes());
+    request.pinned_bytes.push_back(cache.max_pinned_bytes());
     request.hops.push_back(hops_from(graph, node));
   }
   return plan_residency(request);

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "actors/source/flux_store.hpp"
+#include "actors/run/flux_store.hpp"
 #include "runtime/storage/faulty_store.hpp"
 
 namespace luxodus {
@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Room that is kept for a flux file at most [bytes]: large ones are mostly zeros, which take none.
-constexpr uint64_t room_most = uint64_t{256} << 20;
+constexpr uint64_t max_room = uint64_t{256} << 20;
 /// And for what is written beside it.
 constexpr uint64_t room_beside = uint64_t{4} << 20;
 
@@ -51,12 +51,12 @@ Result<std::unique_ptr<RunJournal>> RunJournal::open(const RunJournalConfig& con
 void RunJournal::keep_room() {
   const auto groups = static_cast<uint64_t>(run_.totals().groups());
   const auto bins = static_cast<uint64_t>(run_.scene().layout.totals());
-  const uint64_t bytes = std::min(room_most, groups * bins * sizeof(Total)) + room_beside;
+  const uint64_t bytes = std::min(max_room, groups * bins * sizeof(Total)) + room_beside;
   if (auto kept = room_.take(config_.folder, bytes); !kept.ok())
     spdlog::warn("journal=no_room text=\"{}\"", kept.problem().text());
 }
 
-Result<bool> RunJournal::keep(std::span<const int64_t> batches, std::span<const std::byte> flush) {
+Result<void> RunJournal::keep(std::span<const int64_t> batches, std::span<const std::byte> flush) {
   auto kept = journal_->keep(batches, flush);
   if (!kept.ok()) lacks_ = true;
   return kept;
@@ -64,7 +64,7 @@ Result<bool> RunJournal::keep(std::span<const int64_t> batches, std::span<const 
 
 /// The snapshot has its name before the journal is cut: between the two, what the journal holds is
 /// known to be in the snapshot.
-Result<bool> RunJournal::make_snapshot() {
+Result<void> RunJournal::make_snapshot() {
   if (auto saved = save_flux(snapshot(), run_); !saved.ok()) return saved.problem();
   return journal_->restart();
 }

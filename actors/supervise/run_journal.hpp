@@ -25,7 +25,7 @@ namespace luxodus {
 
 struct RunJournalConfig {
   std::filesystem::path folder;
-  uint64_t bytes_most = 256 << 20;  // then it becomes a snapshot
+  uint64_t max_bytes = 256 << 20;   // then it becomes a snapshot
   Nanoseconds retry = seconds(10);  // between snapshots for want of room
   NodeId self;
   FaultPlan faults;
@@ -38,10 +38,10 @@ class RunJournal final : public FlushKeeper {
   static Result<std::unique_ptr<RunJournal>> open(const RunJournalConfig& config, LocalRun& run,
                                                   const Clock& clock);
 
-  Result<bool> keep(std::span<const int64_t> batches, std::span<const std::byte> flush) override;
+  Result<void> keep(std::span<const int64_t> batches, std::span<const std::byte> flush) override;
   /// Where the journal is long, or lacks a flush that the totals have.
   bool rest_is_due() const override {
-    return (lacks_ || journal_->bytes() >= config_.bytes_most) && clock_.now() >= not_before_;
+    return (lacks_ || journal_->bytes() >= config_.max_bytes) && clock_.now() >= not_before_;
   }
   /// Makes a snapshot, from which on the journal begins anew.
   void rest() override;
@@ -60,7 +60,7 @@ class RunJournal final : public FlushKeeper {
   RunJournal(const RunJournalConfig& config, LocalRun& run, const Clock& clock)
       : config_(config), run_(run), clock_(clock) {}
   void keep_room();
-  Result<bool> make_snapshot();
+  Result<void> make_snapshot();
   std::filesystem::path snapshot() const { return config_.folder / "run.snapshot"; }
   std::filesystem::path journal() const { return config_.folder / "run.journal"; }
 

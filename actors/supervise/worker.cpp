@@ -29,8 +29,8 @@ Worker::Worker(const RunSetup& run, const NodeSetup& node, const NodeSeams& seam
     : run_(run),
       node_(node),
       trace_(run.observation == nullptr ? nullptr : run.observation->trace_of(node.net.self)),
-      shell_({node.net, worker_limits(run, node), ShellConfig{}.room_bytes_most,
-              node.shutdown_phase, run.routes},
+      shell_({node.net, worker_limits(run, node), ShellConfig{}.max_room_bytes, node.shutdown_phase,
+              run.routes},
              run.graph, seams.clock, seams.transport),
       objects_(run.objects == nullptr ? nullptr
                                       : std::make_unique<FetchingObjects>(
@@ -47,7 +47,7 @@ Worker::Worker(const RunSetup& run, const NodeSetup& node, const NodeSeams& seam
 Worker::~Worker() = default;
 
 /// To this node's own shard and lease client messages come between turns, as from the network.
-Post Worker::post() {
+SendFunction Worker::post() {
   return
       [this](NodeId to, const MessageId& id, const Message& message, const SharedBytes& payload) {
         if (to != node_.net.self) {
@@ -120,7 +120,7 @@ Result<WorkerReport> Worker::result() const {
   WorkerReport report = objects_ ? objects_->report() : WorkerReport{};
   report.waited = shell_.scheduler().counters().waited;
   report.tally_full = photons_.counters().tally_full;
-  report.tally_bytes_most = photons_.counters().tally_bytes_most;
+  report.max_tally_bytes = photons_.counters().max_tally_bytes;
   return report;
 }
 

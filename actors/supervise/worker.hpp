@@ -37,7 +37,7 @@ class Worker {
  private:
   void show_to(Observation& seen);
   bool may_leave();
-  Post post();
+  SendFunction post();
   void deliver_own();
   std::unique_ptr<TallyShard> own_shard();
 
@@ -53,7 +53,7 @@ class Worker {
   };
   std::deque<OwnMessage> own_messages_;
   std::unique_ptr<TallyShard> shard_;  // where it holds one of the totals
-  PartSender parts_;
+  SliceSender parts_;
   LeaseClient leases_;
   PhotonThreads photons_;
   std::optional<NodeMetrics> metrics_;

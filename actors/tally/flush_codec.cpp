@@ -15,7 +15,7 @@ constexpr int fast = 1;  // of zstd's levels: a flush is packed on the node's ow
 constexpr size_t longest_number = 19;  // bytes of 128 bits, seven at a time
 constexpr size_t numbers_of_ledger = 11;
 /// A flush is packed to a fraction of what it may be; one that is longer takes memory as it grows.
-constexpr uint64_t reserved_bytes_most = 64 << 20;
+constexpr uint64_t max_reserved_bytes = 64 << 20;
 constexpr uint64_t reserved_step_bins = 16384;
 
 /// Between two rests: about half a millisecond of either.
@@ -58,7 +58,7 @@ void put(std::vector<std::byte>& out, UInt128 v) {
   numbers.move_to(out);
 }
 
-void put_ledger(std::vector<std::byte>& out, const Ledger& l) {
+void put_ledger(std::vector<std::byte>& out, const EnergyBalance& l) {
   Numbers numbers;
   for (const Int128 v : {l.emitted, l.roulette_gain, l.absorbed_surfaces, l.absorbed_media,
                          l.escaped, l.roulette_loss, l.lost_too_long})
@@ -124,8 +124,8 @@ bool next_bin(Reader& in, uint64_t& after_last, const BinRange& bins, TotalsGain
   return in.ok();
 }
 
-Ledger get_ledger(Reader& in) {
-  Ledger l;
+EnergyBalance get_ledger(Reader& in) {
+  EnergyBalance l;
   for (Int128* v : {&l.emitted, &l.roulette_gain, &l.absorbed_surfaces, &l.absorbed_media,
                     &l.escaped, &l.roulette_loss, &l.lost_too_long})
     *v = in.get_signed();
@@ -134,7 +134,7 @@ Ledger get_ledger(Reader& in) {
 }
 
 /// The most bytes that totals of this size can take.
-size_t bytes_most(int groups, int64_t totals) {
+size_t max_bytes(int groups, int64_t totals) {
   const auto bins = static_cast<size_t>(groups) * static_cast<size_t>(totals);
   return (bins * 3 + static_cast<size_t>(groups) * 2 + numbers_of_ledger + 1) * longest_number;
 }
@@ -173,7 +173,7 @@ FlushEncoder::FlushEncoder(int groups, int64_t totals) : zstd_(std::make_unique<
   ZSTD_CCtx_setParameter(zstd_->context.get(), ZSTD_c_compressionLevel, fast);
   ZSTD_CCtx_setParameter(zstd_->context.get(), ZSTD_c_checksumFlag, 1);
   const uint64_t bins = static_cast<uint64_t>(groups) * static_cast<uint64_t>(totals);
-  packed_.reserve(std::min(bins * flush_bytes_of_bin, reserved_bytes_most) + ZSTD_CStreamOutSize());
+  packed_.reserve(std::min(bins * flush_bytes_of_bin, max_reserved_bytes) + ZSTD_CStreamOutSize());
   raw_.reserve(reserved_step_bins * flush_bytes_of_bin);
   raw_.push_back({});
   pack(false);  // zstd takes its own memory with the first byte of a stream
@@ -184,8 +184,8 @@ uint64_t FlushEncoder::batches_of_group() {
   return static_cast<uint64_t>(totals_->take_batches(group_));
 }
 
-Ledger FlushEncoder::ledger() {
-  return counts_ == FlushCounts::without ? Ledger{} : totals_->take_ledger();
+EnergyBalance FlushEncoder::balance() {
+  return counts_ == FlushCounts::without ? EnergyBalance{} : totals_->take_ledger();
 }
 
 void FlushEncoder::begin(Totals& totals, const BinRange& bins, FlushCounts counts) {
@@ -223,7 +223,7 @@ bool FlushEncoder::step(int64_t bins) {
     next_ = after_last_ = bins_.first;
     done = ++group_ == totals_->groups();
     if (done)
-      put_ledger(raw_, ledger());
+      put_ledger(raw_, balance());
     else
       put(raw_, batches_of_group());
   }
@@ -270,7 +270,7 @@ std::vector<std::byte> encode_flush(Totals& totals) {
 
 Result<FlushGain> decode_flush(std::span<const std::byte> bytes, int groups, const BinRange& bins,
                                const FlushRest& rest) {
-  auto raw = unpack(bytes, bytes_most(groups, bins.end - bins.first), rest);
+  auto raw = unpack(bytes, max_bytes(groups, bins.end - bins.first), rest);
   if (!raw.ok()) return raw.problem();
   FlushGain gain;
   gain.raw_ = std::move(raw).value();
@@ -301,7 +301,7 @@ void FlushGain::add_to(Totals& totals, const FlushRest& rest) const {
   TotalsGain piece;
   piece.groups.resize(batches_.size());
   for (size_t g = 0; g < batches_.size(); ++g) piece.groups[g].batches = batches_[g];
-  piece.ledger = ledger_;
+  piece.balance = ledger_;
   totals.add(piece);
   piece = {};
   piece.groups.resize(batches_.size());

@@ -22,7 +22,7 @@ namespace luxodus {
 /// a sum below 2^90 (2^26 batches of 2^63, signed) and squares of 128 bits, seven bits a byte.
 inline constexpr uint64_t flush_bytes_of_bin = 6 + 13 + 19;
 
-/// Whether a flush carries its batches and their ledger: of several parts one does.
+/// Whether a flush carries its batches and their balance: of several parts one does.
 enum class FlushCounts { with, without };
 
 /// Empties totals into bytes, step by step, one flush after another in the same memory.
@@ -51,7 +51,7 @@ class FlushEncoder {
   size_t pack_more(ZSTD_inBuffer_s& in, int how);
 
   uint64_t batches_of_group();
-  Ledger ledger();
+  EnergyBalance balance();
 
   Totals* totals_ = nullptr;
   BinRange bins_;
@@ -83,7 +83,7 @@ class FlushGain {
   /// Of all groups.
   int64_t batches() const;
   int64_t bins() const { return bins_; }
-  const Ledger& ledger() const { return ledger_; }
+  const EnergyBalance& balance() const { return ledger_; }
 
   /// Adds all of it; `rest` cannot break this off. Requires: totals of the layout it was read for.
   void add_to(Totals& totals, const FlushRest& rest = no_rest) const;
@@ -97,7 +97,7 @@ class FlushGain {
   std::vector<int64_t> batches_;
   BinRange range_;
   int64_t bins_ = 0;
-  Ledger ledger_;
+  EnergyBalance ledger_;
 };
 
 /// Errors: not such bytes; more groups than `groups` or an index outside `bins`; indices that do

@@ -14,7 +14,7 @@ constexpr Nanoseconds patience = seconds(1);
 }  // namespace
 
 ShardControl::ShardControl(const ShardPlan& plan, Totals& totals, const Clock& clock,
-                           std::function<MessageId()> next_id, Post post)
+                           std::function<MessageId()> next_id, SendFunction post)
     : plan_(plan),
       totals_(totals),
       clock_(clock),

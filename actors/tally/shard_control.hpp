@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "actors/tally/post.hpp"
+#include "actors/tally/send_function.hpp"
 #include "actors/tally/shard_plan.hpp"
 #include "runtime/core/clock.hpp"
 
@@ -24,7 +24,7 @@ class ShardControl {
  public:
   /// `next_id` gives questions their names. All that is referred to outlives it.
   ShardControl(const ShardPlan& plan, Totals& totals, const Clock& clock,
-               std::function<MessageId()> next_id, Post post);
+               std::function<MessageId()> next_id, SendFunction post);
 
   /// Shards beside the controller's.
   size_t others() const { return shards_.size(); }
@@ -80,7 +80,7 @@ class ShardControl {
   Totals& totals_;
   const Clock& clock_;
   std::function<MessageId()> next_id_;
-  Post post_;
+  SendFunction post_;
   std::vector<Shard> shards_;
   uint32_t gather_ = 0;
   std::function<void()> done_;  // of the gather under way

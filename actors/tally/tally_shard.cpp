@@ -21,7 +21,7 @@ int64_t piece_of(int groups) {
 }  // namespace
 
 TallyShard::TallyShard(const TallyShardConfig& config, const TallyLayout& layout, int groups,
-                       Scheduler& scheduler, Post post)
+                       Scheduler& scheduler, SendFunction post)
     : config_(config),
       totals_(layout, groups, {}),
       scheduler_(scheduler),
@@ -40,7 +40,7 @@ void TallyShard::add_metrics(Metrics& metrics) const {
 }
 
 bool TallyShard::deliver(const Delivery& delivery) {
-  if (const auto* part = std::get_if<FlushPart>(&delivery.message)) {
+  if (const auto* part = std::get_if<FlushSlice>(&delivery.message)) {
     // The id is that of the worker's flush: nobody sends parts of another's.
     if (delivery.id.node == delivery.source) take_part(delivery, *part);
     return true;
@@ -63,12 +63,12 @@ uint64_t TallyShard::decided(const Life& life) const {
 
 // ---- parts -------------------------------------------------------------------------------------
 
-void TallyShard::take_part(const Delivery& delivery, const FlushPart& part) {
+void TallyShard::take_part(const Delivery& delivery, const FlushSlice& part) {
   const Life life{delivery.id.node, delivery.id.incarnation};
   if (delivery.id.sequence <= decided(life)) return;  // it comes late, and again
   if (const auto at = parts_.find(life); at != parts_.end()) {
     const Part& known = *at->second;
-    if (known.flush == delivery.id && known.gain) post_(known.from, known.flush, PartHeld{}, {});
+    if (known.flush == delivery.id && known.gain) post_(known.from, known.flush, SliceHeld{}, {});
     return;
   }
   auto made = std::make_shared<Part>();
@@ -123,7 +123,7 @@ std::string TallyShard::reading_fault(Part& part) {
                            [&] { return take_turns() && !part.dropped; });
   if (!gain.ok()) return gain.problem().what;
   // Batches and where their weight went are told to the controller, once.
-  if (gain->batches() != 0 || gain->ledger().particles != 0) return "a part counts batches";
+  if (gain->batches() != 0 || gain->balance().particles != 0) return "a part counts batches";
   part.gain = std::move(gain).value();
   return "";
 }
@@ -132,7 +132,7 @@ void TallyShard::read(Part& part) {
   const std::string wrong = reading_fault(part);
   part.payload = {};
   if (part.dropped) return;
-  if (wrong.empty()) return post_(part.from, part.flush, PartHeld{}, {});
+  if (wrong.empty()) return post_(part.from, part.flush, SliceHeld{}, {});
   post_(part.from, part.flush, FlushRefused{{}, wrong.substr(0, limits::text_bytes)}, {});
   forget(part);
 }

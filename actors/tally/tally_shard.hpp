@@ -24,7 +24,7 @@
 #include <vector>
 
 #include "actors/tally/flush_codec.hpp"
-#include "actors/tally/post.hpp"
+#include "actors/tally/send_function.hpp"
 #include "actors/tally/shard_plan.hpp"
 #include "runtime/actor/scheduler.hpp"
 
@@ -40,7 +40,7 @@ class TallyShard {
  public:
   /// Requires: `layout` outlives it; the scheduler has a fiber for it.
   TallyShard(const TallyShardConfig& config, const TallyLayout& layout, int groups,
-             Scheduler& scheduler, Post post);
+             Scheduler& scheduler, SendFunction post);
 
   /// A message of a worker or the controller; false where it is none for a shard.
   bool deliver(const Delivery& delivery);
@@ -69,7 +69,7 @@ class TallyShard {
   };
   using Life = std::pair<NodeId, Incarnation>;
 
-  void take_part(const Delivery& delivery, const FlushPart& part);
+  void take_part(const Delivery& delivery, const FlushSlice& part);
   void take_decision(const Delivery& delivery, const FlushDecided& decision);
   void tell_totals(const Delivery& delivery, const AskTotals& question);
   void work(std::shared_ptr<Part> part);
@@ -85,7 +85,7 @@ class TallyShard {
   const TallyShardConfig config_;
   Totals totals_;
   Scheduler& scheduler_;
-  Post post_;
+  SendFunction post_;
   std::map<Life, std::shared_ptr<Part>> parts_;
   std::map<Life, uint64_t> decided_;       // by life, the sequence of the last flush decided about
   std::deque<std::shared_ptr<Part>> due_;  // to be read or added, on a fiber

@@ -92,7 +92,7 @@ Plan probe_plan(double alpha) {
   const glm::dvec3 gaze = glm::normalize(glm::dvec3(-0.3, 0, -1));
   Plan plan;
   SceneDescription& scene = plan.scene;
-  scene.run.bands_most = 1;
+  scene.run.max_bands = 1;
   Emitter& e = add_point(scene, lamp, 0);
   e.radiometric = false;
   e.mains_flux = lamp_lm;

@@ -10,8 +10,8 @@
 #include "actors/validate/scene_kit.hpp"
 #include "actors/validate/veil.hpp"
 #include "runtime/core/check.hpp"
-#include "scenes/format/ies.hpp"
-#include "scenes/format/ldt.hpp"
+#include "scenes/photometry/ies.hpp"
+#include "scenes/photometry/ldt.hpp"
 
 namespace luxodus::light {
 

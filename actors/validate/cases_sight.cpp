@@ -69,7 +69,7 @@ constexpr double sign_x = 4.8;
 /// `lux`, from all sides, and the smoke's own luminance is J = lux / pi.
 SceneDescription lit_smoke(double lux, double luminance, double distance, double g) {
   SceneDescription scene;
-  scene.run.bands_most = 1;
+  scene.run.max_bands = 1;
   scene.run.voxels = false;
   constexpr double reflectance = 0.5;
   const int wall = add_grey(scene, reflectance);

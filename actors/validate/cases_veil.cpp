@@ -37,7 +37,7 @@ double integral(double from, double to, const std::function<double(double)>& f) 
 Plan veil_plan(const Veil& veil) {
   Plan plan;
   SceneDescription& scene = plan.scene;
-  scene.run.bands_most = 1;
+  scene.run.max_bands = 1;
   scene.run.voxels = false;
   Emitter& lamp = add_point(scene, veil_lamp, 0);
   lamp.radiometric = false;
@@ -84,7 +84,7 @@ Plan glow_plan(double depth, double gas_from, double gas_to) {
   constexpr double power_w = 0.05, luminance = 20;
   Plan plan;
   SceneDescription& scene = plan.scene;
-  scene.run.bands_most = 1;
+  scene.run.max_bands = 1;
   scene.run.voxels = false;
   add_eye(scene, {0, 0, 0});
   add_tiny_sign(scene, {sign_x, 0, 0}, luminance);

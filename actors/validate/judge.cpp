@@ -51,17 +51,17 @@ size_t lead_of(const CaseResult& result) {
   return lead;
 }
 
-void judge_findings(const CaseResult& result, double z_most, Verdict& verdict) {
-  std::vector<Judged>& judged = verdict.judged.emplace_back();
+void judge_findings(const CaseResult& result, double max_z, Verdict& verdict) {
+  std::vector<QuantityVerdict>& judged = verdict.judged.emplace_back();
   for (const Finding& f : result.findings) {
-    Judged j{Judgement::passed, nan, false};
+    QuantityVerdict j{Judgement::passed, nan, false};
     if (f.statistical && is_rare(f, result.particles)) {
       j.judgement = Judgement::rare;
       ++verdict.rare;
     } else if (by_chance(f)) {
       j.z = z_of(f, result.batches);
       // Not "at most": a NaN must not pass.
-      if (!(excess_z(f, result.batches) <= z_most)) j.judgement = Judgement::failed;
+      if (!(excess_z(f, result.batches) <= max_z)) j.judgement = Judgement::failed;
       if (unbiased(f)) verdict.z.push_back(j.z);
       if (std::abs(j.z) > std::abs(verdict.z_largest) && unbiased(f)) {
         verdict.z_largest = j.z;
@@ -94,13 +94,12 @@ void check_distribution(const std::vector<double>& leads, Verdict& verdict) {
   if (!leads.empty()) verdict.leads = sample_of(leads);
   if (leads.size() < rule::least_leads) return;
   const auto n = static_cast<double>(leads.size());
-  const double mean_most = normal_exceeded(rule::false_alarm / 2) / std::sqrt(n);
+  const double max_mean = normal_exceeded(rule::false_alarm / 2) / std::sqrt(n);
   const double low = chi_square_exceeded(1 - rule::false_alarm / 2, n);
   const double high = chi_square_exceeded(rule::false_alarm / 2, n);
   const Sample& s = verdict.leads;
   verdict.checks.push_back({"mean of z", fmt::format("{:+.3f}", s.mean),
-                            fmt::format("within {:.3f}", mean_most),
-                            std::abs(s.mean) <= mean_most});
+                            fmt::format("within {:.3f}", max_mean), std::abs(s.mean) <= max_mean});
   verdict.checks.push_back({"variance of z", fmt::format("{:.3f}", s.variance),
                             fmt::format("{:.3f} to {:.3f}", low, high),
                             s.variance >= low && s.variance <= high});
@@ -121,17 +120,17 @@ Verdict judge(const std::vector<CaseResult>& results) {
   }
   // Bonferroni: however the quantities of a case hang together, all of them pass with 1 - alarm.
   const double each = rule::false_alarm / static_cast<double>(std::max<size_t>(1, quantities));
-  verdict.z_most = normal_exceeded(each / 2);
+  verdict.max_z = normal_exceeded(each / 2);
   std::vector<double> leads;
   for (const CaseResult& r : results) {
-    judge_findings(r, verdict.z_most, verdict);
+    judge_findings(r, verdict.max_z, verdict);
     const size_t lead = lead_of(r);
     if (lead == r.findings.size()) continue;
     verdict.judged.back()[lead].lead = true;
     leads.push_back(verdict.judged.back()[lead].z);
   }
   verdict.checks.push_back({"quantities out of bounds", std::to_string(verdict.failed),
-                            fmt::format("none; |z| at most {:.2f}", verdict.z_most),
+                            fmt::format("none; |z| at most {:.2f}", verdict.max_z),
                             verdict.failed == 0});
   verdict.checks.push_back(
       {"cases that know nothing to 5 %", std::to_string(unknown), "none", unknown == 0});

@@ -30,7 +30,7 @@ enum class Judgement {
   rare,  // too few particles to be judged
 };
 
-struct Judged {
+struct QuantityVerdict {
   Judgement judgement = Judgement::passed;
   double z = 0;       // NaN for what is no matter of chance
   bool lead = false;  // the one of its case that stands in the distribution of z
@@ -45,8 +45,8 @@ struct Check {
 };
 
 struct Verdict {
-  std::vector<std::vector<Judged>> judged;  // by case and finding
-  double z_most = 0;                        // allowed of one quantity
+  std::vector<std::vector<QuantityVerdict>> judged;  // by case and finding
+  double max_z = 0;                                  // allowed of one quantity
   size_t statistical = 0, computed = 0, rare = 0, failed = 0;
   double z_largest = 0;
   std::string z_largest_of;  // case and quantity

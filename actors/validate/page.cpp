@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "actors/output/svg_plot.hpp"
 #include "actors/validate/report.hpp"
-#include "scenes/format/output_text.hpp"
-#include "scenes/format/svg_plot.hpp"
+#include "runtime/core/output_text.hpp"
 
 namespace luxodus::light {
 
@@ -160,7 +160,7 @@ std::string course_drawing(const std::vector<CoursePoint>& course, bool by_secon
   return out + "</svg>\n";
 }
 
-std::string finding_row(const Finding& f, const Judged& j, const CaseResult& result) {
+std::string finding_row(const Finding& f, const QuantityVerdict& j, const CaseResult& result) {
   const bool failed = j.judgement == Judgement::failed, rare = j.judgement == Judgement::rare;
   const auto number = [](double v, int digits) {
     return std::isfinite(v) ? readable_number(v, digits) : std::string();
@@ -184,11 +184,12 @@ std::string finding_row(const Finding& f, const Judged& j, const CaseResult& res
              : "passed");
 }
 
-std::string case_part(const CaseResult& result, const std::vector<Judged>& judged) {
-  const bool failed = std::any_of(judged.begin(), judged.end(),
-                                  [](const Judged& j) { return j.judgement == Judgement::failed; });
+std::string case_part(const CaseResult& result, const std::vector<QuantityVerdict>& judged) {
+  const bool failed = std::any_of(judged.begin(), judged.end(), [](const QuantityVerdict& j) {
+    return j.judgement == Judgement::failed;
+  });
   double largest = 0;
-  for (const Judged& j : judged)
+  for (const QuantityVerdict& j : judged)
     if (std::abs(j.z) > largest) largest = std::abs(j.z);
   std::string facts = fmt::format("{} quantities", result.findings.size());
   if (result.particles > 0)

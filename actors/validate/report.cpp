@@ -20,7 +20,7 @@ const char* word(Judgement judgement) {
   return "too rare to be judged";
 }
 
-Json finding_json(const Finding& f, const Judged& j, double seconds) {
+Json finding_json(const Finding& f, const QuantityVerdict& j, double seconds) {
   Json out = {{"quantity", f.quantity},
               {"reference", number_json(f.reference)},
               {"result", number_json(f.estimate.value)}};
@@ -38,7 +38,7 @@ Json finding_json(const Finding& f, const Judged& j, double seconds) {
   return out;
 }
 
-Json case_json(const CaseResult& result, const std::vector<Judged>& judged) {
+Json case_json(const CaseResult& result, const std::vector<QuantityVerdict>& judged) {
   Json course = Json::array(), quantities = Json::array();
   for (const CoursePoint& p : result.course)
     course.push_back({{"particles", p.particles},
@@ -117,7 +117,7 @@ Json suite_json(const std::vector<CaseResult>& results, const Verdict& verdict,
           {"cases", cases}};
 }
 
-Result<Done> write_suite(const std::filesystem::path& folder,
+Result<void> write_suite(const std::filesystem::path& folder,
                          const std::vector<CaseResult>& results, const SuiteRecord& record,
                          const Verdict& verdict) {
   std::error_code error;

@@ -4,8 +4,8 @@
 
 #include <filesystem>
 
+#include "actors/output/json_out.hpp"
 #include "actors/validate/judge.hpp"
-#include "scenes/format/json_out.hpp"
 
 namespace luxodus::light {
 
@@ -30,7 +30,7 @@ Json suite_json(const std::vector<CaseResult>& results, const Verdict& verdict,
 Result<std::string> suite_page(const std::vector<CaseResult>& results, const Verdict& verdict,
                                const SuiteRecord& record);
 /// validate.json and validate.html, in a folder that is made where it is missing.
-Result<Done> write_suite(const std::filesystem::path& folder,
+Result<void> write_suite(const std::filesystem::path& folder,
                          const std::vector<CaseResult>& results, const SuiteRecord& record,
                          const Verdict& verdict);
 

@@ -43,13 +43,13 @@ double need(const CaseResult& result, double error) {
   return most;
 }
 
-/// The ledger as findings: it closes in integers, and no history passed the cap on its events.
-void add_ledger(const Ledger& ledger, std::vector<Finding>& findings) {
-  const Int128 missing = ledger.emitted + ledger.roulette_gain - ledger.absorbed_surfaces -
-                         ledger.absorbed_media - ledger.escaped - ledger.roulette_loss -
-                         ledger.lost();
+/// The balance as findings: it closes in integers, and no history passed the cap on its events.
+void add_ledger(const EnergyBalance& balance, std::vector<Finding>& findings) {
+  const Int128 missing = balance.emitted + balance.roulette_gain - balance.absorbed_surfaces -
+                         balance.absorbed_media - balance.escaped - balance.roulette_loss -
+                         balance.lost();
   findings.push_back({"weight missing in the ledger", 0, {static_cast<double>(missing), 0}});
-  findings.push_back({"weight of endless histories", 0, {static_cast<double>(ledger.lost()), 0}});
+  findings.push_back({"weight of endless histories", 0, {static_cast<double>(balance.lost()), 0}});
 }
 
 /// Single-precision reflectances and integer weights: nothing is promised below a millionth.
@@ -210,7 +210,7 @@ void Suite::trace(const Case& c, const Plan& plan, double error, CaseResult& res
     if (growth < 1.1) break;  // little more time than has passed
     n = std::min(static_cast<int64_t>(static_cast<double>(n) * growth), limits::case_particles);
   }
-  add_ledger(run.ledger(), result.findings);
+  add_ledger(run.balance(), result.findings);
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "actors/source/local_run.hpp"
+#include "actors/run/local_run.hpp"
 
 namespace luxodus::light {
 
@@ -55,7 +55,7 @@ class Traced {
   const TallyBlocks& blocks() const { return scene().blocks; }
   LocalRun& local() { return *run_; }
   const LocalRun& local() const { return *run_; }
-  const Ledger& ledger() const { return run_->totals().ledger(); }
+  const EnergyBalance& balance() const { return run_->totals().balance(); }
   double emitted_w() const;
 
   /// Requires: one band.

@@ -24,7 +24,7 @@ enum class FrameKind : uint32_t { geometry = 1, light = 2, smoke = 3, smoke_ligh
 constexpr size_t triangle_light_bytes = 2 * 3 * sizeof(uint16_t);
 constexpr double pi = 3.14159265358979323846;
 /// The largest half float: brighter patches are shown as bright as this [cd/m2].
-constexpr float half_most = 65504;
+constexpr float max_half = 65504;
 
 /// Values in the order of the wire, little endian as every machine that runs this is.
 class Writer {
@@ -39,7 +39,7 @@ class Writer {
     text_.append(bytes, sizeof value);
   }
   void half(double value) {
-    put(glm::packHalf1x16(glm::clamp(static_cast<float>(value), -half_most, half_most)));
+    put(glm::packHalf1x16(glm::clamp(static_cast<float>(value), -max_half, max_half)));
   }
   LiveFrame take() { return std::make_shared<const std::string>(std::move(text_)); }
 

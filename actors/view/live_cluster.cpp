@@ -6,7 +6,7 @@
 
 #include "actors/supervise/node_plan.hpp"
 #include "actors/tally/flush_codec.hpp"
-#include "actors/view/wish_text.hpp"
+#include "actors/view/edits_text.hpp"
 
 namespace luxodus {
 
@@ -20,7 +20,7 @@ constexpr std::chrono::milliseconds stop_every(5);
 constexpr size_t leases_each = 2;
 /// A lease shall take about so long: short against what a person notices, long against a message.
 constexpr Nanoseconds lease_at_least = milliseconds(20), lease_at_most = milliseconds(80);
-constexpr int64_t batches_most = 256;
+constexpr int64_t max_batches = 256;
 /// What large answers take to come is spread over more batches, within reason.
 constexpr size_t large_answer = 256 << 10;
 constexpr Nanoseconds large_answer_at_most = milliseconds(500);
@@ -54,14 +54,14 @@ LiveCluster::~LiveCluster() {
 
 // ---- whoever traces ----------------------------------------------------------------------------
 
-void LiveCluster::foresee(const LiveWish& wish) {
+void LiveCluster::foresee(const SceneEdits& edits) {
   const std::lock_guard lock(mutex_);
-  foreseen_ = std::make_shared<const std::string>(wish_text(wish));
+  foreseen_ = std::make_shared<const std::string>(edits_text(edits));
 }
 
-void LiveCluster::enter(const LiveWish& wish) {
+void LiveCluster::enter(const SceneEdits& edits) {
   const std::lock_guard lock(mutex_);
-  wish_ = std::make_shared<const std::string>(wish_text(wish));
+  edits_ = std::make_shared<const std::string>(edits_text(edits));
 }
 
 void LiveCluster::trace(LiveWork& work) {
@@ -94,7 +94,7 @@ void LiveCluster::work(const Machine& machine) {
   try {
     NodeTransport transport(machine, node_);
     NodeShell shell({controller_net(run_, node_), controller_limits(node_),
-                     ShellConfig{}.room_bytes_most, node_.shutdown_phase, run_.routes},
+                     ShellConfig{}.max_room_bytes, node_.shutdown_phase, run_.routes},
                     run_.graph, machine.clock, transport.transport());
     if (auto joined = join_links(transport.sockets(), node_); !joined.ok())
       return begun(joined.problem());
@@ -153,9 +153,9 @@ void LiveCluster::tell_foreseen() {
 }
 
 SendOutcome LiveCluster::send(NodeId worker, const TraceBatches& order,
-                              const std::shared_ptr<const std::string>& wish) {
+                              const std::shared_ptr<const std::string>& edits) {
   Network& network = shell_->network();
-  return network.send(worker, network.next_id(), order, {std::as_bytes(std::span(*wish)), wish});
+  return network.send(worker, network.next_id(), order, {std::as_bytes(std::span(*edits)), edits});
 }
 
 template <class Which>
@@ -206,7 +206,7 @@ void LiveCluster::lend(NodeId worker, Peer& peer) {
                              static_cast<uint32_t>(batches->count),
                              static_cast<uint64_t>(batches->first),
                              static_cast<uint32_t>(batches->stream)};
-    if (send(worker, order, wish_) != SendOutcome::taken) {
+    if (send(worker, order, edits_) != SendOutcome::taken) {
       work_->give_back(*batches);
       return;
     }
@@ -274,7 +274,7 @@ void LiveCluster::take(const Delivery& delivery, const BatchesTraced& traced) {
   const Nanoseconds took = shell_->scheduler().clock().now() - lease.lent;
   const bool large = delivery.payload.size() >= large_answer;
   if (took < (large ? large_answer_at_most : lease_at_least))
-    peer.batches = std::min(2 * peer.batches, batches_most);
+    peer.batches = std::min(2 * peer.batches, max_batches);
   else if (took > lease_at_most && !large)
     peer.batches = std::max<int64_t>(peer.batches / 2, 1);
   lend(delivery.source, peer);

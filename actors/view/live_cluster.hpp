@@ -29,8 +29,8 @@ class LiveCluster final : public LiveTracers {
   LiveCluster& operator=(const LiveCluster&) = delete;
 
   /// Has workers compile it.
-  void foresee(const LiveWish& wish) override;
-  void enter(const LiveWish& wish) override;
+  void foresee(const SceneEdits& edits) override;
+  void enter(const SceneEdits& edits) override;
   /// Waits for workers where none is there; see LiveTracers.
   void trace(LiveWork& work) override;
 
@@ -63,7 +63,7 @@ class LiveCluster final : public LiveTracers {
   void lend(NodeId worker, Peer& peer);
   void lend_all();
   SendOutcome send(NodeId worker, const TraceBatches& order,
-                   const std::shared_ptr<const std::string>& wish);
+                   const std::shared_ptr<const std::string>& edits);
   void tell_foreseen();
   template <class Which>
   void fence(Which&& which, const char* why);
@@ -78,7 +78,7 @@ class LiveCluster final : public LiveTracers {
   std::condition_variable changed_;
   LiveWork* work_ = nullptr;  // of the trace() under way
   bool all_given_ = false;    // it has no more
-  std::shared_ptr<const std::string> wish_;
+  std::shared_ptr<const std::string> edits_;
   std::shared_ptr<const std::string> foreseen_;  // workers have not been told of it yet
   std::map<uint64_t, Lease> leases_;             // that stand
   uint64_t last_lease_ = 0;

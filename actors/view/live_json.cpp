@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "scenes/format/base64.hpp"
+#include "actors/output/base64.hpp"
 #include "scenes/optics/spectrum.hpp"
 
 namespace luxodus {
@@ -75,8 +75,8 @@ Json groups_json(const LiveGeneration& generation, const LiveDimming& dimming, b
   return out;
 }
 
-bool was_added(const LiveWish& wish, bool is_sign, const std::string& name) {
-  return std::any_of(wish.added.begin(), wish.added.end(), [&](const LiveWish::Copy& copy) {
+bool was_added(const SceneEdits& edits, bool is_sign, const std::string& name) {
+  return std::any_of(edits.added.begin(), edits.added.end(), [&](const SceneEdits::Copy& copy) {
     return copy.is_sign == is_sign && copy.name == name;
   });
 }
@@ -87,7 +87,7 @@ std::string texels_of(const SignFace& face) {
   return base64(bytes);
 }
 
-Json signs_json(const CompiledScene& scene, const LiveWish& wish) {
+Json signs_json(const CompiledScene& scene, const SceneEdits& edits) {
   Json out = Json::array();
   for (const CompiledSign& face : scene.signs) {
     if (face.back) continue;
@@ -105,18 +105,18 @@ Json signs_json(const CompiledScene& scene, const LiveWish& wish) {
                    {"white", colour(scene.bands, face.white_radiance)},
                    {"green", colour(scene.bands, face.green_radiance)},
                    {"group", group_of_sign(sign.name)},
-                   {"added", was_added(wish, true, sign.name)}});
+                   {"added", was_added(edits, true, sign.name)}});
   }
   return out;
 }
 
-Json luminaires_json(const SceneDescription& scene, const LiveWish& wish) {
+Json luminaires_json(const SceneDescription& scene, const SceneEdits& edits) {
   Json out = Json::array();
   for (const Emitter& e : scene.emitters)
     out.push_back({{"name", e.name},
                    {"position", place(e.frame.origin)},
                    {"group", group_of_luminaire(e.name)},
-                   {"added", was_added(wish, false, e.name)}});
+                   {"added", was_added(edits, false, e.name)}});
   return out;
 }
 
@@ -154,14 +154,14 @@ Json live_scene_json(const SceneDescription& scene, const LiveGeneration& genera
           {"title", scene.title},
           {"scenarios", scenarios_json(scene)},
           {"scenario", compiled.scenario.name},
-          {"smoke", generation.wish.smoke},
+          {"smoke", generation.edits.smoke},
           {"seconds", dimming.seconds ? Json(*dimming.seconds) : Json()},
           {"low", place(compiled.bounds.low)},
           {"high", place(compiled.bounds.high)},
           {"relaid", follows && generation.triangles_before != nullptr},
           {"groups", groups_json(generation, dimming, follows)},
-          {"signs", signs_json(compiled, generation.wish)},
-          {"luminaires", luminaires_json(*compiled.description, generation.wish)},
+          {"signs", signs_json(compiled, generation.edits)},
+          {"luminaires", luminaires_json(*compiled.description, generation.edits)},
           {"observers", observers},
           {"cameras", cameras},
           {"voxels", voxels_json(compiled)},

@@ -1,8 +1,8 @@
 // The text messages to viewers (PROTOCOL.md). Pure; any thread.
 #pragma once
 
+#include "actors/output/json_out.hpp"
 #include "actors/view/live_trace.hpp"
-#include "scenes/format/json_out.hpp"
 
 namespace luxodus {
 

@@ -10,7 +10,7 @@
 #include <numeric>
 #include <set>
 
-#include "actors/source/batch_plan.hpp"
+#include "actors/run/batch_plan.hpp"
 
 namespace luxodus {
 
@@ -75,7 +75,7 @@ LiveRun::LiveRun(std::shared_ptr<const CompiledScene> scene, uint64_t seed, int 
       geometry_(same_geometry_ && same_air ? before->geometry_
                                            : std::make_shared<Geometry>(scene_)),
       rows_(geometry_->index, threads),
-      own_(std::make_shared<Ledger>(scene_)),
+      own_(std::make_shared<TracedTotals>(scene_)),
       before_(scene_->groups.size()),
       lights_(scene_->groups.size(), ShownLight::none),
       issued_(scene_->groups.size(), 0),
@@ -95,7 +95,8 @@ void LiveRun::take_over(const LiveRun& before, const BinMap& bins) {
                    return a.name == b.name && a.band_share == b.band_share;
                  });
   // With other groups or patches these have other numbers: then what they have is copied.
-  const std::shared_ptr<Ledger> copies = shares ? nullptr : std::make_shared<Ledger>(scene_);
+  const std::shared_ptr<TracedTotals> copies =
+      shares ? nullptr : std::make_shared<TracedTotals>(scene_);
   if (shares && same_geometry_) own_ = before.own_;
   for (size_t g = 0; g < lights_.size(); ++g) {
     const int group = static_cast<int>(g);

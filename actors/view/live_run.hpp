@@ -8,7 +8,7 @@
 #include <memory>
 #include <vector>
 
-#include "actors/source/rows.hpp"
+#include "actors/run/parallel_for.hpp"
 #include "actors/view/bin_map.hpp"
 #include "actors/view/live_work.hpp"
 #include "scenes/transport/readout.hpp"
@@ -70,7 +70,7 @@ class LiveRun {
 
   const CompiledScene& scene() const { return *scene_; }
   const SceneIndex& index() const { return geometry_->index; }
-  const RowRunner& rows() const { return rows_; }
+  const ParallelFor& rows() const { return rows_; }
 
  private:
   /// Search structures, and what they refer to.
@@ -82,8 +82,8 @@ class LiveRun {
     SceneIndex index;
   };
   /// What batches have given. Runs share it rather than copy it: it may be gigabytes.
-  struct Ledger {
-    explicit Ledger(std::shared_ptr<const CompiledScene> of)
+  struct TracedTotals {
+    explicit TracedTotals(std::shared_ptr<const CompiledScene> of)
         : scene(std::move(of)),
           totals(scene->layout, static_cast<int>(scene->groups.size()), photopic_weights(*scene)) {}
     std::shared_ptr<const CompiledScene> scene;  // which the totals refer to
@@ -106,9 +106,9 @@ class LiveRun {
   const std::optional<BinMap> bins_;
   const bool same_geometry_;
   std::shared_ptr<const Geometry> geometry_;
-  ResidentRows rows_;
-  std::shared_ptr<Ledger> own_;
-  std::vector<std::shared_ptr<const Ledger>> before_;  // of groups that show light of before
+  ResidentParallelFor rows_;
+  std::shared_ptr<TracedTotals> own_;
+  std::vector<std::shared_ptr<const TracedTotals>> before_;  // of groups that show light of before
   std::vector<ShownLight> lights_;
   std::vector<int64_t> issued_, told_;  // batches of each group
   std::vector<std::vector<LiveBatches>>

@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <set>
 
+#include "runtime/core/output_text.hpp"
 #include "scenes/emergency/onset.hpp"
 #include "scenes/emergency/sign_geometry.hpp"
-#include "scenes/format/output_text.hpp"
 #include "scenes/geometry/transform.hpp"
 #include "scenes/world/measurements.hpp"
 
@@ -23,7 +23,7 @@ constexpr int64_t live_batch_particles = 1024;
 using Aim = Result<Frame> (*)(const glm::dvec3& origin, const glm::dvec3& direction,
                               const glm::dvec3& up);
 
-Result<Frame> moved(const Frame& frame, const LiveWish::Move& move, Aim aim) {
+Result<Frame> moved(const Frame& frame, const SceneEdits::Move& move, Aim aim) {
   if (move.facing) return aim(move.position, *move.facing, {0, 0, 1});
   Frame out = frame;
   out.origin = move.position;
@@ -37,7 +37,7 @@ std::string numbers(const glm::dvec3& v) {
 
 /// Adds a copy of the one named; false where there is none.
 template <class List>
-bool add_copy(List& list, const LiveWish::Copy& copy) {
+bool add_copy(List& list, const SceneEdits::Copy& copy) {
   const auto original =
       std::find_if(list.begin(), list.end(), [&](const auto& one) { return one.name == copy.of; });
   if (original == list.end()) return false;
@@ -70,17 +70,17 @@ std::string group_of_flame(const std::string& medium) {
   return "flame " + medium;
 }
 
-Result<SceneDescription> live_description(const SceneDescription& scene, const LiveWish& wish) {
+Result<SceneDescription> live_description(const SceneDescription& scene, const SceneEdits& edits) {
   SceneDescription out = scene;
   clear_measurements(out);
   out.run.batch_particles = live_batch_particles;
   out.run.groups = GroupRule::by_circuit;  // where a group that is named wins
-  for (const LiveWish::Copy& copy : wish.added)
+  for (const SceneEdits::Copy& copy : edits.added)
     if (!(copy.is_sign ? add_copy(out.signs, copy) : add_copy(out.emitters, copy)))
       return Problem{{scene.file, 0}, "there is no \"" + copy.of + "\" to copy"};
   for (Emitter& e : out.emitters) {
     e.group = group_of_luminaire(e.name);
-    if (const auto move = wish.luminaires.find(e.name); move != wish.luminaires.end()) {
+    if (const auto move = edits.luminaires.find(e.name); move != edits.luminaires.end()) {
       auto frame = moved(e.frame, move->second, frame_aiming);
       if (!frame.ok()) return frame.problem();
       e.frame = frame.value();
@@ -88,7 +88,7 @@ Result<SceneDescription> live_description(const SceneDescription& scene, const L
   }
   for (Sign& sign : out.signs) {
     sign.group = group_of_sign(sign.name);
-    if (const auto move = wish.signs.find(sign.name); move != wish.signs.end()) {
+    if (const auto move = edits.signs.find(sign.name); move != edits.signs.end()) {
       auto frame = moved(sign.frame, move->second, frame_facing);
       if (!frame.ok()) return frame.problem();
       sign.frame = frame.value();
@@ -117,14 +117,14 @@ std::map<std::string, double> shares_after(const SceneDescription& scene, Operat
 }
 
 Result<std::shared_ptr<const CompiledScene>> compile_live(const SceneDescription& scene,
-                                                          const LiveWish& wish) {
-  auto description = live_description(scene, wish);
+                                                          const SceneEdits& edits) {
+  auto description = live_description(scene, edits);
   if (!description.ok()) return description.problem();
-  auto scenario = find_scenario(scene, wish.scenario);
+  auto scenario = find_scenario(scene, edits.scenario);
   if (!scenario.ok()) return scenario.problem();
   Scenario& state = scenario.value();
-  state.smoke_factor *= wish.smoke;
-  for (Scenario::Factor& medium : state.media) medium.factor *= wish.smoke;
+  state.smoke_factor *= edits.smoke;
+  for (Scenario::Factor& medium : state.media) medium.factor *= edits.smoke;
   state.seconds_after_failure = 0;
   state.says_seconds = false;
   CompileOptions options;
@@ -133,7 +133,7 @@ Result<std::shared_ptr<const CompiledScene>> compile_live(const SceneDescription
                        options);
 }
 
-std::string name_for_copy(const SceneDescription& scene, const LiveWish& wish,
+std::string name_for_copy(const SceneDescription& scene, const SceneEdits& edits,
                           const std::string& of) {
   // Groups are told apart by their names as well, and a luminaire's may look like that of a sign.
   std::set<std::string> taken;
@@ -144,7 +144,7 @@ std::string name_for_copy(const SceneDescription& scene, const LiveWish& wish,
   for (const Sign& sign : scene.signs) take(sign.name, group_of_sign(sign.name));
   for (const Emitter& e : scene.emitters) take(e.name, group_of_luminaire(e.name));
   for (const Medium& medium : scene.media) take(medium.name, group_of_flame(medium.name));
-  for (const LiveWish::Copy& copy : wish.added)
+  for (const SceneEdits::Copy& copy : edits.added)
     take(copy.name, copy.is_sign ? group_of_sign(copy.name) : group_of_luminaire(copy.name));
   const std::string first = without_count(of) + " copy";
   std::string name = first;
@@ -153,14 +153,14 @@ std::string name_for_copy(const SceneDescription& scene, const LiveWish& wish,
   return name;
 }
 
-std::string variant_text(const SceneDescription& scene, const LiveWish& wish,
+std::string variant_text(const SceneDescription& scene, const SceneEdits& edits,
                          const std::map<std::string, double>& factors, const std::string& name) {
   const std::string original = std::filesystem::absolute(scene.file).string();
   std::string out = "# A variant that was made in a live view.\ntitle = \"" +
                     (scene.title.empty() ? scene.name : scene.title) + ": " + name +
                     "\"\ninclude = [\"" + original + "\"]\n";
   const auto change = [&](const char* kind, const std::string& of, const std::string& copy,
-                          const LiveWish::Move* move, double factor) {
+                          const SceneEdits::Move* move, double factor) {
     out += fmt::format("\n[[change]]\nkind = \"{}\"\nof = \"{}\"\n", kind, of);
     if (!copy.empty()) out += "copy = \"" + copy + "\"\n";
     if (move != nullptr) out += "position = " + numbers(move->position) + "\n";
@@ -176,26 +176,26 @@ std::string variant_text(const SceneDescription& scene, const LiveWish& wish,
     return at == moves.end() ? nullptr : &at->second;
   };
   // Before all else: what they copy is as the original has it.
-  for (const LiveWish::Copy& copy : wish.added) {
-    const auto& moves = copy.is_sign ? wish.signs : wish.luminaires;
+  for (const SceneEdits::Copy& copy : edits.added) {
+    const auto& moves = copy.is_sign ? edits.signs : edits.luminaires;
     const auto group = copy.is_sign ? group_of_sign(copy.name) : group_of_luminaire(copy.name);
     change(copy.is_sign ? "sign" : "luminaire", copy.of, copy.name, move_of(moves, copy.name),
            factor_of(group));
   }
   for (const Emitter& e : scene.emitters) {
     const double factor = factor_of(group_of_luminaire(e.name));
-    const auto* move = move_of(wish.luminaires, e.name);
+    const auto* move = move_of(edits.luminaires, e.name);
     if (move != nullptr || factor != 1) change("luminaire", e.name, "", move, factor);
   }
   for (const Sign& sign : scene.signs) {
     const double factor = factor_of(group_of_sign(sign.name));
-    const auto* move = move_of(wish.signs, sign.name);
+    const auto* move = move_of(edits.signs, sign.name);
     if (move != nullptr || factor != 1) change("sign", sign.name, "", move, factor);
   }
-  if (wish.smoke != 1)
+  if (edits.smoke != 1)
     for (const Medium& medium : scene.media)
       out += fmt::format("\n[[change]]\nkind = \"medium\"\nof = \"{}\"\nfactor = {}\n", medium.name,
-                         shortest_number(wish.smoke));
+                         shortest_number(edits.smoke));
   return out;
 }
 

@@ -11,7 +11,7 @@
 namespace luxodus {
 
 /// What viewers ask to be traced. Factors of groups are not among it: they need no tracing.
-struct LiveWish {
+struct SceneEdits {
   std::string scenario;  // "": the first
   double smoke = 1;      // all extinctions times this
   struct Move {
@@ -34,7 +34,7 @@ std::string group_of_flame(const std::string& medium);
 
 /// A description to be compiled: with what was added, moved, grouped, with nothing to tally but
 /// surfaces and smoke. Errors: a facing that has no upright; a copy of what is not there.
-Result<SceneDescription> live_description(const SceneDescription& scene, const LiveWish& wish);
+Result<SceneDescription> live_description(const SceneDescription& scene, const SceneEdits& edits);
 
 /// How long the mains have failed in a scenario; none where they have not, or it does not say.
 std::optional<double> seconds_said(const Scenario& scenario);
@@ -49,15 +49,15 @@ std::map<std::string, double> shares_after(const SceneDescription& scene, Operat
 /// all other light stays what it is. Errors: as compile_scene and live_description; no such
 /// scenario.
 Result<std::shared_ptr<const CompiledScene>> compile_live(const SceneDescription& scene,
-                                                          const LiveWish& wish);
+                                                          const SceneEdits& edits);
 
-/// A name for a copy of a sign or luminaire, that nothing in the scene or in the wish has: "exit
+/// A name for a copy of a sign or luminaire, that nothing in the scene or in the edits has: "exit
 /// copy", then "exit copy 2"; also of copies, which are counted on.
-std::string name_for_copy(const SceneDescription& scene, const LiveWish& wish,
+std::string name_for_copy(const SceneDescription& scene, const SceneEdits& edits,
                           const std::string& of);
 
 /// A scene file that includes the original and says what differs.
-std::string variant_text(const SceneDescription& scene, const LiveWish& wish,
+std::string variant_text(const SceneDescription& scene, const SceneEdits& edits,
                          const std::map<std::string, double>& factors, const std::string& name);
 
 }  // namespace luxodus

@@ -14,7 +14,7 @@ constexpr int64_t first_batches = 16;
 /// traced anew beside it.
 constexpr int64_t hurry_batches = 32;
 /// Questions that wait; more are forgotten.
-constexpr size_t questions_most = 64;
+constexpr size_t max_questions = 64;
 
 LiveAnswer answer_to(const LiveQuestion& question, const LiveRun& run, const LivePatch& patch) {
   const CompiledScene& scene = run.scene();
@@ -45,7 +45,7 @@ LiveAnswer answer_to(const LiveQuestion& question, const LiveRun& run, const Liv
 }  // namespace
 
 LiveTrace::LiveTrace(std::shared_ptr<const SceneDescription> scene, const LiveOptions& options,
-                     LiveWish first, LiveAudience& audience)
+                     SceneEdits first, LiveAudience& audience)
     : scene_(std::move(scene)),
       options_(options),
       tracers_(options.tracers ? options.tracers : std::make_shared<LiveThreads>(options.threads)),
@@ -63,10 +63,10 @@ LiveTrace::~LiveTrace() {
   thread_.join();
 }
 
-void LiveTrace::wish(LiveWish wish, uint64_t number) {
+void LiveTrace::edits(SceneEdits edits, uint64_t number) {
   {
     const std::lock_guard lock(mutex_);
-    next_ = std::move(wish);
+    next_ = std::move(edits);
     next_number_ = number;
   }
   interrupt_ = true;
@@ -76,7 +76,7 @@ void LiveTrace::wish(LiveWish wish, uint64_t number) {
 void LiveTrace::ask(LiveQuestion question) {
   {
     const std::lock_guard lock(mutex_);
-    if (questions_.size() >= questions_most) return;
+    if (questions_.size() >= max_questions) return;
     questions_.push_back(std::move(question));
   }
   asked_ = true;
@@ -85,17 +85,17 @@ void LiveTrace::ask(LiveQuestion question) {
 
 void LiveTrace::work() {
   for (;;) {
-    std::optional<LiveWish> wish;
+    std::optional<SceneEdits> edits;
     {
       std::unique_lock lock(mutex_);
       changed_.wait(lock, [&] { return ends_ || next_ || (run_ && !questions_.empty()); });
       if (ends_) return;
-      wish = std::exchange(next_, std::nullopt);
+      edits = std::exchange(next_, std::nullopt);
       number_ = next_number_;
       interrupt_ = false;
     }
     try {
-      if (wish) begin(*wish);
+      if (edits) begin(*edits);
       if (run_) refine();
     } catch (const std::exception& e) {
       audience_.refuses(number_, e.what());
@@ -115,11 +115,11 @@ void LiveTrace::answer_all() {
       audience_.answers(answer_to(question, *run_, geometry_.patches[question.triangle]));
 }
 
-void LiveTrace::begin(const LiveWish& wish) {
-  tracers_->foresee(wish);
-  auto compiled = compile_live(*scene_, wish);
+void LiveTrace::begin(const SceneEdits& edits) {
+  tracers_->foresee(edits);
+  auto compiled = compile_live(*scene_, edits);
   if (!compiled.ok()) return audience_.refuses(number_, compiled.problem().text());
-  const bool same_air = run_ && traced_.scenario == wish.scenario && traced_.smoke == wish.smoke;
+  const bool same_air = run_ && traced_.scenario == edits.scenario && traced_.smoke == edits.smoke;
   auto run = std::make_unique<LiveRun>(compiled.value(), options_.seed, options_.threads,
                                        run_.get(), same_air);
   const uint32_t generation = generation_ + 1;
@@ -134,12 +134,12 @@ void LiveTrace::begin(const LiveWish& wish) {
   if (!same_air || !run->same_geometry())
     smoke_ = smoke_frame(run->scene(), run->index(), generation);
   run_ = std::move(run);
-  tracers_->enter(wish);
-  traced_ = wish;
+  tracers_->enter(edits);
+  traced_ = edits;
   generation_ = generation;
   refined_ = false;
   error_ = std::numeric_limits<double>::quiet_NaN();
-  audience_.begins({generation, wish, compiled.value(), geometry_.frame, smoke_, run_->lights(),
+  audience_.begins({generation, edits, compiled.value(), geometry_.frame, smoke_, run_->lights(),
                     std::move(triangles_before)});
 }
 

@@ -1,7 +1,7 @@
 // The tracing behind a live view: one generation after another, each from few particles to many,
 // told of at every doubling, so that the first light is there at once and later ones cost little.
-// A new wish ends the generation under way, and takes over of its light what still holds. Thread
-// rule: its own thread traces and tells; wishes and questions may come from any other.
+// A new edits ends the generation under way, and takes over of its light what still holds. Thread
+// rule: its own thread traces and tells; edits and questions may come from any other.
 #pragma once
 
 #include <condition_variable>
@@ -40,7 +40,7 @@ struct LiveAnswer {
 /// A new generation, before its first light.
 struct LiveGeneration {
   uint32_t number = 0;
-  LiveWish wish;
+  SceneEdits edits;
   std::shared_ptr<const CompiledScene> scene;
   LiveFrame geometry;  // the frame of the generation before where triangles are the same
   LiveFrame smoke;     // likewise; null where no medium is
@@ -58,7 +58,7 @@ class LiveAudience {
   virtual void lit(uint32_t generation, std::vector<LiveFrame> frames) = 0;
   virtual void goes_on(const LiveProgress& progress) = 0;
   virtual void answers(const LiveAnswer& answer) = 0;
-  /// The wish of that number cannot be had: what was traced before goes on.
+  /// The edits of that number cannot be had: what was traced before goes on.
   virtual void refuses(uint64_t number, const std::string& why) = 0;
 };
 
@@ -74,21 +74,21 @@ class LiveTrace {
  public:
   /// Begins at once. Requires: `audience` outlives this.
   LiveTrace(std::shared_ptr<const SceneDescription> scene, const LiveOptions& options,
-            LiveWish first, LiveAudience& audience);
+            SceneEdits first, LiveAudience& audience);
   ~LiveTrace();
   LiveTrace(const LiveTrace&) = delete;
   LiveTrace& operator=(const LiveTrace&) = delete;
 
   /// `number`: under which it is refused, if it is; the first has 0.
-  void wish(LiveWish wish, uint64_t number);
+  void edits(SceneEdits edits, uint64_t number);
   void ask(LiveQuestion question);
 
  private:
   void work();
-  void begin(const LiveWish& wish);
+  void begin(const SceneEdits& edits);
   /// Traces until it is good enough or something comes.
   void refine();
-  /// Traces groups to a level and tells of it; false where a wish or the end has come.
+  /// Traces groups to a level and tells of it; false where a edits or the end has come.
   bool reach(int64_t level, LiveRun::Scope scope);
   void tell(bool done);
   void answer_all();
@@ -99,7 +99,7 @@ class LiveTrace {
   LiveAudience& audience_;
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::optional<LiveWish> next_;
+  std::optional<SceneEdits> next_;
   uint64_t next_number_ = 0;
   std::vector<LiveQuestion> questions_;
   bool ends_ = false;
@@ -107,8 +107,8 @@ class LiveTrace {
   std::atomic<bool> asked_{false};
   // Of the tracing thread.
   uint32_t generation_ = 0;
-  uint64_t number_ = 0;  // of the wish that it looked at last
-  LiveWish traced_;
+  uint64_t number_ = 0;  // of the edits that it looked at last
+  SceneEdits traced_;
   LiveGeometry geometry_;
   LiveFrame smoke_;
   std::unique_ptr<LiveRun> run_;

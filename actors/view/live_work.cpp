@@ -16,7 +16,7 @@ uint64_t first_particle_of(const CompiledScene& scene, int stream, int64_t batch
 
 void LiveThreads::trace(LiveWork& work) {
   const auto one = [&] {
-    _mm_setcsr(_mm_getcsr() | 0x8040);  // denormals to zero: see for_each_row
+    _mm_setcsr(_mm_getcsr() | 0x8040);  // denormals to zero: see parallel_for
     const CompiledScene& scene = work.scene();
     const auto tracer = make_batch_tracer(scene, work.access(), work.seed());
     BatchScores scores;

@@ -11,7 +11,7 @@
 
 namespace luxodus {
 
-struct LiveWish;
+struct SceneEdits;
 
 /// Batches [first, first + count) of a source group.
 struct LiveBatches {
@@ -45,9 +45,9 @@ class LiveTracers {
  public:
   virtual ~LiveTracers() = default;
   /// A building that may be entered next: what takes time may begin.
-  virtual void foresee(const LiveWish& wish) = 0;
+  virtual void foresee(const SceneEdits& edits) = 0;
   /// The building of what is traced from now on.
-  virtual void enter(const LiveWish& wish) = 0;
+  virtual void enter(const SceneEdits& edits) = 0;
   /// Returns when next() has given none, and all that it gave is merged or given back.
   virtual void trace(LiveWork& work) = 0;
 };
@@ -57,8 +57,8 @@ class LiveThreads final : public LiveTracers {
  public:
   /// Requires: threads >= 1.
   explicit LiveThreads(int threads) : threads_(threads) {}
-  void foresee(const LiveWish&) override {}
-  void enter(const LiveWish&) override {}
+  void foresee(const SceneEdits&) override {}
+  void enter(const SceneEdits&) override {}
   void trace(LiveWork& work) override;
 
  private:

@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "actors/supervise/node_plan.hpp"
+#include "actors/view/edits_text.hpp"
 #include "actors/view/live_work.hpp"
-#include "actors/view/wish_text.hpp"
 
 namespace luxodus {
 
@@ -18,23 +18,23 @@ constexpr Nanoseconds send_again_after = milliseconds(1);
 /// Particles of one turn: some 0.2 ms.
 constexpr int64_t portion_particles = 128;
 /// Leases at hand; more are not taken. A live view lends two at a time.
-constexpr size_t orders_most = 8;
-constexpr uint32_t batches_most = 1 << 16;
+constexpr size_t max_orders = 8;
+constexpr uint32_t max_batches = 1 << 16;
 /// What particles' ids have room for: see first_particle_of.
-constexpr uint64_t batch_numbers_most = uint64_t{1} << 30;
-constexpr uint32_t streams_most = (uint32_t{1} << 20) - 1;
+constexpr uint64_t max_batch_numbers = uint64_t{1} << 30;
+constexpr uint32_t max_streams = (uint32_t{1} << 20) - 1;
 
 }  // namespace
 
-Result<std::shared_ptr<const LiveState>> LiveStates::get(const std::string& wish) {
+Result<std::shared_ptr<const LiveState>> LiveStates::get(const std::string& edits) {
   const std::lock_guard lock(mutex_);
-  if (state_ && wish == wish_) return state_;
-  auto parsed = parse_wish(wish);
+  if (state_ && edits == edits_) return state_;
+  auto parsed = parse_edits(edits);
   if (!parsed.ok()) return parsed.problem();
   auto scene = compile_live(*scene_, parsed.value());
   if (!scene.ok()) return scene.problem();
   state_ = std::make_shared<LiveState>(std::move(scene).value());
-  wish_ = wish;
+  edits_ = edits;
   return state_;
 }
 
@@ -49,8 +49,8 @@ LiveWorker::LiveWorker(const RunSetup& run, const NodeSetup& node, const NodeSea
                        LiveStates& states)
     : node_(node),
       states_(states),
-      shell_({node.net, worker_limits(run, node), ShellConfig{}.room_bytes_most,
-              node.shutdown_phase, run.routes},
+      shell_({node.net, worker_limits(run, node), ShellConfig{}.max_room_bytes, node.shutdown_phase,
+              run.routes},
              run.graph, seams.clock, seams.transport),
       began_(seams.clock.now()) {}
 
@@ -90,15 +90,16 @@ bool LiveWorker::deliver(const Delivery& delivery) {
     ended_ = true;
     return true;
   }
-  // A live view that waits for wishes says so: by leases of nothing.
+  // A live view that waits for edits says so: by leases of nothing.
   if (std::holds_alternative<LeaseGranted>(delivery.message)) return true;
   const auto* order = std::get_if<TraceBatches>(&delivery.message);
   if (order == nullptr) return false;
-  std::string wish(reinterpret_cast<const char*>(delivery.payload.data()), delivery.payload.size());
+  std::string edits(reinterpret_cast<const char*>(delivery.payload.data()),
+                    delivery.payload.size());
   // Nobody waits for another state any more.
-  if (!orders_.empty() && orders_.back().wish != wish) drop_orders();
-  if (orders_.size() >= orders_most) return true;
-  orders_.push_back({*order, std::move(wish)});
+  if (!orders_.empty() && orders_.back().edits != edits) drop_orders();
+  if (orders_.size() >= max_orders) return true;
+  orders_.push_back({*order, std::move(edits)});
   wake();
   return true;
 }
@@ -121,7 +122,7 @@ void LiveWorker::work() {
   working_ = false;
   send_answers();
   if (!orders_.empty() && orders_.front().what.batches == 0) {
-    foresee(orders_.front().wish);
+    foresee(orders_.front().edits);
     orders_.pop_front();
   } else if (!orders_.empty()) {
     const Order& order = orders_.front();
@@ -139,28 +140,28 @@ void LiveWorker::work() {
 }
 
 /// Compiles what may be next. If it cannot be, that is said when it is asked for.
-void LiveWorker::foresee(const std::string& wish) try {
-  static_cast<void>(states_.get(wish));
+void LiveWorker::foresee(const std::string& edits) try {
+  static_cast<void>(states_.get(edits));
 } catch (const std::exception&) {
 }
 
-Result<bool> LiveWorker::enter(const Order& order) {
-  if (tracing_ && order.wish == wish_ && order.what.seed == seed_) return true;
+Result<void> LiveWorker::enter(const Order& order) {
+  if (tracing_ && order.edits == edits_ && order.what.seed == seed_) return {};
   tracing_.reset();
-  auto state = states_.get(order.wish);
+  auto state = states_.get(order.edits);
   if (!state.ok()) return state.problem();
   tracing_ = std::make_unique<Tracing>(state.value(), order.what.seed);
-  wish_ = order.wish;
+  edits_ = order.edits;
   seed_ = order.what.seed;
-  return true;
+  return {};
 }
 
 /// Why it cannot be traced; "" where it can.
 std::string LiveWorker::trace_portion(const Order& order) try {
   if (const auto entered = enter(order); !entered.ok()) return entered.problem().text();
   const CompiledScene& scene = *tracing_->state->scene;
-  if (order.what.group >= scene.groups.size() || order.what.batches > batches_most ||
-      order.what.first_batch > batch_numbers_most || order.what.stream > streams_most)
+  if (order.what.group >= scene.groups.size() || order.what.batches > max_batches ||
+      order.what.first_batch > max_batch_numbers || order.what.stream > max_streams)
     return "there are no such batches";
   const int group = static_cast<int>(order.what.group);
   const int64_t in_batch = traced_ % scene.batch_particles;

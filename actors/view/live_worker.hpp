@@ -30,13 +30,13 @@ struct LiveState {
 class LiveStates {
  public:
   explicit LiveStates(std::shared_ptr<const SceneDescription> scene) : scene_(std::move(scene)) {}
-  /// Compiles it, unless it is the last. Errors: as parse_wish and compile_live.
-  Result<std::shared_ptr<const LiveState>> get(const std::string& wish);
+  /// Compiles it, unless it is the last. Errors: as parse_edits and compile_live.
+  Result<std::shared_ptr<const LiveState>> get(const std::string& edits);
 
  private:
   const std::shared_ptr<const SceneDescription> scene_;
   std::mutex mutex_;
-  std::string wish_;
+  std::string edits_;
   std::shared_ptr<const LiveState> state_;
 };
 
@@ -56,7 +56,7 @@ class LiveWorker {
  private:
   struct Order {
     TraceBatches what;
-    std::string wish;
+    std::string edits;
   };
   /// What traces one state; made anew for another.
   struct Tracing {
@@ -77,8 +77,8 @@ class LiveWorker {
   void work();
   void wake();
   void drop_orders();
-  void foresee(const std::string& wish);
-  Result<bool> enter(const Order& order);
+  void foresee(const std::string& edits);
+  Result<void> enter(const Order& order);
   std::string trace_portion(const Order& order);
   void answer(std::string fault);
   void send_answers();
@@ -90,7 +90,7 @@ class LiveWorker {
   std::function<bool()> stop_;
   std::deque<Order> orders_;  // the first is in work
   int64_t traced_ = 0;        // particles of it
-  std::string wish_;          // of tracing_
+  std::string edits_;         // of tracing_
   uint64_t seed_ = 0;         // likewise
   std::unique_ptr<Tracing> tracing_;
   std::deque<Answer> answers_;  // that have not left yet

@@ -13,9 +13,9 @@ namespace {
 constexpr int rounds = 3;
 
 /// The building with all that viewers have changed, dimming too.
-Result<SceneDescription> as_it_stands(const SceneDescription& scene, const LiveWish& wish,
+Result<SceneDescription> as_it_stands(const SceneDescription& scene, const SceneEdits& edits,
                                       const std::map<std::string, double>& factors) {
-  auto out = live_description(scene, wish);
+  auto out = live_description(scene, edits);
   if (!out.ok()) return out;
   const auto factor_of = [&](const std::string& group) {
     const auto at = factors.find(group);
@@ -60,21 +60,21 @@ std::string state_note(const SceneDescription& scene, const Scenario& scenario) 
 
 }  // namespace
 
-Json sign_verdicts(const SceneDescription& scene, const LiveWish& wish,
+Json sign_verdicts(const SceneDescription& scene, const SceneEdits& edits,
                    const std::map<std::string, double>& factors, const std::string& sign,
                    const LiveOptions& options, const std::atomic<bool>& interrupt) {
   const auto refused = [](const std::string& why) -> Json {
     return {{"type", "refused"}, {"why", why}};
   };
-  const auto now = as_it_stands(scene, wish, factors);
+  const auto now = as_it_stands(scene, edits, factors);
   if (!now.ok()) return refused(now.problem().what);
   if (std::none_of(now->signs.begin(), now->signs.end(),
                    [&](const Sign& s) { return s.name == sign; }))
     return refused("there is no sign \"" + sign + "\"");
-  auto scenario = find_scenario(scene, wish.scenario);
+  auto scenario = find_scenario(scene, edits.scenario);
   if (!scenario.ok()) return refused(scenario.problem().what);
-  scenario->smoke_factor *= wish.smoke;
-  for (Scenario::Factor& medium : scenario->media) medium.factor *= wish.smoke;
+  scenario->smoke_factor *= edits.smoke;
+  for (Scenario::Factor& medium : scenario->media) medium.factor *= edits.smoke;
   scenario->seconds_after_failure = 0;  // what time does is among the factors
   scenario->says_seconds = false;
   AssessOptions asked;

@@ -4,13 +4,13 @@
 
 #include <atomic>
 
+#include "actors/output/json_out.hpp"
 #include "actors/view/live_trace.hpp"
-#include "scenes/format/json_out.hpp"
 
 namespace luxodus {
 
 /// A message of type "sign", or "refused" with the reason.
-Json sign_verdicts(const SceneDescription& scene, const LiveWish& wish,
+Json sign_verdicts(const SceneDescription& scene, const SceneEdits& edits,
                    const std::map<std::string, double>& factors, const std::string& sign,
                    const LiveOptions& options, const std::atomic<bool>& interrupt);
 

@@ -5,11 +5,11 @@
 
 #include "actors/inspect/inspect.hpp"
 #include "actors/view/sign_verdicts.hpp"
-#include "scenes/format/atomic_file.hpp"
-#include "scenes/format/output_path.hpp"
-#include "scenes/format/output_text.hpp"
-#include "scenes/format/scene_file.hpp"
+#include "runtime/core/atomic_file.hpp"
+#include "runtime/core/output_path.hpp"
+#include "runtime/core/output_text.hpp"
 #include "scenes/geometry/transform.hpp"
+#include "scenes/scene_file/scene_file.hpp"
 
 namespace luxodus {
 
@@ -45,7 +45,7 @@ bool is_plain_name(const std::string& name) {
 
 /// Under another name first, where it is read back and inspected as `luxodus check` does: a variant
 /// that is kept is a scene that may be computed.
-Result<Done> save_variant(const std::filesystem::path& file, const std::string& text,
+Result<void> save_variant(const std::filesystem::path& file, const std::string& text,
                           const std::string& scenario) {
   const auto trial = file.parent_path() / ("." + file.stem().string() + ".trial.toml");
   if (auto ok = write_file_atomically(trial, text); !ok.ok()) return ok;
@@ -76,10 +76,10 @@ double outside(const Bounds& box, const glm::dvec3& place) {
 
 ViewHub::ViewHub(std::shared_ptr<const SceneDescription> scene, const HubOptions& options,
                  Post post)
-    : scene_(std::move(scene)), options_(options), post_(std::move(post)), wish_(options.first) {
-  if (const auto scenario = find_scenario(*scene_, wish_.scenario); scenario.ok())
+    : scene_(std::move(scene)), options_(options), post_(std::move(post)), edits_(options.first) {
+  if (const auto scenario = find_scenario(*scene_, edits_.scenario); scenario.ok())
     dimming_.seconds = seconds_said(scenario.value());
-  trace_.reset(new LiveTrace(scene_, options_.live, wish_, *this));
+  trace_.reset(new LiveTrace(scene_, options_.live, edits_, *this));
 }
 
 ViewHub::~ViewHub() {
@@ -164,28 +164,28 @@ void ViewHub::answers(const LiveAnswer& answer) {
 
 void ViewHub::refuses(uint64_t number, const std::string& why) {
   post_([this, number, why] {
-    // A later wish is judged by itself, with all that the refused one has left in it.
+    // A later edits is judged by itself, with all that the refused one has left in it.
     if (number == wish_number_) take_back();
     to_all({{"type", "refused"}, {"why", why}});
   });
 }
 
-void ViewHub::wish() {
-  trace_->wish(wish_, ++wish_number_);
+void ViewHub::edits() {
+  trace_->edits(edits_, ++wish_number_);
 }
 
 /// What is traced is in force again.
 void ViewHub::take_back() {
   if (!generation_.scene) return;
-  for (const LiveWish::Copy& copy : wish_.added)
-    if (std::none_of(generation_.wish.added.begin(), generation_.wish.added.end(),
-                     [&](const LiveWish::Copy& one) { return one.name == copy.name; }))
+  for (const SceneEdits::Copy& copy : edits_.added)
+    if (std::none_of(generation_.edits.added.begin(), generation_.edits.added.end(),
+                     [&](const SceneEdits::Copy& one) { return one.name == copy.name; }))
       dimming_.factors.erase(copy.is_sign ? group_of_sign(copy.name)
                                           : group_of_luminaire(copy.name));
-  if (wish_.scenario != generation_.wish.scenario)
-    if (const auto before = find_scenario(*scene_, generation_.wish.scenario); before.ok())
+  if (edits_.scenario != generation_.edits.scenario)
+    if (const auto before = find_scenario(*scene_, generation_.edits.scenario); before.ok())
       dimming_.seconds = seconds_said(before.value());
-  wish_ = generation_.wish;
+  edits_ = generation_.edits;
 }
 
 // ---- viewers -----------------------------------------------------------------------------------
@@ -260,14 +260,14 @@ void ViewHub::handle(Viewer& viewer, const FactorEdit& edit) {
 void ViewHub::handle(Viewer& viewer, const ScenarioEdit& edit) {
   const auto found = find_scenario(*scene_, edit.name);
   if (!found.ok()) return refuse(viewer, found.problem().what);
-  wish_.scenario = edit.name;
+  edits_.scenario = edit.name;
   dimming_.seconds = seconds_said(found.value());
-  wish();
+  edits();
 }
 
 void ViewHub::handle(Viewer&, const SmokeEdit& edit) {
-  wish_.smoke = edit.factor;
-  wish();
+  edits_.smoke = edit.factor;
+  edits();
 }
 
 void ViewHub::share() {
@@ -292,18 +292,18 @@ void ViewHub::handle(Viewer& viewer, const TimeEdit& edit) {
 
 void ViewHub::handle(Viewer& viewer, const MoveEdit& edit) {
   const auto copy = added(edit.name);
-  const bool is_copy = copy != wish_.added.end() && copy->is_sign == edit.is_sign;
+  const bool is_copy = copy != edits_.added.end() && copy->is_sign == edit.is_sign;
   if (!is_copy && !is_there(*scene_, edit.is_sign, edit.name))
     return refuse(viewer, "there is no \"" + edit.name + "\" to move");
   if (!can_stand(viewer, edit.is_sign, edit.position, edit.facing)) return;
-  auto& moves = edit.is_sign ? wish_.signs : wish_.luminaires;
+  auto& moves = edit.is_sign ? edits_.signs : edits_.luminaires;
   moves[edit.name] = {edit.position, edit.facing};
-  wish();
+  edits();
 }
 
-std::vector<LiveWish::Copy>::const_iterator ViewHub::added(const std::string& name) const {
-  return std::find_if(wish_.added.begin(), wish_.added.end(),
-                      [&](const LiveWish::Copy& copy) { return copy.name == name; });
+std::vector<SceneEdits::Copy>::const_iterator ViewHub::added(const std::string& name) const {
+  return std::find_if(edits_.added.begin(), edits_.added.end(),
+                      [&](const SceneEdits::Copy& copy) { return copy.name == name; });
 }
 
 bool ViewHub::can_stand(Viewer& viewer, bool is_sign, const glm::dvec3& position,
@@ -324,14 +324,14 @@ bool ViewHub::can_stand(Viewer& viewer, bool is_sign, const glm::dvec3& position
 }
 
 void ViewHub::handle(Viewer& viewer, const AddEdit& edit) {
-  if (wish_.added.size() >= limits::view_added)
+  if (edits_.added.size() >= limits::view_added)
     return refuse(viewer, "no more than " + std::to_string(limits::view_added) +
                               " can be added in one view: save it as a variant and view that");
   // A copy of a copy is one of the scene's own, so that either may be removed.
   const auto copied = added(edit.of);
-  const bool of_copy = copied != wish_.added.end() && copied->is_sign == edit.is_sign;
-  const LiveWish::Copy copy{edit.is_sign, of_copy ? copied->of : edit.of,
-                            name_for_copy(*scene_, wish_, edit.of)};
+  const bool of_copy = copied != edits_.added.end() && copied->is_sign == edit.is_sign;
+  const SceneEdits::Copy copy{edit.is_sign, of_copy ? copied->of : edit.of,
+                              name_for_copy(*scene_, edits_, edit.of)};
   if (!is_there(*scene_, copy.is_sign, copy.of))
     return refuse(viewer, "there is no \"" + edit.of + "\" to copy");
   if (!copy.is_sign && is_mesh(*scene_, copy.of))
@@ -339,12 +339,12 @@ void ViewHub::handle(Viewer& viewer, const AddEdit& edit) {
   if (copy.name.size() > limits::view_name_chars)
     return refuse(viewer, "the copy's name would be too long: give the original a shorter one");
   if (!can_stand(viewer, edit.is_sign, edit.position, edit.facing)) return;
-  auto& moves = copy.is_sign ? wish_.signs : wish_.luminaires;
-  LiveWish::Move move{edit.position, edit.facing};
+  auto& moves = copy.is_sign ? edits_.signs : edits_.luminaires;
+  SceneEdits::Move move{edit.position, edit.facing};
   if (const auto at = moves.find(edit.of); !move.facing && at != moves.end())
     move.facing = at->second.facing;  // as the one it is a copy of stands now
   moves[copy.name] = move;
-  wish_.added.push_back(copy);
+  edits_.added.push_back(copy);
   const auto group_of = copy.is_sign ? group_of_sign : group_of_luminaire;
   if (const auto dimmed = dimming_.factors.find(group_of(edit.of));
       dimmed != dimming_.factors.end())
@@ -353,18 +353,18 @@ void ViewHub::handle(Viewer& viewer, const AddEdit& edit) {
                             {"kind", copy.is_sign ? "sign" : "luminaire"},
                             {"of", edit.of},
                             {"name", copy.name}}));
-  wish();
+  edits();
 }
 
 void ViewHub::handle(Viewer& viewer, const RemoveEdit& edit) {
   const auto copy = added(edit.name);
-  if (copy == wish_.added.end())
+  if (copy == edits_.added.end())
     return refuse(viewer,
                   "only what was added in this view is removed, and \"" + edit.name + "\" was not");
-  (copy->is_sign ? wish_.signs : wish_.luminaires).erase(edit.name);
+  (copy->is_sign ? edits_.signs : edits_.luminaires).erase(edit.name);
   dimming_.factors.erase(copy->is_sign ? group_of_sign(edit.name) : group_of_luminaire(edit.name));
-  wish_.added.erase(copy);
-  wish();
+  edits_.added.erase(copy);
+  edits();
 }
 
 void ViewHub::handle(Viewer& viewer, const SaveEdit& edit) {
@@ -375,14 +375,14 @@ void ViewHub::handle(Viewer& viewer, const SaveEdit& edit) {
   if (std::filesystem::exists(file, ignored))
     return refuse(viewer, file.string() + " is there already: take another name");
   const auto saved =
-      save_variant(behind_links(file), variant_text(*scene_, wish_, dimming_.factors, edit.name),
-                   wish_.scenario);
+      save_variant(behind_links(file), variant_text(*scene_, edits_, dimming_.factors, edit.name),
+                   edits_.scenario);
   if (!saved.ok()) return refuse(viewer, saved.problem().text());
   viewer.send_text(text_of({{"type", "saved"}, {"file", file.string()}}));
 }
 
-void ViewHub::handle(Viewer& viewer, const EditWish& wish) {
-  if (wish.wanted) return make_editor(&viewer);
+void ViewHub::handle(Viewer& viewer, const EditWish& edits) {
+  if (edits.wanted) return make_editor(&viewer);
   if (editor_ == &viewer) make_editor(nullptr);
 }
 
@@ -411,9 +411,9 @@ void ViewHub::judge_next() {
   judging_ = true;
   if (judge_.joinable()) judge_.join();
   // Beside the tracing: it shares the processors with it for some seconds.
-  judge_ =
-      std::thread([this, asker = number, sign = ask.sign, wish = wish_, factors = dimming_.both()] {
-        const Json verdicts = sign_verdicts(*scene_, wish, factors, sign, options_.live, ends_);
+  judge_ = std::thread(
+      [this, asker = number, sign = ask.sign, edits = edits_, factors = dimming_.both()] {
+        const Json verdicts = sign_verdicts(*scene_, edits, factors, sign, options_.live, ends_);
         post_([this, asker, verdicts] {
           judging_ = false;
           if (Viewer* const asked = viewer_of(asker)) asked->send_text(text_of(verdicts));

@@ -8,9 +8,9 @@
 #include <functional>
 #include <set>
 
+#include "actors/output/json_out.hpp"
 #include "actors/view/live_json.hpp"
 #include "actors/view/view_messages.hpp"
-#include "scenes/format/json_out.hpp"
 
 namespace luxodus {
 
@@ -27,7 +27,7 @@ class Viewer {
 
 struct HubOptions {
   LiveOptions live;
-  LiveWish first;
+  SceneEdits first;
   std::filesystem::path save_folder;  // where variants are written
 };
 
@@ -58,11 +58,11 @@ class ViewHub final : private LiveAudience {
   void handle(Viewer& viewer, const AddEdit& edit);
   void handle(Viewer& viewer, const RemoveEdit& edit);
   void handle(Viewer& viewer, const SaveEdit& edit);
-  void handle(Viewer& viewer, const EditWish& wish);
+  void handle(Viewer& viewer, const EditWish& edits);
   void handle(Viewer& viewer, const ProbeAsk& ask);
   void handle(Viewer& viewer, const JudgeAsk& ask);
-  /// Has the wish traced. Until that begins it may be refused, and is taken back then.
-  void wish();
+  /// Has the edits traced. Until that begins it may be refused, and is taken back then.
+  void edits();
   void take_back();
   void refuse(Viewer& viewer, const std::string& why);
   void to_all(const Json& message);
@@ -70,7 +70,7 @@ class ViewHub final : private LiveAudience {
   /// A frame of the generation before as one of this; null where its group is gone or begins anew.
   LiveFrame carried(const LiveFrame& frame, const LiveGeneration& from) const;
   /// The copy of that name, or the end of what was added.
-  std::vector<LiveWish::Copy>::const_iterator added(const std::string& name) const;
+  std::vector<SceneEdits::Copy>::const_iterator added(const std::string& name) const;
   /// Whether something can stand there; the viewer is told why not.
   bool can_stand(Viewer& viewer, bool is_sign, const glm::dvec3& position,
                  const std::optional<glm::dvec3>& facing);
@@ -88,7 +88,7 @@ class ViewHub final : private LiveAudience {
   std::map<Viewer*, uint64_t> viewers_;
   uint64_t next_number_ = 1;
   Viewer* editor_ = nullptr;
-  LiveWish wish_;  // what the last edit made of it
+  SceneEdits edits_;  // what the last edit made of it
   uint64_t wish_number_ = 0;
   LiveDimming dimming_;
   LiveGeneration generation_;

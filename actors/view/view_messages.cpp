@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "scenes/format/json_out.hpp"
+#include "actors/output/json_out.hpp"
 
 namespace luxodus {
 
@@ -98,11 +98,11 @@ AddEdit read_add(Members& m) {
 
 std::optional<ViewMessage> read_message(const std::string& type, Members& m) {
   if (type == "factor")
-    return FactorEdit{m.text("group"), m.number("factor", 0, limits::view_factor_most)};
+    return FactorEdit{m.text("group"), m.number("factor", 0, limits::max_view_factor)};
   if (type == "scenario") return ScenarioEdit{m.text("name")};
-  if (type == "smoke") return SmokeEdit{m.number("factor", 0, limits::view_smoke_most)};
+  if (type == "smoke") return SmokeEdit{m.number("factor", 0, limits::max_view_smoke)};
   if (type == "time")
-    return m.has("seconds") ? TimeEdit{m.number("seconds", 0, limits::view_seconds_most)}
+    return m.has("seconds") ? TimeEdit{m.number("seconds", 0, limits::max_view_seconds)}
                             : TimeEdit{};
   if (type == "move") return read_move(m);
   if (type == "add") return read_add(m);

@@ -14,7 +14,7 @@ namespace luxodus {
 
 namespace limits {
 inline constexpr size_t view_message_bytes = 64 << 10;
-inline constexpr double view_factor_most = 10, view_smoke_most = 100, view_seconds_most = 1e6;
+inline constexpr double max_view_factor = 10, max_view_smoke = 100, max_view_seconds = 1e6;
 inline constexpr size_t view_name_chars = 200;
 /// Copies in one view: each is a source group of its own, with its totals and its light.
 inline constexpr size_t view_added = 256;

@@ -29,7 +29,7 @@ constexpr uint32_t header_bytes = 8 << 10;
 /// Until a connection is accepted again, after one could not be: doubled, up to the second. Each
 /// viewer who leaves frees a descriptor.
 constexpr auto accept_again = std::chrono::milliseconds(50);
-constexpr auto accept_again_most = std::chrono::milliseconds(1000);
+constexpr auto max_accept_again = std::chrono::milliseconds(1000);
 
 /// What all connections need to know.
 struct Shared {
@@ -263,7 +263,7 @@ class ViewServer::Implementation {
  public:
   Implementation() : acceptor_(context_), again_(context_) {}
 
-  Result<bool> listen(const ServerOptions& options) {
+  Result<void> listen(const ServerOptions& options) {
     beast::error_code failed;
     const auto address = asio::ip::make_address(options.address, failed);
     if (failed) return Problem{{}, "\"" + options.address + "\" is no address"};
@@ -278,7 +278,7 @@ class ViewServer::Implementation {
                          failed.message()};
     shared_.token = options.token;
     shared_.allowed_hosts = options.allowed_hosts;
-    return true;
+    return {};
   }
   uint16_t port() const { return acceptor_.local_endpoint().port(); }
   void run(ViewHub& hub, const std::atomic<bool>& interrupt) {
@@ -306,7 +306,7 @@ class ViewServer::Implementation {
     if (log_.may(clock_.now()))
       spdlog::warn("view=full failed={} text=\"a connection cannot be accepted: {}\"",
                    accepts_failed_.load(), failed.message());
-    again_.expires_after(std::exchange(pause_, std::min(2 * pause_, accept_again_most)));
+    again_.expires_after(std::exchange(pause_, std::min(2 * pause_, max_accept_again)));
     again_.async_wait([this](beast::error_code) { accept(); });
   }
 

@@ -47,7 +47,7 @@ struct NodeBudget {
   uint32_t fibers = 0;
   uint32_t prefetch = 0;
   uint32_t stack_bytes = 0;  // of one fiber
-  uint32_t maps_most = 0;    // 0: its part of process_maps_most()
+  uint32_t max_maps = 0;     // 0: its part of max_process_maps()
 };
 
 enum class NodeRole : uint8_t { worker, controller };
@@ -84,9 +84,9 @@ struct TopologyChoice {
   Kind kind = Kind::amp;
   std::filesystem::path file;  // of kind file, which says itself what follows
   std::vector<Edge> edges;     // of kind links
-  uint32_t links_most = 0;     // of a worker
+  uint32_t max_links = 0;      // of a worker
   Controller controller = Controller::endpoint;
-  uint32_t controller_links_most = 0;  // not above the number of workers; 0 for `node`
+  uint32_t max_controller_links = 0;  // not above the number of workers; 0 for `node`
 };
 
 struct RunChoice {

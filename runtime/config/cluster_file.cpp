@@ -59,7 +59,7 @@ void read_links(TableReader& top, ClusterReading& reading) {
       keys.integer("bulk_window_chunks") * (net.bulk_chunk_bytes + chunk_overhead_bytes);
   net.outbox_messages = keys.integer("outbox_messages");
   net.assemblies = keys.integer("assemblies");
-  net.message_bytes_most = keys.size("message_most");
+  net.max_message_bytes = keys.size("message_most");
   net.assembly_patience = span_of(keys.number("assembly_s"));
   net.times.beat = milliseconds(static_cast<Nanoseconds>(keys.integer("beat_ms")));
   net.times.suspect_after_beats = static_cast<int>(keys.integer("suspect_after"));

@@ -36,8 +36,8 @@ NodeBudget read_budget(const toml::table& table, Findings& findings, const Sourc
   budget.prefetch =
       static_cast<uint32_t>(keys.integer("prefetch", otherwise(&NodeBudget::prefetch)));
   budget.stack_bytes = static_cast<uint32_t>(keys.integer("stack_kb", stack_kb) * 1024);
-  budget.maps_most =
-      static_cast<uint32_t>(keys.integer("maps_most", otherwise(&NodeBudget::maps_most)));
+  budget.max_maps =
+      static_cast<uint32_t>(keys.integer("maps_most", otherwise(&NodeBudget::max_maps)));
   return budget;
 }
 

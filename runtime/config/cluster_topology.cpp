@@ -11,18 +11,18 @@ namespace luxodus::config {
 namespace {
 
 /// Links that all nodes of the largest cluster may have.
-constexpr size_t pairs_most = limits::cluster_nodes * 64 / 2;
+constexpr size_t max_pairs = limits::cluster_nodes * 64 / 2;
 
 void read_sizes(TableReader& keys, TopologyChoice& choice) {
   using Controller = TopologyChoice::Controller;
-  choice.links_most = static_cast<uint32_t>(keys.integer("links"));
+  choice.max_links = static_cast<uint32_t>(keys.integer("links"));
   const std::string controller = keys.choice("controller");
   choice.controller = controller == "node"       ? Controller::node
                       : controller == "forwards" ? Controller::forwards
                                                  : Controller::endpoint;
-  choice.controller_links_most = static_cast<uint32_t>(keys.integer("controller_links"));
+  choice.max_controller_links = static_cast<uint32_t>(keys.integer("controller_links"));
   if (choice.controller != Controller::node) return;
-  choice.controller_links_most = 0;
+  choice.max_controller_links = 0;
   if (keys.has("controller_links")) {
     keys.problem("controller_links",
                  "a controller that is wired as a node has 'links'; leave this out");
@@ -56,7 +56,7 @@ void read_topology(TableReader& top, ClusterReading& reading) {
   } else if (said == "links") {
     TableReader keys = reader("topology.links");
     choice.kind = TopologyChoice::Kind::links;
-    reading.links = keys.pairs("pairs", pairs_most);
+    reading.links = keys.pairs("pairs", max_pairs);
     read_sizes(keys, choice);
   } else {
     TableReader keys = reader("topology.amp");
@@ -88,8 +88,8 @@ void place_shards(ClusterReading& reading) {
 void connect_nodes(ClusterReading& reading) {
   const ClusterConfig& cluster = reading.cluster;
   TopologyChoice& choice = reading.cluster.topology;
-  choice.controller_links_most =
-      std::min(choice.controller_links_most, static_cast<uint32_t>(cluster.workers()));
+  choice.max_controller_links =
+      std::min(choice.max_controller_links, static_cast<uint32_t>(cluster.workers()));
   std::set<Edge> seen;
   std::vector<uint32_t> links(cluster.nodes.size());
   for (const TableReader::Pair& pair : reading.links) {
@@ -110,7 +110,7 @@ void connect_nodes(ClusterReading& reading) {
     for (const NodeId end : {one, other}) {
       const bool special =
           end == cluster.controller() && choice.controller != TopologyChoice::Controller::node;
-      const uint32_t most = special ? choice.controller_links_most : choice.links_most;
+      const uint32_t most = special ? choice.max_controller_links : choice.max_links;
       if (++links[end.value] == most + 1) {
         reading.findings.add(
             pair.place,

@@ -147,7 +147,7 @@ TableSpec link_table() {
 }
 
 std::vector<TableSpec> topology_tables() {
-  const KeySpec links_most = {"links", "integer", "", "4", "[1, 64]", "of a node, at most"};
+  const KeySpec max_links = {"links", "integer", "", "4", "[1, 64]", "of a node, at most"};
   const KeySpec controller = {
       "controller",
       "choice",
@@ -168,14 +168,14 @@ std::vector<TableSpec> topology_tables() {
          "a minimum-path graph of as many nodes; a graph's file; links one by one"}}},
       {"topology.amp",
        "`[topology]` with `kind = \"amp\"`",
-       {links_most, controller, controller_links}},
+       {max_links, controller, controller_links}},
       {"topology.file",
        "`[topology]` with `kind = \"file\"`",
        {{"file", "path", "", "required", "", "as `luxodus topology` writes it"}}},
       {"topology.links",
        "`[topology]` with `kind = \"links\"`",
        {{"pairs", "pairs", "", "required", "", "`[[\"n0\", \"n1\"], ...]`: names of nodes"},
-        links_most,
+        max_links,
         controller,
         controller_links}},
       link_table(),

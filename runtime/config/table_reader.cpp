@@ -16,9 +16,9 @@ namespace luxodus::config {
 namespace {
 
 /// Longer texts are no paths, names or scenarios; PATH_MAX of Linux.
-constexpr size_t text_chars_most = 4096;
+constexpr size_t max_text_chars = 4096;
 /// Characters of a wrong value that are repeated in what is said of it.
-constexpr size_t shown_most = 60;
+constexpr size_t max_shown = 60;
 
 std::string_view kind_of(const toml::node& node) {
   switch (node.type()) {
@@ -74,8 +74,8 @@ size_t distance(std::string_view a, std::string_view b) {
 std::optional<std::string_view> nearest_word(std::string_view word,
                                              const std::vector<std::string_view>& known) {
   std::optional<std::string_view> nearest;
-  if (word.size() > shown_most) return nearest;  // longer than any key
-  size_t too_far = word.size() / 3 + 1;          // a third of the word may be wrong
+  if (word.size() > max_shown) return nearest;  // longer than any key
+  size_t too_far = word.size() / 3 + 1;         // a third of the word may be wrong
   for (const auto candidate : known) {
     const size_t steps = distance(word, candidate);
     if (steps >= std::min(too_far, candidate.size())) continue;
@@ -141,7 +141,7 @@ TableReader::TableReader(const toml::table& table, const std::vector<std::string
   for (auto&& [key, value] : table) {
     const std::string_view name = key;
     if (specs_.count(name) > 0) continue;
-    std::string what = fmt::format("there is no key '{}' here", name.substr(0, shown_most));
+    std::string what = fmt::format("there is no key '{}' here", name.substr(0, max_shown));
     if (const auto near = nearest_word(name, known)) {
       what += fmt::format("; did you mean '{}'?", *near);
       values_.emplace(*near, &value);  // no effect where the right key stands too
@@ -271,9 +271,9 @@ std::string TableReader::text_of(const KeySpec& s) {
   const std::string& text = value->get();
   const bool control = std::any_of(text.begin(), text.end(),
                                    [](char c) { return static_cast<unsigned char>(c) < 0x20; });
-  if (!control && text.size() <= text_chars_most) return text;
+  if (!control && text.size() <= max_text_chars) return text;
   problem(s.name, fmt::format("'{}' must have no control characters and at most {} characters",
-                              s.name, text_chars_most));
+                              s.name, max_text_chars));
   return "";
 }
 
@@ -315,7 +315,7 @@ bool TableReader::fits(const KeySpec& s, const toml::node& node, const std::stri
   const auto words = words_of(s.range);
   if (std::find(words.begin(), words.end(), word) != words.end()) return true;
   std::string what = fmt::format("'{}' is \"{}\" but must be one of: {}", s.name,
-                                 word.substr(0, shown_most), s.range);
+                                 word.substr(0, max_shown), s.range);
   if (const auto near = nearest_word(word, words)) what += fmt::format("; perhaps \"{}\"", *near);
   findings_.add(place_of(node, place_), std::move(what));
   return false;

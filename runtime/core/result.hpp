@@ -3,6 +3,7 @@
 // Thread rule: plain values, no sharing.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -48,6 +49,23 @@ class [[nodiscard]] Result {
 
  private:
   std::variant<T, Problem> state_;
+};
+
+/// Success, or the problem that prevented it: `return {};` on success.
+template <>
+class [[nodiscard]] Result<void> {
+ public:
+  Result() = default;
+  Result(Problem problem) : problem_(std::move(problem)) {}  // NOLINT: implicit on purpose
+
+  bool ok() const { return !problem_; }
+  explicit operator bool() const { return ok(); }
+
+  /// Requires: !ok().
+  const Problem& problem() const { return *problem_; }
+
+ private:
+  std::optional<Problem> problem_;
 };
 
 /// All that is wrong with something, in the order it was found.

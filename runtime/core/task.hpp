@@ -13,7 +13,7 @@ namespace luxodus {
 class Task {
  public:
   /// Six words: an object, what it is about, and a few numbers.
-  static constexpr size_t capture_bytes_most = 48;
+  static constexpr size_t max_capture_bytes = 48;
 
   Task() = default;
 
@@ -21,7 +21,7 @@ class Task {
   Task(Callable callable)  // NOLINT: implicit on purpose, `start("photon", [this] { ... })`
       : call_([](const void* capture) { (*static_cast<const Callable*>(capture))(); }) {
     static_assert(std::is_trivially_copyable_v<Callable>, "capture pointers and numbers only");
-    static_assert(sizeof(Callable) <= capture_bytes_most, "capture a pointer to what is larger");
+    static_assert(sizeof(Callable) <= max_capture_bytes, "capture a pointer to what is larger");
     static_assert(alignof(Callable) <= alignof(std::max_align_t));
     new (capture_) Callable(callable);
   }
@@ -33,7 +33,7 @@ class Task {
 
  private:
   void (*call_)(const void* capture) = nullptr;
-  alignas(std::max_align_t) std::byte capture_[capture_bytes_most]{};
+  alignas(std::max_align_t) std::byte capture_[max_capture_bytes]{};
 };
 
 }  // namespace luxodus

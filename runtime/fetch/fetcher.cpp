@@ -20,7 +20,7 @@ namespace {
 
 /// What a reply has beside the object [bytes]: two numbers in Cap'n Proto, and room for fields of
 /// later versions. Too small, and objects of several pieces would be refused.
-constexpr size_t reply_head_bytes_most = 256;
+constexpr size_t max_reply_head_bytes = 256;
 
 /// How soon to try an outbox again that was full: after a turn or two of the node's loop.
 constexpr Nanoseconds outbox_patience = microseconds(100);
@@ -70,7 +70,7 @@ Fetcher::Fetcher(const FetchConfig& config, const std::vector<ObjectPlace>& obje
 Fetcher::~Fetcher() {
   if (begins_soon_) timers_.cancel(begin_timer_);
   for (size_t i = 0; i < flights_.capacity(); ++i) {
-    Flight& flight = flights_.at(i);
+    PendingFetch& flight = flights_.at(i);
     if (flight.id.sequence == 0) continue;
     timers_.cancel(flight.timer);
     network_.forget(flight.id, Kind::reply);
@@ -79,7 +79,7 @@ Fetcher::~Fetcher() {
 
 void Fetcher::plan_memory(MemoryPlan& plan, const FetchConfig& config, size_t objects) {
   plan.add("objects received", config.receive_bytes, "receive_bytes: asked for and not yet built");
-  const size_t flight_bytes = sizeof(Flight) + FixedPool<Flight>::bytes_beside;
+  const size_t flight_bytes = sizeof(PendingFetch) + FixedPool<PendingFetch>::bytes_beside;
   plan.add("fetches", config.flights * flight_bytes + objects * sizeof(Wish) + sizeof(Fetcher),
            fmt::format("{} flights x {} B + {} objects x {} B + {} B, mostly histograms",
                        config.flights, flight_bytes, objects, sizeof(Wish), sizeof(Fetcher)));
@@ -142,7 +142,7 @@ void Fetcher::begin_flights() {
 }
 
 void Fetcher::begin(const Wish& wish) {
-  Flight& flight = *flights_.take();
+  PendingFetch& flight = *flights_.take();
   flight.wish = wish;
   flight.id = network_.next_id();
   flight.timer = {};
@@ -164,7 +164,7 @@ size_t Fetcher::nearest_holder(uint32_t object) const {
   return static_cast<size_t>(nearest - holders.begin());
 }
 
-void Fetcher::end(Flight& flight) {
+void Fetcher::end(PendingFetch& flight) {
   if (flight.trace_id != 0)
     config_.trace->end(TraceKind::fetch, flight.trace_id, flight.wish.object);
   timers_.cancel(flight.timer);
@@ -175,7 +175,7 @@ void Fetcher::end(Flight& flight) {
   begin_soon();
 }
 
-Fetcher::Flight* Fetcher::flight_of(const MessageId& id) {
+Fetcher::PendingFetch* Fetcher::flight_of(const MessageId& id) {
   if (id.sequence == 0) return nullptr;
   for (size_t i = 0; i < flights_.capacity(); ++i)
     if (flights_.at(i).id == id) return &flights_.at(i);
@@ -185,7 +185,7 @@ Fetcher::Flight* Fetcher::flight_of(const MessageId& id) {
 // ---- asking
 
 /// Asks the next holder that has tries left and can be reached, and so on round.
-void Fetcher::ask(Flight& flight) {
+void Fetcher::ask(PendingFetch& flight) {
   const std::vector<NodeId>& holders = objects_[flight.wish.object].holders;
   bool ways_missing = false;
   for (size_t n = 0; n < holders.size(); ++n) {
@@ -207,7 +207,7 @@ void Fetcher::ask(Flight& flight) {
 }
 
 /// Asks now, or once the network has room for the question; false where no way leads there.
-bool Fetcher::ask_holder(Flight& flight, NodeId holder) {
+bool Fetcher::ask_holder(PendingFetch& flight, NodeId holder) {
   const RouteDelay& route = routes_[holder.value];
   const unsigned nth = flight.tries[flight.holder] + 1u;
   const Nanoseconds patience = with_jitter(route.timeout(config_.timeouts, nth));
@@ -230,20 +230,20 @@ bool Fetcher::ask_holder(Flight& flight, NodeId holder) {
 
 /// No holder that has a try left can be reached: that costs each of them one, and as much time as
 /// a question on a route of which nothing is known; meanwhile routes may be made anew.
-void Fetcher::wait_for_ways(Flight& flight) {
+void Fetcher::wait_for_ways(PendingFetch& flight) {
   uint8_t used = 0;
   for (size_t at = 0; at < objects_[flight.wish.object].holders.size(); ++at)
     if (flight.tries[at] < config_.tries) used = std::max(used, ++flight.tries[at]);
   set_timer(flight, with_jitter(RouteDelay().timeout(config_.timeouts, used)), false);
 }
 
-bool Fetcher::take_from_store(Flight& flight) {
+bool Fetcher::take_from_store(PendingFetch& flight) {
   SharedBytes bytes = store_.find(objects_[flight.wish.object].id);
   if (bytes.bytes.empty()) bytes = store_.find_in_storage(flight.wish.object);
   return !bytes.bytes.empty() && accept(flight, std::move(bytes), 0, config_.self);
 }
 
-void Fetcher::give_up(Flight& flight) {
+void Fetcher::give_up(PendingFetch& flight) {
   const Wish wish = flight.wish;
   ++counters_.unobtainable;
   if (log_unobtainable_.may(clock_.now()))
@@ -255,13 +255,13 @@ void Fetcher::give_up(Flight& flight) {
   wish.client->unobtainable(wish.object);
 }
 
-void Fetcher::set_timer(Flight& flight, Nanoseconds span, bool answer_due) {
+void Fetcher::set_timer(PendingFetch& flight, Nanoseconds span, bool answer_due) {
   timers_.cancel(flight.timer);
   flight.answer_due = answer_due;
   flight.timer = timers_.set(clock_.now() + span, [this, &flight] { timer_fired(flight); });
 }
 
-void Fetcher::timer_fired(Flight& flight) {
+void Fetcher::timer_fired(PendingFetch& flight) {
   if (flight.answer_due) {
     ++counters_.timeouts;
     const NodeId holder = objects_[flight.wish.object].holders[flight.holder];
@@ -287,9 +287,9 @@ bool Fetcher::deliver(const Delivery& delivery) {
 }
 
 std::span<std::byte> Fetcher::room_for(const MessageId& id, Kind kind, size_t bytes) {
-  Flight* flight = kind == Kind::reply ? flight_of(id) : nullptr;
+  PendingFetch* flight = kind == Kind::reply ? flight_of(id) : nullptr;
   if (flight == nullptr) return {};
-  const size_t most = objects_[flight->wish.object].wire_bytes + reply_head_bytes_most;
+  const size_t most = objects_[flight->wish.object].wire_bytes + max_reply_head_bytes;
   if (bytes > most) return {};
   if (flight->room == nullptr) flight->room = room_of(most);
   // The answer has begun: its pieces take turns with those of all others that are under way.
@@ -299,7 +299,7 @@ std::span<std::byte> Fetcher::room_for(const MessageId& id, Kind kind, size_t by
 
 void Fetcher::found(const Delivery& delivery, const ObjectFound& answer) {
   counters_.bytes_in += delivery.payload.size();
-  Flight* flight = flight_of(delivery.id);
+  PendingFetch* flight = flight_of(delivery.id);
   if (flight == nullptr) {
     ++counters_.late;
     return;
@@ -315,10 +315,10 @@ void Fetcher::found(const Delivery& delivery, const ObjectFound& answer) {
 }
 
 /// In pieces it lies in the room that was set aside; else it is the network's for this call.
-SharedBytes Fetcher::kept(const Flight& flight, std::span<const std::byte> payload) {
+SharedBytes Fetcher::kept(const PendingFetch& flight, std::span<const std::byte> payload) {
   const auto* room = reinterpret_cast<const std::byte*>(flight.room.get());
   const size_t room_bytes =
-      room == nullptr ? 0 : objects_[flight.wish.object].wire_bytes + reply_head_bytes_most;
+      room == nullptr ? 0 : objects_[flight.wish.object].wire_bytes + max_reply_head_bytes;
   if (payload.data() >= room && payload.data() < room + room_bytes) return {payload, flight.room};
   const auto copy = room_of(std::max<size_t>(payload.size(), 1));
   const std::span to = std::as_writable_bytes(std::span(copy.get(), (payload.size() + 7) / 8));
@@ -327,7 +327,7 @@ SharedBytes Fetcher::kept(const Flight& flight, std::span<const std::byte> paylo
 }
 
 void Fetcher::not_here(const Delivery& delivery, const ObjectNotHere& answer) {
-  Flight* flight = flight_of(delivery.id);
+  PendingFetch* flight = flight_of(delivery.id);
   if (flight == nullptr ||
       answer.answered_by != objects_[flight->wish.object].holders[flight->holder]) {
     ++counters_.late;
@@ -339,7 +339,7 @@ void Fetcher::not_here(const Delivery& delivery, const ObjectNotHere& answer) {
 }
 
 /// Ends the flight with these bytes, if they are the object's.
-bool Fetcher::accept(Flight& flight, SharedBytes bytes, uint8_t hops, NodeId from) {
+bool Fetcher::accept(PendingFetch& flight, SharedBytes bytes, uint8_t hops, NodeId from) {
   const Wish wish = flight.wish;
   const ObjectPlace& place = objects_[wish.object];
   if (bytes.bytes.size() != place.wire_bytes || object_id_of(bytes.bytes) != place.id) {

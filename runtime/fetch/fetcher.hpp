@@ -78,7 +78,7 @@ class Fetcher {
   /// Adds what a fetcher of this configuration takes.
   static void plan_memory(MemoryPlan& plan, const FetchConfig& config, size_t objects);
   /// Timers that it may have set at once, for SchedulerLimits::timers_beside_fibers.
-  static size_t timers_most(const FetchConfig& config) { return config.flights + 1; }
+  static size_t max_timers(const FetchConfig& config) { return config.flights + 1; }
 
   /// Has `client` told of this object's bytes, or that nobody has them; never within the call.
   /// Requires: it is not under way, and its room was released; `client` outlives the fetch.
@@ -130,7 +130,7 @@ class Fetcher {
     Nanoseconds since = 0;
     bool traced = false;
   };
-  struct Flight {
+  struct PendingFetch {
     Wish wish;
     MessageId id;           // sequence 0 while it rests
     uint64_t trace_id = 0;  // of its first question; 0: it is not traced
@@ -147,22 +147,22 @@ class Fetcher {
   void begin_flights();
   void begin(const Wish& wish);
   size_t nearest_holder(uint32_t object) const;
-  void end(Flight& flight);
-  Flight* flight_of(const MessageId& id);
+  void end(PendingFetch& flight);
+  PendingFetch* flight_of(const MessageId& id);
 
-  void ask(Flight& flight);
-  bool ask_holder(Flight& flight, NodeId holder);
-  void wait_for_ways(Flight& flight);
-  bool take_from_store(Flight& flight);
-  void give_up(Flight& flight);
-  void set_timer(Flight& flight, Nanoseconds span, bool answer_due);
-  void timer_fired(Flight& flight);
+  void ask(PendingFetch& flight);
+  bool ask_holder(PendingFetch& flight, NodeId holder);
+  void wait_for_ways(PendingFetch& flight);
+  bool take_from_store(PendingFetch& flight);
+  void give_up(PendingFetch& flight);
+  void set_timer(PendingFetch& flight, Nanoseconds span, bool answer_due);
+  void timer_fired(PendingFetch& flight);
   Nanoseconds with_jitter(Nanoseconds span);
 
   void found(const Delivery& delivery, const ObjectFound& answer);
-  SharedBytes kept(const Flight& flight, std::span<const std::byte> payload);
+  SharedBytes kept(const PendingFetch& flight, std::span<const std::byte> payload);
   void not_here(const Delivery& delivery, const ObjectNotHere& answer);
-  bool accept(Flight& flight, SharedBytes bytes, uint8_t hops, NodeId from);
+  bool accept(PendingFetch& flight, SharedBytes bytes, uint8_t hops, NodeId from);
   SharedBytes held(ObjectId object);
   bool serve(const Delivery& request, const FetchObject& wanted);
 
@@ -175,7 +175,7 @@ class Fetcher {
   Random jitter_;
   std::vector<RouteDelay> routes_;  // by holder
   Ring<Wish> waiting_;              // for room: every object at most once
-  FixedPool<Flight> flights_;
+  FixedPool<PendingFetch> flights_;
   TimerId begin_timer_;
   bool begins_soon_ = false;
   Counters counters_;

@@ -16,11 +16,11 @@ namespace {
 void check(const CacheConfig& config) {
   if (config.largest_build_bytes == 0 || !(config.pinned_share >= 0) || config.pinned_share > 1)
     throw std::invalid_argument("cache: a build's size and a share of 0 to 1 are needed");
-  if (config.budget_bytes < 2 * config.largest_build_bytes + config.pinned_bytes_most())
+  if (config.budget_bytes < 2 * config.largest_build_bytes + config.max_pinned_bytes())
     throw std::invalid_argument(
         fmt::format("cache: a budget of {} bytes has no room for one object and one build of {} "
                     "bytes beside {} that may be pinned",
-                    config.budget_bytes, config.largest_build_bytes, config.pinned_bytes_most()));
+                    config.budget_bytes, config.largest_build_bytes, config.max_pinned_bytes()));
 }
 
 }  // namespace
@@ -42,7 +42,7 @@ ObjectCache::~ObjectCache() {
 
 void ObjectCache::plan_memory(MemoryPlan& plan, const CacheConfig& config, size_t objects) {
   plan.add("objects", config.budget_bytes,
-           fmt::format("{} B resident + {} B for a build", config.resident_bytes_most(),
+           fmt::format("{} B resident + {} B for a build", config.max_resident_bytes(),
                        config.largest_build_bytes));
   plan.add("table of objects", objects * sizeof(Entry),
            fmt::format("{} objects x {} B", objects, sizeof(Entry)));
@@ -208,7 +208,7 @@ void ObjectCache::start_build(Entry& entry) {
 void ObjectCache::come_in(Entry& entry, std::shared_ptr<const BuiltObject> built) {
   entry.charge = built->bytes();
   if (entry.charge > config_.largest_build_bytes) ++counters_.oversized;
-  while (counters_.resident_bytes + entry.charge > config_.resident_bytes_most() &&
+  while (counters_.resident_bytes + entry.charge > config_.max_resident_bytes() &&
          !unpinned_.empty())
     evict(*unpinned_.pop_front());
   if (!unpinned_.empty() && rarely(config_.buggify, Buggify::Site::early_eviction))
@@ -224,7 +224,7 @@ void ObjectCache::come_in(Entry& entry, std::shared_ptr<const BuiltObject> built
 /// Pins a resident object that shall be, if there is room.
 void ObjectCache::keep(Entry& entry) {
   if (entry.pin != Pin::wanted) return;
-  if (counters_.pinned_bytes + entry.charge > config_.pinned_bytes_most()) {
+  if (counters_.pinned_bytes + entry.charge > config_.max_pinned_bytes()) {
     entry.pin = Pin::none;
     ++counters_.pins_refused;
     return;

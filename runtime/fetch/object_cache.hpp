@@ -55,8 +55,8 @@ struct CacheConfig {
   SharedObjects* shared = nullptr;
 
   /// For resident objects: what the budget leaves beside one build.
-  size_t resident_bytes_most() const { return budget_bytes - largest_build_bytes; }
-  size_t pinned_bytes_most() const {
+  size_t max_resident_bytes() const { return budget_bytes - largest_build_bytes; }
+  size_t max_pinned_bytes() const {
     return static_cast<size_t>(pinned_share * static_cast<double>(budget_bytes));
   }
 };
@@ -86,7 +86,7 @@ class ObjectCache final : private FetchClient, private ObjectBuilder::Client {
   /// Adds what a cache of this configuration takes.
   static void plan_memory(MemoryPlan& plan, const CacheConfig& config, size_t objects);
   /// Timers that it may have set at once.
-  static constexpr size_t timers_most = 1;
+  static constexpr size_t max_timers = 1;
 
   /// The object if it is resident, else null.
   const BuiltObject* find(uint32_t object) {

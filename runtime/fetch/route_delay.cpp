@@ -9,7 +9,7 @@ namespace luxodus {
 size_t RouteDelay::bin_of(Nanoseconds delay) {
   const auto us = static_cast<uint64_t>(std::max<Nanoseconds>(delay, 0) / microseconds(1));
   const auto width = static_cast<size_t>(std::bit_width(us));
-  if (width > powers_most) return bins - 1;
+  if (width > max_powers) return bins - 1;
   const size_t second = width >= 2 ? (us >> (width - 2)) & 1 : 0;
   return 2 * width + second;
 }
@@ -37,7 +37,7 @@ void RouteDelay::answered(Nanoseconds delay) {
 void RouteDelay::timed_out(Nanoseconds asked, Nanoseconds now) {
   if (asked < doubled_at_) return;
   doubled_at_ = now;
-  doublings_ = std::min(doublings_ + 1, doublings_most);
+  doublings_ = std::min(doublings_ + 1, max_doublings);
 }
 
 Nanoseconds RouteDelay::p99() const {
@@ -51,7 +51,7 @@ Nanoseconds RouteDelay::p99() const {
 
 Nanoseconds RouteDelay::timeout(const TimeoutLimits& limits, unsigned nth) const {
   const Nanoseconds usual = total_ == 0 ? limits.first : std::max(limits.floor, 3 * p99());
-  const unsigned doublings = std::min(std::max(doublings_, nth - 1), doublings_most);
+  const unsigned doublings = std::min(std::max(doublings_, nth - 1), max_doublings);
   return std::min(std::min(usual, limits.most) << doublings, limits.most);
 }
 

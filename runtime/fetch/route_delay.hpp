@@ -36,10 +36,10 @@ class RouteDelay {
 
  private:
   // Two bins for each power of two of microseconds: 134 s and above share the last.
-  static constexpr size_t powers_most = 27;
-  static constexpr size_t bins = 2 * powers_most + 2;
+  static constexpr size_t max_powers = 27;
+  static constexpr size_t bins = 2 * max_powers + 2;
   static constexpr uint32_t remembered = 512;  // answers, so that the 99th of 100 is told apart
-  static constexpr unsigned doublings_most = 16;
+  static constexpr unsigned max_doublings = 16;
 
   static size_t bin_of(Nanoseconds delay);
   static Nanoseconds end_of(size_t bin);

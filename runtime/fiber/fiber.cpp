@@ -10,12 +10,12 @@ namespace {
 
 // How often a cancelled fiber may try to suspend on its way out: a loop that takes no notice would
 // hold its node for ever, without a word.
-constexpr int refusals_most = 1000;
+constexpr int max_refusals = 1000;
 
 }  // namespace
 
 Fibers::Fibers(const FiberLimits& limits)
-    : stacks_(limits.count, limits.stack_bytes, limits.maps_most),
+    : stacks_(limits.count, limits.stack_bytes, limits.max_maps),
       pool_("fibers", limits.count, WhenEmpty::wait) {
   for (size_t i = 0; i < limits.count; ++i) {
     Fiber& fiber = pool_.at(i);
@@ -77,7 +77,7 @@ Wake Fibers::park(IntrusiveList<Fiber>* list, FiberState state, const char* reas
   Fiber& fiber = *current_;
   fiber.reason_ = reason;
   if (fiber.cancelled_) {
-    LUX_CHECK(++fiber.refusals_ < refusals_most, "a fiber takes no notice of its cancellation");
+    LUX_CHECK(++fiber.refusals_ < max_refusals, "a fiber takes no notice of its cancellation");
     return Wake::cancelled;
   }
   fiber.state_ = state;
@@ -144,10 +144,10 @@ void Fibers::cancel_all() {
 }
 
 std::string Fibers::describe_live() const {
-  constexpr size_t shown_most = 5;  // a line of a log
+  constexpr size_t max_shown = 5;  // a line of a log
   std::string out = std::to_string(live()) + (live() == 1 ? " fiber" : " fibers");
   size_t shown = 0;
-  for (size_t i = 0; i < pool_.capacity() && shown < shown_most; ++i) {
+  for (size_t i = 0; i < pool_.capacity() && shown < max_shown; ++i) {
     const Fiber& fiber = pool_.at(i);
     if (fiber.state_ == FiberState::resting) continue;
     out += std::string(shown++ == 0 ? ": " : ", ") + fiber.tag_ + " in " + fiber.reason_;

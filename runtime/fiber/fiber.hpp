@@ -75,7 +75,7 @@ class WaitList {
 struct FiberLimits {
   size_t count = 256;                          // fibers at once
   size_t stack_bytes = default_stack_bytes();  // for each
-  size_t maps_most = 16'384;  // of the process's 65 530, for guards: four such nodes in a process
+  size_t max_maps = 16'384;  // of the process's 65 530, for guards: four such nodes in a process
 };
 
 /// All fibers of a node.

@@ -21,8 +21,8 @@ namespace {
 // A handler of signals is given nothing but an address, so this room keeps the one thing in the
 // program that is global: which mappings are stacks. Slots are claimed by compare-and-swap, since
 // nodes of a process start side by side; the handler only reads.
-constexpr size_t pools_most = 1024;  // nodes of one process, simulated ones included
-std::array<std::atomic<const StackPool*>, pools_most> watched_pools{};
+constexpr size_t max_pools = 1024;  // nodes of one process, simulated ones included
+std::array<std::atomic<const StackPool*>, max_pools> watched_pools{};
 
 // Whose turn it is where the fault is none of ours. Written before the handler is put in place.
 struct sigaction handler_before {};

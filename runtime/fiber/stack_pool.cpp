@@ -52,18 +52,17 @@ size_t default_stack_bytes() {
   return sanitizers::stack_factor * 32 * 1024;
 }
 
-size_t process_maps_most() {
+size_t max_process_maps() {
   constexpr size_t kernel_default = 65530;
   std::ifstream file("/proc/sys/vm/max_map_count");
   size_t count = 0;
   return file >> count ? count : kernel_default;
 }
 
-StackPool::StackPool(size_t count, size_t stack_bytes, size_t maps_most)
+StackPool::StackPool(size_t count, size_t stack_bytes, size_t max_maps)
     : stack_bytes_(to_pages(std::max(stack_bytes, 2 * page_bytes))),
       slot_bytes_(stack_bytes_ + guard_bytes),
-      guard_every_(
-          std::max<size_t>(1, (2 * count + maps_most - 1) / std::max<size_t>(maps_most, 1))),
+      guard_every_(std::max<size_t>(1, (2 * count + max_maps - 1) / std::max<size_t>(max_maps, 1))),
       owners_(count, nullptr) {
   if (count == 0) return;
   void* mapped = mmap(nullptr, mapped_bytes(), PROT_READ | PROT_WRITE,
@@ -80,7 +79,7 @@ StackPool::StackPool(size_t count, size_t stack_bytes, size_t maps_most)
     } else if (mprotect(base_.get() + i * slot_bytes_, guard_bytes, PROT_NONE) != 0) {
       throw std::runtime_error(
           fmt::format("cannot guard fiber stack {} of {}: {} (vm.max_map_count is {})", i, count,
-                      std::strerror(errno), process_maps_most()));
+                      std::strerror(errno), max_process_maps()));
     }
   }
   overflow_watch::add(*this);

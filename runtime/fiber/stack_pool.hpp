@@ -20,14 +20,14 @@ namespace luxodus {
 size_t default_stack_bytes();
 
 /// vm.max_map_count of this machine; the kernel's default, 65530, where it cannot be read.
-size_t process_maps_most();
+size_t max_process_maps();
 
 class StackPool {
  public:
   /// Maps `count` stacks of at least `stack_bytes`, rounded up to pages, and protects as many as
-  /// `maps_most` maps allow; nodes of one process share process_maps_most() between them.
+  /// `max_maps` maps allow; nodes of one process share max_process_maps() between them.
   /// Throws std::runtime_error where the system refuses: a start cannot go on without stacks.
-  StackPool(size_t count, size_t stack_bytes, size_t maps_most);
+  StackPool(size_t count, size_t stack_bytes, size_t max_maps);
   StackPool(const StackPool&) = delete;
   StackPool& operator=(const StackPool&) = delete;
   ~StackPool();

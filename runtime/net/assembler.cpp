@@ -5,8 +5,8 @@
 
 namespace luxodus {
 
-Assembler::Assembler(size_t messages, size_t chunks_most) : slots_(messages), free_(messages) {
-  for (Slot& slot : slots_) slot.come.reserve((chunks_most + 63) / 64);
+Assembler::Assembler(size_t messages, size_t max_chunks) : slots_(messages), free_(messages) {
+  for (Slot& slot : slots_) slot.come.reserve((max_chunks + 63) / 64);
 }
 
 const Assembler::Slot* Assembler::find(const Envelope& envelope) const {

@@ -17,12 +17,12 @@ namespace luxodus {
 
 class Assembler {
  public:
-  /// Requires: `chunks_most` chunks are the longest message.
-  Assembler(size_t messages, size_t chunks_most);
+  /// Requires: `max_chunks` chunks are the longest message.
+  Assembler(size_t messages, size_t max_chunks);
 
   /// What one takes, for a memory plan; the room for messages is that of whoever waits for them.
-  static size_t memory_bytes(size_t messages, size_t chunks_most) {
-    return messages * (sizeof(Slot) + (chunks_most + 63) / 64 * sizeof(uint64_t));
+  static size_t memory_bytes(size_t messages, size_t max_chunks) {
+    return messages * (sizeof(Slot) + (max_chunks + 63) / 64 * sizeof(uint64_t));
   }
 
   /// Whether some of this message has come, so that more of it is expected.

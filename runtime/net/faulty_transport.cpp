@@ -124,7 +124,7 @@ void FaultyTransport::suffer() {
 }
 
 void FaultyTransport::take_in() {
-  while (held_bytes_ < config_.held_most) {
+  while (held_bytes_ < config_.max_held) {
     const auto arrival = below_.receive();
     if (!arrival) return;
     if (arrival->bytes.size() < sizeof(Stamp))

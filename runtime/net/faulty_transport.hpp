@@ -35,7 +35,7 @@ struct FaultyConfig {
   FaultPlan plan;
   /// All nodes tell the time alike: they are on one host.
   bool one_clock = true;
-  size_t held_most = limits::held_back_bytes;
+  size_t max_held = limits::held_back_bytes;
   /// How a node stands still for so long, and how its process ends at once. Null: for real.
   std::function<void(Nanoseconds)> stand_still;
   std::function<void()> crash;

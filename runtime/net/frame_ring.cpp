@@ -14,8 +14,8 @@ struct FrameRing::Record {
   size_t body_bytes = 0;
 };
 
-FrameRing::FrameRing(size_t window, size_t body_most)
-    : capacity_(memory_bytes(window, body_most)),
+FrameRing::FrameRing(size_t window, size_t max_body)
+    : capacity_(memory_bytes(window, max_body)),
       // Not written here: memory of a queue that is never used is never taken from the system.
       memory_(new std::byte[capacity_]) {
   static_assert(sizeof(Record) <= limits::frame_overhead_bytes);

@@ -25,8 +25,8 @@ constexpr size_t frame_charge(size_t body_bytes) {
 class FrameRing {
  public:
   /// Frames are held as long as their charges sum to at most `window`; none has a body longer than
-  /// `body_most` [bytes].
-  FrameRing(size_t window, size_t body_most);
+  /// `max_body` [bytes].
+  FrameRing(size_t window, size_t max_body);
 
   struct Frame {
     const Envelope& envelope;
@@ -43,8 +43,8 @@ class FrameRing {
 
   size_t memory_bytes() const { return capacity_; }
   /// The same, before a ring is made.
-  static constexpr size_t memory_bytes(size_t window, size_t body_most) {
-    return window / 8 * 8 + frame_charge(body_most);
+  static constexpr size_t memory_bytes(size_t window, size_t max_body) {
+    return window / 8 * 8 + frame_charge(max_body);
   }
 
  private:

@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Longer than any key's file; what is longer is no key.
-constexpr size_t file_bytes_most = 256;
+constexpr size_t max_file_bytes = 256;
 constexpr size_t key_characters = 40;
 
 Problem trouble(const fs::path& path, const std::string& what) {
@@ -76,10 +76,10 @@ Result<std::string> read_key(const fs::path& path, bool secret) {
     return trouble(path,
                    "holds a secret key that others may read: chmod 600 it, and if they may "
                    "have read it, make a new one");
-  std::array<char, file_bytes_most + 1> text;
+  std::array<char, max_file_bytes + 1> text;
   const ssize_t n = ::read(file.descriptor, text.data(), text.size());
   if (n < 0) return system_trouble(path, "cannot be read");
-  if (static_cast<size_t>(n) > file_bytes_most) return trouble(path, "is too long for a key");
+  if (static_cast<size_t>(n) > max_file_bytes) return trouble(path, "is too long for a key");
   std::string_view key(text.data(), static_cast<size_t>(n));
   while (!key.empty() && (key.back() == '\n' || key.back() == '\r' || key.back() == ' '))
     key.remove_suffix(1);

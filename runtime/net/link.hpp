@@ -96,7 +96,7 @@ class Link {
 
  private:
   struct Pool {
-    Pool(size_t window, size_t body_most) : out(window), in(window), frames(window, body_most) {}
+    Pool(size_t window, size_t max_body) : out(window), in(window), frames(window, max_body) {}
     CreditOut out;
     CreditIn in;
     FrameRing frames;

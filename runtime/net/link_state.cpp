@@ -112,7 +112,7 @@ void LinkState::postpone_hello(Nanoseconds now) {
     return;
   }
   hello_at_ = now + backoff_;
-  backoff_ = std::min(2 * backoff_, times_.backoff_most);
+  backoff_ = std::min(2 * backoff_, times_.max_backoff);
 }
 
 }  // namespace luxodus

@@ -39,7 +39,7 @@ struct LinkTimes {
   int down_after_beats = 8;                 // 2 s: a pause for a page or a build is shorter
   Nanoseconds patience = seconds(10);       // for a greeting: hosts start at their own pace
   Nanoseconds backoff = milliseconds(250);  // between hellos, doubled up to:
-  Nanoseconds backoff_most = seconds(5);
+  Nanoseconds max_backoff = seconds(5);
   Nanoseconds refused_retry = seconds(30);  // an operator acts in minutes, and reads the log
 };
 

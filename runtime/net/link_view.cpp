@@ -39,10 +39,10 @@ uint32_t LinkView::version(Edge edge) const {
 bool LinkView::merge(const LinkChange& change) {
   // No link changes so often while somebody does not hear of it; and at the end of the numbers
   // nobody could contradict.
-  constexpr uint32_t unheard_most = 1 << 20;
+  constexpr uint32_t max_unheard = 1 << 20;
   Known* known = find({change.a, change.b});
   if (known == nullptr || change.version <= known->version) return false;
-  if (change.version - known->version > unheard_most) return false;
+  if (change.version - known->version > max_unheard) return false;
   epoch_ += change.version - known->version;
   known->version = change.version;
   return true;

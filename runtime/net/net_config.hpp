@@ -42,7 +42,7 @@ inline constexpr size_t outbox_messages = 64;
 /// Messages in several pieces on their way to this node at once.
 inline constexpr size_t assemblies = 64;
 /// The longest message [bytes]: an object of a scene is bounded far below it.
-inline constexpr size_t message_bytes_most = 64 << 20;
+inline constexpr size_t max_message_bytes = 64 << 20;
 }  // namespace defaults
 
 struct NetConfig {
@@ -59,7 +59,7 @@ struct NetConfig {
   size_t bulk_window_bytes = defaults::bulk_window_bytes;
   size_t outbox_messages = defaults::outbox_messages;
   size_t assemblies = defaults::assemblies;
-  size_t message_bytes_most = defaults::message_bytes_most;
+  size_t max_message_bytes = defaults::max_message_bytes;
   Nanoseconds assembly_patience = seconds(10);  // without a new piece
   Buggify* buggify = nullptr;                   // rare ways; null: none
 

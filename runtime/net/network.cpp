@@ -66,7 +66,7 @@ Network::Network(const NetConfig& config, Transport& transport, NetHandler& hand
       handler_(handler),
       scratch_(limits::message_bytes),
       view_(config.edges),
-      assembler_(config.assemblies, config.message_bytes_most / config.bulk_chunk_bytes + 1),
+      assembler_(config.assemblies, config.max_message_bytes / config.bulk_chunk_bytes + 1),
       here_(std::make_unique<Here>(*this)),
       router_(config_, counters_, links_, *here_),
       next_beat_(now) {
@@ -98,7 +98,7 @@ SendOutcome Network::send(NodeId destination, const MessageId& id, const Message
     return SendOutcome::full;
   const auto head = codec_.encode(message, scratch_);
   if (!head) throw std::length_error("network: " + head.problem().what);
-  if (head.value() + payload.bytes.size() > config_.message_bytes_most)
+  if (head.value() + payload.bytes.size() > config_.max_message_bytes)
     throw std::length_error("network: a message is longer than message_bytes_most");
   outbox.add(destination, id, std::span(scratch_).first(head.value()), std::move(payload));
   given_ = true;
@@ -241,7 +241,7 @@ bool Network::consistent(const Envelope& envelope, size_t body_bytes) const {
   return envelope.source.value < config_.nodes && envelope.destination.value < config_.nodes &&
          envelope.hops >= 1 && envelope.chunk_bytes > 0 &&
          envelope.chunk_bytes <= config_.chunk_bytes(envelope.kind) &&
-         envelope.total_bytes <= config_.message_bytes_most && begin < envelope.total_bytes &&
+         envelope.total_bytes <= config_.max_message_bytes && begin < envelope.total_bytes &&
          body_bytes == std::min<uint64_t>(envelope.chunk_bytes, envelope.total_bytes - begin);
 }
 

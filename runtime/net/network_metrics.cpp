@@ -18,8 +18,8 @@ size_t links_of(const NetConfig& config) {
   return links;
 }
 
-size_t chunks_most(const NetConfig& config) {
-  return config.message_bytes_most / config.bulk_chunk_bytes + 1;
+size_t max_chunks(const NetConfig& config) {
+  return config.max_message_bytes / config.bulk_chunk_bytes + 1;
 }
 
 }  // namespace
@@ -83,9 +83,9 @@ void Network::plan_memory(MemoryPlan& plan, const NetConfig& config) {
     outboxes += Outbox::memory_bytes(config.outbox_messages, config.chunk_bytes(kind));
   plan.add("outboxes", outboxes,
            fmt::format("{} kinds x {} messages", routed_kinds.size(), config.outbox_messages));
-  plan.add("assemblies", Assembler::memory_bytes(config.assemblies, chunks_most(config)),
+  plan.add("assemblies", Assembler::memory_bytes(config.assemblies, max_chunks(config)),
            fmt::format("{} messages x a bit for each of {} chunks", config.assemblies,
-                       chunks_most(config)));
+                       max_chunks(config)));
   plan.add("message being made", limits::message_bytes, "longest head of a message");
 }
 

@@ -27,7 +27,7 @@ namespace luxodus {
 namespace {
 
 /// The longest frame: an envelope and a message, or a chunk, which is no longer.
-constexpr int64_t frame_bytes_most = limits::frame_head_bytes + limits::message_bytes;
+constexpr int64_t max_frame_bytes = limits::frame_head_bytes + limits::message_bytes;
 constexpr Nanoseconds reminder_interval = seconds(60);
 /// Between looks at connections made and lost, while the node is busy: idle, it is told at once.
 constexpr Nanoseconds look_interval = milliseconds(10);
@@ -96,7 +96,7 @@ void ZmqTransport::set_options(LaneSockets& lane) {
   s.set(zmq::sockopt::linger, 0);
   s.set(zmq::sockopt::sndhwm, config_.high_water_frames);
   s.set(zmq::sockopt::rcvhwm, config_.high_water_frames);
-  s.set(zmq::sockopt::maxmsgsize, frame_bytes_most);
+  s.set(zmq::sockopt::maxmsgsize, max_frame_bytes);
   s.set(zmq::sockopt::handshake_ivl, 2000);  // [ms], as all below
   s.set(zmq::sockopt::tcp_maxrt, 5000);
   s.set(zmq::sockopt::reconnect_ivl, 100);
@@ -115,7 +115,7 @@ void ZmqTransport::set_options(LaneSockets& lane) {
       "zmq=options node={} lane={} mandatory=1 handover=1 immediate=1 linger_ms=0 "
       "hwm_frames={} frame_bytes_most={} handshake_ms=2000 tcp_maxrt_ms=5000 "
       "reconnect_ms=100..5000 curve={}",
-      config_.self.value, lane.name, config_.high_water_frames, frame_bytes_most,
+      config_.self.value, lane.name, config_.high_water_frames, max_frame_bytes,
       config_.keys.has_value());
 }
 

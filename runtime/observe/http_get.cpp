@@ -20,7 +20,7 @@ namespace luxodus {
 namespace {
 
 /// Status line and headers [bytes].
-constexpr size_t head_bytes_most = 16 * 1024;
+constexpr size_t max_head_bytes = 16 * 1024;
 
 /// A connection under a deadline; the first thing that goes wrong is kept.
 class Connection {
@@ -72,7 +72,7 @@ class Connection {
       if (received < 0 && (errno == EAGAIN || errno == EINTR)) continue;
       if (received < 0) return fail(std::strerror(errno));
       answer.append(part.data(), static_cast<size_t>(received));
-      if (answer.size() > limits::http_page_bytes + head_bytes_most)
+      if (answer.size() > limits::http_page_bytes + max_head_bytes)
         return fail(fmt::format("the page is longer than {} bytes", limits::http_page_bytes));
     }
     return false;

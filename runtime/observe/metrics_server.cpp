@@ -61,11 +61,11 @@ Result<std::unique_ptr<MetricsServer>> MetricsServer::start(const std::string& a
   Descriptor stop(eventfd(0, EFD_CLOEXEC));
   const int yes = 1;
   setsockopt(listener.get(), SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
-  constexpr int waiting_most = 16;
+  constexpr int max_waiting = 16;
   auto* where = reinterpret_cast<sockaddr*>(&place);
   socklen_t size = sizeof place;
   if (stop.get() < 0 || listener.get() < 0 || bind(listener.get(), where, size) != 0 ||
-      listen(listener.get(), waiting_most) != 0 || getsockname(listener.get(), where, &size) != 0)
+      listen(listener.get(), max_waiting) != 0 || getsockname(listener.get(), where, &size) != 0)
     return refused(std::strerror(errno));
   return std::unique_ptr<MetricsServer>(new MetricsServer(std::move(listener), std::move(stop),
                                                           ntohs(place.sin_port), std::move(page)));

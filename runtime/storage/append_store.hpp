@@ -19,12 +19,12 @@ class AppendStore {
 
   virtual uint64_t size() const = 0;
   /// Fills `into` from `offset` on. Errors: not so many bytes there, a failed read.
-  virtual Result<bool> read(uint64_t offset, std::span<std::byte> into) = 0;
+  virtual Result<void> read(uint64_t offset, std::span<std::byte> into) = 0;
   /// Adds at the end. When this returns true the bytes survive whatever happens. After an error the
   /// end may hold a part of them. Errors: a full disk, a failed write or sync.
-  virtual Result<bool> append(std::span<const std::byte> bytes) = 0;
+  virtual Result<void> append(std::span<const std::byte> bytes) = 0;
   /// Cuts everything from `size` on, durably. Errors: a failed write or sync.
-  virtual Result<bool> truncate(uint64_t size) = 0;
+  virtual Result<void> truncate(uint64_t size) = 0;
 };
 
 /// A file. One at a time: it is locked while it is open.
@@ -39,9 +39,9 @@ class FileStore final : public AppendStore {
   FileStore& operator=(const FileStore&) = delete;
 
   uint64_t size() const override { return size_; }
-  Result<bool> read(uint64_t offset, std::span<std::byte> into) override;
-  Result<bool> append(std::span<const std::byte> bytes) override;
-  Result<bool> truncate(uint64_t size) override;
+  Result<void> read(uint64_t offset, std::span<std::byte> into) override;
+  Result<void> append(std::span<const std::byte> bytes) override;
+  Result<void> truncate(uint64_t size) override;
 
  private:
   FileStore(std::filesystem::path path, int descriptor, uint64_t size)

@@ -18,15 +18,15 @@ class FaultyStore final : public AppendStore {
       : below_(std::move(below)), self_(self), plan_(plan), clock_(clock), began_(clock.now()) {}
 
   uint64_t size() const override { return below_->size(); }
-  Result<bool> read(uint64_t offset, std::span<std::byte> into) override {
+  Result<void> read(uint64_t offset, std::span<std::byte> into) override {
     return below_->read(offset, into);
   }
-  Result<bool> append(std::span<const std::byte> bytes) override {
+  Result<void> append(std::span<const std::byte> bytes) override {
     if (!full()) return below_->append(bytes);
     (void)below_->append(bytes.first(bytes.size() / 2));
     return Problem{{}, "no space is left (a fault on purpose)"};
   }
-  Result<bool> truncate(uint64_t size) override { return below_->truncate(size); }
+  Result<void> truncate(uint64_t size) override { return below_->truncate(size); }
 
  private:
   bool full() const { return plan_.holds(Fault::Kind::full_disk, self_, clock_.now() - began_); }

@@ -57,7 +57,7 @@ Problem FileStore::problem(const char* what) const {
   return system_problem(path_, what);
 }
 
-Result<bool> FileStore::read(uint64_t offset, std::span<std::byte> into) {
+Result<void> FileStore::read(uint64_t offset, std::span<std::byte> into) {
   while (!into.empty()) {
     const ssize_t got = ::pread(descriptor_, into.data(), into.size(), static_cast<off_t>(offset));
     if (got < 0 && errno == EINTR) continue;
@@ -66,10 +66,10 @@ Result<bool> FileStore::read(uint64_t offset, std::span<std::byte> into) {
     into = into.subspan(static_cast<size_t>(got));
     offset += static_cast<uint64_t>(got);
   }
-  return true;
+  return {};
 }
 
-Result<bool> FileStore::append(std::span<const std::byte> bytes) {
+Result<void> FileStore::append(std::span<const std::byte> bytes) {
   while (!bytes.empty()) {
     const ssize_t put =
         ::pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(size_));
@@ -79,14 +79,14 @@ Result<bool> FileStore::append(std::span<const std::byte> bytes) {
     size_ += static_cast<uint64_t>(put);
   }
   if (::fdatasync(descriptor_) != 0) return problem("cannot make this file's bytes durable");
-  return true;
+  return {};
 }
 
-Result<bool> FileStore::truncate(uint64_t size) {
+Result<void> FileStore::truncate(uint64_t size) {
   if (::ftruncate(descriptor_, static_cast<off_t>(size)) != 0 || ::fdatasync(descriptor_) != 0)
     return problem("cannot cut this file");
   size_ = size;
-  return true;
+  return {};
 }
 
 }  // namespace luxodus

@@ -53,17 +53,17 @@ Result<Journal> Journal::open(std::unique_ptr<AppendStore> store, uint64_t ident
   return journal;
 }
 
-Result<bool> Journal::begin(uint64_t identity) {
+Result<void> Journal::begin(uint64_t identity) {
   if (store_->size() > 0)
     if (auto cut = store_->truncate(0); !cut.ok()) return cut;
   Head head{magic, identity, 0};
   head.check = check_of(head);
   if (auto put = store_->append(bytes_of(head)); !put.ok()) return put;
   end_ = sizeof head;
-  return true;
+  return {};
 }
 
-Result<bool> Journal::go_on(uint64_t identity, const Visit& visit) {
+Result<void> Journal::go_on(uint64_t identity, const Visit& visit) {
   Head head{};
   if (auto got = store_->read(0, bytes_of(head)); !got.ok()) return got;
   if (head.magic != magic || head.check != check_of(head))
@@ -90,7 +90,7 @@ Result<bool> Journal::go_on(uint64_t identity, const Visit& visit) {
   }
   torn_bytes_ = store_->size() - end_;
   const auto follows = whole_record_follows();
-  if (!follows.ok()) return follows;
+  if (!follows.ok()) return follows.problem();
   if (follows.value())
     return Problem{{},
                    "record " + std::to_string(records_) + " of the journal (from byte " +
@@ -107,7 +107,8 @@ Result<bool> Journal::whole_record_follows() {
   std::vector<std::byte> window(uint64_t{1} << 20), content;
   for (uint64_t first = end_ + 1; first + sizeof(RecordHead) <= size;) {
     const uint64_t read = std::min<uint64_t>(window.size(), size - first);
-    if (auto got = store_->read(first, std::span(window).first(read)); !got.ok()) return got;
+    if (auto got = store_->read(first, std::span(window).first(read)); !got.ok())
+      return got.problem();
     const uint64_t places = read - sizeof(RecordHead) + 1;
     for (uint64_t i = 0; i < places; ++i) {
       RecordHead head{};
@@ -117,7 +118,7 @@ Result<bool> Journal::whole_record_follows() {
       if (head.bytes > budget) return true;  // not known: then nothing may be cut
       budget -= head.bytes;
       content.resize(head.bytes);
-      if (auto got = store_->read(begin, content); !got.ok()) return got;
+      if (auto got = store_->read(begin, content); !got.ok()) return got.problem();
       if (head.check == check_of(first + i, content)) return true;
     }
     first += places;
@@ -125,12 +126,12 @@ Result<bool> Journal::whole_record_follows() {
   return false;
 }
 
-Result<bool> Journal::cut_torn() {
-  if (store_->size() == end_) return true;
+Result<void> Journal::cut_torn() {
+  if (store_->size() == end_) return {};
   return store_->truncate(end_);
 }
 
-Result<bool> Journal::append(std::span<const std::byte> record) {
+Result<void> Journal::append(std::span<const std::byte> record) {
   if (record.size() > limits::journal_record_bytes)
     return Problem{{}, "a record is longer than a journal takes"};
   if (auto cut = cut_torn(); !cut.ok()) return cut;
@@ -141,14 +142,14 @@ Result<bool> Journal::append(std::span<const std::byte> record) {
   if (auto put = store_->append(scratch_); !put.ok()) return put;
   end_ += scratch_.size();
   ++records_;
-  return true;
+  return {};
 }
 
-Result<bool> Journal::restart() {
+Result<void> Journal::restart() {
   if (auto cut = store_->truncate(sizeof(Head)); !cut.ok()) return cut;
   end_ = sizeof(Head);
   records_ = 0;
-  return true;
+  return {};
 }
 
 }  // namespace luxodus

@@ -38,10 +38,10 @@ class Journal {
   /// Adds a record, durably. After an error the record is not there, and the journal takes no other
   /// until one has been cut: a disk that was full may have room again. Errors: as the store's; a
   /// record over its limit.
-  Result<bool> append(std::span<const std::byte> record);
+  Result<void> append(std::span<const std::byte> record);
 
   /// Forgets all records: they are kept elsewhere now. Errors: as the store's.
-  Result<bool> restart();
+  Result<void> restart();
 
   uint64_t bytes() const { return store_->size(); }
   uint64_t records() const { return records_; }
@@ -50,9 +50,9 @@ class Journal {
 
  private:
   explicit Journal(std::unique_ptr<AppendStore> store) : store_(std::move(store)) {}
-  Result<bool> begin(uint64_t identity);
-  Result<bool> go_on(uint64_t identity, const Visit& visit);
-  Result<bool> cut_torn();
+  Result<void> begin(uint64_t identity);
+  Result<void> go_on(uint64_t identity, const Visit& visit);
+  Result<void> cut_torn();
   /// Whether a whole record begins anywhere behind the last one that was reached: then what lies
   /// between is damage, since a crash tears off nothing but the end. Checks are chained to places,
   /// so that no other bytes look like one.

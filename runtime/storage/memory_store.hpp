@@ -15,19 +15,19 @@ class MemoryStore final : public AppendStore {
   explicit MemoryStore(std::vector<std::byte>& bytes) : bytes_(bytes) {}
 
   uint64_t size() const override { return bytes_.size(); }
-  Result<bool> read(uint64_t offset, std::span<std::byte> into) override {
+  Result<void> read(uint64_t offset, std::span<std::byte> into) override {
     if (offset > bytes_.size() || into.size() > bytes_.size() - offset)
       return Problem{{}, "ends before what should be there"};
     std::memcpy(into.data(), bytes_.data() + offset, into.size());
-    return true;
+    return {};
   }
-  Result<bool> append(std::span<const std::byte> bytes) override {
+  Result<void> append(std::span<const std::byte> bytes) override {
     bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
-    return true;
+    return {};
   }
-  Result<bool> truncate(uint64_t size) override {
+  Result<void> truncate(uint64_t size) override {
     bytes_.resize(size);
-    return true;
+    return {};
   }
 
  private:

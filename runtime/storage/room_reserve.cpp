@@ -8,14 +8,14 @@
 
 namespace luxodus {
 
-Result<bool> RoomReserve::take(const std::filesystem::path& folder, uint64_t bytes) {
+Result<void> RoomReserve::take(const std::filesystem::path& folder, uint64_t bytes) {
   release();
   descriptor_ = ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
-  if (descriptor_ < 0) return true;
-  if (::fallocate(descriptor_, 0, 0, static_cast<off_t>(bytes)) == 0) return true;
+  if (descriptor_ < 0) return {};
+  if (::fallocate(descriptor_, 0, 0, static_cast<off_t>(bytes)) == 0) return {};
   const int error = errno;
   release();
-  if (error != ENOSPC && error != EDQUOT) return true;
+  if (error != ENOSPC && error != EDQUOT) return {};
   constexpr uint64_t mebibyte = 1 << 20;
   return Problem{{folder.string(), 0},
                  "the results may take " + std::to_string((bytes + mebibyte - 1) / mebibyte) +

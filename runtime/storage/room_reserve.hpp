@@ -19,7 +19,7 @@ class RoomReserve {
 
   /// Keeps `bytes` on the disk of a folder; what was kept before is given back. On a file system
   /// that cannot promise room, nothing is kept and nothing is wrong. Errors: there is no such room.
-  Result<bool> take(const std::filesystem::path& folder, uint64_t bytes);
+  Result<void> take(const std::filesystem::path& folder, uint64_t bytes);
   void release();
   bool held() const { return descriptor_ >= 0; }
 

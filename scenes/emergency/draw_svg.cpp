@@ -100,8 +100,8 @@ std::optional<Problem> unfit(std::string_view bytes) {
   // librsvg would inflate it without a bound.
   if (bytes.starts_with("\x1f\x8b"))
     return fault("the drawing is compressed; unpack it to plain SVG");
-  if (std::count(bytes.begin(), bytes.end(), '<') > 2 * limits::drawing_elements_most)
-    return fault("the drawing has more than " + std::to_string(limits::drawing_elements_most) +
+  if (std::count(bytes.begin(), bytes.end(), '<') > 2 * limits::max_drawing_elements)
+    return fault("the drawing has more than " + std::to_string(limits::max_drawing_elements) +
                  " elements; simplify it");
   for (size_t at = bytes.find("filter"); at != std::string_view::npos;
        at = bytes.find("filter", at + 1)) {

@@ -14,7 +14,7 @@ namespace luxodus {
 
 namespace limits {
 /// Elements of a drawing: a hundred times those of a pictogram with its arrow.
-inline constexpr int64_t drawing_elements_most = 20'000;
+inline constexpr int64_t max_drawing_elements = 20'000;
 }  // namespace limits
 
 using Rgba = std::array<uint8_t, 4>;

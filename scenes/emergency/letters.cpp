@@ -235,15 +235,15 @@ std::string quoted(char c) {
 /// "" when text and sizes are sound, else what is wrong with them.
 std::string fault_of(std::string_view text, const LetterSize& size) {
   if (text.empty()) return "the legend is empty; give the text that the sign shows";
-  if (text.size() > limits::legend_characters_most)
+  if (text.size() > limits::max_legend_characters)
     return "the legend has " + std::to_string(text.size()) + " characters, at most " +
-           std::to_string(limits::legend_characters_most) + " are drawn";
+           std::to_string(limits::max_legend_characters) + " are drawn";
   const bool sized = std::isfinite(size.height_m) && std::isfinite(size.stroke_m) &&
                      std::isfinite(size.spacing_m) && size.height_m > 0 && size.stroke_m > 0 &&
                      size.spacing_m >= 0;
   if (!sized) return "letter height and stroke must be positive, and spacing not negative";
   // The slack lets a stroke of exactly a fifth pass whatever the unit it was converted from.
-  if (size.stroke_m > limits::stroke_share_most * size.height_m * (1 + 1e-9))
+  if (size.stroke_m > limits::max_stroke_share * size.height_m * (1 + 1e-9))
     return "the stroke is " + std::to_string(size.stroke_m / size.height_m) +
            " of the letter height; above 0.2 the gaps within E are thinner than the stroke";
   return {};

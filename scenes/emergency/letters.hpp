@@ -14,10 +14,10 @@ namespace luxodus {
 
 namespace limits {
 /// More characters than any legend; a longer text is a mistake in the file.
-inline constexpr size_t legend_characters_most = 64;
+inline constexpr size_t max_legend_characters = 64;
 /// E has three bars and two gaps in its height: a thicker stroke would leave gaps thinner than
 /// itself, and the stroke would no longer be the smallest detail.
-inline constexpr double stroke_share_most = 0.2;
+inline constexpr double max_stroke_share = 0.2;
 }  // namespace limits
 
 /// Sizes as a standard states them; all over everything, not to centre lines [m].
@@ -47,7 +47,7 @@ struct Lettering {
 };
 
 /// Lays out one line of text. Errors: a character without a drawing, an empty or too long text,
-/// sizes that are not positive, a stroke above `stroke_share_most` of the height.
+/// sizes that are not positive, a stroke above `max_stroke_share` of the height.
 Result<Lettering> lay_out_text(std::string_view text, const LetterSize& size);
 
 }  // namespace luxodus

@@ -13,7 +13,7 @@ namespace luxodus {
 namespace {
 
 constexpr double route_lx = 1.0, band_lx = 0.5, open_lx = 0.5;           // E1, E2, E6
-constexpr double diversity_most = 40;                                    // E4, E6, N3
+constexpr double max_diversity = 40;                                     // E4, E6, N3
 constexpr double strip_m = 2;                                            // E3
 constexpr double task_lx = 15, task_share = 0.1, task_uniformity = 0.1;  // E7
 constexpr double wide_edge_m = 0.5, open_border_m = 0.5;                 // E5, E6
@@ -68,7 +68,7 @@ Check at_least(const Rule& rule, const std::string& subject, const Spread& sprea
 }
 
 Check even(const Rule& rule, const std::string& subject, const Spread& spread) {
-  return judged(rule, subject, spread.diversity(), diversity_most, false, "1", spread.darkest);
+  return judged(rule, subject, spread.diversity(), max_diversity, false, "1", spread.darkest);
 }
 
 /// Where it is darkest when one luminaire fails, and which.

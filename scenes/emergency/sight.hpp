@@ -7,7 +7,7 @@ namespace luxodus {
 
 namespace limits {
 /// Ages that the threshold's data covers [years].
-inline constexpr double age_least = 23, age_most = 75;
+inline constexpr double min_age = 23, max_age = 75;
 }  // namespace limits
 
 struct Eye {

@@ -82,14 +82,14 @@ Result<SignFace> blank_face(double width_m, double height_m, int texels_across) 
     if (!(edge_m >= limits::face_edge_least_m && edge_m <= limits::face_edge_most_m))
       return fault("a sign's edge is " + std::to_string(edge_m) +
                    " m; width and height must lie between 0.01 m and 20 m");
-  if (texels_across < limits::face_texels_across_least ||
-      texels_across > limits::face_texels_across_most)
+  if (texels_across < limits::min_face_texels_across ||
+      texels_across > limits::max_face_texels_across)
     return fault("a sign has " + std::to_string(texels_across) +
                  " texels across; give a number from " +
-                 std::to_string(limits::face_texels_across_least) + " to " +
-                 std::to_string(limits::face_texels_across_most));
+                 std::to_string(limits::min_face_texels_across) + " to " +
+                 std::to_string(limits::max_face_texels_across));
   const double down = std::max(1.0, std::round(texels_across * height_m / width_m));
-  if (down * texels_across > static_cast<double>(limits::face_texels_most))
+  if (down * texels_across > static_cast<double>(limits::max_face_texels))
     return fault("a sign face of " + std::to_string(texels_across) + " by " +
                  std::to_string(std::llround(down)) +
                  " texels is too large; give fewer texels across");
@@ -103,7 +103,7 @@ Result<SignFace> blank_face(double width_m, double height_m, int texels_across) 
 
 /// Pixels per texel edge when we draw ourselves: 4, or 2 where 4 would take over 64 MiB.
 int samples_per_texel(const SignFace& face) {
-  return static_cast<int64_t>(face.colour.size()) * 16 <= limits::picture_pixels_most ? 4 : 2;
+  return static_cast<int64_t>(face.colour.size()) * 16 <= limits::max_picture_pixels ? 4 : 2;
 }
 
 /// `other` needs the majority, so that neither a blurred edge nor a hairline makes a seam. A tie
@@ -174,9 +174,9 @@ Result<std::string> read_drawing(const std::filesystem::path& file) {
   std::error_code failed;
   if (!std::filesystem::is_regular_file(file, failed))
     return problem_of(file, "there is no such file; give the path of the sign's SVG drawing");
-  if (std::filesystem::file_size(file, failed) > static_cast<uint64_t>(limits::drawing_bytes_most))
+  if (std::filesystem::file_size(file, failed) > static_cast<uint64_t>(limits::max_drawing_bytes))
     return problem_of(file, "the drawing is larger than 4 MiB; simplify it");
-  auto bytes = read_regular_file(file, static_cast<uint64_t>(limits::drawing_bytes_most));
+  auto bytes = read_regular_file(file, static_cast<uint64_t>(limits::max_drawing_bytes));
   if (bytes && bytes->empty()) return problem_of(file, "the file is empty or cannot be read");
   return bytes;
 }
@@ -196,14 +196,14 @@ Result<Pixels> read_png(const std::filesystem::path& file) {
   if (!std::filesystem::is_regular_file(file, failed))
     return problem_of(file, "there is no such file; give the path of the sign's PNG picture");
   const auto bytes = std::filesystem::file_size(file, failed);
-  if (failed || bytes > static_cast<uintmax_t>(limits::picture_bytes_most))
+  if (failed || bytes > static_cast<uintmax_t>(limits::max_picture_bytes))
     return problem_of(file, "the picture is larger than 64 MiB or cannot be read");
   PngImage png;
   if (!png_image_begin_read_from_file(&png.state, file.c_str()))
     return problem_of(file, std::string("it is not a PNG picture (") + png.state.message + ")");
   const auto pixels =
       static_cast<int64_t>(png.state.width) * static_cast<int64_t>(png.state.height);
-  if (pixels > limits::picture_pixels_most)
+  if (pixels > limits::max_picture_pixels)
     return problem_of(file, "the picture has " + std::to_string(pixels) +
                                 " pixels, at most 16777216 are read; scale it down");
   png.state.format = PNG_FORMAT_RGBA;
@@ -272,7 +272,7 @@ SignColour classify_colour(const std::array<uint8_t, 4>& rgba) {
       lab_distance(lab, lab_from_srgb(iso_white[0], iso_white[1], iso_white[2]));
   const double to_green =
       lab_distance(lab, lab_from_srgb(iso_green[0], iso_green[1], iso_green[2]));
-  if (std::min(to_white, to_green) > limits::sign_colour_distance_most) return SignColour::other;
+  if (std::min(to_white, to_green) > limits::max_sign_colour_distance) return SignColour::other;
   return to_white <= to_green ? SignColour::white : SignColour::green;
 }
 

@@ -18,20 +18,20 @@
 namespace luxodus {
 
 namespace limits {
-inline constexpr int face_texels_across_least = 8;
+inline constexpr int min_face_texels_across = 8;
 /// 2048 texels on a 1 m face are 0.5 mm, finer than any eye at 2 m; more only costs memory.
-inline constexpr int face_texels_across_most = 2048;
-inline constexpr int64_t face_texels_most = int64_t{1} << 22;
+inline constexpr int max_face_texels_across = 2048;
+inline constexpr int64_t max_face_texels = int64_t{1} << 22;
 inline constexpr double face_edge_least_m = 0.01;
 inline constexpr double face_edge_most_m = 20.0;
-inline constexpr int64_t drawing_bytes_most = int64_t{4} << 20;
-inline constexpr int64_t picture_bytes_most = int64_t{64} << 20;
-inline constexpr int64_t picture_pixels_most = int64_t{1} << 24;
+inline constexpr int64_t max_drawing_bytes = int64_t{4} << 20;
+inline constexpr int64_t max_picture_bytes = int64_t{64} << 20;
+inline constexpr int64_t max_picture_pixels = int64_t{1} << 24;
 /// A drawing whose aspect differs by more would be visibly stretched: the sizes are wrong.
 inline constexpr double face_aspect_tolerance = 0.03;
 /// Largest CIE 1976 colour difference to a named colour. White and green are 61 apart: 35 leaves no
 /// seam of neither along their edges, and keeps mid grey, black and red out.
-inline constexpr double sign_colour_distance_most = 35.0;
+inline constexpr double max_sign_colour_distance = 35.0;
 }  // namespace limits
 
 /// The class of one sRGB colour (0..255 each); alpha below half is `other`.

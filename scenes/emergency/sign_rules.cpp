@@ -11,11 +11,11 @@ namespace luxodus {
 
 namespace {
 
-constexpr double green_least = 2, green_least_in_smoke = 10;  // S1 [cd/m2]
-constexpr double evenness_most = 10;                          // S2
-constexpr double contrast_least = 5, contrast_most = 15;      // S3
-constexpr double mains_white = 500;                           // S5 [cd/m2]
-constexpr double height_least_m = 2;                          // S6
+constexpr double min_green = 2, green_least_in_smoke = 10;  // S1 [cd/m2]
+constexpr double max_evenness = 10;                         // S2
+constexpr double min_contrast = 5, max_contrast = 15;       // S3
+constexpr double mains_white = 500;                         // S5 [cd/m2]
+constexpr double height_least_m = 2;                        // S6
 constexpr double low_level_m = 1;          // where way guidance along the floor ends
 constexpr double elevation_most_deg = 20;  // S6
 constexpr double standing_eye_m = 1.65;
@@ -46,7 +46,7 @@ constexpr const char* one_number =
 /// place.
 Check smallest_green(const SceneDescription& scene, const Sign& sign, const std::string& subject,
                      const CodeChoice& codes) {
-  const double limit = scene.assessment.smoke_expected ? green_least_in_smoke : green_least;
+  const double limit = scene.assessment.smoke_expected ? green_least_in_smoke : min_green;
   const double mean = sign.emergency.green_cd_m2;
   const bool mapped = !sign.face.relative_luminance.empty();
   Check check = judged(rule_of("S1", codes), subject,
@@ -70,7 +70,7 @@ Check evenness(const Sign& sign, const std::string& subject, const CodeChoice& c
       worst =
           std::max(worst, e.least > 0 ? e.most / e.least : std::numeric_limits<double>::infinity());
   }
-  return judged(rule_of("S2", codes), subject, worst, evenness_most, false, "1", sign.frame.origin);
+  return judged(rule_of("S2", codes), subject, worst, max_evenness, false, "1", sign.frame.origin);
 }
 
 /// By the means of the colours.
@@ -78,9 +78,9 @@ std::vector<Check> contrast(const Sign& sign, const std::string& subject, const 
   const double green = sign.emergency.green_cd_m2;
   if (!(green > 0)) return {not_assessed(rule_of("S3", codes), subject, "green has no luminance")};
   const double ratio = sign.emergency.white_cd_m2 / green;
-  const bool low = ratio < contrast_least;
-  Check check = judged(rule_of("S3", codes), subject, ratio, low ? contrast_least : contrast_most,
-                       low, "1", sign.frame.origin);
+  const bool low = ratio < min_contrast;
+  Check check = judged(rule_of("S3", codes), subject, ratio, low ? min_contrast : max_contrast, low,
+                       "1", sign.frame.origin);
   check.condition = "5 to 15, of the means";
   return {check};
 }

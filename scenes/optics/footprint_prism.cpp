@@ -19,9 +19,9 @@ double cross(const glm::dvec2& a, const glm::dvec2& b) {
 std::string polygon_fault(const std::vector<glm::dvec2>& polygon) {
   const size_t n = polygon.size();
   if (n < 3) return "has fewer than 3 corners";
-  if (n > static_cast<size_t>(limits::footprint_vertices_most)) {
+  if (n > static_cast<size_t>(limits::max_footprint_vertices)) {
     return "has " + std::to_string(n) + " corners; at most " +
-           std::to_string(limits::footprint_vertices_most) + " are allowed";
+           std::to_string(limits::max_footprint_vertices) + " are allowed";
   }
   double area = 0;
   for (size_t i = 0; i < n; ++i) {

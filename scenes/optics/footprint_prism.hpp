@@ -16,7 +16,7 @@ namespace luxodus {
 namespace limits {
 /// Vertices of a footprint. A floor plan has tens; crossings are kept on the stack of the tracing
 /// loop (8 bytes each), and every flight looks at every edge.
-inline constexpr int footprint_vertices_most = 256;
+inline constexpr int max_footprint_vertices = 256;
 }  // namespace limits
 
 /// What is wrong with a polygon, or "" where it is simple and has an area.
@@ -32,7 +32,7 @@ class FootprintPrism {
   const glm::dvec3& low() const { return low_; }
   const glm::dvec3& high() const { return high_; }
   /// The most stretches a ray can have in it.
-  int stretches_most() const {
+  int max_stretches() const {
     return static_cast<int>(polygon_.size()) / 2 + static_cast<int>(parts_.size());
   }
 
@@ -44,7 +44,7 @@ class FootprintPrism {
                         Add&& add) const;
 
  private:
-  using Crossings = std::array<double, limits::footprint_vertices_most>;
+  using Crossings = std::array<double, limits::max_footprint_vertices>;
   int crossings(const glm::dvec2& o, const glm::dvec2& d, Crossings& t) const;
 
   std::vector<glm::dvec2> polygon_;

@@ -20,7 +20,7 @@ namespace luxodus {
 namespace limits {
 /// Layers of all media without polygon. A stack of FDS results has some 100; compiling looks at
 /// every layer for every slab (some 10 ms at the limit, a second at 10x).
-inline constexpr int layers_most = 2048;
+inline constexpr int max_layers = 2048;
 /// Stacks up to this size are walked slab by slab; above, skipping by bisection is faster
 /// (measured: break-even between 10 and 20).
 inline constexpr int slabs_walked = 16;

@@ -178,9 +178,9 @@ class MediaCompiler {
   }
 
   void add_emitter(int component, VolumeEmitter emitter) {
-    if (tables_.emitters.size() == static_cast<size_t>(limits::volume_emitters_most)) {
+    if (tables_.emitters.size() == static_cast<size_t>(limits::max_volume_emitters)) {
       return fail("is one glowing medium too many; at most " +
-                  std::to_string(limits::volume_emitters_most) + " are allowed");
+                  std::to_string(limits::max_volume_emitters) + " are allowed");
     }
     if (!emitter.glows()) return fail("glows, but its emission is 0 in every cell");
     tables_.components[static_cast<size_t>(component)].emitter =
@@ -232,7 +232,7 @@ class MediaCompiler {
     for (const glm::dvec2& p : f.polygon) polygon.push_back(p - glm::dvec2(origin_));
     tables_.prisms.emplace_back(std::move(polygon), std::move(parts));
     const FootprintPrism& prism = tables_.prisms.back();
-    stretches_ += prism.stretches_most();
+    stretches_ += prism.max_stretches();
     place({prism.low(), prism.high(), static_cast<int>(tables_.prisms.size()) - 1, -1, -1});
     general_ = true;
   }
@@ -264,8 +264,8 @@ class MediaCompiler {
         table_ != nullptr ? table_->has_extinction : !medium_->data.extinction.empty();
     const int component = add_component(medium_->optics, relative, emits);
     if (failed() || component < 0) return;
-    if (tables_.grids.size() == static_cast<size_t>(limits::grids_most)) {
-      return fail("is one data set too many; at most " + std::to_string(limits::grids_most) +
+    if (tables_.grids.size() == static_cast<size_t>(limits::max_grids)) {
+      return fail("is one data set too many; at most " + std::to_string(limits::max_grids) +
                   " are allowed");
     }
     const BrickTable table = table_ != nullptr ? *table_ : cut_bricks();
@@ -302,15 +302,15 @@ class MediaCompiler {
   // -----------------------------------------------------------------------------------
 
   std::string lay_out() {
-    if (stretches_ > limits::ray_stretches_most) {
+    if (stretches_ > limits::max_ray_stretches) {
       return "the media have together " + std::to_string(stretches_) +
              " stretches that one ray may cross (footprint corners / 2 + layers, 2 for a body); at "
              "most " +
-             std::to_string(limits::ray_stretches_most) + " are allowed: simplify footprints";
+             std::to_string(limits::max_ray_stretches) + " are allowed: simplify footprints";
     }
-    if (stack_.size() > static_cast<size_t>(limits::layers_most)) {
+    if (stack_.size() > static_cast<size_t>(limits::max_layers)) {
       return "the layered media have together " + std::to_string(stack_.size()) +
-             " layers; at most " + std::to_string(limits::layers_most) + " are allowed";
+             " layers; at most " + std::to_string(limits::max_layers) + " are allowed";
     }
     const size_t n = tables_.components.size();
     for (size_t b = 0; b < static_cast<size_t>(bands_); ++b) {
@@ -354,8 +354,8 @@ MediaSet::MediaSet()
 
 Result<MediaSet> MediaSet::compile(std::span<const MediumInput> media, int bands,
                                    const BandAverage& average, const glm::dvec3& local_origin) {
-  if (bands < 1 || bands > limits::media_bands_most) {
-    return problem_of({}, "a scene has 1 to " + std::to_string(limits::media_bands_most) +
+  if (bands < 1 || bands > limits::max_media_bands) {
+    return problem_of({}, "a scene has 1 to " + std::to_string(limits::max_media_bands) +
                               " bands, not " + std::to_string(bands));
   }
   return MediaCompiler(bands, average, local_origin).compile(media);

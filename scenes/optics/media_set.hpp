@@ -59,7 +59,7 @@ class MediaSet {
   int count() const { return count_; }
   int bands() const { return bands_; }
 
-  /// The distinct phase functions; Flight::phase is an index into them.
+  /// The distinct phase functions; FreeFlight::phase is an index into them.
   const std::vector<Phase>& phases() const { return tables_->phases; }
   const Phase& phase(int i) const { return tables_->phases[static_cast<size_t>(i)]; }
 
@@ -109,7 +109,7 @@ class ResidentBricks {
 };
 
 /// How a flight through media ends.
-struct Flight {
+struct FreeFlight {
   Real t = 0;         // distance flown [m]; t_max where nothing collided
   int medium = -1;    // that collided
   int phase = -1;     // its phase function
@@ -119,8 +119,8 @@ struct Flight {
 
 namespace media_detail {
 
-inline Flight collision_in_stack(const MediaTables& tables, int band, LayerStack::Stop stop,
-                                 double choice) {
+inline FreeFlight collision_in_stack(const MediaTables& tables, int band, LayerStack::Stop stop,
+                                     double choice) {
   const std::span<const int> members = tables.stack.members(stop.slab);
   int chosen = members.front();
   if (members.size() > 1) {
@@ -137,8 +137,8 @@ inline Flight collision_in_stack(const MediaTables& tables, int band, LayerStack
   return {static_cast<Real>(stop.t), c.medium, c.phase, tables.albedo_of(band, chosen), true};
 }
 
-inline Flight flight_in_stack(const MediaTables& tables, int band, const Vec3& origin,
-                              const Vec3& direction, Real t_max, double tau, double choice) {
+inline FreeFlight flight_in_stack(const MediaTables& tables, int band, const Vec3& origin,
+                                  const Vec3& direction, Real t_max, double tau, double choice) {
   const LayerStack::Stop stop =
       tables.stack.fly(band, static_cast<double>(origin.z), static_cast<double>(direction.z),
                        static_cast<double>(t_max), tau);
@@ -147,8 +147,9 @@ inline Flight flight_in_stack(const MediaTables& tables, int band, const Vec3& o
 }
 
 template <class Resolver>
-Flight flight_in_all(const MediaTables& tables, int band, const Vec3& origin, const Vec3& direction,
-                     Real t_max, double tau, double choice, Resolver& resolver) {
+FreeFlight flight_in_all(const MediaTables& tables, int band, const Vec3& origin,
+                         const Vec3& direction, Real t_max, double tau, double choice,
+                         Resolver& resolver) {
   MediaWalk<Resolver> walk(tables, band, origin, direction, static_cast<double>(t_max), resolver);
   if (walk.only_stack()) {
     return flight_in_stack(tables, band, origin, direction, t_max, tau, choice);
@@ -174,8 +175,8 @@ Flight flight_in_all(const MediaTables& tables, int band, const Vec3& origin, co
 /// collision is tau. Requires: N covers set.need(); direction of unit length; t_max >= 0 (infinity
 /// allowed); tau >= 0.
 template <MediaNeed N, class Resolver>
-Flight free_flight(const MediaSet& set, int band, const Vec3& origin, const Vec3& direction,
-                   Real t_max, double tau, double choice, [[maybe_unused]] Resolver& resolver) {
+FreeFlight free_flight(const MediaSet& set, int band, const Vec3& origin, const Vec3& direction,
+                       Real t_max, double tau, double choice, [[maybe_unused]] Resolver& resolver) {
   if constexpr (N == MediaNeed::none) {
     return {.t = t_max};
   } else {
@@ -244,7 +245,7 @@ template <class Resolver, class Visit>
 void for_each_segment(const MediaSet& set, int band, const Vec3& origin, const Vec3& direction,
                       Real t_max, Resolver& resolver, Visit&& visit) {
   const MediaTables& tables = set.tables();
-  std::array<EmissionPart, limits::volume_emitters_most> parts;
+  std::array<EmissionPart, limits::max_volume_emitters> parts;
   MediaWalk<Resolver> walk(tables, band, origin, direction, static_cast<double>(t_max), resolver);
   while (walk.next()) {
     size_t n = 0;

@@ -19,13 +19,13 @@ namespace luxodus {
 namespace limits {
 /// Stretches of one ray in prisms and bodies together; they lie on the stack of the tracing loop
 /// (24 bytes each).
-inline constexpr int ray_stretches_most = 512;
+inline constexpr int max_ray_stretches = 512;
 /// Data sets of one scene; their cursors lie on the stack too (about 250 bytes each).
-inline constexpr int grids_most = 16;
+inline constexpr int max_grids = 16;
 /// Glowing media of one scene.
-inline constexpr int volume_emitters_most = 256;
+inline constexpr int max_volume_emitters = 256;
 /// Bands of one scene: a band per sample of a spectrum.
-inline constexpr int media_bands_most = 81;
+inline constexpr int max_media_bands = 81;
 }  // namespace limits
 
 /// One homogeneous medium, layer, body, or data set.

@@ -97,8 +97,8 @@ class MediaWalk {
 
   size_t stretches_count_ = 0;
   size_t grids_count_ = 0;
-  std::array<Stretch, limits::ray_stretches_most> stretches_;
-  std::array<GridOnWay, limits::grids_most> grids_;
+  std::array<Stretch, limits::max_ray_stretches> stretches_;
+  std::array<GridOnWay, limits::max_grids> grids_;
 };
 
 template <class Resolver>

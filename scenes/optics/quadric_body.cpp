@@ -87,8 +87,8 @@ Result<QuadricBody> QuadricBody::make(const Medium& medium, const glm::dvec3& lo
     good = good && finite(clip.normal) && std::isfinite(clip.offset);
   }
   if (!good) return fault("has a quadric with numbers that are not finite");
-  if (q.clips.size() > static_cast<size_t>(limits::clip_planes_most)) {
-    return fault("has more than " + std::to_string(limits::clip_planes_most) + " clip planes");
+  if (q.clips.size() > static_cast<size_t>(limits::max_clip_planes)) {
+    return fault("has more than " + std::to_string(limits::max_clip_planes) + " clip planes");
   }
   const Bounds& box = medium.local_bounds;
   if (!finite(box.low) || !finite(box.high) || !(box.low.x < box.high.x) ||
@@ -116,7 +116,7 @@ Result<QuadricBody> QuadricBody::make(const Medium& medium, const glm::dvec3& lo
   out.measure_volume();
   const glm::dvec3 e = box.high - box.low;
   const double fill = out.volume_.m3 / (e.x * e.y * e.z);
-  if (!(fill >= limits::body_fill_least)) {
+  if (!(fill >= limits::min_body_fill)) {
     return fault(
         "fills less than 1/10000 of its bounds; give a box that fits, and check the quadric");
   }

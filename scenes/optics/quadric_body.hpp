@@ -14,12 +14,12 @@
 namespace luxodus {
 
 namespace limits {
-inline constexpr int clip_planes_most = 64;
+inline constexpr int max_clip_planes = 64;
 /// A body must fill this share of its box, or uniform points in it would cost too many draws.
-inline constexpr double body_fill_least = 1e-4;
+inline constexpr double min_body_fill = 1e-4;
 /// Draws for one uniform point in a body; the chance to need more is below exp(-26) at the least
 /// fill.
-inline constexpr int body_draws_most = 1 << 18;
+inline constexpr int max_body_draws = 1 << 18;
 }  // namespace limits
 
 class QuadricBody {
@@ -74,7 +74,7 @@ class QuadricBody {
 template <class Uniform>
 glm::dvec3 QuadricBody::sample(Uniform&& next_uniform) const {
   const glm::dvec3 size = high_ - low_;
-  for (int i = 0; i < limits::body_draws_most; ++i) {
+  for (int i = 0; i < limits::max_body_draws; ++i) {
     const double u = next_uniform();
     const double v = next_uniform();
     const double w = next_uniform();

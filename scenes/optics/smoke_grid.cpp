@@ -33,13 +33,13 @@ std::string array_fault(const char* name, const std::vector<float>& values, int6
 std::string data_fault(const DataSet& d) {
   int64_t cells = 1;
   for (const int n : {d.nx, d.ny, d.nz}) {
-    if (n < 1 || n > limits::grid_side_most) {
+    if (n < 1 || n > limits::max_grid_side) {
       return "has " + std::to_string(n) + " cells along a side; 1 to " +
-             std::to_string(limits::grid_side_most) + " are allowed";
+             std::to_string(limits::max_grid_side) + " are allowed";
     }
     cells *= n;
   }
-  if (cells > limits::grid_cells_most) return "has more than 2^30 cells";
+  if (cells > limits::max_grid_cells) return "has more than 2^30 cells";
   for (int k = 0; k < 3; ++k) {
     if (!(d.extent[k] > 0) || !std::isfinite(d.extent[k])) {
       return "has a box whose sides are not all positive and finite";

@@ -26,9 +26,9 @@ namespace limits {
 inline constexpr int brick_side = 16;
 inline constexpr int brick_cells = brick_side * brick_side * brick_side;
 /// Cells along one side of a data set: indices and their products stay far inside 32 and 64 bits.
-inline constexpr int grid_side_most = 8192;
+inline constexpr int max_grid_side = 8192;
 /// Cells of one data set: 4 GB of extinction.
-inline constexpr int64_t grid_cells_most = int64_t{1} << 30;
+inline constexpr int64_t max_grid_cells = int64_t{1} << 30;
 }  // namespace limits
 
 /// 16^3 cells, x fastest; cells beyond the data set's end hold zeros. A quantity that the data set

@@ -18,9 +18,9 @@ constexpr double brightest = 1e15;
 constexpr double extinction_most_per_m = 1e9;
 /// As a scene file may say: its schema.
 constexpr double any_factor = 1e6;
-constexpr int64_t cells_most = 1 << 28;  // of all planes
-constexpr int64_t pixels_most = int64_t{1} << 28;
-constexpr uint32_t patches_most = 200'000'000;  // as compiling allows
+constexpr int64_t max_cells = 1 << 28;  // of all planes
+constexpr int64_t max_pixels = int64_t{1} << 28;
+constexpr uint32_t max_patches = 200'000'000;  // as compiling allows
 
 void need(bool sound, const char* what) {
   if (!sound) throw DamagedArchive(what);
@@ -224,9 +224,9 @@ void check_planes(const SceneDescription& d) {
   int64_t cells = 0;
   for (const PlaneMeasure& p : d.planes) {
     need_span(p.corner, p.edge_u, p.edge_v);
-    need(p.cells_u >= 1 && p.cells_v >= 1 && p.cells_u <= cells_most && p.cells_v <= cells_most,
+    need(p.cells_u >= 1 && p.cells_v >= 1 && p.cells_u <= max_cells && p.cells_v <= max_cells,
          "a plane has no cells");
-    need(int64_t{p.cells_u} * p.cells_v <= cells_most - cells, "planes have too many cells");
+    need(int64_t{p.cells_u} * p.cells_v <= max_cells - cells, "planes have too many cells");
     cells += int64_t{p.cells_u} * p.cells_v;
   }
   for (const CountingPlaneMeasure& p : d.counting_planes) need_span(p.corner, p.edge_u, p.edge_v);
@@ -257,7 +257,7 @@ void check_eyes(const SceneDescription& d) {
     need(glm::length(way) >= 1e-6 && glm::length(glm::cross(glm::normalize(way), c.up)) >= 1e-6,
          "a camera looks nowhere");
     need(c.vertical_fov_deg > 0 && c.vertical_fov_deg < 180, "a camera sees no angle");
-    need(c.width >= 1 && c.height >= 1 && int64_t{c.width} * c.height <= pixels_most,
+    need(c.width >= 1 && c.height >= 1 && int64_t{c.width} * c.height <= max_pixels,
          "a camera has no pixels");
   }
 }
@@ -292,7 +292,7 @@ void check(const Scenario& s) {
 }
 
 void check(const RunSettings& r) {
-  need(r.bands_most >= 1 && r.bands_most <= 64, "a run has no bands");
+  need(r.max_bands >= 1 && r.max_bands <= 64, "a run has no bands");
   const std::vector<double>& edges = r.band_edges_nm;
   need(edges.empty() || (edges.size() >= 2 && edges.size() <= 65 &&
                          edges.front() == spectrum_first_nm && edges.back() == spectrum_last_nm),
@@ -320,7 +320,7 @@ void check_faces(const SceneDescription& d, const PackedScene& g) {
 }
 
 void check_surfaces(const SceneDescription& d, const PackedScene& g) {
-  need(g.patch_count <= patches_most, "it has too many patches");
+  need(g.patch_count <= max_patches, "it has too many patches");
   uint64_t next = 0;
   for (const CompiledSurface& s : g.surfaces) {
     // One more material than described: the dark back of signs.
@@ -358,7 +358,7 @@ void check_parts(const std::vector<Medium>& media, const Skeleton& skeleton) {
     const DataSet& data = media[m].data;
     const bool is_grid = media[m].kind == MediumKind::data_set;
     for (const int side : {data.nx, data.ny, data.nz})
-      need(!is_grid || (side >= 1 && side <= limits::grid_side_most), "a data set has no size");
+      need(!is_grid || (side >= 1 && side <= limits::max_grid_side), "a data set has no size");
     const BrickTable& table = packed.tables[m];
     need(table.bricks.size() == (is_grid ? brick_count(data) : 0),
          "a table is not that of its data set");

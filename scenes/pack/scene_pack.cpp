@@ -9,9 +9,9 @@
 #include <numeric>
 #include <system_error>
 
+#include "runtime/core/atomic_file.hpp"
 #include "runtime/core/hash.hpp"
 #include "runtime/core/regular_file.hpp"
-#include "scenes/format/atomic_file.hpp"
 #include "scenes/pack/skeleton.hpp"
 
 namespace luxodus {
@@ -115,7 +115,7 @@ class MappedPack final : public ObjectFile {
   }
   std::span<const std::byte> bytes() const { return bytes_; }
   /// Errors: objects that do not end where the skeleton begins.
-  Result<bool> place_objects(const PackedScene& packed, const Head& head) {
+  Result<void> place_objects(const PackedScene& packed, const Head& head) {
     uint64_t at = sizeof(Head);
     for (const PackedScene::Object& object : packed.objects) {
       if (object.wire_bytes == 0 || object.wire_bytes > head.skeleton_offset - at)
@@ -125,7 +125,7 @@ class MappedPack final : public ObjectFile {
       if (at > head.skeleton_offset)
         return Problem{{name_, 0}, "the objects of this pack are not where they should be"};
     }
-    return true;
+    return {};
   }
 
  private:
@@ -157,7 +157,7 @@ Result<Head> head_of(const MappedPack& pack) {
   }
   if (head.skeleton_offset < sizeof(Head) || head.skeleton_offset > head.file_bytes ||
       head.skeleton_bytes != head.file_bytes - head.skeleton_offset ||
-      head.skeleton_bytes > limits::skeleton_bytes_most)
+      head.skeleton_bytes > limits::max_skeleton_bytes)
     return Problem{place, "the head of this pack is damaged: pack the scene again"};
   return head;
 }

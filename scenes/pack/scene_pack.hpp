@@ -24,7 +24,7 @@ namespace luxodus {
 namespace limits {
 inline constexpr uint32_t pack_version = 6;
 /// Of the skeleton: 100 times that of a tower of six million triangles.
-inline constexpr uint64_t skeleton_bytes_most = uint64_t{1} << 30;
+inline constexpr uint64_t max_skeleton_bytes = uint64_t{1} << 30;
 }  // namespace limits
 
 /// What was written, for people.

@@ -154,7 +154,7 @@ void serialize(A& a, Scenario& x) {
 }
 template <class A>
 void serialize(A& a, RunSettings& x) {
-  a(x.seed, x.bands_most, x.band_edges_nm, x.band_tolerance, x.batch_particles, x.voxel_edge_m,
+  a(x.seed, x.max_bands, x.band_edges_nm, x.band_tolerance, x.batch_particles, x.voxel_edge_m,
     x.voxels, x.analogue, x.stratified, choice(x.groups, GroupRule::by_emitter), x.eye_share,
     x.error_of);
 }
@@ -305,9 +305,9 @@ Shared shared_of(const SceneDescription& description) {
 }
 
 bool sound(const Image& image) {
-  constexpr int side_most = 1 << 16;  // of a PNG that is read
-  return image.width > 0 && image.width <= side_most && image.height > 0 &&
-         image.height <= side_most && image.channels > 0 && image.channels <= 4;
+  constexpr int max_side = 1 << 16;  // of a PNG that is read
+  return image.width > 0 && image.width <= max_side && image.height > 0 &&
+         image.height <= max_side && image.channels > 0 && image.channels <= 4;
 }
 
 /// The things a list names by place, each `none_index` or within it.

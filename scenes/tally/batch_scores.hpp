@@ -3,15 +3,15 @@
 // Thread rule: belongs to one thread.
 #pragma once
 
+#include "scenes/tally/energy_balance.hpp"
 #include "scenes/tally/layout.hpp"
-#include "scenes/tally/ledger.hpp"
 #include "scenes/tally/sparse_array.hpp"
 
 namespace luxodus {
 
 struct BatchScores {
   SparseArray<int64_t> scores;
-  Ledger ledger;
+  EnergyBalance balance;
 
   /// Makes room for a layout's scores, or sets those of the same layout to zero.
   void reset(const TallyLayout& layout, Cleared cleared = Cleared::kept) {
@@ -21,7 +21,7 @@ struct BatchScores {
     } else {
       scores = SparseArray<int64_t>(layout.scores(), cleared);
     }
-    ledger = {};
+    balance = {};
   }
 };
 

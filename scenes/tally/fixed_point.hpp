@@ -1,5 +1,5 @@
 // Weights as integers. A particle is born with weight 2^32 units; every event splits that integer
-// without remainder, so the ledger closes exactly and sums do not depend on order. Rounding is
+// without remainder, so the balance closes exactly and sums do not depend on order. Rounding is
 // randomised by the particle's own draws, so the split has the right expectation.
 #pragma once
 

@@ -112,7 +112,7 @@ void Totals::merge(BatchScores& batch, int group) {
     }
   }
   const std::lock_guard lock(ledger_mutex_);
-  ledger_.add(batch.ledger);
+  ledger_.add(batch.balance);
   ++to.batches;
 }
 
@@ -153,7 +153,7 @@ void Totals::add(const TotalsGain& gain) {
       total.squares += bin.total.squares;
     }
   }
-  ledger_.add(gain.ledger);
+  ledger_.add(gain.balance);
 }
 
 namespace {

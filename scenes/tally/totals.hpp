@@ -26,7 +26,7 @@ struct BinRange {
   int64_t end = 0;
 };
 
-/// What batches have added to totals: bins that are not zero, in ascending order, and the ledger.
+/// What batches have added to totals: bins that are not zero, in ascending order, and the balance.
 /// It travels where totals of one place are merged into those of another.
 struct TotalsGain {
   struct Bin {
@@ -38,7 +38,7 @@ struct TotalsGain {
     std::vector<Bin> bins;
   };
   std::vector<GroupGain> groups;  // one for each source group
-  Ledger ledger;
+  EnergyBalance balance;
 };
 
 /// Mean and standard error of a score per batch.
@@ -88,14 +88,14 @@ class Totals {
   int64_t take_batches(int group) {
     return std::exchange(groups_[static_cast<size_t>(group)].batches, 0);
   }
-  Ledger take_ledger() { return std::exchange(ledger_, {}); }
+  EnergyBalance take_ledger() { return std::exchange(ledger_, {}); }
   /// Adds what was taken from totals of the same layout. Requires: as many groups, indices within
   /// the layout. Not beside other calls.
   void add(const TotalsGain& gain);
 
   int groups() const { return static_cast<int>(groups_.size()); }
   int64_t batches(int group) const { return groups_[static_cast<size_t>(group)].batches; }
-  const Ledger& ledger() const { return ledger_; }
+  const EnergyBalance& balance() const { return ledger_; }
   const TallyLayout& layout() const { return layout_; }
 
   /// Memory in use for bins; how much more merging a batch would take at most. Requires:
@@ -119,7 +119,7 @@ class Totals {
   void restore(int group, GroupState state) {
     groups_[static_cast<size_t>(group)] = std::move(state);
   }
-  void restore_ledger(const Ledger& ledger) { ledger_ = ledger; }
+  void restore_ledger(const EnergyBalance& balance) { ledger_ = balance; }
 
  private:
   template <class Visit>
@@ -132,7 +132,7 @@ class Totals {
   const TallyLayout& layout_;
   std::vector<GroupState> groups_;
   std::vector<std::vector<int64_t>> photopic_weights_;
-  Ledger ledger_;
+  EnergyBalance ledger_;
   static constexpr uint32_t stripe_bins = 1u << 14;
   std::array<std::mutex, 64> stripes_;
   std::mutex ledger_mutex_;

@@ -15,8 +15,8 @@
 #include "scenes/optics/offset_ray.hpp"
 #include "scenes/transport/compile_surfaces.hpp"
 #include "scenes/transport/emission.hpp"
+#include "scenes/transport/error_target.hpp"
 #include "scenes/transport/flame_points.hpp"
-#include "scenes/transport/judged.hpp"
 #include "scenes/transport/media_bounds.hpp"
 #include "scenes/transport/packed_scene.hpp"
 
@@ -86,7 +86,7 @@ Bands choose_bands(const SceneDescription& scene, const Scenario& scenario,
   std::vector<double> edges = scene.run.band_edges_nm;
   if (edges.empty()) {
     edges = told_apart(scene_properties(scene, scenario), shapes, scene.run.band_tolerance,
-                       scene.run.bands_most);
+                       scene.run.max_bands);
   }
   return Bands(edges, total);
 }
@@ -99,7 +99,7 @@ double factor_in(const Scenario& scenario, const Medium& medium) {
   return medium.emission ? 1.0 : scenario.smoke_factor;
 }
 
-Result<bool> compile_media(CompiledScene& scene) {
+Result<void> compile_media(CompiledScene& scene) {
   const SceneDescription& d = *scene.description;
   std::vector<MediumInput> inputs;
   for (size_t i = 0; i < d.media.size(); ++i) {
@@ -120,7 +120,7 @@ Result<bool> compile_media(CompiledScene& scene) {
     scene.phases.push_back(std::move(made).value());
   }
   scene.features.media = scene.media.need();
-  return true;
+  return {};
 }
 
 /// A flame is where its points are: their middle, and the box around them.
@@ -320,22 +320,22 @@ void lay_out_tally(CompiledScene& scene) {
 
 /// Paths from eyes relative to the usual, by which they take about half of the time. Where somebody
 /// has said what is judged, what is not gets an eighth of the paths.
-double share_of_eyes(const Judged& judged) {
+double share_of_eyes(const ErrorTarget& judged) {
   if (judged.words.empty() || judged.asks_eyes() == judged.asks_bins()) return 1;
   return judged.asks_eyes() ? 8 : 1.0 / 8;
 }
 
-Result<bool> choose_judged(CompiledScene& scene, const std::vector<std::string>& wanted) {
+Result<void> choose_error_target(CompiledScene& scene, const std::vector<std::string>& wanted) {
   const RunSettings& run = scene.description->run;
   const bool own = wanted.empty();
-  auto judged = judged_by(scene, own ? run.error_of : wanted);
+  auto judged = error_target_of(scene, own ? run.error_of : wanted);
   if (!judged.ok()) {
     Problem problem = judged.problem();
     problem.where = own ? run.error_of_place : SourcePlace{};
     return problem;
   }
-  scene.judged = std::move(judged).value();
-  return true;
+  scene.error_target = std::move(judged).value();
+  return {};
 }
 
 void choose_batch(CompiledScene& scene) {
@@ -354,13 +354,13 @@ void choose_batch(CompiledScene& scene) {
       static_cast<double>(3 * scene.eye_targets.size() + 2 * scene.description->probes.size());
   if (parts > 0) {
     // A path from the eye costs some ten histories' rays (each event asks the lights as well).
-    const double paths = 0.1 * run.eye_share * share_of_eyes(scene.judged) *
+    const double paths = 0.1 * run.eye_share * share_of_eyes(scene.error_target) *
                          static_cast<double>(scene.batch_particles) / parts;
     scene.eye_paths_per_batch = std::clamp(static_cast<int>(paths), 1, 1024);
   }
 }
 
-Result<bool> resolve_surface_groups(CompiledScene& scene) {
+Result<void> resolve_surface_groups(CompiledScene& scene) {
   const SceneDescription& d = *scene.description;
   for (const SurfaceGroupMeasure& measure : d.surface_groups) {
     std::vector<uint32_t> members;
@@ -381,7 +381,7 @@ Result<bool> resolve_surface_groups(CompiledScene& scene) {
     }
     scene.surface_groups.push_back(std::move(members));
   }
-  return true;
+  return {};
 }
 
 void choose_features(CompiledScene& scene) {
@@ -428,7 +428,7 @@ std::string group_name(const ActiveSource& s, GroupRule rule) {
 }
 
 /// Errors: nothing that has a place.
-Result<bool> set_bounds(CompiledScene& scene) {
+Result<void> set_bounds(CompiledScene& scene) {
   scene.bounds = solid_bounds(*scene.description, scene.scenario);
   if (scene.bounds.empty()) {
     return Problem{{scene.description->file, 0},
@@ -442,7 +442,7 @@ Result<bool> set_bounds(CompiledScene& scene) {
   scene.local_high = Vec3(scene.bounds.high - centre);
   scene.diagonal_m = glm::length(scene.local_high - scene.local_low);
   scene.least_offset_m = least_offset(scene.diagonal_m);
-  return true;
+  return {};
 }
 
 /// How far light may go within it; across, where it has no end.
@@ -464,7 +464,7 @@ void choose_length_unit(CompiledScene& scene) {
 }
 
 /// Errors: a mesh without a triangle that can be told from a point.
-Result<bool> compile_emitters(CompiledScene& scene, const std::vector<ActiveSource>& sources) {
+Result<void> compile_emitters(CompiledScene& scene, const std::vector<ActiveSource>& sources) {
   const SceneDescription& d = *scene.description;
   std::vector<std::string> groups;
   for (const ActiveSource& s : sources) {
@@ -498,7 +498,7 @@ Result<bool> compile_emitters(CompiledScene& scene, const std::vector<ActiveSour
     const bool white = sources[i].colour == SignColour::white;
     (white ? sign.white_group : sign.green_group) = scene.emitters[i].group;
   }
-  return true;
+  return {};
 }
 
 }  // namespace
@@ -600,7 +600,7 @@ Result<std::shared_ptr<const CompiledScene>> compile_scene(
   }
   choose_length_unit(*scene);
   choose_eye_targets(*scene);
-  if (auto ok = choose_judged(*scene, options.error_of); !ok.ok()) return ok.problem();
+  if (auto ok = choose_error_target(*scene, options.error_of); !ok.ok()) return ok.problem();
   choose_features(*scene);
   lay_out_tally(*scene);
   choose_batch(*scene);

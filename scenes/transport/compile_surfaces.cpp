@@ -154,7 +154,7 @@ class TriangleBuilder {
 
   /// Errors: with this surface the scene has more than limits::patches; `place` is where it is
   /// described.
-  Result<bool> add(CompiledSurface surface, const SourcePlace& place, const Mesh& mesh,
+  Result<void> add(CompiledSurface surface, const SourcePlace& place, const Mesh& mesh,
                    double patch_edge_m) {
     surface.first_patch = patches();
     if (surface.one_patch && !mesh.triangles.empty()) patches_ += 2;
@@ -173,7 +173,7 @@ class TriangleBuilder {
     surface.patches = patches() - surface.first_patch;
     scene_.total_area_m2 += surface.area_m2;
     scene_.surfaces.push_back(std::move(surface));
-    return true;
+    return {};
   }
 
   int64_t degenerate() const { return degenerate_; }
@@ -304,7 +304,7 @@ void cut_into_cells(CompiledScene& scene, TriangleBuilder& builder, int cells) {
 }
 
 /// Adds what the scenario has: objects, then signs, then bodies of emitters.
-Result<bool> add_surfaces(CompiledScene& scene, TriangleBuilder& builder) {
+Result<void> add_surfaces(CompiledScene& scene, TriangleBuilder& builder) {
   const auto dark = static_cast<uint32_t>(scene.materials.size() - 1);
   for (const Object& object : scene.description->objects) {
     CompiledSurface s;
@@ -338,7 +338,7 @@ Result<bool> add_surfaces(CompiledScene& scene, TriangleBuilder& builder) {
     }
     if (auto ok = builder.add(std::move(s), e.place, body_mesh(e), 0); !ok.ok()) return ok;
   }
-  return true;
+  return {};
 }
 
 /// Back sides of signs and of emitter bodies: matt, dark.
@@ -407,7 +407,7 @@ void compile_sign_faces(CompiledScene& scene) {
   }
 }
 
-Result<bool> compile_triangles(CompiledScene& scene, int cells) {
+Result<void> compile_triangles(CompiledScene& scene, int cells) {
   TriangleBuilder builder(scene);
   if (auto ok = add_surfaces(scene, builder); !ok.ok()) return ok.problem();
   if (builder.degenerate() > 0) {
@@ -418,7 +418,7 @@ Result<bool> compile_triangles(CompiledScene& scene, int cells) {
   scene.triangles = builder.records().size();
   scene.patch_count = builder.patches();
   cut_into_cells(scene, builder, cells);
-  return true;
+  return {};
 }
 
 std::vector<std::string> open_doors(const SceneDescription& description, const Scenario& scenario) {
@@ -429,7 +429,7 @@ std::vector<std::string> open_doors(const SceneDescription& description, const S
   return open;
 }
 
-Result<bool> adopt_packed_geometry(CompiledScene& scene) {
+Result<void> adopt_packed_geometry(CompiledScene& scene) {
   const PackedScene& packed = *scene.description->packed;
   if (open_doors(*scene.description, scene.scenario) != packed.open_doors) {
     return Problem{{packed.file->name(), 0},
@@ -448,7 +448,7 @@ Result<bool> adopt_packed_geometry(CompiledScene& scene) {
     scene.cell_boxes.push_back({cell.low, cell.high});
   for (const std::string& warning : packed.warnings)
     scene.warnings.push_back({{packed.file->name(), 0}, warning});
-  return true;
+  return {};
 }
 
 void compile_lambert_fractions(CompiledScene& scene) {

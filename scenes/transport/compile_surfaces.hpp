@@ -18,11 +18,11 @@ void compile_sign_faces(CompiledScene& scene);
 /// Degenerate triangles were dropped on reading; what single precision makes degenerate is dropped
 /// here and counted in the warnings.
 /// Errors: more flux patches than are counted; nothing was taken for them.
-Result<bool> compile_triangles(CompiledScene& scene, int cells);
+Result<void> compile_triangles(CompiledScene& scene, int cells);
 
 /// The same of a scene whose triangles are in a pack.
 /// Errors: a scenario whose doors stand otherwise than where it was packed.
-Result<bool> adopt_packed_geometry(CompiledScene& scene);
+Result<void> adopt_packed_geometry(CompiledScene& scene);
 
 /// Shares of a diffuse reflection by surface, side and band, as integers.
 void compile_lambert_fractions(CompiledScene& scene);

@@ -113,7 +113,7 @@ struct VoxelGrid {
 };
 
 /// What the error of a run is judged by; see judged.hpp.
-struct Judged {
+struct ErrorTarget {
   std::vector<std::string> words;                 // that said so
   std::vector<uint32_t> planes, probes, targets;  // targets: of the eye
   std::vector<uint32_t> cells;                    // of these planes: the 95th percentile
@@ -219,7 +219,7 @@ struct CompiledScene {
   std::vector<std::shared_ptr<const Image>> images;  // of a packed scene without texels
   std::vector<std::array<Real, 3>> image_basis;      // per band: response to r, g, b texels
   MediaSet media;
-  std::vector<PhaseFunction> phases;  // by Flight::phase
+  std::vector<PhaseFunction> phases;  // by FreeFlight::phase
   std::vector<std::string> media_names;
   std::map<uint32_t, std::vector<glm::vec3>>
       volume_points;  // of emitting media: points of equal power
@@ -231,7 +231,7 @@ struct CompiledScene {
   std::vector<CompiledVolumeGroup> volume_groups;
   VoxelGrid voxels;
   std::vector<EyeTarget> eye_targets;
-  Judged judged;
+  ErrorTarget error_target;
   std::vector<std::vector<uint32_t>> surface_groups;  // surfaces of each measured group
 
   Features features;

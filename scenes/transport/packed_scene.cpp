@@ -103,8 +103,8 @@ Result<GeometryCell> load_cell(const CompiledScene& scene, uint32_t cell) {
   return decoded;
 }
 
-Result<bool> check_objects(const CompiledScene& scene) {
-  if (scene.description->packed == nullptr) return true;
+Result<void> check_objects(const CompiledScene& scene) {
+  if (scene.description->packed == nullptr) return {};
   const PackedScene& packed = *scene.description->packed;
   const SceneParts parts(scene);
   for (uint32_t i = 0; i < parts.count(); ++i) {
@@ -122,7 +122,7 @@ Result<bool> check_objects(const CompiledScene& scene) {
     }
     if (bad) return *bad;
   }
-  return true;
+  return {};
 }
 
 Result<std::shared_ptr<const MediaBricks>> load_bricks(const CompiledScene& scene) {

@@ -76,12 +76,12 @@ Result<std::vector<std::shared_ptr<const Image>>> load_images(const CompiledScen
 
 /// Reads every object of a packed scene, one at a time in memory. Nodes find damage only when a
 /// batch needs the object, and then ask each other for it in vain. Errors: as those above.
-Result<bool> check_objects(const CompiledScene& scene);
+Result<void> check_objects(const CompiledScene& scene);
 
 /// Calls `visit(const GeometryCell&)` for every cell in turn, one of a packed scene at a time in
 /// memory. Errors: as load_cell; the first ends it.
 template <class Visit>
-Result<bool> for_each_cell(const CompiledScene& scene, Visit&& visit) {
+Result<void> for_each_cell(const CompiledScene& scene, Visit&& visit) {
   for (uint32_t i = 0; i < scene.cell_boxes.size(); ++i) {
     if (scene.description->packed == nullptr) {
       visit(scene.cells[i]);
@@ -91,7 +91,7 @@ Result<bool> for_each_cell(const CompiledScene& scene, Visit&& visit) {
     if (!cell.ok()) return cell.problem();
     visit(cell.value());
   }
-  return true;
+  return {};
 }
 
 }  // namespace luxodus

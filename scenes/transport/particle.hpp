@@ -100,16 +100,16 @@ class ParticleTracer {
     if constexpr (flawed) Flaws::history(particle);
     random_.start(particle);
     State p = emit();
-    Ledger& ledger = batch_->ledger;
-    ++ledger.particles;
-    ledger.emitted += p.weight;
-    const int events = ledger.rays < limits::rays_per_batch ? limits::events_per_history : 0;
+    EnergyBalance& balance = batch_->balance;
+    ++balance.particles;
+    balance.emitted += p.weight;
+    const int events = balance.rays < limits::rays_per_batch ? limits::events_per_history : 0;
     for (int event = 0; event < events; ++event) {
-      ++ledger.rays;
+      ++balance.rays;
       // The turn at the end of this flight is drawn before it: its arithmetic needs nothing of the
       // hit, and so runs beside the search for it.
       const Turn turn = draw_turn();
-      Flight flight;
+      FreeFlight flight;
       if constexpr (flight_first) {
         flight = fly(p, std::numeric_limits<Real>::infinity());
         p.ray.length = flight.t + near_surface_m();
@@ -119,7 +119,7 @@ class ParticleTracer {
       const bool alive = interact(p, hit, flight, turn);
       if (!alive) return;
     }
-    ledger.lost_too_long += p.weight;
+    balance.lost_too_long += p.weight;
   }
 
   // ---- birth -----------------------------------------------------------------------------------
@@ -172,20 +172,20 @@ class ParticleTracer {
   static constexpr bool flight_first =
       K::media == MediaNeed::homogeneous || K::media == MediaNeed::layered;
 
-  Flight fly(const State& p, Real length) {
+  FreeFlight fly(const State& p, Real length) {
     // -log(1 - u), u in [0, 1) with 32 bits, exact in double.
     const uint32_t r = random_.bits();
     double tau = -std::log((4294967296.0 - static_cast<double>(r)) * 0x1p-32);
     if constexpr (flawed) Flaws::depth(tau);
     const Real choice = random_.uniform();
-    Flight flight = free_flight<K::media>(scene_.media, p.band, p.ray.origin, p.ray.direction,
-                                          length, tau, choice, resolver_);
+    FreeFlight flight = free_flight<K::media>(scene_.media, p.band, p.ray.origin, p.ray.direction,
+                                              length, tau, choice, resolver_);
     if constexpr (flawed) Flaws::flight(flight, p.ray, length, scene_);
     return flight;
   }
 
   /// The event at the end of a flight; a surface that was found comes before the collision.
-  bool interact(State& p, const Hit& hit, const Flight& flight, const Turn& turn) {
+  bool interact(State& p, const Hit& hit, const FreeFlight& flight, const Turn& turn) {
     if constexpr (K::media != MediaNeed::none) {
       if (flight.collided && (!flight_first || hit.distance > flight.t)) {
         pass_detectors(p, flight.t, turn);
@@ -217,7 +217,7 @@ class ParticleTracer {
 
   /// Single precision may round a place right before a surface to behind it, and the particle would
   /// go on in the next room, or outside: it begins its next flight from the surface's near side.
-  Vec3 collision_place(const Ray& ray, const Flight& flight, const Hit& ahead) const {
+  Vec3 collision_place(const Ray& ray, const FreeFlight& flight, const Hit& ahead) const {
     const Vec3 place = ray.origin + ray.direction * flight.t;
     if (ahead.distance > flight.t + near_surface_m()) return place;
     const Vec3 outward = ahead.triangle->unit_normal();
@@ -229,14 +229,14 @@ class ParticleTracer {
   }
 
   /// `ahead`: the surface behind the collision, if one was found.
-  bool collide(State& p, const Flight& flight, const Hit& ahead, const Turn& turn) {
-    ++batch_->ledger.collisions;
+  bool collide(State& p, const FreeFlight& flight, const Hit& ahead, const Turn& turn) {
+    ++batch_->balance.collisions;
     const Vec3 place = collision_place(p.ray, flight, ahead);
     const Weight before = p.weight;
     Fraction albedo = to_fraction(flight.albedo);
     if constexpr (flawed) Flaws::albedo(albedo);
     const Weight after = surviving(before, albedo);
-    batch_->ledger.absorbed_media += before - after;
+    batch_->balance.absorbed_media += before - after;
     score_collision(scene_, place, p.band, static_cast<uint32_t>(flight.medium), before - after,
                     after, *batch_);
     p.weight = after;
@@ -255,7 +255,7 @@ class ParticleTracer {
   // ----------------------------------------------------------------------------------
 
   bool meet_surface(State& p, const Hit& hit, const Turn& turn) {
-    ++batch_->ledger.hits;
+    ++batch_->balance.hits;
     const TriangleRecord& triangle = *hit.triangle;
     const bool front = glm::dot(triangle.unit_normal(), p.ray.direction) < 0;
     if constexpr (K::all_surfaces) {
@@ -279,7 +279,7 @@ class ParticleTracer {
     patch[0] += static_cast<int64_t>(before);
     patch[1] += static_cast<int64_t>(after);
     if constexpr (flawed) Flaws::counted(patch[0], before);
-    batch_->ledger.absorbed_surfaces += before - after;
+    batch_->balance.absorbed_surfaces += before - after;
     p.weight = after;
     if (!goes_on(p)) return false;
     const Vec3 normal = front ? triangle.unit_normal() : -triangle.unit_normal();
@@ -306,7 +306,7 @@ class ParticleTracer {
     const Weight after = surviving(before, to_fraction(static_cast<double>(sampled.weight)));
     patch_score(hit, front, p.band)[0] += static_cast<int64_t>(before);
     patch_score(hit, front != sampled.transmitted, p.band)[1] += static_cast<int64_t>(after);
-    batch_->ledger.absorbed_surfaces += before - after;
+    batch_->balance.absorbed_surfaces += before - after;
     p.weight = after;
     if (!goes_on(p)) return false;
     const bool straight =
@@ -349,10 +349,10 @@ class ParticleTracer {
       const Weight before = p.weight;
       p.weight = defaults::roulette_to;
       if constexpr (flawed) Flaws::roulette(p.weight, before);
-      batch_->ledger.roulette_gain += p.weight - before;
+      batch_->balance.roulette_gain += p.weight - before;
       return true;
     }
-    batch_->ledger.roulette_loss += p.weight;
+    batch_->balance.roulette_loss += p.weight;
     return false;
   }
 
@@ -365,7 +365,7 @@ class ParticleTracer {
     pass_detectors(p, exit.distance, turn);
     const int64_t at = scene_.layout.score_index(scene_.blocks.escape, exit.side, p.band, 0);
     batch_->scores.data()[at] += static_cast<int64_t>(p.weight);
-    batch_->ledger.escaped += p.weight;
+    batch_->balance.escaped += p.weight;
     return false;
   }
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numeric>
 
-#include "scenes/transport/look.hpp"
+#include "scenes/transport/eye_paths.hpp"
 
 namespace luxodus {
 
@@ -100,16 +100,16 @@ Estimate Readout::value(uint32_t block, uint32_t bin, uint32_t quantity) const {
   return {m.mean * limits::value_quantum, m.standard_error * limits::value_quantum};
 }
 
-std::vector<Readout::JudgedFlux> Readout::judged_planes() const {
-  std::vector<JudgedFlux> fluxes;
-  for (const uint32_t i : scene_.judged.planes)
+std::vector<Readout::TargetFlux> Readout::target_planes() const {
+  std::vector<TargetFlux> fluxes;
+  for (const uint32_t i : scene_.error_target.planes)
     fluxes.push_back({scene_.blocks.planes, i, 1, lumens(scene_.blocks.planes, i, 0).value});
   return fluxes;
 }
 
-std::vector<Readout::JudgedFlux> Readout::judged_surfaces() const {
-  std::vector<JudgedFlux> fluxes;
-  if (!scene_.judged.surfaces) return fluxes;
+std::vector<Readout::TargetFlux> Readout::target_surfaces() const {
+  std::vector<TargetFlux> fluxes;
+  if (!scene_.error_target.surfaces) return fluxes;
   std::vector<double> in;
   for (uint32_t s = 0; s < scene_.surfaces.size(); ++s)
     in.push_back(lumens(scene_.blocks.surfaces, s, 0).value);
@@ -119,15 +119,15 @@ std::vector<Readout::JudgedFlux> Readout::judged_surfaces() const {
   return fluxes;
 }
 
-std::vector<Readout::JudgedFlux> Readout::judged_patches() const {
-  std::vector<JudgedFlux> fluxes;
-  if (!scene_.judged.patches) return fluxes;
+std::vector<Readout::TargetFlux> Readout::target_patches() const {
+  std::vector<TargetFlux> fluxes;
+  if (!scene_.error_target.patches) return fluxes;
   for (uint32_t p = 0; p < scene_.patch_count; ++p) fluxes.push_back({scene_.blocks.patches, p, 0});
   return fluxes;
 }
 
-std::vector<Readout::JudgedFlux> Readout::judged_cells(uint32_t plane) const {
-  std::vector<JudgedFlux> fluxes;
+std::vector<Readout::TargetFlux> Readout::target_cells(uint32_t plane) const {
+  std::vector<TargetFlux> fluxes;
   const CompiledPlane& p = scene_.planes[plane];
   const uint32_t cells = scene_.blocks.plane_cells;
   const auto end = p.first_bin + static_cast<uint32_t>(p.cells_u * p.cells_v);
@@ -136,47 +136,47 @@ std::vector<Readout::JudgedFlux> Readout::judged_cells(uint32_t plane) const {
   return fluxes;
 }
 
-Estimate Readout::flux(const JudgedFlux& judged) const {
+Estimate Readout::flux(const TargetFlux& judged) const {
   Estimate e = lumens(judged.block, judged.bin, judged.quantity);
   e.value += judged.sure_lm;
   return e;
 }
 
-std::vector<Readout::JudgedValue> Readout::judged_values() const {
+std::vector<Readout::TargetValue> Readout::target_values() const {
   const SceneDescription& d = *scene_.description;
-  std::vector<JudgedValue> values;
-  for (const JudgedFlux& f : judged_planes())
+  std::vector<TargetValue> values;
+  for (const TargetFlux& f : target_planes())
     values.push_back({"plane " + d.planes[f.bin].name, flux(f)});
-  for (const uint32_t i : scene_.judged.probes)
+  for (const uint32_t i : scene_.error_target.probes)
     values.push_back(
         {"indirect light at probe " + d.probes[i].name, value(scene_.blocks.probes, i, 0)});
-  for (const uint32_t i : scene_.judged.targets) {
+  for (const uint32_t i : scene_.error_target.targets) {
     const EyeTarget& target = scene_.eye_targets[i];
     const auto at_eye = static_cast<uint32_t>(EyeQuantity::at_eye);
     values.push_back({"sign " + d.signs[scene_.signs[target.sign].sign].name + " from " +
                           d.observers[target.observer].name,
                       value(scene_.blocks.views, target.first_bin, at_eye)});
   }
-  for (const JudgedFlux& f : judged_surfaces())
+  for (const TargetFlux& f : target_surfaces())
     values.push_back({"surface " + scene_.surfaces[f.bin].name, flux(f)});
   return values;
 }
 
-std::vector<Readout::JudgedMany> Readout::judged_many() const {
-  std::vector<JudgedMany> many;
-  for (const uint32_t i : scene_.judged.cells)
-    many.push_back({"cells of plane " + scene_.description->planes[i].name, judged_cells(i)});
-  if (scene_.judged.patches) many.push_back({"patches", judged_patches()});
+std::vector<Readout::TargetPercentile> Readout::target_percentiles() const {
+  std::vector<TargetPercentile> many;
+  for (const uint32_t i : scene_.error_target.cells)
+    many.push_back({"cells of plane " + scene_.description->planes[i].name, target_cells(i)});
+  if (scene_.error_target.patches) many.push_back({"patches", target_patches()});
   return many;
 }
 
 double Readout::worst_relative_error() const {
   std::optional<double> worst;
   const auto judge = [&](double error) { worst = std::max(worst.value_or(0), error); };
-  for (const JudgedValue& v : judged_values()) {
+  for (const TargetValue& v : target_values()) {
     if (v.value.value > 0) judge(known_error(v.value));
   }
-  for (const JudgedMany& many : judged_many()) {
+  for (const TargetPercentile& many : target_percentiles()) {
     if (const auto error = percentile_error(many.fluxes)) judge(*error);
   }
   return worst.value_or(std::numeric_limits<double>::infinity());
@@ -184,12 +184,12 @@ double Readout::worst_relative_error() const {
 
 std::vector<std::string> Readout::unlit() const {
   std::vector<std::string> names;
-  for (const JudgedValue& v : judged_values()) {
+  for (const TargetValue& v : target_values()) {
     if (!(v.value.value > 0)) names.push_back(v.name);
   }
-  for (const JudgedMany& many : judged_many()) {
+  for (const TargetPercentile& many : target_percentiles()) {
     const auto dark = std::count_if(many.fluxes.begin(), many.fluxes.end(),
-                                    [&](const JudgedFlux& f) { return !(flux(f).value > 0); });
+                                    [&](const TargetFlux& f) { return !(flux(f).value > 0); });
     if (dark > 0) {
       names.push_back(std::to_string(dark) + " of " + std::to_string(many.fluxes.size()) + " " +
                       many.name);
@@ -198,10 +198,10 @@ std::vector<std::string> Readout::unlit() const {
   return names;
 }
 
-std::optional<double> Readout::percentile_error(const std::vector<JudgedFlux>& fluxes) const {
+std::optional<double> Readout::percentile_error(const std::vector<TargetFlux>& fluxes) const {
   constexpr double percentile = 0.95;
   std::vector<double> errors;
-  for (const JudgedFlux& f : fluxes) {
+  for (const TargetFlux& f : fluxes) {
     const Estimate in = flux(f);
     if (in.value > 0) errors.push_back(known_error(in));
   }

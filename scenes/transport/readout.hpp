@@ -36,16 +36,16 @@ class Readout {
 
   /// What a run is judged by and all its batches of a group tell of: fluxes, of which lumens()
   /// gives the estimate. Probes and signs are seen from the eye, whatever the group.
-  struct JudgedFlux {
+  struct TargetFlux {
     uint32_t block = 0, bin = 0, quantity = 0;
     double sure_lm = 0;  // direct light beside it, computed without chance
   };
-  std::vector<JudgedFlux> judged_planes() const;
+  std::vector<TargetFlux> target_planes() const;
   /// Of one plane, a number in the description.
-  std::vector<JudgedFlux> judged_cells(uint32_t plane) const;
+  std::vector<TargetFlux> target_cells(uint32_t plane) const;
   /// Those into which at least a hundredth of all light goes.
-  std::vector<JudgedFlux> judged_surfaces() const;
-  std::vector<JudgedFlux> judged_patches() const;
+  std::vector<TargetFlux> target_surfaces() const;
+  std::vector<TargetFlux> target_patches() const;
 
   /// The relative standard error that a run is judged by: the worst of what CompiledScene::judged
   /// names, of mean illuminances of planes, indirect illuminances of probes, luminances of signs at
@@ -56,20 +56,20 @@ class Readout {
   std::vector<std::string> unlit() const;
 
  private:
-  struct JudgedValue {
+  struct TargetValue {
     std::string name;  // "plane NAME"
     Estimate value;
   };
   /// Those that are judged each by itself.
-  std::vector<JudgedValue> judged_values() const;
+  std::vector<TargetValue> target_values() const;
   /// Those of which the 95th percentile is judged.
-  struct JudgedMany {
+  struct TargetPercentile {
     std::string name;  // "patches"
-    std::vector<JudgedFlux> fluxes;
+    std::vector<TargetFlux> fluxes;
   };
-  std::vector<JudgedMany> judged_many() const;
-  Estimate flux(const JudgedFlux& judged) const;
-  std::optional<double> percentile_error(const std::vector<JudgedFlux>& fluxes) const;
+  std::vector<TargetPercentile> target_percentiles() const;
+  Estimate flux(const TargetFlux& judged) const;
+  std::optional<double> percentile_error(const std::vector<TargetFlux>& fluxes) const;
   Estimate sum_groups(uint32_t block, uint32_t bin, int channel, uint32_t quantity,
                       int group) const;
   double scale(int group, int channel, ScoreUnit unit) const;

@@ -37,9 +37,8 @@ SceneFeature bands(const CompiledScene& scene) {
                                                             : ", as [run] band_edges_nm says")};
   }
   return {"wavelength bands", false,
-          run.bands_most == 1
-              ? "one, as [run] bands_most says"
-              : "one: no spectrum of a material or medium changes over wavelengths"};
+          run.max_bands == 1 ? "one, as [run] bands_most says"
+                             : "one: no spectrum of a material or medium changes over wavelengths"};
 }
 
 SceneFeature groups(const CompiledScene& scene) {

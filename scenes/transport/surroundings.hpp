@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "scenes/transport/lines.hpp"
+#include "scenes/transport/visibility.hpp"
 
 namespace luxodus {
 

@@ -84,13 +84,13 @@ class ResolverPictureTracer final : public PictureTracer {
   double band_probability(int band) const override { return eye_.band_probability(band); }
   double radiance(const Ray& ray, int band, const PatchRadiance* gather) override {
     light_.clear();
-    eye_.radiance(ray, band, Met::all, 1, light_, gather);
+    eye_.radiance(ray, band, EmitterHits::all, 1, light_, gather);
     return light_.total();
   }
 
  private:
   Resolver resolver_;
-  EyeTracer<Resolver> eye_;
+  PathTracer<Resolver> eye_;
   SobolSet set_;
   bool stratified_;
   GroupLight light_;

@@ -5,7 +5,7 @@
 
 #include "scenes/geometry/real.hpp"
 #include "scenes/transport/direct.hpp"
-#include "scenes/transport/look.hpp"
+#include "scenes/transport/eye_paths.hpp"
 #include "scenes/transport/resolver.hpp"
 
 namespace luxodus {
@@ -31,7 +31,7 @@ std::unique_ptr<BatchTracer> make_batch_tracer(const CompiledScene& scene,
 DirectLight direct_light_at(const CompiledScene& scene, const GeometryAccess& access,
                             const Vec3& point, const Vec3& normal, const DirectOptions& options);
 
-/// Radiance along one ray of a picture [W/(m2 sr)]; see EyeTracer::radiance.
+/// Radiance along one ray of a picture [W/(m2 sr)]; see PathTracer::radiance.
 class PictureTracer {
  public:
   virtual ~PictureTracer() = default;

@@ -1,5 +1,5 @@
 // Pictures of the display: light per pixel on the one side, sRGB bytes on the other. Plain values;
-// any thread. Written to files by scenes/format and actors/display; made here by tone.hpp and
+// any thread. Written to files by scenes/images and actors/display; made here by tone.hpp and
 // false_colour.hpp.
 #pragma once
 

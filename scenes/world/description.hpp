@@ -1,6 +1,6 @@
 // What a scene says, after everything it names has been read: plain values in SI units (m, sr, W,
 // lm, cd/m2, 1/m, nm), one struct per TOML table, each with the place it stands at, for messages.
-// Made by scenes/format, compiled for the tracer by scenes/transport/compile.*. Immutable once
+// Made by scenes/scene_file, compiled for the tracer by scenes/transport/compile.*. Immutable once
 // read; any thread.
 #pragma once
 
@@ -334,7 +334,7 @@ enum class GroupRule { one, by_circuit, by_emitter };
 
 struct RunSettings {
   uint64_t seed = 1;
-  int bands_most = 8;                 // 1 forces one band
+  int max_bands = 8;                  // 1 forces one band
   std::vector<double> band_edges_nm;  // empty: told apart automatically
   double band_tolerance = 0.02;
   int64_t batch_particles = 0;  // 0: follows from the scene
@@ -345,7 +345,7 @@ struct RunSettings {
   GroupRule groups = GroupRule::one;
   double eye_share = 1.0;  // paths from the eye per batch, relative to the default
   std::vector<std::string>
-      error_of;  // what the error is judged by: see scenes/transport/judged.hpp
+      error_of;  // what the error is judged by: see scenes/transport/error_target.hpp
   SourcePlace error_of_place;
 };
 

@@ -107,7 +107,7 @@ SceneDescription furnished(Air air, const Counting& counting) {
   furnish(d);
   d.emitters.push_back(lamp({10, 7.5, 2.99}, {2, 1, 0}));
   if (air != Air::clear) d.media.push_back(smoke(air));
-  d.run.bands_most = 1;
+  d.run.max_bands = 1;
   d.run.voxels = counting.voxels;
   if (counting.detectors) {
     PlaneMeasure plane;
@@ -159,7 +159,7 @@ std::shared_ptr<const CompiledScene> landscape(int n) {
   }
   add_object(d, "hills", std::move(mesh), 0);
   d.emitters.push_back(lamp({50, 50, 10}, {5, 5, 0}));
-  d.run.bands_most = 1;
+  d.run.max_bands = 1;
   return compiled(std::move(d));
 }
 

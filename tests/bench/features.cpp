@@ -121,7 +121,7 @@ void add_reddish(SceneDescription& d) {
   Spectrum& reddish = material_named(d, "reddish").reflectance;
   for (int i = 0; i < spectrum_samples; ++i)
     reddish.value[static_cast<size_t>(i)] = 0.2 + 0.6 * i / (spectrum_samples - 1);
-  d.run.bands_most = 8;
+  d.run.max_bands = 8;
 }
 
 void without_voxels(SceneDescription& d) {
@@ -233,7 +233,7 @@ const std::vector<Variant>& variants() {
       {"", "unused (below)", [](SceneDescription& d) { add_plane(d, -1); }},
       {"", "300 cells", [](SceneDescription& d) { add_plane(d, 0.85); }},
       {"bands", "absent", nothing},
-      {"", "unused (grey)", [](SceneDescription& d) { d.run.bands_most = 8; }},
+      {"", "unused (grey)", [](SceneDescription& d) { d.run.max_bands = 8; }},
       {"", "8 bands",
        [](SceneDescription& d) {
          add_reddish(d);

@@ -7,10 +7,10 @@
 #include <stdexcept>
 
 #include "actors/display/pictures.hpp"
-#include "scenes/format/scene_file.hpp"
+#include "scenes/scene_file/scene_file.hpp"
 #include "scenes/transport/compile.hpp"
 #include "scenes/transport/detectors.hpp"
-#include "scenes/transport/look.hpp"
+#include "scenes/transport/eye_paths.hpp"
 #include "tests/bench/bench_scenes.hpp"
 #include "tests/bench/measure.hpp"
 #include "tests/bench/tables.hpp"
@@ -26,9 +26,9 @@ constexpr int64_t all_particles = 1 << 24;
 constexpr double dark = 0.05;
 /// Of errors that are averaged: a luminaire in a few pixels, and whatever path happens to meet one,
 /// would decide alone [cd/m2].
-constexpr double counted_most = 10;
+constexpr double max_counted = 10;
 /// Of mean luminances: nothing that is lit is as bright, so that the cap takes nothing of them.
-constexpr double mean_most = 100;
+constexpr double max_mean = 100;
 constexpr int seeds = 8;  // of pictures whose own error is asked for
 
 std::shared_ptr<const CompiledScene> compiled(SceneDescription d, const char* scenario) {
@@ -68,7 +68,7 @@ double luminance(const TracedPicture& p, size_t pixel) {
 
 struct Deviation {
   double luminance = 0;  // relative, root mean square
-  double counted = 0;    // the same where a pixel counts `counted_most` at most
+  double counted = 0;    // the same where a pixel counts `max_counted` at most
   double colour = 0;     // of x and y together, root mean square
 };
 
@@ -82,7 +82,7 @@ Deviation deviation(const TracedPicture& is, const TracedPicture& wanted) {
     const double off = (luminance(is, i) - luminance(wanted, i)) / to;
     squares += off * off;
     const double seen =
-        std::min(luminance(is, i), counted_most) - std::min(luminance(wanted, i), counted_most);
+        std::min(luminance(is, i), max_counted) - std::min(luminance(wanted, i), max_counted);
     counted += seen * seen / (to * to);
     const auto share = [&](const TracedPicture& p, size_t k) {
       const float* c = &p.light.xyz[3 * i];
@@ -100,7 +100,7 @@ Deviation deviation(const TracedPicture& is, const TracedPicture& wanted) {
 
 double mean_luminance(const TracedPicture& p) {
   double sum = 0;
-  for (size_t i = 0; i < p.light.pixels(); ++i) sum += std::min(luminance(p, i), mean_most);
+  for (size_t i = 0; i < p.light.pixels(); ++i) sum += std::min(luminance(p, i), max_mean);
   return sum / static_cast<double>(p.light.pixels());
 }
 
@@ -271,14 +271,14 @@ void print_images(double share) {
       "way,\nits own chance taken off; counted: where a pixel is {} cd/m2 at most, as the merit "
       "is\n"
       "{:<16} {:<7} {:<11} {:>5} {:>8} {:>11} {:>11} {:>9} {:>10}\n",
-      width, height, size.long_paths, counted_most, "scenario", "paths", "numbers", "each",
+      width, height, size.long_paths, max_counted, "scenario", "paths", "numbers", "each",
       "cpu [s]", "rms error", "counted", "rms x, y", "merit [/s]");
   for (const char* scenario : {"clear_emergency", "smoke_emergency"}) print_course(scenario, size);
   fmt::print(
       "\nFinal gathers in patches of an edge, against paths traced to their end, {} seeds each: "
       "mean\n"
       "luminance [cd/m2] where a pixel counts {} at most\n{:<16} {:>8} {:>11} {:>18}\n",
-      seeds, mean_most, "scenario", "edge [m]", "luminance", "off");
+      seeds, max_mean, "scenario", "edge [m]", "luminance", "off");
   for (const char* scenario : {"clear_emergency", "smoke_emergency"}) print_halving(scenario, size);
   fmt::print(
       "\nVeil before a sign in the room's homogeneous smoke, by voxels and traced from the eye\n"

@@ -6,10 +6,10 @@
 #include <functional>
 #include <stdexcept>
 
-#include "actors/source/local_run.hpp"
-#include "scenes/format/scene_file.hpp"
+#include "actors/run/local_run.hpp"
+#include "scenes/scene_file/scene_file.hpp"
 #include "scenes/transport/compile.hpp"
-#include "scenes/transport/look.hpp"
+#include "scenes/transport/eye_paths.hpp"
 #include "tests/bench/bench_scenes.hpp"
 #include "tests/bench/measure.hpp"
 #include "tests/bench/tables.hpp"

@@ -23,7 +23,7 @@ namespace {
 
 constexpr NodeId asker{0}, holder{1};
 constexpr size_t object_bytes[] = {16 << 10, 128 << 10, 1 << 20};
-constexpr size_t object_bytes_most = 1 << 20;
+constexpr size_t max_object_bytes = 1 << 20;
 constexpr size_t questions_at_once = 64;
 constexpr size_t objects_at_once = 8;
 
@@ -47,8 +47,8 @@ class Peer final : public NetHandler {
       : self_(zmq.self),
         transport(context, zmq, system_clock),
         network(config_of(zmq.self), transport, *this, system_clock.now()),
-        room_(object_bytes_most / 8 + 64),
-        object_(std::make_shared<std::vector<std::byte>>(object_bytes_most)) {}
+        room_(max_object_bytes / 8 + 64),
+        object_(std::make_shared<std::vector<std::byte>>(max_object_bytes)) {}
 
   bool deliver(const Delivery& d) override {
     if (const auto* fetch = std::get_if<FetchObject>(&d.message)) {

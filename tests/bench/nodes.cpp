@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "actors/supervise/in_process.hpp"
-#include "scenes/format/scene_file.hpp"
+#include "scenes/scene_file/scene_file.hpp"
 #include "scenes/transport/compile.hpp"
 #include "tests/bench/measure.hpp"
 #include "tests/bench/tables.hpp"

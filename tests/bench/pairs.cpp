@@ -7,10 +7,10 @@
 #include <functional>
 #include <stdexcept>
 
-#include "actors/source/need.hpp"
-#include "scenes/format/scene_file.hpp"
+#include "actors/run/adaptive_shares.hpp"
+#include "scenes/scene_file/scene_file.hpp"
 #include "scenes/transport/compile.hpp"
-#include "scenes/transport/look.hpp"
+#include "scenes/transport/eye_paths.hpp"
 #include "tests/bench/bench_scenes.hpp"
 #include "tests/bench/tables.hpp"
 
@@ -68,7 +68,7 @@ double gain_by_need(const LocalRun& usual, const SceneDescription& d, const char
   CompileOptions options;
   options.error_of = {"plane " + d.planes[plane].name};
   const auto shares =
-      find_shares_by_need(compiled(d, scenario, options), seed, 2, never, no_report);
+      find_adaptive_shares(compiled(d, scenario, options), seed, 2, never, no_report);
   if (!shares.ok()) throw std::runtime_error(shares.problem().text());
   options.batch_shares = shares.value();
   const auto by_need = traced(compiled(d, scenario, options));

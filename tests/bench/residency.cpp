@@ -8,8 +8,8 @@
 
 #include "actors/objects/scene_objects.hpp"
 #include "actors/supervise/in_process.hpp"
-#include "scenes/format/scene_file.hpp"
 #include "scenes/pack/scene_pack.hpp"
+#include "scenes/scene_file/scene_file.hpp"
 #include "scenes/transport/compile.hpp"
 #include "tests/bench/measure.hpp"
 #include "tests/bench/tables.hpp"

@@ -3,7 +3,7 @@
 #include <atomic>
 #include <limits>
 
-#include "actors/source/local_run.hpp"
+#include "actors/run/local_run.hpp"
 #include "scenes/intersect/replay.hpp"
 #include "scenes/transport/particle.hpp"
 #include "tests/bench/bench_scenes.hpp"
@@ -88,7 +88,7 @@ class Runner {
     next_ += static_cast<uint64_t>(scene_.batch_particles);
     totals_.merge(scores_, 0);
   }
-  const Ledger& ledger() const { return totals_.ledger(); }
+  const EnergyBalance& balance() const { return totals_.balance(); }
 
  private:
   const CompiledScene& scene_;
@@ -132,9 +132,9 @@ void print_speed(int repeats) {
     std::vector<double> run, bare, whole, share, whole_share;
     for (int i = 0; i < repeats; ++i) {
       run.push_back(rays_per_second([&] {
-        const uint64_t before = runner.ledger().rays;
+        const uint64_t before = runner.balance().rays;
         runner.batch();
-        return static_cast<double>(runner.ledger().rays - before);
+        return static_cast<double>(runner.balance().rays - before);
       }));
       bare.push_back(rays_per_second([&] {
         checksum += replay_rays(index.cell(0), rays);
@@ -147,9 +147,9 @@ void print_speed(int repeats) {
       share.push_back(run.back() / bare.back());
       whole_share.push_back(run.back() / whole.back());
     }
-    const Ledger& ledger = runner.ledger();
+    const EnergyBalance& balance = runner.balance();
     const double per_particle =
-        static_cast<double>(ledger.rays) / static_cast<double>(ledger.particles);
+        static_cast<double>(balance.rays) / static_cast<double>(balance.particles);
     const Summary s = summarise(share);
     const double rays_s = summarise(run).median;
     fmt::print(

@@ -32,12 +32,12 @@ inline std::vector<uint16_t> free_ports(size_t count) {
     ::close(probe);
     return bound;
   };
-  constexpr int first = 18000, ports_most = 9000, of_a_test = 60;
-  static int next = ::getpid() % (ports_most / of_a_test) * of_a_test;
+  constexpr int first = 18000, max_ports = 9000, of_a_test = 60;
+  static int next = ::getpid() % (max_ports / of_a_test) * of_a_test;
   std::vector<uint16_t> ports;
-  for (int tried = 0; tried < ports_most && ports.size() < count; tried += 2) {
+  for (int tried = 0; tried < max_ports && ports.size() < count; tried += 2) {
     const int port = first + next;
-    next = (next + 2) % ports_most;
+    next = (next + 2) % max_ports;
     if (is_free(port) && is_free(port + 1)) ports.push_back(static_cast<uint16_t>(port));
   }
   REQUIRE(ports.size() == count);

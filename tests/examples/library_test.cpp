@@ -15,8 +15,8 @@
 #include <thread>
 
 #include "actors/display/report.hpp"
-#include "actors/source/local_run.hpp"
-#include "scenes/format/scene_file.hpp"
+#include "actors/run/local_run.hpp"
+#include "scenes/scene_file/scene_file.hpp"
 #include "scenes/transport/compile.hpp"
 
 using namespace luxodus;
@@ -114,7 +114,7 @@ Json traced(SceneDescription description, const std::string& scenario, int64_t p
   const std::atomic<bool> interrupt{false};
   LocalRun run(compiled(std::move(description), scenario), seed, threads);
   run.run({particles, std::nullopt, std::nullopt}, interrupt, [](const Progress&) {});
-  CHECK(run.totals().ledger().closes());
+  CHECK(run.totals().balance().closes());
   Json result = result_json(run, {});
   std::vector<std::string> unknown;
   for (const char* part :

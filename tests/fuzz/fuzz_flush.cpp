@@ -48,7 +48,7 @@ std::vector<std::byte> sample_flush() {
     for (int64_t i = g; i < bins; i += 7)
       group.bins.push_back({i, {static_cast<Int128>(i) << 20, static_cast<UInt128>(i) << 40}});
   }
-  gain.ledger.emitted = gain.ledger.escaped = 1000;
+  gain.balance.emitted = gain.balance.escaped = 1000;
   totals.add(gain);
   const auto bytes = encode_flush(totals);
   std::vector<std::byte> raw(1 << 20);
@@ -67,7 +67,7 @@ bool fuzz_flush(std::span<const std::byte> bytes, bool raw) {
   if (!gain.ok()) return false;
   must(gain->bins() <= groups * bins, "a flush has more bins than there are");
   must(gain->batches() >= 0, "a flush counts less than nothing");
-  if (!gain->ledger().closes()) return true;  // which the controller refuses
+  if (!gain->balance().closes()) return true;  // which the controller refuses
   Totals totals = no_totals();
   gain->add_to(totals);
   return true;

@@ -51,7 +51,7 @@ TEST_CASE("the codec understands or refuses whatever bytes it is given", "[fuzz]
 TEST_CASE("harmed frames leave a node up and working", "[fuzz]") {
   INFO("seed " << seed());
   Cluster trio(3, ring(3));
-  trio.net.record_most = 400;
+  trio.net.max_record = 400;
   trio.bring_up();
   trio[0].network.send({1}, trio[0].network.next_id(), FetchObject{{1}, 2, 3});
   trio[2].network.send({1}, trio[2].network.next_id(), Flush{1, 2, {3, 4, 5}},
@@ -59,7 +59,7 @@ TEST_CASE("harmed frames leave a node up and working", "[fuzz]") {
   trio.run(seconds(1));
   const std::vector<Bytes> corpus = trio.net.recorded;
   REQUIRE(corpus.size() > 50);
-  trio.net.record_most = 0;
+  trio.net.max_record = 0;
 
   Random random = numbers();
   for (int i = 0; i < 30'000; ++i) {

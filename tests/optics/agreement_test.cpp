@@ -104,8 +104,8 @@ TEST_CASE("the analogue and the weighted game give the same light") {
   const Run weighted(std::move(scene), options);
   options.seed = 2;
   const Run analogue(std::move(sampled), options);
-  CHECK(analogue.ledger().roulette_gain == 0);
-  CHECK(weighted.ledger().roulette_gain > 0);
+  CHECK(analogue.balance().roulette_gain == 0);
+  CHECK(weighted.balance().roulette_gain > 0);
   for (uint32_t p = 0; p < 3; ++p) {
     for (uint32_t part = 0; part < 2; ++part) {
       INFO("plane " << p << (part == 0 ? " direct" : " indirect"));

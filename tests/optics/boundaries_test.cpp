@@ -108,7 +108,7 @@ TEST_CASE("beams within a wall's own plane and along its edges leave no closed r
     beam({1, 0, 0}, {1, 0, 0});                     // along the edge of floor and wall
     beam({4, 3, 1}, {0, 0, 1});                     // along an upright edge, into a corner
     const Run run(std::move(scene), small(1 << 20));
-    CHECK(run.ledger().escaped == 0);
+    CHECK(run.balance().escaped == 0);
   }
 }
 
@@ -139,7 +139,7 @@ TEST_CASE("emitters at walls send no light behind them") {
       INFO(row.distance_m << " m from walls of " << size << " m, "
                           << (axes == glm::dmat3(1.0) ? "level" : "tilted"));
       const Run run(std::move(scene), small(1 << 18));
-      CHECK(run.ledger().escaped == 0);
+      CHECK(run.balance().escaped == 0);
     }
   }
 }
@@ -185,7 +185,7 @@ TEST_CASE("walls of a millimetre keep light in and out in a building of a hundre
       for (uint32_t p = 0; inside && p < 4 * 6; ++p) dark.bins.push_back(p);
       const Run run(std::move(scene), small(1 << 18), {dark});
       CHECK(run.sum(0).value == 0);
-      CHECK(run.ledger().escaped == 0);
+      CHECK(run.balance().escaped == 0);
       CHECK(run.into(inside ? "inner z1" : "screen").value > 0.1);
     }
   }
@@ -243,7 +243,7 @@ TEST_CASE("walls of slivers reflect as whole ones, and let nothing through") {
   for (const int way : {1, 2}) {
     INFO((way == 1 ? "strips" : "a fan"));
     const Run run(cube(way), small(1 << 18));
-    CHECK(run.ledger().escaped == 0);
+    CHECK(run.balance().escaped == 0);
     // The same histories, but for those whose hits are kept off edges that are new.
     for (const Face& f : faces_of_box({0, 0, 0}, {1, 1, 1})) {
       const Estimate found = run.into(f.name), expected = whole.into(f.name);

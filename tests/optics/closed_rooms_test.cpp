@@ -64,7 +64,7 @@ position = [{}, {}, {}]
 )",
                       lamp.x, lamp.y, height_m / 2);
   const Run run(scene_from_toml(text), {.particles = particles});
-  CHECK(static_cast<double>(run.ledger().escaped) / static_cast<double>(unit_weight) == 0);
+  CHECK(static_cast<double>(run.balance().escaped) / static_cast<double>(unit_weight) == 0);
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
 // Direct light that is computed, against closed forms and fine sums over a grid of places: to a
 // thousandth everywhere, at grazing places, in smoke, and where something hides a part of a lamp.
 #include "scenes/emergency/sight.hpp"
-#include "scenes/transport/lines.hpp"
 #include "scenes/transport/polygon_light.hpp"
+#include "scenes/transport/visibility.hpp"
 #include "tests/optics/light_kit.hpp"
 
 namespace luxodus::light {

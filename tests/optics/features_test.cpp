@@ -59,7 +59,7 @@ const std::vector<Unused>& unused_things() {
          d.materials.emplace_back().reflectance_image =
              std::make_shared<const Image>(Image{1, 1, 1, {0.5f}});
        }},
-      {"many bands, all grey", [](SceneDescription& d) { d.run.bands_most = 8; }},
+      {"many bands, all grey", [](SceneDescription& d) { d.run.max_bands = 8; }},
       {"groups by emitter, of one",
        [](SceneDescription& d) { d.run.groups = GroupRule::by_emitter; }},
       {"a lamp that is dark",

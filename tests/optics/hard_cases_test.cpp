@@ -56,8 +56,8 @@ Run beam_on_layer(double depth, double albedo, int64_t particles) {
 
 /// The share of a particle's weight that each collision has taken.
 double taken_by_collision(const Run& run) {
-  return static_cast<double>(run.ledger().absorbed_media) / static_cast<double>(unit_weight) /
-         static_cast<double>(run.ledger().collisions);
+  return static_cast<double>(run.balance().absorbed_media) / static_cast<double>(unit_weight) /
+         static_cast<double>(run.balance().collisions);
 }
 
 }  // namespace
@@ -65,8 +65,8 @@ double taken_by_collision(const Run& run) {
 TEST_CASE("a layer of depth 1e-6 lets a beam pass, and one of 1e4 is a half space") {
   const Run thin = beam_on_layer(1e-6, 0.5, int64_t{1} << 24);
   CHECK(thin.into("end").value == Approx(1).epsilon(1e-5));
-  const double expected = 1e-6 * static_cast<double>(thin.ledger().particles);
-  CHECK(std::abs(static_cast<double>(thin.ledger().collisions) - expected) <
+  const double expected = 1e-6 * static_cast<double>(thin.balance().particles);
+  CHECK(std::abs(static_cast<double>(thin.balance().collisions) - expected) <
         4 * std::sqrt(expected));
   CHECK(taken_by_collision(thin) == Approx(0.5).epsilon(0.01));
   const Row half_space = rows_where("halfspace_H.csv", "albedo", "0.9").front();
@@ -76,7 +76,7 @@ TEST_CASE("a layer of depth 1e-6 lets a beam pass, and one of 1e4 is a half spac
 
 TEST_CASE("gas of albedo 1 - 1e-6 reflects and passes as gas of albedo 1, but for what it takes") {
   const Run all = beam_on_layer(10, 1, 1 << 18), nearly = beam_on_layer(10, 1 - 1e-6, 1 << 18);
-  CHECK(all.ledger().absorbed_media == 0);
+  CHECK(all.balance().absorbed_media == 0);
   // Shares are multiples of 2^-32, and weights fall by some 2e-5.
   CHECK(taken_by_collision(nearly) == Approx(1e-6).epsilon(5e-4));
   // Some 20 collisions each: 2e-5 of the light.
@@ -175,7 +175,7 @@ TEST_CASE("a thousand emitters a million times weaker than another get a thousan
   constexpr uint32_t beams = 1;  // are not among the light that can be computed
   check_within(run.watts(run.blocks().planes, 0, beams), 2 * weak_emitters, half_percent);
   // Each of them gets some 17 particles.
-  const double particles = static_cast<double>(run.ledger().particles) / run.emitted_w();
+  const double particles = static_cast<double>(run.balance().particles) / run.emitted_w();
   double squares = 0;
   for (uint32_t cell = 0; cell < 2 * weak_emitters; ++cell) {
     const double hits = run.watts(run.blocks().plane_cells, cell, beams).value * particles;
@@ -208,7 +208,7 @@ TEST_CASE("a closed room of reflectance 0.999 receives its lamp a thousand times
   const Run run(white_room(0.999), options, {{&TallyBlocks::surfaces, {0, 1, 2, 3, 4, 5}}});
   // 0.999 as a single-precision number is known to 6e-8, of which a thousandth is left to absorb.
   check_within(run.sum(0), 1000, 4 * half_percent, 6e-5);
-  CHECK(run.ledger().escaped == 0);
+  CHECK(run.balance().escaped == 0);
 }
 
 TEST_CASE("a history that never ends is counted as lost, and the ledger closes") {
@@ -219,8 +219,8 @@ TEST_CASE("a history that never ends is counted as lost, and the ledger closes")
   stop.particles = 8;
   const std::atomic<bool> interrupt{false};
   run.local().run(stop, interrupt, [](const Progress&) {});
-  CHECK(run.ledger().lost() == run.ledger().emitted);
-  CHECK(run.ledger().closes());
+  CHECK(run.balance().lost() == run.balance().emitted);
+  CHECK(run.balance().closes());
 }
 
 TEST_CASE("walls of a millimetre keep light in") {
@@ -233,7 +233,7 @@ TEST_CASE("walls of a millimetre keep light in") {
   const Run run(std::move(scene), options);
   for (const std::string name : {"x0", "x1", "y0", "y1", "z0", "z1"})
     CHECK(run.into("outer " + name).value == 0);
-  CHECK(run.ledger().escaped == 0);
+  CHECK(run.balance().escaped == 0);
 }
 
 // A flight may end within a rounding of a wall, and go on behind it.
@@ -256,7 +256,7 @@ TEST_CASE("out of a closed room of the thickest smoke nothing leaks") {
   RunOptions options;
   options.particles = 1 << 15;
   const Run run(std::move(scene), options);
-  CHECK(run.ledger().escaped == 0);
+  CHECK(run.balance().escaped == 0);
 }
 
 TEST_CASE("of surfaces that lie in one another each particle meets one, and none is lost") {
@@ -267,7 +267,7 @@ TEST_CASE("of surfaces that lie in one another each particle meets one, and none
   const double on_floor = twice.into("z0").value + twice.into("carpet").value;
   CHECK(on_floor == Approx(once.into("z0").value).epsilon(2e-2));
   check_agree(twice.into("z1"), once.into("z1"), half_percent);
-  CHECK(twice.ledger().escaped == 0);
+  CHECK(twice.balance().escaped == 0);
 }
 
 }  // namespace luxodus::light

@@ -1,10 +1,9 @@
 // What the error of a run is judged by, and where its paths go.
-#include "scenes/transport/judged.hpp"
-
 #include <catch2/catch.hpp>
 #include <cmath>
 
 #include "scenes/transport/compile.hpp"
+#include "scenes/transport/error_target.hpp"
 #include "tests/optics/light_kit.hpp"
 
 using namespace luxodus;
@@ -110,10 +109,10 @@ TEST_CASE("the error of a plane's cells is what 95 of 100 of them do not exceed"
   const Run run(std::move(scene), {.particles = 64 * 4096});
   const Readout readout(run.scene(), run.local().totals());
   const double error = readout.worst_relative_error();
-  const auto cells = readout.judged_cells(0);
+  const auto cells = readout.target_cells(0);
   REQUIRE(cells.size() == 60);
   int within = 0;
-  for (const Readout::JudgedFlux& cell : cells) {
+  for (const Readout::TargetFlux& cell : cells) {
     const Estimate indirect = readout.lumens(cell.block, cell.bin, 1);
     const double direct = readout.lumens(cell.block, cell.bin, 0).value;
     within += indirect.standard_error <= error * (indirect.value + direct) * (1 + 1e-12) ? 1 : 0;
@@ -153,7 +152,7 @@ TEST_CASE("paths go to eyes where only eyes are judged, to particles where only 
 
 TEST_CASE("an error of what a scene does not have is refused with what it has") {
   const auto refusal = [](const std::string& word) {
-    const auto judged = judged_by(*judged_scene({}), {word});
+    const auto judged = error_target_of(*judged_scene({}), {word});
     REQUIRE_FALSE(judged.ok());
     return judged.problem().what;
   };

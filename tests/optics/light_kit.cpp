@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "scenes/format/scene_file.hpp"
+#include "scenes/scene_file/scene_file.hpp"
 
 namespace luxodus::light {
 
@@ -43,8 +43,8 @@ Run::Run(SceneDescription scene, const RunOptions& options, const std::vector<Bi
   stop.particles = options.particles / thrift;
   const std::atomic<bool> interrupt{false};
   local().run(stop, interrupt, [](const Progress&) {});
-  REQUIRE(ledger().closes());
-  REQUIRE(ledger().lost() == 0);
+  REQUIRE(balance().closes());
+  REQUIRE(balance().lost() == 0);
 }
 
 // ---- comparisons -------------------------------------------------------------------------------
@@ -54,22 +54,22 @@ int64_t particles_for(double share) {
   return static_cast<int64_t>(std::ceil(1 / (wanted * wanted * share)));
 }
 
-void check_near(const Estimate& estimate, double reference, double error_most, double slack,
+void check_near(const Estimate& estimate, double reference, double max_error, double slack,
                 double standard_errors) {
   INFO("estimate " << estimate.value << " +- " << estimate.standard_error << ", reference "
                    << reference << ", z "
                    << (estimate.value - reference) / estimate.standard_error);
-  CHECK(estimate.standard_error <= error_most);
+  CHECK(estimate.standard_error <= max_error);
   // Integer weights and single-precision reflectances: nothing is promised below 1e-6.
   const double rounding = 1e-6 * std::abs(reference);
   CHECK(std::abs(estimate.value - reference) <=
         standard_errors * estimate.standard_error + slack + rounding);
 }
 
-void check_within(const Estimate& estimate, double reference, double relative_error_most,
+void check_within(const Estimate& estimate, double reference, double max_relative_error,
                   double relative_slack, double standard_errors) {
   const double size = std::abs(reference);
-  check_near(estimate, reference, relative_error_most * size, relative_slack * size,
+  check_near(estimate, reference, max_relative_error * size, relative_slack * size,
              standard_errors);
 }
 
@@ -149,11 +149,11 @@ void check_cases(const std::string& name, size_t count, const CaseOptions& optio
   CHECK(checked == count);
 }
 
-void check_agree(const Estimate& a, const Estimate& b, double relative_error_most,
+void check_agree(const Estimate& a, const Estimate& b, double max_relative_error,
                  double standard_errors) {
   const double error = std::hypot(a.standard_error, b.standard_error);
   INFO(a.value << " +- " << a.standard_error << " and " << b.value << " +- " << b.standard_error);
-  CHECK(error <= relative_error_most * std::abs(b.value));
+  CHECK(error <= max_relative_error * std::abs(b.value));
   CHECK(std::abs(a.value - b.value) <= standard_errors * error + 1e-6 * std::abs(b.value));
 }
 

@@ -42,7 +42,7 @@ struct RunOptions {
   int64_t batch_particles = 4096;
 };
 
-/// A scene compiled and traced. Checks that the ledger closes and that no history was lost.
+/// A scene compiled and traced. Checks that the balance closes and that no history was lost.
 class Run : public Traced {
  public:
   explicit Run(SceneDescription scene, const RunOptions& options = {},
@@ -60,12 +60,12 @@ inline constexpr double half_percent = 5e-3 * root_of_thrift;
 int64_t particles_for(double share);
 
 /// The estimate is within `standard_errors` of the reference, plus what is known to be biased
-/// (`slack`, in the reference's unit), and its standard error is at most `error_most` (in the
+/// (`slack`, in the reference's unit), and its standard error is at most `max_error` (in the
 /// reference's unit).
-void check_near(const Estimate& estimate, double reference, double error_most, double slack = 0,
+void check_near(const Estimate& estimate, double reference, double max_error, double slack = 0,
                 double standard_errors = four_standard_errors);
 /// The same with the standard error bounded relative to the reference.
-void check_within(const Estimate& estimate, double reference, double relative_error_most,
+void check_within(const Estimate& estimate, double reference, double max_relative_error,
                   double relative_slack = 0, double standard_errors = four_standard_errors);
 /// A mean of something of which each of `particles` brings `most` or less. Its standard error is at
 /// most half a percent or, for what is too rare to be counted that well, what chance allows: the
@@ -86,7 +86,7 @@ void check_case(const Case& one, const CaseOptions& options = {});
 void check_cases(const std::string& name, size_t count, const CaseOptions& options = {});
 
 /// Two independent estimates of one thing.
-void check_agree(const Estimate& a, const Estimate& b, double relative_error_most,
+void check_agree(const Estimate& a, const Estimate& b, double max_relative_error,
                  double standard_errors = four_standard_errors);
 
 }  // namespace luxodus::light

@@ -37,7 +37,7 @@ TEST_CASE("particles and eye paths that differ by 2 to the 32 are not the same")
       BatchScores batch;
       batch.reset(scene->layout);
       tracer->trace(0, first, batch_particles, batch);
-      CHECK(batch.ledger.closes());
+      CHECK(batch.balance.closes());
       return scores_of(batch);
     };
     const auto looked = [&](int64_t number) {
@@ -69,11 +69,11 @@ TEST_CASE("particles beyond 2 to the 33 give the light of the first") {
     stop.particles = (before + batches) * batch_particles;
     const std::atomic<bool> interrupt{false};
     out->local().run(stop, interrupt, [](const Progress&) {});
-    REQUIRE(out->ledger().particles == uint64_t{batches * batch_particles});
+    REQUIRE(out->balance().particles == uint64_t{batches * batch_particles});
     return out;
   };
   const auto near = run(0), far = run(static_cast<int64_t>(2 * two_to_32) / batch_particles);
-  CHECK(near->ledger().rays != far->ledger().rays);
+  CHECK(near->balance().rays != far->balance().rays);
   for (const std::string& thing : room_things) {
     INFO(thing);
     check_agree(near->absorbed_by(thing), far->absorbed_by(thing), 2 * half_percent);

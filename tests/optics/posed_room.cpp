@@ -144,7 +144,7 @@ void close_opening(SceneDescription& room, const Pose& pose) {
 
 SceneDescription posed_room(const Pose& pose, Level level) {
   SceneDescription scene;
-  scene.run.bands_most = 1;
+  scene.run.max_bands = 1;
   scene.run.voxels = level == Level::with;
   scene.run.voxel_edge_m = 0.5 * pose.scale;
   scene.run.eye_share = 4;
@@ -244,7 +244,7 @@ namespace {
 
 /// Relative standard errors up to which readings mean something. A path from an eye that comes
 /// within half a lamp's size and meets it brings its luminance, some hundred times what others do.
-double error_most(Known known) {
+double max_error(Known known) {
   return (known == Known::well ? 1e-2 : known == Known::rather ? 5e-2 : 0.25) * root_of_thrift;
 }
 
@@ -294,13 +294,13 @@ void for_each_reading(const RoomRun& a, const RoomRun& b, Check check) {
 void check_same_histories(const RoomRun& a, const RoomRun& b) {
   for_each_reading(a, b, [](const Estimate& x, const Estimate& y, Known known) {
     const double size = std::abs(y.value);
-    CHECK(y.standard_error <= error_most(known) * size);
+    CHECK(y.standard_error <= max_error(known) * size);
     CHECK(std::abs(x.value - y.value) <= part_of_error(known) * y.standard_error + 1e-6 * size);
   });
   const double events = 2e-5 * root_of_thrift;
-  CHECK(share_of(a.ledger().rays, b.ledger().rays) == Approx(1).epsilon(events));
-  CHECK(share_of(a.ledger().hits, b.ledger().hits) == Approx(1).epsilon(events));
-  CHECK(share_of(a.ledger().collisions, b.ledger().collisions) == Approx(1).epsilon(events));
+  CHECK(share_of(a.balance().rays, b.balance().rays) == Approx(1).epsilon(events));
+  CHECK(share_of(a.balance().hits, b.balance().hits) == Approx(1).epsilon(events));
+  CHECK(share_of(a.balance().collisions, b.balance().collisions) == Approx(1).epsilon(events));
   CHECK(moved_in_voxels(a, b) <= 1e-4 * root_of_thrift);
 }
 
@@ -310,21 +310,21 @@ void check_same_values(const RoomRun& a, const RoomRun& b, double relative, bool
     CHECK(std::abs(x.value - y.value) <= relative * std::abs(y.value));
     CHECK(std::abs(x.standard_error - y.standard_error) <= relative * std::abs(y.value));
   });
-  CHECK(a.ledger().rays == b.ledger().rays);
-  CHECK(a.ledger().hits == b.ledger().hits);
-  CHECK(a.ledger().collisions == b.ledger().collisions);
+  CHECK(a.balance().rays == b.balance().rays);
+  CHECK(a.balance().hits == b.balance().hits);
+  CHECK(a.balance().collisions == b.balance().collisions);
   CHECK(moved_in_voxels(a, b) <= relative);
 }
 
 void check_same_light(const RoomRun& a, const RoomRun& b) {
   for_each_reading(a, b, [](const Estimate& x, const Estimate& y, Known known) {
-    check_agree(x, y, std::sqrt(2.0) * error_most(known));
+    check_agree(x, y, std::sqrt(2.0) * max_error(known));
   });
 }
 
 void check_same_views(const RoomRun& a, const RoomRun& b) {
   for_each_reading(a, b, [](const Estimate& x, const Estimate& y, Known known) {
-    if (known == Known::from_eyes) check_agree(x, y, std::sqrt(2.0) * error_most(known));
+    if (known == Known::from_eyes) check_agree(x, y, std::sqrt(2.0) * max_error(known));
   });
 }
 

@@ -82,8 +82,8 @@ void trace(LocalRun& run, int64_t particles) {
   stop.particles = particles;
   const std::atomic<bool> interrupt{false};
   run.run(stop, interrupt, [](const Progress&) {});
-  REQUIRE(run.totals().ledger().closes());
-  REQUIRE(run.totals().ledger().lost() == 0);
+  REQUIRE(run.totals().balance().closes());
+  REQUIRE(run.totals().balance().lost() == 0);
 }
 
 /// How many totals differ in any bit.
@@ -101,7 +101,7 @@ int64_t differences(const Totals& a, const Totals& b) {
   return count;
 }
 
-void check_same_ledger(const Ledger& a, const Ledger& b) {
+void check_same_ledger(const EnergyBalance& a, const EnergyBalance& b) {
   CHECK(a.emitted == b.emitted);
   CHECK(a.roulette_gain == b.roulette_gain);
   CHECK(a.absorbed_surfaces == b.absorbed_surfaces);
@@ -222,7 +222,7 @@ void check_same_scores(const std::shared_ptr<const CompiledScene>& scene, int64_
     particles.trace_batch(0, first, 2000, b);
     for (uint32_t unit = eyes.units(); unit-- > 0;) eyes.score(batch, unit, b);
     CHECK(a.scores == b.scores);
-    check_same_ledger(a.ledger, b.ledger);
+    check_same_ledger(a.balance, b.balance);
   }
 }
 
@@ -237,7 +237,7 @@ TEST_CASE("one, two and three threads give the same bits") {
     for (LocalRun* run : {&one, &two, &three, &again}) trace(*run, 20'000);
     for (LocalRun* run : {&two, &three, &again}) {
       CHECK(differences(one.totals(), run->totals()) == 0);
-      check_same_ledger(one.totals().ledger(), run->totals().ledger());
+      check_same_ledger(one.totals().balance(), run->totals().balance());
     }
   }
 }

@@ -1,7 +1,7 @@
 // What smoke beside a lamp sends to an eye, against integrals along the line of sight.
 #include <cmath>
 
-#include "scenes/transport/look.hpp"
+#include "scenes/transport/eye_paths.hpp"
 #include "tests/optics/light_kit.hpp"
 
 namespace luxodus::light {
@@ -94,8 +94,8 @@ TEST_CASE("the veil of a globe is that of its size") {
     SceneDescription scene = eye_in_smoke(0);
     add_emitter(scene, EmitterShape::sphere, {4, beside, 0}, {0, 0, 1}, 1).size = glm::dvec3(0.2);
     // Its nearest light is what paths meet, few of them.
-    const double error_most = (beside < 1 ? 6 : 1) * half_percent;
-    check_within(veil(std::move(scene)), veil_of_lamp(4, beside, 0, 0.1), error_most, 3e-3);
+    const double max_error = (beside < 1 ? 6 : 1) * half_percent;
+    check_within(veil(std::move(scene)), veil_of_lamp(4, beside, 0, 0.1), max_error, 3e-3);
   }
 }
 

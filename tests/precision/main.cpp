@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "runtime/core/isolated_job.hpp"
-#include "scenes/format/scene_file.hpp"
+#include "scenes/scene_file/scene_file.hpp"
 #include "scenes/transport/compile.hpp"
 #include "tests/precision/batches.hpp"
 #include "tests/precision/compare.hpp"

@@ -88,7 +88,7 @@ void trace_part(BatchTracer& tracer, const CompiledScene& scene, const Part& par
                 BatchScores& scores) {
   scores.reset(scene.layout);
   for (int64_t i = 0; i < scene.batch_particles; ++i) {
-    if (scores.ledger.rays >= limits::rays_per_batch) break;
+    if (scores.balance.rays >= limits::rays_per_batch) break;
     tracer.trace(part.group, part.first_particle + static_cast<uint64_t>(i), 1, scores);
   }
   for (uint32_t unit = 0; unit < tracer.look_units(); ++unit)
@@ -119,11 +119,11 @@ class Tracing {
     for (const Part& part : parts_of(scene_)) {
       trace_part(*tracer, scene_, part, scores);
       if (!findings.empty()) return;
-      check_ledger(scene_, scores.ledger, expected_, findings);
+      check_ledger(scene_, scores.balance, expected_, findings);
       check_batch(scene_, scores, findings);
       totals.merge(scores, part.group);
     }
-    rays = totals.ledger().rays;
+    rays = totals.balance().rays;
     check_readout(scene_, totals, findings);
     check_points();
     check_pictures();

@@ -83,10 +83,10 @@ void check_currents(const BlockScores& voxels, uint64_t pieces, Findings& findin
   }
 }
 
-void check_equal(const std::string& what, Int128 counted, Int128 ledger, Findings& findings) {
-  if (counted != ledger)
+void check_equal(const std::string& what, Int128 counted, Int128 balance, Findings& findings) {
+  if (counted != balance)
     findings.push_back(what + " in bins and in the ledger differ by " +
-                       std::to_string(static_cast<double>(counted - ledger) * 0x1p-32) +
+                       std::to_string(static_cast<double>(counted - balance) * 0x1p-32) +
                        " particles");
 }
 
@@ -99,7 +99,7 @@ void check_finite(const Estimate& e, double least, const std::string& what, Find
 
 }  // namespace
 
-void check_ledger(const CompiledScene& scene, const Ledger& l, const Expected& expected,
+void check_ledger(const CompiledScene& scene, const EnergyBalance& l, const Expected& expected,
                   Findings& findings) {
   if (!l.closes()) findings.push_back("the ledger does not close");
   if (l.emitted != static_cast<Int128>(l.particles) * unit_weight)
@@ -126,17 +126,17 @@ void check_batch(const CompiledScene& scene, const BatchScores& batch, Findings&
   const TallyBlocks& blocks = scene.blocks;
   const auto block = [&](uint32_t b) { return BlockScores(scene, batch, b); };
   for (uint32_t b = 0; b < scene.layout.blocks().size(); ++b) check_signs(block(b), findings);
-  const Ledger& ledger = batch.ledger;
+  const EnergyBalance& balance = batch.balance;
   const BlockScores patches = block(blocks.patches);
-  check_equal("what surfaces absorb", patches.sum(0) - patches.sum(1), ledger.absorbed_surfaces,
+  check_equal("what surfaces absorb", patches.sum(0) - patches.sum(1), balance.absorbed_surfaces,
               findings);
-  check_equal("what escapes", block(blocks.escape).sum(0), ledger.escaped, findings);
+  check_equal("what escapes", block(blocks.escape).sum(0), balance.escaped, findings);
   if (blocks.media_power != none_index)
-    check_equal("what media absorb", block(blocks.media_power).sum(0), ledger.absorbed_media,
+    check_equal("what media absorb", block(blocks.media_power).sum(0), balance.absorbed_media,
                 findings);
   if (blocks.voxels != none_index) {
-    check_currents(block(blocks.voxels), ledger.rays * 64, findings);
-    if (block(blocks.voxel_power).sum(0) > ledger.absorbed_media)
+    check_currents(block(blocks.voxels), balance.rays * 64, findings);
+    if (block(blocks.voxel_power).sum(0) > balance.absorbed_media)
       findings.push_back("voxels absorb more than the media in them");
   }
 }

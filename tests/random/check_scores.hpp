@@ -12,14 +12,14 @@ namespace luxodus::test {
 
 using Findings = std::vector<std::string>;
 
-/// What may be asked of a scene's ledger.
+/// What may be asked of a scene's balance.
 struct Expected {
   bool closed = false;   // nothing escapes
   bool patient = false;  // light may live for longer than a history lasts
 };
 
-void check_ledger(const CompiledScene& scene, const Ledger& ledger, const Expected& expected,
-                  Findings& findings);
+void check_ledger(const CompiledScene& scene, const EnergyBalance& balance,
+                  const Expected& expected, Findings& findings);
 void check_batch(const CompiledScene& scene, const BatchScores& batch, Findings& findings);
 void check_readout(const CompiledScene& scene, const Totals& totals, Findings& findings);
 void check_same(const Totals& totals, const Totals& again, const std::string& way,

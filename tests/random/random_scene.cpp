@@ -31,7 +31,7 @@ void draw_run(Draw& draw) {
   RunSettings& run = draw.scene.run;
   run.seed = dice.bits64() >> 1;
   run.batch_particles = dice.whole(8, 128);
-  run.bands_most = dice.chance(0.3) ? 1 : dice.one_of({2, 8, 64});
+  run.max_bands = dice.chance(0.3) ? 1 : dice.one_of({2, 8, 64});
   if (dice.chance(0.1)) run.band_edges_nm = {380, 381, 555, 779.5, 780};
   run.band_tolerance = dice.one_of({0.02, 1e-6, 1.0});
   if (dice.chance(0.2)) run.voxel_edge_m = draw.size_m * dice.between(0.1, 1);

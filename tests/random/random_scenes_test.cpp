@@ -116,7 +116,7 @@ Findings findings_after(const OneBatch& from, const Harm& harm) {
   batch.scores.scores.find_touched();
   harm(batch.scores);
   Findings findings;
-  check_ledger(*batch.scene, batch.scores.ledger, {true, false}, findings);
+  check_ledger(*batch.scene, batch.scores.balance, {true, false}, findings);
   check_batch(*batch.scene, batch.scores, findings);
   return findings;
 }
@@ -127,12 +127,12 @@ TEST_CASE("a unit of weight too many or too few is found, wherever it is") {
   OneBatch batch = one_batch();
   batch.scores.scores.find_touched();
   CHECK(findings_after(batch, [](BatchScores&) {}).empty());
-  CHECK_FALSE(findings_after(batch, [](BatchScores& s) { ++s.ledger.emitted; }).empty());
-  CHECK_FALSE(findings_after(batch, [](BatchScores& s) { --s.ledger.absorbed_surfaces; }).empty());
-  CHECK_FALSE(findings_after(batch, [](BatchScores& s) { ++s.ledger.absorbed_media; }).empty());
+  CHECK_FALSE(findings_after(batch, [](BatchScores& s) { ++s.balance.emitted; }).empty());
+  CHECK_FALSE(findings_after(batch, [](BatchScores& s) { --s.balance.absorbed_surfaces; }).empty());
+  CHECK_FALSE(findings_after(batch, [](BatchScores& s) { ++s.balance.absorbed_media; }).empty());
   CHECK_FALSE(findings_after(batch, [](BatchScores& s) {
-                ++s.ledger.escaped;
-                --s.ledger.absorbed_surfaces;
+                ++s.balance.escaped;
+                --s.balance.absorbed_surfaces;
               }).empty());
   const auto& layout = batch.scene->layout;
   for (const uint32_t block : {batch.scene->blocks.patches, batch.scene->blocks.escape}) {

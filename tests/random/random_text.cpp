@@ -4,8 +4,8 @@
 #include <fstream>
 #include <vector>
 
-#include "scenes/format/scene_file.hpp"
-#include "scenes/format/scene_schema.hpp"
+#include "scenes/scene_file/scene_file.hpp"
+#include "scenes/scene_file/scene_schema.hpp"
 #include "scenes/transport/compile.hpp"
 #include "tests/random/dice.hpp"
 

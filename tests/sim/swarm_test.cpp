@@ -10,7 +10,7 @@
 #include <fstream>
 
 #include "actors/simulate/simulation.hpp"
-#include "scenes/format/scene_file.hpp"
+#include "scenes/scene_file/scene_file.hpp"
 #include "scenes/transport/compile.hpp"
 
 using namespace luxodus;
@@ -176,17 +176,17 @@ TEST_CASE("a lost frame of a flush of many leases costs the leases of that time,
   options.work = seconds(40);
   const SimReport whole = simulate(scene, options).value();
   REQUIRE(whole.flushes_refused == 0);
-  uint64_t fenced_most = 0, refused_most = 0;
+  uint64_t max_fenced = 0, max_refused = 0;
   for (uint64_t frame = 0; frame < whole.world.frames; frame += 100) {
     SimOptions one = options;
     one.plan->lost_frame = frame;
     const SimReport report = simulate(scene, one).value();
     REQUIRE(report.failure == "");
-    fenced_most = std::max(fenced_most, report.leases_fenced);
-    refused_most = std::max(refused_most, report.flushes_refused);
+    max_fenced = std::max(max_fenced, report.leases_fenced);
+    max_refused = std::max(max_refused, report.flushes_refused);
   }
-  CHECK(fenced_most > NetConfig{}.outbox_messages);  // some frame was of such a flush
-  CHECK(refused_most <= 2);
+  CHECK(max_fenced > NetConfig{}.outbox_messages);  // some frame was of such a flush
+  CHECK(max_refused <= 2);
 }
 
 // Each a command that once failed, and what it found.

@@ -12,7 +12,7 @@
 #include "actors/study/runs.hpp"
 #include "actors/study/scenes.hpp"
 #include "runtime/config/schema.hpp"
-#include "scenes/format/scene_file.hpp"
+#include "scenes/scene_file/scene_file.hpp"
 
 using namespace luxodus;
 

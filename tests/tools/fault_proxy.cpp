@@ -41,7 +41,7 @@ namespace {
 
 /// Read at once, and held back at most of one way: beyond it the sender feels that nobody reads.
 constexpr size_t piece_bytes = 64 << 10;
-constexpr size_t held_most = 1 << 20;
+constexpr size_t max_held = 1 << 20;
 
 struct Troubles {
   Nanoseconds delay = 0;
@@ -137,7 +137,7 @@ class Proxy {
   short wanted(const Way& in, const Way& out, Nanoseconds now, Nanoseconds& next) const {
     if (troubles_.stalled) return 0;
     short events = 0;
-    if (!in.ended && in.held < held_most) events |= POLLIN;
+    if (!in.ended && in.held < max_held) events |= POLLIN;
     if (!out.pieces.empty()) {
       const Nanoseconds left = out.pieces.front().due - now;
       if (left <= 0)

@@ -10,7 +10,7 @@
 #include "actors/supervise/node_threads.hpp"
 #include "runtime/config/cluster_file.hpp"
 #include "runtime/core/isolated_job.hpp"
-#include "scenes/format/scene_file.hpp"
+#include "scenes/scene_file/scene_file.hpp"
 #include "scenes/transport/compile.hpp"
 
 using namespace luxodus;

@@ -28,11 +28,11 @@ using namespace luxodus::test;
 
 namespace {
 
-constexpr int jobs_most = 256;
+constexpr int max_jobs = 256;
 constexpr uint64_t idle = ~uint64_t{0};
 
 // What a handler of signals may read.
-std::array<std::atomic<uint64_t>, jobs_most> under_way;
+std::array<std::atomic<uint64_t>, max_jobs> under_way;
 
 void write_number(uint64_t n) {
   char text[24];
@@ -213,10 +213,10 @@ void print_summary(const Summary& s, const Options& options) {
   std::vector<std::pair<uint64_t, std::string>> by_count;
   for (const auto& [why, count] : s.refusals) by_count.emplace_back(count, why);
   std::sort(by_count.rbegin(), by_count.rend());
-  constexpr size_t rows_most = 60;
-  for (size_t i = 0; i < std::min(rows_most, by_count.size()); ++i)
+  constexpr size_t max_rows = 60;
+  for (size_t i = 0; i < std::min(max_rows, by_count.size()); ++i)
     print_row(by_count[i].first, s.done, by_count[i].second);
-  if (by_count.size() > rows_most) std::printf("%16zu more kinds\n", by_count.size() - rows_most);
+  if (by_count.size() > max_rows) std::printf("%16zu more kinds\n", by_count.size() - max_rows);
   std::printf("\n%zu findings", s.found.size());
   std::vector<uint64_t> found = s.found;
   std::sort(found.begin(), found.end());
@@ -233,7 +233,7 @@ int main(int argc, char** argv) {
   app.add_option("--first", options.first, "number of the first scene")->capture_default_str();
   app.add_option("--count", options.count, "how many")->capture_default_str();
   app.add_option("--jobs", options.jobs, "threads")
-      ->check(CLI::Range(1, jobs_most))
+      ->check(CLI::Range(1, max_jobs))
       ->capture_default_str();
   app.add_flag("--texts", options.texts, "scene files through the reader, instead of descriptions");
   app.add_flag("--print", options.print, "only print the scene file of the first number");

@@ -61,7 +61,7 @@ struct OneFlaw {
     if (has(Flaw::linear_flight)) tau = 2 * -std::expm1(-tau);
     if (has(Flaw::short_flights)) tau = std::min(tau, 3.0);
   }
-  static void flight(Flight& flight, const Ray& ray, float length, const CompiledScene& scene) {
+  static void flight(FreeFlight& flight, const Ray& ray, float length, const CompiledScene& scene) {
     if (!has(Flaw::lost_layer) || !flight.collided) return;
     const auto z = static_cast<double>(ray.origin.z + flight.t * ray.direction.z);
     if (scene.media.tables().stack.slab_at(z) == 2) flight = {.t = length};

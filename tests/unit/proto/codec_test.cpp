@@ -154,7 +154,7 @@ TEST_CASE("messages go by the kinds that the protocol names", "[proto][codec]") 
   CHECK(kind_of(ObjectNotHere{}) == Kind::reply);
   CHECK(kind_of(Flush{}) == Kind::commit);
   CHECK(kind_of(ProfileCounted{}) == Kind::commit);
-  CHECK(kind_of(FlushPart{}) == Kind::commit);
+  CHECK(kind_of(FlushSlice{}) == Kind::commit);
   CHECK(kind_of(TotalsTold{}) == Kind::commit);
   CHECK(kind_of(TraceBatches{}) == Kind::control);
   CHECK(kind_of(BatchesTraced{}) == Kind::commit);

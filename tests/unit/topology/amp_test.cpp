@@ -86,7 +86,7 @@ TEST_CASE("odd sizes and odd sums of links are connected within their links", "[
     const Graph graph = found(r);
     CHECK(graph.workers() == nodes);
     CHECK(graph.controller_links() == controller);
-    CHECK(graph.links_most() == links);
+    CHECK(graph.max_links() == links);
   }
   CHECK(path_lengths(found(request(13, 3)).all()).hops == 318);
 }

@@ -10,9 +10,9 @@
 
 namespace luxodus::test {
 
-inline Graph graph(uint32_t workers, uint32_t links_most, std::vector<GraphLink> links,
+inline Graph graph(uint32_t workers, uint32_t max_links, std::vector<GraphLink> links,
                    ControllerRole role = ControllerRole::none) {
-  return Graph({workers, links_most, role, 1, std::move(links)});
+  return Graph({workers, max_links, role, 1, std::move(links)});
 }
 
 /// A search that ends when it is done.

@@ -24,7 +24,7 @@ Graph without(const Graph& graph, const Failures& failures) {
   for (const GraphLink& link : graph.links()) {
     if (std::count(failures.links.begin(), failures.links.end(), link) == 0) left.push_back(link);
   }
-  return Graph({graph.workers(), graph.links_most(), graph.controller_role(), 1, left});
+  return Graph({graph.workers(), graph.max_links(), graph.controller_role(), 1, left});
 }
 
 /// Follows every route of `routes` and checks that it takes as many steps as the nearest way in

@@ -25,7 +25,7 @@ TEST_CASE("every graph that ships is whole, of its size, and within its links",
     const auto graph = shipped_graph(size);
     REQUIRE(graph);
     CHECK(graph->workers() == size.nodes);
-    CHECK(graph->links_most() == size.links);
+    CHECK(graph->max_links() == size.links);
     CHECK(graph->controller_links() == size.controller_links);
     CHECK(graph->has_controller() == (size.controller_links > 0));
   }

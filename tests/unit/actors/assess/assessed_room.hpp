@@ -6,8 +6,8 @@
 #include <string>
 
 #include "actors/assess/assessment.hpp"
-#include "scenes/format/scene_file.hpp"
-#include "tests/unit/scenes/format/temporary_folder.hpp"
+#include "scenes/scene_file/scene_file.hpp"
+#include "tests/kit/temporary_folder.hpp"
 
 namespace luxodus::test {
 

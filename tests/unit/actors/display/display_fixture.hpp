@@ -7,10 +7,10 @@
 #include <memory>
 #include <string>
 
-#include "actors/source/local_run.hpp"
-#include "scenes/format/scene_file.hpp"
+#include "actors/run/local_run.hpp"
+#include "scenes/scene_file/scene_file.hpp"
 #include "scenes/transport/compile.hpp"
-#include "tests/unit/scenes/format/scratch_folder.hpp"
+#include "tests/kit/scratch_folder.hpp"
 
 namespace luxodus::test {
 

@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "actors/display/report.hpp"
-#include "actors/source/flux_store.hpp"
+#include "actors/run/flux_store.hpp"
 #include "scenes/geometry/patches.hpp"
 #include "tests/unit/actors/display/display_fixture.hpp"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "scenes/format/write_image.hpp"
+#include "scenes/images/write_image.hpp"
 #include "tests/unit/actors/display/display_fixture.hpp"
 
 using namespace luxodus;

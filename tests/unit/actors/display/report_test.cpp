@@ -3,7 +3,7 @@
 #include "actors/display/checkpoint.hpp"
 #include "actors/display/pictures.hpp"
 #include "actors/display/result_files.hpp"
-#include "actors/source/flux_store.hpp"
+#include "actors/run/flux_store.hpp"
 #include "tests/unit/actors/display/display_fixture.hpp"
 
 using namespace luxodus;

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "actors/inspect/inspect.hpp"
-#include "scenes/format/scene_file.hpp"
+#include "scenes/scene_file/scene_file.hpp"
 #include "scenes/transport/compile.hpp"
-#include "tests/unit/scenes/format/temporary_folder.hpp"
+#include "tests/kit/temporary_folder.hpp"
 
 namespace luxodus::inspection {
 

@@ -9,8 +9,8 @@
 #include <numeric>
 
 #include "actors/objects/profile_file.hpp"
-#include "actors/source/batch_plan.hpp"
-#include "scenes/format/scene_file.hpp"
+#include "actors/run/batch_plan.hpp"
+#include "scenes/scene_file/scene_file.hpp"
 #include "scenes/transport/compile.hpp"
 
 using namespace luxodus;

@@ -16,8 +16,8 @@
 #include "actors/report/hand_over.hpp"
 #include "actors/report/isolux.hpp"
 #include "actors/report/pdf.hpp"
+#include "tests/kit/temporary_folder.hpp"
 #include "tests/unit/actors/assess/assessed_room.hpp"
-#include "tests/unit/scenes/format/temporary_folder.hpp"
 
 using namespace luxodus;
 using namespace luxodus::test;

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <filesystem>
 
-#include "actors/source/flux_store.hpp"
+#include "actors/run/flux_store.hpp"
 #include "actors/supervise/run_journal.hpp"
 #include "actors/tally/flush_codec.hpp"
 #include "runtime/storage/memory_store.hpp"
@@ -51,7 +51,8 @@ void trace(LocalRun& run, int64_t batches) {
 }
 
 bool same(const LocalRun& a, const LocalRun& b) {
-  if (std::memcmp(&a.totals().ledger(), &b.totals().ledger(), sizeof(Ledger)) != 0) return false;
+  if (std::memcmp(&a.totals().balance(), &b.totals().balance(), sizeof(EnergyBalance)) != 0)
+    return false;
   for (int g = 0; g < a.totals().groups(); ++g) {
     const auto &x = a.totals().state(g), &y = b.totals().state(g);
     if (x.batches != y.batches ||
@@ -126,7 +127,7 @@ TEST_CASE("a journal that has become a snapshot, and one that was about to, end 
   std::filesystem::remove_all(folder);
   RunJournalConfig config;
   config.folder = folder;
-  config.bytes_most = 1;
+  config.max_bytes = 1;
   const SystemClock clock;
   const bool cut = GENERATE(true, false);  // a crash before the journal was cut, or none
   {
@@ -213,7 +214,7 @@ TEST_CASE("a snapshot that cannot be written is tried again, and the journal sta
   ManualClock clock;
   RunJournalConfig config;
   config.folder = folder;
-  config.bytes_most = 1;
+  config.max_bytes = 1;
   const auto journal = RunJournal::open(config, run, clock);
   REQUIRE(journal.ok());
   REQUIRE(journal.value()->keep(std::array<int64_t, 1>{0}, worker.flush_of(0)).ok());

@@ -5,11 +5,11 @@
 
 #include <catch2/catch.hpp>
 
+#include "actors/supervise/out_of_core_for.hpp"
 #include "actors/supervise/residency_setup.hpp"
-#include "actors/supervise/stored_rows.hpp"
 #include "scenes/pack/scene_pack.hpp"
+#include "tests/kit/scratch_folder.hpp"
 #include "tests/unit/actors/supervise/library_scene.hpp"
-#include "tests/unit/scenes/format/scratch_folder.hpp"
 
 using namespace luxodus;
 
@@ -36,8 +36,8 @@ int64_t differences(const LocalRun& a, const LocalRun& b) {
       count += x.totals[i].sum != y.totals[i].sum || x.totals[i].squares != y.totals[i].squares;
     }
   }
-  CHECK(a.totals().ledger().rays == b.totals().ledger().rays);
-  CHECK(b.totals().ledger().closes());
+  CHECK(a.totals().balance().rays == b.totals().balance().rays);
+  CHECK(b.totals().balance().closes());
   return count;
 }
 
@@ -120,23 +120,24 @@ TEST_CASE("who looks at totals in shards while a run goes on sees whole flushes"
   LocalRun run(scene, 1, 1);
   int looks = 0;
   bool due = false;
-  run.add_pause(&due, [&] { return due; },
-                [&] {
-                  due = false;
-                  ++looks;
-                  CHECK(run.totals().ledger().closes());
-                  // What patches have kept lies in all shards, and the ledger with the controller.
-                  Int128 absorbed = 0;
-                  const TallyBlock& patches = scene->layout.block(scene->blocks.patches);
-                  for (int64_t i = 0; i < int64_t{patches.bins} * patches.quantities; ++i) {
-                    for (int g = 0; g < run.totals().groups(); ++g) {
-                      const auto at = static_cast<size_t>(patches.first_total + i);
-                      const Int128 sum = run.totals().state(g).totals[at].sum;
-                      absorbed += i % 2 == 0 ? sum : -sum;
-                    }
-                  }
-                  CHECK(absorbed == run.totals().ledger().absorbed_surfaces);
-                });
+  run.add_pause(
+      &due, [&] { return due; },
+      [&] {
+        due = false;
+        ++looks;
+        CHECK(run.totals().balance().closes());
+        // What patches have kept lies in all shards, and the balance with the controller.
+        Int128 absorbed = 0;
+        const TallyBlock& patches = scene->layout.block(scene->blocks.patches);
+        for (int64_t i = 0; i < int64_t{patches.bins} * patches.quantities; ++i) {
+          for (int g = 0; g < run.totals().groups(); ++g) {
+            const auto at = static_cast<size_t>(patches.first_total + i);
+            const Int128 sum = run.totals().state(g).totals[at].sum;
+            absorbed += i % 2 == 0 ? sum : -sum;
+          }
+        }
+        CHECK(absorbed == run.totals().balance().absorbed_surfaces);
+      });
   REQUIRE(run_on_nodes(run, options, stop, nobody, [&](const Progress&) { due = true; }).ok());
   run.remove_pause(&due);
   CHECK(looks > 0);
@@ -319,10 +320,10 @@ TEST_CASE("nodes of a packed scene that nobody holds whole give the bits of the 
   stop.particles = 40'000;
   LocalRun plain(scene, 1, 2);
   plain.run(stop, nobody, ignore);
-  StoredRowsConfig rows;
+  OutOfCoreConfig rows;
   rows.object_bytes = 400'000;
   rows.threads = 2;
-  LocalRun run(packed, 1, 2, std::make_unique<StoredRows>(packed, rows));
+  LocalRun run(packed, 1, 2, std::make_unique<OutOfCoreParallelFor>(packed, rows));
   CHECK_FALSE(run.resident());
   NodesOptions nodes = nodes_of(3, 64);
   nodes.object_bytes = 400'000;

@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "scenes/format/scene_file.hpp"
+#include "scenes/scene_file/scene_file.hpp"
 #include "scenes/transport/compile.hpp"
 
 namespace luxodus {

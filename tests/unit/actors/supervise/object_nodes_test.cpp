@@ -8,10 +8,10 @@
 #include <fstream>
 
 #include "actors/supervise/in_process.hpp"
-#include "actors/supervise/stored_rows.hpp"
+#include "actors/supervise/out_of_core_for.hpp"
 #include "runtime/observe/metrics_text.hpp"
 #include "scenes/pack/scene_pack.hpp"
-#include "tests/unit/scenes/format/scratch_folder.hpp"
+#include "tests/kit/scratch_folder.hpp"
 #include "tests/unit/scenes/pack/burning_gallery.hpp"
 
 using namespace luxodus;
@@ -66,9 +66,9 @@ void check_same_bits(const LocalRun& a, const LocalRun& b) {
       differences += x[i].sum != y[i].sum || x[i].squares != y[i].squares;
   }
   CHECK(differences == 0);
-  CHECK(a.totals().ledger().rays == b.totals().ledger().rays);
-  CHECK(a.totals().ledger().collisions == b.totals().ledger().collisions);
-  CHECK(b.totals().ledger().closes());
+  CHECK(a.totals().balance().rays == b.totals().balance().rays);
+  CHECK(a.totals().balance().collisions == b.totals().balance().collisions);
+  CHECK(b.totals().balance().closes());
 }
 
 std::unique_ptr<LocalRun> plain_run(const Gallery& gallery, int64_t count) {
@@ -79,12 +79,13 @@ std::unique_ptr<LocalRun> plain_run(const Gallery& gallery, int64_t count) {
 
 std::unique_ptr<LocalRun> nowhere_resident(const std::shared_ptr<const CompiledScene>& scene,
                                            size_t object_bytes, bool sharing = true) {
-  StoredRowsConfig rows;
+  OutOfCoreConfig rows;
   rows.threads = 2;
   rows.fibers = 16;
   rows.object_bytes = 2 * object_bytes;
   rows.sharing = sharing;
-  return std::make_unique<LocalRun>(scene, 5, 2, std::make_unique<StoredRows>(scene, rows));
+  return std::make_unique<LocalRun>(scene, 5, 2,
+                                    std::make_unique<OutOfCoreParallelFor>(scene, rows));
 }
 
 NodesOptions nodes_of(int nodes, size_t object_bytes) {
@@ -209,7 +210,7 @@ TEST_CASE("direct light and pictures read bricks and tiles through a cache", "[n
     std::vector<double> out(2 * rows);
     run.rows().run(
         rows,
-        [&](const GeometryAccess& access) -> RowRunner::Worker {
+        [&](const GeometryAccess& access) -> ParallelFor::Worker {
           const std::shared_ptr<PictureTracer> eye = make_picture_tracer(run.scene(), access, 5);
           return [&run, &out, access, eye](int64_t row) {
             const auto i = static_cast<size_t>(row);

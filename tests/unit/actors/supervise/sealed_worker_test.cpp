@@ -7,8 +7,8 @@
 
 #include "actors/supervise/in_process.hpp"
 #include "runtime/observe/metrics_text.hpp"
+#include "tests/kit/allocation_count.hpp"
 #include "tests/unit/actors/supervise/library_scene.hpp"
-#include "tests/unit/runtime/actor/allocation_count.hpp"
 
 using namespace luxodus;
 
@@ -36,7 +36,7 @@ Taken taken_by_a_worker(const std::shared_ptr<const CompiledScene>& scene, Nodes
   spdlog::set_level(spdlog::level::err);
   const auto seen = Observation::start({std::string("127.0.0.1"), uint16_t{0}, 0});
   REQUIRE(seen.ok());
-  constexpr int looks_most = 300;  // 5 ms apart, or a turn
+  constexpr int max_looks = 300;  // 5 ms apart, or a turn
   std::atomic<bool> interrupt{false};
   bool started = false;
   uint64_t at_start = 0, at_end = 0;
@@ -49,7 +49,7 @@ Taken taken_by_a_worker(const std::shared_ptr<const CompiledScene>& scene, Nodes
       at_start = so_far();
     } else {
       at_end = so_far();
-      if (++looks == looks_most) interrupt = true;
+      if (++looks == max_looks) interrupt = true;
     }
     return false;
   };
@@ -60,7 +60,7 @@ Taken taken_by_a_worker(const std::shared_ptr<const CompiledScene>& scene, Nodes
   const auto ended = run_on_nodes(
       run, options, rounds, interrupt, [](const Progress&) {}, &report);
   REQUIRE(ended.ok());
-  REQUIRE(looks >= looks_most);
+  REQUIRE(looks >= max_looks);
   CHECK(report.flushes > 0);
   return {at_end - at_start, report.workers};
 }

@@ -60,8 +60,8 @@ TEST_CASE("a tally that is full flushes, takes no more than its budget, and chan
   REQUIRE(ended.ok());
   CHECK(differences(plain, run) == 0);
   CHECK(report.flushes > 4);  // one a round of each node without a budget
-  CHECK(report.workers.tally_bytes_most > 0);
-  CHECK(report.workers.tally_bytes_most <= options.tally_bytes);
+  CHECK(report.workers.max_tally_bytes > 0);
+  CHECK(report.workers.max_tally_bytes <= options.tally_bytes);
 }
 
 TEST_CASE("a batch that is more than the budget by itself ends the run with the key to change",

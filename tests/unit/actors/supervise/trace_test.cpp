@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "actors/supervise/in_process.hpp"
-#include "scenes/format/scene_file.hpp"
+#include "scenes/scene_file/scene_file.hpp"
 #include "scenes/transport/compile.hpp"
 
 using namespace luxodus;

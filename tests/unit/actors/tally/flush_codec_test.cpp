@@ -33,9 +33,9 @@ TotalsGain some_gain() {
       group.bins.push_back({i, t});
     }
   }
-  gain.ledger.emitted = static_cast<Int128>(1) << 100;
-  gain.ledger.roulette_loss = 12345;
-  gain.ledger.rays = UINT64_MAX;
+  gain.balance.emitted = static_cast<Int128>(1) << 100;
+  gain.balance.roulette_loss = 12345;
+  gain.balance.rays = UINT64_MAX;
   return gain;
 }
 
@@ -60,8 +60,9 @@ bool same(const Totals& a, const Totals& b) {
         return false;
     }
   }
-  return a.ledger().emitted == b.ledger().emitted &&
-         a.ledger().roulette_loss == b.ledger().roulette_loss && a.ledger().rays == b.ledger().rays;
+  return a.balance().emitted == b.balance().emitted &&
+         a.balance().roulette_loss == b.balance().roulette_loss &&
+         a.balance().rays == b.balance().rays;
 }
 
 }  // namespace
@@ -153,7 +154,7 @@ TEST_CASE("totals that take the gains of others are the totals of all batches", 
     BatchScores scores;
     scores.reset(layout);
     for (int i = 0; i < 30; ++i) scores.scores.data()[random.bits() % 100] += random.bits();
-    scores.ledger.emitted = 5;
+    scores.balance.emitted = 5;
     scores.scores.find_touched();
     BatchScores copy = scores;
     whole.merge(scores, 0);
@@ -167,5 +168,5 @@ TEST_CASE("totals that take the gains of others are the totals of all batches", 
     CHECK(here.state(0).totals[i].sum == whole.state(0).totals[i].sum);
     CHECK(here.state(0).totals[i].squares == whole.state(0).totals[i].squares);
   }
-  CHECK(here.ledger().emitted == whole.ledger().emitted);
+  CHECK(here.balance().emitted == whole.balance().emitted);
 }

@@ -3,8 +3,8 @@
 #include <catch2/catch.hpp>
 #include <map>
 
-#include "actors/tally/part_sender.hpp"
 #include "actors/tally/shard_control.hpp"
+#include "actors/tally/slice_sender.hpp"
 #include "actors/tally/tally_shard.hpp"
 #include "runtime/core/hash.hpp"
 #include "runtime/core/random.hpp"
@@ -50,7 +50,7 @@ struct Stage {
                                 layout, groups, node.scheduler, post_of(owner)));
     }
   }
-  Post post_of(NodeId from) {
+  SendFunction post_of(NodeId from) {
     return [this, from](NodeId to, const MessageId& id, const Message& message,
                         const SharedBytes& bytes) {
       wire.push_back({from, to, id, message, {bytes.bytes.begin(), bytes.bytes.end()}});
@@ -78,10 +78,10 @@ struct Stage {
   }
 
   /// A flush of a worker, packed in parts: adds to what is expected where it will be taken.
-  PartSender& pack(NodeId worker, const MessageId& id, uint64_t seed, bool counts) {
+  SliceSender& pack(NodeId worker, const MessageId& id, uint64_t seed, bool counts) {
     auto& sender = senders[worker];
     if (!sender) {
-      sender = std::make_unique<PartSender>(plan, post_of(worker));
+      sender = std::make_unique<SliceSender>(plan, post_of(worker));
       sender->make_room(groups, bins);
     }
     Totals own(layout, groups, {});
@@ -141,7 +141,7 @@ struct Stage {
   std::deque<Letter> wire;
   std::vector<Letter> passed;
   std::map<NodeId, std::unique_ptr<TallyShard>> shards;
-  std::map<NodeId, std::unique_ptr<PartSender>> senders;
+  std::map<NodeId, std::unique_ptr<SliceSender>> senders;
   std::vector<std::byte> payload;
   ShardControl control;
 };
@@ -169,7 +169,7 @@ TEST_CASE("ranges of shards follow one another and cover all bins", "[shards]") 
 
 TEST_CASE("a part is held until its flush is decided, then added once or dropped", "[shards]") {
   Stage stage(std::vector<NodeId>{{0}, {2}});
-  PartSender& sender = stage.pack(worker, flush_of(worker, 1), 5, true);
+  SliceSender& sender = stage.pack(worker, flush_of(worker, 1), 5, true);
   CHECK_FALSE(sender.placed());
   stage.pass();
   REQUIRE(sender.placed());
@@ -196,7 +196,7 @@ TEST_CASE("what comes again, in any order and however late, adds nothing", "[sha
   Stage stage(std::vector<NodeId>{{0}, {2}});
   for (uint64_t flush = 1; flush <= 3; ++flush) {
     const bool taken = flush != 2;
-    PartSender& sender = stage.pack(worker, flush_of(worker, flush), 6, taken);
+    SliceSender& sender = stage.pack(worker, flush_of(worker, flush), 6, taken);
     stage.pass();
     REQUIRE(sender.placed());
     if (taken)
@@ -219,7 +219,7 @@ TEST_CASE("what comes again, in any order and however late, adds nothing", "[sha
 
 TEST_CASE("a life has one part at a shard: the next waits until the first is decided", "[shards]") {
   Stage stage(std::vector<NodeId>{{2}});
-  PartSender& sender = stage.pack(worker, flush_of(worker, 1), 7, true);
+  SliceSender& sender = stage.pack(worker, flush_of(worker, 1), 7, true);
   stage.pass();
   const std::vector<uint64_t> hashes = sender.hashes();
   stage.take(flush_of(worker, 1), hashes);
@@ -246,7 +246,7 @@ TEST_CASE("what a life that ended has left at shards is dropped, and its next li
   stage.pass();
   const std::vector<Letter> late = stage.passed;
   stage.control.end_life(worker, {7});
-  PartSender& sender = stage.pack(worker, flush_of(worker, 1, 8), 8, true);
+  SliceSender& sender = stage.pack(worker, flush_of(worker, 1, 8), 8, true);
   stage.pass();
   REQUIRE(sender.placed());
   CHECK(stage.shards.at({2})->counters().held == 1);
@@ -277,7 +277,7 @@ TEST_CASE("a part that is damaged, of other bins, or counts batches is refused",
   CHECK(answer_to(damaged));
   Letter other = part;  // the controller's bins, and its batches
   other.payload = stage.payload;
-  other.message = FlushPart{XXH3_64bits(other.payload.data(), other.payload.size())};
+  other.message = FlushSlice{XXH3_64bits(other.payload.data(), other.payload.size())};
   CHECK(answer_to(other));
   CHECK_FALSE(answer_to(part));
   CHECK(stage.shards.at({2})->counters().held == 1);
@@ -292,7 +292,7 @@ TEST_CASE("a part that is damaged, of other bins, or counts batches is refused",
 
 TEST_CASE("a sender whose part was refused tells the controller of no parts", "[shards]") {
   Stage stage(std::vector<NodeId>{{0}, {2}});
-  PartSender& sender = stage.pack(worker, flush_of(worker, 1), 9, false);
+  SliceSender& sender = stage.pack(worker, flush_of(worker, 1), 9, false);
   sender.deliver({2}, flush_of(worker, 1), FlushRefused{{}, "damaged"});
   CHECK(sender.placed());
   CHECK(sender.hashes().empty());

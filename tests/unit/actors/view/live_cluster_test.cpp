@@ -41,8 +41,8 @@ void same_light(const LiveRun& a, const LiveRun& b) {
 }
 
 /// The light of threads.
-LiveRun traced_here(const LiveRoom& room, const LiveWish& wish) {
-  LiveRun run(room.compiled(wish), 1, 1, nullptr, false);
+LiveRun traced_here(const LiveRoom& room, const SceneEdits& edits) {
+  LiveRun run(room.compiled(edits), 1, 1, nullptr, false);
   LiveThreads threads(1);
   CHECK(run.trace(level, LiveRun::Scope::all, threads, never_stop, no_tick));
   return run;
@@ -83,12 +83,12 @@ TEST_CASE("nodes trace what a viewer has added, by its own random numbers", "[vi
   CHECK(beside.trace(level, LiveRun::Scope::all, threads, never_stop, no_tick));
   first.tell(first.news());
   beside.tell(beside.news());
-  LiveWish wish;
-  wish.added = {{false, "left", "left copy"}};
-  wish.luminaires["left copy"] = {{1, 1, 1}, std::nullopt};
-  cluster.enter(wish);
-  LiveRun second(room.compiled(wish), 1, 1, &first, true);
-  LiveRun second_beside(room.compiled(wish), 1, 1, &beside, true);
+  SceneEdits edits;
+  edits.added = {{false, "left", "left copy"}};
+  edits.luminaires["left copy"] = {{1, 1, 1}, std::nullopt};
+  cluster.enter(edits);
+  LiveRun second(room.compiled(edits), 1, 1, &first, true);
+  LiveRun second_beside(room.compiled(edits), 1, 1, &beside, true);
   CHECK(second.trace(level, LiveRun::Scope::all, cluster, never_stop, no_tick));
   CHECK(second_beside.trace(level, LiveRun::Scope::all, threads, never_stop, no_tick));
   REQUIRE(second.lights().size() == 4);
@@ -102,7 +102,7 @@ TEST_CASE("a building that was foreseen and never entered changes nothing", "[vi
   cluster.enter({});
   LiveRun run(room.compiled({}), 1, 1, nullptr, false);
   CHECK(run.trace(4, LiveRun::Scope::all, cluster, never_stop, no_tick));
-  LiveWish refused;
+  SceneEdits refused;
   refused.scenario = "there is none";
   cluster.foresee(refused);
   CHECK(run.trace(8, LiveRun::Scope::all, cluster, never_stop, no_tick));

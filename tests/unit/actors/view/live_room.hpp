@@ -5,8 +5,8 @@
 #include <string>
 
 #include "actors/view/live_scene.hpp"
-#include "scenes/format/scene_file.hpp"
-#include "tests/unit/scenes/format/temporary_folder.hpp"
+#include "scenes/scene_file/scene_file.hpp"
+#include "tests/kit/temporary_folder.hpp"
 
 namespace luxodus::test {
 
@@ -58,8 +58,8 @@ class LiveRoom {
     scene_ = std::make_shared<const SceneDescription>(std::move(*read.scene));
   }
   const std::shared_ptr<const SceneDescription>& scene() const { return scene_; }
-  std::shared_ptr<const CompiledScene> compiled(const LiveWish& wish) const {
-    auto out = compile_live(*scene_, wish);
+  std::shared_ptr<const CompiledScene> compiled(const SceneEdits& edits) const {
+    auto out = compile_live(*scene_, edits);
     REQUIRE(out.ok());
     return out.value();
   }
@@ -69,10 +69,10 @@ class LiveRoom {
   std::shared_ptr<const SceneDescription> scene_;
 };
 
-inline LiveWish moved_lamp() {
-  LiveWish wish;
-  wish.luminaires["left"] = {{1, 1, 1}, std::nullopt};
-  return wish;
+inline SceneEdits moved_lamp() {
+  SceneEdits edits;
+  edits.luminaires["left"] = {{1, 1, 1}, std::nullopt};
+  return edits;
 }
 
 }  // namespace luxodus::test

@@ -36,10 +36,10 @@ std::vector<int> told(LiveRun& run) {
   return groups;
 }
 
-LiveWish moved_sign() {
-  LiveWish wish;
-  wish.signs["exit"] = {{5.9, 1, 2.2}, std::nullopt};
-  return wish;
+SceneEdits moved_sign() {
+  SceneEdits edits;
+  edits.signs["exit"] = {{5.9, 1, 2.2}, std::nullopt};
+  return edits;
 }
 
 /// Lumens that arrive on all surfaces from one group.
@@ -123,17 +123,17 @@ bool same_bits(const LiveRun& a, int in_a, const LiveRun& b, int in_b) {
   return x.size() == y.size() && std::memcmp(x.data(), y.data(), x.size() * sizeof(Total)) == 0;
 }
 
-LiveWish added_lamp() {
-  LiveWish wish;
-  wish.added = {{false, "left", "left copy"}};
-  wish.luminaires["left copy"] = {{1, 1, 1}, std::nullopt};
-  return wish;
+SceneEdits added_lamp() {
+  SceneEdits edits;
+  edits.added = {{false, "left", "left copy"}};
+  edits.luminaires["left copy"] = {{1, 1, 1}, std::nullopt};
+  return edits;
 }
-LiveWish added_sign() {
-  LiveWish wish;
-  wish.added = {{true, "exit", "exit copy"}};
-  wish.signs["exit copy"] = {{0.1, 2, 2.2}, glm::dvec3(1, 0, 0)};
-  return wish;
+SceneEdits added_sign() {
+  SceneEdits edits;
+  edits.added = {{true, "exit", "exit copy"}};
+  edits.signs["exit copy"] = {{0.1, 2, 2.2}, glm::dvec3(1, 0, 0)};
+  return edits;
 }
 
 int group_of(const LiveRun& run, const std::string& name) {
@@ -191,12 +191,12 @@ TEST_CASE("of two copies in one place, whatever came and went before, each has i
           "[view]") {
   const LiveRoom room;
   const auto with = [&](const std::vector<std::string>& names) {
-    LiveWish wish;
+    SceneEdits edits;
     for (const std::string& name : names) {
-      wish.added.push_back({false, "left", name});
-      wish.luminaires[name] = {{1, 1, 1}, std::nullopt};
+      edits.added.push_back({false, "left", name});
+      edits.luminaires[name] = {{1, 1, 1}, std::nullopt};
     }
-    return room.compiled(wish);
+    return room.compiled(edits);
   };
   LiveRun first(with({"gone", "stays"}), 1, 1, nullptr, false);
   reach(first, 4);
@@ -278,7 +278,7 @@ TEST_CASE("bins of a building with another sign are found surface by surface", "
   const auto same = BinMap::between(*a, *room.compiled(moved_sign()));
   REQUIRE(same);
   CHECK(same->is_same());
-  LiveWish beyond;  // the room's middle, from which all is measured, is elsewhere then
+  SceneEdits beyond;  // the room's middle, from which all is measured, is elsewhere then
   beyond.luminaires["left"] = {{-3, 1, 1}, std::nullopt};
   CHECK_FALSE(BinMap::between(*a, *room.compiled(beyond)));
 }

@@ -2,8 +2,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "scenes/format/scene_file.hpp"
-#include "tests/unit/scenes/format/temporary_folder.hpp"
+#include "scenes/scene_file/scene_file.hpp"
+#include "tests/kit/temporary_folder.hpp"
 
 using namespace luxodus;
 
@@ -74,31 +74,31 @@ TEST_CASE("each light of a live scene is a group of its own, whatever the file s
 TEST_CASE("a wish moves signs and luminaires and thickens smoke", "[view]") {
   const test::TemporaryFolder folder;
   const SceneDescription scene = scene_of(folder.write("room.toml", room));
-  LiveWish wish;
-  wish.signs["exit"] = {{0.1, 2, 2}, glm::dvec3(1, 0, 0)};
-  wish.luminaires["lamp"] = {{1, 1, 2.5}, std::nullopt};
-  const auto moved = live_description(scene, wish);
+  SceneEdits edits;
+  edits.signs["exit"] = {{0.1, 2, 2}, glm::dvec3(1, 0, 0)};
+  edits.luminaires["lamp"] = {{1, 1, 2.5}, std::nullopt};
+  const auto moved = live_description(scene, edits);
   REQUIRE(moved.ok());
   CHECK(moved->signs[0].frame.origin == glm::dvec3(0.1, 2, 2));
   CHECK(moved->signs[0].frame.axes[2].x == Approx(1));
   CHECK(moved->emitters[0].frame.origin == glm::dvec3(1, 1, 2.5));
   CHECK(moved->emitters[0].frame.axes == scene.emitters[0].frame.axes);
-  wish.smoke = 3;
-  const auto thick = compile_live(scene, wish);
+  edits.smoke = 3;
+  const auto thick = compile_live(scene, edits);
   REQUIRE(thick.ok());
   CHECK(thick.value()->scenario.smoke_factor == 3);
-  wish.signs["exit"].facing = glm::dvec3(0);
-  CHECK_FALSE(live_description(scene, wish).ok());
+  edits.signs["exit"].facing = glm::dvec3(0);
+  CHECK_FALSE(live_description(scene, edits).ok());
 }
 
 TEST_CASE("a saved variant is the building as it was seen", "[view]") {
   const test::TemporaryFolder folder;
   const SceneDescription scene = scene_of(folder.write("room.toml", room));
-  LiveWish wish;
-  wish.signs["exit"] = {{0.1, 2, 2}, glm::dvec3(1, 0, 0)};
-  wish.smoke = 2;
+  SceneEdits edits;
+  edits.signs["exit"] = {{0.1, 2, 2}, glm::dvec3(1, 0, 0)};
+  edits.smoke = 2;
   const std::string text =
-      variant_text(scene, wish, {{"lamp", 0.5}, {group_of_sign("exit"), 2}}, "turned");
+      variant_text(scene, edits, {{"lamp", 0.5}, {group_of_sign("exit"), 2}}, "turned");
   const SceneDescription variant = scene_of(folder.write("turned.toml", text));
   CHECK(variant.signs[0].frame.origin == glm::dvec3(0.1, 2, 2));
   CHECK(variant.signs[0].frame.axes[2].x == Approx(1));
@@ -112,13 +112,13 @@ TEST_CASE("a saved variant is the building as it was seen", "[view]") {
 
 namespace {
 
-LiveWish added_to_room() {
-  LiveWish wish;
-  wish.added = {{false, "lamp", "lamp copy"}, {true, "exit", "exit copy"}};
-  wish.luminaires["lamp copy"] = {{1, 1, 2.9}, std::nullopt};
-  wish.signs["exit copy"] = {{0.1, 2, 2}, glm::dvec3(1, 0, 0)};
-  wish.signs["exit"] = {{5.9, 1, 2.2}, std::nullopt};
-  return wish;
+SceneEdits added_to_room() {
+  SceneEdits edits;
+  edits.added = {{false, "lamp", "lamp copy"}, {true, "exit", "exit copy"}};
+  edits.luminaires["lamp copy"] = {{1, 1, 2.9}, std::nullopt};
+  edits.signs["exit copy"] = {{0.1, 2, 2}, glm::dvec3(1, 0, 0)};
+  edits.signs["exit"] = {{5.9, 1, 2.2}, std::nullopt};
+  return edits;
 }
 
 }  // namespace
@@ -127,8 +127,8 @@ TEST_CASE("what was added is a copy of the original as the file has it, at its o
           "[view]") {
   const test::TemporaryFolder folder;
   const SceneDescription scene = scene_of(folder.write("room.toml", room));
-  const LiveWish wish = added_to_room();
-  const auto now = live_description(scene, wish);
+  const SceneEdits edits = added_to_room();
+  const auto now = live_description(scene, edits);
   REQUIRE(now.ok());
   REQUIRE(now->signs.size() == 2);
   CHECK(now->signs[0].frame.origin == glm::dvec3(5.9, 1, 2.2));
@@ -139,7 +139,7 @@ TEST_CASE("what was added is a copy of the original as the file has it, at its o
   REQUIRE(now->emitters.size() == 2);
   CHECK(now->emitters[1].frame.origin == glm::dvec3(1, 1, 2.9));
   CHECK(now->emitters[1].frame.axes == scene.emitters[0].frame.axes);
-  LiveWish wrong = wish;
+  SceneEdits wrong = edits;
   wrong.added.push_back({true, "none", "none copy"});
   CHECK_FALSE(live_description(scene, wrong).ok());
 }
@@ -147,16 +147,16 @@ TEST_CASE("what was added is a copy of the original as the file has it, at its o
 TEST_CASE("a saved variant adds what was added, and compiles to the same building", "[view]") {
   const test::TemporaryFolder folder;
   const SceneDescription scene = scene_of(folder.write("room.toml", room));
-  const LiveWish wish = added_to_room();
+  const SceneEdits edits = added_to_room();
   const std::string text = variant_text(
-      scene, wish, {{"lamp", 0.5}, {"lamp copy", 0.25}, {group_of_sign("exit copy"), 2}}, "more");
+      scene, edits, {{"lamp", 0.5}, {"lamp copy", 0.25}, {group_of_sign("exit copy"), 2}}, "more");
   const SceneDescription variant = scene_of(folder.write("more.toml", text));
   REQUIRE(variant.signs.size() == 2);
   REQUIRE(variant.emitters.size() == 2);
   CHECK(variant.emitters[0].mains_flux == 500);
   CHECK(variant.emitters[1].mains_flux == 250);  // of the original's own, not of the dimmed one's
   CHECK(variant.signs[1].mains.white_cd_m2 == 1000);
-  const auto live = compile_live(scene, wish), fresh = compile_live(variant, {});
+  const auto live = compile_live(scene, edits), fresh = compile_live(variant, {});
   REQUIRE(live.ok());
   REQUIRE(fresh.ok());
   const CompiledScene &a = *live.value(), &b = *fresh.value();
@@ -178,10 +178,10 @@ TEST_CASE("bands stay those of the scene, whatever copies weigh", "[view]") {
   SceneDescription scene = scene_of(folder.write("room.toml", room));
   scene.emitters[0].spectrum =
       Spectrum::constant(1.0 / 400) * reflectance_from_linear_srgb(1, 0, 0);
-  LiveWish wish;
-  wish.added = {{false, "lamp", "lamp copy"}};
-  wish.luminaires["lamp copy"] = {{1, 1, 2.9}, std::nullopt};
-  const auto before = compile_live(scene, {}), after = compile_live(scene, wish);
+  SceneEdits edits;
+  edits.added = {{false, "lamp", "lamp copy"}};
+  edits.luminaires["lamp copy"] = {{1, 1, 2.9}, std::nullopt};
+  const auto before = compile_live(scene, {}), after = compile_live(scene, edits);
   REQUIRE(before.ok());
   REQUIRE(after.ok());
   const Bands &a = before.value()->bands, &b = after.value()->bands;
@@ -195,10 +195,10 @@ TEST_CASE("bands stay those of the scene, whatever copies weigh", "[view]") {
 TEST_CASE("copies are counted, and no name is given twice", "[view]") {
   const test::TemporaryFolder folder;
   SceneDescription scene = scene_of(folder.write("room.toml", room));
-  LiveWish wish;
+  SceneEdits edits;
   const auto add = [&](const std::string& of) {
-    const std::string name = name_for_copy(scene, wish, of);
-    wish.added.push_back({true, "exit", name});
+    const std::string name = name_for_copy(scene, edits, of);
+    edits.added.push_back({true, "exit", name});
     return name;
   };
   CHECK(add("exit") == "exit copy");

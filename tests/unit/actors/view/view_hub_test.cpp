@@ -7,9 +7,9 @@
 #include <mutex>
 #include <set>
 
-#include "scenes/format/scene_file.hpp"
+#include "scenes/scene_file/scene_file.hpp"
+#include "tests/kit/temporary_folder.hpp"
 #include "tests/unit/actors/view/live_room.hpp"
-#include "tests/unit/scenes/format/temporary_folder.hpp"
 
 using namespace luxodus;
 

@@ -27,7 +27,7 @@ struct ScriptedSource final : EventSource {
 inline SchedulerLimits small_limits(size_t fibers = 16) {
   SchedulerLimits limits;
   limits.fibers.count = fibers;
-  limits.fibers.maps_most = 1000;
+  limits.fibers.max_maps = 1000;
   return limits;
 }
 

@@ -4,7 +4,7 @@
 
 #include "runtime/actor/actor.hpp"
 #include "runtime/observe/trace_ring.hpp"
-#include "tests/unit/runtime/actor/allocation_count.hpp"
+#include "tests/kit/allocation_count.hpp"
 #include "tests/unit/runtime/actor/node_kit.hpp"
 
 using namespace luxodus;

@@ -109,8 +109,8 @@ TEST_CASE("the longest names give names of local sockets that the system takes",
            host_part + "[[node]]\nname = \"" + longest + "\"\n" + controller_part);
   const std::vector<Edge> edges{{id(0), id(1)}};
   const std::string name = links_of(cluster, id(0), edges).listen.at(0).control;
-  constexpr size_t sun_path_most = 107;  // unix(7)
-  CHECK(name.size() - std::string("ipc://").size() <= sun_path_most);
+  constexpr size_t max_sun_path = 107;  // unix(7)
+  CHECK(name.size() - std::string("ipc://").size() <= max_sun_path);
 }
 
 TEST_CASE("a node's network has the run's level and id, and its own number", "[runtime][config]") {

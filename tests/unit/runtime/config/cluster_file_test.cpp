@@ -17,15 +17,15 @@ TEST_CASE("a file that says little has the defaults of the rooms that use them",
   CHECK(cluster.links.bulk_window_bytes == usual.bulk_window_bytes);
   CHECK(cluster.links.outbox_messages == usual.outbox_messages);
   CHECK(cluster.links.assemblies == usual.assemblies);
-  CHECK(cluster.links.message_bytes_most == usual.message_bytes_most);
+  CHECK(cluster.links.max_message_bytes == usual.max_message_bytes);
   CHECK(cluster.links.assembly_patience == usual.assembly_patience);
   CHECK(cluster.links.times.beat == usual.times.beat);
   CHECK(cluster.links.times.suspect_after_beats == usual.times.suspect_after_beats);
   CHECK(cluster.links.times.down_after_beats == usual.times.down_after_beats);
   CHECK(cluster.links.times.patience == usual.times.patience);
   CHECK(cluster.topology.kind == TopologyChoice::Kind::amp);
-  CHECK(cluster.topology.links_most == 4);
-  CHECK(cluster.topology.controller_links_most == 1);  // there is one worker
+  CHECK(cluster.topology.max_links == 4);
+  CHECK(cluster.topology.max_controller_links == 1);  // there is one worker
   CHECK(cluster.run.level == Level::bit);
   CHECK(cluster.run.id != 0);
   CHECK_FALSE(cluster.node(cluster.controller()).traces);
@@ -187,7 +187,7 @@ TEST_CASE("links one by one are between nodes, once each, and not too many", "[r
         "\"c\" has more than the 2 links that 'controller_links' allows");
   CHECK(good(nodes + "links = 3\ncontroller = \"node\"\npairs = [[\"c\",\"n0\"],[\"c\",\"n1\"]," +
              "[\"c\",\"n2\"]]\n")
-            .topology.controller_links_most == 0);
+            .topology.max_controller_links == 0);
 }
 
 TEST_CASE("all slips of a file are told at once, by line", "[runtime][config]") {

@@ -97,7 +97,7 @@ class FetchNode final : public NetHandler {
       : config(net_config),
         transport(net, config.self),
         network(config, transport, *this, clock.now()),
-        fibers({.count = setup.fibers, .maps_most = 1000}),
+        fibers({.count = setup.fibers, .max_maps = 1000}),
         timers(200, clock.now()),
         fetcher(on(config.self, setup.fetch), objects.places, store, network, timers, clock,
                 chance(setup.seed, config.self)),

@@ -83,14 +83,14 @@ TEST_CASE("no grant lets more than the window be outstanding", "[runtime][credit
 }
 
 TEST_CASE("a ring keeps frames in order, whole and aligned, within its window", "[runtime][ring]") {
-  constexpr size_t window = 2048, body_most = 500;
-  FrameRing frames(window, body_most);
+  constexpr size_t window = 2048, max_body = 500;
+  FrameRing frames(window, max_body);
   Random random(9, RandomStream::test);
   random.start(0);
   std::deque<std::vector<std::byte>> expected;
   size_t held = 0, pushed = 0, popped = 0;
   for (int i = 0; i < 50000; ++i) {
-    std::vector<std::byte> body(random.bits() % (body_most + 1),
+    std::vector<std::byte> body(random.bits() % (max_body + 1),
                                 static_cast<std::byte>(random.bits()));
     if (held + frame_charge(body.size()) <= window) {
       Envelope envelope;

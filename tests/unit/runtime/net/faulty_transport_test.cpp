@@ -20,19 +20,19 @@ FaultPlan delayed() {
 }
 
 FaultyConfig config_of_end(NodeId self, const FaultPlan& plan,
-                           size_t held_most = limits::held_back_bytes) {
+                           size_t max_held = limits::held_back_bytes) {
   FaultyConfig config;
   config.self = self;
   config.plan = plan;
-  config.held_most = held_most;
+  config.max_held = max_held;
   return config;
 }
 
 /// Two ends of links to each other.
 struct Pair {
-  explicit Pair(const FaultPlan& plan = delayed(), size_t held_most = limits::held_back_bytes)
-      : one(below_one, config_of_end(a, plan, held_most), clock),
-        other(below_other, config_of_end(b, plan, held_most), clock) {}
+  explicit Pair(const FaultPlan& plan = delayed(), size_t max_held = limits::held_back_bytes)
+      : one(below_one, config_of_end(a, plan, max_held), clock),
+        other(below_other, config_of_end(b, plan, max_held), clock) {}
 
   void send(Lane lane, std::vector<std::byte> bytes) {
     REQUIRE(one.send(b, lane, {}, bytes) == Sent::taken);

@@ -166,7 +166,7 @@ TEST_CASE("a neighbour that lies about sizes is not believed", "[runtime][hostil
   CHECK(siege.victim().counters().dropped_malformed == before + 7);
   // A length that could be true waits for its handler's room, and is given none.
   siege.nodes[1].handler.wants_pieces = false;
-  lie(0, 1000, defaults::message_bytes_most);
+  lie(0, 1000, defaults::max_message_bytes);
   CHECK(siege.victim().counters().dropped_unexpected == 1);
   siege.nodes[1].handler.wants_pieces = true;
   siege.check_that_others_go_on();
@@ -188,13 +188,13 @@ TEST_CASE("a neighbour that says of others' links that they are down is contradi
 
 TEST_CASE("what is replayed to a later life of a node is dropped", "[runtime][hostile]") {
   Besieged siege;
-  siege.nodes.net.record_most = 1000;
+  siege.nodes.net.max_record = 1000;
   for (int i = 0; i < 20; ++i)
     siege.nodes[0].network.send({1}, siege.nodes[0].network.next_id(), RequestLease{1});
   siege.nodes.run(milliseconds(300));
   CHECK(siege.nodes[1].handler.count<RequestLease>() == 20);
   const auto recorded = siege.nodes.net.recorded;
-  siege.nodes.net.record_most = 0;
+  siege.nodes.net.max_record = 0;
 
   NetConfig again = siege.nodes[1].config;
   again.incarnation = {7777};
@@ -217,12 +217,12 @@ TEST_CASE("what is replayed to the same life is bounded by the window of its poo
           "[runtime][hostile]") {
   Besieged siege;
   const size_t memory = siege.victim().memory_bytes();
-  siege.nodes.net.record_most = 1000;
+  siege.nodes.net.max_record = 1000;
   siege.nodes[0].network.send({1}, siege.nodes[0].network.next_id(), Flush{1, 2, {3}, {}},
                               share(pattern(200'000)));
   siege.nodes.run(milliseconds(300));
   const auto recorded = siege.nodes.net.recorded;
-  siege.nodes.net.record_most = 0;
+  siege.nodes.net.max_record = 0;
   for (int round = 0; round < 100; ++round) {
     for (const auto& frame : recorded) siege.nodes.net.send({0}, {1}, Lane::bulk, frame, {});
     siege.nodes.turn();

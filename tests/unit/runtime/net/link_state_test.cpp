@@ -123,7 +123,7 @@ TEST_CASE("hellos are said ever more rarely, up to a bound", "[runtime][link]") 
     now = due;
     if (link.phase() != LinkPhase::connecting) break;
   }
-  CHECK(last_gap <= times.backoff_most);
+  CHECK(last_gap <= times.max_backoff);
 }
 
 TEST_CASE("another life of the peer is told from the same one", "[runtime][link]") {

@@ -26,7 +26,7 @@ uint64_t dropped(const NetCounters& c) {
 /// Every node asks `questions` questions, of the nodes at these distances in turn; each is answered
 /// with 1000 bytes. Boxes are kept full, so every buffer on every way is in use. Returns turns
 /// until all answers had come.
-int ask(Cluster& cluster, const std::vector<size_t>& distances, size_t questions, int turns_most) {
+int ask(Cluster& cluster, const std::vector<size_t>& distances, size_t questions, int max_turns) {
   const size_t n = cluster.size();
   const SharedBytes object = share(pattern(1000));
   std::vector<size_t> asked(n, 0);
@@ -37,7 +37,7 @@ int ask(Cluster& cluster, const std::vector<size_t>& distances, size_t questions
       return network.send(d.source, d.id, ObjectFound{}, object) == SendOutcome::taken;
     };
   }
-  for (int turn = 0; turn < turns_most; ++turn) {
+  for (int turn = 0; turn < max_turns; ++turn) {
     bool done = true;
     for (size_t i = 0; i < n; ++i) {
       while (asked[i] < questions) {
@@ -53,7 +53,7 @@ int ask(Cluster& cluster, const std::vector<size_t>& distances, size_t questions
     if (done) return turn;
     cluster.turn();
   }
-  return turns_most;
+  return max_turns;
 }
 
 void check_no_drops(Cluster& cluster) {

@@ -55,7 +55,7 @@ class SimNet {
       const uint32_t bit = random_.bits() % static_cast<uint32_t>(8 * frame.size());
       frame[bit / 8] ^= static_cast<std::byte>(1u << (bit % 8));
     }
-    if (recorded.size() < record_most) recorded.push_back(frame);
+    if (recorded.size() < max_record) recorded.push_back(frame);
     if (happens(faults.twice)) queue.push_back(frame);
     if (happens(faults.reorder))
       queue.push_front(std::move(frame));
@@ -100,7 +100,7 @@ class SimNet {
   uint64_t frames = 0;
   /// The first frames that were sent, as many as asked for.
   std::vector<std::vector<std::byte>> recorded;
-  size_t record_most = 0;
+  size_t max_record = 0;
 
  private:
   bool happens(float share) { return share > 0 && random_.uniform() < share; }

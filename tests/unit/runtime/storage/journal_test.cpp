@@ -35,16 +35,16 @@ class DiskStore final : public AppendStore {
  public:
   explicit DiskStore(Disk& disk) : disk_(disk), bytes_(disk.bytes) {}
   uint64_t size() const override { return bytes_.size(); }
-  Result<bool> read(uint64_t offset, std::span<std::byte> into) override {
+  Result<void> read(uint64_t offset, std::span<std::byte> into) override {
     return bytes_.read(offset, into);
   }
-  Result<bool> append(std::span<const std::byte> bytes) override {
+  Result<void> append(std::span<const std::byte> bytes) override {
     const size_t left = disk_.room - std::min<size_t>(disk_.room, bytes_.size());
     if (bytes.size() <= left) return bytes_.append(bytes);
     (void)bytes_.append(bytes.first(left));
     return Problem{{}, "the disk is full"};
   }
-  Result<bool> truncate(uint64_t size) override { return bytes_.truncate(size); }
+  Result<void> truncate(uint64_t size) override { return bytes_.truncate(size); }
 
  private:
   Disk& disk_;

@@ -172,8 +172,9 @@ TEST_CASE("a drawing that cannot be a sign is refused with its file and the reas
         std::string::npos);
   CHECK(refusal(svg(left_green, "viewBox='0 0 100 100'")).find("aspect") != std::string::npos);
   CHECK(refusal(svg(left_green, "viewBox='0 0 0 100'")).find("bad.svg") != std::string::npos);
-  CHECK(refusal(std::string(static_cast<size_t>(limits::drawing_bytes_most) + 1, ' '))
-            .find("4 MiB") != std::string::npos);
+  CHECK(
+      refusal(std::string(static_cast<size_t>(limits::max_drawing_bytes) + 1, ' ')).find("4 MiB") !=
+      std::string::npos);
   CHECK(
       problem_of(face_from_svg(scratch.folder / "none.svg", 0.4, 0.2, 100)).find("no such file") !=
       std::string::npos);

@@ -16,9 +16,9 @@ inline Point key(const glm::dvec3& p) {
 }
 
 /// Every directed edge, by the exact bits of its ends, is met by one that runs the other way:
-/// closed, all fronts on one side, no T-junction. `pairs_most` allows edges where bodies touch
+/// closed, all fronts on one side, no T-junction. `max_pairs` allows edges where bodies touch
 /// along a line.
-inline bool is_closed(const Mesh& mesh, int pairs_most = 1) {
+inline bool is_closed(const Mesh& mesh, int max_pairs = 1) {
   std::map<std::pair<Point, Point>, int> edges;
   for (const glm::uvec3& t : mesh.triangles) {
     for (int i = 0; i < 3; ++i) {
@@ -27,7 +27,7 @@ inline bool is_closed(const Mesh& mesh, int pairs_most = 1) {
   }
   for (const auto& [edge, count] : edges) {
     const auto back = edges.find({edge.second, edge.first});
-    if (back == edges.end() || back->second != count || count > pairs_most) return false;
+    if (back == edges.end() || back->second != count || count > max_pairs) return false;
   }
   return !edges.empty();
 }

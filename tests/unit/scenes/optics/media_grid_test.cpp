@@ -144,8 +144,8 @@ TEST_CASE("bricks that are lost and fetched again give the same bits", "[optics]
     const glm::vec3 d(draw.direction());
     const double tau = -std::log1p(-draw());
     const double choice = draw();
-    const Flight a = free_flight<MediaNeed::general>(set, 0, o, d, 8, tau, choice, resident);
-    const Flight b = free_flight<MediaNeed::general>(set, 0, o, d, 8, tau, choice, forgetful);
+    const FreeFlight a = free_flight<MediaNeed::general>(set, 0, o, d, 8, tau, choice, resident);
+    const FreeFlight b = free_flight<MediaNeed::general>(set, 0, o, d, 8, tau, choice, forgetful);
     REQUIRE(a.t == b.t);
     REQUIRE(a.medium == b.medium);
     REQUIRE(a.albedo == b.albedo);
@@ -180,7 +180,8 @@ TEST_CASE("clear bricks are passed without being asked for", "[optics][media]") 
   const MediaSet set = compiled({m});
   ForgetfulBricks bricks(set);
   const glm::vec3 d = glm::normalize(glm::vec3(1, 0.1F, 0.05F));
-  const Flight f = free_flight<MediaNeed::general>(set, 0, {-1, 2, 3}, d, 100, 0.5, 0.5, bricks);
+  const FreeFlight f =
+      free_flight<MediaNeed::general>(set, 0, {-1, 2, 3}, d, 100, 0.5, 0.5, bricks);
   CHECK(bricks.calls <= 2);  // one on the way, one for the albedo
   CHECK(f.collided);
   CHECK(f.t == Approx(51 / static_cast<double>(d.x) + 0.25));

@@ -95,7 +95,7 @@ TEST_CASE("free flight collides where the depth is used up and passes empty laye
   CHECK(fly(set, {0, 0, 0}, up, 10, 0.5 + 1e-12).t == Approx(2.0F));
   CHECK(fly(set, {0, 0, 0}, up, 10, 0.5 - 1e-12).t == Approx(1.0F));
   CHECK(fly(set, {0, 0, 3}, down, 10, 4.25).t == Approx(2.5F));
-  const Flight through = fly(set, {0, 0, 0}, up, 10, 4.5 + 1e-9);
+  const FreeFlight through = fly(set, {0, 0, 0}, up, 10, 4.5 + 1e-9);
   CHECK_FALSE(through.collided);
   CHECK(through.t == 10.0F);
   CHECK_FALSE(fly(set, {0, 0, 0}, up, 1.5F, 0.6).collided);
@@ -155,7 +155,7 @@ TEST_CASE("tall stacks, where slabs are skipped, equal the plain sum", "[optics]
     REQUIRE(depth_with<MediaNeed::layered>(set, o, d, t_max) ==
             Approx(sum).epsilon(1e-10).margin(1e-12));
     const double tau = -std::log1p(-draw());
-    const Flight f = fly(set, o, d, t_max, tau);
+    const FreeFlight f = fly(set, o, d, t_max, tau);
     REQUIRE(f.collided == (tau < sum));
     if (!f.collided) continue;
     ++collided;
@@ -182,7 +182,7 @@ TEST_CASE("free flight inverts optical depth from 1 mm to 10 km and tau from 1e-
         const double all = depth(set, o, d, t_max);
         const double tau = draw() * all;
         if (!(tau > 0)) continue;
-        const Flight f = fly(set, o, d, t_max, tau);
+        const FreeFlight f = fly(set, o, d, t_max, tau);
         REQUIRE(f.collided);
         // One float rounding of t: 6e-8 t, times the largest extinction.
         REQUIRE(std::abs(depth(set, o, d, f.t) - tau) <=
@@ -218,7 +218,7 @@ TEST_CASE("overlapping media collide in proportion to their extinctions", "[opti
   const double albedo[5] = {0.1, 0.2, 0.3, 0.4, 0.6};
   for (int i = 0; i < n; ++i) {
     const double choice = draw();
-    const Flight f = fly(set, {0.5F, 0.5F, 0.5F}, up, 10, 1e-3, choice);
+    const FreeFlight f = fly(set, {0.5F, 0.5F, 0.5F}, up, 10, 1e-3, choice);
     REQUIRE(f.collided);
     REQUIRE(f.medium >= 0);
     ++hits[f.medium];

@@ -182,7 +182,7 @@ TEST_CASE("in random mixtures free flight, segments and depth tell the same stor
       REQUIRE(ordered);
       REQUIRE(sum == Approx(all).epsilon(1e-12).margin(1e-12));
       const double tau = draw() * all;
-      const Flight f = fly(set, o, d, 9, tau, draw());
+      const FreeFlight f = fly(set, o, d, 9, tau, draw());
       REQUIRE(f.collided == (all > 0));
       REQUIRE_FALSE(fly(set, o, d, 9, all * (1 + 1e-9) + 1e-300).collided);
       if (!f.collided) continue;
@@ -212,7 +212,7 @@ TEST_CASE("the medium that collides is there, and the sum at a point is that of 
       double sum = 0;
       for (const Medium& m : media) sum += plain_extinction(m, glm::dvec3(o));
       REQUIRE(extinction(set, o) == Approx(sum).epsilon(1e-12).margin(1e-14));
-      const Flight f = fly(set, o, d, 9, -std::log1p(-draw()), draw());
+      const FreeFlight f = fly(set, o, d, 9, -std::log1p(-draw()), draw());
       if (!f.collided) continue;
       ++collided;
       const glm::dvec3 place = glm::dvec3(o) + glm::dvec3(d) * static_cast<double>(f.t);
@@ -258,14 +258,14 @@ TEST_CASE("one smoke said in six ways is one smoke", "[optics][media]") {
     const glm::vec3 d(glm::normalize(b - a));
     const auto t_max = static_cast<float>(glm::length(b - a)) * 0.9999F;
     const double tau = -std::log1p(-draw());
-    const Flight expected =
+    const FreeFlight expected =
         free_flight<MediaNeed::homogeneous>(sets[0], 0, o, d, t_max, tau, 0.5, none);
     for (size_t k = 0; k < sets.size(); ++k) {
       INFO("way " << k);
       // Voxels hold float: 0.8 is rounded.
       REQUIRE(depth(sets[k], o, d, t_max) ==
               Approx(s * static_cast<double>(t_max)).epsilon(k == 4 ? 1e-7 : 1e-10));
-      const Flight f = fly(sets[k], o, d, t_max, tau);
+      const FreeFlight f = fly(sets[k], o, d, t_max, tau);
       REQUIRE(f.collided == expected.collided);
       REQUIRE(f.t == Approx(expected.t).epsilon(3e-7));
     }
@@ -286,9 +286,9 @@ TEST_CASE("a flight without an end, of no length, or of any rise comes back", "[
         if (!(glm::length(glm::dvec3(d)) > 0.1)) continue;
         const glm::vec3 unit(glm::normalize(glm::dvec3(d)));
         for (const glm::vec3& o : {glm::vec3(0), glm::vec3(1, 2, 1), glm::vec3(-1e4F, 3, 1)}) {
-          const Flight f = fly(set, o, unit, infinite, 5);
+          const FreeFlight f = fly(set, o, unit, infinite, 5);
           REQUIRE(f.t >= 0);
-          const Flight stay = fly(set, o, unit, 0, 0);
+          const FreeFlight stay = fly(set, o, unit, 0, 0);
           REQUIRE_FALSE(stay.collided);
           REQUIRE(depth(set, o, unit, 0) == 0);
           REQUIRE(depth(set, o, unit, 1e5F) >= 0);

@@ -129,8 +129,8 @@ inline double depth(const MediaSet& set, const glm::vec3& o, const glm::vec3& d,
   return optical_depth<MediaNeed::general>(set, 0, o, d, t_max, bricks);
 }
 
-inline Flight fly(const MediaSet& set, const glm::vec3& o, const glm::vec3& d, float t_max,
-                  double tau, double choice = 0.5) {
+inline FreeFlight fly(const MediaSet& set, const glm::vec3& o, const glm::vec3& d, float t_max,
+                      double tau, double choice = 0.5) {
   ResidentBricks bricks(set);
   return free_flight<MediaNeed::general>(set, 0, o, d, t_max, tau, choice, bricks);
 }

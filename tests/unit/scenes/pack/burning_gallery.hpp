@@ -8,9 +8,9 @@
 #include <memory>
 #include <string>
 
-#include "scenes/format/atomic_file.hpp"
-#include "scenes/format/scene_file.hpp"
-#include "scenes/format/write_image.hpp"
+#include "runtime/core/atomic_file.hpp"
+#include "scenes/images/write_image.hpp"
+#include "scenes/scene_file/scene_file.hpp"
 #include "scenes/transport/compile.hpp"
 
 namespace luxodus {

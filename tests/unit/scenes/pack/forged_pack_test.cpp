@@ -6,14 +6,14 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "actors/source/local_run.hpp"
+#include "actors/run/local_run.hpp"
+#include "runtime/core/atomic_file.hpp"
 #include "runtime/core/hash.hpp"
 #include "runtime/core/random.hpp"
-#include "scenes/format/atomic_file.hpp"
 #include "scenes/pack/scene_pack.hpp"
 #include "scenes/pack/skeleton.hpp"
 #include "scenes/transport/compile.hpp"
-#include "tests/unit/scenes/format/scratch_folder.hpp"
+#include "tests/kit/scratch_folder.hpp"
 #include "tests/unit/scenes/pack/burning_gallery.hpp"
 
 using namespace luxodus;

@@ -4,13 +4,13 @@
 #include <catch2/catch.hpp>
 #include <fstream>
 
-#include "actors/source/local_run.hpp"
+#include "actors/run/local_run.hpp"
+#include "runtime/core/atomic_file.hpp"
 #include "runtime/core/random.hpp"
-#include "scenes/format/atomic_file.hpp"
-#include "scenes/format/scene_file.hpp"
 #include "scenes/pack/skeleton.hpp"
+#include "scenes/scene_file/scene_file.hpp"
 #include "scenes/transport/compile.hpp"
-#include "tests/unit/scenes/format/scratch_folder.hpp"
+#include "tests/kit/scratch_folder.hpp"
 #include "tests/unit/scenes/pack/burning_gallery.hpp"
 
 using namespace luxodus;

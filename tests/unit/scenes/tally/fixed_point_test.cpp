@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "runtime/core/random.hpp"
-#include "scenes/tally/ledger.hpp"
+#include "scenes/tally/energy_balance.hpp"
 
 using namespace luxodus;
 
@@ -47,7 +47,7 @@ TEST_CASE("a fraction outside 0 to 1 is cut to it, and what is no number is noth
 }
 
 TEST_CASE("a ledger closes when every unit went somewhere, and tells when one did not", "[tally]") {
-  Ledger one;
+  EnergyBalance one;
   one.emitted = 100;
   one.roulette_gain = 7;
   one.absorbed_surfaces = 50;
@@ -57,7 +57,7 @@ TEST_CASE("a ledger closes when every unit went somewhere, and tells when one di
   one.lost_too_long = 1;
   one.rays = 3;
   CHECK(one.closes());
-  Ledger sum;
+  EnergyBalance sum;
   CHECK(sum.closes());
   sum.add(one);
   sum.add(one);

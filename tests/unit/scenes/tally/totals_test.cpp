@@ -58,7 +58,7 @@ void check_equal(const Totals& a, const Totals& b) {
     REQUIRE(a.state(0).totals[i].squares == b.state(0).totals[i].squares);
   }
   CHECK(a.batches(0) == b.batches(0));
-  CHECK(a.ledger().emitted == b.ledger().emitted);
+  CHECK(a.balance().emitted == b.balance().emitted);
 }
 
 }  // namespace
@@ -93,7 +93,7 @@ TEST_CASE("totals are the same for any order of batches and from any number of t
   Totals threaded(l.layout, 1, ones(1, 2));
   const auto merge = [&](Totals& totals, uint64_t i) {
     BatchScores b = l.random_batch(i);
-    b.ledger.emitted = static_cast<Int128>(i);
+    b.balance.emitted = static_cast<Int128>(i);
     totals.merge(b, 0);
   };
   for (uint64_t i = 0; i < batches; ++i) merge(forward, i);

@@ -1,9 +1,9 @@
 // Emitters whose extent single precision cannot hold: refused, or without what is too small.
 #include <catch2/catch.hpp>
 
-#include "scenes/format/scene_file.hpp"
+#include "scenes/scene_file/scene_file.hpp"
 #include "scenes/transport/compile.hpp"
-#include "tests/unit/scenes/format/temporary_folder.hpp"
+#include "tests/kit/temporary_folder.hpp"
 
 using namespace luxodus;
 

@@ -112,7 +112,7 @@ TEST_CASE("a scene without triangles is traced in however many cells it is asked
   BatchScores scores;
   scores.reset(scene.value()->layout);
   make_batch_tracer(*scene.value(), GeometryAccess::resident(index), 1)->trace(0, 0, 8, scores);
-  CHECK(scores.ledger.escaped == scores.ledger.emitted);
+  CHECK(scores.balance.escaped == scores.balance.emitted);
 }
 
 TEST_CASE("a scene of nothing but media has no size and is refused", "[transport][compile]") {

@@ -3,9 +3,9 @@
 
 #include <catch2/catch.hpp>
 
-#include "scenes/format/scene_file.hpp"
+#include "scenes/scene_file/scene_file.hpp"
 #include "scenes/transport/compile.hpp"
-#include "tests/unit/scenes/format/scene_fixture.hpp"
+#include "tests/unit/scenes/scene_file/scene_fixture.hpp"
 
 using namespace luxodus;
 

@@ -51,12 +51,12 @@ TEST_CASE("what is born after as many rays as 64 bits can count is lost, and the
   const auto tracer = make_batch_tracer(*scene, GeometryAccess::resident(index), 1);
   BatchScores scores;
   scores.reset(scene->layout);
-  scores.ledger.rays = limits::rays_per_batch - 3;
+  scores.balance.rays = limits::rays_per_batch - 3;
   tracer->trace(0, 0, 8, scores);
-  CHECK(scores.ledger.particles == 8);
-  CHECK(scores.ledger.escaped == 3 * Int128{unit_weight});
-  CHECK(scores.ledger.lost() == 5 * Int128{unit_weight});
-  CHECK(scores.ledger.closes());
+  CHECK(scores.balance.particles == 8);
+  CHECK(scores.balance.escaped == 3 * Int128{unit_weight});
+  CHECK(scores.balance.lost() == 5 * Int128{unit_weight});
+  CHECK(scores.balance.closes());
 }
 
 TEST_CASE("hits keep farther from edges than the rays that leave them start from the surface",

@@ -1,0 +1,52 @@
+// Tables as comma-separated values after RFC 4180, rows ended by a line feed. Numbers take the
+// shortest form that reads back to the same bits; a number that is not one (NaN, infinity) is an
+// empty cell, while an empty text is "" in quotes. Builds text in memory; not shared between
+// threads.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "runtime/core/atomic_file.hpp"
+#include "runtime/core/result.hpp"
+
+namespace luxodus {
+
+/// A text as one CSV cell: in quotes where it holds a comma, a quote, a line break, a space at an
+/// end, or nothing.
+std::string csv_cell(std::string_view text);
+
+class CsvTable {
+ public:
+  /// Requires: at least one column.
+  explicit CsvTable(const std::vector<std::string>& columns);
+
+  CsvTable& cell(std::string_view text);
+  CsvTable& cell(const char* text) { return cell(std::string_view(text)); }
+  CsvTable& cell(double value);
+  CsvTable& cell(int64_t value);
+  CsvTable& cell(int value) { return cell(int64_t{value}); }
+  CsvTable& cell(bool yes) { return cell(std::string_view(yes ? "yes" : "no")); }
+  /// A cell without a value.
+  CsvTable& empty_cell();
+  /// Requires: as many cells since the last row as there are columns, else std::logic_error.
+  void end_row();
+
+  /// Requires: no row begun and not ended, else std::logic_error.
+  const std::string& text() const;
+
+ private:
+  void separate();
+
+  size_t columns_;
+  size_t cells_ = 0;  // in the row being written
+  std::string text_;
+};
+
+/// Errors: as write_file_atomically.
+Result<void> write_csv(const std::filesystem::path& path, const CsvTable& table);
+
+}  // namespace luxodus

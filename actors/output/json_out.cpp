@@ -1,0 +1,35 @@
+#include "actors/output/json_out.hpp"
+
+#include <cmath>
+
+namespace luxodus {
+
+Json number_json(double value) {
+  if (!std::isfinite(value)) return nullptr;
+  return value;
+}
+
+Json measured_json(double value, double standard_error, std::string_view unit) {
+  Json out = Json::object();
+  out["value"] = number_json(value);
+  out["standard_error"] = number_json(standard_error);
+  out["unit"] = std::string(unit);
+  return out;
+}
+
+Json exact_json(double value, std::string_view unit) {
+  Json out = Json::object();
+  out["value"] = number_json(value);
+  out["unit"] = std::string(unit);
+  return out;
+}
+
+std::string json_text(const Json& document) {
+  return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Result<void> write_json(const std::filesystem::path& path, const Json& document) {
+  return write_file_atomically(path, std::string_view(json_text(document)));
+}
+
+}  // namespace luxodus

@@ -1,0 +1,23 @@
+// A run's totals on disk, whole: sums, squares and balance of every group, so that a file is both a
+// result and a place to go on from, bit for bit. It holds no timings, threads or machines.
+#pragma once
+
+#include <filesystem>
+
+#include "actors/run/local_run.hpp"
+#include "runtime/core/atomic_file.hpp"
+
+namespace luxodus {
+
+namespace limits {
+inline constexpr int flux_schema_version = 1;
+}
+
+/// Errors: as write_flux_file.
+Result<void> save_flux(const std::filesystem::path& path, const LocalRun& run);
+
+/// Puts the totals of a file into a run that has traced nothing yet.
+/// Errors: as read_flux_file; another scene, scenario, seed, partition or layout, each by name.
+Result<void> load_flux(const std::filesystem::path& path, LocalRun& run);
+
+}  // namespace luxodus

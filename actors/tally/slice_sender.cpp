@@ -1,0 +1,81 @@
+#include "actors/tally/slice_sender.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+
+#include "runtime/core/hash.hpp"
+
+namespace luxodus {
+
+void SliceSender::make_room(int groups, int64_t totals) {
+  totals_ = totals;
+  for (size_t part = 0; part < parts(); ++part) {
+    const BinRange bins = bins_of(part);
+    parts_.push_back({std::make_shared<FlushEncoder>(groups, bins.end - bins.first), 0, true});
+  }
+}
+
+bool SliceSender::free() const {
+  return std::all_of(parts_.begin(), parts_.end(),
+                     [](const Part& part) { return part.encoder.use_count() == 1; });
+}
+
+size_t SliceSender::memory_bytes() const {
+  size_t bytes = 0;
+  for (const Part& part : parts_) bytes += part.encoder->memory_bytes();
+  return bytes;
+}
+
+void SliceSender::send(const MessageId& flush, Nanoseconds now) {
+  flush_ = flush;
+  refused_ = false;
+  sent_ = now;
+  for (Part& part : parts_) {
+    const auto& bytes = part.encoder->bytes();
+    part.hash = XXH3_64bits(bytes.data(), bytes.size());  // as Hasher, in no memory
+    part.held = false;
+  }
+  for (size_t part = 0; part < parts(); ++part) put(part);
+}
+
+void SliceSender::put(size_t index) {
+  const Part& part = parts_[index];
+  post_(plan_.owners[index], flush_, FlushSlice{part.hash}, {part.encoder->bytes(), part.encoder});
+}
+
+bool SliceSender::placed() const {
+  return refused_ ||
+         std::all_of(parts_.begin(), parts_.end(), [](const Part& part) { return part.held; });
+}
+
+std::vector<uint64_t> SliceSender::hashes() const {
+  std::vector<uint64_t> hashes;
+  for (const Part& part : parts_)
+    if (!refused_) hashes.push_back(part.hash);
+  return hashes;
+}
+
+void SliceSender::ask_again(Nanoseconds now, Nanoseconds patience) {
+  if (placed() || now - sent_ < patience) return;
+  sent_ = now;
+  for (size_t part = 0; part < parts(); ++part)
+    if (!parts_[part].held) put(part);
+}
+
+bool SliceSender::deliver(NodeId from, const MessageId& id, const Message& message) {
+  const size_t shard = plan_.shard_of(from);
+  const auto* refusal = std::get_if<FlushRefused>(&message);
+  if (shard == 0 || (refusal == nullptr && !std::holds_alternative<SliceHeld>(message)))
+    return false;
+  if (id != flush_) return true;  // of an earlier flush, late
+  if (refusal != nullptr) {
+    spdlog::warn("part=refused node={} shard={} text=\"{}\"", id.node.value, shard, refusal->text);
+    refused_ = true;
+  } else {
+    parts_[shard - 1].held = true;
+  }
+  return true;
+}
+
+}  // namespace luxodus

@@ -1,0 +1,134 @@
+#include "runtime/core/output_text.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+namespace luxodus {
+namespace {
+
+constexpr std::string_view replacement = "\xEF\xBF\xBD";  // U+FFFD
+
+/// Length of the well-formed UTF-8 sequence at the start of `text`, 0 when there is none
+/// (Unicode Standard, table 3-7: no overlong forms, no surrogates, nothing above U+10FFFF).
+size_t utf8_length(std::string_view text) {
+  const auto byte = [&](size_t i) { return static_cast<uint8_t>(text[i]); };
+  const auto continues = [&](size_t i, uint8_t low = 0x80, uint8_t high = 0xBF) {
+    return i < text.size() && byte(i) >= low && byte(i) <= high;
+  };
+  const uint8_t first = byte(0);
+  if (first < 0x80) return 1;
+  if (first >= 0xC2 && first <= 0xDF) return continues(1) ? 2 : 0;
+  if (first >= 0xE0 && first <= 0xEF) {
+    const uint8_t low = first == 0xE0 ? 0xA0 : 0x80;
+    const uint8_t high = first == 0xED ? 0x9F : 0xBF;
+    return continues(1, low, high) && continues(2) ? 3 : 0;
+  }
+  if (first >= 0xF0 && first <= 0xF4) {
+    const uint8_t low = first == 0xF0 ? 0x90 : 0x80;
+    const uint8_t high = first == 0xF4 ? 0x8F : 0xBF;
+    return continues(1, low, high) && continues(2) && continues(3) ? 4 : 0;
+  }
+  return 0;
+}
+
+}  // namespace
+
+std::string shortest_number(double value) {
+  if (std::isnan(value)) return "nan";
+  if (std::isinf(value)) return value > 0 ? "inf" : "-inf";
+  std::array<char, 40> buffer;  // the longest shortest form of a double has 24 characters
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+  return {buffer.data(), end.ptr};
+}
+
+std::string power_of_ten(int exponent) {
+  using Digits = std::array<std::string_view, 10>;
+  static constexpr Digits superscripts = {"⁰", "¹", "²", "³", "⁴",  // 0..4
+                                          "⁵", "⁶", "⁷", "⁸", "⁹"};
+  std::string out = "10";
+  for (const char c : std::to_string(exponent)) {
+    out += c == '-' ? std::string_view("⁻") : superscripts[static_cast<size_t>(c - '0')];
+  }
+  return out;
+}
+
+std::string readable_number(double value, int digits) {
+  if (std::isnan(value)) return "no value";
+  if (std::isinf(value)) return value > 0 ? "∞" : "−∞";
+  if (value == 0) return "0";
+  digits = std::clamp(digits, 1, 9);
+  std::array<char, 40> buffer;
+  const auto scientific = std::to_chars(buffer.data(), buffer.data() + buffer.size(),
+                                        std::abs(value), std::chars_format::scientific, digits - 1);
+  std::string mantissa(buffer.data(), scientific.ptr);
+  const size_t e = mantissa.find('e');
+  const int exponent = std::stoi(mantissa.substr(e + 1));
+  mantissa.resize(e);
+  const std::string sign = value < 0 ? "−" : "";
+  const auto without_zeros = [](std::string text) {
+    if (text.find('.') == std::string::npos) return text;
+    text.erase(text.find_last_not_of('0') + 1);
+    if (text.back() == '.') text.pop_back();
+    return text;
+  };
+  if (exponent < -3 || exponent > 4) {
+    return sign + without_zeros(mantissa) + "·" + power_of_ten(exponent);
+  }
+  // Rounded to the significant digits first, so that 1234 shows as 1230, not with digits that mean
+  // nothing.
+  const double rounded = std::stod(mantissa + "e" + std::to_string(exponent));
+  const auto fixed = std::to_chars(buffer.data(), buffer.data() + buffer.size(), rounded,
+                                   std::chars_format::fixed, std::max(0, digits - 1 - exponent));
+  return sign + without_zeros({buffer.data(), fixed.ptr});
+}
+
+std::string clean_utf8(std::string_view text) {
+  std::string out;
+  out.reserve(text.size());
+  while (!text.empty()) {
+    const size_t length = utf8_length(text);
+    const auto first = static_cast<uint8_t>(text[0]);
+    const bool control = (first < 0x20 && first != '\t' && first != '\n') || first == 0x7F;
+    out += length == 0 || control ? replacement : text.substr(0, length);
+    text.remove_prefix(std::max<size_t>(length, 1));
+  }
+  return out;
+}
+
+std::string xml_escape(std::string_view text) {
+  std::string out;
+  for (const char c : clean_utf8(text)) {
+    switch (c) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      case '\'':
+        out += "&apos;";
+        break;
+      case '\t':
+        out += "&#9;";
+        break;
+      case '\n':
+        out += "&#10;";
+        break;
+      default:
+        out += c;
+    }
+  }
+  return out;
+}
+
+}  // namespace luxodus

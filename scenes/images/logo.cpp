@@ -1,0 +1,60 @@
+#include "scenes/images/logo.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scenes/images/image_file.hpp"
+#include "scenes/images/write_image.hpp"
+
+namespace luxodus {
+
+namespace {
+
+/// The sRGB byte of a linear value (IEC 61966-2-1).
+uint8_t srgb_byte(double linear) {
+  const double v = std::clamp(linear, 0.0, 1.0);
+  const double encoded = v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055;
+  return static_cast<uint8_t>(std::lround(255 * encoded));
+}
+
+PngImage on_white(const Image& image) {
+  PngImage out;
+  out.width = image.width;
+  out.height = image.height;
+  const auto channels = static_cast<size_t>(image.channels);
+  const size_t pixels = static_cast<size_t>(image.width) * static_cast<size_t>(image.height);
+  out.rgb.reserve(3 * pixels);
+  for (size_t i = 0; i < pixels; ++i) {
+    const float* texel = &image.texels[i * channels];
+    const double alpha = channels == 4 ? static_cast<double>(texel[3]) : 1;
+    for (size_t c = 0; c < 3; ++c)
+      out.rgb.push_back(
+          srgb_byte(alpha * static_cast<double>(texel[channels == 1 ? 0 : c]) + (1 - alpha)));
+  }
+  return out;
+}
+
+}  // namespace
+
+Result<std::string> read_logo(const std::filesystem::path& path) {
+  std::error_code failed;
+  const SourcePlace place{path.string(), 0};
+  if (!std::filesystem::is_regular_file(path, failed))
+    return Problem{place, "there is no such file"};
+  const uint64_t size = std::filesystem::file_size(path, failed);
+  if (failed || size > limits::logo_bytes)
+    return Problem{place, "a logo has at most " + std::to_string(limits::logo_bytes >> 20) +
+                              " MiB; make it smaller"};
+  const auto image = read_png(path.string());
+  if (!image.ok())
+    return Problem{image.problem().where,
+                   image.problem().what + "; a logo is a PNG picture: convert it to one"};
+  if (image->width > limits::logo_side || image->height > limits::logo_side)
+    return Problem{place, "a logo has at most " + std::to_string(limits::logo_side) +
+                              " pixels a side; make it smaller"};
+  const auto png = encode_png(on_white(image.value()), place);
+  if (!png.ok()) return png.problem();
+  return std::string(reinterpret_cast<const char*>(png->data()), png->size());
+}
+
+}  // namespace luxodus

@@ -1,0 +1,43 @@
+#include "scenes/photometry/photometric_file.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <string_view>
+
+#include "scenes/photometry/ies.hpp"
+#include "scenes/photometry/ldt.hpp"
+#include "scenes/photometry/photometric_text.hpp"
+
+namespace luxodus {
+namespace {
+
+/// Every IES file has a line that starts with TILT=; no field of an EULUMDAT file looks like it.
+bool has_tilt_line(std::string_view bytes) {
+  constexpr std::string_view key = "TILT=";
+  const auto same = [](char a, char b) { return std::toupper(static_cast<unsigned char>(a)) == b; };
+  for (auto from = bytes.begin();;) {
+    const auto at = std::search(from, bytes.end(), key.begin(), key.end(), same);
+    if (at == bytes.end()) return false;
+    auto before = at;
+    while (before != bytes.begin() && (before[-1] == ' ' || before[-1] == '\t')) --before;
+    if (before == bytes.begin() || before[-1] == '\n' || before[-1] == '\r') return true;
+    from = at + 1;
+  }
+}
+
+}  // namespace
+
+Result<PhotometricFile> read_photometric_file(const std::filesystem::path& path) {
+  const Result<std::string> bytes = read_photometric_bytes(path);
+  if (!bytes) return bytes.problem();
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const bool ies = extension == ".ies" || has_tilt_line(bytes.value());
+  Result<PhotometricFile> file = ies ? read_ies(bytes.value(), path.string(), path.parent_path())
+                                     : read_ldt(bytes.value(), path.string());
+  if (file) file->files_read.insert(file->files_read.begin(), path);
+  return file;
+}
+
+}  // namespace luxodus

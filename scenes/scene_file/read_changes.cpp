@@ -1,0 +1,120 @@
+// Variants: what a file changes in those that it includes. Read last, so that all is there.
+#include <algorithm>
+
+#include "scenes/geometry/transform.hpp"
+#include "scenes/scene_file/scene_readers.hpp"
+
+namespace luxodus {
+
+namespace {
+
+/// The one of this name; a problem where there is none.
+template <class List>
+auto* named(List& list, KeyReader& keys, const std::string& kind) {
+  const std::string name = keys.text("of");
+  const auto at =
+      std::find_if(list.begin(), list.end(), [&](const auto& one) { return one.name == name; });
+  if (at == list.end() && keys.clean())
+    keys.problem("of", "there is no " + kind + " \"" + name + "\" to change");
+  return at == list.end() ? nullptr : &*at;
+}
+
+using Aim = Result<Frame> (*)(const glm::dvec3& origin, const glm::dvec3& direction,
+                              const glm::dvec3& up);
+
+void move(KeyReader& keys, Frame& frame, Aim aim) {
+  if (keys.has("facing") && !keys.has("position"))
+    keys.problem("facing", "'facing' needs 'position' beside it");
+  if (const auto position = keys.maybe_point("position")) frame.origin = *position;
+  const auto facing = keys.maybe_direction("facing");
+  if (!facing || !keys.clean()) return;
+  const auto turned = aim(frame.origin, *facing, {0, 0, 1});
+  if (turned.ok())
+    frame = turned.value();
+  else
+    keys.problem("facing", turned.problem().what);
+}
+
+void brighten(Sign& sign, double factor) {
+  for (SignState* state : {&sign.mains, &sign.emergency}) {
+    state->white_cd_m2 *= factor;
+    state->green_cd_m2 *= factor;
+  }
+}
+void brighten(Emitter& emitter, double factor) {
+  emitter.mains_flux *= factor;
+  emitter.emergency_flux *= factor;
+}
+
+bool stays(const Sign&) {
+  return false;
+}
+/// A mesh has its corners where its file and its placement say.
+bool stays(const Emitter& emitter) {
+  return emitter.shape == EmitterShape::mesh;
+}
+
+/// What is to be changed: the one in `of`, or a copy of it where the change has a name for one.
+/// Null after a problem.
+template <class List>
+typename List::value_type* chosen(List& list, KeyReader& keys, const std::string& kind,
+                                  std::string_view declared_as) {
+  auto* const original = named(list, keys, kind);
+  const auto copy = keys.maybe_text("copy");
+  if (original == nullptr || !copy) return original;
+  keys.reading().declare(declared_as, *copy, keys.place("copy"));
+  if (!keys.has("position"))
+    keys.problem("copy", "'copy' needs 'position' beside it: two things are not in one place");
+  if (stays(*original))
+    keys.problem("copy", "an emitter of shape mesh is not copied: it does not move");
+  if (!keys.clean()) return nullptr;
+  auto added = *original;
+  added.name = *copy;
+  added.place = keys.place();
+  list.push_back(std::move(added));
+  return &list.back();
+}
+
+/// In every scenario, whether it names the medium or not.
+void thicken(SceneDescription& scene, const std::string& medium, double factor) {
+  if (scene.scenarios.empty()) {
+    scene.scenarios.emplace_back();
+    scene.scenarios.back().name = "mains";
+  }
+  for (Scenario& scenario : scene.scenarios) {
+    const auto named = std::find_if(scenario.media.begin(), scenario.media.end(),
+                                    [&](const auto& m) { return m.name == medium; });
+    if (named != scenario.media.end())
+      named->factor *= factor;
+    else
+      scenario.media.push_back({medium, scenario.smoke_factor * factor});
+  }
+}
+
+}  // namespace
+
+void read_change(const toml::table& table, SceneReading& reading) {
+  KeyReader keys(table, {"change"}, reading);
+  const std::string kind = keys.choice("kind");
+  const double factor = keys.number("factor");
+  SceneDescription& scene = reading.scene;
+  if (kind == "sign") {
+    Sign* const sign = chosen(scene.signs, keys, kind, "sign");
+    if (sign == nullptr) return;
+    move(keys, sign->frame, frame_facing);
+    brighten(*sign, factor);
+  } else if (kind == "luminaire") {
+    Emitter* const emitter = chosen(scene.emitters, keys, kind, "luminaire or emitter");
+    if (emitter == nullptr) return;
+    move(keys, emitter->frame, frame_aiming);
+    brighten(*emitter, factor);
+  } else if (const Medium* const medium = named(scene.media, keys, kind)) {
+    if (keys.has("copy"))
+      keys.problem("copy", "a medium is not copied: it takes a 'factor' alone");
+    else if (keys.has("position") || keys.has("facing"))
+      keys.problem("kind", "a medium is not moved: it takes a 'factor' alone");
+    thicken(scene, medium->name, factor);
+  }
+}
+
+}  // namespace luxodus

@@ -1,0 +1,25 @@
+// The files that a scene file names: read once each, hashed, their problems taken over. Nothing is
+// returned where a file could not be read; the problem is then in the SceneReading.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "scenes/photometry/photometric_file.hpp"
+#include "scenes/scene_file/scene_reading.hpp"
+
+namespace luxodus {
+
+/// A PNG picture, linear. `place`: where the scene names it.
+std::shared_ptr<const Image> read_image(const std::filesystem::path& path, const SourcePlace& place,
+                                        SceneReading& reading);
+/// An LDT or IES file. Its warnings become the scene's.
+std::shared_ptr<const PhotometricFile> read_photometry(const std::filesystem::path& path,
+                                                       const SourcePlace& place,
+                                                       SceneReading& reading);
+/// Hashes a file; false and a problem where it cannot be read.
+bool take_hash(const std::filesystem::path& path, const SourcePlace& place, SceneReading& reading);
+/// A problem of another reader, with the place that named its file.
+void take_problem(const Problem& problem, const SourcePlace& place, SceneReading& reading);
+
+}  // namespace luxodus

@@ -1,0 +1,97 @@
+// Scenarios and the settings of a run.
+#include <algorithm>
+
+#include "scenes/scene_file/scene_readers.hpp"
+
+namespace luxodus {
+
+namespace {
+
+std::vector<Scenario::Factor> named_factors(KeyReader& keys, std::string_view key,
+                                            std::string_view kind) {
+  std::vector<Scenario::Factor> out;
+  for (const auto& f : keys.factors(key)) {
+    keys.reading().require(kind, f.name, f.place);
+    out.push_back({f.name, f.value});
+  }
+  return out;
+}
+
+std::vector<std::string> doors(KeyReader& keys, std::string_view key) {
+  std::vector<std::string> names = keys.texts(key);
+  for (const auto& name : names) keys.reading().require("door", name, keys.place(key));
+  return names;
+}
+
+}  // namespace
+
+void read_scenario(const toml::table& table, SceneReading& reading) {
+  KeyReader keys(table, {"scenario"}, reading);
+  Scenario s;
+  s.name = read_name(keys, "scenario");
+  s.place = keys.place();
+  const std::string operation = keys.choice("operation");
+  s.operation = operation == "dark"        ? Operation::dark
+                : operation == "emergency" ? Operation::emergency
+                                           : Operation::mains;
+  s.seconds_after_failure = keys.number("seconds_after_failure");
+  s.says_seconds = keys.has("seconds_after_failure");
+  if (s.operation == Operation::mains && keys.has("seconds_after_failure") &&
+      s.seconds_after_failure > 0 && keys.clean()) {
+    keys.problem("seconds_after_failure",
+                 "'seconds_after_failure' has no meaning while operation is \"mains\"");
+  }
+  s.circuits = named_factors(keys, "circuits", "circuit");
+  s.media = named_factors(keys, "media", "medium");
+  s.smoke_factor = keys.number("smoke_factor");
+  s.emission_factor = keys.number("emission_factor");
+  s.doors_open = doors(keys, "doors_open");
+  s.doors_closed = doors(keys, "doors_closed");
+  for (const auto& name : s.doors_open) {
+    if (std::find(s.doors_closed.begin(), s.doors_closed.end(), name) != s.doors_closed.end()) {
+      keys.problem("doors_closed", "the door '" + name + "' is said to be open and closed");
+    }
+  }
+  reading.scene.scenarios.push_back(std::move(s));
+}
+
+void read_run(const toml::table& table, SceneReading& reading) {
+  KeyReader keys(table, {"run"}, reading);
+  RunSettings& run = reading.scene.run;
+  // A file without a key leaves what the files it includes have said.
+  if (keys.has("seed")) run.seed = static_cast<uint64_t>(keys.integer("seed"));
+  if (keys.has("bands_most")) run.max_bands = static_cast<int>(keys.integer("bands_most"));
+  if (keys.has("band_tolerance")) run.band_tolerance = keys.number("band_tolerance");
+  if (keys.has("batch_particles")) run.batch_particles = keys.integer("batch_particles");
+  if (keys.has("voxel_edge_m")) run.voxel_edge_m = keys.number("voxel_edge_m");
+  if (keys.has("voxels")) run.voxels = keys.flag("voxels");
+  if (keys.has("analogue")) run.analogue = keys.flag("analogue");
+  if (keys.has("stratified")) run.stratified = keys.flag("stratified");
+  if (keys.has("eye_share")) run.eye_share = keys.number("eye_share");
+  if (keys.has("error_of")) {
+    run.error_of = keys.texts("error_of");
+    run.error_of_place = keys.place("error_of");
+  }
+  if (keys.has("groups")) {
+    const std::string groups = keys.choice("groups");
+    run.groups = groups == "circuit"   ? GroupRule::by_circuit
+                 : groups == "emitter" ? GroupRule::by_emitter
+                                       : GroupRule::one;
+  }
+  if (!keys.has("band_edges_nm")) return;
+  const bool good = keys.clean();
+  run.band_edges_nm = keys.numbers("band_edges_nm");
+  if (good && !keys.clean()) return;
+  const auto& edges = run.band_edges_nm;
+  const bool ascending = std::adjacent_find(edges.begin(), edges.end(), [](double a, double b) {
+                           return a >= b;
+                         }) == edges.end();
+  if (edges.size() < 2 || edges.size() > 65 || !ascending || edges.front() != spectrum_first_nm ||
+      edges.back() != spectrum_last_nm) {
+    keys.problem(
+        "band_edges_nm",
+        "'band_edges_nm' must be 2 to 65 ascending wavelengths, the first 380 and the last 780");
+  }
+}
+
+}  // namespace luxodus

@@ -1,0 +1,214 @@
+// The order of reading: every file is parsed, includes first, then the tables of all files kind by
+// kind, so that a name is known before it is used, in whichever file it stands. One error of syntax
+// ends a file.
+#include "scenes/scene_file/scene_file.hpp"
+
+#include <algorithm>
+#include <sstream>
+
+#include "runtime/core/regular_file.hpp"
+#include "runtime/core/toml_nesting.hpp"
+#include "scenes/scene_file/scene_readers.hpp"
+
+namespace luxodus {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// One parsed file. The KeyReader of its top refers to the table, so a Document stays where it is.
+struct Document {
+  toml::table table;
+  std::unique_ptr<KeyReader> keys;
+};
+
+class Loader {
+ public:
+  explicit Loader(SceneReading& reading) : reading_(reading) {}
+
+  /// Parses a file after those it includes. `said_at`: the include that names it.
+  void load(const fs::path& path, const SourcePlace& said_at) {
+    std::error_code error;
+    fs::path canonical = fs::weakly_canonical(path, error);
+    if (error) canonical = path;
+    const std::string id = canonical.string();
+    if (std::find(open_.begin(), open_.end(), id) != open_.end()) {
+      reading_.problem(said_at, "'" + path.filename().string() +
+                                    "' is included by a file that it includes itself, in a circle");
+      return;
+    }
+    if (std::find(done_.begin(), done_.end(), id) != done_.end()) return;
+    if (done_.size() + open_.size() >= scene_limits::included_files) {
+      reading_.problem(
+          said_at, "a scene may have " + std::to_string(scene_limits::included_files) + " files");
+      return;
+    }
+    const auto text = bytes_of(path);
+    auto document = text ? parse(*text, path) : nullptr;
+    if (!document) {
+      reading_.incomplete = true;
+      return;
+    }
+    open_.push_back(id);
+    for (const auto& [included, place] : document->keys->paths("include")) load(included, place);
+    if (document->keys->has("include") && !document->keys->clean()) reading_.incomplete = true;
+    open_.pop_back();
+    done_.push_back(id);
+    documents.push_back(std::move(document));
+  }
+
+  std::vector<std::unique_ptr<Document>> documents;  // a file stands after those it includes
+
+ private:
+  std::optional<std::string> bytes_of(const fs::path& path) {
+    std::error_code error;
+    const auto size = fs::file_size(path, error);
+    if (!fs::exists(path, error)) {
+      reading_.problem({path.string(), 0}, "there is no such scene file");
+      return std::nullopt;
+    }
+    if (fs::is_regular_file(path, error) && size > scene_limits::file_bytes) {
+      reading_.problem({path.string(), 0},
+                       "this scene file has " + std::to_string(size) + " bytes; at most " +
+                           std::to_string(scene_limits::file_bytes) +
+                           " are read; put large geometry into an OBJ or glTF file");
+      return std::nullopt;
+    }
+    auto text = read_regular_file(path, scene_limits::file_bytes);
+    if (text) return std::move(text).value();
+    reading_.problem(text.problem());
+    return std::nullopt;
+  }
+
+  std::unique_ptr<Document> parse(const std::string& text, const fs::path& path) {
+    reading_.hash_bytes(text);
+    if (auto deep = too_deep_toml(text, path.string())) {
+      reading_.problem(std::move(deep->where), std::move(deep->what));
+      return nullptr;
+    }
+    try {
+      auto document = std::make_unique<Document>();
+      document->table = toml::parse(std::string_view(text), path.string());
+      document->keys =
+          std::make_unique<KeyReader>(document->table, std::vector<std::string>{"scene"}, reading_,
+                                      SourcePlace{path.string(), 1});
+      return document;
+    } catch (const toml::parse_error& e) {
+      // The words of an included file are not told: it may be any file of the machine.
+      const bool own = open_.empty() && done_.empty() && documents.empty();
+      reading_.problem({path.string(), static_cast<int>(e.source().begin.line)},
+                       own ? "this is not TOML: " + std::string(e.description())
+                           : "this is not TOML: an included file must be a scene file");
+      return nullptr;
+    }
+  }
+
+  SceneReading& reading_;
+  std::vector<std::string> open_, done_;
+};
+
+using Documents = std::vector<std::unique_ptr<Document>>;
+using Reader = void (*)(const toml::table&, SceneReading&);
+
+/// A side is named once, and by one of its words. A file's own list replaces that of those it
+/// includes.
+void read_open_sides(KeyReader& keys, SceneReading& reading) {
+  if (!keys.has("open_sides")) return;
+  reading.scene.open_sides.clear();
+  for (const std::string& word : keys.texts("open_sides")) {
+    const auto at = std::find(side_words.begin(), side_words.end(), word);
+    if (at == side_words.end()) {
+      keys.problem("open_sides", "'open_sides' knows no side '" + word +
+                                     "'; write west, east, south, north, bottom or top");
+      continue;
+    }
+    const auto side = static_cast<Side>(at - side_words.begin());
+    auto& sides = reading.scene.open_sides;
+    if (std::find(sides.begin(), sides.end(), side) == sides.end()) sides.push_back(side);
+  }
+}
+
+void read_head(const Documents& documents, const fs::path& path, SceneReading& reading) {
+  reading.scene.name = path.stem().string();
+  reading.scene.file = path.string();
+  for (const auto& d : documents) {
+    KeyReader& keys = *d->keys;
+    if (keys.has("title")) reading.scene.title = keys.text("title");
+    if (keys.has("patch_edge_m")) reading.patch_edge_m = keys.number("patch_edge_m");
+    read_open_sides(keys, reading);
+    const auto name = keys.maybe_text("name");
+    if (name) reading.scene.name = *name;
+    if (const toml::table* run = keys.table("run")) read_run(*run, reading);
+    if (const toml::table* assessment = keys.table("assessment"))
+      read_assessment(*assessment, reading);
+    if (const toml::table* project = keys.table("project")) read_project(*project, reading);
+  }
+}
+
+void read_all(const Documents& documents, std::string_view key, Reader reader,
+              SceneReading& reading) {
+  size_t count = 0;
+  for (const auto& d : documents) {
+    const auto tables = d->keys->tables(key);
+    count += tables.size();
+    if (count > scene_limits::tables_per_kind) {
+      reading.problem(d->keys->place(key), "the files of this scene have more than " +
+                                               std::to_string(scene_limits::tables_per_kind) +
+                                               " tables '" + std::string(key) + "' together");
+      return;
+    }
+    for (const toml::table* t : tables) reader(*t, reading);
+  }
+}
+
+/// What only the whole scene can show.
+void check_whole(SceneReading& reading) {
+  const SceneDescription& s = reading.scene;
+  const bool flames = std::any_of(s.media.begin(), s.media.end(),
+                                  [](const Medium& m) { return m.emission.has_value(); });
+  if (s.emitters.empty() && s.signs.empty() && !flames) {
+    reading.warning({s.file, 1}, "nothing in this scene gives light");
+  }
+  if (s.objects.empty()) reading.warning({s.file, 1}, "this scene has no surfaces");
+}
+
+}  // namespace
+
+ReadScene read_scene(const std::filesystem::path& path) {
+  SceneReading reading;
+  Loader loader(reading);
+  loader.load(path, {path.string(), 1});
+  const Documents& documents = loader.documents;
+  read_head(documents, path, reading);
+  read_all(documents, "material", read_material, reading);
+  reading.resolve_backs();
+  const std::pair<std::string_view, Reader> order[] = {
+      {"object", read_object},
+      {"import", read_import},
+      {"luminaire", read_luminaire},
+      {"emitter", read_emitter},
+      {"sign", read_sign},
+      {"medium", read_medium},
+      {"plane", read_plane},
+      {"probe", read_probe},
+      {"surface_group", read_surface_group},
+      {"volume_group", read_volume_group},
+      {"counting_plane", read_counting_plane},
+      {"observer", read_observer},
+      {"camera", read_camera},
+      {"route", read_route},
+      {"open_area", read_open_area},
+      {"task_area", read_task_area},
+      {"emphasis", read_emphasis},
+      {"scenario", read_scenario},
+      {"change", read_change},
+  };
+  for (const auto& [key, reader] : order) read_all(documents, key, reader, reading);
+  check_whole(reading);
+  ReadScene out;
+  if (!reading.any_problem()) out.scene = std::move(reading.scene);
+  out.problems = reading.take_problems();
+  return out;
+}
+
+}  // namespace luxodus

@@ -1,0 +1,624 @@
+// A good scene is read field by field, with the conversions that its words ask for.
+#include "scenes/scene_file/scene_file.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "scenes/geometry/mesh_tools.hpp"
+#include "tests/unit/scenes/scene_file/scene_fixture.hpp"
+
+namespace luxodus {
+
+TEST_CASE("a scene's head and run settings are read, and what is not said has its default",
+          "[format][scene]") {
+  SceneFolder f;
+  const auto s = good(f, R"(
+title = "A test"
+[run]
+seed = 9
+bands_most = 3
+band_edges_nm = [380, 500, 780]
+voxels = false
+groups = "circuit"
+eye_share = 0.5
+)");
+  CHECK(s.name == "scene");
+  CHECK(s.title == "A test");
+  CHECK(s.run.seed == 9);
+  CHECK(s.run.max_bands == 3);
+  CHECK(s.run.band_edges_nm == std::vector<double>{380, 500, 780});
+  CHECK_FALSE(s.run.voxels);
+  CHECK(s.run.groups == GroupRule::by_circuit);
+  CHECK(s.run.eye_share == 0.5);
+  CHECK(s.run.band_tolerance == RunSettings{}.band_tolerance);
+  CHECK(s.run.batch_particles == 0);
+  CHECK_FALSE(s.run.analogue);
+  CHECK(s.warnings.size() == 2);  // no light, no surfaces
+}
+
+TEST_CASE("materials of every kind come with their optics, and their backs by name",
+          "[format][scene]") {
+  SceneFolder f;
+  const auto s = good(f, R"(
+[[material]]
+name = "wall"
+reflectance = 0.7
+back = "film"
+[[material]]
+name = "film"
+reflectance = [[400, 0.2], [600, 0.4]]
+[[material]]
+name = "paint"
+kind = "glossy"
+reflectance = "grey50"
+specular = 0.04
+roughness = 0.1
+[[material]]
+name = "silver"
+kind = "mirror"
+specular = 0.95
+[[material]]
+name = "pane"
+kind = "glass"
+ior = 1.5
+transmittance = 0.9
+[[material]]
+name = "water"
+kind = "dielectric"
+ior = 1.33
+[[material]]
+name = "hole"
+kind = "open"
+[[object]]
+name = "q"
+shape = "quad"
+corner = [0, 0, 0]
+edge_u = [1, 0, 0]
+edge_v = [0, 1, 0]
+material = "wall"
+)");
+  CHECK(named(s.materials, "wall").reflectance.at(555) == 0.7);
+  CHECK(named(s.materials, "film").reflectance.at(500) == near(0.3));
+  CHECK(named(s.materials, "film").reflectance.at(385) == near(0.2));
+  CHECK(named(s.materials, "film").reflectance.at(700) == near(0.4));
+  const Material& paint = named(s.materials, "paint");
+  CHECK(paint.kind == MaterialKind::glossy);
+  CHECK(paint.reflectance.is_constant());
+  CHECK(paint.reflectance.at(500) == 0.5);
+  CHECK(paint.specular.at(500) == 0.04);
+  CHECK(paint.roughness == 0.1);
+  CHECK(named(s.materials, "silver").kind == MaterialKind::mirror);
+  CHECK(named(s.materials, "silver").specular.at(600) == 0.95);
+  CHECK(named(s.materials, "silver").reflectance.at(600) == 0);
+  CHECK(named(s.materials, "pane").kind == MaterialKind::glass_pane);
+  CHECK(named(s.materials, "pane").internal_transmittance.at(600) == 0.9);
+  CHECK(named(s.materials, "pane").ior == 1.5);
+  CHECK(named(s.materials, "water").kind == MaterialKind::dielectric);
+  CHECK(named(s.materials, "water").ior == 1.33);
+  CHECK(named(s.materials, "hole").kind == MaterialKind::open);
+  const Object& q = s.objects.at(0);
+  CHECK(s.materials[size_t(q.material)].name == "wall");
+  CHECK(s.materials[size_t(q.back_material)].name == "film");
+  CHECK(q.place.line == 31);
+}
+
+TEST_CASE("objects are built, transformed and tagged as written", "[format][scene]") {
+  SceneFolder f;
+  const auto s = good(f, R"(
+patch_edge_m = 0.25
+[[object]]
+name = "table"
+shape = "box"
+low = [0, 0, 0]
+high = [2, 1, 1]
+material = "grey50"
+scale = [1, 1, 2]
+rotate_deg = [0, 0, 90]
+translate = [10, 0, 0]
+tags = ["furniture"]
+group = "desks"
+[[object]]
+name = "hall"
+shape = "room"
+low = [-1, -1, 0]
+high = [3, 3, 3]
+material = "white80"
+floor = "grey20"
+omit = ["x1"]
+patch_edge_m = 1
+[[object]]
+name = "wall"
+shape = "wall"
+from = [0, 5, 0]
+to = [4, 5, 0]
+height = 3
+thickness = 0.2
+material = "white80"
+back_material = "black5"
+opening = [{ at = 1, width = 1, height = 2 }, { at = 2.5, sill = 1, width = 1, height = 1 }]
+[[object]]
+name = "leaf"
+shape = "quad"
+corner = [1, 5, 0]
+edge_u = [1, 0, 0]
+edge_v = [0, 0, 2]
+material = "grey50"
+door = { hinge = [1, 5, 0], open = true, open_angle_deg = 80 }
+[[object]]
+name = "ball"
+shape = "sphere"
+radius = 0.5
+bound_m = 0.01
+material = "grey50"
+[[object]]
+name = "post"
+shape = "cylinder"
+radius = 0.1
+height = 3
+material = "grey50"
+[[object]]
+name = "pipe"
+shape = "tube"
+outer_radius = 0.1
+inner_radius = 0.09
+length = 1
+material = "grey50"
+[[object]]
+name = "plate"
+shape = "disc"
+radius = 0.1
+material = "grey50"
+[[object]]
+name = "flight"
+shape = "stairs"
+steps = 5
+rise = 0.17
+going = 0.29
+width = 1.2
+material = "grey50"
+[[object]]
+name = "slope"
+shape = "ramp"
+length = 3
+width = 1
+rise = 0.2
+material = "grey50"
+[[object]]
+name = "lawn"
+shape = "polygon"
+outline = [[0, 0], [4, 0], [4, 3], [0, 3]]
+z = -0.5
+material = "grey20"
+[[object]]
+name = "pier"
+shape = "prism"
+outline = [[0, 0], [0.4, 0], [0.4, 0.3]]
+z = 1
+height = 2
+material = "grey20"
+)");
+  const Object& table = named(s.objects, "table");
+  CHECK(same(bounds_of(table.mesh).low, {9, 0, 0}));
+  CHECK(same(bounds_of(table.mesh).high, {10, 2, 2}));
+  CHECK(table.patch_edge_m == 0.25);
+  CHECK(table.tags == std::vector<std::string>{"furniture"});
+  CHECK(table.group == "desks");
+  CHECK(signed_volume_of(table.mesh) == near(4));
+  CHECK(table.material == table.back_material);
+  CHECK(s.materials[size_t(table.material)].reflectance.at(500) == 0.5);
+
+  CHECK(named(s.objects, "hall.floor").patch_edge_m == 1);
+  CHECK(named(s.objects, "hall.floor").tags == std::vector<std::string>{"hall"});
+  CHECK(s.materials[size_t(named(s.objects, "hall.floor").material)].name == "grey20");
+  CHECK(s.materials[size_t(named(s.objects, "hall.y0").material)].name == "white80");
+  CHECK(same(bounds_of(named(s.objects, "hall.ceiling").mesh).low, {-1, -1, 3}));
+  for (const Object& o : s.objects) CHECK(o.name != "hall.x1");
+
+  const Object& wall = named(s.objects, "wall");
+  CHECK(same(bounds_of(wall.mesh).high, {4, 5.2, 3}));
+  CHECK(signed_volume_of(wall.mesh) == Approx(0.2 * (12 - 2 - 1)));
+  CHECK(s.materials[size_t(wall.back_material)].name == "black5");
+  const Object& leaf = named(s.objects, "leaf");
+  REQUIRE(leaf.door.has_value());
+  CHECK(leaf.door->open);
+  CHECK(leaf.door->open_angle_deg == 80);
+  CHECK(same(leaf.door->hinge, {1, 5, 0}));
+  CHECK(same(leaf.door->axis, {0, 0, 1}));
+  CHECK(leaf.tags == std::vector<std::string>{"door"});
+  CHECK(signed_volume_of(named(s.objects, "ball").mesh) == Approx(pi / 6).epsilon(0.06));
+  CHECK(signed_volume_of(named(s.objects, "post").mesh) == Approx(pi * 0.03).epsilon(0.05));
+  CHECK(bounds_of(named(s.objects, "pipe").mesh).high.z == near(1));
+  CHECK(area_of(named(s.objects, "plate").mesh) == Approx(pi * 0.01).epsilon(0.05));
+  CHECK(bounds_of(named(s.objects, "flight").mesh).high.z == near(0.85));
+  CHECK(bounds_of(named(s.objects, "slope").mesh).high.z == near(0.2));
+  CHECK(area_of(named(s.objects, "lawn").mesh) == near(12));
+  CHECK(bounds_of(named(s.objects, "lawn").mesh).low.z == -0.5);
+  CHECK(signed_volume_of(named(s.objects, "pier").mesh) == near(0.12));
+}
+
+TEST_CASE("an imported file becomes objects by part, with materials from the table",
+          "[format][scene]") {
+  SceneFolder f;
+  const auto s = good(f, R"(
+[[import]]
+name = "house"
+file = "cube.obj"
+units = "cm"
+up = "z"
+translate = [0, 0, 1]
+materials = { paint = "white80", steel = "grey20" }
+tags = ["imported"]
+[[import.part]]
+match = "lea*"
+patch_edge_m = 0
+tags = ["leaves"]
+door = { hinge = [0, 0, 0] }
+)");
+  REQUIRE(s.objects.size() == 2);
+  const Object& leaf = named(s.objects, "house.leaf");
+  CHECK(same(bounds_of(leaf.mesh).high, {1, 2, 1}));
+  CHECK(s.materials[size_t(leaf.material)].name == "white80");
+  CHECK(leaf.door.has_value());
+  CHECK(leaf.patch_edge_m == 0);
+  CHECK(leaf.tags == std::vector<std::string>{"imported", "leaves", "house", "door"});
+  const Object& frame = named(s.objects, "house.frame");
+  CHECK(s.materials[size_t(frame.material)].name == "grey20");
+  CHECK(frame.patch_edge_m == 0.5);
+  CHECK(bounds_of(frame.mesh).high.z == near(1.5));
+
+  const auto coloured = good(f, R"(
+[[import]]
+name = "house"
+file = "cube.obj"
+units = "m"
+up = "y"
+file_colours = true
+part = [{ match = "frame", omit = true }]
+)");
+  REQUIRE(coloured.objects.size() == 1);
+  CHECK(coloured.materials.at(0).name == "house.paint");
+  CHECK(coloured.materials.at(0).reflectance.at(500) == Approx(0.5).margin(0.01));
+}
+
+TEST_CASE("a luminaire's fluxes are the file's times the factors it states", "[format][scene]") {
+  SceneFolder f;
+  const auto s = good(f, R"(
+[[luminaire]]
+name = "both"
+file = "lamp.ies"
+position = [1, 2, 3]
+target = [1, 5, 3]
+circuit = "c1"
+group = "g"
+mains_factor = 0.5
+emergency = true
+emergency_factor = 0.2
+maintenance_factor = 0.8
+end_of_duration_factor = 0.75
+onset = [[0, 0], [0.5, 0.5], [5, 1]]
+spectrum = "2700 K"
+body_material = "grey50"
+[[luminaire]]
+name = "only then"
+file = "lamp.ies"
+position = [0, 0, 0]
+rotation_deg = 90
+point_source = true
+emergency = "non-maintained"
+emergency_flux = 120
+maintenance_factor = 0.8
+end_of_duration_factor = 0.5
+[[luminaire]]
+name = "plain"
+file = "lamp.ies"
+position = [0, 0, 0]
+maintenance_factor = 0.9
+)");
+  const Emitter& both = named(s.emitters, "both");
+  REQUIRE(both.web != nullptr);
+  const double flux = both.web->flux_lm();
+  CHECK(both.distribution == Distribution::web);
+  CHECK(both.shape == EmitterShape::disc);
+  CHECK(both.size.x == near(0.2));
+  CHECK(same(both.frame.origin, {1, 2, 3}));
+  CHECK(same(both.frame.axes * glm::dvec3(0, 0, -1), {0, 1, 0}));
+  CHECK(same(both.frame.axes * glm::dvec3(0, 1, 0), {0, 0, 1}));
+  CHECK(both.mains_flux == near(flux * 0.5 * 0.8));
+  CHECK(both.emergency_flux == near(flux * 0.2 * 0.8 * 0.75));
+  CHECK(both.onset == std::vector<glm::dvec2>{{0, 0}, {0.5, 0.5}, {5, 1}});
+  CHECK_FALSE(both.radiometric);
+  CHECK(both.circuit == "c1");
+  CHECK(both.group == "g");
+  CHECK(both.body_material == "grey50");
+  CHECK(both.spectrum.integral() == Approx(1));
+  CHECK(both.spectrum.at(700) > 2 * both.spectrum.at(450));
+  const Emitter& only = named(s.emitters, "only then");
+  CHECK(only.web == both.web);  // read once
+  CHECK(only.shape == EmitterShape::point);
+  CHECK(only.mains_flux == 0);
+  CHECK(only.emergency_flux == near(120 * 0.8 * 0.5));
+  CHECK(same(only.frame.axes * glm::dvec3(1, 0, 0), {0, 1, 0}));
+  CHECK(named(s.emitters, "plain").mains_flux == near(flux * 0.9));
+  CHECK(named(s.emitters, "plain").emergency_flux == 0);
+}
+
+TEST_CASE("emitters of every shape have their size, distribution and flux", "[format][scene]") {
+  SceneFolder f;
+  const std::string head = "position = [0, 0, 1]\n";
+  const auto s =
+      good(f,
+           "[[emitter]]\nname = \"p\"\nshape = \"point\"\ndistribution = \"isotropic\"\n"
+           "flux_w = 3\n" +
+               head +
+               "[[emitter]]\nname = \"r\"\nshape = \"rectangle\"\nsize = [2, 3]\n"
+               "luminance_cd_m2 = 100\n" +
+               head +
+               "[[emitter]]\nname = \"d\"\nshape = \"disc\"\ndiameter = 2\n"
+               "luminance_cd_m2 = 100\n" +
+               head +
+               "[[emitter]]\nname = \"s\"\nshape = \"sphere\"\ndiameter = 2\n"
+               "luminance_cd_m2 = 100\n" +
+               head +
+               "[[emitter]]\nname = \"t\"\nshape = \"tube\"\nlength = 2\ndiameter = 0.1\n"
+               "luminance_cd_m2 = 100\n" +
+               head +
+               "[[emitter]]\nname = \"m\"\nshape = \"mesh\"\nfile = \"cube.obj\"\n"
+               "units = \"cm\"\nup = \"z\"\nluminance_cd_m2 = 100\n"
+               "[[emitter]]\nname = \"spot\"\nshape = \"disc\"\ndiameter = 0.1\n"
+               "distribution = \"spot\"\nspot_inner_deg = 5\nspot_outer_deg = 12\n"
+               "flux_lm = 800\ndirection = [2, 0, 0]\n" +
+               head +
+               "[[emitter]]\nname = \"c\"\nshape = \"point\"\n"
+               "distribution = \"cosine_power\"\ncosine_power = 4\nflux_lm = 1\n" +
+               head);
+  CHECK(named(s.emitters, "p").radiometric);
+  CHECK(named(s.emitters, "p").mains_flux == 3);
+  CHECK(named(s.emitters, "p").distribution == Distribution::isotropic);
+  CHECK(named(s.emitters, "r").mains_flux == near(pi * 100 * 6));
+  CHECK(named(s.emitters, "d").mains_flux == near(pi * 100 * pi));
+  CHECK(named(s.emitters, "s").mains_flux == near(pi * 100 * 4 * pi));
+  CHECK(named(s.emitters, "t").mains_flux == near(pi * 100 * pi * 0.2));
+  CHECK(named(s.emitters, "m").mains_flux == near(pi * 100 * 2));
+  CHECK(named(s.emitters, "m").mesh.triangles.size() == 2);
+  CHECK(named(s.emitters, "spot").spot_outer_deg == 12);
+  CHECK(named(s.emitters, "spot").spot_inner_deg == 5);
+  CHECK(same(named(s.emitters, "spot").frame.axes * glm::dvec3(0, 0, -1), {1, 0, 0}));
+  CHECK(named(s.emitters, "c").cosine_power == 4);
+}
+
+TEST_CASE("signs have a face, luminances in both states, and a detail to be seen",
+          "[format][scene]") {
+  SceneFolder f;
+  const auto s = good(f, R"(
+[[sign]]
+name = "exit"
+position = [5, 1, 2]
+facing = [-2, 0, 0]
+width = 0.6
+height = 0.3
+text = "EXIT"
+letter_height = 0.15
+stroke = 0.02
+spacing = 0.01
+legend = "green"
+double_sided = true
+mains_white = 500
+mains_green = 60
+emergency_white = 50
+emergency_green = 6
+angular_exponent = 0.5
+circuit = "signs"
+[[sign]]
+name = "glow"
+position = [5, 1, 2]
+facing = [0, 0, 1]
+up = [0, 1, 0]
+width = 0.6
+height = 0.3
+plain = "white"
+smallest_detail = 0.05
+lighting = "photoluminescent"
+emergency_white = 0.3
+emergency_green = 0.03
+decay = [[0, 1], [600, 0.2], [3600, 0.05]]
+[[sign]]
+name = "board"
+position = [5, 1, 2]
+facing = [1, 0, 0]
+width = 0.6
+height = 0.3
+plain = "green"
+smallest_detail = 0.05
+lighting = "external"
+white_reflectance = 0.8
+[[scenario]]
+name = "dim"
+circuits = { signs = 0.5 }
+)");
+  const Sign& exit = named(s.signs, "exit");
+  CHECK(exit.smallest_detail_m == 0.02);
+  CHECK(exit.face.legend == SignColour::green);
+  CHECK(exit.face.width == 256);
+  CHECK(exit.double_sided);
+  CHECK(exit.mains.white_cd_m2 == 500);
+  CHECK(exit.emergency.green_cd_m2 == 6);
+  CHECK(exit.angular_exponent == 0.5);
+  CHECK(same(exit.frame.axes[2], {-1, 0, 0}));
+  CHECK(same(exit.frame.axes[1], {0, 0, 1}));
+  CHECK(exit.green_shape.at(520) > exit.green_shape.at(650));
+  const Sign& glow = named(s.signs, "glow");
+  CHECK(glow.lighting == SignLighting::photoluminescent);
+  CHECK(glow.decay.size() == 3);
+  CHECK(glow.emergency.white_cd_m2 == 0.3);
+  CHECK(named(s.signs, "board").lighting == SignLighting::external);
+  CHECK(named(s.signs, "board").white_reflectance.at(500) == 0.8);
+}
+
+TEST_CASE("measurements, views and scenarios are read as written", "[format][scene]") {
+  SceneFolder f;
+  const auto s = good(f, R"(
+[[object]]
+name = "leaf"
+shape = "quad"
+corner = [0, 0, 0]
+edge_u = [1, 0, 0]
+edge_v = [0, 0, 2]
+material = "grey50"
+door = { hinge = [0, 0, 0] }
+tags = ["red"]
+[[emitter]]
+name = "e"
+shape = "point"
+position = [0, 0, 1]
+flux_lm = 5
+circuit = "c"
+[[medium]]
+name = "smoke"
+kind = "homogeneous"
+extinction = 1
+albedo = 0
+[[plane]]
+name = "a"
+corner = [0, 0, 0.02]
+edge_u = [4, 0, 0]
+edge_v = [0, 0.9, 0]
+cell_m = 0.3
+[[plane]]
+name = "b"
+corner = [0, 0, 0.02]
+edge_u = [4, 0, 0]
+edge_v = [0, 2, 0]
+cells = [4, 2]
+[[probe]]
+name = "p"
+position = [1, 1, 1]
+normal = [0, 3, 0]
+[[surface_group]]
+name = "g"
+objects = ["leaf", "red"]
+[[volume_group]]
+name = "box"
+shape = "box"
+low = [0, 0, 0]
+high = [1, 1, 1]
+[[volume_group]]
+name = "shell"
+shape = "shell"
+centre = [1, 2, 3]
+radius = 2
+inner_radius = 1
+[[volume_group]]
+name = "layer"
+shape = "layer"
+z_low = 1
+z_high = 2
+[[counting_plane]]
+name = "door way"
+corner = [0, 0, 0]
+edge_u = [1, 0, 0]
+edge_v = [0, 0, 2]
+[[observer]]
+name = "o"
+eye = [0, 0, 1.6]
+target = [0, 5, 1.6]
+[[camera]]
+name = "cam"
+eye = [0, 0, 1.6]
+target = [0, 5, 1.6]
+vertical_fov_deg = 45
+width = 320
+height = 200
+[[scenario]]
+name = "fails"
+operation = "emergency"
+seconds_after_failure = 60
+circuits = { c = 0.5 }
+media = { smoke = 2 }
+smoke_factor = 3
+emission_factor = 0.1
+doors_open = ["leaf"]
+)");
+  CHECK(s.planes.at(0).cells_u == 14);
+  CHECK(s.planes.at(0).cells_v == 3);
+  CHECK(s.planes.at(1).cells_u == 4);
+  CHECK(s.planes.at(1).cells_v == 2);
+  CHECK(same(s.probes.at(0).normal, {0, 1, 0}));
+  CHECK(s.surface_groups.at(0).objects == std::vector<std::string>{"leaf", "red"});
+  CHECK(s.volume_groups.at(0).shape == VolumeGroupMeasure::Shape::box);
+  CHECK(s.volume_groups.at(1).inner_radius == 1);
+  CHECK(s.volume_groups.at(1).radius == 2);
+  CHECK(s.volume_groups.at(2).low.z == 1);
+  CHECK(s.volume_groups.at(2).high.z == 2);
+  CHECK(s.counting_planes.at(0).edge_v.z == 2);
+  CHECK(same(s.observers.at(0).gaze, {0, 1, 0}));
+  CHECK(s.cameras.at(0).vertical_fov_deg == 45);
+  CHECK(s.cameras.at(0).width == 320);
+  CHECK(s.cameras.at(0).height == 200);
+  const Scenario& fails = s.scenarios.at(0);
+  CHECK(fails.operation == Operation::emergency);
+  CHECK(fails.seconds_after_failure == 60);
+  CHECK(fails.says_seconds);
+  CHECK(fails.circuits.at(0).name == "c");
+  CHECK(fails.circuits.at(0).factor == 0.5);
+  CHECK(fails.media.at(0).factor == 2);
+  CHECK(fails.smoke_factor == 3);
+  CHECK(fails.emission_factor == 0.1);
+  CHECK(fails.doors_open == std::vector<std::string>{"leaf"});
+}
+
+TEST_CASE("including files share a building, and paths follow the file that says them",
+          "[format][scene]") {
+  SceneFolder f;
+  std::filesystem::create_directory(f.path() / "parts");
+  f.put("parts/lamp2.ies",
+        "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 2 1 1 2 0 0 0\n1 1 10\n0 90\n0\n9 9\n");
+  f.put("parts/building.toml", R"(
+title = "from the building"
+include = ["base.toml"]
+[run]
+seed = 5
+bands_most = 2
+[[luminaire]]
+name = "l"
+file = "lamp2.ies"
+position = [0, 0, 2]
+)");
+  f.put("parts/base.toml", "[[material]]\nname = \"m\"\nreflectance = 0.3\n");
+  const auto s = good(f, R"(
+include = ["parts/building.toml", "parts/base.toml"]
+[run]
+seed = 6
+[[object]]
+name = "q"
+shape = "quad"
+corner = [0, 0, 0]
+edge_u = [1, 0, 0]
+edge_v = [0, 1, 0]
+material = "m"
+)");
+  CHECK(s.title == "from the building");
+  CHECK(s.run.seed == 6);
+  CHECK(s.run.max_bands == 2);
+  CHECK(s.materials.size() == 1);
+  CHECK(s.emitters.at(0).place.file.find("building.toml") != std::string::npos);
+}
+
+TEST_CASE("the content hash follows every byte of every file, and nothing else",
+          "[format][scene]") {
+  SceneFolder f;
+  const std::string text =
+      "[[luminaire]]\nname = \"l\"\nfile = \"lamp.ies\"\nposition = [0, 0, 2]\n"
+      "[[import]]\nname = \"i\"\nfile = \"cube.obj\"\nunits = \"m\"\nup = \"z\"\n"
+      "material = \"grey50\"\n";
+  const uint64_t first = good(f, text).content_hash;
+  CHECK(good(f, text).content_hash == first);
+  CHECK(good(f, text + "# a word\n").content_hash != first);
+  f.put("cube.mtl", "newmtl paint\nKd 0.5 0.5 0.5\nnewmtl steel\nKd 0.3 0.2 0.2\n");
+  const uint64_t other_mtl = good(f, text).content_hash;
+  CHECK(other_mtl != first);
+  f.put("lamp.ies", "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 2 1 1 2 0 0 0\n1 1 10\n0 90\n0\n9 9\n");
+  CHECK(good(f, text).content_hash != other_mtl);
+}
+
+}  // namespace luxodus
