@@ -131,8 +131,9 @@ Scenario lit_scenario(const Scenario& scenario) {
   return out;
 }
 
-Result<std::vector<char>> inspect_doors(const SceneDescription& scene, const Scenario& scenario,
-                                        int threads, Findings& out) {
+/// What keeps it from being compiled, if anything does.
+std::optional<Problem> inspect_doors(const SceneDescription& scene, const Scenario& scenario,
+                                     int threads, Findings& out, Misplaced& misplaced) {
   SceneDescription clear = all_lit(scene);
   clear.media.clear();
   Scenario lit = lit_scenario(scenario);
@@ -140,40 +141,41 @@ Result<std::vector<char>> inspect_doors(const SceneDescription& scene, const Sce
   auto building = Building::make(std::move(clear), lit, threads);
   if (!building) return building.problem();
   const Site site{scene, *building.value(), Remoteness(scene)};
-  std::vector<char> outside;
   inspect_turned_rooms(site, out);
-  inspect_luminaires(site, out, outside);
-  inspect_signs(site, out);
+  inspect_luminaires(site, out, misplaced.emitters);
+  inspect_signs(site, out, misplaced.signs);
   inspect_eyes(site, out);
   inspect_routes(site, out);
   inspect_areas(site, out);
-  inspect_planes(site, out);
+  inspect_emphasis(site, out);
+  inspect_planes(site, misplaced.emitters, out);
   inspect_judged_places(site, out);
-  return outside;
+  return std::nullopt;
 }
 
 /// What keeps it from being compiled, if anything does.
 std::optional<Problem> inspect_media_of(const SceneDescription& scene, const Scenario& scenario,
-                                        int threads, Findings& out) {
+                                        int threads, Findings& out, Misplaced& misplaced) {
   SceneDescription smoky = all_lit(scene);
   smoky.planes.clear();
   auto building = Building::make(std::move(smoky), lit_scenario(scenario), threads);
   if (!building) return building.problem();
   inspect_media(building.value()->scene(), out);
+  inspect_flames(*building.value(), out, misplaced.media);
   inspect_smoke(scene, *building.value(), out);
   return std::nullopt;
 }
 
 /// The worst of the scenarios alone: their numbers differ a little, and the hole is the same.
 void inspect_enclosure(const SceneDescription& scene, const std::vector<Scenario>& scenarios,
-                       const std::vector<char>& outside, int threads, Collected& out) {
+                       const Misplaced& misplaced, int threads, Collected& out) {
   const auto states =
       alike(scenarios, [](const Scenario& s) { return std::pair(s.operation, doors_of(s)); });
   std::optional<Finding> worst;
   double most = 0;
   Names where;
   for (const auto& state : states) {
-    const auto shares = escape_shares(scene, *state.front(), outside, threads);
+    const auto shares = escape_shares(scene, *state.front(), misplaced, threads);
     if (!shares) continue;
     const double all = std::accumulate(shares->by_side.begin(), shares->by_side.end(), 0.0);
     auto finding = open_rooms(scene, *shares);
@@ -216,13 +218,14 @@ Result<std::vector<Finding>> inspect(const std::shared_ptr<const SceneDescriptio
   for (const Scenario& s : scenarios) all.push_back(&s);
   Findings of_scene;
   inspect_sizes(*scene, of_scene);
+  inspect_reach(*scene, of_scene);
+  inspect_fluxes(*scene, of_scene);
   out.add(std::move(of_scene), names_of(all));
-  std::vector<char> outside;
+  Misplaced misplaced;
   for (const auto& state : alike(scenarios, doors_of)) {
     Findings found;
-    auto done = inspect_doors(*scene, *state.front(), threads, found);
-    if (!done) return done.problem();
-    outside = std::move(done).value();
+    if (auto problem = inspect_doors(*scene, *state.front(), threads, found, misplaced))
+      return *problem;
     out.add(std::move(found), names_of(state));
   }
   const auto media_of = [](const Scenario& s) {
@@ -231,10 +234,11 @@ Result<std::vector<Finding>> inspect(const std::shared_ptr<const SceneDescriptio
   if (!scene->media.empty())
     for (const auto& state : alike(scenarios, media_of)) {
       Findings found;
-      if (auto problem = inspect_media_of(*scene, *state.front(), threads, found)) return *problem;
+      if (auto problem = inspect_media_of(*scene, *state.front(), threads, found, misplaced))
+        return *problem;
       out.add(std::move(found), names_of(state));
     }
-  inspect_enclosure(*scene, scenarios, outside, threads, out);
+  inspect_enclosure(*scene, scenarios, misplaced, threads, out);
   return std::move(out).told(scenarios.size());
 }
 

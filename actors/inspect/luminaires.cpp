@@ -32,6 +32,9 @@ constexpr double lost_share = 0.5 + 2 * 0.5 / 32;
 constexpr uint64_t seed = 17;
 /// Two things nearer than this stand in one place [m].
 constexpr double one_place_m = 0.01;
+/// Of the flux of its file, on emergency supply: more is a percentage taken for a share, less may
+/// be a luminaire of the same make with more lamps.
+constexpr double most_share = 4;
 /// Two directions within 8 degrees are one.
 constexpr double one_direction = 0.99;
 
@@ -231,6 +234,20 @@ void inspect_luminaires(const Site& site, Findings& out, std::vector<char>& outs
   for (auto& finding : found)
     if (finding) out.push_back(std::move(*finding));
   find_doubles(site.scene, out);
+}
+
+void inspect_fluxes(const SceneDescription& scene, Findings& out) {
+  for (const Emitter& e : scene.emitters) {
+    if (!e.web || e.radiometric || !(e.emergency_flux > 0)) continue;
+    const double share = e.emergency_flux / e.emergency_ageing / e.web->flux_lm();
+    if (share <= most_share) continue;
+    out.push_back({Severity::warning,
+                   "flux",
+                   {e.place, fmt::format("{} gives {:.3g} times the {:.4g} lm of its file in "
+                                         "emergency operation: emergency_factor is a share, 0.15 "
+                                         "for 15 %, and emergency_flux is in lm",
+                                         name_of(e), share, e.web->flux_lm())}});
+  }
 }
 
 void inspect_judged_places(const Site& site, Findings& out) {

@@ -34,6 +34,9 @@ Result<SignFace> drawn_face(const std::filesystem::path& path, const Sign& sign,
   return problem("a pictogram is an .svg or a .png file, not '" + path.filename().string() + "'");
 }
 
+/// Lengths of a sign in millimetres are no smaller.
+constexpr double least_slip = 1;
+
 /// A length of a sign that is written and longer than `most` is a slip of the unit more often than
 /// not, and would make small details large.
 void bound_length(KeyReader& keys, const char* key, double value, double most, const char* of,
@@ -42,8 +45,10 @@ void bound_length(KeyReader& keys, const char* key, double value, double most, c
   keys.problem(key, "'" + std::string(key) + "' is " + shortest_number(value) +
                         " m but must not exceed " + shortest_number(most) + " m, " + of +
                         " of a face of " + shortest_number(sign.width_m) + " x " +
-                        shortest_number(sign.height_m) + " m; metres? " + shortest_number(value) +
-                        " mm is " + shortest_number(value / 1000));
+                        shortest_number(sign.height_m) + " m" +
+                        (value >= least_slip ? "; metres? " + shortest_number(value) + " mm is " +
+                                                   shortest_number(value / 1000)
+                                             : ""));
 }
 
 /// Every length of a sign is bounded by its face.
