@@ -10,6 +10,7 @@
 
 #include "actors/study/results.hpp"
 #include "runtime/config/document.hpp"
+#include "runtime/core/printable.hpp"
 
 namespace luxodus {
 
@@ -71,7 +72,7 @@ template <class Names>
 void check_known(TableReader& keys, std::string_view key, const std::string& said,
                  const Names& known, std::string_view what) {
   if (said.empty() || std::find(known.begin(), known.end(), said) != known.end()) return;
-  std::string text = fmt::format("'{}' is \"{}\", which is no {}", key, said, what);
+  std::string text = fmt::format("'{}' is \"{}\", which is no {}", key, excerpt(said), what);
   if (const auto near = config::nearest_word(said, known)) {
     text += fmt::format("; did you mean \"{}\"?", *near);
   } else {

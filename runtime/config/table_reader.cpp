@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "runtime/config/cluster_config.hpp"
+#include "runtime/core/printable.hpp"
 
 namespace luxodus::config {
 
@@ -141,7 +142,7 @@ TableReader::TableReader(const toml::table& table, const std::vector<std::string
   for (auto&& [key, value] : table) {
     const std::string_view name = key;
     if (specs_.count(name) > 0) continue;
-    std::string what = fmt::format("there is no key '{}' here", name.substr(0, shown_most));
+    std::string what = fmt::format("there is no key '{}' here", excerpt(name));
     if (const auto near = nearest_word(name, known)) {
       what += fmt::format("; did you mean '{}'?", *near);
       values_.emplace(*near, &value);  // no effect where the right key stands too
@@ -314,8 +315,8 @@ std::filesystem::path TableReader::path(std::string_view key) {
 bool TableReader::fits(const KeySpec& s, const toml::node& node, const std::string& word) {
   const auto words = words_of(s.range);
   if (std::find(words.begin(), words.end(), word) != words.end()) return true;
-  std::string what = fmt::format("'{}' is \"{}\" but must be one of: {}", s.name,
-                                 word.substr(0, shown_most), s.range);
+  std::string what =
+      fmt::format("'{}' is \"{}\" but must be one of: {}", s.name, excerpt(word), s.range);
   if (const auto near = nearest_word(word, words)) what += fmt::format("; perhaps \"{}\"", *near);
   findings_.add(place_of(node, place_), std::move(what));
   return false;

@@ -11,6 +11,7 @@
 #include <cstring>
 #include <set>
 
+#include "runtime/core/printable.hpp"
 #include "scenes/format/output_text.hpp"
 
 namespace luxodus {
@@ -55,7 +56,7 @@ Unsigned get(std::span<const std::byte> bytes, size_t at) {
 }
 
 std::string called(std::string_view name) {
-  return name.empty() ? "the header" : "block '" + clean_utf8(name) + "'";
+  return name.empty() ? "the header" : "block '" + excerpt(name) + "'";
 }
 
 std::span<const std::byte> bytes_of(std::string_view text) {

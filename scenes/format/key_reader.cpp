@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <stdexcept>
 
+#include "runtime/core/printable.hpp"
+
 namespace luxodus {
 
 namespace {
@@ -18,7 +20,7 @@ std::string shown(double v) {
 }
 
 std::string in_quotes(std::string_view key) {
-  return "'" + std::string(key) + "'";
+  return "'" + excerpt(key) + "'";
 }
 
 std::string with_unit(const KeySpec& spec) {
@@ -313,8 +315,8 @@ std::optional<std::string> KeyReader::maybe_choice(std::string_view key) {
     if (w == t->get()) return t->get();
     known.emplace_back(w);
   }
-  std::string what =
-      in_quotes(key) + " is \"" + t->get() + "\" but must be one of " + list_words(s.range);
+  std::string what = in_quotes(key) + " is \"" + excerpt(t->get()) + "\" but must be one of " +
+                     list_words(s.range);
   if (const auto near = nearest_word(t->get(), known)) what += "; did you mean \"" + *near + "\"?";
   problem(key, what);
   return std::nullopt;

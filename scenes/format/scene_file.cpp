@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "runtime/core/printable.hpp"
 #include "runtime/core/regular_file.hpp"
 #include "runtime/core/toml_nesting.hpp"
 #include "scenes/format/scene_readers.hpp"
@@ -97,7 +98,7 @@ class Loader {
       // The words of an included file are not told: it may be any file of the machine.
       const bool own = open_.empty() && done_.empty() && documents.empty();
       reading_.problem({path.string(), static_cast<int>(e.source().begin.line)},
-                       own ? "this is not TOML: " + std::string(e.description())
+                       own ? "this is not TOML: " + excerpt(e.description(), 200)
                            : "this is not TOML: an included file must be a scene file");
       return nullptr;
     }

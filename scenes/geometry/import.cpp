@@ -11,6 +11,7 @@
 #include <new>
 
 #include "runtime/core/isolated_job.hpp"
+#include "runtime/core/printable.hpp"
 #include "scenes/geometry/assimp_import.hpp"
 #include "scenes/geometry/mesh_text.hpp"
 #include "scenes/geometry/refusal.hpp"
@@ -49,7 +50,7 @@ Result<std::vector<ImportedPart>> imported(const std::string& path, double metre
   } catch (const std::bad_alloc&) {
     throw;  // said with the limit
   } catch (const std::exception& e) {
-    return refusal(fmt::format("cannot be read: {:.200}", e.what()), path);
+    return refusal("cannot be read: " + excerpt(e.what(), 200), path);
   } catch (...) {
     return refusal("cannot be read: the importer failed without a reason", path);
   }
