@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <map>
 
 #include "actors/assess/assessment_check.hpp"
 #include "actors/assess/assessment_inputs.hpp"
 #include "actors/assess/state_words.hpp"
+#include "runtime/core/regular_file.hpp"
 #include "scenes/format/csv.hpp"
 
 namespace luxodus {
@@ -253,15 +253,10 @@ Result<Done> write_assessment(const fs::path& folder, const Json& assessment) {
 
 Result<Json> read_assessment(const fs::path& folder) {
   const fs::path path = folder / "assessment.json";
-  std::error_code failed;
-  const auto size = fs::file_size(path, failed);
-  if (failed)
-    return Problem{{path.string(), 0},
-                   "cannot be read (" + failed.message() + "): make it by luxodus assess"};
-  if (size > limits::assessment_bytes)
-    return Problem{{path.string(), 0}, "is larger than any assessment"};
-  std::ifstream file(path);
-  Json read = Json::parse(file, nullptr, false);
+  auto text = read_regular_file(path, limits::assessment_bytes);
+  if (!text.ok())
+    return Problem{text.problem().where, text.problem().what + "; luxodus assess makes it"};
+  Json read = Json::parse(text.value(), nullptr, false);
   if (!read.is_object() || read.value("format", "") != assessment_format)
     return Problem{{path.string(), 0},
                    std::string("is not a \"") + assessment_format + "\": make it anew"};

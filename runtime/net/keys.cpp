@@ -9,6 +9,8 @@
 #include <cstring>
 #include <string_view>
 
+#include "runtime/core/regular_file.hpp"
+
 namespace luxodus {
 
 namespace {
@@ -66,18 +68,17 @@ Result<std::string> write_new(const fs::path& path, const std::string& text, mod
 
 /// The first word of the file that has the length of a key. `secret`: refuse what others may read.
 Result<std::string> read_key(const fs::path& path, bool secret) {
-  // A pipe without a writer would be waited for.
-  const File file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
-  if (file.descriptor < 0) return system_trouble(path, "cannot be read");
+  const auto file = open_regular_file(path);
+  if (!file) return file.problem();
   struct stat state {};
-  if (::fstat(file.descriptor, &state) != 0) return system_trouble(path, "cannot be read");
-  if (!S_ISREG(state.st_mode)) return trouble(path, "is no file: a key is read from a file");
+  if (::fstat(file->descriptor.number(), &state) != 0)
+    return system_trouble(path, "cannot be read");
   if (secret && (state.st_mode & (S_IRWXG | S_IRWXO)) != 0)
     return trouble(path,
                    "holds a secret key that others may read: chmod 600 it, and if they may "
                    "have read it, make a new one");
   std::array<char, file_bytes_most + 1> text;
-  const ssize_t n = ::read(file.descriptor, text.data(), text.size());
+  const ssize_t n = ::read(file->descriptor.number(), text.data(), text.size());
   if (n < 0) return system_trouble(path, "cannot be read");
   if (static_cast<size_t>(n) > file_bytes_most) return trouble(path, "is too long for a key");
   std::string_view key(text.data(), static_cast<size_t>(n));
