@@ -281,10 +281,10 @@ class ViewServer::Implementation {
     return true;
   }
   uint16_t port() const { return acceptor_.local_endpoint().port(); }
-  void run(ViewHub& hub, const std::atomic<bool>& interrupt) {
+  void run(ViewHub& hub, const std::function<bool()>& ends) {
     shared_.hub = &hub;
     accept();
-    while (!interrupt) context_.run_for(look_every);
+    while (!ends()) context_.run_for(look_every);
     shared_.hub = nullptr;
   }
   uint64_t accepts_failed() const { return accepts_failed_; }
@@ -336,8 +336,8 @@ uint16_t ViewServer::port() const {
 uint64_t ViewServer::accepts_failed() const {
   return implementation_->accepts_failed();
 }
-void ViewServer::run(ViewHub& hub, const std::atomic<bool>& interrupt) {
-  implementation_->run(hub, interrupt);
+void ViewServer::run(ViewHub& hub, const std::function<bool()>& ends) {
+  implementation_->run(hub, ends);
 }
 void ViewServer::post(std::function<void()> function) {
   implementation_->post(std::move(function));

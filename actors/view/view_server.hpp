@@ -4,7 +4,6 @@
 // any.
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -44,8 +43,8 @@ class ViewServer {
   uint16_t port() const;
   /// Connections that could not be accepted, as where descriptors have run out. Any thread.
   uint64_t accepts_failed() const;
-  /// Serves until `interrupt` is set. Requires: `hub` outlives the call.
-  void run(ViewHub& hub, const std::atomic<bool>& interrupt);
+  /// Serves until `ends()`, asked often on the calling thread. Requires: `hub` outlives the call.
+  void run(ViewHub& hub, const std::function<bool()>& ends);
   /// Runs a function on the thread of run().
   void post(std::function<void()> function);
 
