@@ -6,6 +6,7 @@
 
 #include "actors/source/local_run.hpp"
 #include "scenes/format/atomic_file.hpp"
+#include "scenes/format/flux_file.hpp"
 
 namespace luxodus {
 
@@ -13,11 +14,15 @@ namespace limits {
 inline constexpr int flux_schema_version = 1;
 }
 
+/// The totals as a flux file has them.
+FluxFile flux_of(const LocalRun& run);
 /// Errors: as write_flux_file.
 Result<Done> save_flux(const std::filesystem::path& path, const LocalRun& run);
 
 /// Puts the totals of a file into a run that has traced nothing yet.
 /// Errors: as read_flux_file; another scene, scenario, seed, partition or layout, each by name.
 Result<Done> load_flux(const std::filesystem::path& path, LocalRun& run);
+/// Likewise of a file that was read; its messages say `place`.
+Result<Done> take_flux(const FluxFile& file, const SourcePlace& place, LocalRun& run);
 
 }  // namespace luxodus

@@ -30,7 +30,7 @@ Result<std::unique_ptr<RunJournal>> RunJournal::open(const RunJournalConfig& con
   if (failed)
     return Problem{{config.folder.string(), 0},
                    "cannot make this folder for the journal: " + failed.message()};
-  std::unique_ptr<RunJournal> made(new RunJournal(real, run, clock));
+  std::unique_ptr<RunJournal> made(new RunJournal(real, run));
   made->made_folder_ = made_folder;
   const int64_t before = run.traced();
   if (fs::exists(made->snapshot(), failed))
@@ -42,7 +42,13 @@ Result<std::unique_ptr<RunJournal>> RunJournal::open(const RunJournalConfig& con
     store = std::make_unique<FaultyStore>(std::move(store), config.self, config.faults, clock);
   auto journal = FluxJournal::open(std::move(store), run);
   if (!journal.ok()) return Problem{{made->journal().string(), 0}, journal.problem().what};
-  made->journal_ = std::move(journal).value();
+  const auto make_snapshot = [path = made->snapshot(), &run]() -> Result<bool> {
+    if (auto saved = save_flux(path, run); !saved.ok()) return saved.problem();
+    return true;
+  };
+  made->journal_ = std::make_unique<SnapshotJournal>(
+      std::move(journal).value(), SnapshotJournal::Config{config.bytes_most, config.retry},
+      make_snapshot, clock);
   made->recovered_ = run.traced() - before;
   made->keep_room();
   return made;
@@ -56,36 +62,14 @@ void RunJournal::keep_room() {
     spdlog::warn("journal=no_room text=\"{}\"", kept.problem().text());
 }
 
-Result<bool> RunJournal::keep(std::span<const int64_t> batches, std::span<const std::byte> flush) {
-  auto kept = journal_->keep(batches, flush);
-  if (!kept.ok()) lacks_ = true;
-  return kept;
-}
-
-/// The snapshot has its name before the journal is cut: between the two, what the journal holds is
-/// known to be in the snapshot.
-Result<bool> RunJournal::make_snapshot() {
-  if (auto saved = save_flux(snapshot(), run_); !saved.ok()) return saved.problem();
-  return journal_->restart();
-}
-
 void RunJournal::rest() {
   room_.release();
-  const auto made = make_snapshot();
+  journal_->rest();
   keep_room();
-  // A disk that stays full would have a snapshot made after every flush.
-  if (lacks_ || !made.ok()) not_before_ = clock_.now() + config_.retry;
-  if (made.ok()) {
-    if (lacks_) spdlog::info("journal=whole text=\"a snapshot has what the journal lacked\"");
-    lacks_ = false;
-    return;
-  }
-  spdlog::error("journal=snapshot_failed text=\"{}: tried again in {:g} s\"", made.problem().text(),
-                static_cast<double>(config_.retry) * 1e-9);
 }
 
 void RunJournal::leave_no_trace() {
-  if (recovered_ > 0 || journal_->records() > 0) return;
+  if (recovered_ > 0 || journal_->journal().records() > 0) return;
   remove();
   std::error_code not_empty;
   if (made_folder_) fs::remove(config_.folder, not_empty);
