@@ -9,11 +9,12 @@
 #include <utility>
 #include <vector>
 
+#include "runtime/core/printable.hpp"
+
 namespace luxodus {
 namespace {
 
 // Characters of a file that are repeated in a message about it.
-constexpr size_t max_shown = 40;
 
 constexpr std::string_view format_name = "luxodus graph 1";
 
@@ -108,8 +109,7 @@ class GraphParser {
       if (name == "links_most") name = "max_links";  // as files of earlier releases say
       size_t key = 0;
       while (key < keys && key_names[key] != name) ++key;
-      if (key == keys)
-        return fail(fmt::format("there is no key \"{}\" in a graph", name.substr(0, max_shown)));
+      if (key == keys) return fail(fmt::format("there is no key \"{}\" in a graph", excerpt(name)));
       if (key_lines_[key] > 0) return fail(fmt::format("\"{}\" is given twice", name));
       if (key != format_key && key_lines_[format_key] == 0) break;
       key_lines_[key] = line;

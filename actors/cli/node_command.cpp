@@ -117,11 +117,12 @@ Result<std::optional<StopReason>> view_on_nodes(const ClusterConfig& cluster,
     hub.live.threads = default_threads();
     if (cluster.run.particles) hub.live.particles = static_cast<int64_t>(*cluster.run.particles);
     if (cluster.run.relative_error) hub.live.relative_error = *cluster.run.relative_error;
-    hub.live.tracers = std::move(started).value();
+    const std::shared_ptr<LiveCluster> tracers = std::move(started).value();
+    hub.live.tracers = tracers;
     hub.first.scenario = cluster.run.scenario;
     HttpAddress server{cluster.view.address, cluster.view.port, ""};
     if (!cluster.view.allow_host.empty()) server.allowed_hosts = {cluster.view.allow_host};
-    const auto served = serve_view(scene, server, hub);
+    const auto served = serve_view(scene, server, hub, [&] { return tracers->fault(); });
     if (!served.ok()) return served.problem();
     return StopReason::interrupted;
   };

@@ -182,22 +182,6 @@ Result<std::vector<double>> batch_shares(const std::shared_ptr<const CompiledSce
                               [&](const Progress& p) { line.show(p); });
 }
 
-/// Says where luminaires are nearer than their photometric files are good for.
-void warn_of_near_field(const LocalRun& run) {
-  const CompiledScene& scene = run.scene();
-  const auto local = [&](const glm::dvec3& p) { return Vec3(p - scene.local_origin); };
-  std::vector<Problem> warnings;
-  run.rows().run(1, [&](const GeometryAccess& access) {
-    return [&, access](int64_t) {
-      const auto sees = [&](const glm::dvec3& from, const glm::dvec3& to) {
-        return clear_share(scene, access, local(from), local(to)) > 0;
-      };
-      warnings = near_field_warnings(*scene.description, scene.scenario, sees);
-    };
-  });
-  for (const Problem& w : warnings) log_warning("{}", w.text());
-}
-
 /// One scenario, and the folder that is held for it.
 struct PreparedScenario {
   Scenario scenario;
@@ -271,7 +255,6 @@ Result<Traced> run_scenario(const std::shared_ptr<const SceneDescription>& descr
     if (before.ok() && before->batches == run.traced() && before->seconds)
       run.add_earlier_seconds(*before->seconds);
   }
-  warn_of_near_field(run);
   RunRecord record;
   record.scene_file = fs::absolute(options.scene).string();
   record.cells = options.cells;

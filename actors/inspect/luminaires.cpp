@@ -12,6 +12,7 @@
 #include "scenes/emergency/way.hpp"
 #include "scenes/optics/offset_ray.hpp"
 #include "scenes/transport/emission.hpp"
+#include "scenes/transport/near_field.hpp"
 
 namespace luxodus {
 
@@ -269,6 +270,20 @@ void inspect_judged_places(const Site& site, Findings& out) {
                                 "area, point of emphasis or externally lit sign: nothing there "
                                 "is judged"}});
   }
+}
+
+void inspect_near_field(const Site& site, const Scenario& scenario, Findings& out) {
+  std::vector<NearPlace> places;
+  site.building.each(1, [&](const GeometryAccess& access, size_t) {
+    const auto sees = [&](const glm::dvec3& from, const glm::dvec3& to) {
+      return clear_share(site.building.scene(), access, site.building.local(from),
+                         site.building.local(to)) > 0;
+    };
+    places = near_field_places(site.scene, scenario, sees);
+  });
+  for (NearPlace& place : places)
+    out.push_back({place.judged ? Severity::warning : Severity::note, "near field",
+                   std::move(place.problem)});
 }
 
 }  // namespace luxodus

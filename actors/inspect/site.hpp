@@ -53,6 +53,8 @@ struct Site {
 // Of one state of the doors. `outside`: by emitter, those that stand outside.
 void inspect_luminaires(const Site& site, Findings& out, std::vector<char>& outside);
 void inspect_judged_places(const Site& site, Findings& out);
+/// In the light of a scenario with these doors.
+void inspect_near_field(const Site& site, const Scenario& scenario, Findings& out);
 /// `misplaced`: by sign, those of which anything is told.
 void inspect_signs(const Site& site, Findings& out, std::vector<char>& misplaced);
 void inspect_eyes(const Site& site, Findings& out);

@@ -10,6 +10,8 @@
 
 #include "actors/study/results.hpp"
 #include "actors/study/study_schema.hpp"
+#include "runtime/config/document.hpp"
+#include "runtime/core/printable.hpp"
 #include "runtime/core/regular_file.hpp"
 #include "runtime/toml/document.hpp"
 #include "runtime/toml/table_reader.hpp"
@@ -111,7 +113,7 @@ template <class Names>
 void check_known(TableReader& keys, std::string_view key, const std::string& said,
                  const Names& known, std::string_view what) {
   if (said.empty() || std::find(known.begin(), known.end(), said) != known.end()) return;
-  std::string text = fmt::format("'{}' is \"{}\", which is no {}", key, said, what);
+  std::string text = fmt::format("'{}' is \"{}\", which is no {}", key, excerpt(said), what);
   if (const auto near = toml::nearest_word(said, known)) {
     text += fmt::format("; did you mean \"{}\"?", *near);
   } else {

@@ -19,6 +19,7 @@
 #include "scenes/pack/scene_pack.hpp"
 #include "scenes/scene_file/scene_file.hpp"
 #include "scenes/transport/compile.hpp"
+#include "scenes/transport/packed_scene.hpp"
 #include "topology/graph_file.hpp"
 #include "topology/shipped.hpp"
 
@@ -134,6 +135,7 @@ Result<std::unique_ptr<ClusterProcessRun>> ClusterProcessRun::prepare(
   process->nodes_ = nodes;
   if (auto ok = process->load_keys(nodes); !ok) return ok.problem();
   if (auto ok = process->load_scene(); !ok) return ok.problem();
+  if (auto ok = process->check_stored_objects(); !ok) return ok.problem();
   return process;
 }
 
@@ -196,6 +198,17 @@ Result<void> ClusterProcessRun::load_scene() {
   run_ = std::make_unique<LocalRun>(scene.value(), seed, 1,
                                     std::make_unique<OutOfCoreParallelFor>(scene.value(), rows));
   return {};
+}
+
+Result<void> ClusterProcessRun::check_stored_objects() const {
+  const PackedScene* packed = run_->scene().description->packed.get();
+  if (!fetches_ || packed == nullptr) return true;
+  // A host may have the skeleton alone: its workers say stores = false, its controller need not.
+  const bool here = std::any_of(nodes_.begin(), nodes_.end(), [&](NodeId node) {
+    return node == cluster_.controller() ? !packed->file->object(0).empty()
+                                         : cluster_.node(node).stores;
+  });
+  return here ? check_objects(run_->scene()) : true;
 }
 
 Result<ReferenceProfile> ClusterProcessRun::profile(double share) const {

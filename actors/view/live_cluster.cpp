@@ -74,6 +74,11 @@ void LiveCluster::trace(LiveWork& work) {
   work_ = nullptr;
 }
 
+std::optional<Problem> LiveCluster::fault() const {
+  const std::lock_guard lock(mutex_);
+  return fault_;
+}
+
 LiveCluster::Counters LiveCluster::counters() const {
   const std::lock_guard lock(mutex_);
   Counters out = counters_;
@@ -139,8 +144,24 @@ void LiveCluster::look() {
   }
   fence([&](const Lease& lease) { return !peers_[lease.node].here; }, "its worker is gone");
   fence([&](const Lease& lease) { return now - lease.lent >= node_.lease_time; }, "late");
+  note_refusal();
   tell_foreseen();
   lend_all();
+}
+
+/// Whoever has had workers waits for them; whoever is turned away at first would wait for ever.
+void LiveCluster::note_refusal() {
+  const auto met = [](const auto& entry) { return entry.second.life != Incarnation{}; };
+  if (fault_ || std::any_of(peers_.begin(), peers_.end(), met)) return;
+  const Network& network = shell_->network();
+  const auto taken = network.taken_elsewhere();
+  if (!taken) return;
+  fault_ =
+      Problem{{},
+              "the live view has nobody to trace for it, since its workers are not free: let "
+              "the run that " +
+                  run_.name_of(*taken) + " works for end first, or give this view other workers; " +
+                  network.refusal_of(*taken)};
 }
 
 /// A lease of no batches has a worker compile what it refers to, and gets no answer.

@@ -53,9 +53,9 @@ Result<std::unique_ptr<ViewServer>> ViewServer::listen(const HttpAddress& at) {
   return view;
 }
 
-void ViewServer::run(ViewHub& hub, const std::atomic<bool>& interrupt) {
+void ViewServer::run(ViewHub& hub, const std::function<bool()>& ends) {
   hub_ = &hub;
-  server_->run(interrupt);
+  server_->run(ends);
   hub_ = nullptr;
 }
 

@@ -3,7 +3,6 @@
 // called from any.
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -31,8 +30,8 @@ class ViewServer {
   static Result<std::unique_ptr<ViewServer>> listen(const HttpAddress& at);
 
   uint16_t port() const { return server_->port(); }
-  /// Serves until `interrupt` is set. Requires: `hub` outlives the call.
-  void run(ViewHub& hub, const std::atomic<bool>& interrupt);
+  /// Serves until `ends()`, asked often on the calling thread. Requires: `hub` outlives the call.
+  void run(ViewHub& hub, const std::function<bool()>& ends);
   /// Runs a function on the thread of run().
   void post(std::function<void()> function) { server_->post(std::move(function)); }
 

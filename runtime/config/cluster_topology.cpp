@@ -5,6 +5,7 @@
 #include <set>
 
 #include "runtime/config/cluster_reading.hpp"
+#include "runtime/core/printable.hpp"
 #include "runtime/toml/words.hpp"
 
 namespace luxodus::config {
@@ -35,7 +36,7 @@ NodeId named(const std::string& name, const SourcePlace& place, ClusterReading& 
   for (const ClusterNode& node : reading.cluster.nodes) known.push_back(node.name);
   const auto near = toml::nearest_word(name, known);
   reading.findings.problem(place,
-                           fmt::format("there is no node \"{}\"{}", name.substr(0, 40),
+                           fmt::format("there is no node \"{}\"{}", excerpt(name),
                                        near ? fmt::format("; did you mean \"{}\"?", *near) : ""));
   return no_node;
 }

@@ -317,8 +317,8 @@ class HttpServer::Implementation {
     context_.run();
     end_sockets();
   }
-  void run(const std::atomic<bool>& interrupt) {
-    while (!interrupt && !context_.stopped()) context_.run_for(look_every);
+  void run(const std::function<bool()>& ends) {
+    while (!ends() && !context_.stopped()) context_.run_for(look_every);
     end_sockets();
   }
 
@@ -387,8 +387,8 @@ uint64_t HttpServer::accepts_failed() const {
 void HttpServer::run() {
   implementation_->run();
 }
-void HttpServer::run(const std::atomic<bool>& interrupt) {
-  implementation_->run(interrupt);
+void HttpServer::run(const std::function<bool()>& ends) {
+  implementation_->run(ends);
 }
 void HttpServer::stop() {
   implementation_->stop();

@@ -70,7 +70,7 @@ class HttpServer {
   /// Serves until stop(), or until `interrupt`, which is looked at ten times a second. Clients that
   /// are being answered are then cut off, and listeners of sockets are destroyed.
   void run();
-  void run(const std::atomic<bool>& interrupt);
+  void run(const std::function<bool()>& ends);
   void stop();
   /// Runs a function on the thread of run().
   void post(std::function<void()> function);

@@ -9,14 +9,12 @@
 #include <cstdlib>
 #include <stdexcept>
 
+#include "runtime/core/printable.hpp"
 #include "runtime/toml/words.hpp"
 
 namespace luxodus::toml {
 
 namespace {
-
-/// Characters of a wrong key or word that are repeated in what is said of it.
-constexpr size_t max_shown = 60;
 
 /// Shortest text that reads well: 0.5, 2, 1e+07.
 std::string shown(double v) {
@@ -77,7 +75,7 @@ void TableReader::take(const Entry& entry) {
       report(at, fmt::format("'{}' and '{}' are the same key; keep '{}'", old->first, name, name));
     return;
   }
-  std::string what = fmt::format("unknown key '{}'", entry.key.substr(0, max_shown));
+  std::string what = fmt::format("unknown key '{}'", excerpt(entry.key));
   if (auto near = nearest_word(entry.key, names)) {
     if (const auto old = by_former.find(*near); old != by_former.end()) near = old->second->name;
     what += fmt::format("; did you mean '{}'?", *near);
@@ -296,8 +294,8 @@ std::optional<std::string> TableReader::chosen(std::string_view key, const Value
     return std::nullopt;
   }
   if (knows(*text)) return *text;
-  std::string what = fmt::format("'{}' is \"{}\" but must be one of {}", key,
-                                 text->substr(0, max_shown), list_words(s.range));
+  std::string what =
+      fmt::format("'{}' is \"{}\" but must be one of {}", key, excerpt(*text), list_words(s.range));
   if (const auto near = nearest_word(*text, words))
     what += fmt::format("; did you mean \"{}\"?", *near);
   report(value.place(), std::move(what));

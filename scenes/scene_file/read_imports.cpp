@@ -2,6 +2,7 @@
 #include <map>
 #include <set>
 
+#include "runtime/core/printable.hpp"
 #include "runtime/toml/words.hpp"
 #include "scenes/geometry/import.hpp"
 #include "scenes/scene_file/read_files.hpp"
@@ -93,9 +94,10 @@ class Materials {
 
   void missing(const ImportedPart& part) {
     if (!reported_.insert(part.material_name).second) return;
-    const std::string name =
-        part.material_name.empty() ? "no material" : "the material '" + part.material_name + "'";
-    keys_.problem("the part '" + part.name + "' has " + name +
+    const std::string name = part.material_name.empty()
+                                 ? "no material"
+                                 : "the material '" + excerpt(part.material_name) + "'";
+    keys_.problem("the part '" + excerpt(part.name) + "' has " + name +
                   ", which neither 'materials' nor 'material' maps to one of the scene");
   }
 

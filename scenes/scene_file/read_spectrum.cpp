@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "runtime/core/printable.hpp"
 #include "scenes/images/image_file.hpp"
 
 namespace luxodus {
@@ -93,7 +94,7 @@ std::optional<Spectrum> named_shape(KeyReader& keys, std::string_view key, std::
   const auto kelvin = kelvin_of(led ? text.substr(4) : text);
   if (!kelvin) {
     keys.problem(key,
-                 in_quotes(key) + " is \"" + std::string(text) +
+                 in_quotes(key) + " is \"" + excerpt(text) +
                      "\" but must be \"A\", \"D65\", \"E\", \"2700 K\", \"led 4000 K\", a colour "
                      "table, or rows [nm, value]");
     return std::nullopt;
@@ -185,7 +186,7 @@ std::optional<Spectrum> maybe_property(KeyReader& keys, std::string_view key) {
   if (const auto* text = value->as_text()) {
     const auto grey = named_grey(*text);
     if (grey) return Spectrum::constant(*grey);
-    keys.problem(key, in_quotes(key) + " is \"" + *text +
+    keys.problem(key, in_quotes(key) + " is \"" + excerpt(text->get()) +
                           "\"; a text here names a grey, such as \"grey50\" or \"white80\"");
     return std::nullopt;
   }

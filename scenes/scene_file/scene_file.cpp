@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "runtime/core/printable.hpp"
 #include "runtime/core/regular_file.hpp"
 #include "runtime/toml/document.hpp"
 #include "runtime/toml/text_scan.hpp"

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 
+#include "runtime/core/printable.hpp"
 #include "runtime/core/regular_file.hpp"
 #include "runtime/toml/words.hpp"
 
@@ -20,9 +21,9 @@ void SceneReading::declare(std::string_view kind, const std::string& name,
   auto& of_kind = names_.try_emplace(std::string(kind)).first->second;
   const auto [it, fresh] = of_kind.emplace(name, place);
   if (!fresh) {
-    problem(place, "the " + std::string(kind) + " '" + name + "' is defined twice; first at " +
-                       it->second.file + ":" + std::to_string(it->second.line) +
-                       "; give one of them another name");
+    problem(place, "the " + std::string(kind) + " '" + excerpt(name) +
+                       "' is defined twice; first at " + it->second.file + ":" +
+                       std::to_string(it->second.line) + "; give one of them another name");
   }
 }
 
@@ -43,7 +44,7 @@ bool SceneReading::require(std::string_view kind, const std::string& name,
   if (const auto it = names_.find(kind); it != names_.end()) {
     for (const auto& [k, unused] : it->second) known.push_back(k);
   }
-  std::string what = "there is no " + std::string(kind) + " '" + name + "'";
+  std::string what = "there is no " + std::string(kind) + " '" + excerpt(name) + "'";
   if (const auto near = toml::nearest_word(name, known)) {
     what += "; did you mean '" + std::string(*near) + "'?";
   } else if (known.empty()) {

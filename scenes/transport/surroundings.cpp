@@ -54,6 +54,13 @@ auto solid_objects(const CompiledScene& scene) {
   };
 }
 
+/// As panes and closed doors are: of what people and air are kept from.
+auto closed_objects(const CompiledScene& scene) {
+  return [&scene](const Facing& f) {
+    return !is_object(scene, f.surface) || f.kind == MaterialKind::open;
+  };
+}
+
 /// West, east, south, north, down, up.
 size_t side_of(const Vec3& d) {
   size_t axis = 0;
@@ -177,6 +184,21 @@ void cross(const CompiledScene& scene, const GeometryAccess& access, const Vec3&
   });
 }
 
+/// Whether half of all directions meet nothing, and nearly as many of the level ones.
+bool is_open(const CompiledScene& scene, const GeometryAccess& access, const Vec3& place) {
+  static const std::vector<Vec3> directions = sphere_directions(sky_directions);
+  int open = 0, level = 0, open_level = 0;
+  for (const Vec3& d : directions) {
+    const bool is_level = std::abs(d.z) < level_rise;
+    const bool meets =
+        first_stop(scene, access, place, d, far_m, closed_objects(scene)).has_value();
+    open += meets ? 0 : 1;
+    level += is_level ? 1 : 0;
+    open_level += is_level && !meets ? 1 : 0;
+  }
+  return open >= outside_share * sky_directions && open_level >= outside_level_share * level;
+}
+
 }  // namespace
 
 bool is_flat(const Mesh& mesh) {
@@ -252,18 +274,12 @@ bool in_body(const CompiledScene& scene, const GeometryAccess& access, const Vec
 }
 
 bool is_outside(const CompiledScene& scene, const GeometryAccess& access, const Vec3& place) {
-  static const std::vector<Vec3> directions = sphere_directions(sky_directions);
-  int open = 0, level = 0, open_level = 0;
-  for (const Vec3& d : directions) {
-    const auto met = first_stop(scene, access, place, d, far_m, [&](const Facing& f) {
-      return !is_object(scene, f.surface) || f.kind == MaterialKind::open;
-    });
-    const bool is_level = std::abs(d.z) < level_rise;
-    open += met ? 0 : 1;
-    level += is_level ? 1 : 0;
-    open_level += is_level && !met ? 1 : 0;
-  }
-  return open >= outside_share * sky_directions && open_level >= outside_level_share * level;
+  if (!is_open(scene, access, place)) return false;
+  // Level with the upper edge of walls, a place in a room without a ceiling is as open as one
+  // outside. Walls stand around what is below it.
+  const Vec3 down(0, 0, -1);
+  const auto below = first_stop(scene, access, place, down, far_m, closed_objects(scene));
+  return !below || is_open(scene, access, place + down * (below->distance_m / 2));
 }
 
 }  // namespace luxodus

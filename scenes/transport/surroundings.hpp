@@ -72,8 +72,8 @@ bool in_body(const CompiledScene& scene, const GeometryAccess& access, const Vec
              std::span<const char> turned = {}, std::span<const char> ignored = {});
 
 /// Whether a place lies outside of whatever is built: at least half of all directions meet nothing,
-/// and as many of the level ones, so that a room without a roof is none. Panes and closed doors
-/// count as closed.
+/// and nearly as many of the level ones, from there and from half way to what is below, so that a
+/// room without a roof is inside up to its rim. Panes and closed doors count as closed.
 bool is_outside(const CompiledScene& scene, const GeometryAccess& access, const Vec3& place);
 
 }  // namespace luxodus

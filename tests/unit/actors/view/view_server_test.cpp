@@ -23,7 +23,7 @@ class Serving {
     hub_ = std::make_unique<ViewHub>(room_.scene(), of_hub, [this](std::function<void()> function) {
       server_->post(std::move(function));
     });
-    thread_ = std::thread([this] { server_->run(*hub_, ends_); });
+    thread_ = std::thread([this] { server_->run(*hub_, [this] { return ends_.load(); }); });
   }
   ~Serving() {
     ends_ = true;
