@@ -100,7 +100,7 @@ uint16_t read_observe(TableReader& top, ClusterReading& reading) {
   observe.metrics_address = keys.text("metrics_address");
   if (!observe.metrics_address.empty() && !is_ipv4(observe.metrics_address))
     keys.problem("metrics_address", "'metrics_address' must be an IPv4 address");
-  if (keys.has("allow_host")) observe.allow_host = keys.address("allow_host");
+  if (keys.has("allow_host")) observe.allow_host = keys.text("allow_host");
   observe.trace_every = keys.integer("trace_every");
   observe.log_level = keys.choice("log_level");
   return static_cast<uint16_t>(keys.integer("metrics_port"));
