@@ -9,11 +9,12 @@
 #include <utility>
 #include <vector>
 
+#include "runtime/core/printable.hpp"
+
 namespace luxodus {
 namespace {
 
 // Characters of a file that are repeated in a message about it.
-constexpr size_t max_shown = 40;
 
 constexpr std::string_view format_name = "luxodus graph 1";
 
@@ -37,7 +38,7 @@ std::string graph_text(const Graph& graph) {
   std::string text = fmt::format(
       "format = \"{}\"\n"
       "nodes = {}\n"
-      "links_most = {}  # of a node\n"
+      "max_links = {}  # of a node\n"
       "controller = \"{}\"{}\n"
       "rotation = {}  # turned by 1/{}, node v becomes v + {}, the links stay the same\n"
       "links = [  # {}\n",
@@ -91,7 +92,7 @@ class GraphParser {
   enum Key {
     format_key,
     nodes_key,
-    links_most_key,
+    max_links_key,
     controller_key,
     rotation_key,
     links_key,
@@ -99,16 +100,16 @@ class GraphParser {
     keys
   };
   static constexpr std::array<std::string_view, keys> key_names{
-      "format", "nodes", "links_most", "controller", "rotation", "links", "hash"};
+      "format", "nodes", "max_links", "controller", "rotation", "links", "hash"};
 
   void read_keys() {
     for (skip_blanks(); !fault_ && at_ < text_.size(); skip_blanks()) {
       const int line = line_;
-      const std::string_view name = word();
+      std::string_view name = word();
+      if (name == "links_most") name = "max_links";  // as files of earlier releases say
       size_t key = 0;
       while (key < keys && key_names[key] != name) ++key;
-      if (key == keys)
-        return fail(fmt::format("there is no key \"{}\" in a graph", name.substr(0, max_shown)));
+      if (key == keys) return fail(fmt::format("there is no key \"{}\" in a graph", excerpt(name)));
       if (key_lines_[key] > 0) return fail(fmt::format("\"{}\" is given twice", name));
       if (key != format_key && key_lines_[format_key] == 0) break;
       key_lines_[key] = line;
@@ -135,7 +136,7 @@ class GraphParser {
       case nodes_key:
         plan_.workers = number();
         return;
-      case links_most_key:
+      case max_links_key:
         plan_.max_links = number();
         return;
       case controller_key:

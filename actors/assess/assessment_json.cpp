@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <map>
 
 #include "actors/assess/assessment_check.hpp"
 #include "actors/assess/assessment_inputs.hpp"
 #include "actors/assess/state_words.hpp"
 #include "actors/output/csv.hpp"
+#include "runtime/core/regular_file.hpp"
 
 namespace luxodus {
 
@@ -253,13 +253,10 @@ Result<void> write_assessment(const fs::path& folder, const Json& assessment) {
 
 Result<Json> read_assessment(const fs::path& folder) {
   const fs::path path = folder / "assessment.json";
-  std::error_code failed;
-  const auto size = fs::file_size(path, failed);
-  if (failed)
-    return problem_in(path, "cannot be read (" + failed.message() + "): make it by luxodus assess");
-  if (size > limits::assessment_bytes) return problem_in(path, "is larger than any assessment");
-  std::ifstream file(path);
-  Json read = Json::parse(file, nullptr, false);
+  auto text = read_regular_file(path, limits::assessment_bytes);
+  if (!text)
+    return problem_in(text.problem().where.file, text.problem().what + "; luxodus assess makes it");
+  Json read = Json::parse(text.value(), nullptr, false);
   if (!read.is_object() || read.value("format", "") != assessment_format)
     return problem_in(path, std::string("is not a \"") + assessment_format + "\": make it anew");
   if (const auto fault = fault_of_assessment(read))

@@ -5,9 +5,13 @@
 
 #include "actors/assess/judged_state.hpp"
 #include "actors/cli/command.hpp"
+#include "actors/cli/commands.hpp"
 #include "actors/cli/findings.hpp"
 #include "actors/cli/floors.hpp"
+#include "actors/cli/load_scene.hpp"
+#include "actors/cli/quantities.hpp"
 #include "actors/output/json_out.hpp"
+#include "scenes/tally/totals.hpp"
 #include "scenes/transport/compile.hpp"
 #include "scenes/transport/packed_scene.hpp"
 #include "scenes/transport/scene_features.hpp"
@@ -193,19 +197,22 @@ int check(const CheckOptions& options) {
 
 }  // namespace
 
-void add_check(CLI::App& app, int& exit_code) {
-  auto options = std::make_shared<CheckOptions>();
-  CLI::App* command = app.add_subcommand(
-      "check", "Read everything a scene names, inspect it and say what was found");
-  command->footer(
-      "Findings are errors, warnings or notes, each with its file and line; exit code 2 if there\n"
-      "is an error. All that run, assess, render, pack and view refuse is found here.");
-  command->add_option("scene", options->scene, "scene file (TOML), or a pack")->required();
-  command->add_option("--scenario", options->scenario, "name of a scenario, or 'all' [all]");
-  command->add_option("--cells", options->cells, "geometry cells [1]")
-      ->check(CLI::Range(1, 1'000'000));
-  command->add_flag("--json", options->json, "machine-readable");
-  command->callback([options, &exit_code] { exit_code = check(*options); });
+Command check_command() {
+  const auto o = std::make_shared<CheckOptions>();
+  return {
+      .name = "check",
+      .summary = "Read everything that a scene names, inspect it, say what was found",
+      .heading = "Scenes",
+      .options =
+          {{"scene", &o->scene, "Scene file, or a pack", {.form = Form::scene, .required = true}},
+           {"--scenario", &o->scenario, "Name of a scenario, or 'all'", {.form = Form::name}},
+           {"--cells", &o->cells, "Number of geometry cells", {.range = Range{1, 1'000'000}}},
+           {"--json", &o->json, "Output as JSON"}},
+      .notes =
+          "Findings are errors, warnings or notes, each with its file and line; exit code "
+          "2 if there is an error. All that run, assess, render, pack and view refuse is "
+          "found here.",
+      .run = [o] { return check(*o); }};
 }
 
 }  // namespace luxodus::cli

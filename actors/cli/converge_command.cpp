@@ -1,16 +1,21 @@
 // luxodus converge: how the error falls with particles and with seconds.
-#include <spdlog/spdlog.h>
-
 #include <cmath>
 #include <filesystem>
 #include <limits>
 
 #include "actors/cli/command.hpp"
+#include "actors/cli/commands.hpp"
+#include "actors/cli/load_scene.hpp"
+#include "actors/cli/progress_line.hpp"
+#include "actors/cli/quantities.hpp"
+#include "actors/cli/signals.hpp"
 #include "actors/output/csv.hpp"
 #include "actors/output/file_names.hpp"
 #include "actors/output/json_out.hpp"
 #include "actors/output/output_folder.hpp"
 #include "actors/output/svg_plot.hpp"
+#include "actors/run/local_run.hpp"
+#include "runtime/core/log.hpp"
 #include "scenes/transport/compile.hpp"
 
 namespace luxodus::cli {
@@ -114,10 +119,10 @@ Result<void> write_points(const fs::path& out, const std::vector<Point>& points,
     table.cell(p.particles).cell(p.seconds).cell(p.error).cell(p.figure_of_merit);
     table.end_row();
   }
-  if (auto ok = write_csv(out / "converge.csv", table); !ok) return ok.problem();
+  if (auto ok = write_csv(out / "converge.csv", table); !ok.ok()) return ok.problem();
   if (auto ok = write_svg_plot(out / "error_particles.svg",
                                plot_of(points, &Point::particles, name, "particles"));
-      !ok)
+      !ok.ok())
     return ok.problem();
   return write_svg_plot(out / "error_seconds.svg",
                         plot_of(points, &Point::seconds, name, "time [s]"));
@@ -152,64 +157,75 @@ void print_points(const std::vector<Point>& points, bool json, const fs::path& o
 
 Result<ExitCode> converge(const ConvergeOptions& options) {
   auto most = parse_count(options.particles);
-  if (!most) return most.problem();
+  if (!most.ok()) return most.problem();
   const auto description = load_scene(options.scene);
-  if (!description) return problem_in(options.scene, "the scene has problems, told above");
+  if (!description) return Problem{{options.scene, 0}, "the scene has problems, told above"};
   auto scenario = find_scenario(*description, options.scenario);
-  if (!scenario) return scenario.problem();
+  if (!scenario.ok()) return scenario.problem();
   auto scene = compile_scene(description, scenario.value(), {1, options.error_of});
-  if (!scene) return scene.problem();
+  if (!scene.ok()) return scene.problem();
   const fs::path folder =
       options.out.empty()
           ? fs::path("out") / file_name_of(fs::path(options.scene).stem().string() + "_converge")
           : fs::path(options.out);
   const auto out = OutputFolder::claim(
       folder, {{"converge.csv", "error_particles.svg", "error_seconds.svg"}, {}});
-  if (!out) return out.problem();
+  if (!out.ok()) return out.problem();
   install_interrupt_handler();
   LocalRun run(scene.value(), options.seed.value_or(description->run.seed), options.threads);
   const Course course = trace_course(run, most.value());
   const bool enough = course.points.size() >= 2;
-  if (!enough && !course.interrupted) return problem_in(options.scene, why_no_slope(course));
+  if (!enough && !course.interrupted) return Problem{{options.scene, 0}, why_no_slope(course)};
   if (enough) {
-    if (auto ok = write_points(out->path(), course.points, description->name); !ok)
+    if (auto ok = write_points(out->path(), course.points, description->name); !ok.ok())
       return ok.problem();
     print_points(course.points, options.json, folder);
   }
   if (!course.interrupted) return ExitCode::success;
-  spdlog::warn(enough ? "interrupted; the points measured until then were written"
-                      : "interrupted before there were two points; nothing was written");
+  log_warning(enough ? "interrupted; the points measured until then were written"
+                     : "interrupted before there were two points; nothing was written");
   return ExitCode::interrupted;
 }
 
 }  // namespace
 
-void add_converge(CLI::App& app, int& exit_code) {
-  auto options = std::make_shared<ConvergeOptions>();
-  CLI::App* command = app.add_subcommand(
-      "converge", "Error against particles and seconds: table, CSV, plots, slope");
-  command->footer(
-      "Doubles the particles of one run until --particles, and writes down the error that `run` "
-      "stops at.\n"
-      "The slope is -0.5 for Monte Carlo: half the error costs four times the particles. The "
-      "merit\n"
-      "1 / (error^2 x seconds) stays level and compares machines and methods.");
-  command->add_option("scene", options->scene, "scene file (TOML)")->required();
-  command->add_option("--scenario", options->scenario, "name of a scenario [the first]");
-  command->add_option("--particles", options->particles, "where to end [8M]");
-  command->add_option("--error-of", options->error_of,
-                      "what the error is of: as of luxodus run [the scene's]");
-  command->add_option("--out", options->out,
-                      "folder for converge.csv and the plots [out/NAME_converge]");
-  command->add_option("--seed", options->seed, "of the random numbers [the scene's]")
-      ->transform(seed_number());
-  command->add_option("--threads", options->threads, "[all cores]")->check(CLI::Range(1, 1024));
-  command->add_flag("--json", options->json, "machine-readable");
-  command->callback([options, &exit_code] {
-    auto done = converge(*options);
-    if (!done) tell(done.problem());
-    exit_code = done ? done.value() : ExitCode::bad_input;
-  });
+Command converge_command() {
+  const auto o = std::make_shared<ConvergeOptions>();
+  return {.name = "converge",
+          .summary = "Measure how the error falls: table, CSV, plots, slope",
+          .heading = "Results",
+          .options = {{"scene", &o->scene, "Scene file", {.form = Form::scene, .required = true}},
+                      {"--scenario",
+                       &o->scenario,
+                       "Name of a scenario",
+                       {.form = Form::name, .otherwise = "the first"}},
+                      {"--particles",
+                       &o->particles,
+                       "Number of particles of the last point",
+                       {.form = Form::count}},
+                      {"--error-of",
+                       &o->error_of,
+                       "Quantities whose error is measured, as of luxodus run",
+                       {.otherwise = "those of the scene"}},
+                      {"--out",
+                       &o->out,
+                       "Folder for converge.csv and the plots",
+                       {.form = Form::folder, .otherwise = "out/NAME_converge"}},
+                      {"--seed",
+                       &o->seed,
+                       "Seed of the random number generator",
+                       {.otherwise = "the scene's"}},
+                      {"--threads",
+                       &o->threads,
+                       "Number of threads",
+                       {.otherwise = "all cores", .range = Range{1, 1024}}},
+                      {"--json", &o->json, "Output as JSON"}},
+          .notes =
+              "Doubles the particles of one run until --particles, and records the error that "
+              "`luxodus run` stops at. The slope is -0.5 for Monte Carlo: half the error costs "
+              "four times the particles. The figure of merit 1 / (error^2 x seconds) stays level "
+              "and compares machines and methods.",
+          .run = [o] { return exit_code_of(converge(*o)); }};
 }
 
 }  // namespace luxodus::cli

@@ -4,7 +4,8 @@
 #include <filesystem>
 
 #include "actors/cli/command.hpp"
-#include "runtime/config/cluster_file.hpp"
+#include "actors/cli/commands.hpp"
+#include "actors/cli/load_cluster.hpp"
 #include "runtime/net/keys.hpp"
 
 namespace luxodus::cli {
@@ -23,16 +24,15 @@ struct KeygenOptions {
 /// Takes names and folder from the cluster's file, where one is given. False: it was told why not.
 bool take_cluster(KeygenOptions& options) {
   if (options.cluster.empty()) return true;
-  const ReadCluster read = read_cluster(options.cluster);
-  for (const Problem& problem : read.problems.list()) tell(problem);
-  if (!read.cluster) return false;
-  if (options.out.empty()) options.out = read.cluster->keys.folder.string();
+  const std::optional<ClusterConfig> read = load_cluster(options.cluster);
+  if (!read) return false;
+  if (options.out.empty()) options.out = read->keys.folder.string();
   if (options.names.empty()) {
-    for (const ClusterNode& node : read.cluster->nodes) options.names.push_back(node.name);
+    for (const ClusterNode& node : read->nodes) options.names.push_back(node.name);
     return true;
   }
   for (const std::string& name : options.names) {
-    if (find_node(*read.cluster, name)) continue;
+    if (find_node(*read, name)) continue;
     tell({{options.cluster, 0}, fmt::format("there is no node \"{}\"", name)});
     return false;
   }
@@ -45,34 +45,33 @@ std::optional<Problem> make_folder(const fs::path& folder) {
   if (fs::create_directories(folder, failed)) fs::permissions(folder, fs::perms::owner_all, failed);
   const fs::file_status status = fs::status(folder, failed);
   if (!fs::is_directory(status))
-    return problem_in(folder, "is no folder, and none can be made there");
+    return Problem{{folder.string(), 0}, "is no folder, and none can be made there"};
   if ((status.permissions() & (fs::perms::group_write | fs::perms::others_write)) !=
       fs::perms::none)
-    return problem_in(folder, "others may write here, and replace keys: chmod go-w it");
+    return Problem{{folder.string(), 0}, "others may write here, and replace keys: chmod go-w it"};
   return std::nullopt;
 }
 
 /// What keeps us from beginning, before a single key is written.
 std::optional<Problem> refusal(const KeygenOptions& options) {
   if (options.out.empty())
-    return problem_in(
-        options.cluster,
-        "say where keys go: --out DIR, or folder = \"keys\" in [keys] of the cluster");
-  if (options.names.empty()) return problem("name nodes, or a cluster: --cluster FILE");
+    return Problem{{options.cluster, 0},
+                   "say where keys go: --out DIR, or folder = \"keys\" in [keys] of the cluster"};
+  if (options.names.empty()) return Problem{{}, "name nodes, or a cluster: --cluster FILE"};
   std::string there;
   for (const std::string& name : options.names) {
     if (const auto fault = name_fault(name); !fault.empty())
-      return problem(fmt::format("\"{}\" is no node's name: {}", name, fault));
+      return Problem{{}, fmt::format("\"{}\" is no node's name: {}", name, fault)};
     for (const fs::path& path : {key_path(options.out, name), public_key_path(options.out, name)}) {
       std::error_code failed;
       if (fs::exists(fs::symlink_status(path, failed))) there += " " + path.filename().string();
     }
   }
   if (there.empty() || options.force) return std::nullopt;
-  return problem_in(options.out,
-                    fmt::format("there already:{}; nodes may depend on these keys. Name the nodes "
-                                "that lack one, or replace keys by --force",
-                                there));
+  return Problem{{options.out, 0},
+                 fmt::format("there already:{}; nodes may depend on these keys. Name the nodes "
+                             "that lack one, or replace keys by --force",
+                             there)};
 }
 
 int keygen(KeygenOptions options) {
@@ -99,19 +98,30 @@ int keygen(KeygenOptions options) {
 
 }  // namespace
 
-void add_keygen(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand("keygen", "Make key pairs for the nodes of a cluster");
-  const auto options = std::make_shared<KeygenOptions>();
-  command->add_option("names", options->names, "nodes [all of the cluster]");
-  command->add_option("--cluster", options->cluster, "cluster (TOML) whose nodes need keys");
-  command->add_option("--out", options->out, "folder for them [the cluster's keys.folder]");
-  command->add_flag("--force", options->force, "replace keys that are there");
-  command->footer(
-      "Writes NAME.key, which only its owner may read and only its node needs, and NAME.key.pub,\n"
-      "which all nodes need; prints the public keys.\n"
-      "  luxodus keygen --cluster cluster.toml\n"
-      "  luxodus keygen --out keys n0 n1 controller");
-  command->callback([options, &exit_code] { exit_code = keygen(*options); });
+Command keygen_command() {
+  const auto o = std::make_shared<KeygenOptions>();
+  return {.name = "keygen",
+          .summary = "Make key pairs for the nodes of a cluster",
+          .heading = "Cluster",
+          .options = {{"names",
+                       &o->names,
+                       "Names of nodes",
+                       {.form = Form::name, .otherwise = "all nodes of the cluster"}},
+                      {"--cluster",
+                       &o->cluster,
+                       "Cluster file whose nodes need keys",
+                       {.form = Form::file}},
+                      {"--out",
+                       &o->out,
+                       "Folder for the keys",
+                       {.form = Form::folder, .otherwise = "keys.folder of the cluster"}},
+                      {"--force", &o->force, "Replacement of keys that are there"}},
+          .notes =
+              "Writes NAME.key, which only its owner may read and only its node needs, and "
+              "NAME.key.pub, which all nodes need; prints the public keys.\n"
+              "  luxodus keygen --cluster cluster.toml\n"
+              "  luxodus keygen --out keys n0 n1 controller",
+          .run = [o] { return keygen(*o); }};
 }
 
 }  // namespace luxodus::cli

@@ -7,7 +7,12 @@
 #include <filesystem>
 
 #include "actors/cli/command.hpp"
+#include "actors/cli/commands.hpp"
+#include "actors/cli/load_cluster.hpp"
+#include "actors/cli/progress_line.hpp"
+#include "actors/cli/report_aloud.hpp"
 #include "actors/cli/serve_view.hpp"
+#include "actors/cli/signals.hpp"
 #include "actors/display/pictures.hpp"
 #include "actors/display/report.hpp"
 #include "actors/display/result_files.hpp"
@@ -17,7 +22,7 @@
 #include "actors/supervise/cluster_process.hpp"
 #include "actors/view/live_cluster.hpp"
 #include "actors/view/live_worker.hpp"
-#include "runtime/config/cluster_file.hpp"
+#include "runtime/core/log.hpp"
 
 namespace luxodus::cli {
 
@@ -37,9 +42,9 @@ Result<void> save_patiently(const fs::path& file, const LocalRun& run) {
   constexpr int pause_ms = 10'000;
   for (int i = 1;; ++i) {
     auto saved = save_flux(file, run);
-    if (saved || i == tries || interrupt_flag()) return saved;
-    spdlog::error("{}: tried again in {} s; Ctrl-C ends without", saved.problem().text(),
-                  pause_ms / 1000);
+    if (saved.ok() || i == tries || interrupt_flag()) return saved;
+    log_error("{}: tried again in {} s; Ctrl-C ends without", saved.problem().text(),
+              pause_ms / 1000);
     ::poll(nullptr, 0, pause_ms);  // a signal ends it
   }
 }
@@ -54,8 +59,8 @@ Result<std::optional<OutputFolder>> claim_results(const ClusterConfig& cluster,
       cluster.run.out.empty() ? fs::path("out") / file_name_of(cluster.run.name) : cluster.run.out;
   OutputPlan plan = run_output(*process.local_run().scene().description, false);
   auto out = OutputFolder::claim(folder, plan);
-  if (!out) return out.problem();
-  if (auto ok = refuse_foreign_files(out->path(), plan); !ok) return ok.problem();
+  if (!out.ok()) return out.problem();
+  if (auto ok = refuse_foreign_files(out->path(), plan); !ok.ok()) return ok.problem();
   return std::optional(std::move(out).value());
 }
 
@@ -69,9 +74,9 @@ Result<void> write_results(const ClusterConfig& cluster, const ClusterProcessRun
   record.cells = process.cells();
   const LocalRun& run = process.local_run();
   process.make_room();
-  if (auto ok = save_patiently(folder / "flux.lux", run); !ok) return ok.problem();
+  if (auto ok = save_patiently(folder / "flux.lux", run); !ok.ok()) return ok.problem();
   const auto result = write_report_aloud(folder, run, record);
-  if (!result) return result.problem();
+  if (!result.ok()) return result.problem();
   process.forget_journal();
   std::printf("%s in %s\n%s", cluster.run.name.c_str(), folder.string().c_str(),
               summary_text(result.value()).c_str());
@@ -106,18 +111,19 @@ Result<std::optional<StopReason>> view_on_nodes(const ClusterConfig& cluster,
   work.controller = [&](const RunSetup& run, const Machine& machine,
                         const NodeSetup& node) -> Result<StopReason> {
     auto started = LiveCluster::start(run, machine, node);
-    if (!started) return started.problem();
+    if (!started.ok()) return started.problem();
     HubOptions hub{{}, {}, cluster.view.save_folder.empty() ? "." : cluster.view.save_folder};
     hub.live.seed = base.seed();
     hub.live.threads = default_threads();
     if (cluster.run.particles) hub.live.particles = static_cast<int64_t>(*cluster.run.particles);
     if (cluster.run.relative_error) hub.live.relative_error = *cluster.run.relative_error;
-    hub.live.tracers = std::move(started).value();
+    const std::shared_ptr<LiveCluster> tracers = std::move(started).value();
+    hub.live.tracers = tracers;
     hub.first.scenario = cluster.run.scenario;
-    ServerOptions server{cluster.view.address, cluster.view.port, ""};
+    HttpAddress server{cluster.view.address, cluster.view.port, ""};
     if (!cluster.view.allow_host.empty()) server.allowed_hosts = {cluster.view.allow_host};
-    const auto served = serve_view(scene, server, hub);
-    if (!served) return served.problem();
+    const auto served = serve_view(scene, server, hub, [&] { return tracers->fault(); });
+    if (!served.ok()) return served.problem();
     return StopReason::interrupted;
   };
   return process.run(interrupt_flag(), work);
@@ -125,10 +131,9 @@ Result<std::optional<StopReason>> view_on_nodes(const ClusterConfig& cluster,
 
 int run_nodes(const NodeOptions& options) {
   tell_the_time();
-  const ReadCluster read = read_cluster(options.config);
-  for (const Problem& problem : read.problems.list()) tell(problem);
-  if (!read.cluster) return ExitCode::bad_input;
-  const ClusterConfig& cluster = *read.cluster;
+  const std::optional<ClusterConfig> read = load_cluster(options.config);
+  if (!read) return ExitCode::bad_input;
+  const ClusterConfig& cluster = *read;
   spdlog::set_level(spdlog::level::from_str(cluster.observe.log_level));
   std::vector<NodeId> nodes;
   for (const std::string& name : options.names) {
@@ -146,32 +151,32 @@ int run_nodes(const NodeOptions& options) {
   }
   add_tracer(cluster, nodes);
   auto process = ClusterProcessRun::prepare(cluster, nodes);
-  if (!process) {
+  if (!process.ok()) {
     tell(process.problem());
     return ExitCode::bad_input;
   }
   const auto out = claim_results(cluster, *process.value(), nodes);
-  if (!out) {
+  if (!out.ok()) {
     tell(out.problem());
     return ExitCode::bad_input;
   }
   install_interrupt_handler();
   if (cluster.view.live) {
     const auto viewed = view_on_nodes(cluster, *process.value());
-    if (viewed) return ExitCode::success;
+    if (viewed.ok()) return ExitCode::success;
     tell(viewed.problem());
     return ExitCode::failure;
   }
   ProgressLine line(cluster.run.name);
   auto ended = process.value()->run(interrupt_flag(), [&](const Progress& p) { line.show(p); });
-  if (!ended) {
+  if (!ended.ok()) {
     tell(ended.problem());
     return ExitCode::failure;
   }
-  for (const std::string& text : process.value()->residency_lines()) spdlog::info("{}", text);
+  for (const std::string& text : process.value()->residency_lines()) log_info("{}", text);
   if (!ended.value()) return ExitCode::success;
   if (auto ok = write_results(cluster, *process.value(), out.value()->path(), *ended.value());
-      !ok) {
+      !ok.ok()) {
     tell(ok.problem());
     return ExitCode::failure;
   }
@@ -185,7 +190,7 @@ int run_nodes(const NodeOptions& options) {
     const LocalRun& run = process.value()->local_run();
     const auto lost = static_cast<int64_t>(run.missing().size());
     tell({{options.config, 0},
-          fmt::format("{} particles are lost: {} batches need objects of the scene that no node "
+          fmt::format("{} particles are lost: {} batches need scene parts that no node "
                       "who is left has, and the results, which were written, lean away from what "
                       "these would have met; start anew with nodes that store the scene, or go on "
                       "with luxodus run --resume",
@@ -197,20 +202,25 @@ int run_nodes(const NodeOptions& options) {
 
 }  // namespace
 
-void add_node(CLI::App& app, int& exit_code) {
-  auto options = std::make_shared<NodeOptions>();
-  CLI::App* command = app.add_subcommand("node", "Run nodes of a cluster on this machine");
-  command->footer(
-      "One call for each process of the cluster, in any order, on any machine; all wait for each "
-      "other.\n"
-      "  luxodus node --config cluster.toml --name n3\n"
-      "  luxodus node --config cluster.toml --name n0 --name n1     two that share a process\n"
-      "The process of the controller writes the results. `luxodus cluster up` starts all that\n"
-      "belong to this machine, `luxodus deploy` writes what starts them on many.");
-  command->add_option("--config", options->config, "the cluster's file")->required();
-  command->add_option("--name", options->names, "a node of the process; may be repeated")
-      ->required();
-  command->callback([options, &exit_code] { exit_code = run_nodes(*options); });
+Command node_command() {
+  const auto o = std::make_shared<NodeOptions>();
+  return {
+      .name = "node",
+      .summary = "Run nodes of a cluster on this machine",
+      .heading = "Cluster",
+      .options = {{"--config", &o->config, "Cluster file", {.form = Form::file, .required = true}},
+                  {"--name",
+                   &o->names,
+                   "Name of a node of the process; may be repeated",
+                   {.form = Form::name, .required = true}}},
+      .notes =
+          "One call for each process of the cluster, in any order, on any machine; all wait "
+          "for each other.\n"
+          "  luxodus node --config cluster.toml --name n3\n"
+          "  luxodus node --config cluster.toml --name n0 --name n1     two in a process\n"
+          "The process of the controller writes the results. `luxodus cluster up` starts all "
+          "that belong to this machine, `luxodus deploy` writes what starts them on many.",
+      .run = [o] { return run_nodes(*o); }};
 }
 
 }  // namespace luxodus::cli

@@ -1,15 +1,15 @@
 #include "actors/cli/run_folder.hpp"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <cmath>
 
-#include "actors/cli/command.hpp"
 #include "actors/cli/finished_run.hpp"
+#include "actors/cli/quantities.hpp"
 #include "actors/display/result_files.hpp"
 #include "actors/output/flux_file.hpp"
 #include "actors/output/json_out.hpp"
+#include "runtime/core/log.hpp"
 
 namespace luxodus::cli {
 
@@ -119,7 +119,7 @@ Result<RunFolder> claim_run_folder(const fs::path& folder, const CompiledScene& 
     claimed.keep_particles = earlier.particles;
   }
   if (auto kept = claimed.room->take(claimed.path(), flux_bytes(scene)); !kept)
-    spdlog::warn("{}", kept.problem().text());
+    log_warning("{}", kept.problem().text());
   return claimed;
 }
 

@@ -9,8 +9,8 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "actors/cli/command.hpp"
-#include "actors/view/view_host.hpp"
+#include "actors/cli/signals.hpp"
+#include "runtime/http/served_names.hpp"
 
 namespace luxodus::cli {
 
@@ -45,8 +45,9 @@ Result<void> can_save_in(const std::filesystem::path& folder) {
 
 }  // namespace
 
-Result<void> serve_view(std::shared_ptr<const SceneDescription> scene, ServerOptions server,
-                        const HubOptions& options) {
+Result<void> serve_view(std::shared_ptr<const SceneDescription> scene, HttpAddress server,
+                        const HubOptions& options,
+                        const std::function<std::optional<Problem>()>& fault) {
   if (scene->packed)
     return problem_in(scene->file, "a pack cannot be changed live: view its scene file");
   if (auto ok = can_save_in(options.save_folder); !ok) return ok.problem();
@@ -59,7 +60,12 @@ Result<void> serve_view(std::shared_ptr<const SceneDescription> scene, ServerOpt
   std::printf("%s/%s%s\nCtrl-C ends it.\n", http_address(server.address, serving.port()).c_str(),
               server.token.empty() ? "" : "?token=", server.token.c_str());
   std::fflush(stdout);
-  serving.run(hub, interrupt_flag());
+  std::optional<Problem> broken;
+  serving.run(hub, [&] {
+    if (fault) broken = fault();
+    return broken || interrupt_flag();
+  });
+  if (broken) return *broken;
   return {};
 }
 

@@ -5,6 +5,11 @@
 #include <chrono>
 
 #include "actors/cli/command.hpp"
+#include "actors/cli/commands.hpp"
+#include "actors/cli/load_scene.hpp"
+#include "actors/cli/progress_line.hpp"
+#include "actors/cli/quantities.hpp"
+#include "actors/cli/signals.hpp"
 #include "actors/simulate/simulation.hpp"
 #include "runtime/config/cluster_file.hpp"
 #include "runtime/core/clock.hpp"
@@ -46,14 +51,14 @@ Result<SeedRange> parse_seeds(const SimCommandOptions& options) {
       first.ec == std::errc() && end - first.ptr > 2 && first.ptr[0] == '.' && first.ptr[1] == '.';
   const auto last = dots ? std::from_chars(first.ptr + 2, end, after) : first;
   if (!dots || last.ec != std::errc() || last.ptr != end || after <= range.first)
-    return problem("--seeds \"" + text + "\" is no range: write 0..200, the last not included");
+    return Problem{{}, "--seeds \"" + text + "\" is no range: write 0..200, the last not included"};
   range.count = after - range.first;
   return range;
 }
 
 Result<Nanoseconds> span_of(const std::string& text) {
   auto span_s = parse_seconds(text);
-  if (!span_s) return span_s.problem();
+  if (!span_s.ok()) return span_s.problem();
   return static_cast<Nanoseconds>(span_s.value() * 1e9);
 }
 
@@ -64,7 +69,7 @@ Result<FaultPlan> fault_plan_in(const SimCommandOptions& options) {
   names.push_back("controller");
   ReadFaults read = read_fault_file(options.faults, names);
   for (const Problem& problem : read.problems.list()) tell(problem);
-  if (!read.plan) return problem_in(options.faults, "the faults have problems, told above");
+  if (!read.plan) return Problem{{options.faults, 0}, "the faults have problems, told above"};
   return std::move(*read.plan);
 }
 
@@ -75,13 +80,13 @@ Result<SimOptions> sim_options(const SimCommandOptions& options) {
   sim.faults = options.faults == "swarm";
   if (!sim.faults && options.faults != "none") {
     auto plan = fault_plan_in(options);
-    if (!plan) return plan.problem();
+    if (!plan.ok()) return plan.problem();
     sim.plan = std::move(plan).value();
   }
   const auto last = span_of(options.faults_last);
-  if (!last) return last.problem();
+  if (!last.ok()) return last.problem();
   const auto work = span_of(options.work);
-  if (!work) return work.problem();
+  if (!work.ok()) return work.problem();
   sim.faults_last = last.value();
   sim.work = work.value();
   return sim;
@@ -90,15 +95,15 @@ Result<SimOptions> sim_options(const SimCommandOptions& options) {
 /// The scene with batches so small that there are many.
 Result<std::unique_ptr<SimScene>> sim_scene(const SimCommandOptions& options) {
   const auto particles = parse_count(options.particles);
-  if (!particles) return particles.problem();
+  if (!particles.ok()) return particles.problem();
   const auto loaded = load_scene(options.scene);
-  if (!loaded) return problem_in(options.scene, "the scene has problems, told above");
+  if (!loaded) return Problem{{options.scene, 0}, "the scene has problems, told above"};
   const auto description = std::make_shared<SceneDescription>(*loaded);
   description->run.batch_particles = std::max<int64_t>(1, particles.value() / options.batches);
   const auto scenario = find_scenario(*description, options.scenario);
-  if (!scenario) return scenario.problem();
+  if (!scenario.ok()) return scenario.problem();
   auto scene = compile_scene(description, scenario.value(), {options.cells});
-  if (!scene) return scene.problem();
+  if (!scene.ok()) return scene.problem();
   return std::make_unique<SimScene>(scene.value(), description->run.seed, particles.value());
 }
 
@@ -154,9 +159,9 @@ void print_run(uint64_t seed, const SimReport& report) {
 /// Errors: as simulate; with `twice`, a second run that is not the same.
 Result<SimReport> simulated(const SimScene& scene, const SimOptions& options, bool twice) {
   auto report = simulate(scene, options);
-  if (!report || !twice || !report->failure.empty()) return report;
+  if (!report.ok() || !twice || !report->failure.empty()) return report;
   const auto again = simulate(scene, options);
-  if (again && again->trace_hash != report->trace_hash)
+  if (again.ok() && again->trace_hash != report->trace_hash)
     report->failure =
         "a second run of this seed takes another course: something beside the seed decides";
   return report;
@@ -164,11 +169,11 @@ Result<SimReport> simulated(const SimScene& scene, const SimOptions& options, bo
 
 Result<ExitCode> simulate_seeds(const SimCommandOptions& options) {
   const auto seeds = parse_seeds(options);
-  if (!seeds) return seeds.problem();
+  if (!seeds.ok()) return seeds.problem();
   auto sim = sim_options(options);
-  if (!sim) return sim.problem();
+  if (!sim.ok()) return sim.problem();
   const auto scene = sim_scene(options);
-  if (!scene) return scene.problem();
+  if (!scene.ok()) return scene.problem();
   install_interrupt_handler();
   if (!options.log) spdlog::set_level(spdlog::level::off);
   const SystemClock clock;
@@ -180,7 +185,7 @@ Result<ExitCode> simulate_seeds(const SimCommandOptions& options) {
   for (; done < seeds->count && !interrupt_flag(); ++done) {
     const uint64_t seed = sim->seed = seeds->first + done;
     const auto report = simulated(*scene.value(), sim.value(), options.twice);
-    if (!report) return report.problem();
+    if (!report.ok()) return report.problem();
     events += report->world.events;
     virtual_s += static_cast<double>(report->virtual_time) * 1e-9;
     if (single || !report->failure.empty()) print_run(seed, report.value());
@@ -202,45 +207,51 @@ Result<ExitCode> simulate_seeds(const SimCommandOptions& options) {
 
 }  // namespace
 
-void add_sim(CLI::App& app, int& exit_code) {
-  auto options = std::make_shared<SimCommandOptions>();
-  CLI::App* command =
-      app.add_subcommand("sim", "Run a scene on simulated nodes, under faults drawn from a seed");
-  command->footer(
-      "All nodes run their real code in one thread, by virtual time, over links that delay, lose,\n"
-      "double, overtake and harm frames, between nodes that crash, pause and begin anew. After "
-      "every\n"
-      "event what must hold is checked; in the end the result must be the plain loop's, bit for "
-      "bit.\n"
-      "One seed, one run. A seed that fails prints the command that repeats it.\n"
-      "  luxodus sim scenes/library/empty_room.toml --seed 7\n"
-      "  luxodus sim scenes/library/empty_room.toml --seeds 0..10000");
-  command->add_option("scene", options->scene, "scene file (TOML)")->required();
-  command->add_option("--scenario", options->scenario, "name of a scenario [the first]");
-  command->add_option("--seed", options->seed, "of faults and nodes [0]")->transform(seed_number());
-  command->add_option("--seeds", options->seeds, "many: 0..200, the last not included");
-  command->add_option("--nodes", options->nodes, "workers [4]")->check(CLI::Range(1, 64));
-  command->add_option("--links", options->links, "of a node, at most [4]")
-      ->check(CLI::Range(1, 16));
-  command->add_option("--cells", options->cells, "parts of the geometry [16]")
-      ->check(CLI::Range(1, 100000));
-  command->add_option("--particles", options->particles, "to trace [4k]");
-  command->add_option("--batches", options->batches, "that they fall into [40]")
-      ->check(CLI::Range(1, 1000000));
-  command->add_option(
-      "--faults", options->faults,
-      "swarm: drawn from the seed; none; or a TOML file with a [faults] table [swarm]");
-  command->add_option("--faults-last", options->faults_last,
-                      "virtual time until all is healed [30s]");
-  command->add_option("--work", options->work,
-                      "virtual time that one worker alone would trace for [60s]");
-  command->add_flag("--twice", options->twice, "each seed twice: both runs must be the same");
-  command->add_flag("--log", options->log, "what the nodes log");
-  command->callback([options, &exit_code] {
-    auto done = simulate_seeds(*options);
-    if (!done) tell(done.problem());
-    exit_code = done ? done.value() : ExitCode::bad_input;
-  });
+Command sim_command() {
+  const auto o = std::make_shared<SimCommandOptions>();
+  return {
+      .name = "sim",
+      .summary = "Run a scene on simulated nodes, under faults drawn from a seed",
+      .heading = "Study",
+      .options =
+          {{"scene", &o->scene, "Scene file", {.form = Form::scene, .required = true}},
+           {"--scenario",
+            &o->scenario,
+            "Name of a scenario",
+            {.form = Form::name, .otherwise = "the first"}},
+           {"--seed", &o->seed, "Seed of faults and nodes"},
+           {"--seeds", &o->seeds, "Range of seeds, as 0..200; the last is not included"},
+           {"--nodes", &o->nodes, "Number of workers", {.range = Range{1, 64}}},
+           {"--links", &o->links, "Largest number of links of a node", {.range = Range{1, 16}}},
+           {"--cells", &o->cells, "Number of geometry cells", {.range = Range{1, 100000}}},
+           {"--particles", &o->particles, "Number of particles", {.form = Form::count}},
+           {"--batches",
+            &o->batches,
+            "Number of batches of these particles",
+            {.range = Range{1, 1000000}}},
+           {"--faults",
+            &o->faults,
+            "Faults: swarm (drawn from the seed), none, or a TOML file with a table [faults]",
+            {.form = Form::file}},
+           {"--faults-last",
+            &o->faults_last,
+            "Virtual time until all faults have ended",
+            {.form = Form::duration}},
+           {"--work",
+            &o->work,
+            "Virtual time that one worker alone would trace for",
+            {.form = Form::duration}},
+           {"--twice", &o->twice, "Two runs of each seed, which must be the same"},
+           {"--log", &o->log, "Log of the nodes"}},
+      .notes =
+          "All nodes run their real code in one thread, by virtual time, over links that delay, "
+          "lose, duplicate, reorder and corrupt frames, between nodes that crash, pause and start "
+          "again. Invariants are checked after every event; in the end the result must be the "
+          "plain loop's, bit for bit. Equal seeds give equal runs. A seed that fails prints the "
+          "command that repeats it.\n"
+          "  luxodus sim scenes/library/empty_room.toml --seed 7\n"
+          "  luxodus sim scenes/library/empty_room.toml --seeds 0..10000",
+      .run = [o] { return exit_code_of(simulate_seeds(*o)); }};
 }
 
 }  // namespace luxodus::cli

@@ -7,12 +7,17 @@
 #include <tuple>
 
 #include "actors/cli/command.hpp"
+#include "actors/cli/commands.hpp"
+#include "actors/cli/load_scene.hpp"
+#include "actors/cli/progress_line.hpp"
+#include "actors/cli/signals.hpp"
 #include "actors/output/file_names.hpp"
 #include "actors/study/calibrate.hpp"
 #include "actors/study/report.hpp"
 #include "actors/study/runs.hpp"
 #include "actors/study/scenes.hpp"
 #include "runtime/core/clock.hpp"
+#include "runtime/core/log.hpp"
 
 namespace luxodus::cli {
 
@@ -48,6 +53,7 @@ void tell_all(const Problems& problems) {
 std::optional<Prepared> prepare(const std::string& file) {
   ReadStudy read = read_study(file);
   tell_all(read.problems);
+  for (const Problem& warning : read.warnings) log_warning("{}", warning.text());
   if (!read.study) return std::nullopt;
   Prepared prepared{std::move(*read.study), {}, nullptr};
   if (!prepared.study.costs.empty()) {
@@ -109,12 +115,12 @@ void Sweep::show(double done) {
 Result<StudyRow> Sweep::run_one(const StudyPoint& point, uint64_t seed) {
   const auto scene = scenes_.get(static_cast<int>(study_.whole(point, "cells")),
                                  study_.whole(point, "lease_particles"));
-  if (!scene) return scene.problem();
+  if (!scene.ok()) return scene.problem();
   StudyRun run{study_, point, scene.value(), seed, outcome_.measured.costs, nullptr};
   const bool real = is_real(study_.word(point, "on"));
   if (study_.word(point, "on") == "replay") {
     const auto recording = recorded(run);
-    if (!recording) return recording.problem();
+    if (!recording.ok()) return recording.problem();
     run.recording = recording.value().get();
   }
   const auto level = spdlog::get_level();
@@ -122,7 +128,7 @@ Result<StudyRow> Sweep::run_one(const StudyPoint& point, uint64_t seed) {
   auto result = real ? run_real(run, interrupt_flag()) : run_simulated(run, interrupt_flag());
   spdlog::set_level(level);
   StudyRow row{point, seed, std::nullopt, ""};
-  if (result)
+  if (result.ok())
     row.result = std::move(result).value();
   else
     row.refused = result.problem().what;
@@ -136,7 +142,7 @@ Result<std::shared_ptr<const Recording>> Sweep::recorded(const StudyRun& run) {
   auto& kept = recordings_[key];
   if (kept) return kept;
   auto made = Recording::make(*run.scene, run.seed, std::get<2>(key), run.costs);
-  if (!made) return made.problem();
+  if (!made.ok()) return made.problem();
   kept = std::move(made).value();
   return kept;
 }
@@ -151,7 +157,7 @@ Result<void> Sweep::run() {
     for (int i = 0; i < study_.seeds; ++i) {
       auto row = run_one(point, study_.first_seed + static_cast<uint64_t>(i));
       if (interrupt_flag()) return {};
-      if (!row) return row.problem();
+      if (!row.ok()) return row.problem();
       outcome_.rows.push_back(std::move(row).value());
       done += weight(point);
       show(done);
@@ -181,89 +187,91 @@ Result<ExitCode> study(const StudyCommandOptions& options) {
       options.out.empty() ? fs::path("out") / file_name_of(fs::path(options.file).stem().string())
                           : fs::path(options.out);
   const auto out = OutputFolder::claim(folder, study_output(prepared->study));
-  if (!out) return out.problem();
+  if (!out.ok()) return out.problem();
   install_interrupt_handler();
   Sweep sweep(*prepared, options.log);
   const auto done = sweep.run();
-  if (!done) return done.problem();
+  if (!done.ok()) return done.problem();
   if (interrupt_flag()) {
-    spdlog::warn("interrupted; nothing was written");
+    log_warning("interrupted; nothing was written");
     return ExitCode::interrupted;
   }
-  if (auto ok = write_study(out->path(), sweep.outcome()); !ok) return ok.problem();
+  if (auto ok = write_study(out->path(), sweep.outcome()); !ok.ok()) return ok.problem();
   print_outcome(sweep.outcome(), folder);
   return ExitCode::success;
 }
 
 Result<void> write_costs(const CalibrateOptions& options) {
-  if (auto ok = check_output_file(options.out); !ok) return ok.problem();
+  if (auto ok = check_output_file(options.out); !ok.ok()) return ok.problem();
   const auto description = load_scene(options.scene);
-  if (!description) return problem_in(options.scene, "the scene has problems, told above");
+  if (!description) return Problem{{options.scene, 0}, "the scene has problems, told above"};
   Study study;
   study.scenario = options.scenario;
   study.whole_tally = options.whole_tally;
   StudyScenes scenes(study, *description);
   const auto scene = scenes.get(options.cells, options.lease_particles);
-  if (!scene) return scene.problem();
+  if (!scene.ok()) return scene.problem();
   const auto report = [](const std::string& what) {
     std::fprintf(stderr, "measuring %s\n", what.c_str());
   };
   const auto measured = calibrate(*scene.value(), report);
-  if (!measured) return measured.problem();
+  if (!measured.ok()) return measured.problem();
   const std::string text = costs_text(measured.value());
-  if (auto ok = write_file_atomically(behind_links(options.out), text); !ok) return ok.problem();
+  if (auto ok = write_file_atomically(behind_links(options.out), text); !ok.ok())
+    return ok.problem();
   std::printf("%swritten to %s\n", text.c_str(), options.out.c_str());
   return {};
 }
 
-void add_calibrate(CLI::App& app, int& exit_code) {
-  auto options = std::make_shared<CalibrateOptions>();
-  CLI::App* command =
-      app.add_subcommand("calibrate", "Measure on this machine what work costs, for simulations");
-  command->footer(
-      "Costs of tracing are those of a scene and its partition; the rest is the machine's. Leave\n"
-      "the machine alone meanwhile: a few seconds.");
-  command->add_option("scene", options->scene, "scene file (TOML)")->required();
-  command->add_option("--scenario", options->scenario, "name of a scenario [the first]");
-  command->add_option("--cells", options->cells, "parts of the geometry [64]")
-      ->check(CLI::Range(2, 100000));
-  command->add_option("--lease-particles", options->lease_particles, "of a batch [64]")
-      ->check(CLI::Range(1, 1000000));
-  command->add_flag("--whole-tally", options->whole_tally, "as a study's tally = \"scene\"");
-  command->add_option("--out", options->out, "file of costs [costs.toml]");
-  command->callback([options, &exit_code] {
-    const auto done = write_costs(*options);
-    if (!done) tell(done.problem());
-    exit_code = done ? ExitCode::success : ExitCode::bad_input;
-  });
+Command calibrate_command() {
+  const auto o = std::make_shared<CalibrateOptions>();
+  return {
+      .name = "calibrate",
+      .summary = "Measure on this machine what work costs, for simulations",
+      .options = {{"scene", &o->scene, "Scene file", {.form = Form::scene, .required = true}},
+                  {"--scenario",
+                   &o->scenario,
+                   "Name of a scenario",
+                   {.form = Form::name, .otherwise = "the first"}},
+                  {"--cells", &o->cells, "Number of geometry cells", {.range = Range{2, 100000}}},
+                  {"--lease-particles",
+                   &o->lease_particles,
+                   "Number of particles of a batch",
+                   {.range = Range{1, 1000000}}},
+                  {"--whole-tally", &o->whole_tally,
+                   "Bins as those of a study with tally = \"scene\""},
+                  {"--out", &o->out, "File of costs", {.form = Form::file}}},
+      .notes =
+          "Costs of tracing are those of a scene and its partition; the rest is the "
+          "machine's. Nothing else should run on the machine meanwhile: a few seconds.",
+      .run = [o] { return exit_code_of(write_costs(*o)); }};
 }
 
 }  // namespace
 
-void add_study(CLI::App& app, int& exit_code) {
-  auto options = std::make_shared<StudyCommandOptions>();
-  CLI::App* command = app.add_subcommand(
-      "study", "Vary graphs, delays, fibers, caches; write tables, plots and a page");
-  command->footer(
-      "A study is a TOML file: a scene, what is varied, what is drawn (keys: "
-      "actors/study/README.md).\n"
-      "Studies that ship, with what they found: tests/studies.\n"
-      "  luxodus study tests/studies/fibers.toml --out out/fibers");
-  add_calibrate(*command, exit_code);
-  command->add_option("file", options->file, "study file (TOML)");
-  command->add_option("--out", options->out, "folder of the results [out/NAME]");
-  command->add_flag("--log", options->log, "what the nodes log");
-  command->callback([command, options, &exit_code] {
-    if (!command->get_subcommands().empty()) return;
-    if (options->file.empty()) {
-      tell({{}, "say which study: luxodus study FILE.toml, or luxodus study calibrate SCENE"});
-      exit_code = ExitCode::bad_input;
-      return;
-    }
-    auto done = study(*options);
-    if (!done) tell(done.problem());
-    exit_code = done ? done.value() : ExitCode::bad_input;
-  });
+Command study_command() {
+  const auto o = std::make_shared<StudyCommandOptions>();
+  return {
+      .name = "study",
+      .summary = "Vary graphs, delays, fibers, caches; write tables, plots and a page",
+      .heading = "Study",
+      .options = {{"file", &o->file, "Study file", {.form = Form::file}},
+                  {"--out",
+                   &o->out,
+                   "Folder of the results",
+                   {.form = Form::folder, .otherwise = "out/NAME"}},
+                  {"--log", &o->log, "Log of the nodes"}},
+      .notes =
+          "A study is a TOML file: a scene, what is varied, what is drawn (its keys: "
+          "docs/reference/study-file.md). Studies that ship, with their findings: "
+          "tests/studies.\n"
+          "  luxodus study tests/studies/fibers.toml --out out/fibers",
+      .commands = {calibrate_command()},
+      .run = [o]() -> int {
+        if (!o->file.empty()) return exit_code_of(study(*o));
+        tell({{}, "say which study: luxodus study FILE.toml, or luxodus study calibrate SCENE"});
+        return ExitCode::bad_input;
+      }};
 }
 
 }  // namespace luxodus::cli

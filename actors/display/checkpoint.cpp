@@ -3,10 +3,9 @@
 // whole, and of the earlier run.
 #include "actors/display/checkpoint.hpp"
 
-#include <spdlog/spdlog.h>
-
 #include "actors/display/result_files.hpp"
 #include "actors/run/flux_store.hpp"
+#include "runtime/core/log.hpp"
 
 namespace luxodus {
 
@@ -31,7 +30,7 @@ void Checkpoint::take() {
     if (saved)
       ++taken_;
     else
-      spdlog::warn("checkpoint: {}; the run goes on", saved.problem().text());
+      log_warning("checkpoint: {}; the run goes on", saved.problem().text());
   }
   last_ = Clock::now();  // not before: a slow disk must not have the run do nothing else
 }

@@ -42,8 +42,9 @@ void Building::each(size_t count,
             {});
 }
 
-bool Building::in_solid(const GeometryAccess& access, const glm::dvec3& place) const {
-  return in_body(*scene_, access, local(place), turned_);
+bool Building::in_solid(const GeometryAccess& access, const glm::dvec3& place,
+                        std::span<const char> ignored) const {
+  return in_body(*scene_, access, local(place), turned_, ignored);
 }
 
 double Building::seen_share(const GeometryAccess& access, const Sign& sign, const SignView& view,

@@ -25,8 +25,9 @@ class Building {
             const std::function<void(const GeometryAccess& access, size_t i)>& work) const;
 
   /// Whether a place lies in a closed body, as in_body says; rooms that are drawn with their faces
-  /// to the outside are none.
-  bool in_solid(const GeometryAccess& access, const glm::dvec3& place) const;
+  /// to the outside are none, and neither is what is `ignored`, by surface.
+  bool in_solid(const GeometryAccess& access, const glm::dvec3& place,
+                std::span<const char> ignored = {}) const;
   const ParallelFor& rows() const { return rows_; }
   /// Share of a sign's face that has a clear line to an eye.
   double seen_share(const GeometryAccess& access, const Sign& sign, const SignView& view,

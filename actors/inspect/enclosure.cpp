@@ -23,7 +23,7 @@ constexpr double told_share = 0.01;
 constexpr double no_smoke = 1e-9;
 
 /// One source group and one band: shares of the light are then shares of the particles.
-SceneDescription bare(const SceneDescription& scene, const std::vector<char>& outside) {
+SceneDescription bare(const SceneDescription& scene, const Misplaced& misplaced) {
   SceneDescription out = without_measurements(scene);
   out.run.error_of.clear();
   out.run.max_bands = 1;
@@ -35,6 +35,11 @@ SceneDescription bare(const SceneDescription& scene, const std::vector<char>& ou
       m.kind = MaterialKind::lambertian;
       m.reflectance = Spectrum::constant(0);
     }
+  std::vector<Sign> signs;
+  for (size_t i = 0; i < out.signs.size(); ++i)
+    if (misplaced.signs[i] == 0) signs.push_back(std::move(out.signs[i]));
+  out.signs = std::move(signs);
+  const std::vector<char>& outside = misplaced.emitters;
   const bool all_outside = std::count(outside.begin(), outside.end(), 0) == 0;
   if (all_outside) return out;
   std::vector<Emitter> inside;
@@ -44,14 +49,17 @@ SceneDescription bare(const SceneDescription& scene, const std::vector<char>& ou
   return out;
 }
 
-Scenario in_clear_air(const SceneDescription& scene, const Scenario& scenario) {
+Scenario in_clear_air(const SceneDescription& scene, const Scenario& scenario,
+                      const std::vector<char>& misplaced) {
   Scenario out = scenario;
   out.smoke_factor = 0;
   out.media.clear();
-  for (const Medium& m : scene.media) {
+  for (size_t i = 0; i < scene.media.size(); ++i) {
+    const Medium& m = scene.media[i];
     const auto named = std::find_if(scenario.media.begin(), scenario.media.end(),
                                     [&](const auto& factor) { return factor.name == m.name; });
-    const bool burns = m.emission && (named == scenario.media.end() || named->factor > 0);
+    const bool burns = m.emission && (named == scenario.media.end() || named->factor > 0) &&
+                       (i >= misplaced.size() || misplaced[i] == 0);
     out.media.push_back({m.name, burns ? no_smoke : 0});
   }
   return out;
@@ -64,10 +72,10 @@ std::string percent(double share) {
 }  // namespace
 
 std::optional<EscapeShares> escape_shares(const SceneDescription& scene, const Scenario& scenario,
-                                          const std::vector<char>& outside, int threads) {
-  const auto building =
-      Building::make(bare(scene, outside), in_clear_air(scene, scenario), threads);
-  if (!building) return std::nullopt;
+                                          const Misplaced& misplaced, int threads) {
+  const auto building = Building::make(bare(scene, misplaced),
+                                       in_clear_air(scene, scenario, misplaced.media), threads);
+  if (!building.ok()) return std::nullopt;
   const CompiledScene& compiled = building.value()->scene();
   std::array<std::array<double, 6>, pieces> escaped{};
   building.value()->each(pieces, [&](const GeometryAccess& access, size_t piece) {

@@ -5,6 +5,7 @@
 
 #include "actors/inspect/site.hpp"
 #include "scenes/emergency/sign_geometry.hpp"
+#include "scenes/transport/connect.hpp"
 
 namespace luxodus {
 
@@ -19,6 +20,8 @@ constexpr int rays_down = 9;
 constexpr int rays_around = 128;
 /// A probe on a surface is looked at from before it [m].
 constexpr double before_probe_m = 1e-3;
+/// A probe that has a surface as near before it measures that surface [m].
+constexpr Real shut_m = 0.05_r;
 
 struct EyePlace {
   std::string name;  // camera "hall"
@@ -27,10 +30,12 @@ struct EyePlace {
   std::vector<Vec3> directions{};  // in which it looks
   Vec3 ahead{0, 0, 1};             // their middle
   Real least_cosine = -1;          // with it, of what it sees
+  bool is_camera = false, is_probe = false;
 };
 
 EyePlace eye_of(const Camera& c) {
   EyePlace eye{"camera \"" + c.name + "\"", c.place, c.eye};
+  eye.is_camera = true;
   const glm::dvec3 ahead = glm::normalize(c.target - c.eye);
   const glm::dvec3 across = glm::cross(ahead, c.up);
   const glm::dvec3 right =
@@ -55,6 +60,7 @@ EyePlace eye_of(const Observer& o) {
 EyePlace eye_of(const ProbeMeasure& p) {
   EyePlace eye{"probe \"" + p.name + "\"", p.place, p.position + p.normal * before_probe_m};
   eye.ahead = Vec3(p.normal);
+  eye.is_probe = true;
   eye.least_cosine = 0;
   for (const Vec3& d : sphere_directions(rays_around))
     if (glm::dot(d, Vec3(p.normal)) > 0) eye.directions.push_back(d);
@@ -88,6 +94,19 @@ bool sees_anything(const Site& site, const GeometryAccess& access, const EyePlac
          });
 }
 
+/// Whether all that it meets are backs: it stands under the floor or behind a wall.
+bool sees_backs_alone(const Site& site, const GeometryAccess& access, const EyePlace& eye) {
+  const Vec3 at = site.building.local(eye.at);
+  bool any = false;
+  for (const Vec3& d : eye.directions) {
+    const auto met = first_stop(site.building.scene(), access, at, d, far_m, is_open);
+    if (!met) continue;
+    if (!site.is_back(*met)) return false;
+    any = true;
+  }
+  return any;
+}
+
 /// Of those that this observer is asked about.
 bool sees_a_sign(const Site& site, const GeometryAccess& access, const Observer& observer) {
   const auto& signs = site.scene.signs;
@@ -115,6 +134,25 @@ std::optional<Finding> placed_wrong(const Site& site, const GeometryAccess& acce
                    "sees nothing",
                    {eye.place, eye.name + " sees nothing: no surface and no lamp lies where it "
                                           "looks; turn it round, or move it"}};
+  if (eye.is_camera && sees_backs_alone(site, access, eye))
+    return Finding{
+        Severity::warning,
+        "sees nothing",
+        {eye.place, eye.name + " sees the backs of surfaces alone, from " + place_text(eye.at) +
+                        ": is it under the floor, above the ceiling or behind a wall? "
+                        "Move it into the room"}};
+  if (!eye.is_probe) return std::nullopt;
+  const auto shut =
+      first_stop(site.building.scene(), access, site.building.local(eye.at), eye.ahead, shut_m,
+                 [&](const Facing& f) {
+                   return f.surface >= site.scene.objects.size() || lets_light_through(f.kind);
+                 });
+  if (shut)
+    return Finding{Severity::warning,
+                   "sees nothing",
+                   {eye.place, fmt::format("{} looks at {}, {} before it: turn its normal round",
+                                           eye.name, object_text(site.scene.objects[shut->surface]),
+                                           length_text(static_cast<double>(shut->distance_m)))}};
   return std::nullopt;
 }
 

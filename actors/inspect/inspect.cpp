@@ -74,15 +74,16 @@ Names names_of(const std::vector<const Scenario*>& scenarios) {
 
 /// Scenarios that are alike by a key, the first of each kind first.
 template <class Key>
-std::vector<std::vector<const Scenario*>> alike(const std::vector<Scenario>& scenarios, Key key) {
+std::vector<std::vector<const Scenario*>> alike(const std::vector<const Scenario*>& scenarios,
+                                                Key key) {
   std::vector<std::vector<const Scenario*>> out;
-  for (const Scenario& s : scenarios) {
+  for (const Scenario* s : scenarios) {
     const auto at = std::find_if(out.begin(), out.end(),
-                                 [&](const auto& group) { return key(*group.front()) == key(s); });
+                                 [&](const auto& group) { return key(*group.front()) == key(*s); });
     if (at != out.end())
-      at->push_back(&s);
+      at->push_back(s);
     else
-      out.push_back({&s});
+      out.push_back({s});
   }
   return out;
 }
@@ -131,49 +132,62 @@ Scenario lit_scenario(const Scenario& scenario) {
   return out;
 }
 
-Result<std::vector<char>> inspect_doors(const SceneDescription& scene, const Scenario& scenario,
-                                        int threads, Findings& out) {
+/// `state`: scenarios with the same doors. What keeps it from being compiled, if anything does.
+std::optional<Problem> inspect_doors(const SceneDescription& scene,
+                                     const std::vector<const Scenario*>& state, int threads,
+                                     Collected& out, Misplaced& misplaced) {
   SceneDescription clear = all_lit(scene);
   clear.media.clear();
-  Scenario lit = lit_scenario(scenario);
+  Scenario lit = lit_scenario(*state.front());
   lit.media.clear();
   auto building = Building::make(std::move(clear), lit, threads);
   if (!building) return building.problem();
   const Site site{scene, *building.value(), Remoteness(scene)};
-  std::vector<char> outside;
-  inspect_turned_rooms(site, out);
-  inspect_luminaires(site, out, outside);
-  inspect_signs(site, out);
-  inspect_eyes(site, out);
-  inspect_routes(site, out);
-  inspect_areas(site, out);
-  inspect_planes(site, out);
-  inspect_judged_places(site, out);
-  return outside;
+  Findings found;
+  inspect_turned_rooms(site, found);
+  inspect_luminaires(site, found, misplaced.emitters);
+  inspect_signs(site, found, misplaced.signs);
+  inspect_eyes(site, found);
+  inspect_routes(site, found);
+  inspect_areas(site, found);
+  inspect_emphasis(site, found);
+  inspect_planes(site, misplaced.emitters, found);
+  inspect_judged_places(site, found);
+  out.add(std::move(found), names_of(state));
+  const auto light_of = [](const Scenario& s) {
+    return std::pair(s.operation, listed(s.circuits));
+  };
+  for (const auto& light : alike(state, light_of)) {
+    Findings near;
+    inspect_near_field(site, *light.front(), near);
+    out.add(std::move(near), names_of(light));
+  }
+  return std::nullopt;
 }
 
 /// What keeps it from being compiled, if anything does.
 std::optional<Problem> inspect_media_of(const SceneDescription& scene, const Scenario& scenario,
-                                        int threads, Findings& out) {
+                                        int threads, Findings& out, Misplaced& misplaced) {
   SceneDescription smoky = all_lit(scene);
   smoky.planes.clear();
   auto building = Building::make(std::move(smoky), lit_scenario(scenario), threads);
   if (!building) return building.problem();
   inspect_media(building.value()->scene(), out);
+  inspect_flames(*building.value(), out, misplaced.media);
   inspect_smoke(scene, *building.value(), out);
   return std::nullopt;
 }
 
 /// The worst of the scenarios alone: their numbers differ a little, and the hole is the same.
-void inspect_enclosure(const SceneDescription& scene, const std::vector<Scenario>& scenarios,
-                       const std::vector<char>& outside, int threads, Collected& out) {
+void inspect_enclosure(const SceneDescription& scene, const std::vector<const Scenario*>& scenarios,
+                       const Misplaced& misplaced, int threads, Collected& out) {
   const auto states =
       alike(scenarios, [](const Scenario& s) { return std::pair(s.operation, doors_of(s)); });
   std::optional<Finding> worst;
   double most = 0;
   Names where;
   for (const auto& state : states) {
-    const auto shares = escape_shares(scene, *state.front(), outside, threads);
+    const auto shares = escape_shares(scene, *state.front(), misplaced, threads);
     if (!shares) continue;
     const double all = std::accumulate(shares->by_side.begin(), shares->by_side.end(), 0.0);
     auto finding = open_rooms(scene, *shares);
@@ -216,25 +230,24 @@ Result<std::vector<Finding>> inspect(const std::shared_ptr<const SceneDescriptio
   for (const Scenario& s : scenarios) all.push_back(&s);
   Findings of_scene;
   inspect_sizes(*scene, of_scene);
+  inspect_reach(*scene, of_scene);
+  inspect_fluxes(*scene, of_scene);
   out.add(std::move(of_scene), names_of(all));
-  std::vector<char> outside;
-  for (const auto& state : alike(scenarios, doors_of)) {
-    Findings found;
-    auto done = inspect_doors(*scene, *state.front(), threads, found);
-    if (!done) return done.problem();
-    outside = std::move(done).value();
-    out.add(std::move(found), names_of(state));
+  Misplaced misplaced;
+  for (const auto& state : alike(all, doors_of)) {
+    if (auto problem = inspect_doors(*scene, state, threads, out, misplaced)) return *problem;
   }
   const auto media_of = [](const Scenario& s) {
     return std::tuple(listed(s.media), s.smoke_factor, doors_of(s));
   };
   if (!scene->media.empty())
-    for (const auto& state : alike(scenarios, media_of)) {
+    for (const auto& state : alike(all, media_of)) {
       Findings found;
-      if (auto problem = inspect_media_of(*scene, *state.front(), threads, found)) return *problem;
+      if (auto problem = inspect_media_of(*scene, *state.front(), threads, found, misplaced))
+        return *problem;
       out.add(std::move(found), names_of(state));
     }
-  inspect_enclosure(*scene, scenarios, outside, threads, out);
+  inspect_enclosure(*scene, all, misplaced, threads, out);
   return std::move(out).told(scenarios.size());
 }
 

@@ -11,6 +11,8 @@
 #include "scenes/emergency/rules.hpp"
 #include "scenes/emergency/way.hpp"
 #include "scenes/optics/offset_ray.hpp"
+#include "scenes/transport/emission.hpp"
+#include "scenes/transport/near_field.hpp"
 
 namespace luxodus {
 
@@ -31,6 +33,9 @@ constexpr double lost_share = 0.5 + 2 * 0.5 / 32;
 constexpr uint64_t seed = 17;
 /// Two things nearer than this stand in one place [m].
 constexpr double one_place_m = 0.01;
+/// Of the flux of its file, on emergency supply: more is a percentage taken for a share, less may
+/// be a luminaire of the same make with more lamps.
+constexpr double most_share = 4;
 /// Two directions within 8 degrees are one.
 constexpr double one_direction = 0.99;
 
@@ -232,6 +237,20 @@ void inspect_luminaires(const Site& site, Findings& out, std::vector<char>& outs
   find_doubles(site.scene, out);
 }
 
+void inspect_fluxes(const SceneDescription& scene, Findings& out) {
+  for (const Emitter& e : scene.emitters) {
+    if (!e.web || e.radiometric || !(e.emergency_flux > 0)) continue;
+    const double share = e.emergency_flux / e.emergency_ageing / e.web->flux_lm();
+    if (share <= most_share) continue;
+    out.push_back({Severity::warning,
+                   "flux",
+                   {e.place, fmt::format("{} gives {:.3g} times the {:.4g} lm of its file in "
+                                         "emergency operation: emergency_factor is a share, 0.15 "
+                                         "for 15 %, and emergency_flux is in lm",
+                                         name_of(e), share, e.web->flux_lm())}});
+  }
+}
+
 void inspect_judged_places(const Site& site, Findings& out) {
   const auto places = judged_places(site.scene);
   if (places.empty()) return;
@@ -251,6 +270,20 @@ void inspect_judged_places(const Site& site, Findings& out) {
                                 "area, point of emphasis or externally lit sign: nothing there "
                                 "is judged"}});
   }
+}
+
+void inspect_near_field(const Site& site, const Scenario& scenario, Findings& out) {
+  std::vector<NearPlace> places;
+  site.building.each(1, [&](const GeometryAccess& access, size_t) {
+    const auto sees = [&](const glm::dvec3& from, const glm::dvec3& to) {
+      return clear_share(site.building.scene(), access, site.building.local(from),
+                         site.building.local(to)) > 0;
+    };
+    places = near_field_places(site.scene, scenario, sees);
+  });
+  for (NearPlace& place : places)
+    out.push_back({place.judged ? Severity::warning : Severity::note, "near field",
+                   std::move(place.problem)});
 }
 
 }  // namespace luxodus

@@ -1,6 +1,8 @@
-// Media that lie in one another: their extinctions add, which is meant of a haze that lies
-// everywhere, and a mistake where one smoke is written twice.
+// Media: those that lie in one another, whose extinctions add, which is meant of a haze that lies
+// everywhere, and a mistake where one smoke is written twice; those that reach nothing of the
+// building, and so dim nothing; flames in bodies and outside.
 #include <algorithm>
+#include <array>
 
 #include "actors/inspect/site.hpp"
 #include "scenes/transport/media_bounds.hpp"
@@ -11,6 +13,10 @@ namespace {
 
 /// Places along each edge of the box that two media share.
 constexpr int steps = 12;
+/// A flame of which more than this share burns outside was meant to be in a room.
+constexpr double part_share = 0.1;
+constexpr double one_place_m = 0.02;
+const Bounds everywhere{glm::dvec3(-1e9), glm::dvec3(1e9)};
 /// Where the thinner one adds less than this share of the thicker one it is a haze in it.
 constexpr double haze_share = 0.25;
 
@@ -54,7 +60,148 @@ Overlap overlap_of(const CompiledScene& scene, int a, int b) {
   return out;
 }
 
+Bounds built(const SceneDescription& scene) {
+  Bounds out;
+  for (const Object& object : scene.objects)
+    for (const glm::dvec3& p : object.mesh.positions) out.extend(p);
+  return out;
+}
+
+bool apart(const Bounds& a, const Bounds& b) {
+  return glm::any(glm::greaterThanEqual(a.low, b.high)) ||
+         glm::any(glm::greaterThanEqual(b.low, a.high));
+}
+
+/// Of a flame: points across its box that burn, and where they are.
+struct Burning {
+  int all = 0, in_bodies = 0, outside = 0;
+  bool around = false;  // the middle of all that is built lies in its box
+};
+
+Burning burning_of(const Building& smoky, size_t index) {
+  constexpr int across = 6;
+  const CompiledScene& scene = smoky.scene();
+  const Medium* medium = &scene.description->media[index];
+  const Bounds box = media_bounds({&medium, 1}, everywhere);
+  const int band = scene.bands.count() / 2;
+  std::vector<std::array<char, 3>> points(across * across * across);
+  smoky.each(points.size(), [&](const GeometryAccess& access, size_t k) {
+    const int i = static_cast<int>(k);
+    const glm::dvec3 share =
+        (glm::dvec3(i % across, i / across % across, i / across / across) + 0.5) /
+        static_cast<double>(across);
+    const glm::dvec3 place = box.low + (box.high - box.low) * share;
+    ResidentBricks bricks(scene.media);
+    bool burns = false;
+    for_each_medium_at(scene.media, band, Vec3(place - scene.local_origin), bricks,
+                       [&](int m, int, double, double) { burns |= m == static_cast<int>(index); });
+    if (!burns) return;
+    points[k] = {1, smoky.in_solid(access, place) ? char{1} : char{0},
+                 is_outside(scene, access, smoky.local(place)) ? char{1} : char{0}};
+  });
+  Burning out;
+  const Bounds building = built(*scene.description);
+  const glm::dvec3 middle = (building.low + building.high) * 0.5;
+  out.around =
+      glm::all(glm::greaterThan(middle, box.low)) && glm::all(glm::lessThan(middle, box.high));
+  for (const auto& [burns, in_body, outside] : points) {
+    out.all += burns;
+    out.in_bodies += in_body;
+    out.outside += outside;
+  }
+  return out;
+}
+
+std::string name_of(const Medium& m) {
+  return (m.emission ? "the flame \"" : "the medium \"") + m.name + "\"";
+}
+
+/// Layers that lie above or below all that is built.
+void tell_layers(const Medium& m, const Bounds& building, Findings& out) {
+  for (size_t i = 0; i < m.layers.size(); ++i) {
+    const Layer& layer = m.layers[i];
+    if (layer.z_low < building.high.z && layer.z_high > building.low.z) continue;
+    out.push_back(
+        {Severity::warning,
+         "media",
+         {m.place, fmt::format("layer {} of {}, from z = {:.6g} to {:.6g} m, lies outside "
+                               "the building, which reaches from {:.6g} to {:.6g} m: it "
+                               "dims nothing; are its heights in metres?",
+                               i + 1, name_of(m), layer.z_low, layer.z_high, building.low.z,
+                               building.high.z)}});
+  }
+}
+
 }  // namespace
+
+void inspect_reach(const SceneDescription& scene, Findings& out) {
+  const Bounds building = built(scene);
+  if (building.empty()) return;
+  const Remoteness remote(scene);
+  for (const Medium& m : scene.media) {
+    const Medium* one = &m;
+    const Bounds box = media_bounds({&one, 1}, everywhere);
+    if (box.empty()) continue;
+    if (!apart(box, building)) {
+      tell_layers(m, building, out);
+      continue;
+    }
+    const glm::dvec3 nearest = glm::clamp((building.low + building.high) * 0.5, box.low, box.high);
+    if (auto far = remote.told(name_of(m), nearest))
+      out.push_back({Severity::error, "far", {m.place, *far}});
+    else if (!m.emission)
+      out.push_back({Severity::warning,
+                     "media",
+                     {m.place, name_of(m) + " lies outside the building, with all of it: it dims "
+                                            "nothing; are its place and its heights in metres?"}});
+  }
+}
+
+void inspect_flames(const Building& smoky, Findings& out, std::vector<char>& misplaced) {
+  const auto& media = smoky.scene().description->media;
+  misplaced.resize(media.size(), 0);
+  for (size_t i = 0; i < media.size(); ++i) {
+    const Medium& m = media[i];
+    if (!m.emission || m.kind != MediumKind::bounded) continue;
+    const Burning burning = burning_of(smoky, i);
+    if (burning.all == 0) continue;
+    const auto percent = [&](int part) {
+      return fmt::format("{:.0f} %", 100.0 * part / burning.all);
+    };
+    if (2 * burning.in_bodies > burning.all)
+      out.push_back({Severity::error,
+                     "inside",
+                     {m.place, name_of(m) + " lies inside a wall or body, with " +
+                                   percent(burning.in_bodies) + " of it: move it out"}});
+    else if (burning.outside == burning.all && !burning.around)
+      out.push_back(
+          {Severity::note, "outside", {m.place, name_of(m) + " burns outside the building"}});
+    else if (burning.outside > part_share * burning.all)
+      out.push_back(
+          {Severity::warning,
+           "outside",
+           {m.place, name_of(m) + " burns outside the building with " + percent(burning.outside) +
+                         " of it: move it into the room, or "
+                         "make it smaller"}});
+    else
+      continue;
+    misplaced[i] = 1;
+  }
+  for (size_t b = 0; b < media.size(); ++b)
+    for (size_t a = 0; a < b; ++a) {
+      if (!media[a].emission || !media[b].emission) continue;
+      const Medium *first = &media[a], *second = &media[b];
+      const Bounds x = media_bounds({&first, 1}, everywhere);
+      const Bounds y = media_bounds({&second, 1}, everywhere);
+      if (glm::length(x.low - y.low) + glm::length(x.high - y.high) >= one_place_m) continue;
+      out.push_back(
+          {Severity::warning,
+           "same place",
+           {second->place, fmt::format("{} burns where {} (line {}) does: its light "
+                                       "counts twice; remove one of them",
+                                       name_of(*second), name_of(*first), first->place.line)}});
+    }
+}
 
 void inspect_media(const CompiledScene& scene, Findings& out) {
   const auto& media = scene.description->media;

@@ -75,6 +75,14 @@ void inspect_turned_rooms(const Site& site, Findings& out) {
       turned[table_of(site.scene.objects[i])].push_back(&site.scene.objects[i]);
   const SceneDescription& s = site.scene;
   const bool asks_for_walls = !s.routes.empty() || !s.open_areas.empty() || !s.planes.empty();
+  // Rooms drawn as single faces, each in a table of its own, are one room.
+  std::vector<const Object*> faces;
+  for (auto at = turned.begin(); at != turned.end();) {
+    const bool lone = at->second.size() == 1 && is_flat(at->second.front()->mesh);
+    if (lone) faces.push_back(at->second.front());
+    at = lone ? turned.erase(at) : std::next(at);
+  }
+  if (!faces.empty()) turned[table_of(*faces.front())] = faces;
   for (const auto& [table, objects] : turned) {
     std::string names;
     for (size_t i = 0; i < std::min(objects.size(), shown_names); ++i)

@@ -13,6 +13,11 @@ constexpr double above_plane_m = 1e-3;
 /// Right above the floor half of all directions show a body's bottom, or the floor that it stands
 /// on and that lies in the same plane. So high up few do [m].
 constexpr Real off_the_floor_m = 0.25_r;
+/// A plane that has a surface as near before it counts that surface's light [m].
+constexpr Real shut_m = 0.05_r;
+/// Of the cells: more than these shares are no coincidence.
+constexpr double most_share = 0.9;
+constexpr double part_share = 0.1;
 
 /// In a body where it is, or as what is above it with nothing in between.
 bool lies_in_body(const CompiledScene& scene, const GeometryAccess& access, const Vec3& place,
@@ -23,6 +28,75 @@ bool lies_in_body(const CompiledScene& scene, const GeometryAccess& access, cons
          !first_stop(scene, access, place, normal, off_the_floor_m, [&](const Facing& f) {
            return f.surface >= scene.description->objects.size() || lets_light_through(f.kind);
          });
+}
+
+/// Of the cells of a plane, as many as tell: those that lie outside, and those that have a surface
+/// right before them, and which.
+struct CellPlaces {
+  int all = 0, outside = 0, shut = 0;
+  uint32_t surface = 0;
+};
+
+CellPlaces places_of_cells(const Site& site, const PlaneMeasure& p,
+                           const std::vector<char>& in_bodies) {
+  constexpr int steps = 20;
+  const int across = std::min(p.cells_u, steps), down = std::min(p.cells_v, steps);
+  const glm::dvec3 normal = glm::normalize(glm::cross(p.edge_u, p.edge_v));
+  const auto count = static_cast<size_t>(across) * static_cast<size_t>(down);
+  std::vector<char> counts(count, 0), outside(count, 0);
+  std::vector<std::optional<Facing>> shut(count);
+  site.building.each(count, [&](const GeometryAccess& access, size_t i) {
+    const int u = static_cast<int>((static_cast<int>(i) % across + 0.5) / across * p.cells_u);
+    const int v = static_cast<int>((static_cast<int>(i) / across + 0.5) / down * p.cells_v);
+    if (in_bodies[static_cast<size_t>(v) * static_cast<size_t>(p.cells_u) +
+                  static_cast<size_t>(u)] != 0)
+      return;
+    counts[i] = 1;
+    const glm::dvec3 place = p.corner + p.edge_u * ((u + 0.5) / p.cells_u) +
+                             p.edge_v * ((v + 0.5) / p.cells_v) + normal * above_plane_m;
+    outside[i] = site.is_outside(access, place) ? 1 : 0;
+    shut[i] =
+        first_stop(site.building.scene(), access, site.building.local(place), Vec3(normal), shut_m,
+                   [&](const Facing& f) {
+                     return f.surface >= site.scene.objects.size() || lets_light_through(f.kind);
+                   });
+  });
+  CellPlaces out;
+  for (size_t i = 0; i < count; ++i) {
+    out.all += counts[i];
+    out.outside += outside[i];
+    if (!shut[i]) continue;
+    ++out.shut;
+    out.surface = shut[i]->surface;
+  }
+  return out;
+}
+
+/// Where a plane reaches out of the building, or looks into what it lies on.
+void tell_places(const Site& site, const PlaneMeasure& plane, const CellPlaces& cells,
+                 bool rooms_are_lit, Findings& out) {
+  const std::string name = "plane \"" + plane.name + "\"";
+  const auto tell = [&](Severity severity, const std::string& what) {
+    out.push_back({severity, "plane", {plane.place, name + what}});
+  };
+  if (cells.all == 0) return;
+  if (cells.shut > most_share * cells.all) {
+    tell(Severity::warning,
+         fmt::format(" looks at {}, less than {} before it: light is counted on the side that "
+                     "cross(edge_u, edge_v) looks to; swap the two edges, or move it",
+                     object_text(site.scene.objects[cells.surface]),
+                     length_text(static_cast<double>(shut_m))));
+    return;
+  }
+  if (cells.outside == cells.all) {
+    if (rooms_are_lit) tell(Severity::note, " lies outside the building, with all of its cells");
+    return;
+  }
+  if (cells.outside > part_share * cells.all)
+    tell(Severity::warning,
+         fmt::format(": {:.0f} % of its cells lie outside the building, and count in its mean, "
+                     "minimum and uniformity; draw it as large as the room",
+                     100.0 * cells.outside / cells.all));
 }
 
 }  // namespace
@@ -52,7 +126,8 @@ std::vector<char> cells_in_bodies(const CompiledScene& scene, const ParallelFor&
   return inside;
 }
 
-void inspect_planes(const Site& site, Findings& out) {
+void inspect_planes(const Site& site, const std::vector<char>& outside, Findings& out) {
+  const bool rooms_are_lit = std::count(outside.begin(), outside.end(), 0) > 0;
   const SceneDescription& scene = site.scene;
   for (size_t i = 0; i < scene.planes.size(); ++i) {
     const PlaneMeasure& plane = scene.planes[i];
@@ -67,6 +142,7 @@ void inspect_planes(const Site& site, Findings& out) {
     const auto inside = cells_in_bodies(site.building.scene(), site.building.rows(), i);
     const auto count = std::count(inside.begin(), inside.end(), 1);
     const auto all = static_cast<std::ptrdiff_t>(inside.size());
+    tell_places(site, plane, places_of_cells(site, plane, inside), rooms_are_lit, out);
     if (count == 0) continue;
     if (count == all)
       tell(Severity::error, "plane", name + " lies inside a body, with all of its cells: move it");

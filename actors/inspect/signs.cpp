@@ -71,6 +71,26 @@ Before before(const Site& site, const GeometryAccess& access, const Sign& sign, 
   return out;
 }
 
+/// Whether the back face lies in the very plane of a wall, where a ray meets one of the two: asked
+/// beside its edges.
+bool lies_on_wall(const Site& site, const GeometryAccess& access, const Sign& sign) {
+  constexpr double aside_m = 0.01, beyond_m = 1e-3;
+  const auto& axes = sign.frame.axes;
+  const glm::dvec3 middle = sign.frame.origin - axes[2] * (sign.thickness_m / 2);
+  int on_wall = 0;
+  for (const glm::dvec2& side : {glm::dvec2(-1, 0), {1, 0}, {0, -1}, {0, 1}}) {
+    const glm::dvec3 place = middle + axes[0] * (side.x * (sign.width_m / 2 + aside_m)) +
+                             axes[1] * (side.y * (sign.height_m / 2 + aside_m));
+    const auto met =
+        first_stop(site.building.scene(), access, site.building.local(place), Vec3(-axes[2]),
+                   static_cast<Real>(sign.thickness_m / 2 + beyond_m), [&](const Facing& f) {
+                     return f.surface >= site.scene.objects.size() || lets_light_through(f.kind);
+                   });
+    on_wall += met ? 1 : 0;
+  }
+  return on_wall > 2;
+}
+
 std::string behind_text(const Site& site, uint32_t surface) {
   return surface < site.scene.objects.size() ? ": " + object_text(site.scene.objects[surface]) : "";
 }
@@ -97,7 +117,7 @@ std::optional<Finding> placed_wrong(const Site& site, const GeometryAccess& acce
                        ": turn it round, or move it");
   if (sign.double_sided) {
     const Before behind = before(site, access, sign, face_of(sign, true));
-    if (behind.close > 0.5)
+    if (behind.close > 0.5 || lies_on_wall(site, access, sign))
       return of_sign(Severity::warning, "blind", sign,
                      "is double-sided and its back face looks at a wall less than 0.3 m away" +
                          behind_text(site, behind.surface) + ": say double_sided = false");
@@ -124,14 +144,18 @@ void find_doubles(const SceneDescription& scene, Findings& out) {
 
 }  // namespace
 
-void inspect_signs(const Site& site, Findings& out) {
+void inspect_signs(const Site& site, Findings& out, std::vector<char>& misplaced) {
   const size_t count = site.scene.signs.size();
   std::vector<std::optional<Finding>> found(count);
   site.building.each(count, [&](const GeometryAccess& access, size_t i) {
     found[i] = placed_wrong(site, access, site.scene.signs[i]);
   });
-  for (auto& finding : found)
-    if (finding) out.push_back(std::move(*finding));
+  misplaced.assign(count, 0);
+  for (size_t i = 0; i < count; ++i) {
+    if (!found[i]) continue;
+    misplaced[i] = 1;
+    out.push_back(std::move(*found[i]));
+  }
   find_doubles(site.scene, out);
 }
 

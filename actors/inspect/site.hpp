@@ -53,28 +53,43 @@ struct Site {
 // Of one state of the doors. `outside`: by emitter, those that stand outside.
 void inspect_luminaires(const Site& site, Findings& out, std::vector<char>& outside);
 void inspect_judged_places(const Site& site, Findings& out);
-void inspect_signs(const Site& site, Findings& out);
+/// In the light of a scenario with these doors.
+void inspect_near_field(const Site& site, const Scenario& scenario, Findings& out);
+/// `misplaced`: by sign, those of which anything is told.
+void inspect_signs(const Site& site, Findings& out, std::vector<char>& misplaced);
 void inspect_eyes(const Site& site, Findings& out);
 void inspect_routes(const Site& site, Findings& out);
 void inspect_areas(const Site& site, Findings& out);
-void inspect_planes(const Site& site, Findings& out);
+void inspect_emphasis(const Site& site, Findings& out);
+/// `outside`: as inspect_luminaires says.
+void inspect_planes(const Site& site, const std::vector<char>& outside, Findings& out);
 void inspect_turned_rooms(const Site& site, Findings& out);
 // Of the scene as it is written.
 void inspect_sizes(const SceneDescription& scene, Findings& out);
+void inspect_reach(const SceneDescription& scene, Findings& out);
+void inspect_fluxes(const SceneDescription& scene, Findings& out);
 
 /// Media of a scenario that overlap. `scene`: compiled with its media.
 void inspect_media(const CompiledScene& scene, Findings& out);
+/// Flames of a scenario in bodies, outside, two in one place. `misplaced`: by medium, those of the
+/// first two, added to what it holds.
+void inspect_flames(const Building& smoky, Findings& out, std::vector<char>& misplaced);
 /// Eyes in smoke through which nothing can be seen. `smoky`: a building with its media.
 void inspect_smoke(const SceneDescription& scene, const Building& smoky, Findings& out);
 
+/// What stands outside or is told to stand wrong: its light is not meant for the rooms.
+struct Misplaced {
+  std::vector<char> emitters, signs, media;
+};
+
 /// Of the light of a scenario in clear air, the share that leaves the scene by each side and not
-/// through a pane, lamps outside left out; none where nothing is lit.
+/// through a pane, what is misplaced left out; none where nothing is lit.
 struct EscapeShares {
   std::array<double, 6> by_side{};
   double standard_error = 0;  // of their sum
 };
 std::optional<EscapeShares> escape_shares(const SceneDescription& scene, const Scenario& scenario,
-                                          const std::vector<char>& outside, int threads);
+                                          const Misplaced& misplaced, int threads);
 /// The warning, if more than 1 % leaves by sides that are not declared open.
 std::optional<Finding> open_rooms(const SceneDescription& scene, const EscapeShares& shares);
 

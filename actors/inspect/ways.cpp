@@ -45,6 +45,13 @@ auto passable(const Site& site) {
   };
 }
 
+/// Furniture, by surface.
+std::vector<char> furniture_of(const Site& site) {
+  std::vector<char> out;
+  for (const Object& object : site.scene.objects) out.push_back(is_furniture(object) ? 1 : 0);
+  return out;
+}
+
 std::optional<Facing> first_wall(const Site& site, const GeometryAccess& access,
                                  const glm::dvec3& from, const glm::dvec3& direction,
                                  double length_m) {
@@ -56,10 +63,23 @@ std::optional<Facing> first_wall(const Site& site, const GeometryAccess& access,
 /// little above it count, too.
 std::optional<double> above_floor(const Site& site, const GeometryAccess& access,
                                   const glm::dvec3& place, double below_m) {
-  const auto met = first_wall(site, access, place + glm::dvec3(0, 0, floor_within_m), {0, 0, -1},
-                              floor_within_m + below_m);
-  if (!met) return std::nullopt;
-  return static_cast<double>(met->distance_m) - floor_within_m;
+  const auto may_pass = passable(site);
+  std::optional<double> foot;
+  const auto met = first_stop(
+      site.building.scene(), access, site.building.local(place + glm::dvec3(0, 0, floor_within_m)),
+      Vec3(0, 0, -1), static_cast<Real>(floor_within_m + below_m), [&](const Facing& f) {
+        const bool passes = may_pass(f);
+        if (passes && !f.front && f.surface < site.scene.objects.size())
+          foot = static_cast<double>(f.distance_m) - floor_within_m;
+        return passes;
+      });
+  std::optional<double> floor;
+  if (met) floor = static_cast<double>(met->distance_m) - floor_within_m;
+  // Furniture that stands on the floor has its bottom in the floor's plane, where a ray meets
+  // one of the two: the floor is then where the furniture stands.
+  const bool stands_here = foot && std::abs(*foot) <= on_floor_m;
+  if (stands_here && (!floor || std::abs(*floor) > on_floor_m)) return foot;
+  return floor;
 }
 
 /// What of one route is wrong, by its places.
@@ -74,11 +94,13 @@ Walk walk_along(const Site& site, const EscapeRoute& route) {
   walk.places = along(route, 0, 1);
   walk.above.resize(walk.places.size());
   walk.inside.resize(walk.places.size());
+  const std::vector<char> furniture = furniture_of(site);
   site.building.each(walk.places.size(), [&](const GeometryAccess& access, size_t i) {
     const glm::dvec3& place = walk.places[i];
     walk.above[i] = above_floor(site, access, place, floor_within_m);
     if (!walk.above[i]) walk.above[i] = above_floor(site, access, place, floor_far_m);
-    walk.inside[i] = site.in_body(access, place + glm::dvec3(0, 0, standing_eye_m)) ? 1 : 0;
+    const glm::dvec3 eye = place + glm::dvec3(0, 0, standing_eye_m);
+    walk.inside[i] = site.building.in_solid(access, eye, furniture) ? 1 : 0;
   });
   return walk;
 }
@@ -257,11 +279,14 @@ void inspect_area(const Site& site, const char* word, const AssessedArea& area, 
                   Findings& out) {
   const auto places = within(area, area_border_m, area_step_m);
   std::vector<std::optional<double>> above(places.size());
-  std::vector<char> inside(places.size(), 0);
+  std::vector<char> inside(places.size(), 0), outside(places.size(), 0);
+  const std::vector<char> furniture = furniture_of(site);
   site.building.each(places.size(), [&](const GeometryAccess& access, size_t i) {
     above[i] = above_floor(site, access, places[i], floor_far_m);
     const bool near = above[i] && std::abs(*above[i]) <= floor_within_m;
-    inside[i] = site.in_body(access, places[i] + glm::dvec3(0, 0, near ? waist_m : 0.02)) ? 1 : 0;
+    const glm::dvec3 body = places[i] + glm::dvec3(0, 0, near ? waist_m : 0.02);
+    inside[i] = site.building.in_solid(access, body, furniture) ? 1 : 0;
+    outside[i] = !is_floor && site.is_outside(access, body) ? 1 : 0;
   });
   const auto many = [&](size_t count) {
     return static_cast<double>(count) > area_share * static_cast<double>(places.size());
@@ -270,10 +295,11 @@ void inspect_area(const Site& site, const char* word, const AssessedArea& area, 
     out.push_back(
         {severity, "area", {area.place, fmt::format("{} \"{}\" ", word, area.name) + what}});
   };
-  size_t floorless = 0, walled = 0, aloft = 0;
+  size_t floorless = 0, walled = 0, aloft = 0, beyond = 0;
   double height = 0;
   for (size_t i = 0; i < places.size(); ++i) {
     walled += inside[i] != 0 ? 1 : 0;
+    beyond += outside[i] != 0 ? 1 : 0;
     floorless += above[i] ? 0 : 1;
     if (!above[i] || std::abs(*above[i]) <= on_floor_m) continue;
     ++aloft;
@@ -283,6 +309,10 @@ void inspect_area(const Site& site, const char* word, const AssessedArea& area, 
     tell(Severity::error, "has no floor under most of it: is it outside the building?");
   else if (many(floorless))
     tell(Severity::warning, "has no floor under a part of it: is its outline too large?");
+  else if (2 * beyond > places.size())
+    tell(Severity::warning,
+         fmt::format("lies outside the building, {} above what is below it: is its z in metres?",
+                     length_text(std::abs(height))));
   if (is_floor && 2 * aloft > places.size())
     tell(Severity::warning,
          fmt::format("lies {} {} its floor: give it the height of the floor",
@@ -298,6 +328,29 @@ void inspect_area(const Site& site, const char* word, const AssessedArea& area, 
 
 void inspect_routes(const Site& site, Findings& out) {
   for (const EscapeRoute& route : site.scene.routes) inspect_route(site, route, out);
+}
+
+void inspect_emphasis(const Site& site, Findings& out) {
+  constexpr double above_m = 0.02;
+  const std::vector<char> furniture = furniture_of(site);
+  for (const EmphasisPoint& point : site.scene.emphasis) {
+    const std::string name = "point of emphasis \"" + point.name + "\"";
+    if (auto far = site.remote.told(name, point.position)) {
+      out.push_back({Severity::error, "far", {point.place, *far}});
+      continue;
+    }
+    bool inside = false;
+    site.building.each(1, [&](const GeometryAccess& access, size_t) {
+      const glm::dvec3 before = point.facing.value_or(glm::dvec3(0, 0, 1)) * above_m;
+      inside = site.building.in_solid(access, point.position + before, furniture);
+    });
+    if (inside)
+      out.push_back(
+          {Severity::warning,
+           "inside",
+           {point.place, name + " lies inside a wall or body, at " + place_text(point.position) +
+                             ": no luminaire is near to it there; move it out"}});
+  }
 }
 
 void inspect_areas(const Site& site, Findings& out) {

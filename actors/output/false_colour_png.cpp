@@ -11,6 +11,7 @@
 
 #include "actors/output/contour_lines.hpp"
 #include "actors/output/drawing.hpp"
+#include "actors/output/light_colours.hpp"
 #include "actors/output/plot_axis.hpp"
 #include "runtime/core/output_text.hpp"
 
@@ -153,7 +154,6 @@ class Painter {
         s_(statistics),
         scale_(scale_of(picture, statistics)),
         l_(lay_out(picture, picture.notes.size() + (has_gaps(picture, statistics) ? 1 : 0))),
-        map_(picture.colour_map ? picture.colour_map : ColourMap(glow_colour)),
         canvas_(l_.width, l_.height) {}
 
   Canvas& draw() {
@@ -204,7 +204,6 @@ class Painter {
   const Statistics& s_;
   Scale scale_;
   Layout l_;
-  ColourMap map_;
   Canvas canvas_;
   std::vector<glm::dvec2> labels_;  // where contour labels stand already
 };
@@ -251,7 +250,8 @@ void Painter::paint_values() {
     for (int x = x0; x < x1; ++x) {
       const double u = (x - x0 + 0.5) / (x1 - x0) * p_.cells_u;
       const double value = smooth_value(u, v);
-      canvas_.pixel(x, y, std::isfinite(value) ? map_(scale_.place(value)) : no_value_colour(x, y));
+      canvas_.pixel(
+          x, y, std::isfinite(value) ? light_colour(scale_.place(value)) : no_value_colour(x, y));
     }
   }
   canvas_.changed();
@@ -406,7 +406,7 @@ void Painter::draw_bar() {
   };
   const int steps = 512;
   for (int i = 0; i < steps; ++i) {
-    const std::array<uint8_t, 3> c = map_((i + 0.5) / steps);
+    const LightColour c = light_colour((i + 0.5) / steps);
     canvas_.colour(c[0] / 255.0, c[1] / 255.0, c[2] / 255.0, 1);
     // Each piece reaches to the end of the bar: the next covers it, and no gaps show.
     const double from = static_cast<double>(i) / steps;

@@ -1,12 +1,10 @@
-// A grid of values as a picture people can read numbers from: false colours, a scale bar with its
-// unit, axes in metres, labelled contour lines at given values, the smallest value marked, and
-// minimum, mean and maximum in words. Values are shown as computed; between cell centres they are
-// interpolated (off on request). Any thread; one call uses nothing of another's.
+// A grid of values as a picture people can read numbers from: false colours (light_colours.hpp), a
+// scale bar with its unit, axes in metres, labelled contour lines at given values, the smallest
+// value marked, and minimum, mean and maximum in words. Values are shown as computed; between cell
+// centres they are interpolated (off on request). Any thread; one call uses nothing of another's.
 #pragma once
 
-#include <array>
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,14 +21,6 @@ inline constexpr size_t max_contours = 32;
 inline constexpr int min_picture_edge_px = 480;
 inline constexpr int max_picture_edge_px = 8192;
 }  // namespace limits
-
-/// Where a colour map is asked: 0 lowest, 1 highest. Linear or sRGB does not matter to the caller:
-/// the answer is 8-bit sRGB.
-using ColourMap = std::function<std::array<uint8_t, 3>(double)>;
-
-/// The default map: lightness (OKLab) rises evenly from near black over violet, red and orange to
-/// pale yellow, so that it reads in grey and with colour-blind eyes as well.
-std::array<uint8_t, 3> glow_colour(double t);
 
 enum class ColourScale {
   automatic,  // logarithmic where the largest value is over 15 times the smallest above zero
@@ -61,7 +51,6 @@ struct FalseColourPicture {
   bool smooth = true;  // interpolate between cell centres
   bool mark_minimum = true;
   int width_px = 1600;
-  ColourMap colour_map;            // empty: glow_colour
   std::vector<std::string> notes;  // lines under the picture: method, particles, standard error
   std::vector<ImageText> text;     // metadata of the PNG; Title and Description are there anyway
 };

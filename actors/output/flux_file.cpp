@@ -12,6 +12,7 @@
 #include <set>
 
 #include "runtime/core/output_text.hpp"
+#include "runtime/core/printable.hpp"
 #include "runtime/core/regular_file.hpp"
 
 namespace luxodus {
@@ -56,7 +57,7 @@ Unsigned get(std::span<const std::byte> bytes, size_t at) {
 }
 
 std::string called(std::string_view name) {
-  return name.empty() ? "the header" : "block '" + clean_utf8(name) + "'";
+  return name.empty() ? "the header" : "block '" + excerpt(name) + "'";
 }
 
 std::span<const std::byte> bytes_of(std::string_view text) {

@@ -48,9 +48,9 @@ std::string html_cell(const std::string& html, const char* css_class) {
          html + "</td>";
 }
 
-std::string unit_text(const std::string& unit) {
+std::string unit_text(const Texts& texts, const std::string& unit) {
   if (unit == "1") return "";
-  std::string out = unit;
+  std::string out = texts.remark(unit).value_or(unit);
   for (const auto& [plain, raised] : {std::pair{"m2", "m²"}, std::pair{"m3", "m³"}})
     if (const size_t at = out.find(plain); at != std::string::npos) out.replace(at, 2, raised);
   if (out == "deg") return "°";
@@ -60,7 +60,7 @@ std::string unit_text(const std::string& unit) {
 std::string number_cell(const Texts& texts, const Json& value, const std::string& unit,
                         int digits) {
   if (!value.is_number()) return html_cell("–", "n");
-  const std::string shown = unit_text(unit);
+  const std::string shown = unit_text(texts, unit);
   return html_cell(escaped(texts.number(value.get<double>(), digits)) +
                        (shown.empty() ? "" : "\u00a0" + escaped(shown)),
                    "n");
@@ -111,8 +111,10 @@ std::string subheading(const std::string& text) {
   return "<h3>" + escaped(text) + "</h3>\n";
 }
 
-std::string remark(const std::string& text) {
-  return text.empty() ? "" : "<i lang=\"en\">" + escaped(text) + "</i>";
+std::string remark(const Texts& texts, const std::string& text) {
+  if (text.empty()) return "";
+  const auto said = texts.remark(text);
+  return said ? "<i>" + escaped(*said) + "</i>" : "<i lang=\"en\">" + escaped(text) + "</i>";
 }
 
 std::string subject_text(const Texts& texts, const std::string& subject) {
@@ -131,7 +133,7 @@ std::string condition_text(const Texts& texts, const std::string& condition) {
     if (piece.size() > failed.size() && piece.front() == '"' && piece.ends_with(failed))
       out += texts.say("condition.failed", piece.substr(1, piece.size() - 1 - failed.size()));
     else
-      out += texts.word("condition", piece);
+      out += texts.remark(texts.word("condition", piece)).value_or(texts.word("condition", piece));
     from = to + 2;
   }
   return out;

@@ -38,7 +38,7 @@ std::string number_cell(const Texts& texts, const Json& value, const std::string
                         int digits = 3);
 std::string fixed_cell(const Texts& texts, double value, int decimals);
 /// "cd/m²" for "cd/m2", "" for "1".
-std::string unit_text(const std::string& unit);
+std::string unit_text(const Texts& texts, const std::string& unit);
 /// The mark of a verdict, and its word. `list`: "verdict" or "sight".
 std::string verdict_mark(const Texts& texts, const char* list, const std::string& verdict);
 std::string verdict_cell(const Texts& texts, const char* list, const std::string& verdict);
@@ -55,7 +55,7 @@ std::string paragraph(const std::string& text, const char* css_class = "");
 std::string figure(const std::string& html, const std::string& caption);
 std::string subheading(const std::string& text);
 /// What the program's checks say in English.
-std::string remark(const std::string& text);
+std::string remark(const Texts& texts, const std::string& text);
 
 /// 'route "corridor"' with its kind in the language.
 std::string subject_text(const Texts& texts, const std::string& subject);

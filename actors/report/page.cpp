@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "actors/output/html_page.hpp"
 #include "actors/report/page_style.hpp"
 #include "actors/report/plan_svg.hpp"
 
@@ -172,14 +173,8 @@ std::string number_of(size_t section) {
 
 std::string report_page(const PageParts& parts, const PageOptions& options) {
   const Texts& t = parts.texts;
-  std::string out = "<!doctype html>\n<html lang=\"" + std::string(t.code()) +
-                    "\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
-                    "content=\"width=device-width, initial-scale=1\">\n<title>" +
-                    escaped(title_of(parts) + " – " + t("page.kind")) + "</title>\n<style>\n" +
-                    page_rule(parts, options.letter) + report_style +
-                    "</style>\n</head>\n<body>\n<header class=\"cover\"><div>" +
-                    paragraph(t("page.kind"), "kind") + "<h1>" + escaped(title_of(parts)) +
-                    "</h1></div>";
+  std::string out = "<header class=\"cover\"><div>" + paragraph(t("page.kind"), "kind") + "<h1>" +
+                    escaped(title_of(parts)) + "</h1></div>";
   if (const std::string logo = text_in(parts.a["project"], "logo_png"); !logo.empty())
     out += "<img alt=\"\" src=\"data:image/png;base64," + logo + "\">";
   out += "</header>\n" + project_block(parts) + verdict_box(parts) + notice_box(t);
@@ -200,8 +195,11 @@ std::string report_page(const PageParts& parts, const PageOptions& options) {
                         escaped(t(section.heading))) +
             html;
   }
-  return out + "<nav>" + subheading(t("page.contents")) + "<ol class=\"contents\">\n" + contents +
-         "</ol></nav>\n" + body + "</body>\n</html>\n";
+  out += "<nav>" + subheading(t("page.contents")) + "<ol class=\"contents\">\n" + contents +
+         "</ol></nav>\n" + body;
+  return html_page({t.code(), title_of(parts) + " – " + t("page.kind"),
+                    page_rule(parts, options.letter) + report_style},
+                   out);
 }
 
 }  // namespace luxodus

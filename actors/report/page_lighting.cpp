@@ -154,7 +154,7 @@ std::string bill_of_materials(const PageParts& parts) {
 
 std::string limit_text(const Texts& t, const Json& check) {
   if (!check["limit"].is_number()) return "–";
-  const std::string unit = unit_text(text_in(check, "unit"));
+  const std::string unit = unit_text(t, text_in(check, "unit"));
   return std::string(text_in(check, "sense") == "at least" ? "≥\u00a0" : "≤\u00a0") +
          t.number(check["limit"].get<double>()) + (unit.empty() ? "" : "\u00a0" + unit);
 }
@@ -172,7 +172,7 @@ std::string check_row(const Texts& t, const Json& check, bool with_subject) {
     what = "<b>" + escaped(subject_text(t, text_in(check, "subject"))) + "</b><br>" + what;
   std::string notes = escaped(condition_text(t, text_in(check, "condition")));
   if (const std::string reason = text_in(check, "reason"); !reason.empty())
-    notes += (notes.empty() ? "" : "<br>") + remark(reason);
+    notes += (notes.empty() ? "" : "<br>") + remark(t, reason);
   return "<tr>" + verdict_cell(t, "verdict", text_in(check, "verdict")) +
          html_cell(what + " <span class=\"id\">" + escaped(text_in(check, "rule")) + "</span>") +
          number_cell(t, check["value"], text_in(check, "unit")) +
@@ -274,7 +274,7 @@ std::string verdict_section(const PageParts& parts) {
   if (!parts.a["warnings"].empty()) {
     out += subheading(t("verdict.warnings")) + "<ul>\n";
     for (const Json& warning : parts.a["warnings"])
-      out += "<li>" + remark(warning.get<std::string>()) + "</li>\n";
+      out += "<li>" + remark(t, warning.get<std::string>()) + "</li>\n";
     out += "</ul>\n";
   }
   return out + paragraph(t("verdict.remarks_english"), "note");

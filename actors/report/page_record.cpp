@@ -57,19 +57,19 @@ std::string smoke_html(const Texts& t, const Json& smoke) {
     out += "<br>" + escaped(text_in(medium, "name")) + ": " +
            escaped(extinction_text(t, medium["extinction_min"], medium["extinction_max"], "1/m"));
     if (const std::string source = text_in(medium, "source"); !source.empty())
-      out += " (" + remark(source) + ")";
+      out += " (" + remark(t, source) + ")";
   }
   return out;
 }
 
 /// Rule sets or deviations: edition, id, what they ask, and what is to be said of them.
-std::string rules_html(const Json& rules) {
+std::string rules_html(const Texts& t, const Json& rules) {
   std::string out;
   for (const Json& rule : rules) {
     out += (out.empty() ? "<b>" : "<br><b>") + escaped(text_in(rule, "edition")) + "</b> (" +
            escaped(text_in(rule, "id")) + ")";
     for (const char* key : {"what", "status"})
-      if (const std::string text = text_in(rule, key); !text.empty()) out += ": " + remark(text);
+      if (const std::string text = text_in(rule, key); !text.empty()) out += ": " + remark(t, text);
   }
   return out;
 }
@@ -129,6 +129,16 @@ std::string media_table(const PageParts& parts) {
       {20, 12, 12, 12, 10, 9, 8, 8, 9}, rows);
 }
 
+/// "S8, ISO 3864-4: Chromaticity of safety colours", the title in the report's language.
+std::string group_text(const Texts& t, const std::string& what) {
+  const size_t comma = what.find(", "), colon = what.find(": ");
+  const ReportText* row =
+      comma == std::string::npos ? nullptr : find_text("rule." + what.substr(0, comma));
+  if (t.language() == Language::en || row == nullptr || colon == std::string::npos)
+    return t.remark(what).value_or(what);
+  return what.substr(0, colon + 2) + t("rule." + what.substr(0, comma));
+}
+
 }  // namespace
 
 std::string verdict_words(const Texts& texts, const Json& a) {
@@ -159,15 +169,15 @@ std::string state_section(const PageParts& parts) {
       "<b>" + escaped(t.say("state.lit", lit["lit"].get<int64_t>(), lit["of"].get<int64_t>())) +
           "</b>" + (lit["lit_names"].empty() ? "" : "<br>") + escaped(list_text(lit["lit_names"])));
   facts.add_html("state.smoke", smoke_html(t, s["smoke"]));
-  facts.add_html("state.rules", rules_html(s["rules"]));
+  facts.add_html("state.rules", rules_html(t, s["rules"]));
   facts.add_html("state.deviations", s["deviations"].empty() ? escaped(t("state.no_deviations"))
-                                                             : rules_html(s["deviations"]));
+                                                             : rules_html(t, s["deviations"]));
   facts.add("state.doors_open", list_text(scenario["doors_open"]));
   facts.add("state.doors_closed", list_text(scenario["doors_closed"]));
-  std::string remarks = remark(text_in(s, "light"));
+  std::string remarks = remark(t, text_in(s, "light"));
   for (const Json& one : s["remarks"])
     if (one.is_string())
-      remarks += (remarks.empty() ? "" : "<br>") + remark(one.get<std::string>());
+      remarks += (remarks.empty() ? "" : "<br>") + remark(t, one.get<std::string>());
   facts.add_html("state.remarks", remarks);
   return facts.table();
 }
@@ -233,8 +243,9 @@ std::string not_assessed_section(const PageParts& parts) {
   const Texts& t = parts.texts;
   std::string rows;
   for (const Json& one : parts.a["not_assessed"])
-    rows += "<tr>" + cell(text_in(one, "what")) + html_cell(remark(text_in(one, "why"))) +
-            number_cell(t, one["count"], "", 9) + "</tr>\n";
+    rows += "<tr>" + cell(group_text(t, text_in(one, "what"))) +
+            html_cell(remark(t, text_in(one, "why"))) + number_cell(t, one["count"], "", 9) +
+            "</tr>\n";
   std::string out = paragraph(t("not_assessed.lead"));
   out += rows.empty() ? paragraph(t("not_assessed.nothing"))
                       : table(t, {"column.what", "column.why", "column.count"}, {38, 52, 10}, rows);

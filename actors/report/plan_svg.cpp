@@ -8,6 +8,7 @@
 #include <map>
 #include <numbers>
 
+#include "actors/output/light_colours.hpp"
 #include "actors/report/isolux.hpp"
 #include "runtime/core/output_text.hpp"
 
@@ -276,9 +277,10 @@ Plan finished(const Sheet& sheet, const std::string& body) {
   return plan;
 }
 
-const char* isolux_colour(double lux) {
-  // Okabe and Ito (2008), told apart by colour-blind eyes; widths differ as well.
-  return lux < 0.7 ? "#cc79a7" : lux < 2 ? "#d55e00" : lux < 7 ? "#0072b2" : "#009e73";
+/// Widths differ as well, for eyes that do not tell these colours apart.
+std::string isolux_colour(double lux) {
+  const LightColour c = colour_of_illuminance(lux);
+  return fmt::format("#{:02x}{:02x}{:02x}", c[0], c[1], c[2]);
 }
 
 /// The line, and its value about every 60 mm, where there is room for it.

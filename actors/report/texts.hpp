@@ -1,6 +1,6 @@
 // Every sentence of a report in every language that it can be written in, by key: one table, so
-// that no language lacks one. Numbers for people in the custom of the language. What the scene and
-// the program's checks say in free words (names, remarks) stays as it is. Constant data and pure
+// that no language lacks one. Numbers for people in the custom of the language. What the scene says
+// in free words (names) stays as it is. Constant data and pure
 // functions; any thread.
 #pragma once
 
@@ -28,6 +28,9 @@ std::span<const ReportText> page_texts();
 std::span<const ReportText> section_texts();
 std::span<const ReportText> word_texts();
 std::span<const ReportText> rule_texts();
+/// Sentences of the program itself, which have no key: the English one, as checks and states hold
+/// it, is what they are found by.
+std::span<const ReportText> remark_texts();
 
 class Texts {
  public:
@@ -46,6 +49,9 @@ class Texts {
   /// A word of a list such as the verdicts ("verdict", "not assessed"); the word itself where the
   /// table has none: it is a name then.
   std::string word(std::string_view list, std::string_view word) const;
+  /// A sentence of the program itself, with its names and numbers; none where the table does not
+  /// have it.
+  std::optional<std::string> remark(std::string_view english) const;
 
   /// `digits` significant digits with the language's decimal sign: "0.0421", "12,5".
   std::string number(double value, int digits = 3) const;

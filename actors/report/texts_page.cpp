@@ -116,9 +116,10 @@ constexpr ReportText rows[] = {
       "Confrontés à des limites non vérifiées"}},
     {"verdict.warnings", {"Warnings", "Warnungen", "Avertissements"}},
     {"verdict.remarks_english",
-     {"Remarks and warnings in italics are those of the program and in English.",
-      "Kursive Bemerkungen und Warnungen stammen vom Programm und sind englisch.",
-      "Les remarques et avertissements en italique sont ceux du programme, en anglais."}},
+     {"Remarks and warnings in italics are those of the program.",
+      "Kursive Bemerkungen und Warnungen stammen vom Programm; Warnungen sind englisch.",
+      "Les remarques et avertissements en italique sont ceux du programme ; les avertissements "
+      "sont en anglais."}},
     {"plan.level", {"Floor at {0} m", "Boden auf {0} m", "Niveau à {0} m"}},
     {"plan.installation",
      {"Luminaires, signs and routes", "Leuchten, Zeichen und Wege",

@@ -148,7 +148,7 @@ Result<void> same(const Json& header, const Json& wanted, const char* key,
 
 }  // namespace
 
-Result<void> save_flux(const std::filesystem::path& path, const LocalRun& run) {
+FluxFile flux_of(const LocalRun& run) {
   FluxFile file;
   file.header_json = describe_run(run).dump(1);
   const Totals& totals = run.totals();
@@ -157,14 +157,21 @@ Result<void> save_flux(const std::filesystem::path& path, const LocalRun& run) {
     const auto& state = totals.state(g);
     file.blocks.push_back(block_of(group_block_name(g), state.totals.data(), state.totals.size()));
   }
-  return write_flux_file(path, file);
+  return file;
+}
+
+Result<void> save_flux(const std::filesystem::path& path, const LocalRun& run) {
+  return write_flux_file(path, flux_of(run));
 }
 
 Result<void> load_flux(const std::filesystem::path& path, LocalRun& run) {
   auto read = read_flux_file(path);
   if (!read) return read.problem();
-  const SourcePlace place{path.string(), 0};
-  const Json header = Json::parse(read->header_json, nullptr, false);
+  return take_flux(read.value(), {path.string(), 0}, run);
+}
+
+Result<void> take_flux(const FluxFile& file, const SourcePlace& place, LocalRun& run) {
+  const Json header = Json::parse(file.header_json, nullptr, false);
   if (!header.is_object()) return Problem{place, "the flux file's header is no JSON object"};
   const Json wanted = describe_run(run);
   for (const char* key :
@@ -172,7 +179,7 @@ Result<void> load_flux(const std::filesystem::path& path, LocalRun& run) {
     if (auto ok = same(header, wanted, key, place); !ok) return ok.problem();
   }
   Totals& totals = run.totals();
-  const Block* ledger_block = read->find("ledger");
+  const Block* ledger_block = file.find("ledger");
   if (ledger_block == nullptr || ledger_block->bytes.size() != sizeof(EnergyBalance))
     return Problem{place, "the flux file holds no ledger of the expected size"};
   EnergyBalance balance;
@@ -186,7 +193,7 @@ Result<void> load_flux(const std::filesystem::path& path, LocalRun& run) {
                               " particles, its batches " + std::to_string(particles) +
                               ": it is damaged"};
   for (int g = 0; g < totals.groups(); ++g) {
-    const Block* block = read->find(group_block_name(g));
+    const Block* block = file.find(group_block_name(g));
     const size_t count = static_cast<size_t>(run.scene().layout.totals());
     if (block == nullptr || block->bytes.size() != count * sizeof(Total)) {
       return Problem{place, "the flux file lacks totals of source group " + std::to_string(g)};

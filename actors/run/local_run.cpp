@@ -46,12 +46,6 @@ LocalRun::LocalRun(std::shared_ptr<const CompiledScene> scene, uint64_t seed, in
       plan_(*scene_),
       error_(std::numeric_limits<double>::quiet_NaN()) {}
 
-const char* name_of(StopReason reason) {
-  constexpr const char* names[] = {"particles",   "error",        "time",
-                                   "interrupted", "workers lost", "objects lost"};
-  return names[static_cast<size_t>(reason)];
-}
-
 void LocalRun::resume(int64_t batches, std::vector<int64_t> missing) {
   plan_.skip(batches);
   missing_ = std::move(missing);
@@ -63,33 +57,6 @@ Batch LocalRun::next_batch() {
   from_the_first.skip(missing_.back());
   missing_.pop_back();
   return from_the_first.next();
-}
-
-int64_t LocalRun::target_batches(const StopRule& stop) const {
-  if (!stop.particles) return std::numeric_limits<int64_t>::max();
-  return (*stop.particles + scene_->batch_particles - 1) / scene_->batch_particles;
-}
-
-Progress progress_of(const StopRule& stop, int64_t batch_particles, int64_t at_start,
-                     int64_t batches, double seconds, double error) {
-  Progress p;
-  p.particles = batches * batch_particles;
-  p.seconds = seconds;
-  const auto here = static_cast<double>((batches - at_start) * batch_particles);
-  p.particles_per_second = seconds > 0 ? here / seconds : 0;
-  p.relative_error = error;
-  double left = std::numeric_limits<double>::infinity();
-  if (stop.seconds) left = std::min(left, *stop.seconds - seconds);
-  if (stop.particles && p.particles_per_second > 0)
-    left =
-        std::min(left, static_cast<double>(*stop.particles - p.particles) / p.particles_per_second);
-  if (stop.relative_error && std::isfinite(error) && error > 0) {
-    const double ratio = error / *stop.relative_error;
-    left = std::min(left, seconds * std::max(0.0, ratio * ratio - 1));
-  }
-  p.seconds_left =
-      std::isfinite(left) ? std::max(0.0, left) : std::numeric_limits<double>::quiet_NaN();
-  return p;
 }
 
 void LocalRun::trace_until(int64_t end, const StopRule& stop, const std::atomic<bool>& interrupt,
@@ -104,7 +71,7 @@ void LocalRun::trace_until(int64_t end, const StopRule& stop, const std::atomic<
       {
         const std::lock_guard lock(plan_mutex_);
         const double now = clock.seconds();
-        if (stop.seconds && now >= *stop.seconds) time_is_up_ = true;
+        if (stop.time_is_up(now)) time_is_up_ = true;
         if (interrupt.load() || time_is_up_ || (missing_.empty() && plan_.given() >= end)) return;
         if (pause_is_due()) return;
         if (now - last_report >= report_every_s) {
@@ -133,26 +100,20 @@ StopReason LocalRun::run(const StopRule& stop, const std::atomic<bool>& interrup
   const double before = seconds_;
   batches_at_start_ = traced();
   time_is_up_ = false;
-  const int64_t target = target_batches(stop);
+  const int64_t batch = scene_->batch_particles;
   StopReason reason = StopReason::particles;
-  while (plan_.given() < target || !missing_.empty()) {
-    // Rounds end where threads wait for one another: only an error target needs them.
-    const int64_t end =
-        stop.relative_error ? std::min(target, plan_.round_end(plan_.given())) : target;
+  while (plan_.given() < stop.target_batches(batch) || !missing_.empty()) {
+    const int64_t end = stop.next_wait(plan_.given(), batch, plan_);
     trace_until(end, stop, interrupt, report, clock);
     pause_if_due();
     const bool left = plan_.given() < end || !missing_.empty();
     if (left && !interrupt.load() && !time_is_up_) continue;
     error_ = Readout(*scene_, totals_).worst_relative_error();
-    if (interrupt.load())
-      reason = StopReason::interrupted;
-    else if (time_is_up_)
-      reason = StopReason::time;
-    else if (stop.relative_error && error_ <= *stop.relative_error)
-      reason = StopReason::error;
-    else
-      continue;
-    break;
+    const RunProgress here{plan_.given(), error_, interrupt.load(), time_is_up_};
+    if (const auto ended = stop.reason_to_stop(here, batch)) {
+      reason = *ended;
+      break;
+    }
   }
   seconds_ = before + clock.seconds();
   report(progress(stop, clock.seconds()));

@@ -11,37 +11,12 @@
 #include <optional>
 #include <vector>
 
-#include "actors/run/batch_plan.hpp"
 #include "actors/run/parallel_for.hpp"
+#include "actors/run/stopping_rule.hpp"
 #include "scenes/transport/readout.hpp"
 #include "scenes/transport/trace.hpp"
 
 namespace luxodus {
-
-/// When to stop; the first rule that holds does. Particles are rounded up to whole batches; the
-/// error is tested at the ends of rounds.
-struct StopRule {
-  std::optional<int64_t> particles;
-  std::optional<double> relative_error;
-  std::optional<double> seconds;
-};
-
-struct Progress {
-  int64_t particles = 0;
-  double seconds = 0;
-  double particles_per_second = 0;
-  double relative_error = 0;  // NaN until a round has ended
-  double seconds_left = 0;    // NaN where no rule gives one
-};
-
-/// Progress after `batches` in all, of which `at_start` were there before these `seconds`.
-Progress progress_of(const StopRule& stop, int64_t batch_particles, int64_t at_start,
-                     int64_t batches, double seconds, double error);
-
-enum class StopReason { particles, error, time, interrupted, workers_lost, objects_lost };
-
-/// The word of a reason in results and logs.
-const char* name_of(StopReason reason);
 
 class LocalRun {
  public:
@@ -95,10 +70,8 @@ class LocalRun {
     untimed_ = {};
   }
 
-  /// Batches that a rule asks for by particles; unreachably many where it does not.
-  int64_t target_batches(const StopRule& stop) const;
-  /// Where the round ends that begins with `batches` done.
-  int64_t round_end(int64_t batches) const { return plan_.round_end(batches); }
+  /// Of the run: which batches it consists of, and where its rounds end.
+  const BatchPlan& plan() const { return plan_; }
 
   const CompiledScene& scene() const { return *scene_; }
   const std::shared_ptr<const CompiledScene>& shared_scene() const { return scene_; }

@@ -1,7 +1,6 @@
 #include "actors/source/controller.hpp"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +8,8 @@
 #include <utility>
 
 #include "runtime/core/check.hpp"
+#include "runtime/core/hash.hpp"
+#include "runtime/core/log.hpp"
 
 namespace luxodus {
 
@@ -43,7 +44,7 @@ Controller::Controller(const ControllerConfig& config, LocalRun& run, const Stop
           [&network](NodeId to, const MessageId& id, const Message& message,
                      const SharedBytes& payload) { network.send(to, id, message, payload); }),
       plan_(run.scene()),
-      target_(run.target_batches(stop)),
+      target_(stop.target_batches(run.scene().batch_particles)),
       batches_at_start_(run.traced()),
       began_(scheduler.clock().now()),
       error_(std::numeric_limits<double>::quiet_NaN()) {
@@ -65,8 +66,8 @@ void Controller::start() {
 bool Controller::nothing_left() const {
   if (book_.committed() >= target_) return true;
   if (!stop_.relative_error || book_.committed() == 0 || !book_.missing().empty()) return false;
-  if (run_.round_end(book_.committed() - 1) != book_.committed()) return false;
-  return Readout(run_.scene(), run_.totals()).worst_relative_error() <= *stop_.relative_error;
+  if (run_.plan().round_end(book_.committed() - 1) != book_.committed()) return false;
+  return stop_.error_is_reached(Readout(run_.scene(), run_.totals()).worst_relative_error());
 }
 
 // ---- workers that come and go ------------------------------------------------------------------
@@ -99,7 +100,7 @@ bool Controller::meet(const Delivery& delivery) {
 void Controller::begin() {
   begun_ = true;
   began_ = scheduler_.clock().now();
-  spdlog::info("run=begun workers={}", peers_.size());
+  log_info("run=begun workers={}", peers_.size());
   note_book();
   open_round();
 }
@@ -120,7 +121,7 @@ void Controller::await_workers(Nanoseconds now) {
   if (now - began_ < config_.start) {
     if (now < next_word_) return;
     next_word_ = now + waiting_word;
-    spdlog::info("run=waiting text=\"{}\"", missing_workers());
+    log_info("run=waiting text=\"{}\"", missing_workers());
     return;
   }
   fault_ = problem(fmt::format("the run did not begin: after {:g} s (start_s) {}",
@@ -159,7 +160,7 @@ void Controller::watch_workers(Nanoseconds now) {
     if (!begun_ || !peer.here || now - *peer.unreachable_since < config_.lost) continue;
     peer.here = false;
     ++counters_.workers_lost;
-    spdlog::error(
+    log_error(
         "worker=lost node={} text=\"no way has led to {} for {:g} s: its batches are lent "
         "again\"",
         worker.value, name_of(worker), seconds_of(config_.lost));
@@ -191,7 +192,7 @@ void Controller::lose_shard(NodeId worker, const char* how) {
 void Controller::fail(const std::string& what) {
   if (over_) return;
   fault_ = problem(what);
-  spdlog::error("run=failed text=\"{}\"", what);
+  log_error("run=failed text=\"{}\"", what);
   end_run(StopReason::workers_lost);
 }
 
@@ -201,8 +202,8 @@ void Controller::fence(const std::vector<Lease>& leases, const char* why) {
   std::map<NodeId, LeasesFenced> told;
   for (const Lease& lease : leases) {
     ++counters_.fenced;
-    spdlog::warn("lease=fenced lease={} node={} batch={} text=\"{}: lent again\"", lease.id,
-                 lease.node.value, lease.batch, why);
+    log_warning("lease=fenced lease={} node={} batch={} text=\"{}: lent again\"", lease.id,
+                lease.node.value, lease.batch, why);
     LeasesFenced& of_node = told[lease.node];
     of_node.leases.push_back(lease.id);
     if (of_node.leases.size() < limits::leases) continue;
@@ -216,7 +217,7 @@ void Controller::fence(const std::vector<Lease>& leases, const char* why) {
 /// A worker has tried these for as long as one waits for a lost node: it cannot have an object.
 void Controller::take_back(NodeId worker, const LeasesFenced& leases) {
   for (const Lease& lease : book_.give_back(worker, leases.leases))
-    spdlog::warn(
+    log_warning(
         "lease=given_back lease={} node={} batch={} text=\"{} cannot have an object that it needs: "
         "lent to others\"",
         lease.id, worker.value, lease.batch, name_of(worker));
@@ -231,7 +232,7 @@ void Controller::lose_batches() {
   const int64_t lost = book_.lose_what_all_gave_back(here);
   if (lost == 0) return;
   counters_.batches_lost += static_cast<uint64_t>(lost);
-  spdlog::error(
+  log_error(
       "run=lost batches={} particles={} text=\"nobody who is left can have the objects that these "
       "need: the run ends without them\"",
       lost, lost * run_.scene().batch_particles);
@@ -274,10 +275,9 @@ void Controller::note_book() {
 
 // ---- rounds ----------------------------------------------------------------------------------
 
-/// Rounds end where workers wait for one another: only an error target needs them.
 void Controller::open_round() {
   const int64_t planned =
-      stop_.relative_error ? std::min(target_, run_.round_end(book_.committed())) : target_;
+      stop_.next_wait(book_.committed(), run_.scene().batch_particles, run_.plan());
   const int64_t end = std::max(planned, book_.lent_end());  // of an earlier run, that lacks some
   book_.open_until(end);
   ++counters_.round;
@@ -312,10 +312,10 @@ void Controller::look_at_totals() {
 void Controller::end_round() {
   error_ = Readout(run_.scene(), run_.totals()).worst_relative_error();
   if (book_.lost() > 0) return end_run(StopReason::objects_lost);
-  if (closing_) return end_run(interrupt_.load() ? StopReason::interrupted : StopReason::time);
-  if (stop_.relative_error && error_ <= *stop_.relative_error) return end_run(StopReason::error);
-  if (book_.committed() >= target_) return end_run(StopReason::particles);
-  open_round();
+  const bool interrupted = closing_ && interrupt_.load();
+  const RunProgress here{book_.committed(), error_, interrupted, closing_ && !interrupted};
+  const auto reason = stop_.reason_to_stop(here, run_.scene().batch_particles);
+  reason ? end_run(*reason) : open_round();
 }
 
 void Controller::end_run(StopReason reason) {
@@ -400,7 +400,7 @@ void Controller::look() {
   note_book();
   let_keeper_rest();
   const double passed = static_cast<double>(now - began_) * 1e-9;
-  if (!closing_ && (interrupt_.load() || (stop_.seconds && passed >= *stop_.seconds))) {
+  if (!closing_ && (interrupt_.load() || stop_.time_is_up(passed))) {
     closing_ = true;
     book_.close();
   }
@@ -411,9 +411,8 @@ void Controller::wait_for_farewells(Nanoseconds now) {
   tell_end();
   if (letting_go_ || now < next_word_) return;
   next_word_ = now + waiting_word;
-  spdlog::info(
-      "run=over text=\"{} must hear of it, or be lost: that takes {:g} s (lost_s) at most\"",
-      who_lacks_end(), seconds_of(config_.lost));
+  log_info("run=over text=\"{} must hear of it, or be lost: that takes {:g} s (lost_s) at most\"",
+           who_lacks_end(), seconds_of(config_.lost));
 }
 
 Progress Controller::progress() const {

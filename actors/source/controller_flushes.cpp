@@ -1,13 +1,12 @@
 // What becomes of a flush at the controller: it is counted whole on a fiber of its own, kept for a
 // crash, and answered; or refused, and its leases are fenced.
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
 #include <utility>
 
 #include "actors/source/controller.hpp"
 #include "actors/tally/flush_codec.hpp"
 #include "runtime/core/hash.hpp"
+#include "runtime/core/log.hpp"
 
 namespace luxodus {
 
@@ -63,13 +62,12 @@ void Controller::answer_flush(const Arrived& arrived, const std::string& why) {
   if (why.empty()) {
     ++counters_.flushes_taken;
     last.answer = FlushTaken{};
-    spdlog::debug("flush=taken node={} leases={}", arrived.worker.value,
-                  arrived.flush.leases.size());
+    log_debug("flush=taken node={} leases={}", arrived.worker.value, arrived.flush.leases.size());
   } else {
     ++counters_.flushes_refused;
     last.answer = FlushRefused{{}, why};
     shards_.refuse(arrived.id);
-    spdlog::warn("flush=refused node={} text=\"{}\"", arrived.worker.value, why);
+    log_warning("flush=refused node={} text=\"{}\"", arrived.worker.value, why);
   }
   counters_.flush_bytes += arrived.payload.size();
   send(arrived.worker, arrived.id, last.answer);
@@ -91,9 +89,8 @@ void Controller::keep(const Arrived& arrived) {
   const auto kept = config_.keeper->keep(batches, arrived.payload);
   if (kept) return;
   ++counters_.flushes_not_kept;
-  spdlog::error(
-      "journal=failed flushes={} text=\"{}: should this node crash, they are traced again\"",
-      counters_.flushes_not_kept, kept.problem().text());
+  log_error("journal=failed flushes={} text=\"{}: should this node crash, they are traced again\"",
+            counters_.flushes_not_kept, kept.problem().text());
 }
 
 /// Between flushes, when the totals hold all that was kept.

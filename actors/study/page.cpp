@@ -3,21 +3,13 @@
 
 #include <algorithm>
 
+#include "actors/output/html_page.hpp"
 #include "actors/study/report.hpp"
 #include "runtime/core/output_text.hpp"
 
 namespace luxodus {
 
 namespace {
-
-constexpr const char* head =
-    "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-    "<title>{0}</title>\n<style>\n"
-    "body {{ font-family: sans-serif; max-width: 62rem; margin: 2rem auto; padding: 0 1rem; }}\n"
-    "table {{ border-collapse: collapse; font-size: 0.85rem; }}\n"
-    "td, th {{ border: 1px solid #bbb; padding: 0.2rem 0.5rem; text-align: right; }}\n"
-    "svg {{ width: 100%; height: auto; }}\n"
-    "</style>\n</head>\n<body>\n<h1>{0}</h1>\n";
 
 std::string paragraph(std::string_view text) {
   return "<p>" + xml_escape(text) + "</p>\n";
@@ -89,7 +81,7 @@ std::string refusals(const StudyOutcome& outcome) {
 
 Result<std::string> study_page(const StudyOutcome& outcome) {
   const Study& study = outcome.study;
-  std::string page = fmt::format(fmt::runtime(head), xml_escape(study.title));
+  std::string page = "<h1>" + xml_escape(study.title) + "</h1>\n";
   if (!study.question.empty()) page += paragraph(study.question);
   page += paragraph("Scene " + study.scene.filename().string() + "; " + fixed_values(study) + ".");
   page += paragraph(fmt::format(
@@ -115,7 +107,8 @@ Result<std::string> study_page(const StudyOutcome& outcome) {
   for (const StudyComparison& comparison : comparisons_of(outcome))
     page += comparison_part(comparison);
   page += "<h2>All points</h2>\n" + table_of(outcome, columns) + refusals(outcome);
-  return page + "</body>\n</html>\n";
+  const std::string style = std::string(html_table_style) + "svg { width: 100%; height: auto; }\n";
+  return html_page({"en", study.title, style}, page);
 }
 
 }  // namespace luxodus

@@ -1,6 +1,5 @@
 #include "actors/supervise/cluster_process.hpp"
 
-#include <spdlog/spdlog.h>
 #include <sys/random.h>
 
 #include <algorithm>
@@ -12,12 +11,15 @@
 #include "actors/supervise/out_of_core_for.hpp"
 #include "actors/supervise/residency_setup.hpp"
 #include "runtime/config/cluster_file.hpp"
+#include "runtime/core/atomic_file.hpp"
+#include "runtime/core/log.hpp"
 #include "runtime/core/output_path.hpp"
 #include "runtime/core/regular_file.hpp"
 #include "runtime/fiber/sanitizers.hpp"
 #include "scenes/pack/scene_pack.hpp"
 #include "scenes/scene_file/scene_file.hpp"
 #include "scenes/transport/compile.hpp"
+#include "scenes/transport/packed_scene.hpp"
 #include "topology/graph_file.hpp"
 #include "topology/shipped.hpp"
 
@@ -133,6 +135,7 @@ Result<std::unique_ptr<ClusterProcessRun>> ClusterProcessRun::prepare(
   process->nodes_ = nodes;
   if (auto ok = process->load_keys(nodes); !ok) return ok.problem();
   if (auto ok = process->load_scene(); !ok) return ok.problem();
+  if (auto ok = process->check_stored_objects(); !ok) return ok.problem();
   return process;
 }
 
@@ -195,6 +198,17 @@ Result<void> ClusterProcessRun::load_scene() {
   run_ = std::make_unique<LocalRun>(scene.value(), seed, 1,
                                     std::make_unique<OutOfCoreParallelFor>(scene.value(), rows));
   return {};
+}
+
+Result<void> ClusterProcessRun::check_stored_objects() const {
+  const PackedScene* packed = run_->scene().description->packed.get();
+  if (!fetches_ || packed == nullptr) return true;
+  // A host may have the skeleton alone: its workers say stores = false, its controller need not.
+  const bool here = std::any_of(nodes_.begin(), nodes_.end(), [&](NodeId node) {
+    return node == cluster_.controller() ? !packed->file->object(0).empty()
+                                         : cluster_.node(node).stores;
+  });
+  return here ? check_objects(run_->scene()) : true;
 }
 
 Result<ReferenceProfile> ClusterProcessRun::profile(double share) const {
@@ -261,8 +275,12 @@ Result<NodeSetup> ClusterProcessRun::setup_of(NodeId self, const RunSetup& run) 
 ObserveOptions ClusterProcessRun::observe_options() const {
   ObserveOptions options;
   options.address = cluster_.observe.metrics_address;
-  const uint16_t port = cluster_.processes[cluster_.node(nodes_.front()).process].metrics_port;
-  if (port != 0) options.metrics_port = port;
+  const ClusterProcess& process = cluster_.processes[cluster_.node(nodes_.front()).process];
+  if (process.metrics_port != 0) options.metrics_port = process.metrics_port;
+  // As `luxodus status` asks for it; behind address translation the host itself knows another.
+  options.allowed_hosts = {cluster_.hosts[process.host].address};
+  if (!cluster_.observe.allow_host.empty())
+    options.allowed_hosts.push_back(cluster_.observe.allow_host);
   options.trace_every = cluster_.observe.trace_every;
   return options;
 }
@@ -276,11 +294,11 @@ Result<void> ClusterProcessRun::open_journal(const Clock& clock) {
   if (!journal) return journal.problem();
   journal_ = std::move(journal).value();
   if (journal_->torn_bytes() > 0)
-    spdlog::warn("journal=torn bytes={} text=\"the end of it was cut: a crash tore it\"",
-                 journal_->torn_bytes());
+    log_warning("journal=torn bytes={} text=\"the end of it was cut: a crash tore it\"",
+                journal_->torn_bytes());
   if (journal_->recovered() > 0)
-    spdlog::warn("run=recovered batches={} text=\"an earlier life of this node has counted them\"",
-                 journal_->recovered());
+    log_warning("run=recovered batches={} text=\"an earlier life of this node has counted them\"",
+                journal_->recovered());
   return {};
 }
 
@@ -362,7 +380,7 @@ Result<std::unique_ptr<ClusterProcessRun::Prepared>> ClusterProcessRun::prepare_
   }
   for (const NodeSetup& node : out->workers)
     if (auto fault = budget_fault(setup, node)) return problem_in(cluster_.file, *fault);
-  spdlog::info("memory plan\n{}", plan_text(setup, out->workers, out->controller));
+  log_info("memory plan\n{}", plan_text(setup, out->workers, out->controller));
   return out;
 }
 

@@ -82,6 +82,8 @@ class ClusterProcessRun {
   struct Prepared;
   Result<std::unique_ptr<Prepared>> prepare_nodes();
   Result<void> load_scene();
+  /// What is damaged in the scene's file, other nodes would ask this process for again and again.
+  Result<void> check_stored_objects() const;
   Result<void> load_keys(const std::vector<NodeId>& nodes);
   Result<std::optional<Residency>> planned_residency(const RunSetup& run) const;
   Result<NodeSetup> setup_of(NodeId self, const RunSetup& run) const;

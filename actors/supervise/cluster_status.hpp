@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "runtime/config/cluster_config.hpp"
-#include "runtime/observe/http_get.hpp"
+#include "runtime/http/http_get.hpp"
 
 namespace luxodus {
 

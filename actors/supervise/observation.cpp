@@ -11,10 +11,19 @@ namespace luxodus {
 Result<std::unique_ptr<Observation>> Observation::start(const ObserveOptions& options) {
   std::unique_ptr<Observation> seen(new Observation(options.trace_every));
   if (!options.metrics_port) return seen;
-  auto server = MetricsServer::start(options.address, *options.metrics_port,
-                                     [page_of = seen.get()] { return page_of->page(); });
-  if (!server) return server.problem();
+  HttpSite site;
+  site.page = [page_of = seen.get()](std::string_view path) -> std::optional<HttpPage> {
+    if (path != "/metrics") return std::nullopt;
+    return HttpPage{page_of->page(), "text/plain; version=0.0.4; charset=utf-8"};
+  };
+  auto server = HttpServer::listen(
+      {options.address, *options.metrics_port, "", options.allowed_hosts}, std::move(site));
+  if (!server.ok()) return Problem{{}, "no metrics can be served: " + server.problem().what};
   seen->server_ = std::move(server).value();
+  seen->serving_ = std::jthread([&serving = *seen->server_](std::stop_token end) {
+    const std::stop_callback at_the_end(std::move(end), [&serving] { serving.stop(); });
+    serving.run();
+  });
   return seen;
 }
 

@@ -9,11 +9,12 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "runtime/core/atomic_file.hpp"
+#include "runtime/http/http_server.hpp"
 #include "runtime/observe/metrics.hpp"
-#include "runtime/observe/metrics_server.hpp"
 #include "runtime/observe/node_trace.hpp"
 
 namespace luxodus {
@@ -27,6 +28,8 @@ struct ObserveOptions {
   std::string address = "127.0.0.1";
   std::optional<uint16_t> metrics_port;  // 0: any that is free; nothing: no page
   uint64_t trace_every = 0;              // particles of which one is traced; 0: none
+  /// Names under which the page may be asked for, beside the address.
+  std::vector<std::string> allowed_hosts = {};
 };
 
 class Observation {
@@ -61,7 +64,8 @@ class Observation {
   const SystemClock clock_;
   std::vector<std::unique_ptr<Metrics>> nodes_;
   std::vector<std::unique_ptr<NodeTrace>> traces_;
-  std::unique_ptr<MetricsServer> server_;  // the last: it ends before what it reads
+  std::unique_ptr<HttpServer> server_;
+  std::jthread serving_;  // the last: it ends before what it reads
 };
 
 /// Memory of this process that is resident, as the system counts it [bytes]; 0 where it does not.

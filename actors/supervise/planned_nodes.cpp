@@ -30,14 +30,14 @@ std::optional<std::string> fault_of(const NodesOptions& options, const CompiledS
            " shards: one of the controller, and one of each node";
   if (options.object_bytes == 0) {
     if (resident) return std::nullopt;
-    return "nodes that do not hold the whole scene need a budget for objects";
+    return "nodes that do not hold the whole scene need a budget for scene parts";
   }
   if (!in_parts(scene))
     return "nodes with a budget need a partition of the geometry: add --cells, or pack the scene "
            "with more than one";
   if (options.replicas < 1 || options.replicas > static_cast<uint32_t>(options.nodes) ||
       options.replicas > limits::holders)
-    return "an object can be held by 1 to " + std::to_string(limits::holders) +
+    return "a scene part can be held by 1 to " + std::to_string(limits::holders) +
            " nodes, and by no more than there are";
   return std::nullopt;
 }

@@ -1,10 +1,9 @@
 #include "actors/supervise/run_journal.hpp"
 
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
 
 #include "actors/run/flux_store.hpp"
+#include "runtime/core/log.hpp"
 #include "runtime/storage/faulty_store.hpp"
 
 namespace luxodus {
@@ -30,7 +29,7 @@ Result<std::unique_ptr<RunJournal>> RunJournal::open(const RunJournalConfig& con
   if (failed)
     return problem_in(config.folder,
                       "cannot make this folder for the journal: " + failed.message());
-  std::unique_ptr<RunJournal> made(new RunJournal(real, run, clock));
+  std::unique_ptr<RunJournal> made(new RunJournal(real, run));
   made->made_folder_ = made_folder;
   const int64_t before = run.traced();
   if (fs::exists(made->snapshot(), failed))
@@ -42,7 +41,12 @@ Result<std::unique_ptr<RunJournal>> RunJournal::open(const RunJournalConfig& con
     store = std::make_unique<FaultyStore>(std::move(store), config.self, config.faults, clock);
   auto journal = FluxJournal::open(std::move(store), run);
   if (!journal) return problem_in(made->journal(), journal.problem().what);
-  made->journal_ = std::move(journal).value();
+  const auto make_snapshot = [path = made->snapshot(), &run]() -> Result<void> {
+    return save_flux(path, run);
+  };
+  made->journal_ = std::make_unique<SnapshotJournal>(
+      std::move(journal).value(), SnapshotJournal::Config{config.max_bytes, config.retry},
+      make_snapshot, clock);
   made->recovered_ = run.traced() - before;
   made->keep_room();
   return made;
@@ -53,39 +57,17 @@ void RunJournal::keep_room() {
   const auto bins = static_cast<uint64_t>(run_.scene().layout.totals());
   const uint64_t bytes = std::min(max_room, groups * bins * sizeof(Total)) + room_beside;
   if (auto kept = room_.take(config_.folder, bytes); !kept)
-    spdlog::warn("journal=no_room text=\"{}\"", kept.problem().text());
-}
-
-Result<void> RunJournal::keep(std::span<const int64_t> batches, std::span<const std::byte> flush) {
-  auto kept = journal_->keep(batches, flush);
-  if (!kept) lacks_ = true;
-  return kept;
-}
-
-/// The snapshot has its name before the journal is cut: between the two, what the journal holds is
-/// known to be in the snapshot.
-Result<void> RunJournal::make_snapshot() {
-  if (auto saved = save_flux(snapshot(), run_); !saved) return saved.problem();
-  return journal_->restart();
+    log_warning("journal=no_room text=\"{}\"", kept.problem().text());
 }
 
 void RunJournal::rest() {
   room_.release();
-  const auto made = make_snapshot();
+  journal_->rest();
   keep_room();
-  // A disk that stays full would have a snapshot made after every flush.
-  if (lacks_ || !made) not_before_ = clock_.now() + config_.retry;
-  if (made) {
-    if (lacks_) spdlog::info("journal=whole text=\"a snapshot has what the journal lacked\"");
-    lacks_ = false;
-    return;
-  }
-  spdlog::error("journal=snapshot_failed text=\"{}: tried again in {:g} s\"", made.problem().text(),
-                static_cast<double>(config_.retry) * 1e-9);
 }
 
 void RunJournal::leave_no_trace() {
-  if (recovered_ > 0 || journal_->records() > 0) return;
+  if (recovered_ > 0 || journal_->journal().records() > 0) return;
   remove();
   std::error_code not_empty;
   if (made_folder_) fs::remove(config_.folder, not_empty);

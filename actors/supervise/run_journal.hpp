@@ -16,7 +16,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "actors/source/flux_journal.hpp"
+#include "actors/source/snapshot_journal.hpp"
 #include "runtime/core/clock.hpp"
 #include "runtime/core/faults.hpp"
 #include "runtime/storage/room_reserve.hpp"
@@ -38,39 +38,33 @@ class RunJournal final : public FlushKeeper {
   static Result<std::unique_ptr<RunJournal>> open(const RunJournalConfig& config, LocalRun& run,
                                                   const Clock& clock);
 
-  Result<void> keep(std::span<const int64_t> batches, std::span<const std::byte> flush) override;
-  /// Where the journal is long, or lacks a flush that the totals have.
-  bool rest_is_due() const override {
-    return (lacks_ || journal_->bytes() >= config_.max_bytes) && clock_.now() >= not_before_;
+  Result<void> keep(std::span<const int64_t> batches, std::span<const std::byte> flush) override {
+    return journal_->keep(batches, flush);
   }
-  /// Makes a snapshot, from which on the journal begins anew.
+  bool rest_is_due() const override { return journal_->rest_is_due(); }
+  /// In the room that was kept for it.
   void rest() override;
   /// Gives back the room that was kept: now the results are written.
   void make_room() { room_.release(); }
 
   /// Batches that were counted before this began.
   int64_t recovered() const { return recovered_; }
-  uint64_t torn_bytes() const { return journal_->torn_bytes(); }
+  uint64_t torn_bytes() const { return journal_->journal().torn_bytes(); }
   /// The results hold everything: removes both files.
   void remove();
   /// The run did not begin: where nothing was counted, nothing is left.
   void leave_no_trace();
 
  private:
-  RunJournal(const RunJournalConfig& config, LocalRun& run, const Clock& clock)
-      : config_(config), run_(run), clock_(clock) {}
+  RunJournal(const RunJournalConfig& config, LocalRun& run) : config_(config), run_(run) {}
   void keep_room();
-  Result<void> make_snapshot();
   std::filesystem::path snapshot() const { return config_.folder / "run.snapshot"; }
   std::filesystem::path journal() const { return config_.folder / "run.journal"; }
 
   const RunJournalConfig config_;
   LocalRun& run_;
-  const Clock& clock_;
   RoomReserve room_;
-  bool lacks_ = false;  // a flush that the totals have
-  Nanoseconds not_before_ = 0;
-  std::unique_ptr<FluxJournal> journal_;
+  std::unique_ptr<SnapshotJournal> journal_;
   int64_t recovered_ = 0;
   bool made_folder_ = false;
 };

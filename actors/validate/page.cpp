@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "actors/output/html_page.hpp"
 #include "actors/output/svg_plot.hpp"
 #include "actors/validate/report.hpp"
 #include "runtime/core/output_text.hpp"
@@ -14,19 +15,14 @@ namespace luxodus::light {
 
 namespace {
 
-constexpr const char* head =
-    "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-    "<title>How accurate Luxodus is</title>\n<style>\n"
-    "body { font-family: sans-serif; max-width: 72rem; margin: 2rem auto; padding: 0 1rem; }\n"
-    "table { border-collapse: collapse; font-size: 0.8rem; margin: 0.5rem 0; }\n"
-    "td, th { border: 1px solid #bbb; padding: 0.15rem 0.4rem; text-align: right; }\n"
+constexpr const char* title = "How accurate Luxodus is";
+constexpr const char* style =
     "td:first-child, th:first-child { text-align: left; }\n"
     "tr.failed, p.failed { background: #fbb; } p.passed { background: #bfb; }\n"
     "tr.rare { color: #888; }\n"
     "p.passed, p.failed { padding: 0.5rem; font-size: 1.2rem; }\n"
     "svg.large { max-width: 44rem; height: auto; } svg.small { vertical-align: middle; }\n"
-    "summary { cursor: pointer; margin: 0.3rem 0; }\n"
-    "</style>\n</head>\n<body>\n<h1>How accurate Luxodus is</h1>\n";
+    "summary { cursor: pointer; margin: 0.3rem 0; }\n";
 
 std::string limit_text(const SuiteRecord& record, size_t short_of_error) {
   if (!std::isfinite(record.case_seconds)) return "";
@@ -227,7 +223,7 @@ std::string case_part(const CaseResult& result, const std::vector<QuantityVerdic
 
 Result<std::string> suite_page(const std::vector<CaseResult>& results, const Verdict& verdict,
                                const SuiteRecord& record) {
-  std::string page = head + verdict_part(verdict, record, results);
+  std::string page = fmt::format("<h1>{}</h1>\n", title) + verdict_part(verdict, record, results);
   const auto distribution = distribution_part(verdict);
   if (!distribution) return distribution.problem();
   page += distribution.value();
@@ -247,7 +243,7 @@ Result<std::string> suite_page(const std::vector<CaseResult>& results, const Ver
     group = results[i].group;
     page += case_part(results[i], verdict.judged[i]);
   }
-  return page + "</body>\n</html>\n";
+  return html_page({"en", title, std::string(html_table_style) + style}, page);
 }
 
 }  // namespace luxodus::light

@@ -1,12 +1,11 @@
 #include "actors/view/live_cluster.hpp"
 
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
 
 #include "actors/supervise/node_plan.hpp"
 #include "actors/tally/flush_codec.hpp"
 #include "actors/view/edits_text.hpp"
+#include "runtime/core/log.hpp"
 
 namespace luxodus {
 
@@ -75,6 +74,11 @@ void LiveCluster::trace(LiveWork& work) {
   work_ = nullptr;
 }
 
+std::optional<Problem> LiveCluster::fault() const {
+  const std::lock_guard lock(mutex_);
+  return fault_;
+}
+
 LiveCluster::Counters LiveCluster::counters() const {
   const std::lock_guard lock(mutex_);
   Counters out = counters_;
@@ -116,7 +120,7 @@ void LiveCluster::work(const Machine& machine) {
     });
     shell.run();
   } catch (const std::exception& e) {
-    spdlog::error("view=broken text=\"{}\"", e.what());
+    log_error("view=broken text=\"{}\"", e.what());
     begun(problem(e.what()));
   }
 }
@@ -135,13 +139,29 @@ void LiveCluster::look() {
   for (auto& [worker, peer] : peers_) {
     if (!peer.here || shell_->network().reaches(worker)) continue;
     peer.here = false;
-    spdlog::warn("worker=lost node={} text=\"no way leads to {}\"", worker.value,
-                 run_.name_of(worker));
+    log_warning("worker=lost node={} text=\"no way leads to {}\"", worker.value,
+                run_.name_of(worker));
   }
   fence([&](const Lease& lease) { return !peers_[lease.node].here; }, "its worker is gone");
   fence([&](const Lease& lease) { return now - lease.lent >= node_.lease_time; }, "late");
+  note_refusal();
   tell_foreseen();
   lend_all();
+}
+
+/// Whoever has had workers waits for them; whoever is turned away at first would wait for ever.
+void LiveCluster::note_refusal() {
+  const auto met = [](const auto& entry) { return entry.second.life != Incarnation{}; };
+  if (fault_ || std::any_of(peers_.begin(), peers_.end(), met)) return;
+  const Network& network = shell_->network();
+  const auto taken = network.taken_elsewhere();
+  if (!taken) return;
+  fault_ =
+      Problem{{},
+              "the live view has nobody to trace for it, since its workers are not free: let "
+              "the run that " +
+                  run_.name_of(*taken) + " works for end first, or give this view other workers; " +
+                  network.refusal_of(*taken)};
 }
 
 /// A lease of no batches has a worker compile what it refers to, and gets no answer.
@@ -166,8 +186,8 @@ void LiveCluster::fence(Which&& which, const char* why) {
       continue;
     }
     ++counters_.fenced;
-    spdlog::warn("lease=fenced lease={} node={} text=\"{}: lent again\"", at->first,
-                 at->second.node.value, why);
+    log_warning("lease=fenced lease={} node={} text=\"{}: lent again\"", at->first,
+                at->second.node.value, why);
     work_->give_back(at->second.batches);
     all_given_ = false;
     at = leases_.erase(at);
@@ -236,8 +256,8 @@ void LiveCluster::meet(const Delivery& delivery) {
   Peer& peer = peers_[delivery.source];
   const bool anew = peer.life != delivery.id.incarnation;
   if (!peer.here)
-    spdlog::info("worker=here node={} text=\"{} is there\"", delivery.source.value,
-                 run_.name_of(delivery.source));
+    log_info("worker=here node={} text=\"{} is there\"", delivery.source.value,
+             run_.name_of(delivery.source));
   const Nanoseconds now = shell_->scheduler().clock().now();
   fence(
       [&](const Lease& lease) {
@@ -262,9 +282,9 @@ void LiveCluster::take(const Delivery& delivery, const BatchesTraced& traced) {
                         ? decode_flush(delivery.payload, totals.groups(), totals.layout().totals())
                         : Result<FlushGain>(problem(traced.fault));
   if (!gain || gain.value().batches() != lease.batches.count) {
-    spdlog::error("worker=fails node={} text=\"{}: {}\"", delivery.source.value,
-                  run_.name_of(delivery.source),
-                  gain.ok() ? "other batches than it was lent" : gain.problem().what);
+    log_error("worker=fails node={} text=\"{}: {}\"", delivery.source.value,
+              run_.name_of(delivery.source),
+              gain.ok() ? "other batches than it was lent" : gain.problem().what);
     peer.here = false;  // until it says again that it is
     fence([&](const Lease& its) { return its.node == delivery.source; }, "its worker fails");
     return;

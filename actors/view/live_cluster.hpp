@@ -31,6 +31,8 @@ class LiveCluster final : public LiveTracers {
   /// Has workers compile it.
   void foresee(const SceneEdits& edits) override;
   void enter(const SceneEdits& edits) override;
+  /// Why none of its workers will ever come: they work for another run. Any thread.
+  std::optional<Problem> fault() const;
   /// Waits for workers where none is there; see LiveTracers.
   void trace(LiveWork& work) override;
 
@@ -65,6 +67,7 @@ class LiveCluster final : public LiveTracers {
   SendOutcome send(NodeId worker, const TraceBatches& order,
                    const std::shared_ptr<const std::string>& edits);
   void tell_foreseen();
+  void note_refusal();
   template <class Which>
   void fence(Which&& which, const char* why);
   int64_t fair_share() const;

@@ -8,7 +8,7 @@
 
 #include "runtime/core/output_text.hpp"
 #include "scenes/emergency/onset.hpp"
-#include "scenes/emergency/sign_geometry.hpp"
+#include "scenes/emergency/sign_light.hpp"
 #include "scenes/geometry/transform.hpp"
 #include "scenes/world/measurements.hpp"
 

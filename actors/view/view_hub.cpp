@@ -232,8 +232,8 @@ void ViewHub::refuse(Viewer& viewer, const std::string& why) {
 }
 
 void ViewHub::says(Viewer& viewer, std::string_view text) {
-  const auto message = parse_view_message(text);
-  if (!message) return refuse(viewer, message.problem().what);
+  const auto message = decode_page_message(text);
+  if (!message.ok()) return refuse(viewer, message.problem().what);
   if (is_edit(message.value()) && editor_ != &viewer)
     return refuse(viewer, "somebody else edits: take over first");
   std::visit([&](const auto& m) { handle(viewer, m); }, message.value());

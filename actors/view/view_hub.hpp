@@ -10,7 +10,7 @@
 
 #include "actors/output/json_out.hpp"
 #include "actors/view/live_json.hpp"
-#include "actors/view/view_messages.hpp"
+#include "actors/view/page_message.hpp"
 
 namespace luxodus {
 

@@ -129,6 +129,7 @@ struct KeysChoice {
 
 struct ObserveChoice {
   std::string metrics_address;
+  std::string allow_host;    // under which the page may be asked for; "": none
   uint64_t trace_every = 0;  // 0: none
   std::string log_level;     // debug, info, warn, error
 };

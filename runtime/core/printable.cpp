@@ -1,5 +1,8 @@
 #include "runtime/core/printable.hpp"
 
+#include <algorithm>
+#include <cstdint>
+
 namespace luxodus {
 
 namespace {
@@ -12,10 +15,17 @@ size_t control_bytes(std::string_view text, size_t at) {
   return byte(at + 1) >= 0x80 && byte(at + 1) <= 0x9F ? 2 : 0;
 }
 
+void add_escaped(std::string& out, std::string_view bytes) {
+  constexpr char digits[] = "0123456789ABCDEF";
+  for (const char c : bytes) {
+    const auto byte = static_cast<unsigned char>(c);
+    out += {'\\', 'x', digits[byte / 16], digits[byte % 16]};
+  }
+}
+
 }  // namespace
 
 std::string printable(std::string_view text, std::string_view kept) {
-  constexpr char digits[] = "0123456789ABCDEF";
   std::string out;
   for (size_t at = 0; at < text.size();) {
     const size_t bytes = control_bytes(text, at);
@@ -23,10 +33,45 @@ std::string printable(std::string_view text, std::string_view kept) {
       out += text[at++];
       continue;
     }
-    for (const size_t end = at + bytes; at < end; ++at) {
-      const auto byte = static_cast<unsigned char>(text[at]);
-      out += {'\\', 'x', digits[byte / 16], digits[byte % 16]};
-    }
+    add_escaped(out, text.substr(at, bytes));
+    at += bytes;
+  }
+  return out;
+}
+
+size_t utf8_length(std::string_view text) {
+  const auto byte = [&](size_t i) { return static_cast<uint8_t>(text[i]); };
+  const auto continues = [&](size_t i, uint8_t low = 0x80, uint8_t high = 0xBF) {
+    return i < text.size() && byte(i) >= low && byte(i) <= high;
+  };
+  const uint8_t first = byte(0);
+  if (first < 0x80) return 1;
+  if (first >= 0xC2 && first <= 0xDF) return continues(1) ? 2 : 0;
+  if (first >= 0xE0 && first <= 0xEF) {
+    const uint8_t low = first == 0xE0 ? 0xA0 : 0x80;
+    const uint8_t high = first == 0xED ? 0x9F : 0xBF;
+    return continues(1, low, high) && continues(2) ? 3 : 0;
+  }
+  if (first >= 0xF0 && first <= 0xF4) {
+    const uint8_t low = first == 0xF0 ? 0x90 : 0x80;
+    const uint8_t high = first == 0xF4 ? 0x8F : 0xBF;
+    return continues(1, low, high) && continues(2) && continues(3) ? 4 : 0;
+  }
+  return 0;
+}
+
+std::string excerpt(std::string_view text, size_t most_bytes) {
+  std::string out;
+  for (size_t at = 0; at < text.size();) {
+    const size_t control = control_bytes(text, at);
+    const size_t character = utf8_length(text.substr(at));
+    const size_t bytes = std::max({control, character, size_t{1}});
+    if (at + bytes > most_bytes) return out + "...";
+    if (control > 0 || character == 0)
+      add_escaped(out, text.substr(at, bytes));
+    else
+      out += text.substr(at, bytes);
+    at += bytes;
   }
   return out;
 }

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "runtime/core/file_descriptor.hpp"
+#include "runtime/core/regular_file.hpp"
 
 namespace luxodus {
 
@@ -51,18 +52,17 @@ Result<std::string> write_new(const fs::path& path, const std::string& text, mod
 
 /// The first word of the file that has the length of a key. `secret`: refuse what others may read.
 Result<std::string> read_key(const fs::path& path, bool secret) {
-  // A pipe without a writer would be waited for.
-  const FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
-  if (!file.valid()) return system_problem(path, "cannot be read", errno);
+  const auto file = open_regular_file(path);
+  if (!file) return file.problem();
   struct stat state {};
-  if (::fstat(file.number(), &state) != 0) return system_problem(path, "cannot be read", errno);
-  if (!S_ISREG(state.st_mode)) return problem_in(path, "is no file: a key is read from a file");
+  if (::fstat(file->descriptor.number(), &state) != 0)
+    return system_problem(path, "cannot be read", errno);
   if (secret && (state.st_mode & (S_IRWXG | S_IRWXO)) != 0)
     return problem_in(path,
                       "holds a secret key that others may read: chmod 600 it, and if they may "
                       "have read it, make a new one");
   std::array<char, max_file_bytes + 1> text;
-  const ssize_t n = ::read(file.number(), text.data(), text.size());
+  const ssize_t n = ::read(file->descriptor.number(), text.data(), text.size());
   if (n < 0) return system_problem(path, "cannot be read", errno);
   if (static_cast<size_t>(n) > max_file_bytes) return problem_in(path, "is too long for a key");
   std::string_view key(text.data(), static_cast<size_t>(n));

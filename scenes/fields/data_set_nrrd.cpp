@@ -11,6 +11,7 @@
 #include <map>
 #include <optional>
 
+#include "runtime/core/printable.hpp"
 #include "runtime/core/regular_file.hpp"
 #include "scenes/fields/data_set_fields.hpp"
 #include "scenes/geometry/transform.hpp"
@@ -75,7 +76,7 @@ class Reader {
     const Entry* entry = find(field);
     return bad(entry ? entry->line : 0,
                entry ? fmt::format("\"{}: {}\" is not understood: give {}", field,
-                                   entry->value.substr(0, 60), rule)
+                                   excerpt(entry->value), rule)
                      : fmt::format("\"{}\" is missing: give {}", field, rule));
   }
 
@@ -139,12 +140,12 @@ class Reader {
         return bad(line, "axis mins and maxs are not read: give \"spacings\" and \"space origin\"");
       }
       if (!contains(fields_read, name) && !contains(fields_passed_over, name)) {
-        return bad(line, fmt::format("NRRD knows no field \"{}\"", name.substr(0, 40)));
+        return bad(line, fmt::format("NRRD knows no field \"{}\"", excerpt(name)));
       }
     }
     auto& list = is_key ? header_.key : header_.field;
     if (!list.try_emplace(name, Entry{text, line}).second) {
-      return bad(line, fmt::format("\"{}\" is said twice", name.substr(0, 40)));
+      return bad(line, fmt::format("\"{}\" is said twice", excerpt(name)));
     }
     return std::nullopt;
   }
@@ -203,7 +204,7 @@ class Reader {
       if (!is_known_field(name)) {
         return bad(line, fmt::format("unknown field \"{}\": extinction, soot_density, albedo and "
                                      "emission are read",
-                                     name.substr(0, 40)));
+                                     excerpt(name)));
       }
       grid_.fields.push_back({std::string(name), {}});
     }

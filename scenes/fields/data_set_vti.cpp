@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "runtime/core/printable.hpp"
 #include "runtime/core/regular_file.hpp"
 #include "scenes/fields/data_set_fields.hpp"
 
@@ -207,8 +208,7 @@ class Reader {
       quote = skip_spaces(quote + 1);
       if (key.empty() || !equals || quote >= text_.size() ||
           (text_[quote] != '"' && text_[quote] != '\'')) {
-        return bad(tag.first,
-                   fmt::format("the tag \"{}\" is not well formed", tag.name.substr(0, 40)));
+        return bad(tag.first, fmt::format("the tag \"{}\" is not well formed", excerpt(tag.name)));
       }
       const size_t end = text_.find(text_[quote], quote + 1);
       if (end == std::string::npos) return bad(tag.first, "an attribute has no closing quote");
@@ -232,11 +232,11 @@ class Reader {
       if (auto wrong = next_tag(at, tag)) return wrong;
       if (tag.name.empty()) {
         if (open.empty()) return std::nullopt;
-        return bad(tag.first, fmt::format("the file ends within \"{}\"", open.back()));
+        return bad(tag.first, fmt::format("the file ends within \"{}\"", excerpt(open.back())));
       }
       if (tag.closes) {
         if (open.empty() || open.back() != tag.name) {
-          return bad(tag.first, fmt::format("\"</{}>\" closes nothing", tag.name.substr(0, 40)));
+          return bad(tag.first, fmt::format("\"</{}>\" closes nothing", excerpt(tag.name)));
         }
         open.pop_back();
         continue;
@@ -269,7 +269,7 @@ class Reader {
   Fault enter_file(const Tag& tag) {
     if (tag.attribute("type") != "ImageData") {
       return bad(tag.first, fmt::format("a VTK file of type \"{}\": ImageData is read",
-                                        tag.attribute("type").substr(0, 40)));
+                                        excerpt(tag.attribute("type"))));
     }
     if (tag.attribute("byte_order") != "LittleEndian") {
       return bad(tag.first, "byte_order must be LittleEndian");
@@ -404,8 +404,7 @@ class Reader {
 
   Fault take(const Array& array) {
     if (!is_known_field(array.name)) {
-      if (others_.size() < 200)
-        others_ += (others_.empty() ? "" : ", ") + std::string(array.name.substr(0, 40));
+      if (others_.size() < 200) others_ += (others_.empty() ? "" : ", ") + excerpt(array.name);
       return std::nullopt;
     }
     if (!array.components.empty() && array.components != "1") {
@@ -421,7 +420,7 @@ class Reader {
     } else {
       return bad(array.first,
                  fmt::format("\"{}\" is of type \"{}\": Float32, Float64 and UInt8 are read",
-                             array.name, array.type.substr(0, 40)));
+                             array.name, excerpt(array.type)));
     }
     const std::string too_large = memory_fault(grid_.nx * grid_.ny * grid_.nz, 1);
     if (!too_large.empty()) return bad(array.first, too_large);
@@ -436,7 +435,7 @@ class Reader {
     } else if (array.format == "appended") {
       wrong = read_appended(array, count, type, values);
     } else {
-      wrong = bad(array.first, fmt::format("unknown format \"{}\"", array.format.substr(0, 40)));
+      wrong = bad(array.first, fmt::format("unknown format \"{}\"", excerpt(array.format)));
     }
     if (wrong) return wrong;
     if (array.of_points) {

@@ -21,6 +21,7 @@
 #include <utility>
 
 #include "runtime/core/isolated_job.hpp"
+#include "runtime/core/printable.hpp"
 #include "scenes/geometry/mesh_text.hpp"
 
 namespace luxodus {
@@ -149,7 +150,8 @@ class Collector {
     ImportedPart part;
     part.name = part_name(node, from);
     if (!place.usable()) {
-      return problem(fmt::format("part \"{}\": its node is scaled by 0 or not finite", part.name));
+      return problem(
+          fmt::format("part \"{}\": its node is scaled by 0 or not finite", excerpt(part.name)));
     }
     if (auto bad = copy_triangles(from, part)) return bad;
     if (part.mesh.triangles.empty()) return std::nullopt;
@@ -183,7 +185,7 @@ class Collector {
         if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) {
           return problem(
               fmt::format("part \"{}\": the texture coordinate of vertex {} is not a finite number",
-                          part.name, i + 1));
+                          excerpt(part.name), i + 1));
         }
         mesh.texture_uv.push_back({uv.x, uv.y});
       }
@@ -195,7 +197,7 @@ class Collector {
       const glm::uvec3 t(face.mIndices[0], face.mIndices[1], face.mIndices[2]);
       if (std::max({t.x, t.y, t.z}) >= from.mNumVertices) {
         return problem(fmt::format("part \"{}\": triangle {} names a vertex that does not exist",
-                                   part.name, i + 1));
+                                   excerpt(part.name), i + 1));
       }
       mesh.triangles.push_back(t);
     }
@@ -206,7 +208,7 @@ class Collector {
     for (size_t i = 0; i < part.mesh.positions.size(); ++i) {
       if (finite(part.mesh.positions[i])) continue;
       return problem(fmt::format("part \"{}\": the position of vertex {} is not a finite number",
-                                 part.name, i + 1));
+                                 excerpt(part.name), i + 1));
     }
     return std::nullopt;
   }
@@ -219,7 +221,7 @@ class Collector {
       return problem(fmt::format(
           "part \"{}\": a coordinate of {:g} is known to {:.3g} m only; export the model "
           "about an origin of its own and move it in the scene",
-          part.name, farthest, step_m));
+          excerpt(part.name), farthest, step_m));
     }
     return std::nullopt;
   }
@@ -243,7 +245,7 @@ class Collector {
       if (c >= 0 && c <= 1) continue;  // NaN fails
       return problem(
           fmt::format("material \"{}\": a component of its base colour is {}: give 0 to 1",
-                      part.material_name, c));
+                      excerpt(part.material_name), c));
     }
     part.base_colour = glm::dvec3(colour.r, colour.g, colour.b);
     return std::nullopt;
@@ -282,7 +284,7 @@ Result<std::vector<ImportedPart>> import_by_assimp(const std::string& path, doub
   if (scene == nullptr) {
     const std::string why = importer.GetErrorString();
     if (why.find("bad_alloc") != std::string::npos) throw std::bad_alloc();  // Assimp has caught it
-    return problem_in(path, fmt::format("cannot be read: {:.200}", why));
+    return problem_in(path, "cannot be read: " + excerpt(why, 200));
   }
   return Collector(*scene, path, metres_per_unit, up).collect();
 }

@@ -11,6 +11,7 @@
 #include <new>
 
 #include "runtime/core/isolated_job.hpp"
+#include "runtime/core/printable.hpp"
 #include "scenes/geometry/assimp_import.hpp"
 #include "scenes/geometry/mesh_text.hpp"
 
@@ -48,7 +49,7 @@ Result<std::vector<ImportedPart>> imported(const std::string& path, double metre
   } catch (const std::bad_alloc&) {
     throw;  // said with the limit
   } catch (const std::exception& e) {
-    return problem_in(path, fmt::format("cannot be read: {:.200}", e.what()));
+    return problem_in(path, "cannot be read: " + excerpt(e.what(), 200));
   } catch (...) {
     return problem_in(path, "cannot be read: the importer failed without a reason");
   }

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include "runtime/core/printable.hpp"
 #include "scenes/geometry/mesh_tools.hpp"
 
 namespace luxodus {
@@ -90,7 +91,7 @@ Result<double> metres_per_unit(std::string_view unit_name) {
     if (name == unit_name) return metres;
   }
   return problem(fmt::format("unknown unit of length \"{}\": use m, mm, cm, km, in or ft",
-                             unit_name.substr(0, 40)));
+                             excerpt(unit_name)));
 }
 
 Transform to_z_up(UpAxis up) {
@@ -104,7 +105,7 @@ Transform to_z_up(UpAxis up) {
 Result<UpAxis> up_axis_named(std::string_view word) {
   if (word == "y") return UpAxis::y;
   if (word == "z") return UpAxis::z;
-  return problem(fmt::format("unknown up axis \"{}\": use \"y\" or \"z\"", word.substr(0, 40)));
+  return problem(fmt::format("unknown up axis \"{}\": use \"y\" or \"z\"", excerpt(word)));
 }
 
 Result<Frame> frame_facing(const glm::dvec3& origin, const glm::dvec3& direction,

@@ -28,8 +28,8 @@ SurfaceModel make_surface(SurfaceKind kind, double reflectance, double specular,
   // Two roundings may add up to more than 1: the diffuse part gives way.
   if (kind == SurfaceKind::glossy)
     out.reflectance = std::min(out.reflectance, 1.0_r - out.specular);
-  out.alpha = static_cast<Real>(within(roughness, surface_limits::least_alpha, 1.0));
-  out.ior = static_cast<Real>(within(ior, surface_limits::least_ior, surface_limits::most_ior));
+  out.alpha = static_cast<Real>(within(roughness, surface_limits::min_alpha, 1.0));
+  out.ior = static_cast<Real>(within(ior, surface_limits::min_ior, surface_limits::max_ior));
   out.log2_transmittance = log2_of(static_cast<Real>(within(internal_transmittance, 0.0, 1.0)));
   return out;
 }

@@ -11,11 +11,11 @@
 #include <map>
 #include <utility>
 
+#include "runtime/core/printable.hpp"
 #include "scenes/photometry/photometric_table.hpp"
 #include "scenes/photometry/photometric_text.hpp"
 
 namespace luxodus {
-namespace {
 
 namespace limits {
 constexpr double vertical_angles = 1801;    // 0.1 degree steps; real files stop at 181 to 721
@@ -28,6 +28,8 @@ constexpr double watts = 1e6;
 constexpr double factor = 1e6;
 constexpr double lamps = 1e4;
 }  // namespace limits
+
+namespace {
 
 constexpr double metres_per_foot = 0.3048;
 constexpr double same_angle_deg = 0.01;
@@ -244,7 +246,7 @@ class IesReader {
     edition_ = Edition::y2002;
     out_.format = "IES LM-63-2002";
     warn(static_cast<int>(first) + 1,
-         "unknown edition \"" + mark.substr(0, 40) + "\"; it is read as LM-63-2002");
+         "unknown edition \"" + excerpt(mark) + "\"; it is read as LM-63-2002");
   }
 
   /// Keywords in brackets; [MORE] carries on with the one before. 1986 files hold plain lines.
@@ -324,13 +326,14 @@ class IesReader {
     // The file stands beside the IES file; a path would let a data file reach anywhere.
     if (name.empty() || name.find_first_of("/\\:") != std::string::npos || name == "..") {
       in_.fail(line, "TILT= must be NONE, INCLUDE or the name of a file beside this one, not \"" +
-                         name.substr(0, 80) + "\"");
+                         excerpt(name) + "\"");
       return {};
     }
     const std::filesystem::path path = folder_ / name;
     const Result<std::string> bytes = read_photometric_bytes(path);
     if (!bytes) {
-      in_.fail(line, "the tilt file \"" + name + "\" cannot be read: " + bytes.problem().what);
+      in_.fail(line,
+               "the tilt file \"" + excerpt(name) + "\" cannot be read: " + bytes.problem().what);
       return {};
     }
     const auto tilt_lines = photometric_lines(bytes.value(), path.string());

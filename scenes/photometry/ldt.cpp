@@ -8,11 +8,11 @@
 #include <cmath>
 #include <utility>
 
+#include "runtime/core/printable.hpp"
 #include "scenes/photometry/photometric_table.hpp"
 #include "scenes/photometry/photometric_text.hpp"
 
 namespace luxodus {
-namespace {
 
 namespace limits {
 constexpr double c_planes = 1440;       // 0.25 degree steps; real files stop at 72 to 361
@@ -25,6 +25,8 @@ constexpr double watts = 1e6;
 constexpr double factor = 1e4;
 constexpr double lamps = 1e4;
 }  // namespace limits
+
+namespace {
 
 // Header and integral of a clean file agree to 0.1 %; beyond 2 % one of them is about something
 // else.
@@ -101,8 +103,8 @@ class LdtReader {
     const std::optional<double> value = decimal(type, true);
     if (numbers_.fault() || (value && (*value == 0 || *value == 1 || *value == 2 || *value == 3)))
       return;
-    warn(line_, "the type indicator (Ityp) should be 0, 1, 2 or 3, not \"" +
-                    std::string(type.substr(0, 40)) + "\"; it is not used");
+    warn(line_, "the type indicator (Ityp) should be 0, 1, 2 or 3, not \"" + excerpt(type) +
+                    "\"; it is not used");
   }
 
   void read_dimensions() {

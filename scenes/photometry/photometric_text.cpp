@@ -4,16 +4,15 @@
 #include <cmath>
 #include <system_error>
 
+#include "runtime/core/printable.hpp"
 #include "runtime/core/regular_file.hpp"
 
 namespace luxodus {
 namespace {
 
-namespace limits {
 // The largest sensible web (0.5 degree steps all around) is 3 MB of text; 10x more is another kind
 // of file.
-constexpr std::uintmax_t file_bytes = 16u << 20;
-}  // namespace limits
+constexpr std::uintmax_t most_file_bytes = 16u << 20;
 
 bool is_digit(char c) {
   return c >= '0' && c <= '9';
@@ -22,25 +21,9 @@ bool is_blank(char c) {
   return c == ' ' || c == '\t' || c == '\v' || c == '\f';
 }
 
-/// Length of the UTF-8 sequence at `i`, 0 where there is none (RFC 3629 lengths and continuation
-/// bytes).
-size_t utf8_length(std::string_view text, size_t i) {
-  const auto lead = static_cast<unsigned char>(text[i]);
-  size_t length = 0;
-  if (lead < 0x80) return 1;
-  if (lead >= 0xC2 && lead <= 0xDF) length = 2;
-  if (lead >= 0xE0 && lead <= 0xEF) length = 3;
-  if (lead >= 0xF0 && lead <= 0xF4) length = 4;
-  if (length == 0 || i + length > text.size()) return 0;
-  for (size_t k = 1; k < length; ++k) {
-    if ((static_cast<unsigned char>(text[i + k]) & 0xC0) != 0x80) return 0;
-  }
-  return length;
-}
-
 bool is_utf8(std::string_view text) {
   for (size_t i = 0; i < text.size();) {
-    const size_t length = utf8_length(text, i);
+    const size_t length = utf8_length(text.substr(i));
     if (length == 0) return false;
     i += length;
   }
@@ -103,10 +86,10 @@ Result<std::string> read_photometric_bytes(const std::filesystem::path& path) {
   const std::uintmax_t size = std::filesystem::file_size(path, error);
   if (error)
     return Problem{place, "the photometric file's size cannot be read; is it still there?"};
-  if (size > limits::file_bytes) {
+  if (size > most_file_bytes) {
     return Problem{place, "the file is larger than 16 MiB, more than any photometric file needs"};
   }
-  return read_regular_file(path, limits::file_bytes);
+  return read_regular_file(path, most_file_bytes);
 }
 
 Result<std::vector<std::string>> photometric_lines(std::string_view bytes,

@@ -93,7 +93,7 @@ void thicken(SceneDescription& scene, const std::string& medium, double factor) 
 
 }  // namespace
 
-void read_change(const toml::table& table, SceneReading& reading) {
+void read_change(const toml::Table& table, SceneReading& reading) {
   KeyReader keys(table, {"change"}, reading);
   const std::string kind = keys.choice("kind");
   const double factor = keys.number("factor");

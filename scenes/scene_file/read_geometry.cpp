@@ -18,15 +18,15 @@ void move_by(Mesh& mesh, const glm::dvec3& offset) {
 }
 
 Result<int> segments_of(KeyReader& keys, const char* radius) {
-  return shapes::segments_within(keys.number(radius), keys.number("bound_m"));
+  return shapes::segments_within(keys.number(radius), keys.number("mesh_tolerance_m"));
 }
 
 Result<Shape> wall_shape(KeyReader& keys) {
   const glm::dvec3 from = keys.point("from"), to = keys.point("to");
   const double height = keys.number("height"), thickness = keys.number("thickness");
   std::vector<shapes::WallOpening> openings;
-  for (const toml::table* t : keys.tables("opening")) {
-    KeyReader hole(*t, {"object.opening"}, keys.reading(), keys.place());
+  for (const toml::Table* t : keys.tables("opening")) {
+    KeyReader hole(*t, {"object.opening"}, keys.reading());
     openings.push_back(
         {hole.number("at"), hole.number("sill"), hole.number("width"), hole.number("height")});
     const auto& o = openings.back();
@@ -74,7 +74,7 @@ Result<Shape> outline_shape(KeyReader& keys, bool prism) {
 
 Result<Shape> round_shape(KeyReader& keys, const std::string& kind) {
   if (kind == "sphere") {
-    const double radius = keys.number("radius"), bound = keys.number("bound_m");
+    const double radius = keys.number("radius"), bound = keys.number("mesh_tolerance_m");
     if (!keys.clean()) return Problem{};
     return shapes::sphere(radius, bound);
   }
@@ -183,7 +183,7 @@ void read_room(KeyReader& keys, const Object& common, const SurfaceWords& words,
 
 }  // namespace
 
-void read_object(const toml::table& table, SceneReading& reading) {
+void read_object(const toml::Table& table, SceneReading& reading) {
   std::string kind;
   KeyReader keys = kind_reader(table, "object", "shape", reading, kind);
   Object object;

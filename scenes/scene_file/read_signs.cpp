@@ -34,6 +34,9 @@ Result<SignFace> drawn_face(const std::filesystem::path& path, const Sign& sign,
   return problem("a pictogram is an .svg or a .png file, not '" + path.filename().string() + "'");
 }
 
+/// Lengths of a sign in millimetres are no smaller.
+constexpr double least_slip = 1;
+
 /// A length of a sign that is written and longer than `most` is a slip of the unit more often than
 /// not, and would make small details large.
 void bound_length(KeyReader& keys, const char* key, double value, double most, const char* of,
@@ -42,8 +45,10 @@ void bound_length(KeyReader& keys, const char* key, double value, double most, c
   keys.problem(key, "'" + std::string(key) + "' is " + shortest_number(value) +
                         " m but must not exceed " + shortest_number(most) + " m, " + of +
                         " of a face of " + shortest_number(sign.width_m) + " x " +
-                        shortest_number(sign.height_m) + " m; metres? " + shortest_number(value) +
-                        " mm is " + shortest_number(value / 1000));
+                        shortest_number(sign.height_m) + " m" +
+                        (value >= least_slip ? "; metres? " + shortest_number(value) + " mm is " +
+                                                   shortest_number(value / 1000)
+                                             : ""));
 }
 
 /// Every length of a sign is bounded by its face.
@@ -66,9 +71,9 @@ void read_face(KeyReader& keys, Sign& sign) {
   const std::string legend_word = keys.choice("legend");
   const SignColour legend = legend_word == "green" ? SignColour::green : SignColour::white;
   const auto detail = keys.maybe_number("smallest_detail");
-  const auto path = given == "file" ? keys.path("file") : std::nullopt;
+  const auto path = given == "file" ? keys.file("file") : std::nullopt;
   const std::string plain = given == "plain" ? keys.choice("plain") : "";
-  const auto map = keys.path("luminance_map");
+  const auto map = keys.file("luminance_map");
   if (given != "text") {
     for (const char* key : {"letter_height", "stroke", "spacing"}) {
       if (keys.has(key)) {
@@ -87,7 +92,7 @@ void read_face(KeyReader& keys, Sign& sign) {
     sign.letters = SignLetters{letter, stroke};
     sign.text = keys.text("text");
   }
-  if (given == "file") sign.file = keys.node("file")->value_or(std::string());
+  if (path) sign.file = *keys.value("file")->as_text();
   bound_lengths(keys, sign);
   if (!keys.clean()) return;
   auto face = given == "file" ? drawn_face(*path, sign, texels)
@@ -158,7 +163,7 @@ void read_luminances(KeyReader& keys, Sign& sign) {
 
 }  // namespace
 
-void read_sign(const toml::table& table, SceneReading& reading) {
+void read_sign(const toml::Table& table, SceneReading& reading) {
   KeyReader keys(table, {"sign"}, reading);
   Sign sign;
   sign.place = keys.place();

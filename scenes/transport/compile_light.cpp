@@ -10,7 +10,7 @@
 #include <numeric>
 
 #include "scenes/emergency/onset.hpp"
-#include "scenes/emergency/sign_geometry.hpp"
+#include "scenes/emergency/sign_light.hpp"
 
 namespace luxodus {
 

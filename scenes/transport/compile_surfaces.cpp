@@ -135,6 +135,16 @@ uint16_t edge_margin(const TriangleRecord& t, double twice_area_m2, double longe
   return static_cast<uint16_t>(std::clamp(share, 1.0, double{TriangleRecord::most_edge_margin}));
 }
 
+/// Larger than any building: millimetres are likelier [m].
+constexpr double most_length_m = 1000;
+
+double length_of(const Mesh& mesh) {
+  Bounds box;
+  for (const glm::dvec3& p : mesh.positions) box.extend(p);
+  const glm::dvec3 size = box.high - box.low;
+  return std::max({size.x, size.y, size.z});
+}
+
 /// Collects the triangles of one surface after another.
 class TriangleBuilder {
  public:
@@ -151,8 +161,11 @@ class TriangleBuilder {
       add_triangle(surface, index, mesh, t, patch_edge_m);
       if (patches_ > limits::patches) {
         return Problem{place, "with \"" + surface.name + "\" the scene has more than " +
-                                  std::to_string(limits::patches) +
-                                  " flux patches: make patch_edge_m larger"};
+                                  std::to_string(limits::patches) + " flux patches: " +
+                                  (length_of(mesh) > most_length_m
+                                       ? "it is longer than a kilometre: is it in another unit "
+                                         "than metres? Else make patch_edge_m larger"
+                                       : "make patch_edge_m larger")};
       }
     }
     surface.patches = patches() - surface.first_patch;

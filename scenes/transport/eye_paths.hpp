@@ -231,7 +231,7 @@ class EyeScores {
     const Real choice = random_.uniform();
     const FreeFlight flight = free_flight<MediaNeed::general>(
         scene_.media, band, c.ray.origin, c.ray.direction, c.distance, tau, choice, resolver_);
-    eye_.add_scattered_once(c.ray, c.distance, flight, collided, band, chosen.lm_per_w, light_);
+    eye_.add_single_scattering(c.ray, c.distance, flight, collided, band, chosen.lm_per_w, light_);
     if (!flight.collided || flight.albedo <= 0) return;
     const PhaseFunction& phase = scene_.phases[static_cast<size_t>(flight.phase)];
     const Vec3 place = c.ray.origin + c.ray.direction * flight.t;

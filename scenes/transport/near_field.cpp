@@ -94,7 +94,7 @@ glm::dvec3 nearest_on_route(const EscapeRoute& route, const glm::dvec3& p) {
   return best;
 }
 
-// ---- warnings -----------------------------------------------------------------------------------
+// ---- places -------------------------------------------------------------------------------------
 
 std::string metres(double m) {
   char text[32];
@@ -109,7 +109,8 @@ class NearField {
 
   /// `nearest(p)`: the point of the place that is nearest to p.
   template <class Nearest>
-  void look_at(const std::string& what, const SourcePlace& place, const Nearest& nearest) {
+  void look_at(const std::string& what, bool judged, const SourcePlace& place,
+               const Nearest& nearest) {
     const Luminaire* worst = nullptr;
     double worst_m = 0;
     size_t near = 0;
@@ -133,15 +134,15 @@ class NearField {
     if (near > 1)
       text += " (" + std::to_string(near - 1) + (near > 2 ? " other luminaires are" : " other is") +
               " as near)";
-    warnings_.push_back({place, std::move(text)});
+    places_.push_back({{place, std::move(text)}, judged});
   }
 
-  std::vector<Problem> take() { return std::move(warnings_); }
+  std::vector<NearPlace> take() { return std::move(places_); }
 
  private:
   const std::vector<Luminaire> luminaires_;
   const SeesPlace& sees_;
-  std::vector<Problem> warnings_;
+  std::vector<NearPlace> places_;
 };
 
 bool is_looked_at(const SceneDescription& scene, uint32_t sign) {
@@ -152,30 +153,31 @@ bool is_looked_at(const SceneDescription& scene, uint32_t sign) {
 
 }  // namespace
 
-std::vector<Problem> near_field_warnings(const SceneDescription& scene, const Scenario& scenario,
+std::vector<NearPlace> near_field_places(const SceneDescription& scene, const Scenario& scenario,
                                          const SeesPlace& sees) {
   NearField near(scene, scenario, sees);
+  const bool judged = scenario.operation == Operation::emergency;
   const auto called = [](const char* kind, const std::string& name) {
     return std::string(kind) + " \"" + name + "\"";
   };
   for (const PlaneMeasure& plane : scene.planes)
-    near.look_at(called("plane", plane.name), plane.place,
+    near.look_at(called("plane", plane.name), false, plane.place,
                  [&](const glm::dvec3& p) { return nearest_in_plane(plane, p); });
   for (const ProbeMeasure& probe : scene.probes)
-    near.look_at(called("probe", probe.name), probe.place,
+    near.look_at(called("probe", probe.name), false, probe.place,
                  [&](const glm::dvec3&) { return probe.position; });
   for (const EscapeRoute& route : scene.routes)
-    near.look_at(called("route", route.name), route.place,
+    near.look_at(called("route", route.name), judged, route.place,
                  [&](const glm::dvec3& p) { return nearest_on_route(route, p); });
   for (const auto* areas : {&scene.open_areas, &scene.task_areas})
     for (const AssessedArea& area : *areas)
-      near.look_at(called("area", area.name), area.place,
+      near.look_at(called("area", area.name), judged, area.place,
                    [&](const glm::dvec3& p) { return nearest_in_area(area, p); });
   for (uint32_t i = 0; i < scene.signs.size(); ++i) {
     const Sign& sign = scene.signs[i];
     if (is_looked_at(scene, i))
-      near.look_at(called("sign", sign.name), sign.place,
-                   [&](const glm::dvec3&) { return sign.frame.origin; });
+      near.look_at(called("sign", sign.name), judged && sign.lighting == SignLighting::external,
+                   sign.place, [&](const glm::dvec3&) { return sign.frame.origin; });
   }
   return near.take();
 }

@@ -16,11 +16,18 @@ inline constexpr double far_field_openings = 5;
 /// Whether light passes straight between two places [scene coordinates]; empty: always.
 using SeesPlace = std::function<bool(const glm::dvec3&, const glm::dvec3&)>;
 
-/// A warning for each plane, probe, route, area and sign that somebody looks at which a lit
-/// luminaire of a photometric file comes nearer to than that, into which it sends light: names the
-/// place, the luminaire that is nearest by its opening, both distances, and how many others there
-/// are.
-std::vector<Problem> near_field_warnings(const SceneDescription& scene, const Scenario& scenario,
+/// A place that a luminaire comes too near to.
+struct NearPlace {
+  Problem problem;
+  /// Codes judge the light that falls there: in emergency operation, that of a route, an area, an
+  /// externally lit sign. Of planes and probes it is only measured; a sign that shines has its own.
+  bool judged = false;
+};
+
+/// Each plane, probe, route, area and sign that somebody looks at which a lit luminaire of a
+/// photometric file comes nearer to than that, into which it sends light: names the place, the
+/// luminaire that is nearest by its opening, both distances, and how many others there are.
+std::vector<NearPlace> near_field_places(const SceneDescription& scene, const Scenario& scenario,
                                          const SeesPlace& sees = {});
 
 }  // namespace luxodus

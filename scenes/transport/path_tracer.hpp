@@ -1,14 +1,14 @@
-// Radiance along a ray, traced from where it is seen. Paths run backwards (all laws are
-// reciprocal); at every event one emitter is asked directly, so that a path needs no luck to meet
-// it. Close to an emitter asking has no bounded variance (1/r2), so light from points nearer than
-// its half size is counted only where a path meets it, and from farther ones only where it is
-// asked: each pair of places once. A path in smoke seldom collides just where a small emitter is
-// near; there a second place is drawn, as the emitter's light falls on the stretch of the path
-// (equiangular.hpp), and the two are weighted by how likely each way was to find its own (balance
-// heuristic). Unbiased, except where pictures end a path in the patches' flux (final gather).
-// eye_paths.hpp makes of it what signs and probes are asked for. Not seen: point emitters and
-// caustics through mirrors and refracting solids; the forward tracer counts those. Thread rule: one
-// PathTracer per thread or fiber.
+// A path tracer: radiance along a ray, traced from where it is seen, the eye or a probe. Paths run
+// backwards (all laws are reciprocal). At every event one emitter is sampled directly (next-event
+// estimation, emitter_choice.hpp), so that a path need not hit it by chance. Close to an emitter
+// that estimate has no bounded variance (1/r2). So light from points nearer than the emitter's half
+// size counts only where a path hits it, and light from farther points only where it is sampled:
+// each pair of places once. In smoke a second place is drawn as the light of a near, small emitter
+// falls on the stretch of the path (equiangular.hpp). The balance heuristic weights the two.
+// Unbiased, except where pictures end a path in the patches' flux (final gather). eye_paths.hpp
+// estimates signs and probes with it. Not seen: point emitters and caustics through mirrors and
+// refracting solids; the forward tracer counts those. Thread rule: one PathTracer per thread or
+// fiber.
 #pragma once
 
 #include <cmath>
@@ -19,6 +19,8 @@
 #include "scenes/tally/batch_scores.hpp"
 #include "scenes/transport/connect.hpp"
 #include "scenes/transport/emission.hpp"
+#include "scenes/transport/emitter_choice.hpp"
+#include "scenes/transport/patch_radiance.hpp"
 #include "scenes/transport/textures.hpp"
 
 namespace luxodus {
@@ -26,14 +28,6 @@ namespace luxodus {
 namespace limits {
 inline constexpr int eye_events = 10'000;
 inline constexpr int emitters_per_line = 16;  // emitting faces that one straight line may cross
-inline constexpr int nearby_emitters = 256;   // up to here distance decides who is asked
-/// An emitter whose half size is a smaller share than this of a stretch's length is small: it is
-/// asked at any distance, since a path that came near would still miss it. Large ones, as
-/// luminaires in a room are, a path meets soon enough.
-inline constexpr Real small_emitter = 0x1p-7_r;
-/// A small emitter is near where it is closer to the stretch than this share of its length:
-/// collisions, which are spread over all of it, would seldom come as close.
-inline constexpr Real near_line = 0.125_r;
 /// Of the size of a scene: where a stretch ends on which places are drawn by an emitter's light.
 inline constexpr Real longest_line = 4;
 }  // namespace limits
@@ -73,26 +67,18 @@ class GroupLight {
   double total_ = 0;
 };
 
-/// Outgoing radiance of a patch, for final gathers: [W/(m2 sr)]. Implemented where flux is
-/// collected.
-class PatchRadiance {
- public:
-  virtual ~PatchRadiance() = default;
-  virtual double radiance(const Hit& hit, bool front, int band) const = 0;
-};
-
 /// Which emitters count when a path meets them on its way.
 enum class EmitterHits {
   none,  // somebody else holds all direct light of this place
-  near,  // those closer than their half size; the others were asked
-  all,   // nothing was asked
+  near,  // those closer than their half size; the others were sampled
+  all,   // none was sampled
 };
 
 template <class Resolver>
 class PathTracer {
  public:
   PathTracer(const CompiledScene& scene, Resolver& resolver, uint64_t seed, RandomStream stream)
-      : scene_(scene), resolver_(resolver), random_(seed, stream) {
+      : scene_(scene), resolver_(resolver), random_(seed, stream), choice_(scene) {
     // A picture shows colours, an estimate of luminance needs few.
     const double colour = stream == RandomStream::picture ? 1.0 : 0.05;
     double total = 0;
@@ -119,19 +105,19 @@ class PathTracer {
   }
 
   /// Adds `weight` times the radiance [W/(m2 sr)] in `band` that arrives against `ray.direction`,
-  /// from one path. `met`: which emitters count before the first event. `gather`: where paths may
-  /// end after their first diffuse event; null traces them to their end.
-  void radiance(const Ray& ray, int band, EmitterHits met, double weight, GroupLight& into,
+  /// from one path. `counted`: which emitters count before the first event. `gather`: where paths
+  /// may end after their first diffuse event; null traces them to their end.
+  void radiance(const Ray& ray, int band, EmitterHits counted, double weight, GroupLight& into,
                 const PatchRadiance* gather = nullptr) {
-    trace({ray, band, met, weight, into}, gather);
+    trace({ray, band, counted, weight, into}, gather);
   }
 
   /// The same of a path that a medium has turned to `ray`, somewhere on the first `length` of a ray
-  /// for which `add_scattered_once` has asked emitters.
+  /// for which `add_single_scattering` has sampled emitters.
   void radiance_after_scattering(const Ray& ray, Real length, int band, double weight,
                                  GroupLight& into) {
     Path path{ray, band, EmitterHits::near, weight, into};
-    path.small_asked = limits::small_emitter * line_end(length);
+    path.small_sampled = limits::small_emitter * line_end(length);
     trace(path, nullptr);
   }
 
@@ -139,29 +125,29 @@ class PathTracer {
   /// ray and the medium there turns against it, once. `flight` is one along it whose collisions
   /// have the density sigma_t exp(-depth) / `share`: 1 if it was free, less if a collision was
   /// forced.
-  void add_scattered_once(const Ray& ray, Real length, const FreeFlight& flight, double share,
-                          int band, double weight, GroupLight& into) {
+  void add_single_scattering(const Ray& ray, Real length, const FreeFlight& flight, double share,
+                             int band, double weight, GroupLight& into) {
     if (scene_.features.media == MediaNeed::none) return;
     const Real end = line_end(length);
-    const Stretch stretch{ray, end, share, band, weigh_along(ray, end, band)};
+    const Stretch stretch{ray, end, share, band, choice_.weigh_along(ray, end, band)};
     if (flight.collided && flight.albedo > 0)
       add_at_collision(stretch, flight, weight * share * flight.albedo, into);
-    if (stretch.emitters_weight > 0) add_near_emitter(stretch, weight, into);
+    if (stretch.emitters_near) add_near_emitter(stretch, weight, into);
   }
 
-  /// Light of an emitter that a surface sends against `direction`; one emitter is asked, and
+  /// Light of an emitter that a surface sends against `direction`; one emitter is sampled, and
   /// divided by the probability of asking it.
   SourceLight reflected_light(const Vec3& place, const Vec3& direction, const Vec3& normal,
                               const SurfaceModel& model, int band) {
-    const EmitterSample asked = sample_emitter(place, band);
-    if (asked.probability <= 0) return {};
-    const CompiledEmitter& e = scene_.emitters[asked.emitter];
+    const EmitterSample sampled = sample_emitter(place, band);
+    if (sampled.probability <= 0) return {};
+    const CompiledEmitter& e = scene_.emitters[sampled.emitter];
     const EmissionPoint point = emission_point(scene_, e, random_, resolver_);
     const Arriving a = light_from(e, point, place, e.near_m, band);
     const Real cosine = glm::dot(a.direction, normal);
     if (a.irradiance <= 0 || cosine <= 0) return {};
     return {e.group,
-            a.irradiance / asked.probability * static_cast<double>(cosine) *
+            a.irradiance / sampled.probability * static_cast<double>(cosine) *
                 static_cast<double>(evaluate_surface(model, -direction, a.direction, normal))};
   }
 
@@ -206,13 +192,13 @@ class PathTracer {
   struct Path {
     Ray ray;
     int band;
-    EmitterHits met;
+    EmitterHits counted;
     double weight;
     GroupLight& into;
     double throughput = 1;
-    Real travelled = 0;     // from the last event to the ray's origin, through panes
-    Real small_asked = 0;   // emitters of a smaller half size were asked there at any distance
-    bool diffused = false;  // a surface or a medium has spread it
+    Real travelled = 0;      // from the last event to the ray's origin, through panes
+    Real small_sampled = 0;  // emitters of a smaller half size were sampled there at any distance
+    bool diffused = false;   // a surface or a medium has spread it
 
     void add(const SourceLight& light) {
       into.add(light.group, weight * throughput * light.radiance);
@@ -225,20 +211,16 @@ class PathTracer {
   void trace(Path path, const PatchRadiance* gather) {
     for (int event = 0; event < limits::eye_events; ++event) {
       const Hit hit = resolver_.nearest(path.ray);
-      if (path.met != EmitterHits::none) add_emitted_along(path, hit);
+      if (path.counted != EmitterHits::none) add_emitted_along(path, hit);
       const Ray stretch = path.ray;
       const double weight = path.weight * path.throughput;
       const FreeFlight flight = fly(stretch, hit.distance, path.band);
       const bool alive =
           flight.collided ? scatter(path, flight, hit.distance) : meet_surface(path, hit, gather);
       // Last, since asking may drop the cell that the hit is of.
-      add_scattered_once(stretch, hit.distance, flight, 1, path.band, weight, path.into);
-      if (!alive || (event >= 2 && !survives(path.throughput))) return;
+      add_single_scattering(stretch, hit.distance, flight, 1, path.band, weight, path.into);
+      if (!alive || (event >= 2 && !survives_roulette(path.throughput))) return;
     }
-  }
-
-  static bool is_small(const CompiledEmitter& e, Real end) {
-    return e.near_m < limits::small_emitter * end;
   }
 
   /// Where a stretch of that length ends for emitters that are near it.
@@ -265,8 +247,8 @@ class PathTracer {
     return kind == MaterialKind::lambertian || kind == MaterialKind::glossy;
   }
 
-  /// Medium event: a new direction. Light asked from emitters is `add_scattered_once`'s. False ends
-  /// the path.
+  /// Medium event: a new direction. Light sampled from emitters is `add_single_scattering`'s. False
+  /// ends the path.
   bool scatter(Path& p, const FreeFlight& flight, Real length) {
     p.throughput *= flight.albedo;
     if (p.throughput <= 0) return false;
@@ -275,9 +257,9 @@ class PathTracer {
     const Real u = random_.uniform();
     const Real v = random_.uniform();
     p.ray.direction = sample(phase, p.ray.direction, u, v);
-    p.met = EmitterHits::near;
+    p.counted = EmitterHits::near;
     p.travelled = 0;
-    p.small_asked = limits::small_emitter * line_end(length);
+    p.small_sampled = limits::small_emitter * line_end(length);
     p.diffused = true;
     return true;
   }
@@ -291,7 +273,7 @@ class PathTracer {
     return false;
   }
 
-  /// Surface event: light asked from an emitter, then a new direction. False ends the path.
+  /// Surface event: light sampled from an emitter, then a new direction. False ends the path.
   bool bounce(Path& p, const Hit& hit) {
     const TriangleRecord& t = *hit.triangle;
     const bool front = glm::dot(t.unit_normal(), p.ray.direction) < 0;
@@ -314,9 +296,9 @@ class PathTracer {
     if (straight) {
       p.travelled += hit.distance;
     } else {
-      p.met = s.specular ? EmitterHits::all : EmitterHits::near;
+      p.counted = s.specular ? EmitterHits::all : EmitterHits::near;
       p.travelled = 0;
-      p.small_asked = 0;
+      p.small_sampled = 0;
     }
     if (!s.specular) p.diffused = true;
     p.ray.direction = s.direction;
@@ -324,7 +306,7 @@ class PathTracer {
     return true;
   }
 
-  bool survives(double& throughput) {
+  bool survives_roulette(double& throughput) {
     if (throughput >= 0.2) return true;
     const double survival = throughput / 0.4;
     const auto u = static_cast<double>(random_.uniform());
@@ -364,7 +346,8 @@ class PathTracer {
   }
 
   static bool counts(const Path& p, Real distance, Real near) {
-    return p.met == EmitterHits::all || (near >= p.small_asked && p.travelled + distance < near);
+    return p.counted == EmitterHits::all ||
+           (near >= p.small_sampled && p.travelled + distance < near);
   }
 
   void add_emitted_by_sign(Path& p, const Hit& hit) {
@@ -383,11 +366,11 @@ class PathTracer {
   void add_flames_met(const Path& p, Real length) {
     if (scene_.volume_points.empty()) return;
     const double weight = p.weight * p.throughput;
-    if (p.met == EmitterHits::all) return add_flames(p.ray, length, p.band, -1, weight, p.into);
+    if (p.counted == EmitterHits::all) return add_flames(p.ray, length, p.band, -1, weight, p.into);
     for (const CompiledEmitter& e : scene_.emitters) {
       if (e.kind != EmitterKind::volume) continue;
       const Real rest = e.near_m - p.travelled;
-      if (rest > 0 && e.near_m >= p.small_asked) {
+      if (rest > 0 && e.near_m >= p.small_sampled) {
         add_flames(p.ray, std::min(length, rest), p.band, static_cast<int>(e.medium), weight,
                    p.into);
       }
@@ -407,79 +390,12 @@ class PathTracer {
     return static_cast<double>(face.relative_luminance[texel_at(face, uv)]);
   }
 
-  // ---- asking an emitter
+  // ---- next-event estimation
   // -------------------------------------------------------------------------
 
-  static Vec3 centre_of(const CompiledEmitter& e) {
-    return e.kind == EmitterKind::mesh ? e.corners[0] : e.origin;
-  }
-
-  /// Cumulative weights of all emitters, of which one is to be chosen; weight(emitter) of each that
-  /// sends light in more than one direction, in proportion to its power. Returns their sum.
-  template <class WeightOf>
-  double weigh(std::vector<double>& cumulative, int band, WeightOf&& weight) const {
-    cumulative.resize(scene_.emitters.size());
-    double total = 0;
-    for (size_t i = 0; i < cumulative.size(); ++i) {
-      const CompiledEmitter& e = scene_.emitters[i];
-      const double power =
-          e.distribution == Distribution::collimated ? 0 : e.power_w[static_cast<size_t>(band)];
-      if (power > 0) total += power * weight(e);
-      cumulative[i] = total;
-    }
-    return total;
-  }
-
-  /// By squared distance where they are few.
-  double weigh_at(const Vec3& place, int band) {
-    const bool few = scene_.emitters.size() <= limits::nearby_emitters;
-    const Real least = 1e-9_r * scene_.diagonal_m * scene_.diagonal_m;
-    return weigh(weights_, band, [&](const CompiledEmitter& e) {
-      if (!few) return 1.0;
-      const Vec3 d = centre_of(e) - place;
-      return 1 / static_cast<double>(glm::dot(d, d) + 0.25_r * glm::dot(e.size, e.size) + least);
-    });
-  }
-
-  /// Of small emitters, by what each sends to a stretch of a path, nearly: the angle at which it
-  /// sees it, over its distance. 0 where none is near, so that none need be asked by it.
-  double weigh_along(const Ray& ray, Real end, int band) {
-    const bool few = scene_.emitters.size() <= limits::nearby_emitters;
-    bool near = !few;
-    const double total = weigh(weights_along_, band, [&](const CompiledEmitter& e) {
-      if (!is_small(e, end)) return 0.0;
-      if (!few) return 1.0;
-      const Vec3 from_origin = centre_of(e) - ray.origin;
-      const Real t = glm::clamp(glm::dot(from_origin, ray.direction), 0.0_r, end);
-      const Real distance = glm::length(from_origin - ray.direction * t);
-      const Real half = 0.5_r * glm::length(e.size);
-      near |= distance < limits::near_line * end;
-      const Real least = distance + half + 1e-4_r * end;
-      return static_cast<double>(end / (least * (least + end / 3)));
-    });
-    return near ? total : 0;
-  }
-
-  size_t choose(const std::vector<double>& cumulative) {
-    const double u = random_.uniform_double() * cumulative.back();
-    const auto at = std::upper_bound(cumulative.begin(), cumulative.end(), u) - cumulative.begin();
-    return std::min(static_cast<size_t>(at), cumulative.size() - 1);
-  }
-
-  static double share_of(size_t chosen, const std::vector<double>& cumulative) {
-    const double before = chosen > 0 ? cumulative[chosen - 1] : 0;
-    return (cumulative[chosen] - before) / cumulative.back();
-  }
-
-  struct EmitterSample {
-    size_t emitter = 0;
-    double probability = 0;  // 0: there is none to sample_emitter
-  };
-
   EmitterSample sample_emitter(const Vec3& place, int band) {
-    if (!(weigh_at(place, band) > 0)) return {};
-    const size_t chosen = choose(weights_);
-    return {chosen, share_of(chosen, weights_)};
+    if (!choice_.weigh_at(place, band)) return {};
+    return choice_.choose_at(random_.uniform_double());
   }
 
   /// Irradiance [W/m2] of a point of an emitter, normal to the line between.
@@ -488,12 +404,12 @@ class PathTracer {
     double irradiance = 0;
   };
 
-  /// Nothing from points that are not farther than `met`: paths meet them.
+  /// Nothing from points that are not farther than `min_distance`: paths hit them.
   Arriving light_from(const CompiledEmitter& e, const EmissionPoint& point, const Vec3& place,
-                      Real met, int band) {
+                      Real min_distance, int band) {
     const ShadowRay c =
         connect(scene_, place, point.position, point.axis, e.kind != EmitterKind::volume);
-    if (!(c.distance > met)) return {};
+    if (!(c.distance > min_distance)) return {};
     const auto density =
         static_cast<double>(directional_density(e, point, -c.ray.direction, resolver_));
     if (density <= 0) return {};
@@ -511,39 +427,41 @@ class PathTracer {
   struct Stretch {
     Ray ray;
     Real end;      // places near emitters are drawn up to here
-    double share;  // see add_scattered_once
+    double share;  // see add_single_scattering
     int band;
-    double emitters_weight;  // of weigh_along
+    bool emitters_near;  // of EmitterChoice::weigh_along
 
     /// Places on it as a point of an emitter sees them.
     EquiangularLine seen_from(const EmissionPoint& point) const {
       return {glm::dvec3(ray.origin), glm::dvec3(ray.direction), static_cast<double>(end),
               glm::dvec3(point.position)};
     }
-    /// How near points of an emitter are only met.
-    Real met(const CompiledEmitter& e) const { return is_small(e, end) ? 0 : e.near_m; }
+    /// Up to which distance points of an emitter count only where a path hits them.
+    Real hit_only_within(const CompiledEmitter& e) const {
+      return EmitterChoice::is_small(e, end) ? 0 : e.near_m;
+    }
   };
 
   double collision_density(const Stretch& s, Real t, double sigma_t) {
     return sigma_t * medium_transmittance(scene_, s.ray, t, s.band, resolver_) / s.share;
   }
 
-  /// The place is where a flight has collided; an emitter is asked there.
+  /// The place is where a flight has collided; an emitter is sampled there.
   void add_at_collision(const Stretch& s, const FreeFlight& flight, double weight,
                         GroupLight& into) {
     const Vec3 place = s.ray.origin + s.ray.direction * flight.t;
-    const EmitterSample asked = sample_emitter(place, s.band);
-    if (asked.probability <= 0) return;
-    const CompiledEmitter& e = scene_.emitters[asked.emitter];
+    const EmitterSample sampled = sample_emitter(place, s.band);
+    if (sampled.probability <= 0) return;
+    const CompiledEmitter& e = scene_.emitters[sampled.emitter];
     const EmissionPoint point = emission_point(scene_, e, random_, resolver_);
-    const Arriving a = light_from(e, point, place, s.met(e), s.band);
+    const Arriving a = light_from(e, point, place, s.hit_only_within(e), s.band);
     if (a.irradiance <= 0) return;
-    double probability = asked.probability;
-    if (s.emitters_weight > 0) {
+    double probability = sampled.probability;
+    if (s.emitters_near) {
       const double sigma_t = extinction_at(scene_.media, s.band, place, resolver_);
       const double here = collision_density(s, flight.t, sigma_t);
       if (!(here > 0)) return;
-      probability += share_of(asked.emitter, weights_along_) *
+      probability += choice_.probability_along(sampled.emitter) *
                      s.seen_from(point).density(static_cast<double>(flight.t)) / here;
     }
     const PhaseFunction& phase = scene_.phases[static_cast<size_t>(flight.phase)];
@@ -554,8 +472,7 @@ class PathTracer {
 
   /// The emitter is chosen first, and the place as its light falls on the stretch.
   void add_near_emitter(const Stretch& s, double weight, GroupLight& into) {
-    const size_t chosen = choose(weights_along_);
-    const double share = share_of(chosen, weights_along_);
+    const auto [chosen, share] = choice_.choose_along(random_.uniform_double());
     if (!(share > 0)) return;
     const CompiledEmitter& e = scene_.emitters[chosen];
     const EmissionPoint point = emission_point(scene_, e, random_, resolver_);
@@ -564,7 +481,7 @@ class PathTracer {
     const Vec3 place = s.ray.origin + s.ray.direction * t;
     const double sigma_t = extinction_at(scene_.media, s.band, place, resolver_);
     if (!(sigma_t > 0)) return;
-    const Arriving a = light_from(e, point, place, s.met(e), s.band);
+    const Arriving a = light_from(e, point, place, s.hit_only_within(e), s.band);
     if (a.irradiance <= 0) return;
     const Real cosine = glm::dot(a.direction, s.ray.direction);
     double turned = 0;
@@ -576,9 +493,9 @@ class PathTracer {
         });
     if (turned <= 0) return;
     const double here = collision_density(s, t, sigma_t);
-    weigh_at(place, s.band);
+    choice_.weigh_at(place, s.band);
     const double probability =
-        share * line.density(static_cast<double>(t)) + share_of(chosen, weights_) * here;
+        share * line.density(static_cast<double>(t)) + choice_.probability_at(chosen) * here;
     // What passes up to here is in the density of collisions already.
     into.add(e.group, weight * s.share * (here / sigma_t) * turned * a.irradiance / probability);
   }
@@ -587,7 +504,7 @@ class PathTracer {
   Resolver& resolver_;
   Random random_;
   std::vector<double> band_cdf_;
-  std::vector<double> weights_, weights_along_;  // of emitters: at a place, along a stretch
+  EmitterChoice choice_;
 };
 
 }  // namespace luxodus

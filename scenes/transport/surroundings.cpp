@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <set>
 
 namespace luxodus {
 
@@ -50,6 +51,13 @@ bool is_object(const CompiledScene& scene, uint32_t surface) {
 auto solid_objects(const CompiledScene& scene) {
   return [&scene](const Facing& f) {
     return !is_object(scene, f.surface) || lets_light_through(f.kind);
+  };
+}
+
+/// As panes and closed doors are: of what people and air are kept from.
+auto closed_objects(const CompiledScene& scene) {
+  return [&scene](const Facing& f) {
+    return !is_object(scene, f.surface) || f.kind == MaterialKind::open;
   };
 }
 
@@ -117,6 +125,17 @@ double clear_m(View& view, size_t side) {
   return static_cast<double>(*middle);
 }
 
+/// Tables that hold one flat face: a room may be drawn as six of them.
+std::set<View::Table> lone_faces(const CompiledScene& scene) {
+  std::map<View::Table, std::vector<const Object*>> by_table;
+  for (const Object& object : scene.description->objects)
+    by_table[{object.place.file, object.place.line}].push_back(&object);
+  std::set<View::Table> out;
+  for (const auto& [table, objects] : by_table)
+    if (objects.size() == 1 && is_flat(objects.front()->mesh)) out.insert(table);
+  return out;
+}
+
 bool has_size_of_room(View& view) {
   const double x = clear_m(view, 0) + clear_m(view, 1);
   const double y = clear_m(view, 2) + clear_m(view, 3);
@@ -145,10 +164,13 @@ struct Around {
 /// Goes on to the end: what stands in a body, or the floor that it is sunk into, shows its fronts
 /// before the body's own back.
 void cross(const CompiledScene& scene, const GeometryAccess& access, const Vec3& place,
-           const Vec3& direction, std::span<const char> turned, std::vector<Around>& all) {
+           const Vec3& direction, std::span<const char> turned, std::span<const char> ignored,
+           std::vector<Around>& all) {
   int count = 0;
   first_stop(scene, access, place, direction, far_m, [&](const Facing& f) {
-    if (!is_object(scene, f.surface) || lets_light_through(f.kind)) return ++count < crossings;
+    const bool is_ignored = f.surface < ignored.size() && ignored[f.surface] != 0;
+    if (!is_object(scene, f.surface) || lets_light_through(f.kind) || is_ignored)
+      return ++count < crossings;
     const SourcePlace& table = scene.description->objects[f.surface].place;
     auto at = std::find_if(all.begin(), all.end(), [&](const Around& one) {
       return one.table != nullptr && one.table->line == table.line && one.table->file == table.file;
@@ -162,7 +184,38 @@ void cross(const CompiledScene& scene, const GeometryAccess& access, const Vec3&
   });
 }
 
+/// Whether half of all directions meet nothing, and nearly as many of the level ones.
+bool is_open(const CompiledScene& scene, const GeometryAccess& access, const Vec3& place) {
+  static const std::vector<Vec3> directions = sphere_directions(sky_directions);
+  int open = 0, level = 0, open_level = 0;
+  for (const Vec3& d : directions) {
+    const bool is_level = std::abs(d.z) < level_rise;
+    const bool meets =
+        first_stop(scene, access, place, d, far_m, closed_objects(scene)).has_value();
+    open += meets ? 0 : 1;
+    level += is_level ? 1 : 0;
+    open_level += is_level && !meets ? 1 : 0;
+  }
+  return open >= outside_share * sky_directions && open_level >= outside_level_share * level;
+}
+
 }  // namespace
+
+bool is_flat(const Mesh& mesh) {
+  constexpr double thin_m = 1e-6;
+  Bounds box;
+  for (const glm::dvec3& p : mesh.positions) box.extend(p);
+  const auto& p = mesh.positions;
+  if (mesh.triangles.empty()) return false;
+  const glm::uvec3 t = mesh.triangles.front();
+  const glm::dvec3 across = glm::cross(p[t.y] - p[t.x], p[t.z] - p[t.x]);
+  const double size = glm::length(box.high - box.low);
+  if (!(glm::length(across) > 0)) return false;
+  const glm::dvec3 normal = glm::normalize(across);
+  return std::all_of(p.begin(), p.end(), [&](const glm::dvec3& q) {
+    return std::abs(glm::dot(q - p[t.x], normal)) <= thin_m * std::max(size, 1.0);
+  });
+}
 
 std::vector<Vec3> sphere_directions(int count) {
   constexpr double golden_angle = 2.399963229728653;  // pi (3 - sqrt 5)
@@ -177,25 +230,32 @@ std::vector<Vec3> sphere_directions(int count) {
 
 std::vector<char> turned_surfaces(const CompiledScene& scene, const GeometryAccess& access) {
   std::vector<char> turned(scene.surfaces.size(), 0);
+  const std::set<View::Table> faces = lone_faces(scene);
   for (const Vec3& place : inhabited(scene)) {
     View view = view_from(scene, access, place);
     if (view.backs.empty() || !has_size_of_room(view)) continue;
+    std::array<int, 6> of_faces{};
     for (const auto& [table, backs] : view.backs) {
+      if (faces.count(table) > 0)
+        for (size_t side = 0; side < backs.size(); ++side) of_faces[side] += backs[side];
       if (!surrounds(view, backs)) continue;
       for (const auto& [surface, seen] : view.by_surface)
         if (table_of(scene, surface) == table && seen[1] > seen[0]) turned[surface] = 1;
     }
+    if (!surrounds(view, of_faces)) continue;
+    for (const auto& [surface, seen] : view.by_surface)
+      if (faces.count(table_of(scene, surface)) > 0 && seen[1] > seen[0]) turned[surface] = 1;
   }
   return turned;
 }
 
 bool in_body(const CompiledScene& scene, const GeometryAccess& access, const Vec3& place,
-             std::span<const char> turned) {
+             std::span<const char> turned, std::span<const char> ignored) {
   static const std::vector<Vec3> directions = sphere_directions(body_directions);
   std::vector<Around> all(1);
   for (int i = 0; i < body_directions; ++i) {
     for (Around& one : all) one.side = 0;
-    cross(scene, access, place, directions[static_cast<size_t>(i)], turned, all);
+    cross(scene, access, place, directions[static_cast<size_t>(i)], turned, ignored, all);
     int most = 0;
     bool stands_around = false;
     for (Around& one : all) {
@@ -214,18 +274,12 @@ bool in_body(const CompiledScene& scene, const GeometryAccess& access, const Vec
 }
 
 bool is_outside(const CompiledScene& scene, const GeometryAccess& access, const Vec3& place) {
-  static const std::vector<Vec3> directions = sphere_directions(sky_directions);
-  int open = 0, level = 0, open_level = 0;
-  for (const Vec3& d : directions) {
-    const auto met = first_stop(scene, access, place, d, far_m, [&](const Facing& f) {
-      return !is_object(scene, f.surface) || f.kind == MaterialKind::open;
-    });
-    const bool is_level = std::abs(d.z) < level_rise;
-    open += met ? 0 : 1;
-    level += is_level ? 1 : 0;
-    open_level += is_level && !met ? 1 : 0;
-  }
-  return open >= outside_share * sky_directions && open_level >= outside_level_share * level;
+  if (!is_open(scene, access, place)) return false;
+  // Level with the upper edge of walls, a place in a room without a ceiling is as open as one
+  // outside. Walls stand around what is below it.
+  const Vec3 down(0, 0, -1);
+  const auto below = first_stop(scene, access, place, down, far_m, closed_objects(scene));
+  return !below || is_open(scene, access, place + down * (below->distance_m / 2));
 }
 
 }  // namespace luxodus

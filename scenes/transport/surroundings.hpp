@@ -15,6 +15,9 @@ namespace limits {
 inline constexpr int surfaces_passed = 1024;
 }  // namespace limits
 
+/// Whether all of a mesh lies in one plane.
+bool is_flat(const Mesh& mesh);
+
 /// Directions spread evenly over the sphere (Fibonacci lattice), none along an axis, so that rays
 /// seldom run within walls or along their edges.
 std::vector<Vec3> sphere_directions(int count);
@@ -57,18 +60,20 @@ std::optional<Facing> first_stop(const CompiledScene& scene, const GeometryAcces
 }
 
 /// Surfaces of rooms that are drawn with their backs to the inside, by surface of the scene. A room
-/// is what surrounds lamps, eyes and routes on most sides and has the size of one; a body
-/// that is drawn as it should be shows its back to its own inside alone, where nobody is.
+/// is what surrounds lamps, eyes and routes on most sides and has the size of one, drawn in one
+/// table or as flat faces in several; a body that is drawn as it should be shows its back to its
+/// own inside alone, where nobody is.
 std::vector<char> turned_surfaces(const CompiledScene& scene, const GeometryAccess& access);
 
 /// Whether a place lies in a closed body: in most directions the first that is met of one body, all
 /// that stands in one table of the scene file, is a back. `turned`: as turned_surfaces, or empty.
+/// `ignored`: by surface, what is no body here, such as furniture to those who walk around it.
 bool in_body(const CompiledScene& scene, const GeometryAccess& access, const Vec3& place,
-             std::span<const char> turned = {});
+             std::span<const char> turned = {}, std::span<const char> ignored = {});
 
 /// Whether a place lies outside of whatever is built: at least half of all directions meet nothing,
-/// and as many of the level ones, so that a room without a roof is none. Panes and closed doors
-/// count as closed.
+/// and nearly as many of the level ones, from there and from half way to what is below, so that a
+/// room without a roof is inside up to its rim. Panes and closed doors count as closed.
 bool is_outside(const CompiledScene& scene, const GeometryAccess& access, const Vec3& place);
 
 }  // namespace luxodus

@@ -1,5 +1,7 @@
 #include "scenes/transport/visibility.hpp"
 
+#include "scenes/transport/direct.hpp"
+
 namespace luxodus {
 
 std::vector<DirectFromEmitter> direct_lights(const CompiledScene& scene,

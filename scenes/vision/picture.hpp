@@ -1,6 +1,5 @@
 // Pictures of the display: light per pixel on the one side, sRGB bytes on the other. Plain values;
-// any thread. Written to files by scenes/images and actors/display; made here by tone.hpp and
-// false_colour.hpp.
+// any thread. Written to files by scenes/images and actors/display; made here by tone.hpp.
 #pragma once
 
 #include <cstddef>
@@ -24,14 +23,6 @@ struct SrgbPicture {
   int width = 0;
   int height = 0;
   std::vector<uint8_t> rgb;
-};
-
-struct Rgb8 {
-  uint8_t r = 0;
-  uint8_t g = 0;
-  uint8_t b = 0;
-
-  friend bool operator==(const Rgb8&, const Rgb8&) = default;
 };
 
 /// The sRGB byte of a linear value: clamped to [0, 1], encoded, rounded. NaN gives 0.

@@ -29,6 +29,7 @@ constexpr Table tables[] = {
     {"speed", [](const Options& o) { luxodus::bench::print_speed(o.repeats); }},
     {"threads", [](const Options& o) { luxodus::bench::print_threads(o.repeats); }},
     {"pieces", [](const Options& o) { luxodus::bench::print_pieces(o.repeats); }},
+    {"flights", [](const Options&) { luxodus::bench::print_flights(); }},
     {"switch", [](const Options& o) { luxodus::bench::print_switch(o.repeats); }},
     {"nodes", [](const Options& o) { luxodus::bench::print_nodes(o.repeats); }},
     {"delay", [](const Options& o) { luxodus::bench::print_delay(o.repeats); }},

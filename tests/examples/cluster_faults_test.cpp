@@ -358,7 +358,9 @@ TEST_CASE("who looks at a run and reads nothing holds up nobody", "[cluster][fau
     place.sin_port = htons(static_cast<uint16_t>(pages[0] + i % 3));
     lookers.push_back(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
     REQUIRE(::connect(lookers.back(), reinterpret_cast<sockaddr*>(&place), sizeof place) == 0);
-    const std::string asked = i % 2 == 0 ? "GET /metrics HTTP/1.1\r\n\r\n" : "GET /met";
+    const std::string host = "127.0.0.1:" + std::to_string(pages[0] + i % 3);
+    const std::string asked =
+        i % 2 == 0 ? "GET /metrics HTTP/1.1\r\nHost: " + host + "\r\n\r\n" : "GET /met";
     CHECK(::send(lookers.back(), asked.data(), asked.size(), MSG_NOSIGNAL) > 0);
   }
   for (int i = 0; i < 3; ++i) REQUIRE(nodes.controller->says(flush_of(1), nodes.controller->now()));

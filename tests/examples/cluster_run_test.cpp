@@ -1,6 +1,7 @@
 // Whole clusters as a person starts them: processes that meet over sockets, and leave what the
 // plain program leaves, to the bit.
 #include "tests/examples/program_kit.hpp"
+#include "tests/kit/test_length.hpp"
 
 using namespace luxodus::program;
 
@@ -43,12 +44,13 @@ TEST_CASE("four processes over local sockets leave the flux file of the plain lo
 
 TEST_CASE("processes that plan by a profile leave the flux file of the plain loop", "[cluster]") {
   const TemporaryFolder folder;
+  const std::string particles = test::in_full() ? "60000" : "15000";
   const fs::path cluster = folder / "cluster.toml";
   const std::string office =
       (fs::path(LUX_SOURCE_DIR) / "scenes/library/office_floor.toml").string();
   std::ofstream(cluster) << "[run]\nname = \"planned\"\nscene = \"" << office
-                         << "\"\nparticles = 60_000\nprofile = \"its.profile\"\nout = \""
-                         << (folder / "out").string()
+                         << "\"\nparticles = " << particles
+                         << "\nprofile = \"its.profile\"\nout = \"" << (folder / "out").string()
                          << "\"\n[[host]]\nname = \"here\"\n[[node]]\nname = \"n\"\ncount = 2\n"
                             "[[node]]\nname = \"controller\"\nrole = \"controller\"\n"
                             "[budget]\nobject_bytes = \"1 MiB\"\nfibers = 256\n";
@@ -64,8 +66,9 @@ TEST_CASE("processes that plan by a profile leave the flux file of the plain loo
   REQUIRE(up.code == 0);
   const std::string cells = profiled.out.substr(
       0, profiled.out.find(' '));  // "N objects, ...": this scene has cells only
-  REQUIRE(run_luxodus(folder, "run " + office + " --particles 60k --no-views --cells " + cells +
-                                  " --out " + (folder / "plain").string())
+  REQUIRE(run_luxodus(folder, "run " + office + " --particles " + particles +
+                                  " --no-views --cells " + cells + " --out " +
+                                  (folder / "plain").string())
               .code == 0);
   const std::string flux = slurp(folder / "out" / "flux.lux");
   CHECK(!flux.empty());

@@ -120,7 +120,7 @@ TEST_CASE("a damaged object of a pack is named with its file before nodes begin"
   std::ofstream(pack, std::ios::binary) << bytes;
   const Outcome told = run_luxodus(folder,
                                    "run " + pack +
-                                       " --scenario smoky --nodes 2 --object-mib 1 "
+                                       " --scenario smoky --nodes 2 --part-cache-mib 1 "
                                        "--particles 10k --out " +
                                        (folder / "out").string(),
                                    "timeout 60 ");
@@ -128,6 +128,91 @@ TEST_CASE("a damaged object of a pack is named with its file before nodes begin"
   CHECK(told.code != 0);
   CHECK(told.code != 124);
   CHECK(told.err.find("x.luxpack: object 0 of this pack is damaged") != std::string::npos);
+}
+
+TEST_CASE("a node that stores a damaged pack ends at once and names its file",
+          "[program][hostile]") {
+  const Folder folder;
+  const std::string scene = luxodus::write_gallery(folder.path).string();
+  const std::string pack = (folder.path / "x.luxpack").string();
+  REQUIRE(run_luxodus(folder, "pack " + scene + " --scenario smoky --out " + pack).code == 0);
+  std::string bytes = slurp(pack);
+  bytes[300] = static_cast<char>(bytes[300] ^ 4);  // behind the head: the first object
+  std::ofstream(pack, std::ios::binary) << bytes;
+  const std::string cluster = write(folder, "c.toml",
+                                    "[run]\nname = \"damaged\"\nscene = \"" + pack +
+                                        "\"\nscenario = \"smoky\"\nparticles = 10_000\nout = \"" +
+                                        (folder.path / "out").string() +
+                                        "\"\n[[host]]\nname = \"here\"\n[[node]]\nname = \"n\"\n"
+                                        "count = 2\n[[node]]\nname = \"controller\"\n"
+                                        "role = \"controller\"\n[budget]\n"
+                                        "object_bytes = \"1 MiB\"\nfibers = 64\n");
+  for (const std::string& command :
+       {"node --config " + cluster + " --name n0",
+        "node --config " + cluster + " --name controller", "cluster up " + cluster}) {
+    const Outcome told = run_luxodus(folder, command, "timeout 60 ");
+    INFO(command << "\n" << told.out << told.err);
+    CHECK(told.code != 0);
+    CHECK(told.code != 124);
+    CHECK((told.out + told.err).find("x.luxpack: object 0 of this pack is damaged") !=
+          std::string::npos);
+    CHECK_FALSE(fs::exists(folder.path / "out"));
+  }
+}
+
+TEST_CASE("pipes in place of keys, profiles, graphs and results are refused, not waited for",
+          "[program][hostile]") {
+  const Folder folder;
+  const auto pipe = [&](const std::string& name) {
+    const fs::path path = folder.path / name;
+    fs::create_directories(path.parent_path());
+    REQUIRE(::mkfifo(path.c_str(), 0600) == 0);
+    return path.string();
+  };
+  const auto cluster = [&](const std::string& name, const std::string& run,
+                           const std::string& more) {
+    return write(folder, name,
+                 "[run]\nname = \"" + name + "\"\nscene = \"" +
+                     (fs::path(LUX_SOURCE_DIR) / "scenes/library/office_floor.toml").string() +
+                     "\"\nparticles = 10_000\nout = \"" + (folder.path / "out").string() + "\"\n" +
+                     run +
+                     "[[host]]\nname = \"here\"\n[[node]]\nname = \"n\"\ncount = 2\n[[node]]\n"
+                     "name = \"controller\"\nrole = \"controller\"\n" +
+                     more);
+  };
+  const auto refused = [&](const std::string& arguments, const std::string& file) {
+    const Outcome told = run_luxodus(folder, arguments, "timeout 60 ");
+    INFO(arguments << "\n" << told.err);
+    CHECK(told.code == 2);
+    CHECK(told.err.find(file) != std::string::npos);
+    CHECK(told.err.find("pipe") != std::string::npos);
+  };
+  const std::string budget = "[budget]\nobject_bytes = \"1 MiB\"\nfibers = 64\n";
+
+  const std::string profiled = cluster("profiled.toml", "profile = \"its.profile\"\n", budget);
+  pipe("its.profile");
+  const Outcome told =
+      run_luxodus(folder, "node --config " + profiled + " --name n0", "timeout 60 ");
+  INFO(told.err);
+  CHECK(told.code == 1);
+  CHECK(told.err.find("its.profile: this is no file but a pipe") != std::string::npos);
+
+  const std::string keyed = cluster("keyed.toml", "", "[keys]\nfolder = \"keys\"\n");
+  REQUIRE(run_luxodus(folder, "keygen --cluster " + keyed).code == 0);
+  fs::remove(folder.path / "keys/n0.key");
+  pipe("keys/n0.key");
+  refused("node --config " + keyed + " --name n0", "keys/n0.key");
+  fs::remove(folder.path / "keys/n1.key.pub");
+  pipe("keys/n1.key.pub");
+  refused("node --config " + keyed + " --name n1", "keys/n1.key.pub");
+
+  refused("node --config " +
+              cluster("drawn.toml", "",
+                      "[topology]\nkind = \"file\"\nfile = \"" + pipe("graph.toml") + "\"\n") +
+              " --name n0",
+          "graph.toml");
+  pipe("results/assessment.json");
+  refused("report " + (folder.path / "results").string(), "assessment.json");
 }
 
 TEST_CASE("the program is linked so that an overwritten pointer finds no table to lead astray",

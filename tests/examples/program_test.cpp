@@ -100,7 +100,7 @@ TEST_CASE("a run by need has the same bits on nodes and resumed, and can be draw
       folder, readme_scene() +
                   "[[emitter]]\nname = \"other\"\nshape = \"rectangle\"\nposition = [1, 1, 2.4]\n"
                   "size = [0.2, 0.2]\nflux_lm = 50\n[run]\ngroups = \"emitter\"\n");
-  const std::string common = "run " + scene + " --no-views --by-need --out ";
+  const std::string common = "run " + scene + " --no-views --adaptive --out ";
   REQUIRE(run_luxodus(folder, common + out(folder, "whole") + " --particles 200k").code == 0);
   REQUIRE(run_luxodus(folder, common + out(folder, "parts") + " --particles 80k").code == 0);
   REQUIRE(run_luxodus(folder, common + out(folder, "parts") + " --particles 200k --resume").code ==
@@ -113,7 +113,7 @@ TEST_CASE("a run by need has the same bits on nodes and resumed, and can be draw
   CHECK(result["source_groups"].size() == 2);
   CHECK(result["source_groups"][0]["batch_share"].get<double>() > 0);
   CHECK(run_luxodus(folder, "render " + out(folder, "whole") + " --paths 1").code == 0);
-  CHECK(run_luxodus(folder, "run " + write_scene(folder, readme_scene()) + " --by-need --out " +
+  CHECK(run_luxodus(folder, "run " + write_scene(folder, readme_scene()) + " --adaptive --out " +
                                 out(folder, "one"))
             .err.find("groups = \"emitter\"") != std::string::npos);
 }
@@ -373,8 +373,8 @@ TEST_CASE("a packed scene runs as its scene file does, resident and on nodes wit
                                   out(folder, "plain"))
               .code == 0);
   REQUIRE(run_luxodus(folder, "run " + pack + common + out(folder, "packed")).code == 0);
-  REQUIRE(run_luxodus(folder, "run " + pack + " --nodes 2 --fibers 32 --object-mib 0.05" + common +
-                                  out(folder, "nodes"))
+  REQUIRE(run_luxodus(folder, "run " + pack + " --nodes 2 --fibers 32 --part-cache-mib 0.05" +
+                                  common + out(folder, "nodes"))
               .code == 0);
   CHECK(flux(folder, "packed") == flux(folder, "plain"));
   CHECK(flux(folder, "nodes") == flux(folder, "plain"));
@@ -400,7 +400,7 @@ TEST_CASE("a packed scene of smoke data and pictures runs on nodes that hold a p
   CHECK(told["tiles"].get<int>() == 6);
   const std::string common = " --no-views --particles 8k --out ";
   REQUIRE(run_luxodus(folder, "run " + scene + common + out(folder, "plain")).code == 0);
-  const std::string nodes = "run " + pack + " --nodes 2 --fibers 64 --object-mib 1";
+  const std::string nodes = "run " + pack + " --nodes 2 --fibers 64 --part-cache-mib 1";
   const Outcome shared = run_luxodus(folder, nodes + common + out(folder, "shared"));
   INFO(shared.err);
   REQUIRE(shared.code == 0);

@@ -142,6 +142,22 @@ TEST_CASE("a folder of nothing cannot be viewed, nor one of something else",
   CHECK(other.err.find("assessment.json") != std::string::npos);
 }
 
+TEST_CASE("a second live view whose workers trace for another ends, and says why",
+          "[cluster][view][failure]") {
+  const Folder folder;
+  const std::string first = write_cluster(folder, viewed(), "first");
+  const std::string second = write_cluster(folder, viewed(), "second");
+  Process up(LUX_PROGRAM, {"cluster", "up", first});
+  REQUIRE(up.says("n1 is there"));
+  const auto intruder = node(second, "controller");
+  CHECK(intruder->wait() == 1);
+  INFO(intruder->text());
+  CHECK(intruder->said("its workers are not free: let the run that n"));
+  CHECK(intruder->said("a live view of " + first));
+  up.kill(SIGINT);
+  CHECK(up.wait() == 0);
+}
+
 TEST_CASE("a live view refuses nodes that do not hold the scene", "[cluster][view][failure]") {
   const TemporaryFolder folder;
   ClusterText text = viewed();

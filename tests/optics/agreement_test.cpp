@@ -234,7 +234,7 @@ TEST_CASE("error bars are honest, and if they were 20 % too small or too large i
   add_homogeneous(scene, smoke(2, 1, 0.5));
   add_box_group(scene, {0.2, 0.2, 0.2}, {0.6, 0.7, 0.8});
   const auto compiled = compile(std::move(scene));
-  constexpr int runs = thrift == 1 ? 800 : 400;
+  const int runs = thrift == 1 ? 800 : 400;
   std::vector<std::pair<std::string, Distances>> measured = {
       {"wall", {}}, {"volume", {}}, {"patch", {}}};
   for (int seed = 0; seed < runs; ++seed) {

@@ -14,7 +14,7 @@ namespace {
 /// A lamp in a room; one plane below it, a small one in a corner; a probe at either place.
 const char* const lit_room = R"(
 [run]
-bands_most = 1
+max_bands = 1
 batch_particles = 4096
 
 [[object]]

@@ -37,7 +37,7 @@ Run::Run(SceneDescription scene, const RunOptions& options, const std::vector<Bi
 // ---- comparisons -------------------------------------------------------------------------------
 
 int64_t particles_for(double share) {
-  constexpr double wanted = half_percent / root_of_thrift;
+  constexpr double wanted = 5e-3;
   return static_cast<int64_t>(std::ceil(1 / (wanted * wanted * share)));
 }
 

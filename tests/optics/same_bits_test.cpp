@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "scenes/geometry/primitives.hpp"
+#include "scenes/transport/eye_paths.hpp"
 #include "scenes/transport/kernels.hpp"
 #include "scenes/transport/trace.hpp"
 #include "tests/optics/light_kit.hpp"
@@ -301,7 +302,7 @@ TEST_CASE("a partition changes the triangle only of rays that meet an edge") {
 
 TEST_CASE("a partition gives the same light within standard errors") {
   const auto merged = compile(room_of_everything());
-  constexpr int64_t particles = 800'000 / thrift;
+  const int64_t particles = 800'000 / thrift;
   LocalRun a(merged, 11, 2);
   trace(a, particles);
   for (const int cells : {4, 9}) {

@@ -1,6 +1,6 @@
-// Runs under faults that are drawn from seeds: 200 of them in every test run, each twice, and those
-// that once found a fault of the program (tests/sim/seeds). Many more: `luxodus sim SCENE --seeds
-// 0..10000`.
+// Runs under faults that are drawn from seeds: 50 of them in every test run and 200 in full, each
+// twice, and those that once found a fault of the program (tests/sim/seeds). Many more: `luxodus
+// sim SCENE --seeds 0..10000`.
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -12,6 +12,7 @@
 #include "actors/simulate/simulation.hpp"
 #include "scenes/scene_file/scene_file.hpp"
 #include "scenes/transport/compile.hpp"
+#include "tests/kit/test_length.hpp"
 
 using namespace luxodus;
 
@@ -72,7 +73,7 @@ SimOptions small_run() {
 
 /// What the runs of some seeds went through, together.
 struct Trouble {
-  uint64_t crashes = 0, lost = 0, harmed = 0, fenced = 0, fetches = 0, rare_ways = 0;
+  uint64_t crashes = 0, lost = 0, harmed = 0, fenced = 0, fetches = 0, rare_ways = 0, snapshots = 0;
   void add(const SimReport& report) {
     crashes += report.world.crashes;
     lost += report.world.lost;
@@ -80,13 +81,11 @@ struct Trouble {
     fenced += report.leases_fenced;
     fetches += report.caches.fetches;
     rare_ways += report.rare_ways;
+    snapshots += report.snapshots;
   }
 };
 
-}  // namespace
-
-TEMPLATE_TEST_CASE_SIG("swarms of faults change no bit, and a seed is one run", "[sim]",
-                       ((uint64_t part), part), 0, 1, 2, 3, 4, 5, 6, 7) {
+void check_swarm(uint64_t part) {
   const SimScene scene = scene_of("empty_room");
   Trouble all;
   for (uint64_t seed = 25 * part; seed < 25 * (part + 1); ++seed)
@@ -98,16 +97,31 @@ TEMPLATE_TEST_CASE_SIG("swarms of faults change no bit, and a seed is one run", 
   CHECK(all.fenced > 0);
   CHECK(all.fetches > 0);
   CHECK(all.rare_ways > 1000);
+  CHECK(all.snapshots > 0);
+}
+
+}  // namespace
+
+TEMPLATE_TEST_CASE_SIG("swarms of faults change no bit, and a seed is one run", "[sim]",
+                       ((uint64_t part), part), 0, 1) {
+  check_swarm(part);
+}
+TEMPLATE_TEST_CASE_SIG("more swarms of faults change no bit, and a seed is one run",
+                       "[sim][.][long]", ((uint64_t part), part), 2, 3, 4, 5, 6, 7) {
+  check_swarm(part);
 }
 
 TEST_CASE("swarms change no bit of a run in smoke", "[sim]") {
   const SimScene scene = scene_of("smoke_tank");
-  for (uint64_t seed = 1000; seed < 1005; ++seed) checked(scene, "smoke_tank", options_of(seed, 3));
+  const uint64_t seeds = test::in_full() ? 5 : 2;
+  for (uint64_t seed = 1000; seed < 1000 + seeds; ++seed)
+    checked(scene, "smoke_tank", options_of(seed, 3));
 }
 
 TEST_CASE("swarms change no bit of a run on 32 nodes", "[sim]") {
   const SimScene scene = scene_of("empty_room");
-  for (uint64_t seed = 2000; seed < 2002; ++seed) {
+  const uint64_t seeds = test::in_full() ? 2 : 1;
+  for (uint64_t seed = 2000; seed < 2000 + seeds; ++seed) {
     SimOptions options = options_of(seed, 32);
     options.work = seconds(240);
     checked(scene, "empty_room", options);
@@ -162,6 +176,27 @@ TEMPLATE_TEST_CASE_SIG("a small run bears the crash of any node after any event"
     REQUIRE(report.ok());
     REQUIRE(report->failure == "");
   }
+}
+
+TEST_CASE("a controller whose disk is full and that crashes goes on from a snapshot", "[sim]") {
+  const SimScene scene = scene_of("empty_room");
+  SimOptions options = small_run();
+  options.work = seconds(60);
+  const NodeId controller{2};
+  // From right behind the journal's head on: no flush finds room.
+  options.plan->faults.push_back({Fault::Kind::full_disk, 1, seconds(60), controller, {}});
+  const SimReport whole = simulate(scene, options).value();
+  CHECK(whole.failure == "");
+  CHECK(whole.snapshots >= 2);  // one every 10 s
+  Fault crash;
+  crash.node = controller;
+  crash.lasts = milliseconds(700);
+  crash.after_events = whole.world.events * 3 / 4;
+  options.plan->faults.push_back(crash);
+  const SimReport begun_anew = simulate(scene, options).value();
+  CHECK(begun_anew.failure == "");
+  CHECK(begun_anew.world.crashes == 1);
+  CHECK(begun_anew.recovered > 0);
 }
 
 // Hundreds of leases are late when one frame of their flush is lost. To be told so of each by

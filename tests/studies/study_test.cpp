@@ -11,7 +11,7 @@
 #include "actors/study/report.hpp"
 #include "actors/study/runs.hpp"
 #include "actors/study/scenes.hpp"
-#include "runtime/config/schema.hpp"
+#include "actors/study/study_schema.hpp"
 #include "scenes/scene_file/scene_file.hpp"
 #include "tests/kit/temporary_folder.hpp"
 
@@ -139,7 +139,7 @@ TEST_CASE("the README of studies ends with every table and key of the schema", "
   text << in.rdbuf();
   const size_t from = text.str().find("### ");
   REQUIRE(from != std::string::npos);
-  CHECK(text.str().substr(from) + "\n" == config::schema_markdown(config::study_schema()));
+  CHECK(text.str().substr(from) + "\n" == toml::schema_markdown(study_schema()));
 }
 
 TEST_CASE("a fit finds the costs that times were made of, disturbed rows aside", "[study]") {

@@ -11,7 +11,7 @@ const shots =
 const browserPath = process.env.LUX_CHROMIUM ?? '/usr/bin/chromium';
 const flags = ['--headless=new', '--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader',
   '--enable-unsafe-swiftshader'];
-/** For what never comes. All that is waited for are states: how long they take counts for nothing. */
+/** For what never comes. All waits are for states: how long they take counts for nothing. */
 const patience = { timeout: 180_000 };
 
 /** Shares of the screen's raster; screenshots are drawn fine where LUX_FINE asks for it. */
@@ -50,7 +50,7 @@ const mean = async (p = page) => {
   await settled(p);
   return p.evaluate(() => window.luxodus.meanLuminance());
 };
-const eye = (p = page) => p.evaluate(() => [...window.luxodus.page.motion.eye]);
+const eye = (p = page) => p.evaluate(() => [...window.luxodus.page.walk.motion.eye]);
 const shot = async (name, p = page) => {
   await raster(p, fine);
   await settled(p);
@@ -97,11 +97,12 @@ test('a key held down walks, and a wall stops the walk', async () => {
   const from = await eye();
   await page.locator('#picture').focus();
   await page.keyboard.down('KeyW');
-  await page.waitForFunction((x) => window.luxodus.page.motion.eye[0] > x + 0.3, from[0], patience);
+  await page.waitForFunction((x) => window.luxodus.page.walk.motion.eye[0] > x + 0.3, from[0],
+    patience);
   await page.keyboard.up('KeyW');
   await page.evaluate(() => {
-    window.luxodus.page.motion.yaw = Math.PI;
-    for (let i = 0; i < 200; ++i) window.luxodus.page.go([-0.1, 0, 0]);
+    window.luxodus.page.walk.motion.yaw = Math.PI;
+    for (let i = 0; i < 200; ++i) window.luxodus.page.walk.go([-0.1, 0, 0]);
   });
   const [x, , z] = await eye();
   assert.ok(x > 0.1 && x < 0.6, `stopped at ${x}`);
@@ -111,7 +112,7 @@ test('a key held down walks, and a wall stops the walk', async () => {
 test('the mean luminance follows a dimmed luminaire linearly', async () => {
   await page.evaluate(() => {
     const { page: p } = window.luxodus;
-    p.jump(p.live.scene.observers[0]);
+    p.walk.jump(p.live.scene.observers[0]);
   });
   const at = {};
   for (const factor of [1, 0.5, 0]) {
@@ -149,7 +150,7 @@ test('a surface tells its light, a sign its verdicts, and the sign can be moved'
   await shot('probe');
   await page.evaluate(() => {
     const { page: p } = window.luxodus;
-    p.selectSign(p.live.scene.signs[0]);
+    p.selection.sign(p.live.scene.signs[0]);
   });
   await page.locator('#panel table').waitFor(patience);
   await shot('sign');
@@ -166,7 +167,7 @@ test('a selected sign is dragged along its wall', async () => {
   await settled();
   const point = () => page.evaluate(() => {
     const { page: p } = window.luxodus;
-    const [x, y] = p.labels.project(p.live.scene.signs[0].position, p.picture.camera);
+    const [x, y] = p.panels.labels.project(p.live.scene.signs[0].position, p.picture.camera);
     const { clientWidth, clientHeight } = document.getElementById('picture');
     return [(0.5 + 0.5 * x) * clientWidth, (0.5 - 0.5 * y) * clientHeight];
   });
@@ -231,7 +232,7 @@ test('a luminaire moves without the rest of the light fading', async () => {
   const old = await generation();
   await page.evaluate(() => {
     const { page: p } = window.luxodus;
-    p.selectLuminaire(p.live.scene.luminaires[0]);
+    p.selection.luminaire(p.live.scene.luminaires[0]);
   });
   await page.getByRole('button', { name: 'Right', exact: true }).click();
   await page.waitForFunction(() => window.luxodus.page.live.next, null, patience);
@@ -245,13 +246,13 @@ test('a luminaire moves without the rest of the light fading', async () => {
 const thing = (list, name) => page.evaluate(([l, n]) =>
   window.luxodus.page.live.scene[l].find((t) => t.name === n), [list, name]);
 const selected = (name) => page.waitForFunction((n) =>
-  (window.luxodus.page.inspect.subject?.name ?? null) === n, name, patience);
+  (window.luxodus.page.panels.inspect.subject?.name ?? null) === n, name, patience);
 const groupsShown = () => page.evaluate(() => window.luxodus.page.live.shown.surfaces.groups.size);
 
 test('a copy of a luminaire stands beside it, is selected, moves, and goes', async () => {
   await page.evaluate(() => {
     const { page: p } = window.luxodus;
-    p.selectLuminaire(p.live.scene.luminaires[0]);
+    p.selection.luminaire(p.live.scene.luminaires[0]);
   });
   assert.equal(await page.getByRole('button', { name: 'Remove' }).count(), 0);
   const { position } = await thing('luminaires', 'lamp west');
@@ -276,7 +277,7 @@ test('a copy of a luminaire stands beside it, is selected, moves, and goes', asy
 test('a copy of a sign stands beside it along its width, is judged, and goes', async () => {
   await page.evaluate(() => {
     const { page: p } = window.luxodus;
-    p.selectSign(p.live.scene.signs[0]);
+    p.selection.sign(p.live.scene.signs[0]);
   });
   const { position } = await thing('signs', 'exit sign');
   const triangles = () => page.evaluate(() => window.luxodus.page.live.shown.surfaces.cells);

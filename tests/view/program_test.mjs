@@ -13,7 +13,7 @@ const scene = `${root}/scenes/library/office_floor.toml`;
 const shots = process.env.LUX_SHOTS ?? new URL('shots', import.meta.url).pathname;
 const flags = ['--headless=new', '--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader',
   '--enable-unsafe-swiftshader'];
-/** For what never comes. All that is waited for are states: how long they take counts for nothing. */
+/** For what never comes. All waits are for states: how long they take counts for nothing. */
 const patience = { timeout: 180_000 };
 const lamp = 'corridor emergency light 3';
 
@@ -94,10 +94,10 @@ after(async () => {
 test('the office floor loads, lit, and complains of nothing', async () => {
   await page.evaluate(() => {
     const { page: p } = window.luxodus;
-    p.jump(p.live.scene.observers.find((o) => o.name === 'walker'));
+    p.walk.jump(p.live.scene.observers.find((o) => o.name === 'walker'));
   });
   // They look along the corridor, to the east.
-  const yaw = await page.evaluate(() => window.luxodus.page.motion.yaw);
+  const yaw = await page.evaluate(() => window.luxodus.page.walk.motion.yaw);
   assert.ok(Math.abs(yaw) < 0.01, `they look ${yaw} rad off the corridor`);
   assert.ok((await mean()) > 0.01);
   await shot('program_corridor');
@@ -129,7 +129,7 @@ test('a luminaire moves, and its own light alone comes anew', async () => {
   const old = await generation();
   await page.evaluate((name) => {
     const { page: p } = window.luxodus;
-    p.selectLuminaire(p.live.scene.luminaires.find((l) => l.name === name));
+    p.selection.luminaire(p.live.scene.luminaires.find((l) => l.name === name));
   }, lamp);
   await page.getByRole('button', { name: 'Right', exact: true }).click();
   await page.waitForFunction((g) => window.luxodus.page.live.number > g, old, patience);
@@ -144,7 +144,7 @@ test('a luminaire moves, and its own light alone comes anew', async () => {
 test('a sign is judged, moved, and saved as a variant', async () => {
   await page.evaluate(() => {
     const { page: p } = window.luxodus;
-    p.selectSign(p.live.scene.signs.find((s) => s.name === 'exit east'));
+    p.selection.sign(p.live.scene.signs.find((s) => s.name === 'exit east'));
   });
   await page.locator('#panel table').waitFor(patience);
   await shot('program_sign');
@@ -159,7 +159,7 @@ test('a sign is judged, moved, and saved as a variant', async () => {
 });
 
 const selected = (name) => page.waitForFunction((n) =>
-  (window.luxodus.page.inspect.subject?.name ?? null) === n, name, patience);
+  (window.luxodus.page.panels.inspect.subject?.name ?? null) === n, name, patience);
 const lightOf = (light) => page.evaluate((l) =>
   window.luxodus.page.live.scene.groups.filter((g) => g.light === l).map((g) => g.name), light);
 
@@ -168,7 +168,7 @@ test('a luminaire is added, the others keep their light, and it goes again', asy
   const others = await page.evaluate(() => window.luxodus.page.live.scene.groups.length);
   await page.evaluate((name) => {
     const { page: p } = window.luxodus;
-    p.selectLuminaire(p.live.scene.luminaires.find((l) => l.name === name));
+    p.selection.luminaire(p.live.scene.luminaires.find((l) => l.name === name));
   }, lamp);
   await page.getByRole('button', { name: 'Add a copy' }).click();
   await selected(`${lamp} copy`);
@@ -186,7 +186,7 @@ test('a sign is added, judged, saved as a variant, and goes again', async () => 
   const old = await generation();
   await page.evaluate(() => {
     const { page: p } = window.luxodus;
-    p.selectSign(p.live.scene.signs.find((s) => s.name === 'exit east'));
+    p.selection.sign(p.live.scene.signs.find((s) => s.name === 'exit east'));
   });
   await page.getByRole('button', { name: 'Add a copy' }).click();
   await selected('exit east copy');

@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { parseFrame, ProtocolError } from '../../../actors/view/page/src/protocol/frames.js';
-import { parseMessage } from '../../../actors/view/page/src/protocol/messages.js';
+import { decodeFrame, ProtocolError } from '../../../actors/view/page/src/protocol/decode_frame.js';
+import { decodeMessage } from '../../../actors/view/page/src/protocol/decode_message.js';
 import { intervalMs, Outbox } from '../../../actors/view/page/src/protocol/outbox.js';
 import { Live } from '../../../actors/view/page/src/state.js';
 import { geometryFrame, lightFrame, smokeFrame, sources, startState, trianglesOf }
@@ -20,15 +20,15 @@ function heard() {
   const server = new MockServer();
   const scene = (generation) => {
     server.generation = generation;
-    return parseMessage(JSON.stringify(server.scene(null)));
+    return decodeMessage(JSON.stringify(server.scene(null)));
   };
   const named = (name) => events.filter(([n]) => n === name).map(([, detail]) => detail);
   return { live, scene, events, named, ring: () => waiting.splice(0).forEach((f) => f()) };
 }
 
 const state = startState();
-const light = (generation, group) => parseFrame(lightFrame(generation, group, state));
-const geometry = (generation) => parseFrame(geometryFrame(generation));
+const light = (generation, group) => decodeFrame(lightFrame(generation, group, state));
+const geometry = (generation) => decodeFrame(geometryFrame(generation));
 
 function started() {
   const all = heard();
@@ -105,7 +105,7 @@ test('light of another size, of no group, or before its scene is refused', () =>
   assert.throws(() => live.hear({ ...light(1, 0), group: 99 }), ProtocolError);
   assert.throws(() => live.hear(light(2, 0)), ProtocolError);
   live.hear({ ...scene(2), voxels: null });
-  const smoke = parseFrame(smokeFrame(2, state));
+  const smoke = decodeFrame(smokeFrame(2, state));
   assert.throws(() => live.hear(smoke), ProtocolError);
 });
 
@@ -160,7 +160,7 @@ test('what moves waits for its own light alone, and nothing fades', () => {
   assert.equal(live.shown.surfaces.groups.get(1).halves, others, 'the others keep their light');
 });
 
-test('a generation that keeps all light is shown at once, and new geometry takes none of it', () => {
+test('a generation that keeps all light is shown at once; new geometry takes none of it', () => {
   const { live, scene, named } = started();
   live.hear(keeping(scene(2), () => true, 'before'));
   assert.equal(live.number, 2);
@@ -172,7 +172,7 @@ test('a generation that keeps all light is shown at once, and new geometry takes
 /** The room with one sign more, its light and its triangles. */
 const more = startState();
 more.signs.push({ ...more.signs[0], name: 'new exit', position: [6.49, 2, 2.4], added: true });
-const lightOfMore = (generation, group) => parseFrame(lightFrame(generation, group, more));
+const lightOfMore = (generation, group) => decodeFrame(lightFrame(generation, group, more));
 const relaid = (scene, kept) => ({ ...keeping(scene, kept, 'before'), relaid: true });
 
 test('other triangles wait for all the light that comes with them', () => {
@@ -180,7 +180,7 @@ test('other triangles wait for all the light that comes with them', () => {
   live.hear(relaid(scene(2), () => true));
   assert.equal(live.number, 1, 'nothing of the old light fits');
   assert.deepEqual(named('fading').filter(Boolean), []);
-  live.hear(parseFrame(geometryFrame(2, more)));
+  live.hear(decodeFrame(geometryFrame(2, more)));
   assert.throws(() => live.hear(light(2, 0)), ProtocolError);
   sources.forEach((_, group) => {
     assert.equal(live.number, 1);
@@ -194,7 +194,7 @@ test('other triangles wait for all the light that comes with them', () => {
 test('what moves after other triangles were laid waits for their light as well', () => {
   const { live, scene } = started();
   live.hear(relaid(scene(2), () => true));
-  live.hear(parseFrame(geometryFrame(2, more)));
+  live.hear(decodeFrame(geometryFrame(2, more)));
   live.hear(lightOfMore(2, 1));
   live.hear(keeping(scene(3), (i) => i !== 0));
   live.hear(lightOfMore(3, 0));
@@ -207,7 +207,7 @@ test('what moves after other triangles were laid waits for their light as well',
 test('triangles laid twice before any was shown are the last ones', () => {
   const { live, scene } = started();
   live.hear(relaid(scene(2), () => true));
-  live.hear(parseFrame(geometryFrame(2, more)));
+  live.hear(decodeFrame(geometryFrame(2, more)));
   live.hear(lightOfMore(2, 0));
   live.hear(relaid(scene(3), () => true));
   live.hear(geometry(3));

@@ -4,7 +4,7 @@ import { Building } from '../../../actors/view/page/src/walk/building.js';
 import { gazeOf, rayThrough, speeds, stand, startMotion, stride, turn, viewOf, zoom }
   from '../../../actors/view/page/src/walk/motion.js';
 import { geometryFrame } from '../mock_room.mjs';
-import { parseFrame } from '../../../actors/view/page/src/protocol/frames.js';
+import { decodeFrame } from '../../../actors/view/page/src/protocol/decode_frame.js';
 
 const near = (a, b, most = 1e-6) =>
   a.forEach((x, i) => assert.ok(Math.abs(x - b[i]) < most, `${a} is not ${b}`));
@@ -61,7 +61,7 @@ test('in plan the ray through the right edge starts half a width to the right', 
   assert.ok(Math.abs(origin[0] - (motion.plan.centre[0] + motion.plan.span)) < 1e-9);
 });
 
-const building = () => new Building(parseFrame(geometryFrame(1)));
+const building = () => new Building(decodeFrame(geometryFrame(1)));
 
 test('a wall stops, a doorway lets through, the floor carries', () => {
   const b = building();

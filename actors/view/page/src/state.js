@@ -1,6 +1,6 @@
 // What the program has told: the generation that is shown, and the next one while its light is
 // awaited. Pure: knows no screen, no socket, and only the clock that it is given.
-import { kinds, ProtocolError } from './protocol/frames.js';
+import { kinds, ProtocolError } from './protocol/decode_frame.js';
 import { smokeSum, surfaceSum } from './light/sum.js';
 
 /** After a new generation's first light, so long are the other groups waited for. */

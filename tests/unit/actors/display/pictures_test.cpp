@@ -27,7 +27,7 @@ name = "sphere"
 shape = "sphere"
 radius = 2
 patch_edge_m = 0.5
-bound_m = 0.01
+mesh_tolerance_m = 0.01
 material = "white"
 [[emitter]]
 name = "lamp"
@@ -128,7 +128,7 @@ TEST_CASE("an Ulbricht sphere has the luminance of the closed form, gathered or 
 TEST_CASE("colours of a picture are those of the bands", "[display]") {
   // A reddish sphere: each band's luminance follows its own reflectance.
   const auto run = traced(
-      "[run]\nbands_most = 4\n" + ulbricht_sphere("[[400, 0.2], [550, 0.4], [700, 0.8]]"), 1 << 18);
+      "[run]\nmax_bands = 4\n" + ulbricht_sphere("[[400, 0.2], [550, 0.4], [700, 0.8]]"), 1 << 18);
   const CompiledScene& scene = run->scene();
   REQUIRE(scene.bands.count() == 4);
   double exact[3] = {0, 0, 0}, scotopic = 0;

@@ -128,6 +128,49 @@ material = "grey50"
   check_no_alarm(yard);
 }
 
+TEST_CASE("a lamp level with a missing ceiling is inside, one on a post beside the room is not",
+          "[inspect]") {
+  const std::string roofless = replaced(furnished_room, "material = \"grey50\"",
+                                        "material = \"grey50\"\nomit = [\"ceiling\"]");
+  const std::string ground =
+      "[[object]]\nname = \"ground\"\nshape = \"quad\"\ncorner = [-50, -50, -0.1]\n"
+      "edge_u = [200, 0, 0]\nedge_v = [0, 100, 0]\nmaterial = \"grey50\"\n";
+  for (const char* height : {"2.97", "3", "3.2"})
+    CHECK(that_say(found_in(roofless + panel("[9, 0, " + std::string(height) + "]")),
+                   "stands outside")
+              .empty());
+  check_found(found_in(roofless + ground + panel("[60, 0, 4]")), Severity::note,
+              "emitter \"panel\" stands outside");
+}
+
+TEST_CASE("luminaires nearer than five openings are warned of where codes judge their light",
+          "[inspect]") {
+  // A round opening of 0.2 m that shines down: five openings are 1 m.
+  const std::string ies =
+      "IESNA:LM-63-2002\n[TEST] none\nTILT=NONE\n1 -1 1 3 1 1 2 -0.2 -0.2 0\n1 1 10\n0 45 90\n0\n"
+      "300 200 0\n";
+  const auto found = [&](const std::string& text) {
+    return found_in(furnished_room +
+                        "[[luminaire]]\nname = \"low lamp\"\nfile = \"lamp.ies\"\n"
+                        "position = [3, 0, 0.9]\ncircuit = \"low\"\n"
+                        "emergency = \"maintained\"\nemergency_factor = 1\n"
+                        "maintenance_factor = 0.8\nend_of_duration_factor = 0.7\n" +
+                        text,
+                    {{"lamp.ies", ies}});
+  };
+  const std::string way = "[[route]]\nname = \"way\"\npath = [[1, 0, 0], [11, 0, 0]]\nwidth = 1\n";
+  const std::string sentence = "route \"way\" is 0.9 m from luminaire \"low lamp\"";
+  const std::string emergency = "[[scenario]]\nname = \"lit\"\noperation = \"emergency\"\n";
+  check_found(found(way), Severity::note, sentence);
+  check_found(found(way + emergency), Severity::warning, sentence);
+  check_found(found("[[probe]]\nname = \"spot\"\nposition = [3, 0, 0.2]\n"), Severity::note,
+              "probe \"spot\" is 0.7 m from luminaire \"low lamp\"");
+  // Of two states of light with the same doors, the one that the lamp is lit in.
+  const std::string dark = replaced(emergency, "lit", "dark") + "circuits = { low = 0 }\n";
+  check_found(found(way + emergency + dark), Severity::warning, "(in scenario \"lit\")");
+  check_no_alarm(found(replaced(way, "[[1, 0, 0]", "[[5, 0, 0]") + emergency));
+}
+
 TEST_CASE("two luminaires or two signs in one place are told, pairs that are meant are not",
           "[inspect]") {
   const std::string first_lamp = lamp_at("first", "[3, 0, 2.5]");

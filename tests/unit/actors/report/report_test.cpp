@@ -97,9 +97,10 @@ class Read : public DL_CreationAdapter {
 
 TEST_CASE("every text of a report is there in every language, with the same gaps", "[report]") {
   size_t count = 0;
-  for (const auto rows : {page_texts(), section_texts(), word_texts(), rule_texts()})
+  for (const auto rows :
+       {page_texts(), section_texts(), word_texts(), rule_texts(), remark_texts()})
     for (const ReportText& row : rows) {
-      INFO(row.key);
+      INFO(row.key << ": " << row.text[0]);
       ++count;
       for (const char* text : row.text) {
         REQUIRE(text != nullptr);
@@ -108,6 +109,28 @@ TEST_CASE("every text of a report is there in every language, with the same gaps
       }
     }
   CHECK(count > 200);
+}
+
+TEST_CASE("the program's own sentences are said in each language", "[report]") {
+  const Texts de(Language::de), fr(Language::fr), en(Language::en);
+  CHECK(de.remark("5 s after the mains have failed") == "5 s nach dem Netzausfall");
+  CHECK(fr.remark("7 of 351 points lie in bodies and are left out") ==
+        "7 points sur 351 se trouvent dans des corps et sont omis");
+  CHECK(en.remark("5 s after the mains have failed") == "5 s after the mains have failed");
+  // Names stay; numbers have the decimal sign; two sentences in one; one within another.
+  CHECK(de.remark("the nearest is \"north; lamp\"; \"near\" is 1.25 m away, but behind something "
+                  "solid") ==
+        "die nächste ist \"north; lamp\"; \"near\" ist 1,25 m entfernt, aber hinter etwas Festem");
+  CHECK(de.remark("beyond all measure: there is none, or no light at all; the value breaks a limit "
+                  "that was read nowhere: look it up") ==
+        "über alle Maßen: es gibt keines, oder gar kein Licht; der Wert verletzt einen Grenzwert, "
+        "der nirgends gelesen wurde: nachschlagen");
+  CHECK(fr.remark("undecided: needs more particles") == "indécis : il faut plus de particules");
+  CHECK_FALSE(de.remark("a sentence that nobody says"));
+  for (const ReportText& row : remark_texts()) {
+    INFO(row.text[0]);
+    CHECK(de.remark(row.text[0]) == std::string(row.text[1]));
+  }
 }
 
 TEST_CASE("a verdict without failures is said in each language", "[report]") {

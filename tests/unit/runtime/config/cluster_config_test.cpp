@@ -75,7 +75,9 @@ TEST_CASE("of two neighbours one listens where the other connects to", "[runtime
 }
 
 TEST_CASE("ports follow from the host's first, unless they are said", "[runtime][config]") {
-  const ClusterConfig cluster = good(mixed + "port = 5000\n[observe]\nmetrics_port = 9000\n");
+  const ClusterConfig cluster = good(
+      mixed + "port = 5000\n[observe]\nmetrics_port = 9000\nallow_host = \"lux.example.org\"\n");
+  CHECK(cluster.observe.allow_host == "lux.example.org");
   CHECK(cluster.nodes[0].port == 27600);
   CHECK(cluster.nodes[1].port == 27602);
   CHECK(cluster.nodes[2].port == 5000);

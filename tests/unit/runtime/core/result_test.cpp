@@ -36,3 +36,14 @@ TEST_CASE("a result holds either its value or its problem", "[core]") {
   REQUIRE_FALSE(bad.ok());
   CHECK(bad.problem().what == "no");
 }
+
+TEST_CASE("an excerpt is short, and holds characters alone", "[core]") {
+  CHECK(excerpt("LM-63-1999") == "LM-63-1999");
+  CHECK(excerpt("\x1b[31mred\n") == "\\x1B[31mred\\x0A");
+  CHECK(excerpt("Lampe \xC3\xA4 \xC2\x9B") == "Lampe \xC3\xA4 \\xC2\\x9B");
+  CHECK(excerpt("\xFF\xC3") == "\\xFF\\xC3");  // no UTF-8
+  CHECK(excerpt(std::string(60, 'a')) == std::string(60, 'a'));
+  CHECK(excerpt(std::string(1000, 'a')) == std::string(60, 'a') + "...");
+  // No character is cut in two.
+  CHECK(excerpt(std::string(59, 'a') + "\xC3\xA4") == std::string(59, 'a') + "...");
+}

@@ -1,62 +1,12 @@
 #include "runtime/observe/metrics.hpp"
 
-#include <arpa/inet.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
-#include <unistd.h>
-
 #include <atomic>
 #include <catch2/catch.hpp>
 #include <string>
 #include <thread>
 #include <vector>
 
-#include "runtime/observe/metrics_server.hpp"
-
 using namespace luxodus;
-
-namespace {
-
-int connected(uint16_t port) {
-  const int fd = socket(AF_INET, SOCK_STREAM, 0);
-  sockaddr_in place{};
-  place.sin_family = AF_INET;
-  place.sin_port = htons(port);
-  place.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  REQUIRE(connect(fd, reinterpret_cast<sockaddr*>(&place), sizeof place) == 0);
-  return fd;
-}
-
-/// Sends `request` as it is to the server and gives all that comes back.
-std::string exchange(uint16_t port, const std::string& request) {
-  const int fd = socket(AF_INET, SOCK_STREAM, 0);
-  sockaddr_in place{};
-  place.sin_family = AF_INET;
-  place.sin_port = htons(port);
-  place.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  std::string answer;
-  if (connect(fd, reinterpret_cast<sockaddr*>(&place), sizeof place) == 0 &&
-      send(fd, request.data(), request.size(), MSG_NOSIGNAL) ==
-          static_cast<ssize_t>(request.size())) {
-    char part[512];
-    for (ssize_t n = 0; (n = recv(fd, part, sizeof part, 0)) > 0;)
-      answer.append(part, static_cast<size_t>(n));
-  }
-  close(fd);
-  return answer;
-}
-
-std::unique_ptr<MetricsServer> serving(std::function<std::string()> page) {
-  auto server = MetricsServer::start("127.0.0.1", 0, std::move(page));
-  REQUIRE(server.ok());
-  return std::move(server).value();
-}
-
-bool begins(const std::string& text, const std::string& with) {
-  return text.rfind(with, 0) == 0;
-}
-
-}  // namespace
 
 TEST_CASE("metrics are written as Prometheus reads them, families together", "[runtime][metrics]") {
   uint64_t fetches = 0, resident = 0;
@@ -138,76 +88,4 @@ TEST_CASE("readers and a publishing node do not meet", "[runtime][metrics]") {
   stop = true;
   node.join();
   CHECK(equal);
-}
-
-TEST_CASE("the server answers GET /metrics with the page of the moment",
-          "[runtime][metrics][server]") {
-  std::atomic<int> asked{0};
-  const auto server = serving([&] { return "page " + std::to_string(++asked) + "\n"; });
-  for (int i = 1; i <= 3; ++i) {
-    const std::string answer =
-        exchange(server->port(), "GET /metrics HTTP/1.1\r\nHost: here\r\n\r\n");
-    CHECK(begins(answer, "HTTP/1.1 200 OK\r\n"));
-    CHECK(answer.find("Content-Length: 7\r\n") != std::string::npos);
-    CHECK(answer.find("\r\n\r\npage " + std::to_string(i) + "\n") != std::string::npos);
-  }
-}
-
-TEST_CASE("the server refuses what it does not know, and lives on", "[runtime][metrics][server]") {
-  const auto server = serving([] { return std::string("page\n"); });
-  const auto ask = [&](const std::string& request) { return exchange(server->port(), request); };
-  CHECK(begins(ask("GET / HTTP/1.1\r\n\r\n"), "HTTP/1.1 404"));
-  CHECK(begins(ask("POST /metrics HTTP/1.1\r\n\r\n"), "HTTP/1.1 405"));
-  CHECK(begins(ask("\r\n\r\n"), "HTTP/1.1 400"));
-  CHECK(begins(ask("GET /metrics SMTP\r\n\r\n"), "HTTP/1.1 400"));
-  CHECK(begins(ask(std::string(9 * 1024, 'a')), "HTTP/1.1 431"));
-  const std::string head = ask("HEAD /metrics HTTP/1.1\r\n\r\n");
-  CHECK(begins(head, "HTTP/1.1 200 OK\r\n"));
-  CHECK(head.ends_with("\r\n\r\n"));
-  CHECK(begins(ask("GET /metrics HTTP/1.0\r\n\r\n"), "HTTP/1.1 200"));
-}
-
-TEST_CASE("an answer does not wait for the end of a client that says nothing",
-          "[runtime][metrics][server]") {
-  const auto server = serving([] { return std::string("page\n"); });
-  // On a machine that stands still for seconds its time may be over: then once more.
-  bool answered_before = false;
-  for (int i = 0; i < 5 && !answered_before; ++i) {
-    const int mute = connected(server->port());
-    CHECK(begins(exchange(server->port(), "GET /metrics HTTP/1.1\r\n\r\n"), "HTTP/1.1 200"));
-    char part[8];
-    answered_before = recv(mute, part, sizeof part, MSG_DONTWAIT) < 0;  // it is there still
-    close(mute);
-  }
-  CHECK(answered_before);
-}
-
-TEST_CASE("clients that say nothing or read nothing keep nobody waiting, however many they are",
-          "[runtime][metrics][server]") {
-  const std::string page(8 << 20, 'p');  // more than a socket takes at once
-  const auto server = serving([&] { return page; });
-  std::vector<int> mute;
-  for (size_t i = 0; i < 3 * limits::http_clients; ++i) {
-    mute.push_back(connected(server->port()));
-    const std::string request = i % 3 == 0 ? "GET /metrics HTTP/1.1\r\n\r\n" : "GET /met";
-    if (i % 3 > 0)
-      CHECK(send(mute.back(), request.data(), request.size(), MSG_NOSIGNAL) ==
-            static_cast<ssize_t>(request.size()));
-  }
-  // One after another the mute would take limits::http_client each: three minutes.
-  for (int i = 0; i < 3; ++i)
-    CHECK(exchange(server->port(), "GET /metrics HTTP/1.1\r\n\r\n").size() > page.size());
-  for (const int fd : mute) close(fd);
-}
-
-TEST_CASE("a server that cannot listen says where and why", "[runtime][metrics][server]") {
-  const auto page = [] { return std::string(); };
-  const auto first = serving(page);
-  const auto second = MetricsServer::start("127.0.0.1", first->port(), page);
-  REQUIRE_FALSE(second.ok());
-  CHECK(second.problem().what.find(std::to_string(first->port())) != std::string::npos);
-  CHECK(second.problem().what.find("in use") != std::string::npos);
-  const auto nowhere = MetricsServer::start("localhost", 0, page);
-  REQUIRE_FALSE(nowhere.ok());
-  CHECK(nowhere.problem().what.find("no IPv4 address") != std::string::npos);
 }

@@ -1,4 +1,5 @@
 #include "scenes/emergency/sign_geometry.hpp"
+#include "scenes/emergency/sign_light.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

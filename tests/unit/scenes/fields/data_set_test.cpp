@@ -531,3 +531,23 @@ TEST_CASE("samples of a file that a header names are not told", "[format][nrrd][
   INFO(read.problem().what);
   CHECK(read.problem().what.find("114") == std::string::npos);  // the letter r
 }
+
+TEST_CASE("what a data set says is quoted short and without what a terminal obeys",
+          "[format][data_set][hostile]") {
+  const TemporaryFolder folder;
+  const std::string word = "\x1b[2J\xFF" + std::string(500, 'x');
+  const std::string quoted = "\\x1B[2J\\xFFxxx";
+  for (const Row& row : {Row{"a.nrrd", with(nrrd_head, "type: float", word + ": float"), ""},
+                         Row{"a.nrrd", with(nrrd_head, "float", word), ""},
+                         Row{"a.nrrd", nrrd_head + "field:=" + word + "\n\n", ""},
+                         Row{"a.vti", with(vti(""), "\"ImageData\"", "\"" + word + "\""), ""},
+                         Row{"a.vti", vti(cell_array("extinction", word, "ascii", "1")), ""},
+                         Row{"a.vti", vti(cell_array("extinction", "Float32", word, "1")), ""},
+                         Row{"a.vti", vti(cell_array(word, "Float32", "ascii", "1")), ""}}) {
+    const auto read = read_data_set(folder.write(row.about, row.content));
+    REQUIRE_FALSE(read.ok());
+    INFO(read.problem().what);
+    CHECK(read.problem().what.find(quoted) != std::string::npos);
+    CHECK(read.problem().what.size() < 250);
+  }
+}

@@ -505,7 +505,7 @@ TEST_CASE("a surface is compiled inside its limits whatever it is given", "[opti
   const SurfaceModel model = make_surface(SurfaceKind::glossy, nan, 2, nan, nan, nan);
   CHECK(model.reflectance == 0.0F);
   CHECK(model.specular == 1.0F);
-  CHECK(model.alpha == static_cast<float>(surface_limits::least_alpha));
-  CHECK(model.ior == static_cast<float>(surface_limits::least_ior));
+  CHECK(model.alpha == static_cast<float>(surface_limits::min_alpha));
+  CHECK(model.ior == static_cast<float>(surface_limits::min_ior));
   CHECK(pane_transmittance(model, 1.0F) == 0.0F);
 }

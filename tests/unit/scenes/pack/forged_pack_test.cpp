@@ -29,7 +29,7 @@ constexpr const char* crowded_text = R"(
 [run]
 batch_particles = 512
 voxel_edge_m = 1
-bands_most = 3
+max_bands = 3
 groups = "emitter"
 [[material]]
 name = "shiny"

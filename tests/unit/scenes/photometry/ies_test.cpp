@@ -166,6 +166,10 @@ TEST_CASE("each edition is known by its first line", "[format][ies]") {
   const PhotometricFile odd = read(ies);
   CHECK(warns(odd, "unknown edition"));
   CHECK(odd.warnings[0].where.line == 1);
+  ies.head = "IESNA\x1b[2J\xC2\x9B" + std::string(500, 'x') + "\n";
+  const std::string hostile = read(ies).warnings.at(0).what;
+  CHECK(hostile.starts_with("unknown edition \"IESNA\\x1B[2J\\xC2\\x9BXXX"));
+  CHECK(hostile.size() < 150);
 }
 
 TEST_CASE("keywords name maker, luminaire and colour, and Latin-1 becomes UTF-8", "[format][ies]") {

@@ -307,6 +307,10 @@ TEST_CASE("what looks odd is read and said with its line", "[format][ldt]") {
     INFO(type);
     CHECK(warns(read(ldt), "Ityp"));
   }
+  ldt.type = "\x1b[2J" + std::string(500, 'x');
+  const std::string hostile = read(ldt).warnings.at(0).what;
+  CHECK(hostile.find("not \"\\x1B[2Jxxx") != std::string::npos);
+  CHECK(hostile.size() < 200);
   ldt.type = "3";
   CHECK(read(ldt).warnings.empty());
   ldt.tail = "more\r\n";

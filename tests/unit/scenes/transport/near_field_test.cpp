@@ -24,16 +24,20 @@ name = "low lamp"
 file = "lamp.ies"
 position = [5, 5, 0.9]
 circuit = "a"
+emergency = "maintained"
+emergency_factor = 1
+maintenance_factor = 0.8
+end_of_duration_factor = 0.7
 [[luminaire]]
 name = "high lamp"
 file = "lamp.ies"
 position = [8, 8, 2.9]
 )";
 
-std::vector<Problem> warnings_of(const std::string& text, const SeesPlace& sees = {}) {
+std::vector<NearPlace> near_in(const std::string& text, const SeesPlace& sees = {}) {
   SceneFolder folder;
   const SceneDescription scene = good(folder, room + text);
-  return near_field_warnings(scene, find_scenario(scene, "").value(), sees);
+  return near_field_places(scene, find_scenario(scene, "").value(), sees);
 }
 
 }  // namespace
@@ -43,23 +47,29 @@ TEST_CASE("a plane nearer than five luminous openings is told with luminaire and
   const std::string plane =
       "[[plane]]\nname = \"floor\"\ncorner = [0, 0, 0]\nedge_u = [10, 0, 0]\n"
       "edge_v = [0, 10, 0]\ncells = [4, 4]\n";
-  const auto warnings = warnings_of(plane);
-  REQUIRE(warnings.size() == 1);
-  CHECK(warnings[0].what.find("plane \"floor\" is 0.9 m from luminaire \"low lamp\"") == 0);
-  CHECK(warnings[0].what.find("(1 m)") != std::string::npos);
-  CHECK(warnings[0].where.line > 0);
-  CHECK(warnings_of(plane, [](const glm::dvec3&, const glm::dvec3&) { return false; }).empty());
+  const auto near = near_in(plane);
+  REQUIRE(near.size() == 1);
+  CHECK(near[0].problem.what.find("plane \"floor\" is 0.9 m from luminaire \"low lamp\"") == 0);
+  CHECK(near[0].problem.what.find("(1 m)") != std::string::npos);
+  CHECK(near[0].problem.where.line > 0);
+  CHECK_FALSE(near[0].judged);
+  CHECK(near_in(plane, [](const glm::dvec3&, const glm::dvec3&) { return false; }).empty());
 }
 
 TEST_CASE("probes, routes and signs are told of and what is far, dark or behind a luminaire is not",
           "[transport][near_field]") {
-  CHECK(warnings_of("[[probe]]\nname = \"p\"\nposition = [5, 5.2, 0.2]\n").size() == 1);
-  CHECK(warnings_of("[[probe]]\nname = \"far\"\nposition = [8, 8, 1.8]\n").empty());
-  CHECK(warnings_of("[[probe]]\nname = \"behind\"\nposition = [5, 5, 1.2]\n").empty());
-  CHECK(warnings_of("[[route]]\nname = \"r\"\npath = [[0.5, 5.4, 0], [9.5, 5.4, 0]]\nwidth = 1\n")
-            .size() == 1);
-  CHECK(warnings_of("[[probe]]\nname = \"p\"\nposition = [5, 5.2, 0.2]\n[[scenario]]\n"
-                    "name = \"off\"\ncircuits = { a = 0 }\n")
+  CHECK(near_in("[[probe]]\nname = \"p\"\nposition = [5, 5.2, 0.2]\n").size() == 1);
+  CHECK(near_in("[[probe]]\nname = \"far\"\nposition = [8, 8, 1.8]\n").empty());
+  CHECK(near_in("[[probe]]\nname = \"behind\"\nposition = [5, 5, 1.2]\n").empty());
+  const std::string way =
+      "[[route]]\nname = \"r\"\npath = [[0.5, 5.4, 0], [9.5, 5.4, 0]]\nwidth = 1\n";
+  REQUIRE(near_in(way).size() == 1);
+  CHECK_FALSE(near_in(way)[0].judged);
+  const auto emergency = near_in(way + "[[scenario]]\nname = \"e\"\noperation = \"emergency\"\n");
+  REQUIRE(emergency.size() == 1);
+  CHECK(emergency[0].judged);
+  CHECK(near_in("[[probe]]\nname = \"p\"\nposition = [5, 5.2, 0.2]\n[[scenario]]\n"
+                "name = \"off\"\ncircuits = { a = 0 }\n")
             .empty());
 }
 

@@ -23,6 +23,12 @@ XyzPicture row(const std::vector<double>& luminances,
   return p;
 }
 
+struct Rgb8 {
+  uint8_t r = 0, g = 0, b = 0;
+
+  friend bool operator==(const Rgb8&, const Rgb8&) = default;
+};
+
 Rgb8 at(const SrgbPicture& p, size_t i) {
   return {p.rgb[3 * i], p.rgb[3 * i + 1], p.rgb[3 * i + 2]};
 }
@@ -50,6 +56,14 @@ std::vector<double> even_logs(double low, double high, int n) {
 }
 
 }  // namespace
+
+TEST_CASE("sRGB bytes survive the way through linear light", "[vision][picture]") {
+  for (int i = 0; i < 256; ++i) CHECK(srgb_byte(linear_of_srgb_byte(static_cast<uint8_t>(i))) == i);
+  CHECK(srgb_byte(-1) == 0);
+  CHECK(srgb_byte(2) == 255);
+  CHECK(srgb_byte(std::nan("")) == 0);
+  CHECK(srgb_byte(0.2140) == 127);  // half grey
+}
 
 TEST_CASE("with a fixed white the picture is linear up to it and white above", "[vision][tone]") {
   const SrgbPicture p = tone_plain(row({0, 12.5, 50, 100, 1000}), white_at(100));

@@ -1,5 +1,6 @@
 // The shaders. Luminances are cd/m2 in linear sRGB until `tone` makes them bytes.
-import { luminanceWeights, scaleHigh, scaleLow } from '../light/colours.js';
+import { scaleHigh, scaleLow } from '../light/colour_map.js';
+import { luminanceWeights } from '../light/colours.js';
 
 const [wr, wg, wb] = luminanceWeights;
 

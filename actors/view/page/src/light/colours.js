@@ -1,4 +1,5 @@
-// Colours for luminances: the scale of false colours and words for numbers.
+// Luminances: their place on the scale of false colours, and words for numbers.
+import { scaleColours, scaleHigh, scaleLow } from './colour_map.js';
 
 /** Linear sRGB weights of luminance. */
 export const luminanceWeights = [0.2126, 0.7152, 0.0722];
@@ -6,28 +7,11 @@ export const luminanceWeights = [0.2126, 0.7152, 0.0722];
 export const luminanceOf = ([r, g, b]) =>
   luminanceWeights[0] * r + luminanceWeights[1] * g + luminanceWeights[2] * b;
 
-/** The legend's decades: from a moonlit floor to a luminaire looked at. */
-export const scaleLow = 1e-3;
-export const scaleHigh = 1e3;
-
-// Lightness rises all the way, so that the scale survives colour blindness and grey print.
-const stops = [
-  [0, 12, 10, 24],
-  [1 / 6, 46, 30, 110],
-  [2 / 6, 24, 92, 160],
-  [3 / 6, 22, 148, 140],
-  [4 / 6, 112, 190, 72],
-  [5 / 6, 246, 208, 76],
-  [1, 255, 246, 224],
-];
-
 /** sRGB bytes at `t` from 0 to 1 along the scale. */
 export function scaleColour(t) {
-  const x = Math.min(1, Math.max(0, t));
-  const i = Math.max(1, stops.findIndex(([at]) => at >= x));
-  const [from, to] = [stops[i - 1], stops[i]];
-  const share = (x - from[0]) / (to[0] - from[0]);
-  return [1, 2, 3].map((c) => Math.round(from[c] + share * (to[c] - from[c])));
+  const last = scaleColours.length - 1;
+  const rgb = parseInt(scaleColours[Math.round(Math.min(1, Math.max(0, t)) * last)], 16);
+  return [rgb >> 16, (rgb >> 8) & 255, rgb & 255];
 }
 
 /** Where a luminance lies on the scale. */

@@ -29,7 +29,7 @@ export class Labels {
     return [this.point.x, this.point.y, this.point.z > -1 && this.point.z < 1];
   }
 
-  draw(camera, mode, cut) {
+  draw(camera, { mode, plan: { cut } }) {
     this.parent.hidden = mode === 'walk';
     if (this.parent.hidden) return;
     const { clientWidth, clientHeight } = this.parent;

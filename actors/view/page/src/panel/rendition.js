@@ -1,5 +1,6 @@
 // How luminances become a picture, and the legend that says so.
-import { scaleColour, scaleHigh, scaleLow, words } from '../light/colours.js';
+import { scaleHigh, scaleLow } from '../light/colour_map.js';
+import { scaleColour, words } from '../light/colours.js';
 import { byId, choice, el, section } from './dom.js';
 
 const explained = {

@@ -1,6 +1,6 @@
 // The WebSocket to the program, opened again when it is lost.
-import { parseFrame, ProtocolError } from './frames.js';
-import { parseMessage } from './messages.js';
+import { decodeFrame, ProtocolError } from './decode_frame.js';
+import { decodeMessage } from './decode_message.js';
 import { Outbox } from './outbox.js';
 
 const firstPauseMs = 500;
@@ -42,7 +42,7 @@ export class Connection {
 
   read(data) {
     try {
-      this.heard(typeof data === 'string' ? parseMessage(data) : parseFrame(data));
+      this.heard(typeof data === 'string' ? decodeMessage(data) : decodeFrame(data));
     } catch (error) {
       if (!(error instanceof ProtocolError)) throw error;
       this.fault(`The program said what this page does not understand: ${error.message}`);

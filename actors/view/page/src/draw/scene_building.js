@@ -1,0 +1,43 @@
+// From what the program has told of the building to what is drawn of it and walked through:
+// triangles, signs, voxels of smoke, marks and outlines. Light is the business of light_display.js.
+import { toast } from '../panel/toasts.js';
+import { Building } from '../walk/building.js';
+
+export class SceneBuilding {
+  constructor(picture, live, walk) {
+    Object.assign(this, { picture, live, walk });
+  }
+
+  scene({ signs }) {
+    this.picture.signs.build(signs);
+    this.placeMarks();
+  }
+
+  geometry(geometry) {
+    this.picture.surfaces.build(geometry);
+    this.walk.enter(new Building(geometry));
+  }
+
+  smoke({ scene, smoke }) {
+    const held = this.picture.smoke.build(
+      scene.voxels, smoke?.halves ?? null, this.picture.voxelsMost);
+    if (!held) toast('This graphics card cannot hold so many voxels: the smoke is not drawn.');
+  }
+
+  /** Marks of luminaires and flames. */
+  showMarks(on) {
+    this.picture.marks.wanted = on;
+    this.placeMarks();
+  }
+
+  placeMarks() {
+    if (!this.live.scene) return;
+    this.picture.marks.place(this.live.scene, this.walk.inPlan, this.walk.motion.eye);
+    this.picture.untoned = true;
+  }
+
+  outline(corners) {
+    this.picture.marks.setOutline(corners);
+    this.picture.untoned = true;
+  }
+}

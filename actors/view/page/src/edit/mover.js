@@ -1,0 +1,102 @@
+// Moving a sign or a luminaire: an outline goes ahead, the program is told when hands let go.
+import { faceOf } from '../draw/signs.js';
+import { add, cross, dot, scale, subtract, unit } from '../walk/vectors.js';
+
+/** After the last press of a handle [ms]. */
+const patience = 600;
+const mark_m = 0.12;
+/** How far beside the original a copy stands at first; of wide signs, the gap between the two. */
+const beside_m = 0.5;
+const gap_m = 0.05;
+
+export class Mover {
+  /** `say(message, key)` to the program; `outline(corners)`; `moved(position)` for the panel. */
+  constructor({ say, outline, moved }) {
+    Object.assign(this, { say, outline, moved });
+    this.release();
+  }
+
+  hold(kind, thing) {
+    this.pending = false;
+    this.kind = kind;
+    this.thing = { ...thing };
+    this.draw();
+  }
+
+  release() {
+    clearTimeout(this.timer);
+    this.pending = false;
+    this.thing = null;
+    this.outline([]);
+  }
+
+  /** Right, up and out of the wall; a luminaire's are the building's own. */
+  get axes() {
+    const { facing, up } = this.thing;
+    if (!facing) return { right: [1, 0, 0], up: [0, 1, 0], out: [0, 0, -1] };
+    const out = unit(facing);
+    const right = unit(cross(up, out), [1, 0, 0]);
+    return { right, up: cross(out, right), out };
+  }
+
+  nudge(way, metres) {
+    if (!this.thing) return;
+    const { right, up, out } = this.axes;
+    const by = { left: scale(right, -1), right, up, down: scale(up, -1), ahead: out,
+      back: scale(out, -1) }[way];
+    this.to(add(this.thing.position, scale(by, metres)));
+    clearTimeout(this.timer);
+    this.timer = setTimeout(() => this.send(), patience);
+  }
+
+  /** Takes hold along a ray; `plan`: in the level plane instead of the wall's. */
+  grab(origin, direction, plan) {
+    this.normal = plan || !this.thing.facing ? [0, 0, 1] : this.axes.out;
+    const point = this.onPlane(origin, direction);
+    this.grip = point && subtract(this.thing.position, point);
+    return Boolean(point);
+  }
+
+  onPlane(origin, direction) {
+    const steep = dot(direction, this.normal);
+    if (Math.abs(steep) < 1e-3) return null;
+    const distance = dot(subtract(this.thing.position, origin), this.normal) / steep;
+    return distance > 0 ? add(origin, scale(direction, distance)) : null;
+  }
+
+  drag(origin, direction) {
+    const point = this.onPlane(origin, direction);
+    if (point) this.to(add(point, this.grip));
+  }
+
+  to(position) {
+    this.pending = true;
+    this.thing.position = position;
+    this.moved(position);
+    this.draw();
+  }
+
+  /** Asks for a copy beside what is held: of a sign along its width. */
+  copy() {
+    if (this.pending) this.send();
+    const { name, position, facing, width = 0 } = this.thing;
+    const apart = Math.max(beside_m, width + gap_m);
+    this.say({ type: 'add', kind: this.kind, of: name,
+      position: add(position, scale(this.axes.right, apart)), ...(facing && { facing }) });
+  }
+
+  send() {
+    clearTimeout(this.timer);
+    this.pending = false;
+    const { name, position, facing } = this.thing;
+    this.say({ type: 'move', kind: this.kind, name, position, ...(facing && { facing }) }, 'move');
+  }
+
+  draw() {
+    const { position, facing } = this.thing;
+    if (facing) this.outline(faceOf(this.thing));
+    else
+      this.outline([[-1, -1], [1, -1], [1, 1], [-1, 1]].map(([x, y]) =>
+        add(position, [x * mark_m, y * mark_m, 0])));
+  }
+}

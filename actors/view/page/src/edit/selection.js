@@ -1,0 +1,133 @@
+// What is selected on the picture: a surface, a sign or a luminaire; how it is found under a
+// finger, held for moving, and found again in the next generation.
+import { byId } from '../panel/dom.js';
+import { add, cross, scale, unit } from '../walk/vectors.js';
+import { Mover } from './mover.js';
+
+const markReach_px = 14;
+const probe_m = 0.05;
+const farthest_m = 1e3;
+
+/** A small mark that lies on a surface. */
+function diamond(point, normal) {
+  const side = unit(cross(normal, Math.abs(normal[2]) > 0.9 ? [1, 0, 0] : [0, 0, 1]));
+  const other = cross(normal, side);
+  return [side, other, scale(side, -1), scale(other, -1)].map((v) => add(point, scale(v, probe_m)));
+}
+
+export class Selection {
+  constructor({ picture, live, walk, building, edits, panels }) {
+    Object.assign(this, { picture, live, walk, building, panels });
+    this.inspect = panels.inspect;
+    this.say = (message, key) => edits.say(message, key);
+    this.probes = 0;
+    /** A copy that was asked for here is selected when it is there. */
+    this.awaited = null;
+    this.mover = new Mover({
+      say: this.say,
+      outline: (corners) => building.outline(corners),
+      moved: (position) => this.inspect.moved(position),
+    });
+  }
+
+  click(x, y) {
+    if (!this.live.scene) return;
+    const { origin, direction } = this.walk.ray(x, y);
+    const hit =
+      this.walk.building?.nearest(origin, direction, this.walk.cut ?? Infinity) ?? null;
+    const sign = this.signAt(x, y, hit?.distance ?? farthest_m);
+    const luminaire = sign ? null : this.luminaireAt(x, y);
+    if (sign) this.sign(sign);
+    else if (luminaire) this.luminaire(luminaire);
+    else if (hit) this.probe(hit, this.picture.luminanceAt(x, y));
+    else this.clear();
+  }
+
+  signAt(x, y, distance) {
+    if (this.walk.inPlan) return this.markAt(x, y, this.live.scene.signs);
+    const { origin, direction } = this.walk.ray(x, y);
+    return this.picture.signs.pointedAt(origin, direction, distance);
+  }
+
+  luminaireAt(x, y) {
+    return this.panels.marks.checked ? this.markAt(x, y, this.live.scene.luminaires) : null;
+  }
+
+  /** The thing whose mark on the picture is nearest, if it is near. */
+  markAt(x, y, things) {
+    const box = byId('picture').getBoundingClientRect();
+    let best = { apart: markReach_px, thing: null };
+    for (const thing of things) {
+      const [px, py, ahead] = this.panels.labels.project(thing.position, this.picture.camera);
+      const apart = Math.hypot(((px - x) * box.width) / 2, ((py - y) * box.height) / 2);
+      if (ahead && apart < best.apart) best = { apart, thing };
+    }
+    return best.thing;
+  }
+
+  sign(sign) {
+    this.inspect.sign(sign);
+    this.mover.hold('sign', sign);
+    this.say({ type: 'judge', sign: sign.name });
+    this.reveal();
+  }
+
+  luminaire(luminaire) {
+    this.inspect.luminaire(luminaire);
+    this.mover.hold('luminaire', luminaire);
+    this.reveal();
+  }
+
+  /** Asks for the light at a point of a surface. */
+  probe({ triangle, front, point, normal }, seen) {
+    const id = ++this.probes;
+    this.mover.release();
+    this.building.outline(diamond(point, normal));
+    this.inspect.surface({ id, point, seen });
+    this.say({ type: 'probe', id, triangle, front, point }, 'probe');
+    this.reveal();
+  }
+
+  reveal() {
+    this.inspect.element.scrollIntoView({ block: 'nearest' });
+  }
+
+  remove() {
+    this.say({ type: 'remove', name: this.inspect.subject.name });
+  }
+
+  clear() {
+    this.mover.release();
+    this.inspect.clear();
+  }
+
+  /** A new generation may have moved what is selected, or judged it anew. */
+  keep(scene) {
+    if (this.mover.pending) return;
+    const lists = { sign: scene.signs, luminaire: scene.luminaires };
+    const found = (wanted) => lists[wanted?.kind]?.find(({ name }) => name === wanted.name);
+    const copy = found(this.awaited);
+    const { kind } = copy ? this.awaited : this.inspect.subject ?? {};
+    const thing = copy ?? found(this.inspect.subject);
+    if (copy) this.awaited = null;
+    if (thing) this[kind](thing);
+    else if (lists[kind]) this.clear();
+  }
+
+  /** Takes hold of what is selected, if the finger is on it; says whether it did. */
+  grab(x, y) {
+    const { thing, kind } = this.mover;
+    if (!thing || !this.panels.editor) return false;
+    const { origin, direction } = this.walk.ray(x, y);
+    const { inPlan } = this.walk;
+    const onIt = kind === 'sign' && !inPlan
+      ? this.picture.signs.pointedAt(origin, direction, farthest_m)?.name === thing.name
+      : this.markAt(x, y, [thing]) !== null;
+    return onIt && this.mover.grab(origin, direction, inPlan);
+  }
+
+  drag(x, y) {
+    const { origin, direction } = this.walk.ray(x, y);
+    this.mover.drag(origin, direction);
+  }
+}

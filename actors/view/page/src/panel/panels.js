@@ -1,0 +1,40 @@
+// Everything in words around the picture: makes the panels, and tells all of them what all need.
+import { byId } from './dom.js';
+import { Groups } from './groups.js';
+import { Inspect } from './inspect.js';
+import { Labels } from './labels.js';
+import { Rendition } from './rendition.js';
+import { StatePanel } from './state_panel.js';
+import { Top } from './top.js';
+import { Views } from './views.js';
+
+export class Panels {
+  /** `wants`: what to do with what people ask for, by panel. */
+  constructor(picture, wants) {
+    this.top = new Top({ edit: (wanted) => wants.say({ type: 'edit', wanted }) });
+    this.state = new StatePanel({ say: wants.say });
+    this.groups = new Groups({ dim: wants.dim });
+    this.rendition = new Rendition(picture.exposure, () => (picture.untoned = true));
+    this.rendition.check('collide with walls', true, wants.solid);
+    this.rendition.check('smooth light', true, wants.smooth);
+    this.marks = this.rendition.check('marks', true, wants.marks);
+    this.inspect = new Inspect(wants.selection);
+    this.views = new Views(wants.views);
+    this.labels = new Labels(byId('labels'));
+    byId('panel').append(this.inspect.element, this.state.element, this.groups.element,
+      this.rendition.element, this.state.saveElement);
+    this.edits(false);
+  }
+
+  scene(scene) {
+    for (const part of [this.top, this.state, this.groups, this.views, this.labels])
+      part.scene(scene);
+    this.edits(scene.editor);
+  }
+
+  /** Whether this viewer may change the building. */
+  edits(editor) {
+    this.editor = editor;
+    for (const part of [this.top, this.state, this.groups, this.inspect]) part.edits(editor);
+  }
+}

@@ -1,0 +1,49 @@
+// Binary frames: a header of 16 bytes, then what the kind says. Every length is checked against
+// the counts that announce it before anything is read.
+import { allFinite } from './half.js';
+
+export const kinds = { geometry: 1, surfaceLight: 2, smoke: 3, smokeLight: 4 };
+export const headerBytes = 16;
+export const limits = { triangles: 4_000_000, groups: 4096, voxels: 1 << 24 };
+
+export class ProtocolError extends Error {}
+
+function demand(condition, what) {
+  if (!condition) throw new ProtocolError(what);
+}
+
+function geometryOf(buffer, triangles) {
+  demand(triangles > 0 && triangles <= limits.triangles, `${triangles} triangles`);
+  const cornerBytes = 36 * triangles;
+  const expected = headerBytes + cornerBytes + 4 * triangles;
+  demand(buffer.byteLength === expected, `geometry of ${buffer.byteLength} bytes, not ${expected}`);
+  const corners = new Float32Array(buffer, headerBytes, 9 * triangles);
+  demand(corners.every(Number.isFinite), 'a corner that is not finite');
+  return { triangles, corners, surfaces: new Uint32Array(buffer, headerBytes + cornerBytes) };
+}
+
+function halvesOf(buffer) {
+  demand((buffer.byteLength - headerBytes) % 2 === 0, 'half a half number');
+  const halves = new Uint16Array(buffer, headerBytes);
+  demand(halves.length <= 6 * limits.voxels, `${halves.length} numbers in a frame`);
+  demand(allFinite(halves), 'light that is not finite');
+  return halves;
+}
+
+/** Checks and opens a frame; throws ProtocolError. The result points into the buffer. */
+export function decodeFrame(buffer) {
+  demand(buffer.byteLength >= headerBytes, 'a frame without a header');
+  const [kind, generation, a] = new Uint32Array(buffer, 0, 4);
+  switch (kind) {
+    case kinds.geometry:
+      return { kind, generation, ...geometryOf(buffer, a) };
+    case kinds.surfaceLight:
+    case kinds.smokeLight:
+      demand(a < limits.groups, `group number ${a}`);
+      return { kind, generation, group: a, halves: halvesOf(buffer) };
+    case kinds.smoke:
+      return { kind, generation, halves: halvesOf(buffer) };
+    default:
+      throw new ProtocolError(`frame of unknown kind ${kind}`);
+  }
+}

@@ -1,0 +1,222 @@
+// Text frames: JSON, taken apart field by field. What leaves here has the fields, types and sizes
+// that the rest of the page relies on, and nothing else.
+import { limits as frameLimits, ProtocolError } from './decode_frame.js';
+
+export const limits = {
+  textBytes: 1 << 24,
+  listed: 4096,
+  characters: 2048,
+  metres: 1e6,
+  texels: 1 << 20,
+};
+
+function fail(path, what) {
+  throw new ProtocolError(`${path}: ${what}`);
+}
+
+function number(value, path, low = -1e12, high = 1e12) {
+  if (typeof value !== 'number' || !(value >= low && value <= high))
+    fail(path, `not a number from ${low} to ${high}`);
+  return value;
+}
+
+const whole = (value, path, low, high) =>
+  Number.isInteger(value) ? number(value, path, low, high) : fail(path, 'not a whole number');
+
+const numberOrNull = (value, path) =>
+  value === null || value === undefined ? null : number(value, path);
+
+function text(value, path) {
+  if (typeof value !== 'string' || value.length > limits.characters) fail(path, 'not a short text');
+  return value;
+}
+
+const textOr = (value, path, other) =>
+  value === undefined || value === null ? other : text(value, path);
+
+function oneOf(value, path, choices) {
+  return choices.includes(value) ? value : fail(path, `not one of ${choices.join(', ')}`);
+}
+
+function list(value, path, read) {
+  if (!Array.isArray(value) || value.length > limits.listed) fail(path, 'not a list');
+  return value.map((item, i) => read(item, `${path}[${i}]`));
+}
+
+function triple(value, path, low, high) {
+  if (!Array.isArray(value) || value.length !== 3) fail(path, 'not three numbers');
+  return value.map((item) => number(item, path, low, high));
+}
+
+const place = (value, path) => triple(value, path, -limits.metres, limits.metres);
+const colour = (value, path) => triple(value, path, -1e9, 1e9);
+
+function record(value, path) {
+  if (typeof value !== 'object' || value === null || Array.isArray(value)) fail(path, 'no object');
+  return value;
+}
+
+const numbersByName = (value, path) =>
+  Object.entries(record(value, path)).map(([name, factor]) =>
+    [text(name, path), number(factor, `${path}.${name}`, 0, 1e6)]);
+
+function texelsOf(value, path, columns, rows) {
+  let bytes;
+  try {
+    bytes = atob(value);
+  } catch {
+    fail(path, 'not base64');
+  }
+  if (bytes.length !== columns * rows) fail(path, `${bytes.length} texels, not ${columns * rows}`);
+  return Uint8Array.from(bytes, (c) => c.charCodeAt(0));
+}
+
+function sign(value, path) {
+  const s = record(value, path);
+  const columns = whole(s.columns, `${path}.columns`, 1, 4096);
+  const rows = whole(s.rows, `${path}.rows`, 1, 4096);
+  if (columns * rows > limits.texels) fail(path, 'too many texels');
+  return {
+    name: text(s.name, `${path}.name`),
+    position: place(s.position, `${path}.position`),
+    facing: place(s.facing, `${path}.facing`),
+    up: place(s.up, `${path}.up`),
+    width: number(s.width, `${path}.width`, 1e-3, 100),
+    height: number(s.height, `${path}.height`, 1e-3, 100),
+    doubleSided: s.double_sided === true,
+    columns,
+    rows,
+    texels: texelsOf(s.texels, `${path}.texels`, columns, rows),
+    white: colour(s.white, `${path}.white`),
+    green: colour(s.green, `${path}.green`),
+    group: textOr(s.group, `${path}.group`, ''),
+    added: s.added === true,
+  };
+}
+
+function voxelsOf(value, path) {
+  if (value === null || value === undefined) return null;
+  const count = triple(value.count, `${path}.count`, 1, 4096).map(Math.round);
+  const total = count[0] * count[1] * count[2];
+  if (total > frameLimits.voxels) fail(path, `${total} voxels`);
+  const low = place(value.low, `${path}.low`);
+  return { low, edge: number(value.edge, `${path}.edge`, 1e-3, 1e3), count, total };
+}
+
+const group = (g, path) => ({
+  name: text(g.name, `${path}.name`),
+  kind: oneOf(g.kind, `${path}.kind`, ['luminaire', 'sign', 'flame']),
+  position: place(g.position, `${path}.position`),
+  factor: number(g.factor, `${path}.factor`, 0, 1e6),
+  share: number(g.share ?? 1, `${path}.share`, 0, 1e6),
+  light: oneOf(g.light ?? 'new', `${path}.light`, ['new', 'kept', 'before']),
+});
+
+const luminaire = (l, path) => ({
+  name: text(l.name, `${path}.name`),
+  position: place(l.position, `${path}.position`),
+  group: textOr(l.group, `${path}.group`, ''),
+  added: l.added === true,
+});
+
+const observer = (o, path) => ({
+  name: text(o.name, `${path}.name`),
+  eye: place(o.eye, `${path}.eye`),
+  gaze: place(o.gaze, `${path}.gaze`),
+});
+
+const camera = (c, path) => ({
+  name: text(c.name, `${path}.name`),
+  eye: place(c.eye, `${path}.eye`),
+  target: place(c.target, `${path}.target`),
+  fov: number(c.fov_deg, `${path}.fov_deg`, 1, 170),
+});
+
+const scenario = (s, path) => ({
+  name: text(s.name, `${path}.name`),
+  operation: oneOf(s.operation, `${path}.operation`, ['mains', 'emergency', 'dark']),
+});
+
+const readers = {
+  scene: (m) => ({
+    generation: whole(m.generation, 'generation', 0, 0xffffffff),
+    name: textOr(m.name, 'name', ''),
+    title: textOr(m.title, 'title', ''),
+    scenarios: list(m.scenarios ?? [], 'scenarios', scenario),
+    scenario: textOr(m.scenario, 'scenario', ''),
+    smoke: number(m.smoke, 'smoke', 0, 1e6),
+    seconds: numberOrNull(m.seconds, 'seconds'),
+    low: place(m.low, 'low'),
+    high: place(m.high, 'high'),
+    relaid: m.relaid === true,
+    groups: list(m.groups, 'groups', group),
+    signs: list(m.signs ?? [], 'signs', sign),
+    luminaires: list(m.luminaires ?? [], 'luminaires', luminaire),
+    observers: list(m.observers ?? [], 'observers', observer),
+    cameras: list(m.cameras ?? [], 'cameras', camera),
+    voxels: voxelsOf(m.voxels, 'voxels'),
+    editor: m.editor === true,
+  }),
+  progress: (m) => ({
+    generation: whole(m.generation, 'generation', 0, 0xffffffff),
+    particles: number(m.particles, 'particles', 0, 1e18),
+    relativeError: numberOrNull(m.relative_error, 'relative_error'),
+    seconds: number(m.seconds, 'seconds', 0, 1e9),
+    groupsOfBefore: whole(m.groups_of_before ?? 0, 'groups_of_before', 0, 1e6),
+    done: m.done === true,
+  }),
+  factors: (m) => ({
+    factors: numbersByName(m.factors, 'factors').map(([name, factor]) => ({ name, factor })),
+  }),
+  time: (m) => ({
+    seconds: numberOrNull(m.seconds, 'seconds'),
+    shares: numbersByName(m.shares, 'shares').map(([name, share]) => ({ name, share })),
+  }),
+  probe: (m) => ({
+    id: whole(m.id, 'id', 0, 0xffffffff),
+    illuminance: numberOrNull(m.illuminance, 'illuminance'),
+    illuminanceError: numberOrNull(m.illuminance_error, 'illuminance_error'),
+    luminance: numberOrNull(m.luminance, 'luminance'),
+    luminanceError: numberOrNull(m.luminance_error, 'luminance_error'),
+    direct: numberOrNull(m.direct, 'direct'),
+    surface: textOr(m.surface, 'surface', ''),
+  }),
+  sign: (m) => ({
+    name: text(m.name, 'name'),
+    rows: list(m.rows, 'rows', (row, path) => ({
+      from: text(row.from, `${path}.from`),
+      distance: number(row.distance, `${path}.distance`, 0, limits.metres),
+      verdict: text(row.verdict, `${path}.verdict`),
+      reason: textOr(row.reason, `${path}.reason`, ''),
+    })),
+    note: textOr(m.note, 'note', ''),
+  }),
+  added: (m) => ({
+    kind: oneOf(m.kind, 'kind', ['sign', 'luminaire']),
+    of: text(m.of, 'of'),
+    name: text(m.name, 'name'),
+  }),
+  saved: (m) => ({ file: text(m.file, 'file') }),
+  refused: (m) => ({ why: text(m.why, 'why') }),
+  editor: (m) => ({ editor: m.editor === true }),
+};
+
+/** Checks and opens a text frame; throws ProtocolError. */
+export function decodeMessage(json) {
+  if (json.length > limits.textBytes) throw new ProtocolError('a text frame too long to be read');
+  let message;
+  try {
+    message = record(JSON.parse(json), 'message');
+  } catch (error) {
+    throw error instanceof ProtocolError ? error : new ProtocolError('text that is not JSON');
+  }
+  const read = Object.hasOwn(readers, message.type) ? readers[message.type] : null;
+  if (!read)
+    throw new ProtocolError(`message of unknown type ${String(message.type).slice(0, 40)}`);
+  try {
+    return { type: message.type, ...read(message) };
+  } catch (error) {
+    if (error instanceof ProtocolError) error.message = `${message.type}: ${error.message}`;
+    throw error instanceof TypeError ? new ProtocolError(`${message.type}: a part missing`) : error;
+  }
+}

@@ -1,0 +1,74 @@
+// What a viewer may say (PROTOCOL.md), read from untrusted text: types, ranges and lengths are
+// checked, all else is refused with a reason. Pure; any thread.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "runtime/core/result.hpp"
+
+namespace luxodus {
+
+namespace limits {
+inline constexpr size_t page_message_bytes = 64 << 10;
+inline constexpr double max_view_factor = 10, max_view_smoke = 100, max_view_seconds = 1e6;
+inline constexpr size_t view_name_chars = 200;
+/// Copies in one view: each is a source group of its own, with its totals and its light.
+inline constexpr size_t view_added = 256;
+}  // namespace limits
+
+struct FactorEdit {
+  std::string group;
+  double factor = 1;
+};
+struct ScenarioEdit {
+  std::string name;
+};
+struct SmokeEdit {
+  double factor = 1;
+};
+struct TimeEdit {
+  std::optional<double> seconds;  // after the mains have failed; none: fully on
+};
+struct MoveEdit {
+  bool is_sign = true;  // else a luminaire
+  std::string name;
+  glm::dvec3 position{0};
+  std::optional<glm::dvec3> facing;
+};
+struct AddEdit {
+  bool is_sign = true;  // else a luminaire
+  std::string of;
+  glm::dvec3 position{0};
+  std::optional<glm::dvec3> facing;
+};
+struct RemoveEdit {
+  std::string name;
+};
+struct SaveEdit {
+  std::string name;
+};
+struct EditWish {
+  bool wanted = false;
+};
+struct ProbeAsk {
+  int64_t id = 0;
+  uint32_t triangle = 0;
+  bool front = true;
+};
+struct JudgeAsk {
+  std::string sign;
+};
+using PageMessage = std::variant<FactorEdit, ScenarioEdit, SmokeEdit, TimeEdit, MoveEdit, AddEdit,
+                                 RemoveEdit, SaveEdit, EditWish, ProbeAsk, JudgeAsk>;
+
+/// Errors: what is no message, one sentence.
+Result<PageMessage> decode_page_message(std::string_view text);
+
+/// Whether only the editor may say it.
+bool is_edit(const PageMessage& message);
+
+}  // namespace luxodus

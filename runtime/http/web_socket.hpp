@@ -1,0 +1,40 @@
+// One open WebSocket of an HttpServer, and who listens to it. Thread rule: all of it on the thread
+// that serves.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace luxodus {
+
+class WebSocket {
+ public:
+  using Bytes = std::shared_ptr<const std::string>;  // one message may wait in many queues
+  enum class Kind { text, binary };
+
+  virtual ~WebSocket() = default;
+  /// Queues a message. A `revocable` one may be taken back while it waits. A socket whose other end
+  /// leaves too much unread is closed. Does nothing once the socket is closed.
+  virtual void send(Bytes message, Kind kind, bool revocable) = 0;
+  /// Takes back the revocable messages that wait, in their order.
+  virtual std::vector<Bytes> take_back() = 0;
+};
+
+/// Hears one socket; is destroyed when that has closed, or the server ends.
+class SocketListener {
+ public:
+  virtual ~SocketListener() = default;
+  virtual void hears(std::string_view message) = 0;
+};
+
+struct SocketLimits {
+  size_t sockets = 32;              // open at once; more are refused
+  size_t message_bytes = 64 << 10;  // a longer one closes its socket
+  int messages_per_s = 50;          // more are dropped
+  size_t unread_bytes = 256 << 20;  // waiting to be sent; more closes the socket
+};
+
+}  // namespace luxodus

@@ -1,0 +1,62 @@
+// Next-event estimation: which emitter is sampled directly from a place of a path, and with which
+// probability. One emitter is chosen, by its power and by how near it is. In smoke a second one is
+// chosen for a whole stretch of the path: a collision is seldom just where a small emitter is near
+// (equiangular.hpp). One thread or fiber at a time.
+#pragma once
+
+#include <vector>
+
+#include "scenes/transport/compiled_scene.hpp"
+
+namespace luxodus {
+
+namespace limits {
+inline constexpr size_t nearby_emitters = 256;  // up to here distance decides which is chosen
+/// An emitter whose half size is a smaller share than this of a stretch's length is small: it is
+/// sampled at any distance, since a path that came near would still miss it. Large ones, as
+/// luminaires in a room are, a path hits soon enough.
+inline constexpr Real small_emitter = 0x1p-7_r;
+/// A small emitter is near where it is closer to the stretch than this share of its length:
+/// collisions, which are spread over all of it, would seldom come as close.
+inline constexpr Real near_line = 0.125_r;
+}  // namespace limits
+
+struct EmitterSample {
+  size_t emitter = 0;
+  double probability = 0;  // 0: there is none to choose
+};
+
+class EmitterChoice {
+ public:
+  explicit EmitterChoice(const CompiledScene& scene) : scene_(scene) {}
+
+  static bool is_small(const CompiledEmitter& emitter, Real stretch_m) {
+    return emitter.near_m < limits::small_emitter * stretch_m;
+  }
+
+  /// Weighs all emitters as seen from a place, by squared distance where they are few. False where
+  /// none shines in this band.
+  bool weigh_at(const Vec3& place, int band);
+  /// Of the last weigh_at, by a uniform number u in [0, 1).
+  EmitterSample choose_at(double u) const { return choose(at_, u); }
+  double probability_at(size_t emitter) const { return share_of(emitter, at_); }
+
+  /// Weighs small emitters by what each sends to the first `end` of a ray, nearly: the angle at
+  /// which it sees it, over its distance. False where none is near, so that none need be chosen so.
+  bool weigh_along(const Ray& ray, Real end, int band);
+  EmitterSample choose_along(double u) const { return choose(along_, u); }
+  double probability_along(size_t emitter) const { return share_of(emitter, along_); }
+
+ private:
+  /// Sums of the weights of the emitters up to each.
+  using Cumulative = std::vector<double>;
+  template <class WeightOf>
+  double weigh(Cumulative& cumulative, int band, WeightOf&& weight) const;
+  static EmitterSample choose(const Cumulative& cumulative, double u);
+  static double share_of(size_t emitter, const Cumulative& cumulative);
+
+  const CompiledScene& scene_;
+  Cumulative at_, along_;
+};
+
+}  // namespace luxodus

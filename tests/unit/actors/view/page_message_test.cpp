@@ -1,0 +1,121 @@
+#include "actors/view/page_message.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "runtime/core/random.hpp"
+
+using namespace luxodus;
+
+namespace {
+
+std::string refused(const std::string& text) {
+  const auto message = decode_page_message(text);
+  INFO(text);
+  REQUIRE_FALSE(message.ok());
+  return message.problem().what;
+}
+
+}  // namespace
+
+TEST_CASE("what a viewer may say is read", "[view]") {
+  const auto factor = decode_page_message(R"({"type":"factor","group":"lamp","factor":0.25})");
+  REQUIRE(factor.ok());
+  CHECK(std::get<FactorEdit>(factor.value()).group == "lamp");
+  CHECK(std::get<FactorEdit>(factor.value()).factor == 0.25);
+  CHECK(is_edit(factor.value()));
+  const auto move = decode_page_message(
+      R"({"type":"move","kind":"sign","name":"exit","position":[1,2,3],"facing":[0,1,0]})");
+  REQUIRE(move.ok());
+  CHECK(std::get<MoveEdit>(move.value()).position == glm::dvec3(1, 2, 3));
+  CHECK(std::get<MoveEdit>(move.value()).facing == glm::dvec3(0, 1, 0));
+  const auto probe = decode_page_message(R"({"type":"probe","id":3,"triangle":9,"front":false})");
+  REQUIRE(probe.ok());
+  CHECK(std::get<ProbeAsk>(probe.value()).triangle == 9);
+  CHECK_FALSE(is_edit(probe.value()));
+  CHECK(decode_page_message(R"({"type":"edit","wanted":true})").ok());
+  CHECK(decode_page_message(R"({"type":"judge","sign":"exit"})").ok());
+  CHECK(decode_page_message(R"({"type":"smoke","factor":0})").ok());
+  CHECK(decode_page_message(R"({"type":"scenario","name":"dark"})").ok());
+  const auto time = decode_page_message(R"({"type":"time","seconds":5})");
+  REQUIRE(time.ok());
+  CHECK(std::get<TimeEdit>(time.value()).seconds == 5.0);
+  CHECK(is_edit(time.value()));
+  const auto settled = decode_page_message(R"({"type":"time","seconds":null})");
+  REQUIRE(settled.ok());
+  CHECK_FALSE(std::get<TimeEdit>(settled.value()).seconds.has_value());
+  CHECK(decode_page_message(R"({"type":"save","name":"brighter"})").ok());
+  const auto add =
+      decode_page_message(R"({"type":"add","kind":"luminaire","of":"lamp","position":[1,2,3]})");
+  REQUIRE(add.ok());
+  CHECK_FALSE(std::get<AddEdit>(add.value()).is_sign);
+  CHECK(std::get<AddEdit>(add.value()).of == "lamp");
+  CHECK(std::get<AddEdit>(add.value()).position == glm::dvec3(1, 2, 3));
+  CHECK_FALSE(std::get<AddEdit>(add.value()).facing.has_value());
+  CHECK(is_edit(add.value()));
+  const auto remove = decode_page_message(R"({"type":"remove","name":"lamp copy"})");
+  REQUIRE(remove.ok());
+  CHECK(std::get<RemoveEdit>(remove.value()).name == "lamp copy");
+  CHECK(is_edit(remove.value()));
+}
+
+TEST_CASE("all else is refused with a reason", "[view]") {
+  CHECK(refused("").find("JSON") != std::string::npos);
+  CHECK(refused("[]").find("JSON") != std::string::npos);
+  CHECK(refused(R"({"type":"shutdown"})").find("no message of this type") != std::string::npos);
+  CHECK(refused(R"({"type":"factor","group":"a","factor":11})").find("range") != std::string::npos);
+  CHECK(refused(R"({"type":"factor","group":"a","factor":"1"})").find("a number") !=
+        std::string::npos);
+  CHECK(refused(R"({"type":"factor","group":"","factor":1})").find("1 to 200") !=
+        std::string::npos);
+  CHECK(refused(R"({"type":"time","seconds":-1})").find("range") != std::string::npos);
+  CHECK(refused(R"({"type":"time","seconds":"now"})").find("a number") != std::string::npos);
+  CHECK(refused(R"({"type":"smoke","factor":-1})").find("range") != std::string::npos);
+  CHECK(refused(R"({"type":"smoke","factor":1e999})").find("JSON") != std::string::npos);
+  CHECK(refused(R"({"type":"move","kind":"sign","name":"a","position":[1,2]})")
+            .find("three numbers") != std::string::npos);
+  CHECK(refused(R"({"type":"move","kind":"sign","name":"a","position":[1,2,1e9]})").find("1e7") !=
+        std::string::npos);
+  CHECK(refused(R"({"type":"move","kind":"wall","name":"a","position":[1,2,3]})")
+            .find("\"luminaire\"") != std::string::npos);
+  CHECK(refused(R"({"type":"add","kind":"flame","of":"a","position":[1,2,3]})")
+            .find("\"luminaire\"") != std::string::npos);
+  CHECK(refused(R"({"type":"add","kind":"sign","position":[1,2,3]})").find("\"of\"") !=
+        std::string::npos);
+  CHECK(refused(R"({"type":"add","kind":"sign","of":"a"})").find("three numbers") !=
+        std::string::npos);
+  CHECK(refused(R"({"type":"add","kind":"sign","of":"a","position":[1,2,3],"facing":[0,1]})")
+            .find("three numbers") != std::string::npos);
+  CHECK(refused(R"({"type":"remove","name":7})").find("a text") != std::string::npos);
+  CHECK(refused(R"({"type":"remove","name":")" + std::string(201, 'x') + "\"}").find("1 to 200") !=
+        std::string::npos);
+  CHECK(refused(R"({"type":"probe","id":-1,"triangle":0,"front":true})").find("range") !=
+        std::string::npos);
+  CHECK(refused(R"({"type":"probe","id":1,"triangle":4294967296,"front":true})").find("range") !=
+        std::string::npos);
+  CHECK(refused(std::string(limits::page_message_bytes + 1, ' ')).find("64 KiB") !=
+        std::string::npos);
+  CHECK(refused(std::string(60'000, '[')).find("brackets") != std::string::npos);
+}
+
+TEST_CASE("rubbish is refused and never more than that", "[view]") {
+  const std::string said[] = {
+      R"({"type":"move","kind":"sign","name":"exit","position":[1,2,3],"facing":[0,1,0]})",
+      R"({"type":"add","kind":"sign","of":"exit","position":[1,2,3],"facing":[0,1,0]})",
+      R"({"type":"remove","name":"exit copy"})"};
+  Random random(1, RandomStream::test);
+  for (uint64_t round = 0; round < 20'000; ++round) {
+    random.start(round);
+    std::string text = said[round % std::size(said)];
+    const uint64_t changes = 1 + random.bits() % 6;
+    for (uint64_t i = 0; i < changes; ++i) {
+      const size_t at = random.bits() % text.size();
+      if (random.bits() % 4 == 0)
+        text.erase(at, 1 + random.bits() % 8);
+      else
+        text[at] = static_cast<char>(random.bits() & 0xff);
+      if (text.empty()) text = "x";
+    }
+    const auto message = decode_page_message(text);
+    if (!message.ok()) CHECK_FALSE(message.problem().what.empty());
+  }
+}

@@ -1,0 +1,76 @@
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { decodeFrame } from '../../../actors/view/page/src/protocol/decode_frame.js';
+import { Building } from '../../../actors/view/page/src/walk/building.js';
+import { CameraWalk } from '../../../actors/view/page/src/walk/camera_walk.js';
+import { geometryFrame } from '../mock_room.mjs';
+
+const scene = {
+  low: [0, 0, 0], high: [11, 6, 3], cameras: [],
+  observers: [{ eye: [2, 3, 1.65], gaze: [1, 0, 0] }],
+};
+
+function walking() {
+  const told = { moved: 0, stood: 0, looks: 0, walls: null };
+  const picture = {
+    width: 1600, height: 1000,
+    marks: { setWalls: (walls) => (told.walls = walls) },
+    look: () => (told.looks += 1),
+  };
+  const walk = new CameraWalk(picture, { moved: () => ++told.moved, stood: () => ++told.stood });
+  walk.start(scene);
+  walk.enter(new Building(decodeFrame(geometryFrame(1))));
+  return { walk, told };
+}
+
+test('the first scene says where to stand, later ones leave the camera there', () => {
+  const { walk } = walking();
+  assert.deepEqual(walk.motion.eye, [2, 3, 1.65]);
+  walk.go([0.5, 0, 0]);
+  walk.start(scene);
+  assert.ok(Math.abs(walk.motion.eye[0] - 2.5) < 1e-6);
+});
+
+test('a wall stops the walk unless walls are passed through', () => {
+  const { walk } = walking();
+  for (let i = 0; i < 100; ++i) walk.go([-0.1, 0, 0]);
+  assert.ok(walk.motion.eye[0] > 0.1);
+  walk.solid = false;
+  for (let i = 0; i < 100; ++i) walk.go([-0.1, 0, 0]);
+  assert.ok(walk.motion.eye[0] < -5);
+});
+
+test('the picture looks anew once after each change, and not without one', () => {
+  const { walk, told } = walking();
+  walk.show();
+  assert.equal(told.looks, 1);
+  walk.show();
+  assert.equal(told.looks, 1);
+  walk.goOn({ forward: 0, side: 0, turn: 0, tilt: 0 }, 0.1);
+  walk.show();
+  assert.equal(told.looks, 1);
+  walk.goOn({ forward: 1, side: 0, turn: 0, tilt: 0 }, 0.1);
+  walk.show();
+  assert.equal(told.looks, 2);
+});
+
+test('plan and orbit cut the building, and the plan is shifted where walking turns', () => {
+  const { walk, told } = walking();
+  assert.equal(walk.cut, null);
+  walk.setMode('plan');
+  walk.setCut(1);
+  assert.equal(walk.cut, 1);
+  assert.ok(told.walls.length > 0);
+  let shifted = 0;
+  walk.look(1, 0, () => ++shifted);
+  assert.equal(shifted, 1);
+  assert.equal(walk.motion.yaw, 0);
+});
+
+test('another eye height moves the eye and no feet', () => {
+  const { walk } = walking();
+  walk.setHeight(0.6);
+  const [x, y, z] = walk.motion.eye;
+  assert.deepEqual([x, y], [2, 3]);
+  assert.ok(Math.abs(z - 0.6) < 1e-6);
+});

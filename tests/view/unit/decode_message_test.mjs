@@ -1,0 +1,74 @@
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { ProtocolError } from '../../../actors/view/page/src/protocol/decode_frame.js';
+import { decodeMessage } from '../../../actors/view/page/src/protocol/decode_message.js';
+import { liveAddress } from '../../../actors/view/page/src/protocol/connection.js';
+import { MockServer } from '../mock_server.mjs';
+
+const scene = () => new MockServer().scene(null);
+const read = (message) => decodeMessage(JSON.stringify(message));
+
+test('a scene is taken over field by field', () => {
+  const { groups, signs, voxels, editor } = read({ ...scene(), surprise: 1 });
+  assert.equal(groups.length, 6);
+  assert.equal(signs[0].texels.length, 128 * 64);
+  assert.equal(voxels.total, 22 * 12 * 6);
+  assert.equal(editor, false);
+  assert.ok(!('surprise' in read({ ...scene(), surprise: 1 })));
+});
+
+test('a scene with a wrong part is refused, and the part named', () => {
+  const harmed = (change) => {
+    const s = structuredClone(scene());
+    change(s);
+    return () => read(s);
+  };
+  const named = (pattern) => (error) =>
+    error instanceof ProtocolError && pattern.test(error.message);
+  assert.throws(harmed((s) => (s.groups[2].factor = -1)), named(/groups\[2\]\.factor/));
+  assert.throws(harmed((s) => (s.groups[0].kind = 'sun')), named(/groups\[0\]\.kind/));
+  assert.throws(harmed((s) => (s.groups[1].light = 'old')), named(/groups\[1\]\.light/));
+  assert.throws(harmed((s) => (s.signs[1].rows = 63)), named(/signs\[1\]\.texels/));
+  assert.throws(harmed((s) => (s.signs[0].facing = [0, 1])), named(/facing/));
+  assert.throws(harmed((s) => (s.voxels.count = [4000, 4000, 4000])), named(/voxels/));
+  assert.throws(harmed((s) => delete s.low), named(/low/));
+  assert.throws(harmed((s) => (s.luminaires[0] = null)), ProtocolError);
+});
+
+test('time since a failure is a number or none, and shares are numbers', () => {
+  assert.deepEqual(read({ type: 'time', seconds: 5, shares: { lamp: 0.5 } }),
+    { type: 'time', seconds: 5, shares: [{ name: 'lamp', share: 0.5 }] });
+  assert.equal(read({ type: 'time', seconds: null, shares: {} }).seconds, null);
+  assert.throws(() => read({ type: 'time', seconds: 5, shares: { lamp: -1 } }), ProtocolError);
+  assert.throws(() => read({ type: 'time', seconds: 'now', shares: {} }), ProtocolError);
+});
+
+test('what was added is told apart, and the program says its name', () => {
+  const server = new MockServer();
+  assert.equal(read(server.scene(null)).signs[0].added, false);
+  assert.equal(read(server.scene(null)).relaid, false);
+  server.do_add({ send: () => {} }, { kind: 'sign', of: 'exit sign', position: [6.49, 2, 2.4] });
+  clearTimeout(server.tracing);
+  const { signs } = read(server.scene(null));
+  assert.deepEqual(signs.filter((s) => s.added).map((s) => s.name), ['exit sign copy']);
+  const added = { type: 'added', kind: 'sign', of: 'exit sign', name: 'exit sign copy' };
+  assert.deepEqual(read(added), added);
+  assert.throws(() => read({ ...added, kind: 'wall' }), ProtocolError);
+  assert.throws(() => read({ ...added, name: 7 }), ProtocolError);
+});
+
+test('text that is no message is refused', () => {
+  for (const text of ['', '{', '[]', '7', 'null', '{"type":"toString"}', '{"type":"sudo"}'])
+    assert.throws(() => decodeMessage(text), ProtocolError);
+});
+
+test('an error that is not known stays unknown', () => {
+  const base = { generation: 1, particles: 5, seconds: 1 };
+  assert.equal(read({ type: 'progress', ...base, relative_error: null }).relativeError, null);
+  assert.equal(read({ type: 'progress', ...base, relative_error: 0.5 }).relativeError, 0.5);
+});
+
+test('of the address of the page only the token goes on', () => {
+  assert.equal(liveAddress('http://a:8080/?token=x%26y&z=1#q'), 'ws://a:8080/live?token=x%26y');
+  assert.equal(liveAddress('https://a/'), 'wss://a/live');
+});
