@@ -202,13 +202,13 @@ Result<void> ClusterProcessRun::load_scene() {
 
 Result<void> ClusterProcessRun::check_stored_objects() const {
   const PackedScene* packed = run_->scene().description->packed.get();
-  if (!fetches_ || packed == nullptr) return true;
+  if (!fetches_ || packed == nullptr) return {};
   // A host may have the skeleton alone: its workers say stores = false, its controller need not.
   const bool here = std::any_of(nodes_.begin(), nodes_.end(), [&](NodeId node) {
     return node == cluster_.controller() ? !packed->file->object(0).empty()
                                          : cluster_.node(node).stores;
   });
-  return here ? check_objects(run_->scene()) : true;
+  return here ? check_objects(run_->scene()) : Result<void>{};
 }
 
 Result<ReferenceProfile> ClusterProcessRun::profile(double share) const {
