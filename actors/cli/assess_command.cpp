@@ -69,7 +69,7 @@ Result<ExitCode> assess_scene(const AssessCommandOptions& options) {
   const auto out = OutputFolder::claim(
       folder, {{"report.html", "report.pdf", "assessment.json", "checks.csv", "sights.csv"},
                {"plans", "schedules"}});
-  if (!out.ok()) return out.problem();
+  if (!out) return out.problem();
   install_interrupt_handler();
   AssessOptions asked = options.assess;
   asked.reality = !options.codes_alone;
@@ -78,7 +78,7 @@ Result<ExitCode> assess_scene(const AssessCommandOptions& options) {
       assess(scene, asked, interrupt_flag(), [&](const std::string& what, double share) {
         line.put(fmt::format("{}: {:.0f} %", what, 100 * share), share >= 1, share);
       });
-  if (!assessed.ok()) {
+  if (!assessed) {
     if (!interrupt_flag()) {
       tell(assessed.problem());
       return ExitCode::bad_input;
@@ -92,23 +92,22 @@ Result<ExitCode> assess_scene(const AssessCommandOptions& options) {
                      [&](const Finding& f) { return f.problem.text() == warning.text(); }))
       log_warning("{}", warning.text());
   const Json json = assessment_json(*scene, assessed.value(), build.version);
-  if (auto ok = write_assessment(out->path(), json); !ok.ok()) return ok.problem();
+  if (auto ok = write_assessment(out->path(), json); !ok) return ok.problem();
   print_summary(json);
-  if (auto ok = write_report_and_tell(out.value(), json, options.report); !ok.ok())
-    return ok.problem();
+  if (auto ok = write_report_and_tell(out.value(), json, options.report); !ok) return ok.problem();
   return options.strict && anything_open(json) ? ExitCode::failure : ExitCode::success;
 }
 
 Result<ExitCode> compare_folders(const std::string& before, const std::string& after,
                                  const std::string& json) {
   const auto a = read_assessment(before);
-  if (!a.ok()) return a.problem();
+  if (!a) return a.problem();
   const auto b = read_assessment(after);
-  if (!b.ok()) return b.problem();
+  if (!b) return b.problem();
   const Json comparison = comparison_of(a.value(), b.value());
   std::printf("%s", comparison_text(comparison).c_str());
   if (!json.empty())
-    if (auto ok = write_json(behind_links(json), comparison); !ok.ok()) return ok.problem();
+    if (auto ok = write_json(behind_links(json), comparison); !ok) return ok.problem();
   return ExitCode::success;
 }
 

@@ -63,7 +63,7 @@ class Children {
     const int failed =
         ::posix_spawn(&pid, "/proc/self/exe", nullptr, &apart, arguments.data(), environ);
     ::posix_spawnattr_destroy(&apart);
-    if (failed != 0) return Problem{{process.name, 0}, "cannot be started"};
+    if (failed != 0) return problem_in(process.name, "cannot be started");
     living_.push_back({pid, process.name});
     return {};
   }
@@ -135,7 +135,7 @@ int cluster_up(const ClusterOptions& options) {
   for (const ClusterProcess& process : cluster.processes) {
     if (&cluster.hosts[process.host] != &*host) continue;
     if (process.nodes.back() == cluster.controller()) controller = process.name;
-    if (auto ok = children.start(cluster, process); !ok.ok()) {
+    if (auto ok = children.start(cluster, process); !ok) {
       tell(ok.problem());
       return ExitCode::failure;
     }

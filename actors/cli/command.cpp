@@ -17,13 +17,13 @@ void warn(const std::string& text) {
 }
 
 int exit_code_of(const Result<ExitCode>& result) {
-  if (result.ok()) return result.value();
+  if (result) return result.value();
   tell(result.problem());
   return ExitCode::bad_input;
 }
 
 int exit_code_of(const Result<void>& result) {
-  return exit_code_of(result.ok() ? Result(ExitCode::success) : Result<ExitCode>(result.problem()));
+  return exit_code_of(result ? Result(ExitCode::success) : Result<ExitCode>(result.problem()));
 }
 
 int default_threads() {

@@ -119,10 +119,10 @@ Result<void> write_points(const fs::path& out, const std::vector<Point>& points,
     table.cell(p.particles).cell(p.seconds).cell(p.error).cell(p.figure_of_merit);
     table.end_row();
   }
-  if (auto ok = write_csv(out / "converge.csv", table); !ok.ok()) return ok.problem();
+  if (auto ok = write_csv(out / "converge.csv", table); !ok) return ok.problem();
   if (auto ok = write_svg_plot(out / "error_particles.svg",
                                plot_of(points, &Point::particles, name, "particles"));
-      !ok.ok())
+      !ok)
     return ok.problem();
   return write_svg_plot(out / "error_seconds.svg",
                         plot_of(points, &Point::seconds, name, "time [s]"));
@@ -157,27 +157,27 @@ void print_points(const std::vector<Point>& points, bool json, const fs::path& o
 
 Result<ExitCode> converge(const ConvergeOptions& options) {
   auto most = parse_count(options.particles);
-  if (!most.ok()) return most.problem();
+  if (!most) return most.problem();
   const auto description = load_scene(options.scene);
-  if (!description) return Problem{{options.scene, 0}, "the scene has problems, told above"};
+  if (!description) return problem_in(options.scene, "the scene has problems, told above");
   auto scenario = find_scenario(*description, options.scenario);
-  if (!scenario.ok()) return scenario.problem();
+  if (!scenario) return scenario.problem();
   auto scene = compile_scene(description, scenario.value(), {1, options.error_of});
-  if (!scene.ok()) return scene.problem();
+  if (!scene) return scene.problem();
   const fs::path folder =
       options.out.empty()
           ? fs::path("out") / file_name_of(fs::path(options.scene).stem().string() + "_converge")
           : fs::path(options.out);
   const auto out = OutputFolder::claim(
       folder, {{"converge.csv", "error_particles.svg", "error_seconds.svg"}, {}});
-  if (!out.ok()) return out.problem();
+  if (!out) return out.problem();
   install_interrupt_handler();
   LocalRun run(scene.value(), options.seed.value_or(description->run.seed), options.threads);
   const Course course = trace_course(run, most.value());
   const bool enough = course.points.size() >= 2;
-  if (!enough && !course.interrupted) return Problem{{options.scene, 0}, why_no_slope(course)};
+  if (!enough && !course.interrupted) return problem_in(options.scene, why_no_slope(course));
   if (enough) {
-    if (auto ok = write_points(out->path(), course.points, description->name); !ok.ok())
+    if (auto ok = write_points(out->path(), course.points, description->name); !ok)
       return ok.problem();
     print_points(course.points, options.json, folder);
   }

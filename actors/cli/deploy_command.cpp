@@ -44,7 +44,7 @@ Result<void> write_file(const fs::path& path, const DeployFile& file) {
   if (!written || !file.executable) return written;
   fs::permissions(path, fs::perms::owner_exec | fs::perms::group_exec | fs::perms::others_exec,
                   fs::perm_options::add, failed);
-  if (failed) return Problem{{path.string(), 0}, "cannot be made executable: " + failed.message()};
+  if (failed) return problem_in(path, "cannot be made executable: " + failed.message());
   return written;
 }
 

@@ -45,33 +45,34 @@ std::optional<Problem> make_folder(const fs::path& folder) {
   if (fs::create_directories(folder, failed)) fs::permissions(folder, fs::perms::owner_all, failed);
   const fs::file_status status = fs::status(folder, failed);
   if (!fs::is_directory(status))
-    return Problem{{folder.string(), 0}, "is no folder, and none can be made there"};
+    return problem_in(folder, "is no folder, and none can be made there");
   if ((status.permissions() & (fs::perms::group_write | fs::perms::others_write)) !=
       fs::perms::none)
-    return Problem{{folder.string(), 0}, "others may write here, and replace keys: chmod go-w it"};
+    return problem_in(folder, "others may write here, and replace keys: chmod go-w it");
   return std::nullopt;
 }
 
 /// What keeps us from beginning, before a single key is written.
 std::optional<Problem> refusal(const KeygenOptions& options) {
   if (options.out.empty())
-    return Problem{{options.cluster, 0},
-                   "say where keys go: --out DIR, or folder = \"keys\" in [keys] of the cluster"};
-  if (options.names.empty()) return Problem{{}, "name nodes, or a cluster: --cluster FILE"};
+    return problem_in(
+        options.cluster,
+        "say where keys go: --out DIR, or folder = \"keys\" in [keys] of the cluster");
+  if (options.names.empty()) return problem("name nodes, or a cluster: --cluster FILE");
   std::string there;
   for (const std::string& name : options.names) {
     if (const auto fault = name_fault(name); !fault.empty())
-      return Problem{{}, fmt::format("\"{}\" is no node's name: {}", name, fault)};
+      return problem(fmt::format("\"{}\" is no node's name: {}", name, fault));
     for (const fs::path& path : {key_path(options.out, name), public_key_path(options.out, name)}) {
       std::error_code failed;
       if (fs::exists(fs::symlink_status(path, failed))) there += " " + path.filename().string();
     }
   }
   if (there.empty() || options.force) return std::nullopt;
-  return Problem{{options.out, 0},
-                 fmt::format("there already:{}; nodes may depend on these keys. Name the nodes "
-                             "that lack one, or replace keys by --force",
-                             there)};
+  return problem_in(options.out,
+                    fmt::format("there already:{}; nodes may depend on these keys. Name the nodes "
+                                "that lack one, or replace keys by --force",
+                                there));
 }
 
 int keygen(KeygenOptions options) {

@@ -10,7 +10,7 @@ namespace luxodus::cli {
 std::shared_ptr<const SceneDescription> load_scene(const std::string& file) {
   if (is_pack(file)) {
     auto packed = read_pack(file);
-    if (packed.ok()) return packed.value();
+    if (packed) return packed.value();
     tell(packed.problem());
     return nullptr;
   }
@@ -25,7 +25,7 @@ Result<std::vector<Scenario>> chosen_scenarios(const SceneDescription& scene,
                                                const std::string& name) {
   if (name == "all" && !scene.scenarios.empty()) return scene.scenarios;
   auto one = find_scenario(scene, name == "all" ? "" : name);
-  if (!one.ok()) return one.problem();
+  if (!one) return one.problem();
   return std::vector<Scenario>{one.value()};
 }
 

@@ -42,7 +42,7 @@ Result<void> save_patiently(const fs::path& file, const LocalRun& run) {
   constexpr int pause_ms = 10'000;
   for (int i = 1;; ++i) {
     auto saved = save_flux(file, run);
-    if (saved.ok() || i == tries || interrupt_flag()) return saved;
+    if (saved || i == tries || interrupt_flag()) return saved;
     log_error("{}: tried again in {} s; Ctrl-C ends without", saved.problem().text(),
               pause_ms / 1000);
     ::poll(nullptr, 0, pause_ms);  // a signal ends it
@@ -59,8 +59,8 @@ Result<std::optional<OutputFolder>> claim_results(const ClusterConfig& cluster,
       cluster.run.out.empty() ? fs::path("out") / file_name_of(cluster.run.name) : cluster.run.out;
   OutputPlan plan = run_output(*process.local_run().scene().description, false);
   auto out = OutputFolder::claim(folder, plan);
-  if (!out.ok()) return out.problem();
-  if (auto ok = refuse_foreign_files(out->path(), plan); !ok.ok()) return ok.problem();
+  if (!out) return out.problem();
+  if (auto ok = refuse_foreign_files(out->path(), plan); !ok) return ok.problem();
   return std::optional(std::move(out).value());
 }
 
@@ -74,9 +74,9 @@ Result<void> write_results(const ClusterConfig& cluster, const ClusterProcessRun
   record.cells = process.cells();
   const LocalRun& run = process.local_run();
   process.make_room();
-  if (auto ok = save_patiently(folder / "flux.lux", run); !ok.ok()) return ok.problem();
+  if (auto ok = save_patiently(folder / "flux.lux", run); !ok) return ok.problem();
   const auto result = write_report_aloud(folder, run, record);
-  if (!result.ok()) return result.problem();
+  if (!result) return result.problem();
   process.forget_journal();
   std::printf("%s in %s\n%s", cluster.run.name.c_str(), folder.string().c_str(),
               summary_text(result.value()).c_str());
@@ -111,7 +111,7 @@ Result<std::optional<StopReason>> view_on_nodes(const ClusterConfig& cluster,
   work.controller = [&](const RunSetup& run, const Machine& machine,
                         const NodeSetup& node) -> Result<StopReason> {
     auto started = LiveCluster::start(run, machine, node);
-    if (!started.ok()) return started.problem();
+    if (!started) return started.problem();
     HubOptions hub{{}, {}, cluster.view.save_folder.empty() ? "." : cluster.view.save_folder};
     hub.live.seed = base.seed();
     hub.live.threads = default_threads();
@@ -123,7 +123,7 @@ Result<std::optional<StopReason>> view_on_nodes(const ClusterConfig& cluster,
     HttpAddress server{cluster.view.address, cluster.view.port, ""};
     if (!cluster.view.allow_host.empty()) server.allowed_hosts = {cluster.view.allow_host};
     const auto served = serve_view(scene, server, hub, [&] { return tracers->fault(); });
-    if (!served.ok()) return served.problem();
+    if (!served) return served.problem();
     return StopReason::interrupted;
   };
   return process.run(interrupt_flag(), work);
@@ -151,32 +151,32 @@ int run_nodes(const NodeOptions& options) {
   }
   add_tracer(cluster, nodes);
   auto process = ClusterProcessRun::prepare(cluster, nodes);
-  if (!process.ok()) {
+  if (!process) {
     tell(process.problem());
     return ExitCode::bad_input;
   }
   const auto out = claim_results(cluster, *process.value(), nodes);
-  if (!out.ok()) {
+  if (!out) {
     tell(out.problem());
     return ExitCode::bad_input;
   }
   install_interrupt_handler();
   if (cluster.view.live) {
     const auto viewed = view_on_nodes(cluster, *process.value());
-    if (viewed.ok()) return ExitCode::success;
+    if (viewed) return ExitCode::success;
     tell(viewed.problem());
     return ExitCode::failure;
   }
   ProgressLine line(cluster.run.name);
   auto ended = process.value()->run(interrupt_flag(), [&](const Progress& p) { line.show(p); });
-  if (!ended.ok()) {
+  if (!ended) {
     tell(ended.problem());
     return ExitCode::failure;
   }
   for (const std::string& text : process.value()->residency_lines()) log_info("{}", text);
   if (!ended.value()) return ExitCode::success;
   if (auto ok = write_results(cluster, *process.value(), out.value()->path(), *ended.value());
-      !ok.ok()) {
+      !ok) {
     tell(ok.problem());
     return ExitCode::failure;
   }

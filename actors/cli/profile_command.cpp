@@ -30,22 +30,22 @@ int make_profile(const ProfileOptions& options) {
     return ExitCode::bad_input;
   }
   auto share = parse_share(options.share);
-  if (!share.ok()) {
+  if (!share) {
     tell(share.problem());
     return ExitCode::bad_input;
   }
   cluster.keys.folder.clear();  // nobody is talked to
   auto process = ClusterProcessRun::prepare(cluster, {});
-  if (!process.ok()) {
+  if (!process) {
     tell(process.problem());
     return ExitCode::bad_input;
   }
   auto profile = process.value()->profile(share.value());
-  if (!profile.ok()) {
+  if (!profile) {
     tell(profile.problem());
     return ExitCode::bad_input;
   }
-  if (auto ok = write_profile(out, profile.value()); !ok.ok()) {
+  if (auto ok = write_profile(out, profile.value()); !ok) {
     tell(ok.problem());
     return ExitCode::failure;
   }

@@ -31,27 +31,27 @@ struct RenderOptions {
 Result<ExitCode> render(const RenderOptions& options) {
   const fs::path folder = options.folder;
   const auto finished = read_finished_run(folder);
-  if (!finished.ok()) return finished.problem();
+  if (!finished) return finished.problem();
   const auto description = load_scene(finished->scene_file);
   if (!description)
-    return Problem{{finished->scene_file, 0}, "the run's scene cannot be read any more"};
+    return problem_in(finished->scene_file, "the run's scene cannot be read any more");
   const std::string name = description->scenarios.empty() ? "" : finished->scenario;
   auto scenario = find_scenario(*description, name);
-  if (!scenario.ok()) return scenario.problem();
+  if (!scenario) return scenario.problem();
   auto scene = compile_scene(description, scenario.value(),
                              {finished->cells, finished->error_of, finished->batch_shares});
-  if (!scene.ok()) return scene.problem();
+  if (!scene) return scene.problem();
   if (description->cameras.empty())
-    return Problem{{finished->scene_file, 0}, "the scene has no [[camera]] to render"};
+    return problem_in(finished->scene_file, "the scene has no [[camera]] to render");
   if (!passes_inspection(description, {scenario.value()}, options.threads))
-    return Problem{{finished->scene_file, 0}, "the scene has errors, told above"};
+    return problem_in(finished->scene_file, "the scene has errors, told above");
   OutputPlan plan{{}, {"views"}};
   for (size_t i = 0; i < description->cameras.size(); ++i)
     for (std::string& file : files_of_view(*description, i)) plan.files.push_back(std::move(file));
   const auto out = OutputFolder::claim(folder, plan);
-  if (!out.ok()) return out.problem();
+  if (!out) return out.problem();
   LocalRun run(scene.value(), finished->seed, options.threads);
-  if (auto ok = load_flux(out->path() / "flux.lux", run); !ok.ok()) return ok.problem();
+  if (auto ok = load_flux(out->path() / "flux.lux", run); !ok) return ok.problem();
   install_interrupt_handler();
   ProgressLine line("pictures");
   PictureOptions picture;
@@ -60,7 +60,7 @@ Result<ExitCode> render(const RenderOptions& options) {
   picture.interrupt = &interrupt_flag();
   const auto drawn = render_views(out->path(), run, options.view, picture,
                                   [&](double share) { line.show_share(share); });
-  if (!drawn.ok()) return drawn.problem();
+  if (!drawn) return drawn.problem();
   if (!interrupt_flag()) return ExitCode::success;
   log_warning("interrupted; the pictures that were whole are there");
   return ExitCode::interrupted;

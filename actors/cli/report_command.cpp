@@ -43,7 +43,7 @@ Result<void> write_report_and_tell(const OutputFolder& folder, const Json& asses
                                    const ReportWords& words) {
   ReportOptions options = words.options();
   options.named = folder.named().string();
-  if (auto ok = write_report(folder.path(), assessment, options); !ok.ok()) return ok;
+  if (auto ok = write_report(folder.path(), assessment, options); !ok) return ok.problem();
   for (const char* file : {"report.html", "report.pdf"})
     if (words.pdf || std::string_view(file) == "report.html")
       std::printf("written to %s\n", (folder.named() / file).string().c_str());
@@ -54,10 +54,10 @@ namespace {
 
 Result<void> report_again(const std::string& folder, const ReportWords& words) {
   const auto read = read_assessment(folder);
-  if (!read.ok()) return read.problem();
+  if (!read) return read.problem();
   const auto out =
       OutputFolder::claim(folder, {{"report.html", "report.pdf"}, {"plans", "schedules"}});
-  if (!out.ok()) return out.problem();
+  if (!out) return out.problem();
   return write_report_and_tell(out.value(), read.value(), words);
 }
 

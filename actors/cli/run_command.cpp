@@ -41,17 +41,17 @@ Result<Json> write_all(const RunFolder& out, const LocalRun& run, const RunRecor
                        const RunOptions& options) {
   const fs::path& folder = out.path();
   out.room->release();
-  if (auto ok = save_flux(folder / "flux.lux", run); !ok.ok()) return ok.problem();
+  if (auto ok = save_flux(folder / "flux.lux", run); !ok) return ok.problem();
   auto result = write_report_aloud(folder, run, record);
   const bool pictures = !options.no_views && !run.scene().description->cameras.empty();
-  if (!result.ok() || !pictures || record.stopped_by == "interrupted") return result;
+  if (!result || !pictures || record.stopped_by == "interrupted") return result;
   ProgressLine line("pictures");
   PictureOptions picture;
   picture.paths_per_pixel = options.picture_paths;
   picture.interrupt = &interrupt_flag();
   const auto drawn =
       render_views(folder, run, "", picture, [&](double share) { line.show_share(share); });
-  if (!drawn.ok()) return drawn.problem();
+  if (!drawn) return drawn.problem();
   return result;
 }
 
@@ -60,7 +60,7 @@ Result<NodesOptions> nodes_options(const RunOptions& options, Nanoseconds link_d
   NodesOptions nodes;
   if (options.profile == "0") {
     nodes.profile_share = 0;
-  } else if (auto share = parse_share(options.profile); share.ok()) {
+  } else if (auto share = parse_share(options.profile); share) {
     nodes.profile_share = share.value();
   } else {
     return Problem{
@@ -85,26 +85,26 @@ Result<StopReason> trace(LocalRun& run, const Scenario& scenario, const fs::path
   std::optional<ProgressLine> line(scenario.name);
   const auto show = [&](const Progress& p) { line->show(p); };
   const auto delay = link_delay_of(options);
-  if (!delay.ok()) return delay.problem();
+  if (!delay) return delay.problem();
   if (options.nodes == 0) return run.run(rule, interrupt_flag(), show);
   ObserveOptions observe;
   observe.metrics_port = options.metrics_port;
   observe.trace_every = options.trace_every;
   auto seen = Observation::start(observe);
-  if (!seen.ok()) return seen.problem();
+  if (!seen) return seen.problem();
   const auto port = seen.value()->port();
   if (port) log_info("metrics at http://{}:{}/metrics", observe.address, *port);
   Observation* const watched = seen.value()->watches() ? seen.value().get() : nullptr;
   const auto nodes = nodes_options(options, delay.value(), watched);
-  if (!nodes.ok()) return nodes.problem();
+  if (!nodes) return nodes.problem();
   NodesReport report;
   auto reason = run_on_nodes(run, nodes.value(), rule, interrupt_flag(), show, &report);
-  if (!reason.ok()) return reason;
+  if (!reason) return reason;
   line.reset();
   if (report.residency && !options.json)
     for (const std::string& text : residency_table(*report.residency, report.by_node))
       std::printf("%s\n", text.c_str());
-  if (auto ok = seen.value()->write_trace(folder / "trace.json"); !ok.ok()) return ok.problem();
+  if (auto ok = seen.value()->write_trace(folder / "trace.json"); !ok) return ok.problem();
   return reason;
 }
 
@@ -113,7 +113,7 @@ Result<std::unique_ptr<Preview>> preview_of(LocalRun& run, const fs::path& folde
                                             const RunOptions& options) {
   if (options.preview.empty()) return std::unique_ptr<Preview>();
   const auto every = parse_seconds(options.preview);
-  if (!every.ok()) return every.problem();
+  if (!every) return every.problem();
   install_preview_handler();
   PictureOptions picture;
   picture.paths_per_pixel = preview_paths;
@@ -144,14 +144,13 @@ class Watchers {
                                 const RunOptions& options) {
     Watchers watchers;
     auto preview = preview_of(run, folder.path(), options);
-    if (!preview.ok()) return preview.problem();
+    if (!preview) return preview.problem();
     watchers.preview_ = std::move(preview).value();
     if (options.checkpoint == "0") return watchers;
     const auto every = parse_seconds(options.checkpoint);
-    if (!every.ok()) return every.problem();
+    if (!every) return every.problem();
     if (every.value() < 1)
-      return Problem{{},
-                     "--checkpoint " + options.checkpoint + ": write 1s or more, or 0 for none"};
+      return problem("--checkpoint " + options.checkpoint + ": write 1s or more, or 0 for none");
     watchers.checkpoint_ = std::make_unique<Checkpoint>(folder.path(), run, record, every.value(),
                                                         folder.keep_particles);
     return watchers;
@@ -173,7 +172,7 @@ Result<std::vector<double>> batch_shares(const std::shared_ptr<const CompiledSce
                                          const RunOptions& options) {
   if (goes_on && fs::exists(folder / "result.json")) {
     auto before = read_finished_run(folder);
-    if (!before.ok()) return before.problem();
+    if (!before) return before.problem();
     return before->batch_shares;
   }
   if (!options.adaptive) return std::vector<double>();
@@ -194,7 +193,7 @@ Result<PreparedScenario> prepare_scenario(
     const std::shared_ptr<const SceneDescription>& description, const Scenario& scenario,
     const fs::path& folder, const RunOptions& options, const StopRule& rule) {
   auto scene = compile_scene(description, scenario, {options.cells, options.error_of});
-  if (!scene.ok()) return scene.problem();
+  if (!scene) return scene.problem();
   for (const Problem& w : scene.value()->warnings) log_warning("{}", w.text());
   PreparedScenario prepared{scenario, scene.value(), std::nullopt};
   if (options.plan) return prepared;
@@ -203,7 +202,7 @@ Result<PreparedScenario> prepare_scenario(
   auto claimed =
       claim_run_folder(folder, *scene.value(),
                        {rule, options.resume && begun, options.overwrite, !options.no_views});
-  if (!claimed.ok()) return claimed.problem();
+  if (!claimed) return claimed.problem();
   prepared.folder = std::move(claimed).value();
   return prepared;
 }
@@ -215,12 +214,12 @@ Result<std::shared_ptr<const CompiledScene>> scene_to_trace(
   auto scene = prepared.scene ? Result(prepared.scene)
                               : compile_scene(description, prepared.scenario,
                                               {options.cells, options.error_of});
-  if (!scene.ok()) return scene;
+  if (!scene) return scene;
   const bool goes_on = prepared.folder && prepared.folder->goes_on;
   const auto shares =
       batch_shares(scene.value(), seed, prepared.folder ? prepared.folder->path() : fs::path(),
                    goes_on, options);
-  if (!shares.ok()) return shares.problem();
+  if (!shares) return shares.problem();
   if (shares->empty()) return scene;
   return compile_scene(description, prepared.scenario,
                        {options.cells, options.error_of, shares.value()});
@@ -229,9 +228,9 @@ Result<std::shared_ptr<const CompiledScene>> scene_to_trace(
 Result<Traced> print_plan(const LocalRun& run, const Scenario& scenario,
                           const RunOptions& options) {
   const auto nodes = nodes_options(options, 0, nullptr);
-  if (!nodes.ok()) return nodes.problem();
+  if (!nodes) return nodes.problem();
   auto plan = plan_on_nodes(run, nodes.value());
-  if (!plan.ok()) return plan.problem();
+  if (!plan) return plan.problem();
   std::printf("%s\n%s", scenario.name.c_str(), plan.value().c_str());
   return Traced{StopReason::particles, {}};
 }
@@ -243,16 +242,16 @@ Result<Traced> run_scenario(const std::shared_ptr<const SceneDescription>& descr
   const Scenario& scenario = prepared.scenario;
   const uint64_t seed = options.seed.value_or(description->run.seed);
   const auto scene = scene_to_trace(description, prepared, seed, options);
-  if (!scene.ok()) return scene.problem();
+  if (!scene) return scene.problem();
   const auto made = prepare(scene.value(), seed, options);
   LocalRun& run = *made;
   if (options.plan) return print_plan(run, scenario, options);
   const RunFolder& folder = *prepared.folder;
   if (folder.goes_on) {
-    if (auto ok = load_flux(folder.path() / "flux.lux", run); !ok.ok()) return ok.problem();
+    if (auto ok = load_flux(folder.path() / "flux.lux", run); !ok) return ok.problem();
     // A flux file holds no time: the result beside it does, if it is of the same batches.
     const auto before = read_finished_run(folder.path());
-    if (before.ok() && before->batches == run.traced() && before->seconds)
+    if (before && before->batches == run.traced() && before->seconds)
       run.add_earlier_seconds(*before->seconds);
   }
   RunRecord record;
@@ -260,10 +259,10 @@ Result<Traced> run_scenario(const std::shared_ptr<const SceneDescription>& descr
   record.cells = options.cells;
   record.stop = rule;
   auto watchers = Watchers::start(run, folder, record, options);
-  if (!watchers.ok()) return watchers.problem();
+  if (!watchers) return watchers.problem();
   auto reason = trace(run, scenario, folder.path(), options, rule);
   { const Watchers ended = std::move(watchers).value(); }
-  if (!reason.ok()) return reason.problem();
+  if (!reason) return reason.problem();
   if (reason.value() == StopReason::interrupted && run.particles() <= folder.keep_particles) {
     log_warning("{} keeps the run of {} particles that it held: this one had {}",
                 folder.output.named().string(),
@@ -273,7 +272,7 @@ Result<Traced> run_scenario(const std::shared_ptr<const SceneDescription>& descr
   }
   record.stopped_by = name_of(reason.value());
   auto result = write_all(folder, run, record, options);
-  if (!result.ok()) return result.problem();
+  if (!result) return result.problem();
   if (!options.json) {
     std::printf("%s, in %s\n%s", description->name.c_str(), folder.output.named().string().c_str(),
                 summary_text(result.value(), options.verbose).c_str());
@@ -299,7 +298,7 @@ Result<std::vector<PreparedScenario>> prepare_scenarios(
   for (size_t i = 0; i < scenarios.size(); ++i) {
     const fs::path folder = several ? out / names[i] : out;
     auto prepared = prepare_scenario(description, scenarios[i], folder, options, rule);
-    if (!prepared.ok()) return prepared.problem();
+    if (!prepared) return prepared.problem();
     all.push_back(std::move(prepared).value());
     if (scenarios.size() > 1) all.back().scene.reset();
   }
@@ -311,13 +310,13 @@ int run_scenarios(const std::shared_ptr<const SceneDescription>& description,
                   const std::vector<Scenario>& scenarios, const RunOptions& options,
                   const StopRule& rule, Json& results) {
   auto prepared = prepare_scenarios(description, scenarios, options, rule);
-  if (!prepared.ok()) {
+  if (!prepared) {
     tell(prepared.problem());
     return ExitCode::bad_input;
   }
   for (PreparedScenario& one : prepared.value()) {
     auto traced = run_scenario(description, one, options, rule);
-    if (!traced.ok()) {
+    if (!traced) {
       tell(traced.problem());
       return ExitCode::bad_input;
     }
@@ -332,16 +331,16 @@ int run_scenarios(const std::shared_ptr<const SceneDescription>& description,
 }
 
 int run_scene(const RunOptions& options) {
-  if (auto ok = fit_together(options); !ok.ok()) return exit_code_of(ok);
+  if (auto ok = fit_together(options); !ok) return exit_code_of(ok);
   auto rule = stop_rule(options);
-  if (!rule.ok()) {
+  if (!rule) {
     tell(rule.problem());
     return ExitCode::bad_input;
   }
   const auto description = load_scene(options.scene);
   if (!description) return ExitCode::bad_input;
   auto scenarios = chosen_scenarios(*description, options.scenario);
-  if (!scenarios.ok()) {
+  if (!scenarios) {
     tell(scenarios.problem());
     return ExitCode::bad_input;
   }

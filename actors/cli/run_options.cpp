@@ -180,11 +180,11 @@ Result<void> fit_together(const RunOptions& options) {
       {"--link-delay", !options.link_delay.empty()}};
   for (const auto& [name, given] : about_nodes)
     if (given && options.nodes == 0)
-      return Problem{{}, std::string(name) + " requires --nodes: say how many"};
+      return problem(std::string(name) + " requires --nodes: say how many");
   if (options.adaptive && (options.part_cache_mib > 0 || options.plan))
-    return Problem{{},
-                   "--adaptive excludes --part-cache-mib and --plan: its first round needs all "
-                   "geometry resident"};
+    return problem(
+        "--adaptive excludes --part-cache-mib and --plan: its first round needs all "
+        "geometry resident");
   return {};
 }
 
@@ -192,17 +192,17 @@ Result<StopRule> stop_rule(const RunOptions& o) {
   StopRule rule;
   if (!o.particles.empty()) {
     auto n = parse_count(o.particles);
-    if (!n.ok()) return n.problem();
+    if (!n) return n.problem();
     rule.particles = n.value();
   }
   if (!o.error.empty()) {
     auto e = parse_share(o.error);
-    if (!e.ok()) return e.problem();
+    if (!e) return e.problem();
     rule.relative_error = e.value();
   }
   if (!o.time.empty()) {
     auto t = parse_seconds(o.time);
-    if (!t.ok()) return t.problem();
+    if (!t) return t.problem();
     rule.seconds = t.value();
   }
   if (!rule.particles && !rule.relative_error && !rule.seconds) rule.particles = default_particles;
@@ -212,10 +212,10 @@ Result<StopRule> stop_rule(const RunOptions& o) {
 Result<Nanoseconds> link_delay_of(const RunOptions& options) {
   if (options.link_delay.empty()) return Nanoseconds{0};
   auto delay_s = parse_seconds(options.link_delay);
-  if (!delay_s.ok()) return delay_s.problem();
+  if (!delay_s) return delay_s.problem();
   const double most_s = static_cast<double>(limits::link_delay) * 1e-9;
   if (delay_s.value() > most_s)
-    return Problem{{}, "a link's delay must not be longer than 100 ms: beats count time"};
+    return problem("a link's delay must not be longer than 100 ms: beats count time");
   return static_cast<Nanoseconds>(delay_s.value() * 1e9);
 }
 

@@ -51,14 +51,14 @@ Result<SeedRange> parse_seeds(const SimCommandOptions& options) {
       first.ec == std::errc() && end - first.ptr > 2 && first.ptr[0] == '.' && first.ptr[1] == '.';
   const auto last = dots ? std::from_chars(first.ptr + 2, end, after) : first;
   if (!dots || last.ec != std::errc() || last.ptr != end || after <= range.first)
-    return Problem{{}, "--seeds \"" + text + "\" is no range: write 0..200, the last not included"};
+    return problem("--seeds \"" + text + "\" is no range: write 0..200, the last not included");
   range.count = after - range.first;
   return range;
 }
 
 Result<Nanoseconds> span_of(const std::string& text) {
   auto span_s = parse_seconds(text);
-  if (!span_s.ok()) return span_s.problem();
+  if (!span_s) return span_s.problem();
   return static_cast<Nanoseconds>(span_s.value() * 1e9);
 }
 
@@ -69,7 +69,7 @@ Result<FaultPlan> fault_plan_in(const SimCommandOptions& options) {
   names.push_back("controller");
   ReadFaults read = read_fault_file(options.faults, names);
   for (const Problem& problem : read.problems.list()) tell(problem);
-  if (!read.plan) return Problem{{options.faults, 0}, "the faults have problems, told above"};
+  if (!read.plan) return problem_in(options.faults, "the faults have problems, told above");
   return std::move(*read.plan);
 }
 
@@ -80,13 +80,13 @@ Result<SimOptions> sim_options(const SimCommandOptions& options) {
   sim.faults = options.faults == "swarm";
   if (!sim.faults && options.faults != "none") {
     auto plan = fault_plan_in(options);
-    if (!plan.ok()) return plan.problem();
+    if (!plan) return plan.problem();
     sim.plan = std::move(plan).value();
   }
   const auto last = span_of(options.faults_last);
-  if (!last.ok()) return last.problem();
+  if (!last) return last.problem();
   const auto work = span_of(options.work);
-  if (!work.ok()) return work.problem();
+  if (!work) return work.problem();
   sim.faults_last = last.value();
   sim.work = work.value();
   return sim;
@@ -95,15 +95,15 @@ Result<SimOptions> sim_options(const SimCommandOptions& options) {
 /// The scene with batches so small that there are many.
 Result<std::unique_ptr<SimScene>> sim_scene(const SimCommandOptions& options) {
   const auto particles = parse_count(options.particles);
-  if (!particles.ok()) return particles.problem();
+  if (!particles) return particles.problem();
   const auto loaded = load_scene(options.scene);
-  if (!loaded) return Problem{{options.scene, 0}, "the scene has problems, told above"};
+  if (!loaded) return problem_in(options.scene, "the scene has problems, told above");
   const auto description = std::make_shared<SceneDescription>(*loaded);
   description->run.batch_particles = std::max<int64_t>(1, particles.value() / options.batches);
   const auto scenario = find_scenario(*description, options.scenario);
-  if (!scenario.ok()) return scenario.problem();
+  if (!scenario) return scenario.problem();
   auto scene = compile_scene(description, scenario.value(), {options.cells});
-  if (!scene.ok()) return scene.problem();
+  if (!scene) return scene.problem();
   return std::make_unique<SimScene>(scene.value(), description->run.seed, particles.value());
 }
 
@@ -159,9 +159,9 @@ void print_run(uint64_t seed, const SimReport& report) {
 /// Errors: as simulate; with `twice`, a second run that is not the same.
 Result<SimReport> simulated(const SimScene& scene, const SimOptions& options, bool twice) {
   auto report = simulate(scene, options);
-  if (!report.ok() || !twice || !report->failure.empty()) return report;
+  if (!report || !twice || !report->failure.empty()) return report;
   const auto again = simulate(scene, options);
-  if (again.ok() && again->trace_hash != report->trace_hash)
+  if (again && again->trace_hash != report->trace_hash)
     report->failure =
         "a second run of this seed takes another course: something beside the seed decides";
   return report;
@@ -169,11 +169,11 @@ Result<SimReport> simulated(const SimScene& scene, const SimOptions& options, bo
 
 Result<ExitCode> simulate_seeds(const SimCommandOptions& options) {
   const auto seeds = parse_seeds(options);
-  if (!seeds.ok()) return seeds.problem();
+  if (!seeds) return seeds.problem();
   auto sim = sim_options(options);
-  if (!sim.ok()) return sim.problem();
+  if (!sim) return sim.problem();
   const auto scene = sim_scene(options);
-  if (!scene.ok()) return scene.problem();
+  if (!scene) return scene.problem();
   install_interrupt_handler();
   if (!options.log) spdlog::set_level(spdlog::level::off);
   const SystemClock clock;
@@ -185,7 +185,7 @@ Result<ExitCode> simulate_seeds(const SimCommandOptions& options) {
   for (; done < seeds->count && !interrupt_flag(); ++done) {
     const uint64_t seed = sim->seed = seeds->first + done;
     const auto report = simulated(*scene.value(), sim.value(), options.twice);
-    if (!report.ok()) return report.problem();
+    if (!report) return report.problem();
     events += report->world.events;
     virtual_s += static_cast<double>(report->virtual_time) * 1e-9;
     if (single || !report->failure.empty()) print_run(seed, report.value());

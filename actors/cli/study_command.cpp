@@ -115,12 +115,12 @@ void Sweep::show(double done) {
 Result<StudyRow> Sweep::run_one(const StudyPoint& point, uint64_t seed) {
   const auto scene = scenes_.get(static_cast<int>(study_.whole(point, "cells")),
                                  study_.whole(point, "lease_particles"));
-  if (!scene.ok()) return scene.problem();
+  if (!scene) return scene.problem();
   StudyRun run{study_, point, scene.value(), seed, outcome_.measured.costs, nullptr};
   const bool real = is_real(study_.word(point, "on"));
   if (study_.word(point, "on") == "replay") {
     const auto recording = recorded(run);
-    if (!recording.ok()) return recording.problem();
+    if (!recording) return recording.problem();
     run.recording = recording.value().get();
   }
   const auto level = spdlog::get_level();
@@ -128,7 +128,7 @@ Result<StudyRow> Sweep::run_one(const StudyPoint& point, uint64_t seed) {
   auto result = real ? run_real(run, interrupt_flag()) : run_simulated(run, interrupt_flag());
   spdlog::set_level(level);
   StudyRow row{point, seed, std::nullopt, ""};
-  if (result.ok())
+  if (result)
     row.result = std::move(result).value();
   else
     row.refused = result.problem().what;
@@ -142,7 +142,7 @@ Result<std::shared_ptr<const Recording>> Sweep::recorded(const StudyRun& run) {
   auto& kept = recordings_[key];
   if (kept) return kept;
   auto made = Recording::make(*run.scene, run.seed, std::get<2>(key), run.costs);
-  if (!made.ok()) return made.problem();
+  if (!made) return made.problem();
   kept = std::move(made).value();
   return kept;
 }
@@ -157,7 +157,7 @@ Result<void> Sweep::run() {
     for (int i = 0; i < study_.seeds; ++i) {
       auto row = run_one(point, study_.first_seed + static_cast<uint64_t>(i));
       if (interrupt_flag()) return {};
-      if (!row.ok()) return row.problem();
+      if (!row) return row.problem();
       outcome_.rows.push_back(std::move(row).value());
       done += weight(point);
       show(done);
@@ -187,38 +187,37 @@ Result<ExitCode> study(const StudyCommandOptions& options) {
       options.out.empty() ? fs::path("out") / file_name_of(fs::path(options.file).stem().string())
                           : fs::path(options.out);
   const auto out = OutputFolder::claim(folder, study_output(prepared->study));
-  if (!out.ok()) return out.problem();
+  if (!out) return out.problem();
   install_interrupt_handler();
   Sweep sweep(*prepared, options.log);
   const auto done = sweep.run();
-  if (!done.ok()) return done.problem();
+  if (!done) return done.problem();
   if (interrupt_flag()) {
     log_warning("interrupted; nothing was written");
     return ExitCode::interrupted;
   }
-  if (auto ok = write_study(out->path(), sweep.outcome()); !ok.ok()) return ok.problem();
+  if (auto ok = write_study(out->path(), sweep.outcome()); !ok) return ok.problem();
   print_outcome(sweep.outcome(), folder);
   return ExitCode::success;
 }
 
 Result<void> write_costs(const CalibrateOptions& options) {
-  if (auto ok = check_output_file(options.out); !ok.ok()) return ok.problem();
+  if (auto ok = check_output_file(options.out); !ok) return ok.problem();
   const auto description = load_scene(options.scene);
-  if (!description) return Problem{{options.scene, 0}, "the scene has problems, told above"};
+  if (!description) return problem_in(options.scene, "the scene has problems, told above");
   Study study;
   study.scenario = options.scenario;
   study.whole_tally = options.whole_tally;
   StudyScenes scenes(study, *description);
   const auto scene = scenes.get(options.cells, options.lease_particles);
-  if (!scene.ok()) return scene.problem();
+  if (!scene) return scene.problem();
   const auto report = [](const std::string& what) {
     std::fprintf(stderr, "measuring %s\n", what.c_str());
   };
   const auto measured = calibrate(*scene.value(), report);
-  if (!measured.ok()) return measured.problem();
+  if (!measured) return measured.problem();
   const std::string text = costs_text(measured.value());
-  if (auto ok = write_file_atomically(behind_links(options.out), text); !ok.ok())
-    return ok.problem();
+  if (auto ok = write_file_atomically(behind_links(options.out), text); !ok) return ok.problem();
   std::printf("%swritten to %s\n", text.c_str(), options.out.c_str());
   return {};
 }

@@ -60,17 +60,17 @@ void tell_failures(const std::vector<light::CaseResult>& results, const light::V
 
 Result<ExitCode> validate(const ValidateOptions& options) {
   const auto error = parse_share(options.error);
-  if (!error.ok()) return error.problem();
-  if (!(error.value() > 0)) return Problem{{}, "--error must be above 0"};
+  if (!error) return error.problem();
+  if (!(error.value() > 0)) return problem("--error must be above 0");
   const light::Cases cases = light::cases_named(options.only);
   if (cases.empty())
-    return Problem{{}, "no case has \"" + options.only + "\" in its name; --list tells them"};
+    return problem("no case has \"" + options.only + "\" in its name; --list tells them");
   if (options.list) {
     for (const light::Case& c : cases) std::printf("%s  (%s)\n", c.name.c_str(), c.source.c_str());
     return ExitCode::success;
   }
   const auto out = OutputFolder::claim(options.out, {{"validate.html", "validate.json"}, {}});
-  if (!out.ok()) return out.problem();
+  if (!out) return out.problem();
   install_interrupt_handler();
   light::SuiteRecord record;
   record.seed = options.seed;
@@ -79,7 +79,7 @@ Result<ExitCode> validate(const ValidateOptions& options) {
   if (options.full) record.error = error.value();
   if (!options.case_time.empty()) {
     const auto most = parse_seconds(options.case_time);
-    if (!most.ok()) return most.problem();
+    if (!most) return most.problem();
     record.case_seconds = most.value();
   }
   light::SuiteOptions suite;
@@ -98,8 +98,7 @@ Result<ExitCode> validate(const ValidateOptions& options) {
   line.put(fmt::format("{} of {} cases", results.size(), cases.size()), true);
   record.interrupted = interrupt_flag().load();
   const light::Verdict verdict = light::judge(results);
-  if (auto ok = light::write_suite(out->path(), results, record, verdict); !ok.ok())
-    return ok.problem();
+  if (auto ok = light::write_suite(out->path(), results, record, verdict); !ok) return ok.problem();
   tell_failures(results, verdict);
   if (const size_t short_of_error = light::cases_short_of_error(results); short_of_error > 0)
     std::printf("%zu of %zu cases ended before all of their quantities had the error\n",

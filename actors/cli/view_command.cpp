@@ -32,18 +32,18 @@ Result<SceneState> wanted_state(const ViewOptions& options) {
   if (!std::filesystem::is_directory(options.scene, ignored))
     return SceneState{options.scene, options.scenario};
   auto state = scene_of_folder(options.scene);
-  if (state.ok() && !options.scenario.empty()) state.value().scenario = options.scenario;
+  if (state && !options.scenario.empty()) state.value().scenario = options.scenario;
   return state;
 }
 
 Result<ExitCode> view(const ViewOptions& options) {
   auto wanted = wanted_state(options);
-  if (!wanted.ok()) return wanted.problem();
+  if (!wanted) return wanted.problem();
   const auto scene = load_scene(wanted->scene_file);
   if (!scene) return ExitCode::bad_input;
   const std::string scenario = scene->scenarios.empty() ? "" : wanted->scenario;
   const auto found = find_scenario(*scene, scenario);
-  if (!found.ok()) return found.problem();
+  if (!found) return found.problem();
   if (!passes_inspection(scene, {found.value()}, options.live.threads)) return ExitCode::bad_input;
   install_interrupt_handler();
   HubOptions hub{options.live, {}, options.save_folder};
@@ -54,12 +54,12 @@ Result<ExitCode> view(const ViewOptions& options) {
     NodesOptions of_nodes;
     of_nodes.nodes = options.nodes;
     auto started = LiveNodes::start(scene, of_nodes);
-    if (!started.ok()) return started.problem();
+    if (!started) return started.problem();
     nodes = std::move(started).value();
     hub.live.tracers = nodes->tracers();
   }
   const auto served = serve_view(scene, options.server, hub);
-  if (!served.ok()) return served.problem();
+  if (!served) return served.problem();
   return ExitCode::success;
 }
 
@@ -98,7 +98,7 @@ Command view_command() {
                  .fault =
                      [](const std::string& text) {
                        const auto count = parse_count(text);
-                       return count.ok() ? "" : count.problem().text();
+                       return count ? "" : count.problem().text();
                      }}},
                {"--seed", &o->live.seed, "Seed of the random number generator"},
                {"--threads",

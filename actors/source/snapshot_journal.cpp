@@ -7,14 +7,14 @@ namespace luxodus {
 Result<void> SnapshotJournal::keep(std::span<const int64_t> batches,
                                    std::span<const std::byte> flush) {
   auto kept = journal_->keep(batches, flush);
-  if (!kept.ok()) lacks_ = true;
+  if (!kept) lacks_ = true;
   return kept;
 }
 
 /// The snapshot has its name before the journal is cut: between the two, what the journal holds is
 /// known to be in the snapshot.
 Result<void> SnapshotJournal::cut() {
-  if (auto made = make_snapshot_(); !made.ok()) return made.problem();
+  if (auto made = make_snapshot_(); !made) return made.problem();
   ++snapshots_;
   return journal_->restart();
 }
@@ -22,8 +22,8 @@ Result<void> SnapshotJournal::cut() {
 void SnapshotJournal::rest() {
   const auto made = cut();
   // A disk that stays full would have a snapshot made after every flush.
-  if (lacks_ || !made.ok()) not_before_ = clock_.now() + config_.retry;
-  if (made.ok()) {
+  if (lacks_ || !made) not_before_ = clock_.now() + config_.retry;
+  if (made) {
     if (lacks_) log_info("journal=whole text=\"a snapshot has what the journal lacked\"");
     lacks_ = false;
     return;

@@ -156,12 +156,11 @@ void LiveCluster::note_refusal() {
   const Network& network = shell_->network();
   const auto taken = network.taken_elsewhere();
   if (!taken) return;
-  fault_ =
-      Problem{{},
-              "the live view has nobody to trace for it, since its workers are not free: let "
-              "the run that " +
-                  run_.name_of(*taken) + " works for end first, or give this view other workers; " +
-                  network.refusal_of(*taken)};
+  fault_ = problem(
+      "the live view has nobody to trace for it, since its workers are not free: let "
+      "the run that " +
+      run_.name_of(*taken) + " works for end first, or give this view other workers; " +
+      network.refusal_of(*taken));
 }
 
 /// A lease of no batches has a worker compile what it refers to, and gets no answer.

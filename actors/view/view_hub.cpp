@@ -233,7 +233,7 @@ void ViewHub::refuse(Viewer& viewer, const std::string& why) {
 
 void ViewHub::says(Viewer& viewer, std::string_view text) {
   const auto message = decode_page_message(text);
-  if (!message.ok()) return refuse(viewer, message.problem().what);
+  if (!message) return refuse(viewer, message.problem().what);
   if (is_edit(message.value()) && editor_ != &viewer)
     return refuse(viewer, "somebody else edits: take over first");
   std::visit([&](const auto& m) { handle(viewer, m); }, message.value());

@@ -295,17 +295,15 @@ class HttpServer::Implementation {
     beast::error_code failed;
     const auto address = asio::ip::make_address(wanted.address, failed);
     if (failed)
-      return Problem{{},
-                     "\"" + wanted.address + "\" is no numeric address such as 127.0.0.1 or ::1"};
+      return problem("\"" + wanted.address + "\" is no numeric address such as 127.0.0.1 or ::1");
     const tcp::endpoint at(address, wanted.port);
     acceptor_.open(at.protocol(), failed);
     if (!failed) acceptor_.set_option(asio::socket_base::reuse_address(true), failed);
     if (!failed) acceptor_.bind(at, failed);
     if (!failed) acceptor_.listen(asio::socket_base::max_listen_connections, failed);
     if (failed)
-      return Problem{{},
-                     "cannot listen on " + http_address(wanted.address, wanted.port) + ": " +
-                         failed.message()};
+      return problem("cannot listen on " + http_address(wanted.address, wanted.port) + ": " +
+                     failed.message());
     accept();
     return {};
   }
@@ -374,7 +372,7 @@ HttpServer::~HttpServer() = default;
 
 Result<std::unique_ptr<HttpServer>> HttpServer::listen(HttpAddress at, HttpSite site) {
   auto implementation = std::make_unique<Implementation>(std::move(at), std::move(site));
-  if (auto ok = implementation->listen(); !ok.ok()) return ok.problem();
+  if (auto ok = implementation->listen(); !ok) return ok.problem();
   return std::unique_ptr<HttpServer>(new HttpServer(std::move(implementation)));
 }
 

@@ -73,7 +73,7 @@ Result<Document> parse(std::string_view text, const std::string& file, size_t ma
   } catch (const ::toml::parse_error& error) {
     const std::string why =
         quoting == Quoting::allowed ? ": " + std::string(error.description()) : std::string();
-    return Problem{{file, static_cast<int>(error.source().begin.line)}, "this is not TOML" + why};
+    return problem_in(file, static_cast<int>(error.source().begin.line), "this is not TOML" + why);
   }
 }
 

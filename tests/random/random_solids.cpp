@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "scenes/geometry/building_parts.hpp"
+#include "scenes/geometry/polygon.hpp"
 #include "scenes/geometry/transform.hpp"
 #include "tests/random/draw.hpp"
 
