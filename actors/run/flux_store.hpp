@@ -4,8 +4,8 @@
 
 #include <filesystem>
 
+#include "actors/output/flux_file.hpp"
 #include "actors/run/local_run.hpp"
-#include "runtime/core/atomic_file.hpp"
 
 namespace luxodus {
 

@@ -186,7 +186,7 @@ std::optional<Spectrum> maybe_property(KeyReader& keys, std::string_view key) {
   if (const auto* text = value->as_text()) {
     const auto grey = named_grey(*text);
     if (grey) return Spectrum::constant(*grey);
-    keys.problem(key, in_quotes(key) + " is \"" + excerpt(text->get()) +
+    keys.problem(key, in_quotes(key) + " is \"" + excerpt(*text) +
                           "\"; a text here names a grey, such as \"grey50\" or \"white80\"");
     return std::nullopt;
   }
