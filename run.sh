@@ -9,7 +9,7 @@ cd "$(dirname "$0")"
 scene=scenes/library/office_floor.toml
 out=out/office_floor
 
-./setup.sh
+./setup.sh --run
 ./.ci/build release luxodus
 
 # The scenario is ours to choose only where the caller has not.

@@ -1,8 +1,20 @@
 #!/usr/bin/env bash
-# Installs what Luxodus is built with, on Debian 12, and nothing that is there already: a second
-# call only looks. Both ./run.sh and ./test.sh call it.
+# Installs what Luxodus needs on Debian 12, and nothing that is there already: a second call only
+# looks. Both ./run.sh and ./test.sh call it.
+#   ./setup.sh --run      what the program is built with
+#   ./setup.sh --tests    that, and what tests and documents need besides; the default
+#   ./setup.sh --package  all that, and what tests/tools/package_test.sh makes a package with
 set -euo pipefail
 cd "$(dirname "$0")"
+
+want=${1:---tests}
+case $want in
+  --run | --tests | --package) ;;
+  *)
+    echo "setup.sh: $want is none of --run, --tests and --package" >&2
+    exit 2
+    ;;
+esac
 
 packages=(
   # compiler and build
@@ -20,10 +32,18 @@ packages=(
   libboost-context-dev libzmq3-dev cppzmq-dev libcapnp-dev capnproto
   # the live view's server
   libboost-dev
-  mkdocs mkdocs-material  # documents
-  # tests and formatting
-  catch2 python3 clang-format iproute2 poppler-utils
 )
+if [ "$want" != --run ]; then
+  packages+=(
+    # tests and formatting
+    catch2 python3 clang-format iproute2 poppler-utils
+    # documents
+    mkdocs mkdocs-material
+  )
+fi
+if [ "$want" = --package ]; then
+  packages+=(help2man dpkg-dev file)
+fi
 
 # Others' Node.js will do; Debian's comes where there is none.
 if ! command -v node >/dev/null || ! command -v npm >/dev/null; then

@@ -460,7 +460,7 @@ Result<size_t> encode_segment(const Value& value, std::span<uint64_t> scratch,
   const auto bytes = segments[0].asBytes();
   const size_t total = word + bytes.size();
   if (segments.size() != 1 || total > out.size())
-    return Problem{{}, "a message is longer than its buffer"};
+    return problem("a message is longer than its buffer");
   const uint32_t table[2] = {0, static_cast<uint32_t>(segments[0].size())};
   std::memcpy(out.data(), table, word);
   std::memcpy(out.data() + word, bytes.begin(), bytes.size());
@@ -540,7 +540,7 @@ void Codec::seal(std::span<std::byte> frame) {
 }
 
 Result<size_t> Codec::encode(const Message& message, std::span<std::byte> out) {
-  if (!within_limits(message)) return Problem{{}, "a message has a list or a text over its limit"};
+  if (!within_limits(message)) return problem("a message has a list or a text over its limit");
   return encode_segment<wire::Message>(message, {building_.get(), scratch_words}, out);
 }
 

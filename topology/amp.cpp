@@ -246,11 +246,11 @@ Graph with_role(const Graph& graph, ControllerRole role) {
 }  // namespace
 
 Result<AmpFound> find_amp(const AmpRequest& request, const std::function<bool()>& stop) {
-  if (const auto why_not = refusal(request)) return Problem{{}, *why_not};
+  if (const auto why_not = refusal(request)) return problem(*why_not);
   std::optional<Graph> found = complete_graph(request);
   AmpSearch search(request, stop);
   if (!found) found = search.run();
-  if (!found) return Problem{{}, "no graph was found in this time; give it more, or more links"};
+  if (!found) return problem("no graph was found in this time; give it more, or more links");
   if (found->has_controller() && request.controller_forwards)
     found = with_role(*found, ControllerRole::forwards);
   return AmpFound{std::move(*found), search.runs(), search.moves()};

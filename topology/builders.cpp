@@ -14,8 +14,7 @@ namespace {
 
 std::optional<Problem> size_problem(uint32_t nodes) {
   if (nodes >= 1 && nodes <= limits::graph_vertices) return std::nullopt;
-  return Problem{{},
-                 fmt::format("{} nodes: a graph has from 1 to {}", nodes, limits::graph_vertices)};
+  return problem(fmt::format("{} nodes: a graph has from 1 to {}", nodes, limits::graph_vertices));
 }
 
 /// The graph of these links, with as many links a node as the busiest has.
@@ -27,7 +26,7 @@ Result<Graph> graph_of(uint32_t nodes, uint32_t rotation, std::vector<GraphLink>
   }
   GraphPlan plan{nodes, *std::max_element(degree.begin(), degree.end()), ControllerRole::none,
                  rotation, std::move(links)};
-  if (const auto fault = fault_of(plan)) return Problem{{}, fault->what};
+  if (const auto fault = fault_of(plan)) return problem(fault->what);
   return Graph(std::move(plan));
 }
 
@@ -85,7 +84,7 @@ Result<Graph> make_torus(uint32_t nodes) {
 Result<Graph> make_hypercube(uint32_t nodes) {
   if (auto problem = size_problem(nodes)) return *problem;
   if (!std::has_single_bit(nodes)) {
-    return Problem{{}, fmt::format("{} is no power of two, and a hypercube is one", nodes)};
+    return problem(fmt::format("{} is no power of two, and a hypercube is one", nodes));
   }
   std::vector<GraphLink> links;
   for (Vertex v = 0; v < nodes; ++v) {
@@ -125,7 +124,7 @@ Result<Graph> make_random_regular(uint32_t nodes, uint32_t links, uint64_t seed)
   constexpr uint64_t max_attempts = 100;
   if (auto problem = size_problem(nodes)) return *problem;
   if (links >= nodes || links > limits::vertex_links || uint64_t{nodes} * links % 2 == 1) {
-    return Problem{{}, fmt::format("no graph of {} nodes has {} links at each", nodes, links)};
+    return problem(fmt::format("no graph of {} nodes has {} links at each", nodes, links));
   }
   std::vector<uint32_t> distances;
   for (uint32_t d = 1; d <= links / 2; ++d) distances.push_back(d);
@@ -159,14 +158,14 @@ Result<Graph> make_random_regular(uint32_t nodes, uint32_t links, uint64_t seed)
 
 Result<Graph> with_controller(const Graph& graph, uint32_t links) {
   const uint32_t workers = graph.workers();
-  if (graph.has_controller()) return Problem{{}, "this graph has a controller already"};
+  if (graph.has_controller()) return problem("this graph has a controller already");
   if (auto problem = size_problem(workers + 1)) return *problem;
   std::vector<GraphLink> all = graph.links();
   const uint32_t own = std::min(links, workers);
   for (uint32_t i = 0; i < own; ++i) all.push_back({i * workers / own, workers});
   std::sort(all.begin(), all.end());
   GraphPlan plan{workers, graph.max_links() + 1, ControllerRole::endpoint, 1, std::move(all)};
-  if (const auto fault = fault_of(plan)) return Problem{{}, fault->what};
+  if (const auto fault = fault_of(plan)) return problem(fault->what);
   return Graph(std::move(plan));
 }
 

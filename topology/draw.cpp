@@ -7,6 +7,7 @@
 #include <map>
 #include <vector>
 
+#include "runtime/core/output_text.hpp"
 #include "topology/layout.hpp"
 
 namespace luxodus {
@@ -40,27 +41,7 @@ std::vector<std::string> link_colours(const Graph& graph) {
 /// Text for XML and for quoted strings of DOT.
 std::string escaped(std::string_view text) {
   std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      case '\\':
-        out += "&#92;";
-        break;
-      default:
-        out += c;
-    }
-  }
+  for (const char c : xml_escape(text)) out += c == '\\' ? std::string("&#92;") : std::string(1, c);
   return out;
 }
 

@@ -37,7 +37,7 @@ std::string graph_text(const Graph& graph) {
   std::string text = fmt::format(
       "format = \"{}\"\n"
       "nodes = {}\n"
-      "links_most = {}  # of a node\n"
+      "max_links = {}  # of a node\n"
       "controller = \"{}\"{}\n"
       "rotation = {}  # turned by 1/{}, node v becomes v + {}, the links stay the same\n"
       "links = [  # {}\n",
@@ -73,15 +73,16 @@ class GraphParser {
     if (fault_) return *fault_;
     if (const auto wrong = fault_of(plan_)) {
       line_ = wrong->link ? link_lines_[*wrong->link] : key_lines_[links_key];
-      return Problem{{file_, line_}, wrong->what};
+      return problem_in(file_, line_, wrong->what);
     }
     Graph graph(std::move(plan_));
     const std::string hash = fmt::format("{:016x}", graph.hash());
     if (hash != hash_) {
-      return Problem{{file_, key_lines_[hash_key]},
-                     fmt::format("the hash of this graph is {}: the file was changed or cut; write "
-                                 "that hash if the change is meant",
-                                 hash)};
+      return problem_in(
+          file_, key_lines_[hash_key],
+          fmt::format("the hash of this graph is {}: the file was changed or cut; write "
+                      "that hash if the change is meant",
+                      hash));
     }
     return graph;
   }
@@ -90,7 +91,7 @@ class GraphParser {
   enum Key {
     format_key,
     nodes_key,
-    links_most_key,
+    max_links_key,
     controller_key,
     rotation_key,
     links_key,
@@ -98,12 +99,13 @@ class GraphParser {
     keys
   };
   static constexpr std::array<std::string_view, keys> key_names{
-      "format", "nodes", "links_most", "controller", "rotation", "links", "hash"};
+      "format", "nodes", "max_links", "controller", "rotation", "links", "hash"};
 
   void read_keys() {
     for (skip_blanks(); !fault_ && at_ < text_.size(); skip_blanks()) {
       const int line = line_;
-      const std::string_view name = word();
+      std::string_view name = word();
+      if (name == "links_most") name = "max_links";  // as files of earlier releases say
       size_t key = 0;
       while (key < keys && key_names[key] != name) ++key;
       if (key == keys)
@@ -134,7 +136,7 @@ class GraphParser {
       case nodes_key:
         plan_.workers = number();
         return;
-      case links_most_key:
+      case max_links_key:
         plan_.max_links = number();
         return;
       case controller_key:
@@ -183,7 +185,7 @@ class GraphParser {
   }
 
   void fail(std::string what) {
-    if (!fault_) fault_ = Problem{{file_, line_}, std::move(what)};
+    if (!fault_) fault_ = problem_in(file_, line_, std::move(what));
   }
 
   void skip_blanks() {

@@ -216,7 +216,7 @@ Result<Graph> minimum_path_graph(const AmpRequest& request) {
   if (auto shipped = shipped_graph({request.nodes, request.links, request.controller_links}, role))
     return *shipped;
   auto found = find_amp(request, [] { return false; });
-  if (!found.ok()) return found.problem();
+  if (!found) return found.problem();
   return std::move(found).value().graph;
 }
 

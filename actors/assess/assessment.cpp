@@ -14,12 +14,13 @@ namespace {
 
 std::optional<Problem> cannot_assess(const SceneDescription& scene) {
   if (scene.packed)
-    return Problem{{scene.file, 0},
-                   "a pack has its triangles elsewhere: assess the scene file that it was made of"};
+    return problem_in(
+        scene.file,
+        "a pack has its triangles elsewhere: assess the scene file that it was made of");
   if (scene.routes.empty() && scene.open_areas.empty() && scene.task_areas.empty() &&
       scene.observers.empty())
-    return Problem{{scene.file, 0},
-                   "there is nothing to assess: add [[route]], [[open_area]] or [[observer]]"};
+    return problem_in(scene.file,
+                      "there is nothing to assess: add [[route]], [[open_area]] or [[observer]]");
   return std::nullopt;
 }
 
@@ -47,7 +48,7 @@ void count_sweep(double factor, const std::vector<SightRow>& sights, std::vector
 std::optional<Problem> inspected(const std::shared_ptr<const SceneDescription>& scene,
                                  const Scenario& scenario, int threads, Assessment& out) {
   auto found = inspect(scene, {scenario}, threads);
-  if (!found.ok()) return found.problem();
+  if (!found) return found.problem();
   const auto errors = std::count_if(found->begin(), found->end(),
                                     [](const Finding& f) { return f.severity == Severity::error; });
   if (errors > 0) {  // they come first
@@ -70,11 +71,11 @@ Result<Assessment> assess(const std::shared_ptr<const SceneDescription>& scene,
                           const AssessProgress& progress) {
   if (auto problem = cannot_assess(*scene)) return *problem;
   auto scenario = judged_scenario(*scene, options.scenario);
-  if (!scenario.ok()) return scenario.problem();
+  if (!scenario) return scenario.problem();
   const auto codes = judged_codes(*scene, options.rules, options.deviations);
-  if (!codes.ok()) return codes.problem();
+  if (!codes) return codes.problem();
   if (options.reality)
-    if (auto ok = irritation_is_said(*scene, scenario.value()); !ok.ok()) return ok.problem();
+    if (auto ok = irritation_is_said(*scene, scenario.value()); !ok) return ok.problem();
   const SystemClock clock;
   const Nanoseconds began = clock.now();
   Assessment out;
@@ -86,17 +87,16 @@ Result<Assessment> assess(const std::shared_ptr<const SceneDescription>& scene,
   out.scene_hash = scene->content_hash;
   out.levels = plan_levels(*scene, scenario.value());
   if (auto problem = inspected(scene, scenario.value(), options.threads, out)) return *problem;
-  if (auto ok = assess_by_codes(*scene, scenario.value(), options, progress, out); !ok.ok())
+  if (auto ok = assess_by_codes(*scene, scenario.value(), options, progress, out); !ok)
     return ok.problem();
   if (options.reality)
-    if (auto ok = assess_sights(*scene, scenario.value(), options, interrupt, progress, out);
-        !ok.ok())
+    if (auto ok = assess_sights(*scene, scenario.value(), options, interrupt, progress, out); !ok)
       return ok.problem();
   for (const double factor : options.smoke_factors) {
     Scenario thick = scenario.value();
     thicken(thick, factor);
     Assessment at_density;
-    if (auto ok = assess_sights(*scene, thick, options, interrupt, progress, at_density); !ok.ok())
+    if (auto ok = assess_sights(*scene, thick, options, interrupt, progress, at_density); !ok)
       return ok.problem();
     count_sweep(factor, at_density.sights, out.sweep);
     out.paths += at_density.paths;

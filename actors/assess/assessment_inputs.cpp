@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "actors/assess/judged_state.hpp"
-#include "actors/output/base64.hpp"
+#include "runtime/core/base64.hpp"
 #include "scenes/emergency/rules.hpp"
 #include "scenes/images/logo.hpp"
 
@@ -144,7 +144,7 @@ Json project_json(const ProjectSettings& p) {
               {"document", p.document}, {"revision", p.revision}, {"date", p.date},
               {"author", p.author},     {"checker", p.checker},   {"north_deg", p.north_deg}};
   if (p.logo.empty()) return out;
-  if (const auto logo = read_logo(p.logo); logo.ok()) out["logo_png"] = base64(logo.value());
+  if (const auto logo = read_logo(p.logo); logo) out["logo_png"] = base64(logo.value());
   return out;
 }
 

@@ -213,13 +213,13 @@ Json assessment_json(const SceneDescription& scene, const Assessment& assessment
 Result<void> write_assessment(const fs::path& folder, const Json& assessment) {
   std::error_code failed;
   fs::create_directories(folder, failed);
-  if (failed) return Problem{{folder.string(), 0}, "cannot make this folder: " + failed.message()};
-  if (auto ok = write_json(folder / "assessment.json", assessment); !ok.ok()) return ok;
+  if (failed) return problem_in(folder, "cannot make this folder: " + failed.message());
+  if (auto ok = write_json(folder / "assessment.json", assessment); !ok) return ok.problem();
   const auto checks =
       csv_of(assessment["checks"],
              {"rule", "rule_set", "deviation", "edition", "clause", "status", "title", "subject",
               "condition", "verdict", "value", "unit", "sense", "limit", "margin", "reason"});
-  if (auto ok = write_csv(folder / "checks.csv", checks); !ok.ok()) return ok;
+  if (auto ok = write_csv(folder / "checks.csv", checks); !ok) return ok.problem();
   const auto sights = csv_of(assessment["sights"], {"from",
                                                     "along.value",
                                                     "stands_for.value",
@@ -247,7 +247,7 @@ Result<void> write_assessment(const fs::path& folder, const Json& assessment) {
                                                     "extinction.value",
                                                     "jin.legible",
                                                     "viewing_distance.within"});
-  if (auto ok = write_csv(folder / "sights.csv", sights); !ok.ok()) return ok;
+  if (auto ok = write_csv(folder / "sights.csv", sights); !ok) return ok.problem();
   return {};
 }
 
@@ -256,20 +256,17 @@ Result<Json> read_assessment(const fs::path& folder) {
   std::error_code failed;
   const auto size = fs::file_size(path, failed);
   if (failed)
-    return Problem{{path.string(), 0},
-                   "cannot be read (" + failed.message() + "): make it by luxodus assess"};
-  if (size > limits::assessment_bytes)
-    return Problem{{path.string(), 0}, "is larger than any assessment"};
+    return problem_in(path, "cannot be read (" + failed.message() + "): make it by luxodus assess");
+  if (size > limits::assessment_bytes) return problem_in(path, "is larger than any assessment");
   std::ifstream file(path);
   Json read = Json::parse(file, nullptr, false);
   if (!read.is_object() || read.value("format", "") != assessment_format)
-    return Problem{{path.string(), 0},
-                   std::string("is not a \"") + assessment_format + "\": make it anew"};
+    return problem_in(path, std::string("is not a \"") + assessment_format + "\": make it anew");
   if (const auto fault = fault_of_assessment(read))
-    return Problem{{path.string(), 0},
-                   *fault +
-                       ": this assessment is damaged or of another version; make it anew by "
-                       "luxodus assess"};
+    return problem_in(path,
+                      *fault +
+                          ": this assessment is damaged or of another version; make it anew by "
+                          "luxodus assess");
   return read;
 }
 

@@ -287,7 +287,7 @@ Result<void> assess_by_codes(const SceneDescription& scene, const Scenario& scen
     progress(furnished ? "codes, with furniture" : "codes, without furniture", furnished ? 0.5 : 0);
     auto building = Building::make(code_scene(scene, furnished), code_scenario(scene, scenario),
                                    options.threads);
-    if (!building.ok()) return building.problem();
+    if (!building) return building.problem();
     const CodeMode mode(scene, *building.value(), out.state.codes);
     if (!furnished) mode.fill_plan(out.levels);
     auto checks = mode.checks_by_light();

@@ -14,12 +14,7 @@ namespace luxodus {
 
 namespace {
 
-constexpr std::array operation_words{"mains", "emergency", "dark"};
 constexpr std::array medium_words{"homogeneous", "layered", "bounded", "data set"};
-
-double extinction_factor(const Scenario& scenario, const Medium& medium) {
-  return factor_of(scenario.media, medium.name, scenario.smoke_factor);
-}
 
 /// A flame lets its light out and is met by nobody; a data set of a fire holds smoke, too.
 bool is_flame(const Medium& medium) {
@@ -160,22 +155,19 @@ void add_remarks(const SceneDescription& scene, AssessedState& state) {
 
 }  // namespace
 
-const char* name_of(Operation operation) {
-  return operation_words.at(static_cast<size_t>(operation));
-}
-
 bool has_smoke(const SceneDescription& scene, const Scenario& scenario) {
   return std::any_of(scene.media.begin(), scene.media.end(), [&](const Medium& medium) {
-    return !is_flame(medium) && extinction_factor(scenario, medium) > 0;
+    return !is_flame(medium) && extinction_factor(scenario, medium.name) > 0;
   });
 }
 
 Result<Scenario> judged_scenario(const SceneDescription& scene, const std::string& named) {
   if (!named.empty()) return find_scenario(scene, named);
   if (scene.scenarios.empty())
-    return Problem{{scene.file, 0},
-                   "there is no [[scenario]], so that it is not said which state is to be judged: "
-                   "write [[scenario]] with name = \"emergency\" and operation = \"emergency\""};
+    return problem_in(
+        scene.file,
+        "there is no [[scenario]], so that it is not said which state is to be judged: "
+        "write [[scenario]] with name = \"emergency\" and operation = \"emergency\"");
   const bool smoky = std::any_of(scene.scenarios.begin(), scene.scenarios.end(),
                                  [&](const Scenario& s) { return has_smoke(scene, s); });
   const char* const with = smoky ? " with smoke" : "";
@@ -207,7 +199,7 @@ Result<std::vector<CodeChoice>> judged_codes(const SceneDescription& scene,
   const AssessmentSettings& said = scene.assessment;
   auto codes = chosen_codes(rules.empty() ? said.rules : rules,
                             deviations.empty() ? said.deviations : deviations);
-  if (codes.ok()) return codes;
+  if (codes) return codes;
   const bool by_scene = rules.empty() && deviations.empty() && said.place.line > 0;
   return Problem{by_scene ? said.place : SourcePlace{scene.file, 0}, codes.problem().what};
 }
@@ -215,7 +207,7 @@ Result<std::vector<CodeChoice>> judged_codes(const SceneDescription& scene,
 Result<void> irritation_is_said(const SceneDescription& scene, const Scenario& scenario) {
   if (scene.assessment.irritant_smoke || !has_smoke(scene, scenario)) return {};
   const auto smoke = std::find_if(scene.media.begin(), scene.media.end(), [&](const Medium& m) {
-    return !is_flame(m) && extinction_factor(scenario, m) > 0;
+    return !is_flame(m) && extinction_factor(scenario, m.name) > 0;
   });
   return Problem{scene.assessment.place.line > 0 ? scene.assessment.place : smoke->place,
                  fmt::format("whether the smoke \"{}\" of scenario \"{}\" stings is not said, and "
@@ -236,7 +228,7 @@ AssessedState state_of(const SceneDescription& scene, const Scenario& scenario,
   for (const ActiveSource& source : active_sources(scene, scenario))
     if (source.emitter != nullptr) state.lit.push_back(source.emitter->name);
   for (const Medium& medium : scene.media) {
-    const double factor = extinction_factor(scenario, medium);
+    const double factor = extinction_factor(scenario, medium.name);
     if (!(factor > 0)) continue;
     const auto [low, high] = range_of(medium);
     const bool flame = is_flame(medium);

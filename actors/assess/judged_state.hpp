@@ -40,8 +40,6 @@ struct AssessedState {
   std::vector<std::string> remarks;
 };
 
-const char* name_of(Operation operation);
-
 /// The state that is judged: the one that is named, in whatever operation. Without a name, the one
 /// scenario in emergency operation that has smoke; in a scene none of whose scenarios has smoke,
 /// the one in emergency operation. Nothing else in the scene may be mistaken for it: a scenario in

@@ -197,7 +197,7 @@ class RealityMode {
 
 Result<void> RealityMode::tell_ageing_apart() {
   auto ageing = group_by_ageing(scene_, scenario_.operation);
-  if (!ageing.ok()) return ageing.problem();
+  if (!ageing) return ageing.problem();
   ageing_ = std::move(ageing).value();
   return {};
 }
@@ -205,15 +205,15 @@ Result<void> RealityMode::tell_ageing_apart() {
 Result<void> RealityMode::look_for_lines(const AssessProgress& progress) {
   progress("lines of sight", 0);
   auto made = Building::make(scene_, scenario_, options_.threads);
-  if (!made.ok()) return made.problem();
+  if (!made) return made.problem();
   const Building& building = *made.value();
   const std::vector<double> renewals = ageing_.renewals(building.scene());
   stands_ = stands_of(scene_, observers_);
   if (stands_.size() * scene_.signs.size() > limits::sights)
-    return Problem{{scene_.file, 0},
-                   fmt::format("{} places and {} signs make more pairs than {}: take a larger "
-                               "spacing_m or fewer eye heights",
-                               stands_.size(), scene_.signs.size(), limits::sights)};
+    return problem_in(scene_.file,
+                      fmt::format("{} places and {} signs make more pairs than {}: take a larger "
+                                  "spacing_m or fewer eye heights",
+                                  stands_.size(), scene_.signs.size(), limits::sights));
   std::vector<std::vector<SightRow>> rows(stands_.size());
   std::vector<std::vector<Veil>> veils(stands_.size());
   std::vector<char> stuck(stands_.size(), 0);
@@ -398,14 +398,14 @@ Result<void> RealityMode::trace(int round, const std::atomic<bool>& interrupt,
     if (asked_.empty() || asked_.back() != open.stand) asked_.push_back(open.stand);
   auto compiled =
       compile_scene(std::make_shared<SceneDescription>(round_scene(round)), scenario_, {});
-  if (!compiled.ok()) return compiled.problem();
+  if (!compiled) return compiled.problem();
   LocalRun run(compiled.value(), options_.seed + static_cast<uint64_t>(round), options_.threads);
   StopRule stop;
   stop.particles = RoundSize(round).batches * batch_particles;
   const auto reason = run.run(stop, interrupt, [&](const Progress& p) {
     progress(what, static_cast<double>(p.particles) / static_cast<double>(*stop.particles));
   });
-  if (reason == StopReason::interrupted) return Problem{{}, "interrupted"};
+  if (reason == StopReason::interrupted) return problem("interrupted");
   out_.paths += run.batches() * int64_t{run.scene().eye_paths_per_batch} *
                 static_cast<int64_t>(3 * run.scene().eye_targets.size());
   judge(run.scene(), run.totals());
@@ -418,12 +418,12 @@ Result<void> RealityMode::trace(int round, const std::atomic<bool>& interrupt,
 Result<void> assess_sights(const SceneDescription& scene, const Scenario& scenario,
                            const AssessOptions& options, const std::atomic<bool>& interrupt,
                            const AssessProgress& progress, Assessment& out) {
-  if (auto ok = irritation_is_said(scene, scenario); !ok.ok()) return ok;
+  if (auto ok = irritation_is_said(scene, scenario); !ok) return ok.problem();
   RealityMode mode(scene, scenario, options, out);
-  if (auto ok = mode.tell_ageing_apart(); !ok.ok()) return ok;
-  if (auto ok = mode.look_for_lines(progress); !ok.ok()) return ok;
+  if (auto ok = mode.tell_ageing_apart(); !ok) return ok.problem();
+  if (auto ok = mode.look_for_lines(progress); !ok) return ok.problem();
   for (int round = 0; round < options.rounds && mode.anything_open(); ++round)
-    if (auto ok = mode.trace(round, interrupt, progress); !ok.ok()) return ok;
+    if (auto ok = mode.trace(round, interrupt, progress); !ok) return ok.problem();
   return {};
 }
 

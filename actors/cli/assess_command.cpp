@@ -1,6 +1,5 @@
 // luxodus assess, compare: whether signs and routes do their job, as data and as a report.
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -9,10 +8,16 @@
 #include "actors/assess/check_words.hpp"
 #include "actors/assess/state_words.hpp"
 #include "actors/cli/command.hpp"
+#include "actors/cli/commands.hpp"
 #include "actors/cli/findings.hpp"
+#include "actors/cli/load_scene.hpp"
+#include "actors/cli/progress_line.hpp"
 #include "actors/cli/report_options.hpp"
+#include "actors/cli/signals.hpp"
+#include "actors/cli/version.hpp"
 #include "actors/output/file_names.hpp"
 #include "actors/output/output_folder.hpp"
+#include "runtime/core/log.hpp"
 
 namespace luxodus::cli {
 
@@ -78,15 +83,15 @@ Result<ExitCode> assess_scene(const AssessCommandOptions& options) {
       tell(assessed.problem());
       return ExitCode::bad_input;
     }
-    spdlog::warn("interrupted; nothing was written");
+    log_warning("interrupted; nothing was written");
     return ExitCode::interrupted;
   }
   tell_findings(assessed->findings);
   for (const Problem& warning : assessed->warnings)
     if (std::none_of(assessed->findings.begin(), assessed->findings.end(),
                      [&](const Finding& f) { return f.problem.text() == warning.text(); }))
-      spdlog::warn("{}", warning.text());
-  const Json json = assessment_json(*scene, assessed.value(), LUX_VERSION);
+      log_warning("{}", warning.text());
+  const Json json = assessment_json(*scene, assessed.value(), build.version);
   if (auto ok = write_assessment(out->path(), json); !ok.ok()) return ok.problem();
   print_summary(json);
   if (auto ok = write_report_and_tell(out.value(), json, options.report); !ok.ok())
@@ -107,72 +112,88 @@ Result<ExitCode> compare_folders(const std::string& before, const std::string& a
   return ExitCode::success;
 }
 
-/// Its exit code, or that of bad input after the problem was told.
-int told(const Result<ExitCode>& result) {
-  if (result.ok()) return result.value();
-  tell(result.problem());
-  return ExitCode::bad_input;
-}
-
 }  // namespace
 
-void add_assess(CLI::App& app, int& exit_code) {
-  auto options = std::make_shared<AssessCommandOptions>();
-  options->assess.threads = default_threads();
-  CLI::App* command =
-      app.add_subcommand("assess", "Judge signs and escape routes, by codes and in smoke");
-  command->footer(
-      "Needs routes, areas or observers in the scene (keys: scenes/scene_file/README.md). Writes\n"
-      "report.html, assessment.json, checks.csv, sights.csv, plans/ (SVG, DXF), schedules/ (CSV).\n"
-      "  luxodus assess scenes/library/office_floor.toml --out out/office\n"
-      "  luxodus assess office.toml --scenario fire --rules en1838-2013 --deviation de-asr-a3.4-3\n"
-      "  luxodus assess office.toml --rules en1838-2024,nfpa101 --codes-alone\n"
-      "  luxodus assess office.toml --smoke-scale 0.1,0.3,1,3,10");
-  command->add_option("scene", options->scene, "scene file (TOML)")->required();
-  command->add_option("--scenario", options->assess.scenario,
-                      "state of the building [the one in emergency operation, with smoke where "
-                      "any has it; none is guessed]");
-  command->add_option("--out", options->out, "folder of the results [out/NAME-assessed]");
-  command
-      ->add_option("--rules", options->assess.rules,
-                   "rule sets: " + ids_of(rule_sets()) + " [those of the scene]")
-      ->delimiter(',');
-  command
-      ->add_option(
-          "--deviation", options->assess.deviations,
-          "national deviations from them: " + ids_of(deviations()) + " [those of the scene]")
-      ->delimiter(',');
-  command->add_option("--seed", options->assess.seed, "of all random numbers [1]")
-      ->check(seed_number());
-  command->add_option("--threads", options->assess.threads, "threads [all]")
-      ->check(CLI::Range(1, 1024));
-  command
-      ->add_option("--rounds", options->assess.rounds,
-                   "rounds of paths at most, each of four times as many, for what is undecided [4]")
-      ->check(CLI::Range(1, limits::sight_rounds));
-  command
-      ->add_option("--smoke-scale", options->assess.smoke_factors,
-                   "judge signs again with all smoke times these factors")
-      ->delimiter(',')
-      ->check(CLI::Range(0.0, 1e6));
-  command->add_flag("--codes-alone", options->codes_alone, "no smoke, no reflections: codes only");
-  add_report_options(*command, options->report);
-  command->add_flag("--strict", options->strict,
-                    "exit code 1 where anything fails, is undecided, not assessed or not verified");
-  command->callback([options, &exit_code] { exit_code = told(assess_scene(*options)); });
+Command assess_command() {
+  const auto o = std::make_shared<AssessCommandOptions>();
+  o->assess.threads = default_threads();
+  Command command{
+      .name = "assess",
+      .summary = "Assess signs and escape routes, by the codes and in smoke",
+      .heading = "Assess",
+      .options =
+          {{"scene", &o->scene, "Scene file", {.form = Form::scene, .required = true}},
+           {"--scenario",
+            &o->assess.scenario,
+            "State of the building",
+            {.form = Form::name,
+             .otherwise = "the scenario in emergency operation, with smoke where any has it; none "
+                          "is guessed"}},
+           {"--out",
+            &o->out,
+            "Folder of the results",
+            {.form = Form::folder, .otherwise = "out/NAME-assessed"}},
+           {"--rules",
+            &o->assess.rules,
+            "Rule sets: " + ids_of(rule_sets()),
+            {.form = Form::name, .otherwise = "those of the scene", .comma_separated = true}},
+           {"--deviation",
+            &o->assess.deviations,
+            "National deviations from the rule sets: " + ids_of(deviations()),
+            {.form = Form::name, .otherwise = "those of the scene", .comma_separated = true}},
+           {"--seed", &o->assess.seed, "Seed of the random number generator"},
+           {"--threads",
+            &o->assess.threads,
+            "Number of threads",
+            {.otherwise = "all cores", .range = Range{1, 1024}}},
+           {"--rounds",
+            &o->assess.rounds,
+            "Largest number of rounds of paths, each of four times as many, for what is undecided",
+            {.range = Range{1, limits::sight_rounds}}},
+           {"--smoke-scale",
+            &o->assess.smoke_factors,
+            "Factors of a sweep: signs are assessed again with all smoke times each of them",
+            {.range = Range{0, 1e6}, .comma_separated = true}},
+           {"--codes-alone", &o->codes_alone,
+            "Assessment by the codes only: no smoke, no "
+            "reflections"},
+           {"--strict", &o->strict,
+            "Exit code 1 where anything fails, is undecided, not assessed or not verified"}},
+      .notes =
+          "Needs routes, areas or observers in the scene. Writes report.html, assessment.json, "
+          "checks.csv, sights.csv, plans/ (SVG, DXF), schedules/ (CSV).\n"
+          "  luxodus assess scenes/library/office_floor.toml --out out/office\n"
+          "  luxodus assess office.toml --scenario fire --rules en1838-2013 \\\n"
+          "    --deviation de-asr-a3.4-3\n"
+          "  luxodus assess office.toml --rules en1838-2024,nfpa101 --codes-alone\n"
+          "  luxodus assess office.toml --smoke-scale 0.1,0.3,1,3,10",
+      .run = [o] { return exit_code_of(assess_scene(*o)); }};
+  add_report_options(command, o->report);
+  return command;
 }
 
-void add_compare(CLI::App& app, int& exit_code) {
-  auto folders = std::make_shared<std::pair<std::string, std::string>>();
-  auto json = std::make_shared<std::string>();
-  CLI::App* command = app.add_subcommand("compare", "What two assessments say differently");
-  command->footer("  luxodus compare out/before out/after");
-  command->add_option("before", folders->first, "folder of luxodus assess")->required();
-  command->add_option("after", folders->second, "another")->required();
-  command->add_option("--json", *json, "write it to this file, too");
-  command->callback([folders, json, &exit_code] {
-    exit_code = told(compare_folders(folders->first, folders->second, *json));
-  });
+Command compare_command() {
+  struct Folders {
+    std::string before, after, json;
+  };
+  const auto o = std::make_shared<Folders>();
+  return {.name = "compare",
+          .summary = "Compare two assessments",
+          .heading = "Assess",
+          .options = {{"before",
+                       &o->before,
+                       "Folder of an assessment",
+                       {.form = Form::folder, .required = true}},
+                      {"after",
+                       &o->after,
+                       "Folder of the other assessment",
+                       {.form = Form::folder, .required = true}},
+                      {"--json",
+                       &o->json,
+                       "File for the comparison as JSON, besides",
+                       {.form = Form::file}}},
+          .notes = "  luxodus compare out/before out/after",
+          .run = [o] { return exit_code_of(compare_folders(o->before, o->after, o->json)); }};
 }
 
 }  // namespace luxodus::cli

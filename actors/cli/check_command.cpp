@@ -5,9 +5,13 @@
 
 #include "actors/assess/judged_state.hpp"
 #include "actors/cli/command.hpp"
+#include "actors/cli/commands.hpp"
 #include "actors/cli/findings.hpp"
 #include "actors/cli/floors.hpp"
+#include "actors/cli/load_scene.hpp"
+#include "actors/cli/quantities.hpp"
 #include "actors/output/json_out.hpp"
+#include "scenes/tally/totals.hpp"
 #include "scenes/transport/compile.hpp"
 #include "scenes/transport/packed_scene.hpp"
 #include "scenes/transport/scene_features.hpp"
@@ -145,17 +149,17 @@ void add_refusals(const SceneDescription& scene, std::vector<Finding>& out) {
   const auto add = [&](const Problem& why) {
     out.push_back({Severity::note, "assess", {why.where, "luxodus assess: " + why.what}});
   };
-  if (const auto codes = judged_codes(scene, {}, {}); !codes.ok()) add(codes.problem());
+  if (const auto codes = judged_codes(scene, {}, {}); !codes) add(codes.problem());
   const auto scenario = judged_scenario(scene, "");
-  if (!scenario.ok()) return add(scenario.problem());
-  if (auto said = irritation_is_said(scene, scenario.value()); !said.ok()) add(said.problem());
+  if (!scenario) return add(scenario.problem());
+  if (auto said = irritation_is_said(scene, scenario.value()); !said) add(said.problem());
 }
 
 int check(const CheckOptions& options) {
   const auto description = load_scene(options.scene);
   if (!description) return ExitCode::bad_input;
   auto scenarios = chosen_scenarios(*description, options.scenario);
-  if (!scenarios.ok()) {
+  if (!scenarios) {
     tell(scenarios.problem());
     return ExitCode::bad_input;
   }
@@ -163,7 +167,7 @@ int check(const CheckOptions& options) {
   Json all = Json::array();
   for (const Scenario& scenario : scenarios.value()) {
     auto scene = compile_scene(description, scenario, {options.cells});
-    if (!scene.ok()) {
+    if (!scene) {
       findings.push_back({Severity::error, "scenario", scene.problem()});
       continue;
     }
@@ -172,7 +176,7 @@ int check(const CheckOptions& options) {
   }
   if (!has_error(findings)) {
     auto found = inspect(description, scenarios.value(), default_threads());
-    if (!found.ok()) found = std::vector<Finding>{{Severity::error, "scene", found.problem()}};
+    if (!found) found = std::vector<Finding>{{Severity::error, "scene", found.problem()}};
     findings.insert(findings.begin(), found->begin(), found->end());
   }
   add_refusals(*description, findings);
@@ -193,19 +197,22 @@ int check(const CheckOptions& options) {
 
 }  // namespace
 
-void add_check(CLI::App& app, int& exit_code) {
-  auto options = std::make_shared<CheckOptions>();
-  CLI::App* command = app.add_subcommand(
-      "check", "Read everything a scene names, inspect it and say what was found");
-  command->footer(
-      "Findings are errors, warnings or notes, each with its file and line; exit code 2 if there\n"
-      "is an error. All that run, assess, render, pack and view refuse is found here.");
-  command->add_option("scene", options->scene, "scene file (TOML), or a pack")->required();
-  command->add_option("--scenario", options->scenario, "name of a scenario, or 'all' [all]");
-  command->add_option("--cells", options->cells, "geometry cells [1]")
-      ->check(CLI::Range(1, 1'000'000));
-  command->add_flag("--json", options->json, "machine-readable");
-  command->callback([options, &exit_code] { exit_code = check(*options); });
+Command check_command() {
+  const auto o = std::make_shared<CheckOptions>();
+  return {
+      .name = "check",
+      .summary = "Read everything that a scene names, inspect it, say what was found",
+      .heading = "Scenes",
+      .options =
+          {{"scene", &o->scene, "Scene file, or a pack", {.form = Form::scene, .required = true}},
+           {"--scenario", &o->scenario, "Name of a scenario, or 'all'", {.form = Form::name}},
+           {"--cells", &o->cells, "Number of geometry cells", {.range = Range{1, 1'000'000}}},
+           {"--json", &o->json, "Output as JSON"}},
+      .notes =
+          "Findings are errors, warnings or notes, each with its file and line; exit code "
+          "2 if there is an error. All that run, assess, render, pack and view refuse is "
+          "found here.",
+      .run = [o] { return check(*o); }};
 }
 
 }  // namespace luxodus::cli

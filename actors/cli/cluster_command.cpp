@@ -2,7 +2,6 @@
 // one. When it ends, they have ended.
 #include <signal.h>
 #include <spawn.h>
-#include <spdlog/spdlog.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -12,7 +11,9 @@
 #include <utility>
 
 #include "actors/cli/command.hpp"
-#include "runtime/config/cluster_file.hpp"
+#include "actors/cli/commands.hpp"
+#include "actors/cli/load_cluster.hpp"
+#include "runtime/core/log.hpp"
 
 namespace luxodus::cli {
 
@@ -96,7 +97,7 @@ class Children {
       const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
       const bool decides = controller.empty() ? result_ == 0 : child->name == controller;
       const bool all_end = code != 0 && child->name == controller;
-      if (code != 0) spdlog::error("process {} ended with {}", child->name, code);
+      if (code != 0) log_error("process {} ended with {}", child->name, code);
       if (decides) result_ = code;
       living_.erase(child);
       if (all_end) tell_all();
@@ -117,10 +118,9 @@ class Children {
 };
 
 int cluster_up(const ClusterOptions& options) {
-  const ReadCluster read = read_cluster(options.config);
-  for (const Problem& problem : read.problems.list()) tell(problem);
-  if (!read.cluster) return ExitCode::bad_input;
-  const ClusterConfig& cluster = *read.cluster;
+  const std::optional<ClusterConfig> read = load_cluster(options.config);
+  if (!read) return ExitCode::bad_input;
+  const ClusterConfig& cluster = *read;
   const auto host = std::find_if(
       cluster.hosts.begin(), cluster.hosts.end(),
       [&](const ClusterHost& h) { return options.host.empty() || h.name == options.host; });
@@ -145,19 +145,27 @@ int cluster_up(const ClusterOptions& options) {
 
 }  // namespace
 
-void add_cluster(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand("cluster", "Start the nodes of a cluster");
-  command->require_subcommand(1);
-  auto options = std::make_shared<ClusterOptions>();
-  CLI::App* up = command->add_subcommand("up", "Start all nodes that belong on this machine");
-  up->footer(
-      "Starts a process of `luxodus node` for each process of the file's host, and waits. The "
-      "controller's\nprocess decides how it ends: all stop when that fails or Ctrl-C is pressed; a "
-      "worker that\nfails is told of, and the run goes on without it.\n"
-      "  luxodus cluster up actors/cli/examples/one_host.toml");
-  up->add_option("config", options->config, "the cluster's file")->required();
-  up->add_option("--host", options->host, "which of the file's hosts this is [the only one]");
-  up->callback([options, &exit_code] { exit_code = cluster_up(*options); });
+Command cluster_command() {
+  const auto o = std::make_shared<ClusterOptions>();
+  Command up{
+      .name = "up",
+      .summary = "Start all nodes that belong on this machine",
+      .options = {{"config", &o->config, "Cluster file", {.form = Form::file, .required = true}},
+                  {"--host",
+                   &o->host,
+                   "Name of this machine among the hosts of the file",
+                   {.form = Form::name, .otherwise = "the only host"}}},
+      .notes =
+          "Starts a process of `luxodus node` for each process of the file's host, and "
+          "waits. The controller's process decides how it ends: all stop when that "
+          "fails or Ctrl-C is pressed; a worker that fails is reported, and the run "
+          "goes on without it.\n"
+          "  luxodus cluster up actors/cli/examples/one_host.toml",
+      .run = [o] { return cluster_up(*o); }};
+  return {.name = "cluster",
+          .summary = "Start the nodes of a cluster",
+          .heading = "Cluster",
+          .commands = {std::move(up)}};
 }
 
 }  // namespace luxodus::cli

@@ -1,16 +1,21 @@
 // luxodus converge: how the error falls with particles and with seconds.
-#include <spdlog/spdlog.h>
-
 #include <cmath>
 #include <filesystem>
 #include <limits>
 
 #include "actors/cli/command.hpp"
+#include "actors/cli/commands.hpp"
+#include "actors/cli/load_scene.hpp"
+#include "actors/cli/progress_line.hpp"
+#include "actors/cli/quantities.hpp"
+#include "actors/cli/signals.hpp"
 #include "actors/output/csv.hpp"
 #include "actors/output/file_names.hpp"
 #include "actors/output/json_out.hpp"
 #include "actors/output/output_folder.hpp"
 #include "actors/output/svg_plot.hpp"
+#include "actors/run/local_run.hpp"
+#include "runtime/core/log.hpp"
 #include "scenes/transport/compile.hpp"
 
 namespace luxodus::cli {
@@ -177,39 +182,50 @@ Result<ExitCode> converge(const ConvergeOptions& options) {
     print_points(course.points, options.json, folder);
   }
   if (!course.interrupted) return ExitCode::success;
-  spdlog::warn(enough ? "interrupted; the points measured until then were written"
-                      : "interrupted before there were two points; nothing was written");
+  log_warning(enough ? "interrupted; the points measured until then were written"
+                     : "interrupted before there were two points; nothing was written");
   return ExitCode::interrupted;
 }
 
 }  // namespace
 
-void add_converge(CLI::App& app, int& exit_code) {
-  auto options = std::make_shared<ConvergeOptions>();
-  CLI::App* command = app.add_subcommand(
-      "converge", "Error against particles and seconds: table, CSV, plots, slope");
-  command->footer(
-      "Doubles the particles of one run until --particles, and writes down the error that `run` "
-      "stops at.\n"
-      "The slope is -0.5 for Monte Carlo: half the error costs four times the particles. The "
-      "merit\n"
-      "1 / (error^2 x seconds) stays level and compares machines and methods.");
-  command->add_option("scene", options->scene, "scene file (TOML)")->required();
-  command->add_option("--scenario", options->scenario, "name of a scenario [the first]");
-  command->add_option("--particles", options->particles, "where to end [8M]");
-  command->add_option("--error-of", options->error_of,
-                      "what the error is of: as of luxodus run [the scene's]");
-  command->add_option("--out", options->out,
-                      "folder for converge.csv and the plots [out/NAME_converge]");
-  command->add_option("--seed", options->seed, "of the random numbers [the scene's]")
-      ->transform(seed_number());
-  command->add_option("--threads", options->threads, "[all cores]")->check(CLI::Range(1, 1024));
-  command->add_flag("--json", options->json, "machine-readable");
-  command->callback([options, &exit_code] {
-    auto done = converge(*options);
-    if (!done.ok()) tell(done.problem());
-    exit_code = done.ok() ? done.value() : ExitCode::bad_input;
-  });
+Command converge_command() {
+  const auto o = std::make_shared<ConvergeOptions>();
+  return {.name = "converge",
+          .summary = "Measure how the error falls: table, CSV, plots, slope",
+          .heading = "Results",
+          .options = {{"scene", &o->scene, "Scene file", {.form = Form::scene, .required = true}},
+                      {"--scenario",
+                       &o->scenario,
+                       "Name of a scenario",
+                       {.form = Form::name, .otherwise = "the first"}},
+                      {"--particles",
+                       &o->particles,
+                       "Number of particles of the last point",
+                       {.form = Form::count}},
+                      {"--error-of",
+                       &o->error_of,
+                       "Quantities whose error is measured, as of luxodus run",
+                       {.otherwise = "those of the scene"}},
+                      {"--out",
+                       &o->out,
+                       "Folder for converge.csv and the plots",
+                       {.form = Form::folder, .otherwise = "out/NAME_converge"}},
+                      {"--seed",
+                       &o->seed,
+                       "Seed of the random number generator",
+                       {.otherwise = "the scene's"}},
+                      {"--threads",
+                       &o->threads,
+                       "Number of threads",
+                       {.otherwise = "all cores", .range = Range{1, 1024}}},
+                      {"--json", &o->json, "Output as JSON"}},
+          .notes =
+              "Doubles the particles of one run until --particles, and records the error that "
+              "`luxodus run` stops at. The slope is -0.5 for Monte Carlo: half the error costs "
+              "four times the particles. The figure of merit 1 / (error^2 x seconds) stays level "
+              "and compares machines and methods.",
+          .run = [o] { return exit_code_of(converge(*o)); }};
 }
 
 }  // namespace luxodus::cli

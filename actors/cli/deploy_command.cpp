@@ -5,8 +5,9 @@
 #include <filesystem>
 
 #include "actors/cli/command.hpp"
+#include "actors/cli/commands.hpp"
+#include "actors/cli/load_cluster.hpp"
 #include "actors/supervise/deploy.hpp"
-#include "runtime/config/cluster_file.hpp"
 #include "runtime/core/atomic_file.hpp"
 #include "runtime/core/output_path.hpp"
 
@@ -53,14 +54,13 @@ bool is_user_name(const std::string& name) {
 }
 
 int deploy(const DeployChoice& choice) {
-  const ReadCluster read = read_cluster(choice.cluster);
-  for (const Problem& problem : read.problems.list()) tell(problem);
-  if (!read.cluster) return ExitCode::bad_input;
+  const std::optional<ClusterConfig> read = load_cluster(choice.cluster);
+  if (!read) return ExitCode::bad_input;
   if (!is_user_name(choice.user)) {
     tell({{}, fmt::format("\"{}\" is no user's name", choice.user)});
     return ExitCode::bad_input;
   }
-  ClusterConfig cluster = *read.cluster;
+  ClusterConfig cluster = *read;
   cluster.run.out = fs::absolute(cluster.run.out).lexically_normal();
   const fs::path program =
       choice.program.empty() ? fs::read_symlink("/proc/self/exe") : fs::absolute(choice.program);
@@ -83,25 +83,31 @@ int deploy(const DeployChoice& choice) {
 
 }  // namespace
 
-void add_deploy(CLI::App& app, int& exit_code) {
-  CLI::App* command =
-      app.add_subcommand("deploy", "Write what starts, watches and stops a cluster's processes");
-  const auto choice = std::make_shared<DeployChoice>();
+Command deploy_command() {
+  const auto o = std::make_shared<DeployChoice>();
   std::vector<std::string> names;
   for (const Means& means : all_means) names.emplace_back(means.name);
-  command->add_option("cluster", choice->cluster, "cluster (TOML)")->required();
-  command->add_option("--for", choice->means, "by which means")
-      ->required()
-      ->check(CLI::IsMember(names));
-  command->add_option("--out", choice->out, "folder for the files [deploy]");
-  command->add_option("--program", choice->program, "luxodus on the hosts [this program's path]");
-  command->add_option("--user", choice->user, "whom units of systemd run as [luxodus]");
-  command->footer(
-      "Program, cluster file, scene and keys must have the same paths on every host.\n"
-      "  luxodus deploy cluster.toml --for systemd --user lux\n"
-      "  luxodus deploy cluster.toml --for slurm && sbatch deploy/RUN.sbatch\n"
-      "  luxodus deploy cluster.toml --for ssh && deploy/RUN.sh");
-  command->callback([choice, &exit_code] { exit_code = deploy(*choice); });
+  return {
+      .name = "deploy",
+      .summary = "Write what starts, watches and stops the processes of a cluster",
+      .heading = "Cluster",
+      .options = {{"cluster", &o->cluster, "Cluster file", {.form = Form::file, .required = true}},
+                  {"--for",
+                   &o->means,
+                   "Means by which processes are started",
+                   {.choices = names, .required = true}},
+                  {"--out", &o->out, "Folder for the files", {.form = Form::folder}},
+                  {"--program",
+                   &o->program,
+                   "Path of luxodus on the hosts",
+                   {.form = Form::file, .otherwise = "the path of this program"}},
+                  {"--user", &o->user, "User whom units of systemd run as", {.form = Form::name}}},
+      .notes =
+          "Program, cluster file, scene and keys must have the same paths on every host.\n"
+          "  luxodus deploy cluster.toml --for systemd --user lux\n"
+          "  luxodus deploy cluster.toml --for slurm && sbatch deploy/RUN.sbatch\n"
+          "  luxodus deploy cluster.toml --for ssh && deploy/RUN.sh",
+      .run = [o] { return deploy(*o); }};
 }
 
 }  // namespace luxodus::cli

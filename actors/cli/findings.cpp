@@ -42,7 +42,7 @@ Json findings_json(const std::vector<Finding>& findings) {
 bool passes_inspection(const std::shared_ptr<const SceneDescription>& scene,
                        const std::vector<Scenario>& scenarios, int threads) {
   const auto found = inspect(scene, scenarios, threads);
-  if (!found.ok()) {
+  if (!found) {
     tell(found.problem());
     return false;
   }

@@ -1,6 +1,6 @@
 #include "actors/cli/finished_run.hpp"
 
-#include "runtime/core/atomic_file.hpp"
+#include "runtime/core/regular_file.hpp"
 
 namespace luxodus::cli {
 
@@ -27,7 +27,7 @@ std::optional<double> seconds_in(const Json& result) {
 Result<Json> read_json_file(const fs::path& file) {
   constexpr uint64_t most_bytes = uint64_t{1} << 30;
   auto bytes = read_whole_file(file, most_bytes);
-  if (!bytes.ok()) return bytes.problem();
+  if (!bytes) return bytes.problem();
   const auto* text = reinterpret_cast<const char*>(bytes->data());
   return Json::parse(text, text + bytes->size(), nullptr, false);
 }
@@ -37,19 +37,19 @@ Result<FinishedRun> read_finished_run(const fs::path& folder) {
   std::error_code ignored;
   if (!fs::exists(file, ignored)) {
     const bool assessed = fs::exists(folder / "assessment.json", ignored);
-    return Problem{{folder.string(), 0},
-                   assessed ? "this is the folder of an assessment, not of a run: give the folder "
-                              "that luxodus run has written"
-                            : "there is no result.json here: give the folder that luxodus run has "
-                              "written"};
+    return problem_in(
+        folder, assessed ? "this is the folder of an assessment, not of a run: give the folder "
+                           "that luxodus run has written"
+                         : "there is no result.json here: give the folder that luxodus run has "
+                           "written");
   }
   const auto read = read_json_file(file);
-  if (!read.ok()) return read.problem();
+  if (!read) return read.problem();
   const Json& json = read.value();
   if (!has_text(json, "scene_file") || !has_text(json, "scenario") ||
       !json.value("seed", Json()).is_number_unsigned() ||
       !json.value("cells", Json()).is_number_integer()) {
-    return Problem{{file.string(), 0}, "this is no result of a run: run the scene again"};
+    return problem_in(file, "this is no result of a run: run the scene again");
   }
   FinishedRun out{json["scene_file"], json["scenario"], json["seed"], json["cells"], {}, {}, 0, {}};
   if (json.value("batches", Json()).is_number_integer()) out.batches = json["batches"];
@@ -61,8 +61,7 @@ Result<FinishedRun> read_finished_run(const fs::path& folder) {
     if (!group.is_object() || !group.contains("batch_share")) continue;
     const Json& share = group["batch_share"];
     if (!share.is_number() || !(share > 0.0 && share <= 1.0))
-      return Problem{{file.string(), 0},
-                     "a batch_share is not between 0 and 1: run the scene again"};
+      return problem_in(file, "a batch_share is not between 0 and 1: run the scene again");
     out.batch_shares.push_back(share);
   }
   return out;
@@ -73,14 +72,14 @@ Result<SceneState> scene_of_folder(const fs::path& folder) {
   const fs::path assessed = folder / "assessment.json";
   if (!fs::exists(folder / "result.json", ignored) && fs::exists(assessed, ignored)) {
     const auto read = read_json_file(assessed);
-    if (!read.ok()) return read.problem();
+    if (!read) return read.problem();
     const Json scene = read->is_object() ? read->value("scene", Json()) : Json();
     if (!has_text(scene, "file") || !has_text(scene, "scenario"))
-      return Problem{{assessed.string(), 0}, "this is no assessment: assess the scene again"};
+      return problem_in(assessed, "this is no assessment: assess the scene again");
     return SceneState{scene["file"], scene["scenario"]};
   }
   const auto run = read_finished_run(folder);
-  if (!run.ok()) return run.problem();
+  if (!run) return run.problem();
   return SceneState{run->scene_file, run->scenario};
 }
 

@@ -60,7 +60,7 @@ std::vector<double> floor_heights(const CompiledScene& scene) {
       levels[std::llround(z * 1000)].add(t);
     }
   });
-  if (!read.ok()) tell(read.problem());
+  if (!read) tell(read.problem());
   double most = 0;
   for (const auto& [z, level] : levels) most = std::max(most, level.area_m2);
   std::vector<double> out;

@@ -5,6 +5,8 @@
 #include <string>
 
 #include "actors/cli/command.hpp"
+#include "actors/cli/commands.hpp"
+#include "actors/cli/version.hpp"
 #include "actors/output/json_out.hpp"
 #include "scenes/intersect/embree_scene.hpp"
 
@@ -22,15 +24,16 @@ const char* instruction_set() {
 
 Json info() {
   Json packages = {{"Embree", EmbreeDevice::library_version()}};
-  std::istringstream built_with(LUX_PACKAGES);
+  std::istringstream built_with(build.packages);
   for (std::string line; std::getline(built_with, line);) {
     const size_t blank = line.rfind(' ');
     packages[line.substr(0, blank)] = line.substr(blank + 1);
   }
-  return {{"version", LUX_VERSION},
-          {"build", LUX_BUILD},
+  return {{"version", build.version},
+          {"commit", build.commit},
+          {"build", build.type},
           {"compiler", fmt::format("GCC {}", __VERSION__)},
-          {"built_for", LUX_BUILT_FOR},
+          {"built_for", build.built_for},
           {"this_processor", instruction_set()},
           {"embree_instruction_sets", EmbreeDevice::instruction_sets()},
           {"threads", default_threads()},
@@ -51,19 +54,21 @@ void print(const Json& j, int indent) {
 
 }  // namespace
 
-void add_info(CLI::App& app, int& exit_code) {
-  auto json = std::make_shared<bool>(false);
-  CLI::App* command = app.add_subcommand("info", "Version, build, packages, instruction set");
-  command->footer("Compare flux files bit for bit between machines whose instruction sets agree.");
-  command->add_flag("--json", *json, "machine-readable");
-  command->callback([json, &exit_code] {
-    const Json j = info();
-    if (*json)
-      std::fputs(json_text(j).c_str(), stdout);
-    else
-      print(j, 0);
-    exit_code = ExitCode::success;
-  });
+Command info_command() {
+  const auto json = std::make_shared<bool>(false);
+  return {.name = "info",
+          .summary = "Show version, commit, build, packages, instruction set",
+          .heading = "Tools",
+          .options = {{"--json", json.get(), "Output as JSON"}},
+          .notes = "Flux files agree bit for bit between machines whose instruction sets agree.",
+          .run = [json] {
+            const Json j = info();
+            if (*json)
+              std::fputs(json_text(j).c_str(), stdout);
+            else
+              print(j, 0);
+            return ExitCode::success;
+          }};
 }
 
 }  // namespace luxodus::cli

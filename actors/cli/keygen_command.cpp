@@ -4,7 +4,8 @@
 #include <filesystem>
 
 #include "actors/cli/command.hpp"
-#include "runtime/config/cluster_file.hpp"
+#include "actors/cli/commands.hpp"
+#include "actors/cli/load_cluster.hpp"
 #include "runtime/net/keys.hpp"
 
 namespace luxodus::cli {
@@ -23,16 +24,15 @@ struct KeygenOptions {
 /// Takes names and folder from the cluster's file, where one is given. False: it was told why not.
 bool take_cluster(KeygenOptions& options) {
   if (options.cluster.empty()) return true;
-  const ReadCluster read = read_cluster(options.cluster);
-  for (const Problem& problem : read.problems.list()) tell(problem);
-  if (!read.cluster) return false;
-  if (options.out.empty()) options.out = read.cluster->keys.folder.string();
+  const std::optional<ClusterConfig> read = load_cluster(options.cluster);
+  if (!read) return false;
+  if (options.out.empty()) options.out = read->keys.folder.string();
   if (options.names.empty()) {
-    for (const ClusterNode& node : read.cluster->nodes) options.names.push_back(node.name);
+    for (const ClusterNode& node : read->nodes) options.names.push_back(node.name);
     return true;
   }
   for (const std::string& name : options.names) {
-    if (find_node(*read.cluster, name)) continue;
+    if (find_node(*read, name)) continue;
     tell({{options.cluster, 0}, fmt::format("there is no node \"{}\"", name)});
     return false;
   }
@@ -98,19 +98,30 @@ int keygen(KeygenOptions options) {
 
 }  // namespace
 
-void add_keygen(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand("keygen", "Make key pairs for the nodes of a cluster");
-  const auto options = std::make_shared<KeygenOptions>();
-  command->add_option("names", options->names, "nodes [all of the cluster]");
-  command->add_option("--cluster", options->cluster, "cluster (TOML) whose nodes need keys");
-  command->add_option("--out", options->out, "folder for them [the cluster's keys.folder]");
-  command->add_flag("--force", options->force, "replace keys that are there");
-  command->footer(
-      "Writes NAME.key, which only its owner may read and only its node needs, and NAME.key.pub,\n"
-      "which all nodes need; prints the public keys.\n"
-      "  luxodus keygen --cluster cluster.toml\n"
-      "  luxodus keygen --out keys n0 n1 controller");
-  command->callback([options, &exit_code] { exit_code = keygen(*options); });
+Command keygen_command() {
+  const auto o = std::make_shared<KeygenOptions>();
+  return {.name = "keygen",
+          .summary = "Make key pairs for the nodes of a cluster",
+          .heading = "Cluster",
+          .options = {{"names",
+                       &o->names,
+                       "Names of nodes",
+                       {.form = Form::name, .otherwise = "all nodes of the cluster"}},
+                      {"--cluster",
+                       &o->cluster,
+                       "Cluster file whose nodes need keys",
+                       {.form = Form::file}},
+                      {"--out",
+                       &o->out,
+                       "Folder for the keys",
+                       {.form = Form::folder, .otherwise = "keys.folder of the cluster"}},
+                      {"--force", &o->force, "Replacement of keys that are there"}},
+          .notes =
+              "Writes NAME.key, which only its owner may read and only its node needs, and "
+              "NAME.key.pub, which all nodes need; prints the public keys.\n"
+              "  luxodus keygen --cluster cluster.toml\n"
+              "  luxodus keygen --out keys n0 n1 controller",
+          .run = [o] { return keygen(*o); }};
 }
 
 }  // namespace luxodus::cli

@@ -7,7 +7,12 @@
 #include <filesystem>
 
 #include "actors/cli/command.hpp"
+#include "actors/cli/commands.hpp"
+#include "actors/cli/load_cluster.hpp"
+#include "actors/cli/progress_line.hpp"
+#include "actors/cli/report_aloud.hpp"
 #include "actors/cli/serve_view.hpp"
+#include "actors/cli/signals.hpp"
 #include "actors/display/pictures.hpp"
 #include "actors/display/report.hpp"
 #include "actors/display/result_files.hpp"
@@ -17,7 +22,7 @@
 #include "actors/supervise/cluster_process.hpp"
 #include "actors/view/live_cluster.hpp"
 #include "actors/view/live_worker.hpp"
-#include "runtime/config/cluster_file.hpp"
+#include "runtime/core/log.hpp"
 
 namespace luxodus::cli {
 
@@ -38,8 +43,8 @@ Result<void> save_patiently(const fs::path& file, const LocalRun& run) {
   for (int i = 1;; ++i) {
     auto saved = save_flux(file, run);
     if (saved.ok() || i == tries || interrupt_flag()) return saved;
-    spdlog::error("{}: tried again in {} s; Ctrl-C ends without", saved.problem().text(),
-                  pause_ms / 1000);
+    log_error("{}: tried again in {} s; Ctrl-C ends without", saved.problem().text(),
+              pause_ms / 1000);
     ::poll(nullptr, 0, pause_ms);  // a signal ends it
   }
 }
@@ -125,10 +130,9 @@ Result<std::optional<StopReason>> view_on_nodes(const ClusterConfig& cluster,
 
 int run_nodes(const NodeOptions& options) {
   tell_the_time();
-  const ReadCluster read = read_cluster(options.config);
-  for (const Problem& problem : read.problems.list()) tell(problem);
-  if (!read.cluster) return ExitCode::bad_input;
-  const ClusterConfig& cluster = *read.cluster;
+  const std::optional<ClusterConfig> read = load_cluster(options.config);
+  if (!read) return ExitCode::bad_input;
+  const ClusterConfig& cluster = *read;
   spdlog::set_level(spdlog::level::from_str(cluster.observe.log_level));
   std::vector<NodeId> nodes;
   for (const std::string& name : options.names) {
@@ -168,7 +172,7 @@ int run_nodes(const NodeOptions& options) {
     tell(ended.problem());
     return ExitCode::failure;
   }
-  for (const std::string& text : process.value()->residency_lines()) spdlog::info("{}", text);
+  for (const std::string& text : process.value()->residency_lines()) log_info("{}", text);
   if (!ended.value()) return ExitCode::success;
   if (auto ok = write_results(cluster, *process.value(), out.value()->path(), *ended.value());
       !ok.ok()) {
@@ -185,7 +189,7 @@ int run_nodes(const NodeOptions& options) {
     const LocalRun& run = process.value()->local_run();
     const auto lost = static_cast<int64_t>(run.missing().size());
     tell({{options.config, 0},
-          fmt::format("{} particles are lost: {} batches need objects of the scene that no node "
+          fmt::format("{} particles are lost: {} batches need scene parts that no node "
                       "who is left has, and the results, which were written, lean away from what "
                       "these would have met; start anew with nodes that store the scene, or go on "
                       "with luxodus run --resume",
@@ -197,20 +201,25 @@ int run_nodes(const NodeOptions& options) {
 
 }  // namespace
 
-void add_node(CLI::App& app, int& exit_code) {
-  auto options = std::make_shared<NodeOptions>();
-  CLI::App* command = app.add_subcommand("node", "Run nodes of a cluster on this machine");
-  command->footer(
-      "One call for each process of the cluster, in any order, on any machine; all wait for each "
-      "other.\n"
-      "  luxodus node --config cluster.toml --name n3\n"
-      "  luxodus node --config cluster.toml --name n0 --name n1     two that share a process\n"
-      "The process of the controller writes the results. `luxodus cluster up` starts all that\n"
-      "belong to this machine, `luxodus deploy` writes what starts them on many.");
-  command->add_option("--config", options->config, "the cluster's file")->required();
-  command->add_option("--name", options->names, "a node of the process; may be repeated")
-      ->required();
-  command->callback([options, &exit_code] { exit_code = run_nodes(*options); });
+Command node_command() {
+  const auto o = std::make_shared<NodeOptions>();
+  return {
+      .name = "node",
+      .summary = "Run nodes of a cluster on this machine",
+      .heading = "Cluster",
+      .options = {{"--config", &o->config, "Cluster file", {.form = Form::file, .required = true}},
+                  {"--name",
+                   &o->names,
+                   "Name of a node of the process; may be repeated",
+                   {.form = Form::name, .required = true}}},
+      .notes =
+          "One call for each process of the cluster, in any order, on any machine; all wait "
+          "for each other.\n"
+          "  luxodus node --config cluster.toml --name n3\n"
+          "  luxodus node --config cluster.toml --name n0 --name n1     two in a process\n"
+          "The process of the controller writes the results. `luxodus cluster up` starts all "
+          "that belong to this machine, `luxodus deploy` writes what starts them on many.",
+      .run = [o] { return run_nodes(*o); }};
 }
 
 }  // namespace luxodus::cli

@@ -2,7 +2,12 @@
 #include <filesystem>
 
 #include "actors/cli/command.hpp"
+#include "actors/cli/commands.hpp"
 #include "actors/cli/findings.hpp"
+#include "actors/cli/load_scene.hpp"
+#include "actors/cli/progress_line.hpp"
+#include "actors/cli/quantities.hpp"
+#include "actors/cli/signals.hpp"
 #include "actors/output/file_names.hpp"
 #include "actors/output/json_out.hpp"
 #include "actors/output/output_folder.hpp"
@@ -33,27 +38,28 @@ int cells_for(uint64_t triangles, double cell_kib) {
 Result<PackReport> pack_scene(const PackOptions& options) {
   if (is_pack(options.scene)) {
     if (options.skeleton_only) return write_skeleton_pack(behind_links(options.out), options.scene);
-    return Problem{{options.scene, 0},
-                   "this is a pack already: pack the scene file, or add --skeleton-only"};
+    return problem_in(options.scene,
+                      "this is a pack already: pack the scene file, or add --skeleton-only");
   }
   if (options.skeleton_only) {
-    return Problem{{options.scene, 0},
-                   "--skeleton-only copies from a pack, so that both are of the same cells: pack "
-                   "the scene first"};
+    return problem_in(
+        options.scene,
+        "--skeleton-only copies from a pack, so that both are of the same cells: pack "
+        "the scene first");
   }
   const auto description = load_scene(options.scene);
-  if (!description) return Problem{{options.scene, 0}, "the scene has problems, told above"};
-  if (auto ok = check_output_file(options.out); !ok.ok()) return ok.problem();
+  if (!description) return problem_in(options.scene, "the scene has problems, told above");
+  if (auto ok = check_output_file(options.out); !ok) return ok.problem();
   auto scenario = find_scenario(*description, options.scenario);
-  if (!scenario.ok()) return scenario.problem();
+  if (!scenario) return scenario.problem();
   if (!passes_inspection(description, {scenario.value()}, default_threads()))
-    return Problem{{options.scene, 0}, "the scene has errors, told above"};
+    return problem_in(options.scene, "the scene has errors, told above");
   // Compiling tells how many triangles there are, and only then how many cells that makes.
   auto scene = compile_scene(description, scenario.value(), {});
-  if (!scene.ok()) return scene.problem();
+  if (!scene) return scene.problem();
   const int cells = cells_for(scene.value()->triangles, options.cell_kib);
   if (cells > 1) scene = compile_scene(description, scenario.value(), {cells});
-  if (!scene.ok()) return scene.problem();
+  if (!scene) return scene.problem();
   ProgressLine line("pack");
   install_interrupt_handler();
   return write_pack(behind_links(options.out), *scene.value(), cells, [&](double share) {
@@ -66,7 +72,7 @@ int pack(PackOptions options) {
   if (options.out.empty())
     options.out = file_name_of(fs::path(options.scene).stem().string()) + ".luxpack";
   const auto report = pack_scene(options);
-  if (!report.ok()) {
+  if (!report) {
     tell(report.problem());
     return interrupt_flag() ? ExitCode::interrupted : ExitCode::bad_input;
   }
@@ -96,34 +102,41 @@ int pack(PackOptions options) {
 
 }  // namespace
 
-void add_pack(CLI::App& app, int& exit_code) {
-  auto options = std::make_shared<PackOptions>();
-  CLI::App* command = app.add_subcommand(
-      "pack", "Write a scene as one file of data objects that many machines can share");
-  command->footer(
-      "Examples:\n"
-      "  luxodus pack scenes/library/office_floor.toml --scenario smoke_emergency --out f.luxpack\n"
-      "  luxodus run f.luxpack --nodes 2 --fibers 1024 --object-mib 64\n"
-      "  luxodus pack f.luxpack --skeleton-only --out f.skeleton.luxpack\n\n"
-      "Objects are geometry cells, bricks of smoke data (16^3 cells) and tiles of pictures (64^2 "
-      "texels).\n"
-      "Every command that takes a scene takes a pack. It is read by the pages that are looked at, "
-      "so a\n"
-      "scene may be larger than a machine's memory. All scenarios that leave the doors as the "
-      "packed one\n"
-      "does can be run from it. Machines that get all objects from others need the skeleton only.");
-  command->add_option("scene", options->scene, "scene file (TOML), or a pack with --skeleton-only")
-      ->required();
-  command->add_option("--out", options->out, "the file to write [NAME.luxpack]");
-  command->add_option("--scenario", options->scenario,
-                      "whose doors count: name of a scenario [the first]");
-  command
-      ->add_option("--cell-kib", options->cell_kib,
-                   "size of a geometry cell; built it takes three times as much [1024]")
-      ->check(CLI::Range(1.0, 65536.0));
-  command->add_flag("--skeleton-only", options->skeleton_only, "leave the objects out");
-  command->add_flag("--json", options->json, "machine-readable");
-  command->callback([options, &exit_code] { exit_code = pack(*options); });
+Command pack_command() {
+  const auto o = std::make_shared<PackOptions>();
+  return {
+      .name = "pack",
+      .summary = "Write a scene as one file of scene parts, which many machines can share",
+      .heading = "Scenes",
+      .options = {{"scene",
+                   &o->scene,
+                   "Scene file, or a pack with --skeleton-only",
+                   {.form = Form::scene, .required = true}},
+                  {"--out",
+                   &o->out,
+                   "File of the pack",
+                   {.form = Form::file, .otherwise = "NAME.luxpack"}},
+                  {"--scenario",
+                   &o->scenario,
+                   "Name of the scenario whose doors count",
+                   {.form = Form::name, .otherwise = "the first"}},
+                  {"--cell-kib",
+                   &o->cell_kib,
+                   "Largest size of a geometry cell [KiB]; built it takes three times as much",
+                   {.range = Range{1, 65536}}},
+                  {"--skeleton-only", &o->skeleton_only, "Pack without its scene parts"},
+                  {"--json", &o->json, "Output as JSON"}},
+      .notes =
+          "  luxodus pack scenes/library/office_floor.toml --scenario smoke_emergency \\\n"
+          "    --out f.luxpack\n"
+          "  luxodus run f.luxpack --nodes 2 --fibers 1024 --part-cache-mib 64\n"
+          "  luxodus pack f.luxpack --skeleton-only --out f.skeleton.luxpack\n"
+          "Scene parts are geometry cells, bricks of smoke data (16^3 cells) and tiles of pictures "
+          "(64^2 texels). Every command that takes a scene takes a pack. Only the pages that are "
+          "needed are read, so a scene may be larger than a machine's memory. All scenarios that "
+          "leave the doors as the packed one does can be run from it. Machines that get all scene "
+          "parts from others need the skeleton only.",
+      .run = [o] { return pack(*o); }};
 }
 
 }  // namespace luxodus::cli

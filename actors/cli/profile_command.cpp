@@ -2,9 +2,11 @@
 #include <filesystem>
 
 #include "actors/cli/command.hpp"
+#include "actors/cli/commands.hpp"
+#include "actors/cli/load_cluster.hpp"
+#include "actors/cli/quantities.hpp"
 #include "actors/objects/profile_file.hpp"
 #include "actors/supervise/cluster_process.hpp"
-#include "runtime/config/cluster_file.hpp"
 
 namespace luxodus::cli {
 
@@ -17,10 +19,9 @@ struct ProfileOptions {
 };
 
 int make_profile(const ProfileOptions& options) {
-  ReadCluster read = read_cluster(options.config);
-  for (const Problem& problem : read.problems.list()) tell(problem);
-  if (!read.cluster) return ExitCode::bad_input;
-  ClusterConfig& cluster = *read.cluster;
+  std::optional<ClusterConfig> read = load_cluster(options.config);
+  if (!read) return ExitCode::bad_input;
+  ClusterConfig& cluster = *read;
   const std::filesystem::path out =
       options.out.empty() ? cluster.run.profile : std::filesystem::path(options.out);
   if (out.empty()) {
@@ -50,27 +51,36 @@ int make_profile(const ProfileOptions& options) {
   }
   int64_t particles = 0;
   for (const ReferenceCounts& group : profile.value().groups) particles += group.units;
-  std::printf("%zu objects, %zu source groups, %lld particles: %s\n", profile.value().objects(),
+  std::printf("%zu scene parts, %zu source groups, %lld particles: %s\n", profile.value().objects(),
               profile.value().groups.size(), static_cast<long long>(particles), out.c_str());
   return ExitCode::success;
 }
 
 }  // namespace
 
-void add_profile(CLI::App& app, int& exit_code) {
-  auto options = std::make_shared<ProfileOptions>();
-  CLI::App* command =
-      app.add_subcommand("profile", "Count which parts of a scene a cluster's nodes will ask for");
-  command->footer(
-      "For a scene that is larger than a node's budget. With profile = \"FILE\" in the cluster's\n"
-      "[run], all nodes read that file and plan alike: who traces which source groups, who holds\n"
-      "and who keeps which objects. Results are the same bits with and without.\n"
-      "  luxodus profile cluster.toml\n"
-      "  luxodus profile cluster.toml --share 5% --out cluster.profile");
-  command->add_option("cluster", options->config, "the cluster's file")->required();
-  command->add_option("-o,--out", options->out, "where to write it [profile of [run]]");
-  command->add_option("--share", options->share, "of the run's particles, to count with [1%]");
-  command->callback([options, &exit_code] { exit_code = make_profile(*options); });
+Command profile_command() {
+  const auto o = std::make_shared<ProfileOptions>();
+  return {
+      .name = "profile",
+      .summary = "Count which parts of a scene the nodes of a cluster will need",
+      .heading = "Cluster",
+      .options = {{"cluster", &o->config, "Cluster file", {.form = Form::file, .required = true}},
+                  {"-o,--out",
+                   &o->out,
+                   "File of the profile",
+                   {.form = Form::file, .otherwise = "profile of [run]"}},
+                  {"--share",
+                   &o->share,
+                   "Share of the run's particles to count with",
+                   {.form = Form::share}}},
+      .notes =
+          "For a scene that is larger than a node's budget. With profile = \"FILE\" in the "
+          "cluster's [run], all nodes read that file and plan alike: which node traces which "
+          "source groups, holds which scene parts, and keeps which. Results are the same bits "
+          "with and without.\n"
+          "  luxodus profile cluster.toml\n"
+          "  luxodus profile cluster.toml --share 5% --out cluster.profile",
+      .run = [o] { return make_profile(*o); }};
 }
 
 }  // namespace luxodus::cli

@@ -1,14 +1,17 @@
 // luxodus render: pictures from a finished run, without tracing particles again.
-#include <spdlog/spdlog.h>
-
 #include <filesystem>
 
 #include "actors/cli/command.hpp"
+#include "actors/cli/commands.hpp"
 #include "actors/cli/findings.hpp"
 #include "actors/cli/finished_run.hpp"
+#include "actors/cli/load_scene.hpp"
+#include "actors/cli/progress_line.hpp"
+#include "actors/cli/signals.hpp"
 #include "actors/display/pictures.hpp"
 #include "actors/display/result_files.hpp"
 #include "actors/run/flux_store.hpp"
+#include "runtime/core/log.hpp"
 #include "scenes/transport/compile.hpp"
 
 namespace luxodus::cli {
@@ -59,31 +62,39 @@ Result<ExitCode> render(const RenderOptions& options) {
                                   [&](double share) { line.show_share(share); });
   if (!drawn.ok()) return drawn.problem();
   if (!interrupt_flag()) return ExitCode::success;
-  spdlog::warn("interrupted; the pictures that were whole are there");
+  log_warning("interrupted; the pictures that were whole are there");
   return ExitCode::interrupted;
 }
 
 }  // namespace
 
-void add_render(CLI::App& app, int& exit_code) {
-  auto options = std::make_shared<RenderOptions>();
-  CLI::App* command =
-      app.add_subcommand("render", "Make pictures from a finished run, without tracing it again");
-  command->footer(
-      "Reads DIR/result.json, DIR/flux.lux and the scene file; refuses if the scene has changed.");
-  command->add_option("dir", options->folder, "folder of a finished run")->required();
-  command->add_option("--view", options->view, "name of one camera [all]");
-  command->add_option("--paths", options->paths, "paths per pixel [32]")
-      ->check(CLI::Range(1, 100'000));
-  command->add_flag("--full-paths", options->full_paths,
-                    "trace every path to its end instead of ending in the run's flux: slower and\n"
-                    "noisier, free of the patches' size");
-  command->add_option("--threads", options->threads, "[all cores]")->check(CLI::Range(1, 1024));
-  command->callback([options, &exit_code] {
-    const auto done = render(*options);
-    if (!done.ok()) tell(done.problem());
-    exit_code = done.ok() ? done.value() : ExitCode::bad_input;
-  });
+Command render_command() {
+  const auto o = std::make_shared<RenderOptions>();
+  return {
+      .name = "render",
+      .summary = "Make pictures from a finished run, without tracing it again",
+      .heading = "Results",
+      .options =
+          {{"dir",
+            &o->folder,
+            "Folder of a finished run",
+            {.form = Form::folder, .required = true}},
+           {"--view",
+            &o->view,
+            "Name of one camera",
+            {.form = Form::name, .otherwise = "all cameras"}},
+           {"--paths", &o->paths, "Number of paths per pixel", {.range = Range{1, 100'000}}},
+           {"--full-paths", &o->full_paths,
+            "Paths traced to their end instead of to the run's flux: slower and noisier, free of "
+            "the patches' size"},
+           {"--threads",
+            &o->threads,
+            "Number of threads",
+            {.otherwise = "all cores", .range = Range{1, 1024}}}},
+      .notes =
+          "Reads DIR/result.json, DIR/flux.lux and the scene file; refuses if the scene has "
+          "changed.",
+      .run = [o] { return exit_code_of(render(*o)); }};
 }
 
 }  // namespace luxodus::cli

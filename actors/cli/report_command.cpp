@@ -1,6 +1,7 @@
 // luxodus report: the report of an assessment, written again from its JSON.
 #include "actors/assess/assessment_json.hpp"
 #include "actors/cli/command.hpp"
+#include "actors/cli/commands.hpp"
 #include "actors/cli/report_options.hpp"
 
 namespace luxodus::cli {
@@ -17,14 +18,25 @@ ReportOptions ReportWords::options() const {
   return out;
 }
 
-void add_report_options(CLI::App& command, ReportWords& words) {
-  command.add_option("--language", words.language, "of the report: en, de, fr [en]")
-      ->check(CLI::IsMember({"en", "de", "fr"}));
-  command.add_option("--paper", words.paper, "of the report: a4, letter [a4]")
-      ->check(CLI::IsMember({"a4", "letter"}, CLI::ignore_case));
-  command.add_flag("--grid-values", words.grid_values,
-                   "write the illuminance at points of calculation on the plans");
-  command.add_flag("--pdf", words.pdf, "print report.pdf, too, by Chromium where one is installed");
+void add_report_options(Command& command, ReportWords& words) {
+  const std::vector<Option> options{
+      {"--language",
+       &words.language,
+       "Language of the report",
+       {.choices = {"en", "de", "fr"}, .group = "Report"}},
+      {"--paper",
+       &words.paper,
+       "Paper size of the report",
+       {.choices = {"a4", "letter"}, .group = "Report"}},
+      {"--grid-values",
+       &words.grid_values,
+       "Illuminance at the points of calculation, written on the plans",
+       {.group = "Report"}},
+      {"--pdf",
+       &words.pdf,
+       "Report as report.pdf, too, by Chromium where one is installed",
+       {.group = "Report"}}};
+  command.options.insert(command.options.end(), options.begin(), options.end());
 }
 
 Result<void> write_report_and_tell(const OutputFolder& folder, const Json& assessment,
@@ -51,25 +63,29 @@ Result<void> report_again(const std::string& folder, const ReportWords& words) {
 
 }  // namespace
 
-void add_report(CLI::App& app, int& exit_code) {
-  auto folder = std::make_shared<std::string>();
-  auto words = std::make_shared<ReportWords>();
-  CLI::App* command =
-      app.add_subcommand("report", "Write the report of an assessment again, with new pictures");
-  command->footer(
-      "Writes report.html, plans/ (SVG, DXF) and schedules/ (CSV) into FOLDER. Takes in the "
-      "pictures of\nFOLDER/views or FOLDER/run/views, as `luxodus run --out FOLDER/run` makes "
-      "them.\n"
-      "  luxodus report out/office --pdf --language de\n"
-      "  luxodus report out/office --pdf --paper letter --grid-values");
-  command->add_option("folder", *folder, "folder of luxodus assess")->required();
-  add_report_options(*command, *words);
-  command->callback([folder, words, &exit_code] {
-    const auto done = report_again(*folder, *words);
-    if (done.ok()) return;
-    tell(done.problem());
-    exit_code = ExitCode::bad_input;
-  });
+Command report_command() {
+  struct Asked {
+    std::string folder;
+    ReportWords words;
+  };
+  const auto o = std::make_shared<Asked>();
+  Command command{
+      .name = "report",
+      .summary = "Write the report of an assessment again, with new pictures",
+      .heading = "Assess",
+      .options = {{"folder",
+                   &o->folder,
+                   "Folder of an assessment",
+                   {.form = Form::folder, .required = true}}},
+      .notes =
+          "Writes report.html, plans/ (SVG, DXF) and schedules/ (CSV) into FOLDER. Takes in "
+          "the pictures of FOLDER/views or FOLDER/run/views, as `luxodus run --out "
+          "FOLDER/run` makes them.\n"
+          "  luxodus report out/office --pdf --language de\n"
+          "  luxodus report out/office --pdf --paper letter --grid-values",
+      .run = [o] { return exit_code_of(report_again(o->folder, o->words)); }};
+  add_report_options(command, o->words);
+  return command;
 }
 
 }  // namespace luxodus::cli

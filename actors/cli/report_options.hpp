@@ -1,10 +1,9 @@
 // Options of a report that `luxodus assess` and `luxodus report` have in common. For one thread.
 #pragma once
 
-#include <CLI/CLI.hpp>
-#include <memory>
 #include <string>
 
+#include "actors/cli/options.hpp"
 #include "actors/output/output_folder.hpp"
 #include "actors/report/report.hpp"
 
@@ -18,7 +17,7 @@ struct ReportWords {
 };
 
 /// --language, --paper, --grid-values, --pdf. Requires: `words` outlives the command.
-void add_report_options(CLI::App& command, ReportWords& words);
+void add_report_options(Command& command, ReportWords& words);
 
 /// Writes the report and says where it is. Errors: as write_report.
 Result<void> write_report_and_tell(const OutputFolder& folder, const Json& assessment,

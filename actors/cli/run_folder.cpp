@@ -1,15 +1,15 @@
 #include "actors/cli/run_folder.hpp"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <cmath>
 
-#include "actors/cli/command.hpp"
 #include "actors/cli/finished_run.hpp"
+#include "actors/cli/quantities.hpp"
 #include "actors/display/result_files.hpp"
 #include "actors/output/flux_file.hpp"
 #include "actors/output/json_out.hpp"
+#include "runtime/core/log.hpp"
 
 namespace luxodus::cli {
 
@@ -35,7 +35,7 @@ int64_t whole_or_zero(const Json& json, const char* key) {
 
 EarlierRun earlier_run(const fs::path& folder, const CompiledScene& scene) {
   const auto flux = read_flux_file(folder / "flux.lux");
-  if (!flux.ok()) return {};
+  if (!flux) return {};
   const Json head = Json::parse(flux->header_json, nullptr, false);
   if (!head.is_object()) return {};
   const bool same = head.value("scene_hash", Json()) == fmt::format("{:016x}", scene.scene_hash) &&
@@ -45,8 +45,7 @@ EarlierRun earlier_run(const fs::path& folder, const CompiledScene& scene) {
   EarlierRun run;
   run.particles =
       (whole_or_zero(head, "batches") - missing) * whole_or_zero(head, "batch_particles");
-  if (const auto read = read_json_file(folder / "result.json"); read.ok())
-    run.result = read.value();
+  if (const auto read = read_json_file(folder / "result.json"); read) run.result = read.value();
   return run;
 }
 
@@ -80,12 +79,14 @@ bool is_surely_as_long(const StopRule& stop, const EarlierRun& earlier, int64_t 
 Problem nothing_to_resume(const fs::path& folder) {
   std::error_code ignored;
   if (fs::exists(folder / "assessment.json", ignored))
-    return {{folder.string(), 0},
-            "this is the folder of an assessment, and there is no run in it to go on from: give "
-            "the folder of luxodus run, or leave out --resume"};
-  return {{folder.string(), 0},
-          "there is no flux.lux here to go on from: give the folder of a run, or leave out "
-          "--resume"};
+    return problem_in(
+        folder,
+        "this is the folder of an assessment, and there is no run in it to go on from: give "
+        "the folder of luxodus run, or leave out --resume");
+  return problem_in(
+      folder,
+      "there is no flux.lux here to go on from: give the folder of a run, or leave out "
+      "--resume");
 }
 
 uint64_t flux_bytes(const CompiledScene& scene) {
@@ -101,24 +102,24 @@ Result<RunFolder> claim_run_folder(const fs::path& folder, const CompiledScene& 
   if (options.resume && !fs::exists(folder / "flux.lux", ignored)) return nothing_to_resume(folder);
   const OutputPlan plan = run_output(*scene.description, options.views);
   auto output = OutputFolder::claim(folder, plan);
-  if (!output.ok()) return output.problem();
+  if (!output) return output.problem();
   RunFolder claimed{std::move(output).value()};
   claimed.goes_on = options.resume;
   if (!options.overwrite) {
-    if (auto ok = refuse_foreign_files(claimed.path(), plan); !ok.ok()) return ok.problem();
+    if (auto ok = refuse_foreign_files(claimed.path(), plan); !ok) return ok.problem();
   }
   if (!options.overwrite && !options.resume) {
     const EarlierRun earlier = earlier_run(claimed.path(), scene);
     if (earlier.particles > 0 && !is_surely_as_long(options.stop, earlier, scene.batch_particles))
-      return Problem{{folder.string(), 0},
-                     fmt::format("this folder holds a run of the same scene with {} particles, and "
-                                 "this one may end with fewer: add --resume to go on from it, "
-                                 "--overwrite to replace it, or give another --out",
-                                 short_number(static_cast<double>(earlier.particles)))};
+      return problem_in(
+          folder, fmt::format("this folder holds a run of the same scene with {} particles, and "
+                              "this one may end with fewer: add --resume to go on from it, "
+                              "--overwrite to replace it, or give another --out",
+                              short_number(static_cast<double>(earlier.particles))));
     claimed.keep_particles = earlier.particles;
   }
-  if (auto kept = claimed.room->take(claimed.path(), flux_bytes(scene)); !kept.ok())
-    spdlog::warn("{}", kept.problem().text());
+  if (auto kept = claimed.room->take(claimed.path(), flux_bytes(scene)); !kept)
+    log_warning("{}", kept.problem().text());
   return claimed;
 }
 

@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "actors/cli/command.hpp"
+#include "actors/cli/signals.hpp"
 #include "runtime/http/served_names.hpp"
 
 namespace luxodus::cli {
@@ -35,9 +35,9 @@ Result<void> can_save_in(const std::filesystem::path& folder) {
   std::string name = (folder / ".luxodus-view-XXXXXX").string();
   const int file = ::mkstemp(name.data());
   if (file < 0)
-    return Problem{{folder.string(), 0},
-                   std::string("variants cannot be saved in this folder: ") + std::strerror(errno) +
-                       "; make it, or name another (--save-folder)"};
+    return problem_in(folder, std::string("variants cannot be saved in this folder: ") +
+                                  std::strerror(errno) +
+                                  "; make it, or name another (--save-folder)");
   ::close(file);
   ::unlink(name.c_str());
   return {};
@@ -48,11 +48,11 @@ Result<void> can_save_in(const std::filesystem::path& folder) {
 Result<void> serve_view(std::shared_ptr<const SceneDescription> scene, HttpAddress server,
                         const HubOptions& options) {
   if (scene->packed)
-    return Problem{{scene->file, 0}, "a pack cannot be changed live: view its scene file"};
-  if (auto ok = can_save_in(options.save_folder); !ok.ok()) return ok.problem();
+    return problem_in(scene->file, "a pack cannot be changed live: view its scene file");
+  if (auto ok = can_save_in(options.save_folder); !ok) return ok.problem();
   if (!is_loopback(server.address)) server.token = new_token();
   auto listening = ViewServer::listen(server);
-  if (!listening.ok()) return listening.problem();
+  if (!listening) return listening.problem();
   ViewServer& serving = *listening.value();
   ViewHub hub(std::move(scene), options,
               [&](std::function<void()> function) { serving.post(std::move(function)); });

@@ -5,6 +5,11 @@
 #include <chrono>
 
 #include "actors/cli/command.hpp"
+#include "actors/cli/commands.hpp"
+#include "actors/cli/load_scene.hpp"
+#include "actors/cli/progress_line.hpp"
+#include "actors/cli/quantities.hpp"
+#include "actors/cli/signals.hpp"
 #include "actors/simulate/simulation.hpp"
 #include "runtime/config/cluster_file.hpp"
 #include "runtime/core/clock.hpp"
@@ -202,45 +207,51 @@ Result<ExitCode> simulate_seeds(const SimCommandOptions& options) {
 
 }  // namespace
 
-void add_sim(CLI::App& app, int& exit_code) {
-  auto options = std::make_shared<SimCommandOptions>();
-  CLI::App* command =
-      app.add_subcommand("sim", "Run a scene on simulated nodes, under faults drawn from a seed");
-  command->footer(
-      "All nodes run their real code in one thread, by virtual time, over links that delay, lose,\n"
-      "double, overtake and harm frames, between nodes that crash, pause and begin anew. After "
-      "every\n"
-      "event what must hold is checked; in the end the result must be the plain loop's, bit for "
-      "bit.\n"
-      "One seed, one run. A seed that fails prints the command that repeats it.\n"
-      "  luxodus sim scenes/library/empty_room.toml --seed 7\n"
-      "  luxodus sim scenes/library/empty_room.toml --seeds 0..10000");
-  command->add_option("scene", options->scene, "scene file (TOML)")->required();
-  command->add_option("--scenario", options->scenario, "name of a scenario [the first]");
-  command->add_option("--seed", options->seed, "of faults and nodes [0]")->transform(seed_number());
-  command->add_option("--seeds", options->seeds, "many: 0..200, the last not included");
-  command->add_option("--nodes", options->nodes, "workers [4]")->check(CLI::Range(1, 64));
-  command->add_option("--links", options->links, "of a node, at most [4]")
-      ->check(CLI::Range(1, 16));
-  command->add_option("--cells", options->cells, "parts of the geometry [16]")
-      ->check(CLI::Range(1, 100000));
-  command->add_option("--particles", options->particles, "to trace [4k]");
-  command->add_option("--batches", options->batches, "that they fall into [40]")
-      ->check(CLI::Range(1, 1000000));
-  command->add_option(
-      "--faults", options->faults,
-      "swarm: drawn from the seed; none; or a TOML file with a [faults] table [swarm]");
-  command->add_option("--faults-last", options->faults_last,
-                      "virtual time until all is healed [30s]");
-  command->add_option("--work", options->work,
-                      "virtual time that one worker alone would trace for [60s]");
-  command->add_flag("--twice", options->twice, "each seed twice: both runs must be the same");
-  command->add_flag("--log", options->log, "what the nodes log");
-  command->callback([options, &exit_code] {
-    auto done = simulate_seeds(*options);
-    if (!done.ok()) tell(done.problem());
-    exit_code = done.ok() ? done.value() : ExitCode::bad_input;
-  });
+Command sim_command() {
+  const auto o = std::make_shared<SimCommandOptions>();
+  return {
+      .name = "sim",
+      .summary = "Run a scene on simulated nodes, under faults drawn from a seed",
+      .heading = "Study",
+      .options =
+          {{"scene", &o->scene, "Scene file", {.form = Form::scene, .required = true}},
+           {"--scenario",
+            &o->scenario,
+            "Name of a scenario",
+            {.form = Form::name, .otherwise = "the first"}},
+           {"--seed", &o->seed, "Seed of faults and nodes"},
+           {"--seeds", &o->seeds, "Range of seeds, as 0..200; the last is not included"},
+           {"--nodes", &o->nodes, "Number of workers", {.range = Range{1, 64}}},
+           {"--links", &o->links, "Largest number of links of a node", {.range = Range{1, 16}}},
+           {"--cells", &o->cells, "Number of geometry cells", {.range = Range{1, 100000}}},
+           {"--particles", &o->particles, "Number of particles", {.form = Form::count}},
+           {"--batches",
+            &o->batches,
+            "Number of batches of these particles",
+            {.range = Range{1, 1000000}}},
+           {"--faults",
+            &o->faults,
+            "Faults: swarm (drawn from the seed), none, or a TOML file with a table [faults]",
+            {.form = Form::file}},
+           {"--faults-last",
+            &o->faults_last,
+            "Virtual time until all faults have ended",
+            {.form = Form::duration}},
+           {"--work",
+            &o->work,
+            "Virtual time that one worker alone would trace for",
+            {.form = Form::duration}},
+           {"--twice", &o->twice, "Two runs of each seed, which must be the same"},
+           {"--log", &o->log, "Log of the nodes"}},
+      .notes =
+          "All nodes run their real code in one thread, by virtual time, over links that delay, "
+          "lose, duplicate, reorder and corrupt frames, between nodes that crash, pause and start "
+          "again. Invariants are checked after every event; in the end the result must be the "
+          "plain loop's, bit for bit. Equal seeds give equal runs. A seed that fails prints the "
+          "command that repeats it.\n"
+          "  luxodus sim scenes/library/empty_room.toml --seed 7\n"
+          "  luxodus sim scenes/library/empty_room.toml --seeds 0..10000",
+      .run = [o] { return exit_code_of(simulate_seeds(*o)); }};
 }
 
 }  // namespace luxodus::cli

@@ -4,9 +4,12 @@
 #include <algorithm>
 
 #include "actors/cli/command.hpp"
+#include "actors/cli/commands.hpp"
+#include "actors/cli/quantities.hpp"
 #include "actors/output/json_out.hpp"
 #include "actors/supervise/cluster_status.hpp"
 #include "runtime/config/cluster_file.hpp"
+#include "runtime/core/log.hpp"
 
 namespace luxodus::cli {
 
@@ -42,14 +45,15 @@ Result<std::vector<AskedProcess>> processes_from(const StatusOptions& options) {
   std::vector<AskedProcess> asked;
   for (const std::string& text : options.urls) {
     auto url = parse_http_url(text);
-    if (!url.ok()) return url.problem();
+    if (!url) return url.problem();
     asked.push_back({fmt::format("{}:{}", url.value().host, url.value().port), url.value(), {}});
   }
   if (options.config.empty()) return asked;
   const ReadCluster read = read_cluster(options.config);
   if (!read.cluster) return read.problems.list().front();
+  for (const Problem& warning : read.warnings) log_warning("{}", warning.text());
   auto processes = processes_of(*read.cluster);
-  if (!processes.ok()) return processes.problem();
+  if (!processes) return processes.problem();
   for (AskedProcess& process : processes.value()) asked.push_back(std::move(process));
   return asked;
 }
@@ -57,8 +61,8 @@ Result<std::vector<AskedProcess>> processes_from(const StatusOptions& options) {
 int show_status(const StatusOptions& options) {
   const auto patience = parse_seconds(options.patience);
   const auto processes = processes_from(options);
-  if (!patience.ok() || !processes.ok()) {
-    tell(patience.ok() ? processes.problem() : patience.problem());
+  if (!patience || !processes) {
+    tell(patience ? processes.problem() : patience.problem());
     return ExitCode::bad_input;
   }
   if (processes.value().empty()) {
@@ -81,23 +85,27 @@ int show_status(const StatusOptions& options) {
 
 }  // namespace
 
-void add_status(CLI::App& app, int& exit_code) {
-  auto options = std::make_shared<StatusOptions>();
-  CLI::App* command = app.add_subcommand("status", "Show how the nodes of a running cluster are");
-  command->footer(
-      "Asks each process of the cluster for its numbers ([observe] metrics_port) and prints a line "
-      "per node.\n"
-      "  luxodus status cluster.toml\n"
-      "  luxodus status --url 127.0.0.1:9464     a run with --nodes and --metrics 9464\n"
-      "State: up; suspect: a neighbour hears nothing of it; starting; down: its process does not "
-      "answer.\n"
-      "Ends with 1 where any node is down.");
-  command->add_option("config", options->config, "the cluster's file");
-  command->add_option("--url", options->urls,
-                      "where a process serves its numbers, host:port; may be repeated");
-  command->add_option("--patience", options->patience, "with a process that does not answer [2s]");
-  command->add_flag("--json", options->json, "print an array of objects instead of a table");
-  command->callback([options, &exit_code] { exit_code = show_status(*options); });
+Command status_command() {
+  const auto o = std::make_shared<StatusOptions>();
+  return {.name = "status",
+          .summary = "Show how the nodes of a running cluster are",
+          .heading = "Cluster",
+          .options = {{"config", &o->config, "Cluster file", {.form = Form::file}},
+                      {"--url", &o->urls,
+                       "Address (HOST:PORT) where a process serves its metrics; may be repeated"},
+                      {"--patience",
+                       &o->patience,
+                       "Time to wait for a process that does not answer",
+                       {.form = Form::duration}},
+                      {"--json", &o->json, "Output as an array of objects instead of a table"}},
+          .notes =
+              "Asks each process of the cluster for its metrics ([observe] metrics_port) and "
+              "prints a line per node.\n"
+              "  luxodus status cluster.toml\n"
+              "  luxodus status --url 127.0.0.1:9464     a run with --nodes and --metrics 9464\n"
+              "State: up; suspect: a neighbour hears nothing of it; starting; down: its process "
+              "does not answer. Exit code 1 where any node is down.",
+          .run = [o] { return show_status(*o); }};
 }
 
 }  // namespace luxodus::cli

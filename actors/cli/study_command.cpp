@@ -7,12 +7,17 @@
 #include <tuple>
 
 #include "actors/cli/command.hpp"
+#include "actors/cli/commands.hpp"
+#include "actors/cli/load_scene.hpp"
+#include "actors/cli/progress_line.hpp"
+#include "actors/cli/signals.hpp"
 #include "actors/output/file_names.hpp"
 #include "actors/study/calibrate.hpp"
 #include "actors/study/report.hpp"
 #include "actors/study/runs.hpp"
 #include "actors/study/scenes.hpp"
 #include "runtime/core/clock.hpp"
+#include "runtime/core/log.hpp"
 
 namespace luxodus::cli {
 
@@ -48,6 +53,7 @@ void tell_all(const Problems& problems) {
 std::optional<Prepared> prepare(const std::string& file) {
   ReadStudy read = read_study(file);
   tell_all(read.problems);
+  for (const Problem& warning : read.warnings) log_warning("{}", warning.text());
   if (!read.study) return std::nullopt;
   Prepared prepared{std::move(*read.study), {}, nullptr};
   if (!prepared.study.costs.empty()) {
@@ -187,7 +193,7 @@ Result<ExitCode> study(const StudyCommandOptions& options) {
   const auto done = sweep.run();
   if (!done.ok()) return done.problem();
   if (interrupt_flag()) {
-    spdlog::warn("interrupted; nothing was written");
+    log_warning("interrupted; nothing was written");
     return ExitCode::interrupted;
   }
   if (auto ok = write_study(out->path(), sweep.outcome()); !ok.ok()) return ok.problem();
@@ -217,54 +223,55 @@ Result<void> write_costs(const CalibrateOptions& options) {
   return {};
 }
 
-void add_calibrate(CLI::App& app, int& exit_code) {
-  auto options = std::make_shared<CalibrateOptions>();
-  CLI::App* command =
-      app.add_subcommand("calibrate", "Measure on this machine what work costs, for simulations");
-  command->footer(
-      "Costs of tracing are those of a scene and its partition; the rest is the machine's. Leave\n"
-      "the machine alone meanwhile: a few seconds.");
-  command->add_option("scene", options->scene, "scene file (TOML)")->required();
-  command->add_option("--scenario", options->scenario, "name of a scenario [the first]");
-  command->add_option("--cells", options->cells, "parts of the geometry [64]")
-      ->check(CLI::Range(2, 100000));
-  command->add_option("--lease-particles", options->lease_particles, "of a batch [64]")
-      ->check(CLI::Range(1, 1000000));
-  command->add_flag("--whole-tally", options->whole_tally, "as a study's tally = \"scene\"");
-  command->add_option("--out", options->out, "file of costs [costs.toml]");
-  command->callback([options, &exit_code] {
-    const auto done = write_costs(*options);
-    if (!done.ok()) tell(done.problem());
-    exit_code = done.ok() ? ExitCode::success : ExitCode::bad_input;
-  });
+Command calibrate_command() {
+  const auto o = std::make_shared<CalibrateOptions>();
+  return {
+      .name = "calibrate",
+      .summary = "Measure on this machine what work costs, for simulations",
+      .options = {{"scene", &o->scene, "Scene file", {.form = Form::scene, .required = true}},
+                  {"--scenario",
+                   &o->scenario,
+                   "Name of a scenario",
+                   {.form = Form::name, .otherwise = "the first"}},
+                  {"--cells", &o->cells, "Number of geometry cells", {.range = Range{2, 100000}}},
+                  {"--lease-particles",
+                   &o->lease_particles,
+                   "Number of particles of a batch",
+                   {.range = Range{1, 1000000}}},
+                  {"--whole-tally", &o->whole_tally,
+                   "Bins as those of a study with tally = \"scene\""},
+                  {"--out", &o->out, "File of costs", {.form = Form::file}}},
+      .notes =
+          "Costs of tracing are those of a scene and its partition; the rest is the "
+          "machine's. Nothing else should run on the machine meanwhile: a few seconds.",
+      .run = [o] { return exit_code_of(write_costs(*o)); }};
 }
 
 }  // namespace
 
-void add_study(CLI::App& app, int& exit_code) {
-  auto options = std::make_shared<StudyCommandOptions>();
-  CLI::App* command = app.add_subcommand(
-      "study", "Vary graphs, delays, fibers, caches; write tables, plots and a page");
-  command->footer(
-      "A study is a TOML file: a scene, what is varied, what is drawn (keys: "
-      "actors/study/README.md).\n"
-      "Studies that ship, with what they found: tests/studies.\n"
-      "  luxodus study tests/studies/fibers.toml --out out/fibers");
-  add_calibrate(*command, exit_code);
-  command->add_option("file", options->file, "study file (TOML)");
-  command->add_option("--out", options->out, "folder of the results [out/NAME]");
-  command->add_flag("--log", options->log, "what the nodes log");
-  command->callback([command, options, &exit_code] {
-    if (!command->get_subcommands().empty()) return;
-    if (options->file.empty()) {
-      tell({{}, "say which study: luxodus study FILE.toml, or luxodus study calibrate SCENE"});
-      exit_code = ExitCode::bad_input;
-      return;
-    }
-    auto done = study(*options);
-    if (!done.ok()) tell(done.problem());
-    exit_code = done.ok() ? done.value() : ExitCode::bad_input;
-  });
+Command study_command() {
+  const auto o = std::make_shared<StudyCommandOptions>();
+  return {
+      .name = "study",
+      .summary = "Vary graphs, delays, fibers, caches; write tables, plots and a page",
+      .heading = "Study",
+      .options = {{"file", &o->file, "Study file", {.form = Form::file}},
+                  {"--out",
+                   &o->out,
+                   "Folder of the results",
+                   {.form = Form::folder, .otherwise = "out/NAME"}},
+                  {"--log", &o->log, "Log of the nodes"}},
+      .notes =
+          "A study is a TOML file: a scene, what is varied, what is drawn (its keys: "
+          "docs/reference/study-file.md). Studies that ship, with their findings: "
+          "tests/studies.\n"
+          "  luxodus study tests/studies/fibers.toml --out out/fibers",
+      .commands = {calibrate_command()},
+      .run = [o]() -> int {
+        if (!o->file.empty()) return exit_code_of(study(*o));
+        tell({{}, "say which study: luxodus study FILE.toml, or luxodus study calibrate SCENE"});
+        return ExitCode::bad_input;
+      }};
 }
 
 }  // namespace luxodus::cli

@@ -1,13 +1,17 @@
 // luxodus validate: every case with a known answer, and a verdict by a rule written down
 // beforehand.
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <cmath>
 
 #include "actors/cli/command.hpp"
+#include "actors/cli/commands.hpp"
+#include "actors/cli/progress_line.hpp"
+#include "actors/cli/quantities.hpp"
+#include "actors/cli/signals.hpp"
 #include "actors/output/output_folder.hpp"
 #include "actors/validate/report.hpp"
+#include "runtime/core/log.hpp"
 
 namespace luxodus::cli {
 
@@ -48,9 +52,8 @@ void tell_failures(const std::vector<light::CaseResult>& results, const light::V
     for (size_t k = 0; k < results[i].findings.size(); ++k) {
       const light::Finding& f = results[i].findings[k];
       if (verdict.judged[i][k].judgement != light::Judgement::failed) continue;
-      spdlog::error("{}: {}: {} +- {}, reference {}, z {:.2f}", results[i].name, f.quantity,
-                    f.estimate.value, f.estimate.standard_error, f.reference,
-                    verdict.judged[i][k].z);
+      log_error("{}: {}: {} +- {}, reference {}, z {:.2f}", results[i].name, f.quantity,
+                f.estimate.value, f.estimate.standard_error, f.reference, verdict.judged[i][k].z);
     }
   }
 }
@@ -113,44 +116,50 @@ Result<ExitCode> validate(const ValidateOptions& options) {
 
 }  // namespace
 
-void add_validate(CLI::App& app, int& exit_code) {
-  auto options = std::make_shared<ValidateOptions>();
-  CLI::App* command = app.add_subcommand(
-      "validate", "Compare the light with reference solutions: a page, a verdict");
-  command->footer(
-      "Cases are scenes whose light is known: closed forms, deterministic solvers, published "
-      "values.\n"
-      "Each is run at growing numbers of particles. The page shows every quantity with its "
-      "standard\n"
-      "error and distance z from the reference, how z is distributed, and how errors fall. Pass "
-      "or\n"
-      "fail follows from a rule that stands on the page and in actors/validate/README.md.\n"
-      "Exit code: 0 passed, 1 failed, 2 wrong options, 130 interrupted.\n"
-      "  luxodus validate                       quickly, some two minutes of one core\n"
-      "  luxodus validate --full                to 0.01 %; says how long it will take\n"
-      "  luxodus validate --full --error 0.1% --only \"cube\"\n"
-      "  luxodus validate --full --case-time 1m  at most a minute a case: says what that misses");
-  auto* quick = command->add_flag("--quick", options->quick, "as many particles as are quick [so]");
-  auto* full =
-      command->add_flag("--full", options->full, "particles until every quantity has the error")
-          ->excludes(quick);
-  command->add_option("--error", options->error,
-                      "relative standard error of --full, as 0.1% or 0.001 [0.01%]");
-  command
-      ->add_option("--case-time", options->case_time,
-                   "most time for a case of --full, as 20s or 5m [until it has the error]")
-      ->needs(full);
-  command->add_option("--only", options->only, "cases with this in their names [all]");
-  command->add_flag("--list", options->list, "names of the cases, and their references");
-  command->add_option("--out", options->out, "folder for validate.html and .json [out/validate]");
-  command->add_option("--seed", options->seed, "of the random numbers [1]")
-      ->transform(seed_number());
-  command->add_option("--threads", options->threads, "[all cores]")->check(CLI::Range(1, 1024));
-  command->callback([options, &exit_code] {
-    auto done = validate(*options);
-    if (!done.ok()) tell(done.problem());
-    exit_code = done.ok() ? done.value() : ExitCode::bad_input;
-  });
+Command validate_command() {
+  const auto o = std::make_shared<ValidateOptions>();
+  return {
+      .name = "validate",
+      .summary = "Compare the light with reference solutions: a page, a verdict",
+      .heading = "Tools",
+      .options =
+          {{"--quick", &o->quick, "As many particles as are quick: the default"},
+           {"--full",
+            &o->full,
+            "Particles until every quantity has the error",
+            {.excludes = "--quick"}},
+           {"--error",
+            &o->error,
+            "Relative standard error of --full, as 0.1% or 0.001",
+            {.form = Form::share}},
+           {"--case-time",
+            &o->case_time,
+            "Longest time for a case, as 20s or 5m",
+            {.form = Form::duration, .otherwise = "until it has the error", .needs = "--full"}},
+           {"--only",
+            &o->only,
+            "Part of the names of the cases to run",
+            {.form = Form::name, .otherwise = "all cases"}},
+           {"--list", &o->list, "Names of the cases, and their references"},
+           {"--out", &o->out, "Folder for validate.html and .json", {.form = Form::folder}},
+           {"--seed", &o->seed, "Seed of the random number generator"},
+           {"--threads",
+            &o->threads,
+            "Number of threads",
+            {.otherwise = "all cores", .range = Range{1, 1024}}}},
+      .notes =
+          "Cases are scenes whose light is known: closed forms, deterministic solvers, published "
+          "values. Each is run at growing numbers of particles. The page shows every quantity with "
+          "its standard error and distance z from the reference, how z is distributed, and how "
+          "errors fall. Pass or fail follows from a rule that stands on the page and in "
+          "docs/validation/rule.md.\n"
+          "Exit code: 0 passed, 1 failed, 2 wrong options, 130 interrupted.\n"
+          "  luxodus validate                        quickly, some two minutes of one core\n"
+          "  luxodus validate --full                 to 0.01 %; says how long it will take\n"
+          "  luxodus validate --full --error 0.1% --only \"cube\"\n"
+          "  luxodus validate --full --case-time 1m  at most a minute a case: says what that "
+          "misses",
+      .run = [o] { return exit_code_of(validate(*o)); }};
 }
 
 }  // namespace luxodus::cli

@@ -2,9 +2,13 @@
 #include <filesystem>
 
 #include "actors/cli/command.hpp"
+#include "actors/cli/commands.hpp"
 #include "actors/cli/findings.hpp"
 #include "actors/cli/finished_run.hpp"
+#include "actors/cli/load_scene.hpp"
+#include "actors/cli/quantities.hpp"
 #include "actors/cli/serve_view.hpp"
+#include "actors/cli/signals.hpp"
 #include "actors/view/live_nodes.hpp"
 #include "runtime/http/served_names.hpp"
 
@@ -61,52 +65,58 @@ Result<ExitCode> view(const ViewOptions& options) {
 
 }  // namespace
 
-void add_view(CLI::App& app, int& exit_code) {
-  auto options = std::make_shared<ViewOptions>();
-  options->live.threads = default_threads();
-  CLI::App* command = app.add_subcommand("view", "Walk through the building in a browser, live");
-  command->footer(
-      "Traces while you walk; dim, move, thicken, and see it at once. Beyond this machine\n"
-      "(--address) the page is served to those alone who have the token that is printed.\n"
-      "  luxodus view scenes/library/office_floor.toml\n"
-      "  luxodus view office.toml --address 0.0.0.0 --port 9000\n"
-      "A cluster traces for a view where its file has a table [view]: luxodus cluster up FILE.");
-  command
-      ->add_option("scene", options->scene,
-                   "scene file (TOML), or the folder of a run or assessment of one")
-      ->required();
-  command->add_option("--scenario", options->scenario,
-                      "state of the building [the first, or the folder's]");
-  command->add_option("--port", options->server.port, "port; 0: any that is free [8080]");
-  command->add_option("--address", options->server.address, "to listen on [127.0.0.1]");
-  command
-      ->add_option("--allow-host", options->server.allowed_hosts,
-                   "a name under which browsers may ask for the page, as behind a proxy; may be "
-                   "repeated [the address]")
-      ->check(CLI::Validator(allowed_host_fault, "NAME[:PORT]"));
-  command->add_option("--save-folder", options->save_folder, "where variants are saved [.]");
-  command
-      ->add_option("--particles", options->particles,
-                   "of each state of the building, at most [100M]")
-      ->check(CLI::Validator(
-          [](std::string& text) {
-            const auto count = parse_count(text);
-            return count.ok() && count.value() > 0 ? "" : "a count such as 500k or 10M is wanted";
-          },
-          "COUNT"));
-  command->add_option("--seed", options->live.seed, "of all random numbers [1]")
-      ->check(seed_number());
-  command->add_option("--threads", options->live.threads, "threads [all]")
-      ->check(CLI::Range(1, 1024));
-  command
-      ->add_option("--nodes", options->nodes,
-                   "nodes of this process that trace, as those of a cluster do [none: threads]")
-      ->check(CLI::Range(1, limits::nodes_in_process));
-  command->callback([options, &exit_code] {
-    const auto ended = view(*options);
-    if (!ended.ok()) tell(ended.problem());
-    exit_code = ended.ok() ? ended.value() : ExitCode::bad_input;
-  });
+Command view_command() {
+  const auto o = std::make_shared<ViewOptions>();
+  o->live.threads = default_threads();
+  return {.name = "view",
+          .summary = "Walk through the building in a browser, live",
+          .heading = "Live",
+          .options =
+              {{"scene",
+                &o->scene,
+                "Scene file, or the folder of a run or assessment of one",
+                {.form = Form::scene, .required = true}},
+               {"--scenario",
+                &o->scenario,
+                "State of the building",
+                {.form = Form::name, .otherwise = "the first, or the folder's"}},
+               {"--port", &o->server.port, "Port of the page; 0: any that is free"},
+               {"--address", &o->server.address, "Address to listen on"},
+               {"--allow-host",
+                &o->server.allowed_hosts,
+                "Name (HOST or HOST:PORT) under which browsers may ask for the page, as behind a "
+                "proxy; may be repeated",
+                {.otherwise = "the address", .fault = allowed_host_fault}},
+               {"--save-folder",
+                &o->save_folder,
+                "Folder where variants are saved",
+                {.form = Form::folder}},
+               {"--particles",
+                &o->particles,
+                "Largest number of particles of each state of the building",
+                {.form = Form::count,
+                 .fault =
+                     [](const std::string& text) {
+                       const auto count = parse_count(text);
+                       return count.ok() ? "" : count.problem().text();
+                     }}},
+               {"--seed", &o->live.seed, "Seed of the random number generator"},
+               {"--threads",
+                &o->live.threads,
+                "Number of threads",
+                {.otherwise = "all cores", .range = Range{1, 1024}}},
+               {"--nodes",
+                &o->nodes,
+                "Number of nodes of this process that trace, as those of a cluster do",
+                {.otherwise = "none: threads", .range = Range{1, limits::nodes_in_process}}}},
+          .notes =
+              "Traces while you walk; dim, move, thicken, and see it at once. Beyond this machine "
+              "(--address) the page is served only to those who have the token that is printed.\n"
+              "  luxodus view scenes/library/office_floor.toml\n"
+              "  luxodus view office.toml --address 0.0.0.0 --port 9000\n"
+              "A cluster traces for a view where its file has a table [view]: luxodus cluster up "
+              "FILE.",
+          .run = [o] { return exit_code_of(view(*o)); }};
 }
 
 }  // namespace luxodus::cli

@@ -3,10 +3,9 @@
 // whole, and of the earlier run.
 #include "actors/display/checkpoint.hpp"
 
-#include <spdlog/spdlog.h>
-
 #include "actors/display/result_files.hpp"
 #include "actors/run/flux_store.hpp"
+#include "runtime/core/log.hpp"
 
 namespace luxodus {
 
@@ -28,20 +27,20 @@ Checkpoint::~Checkpoint() {
 void Checkpoint::take() {
   if (run_.traced() > 0 && run_.particles() > keep_particles_) {
     const auto saved = save();
-    if (saved.ok())
+    if (saved)
       ++taken_;
     else
-      spdlog::warn("checkpoint: {}; the run goes on", saved.problem().text());
+      log_warning("checkpoint: {}; the run goes on", saved.problem().text());
   }
   last_ = Clock::now();  // not before: a slow disk must not have the run do nothing else
 }
 
 Result<void> Checkpoint::save() {
   if (taken_ == 0)
-    if (auto ok = remove_old_maps(folder_); !ok.ok()) return ok;
+    if (auto ok = remove_old_maps(folder_); !ok) return ok.problem();
   const double passed = std::chrono::duration<double>(Clock::now() - began_).count();
   const Json begun = begun_json(run_, record_, run_.seconds() + passed);
-  if (auto ok = write_json(folder_ / "result.json", begun); !ok.ok()) return ok;
+  if (auto ok = write_json(folder_ / "result.json", begun); !ok) return ok.problem();
   return save_flux(folder_ / "flux.lux", run_);
 }
 

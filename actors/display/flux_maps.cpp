@@ -1,12 +1,12 @@
 // What the run has counted on surfaces and in the air, as ParaView reads it. Values are means over
 // a patch or a voxel, with the standard error of that bin; bins are never combined, so whole
 // triangles, which are sums of patches, have none.
-#include <spdlog/spdlog.h>
 
 #include <cmath>
 
 #include "actors/display/maps.hpp"
 #include "actors/output/write_vtk.hpp"
+#include "runtime/core/log.hpp"
 #include "scenes/geometry/patches.hpp"
 #include "scenes/transport/packed_scene.hpp"
 
@@ -151,14 +151,14 @@ Result<void> write_flux_maps(const std::filesystem::path& folder, const LocalRun
   const Readout readout(scene, run.totals());
   SurfaceCollector collector(scene, readout, scene.patch_count / 2 > limits::patches_drawn);
   if (scene.triangles > limits::triangles_drawn) {
-    spdlog::info("patches.vtp is left out: {} triangles are more than a viewer takes ({})",
-                 scene.triangles, limits::triangles_drawn);
+    log_info("patches.vtp is left out: {} triangles are more than a viewer takes ({})",
+             scene.triangles, limits::triangles_drawn);
   } else {
     const auto read = for_each_cell(scene, [&](const GeometryCell& cell) {
       for (const TriangleRecord& t : cell.triangles) collector.add(t);
     });
-    if (!read.ok()) return read.problem();
-    if (auto ok = write_vtp(folder / "patches.vtp", collector.take()); !ok.ok()) return ok;
+    if (!read) return read.problem();
+    if (auto ok = write_vtp(folder / "patches.vtp", collector.take()); !ok) return ok.problem();
   }
   if (!(scene.voxels.edge > 0)) return {};
   return write_vti(folder / "volume.vti", volume_of(scene, readout));

@@ -108,7 +108,7 @@ Json clear_air_json(const PlaneMap& map, Operation operation) {
     return at_grid_points(with_position(exact_json(e[cell], "lx"), map.centres()[cell]));
   };
   const double mean = mean_of(e);
-  return {{"operation", operation_word(operation)},
+  return {{"operation", name_of(operation)},
           {"mean", bounded_json(mean_of(map.light.mean_clear_lx), map.light.bound_clear_lx)},
           {"mean_at_grid_points", exact_json(mean, "lx")},
           {"minimum", at(low)},
@@ -274,12 +274,12 @@ Result<void> write_pictures(const std::filesystem::path& stem, const LocalRun& r
                  std::to_string(run.particles()) + " particles",
              worst >= 0 ? "Largest standard error of a cell: " + signs_of(worst, 2) + " lx"
                         : std::string("Standard errors need two batches")};
-  if (auto ok = write_false_colour_png(std::filesystem::path(stem) += ".png", p); !ok.ok())
-    return ok;
+  if (auto ok = write_false_colour_png(std::filesystem::path(stem) += ".png", p); !ok)
+    return ok.problem();
   p.title += ", direct light of luminaires in clear air";
   p.values = map.light.mean_clear_lx;
   p.contours = contour_levels(p.values);
-  p.notes = {"Luminaires of " + std::string(operation_word(scene.scenario.operation)) +
+  p.notes = {"Luminaires of " + std::string(name_of(scene.scenario.operation)) +
              " operation, without signs, flames, reflected light and smoke, as codes calculate"};
   return write_false_colour_png(std::filesystem::path(stem) += "_direct_clear_air.png", p);
 }
@@ -328,10 +328,10 @@ Result<void> write_plane_maps(const std::filesystem::path& folder, const LocalRu
   const std::vector<std::string> names = result_names(*run.scene().description).planes;
   for (size_t i = 0; i < maps.planes.size(); ++i) {
     const std::filesystem::path stem = folder / names[i];
-    if (auto ok = write_table(std::filesystem::path(stem) += ".csv", maps.planes[i]); !ok.ok())
-      return ok;
+    if (auto ok = write_table(std::filesystem::path(stem) += ".csv", maps.planes[i]); !ok)
+      return ok.problem();
     if (!is_drawn(run.scene().description->planes[i])) continue;
-    if (auto ok = write_pictures(stem, run, i, maps.planes[i]); !ok.ok()) return ok;
+    if (auto ok = write_pictures(stem, run, i, maps.planes[i]); !ok) return ok.problem();
   }
   return {};
 }

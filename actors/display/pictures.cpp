@@ -41,7 +41,7 @@ class FluxRadiance final : public PatchRadiance {
       };
       parallel_for((count + per_row - 1) / per_row, run.threads(), [&] { return fill_row; });
     });
-    if (!read.ok()) throw std::runtime_error(read.problem().text());
+    if (!read) throw std::runtime_error(read.problem().text());
   }
 
   double radiance(const Hit& hit, bool front, int band) const override {

@@ -226,7 +226,7 @@ class PlaneQuadrature {
   }
 
  private:
-  struct Bounds {
+  struct ErrorBounds {
     double lx = 0, clear_lx = 0;
   };
 
@@ -335,8 +335,8 @@ class PlaneQuadrature {
     runner_.run(static_cast<int64_t>(leaves.size()), make, {});
   }
 
-  Bounds bounds() const {
-    Bounds sum = settled_;
+  ErrorBounds bounds() const {
+    ErrorBounds sum = settled_;
     for (const Leaf& leaf : leaves_) {
       sum.lx += leaf.light.error_lx * leaf.piece.share();
       sum.clear_lx += leaf.light.error_clear_lx * leaf.piece.share();
@@ -345,7 +345,7 @@ class PlaneQuadrature {
   }
 
   /// How much of what is allowed a leaf takes, of whichever mean is worse off.
-  double weight_of(const Leaf& leaf, const Bounds& allowed) const {
+  double weight_of(const Leaf& leaf, const ErrorBounds& allowed) const {
     const double cell_edge = 1 / static_cast<double>(columns_);
     if (leaf.piece.u1 - leaf.piece.u0 < narrowest * cell_edge) return 0;
     double weight = 0;
@@ -360,14 +360,14 @@ class PlaneQuadrature {
     const auto sum = [&](const std::vector<double>& lux) {
       return std::accumulate(lux.begin(), lux.end(), 0.0) * share;
     };
-    const Bounds allowed{limits::plane_tolerance * sum(out_.mean_lx),
-                         limits::plane_tolerance * sum(out_.mean_clear_lx)};
+    const ErrorBounds allowed{limits::plane_tolerance * sum(out_.mean_lx),
+                              limits::plane_tolerance * sum(out_.mean_clear_lx)};
     int64_t left = std::min(
         limits::max_plane_splits,
         limits::plane_splits + limits::plane_splits_per_cell * static_cast<int64_t>(cells()));
     if (!scene_.volume_points.empty()) left /= limits::plane_splits_by_flames;
     while (left > 0) {
-      const Bounds now = bounds();
+      const ErrorBounds now = bounds();
       if (now.lx <= allowed.lx && now.clear_lx <= allowed.clear_lx) return;
       const std::vector<size_t> worst = choose(allowed, static_cast<size_t>(left));
       if (worst.empty()) return;
@@ -377,7 +377,7 @@ class PlaneQuadrature {
   }
 
   /// Those that may err most, until what is left may err by half of what is allowed.
-  std::vector<size_t> choose(const Bounds& allowed, size_t most) const {
+  std::vector<size_t> choose(const ErrorBounds& allowed, size_t most) const {
     std::vector<double> weight;
     for (const Leaf& leaf : leaves_) weight.push_back(weight_of(leaf, allowed));
     std::vector<size_t> order(leaves_.size());
@@ -443,7 +443,7 @@ class PlaneQuadrature {
   }
 
   PlaneLight finish() {
-    const Bounds last = bounds();
+    const ErrorBounds last = bounds();
     // Shares are of all cells, means of those that are not left out; without any nothing is known.
     const double over = 1 / share_in();
     out_.bound_lx = last.lx * over;
@@ -475,7 +475,7 @@ class PlaneQuadrature {
   std::vector<double> group_rows_;  // [row][2 * groups]; quarters' changes are in the first
   std::vector<std::vector<Leaf>> row_leaves_;
   std::vector<Leaf> leaves_;
-  Bounds settled_;  // errors of what is not followed
+  ErrorBounds settled_;  // errors of what is not followed
 };
 
 }  // namespace

@@ -1,8 +1,8 @@
 #include "actors/display/preview.hpp"
 
-#include <spdlog/spdlog.h>
-
 #include <exception>
+
+#include "runtime/core/log.hpp"
 
 namespace luxodus {
 
@@ -60,9 +60,9 @@ void Preview::take() {
   thread_ = std::thread([this] {
     try {
       const auto done = render_views(folder_ / "preview", copy_, "", options_, {});
-      if (!done.ok()) spdlog::warn("preview: {}", done.problem().text());
+      if (!done) log_warning("preview: {}", done.problem().text());
     } catch (const std::exception& e) {
-      spdlog::warn("preview: {}", e.what());
+      log_warning("preview: {}", e.what());
     }
     rendering_ = false;
   });

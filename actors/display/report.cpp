@@ -374,6 +374,19 @@ std::string why_no_errors(const LocalRun& run) {
          std::to_string(least) + ": trace more particles";
 }
 
+/// What every result.json begins with.
+Json head_json(const CompiledScene& scene, const RunRecord& record) {
+  return {{"schema", result_schema},
+          {"program", "luxodus"},
+          {"scene", scene.description->name},
+          {"title", scene.description->title},
+          {"scene_file", record.scene_file},
+          {"scene_hash", hash_text(scene)},
+          {"scenario", scene.scenario.name},
+          {"state", run_state_json(scene)},
+          {"cells", record.cells}};
+}
+
 Json result_of(const LocalRun& run, const RunRecord& record, const PlaneMaps& maps) {
   const CompiledScene& scene = run.scene();
   const Readout readout(scene, run.totals());
@@ -384,34 +397,26 @@ Json result_of(const LocalRun& run, const RunRecord& record, const PlaneMaps& ma
   const bool all_timed = run.timed_particles() == run.particles();
   const double fom =
       error > 0 && seconds > 0 && all_timed ? 1 / (error * error * seconds) : std::nan("");
-  Json out = {{"schema", result_schema},
-              {"program", "luxodus"},
-              {"scene", scene.description->name},
-              {"title", scene.description->title},
-              {"scene_file", record.scene_file},
-              {"scene_hash", hash_text(scene)},
-              {"scenario", scene.scenario.name},
-              {"state", run_state_json(scene)},
-              {"cells", record.cells},
-              {"kernel", describe_kernel(scene)},
-              {"seed", run.seed()},
-              {"particles", run.particles()},
-              {"batches", run.traced()},
-              {"batch_particles", scene.batch_particles},
-              {"finished", true},
-              {"stopped_by", record.stopped_by},
-              {"stop_rule", stop_json(record.stop)},
-              {"threads", run.threads()},
-              {"seconds", exact_json(seconds, "s")},
-              {"timed_particles", run.timed_particles()},
-              {"particles_per_second",
-               exact_json(static_cast<double>(run.timed_particles()) / seconds, "1/s")},
-              {"rays_per_second", exact_json(rays / seconds, "1/s")},
-              {"worst_relative_error", exact_json(error, "1")},
-              {"error_of", scene.error_target.words},
-              {"unlit", readout.unlit()},
-              {"figure_of_merit", exact_json(fom, "1/s")},
-              {"ledger", ledger_json(run.totals().balance())}};
+  Json out = head_json(scene, record);
+  out.update(Json{{"kernel", describe_kernel(scene)},
+                  {"seed", run.seed()},
+                  {"particles", run.particles()},
+                  {"batches", run.traced()},
+                  {"batch_particles", scene.batch_particles},
+                  {"finished", true},
+                  {"stopped_by", record.stopped_by},
+                  {"stop_rule", stop_json(record.stop)},
+                  {"threads", run.threads()},
+                  {"seconds", exact_json(seconds, "s")},
+                  {"timed_particles", run.timed_particles()},
+                  {"particles_per_second",
+                   exact_json(static_cast<double>(run.timed_particles()) / seconds, "1/s")},
+                  {"rays_per_second", exact_json(rays / seconds, "1/s")},
+                  {"worst_relative_error", exact_json(error, "1")},
+                  {"error_of", scene.error_target.words},
+                  {"unlit", readout.unlit()},
+                  {"figure_of_merit", exact_json(fom, "1/s")},
+                  {"ledger", ledger_json(run.totals().balance())}});
   if (!all_timed)
     out["timing"] =
         "seconds and rates are of the particles traced since the run was resumed; nobody wrote "
@@ -445,43 +450,35 @@ Json begun_json(const LocalRun& run, const RunRecord& record, double seconds) {
   for (size_t i = 0; i < scene.description->planes.size(); ++i)
     planes.push_back({{"name", scene.description->planes[i].name},
                       {"files", files_of_plane(*scene.description, i)}});
-  return {{"schema", result_schema},
-          {"program", "luxodus"},
-          {"scene", scene.description->name},
-          {"title", scene.description->title},
-          {"scene_file", record.scene_file},
-          {"scene_hash", hash_text(scene)},
-          {"scenario", scene.scenario.name},
-          {"state", run_state_json(scene)},
-          {"cells", record.cells},
-          {"seed", run.seed()},
-          {"particles", run.particles()},
-          {"timed_particles", run.timed_particles()},
-          {"batches", run.traced()},
-          {"finished", false},
-          {"stop_rule", stop_json(record.stop)},
-          {"seconds", exact_json(seconds, "s")},
-          {"error_of", scene.error_target.words},
-          {"source_groups", source_groups_json(scene)},
-          {"planes", std::move(planes)},
-          {"cameras", cameras_json(*scene.description)}};
+  Json out = head_json(scene, record);
+  out.update(Json{{"seed", run.seed()},
+                  {"particles", run.particles()},
+                  {"timed_particles", run.timed_particles()},
+                  {"batches", run.traced()},
+                  {"finished", false},
+                  {"stop_rule", stop_json(record.stop)},
+                  {"seconds", exact_json(seconds, "s")},
+                  {"error_of", scene.error_target.words},
+                  {"source_groups", source_groups_json(scene)},
+                  {"planes", std::move(planes)},
+                  {"cameras", cameras_json(*scene.description)}});
+  return out;
 }
 
 Result<Json> write_report(const std::filesystem::path& folder, const LocalRun& run,
                           const RunRecord& record, const ShareDone& progress) {
-  if (auto ok = remove_old_maps(folder); !ok.ok()) return ok.problem();
+  if (auto ok = remove_old_maps(folder); !ok) return ok.problem();
   std::error_code error;
   std::filesystem::create_directories(folder / "planes", error);
-  if (error) return Problem{{folder.string(), 0}, "cannot make this folder: " + error.message()};
+  if (error) return problem_in(folder, "cannot make this folder: " + error.message());
   // Should this process be killed before the end, the files below are known to be a run's.
-  if (auto ok = write_json(folder / "result.json", begun_json(run, record, run.seconds()));
-      !ok.ok())
+  if (auto ok = write_json(folder / "result.json", begun_json(run, record, run.seconds())); !ok)
     return ok.problem();
   const PlaneMaps maps = make_plane_maps(run, progress);
-  if (auto ok = write_plane_maps(folder / "planes", run, maps); !ok.ok()) return ok.problem();
-  if (auto ok = write_flux_maps(folder, run); !ok.ok()) return ok.problem();
+  if (auto ok = write_plane_maps(folder / "planes", run, maps); !ok) return ok.problem();
+  if (auto ok = write_flux_maps(folder, run); !ok) return ok.problem();
   Json result = result_of(run, record, maps);
-  if (auto ok = write_json(folder / "result.json", result); !ok.ok()) return ok.problem();
+  if (auto ok = write_json(folder / "result.json", result); !ok) return ok.problem();
   return result;
 }
 

@@ -9,6 +9,7 @@
 #include "actors/output/false_colour_png.hpp"
 #include "actors/output/file_names.hpp"
 #include "actors/output/json_out.hpp"
+#include "runtime/core/regular_file.hpp"
 
 namespace luxodus {
 
@@ -25,7 +26,7 @@ constexpr std::array own_files{"flux.lux", "result.json", "patches.vtp", "volume
 /// The folder's result.json; null where there is none, or none of a run.
 Json old_result(const fs::path& folder) {
   const auto bytes = read_whole_file(folder / "result.json", limits::max_result_bytes);
-  if (!bytes.ok()) return nullptr;
+  if (!bytes) return nullptr;
   const auto* text = reinterpret_cast<const char*>(bytes->data());
   Json result = Json::parse(text, text + bytes->size(), nullptr, false);
   if (!result.is_object() || result.value("program", Json()) != "luxodus") return nullptr;
@@ -144,8 +145,8 @@ Result<void> remove_old_maps(const fs::path& folder) {
     if (!is_own(file)) continue;
     fs::remove(folder / file, error);
     if (error) {
-      return Problem{{(folder / file).string(), 0},
-                     "cannot remove this file of an earlier run: " + error.message()};
+      return problem_in(folder / file,
+                        "cannot remove this file of an earlier run: " + error.message());
     }
   }
   // A folder that holds something else is not empty and stays.
@@ -167,9 +168,9 @@ Result<void> refuse_foreign_files(const fs::path& folder, const OutputPlan& plan
   std::error_code error;
   for (const std::string& file : plan.files) {
     if (own.contains(file) || !fs::exists(fs::symlink_status(folder / file, error))) continue;
-    return Problem{{(folder / file).string(), 0},
-                   "this file is there and no run has written it: move it away, give another "
-                   "folder, or add --overwrite to luxodus run to replace it"};
+    return problem_in(folder / file,
+                      "this file is there and no run has written it: move it away, give another "
+                      "folder, or add --overwrite to luxodus run to replace it");
   }
   return {};
 }

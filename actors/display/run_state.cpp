@@ -5,15 +5,11 @@
 #include <algorithm>
 #include <set>
 
+#include "scenes/transport/compile_light.hpp"
+
 namespace luxodus {
 
 namespace {
-
-double factor_of(const Scenario& scenario, const std::string& smoke) {
-  for (const Scenario::Factor& factor : scenario.media)
-    if (factor.name == smoke) return factor.factor;
-  return scenario.smoke_factor;
-}
 
 Json lit_json(size_t lit, size_t all) {
   return {{"lit", lit}, {"all", all}};
@@ -25,11 +21,6 @@ std::string lit_text(const Json& lit, const char* what) {
 }
 
 }  // namespace
-
-const char* operation_word(Operation operation) {
-  constexpr const char* words[] = {"mains", "emergency", "dark"};
-  return words[static_cast<size_t>(operation)];
-}
 
 Json run_state_json(const CompiledScene& scene) {
   const SceneDescription& d = *scene.description;
@@ -49,12 +40,12 @@ Json run_state_json(const CompiledScene& scene) {
       if (scenario.emission_factor > 0) flames.push_back(medium.name);
       continue;
     }
-    const double factor = factor_of(scenario, medium.name);
+    const double factor = extinction_factor(scenario, medium.name);
     if (factor > 0) smoke.push_back({{"name", medium.name}, {"extinction_factor", factor}});
   }
   const bool failed = scenario.operation != Operation::mains && scenario.says_seconds;
   return {{"scenario", scenario.name},
-          {"operation", operation_word(scenario.operation)},
+          {"operation", name_of(scenario.operation)},
           {"after_failure", failed ? exact_json(scenario.seconds_after_failure, "s") : Json()},
           {"luminaires", lit_json(luminaires.size(), d.emitters.size())},
           {"signs", lit_json(signs.size(), d.signs.size())},

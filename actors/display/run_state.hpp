@@ -9,9 +9,6 @@
 
 namespace luxodus {
 
-/// "mains", "emergency" or "dark".
-const char* operation_word(Operation operation);
-
 /// {"scenario", "operation", "after_failure", "luminaires", "signs", "smoke", "flames"}.
 Json run_state_json(const CompiledScene& scene);
 

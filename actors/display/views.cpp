@@ -199,13 +199,14 @@ Result<void> write_view(const std::filesystem::path& stem, const LocalRun& run,
                         const Camera& camera, const TracedPicture& traced,
                         const PictureOptions& options) {
   const auto path = [&](const char* ending) { return std::filesystem::path(stem) += ending; };
-  if (auto ok = write_exr(path(".exr"), exr_of(run, camera, traced, options)); !ok.ok()) return ok;
+  if (auto ok = write_exr(path(".exr"), exr_of(run, camera, traced, options)); !ok)
+    return ok.problem();
   const auto texts = texts_of(run, camera);
   const XyzPicture balanced = white_balanced(run.scene(), with_calm_colour(traced));
   const PngImage plain = png_of(
       tone_plain(balanced, {}), texts,
       "One exposure, white balanced, as a camera takes it; luminance data is in the EXR file");
-  if (auto ok = write_png(path(".png"), plain); !ok.ok()) return ok;
+  if (auto ok = write_png(path(".png"), plain); !ok) return ok.problem();
   HumanTone human;
   human.degrees_per_pixel =
       glm::degrees(2 * std::tan(glm::radians(camera.vertical_fov_deg) / 2) / camera.height);
@@ -213,7 +214,7 @@ Result<void> write_view(const std::filesystem::path& stem, const LocalRun& run,
       png_of(tone_human(balanced, human), texts,
              "What an adapted eye tells apart (Ward Larson, Rushmeier and Piatko 1997), shown on a "
              "monitor of 200 cd/m2; luminance data is in the EXR file");
-  if (auto ok = write_png(path("_human.png"), seen); !ok.ok()) return ok;
+  if (auto ok = write_png(path("_human.png"), seen); !ok) return ok.problem();
   if (!is_mapped(camera)) return {};
   return write_false_colour_png(path("_luminance.png"),
                                 luminance_map(run, camera, traced, options));
@@ -228,9 +229,9 @@ Result<std::vector<size_t>> chosen_views(const SceneDescription& scene, const st
     known += (known.empty() ? "\"" : ", \"") + scene.cameras[i].name + "\"";
   }
   if (!only.empty() && out.empty()) {
-    return Problem{{scene.file, 0},
-                   "there is no camera \"" + only + "\"; there " +
-                       (known.empty() ? "are none: add a [[camera]]" : "are: " + known)};
+    return problem_in(scene.file,
+                      "there is no camera \"" + only + "\"; there " +
+                          (known.empty() ? "are none: add a [[camera]]" : "are: " + known));
   }
   return out;
 }
@@ -242,17 +243,16 @@ Result<void> render_views(const std::filesystem::path& folder, const LocalRun& r
                           const ShareDone& progress) {
   const SceneDescription& scene = *run.scene().description;
   if (options.paths_per_pixel < 1 || options.paths_per_pixel > limits::max_paths_per_pixel) {
-    return Problem{{scene.file, 0},
-                   "paths per pixel must be 1 to " + std::to_string(limits::max_paths_per_pixel) +
-                       ", not " + std::to_string(options.paths_per_pixel)};
+    return problem_in(scene.file, "paths per pixel must be 1 to " +
+                                      std::to_string(limits::max_paths_per_pixel) + ", not " +
+                                      std::to_string(options.paths_per_pixel));
   }
   const auto views = chosen_views(scene, only_view);
-  if (!views.ok()) return views.problem();
+  if (!views) return views.problem();
   if (views.value().empty()) return {};
   std::error_code error;
   std::filesystem::create_directories(folder / "views", error);
-  if (error)
-    return Problem{{(folder / "views").string(), 0}, "cannot make this folder: " + error.message()};
+  if (error) return problem_in(folder / "views", "cannot make this folder: " + error.message());
   std::unique_ptr<PatchRadiance> flux;
   if (options.gather && run.batches() > 0) flux = flux_radiance(run);
   const std::vector<std::string> names = result_names(scene).views;
@@ -268,7 +268,7 @@ Result<void> render_views(const std::filesystem::path& folder, const LocalRun& r
     if (options.interrupted()) return {};
     before += pixels(i);
     if (auto ok = write_view(folder / "views" / names[i], run, scene.cameras[i], traced, options);
-        !ok.ok())
+        !ok)
       return ok;
   }
   return {};

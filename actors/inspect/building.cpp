@@ -29,7 +29,7 @@ Building::Building(std::shared_ptr<const CompiledScene> scene, int threads)
 Result<std::unique_ptr<Building>> Building::make(SceneDescription scene, const Scenario& scenario,
                                                  int threads) {
   auto compiled = compile_scene(std::make_shared<SceneDescription>(std::move(scene)), scenario, {});
-  if (!compiled.ok()) return compiled.problem();
+  if (!compiled) return compiled.problem();
   return std::unique_ptr<Building>(new Building(std::move(compiled).value(), threads));
 }
 

@@ -67,7 +67,7 @@ std::optional<EscapeShares> escape_shares(const SceneDescription& scene, const S
                                           const std::vector<char>& outside, int threads) {
   const auto building =
       Building::make(bare(scene, outside), in_clear_air(scene, scenario), threads);
-  if (!building.ok()) return std::nullopt;
+  if (!building) return std::nullopt;
   const CompiledScene& compiled = building.value()->scene();
   std::array<std::array<double, 6>, pieces> escaped{};
   building.value()->each(pieces, [&](const GeometryAccess& access, size_t piece) {

@@ -5,6 +5,7 @@
 
 #include "actors/inspect/site.hpp"
 #include "scenes/emergency/sign_geometry.hpp"
+#include "scenes/transport/connect.hpp"
 
 namespace luxodus {
 
@@ -20,7 +21,7 @@ constexpr int rays_around = 128;
 /// A probe on a surface is looked at from before it [m].
 constexpr double before_probe_m = 1e-3;
 
-struct Eye {
+struct EyePlace {
   std::string name;  // camera "hall"
   SourcePlace place;
   glm::dvec3 at{0};
@@ -29,8 +30,8 @@ struct Eye {
   Real least_cosine = -1;          // with it, of what it sees
 };
 
-Eye eye_of(const Camera& c) {
-  Eye eye{"camera \"" + c.name + "\"", c.place, c.eye};
+EyePlace eye_of(const Camera& c) {
+  EyePlace eye{"camera \"" + c.name + "\"", c.place, c.eye};
   const glm::dvec3 ahead = glm::normalize(c.target - c.eye);
   const glm::dvec3 across = glm::cross(ahead, c.up);
   const glm::dvec3 right =
@@ -48,12 +49,12 @@ Eye eye_of(const Camera& c) {
   return eye;
 }
 
-Eye eye_of(const Observer& o) {
+EyePlace eye_of(const Observer& o) {
   return {"observer \"" + o.name + "\"", o.place, o.eye, sphere_directions(rays_around)};
 }
 
-Eye eye_of(const ProbeMeasure& p) {
-  Eye eye{"probe \"" + p.name + "\"", p.place, p.position + p.normal * before_probe_m};
+EyePlace eye_of(const ProbeMeasure& p) {
+  EyePlace eye{"probe \"" + p.name + "\"", p.place, p.position + p.normal * before_probe_m};
   eye.ahead = Vec3(p.normal);
   eye.least_cosine = 0;
   for (const Vec3& d : sphere_directions(rays_around))
@@ -61,8 +62,8 @@ Eye eye_of(const ProbeMeasure& p) {
   return eye;
 }
 
-std::vector<Eye> eyes_of(const SceneDescription& scene, bool probes) {
-  std::vector<Eye> out;
+std::vector<EyePlace> eyes_of(const SceneDescription& scene, bool probes) {
+  std::vector<EyePlace> out;
   for (const Observer& o : scene.observers) out.push_back(eye_of(o));
   for (const Camera& c : scene.cameras) out.push_back(eye_of(c));
   if (probes)
@@ -75,7 +76,7 @@ bool is_open(const Facing& facing) {
 }
 
 /// Surfaces and lamps alike; where no surface is, nothing hides a lamp.
-bool sees_anything(const Site& site, const GeometryAccess& access, const Eye& eye) {
+bool sees_anything(const Site& site, const GeometryAccess& access, const EyePlace& eye) {
   const CompiledScene& scene = site.building.scene();
   const Vec3 at = site.building.local(eye.at);
   const bool surface = std::any_of(
@@ -102,7 +103,7 @@ bool sees_a_sign(const Site& site, const GeometryAccess& access, const Observer&
 }
 
 std::optional<Finding> placed_wrong(const Site& site, const GeometryAccess& access,
-                                    const Eye& eye) {
+                                    const EyePlace& eye) {
   if (auto far = site.remote.told(eye.name, eye.at))
     return Finding{Severity::error, "far", {eye.place, *far}};
   if (site.in_body(access, eye.at))
@@ -119,7 +120,7 @@ std::optional<Finding> placed_wrong(const Site& site, const GeometryAccess& acce
 }
 
 /// The most that smoke passes from an eye to a surface [1].
-double best_transmission(const Building& smoky, const GeometryAccess& access, const Eye& eye) {
+double best_transmission(const Building& smoky, const GeometryAccess& access, const EyePlace& eye) {
   const CompiledScene& scene = smoky.scene();
   const Vec3 at = smoky.local(eye.at);
   const int band = scene.bands.count() / 2;
@@ -139,7 +140,7 @@ double best_transmission(const Building& smoky, const GeometryAccess& access, co
 }  // namespace
 
 void inspect_eyes(const Site& site, Findings& out) {
-  const std::vector<Eye> eyes = eyes_of(site.scene, true);
+  const std::vector<EyePlace> eyes = eyes_of(site.scene, true);
   std::vector<std::optional<Finding>> found(eyes.size());
   site.building.each(eyes.size(), [&](const GeometryAccess& access, size_t i) {
     found[i] = placed_wrong(site, access, eyes[i]);
@@ -157,7 +158,7 @@ void inspect_eyes(const Site& site, Findings& out) {
 
 void inspect_smoke(const SceneDescription& scene, const Building& smoky, Findings& out) {
   if (smoky.scene().features.media == MediaNeed::none) return;
-  const std::vector<Eye> eyes = eyes_of(scene, false);
+  const std::vector<EyePlace> eyes = eyes_of(scene, false);
   std::vector<char> blind(eyes.size(), 0);
   smoky.each(eyes.size(), [&](const GeometryAccess& access, size_t i) {
     blind[i] = best_transmission(smoky, access, eyes[i]) < least_transmission ? 1 : 0;

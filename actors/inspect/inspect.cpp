@@ -138,7 +138,7 @@ Result<std::vector<char>> inspect_doors(const SceneDescription& scene, const Sce
   Scenario lit = lit_scenario(scenario);
   lit.media.clear();
   auto building = Building::make(std::move(clear), lit, threads);
-  if (!building.ok()) return building.problem();
+  if (!building) return building.problem();
   const Site site{scene, *building.value(), Remoteness(scene)};
   std::vector<char> outside;
   inspect_turned_rooms(site, out);
@@ -158,7 +158,7 @@ std::optional<Problem> inspect_media_of(const SceneDescription& scene, const Sce
   SceneDescription smoky = all_lit(scene);
   smoky.planes.clear();
   auto building = Building::make(std::move(smoky), lit_scenario(scenario), threads);
-  if (!building.ok()) return building.problem();
+  if (!building) return building.problem();
   inspect_media(building.value()->scene(), out);
   inspect_smoke(scene, *building.value(), out);
   return std::nullopt;
@@ -221,7 +221,7 @@ Result<std::vector<Finding>> inspect(const std::shared_ptr<const SceneDescriptio
   for (const auto& state : alike(scenarios, doors_of)) {
     Findings found;
     auto done = inspect_doors(*scene, *state.front(), threads, found);
-    if (!done.ok()) return done.problem();
+    if (!done) return done.problem();
     outside = std::move(done).value();
     out.add(std::move(found), names_of(state));
   }

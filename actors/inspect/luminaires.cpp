@@ -11,6 +11,7 @@
 #include "scenes/emergency/rules.hpp"
 #include "scenes/emergency/way.hpp"
 #include "scenes/optics/offset_ray.hpp"
+#include "scenes/transport/emission.hpp"
 
 namespace luxodus {
 

@@ -35,19 +35,19 @@ Result<std::shared_ptr<const BuiltObject>> PartBuilder::built(uint32_t object,
     case ScenePart::Kind::cell: {
       auto cell =
           decode_cell(bytes, {static_cast<uint32_t>(scene_.surfaces.size()), scene_.patch_count});
-      if (!cell.ok()) return cell.problem();
+      if (!cell) return cell.problem();
       out = std::make_shared<BuiltCell>(device_, std::move(cell).value());
       break;
     }
     case ScenePart::Kind::brick: {
       auto brick = decode_brick(bytes, parts_.table(part.owner), part.index);
-      if (!brick.ok()) return brick.problem();
+      if (!brick) return brick.problem();
       out = std::make_shared<BuiltBrick>(std::move(brick).value());
       break;
     }
     case ScenePart::Kind::tile: {
       auto tile = decode_tile(bytes, *scene_.images[part.owner], part.index);
-      if (!tile.ok()) return tile.problem();
+      if (!tile) return tile.problem();
       out = std::make_shared<BuiltTile>(std::move(tile).value());
       break;
     }

@@ -80,7 +80,7 @@ Result<void> write_profile(const std::filesystem::path& path, const ReferencePro
 Result<ReferenceProfile> read_profile(const std::filesystem::path& path, const CompiledScene& scene,
                                       size_t objects) {
   auto file = read_flux_file(path);
-  if (!file.ok()) return file.problem();
+  if (!file) return file.problem();
   const SourcePlace place{path.string(), 0};
   const Json header = Json::parse(file->header_json, nullptr, false);
   if (!header.is_object() || header.value("profile", Json()) != Json(schema_version))

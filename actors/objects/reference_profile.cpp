@@ -65,7 +65,7 @@ class CountingParts final : public PartsSource<CountingParts> {
 
   const BuiltObject* build(uint32_t number) {
     auto object = builder_.built(number, objects_.bytes(number).bytes);
-    if (!object.ok()) {
+    if (!object) {
       problem_ = object.problem();
       return nullptr;
     }

@@ -62,7 +62,7 @@ double Canvas::text_width(const std::string& text) {
   return extents.x_advance;
 }
 
-void Canvas::text(double x, double y, const std::string& text, TextAlign align, double turn) {
+void Canvas::go_to_text(double x, double y, const std::string& text, TextAlign align, double turn) {
   const double width = text_width(text);
   const double shift = align == TextAlign::left     ? 0
                        : align == TextAlign::centre ? -width / 2
@@ -71,6 +71,10 @@ void Canvas::text(double x, double y, const std::string& text, TextAlign align, 
   cairo_translate(context_, x, y);
   cairo_rotate(context_, turn);
   cairo_move_to(context_, shift, 0);
+}
+
+void Canvas::text(double x, double y, const std::string& text, TextAlign align, double turn) {
+  go_to_text(x, y, text, align, turn);
   cairo_show_text(context_, clean_utf8(text).c_str());
   cairo_restore(context_);
   cairo_new_path(context_);
@@ -78,14 +82,7 @@ void Canvas::text(double x, double y, const std::string& text, TextAlign align, 
 
 void Canvas::rimmed_text(double x, double y, const std::string& text, TextAlign align,
                          double turn) {
-  const double width = text_width(text);
-  const double shift = align == TextAlign::left     ? 0
-                       : align == TextAlign::centre ? -width / 2
-                                                    : -width;
-  cairo_save(context_);
-  cairo_translate(context_, x, y);
-  cairo_rotate(context_, turn);
-  cairo_move_to(context_, shift, 0);
+  go_to_text(x, y, text, align, turn);
   cairo_text_path(context_, clean_utf8(text).c_str());
   cairo_set_line_join(context_, CAIRO_LINE_JOIN_ROUND);
   cairo_set_line_width(context_, 5);

@@ -46,6 +46,9 @@ class Canvas {
   std::vector<uint8_t> rgb();
 
  private:
+  /// Keeps the state, which the caller restores, and goes to where a text begins.
+  void go_to_text(double x, double y, const std::string& text, TextAlign align, double turn);
+
   int width_;
   int height_;
   cairo_surface_t* surface_;

@@ -12,6 +12,7 @@
 #include <set>
 
 #include "runtime/core/output_text.hpp"
+#include "runtime/core/regular_file.hpp"
 
 namespace luxodus {
 namespace {
@@ -93,14 +94,13 @@ class RecordReader {
   uint64_t left() const { return bytes_.size() - at_; }
 
  private:
-  Problem problem(std::string what) const { return {place_, std::move(what)}; }
   Problem cut_short(const std::string& what) const {
-    return problem("this file is cut short: it ends before the end of " + what +
-                   "; copy it again or compute it anew");
+    return {place_, "this file is cut short: it ends before the end of " + what +
+                        "; copy it again or compute it anew"};
   }
   Problem damaged(const std::string& what, const std::string& how) const {
-    return problem("this file is damaged: " + what + " " + how +
-                   "; copy it again or compute it anew");
+    return {place_,
+            "this file is damaged: " + what + " " + how + "; copy it again or compute it anew"};
   }
   Result<std::vector<std::byte>> unpack(const std::string& what, uint64_t raw_size,
                                         uint64_t packed_size) const;

@@ -24,10 +24,6 @@ constexpr const char* lock_name = ".luxodus.lock";
 /// likely, so often is not.
 constexpr int max_lock_attempts = 100;
 
-Problem problem_at(const fs::path& path, std::string what) {
-  return {{path.string(), 0}, std::move(what)};
-}
-
 std::string reason(int error) {
   return std::generic_category().message(error);
 }
@@ -66,7 +62,7 @@ std::string own_name() {
 Result<void> check_subfolder(const fs::path& path) {
   struct stat about {};
   if (::lstat(path.c_str(), &about) != 0 || S_ISDIR(about.st_mode)) return {};
-  return problem_at(path, S_ISLNK(about.st_mode)
+  return problem_in(path, S_ISLNK(about.st_mode)
                               ? "this is a symbolic link, and links are not followed; results go "
                                 "here: remove it, or give another folder"
                               : "this is a file, and results go into a folder of this name: move "
@@ -77,7 +73,7 @@ Result<void> check_target(const fs::path& path) {
   struct stat about {};
   if (::lstat(path.c_str(), &about) != 0) return {};
   const auto fault = fault_of_target(about);
-  return fault ? Result<void>(problem_at(path, *fault)) : Result<void>{};
+  return fault ? Result<void>(problem_in(path, *fault)) : Result<void>{};
 }
 
 }  // namespace
@@ -108,7 +104,7 @@ struct OutputFolder::State {
     if (!error) handle = ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (handle >= 0) return {};
     const std::string why = reason(error ? error.value() : errno);
-    return problem_at(named, "cannot make this folder: " + why + "; give another one");
+    return problem_in(named, "cannot make this folder: " + why + "; give another one");
   }
 
   Result<void> take_lock() {
@@ -116,20 +112,20 @@ struct OutputFolder::State {
       lock =
           ::openat(handle, lock_name, O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0644);
       if (lock < 0)
-        return problem_at(named, "cannot write into this folder: " + reason(errno) +
+        return problem_in(named, "cannot write into this folder: " + reason(errno) +
                                      "; give another one, or the right to write here");
       struct stat open_one {
       }, named_one{};
       if (::fstat(lock, &open_one) != 0 || !S_ISREG(open_one.st_mode)) {
         forget_lock();
-        return problem_at(path / lock_name, "this is no regular file: remove it");
+        return problem_in(path / lock_name, "this is no regular file: remove it");
       }
       if (::flock(lock, LOCK_EX | LOCK_NB) != 0) {
         // Not every file system has locks; the check of the folder holds without.
         if (errno != EWOULDBLOCK) return {};
         const std::string holder = holder_of(lock);
         forget_lock();
-        return problem_at(named, holder +
+        return problem_in(named, holder +
                                      " writes into this folder: wait for its end, or give "
                                      "another one");
       }
@@ -138,7 +134,7 @@ struct OutputFolder::State {
       if (same) return say_who();
       forget_lock();
     }
-    return problem_at(named,
+    return problem_in(named,
                       "other processes begin and end in this folder all the time: give "
                       "another one");
   }
@@ -153,7 +149,7 @@ struct OutputFolder::State {
     const std::string who = own_name();
     const ssize_t put = ::ftruncate(lock, 0) == 0 ? ::pwrite(lock, who.data(), who.size(), 0) : -1;
     if (put == static_cast<ssize_t>(who.size())) return {};
-    return problem_at(named, "cannot write into this folder: " + reason(put < 0 ? errno : ENOSPC) +
+    return problem_in(named, "cannot write into this folder: " + reason(put < 0 ? errno : ENOSPC) +
                                  "; free some space, or give another one");
   }
 };
@@ -167,13 +163,13 @@ Result<OutputFolder> OutputFolder::claim(const fs::path& folder, const OutputPla
   auto state = std::make_unique<State>();
   state->named = folder.empty() ? fs::path(".") : folder;
   if (!state->named.has_filename()) state->named = state->named.parent_path();
-  if (auto ok = state->make_and_open(); !ok.ok()) return ok.problem();
-  if (auto ok = state->take_lock(); !ok.ok()) return ok.problem();
+  if (auto ok = state->make_and_open(); !ok) return ok.problem();
+  if (auto ok = state->take_lock(); !ok) return ok.problem();
   for (const std::string& name : plan.folders) {
-    if (auto ok = check_subfolder(state->path / name); !ok.ok()) return ok.problem();
+    if (auto ok = check_subfolder(state->path / name); !ok) return ok.problem();
   }
   for (const std::string& name : plan.files)
-    if (auto ok = check_target(state->path / name); !ok.ok()) return ok.problem();
+    if (auto ok = check_target(state->path / name); !ok) return ok.problem();
   remove_stale_temporaries(state->path);
   for (const std::string& name : plan.folders) remove_stale_temporaries(state->path / name);
   return OutputFolder(std::move(state));
@@ -192,7 +188,7 @@ Result<void> check_output_file(const fs::path& file) {
   remove_stale_temporaries(real.parent_path());
   // Without commit() it leaves no trace.
   auto trial = AtomicFile::create(real);
-  if (!trial.ok()) return trial.problem();
+  if (!trial) return trial.problem();
   return {};
 }
 

@@ -264,7 +264,7 @@ void LeaseClient::hear_of_end(NodeId from, const RunEnded& over) {
   end_word_ = over;
   rumour_ = from != config_.controller && counters_.leases == 0;
   if (rumour_) return;
-  const auto says = [&] { return Problem{{}, "the controller says: " + over.text}; };
+  const auto says = [&] { return problem("the controller says: " + over.text); };
   stop_work(over.text.empty() ? std::nullopt : std::optional(says()));
   network_.send(config_.controller, network_.next_id(), RequestLease{0});
   if (from != config_.controller) let_go();
@@ -295,8 +295,7 @@ void LeaseClient::watch_controller(Nanoseconds now) {
     unreachable_since_ = now;
   const auto give_up = [&](const char* what, Nanoseconds after, const char* key) {
     if (rumour_) return end(std::nullopt);
-    end(Problem{{},
-                fmt::format("{} for {:g} s ({})", what, static_cast<double>(after) * 1e-9, key)});
+    end(problem(fmt::format("{} for {:g} s ({})", what, static_cast<double>(after) * 1e-9, key)));
   };
   // Begun again after a crash the controller would ask anew who has heard of the end.
   const bool lost = unreachable_since_ && now - *unreachable_since_ >= config_.lost;

@@ -12,15 +12,15 @@ namespace luxodus {
 
 namespace {
 
-struct Grid {
+struct ValueGrid {
   glm::dvec2 corner{0};
   double spacing = 1;
   size_t columns = 0, rows = 0;
   std::vector<double> lux;
 };
 
-Grid grid_of(const Json& map) {
-  Grid out;
+ValueGrid grid_of(const Json& map) {
+  ValueGrid out;
   out.corner = {map["corner"][0].get<double>(), map["corner"][1].get<double>()};
   out.spacing = map["spacing"].get<double>();
   out.columns = map["columns"].get<size_t>();
@@ -50,7 +50,7 @@ bool touches(glm::dvec2 a, glm::dvec2 b, double i, double j) {
 }
 
 /// Squares that walls cross, row by row.
-std::vector<char> crossed(const Grid& grid, const Json& walls) {
+std::vector<char> crossed(const ValueGrid& grid, const Json& walls) {
   const size_t across = grid.columns - 1, up = grid.rows - 1;
   std::vector<char> out(across * up, 0);
   const auto first = [](double v, size_t count) {
@@ -112,7 +112,7 @@ std::vector<ContourLine> joined(std::vector<ContourLine> pieces, double spacing)
 }
 
 /// Lines of one row of squares, run by run of those that no wall crosses.
-void add_row(const Grid& grid, const std::vector<char>& cut, size_t j, double lux,
+void add_row(const ValueGrid& grid, const std::vector<char>& cut, size_t j, double lux,
              std::vector<ContourLine>& out) {
   const size_t across = grid.columns - 1;
   const auto at = [&](size_t i) { return grid.corner.x + static_cast<double>(i) * grid.spacing; };
@@ -135,7 +135,7 @@ void add_row(const Grid& grid, const std::vector<char>& cut, size_t j, double lu
 }  // namespace
 
 std::vector<IsoluxLine> isolux_lines(const Json& level) {
-  const Grid grid = grid_of(level["map"]);
+  const ValueGrid grid = grid_of(level["map"]);
   std::vector<IsoluxLine> out;
   if (grid.columns < 2 || grid.rows < 2) return out;
   const auto cut = crossed(grid, level["walls"]);

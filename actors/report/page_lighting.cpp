@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 
 #include "actors/report/page.hpp"
 #include "actors/report/plan_svg.hpp"
@@ -90,7 +91,7 @@ std::string sign_row(const PageParts& parts, size_t number) {
   const auto length = [&](const char* key) { return t.fixed(s[key]["value"].get<double>(), 3); };
   const Json &p = s["position"], &f = s["facing"];
   // From +y towards +x, as a compass reads, with the north that the project states.
-  double bearing = std::atan2(f[0].get<double>(), f[1].get<double>()) * 180 / 3.14159265358979 -
+  double bearing = std::atan2(f[0].get<double>(), f[1].get<double>()) * 180 / std::numbers::pi -
                    parts.a["project"]["north_deg"].get<double>();
   bearing = std::fmod(bearing + 720, 360);
   std::string luminance = "–";

@@ -5,9 +5,9 @@
 #include <map>
 #include <set>
 
-#include "actors/output/base64.hpp"
 #include "actors/report/page.hpp"
 #include "actors/report/plan_svg.hpp"
+#include "runtime/core/base64.hpp"
 
 namespace luxodus {
 

@@ -11,6 +11,8 @@
 #include <optional>
 #include <vector>
 
+#include "runtime/core/regular_file.hpp"
+
 namespace luxodus {
 
 namespace {
@@ -50,7 +52,7 @@ Ran runs(const std::vector<std::string>& words, const fs::path& said) {
 
 std::string last_words(const fs::path& said) {
   const auto bytes = read_whole_file(said, uint64_t{1} << 20);
-  if (!bytes.ok() || bytes->empty()) return "";
+  if (!bytes || bytes->empty()) return "";
   const std::string text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
   return ", which said: " + text.substr(text.size() - std::min<size_t>(text.size(), said_bytes));
 }
@@ -137,10 +139,10 @@ Result<void> print_pdf(const fs::path& page, const fs::path& pdf) {
     fs::remove(said, ignored);
     if (printed) return {};
   }
-  return Problem{{pdf.string(), 0},
-                 failed.empty() ? "no Chromium is installed to print it: install one (Debian: "
-                                  "chromium), or print report.html from a browser"
-                                : failed};
+  return problem_in(pdf, failed.empty()
+                             ? "no Chromium is installed to print it: install one (Debian: "
+                               "chromium), or print report.html from a browser"
+                             : failed);
 }
 
 std::map<std::string, int> pages_of_destinations(std::string_view pdf) {

@@ -8,10 +8,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "actors/report/hand_over.hpp"
 #include "actors/report/isolux.hpp"
 #include "runtime/core/output_text.hpp"
+#include "runtime/core/regular_file.hpp"
 
 namespace luxodus {
 
@@ -23,22 +25,22 @@ constexpr double letter_m = 0.25, lamp_m = 0.15;
 /// Of a plan's file [bytes]: all lines of the limits of an assessment fit in.
 constexpr uint64_t dxf_bytes = uint64_t{256} << 20;
 
-struct Layer {
+struct DxfLayer {
   const char* name;
   int colour;  // AutoCAD colour index
 };
-constexpr std::array<Layer, 12> layers{{{"WALLS", 7},
-                                        {"FURNITURE", 8},
-                                        {"LUMINAIRES", 3},
-                                        {"SIGNS", 94},
-                                        {"ROUTES", 5},
-                                        {"AREAS", 4},
-                                        {"ISOLUX_0_5", 6},
-                                        {"ISOLUX_1", 30},
-                                        {"ISOLUX_5", 150},
-                                        {"ISOLUX_10", 82},
-                                        {"TEXT", 7},
-                                        {"SCALE", 7}}};
+constexpr std::array<DxfLayer, 12> layers{{{"WALLS", 7},
+                                           {"FURNITURE", 8},
+                                           {"LUMINAIRES", 3},
+                                           {"SIGNS", 94},
+                                           {"ROUTES", 5},
+                                           {"AREAS", 4},
+                                           {"ISOLUX_0_5", 6},
+                                           {"ISOLUX_1", 30},
+                                           {"ISOLUX_5", 150},
+                                           {"ISOLUX_10", 82},
+                                           {"TEXT", 7},
+                                           {"SCALE", 7}}};
 
 const char* isolux_layer(double lux) {
   return lux < 0.7 ? "ISOLUX_0_5" : lux < 2 ? "ISOLUX_1" : lux < 7 ? "ISOLUX_5" : "ISOLUX_10";
@@ -167,7 +169,7 @@ class Drawing {
     out_.dxfString(2, name);
     out_.dxfInt(70, static_cast<int>(entries));
   }
-  void layer(const Layer& layer) {
+  void layer(const DxfLayer& layer) {
     out_.dxfString(0, "LAYER");
     out_.dxfString(2, layer.name);
     out_.dxfInt(70, 0);
@@ -199,7 +201,7 @@ void Drawing::head(glm::dvec2 low, glm::dvec2 high) {
   out_.dxfString(0, "ENDTAB");
   table("LAYER", layers.size() + 1);
   layer({"0", 7});
-  for (const Layer& one : layers) layer(one);
+  for (const DxfLayer& one : layers) layer(one);
   out_.dxfString(0, "ENDTAB");
   end_section();
 }
@@ -262,8 +264,7 @@ void signs(Drawing& out, const Json& a, const Schedule& schedule, size_t level) 
     const Json &one = a["signs"][i], &p = one["position"], &f = one["facing"];
     const double z = p[2].get<double>();
     if (schedule.level_of(z) != level) continue;
-    const double turn =
-        std::atan2(f[1].get<double>(), f[0].get<double>()) * 180 / 3.14159265358979323846;
+    const double turn = std::atan2(f[1].get<double>(), f[0].get<double>()) * 180 / std::numbers::pi;
     const auto file = one["file"].get<std::string>();
     out.insert("SIGNS", "SIGN", {point(p), z}, turn,
                {{"NAME", one["name"].get<std::string>()},
@@ -327,7 +328,7 @@ Result<void> write_plan_dxf(const fs::path& path, const Json& a, const Schedule&
   {
     Drawing out(draft);
     if (!out.open())
-      return Problem{{path.string(), 0}, "cannot be written: is the folder there and writable?"};
+      return problem_in(path, "cannot be written: is the folder there and writable?");
     out.head(low, high);
     blocks(out, schedule);
     out.section("ENTITIES");
@@ -350,7 +351,7 @@ Result<void> write_plan_dxf(const fs::path& path, const Json& a, const Schedule&
   }
   const auto bytes = read_whole_file(draft, dxf_bytes);
   fs::remove(draft, ignored);
-  if (!bytes.ok()) return bytes.problem();
+  if (!bytes) return bytes.problem();
   return write_file_atomically(path, bytes.value());
 }
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numbers>
 
 #include "actors/output/light_colours.hpp"
 #include "actors/report/isolux.hpp"
@@ -127,7 +128,7 @@ std::string places(const Json& a, const Schedule& schedule, size_t level, const 
         "<path d=\"M0 0L-2.6 -1.1V1.1Z\" fill=\"#1f5fa8\" transform=\"translate({:.2f} {:.2f}) "
         "rotate({:.1f})\"/>\n",
         sheet.x(number_of(end[0])), sheet.y(number_of(end[1])),
-        std::atan2(dy, dx) * 180 / 3.14159265358979);
+        std::atan2(dy, dx) * 180 / std::numbers::pi);
   }
   return out + "</g>\n";
 }
@@ -150,7 +151,7 @@ std::string place_names(const Json& a, const Schedule& schedule, size_t level, c
     if (schedule.level_of(number_of(from[2])) != level) continue;
     const double x0 = sheet.x(number_of(from[0])), y0 = sheet.y(number_of(from[1]));
     const double dx = sheet.x(number_of(to[0])) - x0, dy = sheet.y(number_of(to[1])) - y0;
-    double turn = std::atan2(dy, dx) * 180 / 3.14159265358979;
+    double turn = std::atan2(dy, dx) * 180 / std::numbers::pi;
     if (turn > 90.01 || turn <= -89.99) turn += 180;
     out += text_at(0, 5.2, route["name"],
                    fmt::format("text-anchor=\"middle\" transform=\"translate({:.2f} {:.2f}) "
@@ -199,7 +200,7 @@ std::string signs(const Json& a, const Schedule& schedule, size_t level, const S
     if (!only.empty() && all[i]["name"].get<std::string>() != only) continue;
     const double x = sheet.x(number_of(position[0])), y = sheet.y(number_of(position[1]));
     const double fx = number_of(all[i]["facing"][0]), fy = -number_of(all[i]["facing"][1]);
-    const double turn = std::atan2(fy, fx) * 180 / 3.14159265358979;
+    const double turn = std::atan2(fy, fx) * 180 / std::numbers::pi;
     out += fmt::format(
         "<g><title>{}</title><g transform=\"translate({:.2f} {:.2f}) rotate({:.1f})\"><path "
         "d=\"M0 -1.8V1.8M0 0H2.2\" stroke=\"#000\" stroke-width=\"0.6\"/><path d=\"M4 0L1.9 "

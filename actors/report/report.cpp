@@ -8,6 +8,7 @@
 #include "actors/report/hand_over.hpp"
 #include "actors/report/pdf.hpp"
 #include "actors/report/plan_svg.hpp"
+#include "runtime/core/regular_file.hpp"
 
 namespace luxodus {
 
@@ -28,7 +29,7 @@ std::string named(const fs::path& folder, const ReportOptions& options) {
 Result<void> make_folder(const fs::path& folder) {
   std::error_code failed;
   fs::create_directories(folder, failed);
-  if (failed) return Problem{{folder.string(), 0}, "cannot make this folder: " + failed.message()};
+  if (failed) return problem_in(folder, "cannot make this folder: " + failed.message());
   return {};
 }
 
@@ -39,7 +40,7 @@ std::string height_name(double metres) {
 
 Result<void> write_plans(const fs::path& folder, const Json& a, const Schedule& schedule,
                          const Texts& texts, bool values) {
-  if (auto ok = make_folder(folder); !ok.ok()) return ok;
+  if (auto ok = make_folder(folder); !ok) return ok.problem();
   const Plans plans(a, schedule, texts, {});
   std::set<double> heights;
   for (const Json& sight : a["sights"])
@@ -53,22 +54,22 @@ Result<void> write_plans(const fs::path& folder, const Json& a, const Schedule& 
     for (const double height : heights)
       drawings.emplace_back("legibility_" + height_name(height), plans.sights(i, height, "").svg);
     for (const auto& [name, svg] : drawings)
-      if (auto ok = write_file_atomically(folder / (level + name + ".svg"), svg); !ok.ok())
-        return ok;
-    if (auto ok = write_plan_dxf(folder / (level + "plan.dxf"), a, schedule, i); !ok.ok())
-      return ok;
+      if (auto ok = write_file_atomically(folder / (level + name + ".svg"), svg); !ok)
+        return ok.problem();
+    if (auto ok = write_plan_dxf(folder / (level + "plan.dxf"), a, schedule, i); !ok)
+      return ok.problem();
   }
   return {};
 }
 
 Result<void> write_schedules(const fs::path& folder, const Json& a, const Schedule& schedule) {
-  if (auto ok = make_folder(folder); !ok.ok()) return ok;
+  if (auto ok = make_folder(folder); !ok) return ok.problem();
   for (const auto& [name, table] : {std::pair{"luminaires.csv", luminaires_csv(a, schedule)},
                                     std::pair{"signs.csv", signs_csv(a, schedule)},
                                     std::pair{"bill_of_materials.csv", materials_csv(a, schedule)},
                                     std::pair{"checks_with_places.csv", places_csv(a)},
                                     std::pair{"illuminance_points.csv", points_csv(a, schedule)}})
-    if (auto ok = write_csv(folder / name, table); !ok.ok()) return ok;
+    if (auto ok = write_csv(folder / name, table); !ok) return ok.problem();
   return {};
 }
 
@@ -81,12 +82,12 @@ Result<void> print_report(const fs::path& folder, const Json& a,
   const auto print = [&](const std::map<std::string, int>& pages) -> Result<void> {
     const auto written = write_file_atomically(
         page, report_html(a, pictures, named(folder, options), options, pages));
-    return written.ok() ? print_pdf(page, pdf) : written;
+    return written ? print_pdf(page, pdf) : written;
   };
   Result<void> done = print({});
-  if (done.ok()) {
+  if (done) {
     const auto bytes = read_whole_file(pdf, pdf_bytes);
-    if (bytes.ok()) done = print(pages_of_destinations(bytes_text(bytes.value())));
+    if (bytes) done = print(pages_of_destinations(bytes_text(bytes.value())));
   }
   std::error_code ignored;
   fs::remove(page, ignored);
@@ -107,7 +108,7 @@ std::vector<ReportPicture> pictures_in(const fs::path& folder) {
     std::sort(files.begin(), files.end());
     for (const fs::path& path : files) {
       const auto bytes = read_whole_file(path, limits::report_picture_bytes);
-      if (bytes.ok() && out.size() < limits::report_pictures)
+      if (bytes && out.size() < limits::report_pictures)
         out.push_back({path.stem().string(), bytes_text(bytes.value())});
     }
     if (!out.empty()) break;
@@ -131,12 +132,12 @@ Result<void> write_report(const fs::path& folder, const Json& a, const ReportOpt
   const Schedule schedule(a);
   const Texts texts(options.language);
   const auto pictures = pictures_in(folder);
-  if (auto ok = write_plans(folder / "plans", a, schedule, texts, options.grid_values); !ok.ok())
-    return ok;
-  if (auto ok = write_schedules(folder / "schedules", a, schedule); !ok.ok()) return ok;
+  if (auto ok = write_plans(folder / "plans", a, schedule, texts, options.grid_values); !ok)
+    return ok.problem();
+  if (auto ok = write_schedules(folder / "schedules", a, schedule); !ok) return ok.problem();
   if (auto ok = write_file_atomically(folder / "report.html",
                                       report_html(a, pictures, named(folder, options), options));
-      !ok.ok())
+      !ok)
     return ok;
   return options.pdf ? print_report(folder, a, pictures, options) : Result<void>{};
 }

@@ -113,7 +113,7 @@ Result<Counted> counted_of(const Json& header, const LocalRun& run, const Source
   if (out.batches < 0)
     return Problem{place, "the flux file does not say how many batches it holds: it is damaged"};
   auto missing = missing_of(header, out.batches, place);
-  if (!missing.ok()) return missing.problem();
+  if (!missing) return missing.problem();
   out.missing = std::move(missing).value();
   const CompiledScene& scene = run.scene();
   std::vector<int64_t> planned(scene.groups.size(), 0);
@@ -162,14 +162,14 @@ Result<void> save_flux(const std::filesystem::path& path, const LocalRun& run) {
 
 Result<void> load_flux(const std::filesystem::path& path, LocalRun& run) {
   auto read = read_flux_file(path);
-  if (!read.ok()) return read.problem();
+  if (!read) return read.problem();
   const SourcePlace place{path.string(), 0};
   const Json header = Json::parse(read->header_json, nullptr, false);
   if (!header.is_object()) return Problem{place, "the flux file's header is no JSON object"};
   const Json wanted = describe_run(run);
   for (const char* key :
        {"schema", "scenario", "seed", "scene_hash", "batch_particles", "layout"}) {
-    if (auto ok = same(header, wanted, key, place); !ok.ok()) return ok.problem();
+    if (auto ok = same(header, wanted, key, place); !ok) return ok.problem();
   }
   Totals& totals = run.totals();
   const Block* ledger_block = read->find("ledger");
@@ -178,7 +178,7 @@ Result<void> load_flux(const std::filesystem::path& path, LocalRun& run) {
   EnergyBalance balance;
   std::memcpy(&balance, ledger_block->bytes.data(), sizeof balance);
   auto counted = counted_of(header, run, place);
-  if (!counted.ok()) return counted.problem();
+  if (!counted) return counted.problem();
   const auto particles =
       static_cast<uint64_t>(counted->traced()) * static_cast<uint64_t>(run.scene().batch_particles);
   if (balance.particles != particles)

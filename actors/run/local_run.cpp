@@ -1,23 +1,16 @@
 #include "actors/run/local_run.hpp"
 
-#include <xmmintrin.h>
-
 #include <chrono>
 #include <cmath>
 #include <limits>
 #include <thread>
 
 #include "runtime/core/check.hpp"
+#include "runtime/core/denormals.hpp"
 
 namespace luxodus {
 
 namespace {
-
-/// Denormals to zero: a weight's float shadow never needs them, and they cost a hundred times a
-/// multiplication.
-void flush_denormals() {
-  _mm_setcsr(_mm_getcsr() | 0x8040);
-}
 
 constexpr double report_every_s = 0.25;
 

@@ -3,8 +3,6 @@
 // Blocks until all rows are done; may be called from any thread.
 #pragma once
 
-#include <xmmintrin.h>
-
 #include <atomic>
 #include <cstdint>
 #include <functional>
@@ -12,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "runtime/core/denormals.hpp"
 #include "scenes/transport/resolver.hpp"
 
 namespace luxodus {
@@ -26,9 +25,9 @@ void parallel_for(int64_t rows, int threads, const Make& make,
   std::mutex mutex;
   int64_t done = 0;
   const auto work = [&] {
-    // Denormals to zero, as in the tracing of particles. Always on threads of our own: the caller's
-    // arithmetic stays as it is, and every row is computed under the same rule.
-    _mm_setcsr(_mm_getcsr() | 0x8040);
+    // Always on threads of our own: the caller's arithmetic stays as it is, and every row is
+    // computed under the same rule.
+    flush_denormals();
     auto worker = make();
     for (int64_t row = next++; row < rows; row = next++) {
       worker(row);

@@ -133,7 +133,7 @@ Result<std::shared_ptr<const Recording>> Recording::make(const CompiledScene& sc
   const SceneObjects objects(scene, holders, 1);
   Recorder recorder(scene, objects, seed, costs);
   if (recorder.tracer().look_units() > 0)
-    return Problem{{}, "paths from eyes cannot be replayed: take tally = \"objects\""};
+    return problem("paths from eyes cannot be replayed: take tally = \"objects\"");
   std::shared_ptr<Recording> made(new Recording);
   for (uint32_t i = 0; i < objects.places().size(); ++i) made->parts_.push_back(objects.parts()[i]);
   const std::vector<double> shares = BatchPlan(scene).shares();
@@ -186,12 +186,12 @@ class BuiltOnce::Builder final : public ObjectBuilder, private ObjectBuilder::Cl
     if (built != nullptr)
       client.built(object, built);
     else
-      client.built(object, Problem{{}, "these bytes are no part of the scene"});
+      client.built(object, problem("these bytes are no part of the scene"));
   }
 
  private:
   void built(uint32_t object, Result<std::shared_ptr<const BuiltObject>> result) override {
-    if (result.ok()) all_.built_[object] = std::move(result).value();
+    if (result) all_.built_[object] = std::move(result).value();
   }
 
   BuiltOnce& all_;

@@ -44,7 +44,7 @@ class ResidentParts final : public PartsSource<ResidentParts> {
   }
   void build(uint32_t number) {
     auto object = builder_.built(number, objects_.bytes(number).bytes);
-    if (object.ok())
+    if (object)
       built_[number] = std::move(object).value();
     else
       problem_ = object.problem();

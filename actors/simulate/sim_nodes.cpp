@@ -77,7 +77,7 @@ std::string SimWorker::fault() const {
 
 std::string SimWorker::regret() const {
   const auto result = worker_.result();
-  return result.ok() ? "" : result.problem().what;
+  return result ? "" : result.problem().what;
 }
 
 // ---- the controller ----------------------------------------------------------------------------

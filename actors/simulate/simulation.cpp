@@ -305,7 +305,7 @@ Result<SimReport> Simulation::run(const SimScene& scene, const SimOptions& optio
   StopRule stop;
   stop.particles = scene.particles();
   auto nodes = PlannedNodes::make(*run, wanted, stop, options.seed | 1);
-  if (!nodes.ok()) return nodes.problem();
+  if (!nodes) return nodes.problem();
   Simulation simulation(scene, options, *nodes.value());
   simulation.go();
   simulation.report_.nodes =

@@ -1,22 +1,19 @@
 #include "actors/source/controller.hpp"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
-#include "actors/tally/flush_codec.hpp"
 #include "runtime/core/check.hpp"
 #include "runtime/core/hash.hpp"
+#include "runtime/core/log.hpp"
 
 namespace luxodus {
 
 namespace {
-/// Hashed at once: some 0.1 ms.
-constexpr size_t bytes_of_a_step = 1 << 20;
 /// Between lines about who is waited for.
 constexpr Nanoseconds waiting_word = seconds(10);
 /// Looks, at each of which all are told of the end: an answer is as fresh as two of three.
@@ -103,7 +100,7 @@ bool Controller::meet(const Delivery& delivery) {
 void Controller::begin() {
   begun_ = true;
   began_ = scheduler_.clock().now();
-  spdlog::info("run=begun workers={}", peers_.size());
+  log_info("run=begun workers={}", peers_.size());
   note_book();
   open_round();
 }
@@ -111,10 +108,10 @@ void Controller::begin() {
 void Controller::await_workers(Nanoseconds now) {
   if (const auto taken = network_.taken_elsewhere()) {
     // Where its results go is in the words of the refusal, which the node adds to this.
-    fault_ = Problem{{},
-                     fmt::format("the run did not begin, since its workers are not free: let the "
-                                 "run that {} works for end first, or give this one other workers",
-                                 name_of(*taken))};
+    fault_ =
+        problem(fmt::format("the run did not begin, since its workers are not free: let the "
+                            "run that {} works for end first, or give this one other workers",
+                            name_of(*taken)));
     return end_run(StopReason::workers_lost);
   }
   if (interrupt_.load()) {
@@ -124,12 +121,11 @@ void Controller::await_workers(Nanoseconds now) {
   if (now - began_ < config_.start) {
     if (now < next_word_) return;
     next_word_ = now + waiting_word;
-    spdlog::info("run=waiting text=\"{}\"", missing_workers());
+    log_info("run=waiting text=\"{}\"", missing_workers());
     return;
   }
-  fault_ = Problem{{},
-                   fmt::format("the run did not begin: after {:g} s (start_s) {}",
-                               seconds_of(config_.start), missing_workers())};
+  fault_ = problem(fmt::format("the run did not begin: after {:g} s (start_s) {}",
+                               seconds_of(config_.start), missing_workers()));
   end_run(StopReason::workers_lost);
 }
 
@@ -164,7 +160,7 @@ void Controller::watch_workers(Nanoseconds now) {
     if (!begun_ || !peer.here || now - *peer.unreachable_since < config_.lost) continue;
     peer.here = false;
     ++counters_.workers_lost;
-    spdlog::error(
+    log_error(
         "worker=lost node={} text=\"no way has led to {} for {:g} s: its batches are lent "
         "again\"",
         worker.value, name_of(worker), seconds_of(config_.lost));
@@ -195,8 +191,8 @@ void Controller::lose_shard(NodeId worker, const char* how) {
 
 void Controller::fail(const std::string& what) {
   if (over_) return;
-  fault_ = Problem{{}, what};
-  spdlog::error("run=failed text=\"{}\"", what);
+  fault_ = problem(what);
+  log_error("run=failed text=\"{}\"", what);
   end_run(StopReason::workers_lost);
 }
 
@@ -206,8 +202,8 @@ void Controller::fence(const std::vector<Lease>& leases, const char* why) {
   std::map<NodeId, LeasesFenced> told;
   for (const Lease& lease : leases) {
     ++counters_.fenced;
-    spdlog::warn("lease=fenced lease={} node={} batch={} text=\"{}: lent again\"", lease.id,
-                 lease.node.value, lease.batch, why);
+    log_warning("lease=fenced lease={} node={} batch={} text=\"{}: lent again\"", lease.id,
+                lease.node.value, lease.batch, why);
     LeasesFenced& of_node = told[lease.node];
     of_node.leases.push_back(lease.id);
     if (of_node.leases.size() < limits::leases) continue;
@@ -221,7 +217,7 @@ void Controller::fence(const std::vector<Lease>& leases, const char* why) {
 /// A worker has tried these for as long as one waits for a lost node: it cannot have an object.
 void Controller::take_back(NodeId worker, const LeasesFenced& leases) {
   for (const Lease& lease : book_.give_back(worker, leases.leases))
-    spdlog::warn(
+    log_warning(
         "lease=given_back lease={} node={} batch={} text=\"{} cannot have an object that it needs: "
         "lent to others\"",
         lease.id, worker.value, lease.batch, name_of(worker));
@@ -236,7 +232,7 @@ void Controller::lose_batches() {
   const int64_t lost = book_.lose_what_all_gave_back(here);
   if (lost == 0) return;
   counters_.batches_lost += static_cast<uint64_t>(lost);
-  spdlog::error(
+  log_error(
       "run=lost batches={} particles={} text=\"nobody who is left can have the objects that these "
       "need: the run ends without them\"",
       lost, lost * run_.scene().batch_particles);
@@ -415,9 +411,8 @@ void Controller::wait_for_farewells(Nanoseconds now) {
   tell_end();
   if (letting_go_ || now < next_word_) return;
   next_word_ = now + waiting_word;
-  spdlog::info(
-      "run=over text=\"{} must hear of it, or be lost: that takes {:g} s (lost_s) at most\"",
-      who_lacks_end(), seconds_of(config_.lost));
+  log_info("run=over text=\"{} must hear of it, or be lost: that takes {:g} s (lost_s) at most\"",
+           who_lacks_end(), seconds_of(config_.lost));
 }
 
 Progress Controller::progress() const {
@@ -495,126 +490,6 @@ size_t Controller::group_of(int64_t batch) {
   while (static_cast<int64_t>(groups_.size()) <= batch)
     groups_.push_back(static_cast<uint32_t>(plan_.next().group));
   return groups_[static_cast<size_t>(batch)];
-}
-
-void Controller::take_flush(const Delivery& delivery, const Flush& flush) {
-  const Answered& last = last_flush_[delivery.source];
-  if (last.question == delivery.id) return send(delivery.source, delivery.id, last.answer);
-  const auto same = [&](const Arrived& arrived) { return arrived.id == delivery.id; };
-  if (std::any_of(arrived_.begin(), arrived_.end(), same)) return;  // it is being counted
-  // Who asks anew has given up what it asked before.
-  if (arrived_.size() >= 2 * peers_.size()) return;
-  arrived_.push_back(
-      {delivery.source, delivery.id, flush, {delivery.payload.begin(), delivery.payload.end()}});
-  start_counting();
-}
-
-void Controller::start_counting() {
-  if (counting_ || arrived_.empty() || shards_.gathering()) return;
-  counting_ = scheduler_.fibers().start("tally", [this] { count_flushes(); }).has_value();
-  if (!counting_) arrived_.pop_back();  // it is sent again
-}
-
-/// On a fiber of its own. Between two flushes somebody may look at the totals; where these lie in
-/// shards, the flushes that have come wait.
-void Controller::count_flushes() {
-  const auto held_back = [&] { return shards_.others() > 0 && run_.pause_is_due(); };
-  while (!arrived_.empty() && !(held_back() && !over_)) {
-    answer_flush(arrived_.front(), count_flush(arrived_.front()));
-    arrived_.pop_front();
-    look_soon();
-  }
-  counting_ = false;
-  look_soon();
-}
-
-/// Not on the fiber that asks. One timer does for all flushes of a turn: hundreds may come at once.
-void Controller::look_soon() {
-  if (std::exchange(looks_soon_, true)) return;
-  scheduler_.timers().set(scheduler_.clock().now(), [this] {
-    looks_soon_ = false;
-    look_at_totals();
-  });
-}
-
-/// `why` it is refused; "" where it was counted.
-void Controller::answer_flush(const Arrived& arrived, const std::string& why) {
-  Answered& last = last_flush_[arrived.worker];
-  last.question = arrived.id;
-  if (why.empty()) {
-    ++counters_.flushes_taken;
-    last.answer = FlushTaken{};
-    spdlog::debug("flush=taken node={} leases={}", arrived.worker.value,
-                  arrived.flush.leases.size());
-  } else {
-    ++counters_.flushes_refused;
-    last.answer = FlushRefused{{}, why};
-    shards_.refuse(arrived.id);
-    spdlog::warn("flush=refused node={} text=\"{}\"", arrived.worker.value, why);
-  }
-  counters_.flush_bytes += arrived.payload.size();
-  send(arrived.worker, arrived.id, last.answer);
-  if (!why.empty())
-    fence(book_.fence_leases(arrived.worker, arrived.flush.leases), "its flush was refused");
-}
-
-/// Lets others have their turn. A node that is to end goes on: what is begun is whole in the end.
-bool Controller::take_turns() {
-  (void)scheduler_.fibers().yield();
-  return true;
-}
-
-/// On a disk, before anybody is told: the run survives this node. Where that fails the run goes on
-/// without, since its totals are right all the same.
-void Controller::keep(const Arrived& arrived) {
-  if (config_.keeper == nullptr) return;
-  const std::vector<int64_t> batches = book_.batches_of(arrived.flush.leases);
-  const auto kept = config_.keeper->keep(batches, arrived.payload);
-  if (kept.ok()) return;
-  ++counters_.flushes_not_kept;
-  spdlog::error(
-      "journal=failed flushes={} text=\"{}: should this node crash, they are traced again\"",
-      counters_.flushes_not_kept, kept.problem().text());
-}
-
-/// Between flushes, when the totals hold all that was kept.
-void Controller::let_keeper_rest() {
-  if (config_.keeper == nullptr || adding_ || counting_ || !config_.keeper->rest_is_due()) return;
-  run_.resume(book_.lent_end(), book_.missing());
-  config_.keeper->rest();
-}
-
-/// Takes a flush whole, or says why not.
-std::string Controller::count_flush(const Arrived& arrived) {
-  const std::vector<uint64_t>& leases = arrived.flush.leases;
-  const char* const fenced = "a lease was fenced";
-  if (!book_.stand(arrived.worker, leases)) return fenced;
-  if (arrived.flush.part_hashes.size() != shards_.others()) return "shards lack their parts of it";
-  Hasher hash;
-  for (std::span<const std::byte> left = arrived.payload; !left.empty(); take_turns()) {
-    const auto piece = left.first(std::min(left.size(), bytes_of_a_step));
-    hash.add(piece.data(), piece.size());
-    left = left.subspan(piece.size());
-  }
-  if (hash.value() != arrived.flush.payload_hash) return "the payload is not what its hash says";
-  const auto rest = [this] { return take_turns(); };
-  const auto gain = decode_flush(arrived.payload, run_.totals().groups(),
-                                 config_.shards.range(0, run_.scene().layout.totals()), rest);
-  if (!gain.ok()) return gain.problem().what;
-  if (gain->batches() != static_cast<int64_t>(leases.size()) || !gain->balance().closes())
-    return "its batches or its ledger do not add up";
-  if (over_) return "the run has ended";
-  // Committed before anything is added, so that no lease of it is fenced while others have turns.
-  if (!book_.stand(arrived.worker, leases)) return fenced;
-  keep(arrived);
-  book_.commit(leases);
-  gathered_ = false;
-  shards_.take(arrived.id, arrived.flush.part_hashes);
-  adding_ = true;
-  gain->add_to(run_.totals(), rest);
-  note_book();
-  adding_ = false;
-  return "";
 }
 
 }  // namespace luxodus

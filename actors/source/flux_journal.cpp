@@ -62,7 +62,7 @@ class Recovery {
   bool add(const std::set<int64_t>& batches, std::span<const std::byte> flush) {
     Totals& totals = run_.totals();
     const auto gain = decode_flush(flush, totals.groups(), totals.layout().totals());
-    if (!gain.ok() || gain->batches() != static_cast<int64_t>(batches.size())) return false;
+    if (!gain || gain->batches() != static_cast<int64_t>(batches.size())) return false;
     gain->add_to(totals);
     done_.insert(batches.begin(), batches.end());
     recovered_ += gain->batches();
@@ -82,7 +82,7 @@ Result<std::unique_ptr<FluxJournal>> FluxJournal::open(std::unique_ptr<AppendSto
   auto journal =
       Journal::open(std::move(store), identity_of(run),
                     [&](std::span<const std::byte> record) { return recovery.count(record); });
-  if (!journal.ok()) return journal.problem();
+  if (!journal) return journal.problem();
   recovery.go_on();
   return std::unique_ptr<FluxJournal>(
       new FluxJournal(std::move(journal).value(), recovery.recovered()));

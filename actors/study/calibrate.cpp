@@ -48,7 +48,7 @@ Result<void> measure_builds(const CompiledScene& scene, const SceneObjects& obje
     for (uint32_t i = 0; i < objects.places().size(); ++i) {
       const double start = thread_seconds();
       const auto built = builder.built(i, objects.bytes(i).bytes);
-      if (!built.ok()) return built.problem();
+      if (!built) return built.problem();
       values.push_back(nanoseconds_since(start));
       rows.push_back({1, static_cast<double>(objects.places()[i].wire_bytes)});
     }
@@ -111,7 +111,7 @@ void measure_looks(const CompiledScene& scene, BatchTracer& tracer, const Reside
 Result<void> measure_tracing(const CompiledScene& scene, SimCosts& costs) {
   const std::array holders{NodeId{0}};
   const SceneObjects objects(scene, holders, 1);
-  if (auto built = measure_builds(scene, objects, costs); !built.ok()) return built;
+  if (auto built = measure_builds(scene, objects, costs); !built) return built.problem();
   const EmbreeDevice device;
   const ProxyScene proxies(device, scene.cell_boxes);
   ResidentParts parts(scene, objects);
@@ -154,7 +154,7 @@ Result<void> measure_counting(const CompiledScene& scene, SimCosts& costs) {
     bytes += static_cast<double>(encoder.bytes().size());
     start = thread_seconds();
     auto gain = decode_flush(encoder.bytes(), groups, scene.layout.totals());
-    if (!gain.ok()) return gain.problem();
+    if (!gain) return gain.problem();
     gain->add_to(all);
     count_ns += nanoseconds_since(start);
   }
@@ -171,11 +171,11 @@ Result<MeasuredCosts> calibrate(const CompiledScene& scene,
   measured.machine = machine_name();
   measured.scene = scene.description->name;
   report("tracing and building");
-  if (auto done = measure_tracing(scene, measured.costs); !done.ok()) return done.problem();
+  if (auto done = measure_tracing(scene, measured.costs); !done) return done.problem();
   report("counting");
-  if (auto done = measure_counting(scene, measured.costs); !done.ok()) return done.problem();
+  if (auto done = measure_counting(scene, measured.costs); !done) return done.problem();
   report("fibers and links");
-  if (auto done = measure_loop(measured.costs); !done.ok()) return done.problem();
+  if (auto done = measure_loop(measured.costs); !done) return done.problem();
   return measured;
 }
 

@@ -164,9 +164,8 @@ Result<void> measure_frames(SimCosts& costs) {
   ZmqContext context({});
   Peer first(context, asker), second(context, holder);
   const Endpoints where{"inproc://calibrate", "inproc://calibrate-bulk"};
-  if (auto bound = first.transport.listen(where); !bound.ok()) return bound.problem();
-  if (auto joined = second.transport.connect(asker, where, ""); !joined.ok())
-    return joined.problem();
+  if (auto bound = first.transport.listen(where); !bound) return bound.problem();
+  if (auto joined = second.transport.connect(asker, where, ""); !joined) return joined.problem();
   while (first.network.phase(holder) != LinkPhase::up ||
          second.network.phase(asker) != LinkPhase::up)
     poll_both(first, second);

@@ -94,7 +94,7 @@ Result<std::string> study_page(const StudyOutcome& outcome) {
   std::vector<std::string> columns;
   for (const StudyPlot& plot : study.plots) {
     const auto svg = svg_plot_text(study_plot(outcome, plot), {study.file.string(), 0});
-    if (!svg.ok()) return svg.problem();
+    if (!svg) return svg.problem();
     page += "<h2>" + xml_escape(plot.title) + "</h2>\n";
     const size_t from = svg->find("<svg");
     page += svg->substr(from == std::string::npos ? 0 : from);

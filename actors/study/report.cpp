@@ -214,18 +214,16 @@ OutputPlan study_output(const Study& study) {
 Result<void> write_study(const std::filesystem::path& folder, const StudyOutcome& outcome) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  if (error) return Problem{{folder.string(), 0}, "cannot make this folder: " + error.message()};
-  if (auto ok = write_csv(folder / "results.csv", study_table(outcome)); !ok.ok())
-    return ok.problem();
-  if (auto ok = write_json(folder / "results.json", study_json(outcome)); !ok.ok())
-    return ok.problem();
+  if (error) return problem_in(folder, "cannot make this folder: " + error.message());
+  if (auto ok = write_csv(folder / "results.csv", study_table(outcome)); !ok) return ok.problem();
+  if (auto ok = write_json(folder / "results.json", study_json(outcome)); !ok) return ok.problem();
   for (const StudyPlot& plot : outcome.study.plots) {
     const auto ok =
         write_svg_plot(folder / (file_name_of(plot.name) + ".svg"), study_plot(outcome, plot));
-    if (!ok.ok()) return ok.problem();
+    if (!ok) return ok.problem();
   }
   const auto page = study_page(outcome);
-  if (!page.ok()) return page.problem();
+  if (!page) return page.problem();
   return write_file_atomically(folder / "index.html", page.value());
 }
 

@@ -36,21 +36,21 @@ class SocketFolder {
 Result<StopReason> run_on_processes(LocalRun& run, NodesOptions options, const StopRule& stop,
                                     const std::atomic<bool>& interrupt, NodesReport& counted) {
   const SocketFolder folder;
-  if (folder.path().empty()) return Problem{{}, "cannot make a folder for local sockets"};
+  if (folder.path().empty()) return problem("cannot make a folder for local sockets");
   options.sockets = folder.path();
   const SystemClock clock;
   const auto made = PlannedNodes::make(run, options, stop, static_cast<uint64_t>(clock.now()) | 1);
-  if (!made.ok()) return made.problem();
+  if (!made) return made.problem();
   const PlannedNodes& nodes = *made.value();
   WorkerProcesses workers;
-  if (auto ok = workers.start(nodes); !ok.ok()) return ok.problem();
+  if (auto ok = workers.start(nodes); !ok) return ok.problem();
   ZmqContext context({});
   const auto reason = run_controller(
       nodes.setup(), {clock, context}, nodes.controller(), run, stop, interrupt,
       [](const Progress&) {}, [&] { return workers.failed(); }, &counted);
-  if (!reason.ok()) return reason;
+  if (!reason) return reason;
   auto did = workers.join();
-  if (!did.ok()) return did.problem();
+  if (!did) return did.problem();
   counted.workers = did.value();
   return reason;
 }
@@ -59,7 +59,7 @@ Result<StopReason> run_on_processes(LocalRun& run, NodesOptions options, const S
 
 Result<StudyResult> run_real(const StudyRun& run, const std::atomic<bool>& interrupt) {
   auto nodes = nodes_of(run);
-  if (!nodes.ok()) return nodes.problem();
+  if (!nodes) return nodes.problem();
   if (nodes->nodes > limits::nodes_in_process)
     return Problem{
         {},
@@ -75,9 +75,9 @@ Result<StudyResult> run_real(const StudyRun& run, const std::atomic<bool>& inter
           ? run_on_processes(local, nodes.value(), stop, interrupt, report)
           : run_on_nodes(
                 local, nodes.value(), stop, interrupt, [](const Progress&) {}, &report);
-  if (!ended.ok()) return ended.problem();
+  if (!ended) return ended.problem();
   if (ended.value() != StopReason::particles)
-    return Problem{{}, std::string("the run ended early: ") + name_of(ended.value())};
+    return problem(std::string("the run ended early: ") + name_of(ended.value()));
   StudyResult result;
   result.seconds = 1e-9 * static_cast<double>(report.took);
   result.particles = static_cast<double>(local.particles());

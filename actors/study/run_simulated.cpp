@@ -156,13 +156,13 @@ Result<StudyResult> SimulatedRun::go(const std::atomic<bool>& interrupt) {
   // When all is counted nothing more is measured; a thousand farewells would take as long again.
   while (!reason_ && world_->step()) {
     if (world_->last() == controller()) look_at_controller();
-    if (world_->now() > longest_run) return Problem{{}, "a simulated run does not end"};
+    if (world_->now() > longest_run) return problem("a simulated run does not end");
     if (world_->counters().events % look_every == 0 && interrupt.load())
-      return Problem{{}, "interrupted"};
+      return problem("interrupted");
   }
-  if (!reason_) return Problem{{}, "nobody has anything to do, and the run has not ended"};
+  if (!reason_) return problem("nobody has anything to do, and the run has not ended");
   if (*reason_ != StopReason::particles)
-    return Problem{{}, fmt::format("the run ended by {}, not by its particles", name_of(*reason_))};
+    return problem(fmt::format("the run ended by {}, not by its particles", name_of(*reason_)));
   note_world();
   world_.reset();  // its workers add what they did
   return result_;
@@ -172,18 +172,18 @@ Result<StudyResult> SimulatedRun::go(const std::atomic<bool>& interrupt) {
 
 Result<StudyResult> run_simulated(const StudyRun& run, const std::atomic<bool>& interrupt) {
   auto options = nodes_of(run);
-  if (!options.ok()) return options.problem();
+  if (!options) return options.problem();
   if (run.recording != nullptr && (options->object_bytes == 0 || options->prefetch > 0))
-    return Problem{{},
-                   "a replay needs a cache, and knows nothing of what a ray enters next: take "
-                   "cache > 0 and prefetch = 0"};
+    return problem(
+        "a replay needs a cache, and knows nothing of what a ray enters next: take "
+        "cache > 0 and prefetch = 0");
   const bool resident = options->object_bytes == 0;
   const LocalRun planned =
       resident ? LocalRun(run.scene, run.seed, 1) : LocalRun(run.scene, run.seed, 1, nullptr);
   StopRule stop;
   stop.particles = particles_of(run.study, run.point);
   auto nodes = PlannedNodes::make(planned, options.value(), stop, run.seed | 1);
-  if (!nodes.ok()) return nodes.problem();
+  if (!nodes) return nodes.problem();
   return SimulatedRun(run, options.value(), *nodes.value(), stop).go(interrupt);
 }
 

@@ -37,7 +37,7 @@ Result<Graph> named_graph(const std::string& topology, uint32_t nodes, uint32_t 
 
 Result<Graph> study_graph(const std::string& topology, uint32_t nodes, uint32_t links) {
   auto graph = named_graph(topology, nodes, links);
-  if (!graph.ok()) return graph;
+  if (!graph) return graph;
   return with_controller(graph.value(), controller_links);
 }
 
@@ -54,7 +54,7 @@ Result<NodesOptions> nodes_of(const StudyRun& run) {
   nodes.links = static_cast<int>(whole("links"));
   auto graph = study_graph(run.study.word(run.point, "topology"),
                            static_cast<uint32_t>(nodes.nodes), static_cast<uint32_t>(nodes.links));
-  if (!graph.ok()) return graph.problem();
+  if (!graph) return graph.problem();
   nodes.graph = std::move(graph).value();
   nodes.fibers = static_cast<size_t>(whole("fibers"));
   nodes.prefetch = static_cast<size_t>(whole("prefetch"));

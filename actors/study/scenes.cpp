@@ -17,9 +17,9 @@ Result<std::shared_ptr<const CompiledScene>> StudyScenes::get(int cells, int64_t
   auto description = std::make_shared<SceneDescription>(description_);
   description->run.batch_particles = batch_particles;
   const auto scenario = find_scenario(*description, scenario_);
-  if (!scenario.ok()) return scenario.problem();
+  if (!scenario) return scenario.problem();
   auto scene = compile_scene(std::move(description), scenario.value(), {cells});
-  if (!scene.ok()) return scene.problem();
+  if (!scene) return scene.problem();
   made = std::move(scene).value();
   return made;
 }

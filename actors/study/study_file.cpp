@@ -9,14 +9,18 @@
 #include <utility>
 
 #include "actors/study/results.hpp"
-#include "runtime/config/document.hpp"
+#include "actors/study/study_schema.hpp"
+#include "runtime/core/regular_file.hpp"
+#include "runtime/toml/document.hpp"
+#include "runtime/toml/table_reader.hpp"
+#include "runtime/toml/words.hpp"
 
 namespace luxodus {
 
 namespace {
 
-using config::Findings;
-using config::TableReader;
+using toml::Findings;
+using toml::TableReader;
 
 struct CostKey {
   const char* key;
@@ -52,18 +56,54 @@ Problems only(const Problem& problem) {
   return problems;
 }
 
-std::vector<StudyAxis> read_axes(TableReader& top, Findings& findings) {
-  TableReader keys(top.table("sweep"), {"sweep"}, findings, top.place("sweep"));
-  std::vector<StudyAxis> axes;
-  for (const config::KeySpec& spec : config::table_spec("sweep").keys) {
-    StudyAxis axis;
-    axis.key = spec.name;
-    if (spec.type == "choices")
-      axis.words = keys.choices(spec.name, limits::study_values);
-    else
-      axis.numbers = keys.numbers(spec.name, limits::study_values);
-    axes.push_back(std::move(axis));
+/// Gives `take` each value of a sweep: the one that stands there, or those of a list.
+template <class Take>
+void for_each_value(TableReader& keys, std::string_view key, const Take& take) {
+  const toml::Value* said = keys.value(key);
+  if (!said) return;
+  const toml::List* list = said->as_list();
+  if (!list) return take(*said);
+  if (list->empty() || list->size() > limits::study_values)
+    return keys.problem(key, fmt::format("'{}' must be one value, or a list of 1 to {}", key,
+                                         limits::study_values));
+  for (const toml::Value& value : *list) take(value);
+}
+
+template <class T>
+void add_once(TableReader& keys, std::string_view key, std::vector<T>& values, const T& value) {
+  if (std::find(values.begin(), values.end(), value) == values.end())
+    values.push_back(value);
+  else
+    keys.problem(key, fmt::format("'{}' says {} twice", key, value));
+}
+
+StudyAxis read_axis(TableReader& keys, const toml::KeySpec& spec) {
+  StudyAxis axis;
+  axis.key = spec.name;
+  if (spec.type == "choice sweep") {
+    for_each_value(keys, spec.name, [&](const toml::Value& value) {
+      if (const auto word = keys.chosen(spec.name, value))
+        add_once(keys, spec.name, axis.words, *word);
+    });
+    if (axis.words.empty()) axis.words.push_back(keys.default_text(spec.name).value());
+    return axis;
   }
+  for_each_value(keys, spec.name, [&](const toml::Value& value) {
+    if (spec.type == "integer sweep" && !value.as_integer())
+      return keys.problem(
+          spec.name, fmt::format("'{}' must be whole numbers, not {}", spec.name, value.kind()));
+    if (const auto number = keys.checked(spec.name, value))
+      add_once(keys, spec.name, axis.numbers, *number);
+  });
+  if (axis.numbers.empty()) axis.numbers.push_back(keys.some_number(spec.name));
+  return axis;
+}
+
+std::vector<StudyAxis> read_axes(TableReader& top) {
+  TableReader keys = top.inner("sweep", {"sweep"});
+  std::vector<StudyAxis> axes;
+  for (const toml::KeySpec& spec : study_schema().table("sweep").keys)
+    axes.push_back(read_axis(keys, spec));
   return axes;
 }
 
@@ -72,10 +112,10 @@ void check_known(TableReader& keys, std::string_view key, const std::string& sai
                  const Names& known, std::string_view what) {
   if (said.empty() || std::find(known.begin(), known.end(), said) != known.end()) return;
   std::string text = fmt::format("'{}' is \"{}\", which is no {}", key, said, what);
-  if (const auto near = config::nearest_word(said, known)) {
+  if (const auto near = toml::nearest_word(said, known)) {
     text += fmt::format("; did you mean \"{}\"?", *near);
   } else {
-    text += "; known are:";
+    text += "; known here:";
     for (const auto name : known) text += fmt::format(" {}", name);
   }
   keys.problem(key, std::move(text));
@@ -83,7 +123,7 @@ void check_known(TableReader& keys, std::string_view key, const std::string& sai
 
 StudyPlot read_plot(TableReader& keys) {
   StudyPlot plot;
-  plot.name = keys.name("name");
+  plot.name = keys.text("name");
   plot.title = keys.text("title");
   plot.x = keys.text("x");
   plot.y = keys.text("y");
@@ -91,8 +131,8 @@ StudyPlot read_plot(TableReader& keys) {
   plot.log_y = keys.flag("log_y");
   plot.explain = keys.text("explain");
   std::vector<std::string_view> axes, columns;
-  for (const config::KeySpec& spec : config::table_spec("sweep").keys)
-    if (spec.type != "choices") axes.push_back(spec.name);
+  for (const toml::KeySpec& spec : study_schema().table("sweep").keys)
+    if (spec.type != "choice sweep") axes.push_back(spec.name);
   for (const StudyColumn& column : study_columns()) columns.push_back(column.name);
   check_known(keys, "x", plot.x, axes, "key of [sweep] that has numbers");
   check_known(keys, "y", plot.y, columns, "column of the results");
@@ -100,8 +140,8 @@ StudyPlot read_plot(TableReader& keys) {
 }
 
 void read_plots(TableReader& top, Study& study, Findings& findings) {
-  for (const toml::table* table : top.tables("plot", limits::study_plots)) {
-    TableReader keys(*table, {"plot"}, findings, top.place("plot"));
+  for (const toml::Table* table : top.tables("plot", limits::study_plots)) {
+    TableReader keys(*table, study_schema(), {"plot"}, findings);
     StudyPlot plot = read_plot(keys);
     const auto same = [&](const StudyPlot& other) { return other.name == plot.name; };
     if (std::any_of(study.plots.begin(), study.plots.end(), same))
@@ -120,9 +160,8 @@ size_t runs_of(const Study& study) {
   return static_cast<size_t>(std::min(runs, 1e15));
 }
 
-void read_top(const toml::table& document, Study& study, Findings& findings,
-              const SourcePlace& start) {
-  TableReader top(document, {"study"}, findings, start);
+void read_top(const toml::Table& table, Study& study, Findings& findings) {
+  TableReader top(table, study_schema(), {"study"}, findings);
   study.title = top.text("title");
   study.question = top.text("question");
   study.scene = top.path("scene");
@@ -130,20 +169,19 @@ void read_top(const toml::table& document, Study& study, Findings& findings,
   study.whole_tally = top.choice("tally") == "scene";
   study.costs = top.path("costs");
   study.seeds = static_cast<int>(top.integer("seeds"));
-  study.first_seed = top.integer("first_seed");
+  study.first_seed = static_cast<uint64_t>(top.integer("first_seed"));
   study.cores = static_cast<uint32_t>(top.integer("cores"));
   study.jitter = span_of(1e-3 * top.number("jitter_ms"));
   study.crash_for = span_of(top.number("crash_for_s"));
-  study.axes = read_axes(top, findings);
+  study.axes = read_axes(top);
   read_plots(top, study, findings);
   const auto& on = study.axis("on").words;
   const bool simulates = std::any_of(on.begin(), on.end(), [](auto& w) { return !is_real(w); });
   if (simulates && study.costs.empty() && !top.has("costs"))
-    findings.add(top.place(), "simulated runs need 'costs', a file of `luxodus study calibrate`");
+    top.problem("simulated runs need 'costs', a file of `luxodus study calibrate`");
   if (runs_of(study) > limits::study_runs)
-    findings.add(top.place("sweep"),
-                 fmt::format("these are {} runs; at most {} are allowed: vary less at once",
-                             runs_of(study), limits::study_runs));
+    top.problem("sweep", fmt::format("these are {} runs; at most {} are allowed: vary less at once",
+                                     runs_of(study), limits::study_runs));
 }
 
 }  // namespace
@@ -194,39 +232,36 @@ std::vector<StudyPoint> Study::points() const {
 }
 
 ReadStudy parse_study(std::string_view text, const std::filesystem::path& file) {
+  const auto document = toml::parse(text, file.string(), limits::study_file_bytes);
+  if (!document) return {std::nullopt, only(document.problem()), {}};
   Study study;
   study.file = file;
   Findings findings;
-  const SourcePlace start{file.string(), 1};
-  Problems problems = config::read_document(
-      text, start, limits::study_file_bytes, findings,
-      [&](const toml::table& document) { read_top(document, study, findings, start); });
-  if (!problems.list().empty()) return {std::nullopt, std::move(problems)};
-  return {std::move(study), {}};
+  read_top(document->top, study, findings);
+  if (findings.any_problem()) return {std::nullopt, findings.take_problems(), {}};
+  return {std::move(study), {}, findings.take_warnings()};
 }
 
 ReadStudy read_study(const std::filesystem::path& file) {
-  const auto text = config::text_of_file(file, limits::study_file_bytes);
-  if (!text.ok()) return {std::nullopt, only(text.problem())};
+  const auto text = read_regular_file(file, limits::study_file_bytes);
+  if (!text) return {std::nullopt, only(text.problem()), {}};
   return parse_study(text.value(), file);
 }
 
 // ---- costs -------------------------------------------------------------------------------------
 
 ReadCosts read_costs(const std::filesystem::path& file) {
-  const auto text = config::text_of_file(file, limits::study_file_bytes);
-  if (!text.ok()) return {std::nullopt, only(text.problem())};
-  MeasuredCosts measured;
+  const auto text = read_regular_file(file, limits::study_file_bytes);
+  if (!text) return {std::nullopt, only(text.problem())};
+  const auto document = toml::parse(text.value(), file.string(), limits::study_file_bytes);
+  if (!document) return {std::nullopt, only(document.problem())};
   Findings findings;
-  const SourcePlace start{file.string(), 1};
-  Problems problems = config::read_document(
-      text.value(), start, limits::study_file_bytes, findings, [&](const toml::table& document) {
-        TableReader keys(document, {"costs"}, findings, start);
-        for (const CostKey& cost : cost_keys) measured.costs.*cost.value = keys.number(cost.key);
-        measured.machine = keys.text("machine");
-        measured.scene = keys.text("scene");
-      });
-  if (!problems.list().empty()) return {std::nullopt, std::move(problems)};
+  TableReader keys(document->top, study_schema(), {"costs"}, findings);
+  MeasuredCosts measured;
+  for (const CostKey& cost : cost_keys) measured.costs.*cost.value = keys.number(cost.key);
+  measured.machine = keys.text("machine");
+  measured.scene = keys.text("scene");
+  if (findings.any_problem()) return {std::nullopt, findings.take_problems()};
   return {std::move(measured), {}};
 }
 

@@ -79,10 +79,11 @@ struct Study {
   std::vector<StudyPoint> points() const;
 };
 
-/// Either a study, or problems.
+/// Either a study, with warnings that do not hinder, or problems.
 struct ReadStudy {
   std::optional<Study> study;
   Problems problems;
+  std::vector<Problem> warnings;
 };
 
 ReadStudy read_study(const std::filesystem::path& file);

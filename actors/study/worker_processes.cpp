@@ -24,7 +24,7 @@ static_assert(std::is_trivially_copyable_v<WorkerReport>, "it is sent as it lies
   {
     ZmqContext context({});
     const auto did = run_worker(nodes.setup(), {clock, context}, node, [] { return false; });
-    if (did.ok()) ok = ::write(report, &did.value(), sizeof(WorkerReport)) == sizeof(WorkerReport);
+    if (did) ok = ::write(report, &did.value(), sizeof(WorkerReport)) == sizeof(WorkerReport);
   }
   // What the other process began (files, threads) is for that one to end.
   ::_exit(ok ? 0 : 1);
@@ -54,13 +54,13 @@ WorkerProcesses::~WorkerProcesses() {
 Result<void> WorkerProcesses::start(const PlannedNodes& nodes) {
   for (const NodeSetup& node : nodes.workers()) {
     std::array<int, 2> pipe{};
-    if (::pipe(pipe.data()) != 0) return Problem{{}, "the system opens no more pipes"};
+    if (::pipe(pipe.data()) != 0) return problem("the system opens no more pipes");
     const pid_t pid = ::fork();
     if (pid == 0) work(nodes, node, pipe[1]);
     ::close(pipe[1]);
     if (pid < 0) {
       ::close(pipe[0]);
-      return Problem{{}, "the system starts no more processes"};
+      return problem("the system starts no more processes");
     }
     workers_.push_back({pid, pipe[0], true});
   }
@@ -85,7 +85,7 @@ Result<WorkerReport> WorkerProcesses::join() {
     WorkerReport report;
     const bool told = read_report(worker.report, report);
     reap(worker, 0);
-    if (!told || failed_) return Problem{{}, "a worker's process failed: see it with --log"};
+    if (!told || failed_) return problem("a worker's process failed: see it with --log");
     all.add(report);
   }
   return all;

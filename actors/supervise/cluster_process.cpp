@@ -1,6 +1,5 @@
 #include "actors/supervise/cluster_process.hpp"
 
-#include <spdlog/spdlog.h>
 #include <sys/random.h>
 
 #include <algorithm>
@@ -13,7 +12,9 @@
 #include "actors/supervise/residency_setup.hpp"
 #include "runtime/config/cluster_file.hpp"
 #include "runtime/core/atomic_file.hpp"
+#include "runtime/core/log.hpp"
 #include "runtime/core/output_path.hpp"
+#include "runtime/core/regular_file.hpp"
 #include "runtime/fiber/sanitizers.hpp"
 #include "scenes/pack/scene_pack.hpp"
 #include "scenes/scene_file/scene_file.hpp"
@@ -47,7 +48,7 @@ Result<Graph> found_graph(const ClusterConfig& cluster) {
   request.controller_links = std::min(choice.max_controller_links, request.nodes);
   request.controller_forwards = choice.controller == TopologyChoice::Controller::forwards;
   auto graph = minimum_path_graph(request);
-  if (!graph.ok()) return Problem{{cluster.file.string(), 0}, graph.problem().what};
+  if (!graph) return problem_in(cluster.file, graph.problem().what);
   return graph;
 }
 
@@ -61,13 +62,13 @@ Result<Graph> listed_graph(const ClusterConfig& cluster) {
   for (const Edge& edge : cluster.topology.edges)
     plan.links.push_back({edge.a.value, edge.b.value});
   std::sort(plan.links.begin(), plan.links.end());
-  if (auto fault = fault_of(plan)) return Problem{{cluster.file.string(), 0}, fault->what};
+  if (auto fault = fault_of(plan)) return problem_in(cluster.file, fault->what);
   return Graph(std::move(plan));
 }
 
 Result<Graph> graph_in_file(const ClusterConfig& cluster) {
   auto text = read_whole_file(cluster.topology.file, limits::cluster_file_bytes);
-  if (!text.ok()) return text.problem();
+  if (!text) return text.problem();
   const auto& bytes = text.value();
   return parse_graph({reinterpret_cast<const char*>(bytes.data()), bytes.size()},
                      cluster.topology.file.string());
@@ -87,18 +88,17 @@ std::string where_results_go(const ClusterConfig& cluster) {
 
 Result<Graph> graph_of(const ClusterConfig& cluster) {
   if (cluster.topology.controller == TopologyChoice::Controller::node)
-    return Problem{{cluster.file.string(), 0},
-                   "a controller that is a vertex as all others is not supported: say "
-                   "controller = \"forwards\" or \"endpoint\""};
+    return problem_in(cluster.file,
+                      "a controller that is a vertex as all others is not supported: say "
+                      "controller = \"forwards\" or \"endpoint\"");
   auto graph = cluster.topology.kind == TopologyChoice::Kind::amp     ? found_graph(cluster)
                : cluster.topology.kind == TopologyChoice::Kind::links ? listed_graph(cluster)
                                                                       : graph_in_file(cluster);
-  if (graph.ok() &&
-      (graph.value().workers() != cluster.workers() || !graph.value().has_controller())) {
-    return Problem{{cluster.file.string(), 0},
-                   "the graph has " + std::to_string(graph.value().workers()) + " workers" +
-                       (graph.value().has_controller() ? "" : " and no controller") +
-                       ", the cluster " + std::to_string(cluster.workers()) + " and one"};
+  if (graph && (graph.value().workers() != cluster.workers() || !graph.value().has_controller())) {
+    return problem_in(cluster.file,
+                      "the graph has " + std::to_string(graph.value().workers()) + " workers" +
+                          (graph.value().has_controller() ? "" : " and no controller") +
+                          ", the cluster " + std::to_string(cluster.workers()) + " and one");
   }
   return graph;
 }
@@ -128,12 +128,12 @@ ClusterProcessRun::~ClusterProcessRun() = default;
 Result<std::unique_ptr<ClusterProcessRun>> ClusterProcessRun::prepare(
     const ClusterConfig& cluster, const std::vector<NodeId>& nodes) {
   auto graph = graph_of(cluster);
-  if (!graph.ok()) return graph.problem();
+  if (!graph) return graph.problem();
   std::unique_ptr<ClusterProcessRun> process(
       new ClusterProcessRun(cluster, std::move(graph).value()));
   process->nodes_ = nodes;
-  if (auto ok = process->load_keys(nodes); !ok.ok()) return ok.problem();
-  if (auto ok = process->load_scene(); !ok.ok()) return ok.problem();
+  if (auto ok = process->load_keys(nodes); !ok) return ok.problem();
+  if (auto ok = process->load_scene(); !ok) return ok.problem();
   return process;
 }
 
@@ -141,12 +141,12 @@ Result<void> ClusterProcessRun::load_keys(const std::vector<NodeId>& nodes) {
   if (cluster_.keys.folder.empty()) return {};
   for (const NodeId node : nodes) {
     auto keys = read_keys(key_path(cluster_.keys.folder, cluster_.node(node).name));
-    if (!keys.ok()) return keys.problem();
+    if (!keys) return keys.problem();
     keys_.emplace(node, std::move(keys).value());
   }
   for (uint16_t i = 0; i < cluster_.nodes.size(); ++i) {
     auto key = read_public_key(public_key_path(cluster_.keys.folder, cluster_.node({i}).name));
-    if (!key.ok()) return key.problem();
+    if (!key) return key.problem();
     public_keys_.emplace(NodeId{i}, std::move(key).value());
   }
   return {};
@@ -165,11 +165,11 @@ Result<std::shared_ptr<const SceneDescription>> described(const std::filesystem:
 
 Result<void> ClusterProcessRun::load_scene() {
   auto description = described(cluster_.run.scene);
-  if (!description.ok()) return description.problem();
+  if (!description) return description.problem();
   auto scenario = find_scenario(*description.value(), cluster_.run.scenario);
-  if (!scenario.ok()) return scenario.problem();
+  if (!scenario) return scenario.problem();
   auto scene = compile_scene(description.value(), scenario.value(), {1});
-  if (!scene.ok()) return scene.problem();
+  if (!scene) return scene.problem();
   const uint64_t geometry = built_bytes_of(scene.value()->triangles * sizeof(TriangleRecord));
   const uint64_t beside = built_bytes_beside_cells(*scene.value());
   fetches_ = geometry + beside > smallest_object_bytes(cluster_);
@@ -178,16 +178,17 @@ Result<void> ClusterProcessRun::load_scene() {
   cells_ = packed != nullptr ? packed->partition : wanted;
   if (packed == nullptr && wanted > 1)
     scene = compile_scene(description.value(), scenario.value(), {cells_});
-  if (!scene.ok()) return scene.problem();
+  if (!scene) return scene.problem();
   const uint64_t seed = description.value()->run.seed;
   if (!fetches_) {
     run_ = std::make_unique<LocalRun>(scene.value(), seed, 1);
     return {};
   }
   if (!in_parts(*scene.value())) {
-    return Problem{{cluster_.run.scene.string(), 0},
-                   "this pack is of one cell, which is more than a node's object_bytes: pack the "
-                   "scene with a smaller --cell-kib"};
+    return problem_in(
+        cluster_.run.scene,
+        "this pack is of one cell, which is more than a node's object_bytes: pack the "
+        "scene with a smaller --cell-kib");
   }
   OutOfCoreConfig rows;
   rows.object_bytes = cluster_.node(cluster_.controller()).budget.object_bytes;
@@ -199,9 +200,10 @@ Result<void> ClusterProcessRun::load_scene() {
 
 Result<ReferenceProfile> ClusterProcessRun::profile(double share) const {
   if (!fetches_)
-    return Problem{{cluster_.file.string(), 0},
-                   "every worker's budget holds the whole scene: nothing is fetched, and a profile "
-                   "would change nothing"};
+    return problem_in(
+        cluster_.file,
+        "every worker's budget holds the whole scene: nothing is fetched, and a profile "
+        "would change nothing");
   uint64_t budget = 0;
   for (const ClusterNode& node : cluster_.nodes)
     budget = std::max(budget, node.budget.object_bytes);
@@ -218,7 +220,7 @@ Result<ReferenceProfile> ClusterProcessRun::profile(double share) const {
 Result<std::optional<Residency>> ClusterProcessRun::planned_residency(const RunSetup& run) const {
   if (cluster_.run.profile.empty()) return std::optional<Residency>();
   auto profile = read_profile(cluster_.run.profile, run.scene, run.objects->places().size());
-  if (!profile.ok()) return profile.problem();
+  if (!profile) return profile.problem();
   ResidencyBudgets budgets{{}, pinned_share, replicas()};
   for (const ClusterNode& node : cluster_.nodes)
     if (node.role == NodeRole::worker) budgets.object_bytes.push_back(node.budget.object_bytes);
@@ -276,14 +278,14 @@ Result<void> ClusterProcessRun::open_journal(const Clock& clock) {
   config.self = cluster_.controller();
   config.faults = cluster_.faults;
   auto journal = RunJournal::open(config, *run_, clock);
-  if (!journal.ok()) return journal.problem();
+  if (!journal) return journal.problem();
   journal_ = std::move(journal).value();
   if (journal_->torn_bytes() > 0)
-    spdlog::warn("journal=torn bytes={} text=\"the end of it was cut: a crash tore it\"",
-                 journal_->torn_bytes());
+    log_warning("journal=torn bytes={} text=\"the end of it was cut: a crash tore it\"",
+                journal_->torn_bytes());
   if (journal_->recovered() > 0)
-    spdlog::warn("run=recovered batches={} text=\"an earlier life of this node has counted them\"",
-                 journal_->recovered());
+    log_warning("run=recovered batches={} text=\"an earlier life of this node has counted them\"",
+                journal_->recovered());
   return {};
 }
 
@@ -301,8 +303,8 @@ Result<void> ClusterProcessRun::write_trace(const Observation& seen) const {
   std::error_code failed;
   std::filesystem::create_directories(cluster_.run.out, failed);
   if (failed)
-    return Problem{{cluster_.run.out.string(), 0},
-                   "cannot make this folder for the trace: " + failed.message()};
+    return problem_in(cluster_.run.out,
+                      "cannot make this folder for the trace: " + failed.message());
   const size_t process = cluster_.node(nodes_.front()).process;
   return seen.write_trace(behind_links(
       cluster_.run.out / ("trace-" + file_name_of(cluster_.processes[process].name) + ".json")));
@@ -344,19 +346,19 @@ Result<std::unique_ptr<ClusterProcessRun::Prepared>> ClusterProcessRun::prepare_
     setup.proxies = &*out->proxies;
     if (cluster_.run.sharing) setup.shared = &out->shared.emplace(out->objects->places().size());
     auto planned = planned_residency(setup);
-    if (!planned.ok()) return planned.problem();
+    if (!planned) return planned.problem();
     out->residency = std::move(planned).value();
     // Where some workers have no storage, the plan's holders would be asked in vain.
     if (out->residency && holders_of(cluster_).size() == cluster_.workers())
       out->objects->place(out->residency->holders);
   }
   auto seen = Observation::start(observe_options());
-  if (!seen.ok()) return seen.problem();
+  if (!seen) return seen.problem();
   out->seen = std::move(seen).value();
   if (out->seen->watches()) setup.observation = out->seen.get();
   for (const NodeId node : nodes_) {
     auto own = setup_of(node, setup);
-    if (!own.ok()) return own.problem();
+    if (!own) return own.problem();
     if (out->residency) settle(own.value(), *out->residency);
     if (node == cluster_.controller())
       out->controller = std::move(own).value();
@@ -364,19 +366,19 @@ Result<std::unique_ptr<ClusterProcessRun::Prepared>> ClusterProcessRun::prepare_
       out->workers.push_back(std::move(own).value());
   }
   for (const NodeSetup& node : out->workers)
-    if (auto fault = budget_fault(setup, node)) return Problem{{cluster_.file.string(), 0}, *fault};
-  spdlog::info("memory plan\n{}", plan_text(setup, out->workers, out->controller));
+    if (auto fault = budget_fault(setup, node)) return problem_in(cluster_.file, *fault);
+  log_info("memory plan\n{}", plan_text(setup, out->workers, out->controller));
   return out;
 }
 
 Result<std::optional<StopReason>> ClusterProcessRun::run(
     const std::atomic<bool>& interrupt, const std::function<void(const Progress&)>& report) {
   auto prepared = prepare_nodes();
-  if (!prepared.ok()) return prepared.problem();
+  if (!prepared) return prepared.problem();
   Prepared& nodes = *prepared.value();
   // With shards the journal would hold a part of the totals.
   if (nodes.controller && nodes.setup.shards.owners.empty())
-    if (auto ok = open_journal(nodes.clock); !ok.ok()) return ok.problem();
+    if (auto ok = open_journal(nodes.clock); !ok) return ok.problem();
   WorkerThreads threads(nodes.setup, nodes.machine, nodes.workers,
                         [&] { return !nodes.controller && interrupt.load(); });
   std::optional<StopReason> reason;
@@ -388,7 +390,7 @@ Result<std::optional<StopReason>> ClusterProcessRun::run(
     auto ended = run_controller(
         nodes.setup, nodes.machine, *nodes.controller, *run_, stop, interrupt, report,
         [&] { return threads.failed(); }, nullptr, journal_.get());
-    if (!ended.ok()) {
+    if (!ended) {
       if (journal_) journal_->leave_no_trace();
       return ended.problem();
     }
@@ -397,18 +399,18 @@ Result<std::optional<StopReason>> ClusterProcessRun::run(
   threads.join();
   if (threads.failed()) return threads.problem();
   if (nodes.residency) residency_lines_ = residency_table(*nodes.residency, threads.by_node());
-  if (auto ok = write_trace(*nodes.seen); !ok.ok()) return ok.problem();
+  if (auto ok = write_trace(*nodes.seen); !ok) return ok.problem();
   return reason;
 }
 
 Result<std::optional<StopReason>> ClusterProcessRun::run(const std::atomic<bool>& interrupt,
                                                          const NodeWork& work) {
   if (fetches_)
-    return Problem{{cluster_.file.string(), 0},
-                   "a live view needs nodes that hold the whole scene: raise object_bytes in "
-                   "[budget]"};
+    return problem_in(cluster_.file,
+                      "a live view needs nodes that hold the whole scene: raise object_bytes in "
+                      "[budget]");
   auto prepared = prepare_nodes();
-  if (!prepared.ok()) return prepared.problem();
+  if (!prepared) return prepared.problem();
   const Prepared& nodes = *prepared.value();
   WorkerThreads threads(
       nodes.setup, nodes.machine, nodes.workers, [&] { return interrupt.load(); }, work.worker);
@@ -416,7 +418,7 @@ Result<std::optional<StopReason>> ClusterProcessRun::run(const std::atomic<bool>
   if (nodes.controller) {
     auto ended = work.controller(nodes.setup, nodes.machine, *nodes.controller);
     threads.join();
-    if (!ended.ok()) return ended.problem();
+    if (!ended) return ended.problem();
     reason = ended.value();
   }
   threads.join();

@@ -122,8 +122,8 @@ Result<std::vector<AskedProcess>> processes_of(const ClusterConfig& cluster) {
   std::vector<AskedProcess> asked;
   for (const ClusterProcess& process : cluster.processes) {
     if (process.metrics_port == 0)
-      return Problem{{cluster.file.string(), 0},
-                     "this cluster serves no metrics: say metrics_port in [observe]"};
+      return problem_in(cluster.file,
+                        "this cluster serves no metrics: say metrics_port in [observe]");
     AskedProcess& one = asked.emplace_back();
     one.name = process.name;
     const bool everywhere = cluster.observe.metrics_address == "0.0.0.0";
@@ -137,7 +137,7 @@ Result<std::vector<AskedProcess>> processes_of(const ClusterConfig& cluster) {
 
 std::vector<Result<std::string>> ask(const std::vector<AskedProcess>& processes,
                                      Nanoseconds patience) {
-  std::vector<Result<std::string>> pages(processes.size(), Problem{{}, "was not asked"});
+  std::vector<Result<std::string>> pages(processes.size(), problem("was not asked"));
   std::atomic<size_t> next{0};
   const auto work = [&] {
     for (size_t i = next++; i < processes.size(); i = next++)
@@ -154,7 +154,7 @@ std::vector<NodeStatus> status_of(const std::vector<AskedProcess>& processes,
   Suspicions suspicions;
   std::vector<Page> read;
   for (const Result<std::string>& page : pages)
-    read.push_back(page.ok() ? read_page(page.value(), suspicions) : Page{});
+    read.push_back(page ? read_page(page.value(), suspicions) : Page{});
   std::vector<NodeStatus> rows;
   for (size_t i = 0; i < processes.size(); ++i) {
     std::vector<std::string> nodes = processes[i].nodes;

@@ -47,7 +47,7 @@ std::shared_ptr<const CompiledScene> tiny_room() {
   scene->media.push_back(smoke);
   scene->run.max_bands = 1;
   auto compiled = compile_scene(scene, find_scenario(*scene, "").value(), {});
-  if (!compiled.ok()) throw std::logic_error("fingerprint: " + compiled.problem().text());
+  if (!compiled) throw std::logic_error("fingerprint: " + compiled.problem().text());
   return compiled.value();
 }
 

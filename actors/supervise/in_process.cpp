@@ -9,7 +9,7 @@ Result<std::string> plan_on_nodes(const LocalRun& run, const NodesOptions& optio
   NodesOptions unprofiled = options;
   unprofiled.profile_share = 0;
   auto made = PlannedNodes::make(run, unprofiled, {}, 1);
-  if (!made.ok()) return made.problem();
+  if (!made) return made.problem();
   const PlannedNodes& nodes = *made.value();
   return plan_text(nodes.setup(), nodes.workers(), nodes.controller());
 }
@@ -20,10 +20,10 @@ Result<StopReason> run_on_nodes(LocalRun& run, const NodesOptions& options, cons
                                 NodesReport* counted) {
   // All nodes have their objects of one file: what is damaged in it, none of them can give.
   if (!run.resident())
-    if (auto whole = check_objects(run.scene()); !whole.ok()) return whole.problem();
+    if (auto whole = check_objects(run.scene()); !whole) return whole.problem();
   const SystemClock clock;
   auto made = PlannedNodes::make(run, options, stop, static_cast<uint64_t>(clock.now()) | 1);
-  if (!made.ok()) return made.problem();
+  if (!made) return made.problem();
   PlannedNodes& nodes = *made.value();
   ZmqContext context({});
   const Machine machine{clock, context};

@@ -81,8 +81,8 @@ MemoryPlan process_plan(const RunSetup& run) {
     plan.add("search structures", built_bytes_of(cells) - cells,
              "about 111 B a triangle of a cell that is whole here");
   if (run.objects != nullptr && !mapped)
-    plan.add("objects to serve", run.objects->wire_bytes(),
-             fmt::format("{} objects as they travel", run.objects->places().size()));
+    plan.add("scene parts to serve", run.objects->wire_bytes(),
+             fmt::format("{} scene parts as they travel", run.objects->places().size()));
   return plan;
 }
 
@@ -153,7 +153,7 @@ MemoryPlan worker_plan(const RunSetup& run, const NodeSetup& node) {
     histograms += limits::hops + 2;  // by hops from 0, and of waits
   }
   plan.add("histograms", histogram_bytes(run),
-           "of batches; of builds and waits where objects are fetched");
+           "of batches; of builds and waits where scene parts are fetched");
   add_metrics(plan, run, histograms);
   if (run.observation != nullptr && run.observation->traces())
     plan.add("trace", limits::trace_events * sizeof(TraceEvent),
@@ -196,13 +196,13 @@ std::optional<std::string> budget_fault(const RunSetup& run, const NodeSetup& no
   const uint64_t needed = 2 * cache.largest_build_bytes + cache.max_pinned_bytes();
   if (cache.budget_bytes < needed)
     return fmt::format(
-        "node {}: its cache needs {}, room for the largest object and one more being built, and "
-        "object_bytes is {}: raise object_bytes in [budget], or cut the scene into more cells",
+        "node {}: its cache needs {}, room for the largest scene part and one more being built, "
+        "and object_bytes is {}: raise object_bytes in [budget], or cut the scene into more cells",
         name, mebibytes(needed), mebibytes(cache.budget_bytes));
   if (run.objects->largest_wire_bytes() > node.fetch.receive_bytes)
     return fmt::format(
-        "node {}: the largest object has {}, and {} are received at once: cut the scene into more "
-        "cells",
+        "node {}: the largest scene part has {}, and {} are received at once: cut the scene into "
+        "more cells",
         name, mebibytes(run.objects->largest_wire_bytes()), mebibytes(node.fetch.receive_bytes));
   return std::nullopt;
 }

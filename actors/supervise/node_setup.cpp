@@ -29,13 +29,13 @@ constexpr size_t longest_message = 1u << 30;
 
 Result<void> join_links(ZmqTransport& transport, const NodeSetup& node) {
   for (const Endpoints& where : node.links.listen) {
-    if (auto at = transport.listen(where); !at.ok()) return at.problem();
+    if (auto at = transport.listen(where); !at) return at.problem();
   }
   for (const auto& [neighbour, where] : node.links.connect) {
     const auto key = node.public_keys.find(neighbour);
     auto to = transport.connect(neighbour, where,
                                 key == node.public_keys.end() ? std::string() : key->second);
-    if (!to.ok()) return to.problem();
+    if (!to) return to.problem();
   }
   return {};
 }

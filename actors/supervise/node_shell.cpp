@@ -1,6 +1,6 @@
 #include "actors/supervise/node_shell.hpp"
 
-#include <spdlog/spdlog.h>
+#include "runtime/core/log.hpp"
 
 namespace luxodus {
 
@@ -81,8 +81,8 @@ class NodeShell::Handler final : public NetHandler {
     return shell_.fetcher_ != nullptr && shell_.fetcher_->intercept(request);
   }
   void link_changed(NodeId neighbour, LinkPhase phase) override {
-    spdlog::debug("link node={} neighbour={} phase={}", shell_.config_.net.self.value,
-                  neighbour.value, name_of(phase));
+    log_debug("link node={} neighbour={} phase={}", shell_.config_.net.self.value, neighbour.value,
+              name_of(phase));
   }
   NextHops reroute(std::span<const Edge> down) override {
     const NodeId self = shell_.config_.net.self;

@@ -1,12 +1,11 @@
 #include "actors/supervise/node_threads.hpp"
 
-#include <xmmintrin.h>
-
 #include <algorithm>
 #include <ctime>
 #include <exception>
 
 #include "actors/supervise/controller_node.hpp"
+#include "runtime/core/denormals.hpp"
 
 namespace luxodus {
 
@@ -27,18 +26,17 @@ Result<WorkerReport> run_worker(const RunSetup& run, const Machine& machine, con
                                 const std::function<bool()>& stop) {
   NodeTransport transport(machine, node);
   Worker worker(run, node, transport.seams());
-  if (auto joined = join_links(transport.sockets(), node); !joined.ok()) return joined.problem();
+  if (auto joined = join_links(transport.sockets(), node); !joined) return joined.problem();
   worker.start(stop);
   const uint64_t before = processor_ns();
   worker.shell().run();
   auto result = worker.result();
-  if (result.ok()) {
+  if (result) {
     result.value().processor_ns = processor_ns() - before;
     return result;
   }
-  return Problem{{},
-                 run.name_of(node.net.self) + ": " + result.problem().what +
-                     transport.meeting_trouble(worker.shell().network())};
+  return problem(run.name_of(node.net.self) + ": " + result.problem().what +
+                 transport.meeting_trouble(worker.shell().network()));
 }
 
 WorkerThreads::WorkerThreads(const RunSetup& run, const Machine& machine,
@@ -51,12 +49,12 @@ WorkerThreads::WorkerThreads(const RunSetup& run, const Machine& machine,
 
 void WorkerThreads::work(const RunSetup& run, const Machine& machine, const NodeSetup& node,
                          const std::function<bool()>& stop, const RunWorker& run_one) {
-  _mm_setcsr(_mm_getcsr() | 0x8040);  // denormals to zero, as in the plain loop
+  flush_denormals();
   Problem wrong;
   try {
     auto done = run_one(run, machine, node, stop);
     const std::lock_guard lock(mutex_);
-    if (done.ok()) return reports_.push_back(done.value());
+    if (done) return reports_.push_back(done.value());
     wrong = done.problem();
   } catch (const std::exception& e) {
     wrong = {{}, "node " + std::to_string(node.net.self.value) + ": " + e.what()};
@@ -94,7 +92,7 @@ Result<StopReason> run_controller(const RunSetup& setup, const Machine& machine,
                                   FlushKeeper* keeper) {
   NodeTransport transport(machine, node);
   ControllerNode here(setup, node, run, stop, interrupt, report, transport.seams(), keeper);
-  if (auto joined = join_links(transport.sockets(), node); !joined.ok()) return joined.problem();
+  if (auto joined = join_links(transport.sockets(), node); !joined) return joined.problem();
   const Nanoseconds began = machine.clock.now();
   here.start(broken);
   here.shell().run();
@@ -102,9 +100,8 @@ Result<StopReason> run_controller(const RunSetup& setup, const Machine& machine,
   run.add_seconds(static_cast<double>(machine.clock.now() - began - controller.over_for()) * 1e-9);
   const Network& network = here.shell().network();
   if (controller.fault())
-    return Problem{{},
-                   setup.name_of(node.net.self) + ": " + controller.fault()->what +
-                       transport.meeting_trouble(network)};
+    return problem(setup.name_of(node.net.self) + ": " + controller.fault()->what +
+                   transport.meeting_trouble(network));
   if (counted != nullptr) {
     const Controller::Counters& c = controller.counters();
     *counted = {c.flushes_taken,

@@ -1,7 +1,5 @@
 #include "actors/supervise/out_of_core_for.hpp"
 
-#include <xmmintrin.h>
-
 #include <array>
 #include <atomic>
 #include <mutex>
@@ -10,6 +8,7 @@
 
 #include "actors/supervise/fetching_objects.hpp"
 #include "actors/supervise/node_plan.hpp"
+#include "runtime/core/denormals.hpp"
 #include "topology/graph.hpp"
 
 namespace luxodus {
@@ -83,7 +82,7 @@ namespace {
 /// One thread's work: fibers on a node of its own, until the rows are done.
 void work(const RunSetup& run, const NodeSetup& node, const Clock& clock,
           const ParallelFor::MakeWorker& make, Rows& rows) {
-  _mm_setcsr(_mm_getcsr() | 0x8040);  // denormals to zero, as in the tracing of particles
+  flush_denormals();
   NoTransport transport(clock);
   NodeShell shell({node.net, worker_limits(run, node)}, run.graph, clock, transport);
   FetchingObjects cells(run, node, shell);

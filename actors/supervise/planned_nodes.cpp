@@ -30,14 +30,14 @@ std::optional<std::string> fault_of(const NodesOptions& options, const CompiledS
            " shards: one of the controller, and one of each node";
   if (options.object_bytes == 0) {
     if (resident) return std::nullopt;
-    return "nodes that do not hold the whole scene need a budget for objects";
+    return "nodes that do not hold the whole scene need a budget for scene parts";
   }
   if (!in_parts(scene))
     return "nodes with a budget need a partition of the geometry: add --cells, or pack the scene "
            "with more than one";
   if (options.replicas < 1 || options.replicas > static_cast<uint32_t>(options.nodes) ||
       options.replicas > limits::holders)
-    return "an object can be held by 1 to " + std::to_string(limits::holders) +
+    return "a scene part can be held by 1 to " + std::to_string(limits::holders) +
            " nodes, and by no more than there are";
   return std::nullopt;
 }
@@ -89,7 +89,7 @@ Result<std::optional<Residency>> planned_residency(const RunSetup& run, const No
   const auto size = profile_particles(BatchPlan(run.scene).shares(), particles);
   auto profile = count_references(run.scene, *run.objects, *run.proxies, run.seed, size,
                                   static_cast<uint64_t>(options.nodes) * options.object_bytes);
-  if (!profile.ok()) return profile.problem();
+  if (!profile) return profile.problem();
   const std::vector<size_t> budgets(static_cast<size_t>(options.nodes), options.object_bytes);
   return std::optional(residency_for(profile.value(), run.scene, *run.objects, run.graph,
                                      {budgets, options.pinned_share, options.replicas}));
@@ -100,20 +100,18 @@ Result<std::optional<Residency>> planned_residency(const RunSetup& run, const No
 Result<std::unique_ptr<PlannedNodes>> PlannedNodes::make(const LocalRun& run,
                                                          const NodesOptions& options,
                                                          const StopRule& stop, uint64_t run_id) {
-  if (auto fault = fault_of(options, run.scene(), run.resident())) return Problem{{}, *fault};
+  if (auto fault = fault_of(options, run.scene(), run.resident())) return problem(*fault);
   auto graph = graph_for(options);
-  if (!graph.ok()) return graph.problem();
+  if (!graph) return graph.problem();
   std::unique_ptr<PlannedNodes> made(new PlannedNodes(run, options, std::move(graph).value()));
   if (const uint32_t longest = made->routes_.longest(); longest > limits::hops)
-    return Problem{{},
-                   "the longest way between nodes has " + std::to_string(longest) +
-                       " links, and messages pass " + std::to_string(limits::hops) +
-                       " at most: take another graph, or fewer nodes"};
-  if (auto planned = made->plan_residency(run, options, stop); !planned.ok())
-    return planned.problem();
+    return problem("the longest way between nodes has " + std::to_string(longest) +
+                   " links, and messages pass " + std::to_string(limits::hops) +
+                   " at most: take another graph, or fewer nodes");
+  if (auto planned = made->plan_residency(run, options, stop); !planned) return planned.problem();
   made->set_up(options, run_id);
   for (const NodeSetup& node : made->workers_)
-    if (auto fault = budget_fault(made->setup_, node)) return Problem{{}, *fault};
+    if (auto fault = budget_fault(made->setup_, node)) return problem(*fault);
   return made;
 }
 
@@ -143,7 +141,7 @@ Result<void> PlannedNodes::plan_residency(const LocalRun& run, const NodesOption
                                           const StopRule& stop) {
   if (!objects_) return {};
   auto planned = planned_residency(setup_, options, profile_size(run, stop, options));
-  if (!planned.ok()) return planned.problem();
+  if (!planned) return planned.problem();
   residency_ = std::move(planned).value();
   if (residency_) objects_->place(residency_->holders);
   return {};

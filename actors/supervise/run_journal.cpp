@@ -1,10 +1,9 @@
 #include "actors/supervise/run_journal.hpp"
 
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
 
 #include "actors/run/flux_store.hpp"
+#include "runtime/core/log.hpp"
 #include "runtime/storage/faulty_store.hpp"
 
 namespace luxodus {
@@ -28,20 +27,20 @@ Result<std::unique_ptr<RunJournal>> RunJournal::open(const RunJournalConfig& con
   // Files are written into no folder that is a link; what the run's file names may be one.
   if (!failed) real.folder = fs::canonical(config.folder, failed);
   if (failed)
-    return Problem{{config.folder.string(), 0},
-                   "cannot make this folder for the journal: " + failed.message()};
+    return problem_in(config.folder,
+                      "cannot make this folder for the journal: " + failed.message());
   std::unique_ptr<RunJournal> made(new RunJournal(real, run, clock));
   made->made_folder_ = made_folder;
   const int64_t before = run.traced();
   if (fs::exists(made->snapshot(), failed))
-    if (auto ok = load_flux(made->snapshot(), run); !ok.ok()) return ok.problem();
+    if (auto ok = load_flux(made->snapshot(), run); !ok) return ok.problem();
   auto file = FileStore::open(made->journal());
-  if (!file.ok()) return file.problem();
+  if (!file) return file.problem();
   std::unique_ptr<AppendStore> store = std::move(file).value();
   if (config.faults.any())
     store = std::make_unique<FaultyStore>(std::move(store), config.self, config.faults, clock);
   auto journal = FluxJournal::open(std::move(store), run);
-  if (!journal.ok()) return Problem{{made->journal().string(), 0}, journal.problem().what};
+  if (!journal) return problem_in(made->journal(), journal.problem().what);
   made->journal_ = std::move(journal).value();
   made->recovered_ = run.traced() - before;
   made->keep_room();
@@ -52,20 +51,20 @@ void RunJournal::keep_room() {
   const auto groups = static_cast<uint64_t>(run_.totals().groups());
   const auto bins = static_cast<uint64_t>(run_.scene().layout.totals());
   const uint64_t bytes = std::min(max_room, groups * bins * sizeof(Total)) + room_beside;
-  if (auto kept = room_.take(config_.folder, bytes); !kept.ok())
-    spdlog::warn("journal=no_room text=\"{}\"", kept.problem().text());
+  if (auto kept = room_.take(config_.folder, bytes); !kept)
+    log_warning("journal=no_room text=\"{}\"", kept.problem().text());
 }
 
 Result<void> RunJournal::keep(std::span<const int64_t> batches, std::span<const std::byte> flush) {
   auto kept = journal_->keep(batches, flush);
-  if (!kept.ok()) lacks_ = true;
+  if (!kept) lacks_ = true;
   return kept;
 }
 
 /// The snapshot has its name before the journal is cut: between the two, what the journal holds is
 /// known to be in the snapshot.
 Result<void> RunJournal::make_snapshot() {
-  if (auto saved = save_flux(snapshot(), run_); !saved.ok()) return saved.problem();
+  if (auto saved = save_flux(snapshot(), run_); !saved) return saved.problem();
   return journal_->restart();
 }
 
@@ -74,14 +73,14 @@ void RunJournal::rest() {
   const auto made = make_snapshot();
   keep_room();
   // A disk that stays full would have a snapshot made after every flush.
-  if (lacks_ || !made.ok()) not_before_ = clock_.now() + config_.retry;
-  if (made.ok()) {
-    if (lacks_) spdlog::info("journal=whole text=\"a snapshot has what the journal lacked\"");
+  if (lacks_ || !made) not_before_ = clock_.now() + config_.retry;
+  if (made) {
+    if (lacks_) log_info("journal=whole text=\"a snapshot has what the journal lacked\"");
     lacks_ = false;
     return;
   }
-  spdlog::error("journal=snapshot_failed text=\"{}: tried again in {:g} s\"", made.problem().text(),
-                static_cast<double>(config_.retry) * 1e-9);
+  log_error("journal=snapshot_failed text=\"{}: tried again in {:g} s\"", made.problem().text(),
+            static_cast<double>(config_.retry) * 1e-9);
 }
 
 void RunJournal::leave_no_trace() {

@@ -153,13 +153,13 @@ Result<std::vector<std::byte>> unpack(std::span<const std::byte> bytes, size_t m
     ZSTD_outBuffer to{piece.data(), piece.size(), 0};
     hint = ZSTD_decompressStream(context.get(), &to, &in);
     if (ZSTD_isError(hint) || out.size() + to.pos > most)
-      return Problem{{}, "the flush is no packed totals of this scene"};
+      return problem("the flush is no packed totals of this scene");
     out.insert(out.end(), piece.begin(), piece.begin() + static_cast<std::ptrdiff_t>(to.pos));
     if (out.size() < rest_at) continue;
     rest_at = out.size() + unpacked_between_rests;
-    if (!rest()) return Problem{{}, abandoned};
+    if (!rest()) return problem(abandoned);
   }
-  if (hint != 0) return Problem{{}, "the flush is cut short"};
+  if (hint != 0) return problem("the flush is cut short");
   return out;
 }
 
@@ -258,20 +258,12 @@ size_t FlushEncoder::pack_more(ZSTD_inBuffer_s& in, int how) {
   return left;
 }
 
-std::vector<std::byte> encode_flush(Totals& totals) {
-  FlushEncoder encoder(totals.groups(), totals.layout().totals());
-  encoder.begin(totals);
-  while (!encoder.step(totals.layout().totals())) {
-  }
-  return encoder.bytes();
-}
-
 // ---- reading ---------------------------------------------------------------------------------
 
 Result<FlushGain> decode_flush(std::span<const std::byte> bytes, int groups, const BinRange& bins,
                                const FlushRest& rest) {
   auto raw = unpack(bytes, max_bytes(groups, bins.end - bins.first), rest);
-  if (!raw.ok()) return raw.problem();
+  if (!raw) return raw.problem();
   FlushGain gain;
   gain.raw_ = std::move(raw).value();
   gain.range_ = bins;
@@ -285,7 +277,7 @@ Result<FlushGain> decode_flush(std::span<const std::byte> bytes, int groups, con
     gain.begins_.push_back(static_cast<size_t>(in.at() - gain.raw_.data()));
     auto after_last = static_cast<uint64_t>(bins.first);
     while (next_bin(in, after_last, bins, bin))
-      if (++count % bins_between_rests == 0 && !rest()) return Problem{{}, abandoned};
+      if (++count % bins_between_rests == 0 && !rest()) return problem(abandoned);
   }
   gain.bins_ = count;
   gain.ledger_ = get_ledger(in);

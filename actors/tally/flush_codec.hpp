@@ -67,9 +67,6 @@ class FlushEncoder {
   std::unique_ptr<Zstd> zstd_;
 };
 
-/// All at once.
-std::vector<std::byte> encode_flush(Totals& totals);
-
 /// Called now and then while a long flush is read or added; false: break off. On a fiber it yields.
 using FlushRest = std::function<bool()>;
 inline bool no_rest() {

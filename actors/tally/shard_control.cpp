@@ -78,8 +78,8 @@ void ShardControl::add(Shard& shard, const TotalsTold& told, std::span<const std
   const auto next = static_cast<int64_t>(told.next);
   auto gain = next > shard.next && next <= shard.bins.end
                   ? decode_flush(payload, totals_.groups(), {shard.next, next})
-                  : Result<FlushGain>(Problem{{}, "it tells of other bins than were asked for"});
-  if (!gain.ok()) {
+                  : Result<FlushGain>(problem("it tells of other bins than were asked for"));
+  if (!gain) {
     fault_ = "what a shard tells of its totals cannot be read: " + gain.problem().what;
     return;
   }

@@ -1,10 +1,9 @@
 #include "actors/tally/slice_sender.hpp"
 
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
 
 #include "runtime/core/hash.hpp"
+#include "runtime/core/log.hpp"
 
 namespace luxodus {
 
@@ -70,7 +69,7 @@ bool SliceSender::deliver(NodeId from, const MessageId& id, const Message& messa
     return false;
   if (id != flush_) return true;  // of an earlier flush, late
   if (refusal != nullptr) {
-    spdlog::warn("part=refused node={} shard={} text=\"{}\"", id.node.value, shard, refusal->text);
+    log_warning("part=refused node={} shard={} text=\"{}\"", id.node.value, shard, refusal->text);
     refused_ = true;
   } else {
     parts_[shard - 1].held = true;

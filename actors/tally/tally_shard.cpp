@@ -121,7 +121,7 @@ std::string TallyShard::reading_fault(Part& part) {
   if (hash.value() != part.hash) return "a part is not what its hash says";
   auto gain = decode_flush(part.payload, totals_.groups(), config_.bins,
                            [&] { return take_turns() && !part.dropped; });
-  if (!gain.ok()) return gain.problem().what;
+  if (!gain) return gain.problem().what;
   // Batches and where their weight went are told to the controller, once.
   if (gain->batches() != 0 || gain->balance().particles != 0) return "a part counts batches";
   part.gain = std::move(gain).value();

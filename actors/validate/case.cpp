@@ -5,20 +5,22 @@
 
 namespace luxodus::light {
 
-Quantity& Plan::add(std::string name, double reference, std::function<Estimate(const Traced&)> read,
-                    double bias) {
+Quantity& PreparedCase::add(std::string name, double reference,
+                            std::function<Estimate(const Traced&)> read, double bias) {
   quantities.push_back(
       {std::move(name), reference, std::move(read), bias * std::abs(reference), 0, false});
   return quantities.back();
 }
 
-void Plan::compute(std::string name, double reference, double value, double tolerance) {
+void PreparedCase::compute(std::string name, double reference, double value, double tolerance) {
   computed.push_back(
       {std::move(name), reference, [value](const DirectLightAt&) { return value; }, tolerance});
 }
 
-void Plan::compute_direct(std::string name, double lux, const std::shared_ptr<const Traced>& lamp,
-                          const glm::dvec3& point, const glm::dvec3& normal, double tolerance) {
+void PreparedCase::compute_direct(std::string name, double lux,
+                                  const std::shared_ptr<const Traced>& lamp,
+                                  const glm::dvec3& point, const glm::dvec3& normal,
+                                  double tolerance) {
   computed.push_back({std::move(name), lux,
                       [=](const DirectLightAt& direct_light) {
                         return lamp->direct_lx(point, normal, direct_light);
@@ -26,7 +28,7 @@ void Plan::compute_direct(std::string name, double lux, const std::shared_ptr<co
                       tolerance});
 }
 
-void Plan::add_closed() {
+void PreparedCase::add_closed() {
   add("escaped", 0, [](const Traced& run) {
     double sum = 0;
     for (uint32_t side = 0; side < 6; ++side) sum += run.escaped(side).value;
@@ -34,7 +36,7 @@ void Plan::add_closed() {
   }).certain = true;
 }
 
-void Plan::look_rather(double paths_per_particle) {
+void PreparedCase::look_rather(double paths_per_particle) {
   quick_particles = 1 << 13;
   // A share of 1 is a tenth of a path for each particle, divided among the three parts of a sign.
   scene.run.eye_share = 30 * paths_per_particle;

@@ -35,7 +35,7 @@ struct Computed {
 };
 
 /// A case made ready.
-struct Plan {
+struct PreparedCase {
   SceneDescription scene;
   std::vector<BinSum> sums;
   std::vector<WeightedSum> weighted;
@@ -62,7 +62,7 @@ struct Case {
   std::string group;   // "stack"
   std::string name;    // unique: "stack 5 L1 lambert from top"
   std::string source;  // of the reference: a table, or the law
-  std::function<Plan()> plan;
+  std::function<PreparedCase()> plan;
 };
 
 using Cases = std::vector<Case>;

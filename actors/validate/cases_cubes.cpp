@@ -19,7 +19,7 @@ std::string part_name(const std::string& wall, int i, int j) {
 }
 
 /// A wall as 4 x 4 objects in the order of the table, and one surface group.
-void add_wall(SceneDescription& scene, const Face& face, const Row& row) {
+void add_wall(SceneDescription& scene, const BoxFace& face, const Row& row) {
   LUX_CHECK(row.text("wall").substr(0, 2) == face.name, "walls of a cube in another order");
   const int material = add_grey(scene, row.number("rho"));
   SurfaceGroupMeasure group;
@@ -41,7 +41,7 @@ void add_wall(SceneDescription& scene, const Face& face, const Row& row) {
 
 SceneDescription cube_of(const std::vector<Row>& walls) {
   SceneDescription scene;
-  const std::vector<Face> faces = faces_of_box({0, 0, 0}, {1, 1, 1});
+  const std::vector<BoxFace> faces = faces_of_box({0, 0, 0}, {1, 1, 1});
   LUX_CHECK(walls.size() == faces.size(), "a cube has six walls");
   for (size_t f = 0; f < faces.size(); ++f) {
     add_wall(scene, faces[f], walls[f]);
@@ -78,9 +78,9 @@ std::vector<Alike> alike_parts(const std::string& set) {
   return classes;
 }
 
-Plan cube_plan(const std::string& set) {
+PreparedCase cube_plan(const std::string& set) {
   const std::vector<Row> walls = rows_where("cube_radiosity.csv", "set", set);
-  Plan plan;
+  PreparedCase plan;
   plan.scene = cube_of(walls);
   // A hundred reflections at 0.95 take as long as five histories.
   plan.quick_particles = set.starts_with("p05") ? 1 << 16 : 1 << 18;
@@ -112,13 +112,13 @@ Plan cube_plan(const std::string& set) {
   return plan;
 }
 
-Plan gas_cube_plan(const Row& row) {
-  Plan plan;
+PreparedCase gas_cube_plan(const Row& row) {
+  PreparedCase plan;
   SceneDescription& scene = plan.scene;
   scene.run.voxels = false;
   const int black = add_grey(scene, 0);
-  const std::vector<Face> faces = faces_of_box({0, 0, 0}, {1, 1, 1});
-  for (const Face& f : faces) add_quad(scene, f.name, f.corner, f.u, f.v, black);
+  const std::vector<BoxFace> faces = faces_of_box({0, 0, 0}, {1, 1, 1});
+  for (const BoxFace& f : faces) add_quad(scene, f.name, f.corner, f.u, f.v, black);
   add_face_emitter(scene, faces[0], 1);
   const double tau = row.number("tau_side");
   constexpr double off_the_wall = 2e-5;

@@ -23,8 +23,8 @@ Mesh sphere_mesh(double radius, double sagitta) {
 }
 
 /// Over a closed surface of one reflectance the flux does not depend on its shape.
-Plan sphere_plan(double reflectance, double irradiance) {
-  Plan plan;
+PreparedCase sphere_plan(double reflectance, double irradiance) {
+  PreparedCase plan;
   add_mesh(plan.scene, "sphere", sphere_mesh(1, 1e-3), add_grey(plan.scene, reflectance));
   add_point(plan.scene, {0.3, 0.2, -0.4}, 1);
   plan.quick_particles = reflectance > 0.9 ? 1 << 14 : 1 << 16;
@@ -36,8 +36,8 @@ Plan sphere_plan(double reflectance, double irradiance) {
 }
 
 /// Each reflection adds one and the same irradiance everywhere: seen by probes in three places.
-Plan indirect_plan(double reflectance, double irradiance) {
-  Plan plan;
+PreparedCase indirect_plan(double reflectance, double irradiance) {
+  PreparedCase plan;
   SceneDescription& scene = plan.scene;
   const Mesh mesh = sphere_mesh(1, 2.5e-4);
   add_mesh(scene, "sphere", mesh, add_grey(scene, reflectance));
@@ -68,8 +68,8 @@ Plan indirect_plan(double reflectance, double irradiance) {
   return plan;
 }
 
-Plan port_plan(double reflectance, double share, double exact_share) {
-  Plan plan;
+PreparedCase port_plan(double reflectance, double share, double exact_share) {
+  PreparedCase plan;
   const Mesh closed = sphere_mesh(1, 5e-4);
   Mesh open = closed;
   std::erase_if(open.triangles, [&](const glm::uvec3& t) {
@@ -89,8 +89,8 @@ Plan port_plan(double reflectance, double share, double exact_share) {
   return plan;
 }
 
-Plan concentric_plan(const std::string& p, double inside, double outside) {
-  Plan plan;
+PreparedCase concentric_plan(const std::string& p, double inside, double outside) {
+  PreparedCase plan;
   SceneDescription& scene = plan.scene;
   const double r1 = parameter(p, "r1"), r2 = parameter(p, "r2");
   // Cut alike, so that the ratio of their areas is exact.
@@ -112,13 +112,13 @@ Plan concentric_plan(const std::string& p, double inside, double outside) {
 
 /// Two unit squares facing each other between perfect mirrors: infinite plates. The lower one
 /// emits 1.
-Plan plates_plan(const std::string& p) {
+PreparedCase plates_plan(const std::string& p) {
   constexpr double distance = 0.5;
-  Plan plan;
+  PreparedCase plan;
   SceneDescription& scene = plan.scene;
   scene.run.voxels = false;
   add_mirror_walls(scene, {0, 0, 0}, {1, 1, distance});
-  const std::vector<Face> faces = faces_of_box({0, 0, 0}, {1, 1, distance});
+  const std::vector<BoxFace> faces = faces_of_box({0, 0, 0}, {1, 1, distance});
   add_quad(scene, "plate 1", faces[4].corner, faces[4].u, faces[4].v,
            add_grey(scene, parameter(p, "r1")));
   add_quad(scene, "plate 2", faces[5].corner, faces[5].u, faces[5].v,
@@ -143,7 +143,7 @@ void add_plates(Cases& cases) {
                 [&](const std::string& p, double second, double first) {
                   cases.push_back(
                       {"plates", "plates " + p, table, [=] {
-                         Plan plan = plates_plan(p);
+                         PreparedCase plan = plates_plan(p);
                          plan.add(
                              "flux into plate 2", second,
                              [](const Traced& run) { return run.into("plate 2"); }, off_the_plate);
@@ -158,7 +158,7 @@ void add_plates(Cases& cases) {
       [&](const std::string& p, double second, double absorbed) {
         cases.push_back(
             {"plates", "plates and gas " + p, table, [=] {
-               Plan plan = plates_plan(p);
+               PreparedCase plan = plates_plan(p);
                add_homogeneous(plan.scene, smoke(parameter(p, "tau") / 0.5, 0));
                plan.add(
                    "absorbed by the gas", absorbed,

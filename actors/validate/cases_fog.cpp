@@ -65,7 +65,7 @@ void add_crossing(SceneDescription& scene, int axis, double there, double edge) 
 /// What crosses a plane forward less what comes back ends beyond it, so the mean square of where it
 /// ends is the integral of 2 z (net flow through z), and on the other side alike. Across the beam
 /// all sides are one. Gauss's points on the panels err by less than a ten-thousandth.
-void add_second_moments(Plan& plan, double far, double mean_z2, double mean_r2) {
+void add_second_moments(PreparedCase& plan, double far, double mean_z2, double mean_r2) {
   SceneDescription& scene = plan.scene;
   WeightedSum z2{&TallyBlocks::counting, {}};
   const auto add_plane = [&](int axis, double there, double edge, double weight, WeightedSum& sum) {
@@ -99,11 +99,11 @@ void add_second_moments(Plan& plan, double far, double mean_z2, double mean_r2) 
 
 /// The vector flux of one voxel around everything is the sum of all displacements, so its component
 /// along the beam is the mean place of absorption; the fluence is the mean path.
-Plan moments_plan(const std::string& parameters, const Moments& mean) {
+PreparedCase moments_plan(const std::string& parameters, const Moments& mean) {
   const double albedo = parameter(parameters, "c"), g = parameter(parameters, "g");
   // Fluence falls by e in at least 1 / sqrt(3 (1 - c) (1 - c g)) metres: nothing is 20 such away.
   const double far = 10 + 20 / std::sqrt(3 * (1 - albedo) * (1 - albedo * g));
-  Plan plan;
+  PreparedCase plan;
   SceneDescription& scene = plan.scene;
   scene.run.voxel_edge_m = 3 * far;
   add_speck(scene, {far, far, far});

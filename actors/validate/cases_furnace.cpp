@@ -24,7 +24,7 @@ constexpr const char* kinds[] = {"homogeneous", "layers", "a ball", "cells",
 void add_glowing_box(SceneDescription& scene, const glm::dvec3& size, double reflectance,
                      double exitance) {
   const int wall = add_grey(scene, reflectance);
-  for (const Face& f : faces_of_box({0, 0, 0}, size)) {
+  for (const BoxFace& f : faces_of_box({0, 0, 0}, size)) {
     add_quad(scene, f.name, f.corner, f.u, f.v, wall);
     add_face_emitter(scene, f, exitance * glm::length(f.u) * glm::length(f.v));
   }
@@ -49,21 +49,21 @@ void add_white_smoke(SceneDescription& scene, const glm::dvec3& size, size_t kin
         1, 0.7);
 }
 
-void add_path(Plan& plan, uint32_t volume, const std::string& where, double reference) {
+void add_path(PreparedCase& plan, uint32_t volume, const std::string& where, double reference) {
   plan.add(
       "path in " + where, reference,
       [volume](const Traced& run) { return run.track_length(volume); }, off_the_walls);
 }
 
-void add_walls(Plan& plan, double irradiance) {
+void add_walls(PreparedCase& plan, double irradiance) {
   for (const std::string wall : walls)
     plan.add(
         "flux into " + wall, irradiance, [wall](const Traced& run) { return run.into(wall); },
         off_the_walls);
 }
 
-Plan room_plan(size_t kind) {
-  Plan plan;
+PreparedCase room_plan(size_t kind) {
+  PreparedCase plan;
   SceneDescription& scene = plan.scene;
   scene.run.voxel_edge_m = 0.5;
   add_glowing_box(scene, {1, 1, 1}, 0.5, 0.5);  // irradiance 0.5 / (1 - 0.5) = 1
@@ -101,8 +101,8 @@ Plan room_plan(size_t kind) {
 }
 
 /// Smoke of varying density, scattering too, that glows as the walls do.
-Plan hot_smoke_plan() {
-  Plan plan;
+PreparedCase hot_smoke_plan() {
+  PreparedCase plan;
   SceneDescription& scene = plan.scene;
   scene.run.voxels = false;
   add_glowing_box(scene, {1, 1, 1}, 0.3, 0.7);  // irradiance 1, fluence 4
@@ -136,8 +136,8 @@ Plan hot_smoke_plan() {
 }
 
 /// Blanco and Fournier: the mean path through a body is four volumes over surface.
-Plan box_path_plan(size_t kind) {
-  Plan plan;
+PreparedCase box_path_plan(size_t kind) {
+  PreparedCase plan;
   SceneDescription& scene = plan.scene;
   scene.run.voxels = false;
   add_glowing_box(scene, {6, 4, 3}, 0, 1 / 108.0);
@@ -151,8 +151,8 @@ Plan box_path_plan(size_t kind) {
   return plan;
 }
 
-Plan body_path_plan(const Mesh& body, double exact_mean) {
-  Plan plan;
+PreparedCase body_path_plan(const Mesh& body, double exact_mean) {
+  PreparedCase plan;
   SceneDescription& scene = plan.scene;
   scene.run.voxels = false;
   Mesh inside = body;

@@ -17,7 +17,7 @@ SceneDescription black_plates(double height) {
   scene.run.voxels = false;
   add_mirror_walls(scene, {0, 0, 0}, {edge, edge, height});
   const int black = add_grey(scene, 0);
-  const std::vector<Face> faces = faces_of_box({0, 0, 0}, {edge, edge, height});
+  const std::vector<BoxFace> faces = faces_of_box({0, 0, 0}, {edge, edge, height});
   add_quad(scene, "floor", faces[4].corner, faces[4].u, faces[4].v, black);
   add_quad(scene, "ceiling", faces[5].corner, faces[5].u, faces[5].v, black);
   return scene;
@@ -33,8 +33,8 @@ void add_glowing_gas(SceneDescription& scene, double low, double high, double ex
   gas.emission->power_w = 1;
 }
 
-Plan layer_plan(const std::string& depth, double passed) {
-  Plan plan;
+PreparedCase layer_plan(const std::string& depth, double passed) {
+  PreparedCase plan;
   plan.scene = black_plates(1);
   add_homogeneous(plan.scene, smoke(parameter(depth, "tau"), 0));
   add_face_emitter(plan.scene, faces_of_box({0, 0, 0}, {edge, edge, 1})[5], 1);
@@ -50,8 +50,8 @@ Plan layer_plan(const std::string& depth, double passed) {
 
 /// A black body's exitance would be 1 / (4 tau) where the gas gives off 1: what meets a plate is
 /// its emissivity times that.
-Plan glowing_layer_plan(double tau, double escaping, double emissivity) {
-  Plan plan;
+PreparedCase glowing_layer_plan(double tau, double escaping, double emissivity) {
+  PreparedCase plan;
   plan.scene = black_plates(1);
   add_glowing_gas(plan.scene, 0, 1, tau);
   plan.sums.push_back({&TallyBlocks::surfaces, {4, 5}});
@@ -70,8 +70,8 @@ struct Flame {
   double to_floor, to_ceiling, absorbed;  // shares
 };
 
-Plan flame_plan(const Flame& f) {
-  Plan plan;
+PreparedCase flame_plan(const Flame& f) {
+  PreparedCase plan;
   plan.scene = black_plates(3);
   add_glowing_gas(plan.scene, 1, 2, f.flame);
   add_layers(plan.scene, 0, {1, 1, 1}, {smoke(f.below, 0), smoke(0, 0), smoke(f.above, 0)});

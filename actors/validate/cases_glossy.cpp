@@ -54,12 +54,12 @@ double over(const glm::dvec3& corner, const glm::dvec3& u, const glm::dvec3& v,
 constexpr double of_quadrature = 1e-4;
 
 /// A beam meets the plate, which is the floor of a black box, in the middle.
-Plan beam_plan(double alpha, double degrees) {
-  Plan plan;
+PreparedCase beam_plan(double alpha, double degrees) {
+  PreparedCase plan;
   SceneDescription& scene = plan.scene;
   const double angle = degrees * pi / 180;
   const glm::dvec3 wo(-std::sin(angle), 0, std::cos(angle));
-  const std::vector<Face> faces = faces_of_box({-2, -2, 0}, {2, 2, 2});
+  const std::vector<BoxFace> faces = faces_of_box({-2, -2, 0}, {2, 2, 2});
   const int black = add_grey(scene, 0);
   add_quad(scene, "plate", faces[4].corner, faces[4].u, faces[4].v, add_glossy(scene, alpha));
   add_rectangle(scene, wo, -wo, 1e-3, 1e-3, 1).distribution = Distribution::collimated;
@@ -86,11 +86,11 @@ Plan beam_plan(double alpha, double degrees) {
 }
 
 /// A lamp over the plate, and a probe that looks at the plate.
-Plan probe_plan(double alpha) {
+PreparedCase probe_plan(double alpha) {
   constexpr double lamp_lm = 1000;
   const glm::dvec3 lamp(-0.8, 0, 1), eye(0.9, 0.1, 1.2);
   const glm::dvec3 gaze = glm::normalize(glm::dvec3(-0.3, 0, -1));
-  Plan plan;
+  PreparedCase plan;
   SceneDescription& scene = plan.scene;
   scene.run.max_bands = 1;
   Emitter& e = add_point(scene, lamp, 0);

@@ -15,7 +15,7 @@ namespace {
 constexpr double pi = std::numbers::pi;
 constexpr double lamp_lm = 1000;
 constexpr double computed = 1e-3;  // what computed direct light may err by
-constexpr double cell = 0.25;  // edge of those that the table averages over [m]
+constexpr double cell = 0.25;      // edge of those that the table averages over [m]
 constexpr const char* points_table = "area_light_points.csv";
 
 /// A lamp in a black room: only a large floor.
@@ -46,8 +46,8 @@ std::string place_of(const Row& row) {
 }
 
 /// Horizontal and upright receivers in clear air.
-Plan receivers_plan(const std::vector<Row>& points) {
-  Plan plan;
+PreparedCase receivers_plan(const std::vector<Row>& points) {
+  PreparedCase plan;
   const auto lamp = lit(lamp_of(points.front()));
   for (const Row& row : points) {
     const double x = row.number("x"), y = row.number("y");
@@ -59,8 +59,9 @@ Plan receivers_plan(const std::vector<Row>& points) {
   return plan;
 }
 
-Plan receivers_in_smoke_plan(const std::vector<Row>& points, const std::string& sigma_text) {
-  Plan plan;
+PreparedCase receivers_in_smoke_plan(const std::vector<Row>& points,
+                                     const std::string& sigma_text) {
+  PreparedCase plan;
   SceneDescription scene = lamp_of(points.front());
   add_homogeneous(scene, smoke(std::stod(sigma_text), 0));
   const auto lamp = lit(std::move(scene));
@@ -94,8 +95,8 @@ std::vector<PlaneMeasure> cells_like(const Row& row) {
   return cells;
 }
 
-Plan traced_cells_plan(const std::vector<Row>& points) {
-  Plan plan;
+PreparedCase traced_cells_plan(const std::vector<Row>& points) {
+  PreparedCase plan;
   plan.scene = lamp_of(points.front());
   plan.quick_particles = 1 << 19;
   const double lm_per_w = efficacy_lm_per_w(plan.scene.emitters[0].spectrum);
@@ -116,10 +117,10 @@ Plan traced_cells_plan(const std::vector<Row>& points) {
   return plan;
 }
 
-Plan pane_plan(double degrees, double transmittance) {
+PreparedCase pane_plan(double degrees, double transmittance) {
   const double angle = degrees * pi / 180;
   const glm::dvec3 towards(std::sin(angle), 0, -std::cos(angle));
-  Plan plan;
+  PreparedCase plan;
   const auto add_room = [](SceneDescription& scene, bool pane) {
     if (pane)
       add_quad(scene, "pane", {-9, -9, 0.5}, {18, 0, 0}, {0, 18, 0}, add_glass(scene, 1.52));
@@ -143,15 +144,15 @@ Plan pane_plan(double degrees, double transmittance) {
   return plan;
 }
 
-Plan point_plan(const std::string& p, double lux) {
-  Plan plan;
+PreparedCase point_plan(const std::string& p, double lux) {
+  PreparedCase plan;
   plan.compute_direct("E on the floor", lux, lit(candle_at(parameter(p, "h"))),
                       {parameter(p, "r"), 0, 0}, {0, 0, 1}, 1e-4);
   return plan;
 }
 
-Plan point_over_layers_plan(const std::string& p, double lux) {
-  Plan plan;
+PreparedCase point_over_layers_plan(const std::string& p, double lux) {
+  PreparedCase plan;
   SceneDescription scene = candle_at(2.9);
   add_layers(scene, 0, {1, 1, 1}, {smoke(0.05, 0), smoke(0.3, 0), smoke(1.5, 0)});
   plan.compute_direct("E on the floor", lux, lit(std::move(scene)), {parameter(p, "r"), 0, 0},

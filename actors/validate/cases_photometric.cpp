@@ -84,7 +84,7 @@ PhotometricFile ies_file() {
 constexpr double flux_digits = 1e-5;  // of single precision, and of the files' numbers
 
 /// The lamp over a floor: its light there, computed, in directions that the table holds.
-void add_places(Plan& plan, const PhotometricFile& file) {
+void add_places(PreparedCase& plan, const PhotometricFile& file) {
   constexpr double height = 2;
   SceneDescription scene;
   Emitter& e = add_point(scene, {0, 0, height}, 0);
@@ -108,9 +108,9 @@ void add_places(Plan& plan, const PhotometricFile& file) {
 }
 
 /// What scatters of its light into a line of sight.
-Plan luminaire_veil(const PhotometricFile& file) {
+PreparedCase luminaire_veil(const PhotometricFile& file) {
   constexpr double g = 0.5;
-  Veil veil;
+  VeilCase veil;
   veil.phase.kind = PhaseKind::henyey_greenstein;
   veil.phase.g = g;
   veil.density = [](double cosine) {
@@ -144,8 +144,8 @@ double polar_integral(double from_deg, double to_deg) {
   return sum;
 }
 
-Plan luminaire_plan(const PhotometricFile& file) {
-  Plan plan;
+PreparedCase luminaire_plan(const PhotometricFile& file) {
+  PreparedCase plan;
   SceneDescription& scene = plan.scene;
   const double flux_lm = 2 * pi * peak_cd * polar_integral(0, 90);
   plan.compute("flux of the file [lm]", flux_lm, file.flux_lm, 1e-6);

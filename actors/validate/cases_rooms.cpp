@@ -37,8 +37,8 @@ Estimate into_floor(const Traced& run) {
   return run.into("floor");
 }
 
-Plan point_over_rectangle() {
-  Plan plan;
+PreparedCase point_over_rectangle() {
+  PreparedCase plan;
   add_point(plan.scene, {0, 0, 3}, 1);
   add_floor(plan.scene, "floor", -1, 4, -2, 1.5, 0);
   plan.add("flux", solid_angle(-1, 4, -2, 1.5, 3) / (4 * pi), into_floor);
@@ -46,8 +46,8 @@ Plan point_over_rectangle() {
 }
 
 /// A square sheet hides the middle of the floor from a point source.
-Plan point_behind_sheet() {
-  Plan plan;
+PreparedCase point_behind_sheet() {
+  PreparedCase plan;
   add_point(plan.scene, {0, 0, 3}, 1);
   add_floor(plan.scene, "floor", -2, 2, -2, 2, 0);
   add_floor(plan.scene, "sheet", -0.5, 0.4, -0.3, 0.6, 2);
@@ -58,7 +58,7 @@ Plan point_behind_sheet() {
 }
 
 /// A sheet hides one half of an area lamp from a point that it is symmetrical about.
-Plan half_hidden_lamp() {
+PreparedCase half_hidden_lamp() {
   const auto lamp = [](bool sheet) {
     SceneDescription scene;
     Emitter& e = add_rectangle(scene, {0, 0, 2}, {0, 0, -1}, 1, 1, 0);
@@ -68,7 +68,7 @@ Plan half_hidden_lamp() {
     if (sheet) add_floor(scene, "sheet", 0, 2, -2, 2, 1);
     return lit(std::move(scene));
   };
-  Plan plan;
+  PreparedCase plan;
   const double whole_lux = lamp(false)->direct_lx({0, 0, 0}, {0, 0, 1});
   plan.compute_direct("E behind the sheet", 0.5 * whole_lux, lamp(true), {0, 0, 0}, {0, 0, 1},
                       1e-6);
@@ -77,11 +77,11 @@ Plan half_hidden_lamp() {
 
 /// A lamp as large as the opening of a black box, one edge above it: what passes the opening is
 /// what the walls receive.
-Plan opening() {
-  Plan plan;
+PreparedCase opening() {
+  PreparedCase plan;
   SceneDescription& scene = plan.scene;
   const int black = add_grey(scene, 0);
-  const std::vector<Face> faces = faces_of_box({0, 0, -1}, {1, 1, 0});
+  const std::vector<BoxFace> faces = faces_of_box({0, 0, -1}, {1, 1, 0});
   SurfaceGroupMeasure inside;
   inside.name = "inside";
   for (size_t f = 0; f < 5; ++f) {
@@ -106,13 +106,13 @@ Plan opening() {
 }
 
 /// A beam covers one wall of a black cube; the wall reflects it evenly.
-Plan diffuse_wall() {
+PreparedCase diffuse_wall() {
   constexpr double reflectance = 0.6;
-  Plan plan;
+  PreparedCase plan;
   SceneDescription& scene = plan.scene;
   const int black = add_grey(scene, 0), grey = add_grey(scene, reflectance);
-  const std::vector<Face> faces = faces_of_box({0, 0, 0}, {1, 1, 1});
-  for (const Face& f : faces)
+  const std::vector<BoxFace> faces = faces_of_box({0, 0, 0}, {1, 1, 1});
+  for (const BoxFace& f : faces)
     add_quad(scene, f.name, f.corner, f.u, f.v, f.name == "x0" ? grey : black);
   add_face_emitter(scene, faces[1], 1).distribution = Distribution::collimated;
   constexpr double off_the_wall = 2e-5;
@@ -128,11 +128,11 @@ Plan diffuse_wall() {
 }
 
 /// CIE 171, 5.8: 10 klm in the middle of a room of 4 m; the mean is exact for any closed room.
-Plan mean_of_reflections(double reflectance) {
-  Plan plan;
+PreparedCase mean_of_reflections(double reflectance) {
+  PreparedCase plan;
   SceneDescription& scene = plan.scene;
   const int wall = add_grey(scene, reflectance);
-  for (const Face& f : faces_of_box({0, 0, 0}, {4, 4, 4}))
+  for (const BoxFace& f : faces_of_box({0, 0, 0}, {4, 4, 4}))
     add_quad(scene, f.name, f.corner, f.u, f.v, wall);
   Emitter& lamp = add_point(scene, {2, 2, 2}, 0);
   lamp.radiometric = false;
@@ -154,8 +154,8 @@ Plan mean_of_reflections(double reflectance) {
 }
 
 /// Each emitter sends its own share.
-Plan unequal_beams() {
-  Plan plan;
+PreparedCase unequal_beams() {
+  PreparedCase plan;
   plan.quick_particles = 1 << 16;
   constexpr double watts[] = {1, 2, 5};
   for (int i = 0; i < 3; ++i) {
@@ -170,9 +170,9 @@ Plan unequal_beams() {
 }
 
 /// A mirror wall shows the source a second time: E = direct + rho_s x that of the image.
-Plan mirror_wall() {
+PreparedCase mirror_wall() {
   constexpr double specular = 0.85;
-  Plan plan;
+  PreparedCase plan;
   SceneDescription& scene = plan.scene;
   add_point(scene, {1, 0, 2}, 1);
   add_floor(scene, "floor", 0, 3, -2, 2, 0);

@@ -27,9 +27,9 @@ struct Grey {
 constexpr Grey greys[] = {{0.5, 181}, {1, 128}, {2, 64}, {3, 32}, {4, 16}, {5, 8}};
 
 /// A beam through soot in cells of that edge, 6 m long.
-Plan grey_plan(double cell_m) {
+PreparedCase grey_plan(double cell_m) {
   constexpr double length = 6;
-  Plan plan;
+  PreparedCase plan;
   SceneDescription& scene = plan.scene;
   scene.run.voxels = false;
   add_speck(scene, {0, -1, -1});
@@ -73,7 +73,7 @@ SceneDescription lit_smoke(double lux, double luminance, double distance, double
   scene.run.voxels = false;
   constexpr double reflectance = 0.5;
   const int wall = add_grey(scene, reflectance);
-  for (const Face& f : faces_of_box({0, 0, 0}, {5, 1, 1})) {
+  for (const BoxFace& f : faces_of_box({0, 0, 0}, {5, 1, 1})) {
     add_quad(scene, f.name, f.corner, f.u, f.v, wall);
     const double flux = lux * (1 - reflectance) * glm::length(f.u) * glm::length(f.v);
     add_face_emitter(scene, f, flux).radiometric = false;
@@ -94,9 +94,9 @@ Estimate seen(const Traced& run, EyeQuantity quantity) {
 /// 0.6, 0.2 with g = 0.
 constexpr double of_the_sign = extinction * tiny_sign_m;
 
-Plan koschmieder_plan(double depth, double g) {
+PreparedCase koschmieder_plan(double depth, double g) {
   constexpr double lux = 100, luminance = 100, horizon = lux / pi;
-  Plan plan;
+  PreparedCase plan;
   plan.scene = lit_smoke(lux, luminance, depth / extinction, g);
   plan.look_rather(4);
   const double passed = std::exp(-depth);
@@ -134,8 +134,8 @@ constexpr JinRow jin_table[] = {{1, {6.27, 8.02, 10.20, 10.35, 11.96, 13.35}},
 
 /// The sign is looked at from where the table says that its contrast is just seen; C follows from
 /// the contrast that the eye receives there.
-Plan jin_plan(double lux, double luminance, double c) {
-  Plan plan;
+PreparedCase jin_plan(double lux, double luminance, double c) {
+  PreparedCase plan;
   plan.scene = lit_smoke(lux, luminance, c / extinction, 0);
   plan.look_rather(8);
   const double smoke_cd_m2 = lux / pi;

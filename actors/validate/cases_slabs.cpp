@@ -33,7 +33,7 @@ SceneDescription stack_of(const Row& row) {
   const bool from_top = row.text("from") == "top";
   const double low = from_top ? -gap : 0, high = from_top ? height : height + gap;
   add_mirror_walls(scene, {0, 0, low}, {edge, edge, high});
-  const Face far = faces_of_box({0, 0, low}, {edge, edge, high})[from_top ? 4 : 5];
+  const BoxFace far = faces_of_box({0, 0, low}, {edge, edge, high})[from_top ? 4 : 5];
   add_quad(scene, "far", far.corner, far.u, far.v, add_grey(scene, row.number("floor_rho")));
   const glm::dvec3 way(0, 0, from_top ? -1 : 1);
   Emitter& e =
@@ -60,8 +60,8 @@ SceneDescription stack_of(const Row& row) {
   return scene;
 }
 
-Plan stack_plan(const Row& row) {
-  Plan plan;
+PreparedCase stack_plan(const Row& row) {
+  PreparedCase plan;
   plan.scene = stack_of(row);
   const double tau = row.number("tau_total");
   plan.quick_particles = affordable(tau);
@@ -94,8 +94,8 @@ Plan stack_plan(const Row& row) {
 
 /// Scattering gas so deep that nothing comes back from its end, between mirrors that make it
 /// infinite; a beam of that cosine enters, diffuse light for 0.
-Plan half_space_plan(double albedo, double cosine, double reflected) {
-  Plan plan;
+PreparedCase half_space_plan(double albedo, double cosine, double reflected) {
+  PreparedCase plan;
   SceneDescription& scene = plan.scene;
   scene.run.voxels = false;
   const double top = height + 10 * gap;

@@ -20,8 +20,8 @@ void add_specks(SceneDescription& scene, double away) {
   scene.objects.back().name = "other speck";
 }
 
-Plan fog_plan(double albedo, const std::vector<Row>& rows) {
-  Plan plan;
+PreparedCase fog_plan(double albedo, const std::vector<Row>& rows) {
+  PreparedCase plan;
   SceneDescription& scene = plan.scene;
   scene.run.voxels = false;
   add_specks(scene, 30);
@@ -51,8 +51,8 @@ Plan fog_plan(double albedo, const std::vector<Row>& rows) {
   return plan;
 }
 
-Plan ball_plan(const Row& row) {
-  Plan plan;
+PreparedCase ball_plan(const Row& row) {
+  PreparedCase plan;
   SceneDescription& scene = plan.scene;
   const double radius = 1.25, albedo = row.number("albedo");
   const std::string& quantity = row.text("quantity");
@@ -68,7 +68,7 @@ Plan ball_plan(const Row& row) {
     add_point(scene, {0.2, -0.1, 0.3}, 1);
   } else {
     // Within walls of one exitance M the field is the same everywhere: M x 4 pi r^2 enters a ball.
-    for (const Face& f : faces_of_box({-1.2, -1.5, -1.1}, {1.6, 1.3, 1.7}))
+    for (const BoxFace& f : faces_of_box({-1.2, -1.5, -1.1}, {1.6, 1.3, 1.7}))
       add_face_emitter(scene, f, 1 / 6.0);
     entering = 4 * pi * radius * radius / (6 * 2.8 * 2.8);
   }
@@ -122,7 +122,7 @@ double emitted_in_all() {
 }
 
 /// Fluence, and emission less absorption, at a point of the centre line.
-void add_centre(Plan& plan, const Row& row) {
+void add_centre(PreparedCase& plan, const Row& row) {
   constexpr double half = 0.015;
   const double x = row.number("x"), kappa = row.number("kappa");
   const auto number = static_cast<uint32_t>(plan.sums.size());
@@ -149,7 +149,7 @@ void add_centre(Plan& plan, const Row& row) {
 }
 
 /// At the wall, from three thin boxes before it: the quadratic whose averages they have.
-void add_wall_point(Plan& plan, const Row& row) {
+void add_wall_point(PreparedCase& plan, const Row& row) {
   constexpr double thin = 0.01, half = 0.015;
   constexpr double shares[] = {11.0 / 6, -7.0 / 6, 2.0 / 6};
   WeightedSum sum{&TallyBlocks::volume_length, {}};
@@ -164,12 +164,12 @@ void add_wall_point(Plan& plan, const Row& row) {
       .unit = emitted_in_all() * shares[0] / (6 * thin * 2 * half);
 }
 
-Plan burns_christon_plan() {
-  Plan plan;
+PreparedCase burns_christon_plan() {
+  PreparedCase plan;
   SceneDescription& scene = plan.scene;
   scene.run.voxels = false;
   const int black = add_grey(scene, 0);
-  for (const Face& f : faces_of_box({0, 0, 0}, {1, 1, 1}))
+  for (const BoxFace& f : faces_of_box({0, 0, 0}, {1, 1, 1}))
     add_quad(scene, f.name, f.corner, f.u, f.v, black);
   // An even number of cells: their centres' values are the averages, as kappa is linear within
   // each.

@@ -34,8 +34,8 @@ double integral(double from, double to, const std::function<double(double)>& f) 
 
 }  // namespace
 
-Plan veil_plan(const Veil& veil) {
-  Plan plan;
+PreparedCase veil_plan(const VeilCase& veil) {
+  PreparedCase plan;
   SceneDescription& scene = plan.scene;
   scene.run.max_bands = 1;
   scene.run.voxels = false;
@@ -80,9 +80,9 @@ Plan veil_plan(const Veil& veil) {
 namespace {
 
 /// Gas that glows and only absorbs, about the whole line or about a part of it.
-Plan glow_plan(double depth, double gas_from, double gas_to) {
+PreparedCase glow_plan(double depth, double gas_from, double gas_to) {
   constexpr double power_w = 0.05, luminance = 20;
-  Plan plan;
+  PreparedCase plan;
   SceneDescription& scene = plan.scene;
   scene.run.max_bands = 1;
   scene.run.voxels = false;
@@ -128,7 +128,7 @@ double henyey_greenstein(double g, double cosine) {
 void add_veil_cases(Cases& cases) {
   const auto add = [&](const std::string& name, const Phase& phase,
                        const std::function<double(double)>& density, bool sheet = false) {
-    Veil veil;
+    VeilCase veil;
     veil.phase = phase;
     veil.density = density;
     veil.sheet = sheet;

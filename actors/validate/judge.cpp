@@ -11,29 +11,29 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-bool is_rare(const Finding& f, int64_t particles) {
+bool is_rare(const QuantityResult& f, int64_t particles) {
   return f.reference != 0 &&
          std::abs(f.reference) * static_cast<double>(particles) < rule::least_count * f.unit;
 }
 
 /// Whether chance has a part in it: an estimate that came out alike in every batch has no error
 /// bar, and is judged as what is computed.
-bool by_chance(const Finding& f) {
+bool by_chance(const QuantityResult& f) {
   return f.statistical && f.estimate.standard_error > 0;
 }
 
-double z_of(const Finding& f, int64_t batches) {
+double z_of(const QuantityResult& f, int64_t batches) {
   const double t = (f.estimate.value - f.reference) / f.estimate.standard_error;
   return normal_of_student(t, static_cast<double>(batches - 1));
 }
 
 /// What is left of a deviation once the declared bias is taken off, as a normal deviate.
-double excess_z(const Finding& f, int64_t batches) {
+double excess_z(const QuantityResult& f, int64_t batches) {
   const double excess = std::abs(f.estimate.value - f.reference) - f.bias;
   return normal_of_student(excess / f.estimate.standard_error, static_cast<double>(batches - 1));
 }
 
-bool unbiased(const Finding& f) {
+bool unbiased(const QuantityResult& f) {
   return f.bias <= rule::unbiased * f.estimate.standard_error;
 }
 
@@ -42,7 +42,7 @@ size_t lead_of(const CaseResult& result) {
   size_t lead = result.findings.size();
   double largest = 0;
   for (size_t i = 0; i < result.findings.size(); ++i) {
-    const Finding& f = result.findings[i];
+    const QuantityResult& f = result.findings[i];
     const double share = f.unit > 0 ? std::abs(f.reference) / f.unit : 0;
     if (!by_chance(f) || !unbiased(f) || is_rare(f, result.particles) || share <= largest) continue;
     largest = share;
@@ -53,7 +53,7 @@ size_t lead_of(const CaseResult& result) {
 
 void judge_findings(const CaseResult& result, double max_z, Verdict& verdict) {
   std::vector<QuantityVerdict>& judged = verdict.judged.emplace_back();
-  for (const Finding& f : result.findings) {
+  for (const QuantityResult& f : result.findings) {
     QuantityVerdict j{Judgement::passed, nan, false};
     if (f.statistical && is_rare(f, result.particles)) {
       j.judgement = Judgement::rare;
@@ -80,7 +80,7 @@ void judge_findings(const CaseResult& result, double max_z, Verdict& verdict) {
 /// Whether a case that traces knows one of its quantities well enough to have shown something.
 bool known(const CaseResult& result) {
   bool chance = false;
-  for (const Finding& f : result.findings) {
+  for (const QuantityResult& f : result.findings) {
     if (!by_chance(f)) continue;
     chance = true;
     if (f.estimate.standard_error <= rule::least_known * std::abs(f.reference)) return true;
@@ -115,7 +115,7 @@ Verdict judge(const std::vector<CaseResult>& results) {
   Verdict verdict;
   size_t quantities = 0, unknown = 0;
   for (const CaseResult& r : results) {
-    for (const Finding& f : r.findings) quantities += f.statistical ? 1 : 0;
+    for (const QuantityResult& f : r.findings) quantities += f.statistical ? 1 : 0;
     unknown += known(r) ? 0 : 1;
   }
   // Bonferroni: however the quantities of a case hang together, all of them pass with 1 - alarm.
@@ -135,7 +135,7 @@ Verdict judge(const std::vector<CaseResult>& results) {
   verdict.checks.push_back(
       {"cases that know nothing to 5 %", std::to_string(unknown), "none", unknown == 0});
   check_distribution(leads, verdict);
-  for (const Check& c : verdict.checks) verdict.passed = verdict.passed && c.passed;
+  for (const OverallTest& c : verdict.checks) verdict.passed = verdict.passed && c.passed;
   return verdict;
 }
 

@@ -37,7 +37,7 @@ struct QuantityVerdict {
 };
 
 /// One of the tests over all.
-struct Check {
+struct OverallTest {
   std::string name;
   std::string found;
   std::string allowed;
@@ -53,7 +53,7 @@ struct Verdict {
   std::vector<double> z;     // of all quantities without a bias that matters
   Sample all, leads;
   size_t lead_count = 0;
-  std::vector<Check> checks;
+  std::vector<OverallTest> checks;
   bool passed = true;
 };
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "actors/output/html_page.hpp"
 #include "actors/output/svg_plot.hpp"
@@ -48,7 +49,7 @@ std::string verdict_part(const Verdict& verdict, const SuiteRecord& record,
   out += "<h2>The rule, written down beforehand</h2>\n<ul>\n";
   for (const std::string& sentence : rule_text()) out += "<li>" + xml_escape(sentence) + "</li>\n";
   out += "</ul>\n<table>\n<tr><th>test</th><th>found</th><th>allowed</th><th></th></tr>\n";
-  for (const Check& c : verdict.checks)
+  for (const OverallTest& c : verdict.checks)
     out += fmt::format("<tr class=\"{}\"><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
                        c.passed ? "" : "failed", c.name, c.found, c.allowed,
                        c.passed ? "passed" : "failed");
@@ -77,7 +78,7 @@ SvgPlot histogram_of(const std::vector<double>& z) {
   }
   for (double x = -most; x <= most; x += 0.1) {
     normal.x.push_back(x);
-    normal.y.push_back(std::exp(-0.5 * x * x) / std::sqrt(2 * 3.14159265358979323846));
+    normal.y.push_back(std::exp(-0.5 * x * x) / std::sqrt(2 * std::numbers::pi));
   }
   plot.series = {std::move(found), std::move(normal)};
   return plot;
@@ -94,7 +95,7 @@ Result<std::string> distribution_part(const Verdict& verdict) {
   std::string out = "<h2>How z is distributed</h2>\n";
   if (verdict.z.empty()) return out + "<p>Nothing here is a matter of chance.</p>\n";
   const auto svg = svg_plot_text(histogram_of(verdict.z), {"validate.html", 0});
-  if (!svg.ok()) return svg.problem();
+  if (!svg) return svg.problem();
   const size_t from = svg->find("<svg");
   out += "<svg class=\"large\"" + svg->substr(from + 4);
   out +=
@@ -156,7 +157,8 @@ std::string course_drawing(const std::vector<CoursePoint>& course, bool by_secon
   return out + "</svg>\n";
 }
 
-std::string finding_row(const Finding& f, const QuantityVerdict& j, const CaseResult& result) {
+std::string finding_row(const QuantityResult& f, const QuantityVerdict& j,
+                        const CaseResult& result) {
   const bool failed = j.judgement == Judgement::failed, rare = j.judgement == Judgement::rare;
   const auto number = [](double v, int digits) {
     return std::isfinite(v) ? readable_number(v, digits) : std::string();
@@ -223,7 +225,7 @@ Result<std::string> suite_page(const std::vector<CaseResult>& results, const Ver
                                const SuiteRecord& record) {
   std::string page = fmt::format("<h1>{}</h1>\n", title) + verdict_part(verdict, record, results);
   const auto distribution = distribution_part(verdict);
-  if (!distribution.ok()) return distribution.problem();
+  if (!distribution) return distribution.problem();
   page += distribution.value();
   page +=
       "<h2>Cases</h2>\n<p>A star marks the quantity that stands for its case. Drawings: relative "

@@ -20,7 +20,7 @@ const char* word(Judgement judgement) {
   return "too rare to be judged";
 }
 
-Json finding_json(const Finding& f, const QuantityVerdict& j, double seconds) {
+Json finding_json(const QuantityResult& f, const QuantityVerdict& j, double seconds) {
   Json out = {{"quantity", f.quantity},
               {"reference", number_json(f.reference)},
               {"result", number_json(f.estimate.value)}};
@@ -90,7 +90,7 @@ std::string precision_text(const Precision& p) {
 Json suite_json(const std::vector<CaseResult>& results, const Verdict& verdict,
                 const SuiteRecord& record) {
   Json checks = Json::array(), cases = Json::array();
-  for (const Check& c : verdict.checks)
+  for (const OverallTest& c : verdict.checks)
     checks.push_back(
         {{"check", c.name}, {"found", c.found}, {"allowed", c.allowed}, {"passed", c.passed}});
   for (size_t i = 0; i < results.size(); ++i)
@@ -122,12 +122,11 @@ Result<void> write_suite(const std::filesystem::path& folder,
                          const Verdict& verdict) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  if (error) return Problem{{folder.string(), 0}, "cannot make this folder: " + error.message()};
-  if (auto ok = write_json(folder / "validate.json", suite_json(results, verdict, record));
-      !ok.ok())
+  if (error) return problem_in(folder, "cannot make this folder: " + error.message());
+  if (auto ok = write_json(folder / "validate.json", suite_json(results, verdict, record)); !ok)
     return ok.problem();
   const auto page = suite_page(results, verdict, record);
-  if (!page.ok()) return page.problem();
+  if (!page) return page.problem();
   return write_file_atomically(folder / "validate.html", std::string_view(page.value()));
 }
 

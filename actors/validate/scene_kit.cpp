@@ -199,7 +199,7 @@ void add_shell_group(SceneDescription& scene, const glm::dvec3& centre, double i
   add_volume_group(scene, g);
 }
 
-std::vector<Face> faces_of_box(const glm::dvec3& low, const glm::dvec3& high) {
+std::vector<BoxFace> faces_of_box(const glm::dvec3& low, const glm::dvec3& high) {
   const glm::dvec3 x(high.x - low.x, 0, 0), y(0, high.y - low.y, 0), z(0, 0, high.z - low.z);
   return {{"x0", low, y, z, {1, 0, 0}}, {"x1", low + x, z, y, {-1, 0, 0}},
           {"y0", low, z, x, {0, 1, 0}}, {"y1", low + y, x, z, {0, -1, 0}},
@@ -207,13 +207,14 @@ std::vector<Face> faces_of_box(const glm::dvec3& low, const glm::dvec3& high) {
 }
 
 void add_mirror_walls(SceneDescription& scene, const glm::dvec3& low, const glm::dvec3& high) {
-  const std::vector<Face> faces = faces_of_box(low, high);
+  const std::vector<BoxFace> faces = faces_of_box(low, high);
   const int mirror = add_mirror(scene, 1);
   for (size_t f = 0; f < 4; ++f)
     add_quad(scene, faces[f].name, faces[f].corner, faces[f].u, faces[f].v, mirror);
 }
 
-Emitter& add_face_emitter(SceneDescription& scene, const Face& face, double flux_w, double inset) {
+Emitter& add_face_emitter(SceneDescription& scene, const BoxFace& face, double flux_w,
+                          double inset) {
   const glm::dvec3 centre = face.corner + 0.5 * (face.u + face.v) + inset * face.inward;
   Emitter& e = add_rectangle(scene, centre, face.inward, 1, 1, flux_w);
   // Along which edge local x lies depends on the aim.

@@ -56,17 +56,17 @@ void add_box_group(SceneDescription& scene, const glm::dvec3& low, const glm::dv
 void add_shell_group(SceneDescription& scene, const glm::dvec3& centre, double inner, double outer);
 
 /// The six faces of a box, in the order x0, x1, y0, y1, z0, z1.
-struct Face {
+struct BoxFace {
   std::string name;
   glm::dvec3 corner, u, v;  // inside is towards cross(u, v)
   glm::dvec3 inward;
 };
-std::vector<Face> faces_of_box(const glm::dvec3& low, const glm::dvec3& high);
+std::vector<BoxFace> faces_of_box(const glm::dvec3& low, const glm::dvec3& high);
 /// Perfect mirrors upright around a box: whatever is level between them is infinite.
 void add_mirror_walls(SceneDescription& scene, const glm::dvec3& low, const glm::dvec3& high);
 /// A Lambertian rectangle that covers the face, `inset` [m] in front of it and within its edges: it
 /// touches no wall.
-Emitter& add_face_emitter(SceneDescription& scene, const Face& face, double flux_w,
+Emitter& add_face_emitter(SceneDescription& scene, const BoxFace& face, double flux_w,
                           double inset = 1e-5);
 
 }  // namespace luxodus::light

@@ -34,7 +34,7 @@ constexpr double useful_share = 0.25;
 /// How many times more particles would bring the worst quantity to the error.
 double need(const CaseResult& result, double error) {
   double most = 0;
-  for (const Finding& f : result.findings) {
+  for (const QuantityResult& f : result.findings) {
     if (!f.statistical || !(f.estimate.standard_error > 0)) continue;
     const double wanted = std::max(error * std::max(std::abs(f.reference), least_share * f.unit),
                                    useful_share * f.bias);
@@ -44,7 +44,7 @@ double need(const CaseResult& result, double error) {
 }
 
 /// The balance as findings: it closes in integers, and no history passed the cap on its events.
-void add_ledger(const EnergyBalance& balance, std::vector<Finding>& findings) {
+void add_ledger(const EnergyBalance& balance, std::vector<QuantityResult>& findings) {
   const Int128 missing = balance.emitted + balance.roulette_gain - balance.absorbed_surfaces -
                          balance.absorbed_media - balance.escaped - balance.roulette_loss -
                          balance.lost();
@@ -55,8 +55,8 @@ void add_ledger(const EnergyBalance& balance, std::vector<Finding>& findings) {
 /// Single-precision reflectances and integer weights: nothing is promised below a millionth.
 constexpr double rounding = 1e-6;
 
-std::vector<Finding> read_quantities(const Plan& plan, const Traced& run) {
-  std::vector<Finding> findings;
+std::vector<QuantityResult> read_quantities(const PreparedCase& plan, const Traced& run) {
+  std::vector<QuantityResult> findings;
   for (const Quantity& q : plan.quantities) {
     const double unit = q.unit > 0 ? q.unit : run.emitted_w();
     findings.push_back({q.name, q.reference, q.read(run), q.bias + rounding * std::abs(q.reference),
@@ -68,7 +68,7 @@ std::vector<Finding> read_quantities(const Plan& plan, const Traced& run) {
 CoursePoint course_point(const CaseResult& result) {
   CoursePoint point{result.particles, result.seconds};
   double n = 0;
-  for (const Finding& f : result.findings) {
+  for (const QuantityResult& f : result.findings) {
     if (!f.statistical || !(std::abs(f.reference) >= least_share * f.unit) ||
         !(f.estimate.standard_error > 0))
       continue;
@@ -117,7 +117,7 @@ class Suite {
 
  private:
   CaseResult run_case(const Case& c, double error);
-  void trace(const Case& c, const Plan& plan, double error, CaseResult& result);
+  void trace(const Case& c, const PreparedCase& plan, double error, CaseResult& result);
   void predict();
   void show(size_t done, const std::string& name, double of_this);
 
@@ -168,7 +168,7 @@ CaseResult Suite::run_case(const Case& c, double error) {
   result.name = c.name;
   result.source = c.source;
   const Nanoseconds began = clock_.now();
-  const Plan plan = c.plan();
+  const PreparedCase plan = c.plan();
   if (!plan.quantities.empty()) trace(c, plan, error, result);
   for (const Computed& q : plan.computed)
     result.findings.push_back({q.name,
@@ -180,7 +180,7 @@ CaseResult Suite::run_case(const Case& c, double error) {
   return result;
 }
 
-void Suite::trace(const Case& c, const Plan& plan, double error, CaseResult& result) {
+void Suite::trace(const Case& c, const PreparedCase& plan, double error, CaseResult& result) {
   SceneDescription scene = plan.scene;
   scene.run.batch_particles =
       std::clamp(plan.quick_particles / quick_batches, int64_t{16}, plan.batch_particles);
@@ -224,7 +224,7 @@ Precision precision_of(const std::vector<CaseResult>& results, double error) {
   Precision out;
   out.error = error;
   for (const CaseResult& r : results) {
-    for (const Finding& f : r.findings) {
+    for (const QuantityResult& f : r.findings) {
       if (!f.statistical || !(f.estimate.standard_error > 0)) continue;
       const double wanted = error * std::abs(f.reference), floor = error * least_share * f.unit;
       const bool reached = f.estimate.standard_error <= std::max(wanted, floor);
@@ -260,7 +260,7 @@ Slopes slopes_of(const std::vector<CaseResult>& results) {
   return {log_slope(particles, error, alike), log_slope(particles, deviation, alike)};
 }
 
-double figure_of_merit(const Finding& f, double seconds) {
+double figure_of_merit(const QuantityResult& f, double seconds) {
   const double error = f.estimate.standard_error / std::abs(f.reference);
   return error > 0 && std::isfinite(error) && seconds > 0 ? 1 / (error * error * seconds) : 0;
 }

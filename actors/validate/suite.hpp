@@ -46,7 +46,7 @@ struct SuiteProgress {
 using ReportSuite = std::function<void(const SuiteProgress&)>;
 
 /// A quantity and what was found.
-struct Finding {
+struct QuantityResult {
   std::string quantity;
   double reference = 0;
   Estimate estimate;
@@ -71,7 +71,7 @@ struct CaseResult {
   /// How many times as many particles would bring the error that was asked for; at most 1: it is
   /// reached, or none was asked for.
   double short_of = 0;
-  std::vector<Finding> findings;
+  std::vector<QuantityResult> findings;
   std::vector<CoursePoint> course;
   double slope_particles = 0, slope_seconds = 0;  // of the standard error; NaN where none is known
   double slope_deviation = 0;                     // over particles, of the deviation
@@ -101,7 +101,7 @@ struct Slopes {
 Slopes slopes_of(const std::vector<CaseResult>& results);
 
 /// 1 / (relative error^2 x seconds) [1/s]; 0 where nothing is estimated.
-double figure_of_merit(const Finding& finding, double seconds);
+double figure_of_merit(const QuantityResult& finding, double seconds);
 
 /// Runs the cases one after another. A suite that is to reach an error first runs all of them
 /// quickly, to know how long it will take. What was done is returned when `interrupt` is set.

@@ -12,7 +12,7 @@ namespace luxodus::light {
 /// The line of sight is the x axis, from 0 to 4 m.
 inline constexpr glm::dvec3 veil_lamp{1.2, 0.35, 1.1};
 
-struct Veil {
+struct VeilCase {
   Phase phase;
   std::function<double(double cosine)> density;  // of the phase function [1/sr]
   double flux_lm = 0;
@@ -22,6 +22,6 @@ struct Veil {
   double bias = 0;                                   // relative
 };
 
-Plan veil_plan(const Veil& veil);
+PreparedCase veil_plan(const VeilCase& veil);
 
 }  // namespace luxodus::light

@@ -57,7 +57,7 @@ std::string edits_text(const SceneEdits& edits) {
 }
 
 Result<SceneEdits> parse_edits(std::string_view text) {
-  if (text.size() > limits::edits_bytes) return Problem{{}, "a wish is at most 1 MiB"};
+  if (text.size() > limits::edits_bytes) return problem("a wish is at most 1 MiB");
   try {
     const Json object = Json::parse(text);
     SceneEdits out;
@@ -70,7 +70,7 @@ Result<SceneEdits> parse_edits(std::string_view text) {
                            one.at("name").get<std::string>()});
     return out;
   } catch (const Json::exception& e) {
-    return Problem{{}, std::string("this is no wish of a live view: ") + e.what()};
+    return problem(std::string("this is no wish of a live view: ") + e.what());
   }
 }
 

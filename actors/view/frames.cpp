@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <glm/gtc/packing.hpp>
+#include <numbers>
 #include <unordered_map>
 
 #include "scenes/geometry/patches.hpp"
@@ -22,7 +23,7 @@ enum class FrameKind : uint32_t { geometry = 1, light = 2, smoke = 3, smoke_ligh
 
 /// Front and back, r g b each, as half floats.
 constexpr size_t triangle_light_bytes = 2 * 3 * sizeof(uint16_t);
-constexpr double pi = 3.14159265358979323846;
+constexpr double pi = std::numbers::pi;
 /// The largest half float: brighter patches are shown as bright as this [cd/m2].
 constexpr float max_half = 65504;
 
@@ -182,7 +183,7 @@ Result<LiveGeometry> geometry_of(const CompiledScene& scene, uint32_t generation
       }
     }
   });
-  if (!read.ok()) return read.problem();
+  if (!read) return read.problem();
   Writer frame(FrameKind::geometry, generation, static_cast<uint32_t>(out.patches.size()));
   for (const float coordinate : corners) frame.put(coordinate);
   for (const LivePatch& patch : out.patches) frame.put(patch.surface);

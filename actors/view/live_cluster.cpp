@@ -1,12 +1,11 @@
 #include "actors/view/live_cluster.hpp"
 
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
 
 #include "actors/supervise/node_plan.hpp"
 #include "actors/tally/flush_codec.hpp"
 #include "actors/view/edits_text.hpp"
+#include "runtime/core/log.hpp"
 
 namespace luxodus {
 
@@ -96,7 +95,7 @@ void LiveCluster::work(const Machine& machine) {
     NodeShell shell({controller_net(run_, node_), controller_limits(node_),
                      ShellConfig{}.max_room_bytes, node_.shutdown_phase, run_.routes},
                     run_.graph, machine.clock, transport.transport());
-    if (auto joined = join_links(transport.sockets(), node_); !joined.ok())
+    if (auto joined = join_links(transport.sockets(), node_); !joined)
       return begun(joined.problem());
     shell_ = &shell;
     last_lease_ = node_.net.incarnation.value;  // no lease of an earlier life is taken for one
@@ -116,8 +115,8 @@ void LiveCluster::work(const Machine& machine) {
     });
     shell.run();
   } catch (const std::exception& e) {
-    spdlog::error("view=broken text=\"{}\"", e.what());
-    begun(Problem{{}, e.what()});
+    log_error("view=broken text=\"{}\"", e.what());
+    begun(problem(e.what()));
   }
 }
 
@@ -135,8 +134,8 @@ void LiveCluster::look() {
   for (auto& [worker, peer] : peers_) {
     if (!peer.here || shell_->network().reaches(worker)) continue;
     peer.here = false;
-    spdlog::warn("worker=lost node={} text=\"no way leads to {}\"", worker.value,
-                 run_.name_of(worker));
+    log_warning("worker=lost node={} text=\"no way leads to {}\"", worker.value,
+                run_.name_of(worker));
   }
   fence([&](const Lease& lease) { return !peers_[lease.node].here; }, "its worker is gone");
   fence([&](const Lease& lease) { return now - lease.lent >= node_.lease_time; }, "late");
@@ -166,8 +165,8 @@ void LiveCluster::fence(Which&& which, const char* why) {
       continue;
     }
     ++counters_.fenced;
-    spdlog::warn("lease=fenced lease={} node={} text=\"{}: lent again\"", at->first,
-                 at->second.node.value, why);
+    log_warning("lease=fenced lease={} node={} text=\"{}: lent again\"", at->first,
+                at->second.node.value, why);
     work_->give_back(at->second.batches);
     all_given_ = false;
     at = leases_.erase(at);
@@ -236,8 +235,8 @@ void LiveCluster::meet(const Delivery& delivery) {
   Peer& peer = peers_[delivery.source];
   const bool anew = peer.life != delivery.id.incarnation;
   if (!peer.here)
-    spdlog::info("worker=here node={} text=\"{} is there\"", delivery.source.value,
-                 run_.name_of(delivery.source));
+    log_info("worker=here node={} text=\"{} is there\"", delivery.source.value,
+             run_.name_of(delivery.source));
   const Nanoseconds now = shell_->scheduler().clock().now();
   fence(
       [&](const Lease& lease) {
@@ -260,11 +259,11 @@ void LiveCluster::take(const Delivery& delivery, const BatchesTraced& traced) {
   Totals& totals = work_->totals();
   const auto gain = traced.fault.empty()
                         ? decode_flush(delivery.payload, totals.groups(), totals.layout().totals())
-                        : Result<FlushGain>(Problem{{}, traced.fault});
-  if (!gain.ok() || gain.value().batches() != lease.batches.count) {
-    spdlog::error("worker=fails node={} text=\"{}: {}\"", delivery.source.value,
-                  run_.name_of(delivery.source),
-                  gain.ok() ? "other batches than it was lent" : gain.problem().what);
+                        : Result<FlushGain>(problem(traced.fault));
+  if (!gain || gain.value().batches() != lease.batches.count) {
+    log_error("worker=fails node={} text=\"{}: {}\"", delivery.source.value,
+              run_.name_of(delivery.source),
+              gain.ok() ? "other batches than it was lent" : gain.problem().what);
     peer.here = false;  // until it says again that it is
     fence([&](const Lease& its) { return its.node == delivery.source; }, "its worker fails");
     return;

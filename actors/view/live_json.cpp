@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "actors/output/base64.hpp"
+#include "runtime/core/base64.hpp"
 #include "scenes/optics/spectrum.hpp"
 
 namespace luxodus {
@@ -26,22 +26,10 @@ Json colour(const Bands& bands, const std::vector<double>& radiance) {
   return {rgb[0], rgb[1], rgb[2]};
 }
 
-const char* operation_name(Operation operation) {
-  switch (operation) {
-    case Operation::mains:
-      return "mains";
-    case Operation::emergency:
-      return "emergency";
-    case Operation::dark:
-      return "dark";
-  }
-  return "";
-}
-
 Json scenarios_json(const SceneDescription& scene) {
   Json out = Json::array();
   for (const Scenario& s : scene.scenarios)
-    out.push_back({{"name", s.name}, {"operation", operation_name(s.operation)}});
+    out.push_back({{"name", s.name}, {"operation", name_of(s.operation)}});
   return out;
 }
 

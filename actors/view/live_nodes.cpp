@@ -9,19 +9,19 @@ LiveNodes::LiveNodes(std::shared_ptr<const SceneDescription> scene) : states_(st
 Result<std::unique_ptr<LiveNodes>> LiveNodes::start(std::shared_ptr<const SceneDescription> scene,
                                                     const NodesOptions& options) {
   const auto scenario = find_scenario(*scene, "");
-  if (!scenario.ok()) return scenario.problem();
+  if (!scenario) return scenario.problem();
   auto compiled = compile_scene(scene, scenario.value(), {1});
-  if (!compiled.ok()) return compiled.problem();
+  if (!compiled) return compiled.problem();
   std::unique_ptr<LiveNodes> out(new LiveNodes(std::move(scene)));
   LiveNodes& self = *out;
   self.run_ = std::make_unique<LocalRun>(compiled.value(), 1, 1);
   const auto run_id = static_cast<uint64_t>(self.clock_.now()) | 1;
   auto nodes = PlannedNodes::make(*self.run_, options, {}, run_id);
-  if (!nodes.ok()) return nodes.problem();
+  if (!nodes) return nodes.problem();
   self.nodes_ = std::move(nodes).value();
   const RunSetup& setup = self.nodes_->setup();
   auto cluster = LiveCluster::start(setup, self.machine_, self.nodes_->controller());
-  if (!cluster.ok()) return cluster.problem();
+  if (!cluster) return cluster.problem();
   self.cluster_ = std::move(cluster).value();
   self.workers_ = std::make_unique<WorkerThreads>(
       setup, self.machine_, self.nodes_->workers(),

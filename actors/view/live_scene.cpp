@@ -8,7 +8,7 @@
 
 #include "runtime/core/output_text.hpp"
 #include "scenes/emergency/onset.hpp"
-#include "scenes/emergency/sign_geometry.hpp"
+#include "scenes/emergency/sign_light.hpp"
 #include "scenes/geometry/transform.hpp"
 #include "scenes/world/measurements.hpp"
 
@@ -77,12 +77,12 @@ Result<SceneDescription> live_description(const SceneDescription& scene, const S
   out.run.groups = GroupRule::by_circuit;  // where a group that is named wins
   for (const SceneEdits::Copy& copy : edits.added)
     if (!(copy.is_sign ? add_copy(out.signs, copy) : add_copy(out.emitters, copy)))
-      return Problem{{scene.file, 0}, "there is no \"" + copy.of + "\" to copy"};
+      return problem_in(scene.file, "there is no \"" + copy.of + "\" to copy");
   for (Emitter& e : out.emitters) {
     e.group = group_of_luminaire(e.name);
     if (const auto move = edits.luminaires.find(e.name); move != edits.luminaires.end()) {
       auto frame = moved(e.frame, move->second, frame_aiming);
-      if (!frame.ok()) return frame.problem();
+      if (!frame) return frame.problem();
       e.frame = frame.value();
     }
   }
@@ -90,7 +90,7 @@ Result<SceneDescription> live_description(const SceneDescription& scene, const S
     sign.group = group_of_sign(sign.name);
     if (const auto move = edits.signs.find(sign.name); move != edits.signs.end()) {
       auto frame = moved(sign.frame, move->second, frame_facing);
-      if (!frame.ok()) return frame.problem();
+      if (!frame) return frame.problem();
       sign.frame = frame.value();
     }
   }
@@ -119,9 +119,9 @@ std::map<std::string, double> shares_after(const SceneDescription& scene, Operat
 Result<std::shared_ptr<const CompiledScene>> compile_live(const SceneDescription& scene,
                                                           const SceneEdits& edits) {
   auto description = live_description(scene, edits);
-  if (!description.ok()) return description.problem();
+  if (!description) return description.problem();
   auto scenario = find_scenario(scene, edits.scenario);
-  if (!scenario.ok()) return scenario.problem();
+  if (!scenario) return scenario.problem();
   Scenario& state = scenario.value();
   state.smoke_factor *= edits.smoke;
   for (Scenario::Factor& medium : state.media) medium.factor *= edits.smoke;

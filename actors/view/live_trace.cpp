@@ -118,7 +118,7 @@ void LiveTrace::answer_all() {
 void LiveTrace::begin(const SceneEdits& edits) {
   tracers_->foresee(edits);
   auto compiled = compile_live(*scene_, edits);
-  if (!compiled.ok()) return audience_.refuses(number_, compiled.problem().text());
+  if (!compiled) return audience_.refuses(number_, compiled.problem().text());
   const bool same_air = run_ && traced_.scenario == edits.scenario && traced_.smoke == edits.smoke;
   auto run = std::make_unique<LiveRun>(compiled.value(), options_.seed, options_.threads,
                                        run_.get(), same_air);
@@ -126,7 +126,7 @@ void LiveTrace::begin(const SceneEdits& edits) {
   std::shared_ptr<const std::vector<uint32_t>> triangles_before;
   if (!run->same_geometry()) {
     auto geometry = geometry_of(run->scene(), generation);
-    if (!geometry.ok()) return audience_.refuses(number_, geometry.problem().text());
+    if (!geometry) return audience_.refuses(number_, geometry.problem().text());
     if (same_air && run->bins() && !run->bins()->is_same())
       triangles_before = triangles_from(geometry_.patches, geometry->patches, *run->bins());
     geometry_ = std::move(geometry).value();

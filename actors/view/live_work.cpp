@@ -1,10 +1,9 @@
 #include "actors/view/live_work.hpp"
 
-#include <xmmintrin.h>
-
 #include <thread>
 #include <vector>
 
+#include "runtime/core/denormals.hpp"
 #include "scenes/transport/history.hpp"
 
 namespace luxodus {
@@ -16,7 +15,7 @@ uint64_t first_particle_of(const CompiledScene& scene, int stream, int64_t batch
 
 void LiveThreads::trace(LiveWork& work) {
   const auto one = [&] {
-    _mm_setcsr(_mm_getcsr() | 0x8040);  // denormals to zero: see parallel_for
+    flush_denormals();
     const CompiledScene& scene = work.scene();
     const auto tracer = make_batch_tracer(scene, work.access(), work.seed());
     BatchScores scores;

@@ -30,9 +30,9 @@ Result<std::shared_ptr<const LiveState>> LiveStates::get(const std::string& edit
   const std::lock_guard lock(mutex_);
   if (state_ && edits == edits_) return state_;
   auto parsed = parse_edits(edits);
-  if (!parsed.ok()) return parsed.problem();
+  if (!parsed) return parsed.problem();
   auto scene = compile_live(*scene_, parsed.value());
-  if (!scene.ok()) return scene.problem();
+  if (!scene) return scene.problem();
   state_ = std::make_shared<LiveState>(std::move(scene).value());
   edits_ = edits;
   return state_;
@@ -149,7 +149,7 @@ Result<void> LiveWorker::enter(const Order& order) {
   if (tracing_ && order.edits == edits_ && order.what.seed == seed_) return {};
   tracing_.reset();
   auto state = states_.get(order.edits);
-  if (!state.ok()) return state.problem();
+  if (!state) return state.problem();
   tracing_ = std::make_unique<Tracing>(state.value(), order.what.seed);
   edits_ = order.edits;
   seed_ = order.what.seed;
@@ -158,7 +158,7 @@ Result<void> LiveWorker::enter(const Order& order) {
 
 /// Why it cannot be traced; "" where it can.
 std::string LiveWorker::trace_portion(const Order& order) try {
-  if (const auto entered = enter(order); !entered.ok()) return entered.problem().text();
+  if (const auto entered = enter(order); !entered) return entered.problem().text();
   const CompiledScene& scene = *tracing_->state->scene;
   if (order.what.group >= scene.groups.size() || order.what.batches > max_batches ||
       order.what.first_batch > max_batch_numbers || order.what.stream > max_streams)
@@ -212,13 +212,12 @@ Result<WorkerReport> run_live_worker(const RunSetup& run, const Machine& machine
                                      LiveStates& states) {
   NodeTransport transport(machine, node);
   LiveWorker worker(run, node, transport.seams(), states);
-  if (auto joined = join_links(transport.sockets(), node); !joined.ok()) return joined.problem();
+  if (auto joined = join_links(transport.sockets(), node); !joined) return joined.problem();
   worker.start(stop);
   worker.shell().run();
   if (!worker.fault()) return WorkerReport{};
-  return Problem{{},
-                 run.name_of(node.net.self) + ": " + worker.fault()->what +
-                     transport.meeting_trouble(worker.shell().network())};
+  return problem(run.name_of(node.net.self) + ": " + worker.fault()->what +
+                 transport.meeting_trouble(worker.shell().network()));
 }
 
 }  // namespace luxodus

@@ -8,10 +8,6 @@ namespace luxodus {
 
 namespace {
 
-Problem wrong(std::string what) {
-  return {{}, std::move(what)};
-}
-
 /// Reads one object's members; the first that is wrong is remembered.
 class Members {
  public:
@@ -119,21 +115,21 @@ std::optional<PageMessage> read_message(const std::string& type, Members& m) {
 }  // namespace
 
 Result<PageMessage> decode_page_message(std::string_view text) {
-  if (text.size() > limits::page_message_bytes) return wrong("a message is at most 64 KiB");
+  if (text.size() > limits::page_message_bytes) return problem("a message is at most 64 KiB");
   // Not by recursion: a text of brackets alone would take the stack.
   int depth = 0;
   for (const char c : text) {
     if (c == '[' || c == '{') ++depth;
-    if (depth > 64) return wrong("a message has at most 64 brackets");
+    if (depth > 64) return problem("a message has at most 64 brackets");
   }
   const Json object = Json::parse(text, nullptr, false);
   if (!object.is_object() || !object.contains("type") || !object["type"].is_string())
-    return wrong("a message is a JSON object with a type");
+    return problem("a message is a JSON object with a type");
   Members members(object);
   const auto type = object["type"].get<std::string>();
   auto message = read_message(type, members);
-  if (!message) return wrong("there is no message of this type");
-  if (!members.problem().empty()) return wrong(members.problem());
+  if (!message) return problem("there is no message of this type");
+  if (!members.problem().empty()) return problem(members.problem());
   return std::move(*message);
 }
 

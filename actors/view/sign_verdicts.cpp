@@ -16,7 +16,7 @@ constexpr int rounds = 3;
 Result<SceneDescription> as_it_stands(const SceneDescription& scene, const SceneEdits& edits,
                                       const std::map<std::string, double>& factors) {
   auto out = live_description(scene, edits);
-  if (!out.ok()) return out;
+  if (!out) return out;
   const auto factor_of = [&](const std::string& group) {
     const auto at = factors.find(group);
     return at == factors.end() ? 1.0 : at->second;
@@ -67,12 +67,12 @@ Json sign_verdicts(const SceneDescription& scene, const SceneEdits& edits,
     return {{"type", "refused"}, {"why", why}};
   };
   const auto now = as_it_stands(scene, edits, factors);
-  if (!now.ok()) return refused(now.problem().what);
+  if (!now) return refused(now.problem().what);
   if (std::none_of(now->signs.begin(), now->signs.end(),
                    [&](const Sign& s) { return s.name == sign; }))
     return refused("there is no sign \"" + sign + "\"");
   auto scenario = find_scenario(scene, edits.scenario);
-  if (!scenario.ok()) return refused(scenario.problem().what);
+  if (!scenario) return refused(scenario.problem().what);
   scenario->smoke_factor *= edits.smoke;
   for (Scenario::Factor& medium : scenario->media) medium.factor *= edits.smoke;
   scenario->seconds_after_failure = 0;  // what time does is among the factors
@@ -85,7 +85,7 @@ Json sign_verdicts(const SceneDescription& scene, const SceneEdits& edits,
   Assessment found;
   const auto done = assess_sights(
       now.value(), scenario.value(), asked, interrupt, [](const std::string&, double) {}, found);
-  if (!done.ok()) return refused(done.problem().what);
+  if (!done) return refused(done.problem().what);
   Json rows = Json::array();
   for (const SightRow& row : found.sights)
     rows.push_back({{"from", row.from},

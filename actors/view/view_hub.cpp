@@ -48,21 +48,21 @@ bool is_plain_name(const std::string& name) {
 Result<void> save_variant(const std::filesystem::path& file, const std::string& text,
                           const std::string& scenario) {
   const auto trial = file.parent_path() / ("." + file.stem().string() + ".trial.toml");
-  if (auto ok = write_file_atomically(trial, text); !ok.ok()) return ok;
+  if (auto ok = write_file_atomically(trial, text); !ok) return ok.problem();
   auto read = read_scene(trial);
   std::error_code ignored;
   std::filesystem::remove(trial, ignored);
   const auto unfit = [](const Problem& why) {
-    return Problem{{}, "it is not saved, since it would be no scene: " + why.what};
+    return problem("it is not saved, since it would be no scene: " + why.what);
   };
   if (!read.scene) return unfit(read.problems.list().front());
   const auto scene = std::make_shared<const SceneDescription>(std::move(*read.scene));
   const auto state = find_scenario(*scene, scenario);
-  if (!state.ok()) return unfit(state.problem());
-  if (auto compiled = compile_scene(scene, state.value(), {}); !compiled.ok())
+  if (!state) return unfit(state.problem());
+  if (auto compiled = compile_scene(scene, state.value(), {}); !compiled)
     return unfit(compiled.problem());
   const auto found = inspect(scene, {state.value()}, 1);
-  if (!found.ok()) return unfit(found.problem());
+  if (!found) return unfit(found.problem());
   if (has_error(found.value())) return unfit(found->front().problem);  // errors come first
   return write_file_atomically(file, text);
 }
@@ -77,7 +77,7 @@ double outside(const Bounds& box, const glm::dvec3& place) {
 ViewHub::ViewHub(std::shared_ptr<const SceneDescription> scene, const HubOptions& options,
                  Post post)
     : scene_(std::move(scene)), options_(options), post_(std::move(post)), edits_(options.first) {
-  if (const auto scenario = find_scenario(*scene_, edits_.scenario); scenario.ok())
+  if (const auto scenario = find_scenario(*scene_, edits_.scenario); scenario)
     dimming_.seconds = seconds_said(scenario.value());
   trace_.reset(new LiveTrace(scene_, options_.live, edits_, *this));
 }
@@ -183,7 +183,7 @@ void ViewHub::take_back() {
       dimming_.factors.erase(copy.is_sign ? group_of_sign(copy.name)
                                           : group_of_luminaire(copy.name));
   if (edits_.scenario != generation_.edits.scenario)
-    if (const auto before = find_scenario(*scene_, generation_.edits.scenario); before.ok())
+    if (const auto before = find_scenario(*scene_, generation_.edits.scenario); before)
       dimming_.seconds = seconds_said(before.value());
   edits_ = generation_.edits;
 }
@@ -233,7 +233,7 @@ void ViewHub::refuse(Viewer& viewer, const std::string& why) {
 
 void ViewHub::says(Viewer& viewer, std::string_view text) {
   const auto message = decode_page_message(text);
-  if (!message.ok()) return refuse(viewer, message.problem().what);
+  if (!message) return refuse(viewer, message.problem().what);
   if (is_edit(message.value()) && editor_ != &viewer)
     return refuse(viewer, "somebody else edits: take over first");
   std::visit([&](const auto& m) { handle(viewer, m); }, message.value());
@@ -259,7 +259,7 @@ void ViewHub::handle(Viewer& viewer, const FactorEdit& edit) {
 
 void ViewHub::handle(Viewer& viewer, const ScenarioEdit& edit) {
   const auto found = find_scenario(*scene_, edit.name);
-  if (!found.ok()) return refuse(viewer, found.problem().what);
+  if (!found) return refuse(viewer, found.problem().what);
   edits_.scenario = edit.name;
   dimming_.seconds = seconds_said(found.value());
   edits();
@@ -319,7 +319,7 @@ bool ViewHub::can_stand(Viewer& viewer, bool is_sign, const glm::dvec3& position
   }
   if (!facing) return true;
   const auto frame = (is_sign ? frame_facing : frame_aiming)(position, *facing, {0, 0, 1});
-  if (!frame.ok()) refuse(viewer, frame.problem().what);
+  if (!frame) refuse(viewer, frame.problem().what);
   return frame.ok();
 }
 
@@ -377,7 +377,7 @@ void ViewHub::handle(Viewer& viewer, const SaveEdit& edit) {
   const auto saved =
       save_variant(behind_links(file), variant_text(*scene_, edits_, dimming_.factors, edit.name),
                    edits_.scenario);
-  if (!saved.ok()) return refuse(viewer, saved.problem().text());
+  if (!saved) return refuse(viewer, saved.problem().text());
   viewer.send_text(text_of({{"type", "saved"}, {"file", file.string()}}));
 }
 

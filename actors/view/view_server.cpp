@@ -48,7 +48,7 @@ Result<std::unique_ptr<ViewServer>> ViewServer::listen(const HttpAddress& at) {
   site.limits = {limits::viewers, limits::page_message_bytes, limits::viewer_messages_per_s,
                  limits::viewer_unread_bytes};
   auto server = HttpServer::listen(at, std::move(site));
-  if (!server.ok()) return server.problem();
+  if (!server) return server.problem();
   view->server_ = std::move(server).value();
   return view;
 }

@@ -1,11 +1,11 @@
 #include "runtime/actor/scheduler.hpp"
 
 #include <fmt/core.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 
 #include "runtime/core/check.hpp"
+#include "runtime/core/log.hpp"
 #include "runtime/fiber/overflow_report.hpp"
 
 namespace luxodus {
@@ -128,7 +128,7 @@ void Scheduler::report_stall(const Fiber& fiber, Nanoseconds ran) {
   ++counters_.stalls;
   last_stall_ = {fiber.id(), fiber.tag(), fiber.reason(), fiber.subject(), ran};
   if (!log_stall_.may(clock_.now())) return;
-  spdlog::warn(
+  log_warning(
       "event=stall fiber={:#x} tag=\"{}\" subject={} last_suspend=\"{}\" ran_ms={} stalls={}",
       fiber.id().value, fiber.tag(), static_cast<int64_t>(fiber.subject()), fiber.reason(),
       ran / milliseconds(1), counters_.stalls);

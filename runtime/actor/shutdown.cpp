@@ -1,11 +1,10 @@
 #include "runtime/actor/shutdown.hpp"
 
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
 
 #include "runtime/actor/timers.hpp"
 #include "runtime/core/check.hpp"
+#include "runtime/core/log.hpp"
 
 namespace luxodus {
 
@@ -24,7 +23,7 @@ void Shutdown::add(ShutdownPhase phase) {
 void Shutdown::begin(const std::string& why) {
   if (begun_) return;
   begun_ = true;
-  spdlog::debug("event=shutdown phases={} why=\"{}\"", phases_.size(), why);
+  log_debug("event=shutdown phases={} why=\"{}\"", phases_.size(), why);
 }
 
 void Shutdown::start_phase(Nanoseconds now) {
@@ -32,7 +31,7 @@ void Shutdown::start_phase(Nanoseconds now) {
   started_ = now;
   next_word_ = now + between_words;
   phase_started_ = true;
-  spdlog::debug("event=shutdown_phase phase=\"{}\"", phase.name);
+  log_debug("event=shutdown_phase phase=\"{}\"", phase.name);
   if (phase.begin) phase.begin();
 }
 
@@ -40,8 +39,8 @@ void Shutdown::end_phase(bool done, Nanoseconds now) {
   const ShutdownPhase& phase = phases_[current_];
   outcomes_.push_back({phase.name, done, done ? std::string() : phase.still_waits_for()});
   if (!done)
-    spdlog::warn("event=shutdown_phase_given_up phase=\"{}\" after_ms={} waits_for=\"{}\"",
-                 phase.name, (now - started_) / milliseconds(1), outcomes_.back().waited_for);
+    log_warning("event=shutdown_phase_given_up phase=\"{}\" after_ms={} waits_for=\"{}\"",
+                phase.name, (now - started_) / milliseconds(1), outcomes_.back().waited_for);
   phase_started_ = false;
   ++current_;
 }
@@ -57,8 +56,8 @@ Nanoseconds Shutdown::step(Nanoseconds now) {
       end_phase(false, now);
     } else {
       if (now >= next_word_) {
-        spdlog::info("event=shutdown_waits phase=\"{}\" waits_for=\"{}\"", phase.name,
-                     phase.still_waits_for());
+        log_info("event=shutdown_waits phase=\"{}\" waits_for=\"{}\"", phase.name,
+                 phase.still_waits_for());
         next_word_ = now + between_words;
       }
       return std::min(deadline, next_word_);

@@ -28,8 +28,8 @@ NodeId named(TableReader& keys, std::string_view key, const ClusterConfig& clust
   return {};
 }
 
-Fault read_event(const toml::table& table, ClusterReading& reading) {
-  TableReader keys(table, {"faults.event"}, reading.findings, reading.start);
+Fault read_event(const toml::Table& table, ClusterReading& reading) {
+  TableReader keys(table, cluster_schema(), {"faults.event"}, reading.findings);
   Fault fault;
   fault.kind = kind_of(keys.choice("kind"));
   fault.at = span_of_ms(1e3 * keys.number("at_s"));
@@ -50,10 +50,10 @@ Fault read_event(const toml::table& table, ClusterReading& reading) {
 }  // namespace
 
 void read_faults(TableReader& top, ClusterReading& reading) {
-  TableReader keys(top.table("faults"), {"faults"}, reading.findings, top.place("faults"));
+  TableReader keys = top.inner("faults", {"faults"});
   FaultPlan& plan = reading.cluster.faults;
   LinkTraits& links = plan.links;
-  plan.seed = keys.integer("seed");
+  plan.seed = static_cast<uint64_t>(keys.integer("seed"));
   links.delay = span_of_ms(keys.number("delay_ms"));
   links.jitter = span_of_ms(keys.number("jitter_ms"));
   links.tail_share = keys.number("tail_share");
@@ -70,7 +70,7 @@ void read_faults(TableReader& top, ClusterReading& reading) {
 }
 
 void resolve_fault_events(ClusterReading& reading) {
-  for (const toml::table* table : reading.fault_events)
+  for (const toml::Table* table : reading.fault_events)
     reading.cluster.faults.faults.push_back(read_event(*table, reading));
 }
 

@@ -5,15 +5,16 @@
 #include <cmath>
 
 #include "runtime/config/cluster_reading.hpp"
-#include "runtime/config/document.hpp"
 #include "runtime/core/hash.hpp"
+#include "runtime/core/regular_file.hpp"
+#include "runtime/toml/document.hpp"
 
 namespace luxodus {
 
 namespace {
 
 using config::ClusterReading;
-using config::TableReader;
+using toml::TableReader;
 
 /// What ZeroMQ and the envelope add to a chunk; net_config.hpp counts the same.
 constexpr size_t chunk_overhead_bytes = 128;
@@ -22,18 +23,19 @@ Nanoseconds span_of(double seconds_said) {
   return static_cast<Nanoseconds>(std::llround(seconds_said * 1e9));
 }
 
-TableReader reader_of(TableReader& top, std::string_view key, ClusterReading& reading) {
-  return TableReader(top.table(key), {key}, reading.findings, top.place(key));
+TableReader reader_of(TableReader& top, const std::string& key) {
+  return top.inner(key, {key});
 }
 
 void read_run(TableReader& top, ClusterReading& reading) {
-  TableReader keys = reader_of(top, "run", reading);
+  TableReader keys = reader_of(top, "run");
   RunChoice& run = reading.cluster.run;
   if (!top.has("run")) return;
-  run.name = keys.name("name");
+  run.name = keys.text("name");
   Hasher hash;
   hash.add(std::string_view(run.name));
-  run.id = keys.maybe_integer("id").value_or(hash.value());
+  const auto id = keys.maybe_integer("id");
+  run.id = id ? static_cast<uint64_t>(*id) : hash.value();
   run.scene = keys.path("scene");
   run.scenario = keys.text("scenario");
   run.out = keys.path("out");
@@ -47,7 +49,7 @@ void read_run(TableReader& top, ClusterReading& reading) {
 }
 
 void read_links(TableReader& top, ClusterReading& reading) {
-  TableReader keys = reader_of(top, "links", reading);
+  TableReader keys = reader_of(top, "links");
   reading.cluster.tcp_within_host = keys.choice("same_host") == "tcp";
   NetConfig& net = reading.cluster.links;
   net.hop_limit = static_cast<uint8_t>(keys.integer("hop_limit"));
@@ -59,7 +61,7 @@ void read_links(TableReader& top, ClusterReading& reading) {
       keys.integer("bulk_window_chunks") * (net.bulk_chunk_bytes + chunk_overhead_bytes);
   net.outbox_messages = keys.integer("outbox_messages");
   net.assemblies = keys.integer("assemblies");
-  net.max_message_bytes = keys.size("message_most");
+  net.max_message_bytes = keys.size("max_message_bytes");
   net.assembly_patience = span_of(keys.number("assembly_s"));
   net.times.beat = milliseconds(static_cast<Nanoseconds>(keys.integer("beat_ms")));
   net.times.suspect_after_beats = static_cast<int>(keys.integer("suspect_after"));
@@ -70,11 +72,11 @@ void read_links(TableReader& top, ClusterReading& reading) {
 }
 
 void read_services(TableReader& top, ClusterReading& reading) {
-  TableReader lease = reader_of(top, "lease", reading);
+  TableReader lease = reader_of(top, "lease");
   reading.cluster.lease = {static_cast<uint32_t>(lease.integer("batches")),
                            span_of(lease.number("duration_s"))};
 
-  TableReader timeouts = reader_of(top, "timeouts", reading);
+  TableReader timeouts = reader_of(top, "timeouts");
   Timeouts& t = reading.cluster.timeouts;
   t.start = span_of(timeouts.number("start_s"));
   t.lost = span_of(timeouts.number("lost_s"));
@@ -83,10 +85,9 @@ void read_services(TableReader& top, ClusterReading& reading) {
   t.shutdown_phase = span_of(timeouts.number("shutdown_phase_s"));
   t.stall = span_of(timeouts.number("stall_ms") / 1e3);
 
-  // As many as a flush names, the controller's aside (proto: limits::tally_shards).
-  reading.shards = reader_of(top, "tally", reading).names("shards", limits::tally_shards);
+  reading.shards = reader_of(top, "tally").names("shards");
 
-  TableReader keys = reader_of(top, "keys", reading);
+  TableReader keys = reader_of(top, "keys");
   reading.cluster.keys = {keys.path("folder"), keys.flag("insecure")};
   if (keys.has("folder") && reading.cluster.keys.insecure)
     keys.problem("insecure", "'folder' names keys and 'insecure' forgoes them; keep one of them");
@@ -94,12 +95,12 @@ void read_services(TableReader& top, ClusterReading& reading) {
 
 /// Returns the port of each host's first process.
 uint16_t read_observe(TableReader& top, ClusterReading& reading) {
-  TableReader keys = reader_of(top, "observe", reading);
+  TableReader keys = reader_of(top, "observe");
   ObserveChoice& observe = reading.cluster.observe;
-  observe.metrics_address = keys.address("metrics_address");
+  observe.metrics_address = keys.text("metrics_address");
   if (!observe.metrics_address.empty() && !is_ipv4(observe.metrics_address))
     keys.problem("metrics_address", "'metrics_address' must be an IPv4 address");
-  if (keys.has("allow_host")) observe.allow_host = keys.address("allow_host");
+  if (keys.has("allow_host")) observe.allow_host = keys.text("allow_host");
   observe.trace_every = keys.integer("trace_every");
   observe.log_level = keys.choice("log_level");
   return static_cast<uint16_t>(keys.integer("metrics_port"));
@@ -108,25 +109,25 @@ uint16_t read_observe(TableReader& top, ClusterReading& reading) {
 void read_view(TableReader& top, ClusterReading& reading) {
   ViewChoice& view = reading.cluster.view;
   view.live = top.has("view");
-  TableReader keys = reader_of(top, "view", reading);
+  TableReader keys = reader_of(top, "view");
   view.port = static_cast<uint16_t>(keys.integer("port"));
-  view.address = keys.address("address");
-  if (keys.has("allow_host")) view.allow_host = keys.address("allow_host");
+  view.address = keys.text("address");
+  if (keys.has("allow_host")) view.allow_host = keys.text("allow_host");
   view.save_folder = keys.path("save_folder");
 }
 
 void check_keys(ClusterReading& reading) {
   const KeysChoice& keys = reading.cluster.keys;
   if (!leaves_host(reading.cluster) || !keys.folder.empty() || keys.insecure) return;
-  reading.findings.add(
+  reading.findings.problem(
       reading.host_places.back(),
       "links leave their host and there are no keys: say folder = \"keys\" in [keys] and run "
       "`luxodus keygen --cluster FILE`, or, on a network where everybody is trusted, insecure = "
       "true");
 }
 
-void read_tables(const toml::table& document, ClusterReading& reading) {
-  TableReader top(document, {"cluster"}, reading.findings, reading.start);
+void read_tables(const toml::Table& document, ClusterReading& reading) {
+  TableReader top(document, config::cluster_schema(), {"cluster"}, reading.findings);
   read_run(top, reading);
   read_hosts(top, reading);
   read_nodes(top, reading);
@@ -136,23 +137,14 @@ void read_tables(const toml::table& document, ClusterReading& reading) {
   const uint16_t metrics_port = read_observe(top, reading);
   read_view(top, reading);
   read_faults(top, reading);
-  if (!reading.findings.empty()) return;
+  if (reading.findings.any_problem()) return;
   form_processes(reading, metrics_port);
-  if (!reading.findings.empty()) return;
+  if (reading.findings.any_problem()) return;
   give_ports(reading);
   connect_nodes(reading);
   place_shards(reading);
   resolve_fault_events(reading);
   check_keys(reading);
-}
-
-Problems read_document(std::string_view text, ClusterReading& reading, const auto& read) {
-  return config::read_document(text, reading.start, limits::cluster_file_bytes, reading.findings,
-                               read);
-}
-
-Result<std::string> text_of(const std::filesystem::path& file) {
-  return config::text_of_file(file, limits::cluster_file_bytes);
 }
 
 Problems only(const Problem& problem) {
@@ -161,37 +153,45 @@ Problems only(const Problem& problem) {
   return problems;
 }
 
+/// Parses a text and has `read(top)` go through it. Returns all that is wrong with it.
+Problems read_document(std::string_view text, ClusterReading& reading, const auto& read) {
+  const auto document = toml::parse(text, reading.start.file, limits::cluster_file_bytes);
+  if (!document) return only(document.problem());
+  read(document->top);
+  return reading.findings.take_problems();
+}
+
 }  // namespace
 
 ReadCluster parse_cluster(std::string_view text, const std::filesystem::path& file) {
   ClusterReading reading;
   reading.cluster.file = file;
   reading.start = {file.string(), 1};
-  Problems problems = read_document(
-      text, reading, [&](const toml::table& document) { read_tables(document, reading); });
-  if (!problems.list().empty()) return {std::nullopt, std::move(problems)};
-  return {std::move(reading.cluster), {}};
+  Problems problems =
+      read_document(text, reading, [&](const toml::Table& top) { read_tables(top, reading); });
+  if (!problems.empty()) return {std::nullopt, std::move(problems), {}};
+  return {std::move(reading.cluster), {}, reading.findings.take_warnings()};
 }
 
 ReadCluster read_cluster(const std::filesystem::path& file) {
-  const auto text = text_of(file);
-  if (!text.ok()) return {std::nullopt, only(text.problem())};
+  const auto text = read_regular_file(file, limits::cluster_file_bytes);
+  if (!text) return {std::nullopt, only(text.problem()), {}};
   return parse_cluster(text.value(), file);
 }
 
 ReadFaults read_fault_file(const std::filesystem::path& file,
                            const std::vector<std::string>& names) {
-  const auto text = text_of(file);
-  if (!text.ok()) return {std::nullopt, only(text.problem())};
+  const auto text = read_regular_file(file, limits::cluster_file_bytes);
+  if (!text) return {std::nullopt, only(text.problem())};
   ClusterReading reading;
   reading.start = {file.string(), 1};
   for (const std::string& name : names) reading.cluster.nodes.emplace_back().name = name;
-  Problems problems = read_document(text.value(), reading, [&](const toml::table& document) {
-    TableReader top(document, {"faults.file"}, reading.findings, reading.start);
+  Problems problems = read_document(text.value(), reading, [&](const toml::Table& table) {
+    TableReader top(table, config::cluster_schema(), {"faults.file"}, reading.findings);
     read_faults(top, reading);
-    if (reading.findings.empty()) resolve_fault_events(reading);
+    if (!reading.findings.any_problem()) resolve_fault_events(reading);
   });
-  if (!problems.list().empty()) return {std::nullopt, std::move(problems)};
+  if (!problems.empty()) return {std::nullopt, std::move(problems)};
   return {std::move(reading.cluster.faults), {}};
 }
 

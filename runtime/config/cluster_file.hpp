@@ -1,7 +1,7 @@
 // Reads the one file that describes a whole cluster. Every problem in it is reported with its line;
-// a cluster comes out only where there is none. Keys are those of schema.hpp. It reads that file
-// and no other: paths in it are made whole, relative to its folder, and not looked at.
-// Any thread.
+// a cluster comes out only where there is none. Keys are those of cluster_schema.hpp. It reads that
+// file and no other: paths in it are made whole, relative to its folder, and not looked at. Any
+// thread.
 #pragma once
 
 #include <filesystem>
@@ -19,10 +19,11 @@ namespace limits {
 inline constexpr size_t cluster_file_bytes = size_t{1} << 20;
 }  // namespace limits
 
-/// Either a cluster, or problems.
+/// Either a cluster, with warnings that do not hinder, or problems.
 struct ReadCluster {
   std::optional<ClusterConfig> cluster;
   Problems problems;
+  std::vector<Problem> warnings;
 };
 
 ReadCluster read_cluster(const std::filesystem::path& file);

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "runtime/config/cluster_reading.hpp"
+#include "runtime/toml/words.hpp"
 
 namespace luxodus::config {
 
@@ -22,22 +23,17 @@ std::string listen_address(const std::string& address) {
   return is_ipv4(address) ? address : "*";  // only numbers can be listened on
 }
 
-NodeBudget read_budget(const toml::table& table, Findings& findings, const SourcePlace& where,
-                       const NodeBudget* base) {
-  TableReader keys(table, {"budget"}, findings, where);
-  const auto otherwise = [&](auto said) {
-    return base ? std::optional<uint64_t>(base->*said) : std::nullopt;
-  };
-  const auto stack_kb = base ? std::optional<uint64_t>(base->stack_bytes / 1024) : std::nullopt;
-  NodeBudget budget;
-  budget.object_bytes = keys.size("object_bytes", otherwise(&NodeBudget::object_bytes));
-  budget.tally_bytes = keys.size("tally_bytes", otherwise(&NodeBudget::tally_bytes));
-  budget.fibers = static_cast<uint32_t>(keys.integer("fibers", otherwise(&NodeBudget::fibers)));
-  budget.prefetch =
-      static_cast<uint32_t>(keys.integer("prefetch", otherwise(&NodeBudget::prefetch)));
-  budget.stack_bytes = static_cast<uint32_t>(keys.integer("stack_kb", stack_kb) * 1024);
-  budget.max_maps =
-      static_cast<uint32_t>(keys.integer("maps_most", otherwise(&NodeBudget::max_maps)));
+/// What a budget says; of `base`, where there is one, what it does not say.
+NodeBudget read_budget(TableReader keys, const NodeBudget* base) {
+  NodeBudget budget = base ? *base : NodeBudget{};
+  const auto says = [&](std::string_view key) { return !base || keys.has(key); };
+  const auto small = [&](std::string_view key) { return static_cast<uint32_t>(keys.integer(key)); };
+  if (says("object_bytes")) budget.object_bytes = keys.size("object_bytes");
+  if (says("tally_bytes")) budget.tally_bytes = keys.size("tally_bytes");
+  if (says("fibers")) budget.fibers = small("fibers");
+  if (says("prefetch")) budget.prefetch = small("prefetch");
+  if (says("stack_kb")) budget.stack_bytes = small("stack_kb") * 1024;
+  if (says("max_maps")) budget.max_maps = small("max_maps");
   return budget;
 }
 
@@ -51,7 +47,7 @@ size_t read_host(TableReader& keys, const ClusterReading& reading) {
   if (keys.has("host") && !name.empty()) {
     std::vector<std::string_view> known;
     for (const ClusterHost& host : hosts) known.push_back(host.name);
-    const auto near = nearest_word(name, known);
+    const auto near = toml::nearest_word(name, known);
     keys.problem("host", fmt::format("there is no host \"{}\"{}", name,
                                      near ? fmt::format("; did you mean \"{}\"?", *near) : ""));
   } else if (hosts.size() > 1) {
@@ -61,25 +57,24 @@ size_t read_host(TableReader& keys, const ClusterReading& reading) {
 }
 
 /// What one [[node]] says: a node, or `count` of them.
-void read_node(const toml::table& table, const NodeBudget& usual, ClusterReading& reading,
+void read_node(const toml::Table& table, const NodeBudget& usual, ClusterReading& reading,
                std::vector<Draft>& drafts) {
-  std::vector<std::string_view> specs{"node"};
-  if (table["role"].value_or(std::string_view("worker")) != "worker")
+  std::vector<std::string> specs{"node"};
+  if (toml::chosen_kind(table, cluster_schema(), "node", "role") != "worker")
     specs.push_back("node.controller");
-  TableReader keys(table, specs, reading.findings, reading.start);
+  TableReader keys(table, cluster_schema(), specs, reading.findings);
   Draft draft;
   draft.place = keys.place("name");
-  const std::string name = keys.name("name");
-  const uint64_t count = keys.integer("count");
+  const std::string name = keys.text("name");
+  const auto count = static_cast<uint64_t>(keys.integer("count"));
   const bool controller = keys.choice("role") == "controller";
   draft.node.role = controller ? NodeRole::controller : NodeRole::worker;
   draft.node.traces = controller ? keys.flag("traces") : true;
   draft.node.stores = keys.flag("stores");
   draft.node.host = read_host(keys, reading);
-  draft.node.budget =
-      read_budget(keys.table("budget"), reading.findings, keys.place("budget"), &usual);
-  draft.process = keys.name("process");
-  const auto port = keys.maybe_integer("port");
+  draft.node.budget = read_budget(keys.inner("budget", {"budget"}), &usual);
+  draft.process = keys.text("process");
+  const std::optional<uint64_t> port = keys.maybe_integer("port");
   if (port && *port + 2 * (count - 1) > 65534)
     keys.problem("port",
                  fmt::format("{} nodes from port {} on need ports above 65535", count, *port));
@@ -110,8 +105,8 @@ void add_tracer(std::vector<Draft>& drafts, ClusterReading& reading) {
   if (controller->process.empty()) controller->process = controller->node.name;
   tracer.process = controller->process;
   if (const auto fault = name_fault(tracer.node.name); !fault.empty())
-    reading.findings.add(tracer.place, fmt::format("\"{}\", by which it traces, is no name: {}",
-                                                   tracer.node.name, fault));
+    reading.findings.problem(tracer.place, fmt::format("\"{}\", by which it traces, is no name: {}",
+                                                       tracer.node.name, fault));
   drafts.push_back(tracer);
 }
 
@@ -126,23 +121,23 @@ void check_roles(const std::vector<Draft>& drafts, ClusterReading& reading) {
       continue;
     }
     if (controller) {
-      reading.findings.add(draft.place,
-                           fmt::format("\"{}\" is a second controller; line {} has the first",
-                                       draft.node.name, controller->place.line));
+      reading.findings.problem(draft.place,
+                               fmt::format("\"{}\" is a second controller; line {} has the first",
+                                           draft.node.name, controller->place.line));
     } else {
       controller = &draft;
     }
   }
   if (!controller) {
-    reading.findings.add(reading.start,
-                         "there is no controller: one [[node]] needs role = \"controller\"");
+    reading.findings.problem(reading.start,
+                             "there is no controller: one [[node]] needs role = \"controller\"");
   } else if (!somebody_traces) {
-    reading.findings.add(controller->place,
-                         "nobody traces: there are no workers; add some, or say traces = true");
+    reading.findings.problem(controller->place,
+                             "nobody traces: there are no workers; add some, or say traces = true");
   }
   if (a_worker && !a_worker_stores)
-    reading.findings.add(reading.start,
-                         "no worker has the scene's objects: leave stores = true on one at least");
+    reading.findings.problem(
+        reading.start, "no worker has the scene's objects: leave stores = true on one at least");
 }
 
 void check_names(const std::vector<Draft>& drafts, ClusterReading& reading) {
@@ -151,8 +146,9 @@ void check_names(const std::vector<Draft>& drafts, ClusterReading& reading) {
     if (draft.node.name.empty()) continue;
     const auto [it, fresh] = lines.emplace(draft.node.name, draft.place.line);
     if (!fresh) {
-      reading.findings.add(draft.place, fmt::format("there is a node \"{}\" already, in line {}",
-                                                    draft.node.name, it->second));
+      reading.findings.problem(
+          draft.place,
+          fmt::format("there is a node \"{}\" already, in line {}", draft.node.name, it->second));
     }
   }
 }
@@ -161,12 +157,12 @@ void check_names(const std::vector<Draft>& drafts, ClusterReading& reading) {
 
 void read_hosts(TableReader& top, ClusterReading& reading) {
   const auto tables = top.tables("host", limits::cluster_hosts);
-  for (const toml::table* table : tables) {
-    TableReader keys(*table, {"host"}, reading.findings, top.place("host"));
+  for (const toml::Table* table : tables) {
+    TableReader keys(*table, cluster_schema(), {"host"}, reading.findings);
     ClusterHost host;
-    host.name = keys.name("name");
-    host.address = keys.address("address");
-    const std::string listen = keys.address("listen");
+    host.name = keys.text("name");
+    host.address = keys.text("address");
+    const std::string listen = keys.text("listen");
     host.listen = keys.has("listen") ? listen : listen_address(host.address);
     if (keys.has("listen") && !listen.empty() && !is_ipv4(listen))
       keys.problem("listen", "'listen' must be an IPv4 address");
@@ -186,10 +182,9 @@ void read_hosts(TableReader& top, ClusterReading& reading) {
 }
 
 void read_nodes(TableReader& top, ClusterReading& reading) {
-  const NodeBudget usual =
-      read_budget(top.table("budget"), reading.findings, top.place("budget"), nullptr);
+  const NodeBudget usual = read_budget(top.inner("budget", {"budget"}), nullptr);
   std::vector<Draft> drafts;
-  for (const toml::table* table : top.tables("node", limits::cluster_nodes)) {
+  for (const toml::Table* table : top.tables("node", limits::cluster_nodes)) {
     read_node(*table, usual, reading, drafts);
   }
   if (drafts.empty()) return;  // which was told
@@ -218,7 +213,7 @@ void form_processes(ClusterReading& reading, uint16_t metrics_port) {
     if (fresh) {
       const uint32_t port = metrics_port == 0 ? 0 : metrics_port + on_host[node.host]++;
       if (port > 65535) {
-        return reading.findings.add(
+        return reading.findings.problem(
             reading.node_places[i],
             fmt::format("the process of \"{}\" would give metrics on port {}: begin with a lower "
                         "metrics_port",
@@ -228,7 +223,7 @@ void form_processes(ClusterReading& reading, uint16_t metrics_port) {
     }
     ClusterProcess& process = cluster.processes[it->second];
     if (process.host != node.host) {
-      reading.findings.add(
+      reading.findings.problem(
           reading.node_places[i],
           fmt::format("process \"{}\" runs on host \"{}\", and node \"{}\" on \"{}\"", name,
                       cluster.hosts[process.host].name, node.name, cluster.hosts[node.host].name));
@@ -248,9 +243,10 @@ class PortBook {
   void take(const ClusterHost& host, uint32_t port, std::string who, const SourcePlace& place) {
     const auto [it, fresh] = taken_.emplace(std::pair(host.address, port), who);
     if (fresh) return;
-    reading_.findings.add(place, fmt::format("{} and {} both use port {} of {}; give one another "
-                                             "port, or its host another first_port",
-                                             it->second, who, port, host.address));
+    reading_.findings.problem(place,
+                              fmt::format("{} and {} both use port {} of {}; give one another "
+                                          "port, or its host another first_port",
+                                          it->second, who, port, host.address));
   }
 
  private:
@@ -273,7 +269,7 @@ void give_ports(ClusterReading& reading) {
     const uint32_t port = said != reading.ports.end() ? said->second : next[node.host];
     next[node.host] += 2;
     if (port > 65534) {
-      return reading.findings.add(
+      return reading.findings.problem(
           reading.node_places[i],
           fmt::format("no port is left for \"{}\": host \"{}\" needs a lower "
                       "first_port",

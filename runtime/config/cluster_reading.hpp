@@ -9,21 +9,24 @@
 #include <vector>
 
 #include "runtime/config/cluster_config.hpp"
-#include "runtime/config/table_reader.hpp"
+#include "runtime/config/cluster_schema.hpp"
+#include "runtime/toml/table_reader.hpp"
 
 namespace luxodus::config {
 
+using toml::TableReader;
+
 struct ClusterReading {
   ClusterConfig cluster;
-  Findings findings;
-  SourcePlace start;                       // of the file
-  std::vector<SourcePlace> host_places;    // by number
-  std::vector<SourcePlace> node_places;    // by number
-  std::vector<std::string> process_names;  // by node: as said, or the node's own
-  std::map<size_t, uint16_t> ports;        // by node: as said
-  std::vector<TableReader::Pair> links;    // as said
-  std::vector<TableReader::Name> shards;   // as said
-  std::vector<const toml::table*> fault_events;
+  toml::Findings findings;
+  SourcePlace start;                         // of the file
+  std::vector<SourcePlace> host_places;      // by number
+  std::vector<SourcePlace> node_places;      // by number
+  std::vector<std::string> process_names;    // by node: as said, or the node's own
+  std::map<size_t, uint16_t> ports;          // by node: as said
+  std::vector<TableReader::NamePair> links;  // as said
+  std::vector<TableReader::Name> shards;     // as said
+  std::vector<const toml::Table*> fault_events;
 };
 
 // Each table by itself.

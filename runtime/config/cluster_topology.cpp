@@ -5,13 +5,11 @@
 #include <set>
 
 #include "runtime/config/cluster_reading.hpp"
+#include "runtime/toml/words.hpp"
 
 namespace luxodus::config {
 
 namespace {
-
-/// Links that all nodes of the largest cluster may have.
-constexpr size_t max_pairs = limits::cluster_nodes * 64 / 2;
 
 void read_sizes(TableReader& keys, TopologyChoice& choice) {
   using Controller = TopologyChoice::Controller;
@@ -35,19 +33,20 @@ NodeId named(const std::string& name, const SourcePlace& place, ClusterReading& 
   if (const auto id = find_node(reading.cluster, name)) return *id;
   std::vector<std::string_view> known;
   for (const ClusterNode& node : reading.cluster.nodes) known.push_back(node.name);
-  const auto near = nearest_word(name, known);
-  reading.findings.add(place,
-                       fmt::format("there is no node \"{}\"{}", name.substr(0, 40),
-                                   near ? fmt::format("; did you mean \"{}\"?", *near) : ""));
+  const auto near = toml::nearest_word(name, known);
+  reading.findings.problem(place,
+                           fmt::format("there is no node \"{}\"{}", name.substr(0, 40),
+                                       near ? fmt::format("; did you mean \"{}\"?", *near) : ""));
   return no_node;
 }
 
 void read_topology(TableReader& top, ClusterReading& reading) {
-  const toml::table& table = top.table("topology");
-  const std::string_view said = table["kind"].value_or(std::string_view("amp"));
+  const toml::Table* table = top.table("topology");
+  const std::string said =
+      table ? toml::chosen_kind(*table, cluster_schema(), "topology", "kind") : "amp";
   TopologyChoice& choice = reading.cluster.topology;
-  const auto reader = [&](std::string_view kind) {
-    return TableReader(table, {"topology", kind}, reading.findings, top.place("topology"));
+  const auto reader = [&](const std::string& kind) {
+    return top.inner("topology", {"topology", kind});
   };
   if (said == "file") {
     TableReader keys = reader("topology.file");
@@ -56,7 +55,7 @@ void read_topology(TableReader& top, ClusterReading& reading) {
   } else if (said == "links") {
     TableReader keys = reader("topology.links");
     choice.kind = TopologyChoice::Kind::links;
-    reading.links = keys.pairs("pairs", max_pairs);
+    reading.links = keys.name_pairs("pairs");
     read_sizes(keys, choice);
   } else {
     TableReader keys = reader("topology.amp");
@@ -68,17 +67,22 @@ void read_topology(TableReader& top, ClusterReading& reading) {
 void place_shards(ClusterReading& reading) {
   const ClusterConfig& cluster = reading.cluster;
   std::vector<NodeId>& shards = reading.cluster.tally.shards;
+  // As many as a flush names, the controller's aside (proto: limits::tally_shards).
+  if (reading.shards.size() > limits::tally_shards)
+    return reading.findings.problem(reading.shards.front().place,
+                                    fmt::format("there are {} shards; at most {} are allowed",
+                                                reading.shards.size(), limits::tally_shards));
   for (const TableReader::Name& name : reading.shards) {
     const NodeId node = named(name.text, name.place, reading);
     if (node == no_node) continue;
     if (node == cluster.controller()) {
-      reading.findings.add(name.place,
-                           fmt::format("\"{}\" is the controller, which holds the first "
-                                       "share anyway: name workers",
-                                       name.text));
+      reading.findings.problem(name.place,
+                               fmt::format("\"{}\" is the controller, which holds the first "
+                                           "share anyway: name workers",
+                                           name.text));
     } else if (std::count(shards.begin(), shards.end(), node) > 0) {
-      reading.findings.add(name.place,
-                           fmt::format("\"{}\" holds a share of the totals already", name.text));
+      reading.findings.problem(
+          name.place, fmt::format("\"{}\" holds a share of the totals already", name.text));
     } else {
       shards.push_back(node);
     }
@@ -92,17 +96,18 @@ void connect_nodes(ClusterReading& reading) {
       std::min(choice.max_controller_links, static_cast<uint32_t>(cluster.workers()));
   std::set<Edge> seen;
   std::vector<uint32_t> links(cluster.nodes.size());
-  for (const TableReader::Pair& pair : reading.links) {
+  for (const TableReader::NamePair& pair : reading.links) {
     const NodeId one = named(pair.first, pair.place, reading);
     const NodeId other = named(pair.second, pair.place, reading);
     if (one == no_node || other == no_node) continue;
     if (one == other) {
-      reading.findings.add(pair.place, fmt::format("this links node \"{}\" to itself", pair.first));
+      reading.findings.problem(pair.place,
+                               fmt::format("this links node \"{}\" to itself", pair.first));
       continue;
     }
     const Edge edge = edge_between(one, other);
     if (!seen.insert(edge).second) {
-      reading.findings.add(
+      reading.findings.problem(
           pair.place, fmt::format("\"{}\" and \"{}\" are linked already", pair.first, pair.second));
       continue;
     }
@@ -112,7 +117,7 @@ void connect_nodes(ClusterReading& reading) {
           end == cluster.controller() && choice.controller != TopologyChoice::Controller::node;
       const uint32_t most = special ? choice.max_controller_links : choice.max_links;
       if (++links[end.value] == most + 1) {
-        reading.findings.add(
+        reading.findings.problem(
             pair.place,
             fmt::format("\"{}\" has more than the {} links that '{}' allows",
                         cluster.node(end).name, most, special ? "controller_links" : "links"));

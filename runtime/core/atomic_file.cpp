@@ -21,8 +21,8 @@
 #include <string>
 #include <system_error>
 
+#include "runtime/core/file_descriptor.hpp"
 #include "runtime/core/output_path.hpp"
-#include "runtime/core/regular_file.hpp"
 
 namespace luxodus {
 namespace {
@@ -32,31 +32,6 @@ constexpr int max_temporary_name_attempts = 1000;
 // Linux transfers at most 2^31 - 4096 bytes per call; smaller pieces answer signals sooner.
 constexpr size_t transfer_bytes = size_t{1} << 26;
 constexpr std::string_view temporary_prefix = ".luxodus-", temporary_suffix = ".tmp";
-
-/// A file descriptor that closes itself. Not copyable.
-class Descriptor {
- public:
-  explicit Descriptor(int fd) : fd_(fd) {}
-  ~Descriptor() {
-    if (fd_ >= 0) ::close(fd_);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-
-  int get() const { return fd_; }
-  bool valid() const { return fd_ >= 0; }
-  /// Requires: !valid().
-  void adopt(int fd) { fd_ = fd; }
-  /// Closes now and tells whether that went well: network file systems report a full disk here.
-  bool close() {
-    const int fd = fd_;
-    fd_ = -1;
-    return ::close(fd) == 0;
-  }
-
- private:
-  int fd_;
-};
 
 /// What to do where a file cannot be written.
 std::string_view advice(int error) {
@@ -80,20 +55,10 @@ std::string_view advice(int error) {
   }
 }
 
-Problem problem_of(const std::filesystem::path& path, std::string what) {
-  SourcePlace place{path.string(), 0};
-  return {std::move(place), std::move(what)};
-}
-
-Problem system_problem(const std::filesystem::path& path, std::string_view doing, int error) {
-  std::string what(doing);
-  what += ": " + std::generic_category().message(error);
-  what += advice(error);
-  return problem_of(path, std::move(what));
-}
-
 Problem write_problem(const std::filesystem::path& path, int error) {
-  return system_problem(path, "cannot write this file", error);
+  Problem problem = system_problem(path, "cannot write this file", error);
+  problem.what += advice(error);
+  return problem;
 }
 
 bool holds_nul(const std::filesystem::path& path) {
@@ -142,7 +107,7 @@ Result<Target> find_target(const std::filesystem::path& path) {
     if (errno == ENOENT) return target;
     return write_problem(path, errno);
   }
-  if (auto fault = fault_of_target(about)) return problem_of(path, *fault);
+  if (auto fault = fault_of_target(about)) return problem_in(path, *fault);
   target.mode = about.st_mode & 0777;
   target.exists = true;
   return target;
@@ -158,7 +123,7 @@ Result<int> open_parent(const std::filesystem::path& path) {
   const int error = errno;
   struct stat about {};
   if (::lstat(parent.c_str(), &about) == 0 && S_ISLNK(about.st_mode))
-    return problem_of(path,
+    return problem_in(path,
                       "its folder is a symbolic link, and links are not followed; name the "
                       "folder that it leads to");
   return write_problem(path, error);
@@ -222,15 +187,15 @@ std::optional<std::string> fault_of_target(const struct stat& about) {
 /// Everything that is open while a file is being written.
 struct AtomicFile::State {
   State(std::filesystem::path path, Target found, int folder_fd)
-      : asked_for(std::move(path)), target(std::move(found)), folder(folder_fd), file(-1) {}
+      : asked_for(std::move(path)), target(std::move(found)), folder(folder_fd) {}
   ~State() {
-    if (!temporary.empty()) ::unlinkat(folder.get(), temporary.c_str(), 0);
+    if (!temporary.empty()) ::unlinkat(folder.number(), temporary.c_str(), 0);
   }
 
   std::filesystem::path asked_for;
   Target target;
-  Descriptor folder;
-  Descriptor file;
+  FileDescriptor folder;
+  FileDescriptor file;
   std::string temporary;  // "" while it has no name, and once it has the target's
   int failed = 0;         // errno of the first piece that could not be written
 };
@@ -241,9 +206,9 @@ AtomicFile::~AtomicFile() = default;
 
 Result<AtomicFile> AtomicFile::create(const std::filesystem::path& path) {
   if (path.empty() || path.filename().empty()) {
-    return problem_of(path, "no file is named here; add a file name to the path");
+    return problem_in(path, "no file is named here; add a file name to the path");
   }
-  if (holds_nul(path)) return problem_of(path, "a path cannot hold a zero byte");
+  if (holds_nul(path)) return problem_in(path, "a path cannot hold a zero byte");
   Result<Target> target = find_target(path);
   if (!target) return target.problem();
 
@@ -253,17 +218,17 @@ Result<AtomicFile> AtomicFile::create(const std::filesystem::path& path) {
   std::string name;
   const int fd = create_temporary(folder.value(), name);
   if (fd < 0) return write_problem(path, errno);
-  state->file.adopt(fd);
+  state->file = FileDescriptor(fd);
   state->temporary = std::move(name);
   return AtomicFile(std::move(state));
 }
 
 void AtomicFile::write(std::span<const std::byte> bytes) {
-  if (state_->failed == 0) state_->failed = write_all(state_->file.get(), bytes);
+  if (state_->failed == 0) state_->failed = write_all(state_->file.number(), bytes);
 }
 
 void AtomicFile::write_at(uint64_t offset, std::span<const std::byte> bytes) {
-  if (state_->failed == 0) state_->failed = write_all_at(state_->file.get(), offset, bytes);
+  if (state_->failed == 0) state_->failed = write_all_at(state_->file.number(), offset, bytes);
 }
 
 Result<void> AtomicFile::commit() {
@@ -273,7 +238,7 @@ Result<void> AtomicFile::commit() {
   }
   s.temporary.clear();
   // EINVAL: the file system has no notion of syncing a folder, and nothing better can be done.
-  if (::fsync(s.folder.get()) != 0 && errno != EINVAL) {
+  if (::fsync(s.folder.number()) != 0 && errno != EINVAL) {
     return system_problem(s.asked_for, "the file is written, but its folder could not be synced",
                           errno);
   }
@@ -282,13 +247,13 @@ Result<void> AtomicFile::commit() {
 
 /// Steps 3 and 4; 0 or the errno of what failed.
 int AtomicFile::finish(State& s) {
-  if (s.target.exists && ::fchmod(s.file.get(), s.target.mode) != 0) return errno;
-  if (::fsync(s.file.get()) != 0) return errno;
+  if (s.target.exists && ::fchmod(s.file.number(), s.target.mode) != 0) return errno;
+  if (::fsync(s.file.number()) != 0) return errno;
   if (s.temporary.empty())
-    if (const int error = name_file(s.file.get(), s.folder.get(), s.temporary)) return error;
+    if (const int error = name_file(s.file.number(), s.folder.number(), s.temporary)) return error;
   if (!s.file.close()) return errno;
   const std::string name = s.target.path.filename().string();
-  if (::renameat(s.folder.get(), s.temporary.c_str(), s.folder.get(), name.c_str()) != 0)
+  if (::renameat(s.folder.number(), s.temporary.c_str(), s.folder.number(), name.c_str()) != 0)
     return errno;
   return 0;
 }
@@ -305,11 +270,11 @@ void remove_stale_temporaries(const std::filesystem::path& folder) {
   for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
     const std::string name = entry.path().filename().string();
     if (!name.starts_with(temporary_prefix) || !name.ends_with(temporary_suffix)) continue;
-    const Descriptor file(
+    const FileDescriptor file(
         ::open(entry.path().c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
     struct stat about {};
-    const bool stale = file.valid() && ::fstat(file.get(), &about) == 0 && S_ISREG(about.st_mode) &&
-                       ::flock(file.get(), LOCK_EX | LOCK_NB) == 0;
+    const bool stale = file.valid() && ::fstat(file.number(), &about) == 0 &&
+                       S_ISREG(about.st_mode) && ::flock(file.number(), LOCK_EX | LOCK_NB) == 0;
     if (stale) ::unlink(entry.path().c_str());
   }
 }
@@ -324,39 +289,6 @@ Result<void> write_file_atomically(const std::filesystem::path& path,
 
 Result<void> write_file_atomically(const std::filesystem::path& path, std::string_view text) {
   return write_file_atomically(path, std::as_bytes(std::span(text.data(), text.size())));
-}
-
-Result<std::vector<std::byte>> read_whole_file(const std::filesystem::path& path,
-                                               uint64_t most_bytes) {
-  auto file = open_regular_file(path);
-  if (!file) return file.problem();
-  const auto too_long = [&] {
-    return problem_of(path, "this file is longer than " + std::to_string(most_bytes) +
-                                " bytes, the most that is read from a file of its kind");
-  };
-  if (file->bytes > most_bytes) return too_long();
-
-  // The size is a hint only: a file may grow while it is read.
-  std::vector<std::byte> bytes;
-  uint64_t wanted = file->bytes;
-  size_t filled = 0;
-  while (true) {
-    if (filled == bytes.size()) {
-      wanted = std::min(std::max<uint64_t>(wanted, filled + filled / 2 + 4096), most_bytes + 1);
-      bytes.resize(static_cast<size_t>(wanted));
-    }
-    const ssize_t n = ::read(file->descriptor.number(), bytes.data() + filled,
-                             std::min(bytes.size() - filled, transfer_bytes));
-    if (n < 0) {
-      if (errno == EINTR) continue;
-      return system_problem(path, "cannot read this file", errno);
-    }
-    if (n == 0) break;
-    filled += static_cast<size_t>(n);
-    if (filled > most_bytes) return too_long();
-  }
-  bytes.resize(filled);
-  return bytes;
 }
 
 }  // namespace luxodus

@@ -49,9 +49,4 @@ Result<void> write_file_atomically(const std::filesystem::path& path,
                                    std::span<const std::byte> bytes);
 Result<void> write_file_atomically(const std::filesystem::path& path, std::string_view text);
 
-/// All bytes of a file. Errors: not there, not readable, a folder, or longer than `most_bytes`;
-/// memory is never asked for beyond that.
-Result<std::vector<std::byte>> read_whole_file(const std::filesystem::path& path,
-                                               uint64_t most_bytes);
-
 }  // namespace luxodus

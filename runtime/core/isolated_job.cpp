@@ -48,10 +48,6 @@ std::string of_system(int error) {
   return std::generic_category().message(error);
 }
 
-Problem failed(std::string what) {
-  return Problem{{}, std::move(what)};
-}
-
 // ---- in the other process ----------------------------------------------------------------------
 
 uint64_t mapped_bytes() {
@@ -142,18 +138,18 @@ std::string told(uint64_t bytes) {
 std::optional<Problem> end_of(int status, const IsolatedLimits& most) {
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return std::nullopt;
   if (WIFEXITED(status) && WEXITSTATUS(status) == out_of_memory)
-    return failed("reading it takes more than " + told(most.memory_bytes) +
-                  ": it is damaged, or too large for what it holds");
+    return problem("reading it takes more than " + told(most.memory_bytes) +
+                   ": it is damaged, or too large for what it holds");
   const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
   if (signal == SIGXCPU || signal == SIGALRM)
-    return failed("reading it takes longer than " + std::to_string(most.processor_s * slower) +
-                  " s: it is damaged, or has to be made simpler");
+    return problem("reading it takes longer than " + std::to_string(most.processor_s * slower) +
+                   " s: it is damaged, or has to be made simpler");
   if (signal == SIGXFSZ)
-    return failed("it makes more than " + told(most.memory_bytes) + " of triangles or pixels");
+    return problem("it makes more than " + told(most.memory_bytes) + " of triangles or pixels");
   if (signal != 0)
-    return failed(std::string("reading it ended in a crash (") + ::strsignal(signal) +
-                  "): it is damaged; write it anew");
-  return failed("reading it failed without a reason: it is damaged; write it anew");
+    return problem(std::string("reading it ended in a crash (") + ::strsignal(signal) +
+                   "): it is damaged; write it anew");
+  return problem("reading it failed without a reason: it is damaged; write it anew");
 }
 
 }  // namespace
@@ -166,23 +162,23 @@ Result<PlainReader> IsolatedJob::run(const std::function<void(PlainWriter& quest
                                      const IsolatedLimits& most) const {
   FileDescriptor question = memory_file(), answer = memory_file();
   if (!question.valid() || !answer.valid())
-    return failed("no process can be begun to read it: " + of_system(errno));
+    return problem("no process can be begun to read it: " + of_system(errno));
   PlainWriter writer(question.number());
   writer.put(most);
   ask(writer);
   if (!writer.flush() || ::lseek(question.number(), 0, SEEK_SET) != 0)
-    return failed("no process can be begun to read it: " + of_system(errno));
+    return problem("no process can be begun to read it: " + of_system(errno));
   pid_t process = 0;
   if (const int error = Orders(question.number(), answer.number()).spawn(process, name_); error)
-    return failed("no process can be begun to read it: " + of_system(error));
+    return problem("no process can be begun to read it: " + of_system(error));
   int status = 0;
   while (::waitpid(process, &status, 0) < 0)
-    if (errno != EINTR) return failed("the process that reads it was lost: " + of_system(errno));
+    if (errno != EINTR) return problem("the process that reads it was lost: " + of_system(errno));
   if (auto bad = end_of(status, most)) return *bad;
   PlainReader reader(std::move(answer));
   uint64_t first = 0;
   if (!reader.get(first) || first != mark)
-    return failed("this program reads such files in a process of its own, and cannot begin one");
+    return problem("this program reads such files in a process of its own, and cannot begin one");
   return reader;
 }
 

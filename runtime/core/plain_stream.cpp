@@ -16,10 +16,6 @@ constexpr size_t block_bytes = size_t{1} << 16;
 
 }  // namespace
 
-FileDescriptor::~FileDescriptor() {
-  if (number_ >= 0) ::close(number_);
-}
-
 // ---- writing -----------------------------------------------------------------------------------
 
 void PlainWriter::add(std::span<const std::byte> bytes) {

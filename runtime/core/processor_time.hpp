@@ -17,9 +17,5 @@ inline double clock_seconds(clockid_t clock) {
 inline double thread_seconds() {
   return clock_seconds(CLOCK_THREAD_CPUTIME_ID);
 }
-/// Of all threads of this process [s].
-inline double process_seconds() {
-  return clock_seconds(CLOCK_PROCESS_CPUTIME_ID);
-}
 
 }  // namespace luxodus

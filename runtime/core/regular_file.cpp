@@ -15,40 +15,17 @@ namespace {
 /// Linux moves at most 2 GiB in one call.
 constexpr size_t transfer_bytes = size_t{1} << 30;
 
-Problem cannot(const std::filesystem::path& path, int error) {
-  return {{path.string(), 0},
-          "this file cannot be read: " + std::generic_category().message(error)};
-}
-
-}  // namespace
-
-Result<RegularFile> open_regular_file(const std::filesystem::path& path) {
-  if (path.native().find('\0') != std::string::npos)
-    return Problem{{path.string(), 0}, "a path cannot hold a zero byte"};
-  // O_NONBLOCK: a pipe without a writer would be waited for, before it could be told what it is.
-  FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
-  if (!file.valid()) return cannot(path, errno);
-  struct stat about {};
-  if (::fstat(file.number(), &about) != 0) return cannot(path, errno);
-  if (S_ISDIR(about.st_mode)) return cannot(path, EISDIR);
-  if (!S_ISREG(about.st_mode))
-    return Problem{{path.string(), 0},
-                   "this is no file but a pipe, a socket or a device: copy what it gives into a "
-                   "file, and name that"};
-  return RegularFile{std::move(file), static_cast<uint64_t>(about.st_size)};
-}
-
-Result<std::string> read_regular_file(const std::filesystem::path& path, uint64_t most_bytes) {
+template <class Bytes>
+Result<Bytes> read_all(const std::filesystem::path& path, uint64_t most_bytes) {
   auto file = open_regular_file(path);
-  if (!file.ok()) return file.problem();
+  if (!file) return file.problem();
   const auto too_long = [&] {
-    return Problem{{path.string(), 0},
-                   "this file is longer than " + std::to_string(most_bytes) +
-                       " bytes, the most that is read from a file of its kind"};
+    return problem_in(path, "this file is longer than " + std::to_string(most_bytes) +
+                                " bytes, the most that is read from a file of its kind");
   };
   if (file->bytes > most_bytes) return too_long();
   // The size is a hint only: a file of /proc has none, and any may grow while it is read.
-  std::string bytes;
+  Bytes bytes;
   size_t filled = 0;
   uint64_t wanted = file->bytes + 1;
   while (true) {
@@ -59,13 +36,41 @@ Result<std::string> read_regular_file(const std::filesystem::path& path, uint64_
     const ssize_t n = ::read(file->descriptor.number(), bytes.data() + filled,
                              std::min(bytes.size() - filled, transfer_bytes));
     if (n < 0 && errno == EINTR) continue;
-    if (n < 0) return cannot(path, errno);
+    if (n < 0) return system_problem(path, "this file cannot be read", errno);
     if (n == 0) break;
     filled += static_cast<size_t>(n);
     if (filled > most_bytes) return too_long();
   }
   bytes.resize(filled);
   return bytes;
+}
+
+}  // namespace
+
+Result<RegularFile> open_regular_file(const std::filesystem::path& path) {
+  if (path.native().find('\0') != std::string::npos)
+    return problem_in(path, "a path cannot hold a zero byte");
+  // O_NONBLOCK: a pipe without a writer would be waited for, before it could be told what it is.
+  FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
+  if (!file.valid()) return system_problem(path, "this file cannot be read", errno);
+  struct stat about {};
+  if (::fstat(file.number(), &about) != 0)
+    return system_problem(path, "this file cannot be read", errno);
+  if (S_ISDIR(about.st_mode)) return system_problem(path, "this file cannot be read", EISDIR);
+  if (!S_ISREG(about.st_mode))
+    return problem_in(path,
+                      "this is no file but a pipe, a socket or a device: copy what it gives into a "
+                      "file, and name that");
+  return RegularFile{std::move(file), static_cast<uint64_t>(about.st_size)};
+}
+
+Result<std::string> read_regular_file(const std::filesystem::path& path, uint64_t most_bytes) {
+  return read_all<std::string>(path, most_bytes);
+}
+
+Result<std::vector<std::byte>> read_whole_file(const std::filesystem::path& path,
+                                               uint64_t most_bytes) {
+  return read_all<std::vector<std::byte>>(path, most_bytes);
 }
 
 }  // namespace luxodus

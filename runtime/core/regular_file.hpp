@@ -3,11 +3,13 @@
 // something when it is opened. Memory is never asked for beyond a limit. Any thread.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
-#include "runtime/core/plain_stream.hpp"
+#include "runtime/core/file_descriptor.hpp"
 #include "runtime/core/result.hpp"
 
 namespace luxodus {
@@ -22,5 +24,8 @@ Result<RegularFile> open_regular_file(const std::filesystem::path& path);
 
 /// All bytes of a file. Errors: as open_regular_file; longer than `most_bytes`; a failed read.
 Result<std::string> read_regular_file(const std::filesystem::path& path, uint64_t most_bytes);
+/// The same, of a file that is no text.
+Result<std::vector<std::byte>> read_whole_file(const std::filesystem::path& path,
+                                               uint64_t most_bytes);
 
 }  // namespace luxodus

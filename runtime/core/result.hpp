@@ -27,7 +27,25 @@ struct Problem {
   std::string text() const;
 };
 
-/// A value, or the problem that kept us from having it.
+/// What is wrong with a text, a value or a request that stands in no file. These take the text
+/// whole: GCC 12 falsely warns of uninitialised members where it may throw within the braces.
+inline Problem problem(std::string what) {
+  return {{}, std::move(what)};
+}
+
+/// What is wrong with a file, as a whole or in one of its lines. A path converts to its text.
+inline Problem problem_in(std::string file, std::string what) {
+  return {{std::move(file), 0}, std::move(what)};
+}
+inline Problem problem_in(std::string file, int line, std::string what) {
+  return {{std::move(file), line}, std::move(what)};
+}
+
+/// What the system did not do with a file, and its reason: "what: Permission denied".
+Problem system_problem(std::string file, std::string what, int error);
+
+/// A value, or the problem that kept us from having it. A function passes a problem on by
+/// `if (!x) return x.problem();`.
 template <class T>
 class [[nodiscard]] Result {
  public:

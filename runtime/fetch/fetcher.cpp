@@ -7,12 +7,12 @@
 #include "runtime/fetch/fetcher.hpp"
 
 #include <fmt/core.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <stdexcept>
 
 #include "runtime/core/check.hpp"
+#include "runtime/core/log.hpp"
 
 namespace luxodus {
 
@@ -247,9 +247,8 @@ void Fetcher::give_up(PendingFetch& flight) {
   const Wish wish = flight.wish;
   ++counters_.unobtainable;
   if (log_unobtainable_.may(clock_.now()))
-    spdlog::warn("fetch=unobtainable node={} object={:#x} questions={} total={}",
-                 config_.self.value, objects_[wish.object].id.value, flight.questions,
-                 counters_.unobtainable);
+    log_warning("fetch=unobtainable node={} object={:#x} questions={} total={}", config_.self.value,
+                objects_[wish.object].id.value, flight.questions, counters_.unobtainable);
   end(flight);
   release(wish.object);
   wish.client->unobtainable(wish.object);
@@ -345,8 +344,8 @@ bool Fetcher::accept(PendingFetch& flight, SharedBytes bytes, uint8_t hops, Node
   if (bytes.bytes.size() != place.wire_bytes || object_id_of(bytes.bytes) != place.id) {
     ++counters_.wrong_hash;
     if (log_wrong_.may(clock_.now()))
-      spdlog::warn("fetch=wrong_bytes node={} object={:#x} answered_by={} total={}",
-                   config_.self.value, place.id.value, from.value, counters_.wrong_hash);
+      log_warning("fetch=wrong_bytes node={} object={:#x} answered_by={} total={}",
+                  config_.self.value, place.id.value, from.value, counters_.wrong_hash);
     return false;
   }
   delay_[hops].add(clock_.now() - wish.since);

@@ -4,10 +4,11 @@
 #include "runtime/fetch/object_cache.hpp"
 
 #include <fmt/core.h>
-#include <spdlog/spdlog.h>
 
 #include <stdexcept>
 #include <utility>
+
+#include "runtime/core/log.hpp"
 
 namespace luxodus {
 
@@ -168,8 +169,8 @@ void ObjectCache::step() {
     } else {
       ++counters_.build_failures;
       if (log_failure_.may(clock_.now()))
-        spdlog::error("fetch=build_failed object={} total={} text=\"{}\"", number_of(entry),
-                      counters_.build_failures, ready_result_.problem().text());
+        log_error("fetch=build_failed object={} total={} text=\"{}\"", number_of(entry),
+                  counters_.build_failures, ready_result_.problem().text());
       unobtainable(number_of(entry));
     }
   }

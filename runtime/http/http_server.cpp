@@ -3,8 +3,6 @@
 // a WebSocket. A chain holds itself by shared_from_this, so it ends when nothing of it waits.
 #include "runtime/http/http_server.hpp"
 
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
@@ -17,6 +15,7 @@
 #include <deque>
 #include <utility>
 
+#include "runtime/core/log.hpp"
 #include "runtime/core/once_a_minute.hpp"
 #include "runtime/http/served_names.hpp"
 
@@ -296,17 +295,15 @@ class HttpServer::Implementation {
     beast::error_code failed;
     const auto address = asio::ip::make_address(wanted.address, failed);
     if (failed)
-      return Problem{{},
-                     "\"" + wanted.address + "\" is no numeric address such as 127.0.0.1 or ::1"};
+      return problem("\"" + wanted.address + "\" is no numeric address such as 127.0.0.1 or ::1");
     const tcp::endpoint at(address, wanted.port);
     acceptor_.open(at.protocol(), failed);
     if (!failed) acceptor_.set_option(asio::socket_base::reuse_address(true), failed);
     if (!failed) acceptor_.bind(at, failed);
     if (!failed) acceptor_.listen(asio::socket_base::max_listen_connections, failed);
     if (failed)
-      return Problem{{},
-                     "cannot listen on " + http_address(wanted.address, wanted.port) + ": " +
-                         failed.message()};
+      return problem("cannot listen on " + http_address(wanted.address, wanted.port) + ": " +
+                     failed.message());
     accept();
     return {};
   }
@@ -340,8 +337,8 @@ class HttpServer::Implementation {
   void rest(beast::error_code failed) {
     ++accepts_failed_;
     if (log_.may(clock_.now()))
-      spdlog::warn("http=full failed={} text=\"a connection cannot be accepted: {}\"",
-                   accepts_failed_.load(), failed.message());
+      log_warning("http=full failed={} text=\"a connection cannot be accepted: {}\"",
+                  accepts_failed_.load(), failed.message());
     again_.expires_after(std::exchange(pause_, std::min(2 * pause_, max_accept_again)));
     again_.async_wait([this](beast::error_code) { accept(); });
   }
@@ -375,7 +372,7 @@ HttpServer::~HttpServer() = default;
 
 Result<std::unique_ptr<HttpServer>> HttpServer::listen(HttpAddress at, HttpSite site) {
   auto implementation = std::make_unique<Implementation>(std::move(at), std::move(site));
-  if (auto ok = implementation->listen(); !ok.ok()) return ok.problem();
+  if (auto ok = implementation->listen(); !ok) return ok.problem();
   return std::unique_ptr<HttpServer>(new HttpServer(std::move(implementation)));
 }
 

@@ -1,12 +1,12 @@
 #include "runtime/net/faulty_transport.hpp"
 
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <cstring>
 #include <thread>
+
+#include "runtime/core/log.hpp"
 
 namespace luxodus {
 
@@ -109,8 +109,8 @@ void FaultyTransport::suffer() {
   for (const Fault& f : config_.plan.faults) {
     if (f.node != config_.self || !f.holds(moment())) continue;
     if (f.kind == Fault::Kind::crash || f.kind == Fault::Kind::pause)
-      spdlog::warn("fault={} node={} text=\"on purpose, by [faults]\"", name_of(f.kind),
-                   config_.self.value);
+      log_warning("fault={} node={} text=\"on purpose, by [faults]\"", name_of(f.kind),
+                  config_.self.value);
     if (f.kind == Fault::Kind::crash) config_.crash();
     if (f.kind == Fault::Kind::pause) config_.stand_still(f.at + f.lasts - moment());
     if (f.kind == Fault::Kind::slow) {

@@ -9,6 +9,8 @@
 #include <cstring>
 #include <string_view>
 
+#include "runtime/core/file_descriptor.hpp"
+
 namespace luxodus {
 
 namespace {
@@ -18,24 +20,6 @@ namespace fs = std::filesystem;
 /// Longer than any key's file; what is longer is no key.
 constexpr size_t max_file_bytes = 256;
 constexpr size_t key_characters = 40;
-
-Problem trouble(const fs::path& path, const std::string& what) {
-  return {{path.string(), 0}, what};
-}
-Problem system_trouble(const fs::path& path, const std::string& what) {
-  return trouble(path, what + ": " + std::strerror(errno));
-}
-
-/// A descriptor that is closed at the end of its scope.
-struct File {
-  int descriptor;
-  explicit File(int d) : descriptor(d) {}
-  File(const File&) = delete;
-  File& operator=(const File&) = delete;
-  ~File() {
-    if (descriptor >= 0) ::close(descriptor);
-  }
-};
 
 bool write_all(int descriptor, std::string_view text) {
   while (!text.empty()) {
@@ -51,40 +35,42 @@ bool write_all(int descriptor, std::string_view text) {
 Result<std::string> write_new(const fs::path& path, const std::string& text, mode_t mode) {
   fs::path beside = path;
   beside += ".new." + std::to_string(::getpid());
-  const File file(::open(beside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode));
-  if (file.descriptor < 0) return system_trouble(beside, "cannot be written");
-  const bool written = write_all(file.descriptor, text) && ::fsync(file.descriptor) == 0;
+  const FileDescriptor file(::open(beside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode));
+  if (!file.valid()) return system_problem(beside, "cannot be written", errno);
+  const bool written = write_all(file.number(), text) && ::fsync(file.number()) == 0;
   const bool named = written && ::link(beside.c_str(), path.c_str()) == 0;
   const int failure = errno;
   ::unlink(beside.c_str());
   if (named) return text;
   errno = failure;
   if (failure == EEXIST)
-    return trouble(path, "is there already; a node may depend on that key, so move it away first");
-  return system_trouble(path, "cannot be written");
+    return problem_in(path,
+                      "is there already; a node may depend on that key, so move it away first");
+  return system_problem(path, "cannot be written", errno);
 }
 
 /// The first word of the file that has the length of a key. `secret`: refuse what others may read.
 Result<std::string> read_key(const fs::path& path, bool secret) {
   // A pipe without a writer would be waited for.
-  const File file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
-  if (file.descriptor < 0) return system_trouble(path, "cannot be read");
+  const FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
+  if (!file.valid()) return system_problem(path, "cannot be read", errno);
   struct stat state {};
-  if (::fstat(file.descriptor, &state) != 0) return system_trouble(path, "cannot be read");
-  if (!S_ISREG(state.st_mode)) return trouble(path, "is no file: a key is read from a file");
+  if (::fstat(file.number(), &state) != 0) return system_problem(path, "cannot be read", errno);
+  if (!S_ISREG(state.st_mode)) return problem_in(path, "is no file: a key is read from a file");
   if (secret && (state.st_mode & (S_IRWXG | S_IRWXO)) != 0)
-    return trouble(path,
-                   "holds a secret key that others may read: chmod 600 it, and if they may "
-                   "have read it, make a new one");
+    return problem_in(path,
+                      "holds a secret key that others may read: chmod 600 it, and if they may "
+                      "have read it, make a new one");
   std::array<char, max_file_bytes + 1> text;
-  const ssize_t n = ::read(file.descriptor, text.data(), text.size());
-  if (n < 0) return system_trouble(path, "cannot be read");
-  if (static_cast<size_t>(n) > max_file_bytes) return trouble(path, "is too long for a key");
+  const ssize_t n = ::read(file.number(), text.data(), text.size());
+  if (n < 0) return system_problem(path, "cannot be read", errno);
+  if (static_cast<size_t>(n) > max_file_bytes) return problem_in(path, "is too long for a key");
   std::string_view key(text.data(), static_cast<size_t>(n));
   while (!key.empty() && (key.back() == '\n' || key.back() == '\r' || key.back() == ' '))
     key.remove_suffix(1);
   if (key.size() != key_characters)
-    return trouble(path, "holds no key: 40 characters in one line, as `luxodus keygen` writes it");
+    return problem_in(path,
+                      "holds no key: 40 characters in one line, as `luxodus keygen` writes it");
   return std::string(key);
 }
 
@@ -107,7 +93,7 @@ Result<KeyPair> read_keys(const fs::path& path) {
   auto secret = read_key(path, true);
   if (!secret) return secret.problem();
   auto open = public_key_of(secret.value());
-  if (!open) return trouble(path, open.problem().what);
+  if (!open) return problem_in(path, open.problem().what);
   return KeyPair{std::move(open).value(), std::move(secret).value()};
 }
 

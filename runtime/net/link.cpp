@@ -1,13 +1,13 @@
 #include "runtime/net/link.hpp"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <array>
 #include <stdexcept>
 #include <utility>
 #include <variant>
 
+#include "runtime/core/log.hpp"
 #include "runtime/net/handshake.hpp"
 
 namespace luxodus {
@@ -213,8 +213,8 @@ void Link::meet(const Envelope& envelope, const Identity& theirs, bool welcomed,
     const auto reason = static_cast<size_t>(no->reason);
     ++around_.counters.refused[reason];
     if (log_refusal_[reason].may(now))
-      spdlog::error("link=refused node={} neighbour={} reason={} text=\"{}\"",
-                    around_.config.self.value, neighbour_.value, name_of(no->reason), no->text);
+      log_error("link=refused node={} neighbour={} reason={} text=\"{}\"",
+                around_.config.self.value, neighbour_.value, name_of(no->reason), no->text);
     state_.refuse(now);
     refusal_ = no->text;
     refused_for_ = no->reason;
@@ -245,8 +245,8 @@ bool Link::taken(const Envelope& envelope, const Identity& theirs, Nanoseconds n
           .substr(0, limits::text_bytes)};
   ++around_.counters.refused[reason];
   if (log_refusal_[reason].may(now))
-    spdlog::error("link=refused node={} neighbour={} reason={} text=\"{}\"",
-                  around_.config.self.value, neighbour_.value, name_of(no.reason), no.text);
+    log_error("link=refused node={} neighbour={} reason={} text=\"{}\"", around_.config.self.value,
+              neighbour_.value, name_of(no.reason), no.text);
   (void)say(Message{no}, Lane::control, envelope.from_incarnation);
   return true;
 }
@@ -254,8 +254,8 @@ bool Link::taken(const Envelope& envelope, const Identity& theirs, Nanoseconds n
 void Link::be_refused(const Refuse& refuse, Nanoseconds now) {
   const auto reason = static_cast<size_t>(refuse.reason);
   if (log_being_refused_[reason].may(now))
-    spdlog::error("link=refused_by_peer node={} neighbour={} reason={} text=\"{}\"",
-                  around_.config.self.value, neighbour_.value, name_of(refuse.reason), refuse.text);
+    log_error("link=refused_by_peer node={} neighbour={} reason={} text=\"{}\"",
+              around_.config.self.value, neighbour_.value, name_of(refuse.reason), refuse.text);
   ++around_.counters.refused_by_peer[reason];
   state_.refuse(now);
   refusal_ = refuse.text;

@@ -1,10 +1,10 @@
 #include "runtime/net/network.hpp"
 
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
 #include <stdexcept>
 #include <utility>
+
+#include "runtime/core/log.hpp"
 
 namespace luxodus {
 
@@ -187,8 +187,8 @@ void Network::own_lag(Nanoseconds now) {
   if (late < config_.times.beat) return;
   ++counters_.beats_late;
   if (!links_.empty() && log_lag_.may(now)) {
-    spdlog::warn("net=lagging node={} late_ms={} times={}", config_.self.value,
-                 late / milliseconds(1), counters_.beats_late);
+    log_warning("net=lagging node={} late_ms={} times={}", config_.self.value,
+                late / milliseconds(1), counters_.beats_late);
   }
   for (Link& link : links_) link.forgive(late);
 }
@@ -280,8 +280,8 @@ void Network::malformed(NodeId neighbour, const std::string& what, Nanoseconds n
   for (size_t i = 0; i < links_.size(); ++i) {
     if (links_[i].neighbour() != neighbour || now < watched_[i].may_log_at) continue;
     watched_[i].may_log_at = now + log_interval;
-    spdlog::warn("net=malformed node={} neighbour={} total={} text=\"{}\"", config_.self.value,
-                 neighbour.value, counters_.dropped_malformed, what);
+    log_warning("net=malformed node={} neighbour={} total={} text=\"{}\"", config_.self.value,
+                neighbour.value, counters_.dropped_malformed, what);
   }
 }
 
@@ -371,8 +371,8 @@ void Network::watch_links() {
     last.usable = state.usable();
     last.sessions = links_[i].sessions();
     last.phase = state.phase();
-    spdlog::debug("link={} node={} neighbour={}", name_of(state.phase()), config_.self.value,
-                  links_[i].neighbour().value);
+    log_debug("link={} node={} neighbour={}", name_of(state.phase()), config_.self.value,
+              links_[i].neighbour().value);
     handler_.link_changed(links_[i].neighbour(), state.phase());
 
     if (state.phase() == LinkPhase::down) transport_.renew(links_[i].neighbour());

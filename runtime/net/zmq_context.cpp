@@ -1,11 +1,11 @@
 #include "runtime/net/zmq_context.hpp"
 
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
 #include <array>
 #include <stdexcept>
 #include <zmq.hpp>
+
+#include "runtime/core/log.hpp"
 
 namespace luxodus {
 
@@ -74,7 +74,7 @@ bool ZmqContext::answer_one() {
   if (listed != nullptr) {
     ++let_in_;
   } else if (turned_away_++ % logged_every == 0) {
-    spdlog::warn(
+    log_warning(
         "zmq=turned_away address={} mechanism={} key={} total={} text=\"its key is none "
         "of those listed here: give all nodes one folder of public keys\"",
         parts[3], parts[5], curve ? text_key(parts[6]) : "none", turned_away_.load());

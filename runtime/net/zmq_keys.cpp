@@ -24,7 +24,7 @@ Result<std::string> public_key_of(const std::string& secret_key) {
   if (secret_key.size() != open.size() - 1 ||
       zmq_z85_decode(binary.data(), secret_key.c_str()) == nullptr ||
       zmq_curve_public(open.data(), secret_key.c_str()) != 0)
-    return Problem{{}, "is no secret key: 40 characters of Z85"};
+    return problem("is no secret key: 40 characters of Z85");
   return std::string(open.data());
 }
 

@@ -7,7 +7,6 @@
 // the door, and aborts ("Assertion failed: !_io_error").
 #include "runtime/net/zmq_transport.hpp"
 
-#include <spdlog/spdlog.h>
 #include <sys/eventfd.h>
 #include <sys/timerfd.h>
 #include <unistd.h>
@@ -21,6 +20,7 @@
 #include <zmq.hpp>
 
 #include "proto/messages.hpp"
+#include "runtime/core/log.hpp"
 
 namespace luxodus {
 
@@ -111,7 +111,7 @@ void ZmqTransport::set_options(LaneSockets& lane) {
   lane.monitor.set(zmq::sockopt::linger, 0);
   lane.monitor.connect(told);
 
-  spdlog::debug(
+  log_debug(
       "zmq=options node={} lane={} mandatory=1 handover=1 immediate=1 linger_ms=0 "
       "hwm_frames={} frame_bytes_most={} handshake_ms=2000 tcp_maxrt_ms=5000 "
       "reconnect_ms=100..5000 curve={}",
@@ -128,9 +128,9 @@ Result<std::string> ZmqTransport::secure(LaneSockets& lane, const std::string& e
   if (!curve) {
     if (!stays_on_host(endpoint)) {
       if (!config_.insecure)
-        return Problem{{endpoint, 0},
-                       "leads beyond this host and there are no keys: make them "
-                       "with `luxodus keygen`, or say insecure"};
+        return problem_in(endpoint,
+                          "leads beyond this host and there are no keys: make them "
+                          "with `luxodus keygen`, or say insecure");
       open_to_all_ = true;
     }
     s.set(zmq::sockopt::curve_server, false);  // back to no mechanism
@@ -141,8 +141,7 @@ Result<std::string> ZmqTransport::secure(LaneSockets& lane, const std::string& e
     s.set(zmq::sockopt::curve_server, true);
     s.set(zmq::sockopt::curve_secretkey, config_.keys->secret_key);
   } else {
-    if (server_key.size() != 40)
-      return Problem{{endpoint, 0}, "the neighbour's public key is none"};
+    if (server_key.size() != 40) return problem_in(endpoint, "the neighbour's public key is none");
     s.set(zmq::sockopt::curve_serverkey, server_key);
     s.set(zmq::sockopt::curve_publickey, config_.keys->public_key);
     s.set(zmq::sockopt::curve_secretkey, config_.keys->secret_key);
@@ -161,7 +160,7 @@ Result<Endpoints> ZmqTransport::listen(const Endpoints& where) {
       sockets.router.bind(*endpoint);
       *endpoint = sockets.router.get(zmq::sockopt::last_endpoint);
     } catch (const zmq::error_t& e) {
-      return Problem{{*endpoint, 0}, std::string("cannot listen there: ") + e.what()};
+      return problem_in(*endpoint, std::string("cannot listen there: ") + e.what());
     }
   }
   return bound;
@@ -180,7 +179,7 @@ Result<Endpoints> ZmqTransport::connect(NodeId neighbour, const Endpoints& where
         sockets.router.set(zmq::sockopt::connect_routing_id, routing_id(neighbour));
       sockets.router.connect(*endpoint);
     } catch (const zmq::error_t& e) {
-      return Problem{{*endpoint, 0}, std::string("cannot connect there: ") + e.what()};
+      return problem_in(*endpoint, std::string("cannot connect there: ") + e.what());
     }
   }
   connected_[neighbour] = {where, server_key};
@@ -195,8 +194,7 @@ void ZmqTransport::renew(NodeId neighbour) {
   const Connected old = found->second;
   part(neighbour);
   const auto anew = connect(neighbour, old.where, old.server_key);
-  if (!anew)
-    spdlog::error("zmq=renew node={} text=\"{}\"", config_.self.value, anew.problem().text());
+  if (!anew) log_error("zmq=renew node={} text=\"{}\"", config_.self.value, anew.problem().text());
 }
 
 void ZmqTransport::part(NodeId neighbour) {
@@ -307,8 +305,8 @@ void ZmqTransport::take_event(Lane lane) {
     if (event.size() < sizeof kind) continue;
     std::memcpy(&kind, event.data(), sizeof kind);
     const auto say = [&](const char* what, const char* why) {
-      spdlog::warn("zmq={} node={} lane={} endpoint={} text=\"{}\"", what, config_.self.value,
-                   sockets.name, where.to_string_view(), why);
+      log_warning("zmq={} node={} lane={} endpoint={} text=\"{}\"", what, config_.self.value,
+                  sockets.name, where.to_string_view(), why);
     };
     switch (kind) {
       case ZMQ_EVENT_HANDSHAKE_SUCCEEDED:
@@ -349,7 +347,7 @@ void ZmqTransport::take_event(Lane lane) {
 void ZmqTransport::remind_of_insecurity() {
   if (!open_to_all_ || clock_.now() < remind_at_) return;
   remind_at_ = clock_.now() + reminder_interval;
-  spdlog::warn(
+  log_warning(
       "zmq=insecure node={} text=\"links beyond this host are neither encrypted nor "
       "proven: anybody may send, and read\"",
       config_.self.value);

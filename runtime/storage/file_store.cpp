@@ -12,10 +12,6 @@ namespace luxodus {
 
 namespace {
 
-Problem system_problem(const std::filesystem::path& path, const std::string& what) {
-  return Problem{{path.string(), 0}, what + ": " + std::strerror(errno)};
-}
-
 /// The name itself must survive, not only what is in the file.
 bool sync_folder_of(const std::filesystem::path& path) {
   const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
@@ -31,21 +27,21 @@ bool sync_folder_of(const std::filesystem::path& path) {
 Result<std::unique_ptr<FileStore>> FileStore::open(const std::filesystem::path& path) {
   constexpr int how = O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC;
   const int descriptor = ::open(path.c_str(), how, 0644);
-  if (descriptor < 0) return system_problem(path, "cannot open this file to append to");
+  if (descriptor < 0) return system_problem(path, "cannot open this file to append to", errno);
   struct stat about {};
   const bool regular = ::fstat(descriptor, &about) == 0 && S_ISREG(about.st_mode);
   if (!regular) {
     ::close(descriptor);
-    return Problem{{path.string(), 0}, "is no regular file"};
+    return problem_in(path, "is no regular file");
   }
   if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
     ::close(descriptor);
-    return Problem{{path.string(), 0},
-                   "another process has this file open: is the run still going on?"};
+    return problem_in(path, "another process has this file open: is the run still going on?");
   }
   std::unique_ptr<FileStore> store(
       new FileStore(path, descriptor, static_cast<uint64_t>(about.st_size)));
-  if (!sync_folder_of(path)) return system_problem(path, "cannot make this file's name durable");
+  if (!sync_folder_of(path))
+    return system_problem(path, "cannot make this file's name durable", errno);
   return store;
 }
 
@@ -54,7 +50,7 @@ FileStore::~FileStore() {
 }
 
 Problem FileStore::problem(const char* what) const {
-  return system_problem(path_, what);
+  return system_problem(path_, what, errno);
 }
 
 Result<void> FileStore::read(uint64_t offset, std::span<std::byte> into) {
@@ -62,7 +58,7 @@ Result<void> FileStore::read(uint64_t offset, std::span<std::byte> into) {
     const ssize_t got = ::pread(descriptor_, into.data(), into.size(), static_cast<off_t>(offset));
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) return problem("cannot read this file");
-    if (got == 0) return Problem{{path_.string(), 0}, "ends before what should be there"};
+    if (got == 0) return problem_in(path_, "ends before what should be there");
     into = into.subspan(static_cast<size_t>(got));
     offset += static_cast<uint64_t>(got);
   }

@@ -17,7 +17,7 @@ class MemoryStore final : public AppendStore {
   uint64_t size() const override { return bytes_.size(); }
   Result<void> read(uint64_t offset, std::span<std::byte> into) override {
     if (offset > bytes_.size() || into.size() > bytes_.size() - offset)
-      return Problem{{}, "ends before what should be there"};
+      return problem("ends before what should be there");
     std::memcpy(into.data(), bytes_.data() + offset, into.size());
     return {};
   }

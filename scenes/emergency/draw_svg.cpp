@@ -12,7 +12,6 @@
 #include <utility>
 
 #include "runtime/core/isolated_job.hpp"
-#include "scenes/emergency/fault.hpp"
 #include "scenes/emergency/surface_pixels.hpp"
 
 namespace luxodus {
@@ -21,15 +20,6 @@ namespace {
 /// Of the largest face, with its layers of groups; and of a slow processor.
 constexpr IsolatedLimits for_a_sign{uint64_t{1} << 30, 5};
 
-template <auto release>
-struct Release {
-  template <class T>
-  void operator()(T* object) const {
-    release(object);
-  }
-};
-using Surface = std::unique_ptr<cairo_surface_t, Release<cairo_surface_destroy>>;
-using Pen = std::unique_ptr<cairo_t, Release<cairo_destroy>>;
 using Drawing = std::unique_ptr<RsvgHandle, Release<g_object_unref>>;
 using Failure = std::unique_ptr<GError, Release<g_error_free>>;
 
@@ -59,11 +49,11 @@ Result<DrawnSvg> drawn(const std::string& bytes, int across, int down) {
                                             bytes.size(), &error));
   if (!drawing) {
     Failure failure(error);
-    return fault(std::string("it is not an SVG drawing (") +
-                 (failure ? failure->message : "no reason given") + ")");
+    return problem(std::string("it is not an SVG drawing (") +
+                   (failure ? failure->message : "no reason given") + ")");
   }
   const auto size = stated_size(drawing.get());
-  if (!size) return fault("the drawing states no size; give its svg element a viewBox");
+  if (!size) return problem("the drawing states no size; give its svg element a viewBox");
   Surface surface(cairo_image_surface_create(CAIRO_FORMAT_ARGB32, across, down));
   Pen pen(cairo_create(surface.get()));
   // The drawing fills the face exactly, stretched by no more than the aspect's tolerance.
@@ -72,8 +62,8 @@ Result<DrawnSvg> drawn(const std::string& bytes, int across, int down) {
   const bool good = rsvg_handle_render_document(drawing.get(), pen.get(), &viewport, &error);
   Failure failure(error);
   if (!good || cairo_status(pen.get()) != CAIRO_STATUS_SUCCESS)
-    return fault(std::string("the drawing cannot be rendered (") +
-                 (failure ? failure->message : "out of memory") + ")");
+    return problem(std::string("the drawing cannot be rendered (") +
+                   (failure ? failure->message : "out of memory") + ")");
   return DrawnSvg{size->first, size->second, pixels_of(surface.get())};
 }
 
@@ -83,7 +73,7 @@ void answer(PlainReader& question, PlainWriter& out) {
   if (!question.get(bytes) || !question.get(across) || !question.get(down))
     throw std::runtime_error("no question");
   const Result<DrawnSvg> svg = drawn(bytes, across, down);
-  out.put(svg.ok() ? std::string() : svg.problem().what);
+  out.put(svg ? std::string() : svg.problem().what);
   if (!svg) return;
   out.put(svg->width);
   out.put(svg->height);
@@ -99,15 +89,15 @@ const IsolatedJob draw_job("draw", answer);
 std::optional<Problem> unfit(std::string_view bytes) {
   // librsvg would inflate it without a bound.
   if (bytes.starts_with("\x1f\x8b"))
-    return fault("the drawing is compressed; unpack it to plain SVG");
+    return problem("the drawing is compressed; unpack it to plain SVG");
   if (std::count(bytes.begin(), bytes.end(), '<') > 2 * limits::max_drawing_elements)
-    return fault("the drawing has more than " + std::to_string(limits::max_drawing_elements) +
-                 " elements; simplify it");
+    return problem("the drawing has more than " + std::to_string(limits::max_drawing_elements) +
+                   " elements; simplify it");
   for (size_t at = bytes.find("filter"); at != std::string_view::npos;
        at = bytes.find("filter", at + 1)) {
     const size_t begin = bytes.find_last_of("< \t\r\n\"'", at);
     if (begin != std::string_view::npos && bytes[begin] == '<')
-      return fault(
+      return problem(
           "the drawing has filters, which a sign's two colours need none of; draw it "
           "without");
   }
@@ -132,10 +122,10 @@ Result<DrawnSvg> draw_svg(const std::string& bytes, int across, int down) {
   out.pixels.height = down;
   const auto count = static_cast<size_t>(across) * static_cast<size_t>(down);
   const bool told = in->get(wrong);
-  if (told && !wrong.empty()) return fault(wrong);
+  if (told && !wrong.empty()) return problem(wrong);
   if (!told || !in->get(out.width) || !in->get(out.height) || !in->get(out.pixels.rgba) ||
       out.pixels.rgba.size() != count || !(out.width > 0) || !(out.height > 0))
-    return fault("the drawing cannot be rendered: the renderer gave no sound answer");
+    return problem("the drawing cannot be rendered: the renderer gave no sound answer");
   return out;
 }
 

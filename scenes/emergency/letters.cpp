@@ -9,8 +9,6 @@
 #include <string>
 #include <utility>
 
-#include "scenes/emergency/fault.hpp"
-
 namespace luxodus {
 namespace {
 
@@ -252,7 +250,7 @@ std::string fault_of(std::string_view text, const LetterSize& size) {
 }  // namespace
 
 Result<Lettering> lay_out_text(std::string_view text, const LetterSize& size) {
-  if (std::string wrong = fault_of(text, size); !wrong.empty()) return fault(std::move(wrong));
+  if (std::string wrong = fault_of(text, size); !wrong.empty()) return problem(std::move(wrong));
   // A word space of half a letter's height parts words clearly at any spacing of letters.
   constexpr double word_space_share = 0.4;
   Lettering out;
@@ -268,8 +266,8 @@ Result<Lettering> lay_out_text(std::string_view text, const LetterSize& size) {
     bool known = false;
     const Glyph glyph = glyph_of(c, known);
     if (!known)
-      return fault("the legend has " + quoted(c) +
-                   ", which is not drawn; use A-Z, 0-9, space and - + / . : ! ' < >");
+      return problem("the legend has " + quoted(c) +
+                     ", which is not drawn; use A-Z, 0-9, space and - + / . : ! ' < >");
     const double width_m =
         glyph.width_share > 0 ? glyph.width_share * size.height_m : size.stroke_m;
     out.letters.push_back(place_letter(c, glyph, left_m, width_m, size));
@@ -278,7 +276,7 @@ Result<Lettering> lay_out_text(std::string_view text, const LetterSize& size) {
       out.narrowest_letter_m = width_m;
     left_m += width_m + size.spacing_m;
   }
-  if (out.letters.empty()) return fault("the legend is blank; give the text of the sign");
+  if (out.letters.empty()) return problem("the legend is blank; give the text of the sign");
   out.width_m = out.letters.back().high.x;
   return out;
 }

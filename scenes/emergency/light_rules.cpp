@@ -5,24 +5,15 @@
 #include <numeric>
 #include <optional>
 
+#include "scenes/emergency/rule_limits.hpp"
 #include "scenes/emergency/rule_table.hpp"
 #include "scenes/emergency/rules.hpp"
 
 namespace luxodus {
 
-namespace {
+using namespace rule_limit;
 
-constexpr double route_lx = 1.0, band_lx = 0.5, open_lx = 0.5;           // E1, E2, E6
-constexpr double max_diversity = 40;                                     // E4, E6, N3
-constexpr double strip_m = 2;                                            // E3
-constexpr double task_lx = 15, task_share = 0.1, task_uniformity = 0.1;  // E7
-constexpr double wide_edge_m = 0.5, open_border_m = 0.5;                 // E5, E6
-constexpr double first_mean_lx = 10.8, first_least_lx = 1.1;             // N1
-constexpr double last_mean_lx = 6.5, last_least_lx = 0.65;               // N2
-constexpr double failed_least_lx = 2.2;                                  // N4
-constexpr double ibc_first_mean_lx = 11, ibc_first_least_lx = 1;         // I1
-constexpr double ibc_last_mean_lx = 6, ibc_last_least_lx = 0.6;          // I2
-constexpr double bs_open_lx = 1;                                         // E6k
+namespace {
 
 struct Spread {
   double least = std::numeric_limits<double>::infinity();
@@ -98,11 +89,11 @@ Check enough_with_one_failed(const Rule& rule, const SceneDescription& scene,
                              const std::string& subject, const std::vector<LitPoint>& points) {
   const auto worst = worst_failure(scene, points);
   if (!worst) {
-    Check check = judged(rule, subject, 0, failed_least_lx, true, "lx");
+    Check check = judged(rule, subject, 0, min_failed_lx, true, "lx");
     check.reason = no_luminaire;
     return check;
   }
-  Check check = at_least(rule, subject, worst->spread, failed_least_lx);
+  Check check = at_least(rule, subject, worst->spread, min_failed_lx);
   check.condition = "\"" + worst->luminaire + "\" has failed";
   return check;
 }
@@ -118,10 +109,10 @@ std::vector<Check> american_checks(const SceneDescription& scene, const std::str
   std::vector<Check> out{
       judged(rule("N1", "I1"), subject, first.mean, ibc ? ibc_first_mean_lx : first_mean_lx, true,
              "lx"),
-      at_least(rule("N1m", "I1m"), subject, first, ibc ? ibc_first_least_lx : first_least_lx),
+      at_least(rule("N1m", "I1m"), subject, first, ibc ? ibc_min_first_lx : min_first_lx),
       judged(rule("N2", "I2"), subject, centre.mean, ibc ? ibc_last_mean_lx : last_mean_lx, true,
              "lx"),
-      at_least(rule("N2m", "I2m"), subject, centre, ibc ? ibc_last_least_lx : last_least_lx),
+      at_least(rule("N2m", "I2m"), subject, centre, ibc ? ibc_min_last_lx : min_last_lx),
       even(rule_of("N3", codes), subject, centre)};
   if (codes.has(Deviation::us_ibc_i2))
     out.push_back(enough_with_one_failed(rule_of("N4", codes), scene, subject, points));

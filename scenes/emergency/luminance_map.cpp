@@ -4,7 +4,6 @@
 #include <string>
 #include <utility>
 
-#include "scenes/emergency/fault.hpp"
 #include "scenes/emergency/sign_face.hpp"
 
 namespace luxodus {
@@ -59,7 +58,7 @@ double average(const Image& map, const SignFace& face, int column, int row) {
 }  // namespace
 
 Result<SignFace> with_luminance_map(SignFace face, const Image& map) {
-  if (std::string wrong = fault_of(map); !wrong.empty()) return fault(std::move(wrong));
+  if (std::string wrong = fault_of(map); !wrong.empty()) return problem(std::move(wrong));
   std::vector<double> luminance;
   luminance.reserve(face.colour.size());
   for (int row = 0; row < face.height; ++row)
@@ -77,9 +76,9 @@ Result<SignFace> with_luminance_map(SignFace face, const Image& map) {
     }
     if (texels == 0) continue;
     if (!(sum > 0) || !std::isfinite(sum))
-      return fault(std::string("the luminance map is black wherever the sign is ") +
-                   (colour == SignColour::white ? "white" : "green") +
-                   "; state that colour's luminance as 0 instead");
+      return problem(std::string("the luminance map is black wherever the sign is ") +
+                     (colour == SignColour::white ? "white" : "green") +
+                     "; state that colour's luminance as 0 instead");
     for (size_t i = 0; i < luminance.size(); ++i)
       if (face.colour[i] == colour)
         face.relative_luminance[i] =

@@ -5,16 +5,15 @@
 #include <numeric>
 
 #include "scenes/emergency/onset.hpp"
+#include "scenes/emergency/rule_limits.hpp"
 #include "scenes/emergency/rule_table.hpp"
 #include "scenes/emergency/rules.hpp"
 
 namespace luxodus {
 
-namespace {
+using namespace rule_limit;
 
-constexpr double half_s = 5, full_s = 60, task_s = 0.5, nfpa_s = 10, german_s = 15;
-constexpr double duration_h = 1, national_duration_h = 3, us_duration_h = 1.5;  // E11, N10
-constexpr double nfpa_lx = 0.65;  // N2: what has to be there at the end
+namespace {
 
 /// Of each luminaire; 0 of those that state no onset.
 std::vector<double> shares_after(const SceneDescription& scene, double seconds) {
@@ -82,7 +81,7 @@ std::vector<Check> checks_of_onset(const SceneDescription& scene, const std::str
     add("E10h", half_s, demanded_lx / 2);
     add("E10f", full_s, demanded_lx);
   } else {
-    add("N5", nfpa_s, nfpa_lx);
+    add("N5", nfpa_s, min_last_lx);
   }
   if (codes.has(Deviation::de_asr)) add("E10g", german_s, demanded_lx);
   return out;

@@ -5,7 +5,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
+#include "scenes/emergency/rule_limits.hpp"
 #include "scenes/emergency/rule_table.hpp"
 #include "scenes/emergency/rules.hpp"
 
@@ -13,28 +15,17 @@ namespace luxodus {
 
 using namespace std::string_literals;
 
+using namespace rule_limit;
+
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-constexpr double near_m = 2;                             // E12, S6
-constexpr double equipment_lx = 5;                       // E13
-constexpr double bend_deg = 30;                          // a change of direction, ours
-constexpr double zone_low_deg = 60, zone_high_deg = 90;  // E8, from straight down
+constexpr double pi = std::numbers::pi;
 constexpr int directions_azimuth = 72, directions_polar = 90, tube_steps = 360;
-
-/// Largest intensity of a luminaire by its height above the floor (E8).
-struct GlareStep {
-  double below_m;
-  double candela;
-};
-constexpr std::array glare_steps{GlareStep{2.5, 500}, GlareStep{3, 900}, GlareStep{3.5, 1600},
-                                 GlareStep{4, 2500}, GlareStep{4.5, 3500}};
-constexpr double glare_highest_cd = 5000;
 
 double glare_limit(double height_m) {
   for (const GlareStep& step : glare_steps)
     if (height_m < step.below_m) return step.candela;
-  return glare_highest_cd;
+  return max_glare_cd;
 }
 
 /// Share of its light per steradian that a point of a surface sends at an angle to its normal.

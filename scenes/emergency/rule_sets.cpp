@@ -76,15 +76,13 @@ bool deviates_from(Deviation deviation, RuleSet set) {
 Result<std::vector<CodeChoice>> chosen_codes(const std::vector<std::string>& sets_named,
                                              const std::vector<std::string>& deviations_named) {
   if (sets_named.empty())
-    return Problem{{},
-                   "no rule set is named, and none is assumed: give --rules, or rules = [\"" +
-                       std::string(named(RuleSet::en1838_2024).id) +
-                       "\"] in [assessment]; there are: " + listed(sets)};
+    return problem("no rule set is named, and none is assumed: give --rules, or rules = [\"" +
+                   std::string(named(RuleSet::en1838_2024).id) +
+                   "\"] in [assessment]; there are: " + listed(sets));
   std::set<RuleSet> wanted;
   for (const std::string& id : sets_named) {
     const auto number = number_of(sets, id);
-    if (!number)
-      return Problem{{}, "there is no rule set \"" + id + "\"; there are: " + listed(sets)};
+    if (!number) return problem("there is no rule set \"" + id + "\"; there are: " + listed(sets));
     wanted.insert(static_cast<RuleSet>(*number));
   }
   std::vector<CodeChoice> out;
@@ -92,8 +90,7 @@ Result<std::vector<CodeChoice>> chosen_codes(const std::vector<std::string>& set
   for (const std::string& id : deviations_named) {
     const auto number = number_of(deviation_rows, id);
     if (!number)
-      return Problem{{},
-                     "there is no deviation \"" + id + "\"; there are: " + listed(deviation_rows)};
+      return problem("there is no deviation \"" + id + "\"; there are: " + listed(deviation_rows));
     const auto deviation = static_cast<Deviation>(*number);
     bool used = false;
     for (CodeChoice& codes : out) {
@@ -101,8 +98,7 @@ Result<std::vector<CodeChoice>> chosen_codes(const std::vector<std::string>& set
       codes.deviations.insert(deviation);
       used = true;
     }
-    if (!used)
-      return Problem{{}, "\"" + id + "\" deviates from none of the rule sets that are named"};
+    if (!used) return problem("\"" + id + "\" deviates from none of the rule sets that are named");
   }
   return out;
 }

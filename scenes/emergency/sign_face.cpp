@@ -17,7 +17,6 @@
 
 #include "runtime/core/regular_file.hpp"
 #include "scenes/emergency/draw_svg.hpp"
-#include "scenes/emergency/fault.hpp"
 #include "scenes/emergency/surface_pixels.hpp"
 
 namespace luxodus {
@@ -25,20 +24,6 @@ namespace {
 
 constexpr Rgba iso_green{0x23, 0x7f, 0x52, 0xff};
 constexpr Rgba iso_white{0xec, 0xec, 0xe7, 0xff};
-
-template <auto release>
-struct Release {
-  template <class T>
-  void operator()(T* object) const {
-    release(object);
-  }
-};
-using Surface = std::unique_ptr<cairo_surface_t, Release<cairo_surface_destroy>>;
-using Pen = std::unique_ptr<cairo_t, Release<cairo_destroy>>;
-
-Problem problem_of(const std::filesystem::path& file, std::string what) {
-  return {{file.string(), 0}, std::move(what)};
-}
 
 std::string in_mm(double metres) {
   return std::to_string(std::lround(metres * 1000)) + " mm";
@@ -80,19 +65,19 @@ class Classifier {
 Result<SignFace> blank_face(double width_m, double height_m, int texels_across) {
   for (double edge_m : {width_m, height_m})
     if (!(edge_m >= limits::face_edge_least_m && edge_m <= limits::face_edge_most_m))
-      return fault("a sign's edge is " + std::to_string(edge_m) +
-                   " m; width and height must lie between 0.01 m and 20 m");
+      return problem("a sign's edge is " + std::to_string(edge_m) +
+                     " m; width and height must lie between 0.01 m and 20 m");
   if (texels_across < limits::min_face_texels_across ||
       texels_across > limits::max_face_texels_across)
-    return fault("a sign has " + std::to_string(texels_across) +
-                 " texels across; give a number from " +
-                 std::to_string(limits::min_face_texels_across) + " to " +
-                 std::to_string(limits::max_face_texels_across));
+    return problem("a sign has " + std::to_string(texels_across) +
+                   " texels across; give a number from " +
+                   std::to_string(limits::min_face_texels_across) + " to " +
+                   std::to_string(limits::max_face_texels_across));
   const double down = std::max(1.0, std::round(texels_across * height_m / width_m));
   if (down * texels_across > static_cast<double>(limits::max_face_texels))
-    return fault("a sign face of " + std::to_string(texels_across) + " by " +
-                 std::to_string(std::llround(down)) +
-                 " texels is too large; give fewer texels across");
+    return problem("a sign face of " + std::to_string(texels_across) + " by " +
+                   std::to_string(std::llround(down)) +
+                   " texels is too large; give fewer texels across");
   SignFace face;
   face.width = texels_across;
   face.height = static_cast<int>(down);
@@ -173,38 +158,38 @@ std::optional<std::string> wrong_aspect(double width, double height, double widt
 Result<std::string> read_drawing(const std::filesystem::path& file) {
   std::error_code failed;
   if (!std::filesystem::is_regular_file(file, failed))
-    return problem_of(file, "there is no such file; give the path of the sign's SVG drawing");
+    return problem_in(file, "there is no such file; give the path of the sign's SVG drawing");
   if (std::filesystem::file_size(file, failed) > static_cast<uint64_t>(limits::max_drawing_bytes))
-    return problem_of(file, "the drawing is larger than 4 MiB; simplify it");
+    return problem_in(file, "the drawing is larger than 4 MiB; simplify it");
   auto bytes = read_regular_file(file, static_cast<uint64_t>(limits::max_drawing_bytes));
-  if (bytes && bytes->empty()) return problem_of(file, "the file is empty or cannot be read");
+  if (bytes && bytes->empty()) return problem_in(file, "the file is empty or cannot be read");
   return bytes;
 }
 
 /// Sets libpng's state free on every way out.
-struct PngImage {
+struct PngReader {
   png_image state{};
 
-  PngImage() { state.version = PNG_IMAGE_VERSION; }
-  ~PngImage() { png_image_free(&state); }
-  PngImage(const PngImage&) = delete;
-  PngImage& operator=(const PngImage&) = delete;
+  PngReader() { state.version = PNG_IMAGE_VERSION; }
+  ~PngReader() { png_image_free(&state); }
+  PngReader(const PngReader&) = delete;
+  PngReader& operator=(const PngReader&) = delete;
 };
 
 Result<Pixels> read_png(const std::filesystem::path& file) {
   std::error_code failed;
   if (!std::filesystem::is_regular_file(file, failed))
-    return problem_of(file, "there is no such file; give the path of the sign's PNG picture");
+    return problem_in(file, "there is no such file; give the path of the sign's PNG picture");
   const auto bytes = std::filesystem::file_size(file, failed);
   if (failed || bytes > static_cast<uintmax_t>(limits::max_picture_bytes))
-    return problem_of(file, "the picture is larger than 64 MiB or cannot be read");
-  PngImage png;
+    return problem_in(file, "the picture is larger than 64 MiB or cannot be read");
+  PngReader png;
   if (!png_image_begin_read_from_file(&png.state, file.c_str()))
-    return problem_of(file, std::string("it is not a PNG picture (") + png.state.message + ")");
+    return problem_in(file, std::string("it is not a PNG picture (") + png.state.message + ")");
   const auto pixels =
       static_cast<int64_t>(png.state.width) * static_cast<int64_t>(png.state.height);
   if (pixels > limits::max_picture_pixels)
-    return problem_of(file, "the picture has " + std::to_string(pixels) +
+    return problem_in(file, "the picture has " + std::to_string(pixels) +
                                 " pixels, at most 16777216 are read; scale it down");
   png.state.format = PNG_FORMAT_RGBA;
   Pixels out;
@@ -212,7 +197,7 @@ Result<Pixels> read_png(const std::filesystem::path& file) {
   out.height = static_cast<int>(png.state.height);
   out.rgba.resize(static_cast<size_t>(pixels));
   if (!png_image_finish_read(&png.state, nullptr, out.rgba.data(), 0, nullptr))
-    return problem_of(file, std::string("the PNG picture is damaged (") + png.state.message + ")");
+    return problem_in(file, std::string("the PNG picture is damaged (") + png.state.message + ")");
   return out;
 }
 
@@ -279,30 +264,30 @@ SignColour classify_colour(const std::array<uint8_t, 4>& rgba) {
 Result<SignFace> face_from_svg(const std::filesystem::path& file, double width_m, double height_m,
                                int texels_across) {
   Result<SignFace> face = blank_face(width_m, height_m, texels_across);
-  if (!face) return problem_of(file, face.problem().what);
+  if (!face) return problem_in(file, face.problem().what);
   Result<std::string> bytes = read_drawing(file);
   if (!bytes) return bytes.problem();
   const int samples = samples_per_texel(face.value());
   const Result<DrawnSvg> svg =
       draw_svg(bytes.value(), face->width * samples, face->height * samples);
-  if (!svg) return problem_of(file, svg.problem().what);
+  if (!svg) return problem_in(file, svg.problem().what);
   if (auto wrong = wrong_aspect(svg->width, svg->height, width_m, height_m))
-    return problem_of(file, *wrong);
+    return problem_in(file, *wrong);
   vote(face.value(), svg->pixels);
-  if (auto missing = missing_colour(face.value())) return problem_of(file, *missing);
+  if (auto missing = missing_colour(face.value())) return problem_in(file, *missing);
   return face;
 }
 
 Result<SignFace> face_from_png(const std::filesystem::path& file, double width_m, double height_m,
                                int texels_across) {
   Result<SignFace> face = blank_face(width_m, height_m, texels_across);
-  if (!face) return problem_of(file, face.problem().what);
+  if (!face) return problem_in(file, face.problem().what);
   Result<Pixels> pixels = read_png(file);
   if (!pixels) return pixels.problem();
   if (auto wrong = wrong_aspect(pixels->width, pixels->height, width_m, height_m))
-    return problem_of(file, *wrong);
+    return problem_in(file, *wrong);
   vote(face.value(), pixels.value());
-  if (auto missing = missing_colour(face.value())) return problem_of(file, *missing);
+  if (auto missing = missing_colour(face.value())) return problem_in(file, *missing);
   return face;
 }
 
@@ -312,11 +297,11 @@ Result<SignFace> face_from_text(std::string_view text, double width_m, double he
   Result<SignFace> face = blank_face(width_m, height_m, texels_across);
   if (!face) return face.problem();
   if (legend == SignColour::other)
-    return fault("a legend is white or green; the ground takes the other of the two");
+    return problem("a legend is white or green; the ground takes the other of the two");
   Result<Lettering> lettering = lay_out_text(text, {letter_height_m, stroke_m, spacing_m});
   if (!lettering) return lettering.problem();
   if (auto wrong = legend_fault(lettering.value(), width_m, height_m, texels_across))
-    return fault(*wrong);
+    return problem(*wrong);
 
   const int samples = samples_per_texel(face.value());
   const int across = face->width * samples, down = face->height * samples;
@@ -336,7 +321,7 @@ Result<SignFace> face_from_text(std::string_view text, double width_m, double he
   cairo_set_line_join(pen.get(), CAIRO_LINE_JOIN_MITER);
   for (const Letter& letter : lettering->letters) draw_letter(pen.get(), letter);
   if (cairo_status(pen.get()) != CAIRO_STATUS_SUCCESS)
-    return fault("the legend cannot be drawn: out of memory");
+    return problem("the legend cannot be drawn: out of memory");
   vote(face.value(), pixels_of(surface.get()));
   face->legend = legend;
   return face;

@@ -1,11 +1,9 @@
-// How a sign stands to an eye, and how bright it is of itself: distances, angles, the decay of
-// photoluminescent material, and the light a face sends out. It says nothing about smoke, about
-// what stands in the way, or about light falling on the face. Pure functions; any thread.
+// How a sign stands to an eye: distances and angles. It says nothing about smoke or about what
+// stands in the way; how bright a sign is: sign_light.hpp. Pure functions; any thread.
 // Design: README.md of this folder.
 #pragma once
 
 #include <glm/glm.hpp>
-#include <vector>
 
 #include "scenes/world/description.hpp"
 
@@ -39,24 +37,5 @@ struct ViewingDistance {
   bool within = false;  // the view's distance is at most the oblique one, and a face is seen
 };
 ViewingDistance viewing_distance(const Sign& sign, const SignView& view);
-
-/// Share of the luminance left `seconds` after excitation: linear in log time and log share between
-/// points, as phosphorescence follows powers of time; the first share before the first point; on
-/// along the last two points after the last, never rising. A segment that starts at time 0 or has
-/// a share of 0 is linear instead. Empty: 1.
-/// Requires: times ascending and >= 0, shares >= 0.
-double decay_share(const std::vector<glm::dvec2>& decay, double seconds);
-
-/// Luminance [cd/m2] of one colour of the face, as sent out by the sign itself in a direction
-/// whose cosine with the face's normal is given: L cos^n. `dark` leaves photoluminescent signs
-/// alone; externally lit signs send out nothing of their own (their light is reflected), and
-/// `other` never does. A circuit's factor and a face's luminance map are the caller's to apply.
-double sign_luminance(const Sign& sign, SignColour colour, Operation operation,
-                      double seconds_after_failure, double cos_from_normal);
-
-/// Luminous flux [lm] that one face sends out by one colour: the integral of L cos^n cos over area
-/// and half space, L area 2 pi / (n + 2). A double-sided sign sends out twice that.
-double face_flux_lm(const Sign& sign, SignColour colour, Operation operation,
-                    double seconds_after_failure);
 
 }  // namespace luxodus

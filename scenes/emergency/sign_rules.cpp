@@ -3,25 +3,19 @@
 #include <cmath>
 #include <limits>
 
+#include "scenes/emergency/rule_limits.hpp"
 #include "scenes/emergency/rule_table.hpp"
 #include "scenes/emergency/rules.hpp"
 #include "scenes/emergency/sign_face.hpp"
 
 namespace luxodus {
 
+using namespace rule_limit;
+
 namespace {
 
-constexpr double min_green = 2, green_least_in_smoke = 10;  // S1 [cd/m2]
-constexpr double max_evenness = 10;                         // S2
-constexpr double min_contrast = 5, max_contrast = 15;       // S3
-constexpr double mains_white = 500;                         // S5 [cd/m2]
-constexpr double height_least_m = 2;                        // S6
-constexpr double low_level_m = 1;          // where way guidance along the floor ends
-constexpr double elevation_most_deg = 20;  // S6
+constexpr double low_level_m = 1;  // where way guidance along the floor ends
 constexpr double standing_eye_m = 1.65;
-constexpr double face_lx = 54;                                    // N6
-constexpr double letter_least_m = 0.152, stroke_least_m = 0.019;  // N7
-constexpr double nearest_most_m = 30;                             // N8
 
 struct Extremes {
   double least = std::numeric_limits<double>::infinity(), most = 0;
@@ -46,7 +40,7 @@ constexpr const char* one_number =
 /// place.
 Check smallest_green(const SceneDescription& scene, const Sign& sign, const std::string& subject,
                      const CodeChoice& codes) {
-  const double limit = scene.assessment.smoke_expected ? green_least_in_smoke : min_green;
+  const double limit = scene.assessment.smoke_expected ? min_green_in_smoke : min_green;
   const double mean = sign.emergency.green_cd_m2;
   const bool mapped = !sign.face.relative_luminance.empty();
   Check check = judged(rule_of("S1", codes), subject,
@@ -100,10 +94,9 @@ std::vector<Check> mounting(const SceneDescription& scene, const Sign& sign,
   const double above = sign.frame.origin.z - *floor - standing_eye_m;
   const double elevation =
       std::asin(std::clamp(above / std::max(farthest, 1e-9), -1.0, 1.0)) * 180 / 3.14159265358979;
-  return {
-      judged(rule_of("S6", codes), subject, height, height_least_m, true, "m", sign.frame.origin),
-      judged(rule_of("S6a", codes), subject, elevation, elevation_most_deg, false, "deg",
-             sign.frame.origin)};
+  return {judged(rule_of("S6", codes), subject, height, min_height_m, true, "m", sign.frame.origin),
+          judged(rule_of("S6a", codes), subject, elevation, max_elevation_deg, false, "deg",
+                 sign.frame.origin)};
 }
 
 std::vector<Check> en_checks(const SceneDescription& scene, const Sign& sign,
@@ -136,10 +129,10 @@ std::vector<Check> checks_of_sign(const SceneDescription& scene, const Sign& sig
     out.push_back(
         judged(rule_of("N6", codes), subject, lux, face_lx, true, "lx", sign.frame.origin));
   if (sign.letters) {
-    out.push_back(judged(rule_of("N7", codes), subject, sign.letters->height_m, letter_least_m,
-                         true, "m", sign.frame.origin));
-    out.push_back(judged(rule_of("N7s", codes), subject, sign.letters->stroke_m, stroke_least_m,
-                         true, "m", sign.frame.origin));
+    out.push_back(judged(rule_of("N7", codes), subject, sign.letters->height_m, min_letter_m, true,
+                         "m", sign.frame.origin));
+    out.push_back(judged(rule_of("N7s", codes), subject, sign.letters->stroke_m, min_stroke_m, true,
+                         "m", sign.frame.origin));
   }
   return out;
 }
@@ -175,7 +168,7 @@ std::vector<Check> checks_of_distance(const SceneDescription& scene, const Escap
     if (std::isinf(worst_share)) out.back().reason = "no sign faces this place";
   }
   if (!codes.european()) {
-    out.push_back(judged(rule_of("N8", codes), subject, worst_distance, nearest_most_m, false, "m",
+    out.push_back(judged(rule_of("N8", codes), subject, worst_distance, max_nearest_m, false, "m",
                          where_distance));
     if (std::isinf(worst_distance)) out.back().reason = "no sign faces this place";
   }

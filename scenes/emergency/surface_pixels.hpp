@@ -1,11 +1,25 @@
-// What cairo has drawn, as pixels of ours. Internal to draw_svg and sign_face. Any thread.
+// What cairo has drawn, as pixels of ours, and owners of what it makes. Internal to draw_svg and
+// sign_face. Any thread.
 #pragma once
 
 #include <cairo.h>
 
+#include <memory>
+
 #include "scenes/emergency/draw_svg.hpp"
 
 namespace luxodus {
+
+/// Gives back what Cairo or librsvg made, by a function of theirs.
+template <auto release>
+struct Release {
+  template <class T>
+  void operator()(T* object) const {
+    release(object);
+  }
+};
+using Surface = std::unique_ptr<cairo_surface_t, Release<cairo_surface_destroy>>;
+using Pen = std::unique_ptr<cairo_t, Release<cairo_destroy>>;
 
 /// Cairo's native-endian premultiplied ARGB as straight RGBA.
 /// Requires: an image surface of format ARGB32.

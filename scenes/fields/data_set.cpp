@@ -55,7 +55,6 @@ std::string memory_fault(uint64_t cells, uint64_t fields) {
 
 namespace {
 
-using data_set::fault;
 using data_set::Field;
 using data_set::Grid;
 
@@ -88,9 +87,8 @@ std::optional<Problem> bad_value(const std::string& path, const Grid& grid, cons
     const uint64_t x = i % grid.nx, y = i / grid.nx % grid.ny, z = i / grid.nx / grid.ny;
     // Samples out of a file that the header names are not told: it may be any file of the machine.
     const std::string found = grid.files_read.size() > 1 ? "out of range" : fmt::format("{}", v);
-    return fault(path, 0,
-                 fmt::format("{} of cell ({}, {}, {}), index {}, is {}: give {}", field.name, x, y,
-                             z, i, found, range.words));
+    return problem_in(path, fmt::format("{} of cell ({}, {}, {}), index {}, is {}: give {}",
+                                        field.name, x, y, z, i, found, range.words));
   }
   return std::nullopt;
 }
@@ -98,11 +96,10 @@ std::optional<Problem> bad_value(const std::string& path, const Grid& grid, cons
 std::optional<Problem> bad_placement(const std::string& path, const Grid& grid) {
   for (int axis = 0; axis < 3; ++axis) {
     if (!(grid.spacing[axis] > 0) || !std::isfinite(grid.spacing[axis])) {
-      return fault(path, 0,
-                   fmt::format("the spacing along {} is {}: give a length above 0", "xyz"[axis],
-                               grid.spacing[axis]));
+      return problem_in(path, fmt::format("the spacing along {} is {}: give a length above 0",
+                                          "xyz"[axis], grid.spacing[axis]));
     }
-    if (!std::isfinite(grid.origin[axis])) return fault(path, 0, "the origin is not finite");
+    if (!std::isfinite(grid.origin[axis])) return problem_in(path, "the origin is not finite");
   }
   return std::nullopt;
 }
@@ -130,11 +127,10 @@ Result<LoadedDataSet> assembled(const std::string& path, Grid grid, const DataSe
                              : field.name == "albedo"           ? data.albedo
                                                                 : data.emission;
     if (!to.empty()) {
-      return fault(path, 0,
-                   fmt::format("\"{}\" would be given twice{}: keep one", field.name,
-                               soot || field.name == "extinction"
-                                   ? " (extinction and soot density say the same)"
-                                   : ""));
+      return problem_in(path, fmt::format("\"{}\" would be given twice{}: keep one", field.name,
+                                          soot || field.name == "extinction"
+                                              ? " (extinction and soot density say the same)"
+                                              : ""));
     }
     to = std::move(field.value);
   }
@@ -146,24 +142,23 @@ Result<LoadedDataSet> assembled(const std::string& path, Grid grid, const DataSe
 Result<LoadedDataSet> read_data_set(const std::string& path, const DataSetOptions& options) {
   if (!(options.mass_extinction_m2_per_kg > 0) ||
       !std::isfinite(options.mass_extinction_m2_per_kg)) {
-    return fault(path, 0,
-                 fmt::format("a mass extinction of {} m2/kg: give a value above 0",
-                             options.mass_extinction_m2_per_kg));
+    return problem_in(path, fmt::format("a mass extinction of {} m2/kg: give a value above 0",
+                                        options.mass_extinction_m2_per_kg));
   }
   const std::string ending = ending_of(path);
   const bool nrrd = ending == ".nrrd" || ending == ".nhdr";
   if (!nrrd && ending != ".vti") {
-    return fault(path, 0, "unknown kind of data set: .nrrd, .nhdr and .vti are read");
+    return problem_in(path, "unknown kind of data set: .nrrd, .nhdr and .vti are read");
   }
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error))
-    return fault(path, 0, "there is no such file");
+    return problem_in(path, "there is no such file");
   try {
     Result<Grid> grid = nrrd ? data_set::read_nrrd(path, options) : data_set::read_vti(path);
     if (!grid) return grid.problem();
     return assembled(path, std::move(grid.value()), options);
   } catch (const std::bad_alloc&) {
-    return fault(path, 0, "its cells take more memory than this process gets: make them coarser");
+    return problem_in(path, "its cells take more memory than this process gets: make them coarser");
   }
 }
 

@@ -102,10 +102,4 @@ std::optional<std::vector<T>> numbers_in(std::string_view text, size_t count) {
   return values;
 }
 
-/// The text is whole before the problem is made: GCC 12 falsely warns of uninitialised members
-/// where an aggregate's later member may throw.
-inline Problem fault(std::string file, int line, std::string what) {
-  return Problem{{std::move(file), line}, std::move(what)};
-}
-
 }  // namespace luxodus::data_set

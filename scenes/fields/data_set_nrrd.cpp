@@ -70,7 +70,7 @@ class Reader {
  private:
   using Fault = std::optional<Problem>;
 
-  Problem bad(int line, std::string what) const { return fault(path_, line, std::move(what)); }
+  Problem bad(int line, std::string what) const { return problem_in(path_, line, std::move(what)); }
   Problem bad(std::string_view field, std::string_view rule) const {
     const Entry* entry = find(field);
     return bad(entry ? entry->line : 0,
@@ -343,9 +343,8 @@ class Reader {
           static_cast<uint64_t>(*skip) > size - first ? size : first + static_cast<uint64_t>(*skip);
     }
     if (size - first < needed) {
-      return fault(
-          data_path_, 0,
-          fmt::format("{} bytes of samples are claimed, {} are there", needed, size - first));
+      return problem_in(data_path_, fmt::format("{} bytes of samples are claimed, {} are there",
+                                                needed, size - first));
     }
     data_.seekg(static_cast<std::streamoff>(first));
     return std::nullopt;
@@ -370,13 +369,13 @@ class Reader {
     const size_t fields = grid_.fields.size();
     const size_t stride = fields * bytes_of(type_);
     const std::string too_large = memory_fault(cells, fields);
-    if (!too_large.empty()) return fault(path_, 0, too_large);
+    if (!too_large.empty()) return problem_in(path_, too_large);
     for (Field& field : grid_.fields) field.value.resize(cells);
     std::vector<char> block(std::min(cells, block_samples) * stride);
     for (uint64_t done = 0; done < cells;) {
       const uint64_t now = std::min(cells - done, block_samples);
       if (!data_.read(block.data(), static_cast<std::streamsize>(now * stride))) {
-        return fault(data_path_, 0, "the file ended while it was read");
+        return problem_in(data_path_, "the file ended while it was read");
       }
       for (size_t f = 0; f < fields; ++f) {
         const char* from = block.data() + f * bytes_of(type_);

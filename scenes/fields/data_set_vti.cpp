@@ -133,16 +133,15 @@ class Reader {
     const auto begin = text_.begin();
     const auto lines =
         std::count(begin, begin + static_cast<ptrdiff_t>(std::min(at, text_.size())), '\n');
-    return fault(path_, static_cast<int>(lines) + 1, std::move(what));
+    return problem_in(path_, static_cast<int>(lines) + 1, std::move(what));
   }
 
   Fault load() {
     std::error_code error;
     const uint64_t size = std::filesystem::file_size(path_, error);
     if (error || size > limits::vti_file_bytes) {
-      return fault(
-          path_, 0,
-          fmt::format("the file has {} bytes, the most are {}", size, limits::vti_file_bytes));
+      return problem_in(path_, fmt::format("the file has {} bytes, the most are {}", size,
+                                           limits::vti_file_bytes));
     }
     auto text = read_regular_file(path_, limits::vti_file_bytes);
     if (!text) return text.problem();

@@ -22,7 +22,6 @@
 
 #include "runtime/core/isolated_job.hpp"
 #include "scenes/geometry/mesh_text.hpp"
-#include "scenes/geometry/refusal.hpp"
 
 namespace luxodus {
 namespace {
@@ -42,8 +41,8 @@ class GuardedFiles : public Assimp::DefaultIOSystem {
     const uint64_t bytes = regular ? fs::file_size(file, error) : 0;
     if (!regular || error) return nullptr;
     if (bytes > limits::mesh_file_bytes) {
-      fault_ = luxodus::refusal(
-          fmt::format("it has {} bytes, the most are {}", bytes, limits::mesh_file_bytes), file);
+      fault_ = problem_in(
+          file, fmt::format("it has {} bytes, the most are {}", bytes, limits::mesh_file_bytes));
       return nullptr;
     }
     if (std::find(opened_.begin(), opened_.end(), file) == opened_.end()) {
@@ -120,7 +119,7 @@ class Collector {
   }
 
  private:
-  Problem problem(std::string what) const { return refusal(std::move(what), path_); }
+  Problem problem(std::string what) const { return problem_in(path_, std::move(what)); }
 
   std::string part_name(const aiNode& node, const aiMesh& mesh) const {
     std::string name = text_of(node.mName);
@@ -283,7 +282,7 @@ Result<std::vector<ImportedPart>> import_by_assimp(const std::string& path, doub
   if (scene == nullptr) {
     const std::string why = importer.GetErrorString();
     if (why.find("bad_alloc") != std::string::npos) throw std::bad_alloc();  // Assimp has caught it
-    return refusal(fmt::format("cannot be read: {:.200}", why), path);
+    return problem_in(path, fmt::format("cannot be read: {:.200}", why));
   }
   return Collector(*scene, path, metres_per_unit, up).collect();
 }

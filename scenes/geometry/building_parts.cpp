@@ -6,7 +6,6 @@
 
 #include "scenes/geometry/mesh_tools.hpp"
 #include "scenes/geometry/polygon.hpp"
-#include "scenes/geometry/refusal.hpp"
 #include "scenes/geometry/shape_checks.hpp"
 #include "scenes/geometry/transform.hpp"
 
@@ -128,7 +127,7 @@ std::optional<Problem> bad_opening(const WallOpening& o, size_t number, double l
   const bool inside = o.x >= 0 && o.z >= 0 && o.x + o.width <= length * (1 + slack) &&
                       o.z + o.height <= height * (1 + slack);
   if (inside) return std::nullopt;
-  return refusal(
+  return problem(
       fmt::format("opening {} (x {:g} to {:g} m, z {:g} to {:g} m) reaches outside the wall of "
                   "{:g} m by {:g} m",
                   number, o.x, o.x + o.width, o.z, o.z + o.height, length, height));
@@ -171,30 +170,6 @@ Result<Shape> extrude(std::span<const glm::dvec2> outline, double height) {
   return Shape{std::move(body.value()), 0};
 }
 
-Result<OutlineRoom> room_over(std::span<const glm::dvec2> outline, double height) {
-  if (auto bad = bad_length({{"the room's height", height}})) return *bad;
-  Result<Shape> flat = polygon(outline);
-  if (!flat) return flat.problem();
-  OutlineRoom room;
-  room.floor = flat->mesh;
-  room.ceiling = flat->mesh;
-  apply(translation({0, 0, height}), room.ceiling);
-  flip(room.ceiling);
-  const bool counter_clockwise = signed_area(outline) > 0;
-  for (size_t i = 0; i < outline.size(); ++i) {
-    glm::dvec2 from = outline[i], to = outline[(i + 1) % outline.size()];
-    // From inside a counter-clockwise outline, edges run to the left: u starts at their end.
-    if (counter_clockwise) std::swap(from, to);
-    const glm::dvec3 a(from, 0), b(to, 0), c(to, height), d(from, height);
-    Mesh wall_mesh;
-    wall_mesh.positions = {a, b, c, d};
-    wall_mesh.texture_uv = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-    add_quad(wall_mesh, 0, 1, 2, 3);
-    room.walls.push_back(std::move(wall_mesh));
-  }
-  return room;
-}
-
 Result<Shape> wall(double length, double height, double thickness,
                    std::span<const WallOpening> openings) {
   if (auto bad = bad_length(
@@ -202,7 +177,7 @@ Result<Shape> wall(double length, double height, double thickness,
     return *bad;
   }
   if (openings.size() > limits::wall_openings) {
-    return refusal(fmt::format("a wall may have {} openings, this has {}: make it of several walls",
+    return problem(fmt::format("a wall may have {} openings, this has {}: make it of several walls",
                                limits::wall_openings, openings.size()));
   }
   for (size_t i = 0; i < openings.size(); ++i) {
@@ -210,7 +185,7 @@ Result<Shape> wall(double length, double height, double thickness,
   }
   Mesh mesh = WallGrid(length, height, thickness, openings).build();
   if (mesh.triangles.empty())
-    return refusal("the openings leave nothing of the wall: leave it out");
+    return problem("the openings leave nothing of the wall: leave it out");
   return Shape{std::move(mesh), 0};
 }
 

@@ -26,15 +26,6 @@ Result<Shape> polygon(std::span<const glm::dvec2> outline);
 /// A closed prism over the outline, from z = 0 to `height`.
 Result<Shape> extrude(std::span<const glm::dvec2> outline, double height);
 
-/// A room over an outline, seen from inside; wall i stands on the edge from point i to the next of
-/// the outline as given.
-struct OutlineRoom {
-  Mesh floor, ceiling;
-  std::vector<Mesh>
-      walls;  // with texture coordinates: u along the wall, to the right of who looks at it
-};
-Result<OutlineRoom> room_over(std::span<const glm::dvec2> outline, double height);
-
 /// A hole through a wall, by its lower corner nearest the wall's start.
 struct WallOpening {
   double x = 0;  // from the start of the wall [m]

@@ -13,7 +13,6 @@
 #include "runtime/core/isolated_job.hpp"
 #include "scenes/geometry/assimp_import.hpp"
 #include "scenes/geometry/mesh_text.hpp"
-#include "scenes/geometry/refusal.hpp"
 
 namespace luxodus {
 namespace {
@@ -49,9 +48,9 @@ Result<std::vector<ImportedPart>> imported(const std::string& path, double metre
   } catch (const std::bad_alloc&) {
     throw;  // said with the limit
   } catch (const std::exception& e) {
-    return refusal(fmt::format("cannot be read: {:.200}", e.what()), path);
+    return problem_in(path, fmt::format("cannot be read: {:.200}", e.what()));
   } catch (...) {
-    return refusal("cannot be read: the importer failed without a reason", path);
+    return problem_in(path, "cannot be read: the importer failed without a reason");
   }
 }
 
@@ -65,7 +64,7 @@ void answer(PlainReader& question, PlainWriter& out) {
   const auto parts = imported(path, metres_per_unit, up, files);
   out.put(static_cast<uint64_t>(files.size()));
   for (const std::string& file : files) out.put(file);
-  out.put(static_cast<uint8_t>(parts.ok() ? 1 : 0));
+  out.put(static_cast<uint8_t>(parts ? 1 : 0));
   if (!parts) return put(out, parts.problem());
   out.put(static_cast<uint64_t>(parts->size()));
   for (const ImportedPart& part : parts.value()) put(out, part);
@@ -115,7 +114,7 @@ std::optional<Problem> get_problem(PlainReader& in) {
 
 Result<std::vector<ImportedPart>> parts_of(PlainReader& in, const std::string& path,
                                            std::vector<std::string>* files_read) {
-  const Problem damaged = refusal("cannot be read: the importer gave no sound answer", path);
+  const Problem damaged = problem_in(path, "cannot be read: the importer gave no sound answer");
   uint64_t files = 0, count = 0;
   if (!in.get(files)) return damaged;
   for (; files > 0; --files) {
@@ -143,19 +142,18 @@ Result<std::vector<ImportedPart>> parts_of(PlainReader& in, const std::string& p
 Result<std::vector<ImportedPart>> import_mesh(const std::string& path, double metres_per_unit,
                                               UpAxis up, std::vector<std::string>* files_read) {
   if (!(metres_per_unit > 0) || !std::isfinite(metres_per_unit)) {
-    return refusal(fmt::format("a unit of {} m: give a length above 0", metres_per_unit), path);
+    return problem_in(path, fmt::format("a unit of {} m: give a length above 0", metres_per_unit));
   }
   const std::string ending = mesh_ending(path);
   if (ending != ".obj" && ending != ".gltf" && ending != ".glb") {
-    return refusal("unknown kind of mesh: .obj, .gltf and .glb are read", path);
+    return problem_in(path, "unknown kind of mesh: .obj, .gltf and .glb are read");
   }
   std::error_code error;
-  if (!fs::is_regular_file(path, error)) return refusal("there is no such file", path);
+  if (!fs::is_regular_file(path, error)) return problem_in(path, "there is no such file");
   const uint64_t bytes = fs::file_size(path, error);
   if (error || bytes > limits::mesh_file_bytes) {
-    return refusal(fmt::format("it has {} bytes, the most are {}: simplify or split it", bytes,
-                               limits::mesh_file_bytes),
-                   path);
+    return problem_in(path, fmt::format("it has {} bytes, the most are {}: simplify or split it",
+                                        bytes, limits::mesh_file_bytes));
   }
   const IsolatedLimits more = import_limits(bytes);
   auto in = import_job.run(
@@ -165,7 +163,7 @@ Result<std::vector<ImportedPart>> import_mesh(const std::string& path, double me
         question.put(up);
       },
       {for_all.memory_bytes + more.memory_bytes, for_all.processor_s + more.processor_s});
-  if (!in) return refusal(in.problem().what, path);
+  if (!in) return problem_in(path, in.problem().what);
   return parts_of(in.value(), path, files_read);
 }
 

@@ -14,7 +14,6 @@
 #include <vector>
 
 #include "scenes/geometry/import.hpp"
-#include "scenes/geometry/refusal.hpp"
 
 namespace luxodus {
 namespace {
@@ -75,10 +74,10 @@ Result<std::string> json_of(const std::string& path) {
   uint32_t words[2] = {0, 0};
   in.read(reinterpret_cast<char*>(words), sizeof words);
   if (!in || words[1] != 0x4E4F534A || words[0] > limits::mesh_file_bytes)
-    return refusal("it is no binary glTF 2.0: no chunk of JSON follows its head", path);
+    return problem_in(path, "it is no binary glTF 2.0: no chunk of JSON follows its head");
   text.clear();
   std::copy_n(std::istreambuf_iterator<char>(in), words[0], std::back_inserter(text));
-  if (text.size() < words[0]) return refusal("it is cut short: copy it again", path);
+  if (text.size() < words[0]) return problem_in(path, "it is cut short: copy it again");
   return text;
 }
 
@@ -110,13 +109,13 @@ Result<std::vector<int64_t>> parents_of(const nlohmann::json& nodes, const std::
     if (children == nodes[i].end() || !children->is_array()) continue;
     for (const nlohmann::json& child : *children) {
       if (!child.is_number_unsigned() || child.get<uint64_t>() >= nodes.size())
-        return refusal(fmt::format("node {} has a child that there is not", i), path);
+        return problem_in(path, fmt::format("node {} has a child that there is not", i));
       int64_t& parent = parents[child.get<uint64_t>()];
       if (parent >= 0)
-        return refusal(fmt::format("node {} is a child of node {} and again of node {}: the nodes "
-                                   "of a glTF form trees; export it anew",
-                                   child.get<uint64_t>(), parent, i),
-                       path);
+        return problem_in(
+            path, fmt::format("node {} is a child of node {} and again of node {}: the nodes "
+                              "of a glTF form trees; export it anew",
+                              child.get<uint64_t>(), parent, i));
       parent = static_cast<int64_t>(i);
     }
   }
@@ -127,9 +126,8 @@ std::optional<Problem> fault_of_nodes(const nlohmann::json& gltf, const std::str
   const auto nodes = gltf.find("nodes");
   if (nodes == gltf.end() || !nodes->is_array()) return std::nullopt;
   if (nodes->size() > limits::mesh_parts)
-    return refusal(fmt::format("it has {} nodes, the most are {}: simplify or split it",
-                               nodes->size(), limits::mesh_parts),
-                   path);
+    return problem_in(path, fmt::format("it has {} nodes, the most are {}: simplify or split it",
+                                        nodes->size(), limits::mesh_parts));
   const auto parents = parents_of(*nodes, path);
   if (!parents) return parents.problem();
   // Depth by depth from each node upwards; what is known already is not walked again.
@@ -144,13 +142,13 @@ std::optional<Problem> fault_of_nodes(const nlohmann::json& gltf, const std::str
       depth[static_cast<size_t>(at)] = -1;
     }
     int above = at < 0 ? 0 : depth[static_cast<size_t>(at)];
-    if (above < 0) return refusal(fmt::format("node {} is its own ancestor", at), path);
+    if (above < 0) return problem_in(path, fmt::format("node {} is its own ancestor", at));
     for (auto node = way.rbegin(); node != way.rend(); ++node) depth[*node] = ++above;
     if (above > limits::gltf_node_depth)
-      return refusal(fmt::format("its nodes are more than {} deep: flatten the tree of objects "
-                                 "before exporting",
-                                 limits::gltf_node_depth),
-                     path);
+      return problem_in(path,
+                        fmt::format("its nodes are more than {} deep: flatten the tree of objects "
+                                    "before exporting",
+                                    limits::gltf_node_depth));
   }
   return std::nullopt;
 }
@@ -173,12 +171,12 @@ std::optional<Problem> fault_of_obj(const std::string& path) {
     const std::string_view word = take_word(rest);
     if (word == "v" || word == "vt") {
       std::string wrong = fault_of_vertex(rest, word == "v" ? 3 : 2, word == "vt");
-      if (!wrong.empty()) return Problem{{path, number}, std::move(wrong)};
+      if (!wrong.empty()) return problem_in(path, number, std::move(wrong));
     } else if (word == "o" || word == "g") {
       if (++groups > limits::obj_groups)
-        return Problem{{path, number},
-                       fmt::format("more than {} objects and groups: join some before exporting",
-                                   limits::obj_groups)};
+        return problem_in(path, number,
+                          fmt::format("more than {} objects and groups: join some before exporting",
+                                      limits::obj_groups));
     }
   }
   return std::nullopt;
@@ -192,8 +190,8 @@ std::optional<Problem> fault_of_mtl(const std::string& path) {
     const std::string_view word = take_word(rest);
     if (word == "newmtl") return std::nullopt;
     if (word.empty() || word.front() == '#') continue;
-    return Problem{{path, number},
-                   "this stands before the first material: begin it with \"newmtl NAME\""};
+    return problem_in(path, number,
+                      "this stands before the first material: begin it with \"newmtl NAME\"");
   }
   return std::nullopt;
 }
@@ -202,11 +200,11 @@ std::optional<Problem> fault_of_gltf(const std::string& path) {
   const Result<std::string> text = json_of(path);
   if (!text) return text.problem();
   if (nests_too_deep(text.value()))
-    return refusal(fmt::format("its JSON is nested deeper than {}: export it anew, without extras",
-                               limits::gltf_nesting),
-                   path);
+    return problem_in(
+        path, fmt::format("its JSON is nested deeper than {}: export it anew, without extras",
+                          limits::gltf_nesting));
   const auto gltf = nlohmann::json::parse(text.value(), nullptr, false);
-  if (!gltf.is_object()) return refusal("it is no glTF: its JSON is damaged", path);
+  if (!gltf.is_object()) return problem_in(path, "it is no glTF: its JSON is damaged");
   return fault_of_nodes(gltf, path);
 }
 

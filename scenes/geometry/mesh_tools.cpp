@@ -21,10 +21,6 @@ Corners corners_of(const Mesh& mesh, const glm::uvec3& triangle) {
   return {mesh.positions[triangle.x], mesh.positions[triangle.y], mesh.positions[triangle.z]};
 }
 
-double longest_edge(const Corners& t) {
-  return std::max({glm::length(t.b - t.a), glm::length(t.c - t.b), glm::length(t.a - t.c)});
-}
-
 bool is_degenerate(const Mesh& mesh, const glm::uvec3& triangle) {
   if (triangle.x == triangle.y || triangle.y == triangle.z || triangle.z == triangle.x) return true;
   const Corners t = corners_of(mesh, triangle);
@@ -69,20 +65,6 @@ double signed_volume_of(const Mesh& mesh) {
     sum += glm::dot(t.a - from, glm::cross(t.b - from, t.c - from)) / 6.0;
   }
   return sum;
-}
-
-double longest_edge_of(const Mesh& mesh, uint32_t triangle) {
-  return longest_edge(corners_of(mesh, mesh.triangles[triangle]));
-}
-
-std::vector<glm::dvec3> triangle_centroids(const Mesh& mesh) {
-  std::vector<glm::dvec3> centroids;
-  centroids.reserve(mesh.triangles.size());
-  for (const glm::uvec3& triangle : mesh.triangles) {
-    const Corners t = corners_of(mesh, triangle);
-    centroids.push_back((t.a + t.b + t.c) / 3.0);
-  }
-  return centroids;
 }
 
 void flip(Mesh& mesh) {

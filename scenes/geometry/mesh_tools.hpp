@@ -20,11 +20,6 @@ double area_of(const Mesh& mesh);
 /// outward.
 double signed_volume_of(const Mesh& mesh);
 
-/// Longest of the three edges [m].
-double longest_edge_of(const Mesh& mesh, uint32_t triangle);
-
-std::vector<glm::dvec3> triangle_centroids(const Mesh& mesh);
-
 /// Exchanges front and back.
 void flip(Mesh& mesh);
 

@@ -8,7 +8,7 @@
 namespace luxodus {
 namespace {
 
-struct Task {
+struct CellRange {
   size_t first, last;  // of the order
   size_t cells;
 };
@@ -35,9 +35,9 @@ std::vector<std::vector<uint32_t>> partition_triangles(std::span<const glm::dvec
 
   // Depth first, the lower side first: cells come out in spatial order. A part always holds at
   // least as many triangles as cells, so no cell is empty.
-  std::vector<Task> open = {{0, order.size(), wanted}};
+  std::vector<CellRange> open = {{0, order.size(), wanted}};
   while (!open.empty()) {
-    const Task task = open.back();
+    const CellRange task = open.back();
     open.pop_back();
     if (task.cells == 1) {
       std::vector<uint32_t> cell(order.begin() + static_cast<ptrdiff_t>(task.first),

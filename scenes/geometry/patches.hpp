@@ -61,11 +61,6 @@ inline std::array<glm::dvec2, 3> sub_triangle_corners(uint32_t index, uint32_t n
   return {glm::dvec2(u1, v1), glm::dvec2(u0, v1), glm::dvec2(u1, v0)};
 }
 
-inline glm::dvec2 sub_triangle_centre(uint32_t index, uint32_t n) {
-  const auto corner = sub_triangle_corners(index, n);
-  return (corner[0] + corner[1] + corner[2]) / 3.0;
-}
-
 /// The least n for which no patch edge exceeds `patch_edge_m`; 1 where that is 0 or less. A part in
 /// 1e9 is forgiven, so that 0.9 m by 0.3 m is 3 and not 4. Never above limits::patch_subdivision,
 /// even where the wish is finer; whoever sums patches sees that in the edge that comes out.

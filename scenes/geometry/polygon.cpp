@@ -7,8 +7,6 @@
 #include <numeric>
 #include <optional>
 
-#include "scenes/geometry/refusal.hpp"
-
 namespace luxodus {
 namespace {
 
@@ -31,19 +29,19 @@ bool within_box(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& p) {
 
 std::optional<Problem> bad_points(std::span<const glm::dvec2> outline) {
   const size_t n = outline.size();
-  if (n < 3) return refusal(fmt::format("an outline needs 3 points or more, this has {}", n));
+  if (n < 3) return problem(fmt::format("an outline needs 3 points or more, this has {}", n));
   if (n > limits::polygon_points) {
-    return refusal(fmt::format("an outline may have {} points, this has {}: cut it into parts",
+    return problem(fmt::format("an outline may have {} points, this has {}: cut it into parts",
                                limits::polygon_points, n));
   }
   for (size_t i = 0; i < n; ++i) {
     const glm::dvec2 p = outline[i];
     if (!(std::abs(p.x) <= farthest_m && std::abs(p.y) <= farthest_m)) {
-      return refusal(
+      return problem(
           fmt::format("point {} of the outline is not finite or beyond {:g} m", i + 1, farthest_m));
     }
     if (p == outline[(i + 1) % n]) {
-      return refusal(fmt::format("points {} and {} of the outline are the same: leave one out",
+      return problem(fmt::format("points {} and {} of the outline are the same: leave one out",
                                  i + 1, (i + 1) % n + 1));
     }
   }
@@ -105,18 +103,18 @@ Result<std::vector<glm::dvec2>> checked_outline(std::span<const glm::dvec2> outl
   for (size_t i = 0; i < n; ++i) {
     const glm::dvec2 a = outline[i], b = outline[(i + 1) % n], c = outline[(i + 2) % n];
     if (side(a, b, c) == 0 && glm::dot(b - a, c - b) < 0) {
-      return refusal(fmt::format("the outline turns back on itself at point {}", (i + 1) % n + 1));
+      return problem(fmt::format("the outline turns back on itself at point {}", (i + 1) % n + 1));
     }
     for (size_t k = i + 2; k < n; ++k) {
       if (i == 0 && k == n - 1) continue;  // neighbours across the start
       if (!segments_meet(a, b, outline[k], outline[(k + 1) % n])) continue;
-      return refusal(fmt::format(
+      return problem(fmt::format(
           "edges {} and {} of the outline touch or cross: outlines must be simple", i + 1, k + 1));
     }
   }
   std::vector<glm::dvec2> out(outline.begin(), outline.end());
   const double area = signed_area(outline);
-  if (area == 0) return refusal("the outline encloses no area");
+  if (area == 0) return problem("the outline encloses no area");
   if (area < 0) std::reverse(out.begin(), out.end());
   return out;
 }
@@ -130,7 +128,7 @@ Result<std::vector<glm::uvec3>> triangulate(std::span<const glm::dvec2> outline)
   while (ring.size() > 3) {
     const size_t n = ring.size();
     if (tried == n) {
-      return refusal("the outline has corners too flat to be cut into triangles: simplify it");
+      return problem("the outline has corners too flat to be cut into triangles: simplify it");
     }
     at %= n;
     const uint32_t before = ring[(at + n - 1) % n], tip = ring[at], after = ring[(at + 1) % n];
@@ -150,7 +148,7 @@ Result<std::vector<glm::uvec3>> triangulate(std::span<const glm::dvec2> outline)
     tried = 0;
   }
   if (!(side(outline[ring[0]], outline[ring[1]], outline[ring[2]]) > 0)) {
-    return refusal("the outline has corners too flat to be cut into triangles: simplify it");
+    return problem("the outline has corners too flat to be cut into triangles: simplify it");
   }
   triangles.push_back({ring[0], ring[1], ring[2]});
   return triangles;

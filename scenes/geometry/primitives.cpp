@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "scenes/geometry/mesh_tools.hpp"
-#include "scenes/geometry/refusal.hpp"
 #include "scenes/geometry/shape_checks.hpp"
 
 namespace luxodus::shapes {
@@ -189,14 +188,14 @@ Result<Shape> quad(const glm::dvec3& corner, const glm::dvec3& edge_u, const glm
   for (const auto& [name, v] :
        {std::pair{"corner", corner}, {"edge_u", edge_u}, {"edge_v", edge_v}}) {
     if (finite_within_limit(v)) continue;
-    return refusal(
+    return problem(
         fmt::format("{} of a quad is not finite or beyond {:g} m", name, limits::shape_length_m));
   }
   if (auto bad = bad_count("the number of splits along u", nu, 1, limits::quad_splits)) return *bad;
   if (auto bad = bad_count("the number of splits along v", nv, 1, limits::quad_splits)) return *bad;
   const double lengths = glm::length(edge_u) * glm::length(edge_v);
   if (!(glm::length(glm::cross(edge_u, edge_v)) > 1e-12 * lengths)) {
-    return refusal("the edges of a quad are parallel or have no length: it has no area");
+    return problem("the edges of a quad are parallel or have no length: it has no area");
   }
   Shape shape;
   Mesh& mesh = shape.mesh;
@@ -267,7 +266,7 @@ Result<int> segments_within(double radius, double bound_m) {
   const double half_angle = 2 * std::asin(std::sqrt(std::min(1.0, bound_m / (2 * radius))));
   const double wanted = std::ceil(std::numbers::pi / half_angle * (1 - 1e-12));
   if (wanted > limits::shape_segments) {
-    return refusal(
+    return problem(
         fmt::format("a circle of radius {:g} m within {:g} m needs {:.0f} segments, the most "
                     "are {}: allow a larger distance",
                     radius, bound_m, wanted, limits::shape_segments));
@@ -314,7 +313,7 @@ Result<Shape> tube(double outer_radius, double inner_radius, double length, int 
   if (auto bad = bad_count("the number of segments", segments, 3, limits::shape_segments))
     return *bad;
   if (inner_radius >= outer_radius) {
-    return refusal(
+    return problem(
         fmt::format("the tube's inner radius {:g} m is not below its outer radius {:g} m",
                     inner_radius, outer_radius));
   }
@@ -341,7 +340,7 @@ Result<Shape> sphere(double radius, double bound_m) {
   int low = 1, high = limits::sphere_frequency;
   const double wanted = bound_m / radius;
   if (unit_sphere_bound(high) > wanted) {
-    return refusal(
+    return problem(
         fmt::format("a sphere of radius {:g} m within {:g} m needs too many triangles: allow "
                     "{:g} m or more",
                     radius, bound_m, radius * unit_sphere_bound(high)));

@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "scenes/geometry/primitives.hpp"
-#include "scenes/geometry/refusal.hpp"
 
 namespace luxodus::shapes {
 
@@ -20,7 +19,7 @@ using Measure = std::pair<const char*, double>;
 inline std::optional<Problem> bad_length(std::initializer_list<Measure> measures) {
   for (const auto& [name, value] : measures) {
     if (value > 0 && value <= limits::shape_length_m) continue;
-    return refusal(fmt::format("{} is {}: give a length above 0 and up to {:g} m", name, value,
+    return problem(fmt::format("{} is {}: give a length above 0 and up to {:g} m", name, value,
                                limits::shape_length_m));
   }
   return std::nullopt;
@@ -28,7 +27,7 @@ inline std::optional<Problem> bad_length(std::initializer_list<Measure> measures
 
 inline std::optional<Problem> bad_count(const char* name, int value, int least, int most) {
   if (value >= least && value <= most) return std::nullopt;
-  return refusal(fmt::format("{} is {}: give {} to {}", name, value, least, most));
+  return problem(fmt::format("{} is {}: give {} to {}", name, value, least, most));
 }
 
 inline bool finite_within_limit(const glm::dvec3& v) {

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "scenes/geometry/mesh_tools.hpp"
-#include "scenes/geometry/refusal.hpp"
 
 namespace luxodus {
 namespace {
@@ -65,10 +64,10 @@ Transform translation(const glm::dvec3& offset) {
 
 Result<Transform> rotation(const glm::dvec3& axis, double degrees) {
   if (!finite(axis) || !std::isfinite(degrees)) {
-    return refusal("a rotation needs a finite axis and angle");
+    return problem("a rotation needs a finite axis and angle");
   }
   if (axis == glm::dvec3(0))
-    return refusal("the axis of a rotation is (0, 0, 0): give a direction");
+    return problem("the axis of a rotation is (0, 0, 0): give a direction");
   const glm::dvec3 n = unit(axis);
   const auto [s, c] = sine_cosine(degrees);
   // Rodrigues: R = c I + s [n]x + (1 - c) n n^T; glm matrices are indexed [column][row].
@@ -90,7 +89,7 @@ Result<double> metres_per_unit(std::string_view unit_name) {
   for (const auto& [name, metres] : units) {
     if (name == unit_name) return metres;
   }
-  return refusal(fmt::format("unknown unit of length \"{}\": use m, mm, cm, km, in or ft",
+  return problem(fmt::format("unknown unit of length \"{}\": use m, mm, cm, km, in or ft",
                              unit_name.substr(0, 40)));
 }
 
@@ -105,16 +104,16 @@ Transform to_z_up(UpAxis up) {
 Result<UpAxis> up_axis_named(std::string_view word) {
   if (word == "y") return UpAxis::y;
   if (word == "z") return UpAxis::z;
-  return refusal(fmt::format("unknown up axis \"{}\": use \"y\" or \"z\"", word.substr(0, 40)));
+  return problem(fmt::format("unknown up axis \"{}\": use \"y\" or \"z\"", word.substr(0, 40)));
 }
 
 Result<Frame> frame_facing(const glm::dvec3& origin, const glm::dvec3& direction,
                            const glm::dvec3& up) {
   if (!finite(origin) || !finite(direction) || !finite(up)) {
-    return refusal("a position or direction is not finite");
+    return problem("a position or direction is not finite");
   }
-  if (direction == glm::dvec3(0)) return refusal("a direction is (0, 0, 0)");
-  if (up == glm::dvec3(0)) return refusal("the up direction is (0, 0, 0)");
+  if (direction == glm::dvec3(0)) return problem("a direction is (0, 0, 0)");
+  if (up == glm::dvec3(0)) return problem("the up direction is (0, 0, 0)");
   const glm::dvec3 z = unit(direction);
   glm::dvec3 x = glm::cross(unit(up), z);
   if (glm::length(x) < parallel_sine) x = glm::cross(glm::dvec3(0, 1, 0), z);
@@ -131,26 +130,12 @@ Result<Frame> frame_aiming(const glm::dvec3& origin, const glm::dvec3& direction
 
 Result<Frame> look_at(const glm::dvec3& eye, const glm::dvec3& target, const glm::dvec3& up) {
   if (eye == target)
-    return refusal("the target is where the eye is: there is no direction to look");
+    return problem("the target is where the eye is: there is no direction to look");
   return frame_aiming(eye, target - eye, up);
 }
 
 Transform as_transform(const Frame& frame) {
   return {frame.axes, frame.origin};
-}
-
-Frame compose(const Frame& outer, const Frame& inner) {
-  return {to_scene(outer, inner.origin), outer.axes * inner.axes};
-}
-
-bool is_rigid(const Frame& frame, double tolerance) {
-  const glm::dmat3 gram = glm::transpose(frame.axes) * frame.axes;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) {
-      if (!(std::abs(gram[i][j] - (i == j ? 1.0 : 0.0)) <= tolerance)) return false;
-    }
-  }
-  return finite(frame.origin) && glm::determinant(frame.axes) > 0;
 }
 
 }  // namespace luxodus

@@ -69,26 +69,7 @@ Result<Frame> frame_aiming(const glm::dvec3& origin, const glm::dvec3& direction
 Result<Frame> look_at(const glm::dvec3& eye, const glm::dvec3& target,
                       const glm::dvec3& up = {0, 0, 1});
 
-inline glm::dvec3 to_scene(const Frame& frame, const glm::dvec3& local) {
-  return frame.origin + frame.axes * local;
-}
-inline glm::dvec3 to_local(const Frame& frame, const glm::dvec3& p) {
-  return glm::transpose(frame.axes) * (p - frame.origin);
-}
-inline glm::dvec3 direction_to_scene(const Frame& frame, const glm::dvec3& local) {
-  return frame.axes * local;
-}
-inline glm::dvec3 direction_to_local(const Frame& frame, const glm::dvec3& v) {
-  return glm::transpose(frame.axes) * v;
-}
-
 /// The frame as a map from local to scene coordinates.
 Transform as_transform(const Frame& frame);
-
-/// `inner` is given in the coordinates of `outer`: where it is in the scene.
-Frame compose(const Frame& outer, const Frame& inner);
-
-/// Whether the axes are orthonormal and right-handed within `tolerance`.
-bool is_rigid(const Frame& frame, double tolerance = 1e-9);
 
 }  // namespace luxodus

@@ -33,10 +33,6 @@ struct Decoding {
   std::vector<unsigned char*> rows;
 };
 
-Problem fault(const std::string& path, std::string what) {
-  return Problem{{path, 0}, std::move(what)};
-}
-
 [[noreturn]] void on_error(png_structp png, png_const_charp message) noexcept {
   auto* state = static_cast<Decoding*>(png_get_error_ptr(png));
   std::strncpy(state->message, message, sizeof state->message - 1);
@@ -100,12 +96,12 @@ void make_rows(Decoding& state) {
 
 Result<void> load(const std::string& path, Decoding& state) {
   std::error_code error;
-  if (!std::filesystem::exists(path, error)) return fault(path, "there is no such file");
+  if (!std::filesystem::exists(path, error)) return problem_in(path, "there is no such file");
   auto bytes = read_regular_file(path, limits::image_file_bytes);
   if (!bytes) return bytes.problem();
   state.file.assign(bytes->begin(), bytes->end());
   if (state.file.size() < 8 || png_sig_cmp(state.file.data(), 0, 8) != 0)
-    return fault(path, "this is not a PNG file");
+    return problem_in(path, "this is not a PNG file");
   return {};
 }
 
@@ -160,7 +156,7 @@ Result<Image> read_png(const std::string& path) {
     good = decode(png, state);
   }
   png_destroy_read_struct(&png, &info, nullptr);
-  if (!good) return fault(path, fmt::format("the PNG cannot be read: {}", state.message));
+  if (!good) return problem_in(path, fmt::format("the PNG cannot be read: {}", state.message));
   return linear_image(state);
 }
 

@@ -46,14 +46,14 @@ Result<std::string> read_logo(const std::filesystem::path& path) {
     return Problem{place, "a logo has at most " + std::to_string(limits::logo_bytes >> 20) +
                               " MiB; make it smaller"};
   const auto image = read_png(path.string());
-  if (!image.ok())
+  if (!image)
     return Problem{image.problem().where,
                    image.problem().what + "; a logo is a PNG picture: convert it to one"};
   if (image->width > limits::logo_side || image->height > limits::logo_side)
     return Problem{place, "a logo has at most " + std::to_string(limits::logo_side) +
                               " pixels a side; make it smaller"};
   const auto png = encode_png(on_white(image.value()), place);
-  if (!png.ok()) return png.problem();
+  if (!png) return png.problem();
   return std::string(reinterpret_cast<const char*>(png->data()), png->size());
 }
 

@@ -2,8 +2,6 @@
 // does the rest. OpenEXR reports by exceptions, libpng by longjmp; neither leaves this file.
 #include "scenes/images/write_image.hpp"
 
-#include <ImathBox.h>
-#include <OpenEXR/ImfArray.h>
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfChromaticitiesAttribute.h>
 #include <OpenEXR/ImfDoubleAttribute.h>
@@ -11,7 +9,6 @@
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfIO.h>
-#include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfStandardAttributes.h>
 #include <OpenEXR/ImfStringAttribute.h>
@@ -22,7 +19,6 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <mutex>
 #include <set>
 #include <stdexcept>
 
@@ -56,26 +52,6 @@ class MemoryOut : public Imf::OStream {
 
  private:
   std::vector<std::byte> bytes_;
-  size_t at_ = 0;
-};
-
-class MemoryIn : public Imf::IStream {
- public:
-  explicit MemoryIn(std::span<const std::byte> bytes) : Imf::IStream("memory"), bytes_(bytes) {}
-  bool read(char data[], int n) override {
-    const auto size = static_cast<size_t>(n);
-    if (n < 0 || at_ > bytes_.size() || size > bytes_.size() - at_) {
-      throw std::runtime_error("unexpected end of file");
-    }
-    std::memcpy(data, bytes_.data() + at_, size);
-    at_ += size;
-    return at_ < bytes_.size();
-  }
-  uint64_t tellg() override { return at_; }
-  void seekg(uint64_t position) override { at_ = static_cast<size_t>(position); }
-
- private:
-  std::span<const std::byte> bytes_;
   size_t at_ = 0;
 };
 
@@ -113,7 +89,8 @@ Result<void> check_exr(const ExrImage& image, const SourcePlace& place) {
   }
   std::set<std::string> channel_names;
   for (const ExrChannel& channel : image.channels) {
-    if (auto good = check_exr_name(channel.name, channel_names, place); !good) return good;
+    if (auto good = check_exr_name(channel.name, channel_names, place); !good)
+      return good.problem();
     const std::string name = "channel '" + clean_utf8(channel.name) + "'";
     if (channel.values.size() != pixels.value()) {
       return Problem{place, name + " has " + std::to_string(channel.values.size()) +
@@ -128,10 +105,10 @@ Result<void> check_exr(const ExrImage& image, const SourcePlace& place) {
   std::set<std::string> names = {"unit", "chromaticities", "whitePoint", "whiteLuminance"};
   names.insert(exr_reserved.begin(), exr_reserved.end());
   for (const auto& [key, text] : image.text) {
-    if (auto good = check_exr_name(key, names, place); !good) return good;
+    if (auto good = check_exr_name(key, names, place); !good) return good.problem();
   }
   for (const auto& [key, number] : image.numbers) {
-    if (auto good = check_exr_name(key, names, place); !good) return good;
+    if (auto good = check_exr_name(key, names, place); !good) return good.problem();
   }
   return {};
 }
@@ -158,11 +135,8 @@ Imf::Header exr_header(const ExrImage& image) {
   return header;
 }
 
-/// A float slice whose first value belongs to the pixel (left, top).
-Imf::Slice float_slice(float* values, int width, int left = 0, int top = 0) {
-  const ptrdiff_t first = ptrdiff_t{top} * width + left;
-  return {Imf::FLOAT, reinterpret_cast<char*>(values - first), sizeof(float),
-          sizeof(float) * static_cast<size_t>(width)};
+Imf::Slice float_slice(float* values, size_t width) {
+  return {Imf::FLOAT, reinterpret_cast<char*>(values), sizeof(float), sizeof(float) * width};
 }
 
 void write_exr_pixels(const ExrImage& image, Imf::Header& header, MemoryOut& out) {
@@ -175,8 +149,7 @@ void write_exr_pixels(const ExrImage& image, Imf::Header& header, MemoryOut& out
     header.channels().insert(channel.name, Imf::Channel(image.half ? Imf::HALF : Imf::FLOAT));
     if (!image.half) {
       // The library's slices are not const; writing only reads them.
-      frame.insert(channel.name,
-                   float_slice(const_cast<float*>(channel.values.data()), image.width));
+      frame.insert(channel.name, float_slice(const_cast<float*>(channel.values.data()), width));
       continue;
     }
     std::vector<half>& values = halves.emplace_back(pixels);
@@ -187,68 +160,6 @@ void write_exr_pixels(const ExrImage& image, Imf::Header& header, MemoryOut& out
   Imf::OutputFile file(out, header, 0);
   file.setFrameBuffer(frame);
   file.writePixels(image.height);
-}
-
-void read_exr_attributes(const Imf::Header& header, ExrImage& image) {
-  image.unit.clear();
-  for (auto it = header.begin(); it != header.end(); ++it) {
-    const std::string name = it.name();
-    if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&it.attribute())) {
-      if (name == "unit") {
-        image.unit = text->value();
-      } else if (std::count(exr_reserved.begin(), exr_reserved.end(), name) == 0) {
-        image.text.emplace_back(name, text->value());
-      }
-    } else if (const auto* number = dynamic_cast<const Imf::DoubleAttribute*>(&it.attribute())) {
-      image.numbers.emplace_back(name, number->value());
-    }
-  }
-  if (Imf::hasChromaticities(header)) {
-    const Imf::Chromaticities& c = Imf::chromaticities(header);
-    const auto a = [](const Imath::V2f& v) { return std::array<float, 2>{v.x, v.y}; };
-    image.chromaticities = {a(c.red), a(c.green), a(c.blue), a(c.white)};
-  }
-  if (Imf::hasWhiteLuminance(header)) image.white_luminance_cd_m2 = Imf::whiteLuminance(header);
-}
-
-Result<ExrImage> decode_exr(std::span<const std::byte> bytes, const SourcePlace& place) {
-  MemoryIn in(bytes);
-  Imf::InputFile file(in, 0);
-  const Imath::Box2i window = file.header().dataWindow();
-  const int64_t width = int64_t{window.max.x} - window.min.x + 1;
-  const int64_t height = int64_t{window.max.y} - window.min.y + 1;
-  const Result<uint64_t> pixels = pixel_count(width, height, place);
-  if (!pixels) return pixels.problem();
-  ExrImage image;
-  image.width = static_cast<int>(width);
-  image.height = static_cast<int>(height);
-  read_exr_attributes(file.header(), image);
-
-  const Imf::ChannelList& list = file.header().channels();
-  size_t count = 0;
-  for (auto it = list.begin(); it != list.end(); ++it) ++count;
-  if (count > limits::max_exr_channels) return Problem{place, "this picture has too many channels"};
-  if (count * pixels.value() * sizeof(float) > limits::max_exr_bytes) {
-    return Problem{place, "this picture is too large to be held in memory"};
-  }
-  Imf::FrameBuffer frame;
-  image.channels.reserve(count);
-  image.half = count > 0;
-  for (auto it = list.begin(); it != list.end(); ++it) {
-    if (it.channel().xSampling != 1 || it.channel().ySampling != 1) {
-      return Problem{place, "channel '" + clean_utf8(it.name()) +
-                                "' does not hold a value for every pixel; store it in full size"};
-    }
-    image.half = image.half && it.channel().type == Imf::HALF;
-    ExrChannel& channel = image.channels.emplace_back();
-    channel.name = it.name();
-    channel.values.resize(static_cast<size_t>(pixels.value()));
-    frame.insert(channel.name,
-                 float_slice(channel.values.data(), image.width, window.min.x, window.min.y));
-  }
-  file.setFrameBuffer(frame);
-  file.readPixels(window.min.y, window.max.y);
-  return image;
 }
 
 // ---- PNG --------------------------------------------------------------------------------------
@@ -328,7 +239,7 @@ const ExrChannel* ExrImage::find(const std::string& name) const {
 
 Result<void> write_exr(const std::filesystem::path& path, const ExrImage& image) {
   const SourcePlace place{path.string(), 0};
-  if (auto good = check_exr(image, place); !good) return good;
+  if (auto good = check_exr(image, place); !good) return good.problem();
   MemoryOut out;
   try {
     Imf::Header header = exr_header(image);
@@ -337,25 +248,6 @@ Result<void> write_exr(const std::filesystem::path& path, const ExrImage& image)
     return Problem{place, std::string("cannot make this EXR picture: ") + error.what()};
   }
   return write_file_atomically(path, std::span<const std::byte>(out.bytes()));
-}
-
-Result<ExrImage> read_exr(const std::filesystem::path& path) {
-  // The library asks these limits before it allocates by what a header claims. They are its
-  // globals.
-  static std::once_flag limited;
-  std::call_once(limited, [] {
-    Imf::Header::setMaxImageSize(limits::max_image_edge, limits::max_image_edge);
-    Imf::Header::setMaxTileSize(limits::max_image_edge, limits::max_image_edge);
-  });
-  Result<std::vector<std::byte>> bytes = read_whole_file(path, limits::max_exr_bytes);
-  if (!bytes) return bytes.problem();
-  const SourcePlace place{path.string(), 0};
-  try {
-    return decode_exr(bytes.value(), place);
-  } catch (const std::exception& error) {
-    return Problem{place,
-                   std::string("this is not an EXR picture that can be read: ") + error.what()};
-  }
 }
 
 Result<std::vector<std::byte>> encode_png(const PngImage& image, const SourcePlace& place) {

@@ -1,6 +1,6 @@
 // Pictures on disk: OpenEXR for luminance data (floats with their unit), PNG for pixels. Both are
 // made in memory and put in place at once; equal content gives equal bytes (no dates are written).
-// Also reads EXR pictures back, within limits. Pictures are rows from the top. Any thread.
+// Pictures are rows from the top. Any thread.
 #pragma once
 
 #include <array>
@@ -66,9 +66,6 @@ struct PngImage {
 /// floats (65504; write full floats then); else as write_file_atomically. NaN is allowed: "no
 /// value".
 Result<void> write_exr(const std::filesystem::path& path, const ExrImage& image);
-/// Errors: not an EXR picture, damaged, deep or subsampled channels, larger than the limits.
-/// `chromaticities`, `text` and `numbers` hold what the file had of these types.
-Result<ExrImage> read_exr(const std::filesystem::path& path);
 
 /// Errors: sizes that do not fit together, a text key that PNG does not take.
 Result<std::vector<std::byte>> encode_png(const PngImage& image, const SourcePlace& place);

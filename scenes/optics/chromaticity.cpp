@@ -25,7 +25,7 @@ constexpr Matrix3 xyz_from_cones{{{0.986992905466712, -0.147054256420990, 0.1599
                                   {0.432305269723395, 0.518360271536777, 0.049291228212856},
                                   {-0.008528664575177, 0.040042821654085, 0.968486695787550}}};
 
-Xyz apply(const Matrix3& m, const Xyz& v) {
+Xyz product(const Matrix3& m, const Xyz& v) {
   Xyz out{};
   for (size_t i = 0; i < 3; ++i) out[i] = m[i][0] * v[0] + m[i][1] * v[1] + m[i][2] * v[2];
   return out;
@@ -54,19 +54,19 @@ Xyz xyz_of(const Spectrum& light) {
 }
 
 Xyz xyz_from_linear_srgb(const std::array<double, 3>& rgb) {
-  return apply(xyz_from_srgb, rgb);
+  return product(xyz_from_srgb, rgb);
 }
 
 std::array<double, 3> linear_srgb_from_xyz(const std::array<double, 3>& xyz) {
-  return apply(srgb_from_xyz, xyz);
+  return product(srgb_from_xyz, xyz);
 }
 
 Xyz adapt_white(const Xyz& colour, const Xyz& from, const Xyz& to) {
-  const Xyz cones_from = apply(cones_from_xyz, from);
-  const Xyz cones_to = apply(cones_from_xyz, to);
-  Xyz cones = apply(cones_from_xyz, colour);
+  const Xyz cones_from = product(cones_from_xyz, from);
+  const Xyz cones_to = product(cones_from_xyz, to);
+  Xyz cones = product(cones_from_xyz, colour);
   for (size_t i = 0; i < 3; ++i) cones[i] *= cones_to[i] / cones_from[i];
-  return apply(xyz_from_cones, cones);
+  return product(xyz_from_cones, cones);
 }
 
 ColourTemperature correlated_colour_temperature(const Xyz& colour) {

@@ -35,10 +35,6 @@ double value_at(const Spectrum& s, double wavelength_nm) {
   return (1 - share) * s.value[i] + share * s.value[next];
 }
 
-Problem problem_of(SourcePlace where, std::string what) {
-  return {std::move(where), std::move(what)};
-}
-
 glm::dvec3 rounded_down(const glm::dvec3& low, const glm::dvec3& high) {
   glm::dvec3 out = low;
   for (int k = 0; k < 3; ++k) {
@@ -65,10 +61,10 @@ class MediaCompiler {
       bricks_.emplace_back();
       add_medium();
       if (!fault_.empty()) {
-        return problem_of(medium_->place, "medium \"" + medium_->name + "\" " + fault_);
+        return Problem{medium_->place, "medium \"" + medium_->name + "\" " + fault_};
       }
     }
-    if (std::string fault = lay_out(); !fault.empty()) return problem_of({}, std::move(fault));
+    if (std::string fault = lay_out(); !fault.empty()) return problem(std::move(fault));
     MediaSet out;
     out.count_ = static_cast<int>(media.size());
     out.bands_ = bands_;
@@ -355,8 +351,8 @@ MediaSet::MediaSet()
 Result<MediaSet> MediaSet::compile(std::span<const MediumInput> media, int bands,
                                    const BandAverage& average, const glm::dvec3& local_origin) {
   if (bands < 1 || bands > limits::max_media_bands) {
-    return problem_of({}, "a scene has 1 to " + std::to_string(limits::max_media_bands) +
-                              " bands, not " + std::to_string(bands));
+    return problem("a scene has 1 to " + std::to_string(limits::max_media_bands) + " bands, not " +
+                   std::to_string(bands));
   }
   return MediaCompiler(bands, average, local_origin).compile(media);
 }

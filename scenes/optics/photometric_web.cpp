@@ -30,10 +30,6 @@ constexpr size_t web_values = size_t{1} << 22;
 constexpr double radian = std::numbers::pi / 180;
 constexpr double below_one = 1 - 0x1p-53;
 
-Problem refuse(std::string what) {
-  return Problem{{}, std::move(what)};
-}
-
 /// What a step x from a polar angle a sweeps, given sin a and cos a: the integrals over [a, a + x]
 /// of sin(theta) and of (theta - a) sin(theta); and where it ends.
 struct Sweep {
@@ -177,26 +173,26 @@ Result<PhotometricWeb> PhotometricWeb::make(std::vector<double> azimuth_deg,
                                             const glm::dmat3& to_luminaire) {
   std::string fault = fault_of_angles(azimuth_deg, 360, "azimuth");
   if (fault.empty()) fault = fault_of_angles(polar_deg, 180, "polar");
-  if (!fault.empty()) return refuse(std::move(fault));
+  if (!fault.empty()) return problem(std::move(fault));
   const size_t columns = azimuth_deg.size();
   const size_t rows = polar_deg.size();
-  if (columns * rows > limits::web_values) return refuse("the web holds too many values");
+  if (columns * rows > limits::web_values) return problem("the web holds too many values");
   if (candela.size() != columns * rows) {
-    return refuse("a web of " + std::to_string(columns) + " x " + std::to_string(rows) +
-                  " angles needs as many intensities, not " + std::to_string(candela.size()));
+    return problem("a web of " + std::to_string(columns) + " x " + std::to_string(rows) +
+                   " angles needs as many intensities, not " + std::to_string(candela.size()));
   }
   for (double value : candela) {
     if (!(value >= 0 && std::isfinite(value))) {
-      return refuse("an intensity is negative or not a number");
+      return problem("an intensity is negative or not a number");
     }
   }
   const double peak = *std::max_element(candela.begin(), candela.end());
   for (size_t p = 0; p < rows; ++p) {
     if (std::abs(candela[p] - candela[(columns - 1) * rows + p]) > 1e-9 * peak) {
-      return refuse("the column at 360 degrees must repeat the one at 0");
+      return problem("the column at 360 degrees must repeat the one at 0");
     }
   }
-  if (!orthonormal(to_luminaire)) return refuse("the axes of the web are not orthonormal");
+  if (!orthonormal(to_luminaire)) return problem("the axes of the web are not orthonormal");
 
   PhotometricWeb web;
   web.azimuth_deg_ = std::move(azimuth_deg);
@@ -234,7 +230,7 @@ Result<PhotometricWeb> PhotometricWeb::make(std::vector<double> azimuth_deg,
     total += column;
     web.column_cdf_[a] = total;
   }
-  if (!(total > 0 && std::isfinite(total))) return refuse("the web holds no light");
+  if (!(total > 0 && std::isfinite(total))) return problem("the web holds no light");
   for (double& share : web.column_cdf_) share /= total;
   web.flux_lm_ = total;
   return web;

@@ -5,13 +5,14 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace luxodus {
 
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double pi = 3.14159265358979323846;
+constexpr double pi = std::numbers::pi;
 /// Axes read from a file with 7 digits pass, a scaled or skewed frame does not.
 constexpr double orthonormal_tolerance = 1e-6;
 /// Rays per side of the coarse volume quadrature; the fine one has twice as many. 512^2 rays are

@@ -1,7 +1,7 @@
 // Directions and points from uniform numbers: the small functions of the tracer's innermost loop.
 // Promise: the same bits on any thread and any node of one instruction set, because only +,
 // -, *, /, sqrt and bit patterns are used (all rounded by IEEE 754) and never the C library's own
-// elementary functions. u and v are in [0, 1), made by unit_float; a direction is unit to
+// elementary functions. u and v are in [0, 1), multiples of 2^-24; a direction is unit to
 // 3e-7. Local frames: z is the axis. Not here: random numbers, and densities of anything that
 // depends on a scene. Any thread, no state.
 #pragma once
@@ -19,12 +19,6 @@ namespace luxodus {
 
 inline constexpr Real pi_f = static_cast<Real>(std::numbers::pi_v<long double>);
 inline constexpr Real inverse_pi_f = static_cast<Real>(std::numbers::inv_pi_v<long double>);
-
-/// The upper 24 bits of a random word as a float: multiples of 2^-24 in [0, 1), every one of them
-/// exact.
-inline Real unit_float(uint32_t bits) {
-  return static_cast<Real>(bits >> 8) * 0x1p-24_r;
-}
 
 /// `condition ? a : b` without a branch: on random conditions a mispredicted one costs more than
 /// both sides.
@@ -202,12 +196,6 @@ inline Vec3 uniform_triangle(Real u, Real v) {
   return {b0, b1, (1.0_r - b0) - b1};
 }
 
-/// Uniform in the cone about z with cos theta >= 1 - one_minus_cos_outer: density
-/// 1 / (2 pi one_minus_cos_outer) [1/sr].
-inline Vec3 uniform_cone(Real one_minus_cos_outer, Real u, Real v) {
-  return direction_from_one_minus_cos(u * one_minus_cos_outer, v);
-}
-
 /// Density (n + 1) / (2 pi) cos^n theta [1/sr] over the hemisphere about z, for n >= 0; exact for
 /// any n, narrow beams (n = 1e6) too. cos theta = (1 - u)^(1 / (n + 1)).
 inline Vec3 cosine_power(Real n, Real u, Real v) {
@@ -223,7 +211,7 @@ inline Real one_minus_cosine(const Vec3& a, const Vec3& b) {
 /// Density [1/sr] of cosine_power, x = 1 - cos(theta); 0 below the horizon.
 inline Real cosine_power_pdf(Real n, Real x) {
   if (!(x < 1.0_r)) return n == 0.0_r && x == 1.0_r ? 0.5_r * inverse_pi_f : 0.0_r;
-  constexpr Real log2_e = 1.44269504088896341_r;
+  constexpr Real log2_e = std::numbers::log2e_v<Real>;
   // Near the axis the series of log(1 - x): 1 - x is rounded, and a large power of it more so.
   const Real log2_cos = x < 1e-3_r ? -log2_e * x * (1 + x * (0.5_r + x / 3)) : log2_of(1 - x);
   return (n + 1.0_r) * 0.5_r * inverse_pi_f * exp2_of(n * log2_cos);

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "scenes/optics/chromaticity.hpp"
@@ -270,12 +271,8 @@ double blackbody_visible_fraction(double kelvin) {
     const double f = x * x * x * std::exp(-x) / -std::expm1(-x);
     sum += f * (i == 0 || i == panels ? 1 : (i % 2 == 1 ? 4 : 2));
   }
-  const double pi = std::acos(-1.0);
+  const double pi = std::numbers::pi;
   return sum * h / 3 / (pi * pi * pi * pi / 15);
-}
-
-double blackbody_efficacy_lm_per_w(double kelvin) {
-  return blackbody_visible_fraction(kelvin) * efficacy_lm_per_w(blackbody_shape(kelvin));
 }
 
 double efficacy_lm_per_w(const Spectrum& shape) {

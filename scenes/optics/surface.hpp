@@ -12,6 +12,7 @@
 #include <glm/glm.hpp>
 
 #include "scenes/geometry/real.hpp"
+#include "scenes/optics/refraction.hpp"
 #include "scenes/optics/sampling.hpp"
 
 namespace luxodus {
@@ -28,13 +29,7 @@ enum class SurfaceKind {
 namespace surface_limits {
 /// GGX narrower than this is a mirror for every luminaire here, and its peak 1 / (pi alpha^2) would
 /// let rounding of the half vector decide.
-inline constexpr double least_alpha = 1e-3;
-/// Cosines below this (6e-5 degrees above the plane) are taken as this: Fresnel's terms stay
-/// defined.
-inline constexpr Real least_cos = 1e-6_r;
-/// Refractive indices relative to the outside: a bubble in diamond to beyond any transparent solid.
-inline constexpr double least_ior = 0.2;
-inline constexpr double most_ior = 5.0;
+inline constexpr double min_alpha = 1e-3;
 }  // namespace surface_limits
 
 /// One surface in one band. Made by make_surface; the reflectance may be scaled by a texture
@@ -60,46 +55,7 @@ struct SurfaceSample {
 SurfaceModel make_surface(SurfaceKind kind, double reflectance, double specular, double roughness,
                           double ior, double internal_transmittance);
 
-/// Reflectance for perfectly diffuse incident light from the front (mean over cosine-weighted
-/// directions); to summarise a surface as Lambertian. Deterministic to 1e-3, not for the tracer's
-/// loop.
-double mean_hemispherical_reflectance(const SurfaceModel& model);
-
 // ---- glass -------------------------------------------------------------------------------------
-
-/// Reflectance r and 1 - r of one boundary for one polarisation; the second has its own accuracy.
-struct FresnelShares {
-  Real r;
-  Real t;
-};
-
-/// Fresnel's equations for both polarisations, and the cosine behind the boundary (0: total
-/// reflection).
-struct FresnelTerms {
-  FresnelShares s;
-  FresnelShares p;
-  Real cos_behind;
-};
-inline FresnelTerms fresnel(Real cos_theta, Real ior) {
-  const Real c = std::clamp(cos_theta, surface_limits::least_cos, 1.0_r);
-  const Real square = ior * ior - (1.0_r - c) * (1.0_r + c);  // (n cos behind)^2
-  if (square <= 0.0_r) return {{1.0_r, 0.0_r}, {1.0_r, 0.0_r}, 0.0_r};
-  const Real b = std::sqrt(square);
-  const Real cos_behind = b / ior;
-  // r = ((x - y) / (x + y))^2 and 1 - r = 4 x y / (x + y)^2.
-  const auto shares = [](Real x, Real y) {
-    const Real inverse = 1.0_r / (x + y);
-    const Real amplitude = (x - y) * inverse;
-    return FresnelShares{amplitude * amplitude, 4.0_r * (x * inverse) * (y * inverse)};
-  };
-  return {shares(c, b), shares(ior * c, cos_behind), cos_behind};
-}
-
-/// Share of unpolarised power that a smooth boundary reflects. `ior` = n behind / n in front.
-inline Real fresnel_reflectance(Real cos_theta, Real ior) {
-  const FresnelTerms terms = fresnel(cos_theta, ior);
-  return 0.5_r * (terms.s.r + terms.p.r);
-}
 
 struct PaneShares {
   Real reflected;
@@ -186,7 +142,7 @@ inline SurfaceSample sample_ggx(const SurfaceModel& model, const Vec3& incoming,
                                 Real u, Real v) {
   const Basis basis = basis_around(normal);
   Vec3 wo = basis.to_local(-incoming);
-  wo.z = std::max(wo.z, surface_limits::least_cos);
+  wo.z = std::max(wo.z, surface_limits::min_cos);
   const Vec3 m = sample_ggx_visible_normal(wo, model.alpha, u, v);
   const Vec3 wi = m * (2.0_r * glm::dot(wo, m)) - wo;
   // Reflected into the surface: a second facet would be next; the single-scattering model ends
@@ -211,10 +167,7 @@ inline SurfaceSample sample_dielectric(const SurfaceModel& model, const Vec3& in
   if (terms.cos_behind <= 0.0_r || u_lobe < 0.5_r * (terms.s.r + terms.p.r)) {
     return {mirrored(incoming, normal, cos_theta), 1.0_r, false, true};
   }
-  // Snell: the part along the surface shrinks by 1 / ior, the rest is cos_behind.
-  const Real inverse = 1.0_r / ior;
-  const Vec3 refracted = incoming * inverse + normal * (cos_theta * inverse - terms.cos_behind);
-  return {glm::normalize(refracted), 1.0_r, true, true};
+  return {refracted(incoming, normal, cos_theta, ior, terms.cos_behind), 1.0_r, true, true};
 }
 
 }  // namespace surface_detail

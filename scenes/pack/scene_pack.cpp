@@ -68,7 +68,7 @@ class Writer {
     head.head_hash = hash_of(head);
     file_.write_at(0, std::as_bytes(std::span(&head, 1)));
     auto done = file_.commit();
-    if (!done.ok()) return done.problem();
+    if (!done) return done.problem();
     return at_;
   }
 
@@ -79,7 +79,7 @@ class Writer {
 
 Result<Writer> begin(const std::filesystem::path& path) {
   auto file = AtomicFile::create(path);
-  if (!file.ok()) return file.problem();
+  if (!file) return file.problem();
   Writer writer(std::move(file).value());
   const Head empty{};
   writer.write(std::as_bytes(std::span(&empty, 1)));
@@ -91,17 +91,15 @@ class MappedPack final : public ObjectFile {
  public:
   static Result<std::shared_ptr<MappedPack>> open(const std::filesystem::path& path) {
     const auto failed = [&](const char* doing) {
-      return Problem{{path.string(), 0},
-                     std::string(doing) + ": " + std::generic_category().message(errno)};
+      return problem_in(path, std::string(doing) + ": " + std::generic_category().message(errno));
     };
     auto file = open_regular_file(path);
-    if (!file.ok()) return file.problem();
+    if (!file) return file.problem();
     void* at = MAP_FAILED;
     const uint64_t bytes = file->bytes;
     if (bytes >= sizeof(Head))
       at = ::mmap(nullptr, bytes, PROT_READ, MAP_SHARED, file->descriptor.number(), 0);
-    if (bytes < sizeof(Head))
-      return Problem{{path.string(), 0}, "this is no pack: it is too short"};
+    if (bytes < sizeof(Head)) return problem_in(path, "this is no pack: it is too short");
     if (at == MAP_FAILED) return failed("cannot map this file");
     return std::shared_ptr<MappedPack>(
         new MappedPack(path.string(), {static_cast<const std::byte*>(at), bytes}));
@@ -119,11 +117,11 @@ class MappedPack final : public ObjectFile {
     uint64_t at = sizeof(Head);
     for (const PackedScene::Object& object : packed.objects) {
       if (object.wire_bytes == 0 || object.wire_bytes > head.skeleton_offset - at)
-        return Problem{{name_, 0}, "the objects of this pack are not where they should be"};
+        return problem_in(name_, "the objects of this pack are not where they should be");
       places_.emplace_back(at, object.wire_bytes);
       at = aligned(at + object.wire_bytes);
       if (at > head.skeleton_offset)
-        return Problem{{name_, 0}, "the objects of this pack are not where they should be"};
+        return problem_in(name_, "the objects of this pack are not where they should be");
     }
     return {};
   }
@@ -166,7 +164,7 @@ Result<Head> head_of(const MappedPack& pack) {
 Result<std::span<const std::byte>> skeleton_of(const MappedPack& pack, const Head& head) {
   const auto bytes = pack.bytes().subspan(head.skeleton_offset, head.skeleton_bytes);
   if (hash_of(bytes) != head.skeleton_hash)
-    return Problem{{pack.name(), 0}, "the skeleton of this pack is damaged: copy it again"};
+    return problem_in(pack.name(), "the skeleton of this pack is damaged: copy it again");
   return bytes;
 }
 
@@ -183,9 +181,9 @@ void PackReport::add(ScenePart::Kind kind, uint64_t bytes) {
 Result<PackReport> write_pack(const std::filesystem::path& path, const CompiledScene& scene,
                               int partition, const std::function<bool(double)>& progress) {
   if (scene.triangles == 0)
-    return Problem{{scene.description->file, 0}, "the scene has no triangles to pack"};
+    return problem_in(scene.description->file, "the scene has no triangles to pack");
   auto writer = begin(path);
-  if (!writer.ok()) return writer.problem();
+  if (!writer) return writer.problem();
   const SceneParts parts(scene);
   PackedScene packed = summary_of(scene, parts, partition);
   PackReport report;
@@ -196,12 +194,11 @@ Result<PackReport> write_pack(const std::filesystem::path& path, const CompiledS
     writer->align();
     report.add(parts[i].kind, bytes.size());
     const double share = static_cast<double>(i + 1) / static_cast<double>(parts.count());
-    if (progress && !progress(share))
-      return Problem{{path.string(), 0}, "interrupted; nothing was written"};
+    if (progress && !progress(share)) return problem_in(path, "interrupted; nothing was written");
   }
   const std::vector<std::byte> skeleton = encode_skeleton(*scene.description, packed);
   auto bytes = writer->end(skeleton, true);
-  if (!bytes.ok()) return bytes.problem();
+  if (!bytes) return bytes.problem();
   report.skeleton_bytes = skeleton.size();
   report.file_bytes = bytes.value();
   return report;
@@ -210,15 +207,15 @@ Result<PackReport> write_pack(const std::filesystem::path& path, const CompiledS
 Result<PackReport> write_skeleton_pack(const std::filesystem::path& path,
                                        const std::filesystem::path& from) {
   auto pack = MappedPack::open(from);
-  if (!pack.ok()) return pack.problem();
+  if (!pack) return pack.problem();
   auto head = head_of(*pack.value());
-  if (!head.ok()) return head.problem();
+  if (!head) return head.problem();
   auto skeleton = skeleton_of(*pack.value(), head.value());
-  if (!skeleton.ok()) return skeleton.problem();
+  if (!skeleton) return skeleton.problem();
   auto writer = begin(path);
-  if (!writer.ok()) return writer.problem();
+  if (!writer) return writer.problem();
   auto bytes = writer->end(skeleton.value(), false);
-  if (!bytes.ok()) return bytes.problem();
+  if (!bytes) return bytes.problem();
   return PackReport{bytes.value(), skeleton.value().size(), 0, 0, 0, 0, 0};
 }
 
@@ -232,16 +229,16 @@ bool is_pack(const std::filesystem::path& path) {
 
 Result<std::shared_ptr<const SceneDescription>> read_pack(const std::filesystem::path& path) {
   auto pack = MappedPack::open(path);
-  if (!pack.ok()) return pack.problem();
+  if (!pack) return pack.problem();
   const auto head = head_of(*pack.value());
-  if (!head.ok()) return head.problem();
+  if (!head) return head.problem();
   const auto bytes = skeleton_of(*pack.value(), head.value());
-  if (!bytes.ok()) return bytes.problem();
+  if (!bytes) return bytes.problem();
   auto skeleton = decode_skeleton(bytes.value());
-  if (!skeleton.ok()) return Problem{{path.string(), 0}, skeleton.problem().what};
+  if (!skeleton) return problem_in(path, skeleton.problem().what);
   auto packed = std::make_shared<PackedScene>(std::move(skeleton->packed));
   if (head->holds_objects == 1) {
-    if (auto placed = pack.value()->place_objects(*packed, head.value()); !placed.ok())
+    if (auto placed = pack.value()->place_objects(*packed, head.value()); !placed)
       return placed.problem();
   }
   packed->file = std::move(pack).value();

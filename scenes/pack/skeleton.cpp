@@ -324,7 +324,7 @@ void give_shared(Shared& shared, SceneDescription& description) {
   for (WebTables& t : shared.webs) {
     auto web = PhotometricWeb::make(std::move(t.azimuth_deg), std::move(t.polar_deg),
                                     std::move(t.candela), t.to_luminaire);
-    if (!web.ok()) throw DamagedArchive(web.problem().what);
+    if (!web) throw DamagedArchive(web.problem().what);
     webs.push_back(std::make_shared<const PhotometricWeb>(std::move(web).value()));
   }
   std::vector<std::shared_ptr<const Image>> images;
@@ -362,9 +362,9 @@ Result<Skeleton> decode_skeleton(std::span<const std::byte> bytes) {
     check_skeleton(skeleton);
     return skeleton;
   } catch (const DamagedArchive& damage) {
-    return Problem{{}, std::string("the skeleton of this pack is damaged: ") + damage.what()};
+    return problem(std::string("the skeleton of this pack is damaged: ") + damage.what());
   } catch (const cereal::Exception& damage) {
-    return Problem{{}, std::string("the skeleton of this pack is damaged: ") + damage.what()};
+    return problem(std::string("the skeleton of this pack is damaged: ") + damage.what());
   }
 }
 

@@ -132,44 +132,30 @@ class TokenReader {
  public:
   TokenReader(std::vector<Token> tokens, std::string file, int last_line)
       : tokens_(std::move(tokens)),
-        file_(std::move(file)),
+        numbers_(std::move(file)),
         line_(last_line),
         last_line_(last_line) {}
 
   double number(const std::string& what, double low, double high) {
-    if (fault_) return 0;
+    if (numbers_.fault()) return 0;
     if (next_ >= tokens_.size()) {
       fail(last_line_, "the file ends where " + what + " should follow; it is cut off");
       return 0;
     }
     const Token token = tokens_[next_++];
     line_ = token.line;
-    const std::optional<double> value = decimal(token.text, false);
-    if (!value) {
-      fail(line_, what + " must be a number");
-      return 0;
-    }
-    if (*value < low || *value > high) {
-      fail(line_, what + " must lie between " + shown(low) + " and " + shown(high) + ", not " +
-                      shown(*value));
-      return 0;
-    }
-    return *value;
+    return numbers_.number(line_, token.text, false, what, low, high);
   }
 
   int whole(const std::string& what, double low, double high) {
-    const double value = number(what, low, high);
-    if (!fault_ && value != std::floor(value)) {
-      fail(line_, what + " must be a whole number, not " + shown(value));
-    }
-    return static_cast<int>(value);
+    return numbers_.whole(line_, number(what, low, high), what);
   }
 
   std::vector<double> ascending(int count, const std::string& what, double low, double high) {
     std::vector<double> list;
-    for (int i = 0; i < count && !fault_; ++i) {
+    for (int i = 0; i < count && !numbers_.fault(); ++i) {
       const double value = number(what, low, high);
-      if (!fault_ && i > 0 && !(value > list.back())) {
+      if (!numbers_.fault() && i > 0 && !(value > list.back())) {
         fail(line_, what + " " + shown(value) + " does not ascend from " + shown(list.back()));
       }
       list.push_back(value);
@@ -177,24 +163,19 @@ class TokenReader {
     return list;
   }
 
-  void fail(int line, std::string what) {
-    if (!fault_) fault_ = Problem{{file_, line}, std::move(what)};
-  }
-  void fail(Problem problem) {
-    if (!fault_) fault_ = std::move(problem);
-  }
-  const std::optional<Problem>& fault() const { return fault_; }
+  void fail(int line, std::string what) { numbers_.fail(line, std::move(what)); }
+  void fail(Problem problem) { numbers_.fail(std::move(problem)); }
+  const std::optional<Problem>& fault() const { return numbers_.fault(); }
   int line() const { return line_; }
   /// The first token that nobody took, if any.
   const Token* rest() const { return next_ < tokens_.size() ? &tokens_[next_] : nullptr; }
 
  private:
   std::vector<Token> tokens_;
-  std::string file_;
+  PhotometricNumbers numbers_;
   size_t next_ = 0;
   int line_;
   int last_line_;
-  std::optional<Problem> fault_;
 };
 
 LampTilt read_tilt_table(TokenReader& in) {
@@ -244,7 +225,7 @@ class IesReader {
 
  private:
   void warn(int line, std::string what) {
-    out_.warnings.push_back(Problem{{file_, line}, std::move(what)});
+    out_.warnings.push_back(problem_in(file_, line, std::move(what)));
   }
 
   void read_edition() {
@@ -580,8 +561,8 @@ Result<PhotometricFile> read_ies(std::string_view bytes, const std::string& file
     if (!upper(bare(lines.value()[i])).starts_with("TILT=")) continue;
     return IesReader(lines.value(), i, file, folder).read();
   }
-  return Problem{{file, std::max(1, static_cast<int>(lines.value().size()))},
-                 "no line starts with TILT=; this is no IES LM-63 file, or it is cut off"};
+  return problem_in(file, std::max(1, static_cast<int>(lines.value().size())),
+                    "no line starts with TILT=; this is no IES LM-63 file, or it is cut off");
 }
 
 }  // namespace luxodus

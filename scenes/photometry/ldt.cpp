@@ -33,7 +33,7 @@ constexpr double odd_share = 0.02;
 class LdtReader {
  public:
   LdtReader(std::vector<std::string> lines, const std::string& file)
-      : lines_(std::move(lines)), file_(file) {
+      : lines_(std::move(lines)), file_(file), numbers_(file) {
     out_.file = file;
     out_.format = "EULUMDAT";
   }
@@ -43,27 +43,25 @@ class LdtReader {
     read_dimensions();
     read_lamps();
     read_angles();
-    if (!fault_) pick_planes();
+    if (!numbers_.fault()) pick_planes();
     read_intensities();
-    if (!fault_) finish();
-    if (fault_) return *fault_;
+    if (!numbers_.fault()) finish();
+    if (numbers_.fault()) return *numbers_.fault();
     return std::move(out_);
   }
 
  private:
   enum class Blank { is_fault, is_zero };
 
-  void fail(int line, std::string what) {
-    if (!fault_) fault_ = Problem{{file_, line}, std::move(what)};
-  }
   void warn(int line, std::string what) {
-    out_.warnings.push_back(Problem{{file_, line}, std::move(what)});
+    out_.warnings.push_back(problem_in(file_, line, std::move(what)));
   }
 
   /// The next line; its number is line_.
   std::string_view text(const std::string& what) {
     if (static_cast<size_t>(line_) >= lines_.size()) {
-      fail(std::max(1, line_), "the file ends where " + what + " should follow; it is cut off");
+      numbers_.fail(std::max(1, line_),
+                    "the file ends where " + what + " should follow; it is cut off");
       return {};
     }
     return bare(lines_[static_cast<size_t>(line_++)]);
@@ -71,27 +69,13 @@ class LdtReader {
 
   double number(const std::string& what, double low, double high, Blank blank = Blank::is_fault) {
     const std::string_view field = text(what);
-    if (fault_) return 0;
+    if (numbers_.fault()) return 0;
     if (field.empty() && blank == Blank::is_zero) return 0;
-    const std::optional<double> value = decimal(field, true);
-    if (!value) {
-      fail(line_, what + " must be a number");
-      return 0;
-    }
-    if (*value < low || *value > high) {
-      fail(line_, what + " must lie between " + shown(low) + " and " + shown(high) + ", not " +
-                      shown(*value));
-      return 0;
-    }
-    return *value;
+    return numbers_.number(line_, field, true, what, low, high);
   }
 
   int whole(const std::string& what, double low, double high) {
-    const double value = number(what, low, high);
-    if (!fault_ && value != std::floor(value)) {
-      fail(line_, what + " must be a whole number, not " + shown(value));
-    }
-    return static_cast<int>(value);
+    return numbers_.whole(line_, number(what, low, high), what);
   }
 
   void read_head() {
@@ -115,7 +99,8 @@ class LdtReader {
   void read_type() {
     const std::string_view type = text("the type indicator");
     const std::optional<double> value = decimal(type, true);
-    if (fault_ || (value && (*value == 0 || *value == 1 || *value == 2 || *value == 3))) return;
+    if (numbers_.fault() || (value && (*value == 0 || *value == 1 || *value == 2 || *value == 3)))
+      return;
     warn(line_, "the type indicator (Ityp) should be 0, 1, 2 or 3, not \"" +
                     std::string(type.substr(0, 40)) + "\"; it is not used");
   }
@@ -147,7 +132,7 @@ class LdtReader {
     output_percent_ = number("the light output ratio (LORL)", 0, 1000, Blank::is_zero);
     output_line_ = line_;
     factor_ = number("the conversion factor", 0, limits::factor, Blank::is_zero);
-    if (!fault_ && factor_ == 0) {
+    if (!numbers_.fault() && factor_ == 0) {
       warn(line_, "the conversion factor is 0 or missing; 1 is used");
       factor_ = 1;
     }
@@ -161,7 +146,7 @@ class LdtReader {
   void read_lamps() {
     const int sets = whole("the number of lamp sets", 1, limits::lamp_sets);
     const int sets_line = line_;
-    for (int i = 0; i < sets && !fault_; ++i) {
+    for (int i = 0; i < sets && !numbers_.fault(); ++i) {
       LampSet set;
       const int count = whole("the number of lamps", -limits::lamps, limits::lamps);
       // A negative count marks absolute photometry; the flux is then the luminaire's own.
@@ -178,9 +163,10 @@ class LdtReader {
       if (!out_.cri) out_.cri = colour_rendering(set.rendering);
       out_.lamp_sets.push_back(std::move(set));
     }
-    if (fault_) return;
+    if (numbers_.fault()) return;
     if (out_.lamp_flux_lm <= 0) {
-      fail(line_, "no lamp set has a flux; without it intensities per 1000 lm mean nothing");
+      numbers_.fail(line_,
+                    "no lamp set has a flux; without it intensities per 1000 lm mean nothing");
     } else if (sets > 1) {
       warn(sets_line, std::to_string(sets) + " lamp sets are taken as burning together, " +
                           shown(out_.lamp_flux_lm) +
@@ -192,16 +178,17 @@ class LdtReader {
   std::vector<double> angles(int count, const std::string& what, double high, double step) {
     std::vector<double> list;
     bool off_step = false;
-    for (int i = 0; i < count && !fault_; ++i) {
+    for (int i = 0; i < count && !numbers_.fault(); ++i) {
       list.push_back(number(what, 0, high));
-      if (fault_ || i == 0) continue;
+      if (numbers_.fault() || i == 0) continue;
       const size_t k = list.size() - 1;
       if (!(list[k] > list[k - 1])) {
-        fail(line_, what + " " + shown(list[k]) + " does not ascend from " + shown(list[k - 1]));
+        numbers_.fail(line_,
+                      what + " " + shown(list[k]) + " does not ascend from " + shown(list[k - 1]));
       }
       off_step = off_step || (step > 0 && std::abs(list[k] - list[k - 1] - step) > 0.01);
     }
-    if (off_step && !fault_) {
+    if (off_step && !numbers_.fault()) {
       warn(line_, what + "s do not keep the stated step of " + shown(step) +
                       " degrees; the listed angles are used");
     }
@@ -211,14 +198,14 @@ class LdtReader {
   void read_angles() {
     if (symmetry_ == 1) {
       // One plane serves all; what the file lists as C angles is not used.
-      for (int i = 0; i < c_count_ && !fault_; ++i)
+      for (int i = 0; i < c_count_ && !numbers_.fault(); ++i)
         number("the C angle", -360, 720, Blank::is_zero);
     } else {
       c_angles_ = angles(c_count_, "the C angle", 360, c_step_);
     }
     c_line_ = line_;
     table_.polar_deg = angles(gamma_count_, "the gamma angle", 180, gamma_step_);
-    if (fault_) return;
+    if (numbers_.fault()) return;
     const double first = table_.polar_deg.front();
     const double last = table_.polar_deg.back();
     if ((first != 0 && first != 90) || (last != 90 && last != 180)) {
@@ -240,9 +227,10 @@ class LdtReader {
     }
     const int parts = symmetry_ == 4 ? 4 : 2;
     if (c_count_ % (symmetry_ == 2 ? 2 : 4) != 0) {
-      fail(mc_line_, "with symmetry " + std::to_string(symmetry_) +
-                         " the number of C planes must " + "be a multiple of " +
-                         (symmetry_ == 2 ? "2" : "4") + ", not " + std::to_string(c_count_));
+      numbers_.fail(mc_line_, "with symmetry " + std::to_string(symmetry_) +
+                                  " the number of C planes must " + "be a multiple of " +
+                                  (symmetry_ == 2 ? "2" : "4") + ", not " +
+                                  std::to_string(c_count_));
       return;
     }
     // Symmetry 3 lists C270 over C0 to C90.
@@ -254,27 +242,27 @@ class LdtReader {
     const double from = symmetry_ == 3 ? 270 : 0;
     const double to = from + 360.0 / parts;
     if (!near(table_.azimuth_deg.front(), from) || !near(table_.azimuth_deg.back(), to)) {
-      fail(c_line_, "with symmetry " + std::to_string(symmetry_) +
-                        " the listed planes must run from C" + shown(from) + " to C" +
-                        shown(std::fmod(to, 360)) + ", but they run from C" +
-                        shown(table_.azimuth_deg.front()) + " to C" +
-                        shown(std::fmod(table_.azimuth_deg.back(), 360)));
+      numbers_.fail(c_line_, "with symmetry " + std::to_string(symmetry_) +
+                                 " the listed planes must run from C" + shown(from) + " to C" +
+                                 shown(std::fmod(to, 360)) + ", but they run from C" +
+                                 shown(table_.azimuth_deg.front()) + " to C" +
+                                 shown(std::fmod(table_.azimuth_deg.back(), 360)));
     }
     table_.azimuth_deg.front() = from;
     table_.azimuth_deg.back() = to;
   }
 
   void read_intensities() {
-    for (size_t a = 0; a < table_.azimuth_deg.size() && !fault_; ++a) {
+    for (size_t a = 0; a < table_.azimuth_deg.size() && !numbers_.fault(); ++a) {
       std::vector<double> column;
       const std::string what =
           "the intensity in plane C" + shown(std::fmod(table_.azimuth_deg[a], 360));
-      for (int p = 0; p < gamma_count_ && !fault_; ++p) {
+      for (int p = 0; p < gamma_count_ && !numbers_.fault(); ++p) {
         column.push_back(number(what, 0, limits::candela) * factor_ * out_.lamp_flux_lm / 1000);
       }
       table_.columns.push_back(std::move(column));
     }
-    if (fault_) return;
+    if (numbers_.fault()) return;
     // Real files are padded with empty lines and zeros; anything else was meant to be read.
     for (auto i = static_cast<size_t>(line_); i < lines_.size(); ++i) {
       const std::string_view rest = bare(lines_[i]);
@@ -302,7 +290,7 @@ class LdtReader {
   void finish() {
     auto web = web_of(pole_to_pole(around(table_, web_symmetry())), type_c_axes(), {file_, line_});
     if (!web) {
-      fault_ = web.problem();
+      numbers_.fail(web.problem());
       return;
     }
     out_.web = web.value();
@@ -332,8 +320,8 @@ class LdtReader {
 
   std::vector<std::string> lines_;
   std::string file_;
+  PhotometricNumbers numbers_;
   int line_ = 0;  // lines taken so far, so the number of the last one
-  std::optional<Problem> fault_;
   PhotometricFile out_;
 
   int symmetry_ = 0;

@@ -63,14 +63,6 @@ std::string from_latin1(std::string_view text) {
 
 /// Member by member: GCC 12 reports the nested braces falsely as uninitialised here
 /// (-Wmaybe-uninitialized).
-Problem problem_at(const std::string& file, size_t line, const char* what) {
-  Problem problem;
-  problem.where.file = file;
-  problem.where.line = static_cast<int>(line);
-  problem.what = what;
-  return problem;
-}
-
 /// The runs of digits in a text, each with where it starts; fractions are not split off.
 struct DigitRun {
   size_t start;
@@ -120,7 +112,7 @@ Result<std::string> read_photometric_bytes(const std::filesystem::path& path) {
 Result<std::vector<std::string>> photometric_lines(std::string_view bytes,
                                                    const std::string& file) {
   if (bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF")) {
-    return problem_at(file, 1, "the text is UTF-16; save it as UTF-8 or Latin-1");
+    return problem_in(file, 1, "the text is UTF-16; save it as UTF-8 or Latin-1");
   }
   if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);
   const bool utf8 = is_utf8(bytes);
@@ -128,7 +120,7 @@ Result<std::vector<std::string>> photometric_lines(std::string_view bytes,
   size_t start = 0;
   for (size_t i = 0; i <= bytes.size(); ++i) {
     if (i < bytes.size() && bytes[i] == '\0') {
-      return problem_at(file, lines.size() + 1,
+      return problem_in(file, static_cast<int>(lines.size()) + 1,
                         "a NUL byte: this is no text file; export it again as plain text");
     }
     const bool end = i == bytes.size() || bytes[i] == '\x1A';  // 1A: DOS end of file
@@ -174,6 +166,23 @@ std::string shown(double value) {
   const auto [end, error] =
       std::to_chars(buffer, buffer + sizeof(buffer), value, std::chars_format::general, 6);
   return error == std::errc() ? std::string(buffer, end) : std::string("?");
+}
+
+double PhotometricNumbers::number(int line, std::string_view text, bool comma,
+                                  const std::string& what, double low, double high) {
+  if (fault_) return 0;
+  const std::optional<double> value = decimal(text, comma);
+  if (value && *value >= low && *value <= high) return *value;
+  fail(line, what + (value ? " must lie between " + shown(low) + " and " + shown(high) + ", not " +
+                                 shown(*value)
+                           : " must be a number"));
+  return 0;
+}
+
+int PhotometricNumbers::whole(int line, double value, const std::string& what) {
+  if (!fault_ && value != std::floor(value))
+    fail(line, what + " must be a whole number, not " + shown(value));
+  return static_cast<int>(value);
 }
 
 std::optional<double> colour_temperature_k(std::string_view text) {

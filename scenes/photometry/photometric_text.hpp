@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "runtime/core/result.hpp"
@@ -30,6 +31,27 @@ std::optional<double> decimal(std::string_view text, bool comma);
 
 /// A number for messages: up to six digits, no padding.
 std::string shown(double value);
+
+/// Judges the numbers of a photometric file. The first fault is kept; after it numbers are 0.
+class PhotometricNumbers {
+ public:
+  explicit PhotometricNumbers(std::string file) : file_(std::move(file)) {}
+
+  void fail(int line, std::string what) { fail(problem_in(file_, line, std::move(what))); }
+  void fail(Problem problem) {
+    if (!fault_) fault_ = std::move(problem);
+  }
+  const std::optional<Problem>& fault() const { return fault_; }
+
+  /// A number within limits. `comma`: as of decimal.
+  double number(int line, std::string_view text, bool comma, const std::string& what, double low,
+                double high);
+  int whole(int line, double value, const std::string& what);
+
+ private:
+  std::string file_;
+  std::optional<Problem> fault_;
+};
 
 /// Correlated colour temperature [K] in "4000 K", "3000", or a colour code such as "840".
 std::optional<double> colour_temperature_k(std::string_view text);

@@ -21,7 +21,7 @@ AssessedArea read_area(KeyReader& keys, const char* kind) {
   const auto outline = keys.corners("outline");
   if (!keys.clean()) return area;
   auto checked = checked_outline(outline);
-  if (!checked.ok())
+  if (!checked)
     keys.problem("outline", checked.problem().what);
   else
     area.outline = std::move(checked).value();
@@ -42,7 +42,7 @@ void check_names(KeyReader& keys, const char* key, const std::vector<std::string
 
 }  // namespace
 
-void read_assessment(const toml::table& table, SceneReading& reading) {
+void read_assessment(const toml::Table& table, SceneReading& reading) {
   KeyReader keys(table, {"assessment"}, reading);
   AssessmentSettings& s = reading.scene.assessment;
   // Of several files of a scene each may say a part: what one leaves out stands.
@@ -67,7 +67,7 @@ void read_assessment(const toml::table& table, SceneReading& reading) {
   }
 }
 
-void read_route(const toml::table& table, SceneReading& reading) {
+void read_route(const toml::Table& table, SceneReading& reading) {
   KeyReader keys(table, {"route"}, reading);
   EscapeRoute r;
   r.name = read_name(keys, "route");
@@ -82,19 +82,19 @@ void read_route(const toml::table& table, SceneReading& reading) {
   reading.scene.routes.push_back(std::move(r));
 }
 
-void read_open_area(const toml::table& table, SceneReading& reading) {
+void read_open_area(const toml::Table& table, SceneReading& reading) {
   KeyReader keys(table, {"open_area"}, reading);
   reading.scene.open_areas.push_back(read_area(keys, "open_area"));
 }
 
-void read_task_area(const toml::table& table, SceneReading& reading) {
+void read_task_area(const toml::Table& table, SceneReading& reading) {
   KeyReader keys(table, {"task_area"}, reading);
   AssessedArea area = read_area(keys, "task_area");
   area.mains_lx = keys.number("mains_lx");
   reading.scene.task_areas.push_back(std::move(area));
 }
 
-void read_emphasis(const toml::table& table, SceneReading& reading) {
+void read_emphasis(const toml::Table& table, SceneReading& reading) {
   KeyReader keys(table, {"emphasis"}, reading);
   EmphasisPoint p;
   p.name = read_name(keys, "emphasis");

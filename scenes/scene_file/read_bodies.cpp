@@ -21,8 +21,8 @@ void read_quadric(KeyReader& keys, Medium& m) {
   m.quadric.c = keys.number("c");
   m.local_bounds.low = keys.point("low");
   m.local_bounds.high = keys.point("high");
-  for (const toml::table* t : keys.tables("clip")) {
-    KeyReader clip(*t, {"medium.clip"}, keys.reading(), keys.place());
+  for (const toml::Table* t : keys.tables("clip")) {
+    KeyReader clip(*t, {"medium.clip"}, keys.reading());
     m.quadric.clips.push_back({clip.direction("normal"), clip.number("offset")});
   }
   if (!keys.clean()) return;
@@ -41,9 +41,9 @@ void read_quadric(KeyReader& keys, Medium& m) {
 
 void read_body(KeyReader& keys, const std::string& body, Medium& m) {
   if (body == "quadric") {
-    const size_t before = keys.reading().problem_count();
+    const size_t before = keys.reading().findings.problem_count();
     read_quadric(keys, m);
-    if (keys.reading().problem_count() > before || !keys.clean()) return;
+    if (keys.reading().findings.problem_count() > before || !keys.clean()) return;
     // Only a body written by hand can turn out to be empty.
     const auto made = QuadricBody::make(m, m.frame.origin);
     if (!made) keys.problem(made.problem().what);
@@ -80,7 +80,7 @@ void read_data_set(KeyReader& keys, Medium& m) {
         "(8700)");
   }
   const bool interpolate = keys.flag("interpolate_emission");
-  const auto path = keys.path("file");
+  const auto path = keys.file("file");
   if (!path || !keys.clean()) return;
   DataSetOptions options;
   options.mass_extinction_m2_per_kg = mass.value_or(no_mass_extinction);

@@ -29,7 +29,7 @@ void move(KeyReader& keys, Frame& frame, Aim aim) {
   const auto facing = keys.maybe_direction("facing");
   if (!facing || !keys.clean()) return;
   const auto turned = aim(frame.origin, *facing, {0, 0, 1});
-  if (turned.ok())
+  if (turned)
     frame = turned.value();
   else
     keys.problem("facing", turned.problem().what);
@@ -93,7 +93,7 @@ void thicken(SceneDescription& scene, const std::string& medium, double factor) 
 
 }  // namespace
 
-void read_change(const toml::table& table, SceneReading& reading) {
+void read_change(const toml::Table& table, SceneReading& reading) {
   KeyReader keys(table, {"change"}, reading);
   const std::string kind = keys.choice("kind");
   const double factor = keys.number("factor");

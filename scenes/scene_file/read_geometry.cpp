@@ -18,15 +18,15 @@ void move_by(Mesh& mesh, const glm::dvec3& offset) {
 }
 
 Result<int> segments_of(KeyReader& keys, const char* radius) {
-  return shapes::segments_within(keys.number(radius), keys.number("bound_m"));
+  return shapes::segments_within(keys.number(radius), keys.number("mesh_tolerance_m"));
 }
 
 Result<Shape> wall_shape(KeyReader& keys) {
   const glm::dvec3 from = keys.point("from"), to = keys.point("to");
   const double height = keys.number("height"), thickness = keys.number("thickness");
   std::vector<shapes::WallOpening> openings;
-  for (const toml::table* t : keys.tables("opening")) {
-    KeyReader hole(*t, {"object.opening"}, keys.reading(), keys.place());
+  for (const toml::Table* t : keys.tables("opening")) {
+    KeyReader hole(*t, {"object.opening"}, keys.reading());
     openings.push_back(
         {hole.number("at"), hole.number("sill"), hole.number("width"), hole.number("height")});
     const auto& o = openings.back();
@@ -41,7 +41,7 @@ Result<Shape> wall_shape(KeyReader& keys) {
   }
   if (!keys.clean()) return Problem{};
   if (std::abs(from.z - to.z) > 1e-6) {
-    return Problem{{}, "a wall's 'from' and 'to' must be at the same height"};
+    return problem("a wall's 'from' and 'to' must be at the same height");
   }
   auto shape = shapes::wall(glm::length(to - from), height, thickness, openings);
   if (!shape) return shape;
@@ -55,7 +55,7 @@ Result<Shape> wall_shape(KeyReader& keys) {
 Result<Shape> box_shape(KeyReader& keys) {
   const glm::dvec3 low = keys.point("low"), high = keys.point("high");
   if (keys.clean() && !glm::all(glm::lessThan(low, high))) {
-    return Problem{{}, "'high' must lie above 'low' in x, y and z"};
+    return problem("'high' must lie above 'low' in x, y and z");
   }
   if (!keys.clean()) return Problem{};
   auto shape = shapes::box(high - low, shapes::BoxAt::corner);
@@ -74,7 +74,7 @@ Result<Shape> outline_shape(KeyReader& keys, bool prism) {
 
 Result<Shape> round_shape(KeyReader& keys, const std::string& kind) {
   if (kind == "sphere") {
-    const double radius = keys.number("radius"), bound = keys.number("bound_m");
+    const double radius = keys.number("radius"), bound = keys.number("mesh_tolerance_m");
     if (!keys.clean()) return Problem{};
     return shapes::sphere(radius, bound);
   }
@@ -83,7 +83,7 @@ Result<Shape> round_shape(KeyReader& keys, const std::string& kind) {
     const double outer = keys.number("outer_radius"), inner = keys.number("inner_radius");
     const double length = keys.number("length");
     if (keys.clean() && inner >= outer) {
-      return Problem{{}, "'inner_radius' must be less than 'outer_radius'"};
+      return problem("'inner_radius' must be less than 'outer_radius'");
     }
     if (!keys.clean()) return Problem{};
     if (!segments) return segments.problem();
@@ -183,7 +183,7 @@ void read_room(KeyReader& keys, const Object& common, const SurfaceWords& words,
 
 }  // namespace
 
-void read_object(const toml::table& table, SceneReading& reading) {
+void read_object(const toml::Table& table, SceneReading& reading) {
   std::string kind;
   KeyReader keys = kind_reader(table, "object", "shape", reading, kind);
   Object object;

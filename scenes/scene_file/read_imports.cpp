@@ -2,6 +2,7 @@
 #include <map>
 #include <set>
 
+#include "runtime/toml/words.hpp"
 #include "scenes/geometry/import.hpp"
 #include "scenes/scene_file/read_files.hpp"
 #include "scenes/scene_file/read_placement.hpp"
@@ -43,8 +44,8 @@ struct PartRule {
   bool used = false;
 };
 
-PartRule read_rule(const toml::table& table, KeyReader& of) {
-  KeyReader keys(table, {"import.part"}, of.reading(), of.place());
+PartRule read_rule(const toml::Table& table, KeyReader& of) {
+  KeyReader keys(table, {"import.part"}, of.reading());
   PartRule rule;
   rule.match = keys.text("match");
   rule.place = keys.place("match");
@@ -100,11 +101,12 @@ class Materials {
 
   /// Rows of the table that no part of the file uses.
   void report_unused() {
-    std::vector<std::string> known(seen_.begin(), seen_.end());
+    const std::vector<std::string_view> known(seen_.begin(), seen_.end());
     for (const auto& [name, word] : table_) {
       if (seen_.count(name) > 0) continue;
       std::string what = "no part of this file has the material '" + name + "'";
-      if (const auto near = nearest_word(name, known)) what += "; did you mean '" + *near + "'?";
+      if (const auto near = toml::nearest_word(name, known))
+        what += "; did you mean '" + std::string(*near) + "'?";
       keys_.reading().problem(word.place, what);
     }
   }
@@ -167,7 +169,7 @@ void add_part(ImportedPart& part, Object object, SurfaceWords words, std::vector
 
 }  // namespace
 
-void read_import(const toml::table& table, SceneReading& reading) {
+void read_import(const toml::Table& table, SceneReading& reading) {
   KeyReader keys(table, {"import"}, reading);
   Object common;
   common.place = keys.place();
@@ -181,8 +183,8 @@ void read_import(const toml::table& table, SceneReading& reading) {
   const auto scale = metres_per_unit(keys.choice("units"));
   const auto up = up_axis_named(keys.choice("up"));
   std::vector<PartRule> rules;
-  for (const toml::table* t : keys.tables("part")) rules.push_back(read_rule(*t, keys));
-  const auto path = keys.path("file");
+  for (const toml::Table* t : keys.tables("part")) rules.push_back(read_rule(*t, keys));
+  const auto path = keys.file("file");
   // Without its file, the names of its parts are unknown: nobody can be blamed for naming one.
   if (!path || !keys.clean()) {
     reading.incomplete = true;

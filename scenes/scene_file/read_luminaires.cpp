@@ -134,7 +134,7 @@ void read_distribution(KeyReader& keys, Emitter& e) {
 }
 
 void read_mesh_shape(KeyReader& keys, Emitter& e) {
-  const auto path = keys.path("file");
+  const auto path = keys.file("file");
   const auto scale = metres_per_unit(keys.choice("units"));
   const auto up = up_axis_named(keys.choice("up"));
   const Transform transform = read_transform(keys);
@@ -223,7 +223,7 @@ void add_emitter(KeyReader& keys, const Emitter& e, std::span<const glm::dvec3> 
 
 }  // namespace
 
-void read_luminaire(const toml::table& table, SceneReading& reading) {
+void read_luminaire(const toml::Table& table, SceneReading& reading) {
   KeyReader keys(table, {"luminaire"}, reading);
   Emitter e;
   e.place = keys.place();
@@ -232,10 +232,10 @@ void read_luminaire(const toml::table& table, SceneReading& reading) {
   e.distribution = Distribution::web;
   double rated = 0;
   const bool point = keys.flag("point_source");
-  if (const auto path = keys.path("file")) {
+  if (const auto path = keys.file("file")) {
     if (const auto file = read_photometry(*path, keys.place("file"), reading)) {
       e.web = file->web;
-      e.file = keys.node("file")->value_or(std::string());
+      e.file = *keys.value("file")->as_text();
       e.product = file->luminaire;
       e.opening_m = file->opening.size_m;
       rated = file->web->flux_lm();
@@ -247,16 +247,16 @@ void read_luminaire(const toml::table& table, SceneReading& reading) {
   add_emitter(keys, e, read_repeat(keys));
 }
 
-void read_emitter(const toml::table& table, SceneReading& reading) {
+void read_emitter(const toml::Table& table, SceneReading& reading) {
   std::string kind;
   KeyReader keys = kind_reader(table, "emitter", "shape", reading, kind);
   Emitter e;
   e.place = keys.place();
   e.name = read_name(keys, "luminaire or emitter");
   if (!kind.empty()) {
-    const size_t before = reading.problem_count();
+    const size_t before = reading.findings.problem_count();
     read_shape(keys, e, kind);
-    const bool shaped = reading.problem_count() == before;
+    const bool shaped = reading.findings.problem_count() == before;
     read_distribution(keys, e);
     const double flux = read_flux(keys, e);
     if (shaped && keys.clean() && e.shape != EmitterShape::point && !(area_of(e) > 1e-12)) {

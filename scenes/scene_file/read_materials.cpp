@@ -27,7 +27,7 @@ void read_glossy(KeyReader& keys, Material& m) {
 
 }  // namespace
 
-void read_material(const toml::table& table, SceneReading& reading) {
+void read_material(const toml::Table& table, SceneReading& reading) {
   std::string kind;
   KeyReader keys = kind_reader(table, "material", "kind", reading, kind);
   Material m;
@@ -39,7 +39,7 @@ void read_material(const toml::table& table, SceneReading& reading) {
       m.kind = kind == "glossy" ? MaterialKind::glossy : MaterialKind::lambertian;
       m.reflectance = property(keys, "reflectance");
       if (kind == "glossy") read_glossy(keys, m);
-      if (const auto path = keys.path("image")) {
+      if (const auto path = keys.file("image")) {
         m.reflectance_image = read_image(*path, keys.place("image"), reading);
       }
     } else if (kind == "mirror") {

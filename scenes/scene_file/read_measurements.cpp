@@ -27,7 +27,7 @@ int cells_along(double length, double cell_m) {
 
 }  // namespace
 
-void read_plane(const toml::table& table, SceneReading& reading) {
+void read_plane(const toml::Table& table, SceneReading& reading) {
   KeyReader keys(table, {"plane"}, reading);
   PlaneMeasure p;
   p.name = read_name(keys, "plane");
@@ -57,7 +57,7 @@ void read_plane(const toml::table& table, SceneReading& reading) {
   reading.scene.planes.push_back(std::move(p));
 }
 
-void read_probe(const toml::table& table, SceneReading& reading) {
+void read_probe(const toml::Table& table, SceneReading& reading) {
   KeyReader keys(table, {"probe"}, reading);
   ProbeMeasure p;
   p.name = read_name(keys, "probe");
@@ -67,7 +67,7 @@ void read_probe(const toml::table& table, SceneReading& reading) {
   reading.scene.probes.push_back(std::move(p));
 }
 
-void read_surface_group(const toml::table& table, SceneReading& reading) {
+void read_surface_group(const toml::Table& table, SceneReading& reading) {
   KeyReader keys(table, {"surface_group"}, reading);
   SurfaceGroupMeasure g;
   g.name = read_name(keys, "surface_group");
@@ -80,7 +80,7 @@ void read_surface_group(const toml::table& table, SceneReading& reading) {
   reading.scene.surface_groups.push_back(std::move(g));
 }
 
-void read_volume_group(const toml::table& table, SceneReading& reading) {
+void read_volume_group(const toml::Table& table, SceneReading& reading) {
   using Shape = VolumeGroupMeasure::Shape;
   VolumeGroupMeasure g;
   std::string shape;
@@ -119,7 +119,7 @@ void read_volume_group(const toml::table& table, SceneReading& reading) {
   reading.scene.volume_groups.push_back(std::move(g));
 }
 
-void read_counting_plane(const toml::table& table, SceneReading& reading) {
+void read_counting_plane(const toml::Table& table, SceneReading& reading) {
   KeyReader keys(table, {"counting_plane"}, reading);
   CountingPlaneMeasure p;
   p.name = read_name(keys, "counting_plane");
@@ -131,7 +131,7 @@ void read_counting_plane(const toml::table& table, SceneReading& reading) {
   reading.scene.counting_planes.push_back(std::move(p));
 }
 
-void read_observer(const toml::table& table, SceneReading& reading) {
+void read_observer(const toml::Table& table, SceneReading& reading) {
   KeyReader keys(table, {"observer"}, reading);
   Observer o;
   o.name = read_name(keys, "observer");
@@ -150,7 +150,7 @@ void read_observer(const toml::table& table, SceneReading& reading) {
   reading.scene.observers.push_back(std::move(o));
 }
 
-void read_camera(const toml::table& table, SceneReading& reading) {
+void read_camera(const toml::Table& table, SceneReading& reading) {
   KeyReader keys(table, {"camera"}, reading);
   Camera c;
   c.name = read_name(keys, "camera");

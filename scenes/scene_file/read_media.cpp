@@ -1,4 +1,4 @@
-// Smoke and flames, but for data sets (read_data_set.cpp).
+// Smoke and flames, but for bodies and data sets (read_bodies.cpp).
 #include "scenes/scene_file/read_media.hpp"
 
 #include <algorithm>
@@ -153,8 +153,8 @@ void read_layers(KeyReader& keys, Medium& m) {
   };
   std::vector<Placed> layers;
   bool good = true;
-  for (const toml::table* t : keys.tables("layer")) {
-    KeyReader layer(*t, {"medium.layer", "medium.optics"}, keys.reading(), keys.place());
+  for (const toml::Table* t : keys.tables("layer")) {
+    KeyReader layer(*t, {"medium.layer", "medium.optics"}, keys.reading());
     Layer l;
     l.z_low = layer.number("z_low");
     l.z_high = layer.number("z_high");
@@ -183,9 +183,9 @@ void read_layers(KeyReader& keys, Medium& m) {
 void read_placed(KeyReader& keys, Medium& m) {
   m.frame.origin = keys.point("position");
   m.frame.axes = turn_about_axes(keys.point("rotate_deg"));
-  const toml::table* table = keys.table("emission");
+  const toml::Table* table = keys.table("emission");
   if (!table) return;
-  KeyReader emission(*table, {"medium.emission"}, keys.reading(), keys.place());
+  KeyReader emission(*table, {"medium.emission"}, keys.reading());
   MediumEmission e;
   e.power_w = emission.number("power_w");
   const double kelvin = emission.number("temperature_k");
@@ -200,9 +200,9 @@ void read_placed(KeyReader& keys, Medium& m) {
   m.emission = std::move(e);
 }
 
-void read_medium(const toml::table& table, SceneReading& reading) {
-  const std::string kind = table_choice(table, "medium", "kind");
-  const std::string body = table_choice(table, "medium.bounded", "body");
+void read_medium(const toml::Table& table, SceneReading& reading) {
+  const std::string kind = toml::chosen_kind(table, scene_schema(), "medium", "kind");
+  const std::string body = toml::chosen_kind(table, scene_schema(), "medium.bounded", "body");
   KeyReader keys(table, medium_specs(kind, body), reading);
   Medium m;
   m.place = keys.place();
@@ -234,7 +234,7 @@ std::vector<std::string> medium_specs(const std::string& kind, const std::string
     if (all || kind == k) specs.push_back(std::string("medium.") + k);
   }
   if (!all && kind != "bounded") return specs;
-  for (const auto word : words_of("ellipsoid, cylinder, cone, paraboloid, quadric")) {
+  for (const auto word : toml::words_of("ellipsoid, cylinder, cone, paraboloid, quadric")) {
     if (body.empty() || body == word) specs.push_back("medium." + std::string(word));
   }
   return specs;

@@ -25,8 +25,8 @@ Transform read_transform(KeyReader& keys) {
 
 std::vector<glm::dvec3> read_repeat(KeyReader& keys) {
   std::vector<glm::dvec3> offsets{glm::dvec3(0)};
-  for (const toml::table* table : keys.tables("repeat")) {
-    KeyReader row(*table, {"repeat"}, keys.reading(), keys.place());
+  for (const toml::Table* table : keys.tables("repeat")) {
+    KeyReader row(*table, {"repeat"}, keys.reading());
     const int64_t count = row.integer("count");
     const glm::dvec3 step = row.point("step");
     if (!row.clean()) return {glm::dvec3(0)};
@@ -101,9 +101,9 @@ void read_surface(KeyReader& keys, Object& object, SurfaceWords& words) {
 }
 
 void read_door(KeyReader& keys, Object& object) {
-  const toml::table* table = keys.table("door");
+  const toml::Table* table = keys.table("door");
   if (!table) return;
-  KeyReader door(*table, {"object.door"}, keys.reading(), keys.place());
+  KeyReader door(*table, {"object.door"}, keys.reading());
   Door d;
   d.hinge = door.point("hinge");
   d.axis = door.direction("axis");

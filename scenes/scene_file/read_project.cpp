@@ -1,6 +1,4 @@
 // What a report says of its project. Files that include others say more: each key by itself wins.
-#include <sstream>
-
 #include "scenes/images/logo.hpp"
 #include "scenes/scene_file/read_files.hpp"
 #include "scenes/scene_file/scene_readers.hpp"
@@ -11,16 +9,14 @@ namespace {
 
 /// A text, or a date as TOML writes one.
 std::string read_date(KeyReader& keys) {
-  const toml::node* node = keys.node("date");
-  if (node == nullptr || !node->is_date()) return keys.text("date");
-  std::ostringstream out;
-  out << node->as_date()->get();
-  return out.str();
+  const toml::Value* value = keys.value("date");
+  const toml::Moment* moment = value ? value->as_moment() : nullptr;
+  return moment && moment->is_date ? moment->text : keys.text("date");
 }
 
 }  // namespace
 
-void read_project(const toml::table& table, SceneReading& reading) {
+void read_project(const toml::Table& table, SceneReading& reading) {
   KeyReader keys(table, {"project"}, reading);
   ProjectSettings& p = reading.scene.project;
   p.place = keys.place();
@@ -37,9 +33,9 @@ void read_project(const toml::table& table, SceneReading& reading) {
   }
   if (keys.has("north_deg")) p.north_deg = keys.number("north_deg");
   if (!keys.has("logo")) return;
-  const auto path = keys.path("logo");
+  const auto path = keys.file("logo");
   if (!path || !take_hash(*path, keys.place("logo"), reading)) return;
-  if (auto logo = read_logo(*path); !logo.ok())
+  if (auto logo = read_logo(*path); !logo)
     take_problem(logo.problem(), keys.place("logo"), reading);
   else
     p.logo = path->string();

@@ -25,7 +25,7 @@ std::vector<std::string> doors(KeyReader& keys, std::string_view key) {
 
 }  // namespace
 
-void read_scenario(const toml::table& table, SceneReading& reading) {
+void read_scenario(const toml::Table& table, SceneReading& reading) {
   KeyReader keys(table, {"scenario"}, reading);
   Scenario s;
   s.name = read_name(keys, "scenario");
@@ -55,19 +55,19 @@ void read_scenario(const toml::table& table, SceneReading& reading) {
   reading.scene.scenarios.push_back(std::move(s));
 }
 
-void read_run(const toml::table& table, SceneReading& reading) {
+void read_run(const toml::Table& table, SceneReading& reading) {
   KeyReader keys(table, {"run"}, reading);
   RunSettings& run = reading.scene.run;
   // A file without a key leaves what the files it includes have said.
   if (keys.has("seed")) run.seed = static_cast<uint64_t>(keys.integer("seed"));
-  if (keys.has("bands_most")) run.max_bands = static_cast<int>(keys.integer("bands_most"));
+  if (keys.has("max_bands")) run.max_bands = static_cast<int>(keys.integer("max_bands"));
   if (keys.has("band_tolerance")) run.band_tolerance = keys.number("band_tolerance");
   if (keys.has("batch_particles")) run.batch_particles = keys.integer("batch_particles");
   if (keys.has("voxel_edge_m")) run.voxel_edge_m = keys.number("voxel_edge_m");
   if (keys.has("voxels")) run.voxels = keys.flag("voxels");
   if (keys.has("analogue")) run.analogue = keys.flag("analogue");
   if (keys.has("stratified")) run.stratified = keys.flag("stratified");
-  if (keys.has("eye_share")) run.eye_share = keys.number("eye_share");
+  if (keys.has("eye_path_factor")) run.eye_share = keys.number("eye_path_factor");
   if (keys.has("error_of")) {
     run.error_of = keys.texts("error_of");
     run.error_of_place = keys.place("error_of");

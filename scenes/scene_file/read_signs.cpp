@@ -31,8 +31,7 @@ Result<SignFace> drawn_face(const std::filesystem::path& path, const Sign& sign,
   const std::string extension = lower_extension(path);
   if (extension == ".svg") return face_from_svg(path, sign.width_m, sign.height_m, texels);
   if (extension == ".png") return face_from_png(path, sign.width_m, sign.height_m, texels);
-  return Problem{{},
-                 "a pictogram is an .svg or a .png file, not '" + path.filename().string() + "'"};
+  return problem("a pictogram is an .svg or a .png file, not '" + path.filename().string() + "'");
 }
 
 /// A length of a sign that is written and longer than `most` is a slip of the unit more often than
@@ -67,9 +66,9 @@ void read_face(KeyReader& keys, Sign& sign) {
   const std::string legend_word = keys.choice("legend");
   const SignColour legend = legend_word == "green" ? SignColour::green : SignColour::white;
   const auto detail = keys.maybe_number("smallest_detail");
-  const auto path = given == "file" ? keys.path("file") : std::nullopt;
+  const auto path = given == "file" ? keys.file("file") : std::nullopt;
   const std::string plain = given == "plain" ? keys.choice("plain") : "";
-  const auto map = keys.path("luminance_map");
+  const auto map = keys.file("luminance_map");
   if (given != "text") {
     for (const char* key : {"letter_height", "stroke", "spacing"}) {
       if (keys.has(key)) {
@@ -88,7 +87,7 @@ void read_face(KeyReader& keys, Sign& sign) {
     sign.letters = SignLetters{letter, stroke};
     sign.text = keys.text("text");
   }
-  if (given == "file") sign.file = keys.node("file")->value_or(std::string());
+  if (path) sign.file = *keys.value("file")->as_text();
   bound_lengths(keys, sign);
   if (!keys.clean()) return;
   auto face = given == "file" ? drawn_face(*path, sign, texels)
@@ -159,7 +158,7 @@ void read_luminances(KeyReader& keys, Sign& sign) {
 
 }  // namespace
 
-void read_sign(const toml::table& table, SceneReading& reading) {
+void read_sign(const toml::Table& table, SceneReading& reading) {
   KeyReader keys(table, {"sign"}, reading);
   Sign sign;
   sign.place = keys.place();

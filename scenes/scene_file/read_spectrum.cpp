@@ -21,17 +21,17 @@ std::string in_quotes(std::string_view key) {
 
 /// Rows [[nm, value], ...] of a spectrum, wavelengths ascending.
 std::optional<std::vector<glm::dvec2>> rows_of(KeyReader& keys, std::string_view key,
-                                               const toml::array& array) {
+                                               const toml::List& list) {
   std::vector<glm::dvec2> rows;
   const std::string form =
       in_quotes(key) + " as a spectrum is a list of at least two rows [wavelength in nm, value]";
-  if (array.size() < 2 || array.size() > scene_limits::list_values) {
+  if (list.size() < 2 || list.size() > limits::toml_values) {
     keys.problem(key, form);
     return std::nullopt;
   }
-  for (const toml::node& e : array) {
-    const toml::array* row = e.as_array();
-    const auto nm = row && row->size() == 2 ? number_in((*row)[0]) : std::nullopt;
+  for (const toml::Value& entry : list) {
+    const toml::List* row = entry.as_list();
+    const auto nm = row && row->size() == 2 ? (*row)[0].as_number() : std::nullopt;
     if (!nm) {
       keys.problem(key, form);
       return std::nullopt;
@@ -53,19 +53,19 @@ std::optional<std::vector<glm::dvec2>> rows_of(KeyReader& keys, std::string_view
 
 /// Linear sRGB of { srgb = [r, g, b] } or { linear_rgb = [r, g, b] }, values in [0, 1].
 std::optional<std::array<double, 3>> colour_of(KeyReader& keys, std::string_view key,
-                                               const toml::table& table) {
-  const toml::node* srgb = table.get("srgb");
-  const toml::node* linear = table.get("linear_rgb");
-  const toml::node* given = srgb ? srgb : linear;
-  const toml::array* a = given ? given->as_array() : nullptr;
-  if (table.size() != 1 || !a || a->size() != 3) {
+                                               const toml::Table& table) {
+  const toml::Value* srgb = table.find("srgb");
+  const toml::Value* linear = table.find("linear_rgb");
+  const toml::Value* given = srgb ? srgb : linear;
+  const toml::List* list = given ? given->as_list() : nullptr;
+  if (table.entries().size() != 1 || !list || list->size() != 3) {
     keys.problem(
         key, in_quotes(key) + " as a colour is { srgb = [r, g, b] } or { linear_rgb = [r, g, b] }");
     return std::nullopt;
   }
   std::array<double, 3> rgb{};
   for (size_t i = 0; i < 3; ++i) {
-    const auto v = number_in((*a)[i]);
+    const auto v = (*list)[i].as_number();
     if (!v || !(*v >= 0 && *v <= 1)) {
       keys.problem(key, in_quotes(key) + " must have colour values in [0, 1]");
       return std::nullopt;
@@ -108,9 +108,9 @@ std::optional<Spectrum> named_shape(KeyReader& keys, std::string_view key, std::
   return led ? white_led_shape(*kelvin) : blackbody_shape(*kelvin);
 }
 
-std::optional<Spectrum> shape_of(KeyReader& keys, std::string_view key, const toml::node& n) {
-  if (const auto* text = n.as_string()) return named_shape(keys, key, text->get());
-  if (const auto* table = n.as_table()) {
+std::optional<Spectrum> shape_of(KeyReader& keys, std::string_view key, const toml::Value& value) {
+  if (const auto* text = value.as_text()) return named_shape(keys, key, *text);
+  if (const auto* table = value.as_table()) {
     const auto rgb = colour_of(keys, key, *table);
     if (!rgb) return std::nullopt;
     if ((*rgb)[0] + (*rgb)[1] + (*rgb)[2] <= 0) {
@@ -119,14 +119,14 @@ std::optional<Spectrum> shape_of(KeyReader& keys, std::string_view key, const to
     }
     return emission_shape_from_linear_srgb((*rgb)[0], (*rgb)[1], (*rgb)[2]);
   }
-  const auto* array = n.as_array();
-  if (!array) {
+  const auto* list = value.as_list();
+  if (!list) {
     keys.problem(key, in_quotes(key) +
                           " must be the name of a spectrum, a colour, or rows [nm, value], not " +
-                          kind_of(n));
+                          std::string(value.kind()));
     return std::nullopt;
   }
-  const auto rows = rows_of(keys, key, *array);
+  const auto rows = rows_of(keys, key, *list);
   if (!rows) return std::nullopt;
   Spectrum s = emission_through(*rows);
   const double total = s.integral();
@@ -178,27 +178,27 @@ Spectrum emission_through(const std::vector<glm::dvec2>& rows) {
 }
 
 std::optional<Spectrum> maybe_property(KeyReader& keys, std::string_view key) {
-  const toml::node* n = keys.node(key);
-  if (!n)
+  const toml::Value* value = keys.value(key);
+  if (!value)
     return keys.default_number(key) ? std::optional(Spectrum::constant(*keys.default_number(key)))
                                     : std::nullopt;
-  if (const auto* text = n->as_string()) {
-    const auto grey = named_grey(text->get());
+  if (const auto* text = value->as_text()) {
+    const auto grey = named_grey(*text);
     if (grey) return Spectrum::constant(*grey);
-    keys.problem(key, in_quotes(key) + " is \"" + text->get() +
+    keys.problem(key, in_quotes(key) + " is \"" + *text +
                           "\"; a text here names a grey, such as \"grey50\" or \"white80\"");
     return std::nullopt;
   }
-  if (const auto* table = n->as_table()) {
+  if (const auto* table = value->as_table()) {
     const auto rgb = colour_of(keys, key, *table);
     if (!rgb) return std::nullopt;
     return reflectance_from_linear_srgb((*rgb)[0], (*rgb)[1], (*rgb)[2]);
   }
-  if (const auto* array = n->as_array()) {
-    const auto rows = rows_of(keys, key, *array);
+  if (const auto* list = value->as_list()) {
+    const auto rows = rows_of(keys, key, *list);
     return rows ? std::optional(spectrum_through(*rows)) : std::nullopt;
   }
-  const auto v = keys.checked(key, *n);
+  const auto v = keys.checked(key, *value);
   return v ? std::optional(Spectrum::constant(*v)) : std::nullopt;
 }
 
@@ -207,8 +207,8 @@ Spectrum property(KeyReader& keys, std::string_view key) {
 }
 
 Spectrum emission_shape(KeyReader& keys, std::string_view key) {
-  const toml::node* n = keys.node(key);
-  if (n) return shape_of(keys, key, *n).value_or(equal_energy_shape());
+  const toml::Value* value = keys.value(key);
+  if (value) return shape_of(keys, key, *value).value_or(equal_energy_shape());
   const auto literal = keys.default_text(key);
   if (!literal) return equal_energy_shape();
   return named_shape(keys, key, *literal).value_or(equal_energy_shape());

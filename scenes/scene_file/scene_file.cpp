@@ -7,7 +7,8 @@
 #include <sstream>
 
 #include "runtime/core/regular_file.hpp"
-#include "runtime/core/toml_nesting.hpp"
+#include "runtime/toml/document.hpp"
+#include "runtime/toml/text_scan.hpp"
 #include "scenes/scene_file/scene_readers.hpp"
 
 namespace luxodus {
@@ -16,10 +17,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// One parsed file. The KeyReader of its top refers to the table, so a Document stays where it is.
-struct Document {
-  toml::table table;
-  std::unique_ptr<KeyReader> keys;
+/// One parsed file. The reader of its top refers to the document, so a SceneText stays where it is.
+struct SceneText {
+  SceneText(toml::Document parsed, SceneReading& reading)
+      : document(std::move(parsed)), keys(document.top, {"scene"}, reading) {}
+  SceneText(const SceneText&) = delete;
+  SceneText& operator=(const SceneText&) = delete;
+
+  toml::Document document;
+  KeyReader keys;
 };
 
 class Loader {
@@ -50,14 +56,14 @@ class Loader {
       return;
     }
     open_.push_back(id);
-    for (const auto& [included, place] : document->keys->paths("include")) load(included, place);
-    if (document->keys->has("include") && !document->keys->clean()) reading_.incomplete = true;
+    for (const auto& [included, place] : document->keys.files("include")) load(included, place);
+    if (document->keys.has("include") && !document->keys.clean()) reading_.incomplete = true;
     open_.pop_back();
     done_.push_back(id);
     documents.push_back(std::move(document));
   }
 
-  std::vector<std::unique_ptr<Document>> documents;  // a file stands after those it includes
+  std::vector<std::unique_ptr<SceneText>> documents;  // a file stands after those it includes
 
  private:
   std::optional<std::string> bytes_of(const fs::path& path) {
@@ -80,35 +86,25 @@ class Loader {
     return std::nullopt;
   }
 
-  std::unique_ptr<Document> parse(const std::string& text, const fs::path& path) {
-    reading_.hash_bytes(text);
-    if (auto deep = too_deep_toml(text, path.string())) {
-      reading_.problem(std::move(deep->where), std::move(deep->what));
-      return nullptr;
-    }
-    try {
-      auto document = std::make_unique<Document>();
-      document->table = toml::parse(std::string_view(text), path.string());
-      document->keys =
-          std::make_unique<KeyReader>(document->table, std::vector<std::string>{"scene"}, reading_,
-                                      SourcePlace{path.string(), 1});
-      return document;
-    } catch (const toml::parse_error& e) {
-      // The words of an included file are not told: it may be any file of the machine.
-      const bool own = open_.empty() && done_.empty() && documents.empty();
-      reading_.problem({path.string(), static_cast<int>(e.source().begin.line)},
-                       own ? "this is not TOML: " + std::string(e.description())
-                           : "this is not TOML: an included file must be a scene file");
-      return nullptr;
-    }
+  std::unique_ptr<SceneText> parse(const std::string& text, const fs::path& path) {
+    reading_.hash_bytes(toml::with_oldest_names(text, scene_schema()));
+    // The words of an included file are not told: it may be any file of the machine.
+    const bool own = open_.empty() && done_.empty() && documents.empty();
+    auto document = toml::parse(text, path.string(), scene_limits::file_bytes,
+                                own ? toml::Quoting::allowed : toml::Quoting::withheld);
+    if (document) return std::make_unique<SceneText>(std::move(document).value(), reading_);
+    const Problem& problem = document.problem();
+    reading_.problem(problem.where,
+                     own ? problem.what : problem.what + ": an included file must be a scene file");
+    return nullptr;
   }
 
   SceneReading& reading_;
   std::vector<std::string> open_, done_;
 };
 
-using Documents = std::vector<std::unique_ptr<Document>>;
-using Reader = void (*)(const toml::table&, SceneReading&);
+using Documents = std::vector<std::unique_ptr<SceneText>>;
+using Reader = void (*)(const toml::Table&, SceneReading&);
 
 /// A side is named once, and by one of its words. A file's own list replaces that of those it
 /// includes.
@@ -132,16 +128,16 @@ void read_head(const Documents& documents, const fs::path& path, SceneReading& r
   reading.scene.name = path.stem().string();
   reading.scene.file = path.string();
   for (const auto& d : documents) {
-    KeyReader& keys = *d->keys;
+    KeyReader& keys = d->keys;
     if (keys.has("title")) reading.scene.title = keys.text("title");
     if (keys.has("patch_edge_m")) reading.patch_edge_m = keys.number("patch_edge_m");
     read_open_sides(keys, reading);
     const auto name = keys.maybe_text("name");
     if (name) reading.scene.name = *name;
-    if (const toml::table* run = keys.table("run")) read_run(*run, reading);
-    if (const toml::table* assessment = keys.table("assessment"))
+    if (const toml::Table* run = keys.table("run")) read_run(*run, reading);
+    if (const toml::Table* assessment = keys.table("assessment"))
       read_assessment(*assessment, reading);
-    if (const toml::table* project = keys.table("project")) read_project(*project, reading);
+    if (const toml::Table* project = keys.table("project")) read_project(*project, reading);
   }
 }
 
@@ -149,15 +145,15 @@ void read_all(const Documents& documents, std::string_view key, Reader reader,
               SceneReading& reading) {
   size_t count = 0;
   for (const auto& d : documents) {
-    const auto tables = d->keys->tables(key);
+    const auto tables = d->keys.tables(key);
     count += tables.size();
     if (count > scene_limits::tables_per_kind) {
-      reading.problem(d->keys->place(key), "the files of this scene have more than " +
-                                               std::to_string(scene_limits::tables_per_kind) +
-                                               " tables '" + std::string(key) + "' together");
+      reading.problem(d->keys.place(key), "the files of this scene have more than " +
+                                              std::to_string(scene_limits::tables_per_kind) +
+                                              " tables '" + std::string(key) + "' together");
       return;
     }
-    for (const toml::table* t : tables) reader(*t, reading);
+    for (const toml::Table* t : tables) reader(*t, reading);
   }
 }
 
@@ -206,8 +202,10 @@ ReadScene read_scene(const std::filesystem::path& path) {
   for (const auto& [key, reader] : order) read_all(documents, key, reader, reading);
   check_whole(reading);
   ReadScene out;
-  if (!reading.any_problem()) out.scene = std::move(reading.scene);
-  out.problems = reading.take_problems();
+  for (Problem& renamed : reading.findings.take_warnings())
+    reading.scene.warnings.push_back(std::move(renamed));
+  if (!reading.findings.any_problem()) out.scene = std::move(reading.scene);
+  out.problems = reading.findings.take_problems();
   return out;
 }
 

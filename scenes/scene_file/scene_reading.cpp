@@ -7,38 +7,12 @@
 #include <array>
 
 #include "runtime/core/regular_file.hpp"
+#include "runtime/toml/words.hpp"
 
 namespace luxodus {
 
-void SceneReading::problem(SourcePlace where, std::string what) {
-  Problem p{std::move(where), std::move(what)};
-  if (problems_.size() >= scene_limits::problems || !said_.insert(p.text()).second) return;
-  if (std::find(files_.begin(), files_.end(), p.where.file) == files_.end()) {
-    files_.push_back(p.where.file);
-  }
-  problems_.push_back(std::move(p));
-  if (problems_.size() == scene_limits::problems) {
-    problems_.push_back({problems_.back().where, "more problems follow; the first " +
-                                                     std::to_string(scene_limits::problems) +
-                                                     " are shown"});
-  }
-}
-
 void SceneReading::warning(SourcePlace where, std::string what) {
   scene.warnings.push_back({std::move(where), std::move(what)});
-}
-
-Problems SceneReading::take_problems() {
-  const auto rank = [this](const Problem& p) {
-    const auto file = std::find(files_.begin(), files_.end(), p.where.file) - files_.begin();
-    return std::pair(file, p.where.line);
-  };
-  std::stable_sort(problems_.begin(), problems_.end(),
-                   [&](const Problem& a, const Problem& b) { return rank(a) < rank(b); });
-  Problems out;
-  for (Problem& p : problems_) out.add(std::move(p));
-  problems_.clear();
-  return out;
 }
 
 void SceneReading::declare(std::string_view kind, const std::string& name,
@@ -65,18 +39,18 @@ bool SceneReading::require(std::string_view kind, const std::string& name,
                            const SourcePlace& place) {
   if (declared(kind, name)) return true;
   if (incomplete || !missed_.insert(std::string(kind) + "\n" + name).second) return false;
-  std::vector<std::string> known;
+  std::vector<std::string_view> known;
   if (const auto it = names_.find(kind); it != names_.end()) {
     for (const auto& [k, unused] : it->second) known.push_back(k);
   }
   std::string what = "there is no " + std::string(kind) + " '" + name + "'";
-  if (const auto near = nearest_word(name, known)) {
-    what += "; did you mean '" + *near + "'?";
+  if (const auto near = toml::nearest_word(name, known)) {
+    what += "; did you mean '" + std::string(*near) + "'?";
   } else if (known.empty()) {
     what += "; this scene has none at all";
   } else if (known.size() <= 12) {
     what += "; known:";
-    for (const auto& k : known) what += " '" + k + "'";
+    for (const auto k : known) what += " '" + std::string(k) + "'";
   } else {
     what += " among the " + std::to_string(known.size()) + " of this scene";
   }
@@ -134,7 +108,7 @@ std::optional<Problem> SceneReading::hash_file(const std::filesystem::path& path
   ssize_t n = 0;
   while ((n = ::read(file->descriptor.number(), part.data(), part.size())) > 0)
     XXH3_64bits_update(state.get(), part.data(), static_cast<size_t>(n));
-  if (n < 0) return Problem{{path.string(), 0}, "this file cannot be read"};
+  if (n < 0) return problem_in(path, "this file cannot be read");
   scene.content_hash = XXH3_64bits_digest(state.get());
   return std::nullopt;
 }
@@ -153,41 +127,6 @@ std::optional<double> named_grey(std::string_view name) {
     return percent / 100.0;
   }
   return std::nullopt;
-}
-
-int edit_distance(std::string_view a, std::string_view b) {
-  // Optimal string alignment: three rows suffice, the swap looks two rows back.
-  std::vector<int> before(b.size() + 1), above(b.size() + 1), row(b.size() + 1);
-  for (size_t j = 0; j <= b.size(); ++j) above[j] = static_cast<int>(j);
-  for (size_t i = 1; i <= a.size(); ++i) {
-    row[0] = static_cast<int>(i);
-    for (size_t j = 1; j <= b.size(); ++j) {
-      const int change = a[i - 1] == b[j - 1] ? 0 : 1;
-      row[j] = std::min({above[j] + 1, row[j - 1] + 1, above[j - 1] + change});
-      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) {
-        row[j] = std::min(row[j], before[j - 2] + 1);
-      }
-    }
-    std::swap(before, above);
-    std::swap(above, row);
-  }
-  return above[b.size()];
-}
-
-std::optional<std::string> nearest_word(std::string_view word,
-                                        const std::vector<std::string>& known) {
-  // Words longer than any key are no slips of the pen; the bound also keeps the search cheap.
-  if (word.size() > scene_limits::name_chars) return std::nullopt;
-  const std::string* best = nullptr;
-  int least = static_cast<int>(word.size()) / 3 + 1;
-  for (const std::string& k : known) {
-    const int d = edit_distance(word, k);
-    if (d < least || (d == least && !best)) {
-      least = d;
-      best = &k;
-    }
-  }
-  return best ? std::optional(*best) : std::nullopt;
 }
 
 }  // namespace luxodus

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "runtime/core/result.hpp"
+#include "runtime/toml/findings.hpp"
 #include "scenes/world/description.hpp"
 
 namespace luxodus {
@@ -22,16 +23,12 @@ namespace scene_limits {
 inline constexpr uint64_t file_bytes = uint64_t{16} << 20;
 /// Files that a scene may include, all levels together.
 inline constexpr size_t included_files = 256;
-/// [[...]] tables of one kind.
+/// [[...]] tables of one kind, in all files together.
 inline constexpr size_t tables_per_kind = 100'000;
-/// Values in one list.
-inline constexpr size_t list_values = 100'000;
 /// Copies of one object or luminaire.
 inline constexpr size_t copies = 100'000;
 /// Characters of a name or a title.
 inline constexpr size_t name_chars = 200;
-/// Problems kept; after this many a file is broken as a whole and more sentences help nobody.
-inline constexpr size_t problems = 1000;
 /// Triangles of all objects together (72 bytes each in double precision: 3.6 GB).
 inline constexpr size_t triangles = 50'000'000;
 }  // namespace scene_limits
@@ -43,14 +40,13 @@ class SceneReading {
   /// missed.
   bool incomplete = false;
 
-  /// Keeps a problem, except a second one with the same place and words.
-  void problem(SourcePlace where, std::string what);
+  toml::Findings findings;
+
+  void problem(SourcePlace where, std::string what) {
+    findings.problem(std::move(where), std::move(what));
+  }
   void problem(Problem p) { problem(std::move(p.where), std::move(p.what)); }
   void warning(SourcePlace where, std::string what);
-  bool any_problem() const { return !problems_.empty(); }
-  size_t problem_count() const { return problems_.size(); }
-  /// All problems, by file in order of reading, then by line.
-  Problems take_problems();
 
   /// Remembers a name of a kind ("material", "object"...); a problem where it is taken already.
   void declare(std::string_view kind, const std::string& name, const SourcePlace& place);
@@ -88,9 +84,6 @@ class SceneReading {
     SourcePlace place;
     int index = -1;
   };
-  std::vector<Problem> problems_;
-  std::set<std::string> said_;      // "file:line: what" of every problem
-  std::vector<std::string> files_;  // in order of first reading
   std::map<std::string, std::map<std::string, SourcePlace>, std::less<>> names_;
   std::set<std::string> missed_;  // kind and name already reported as missing
   std::map<int, Back> backs_;
@@ -101,11 +94,5 @@ class SceneReading {
 
 /// The value of a named grey: "grey50" and "gray50" 0.50, "white80" 0.80, "black5" 0.05.
 std::optional<double> named_grey(std::string_view name);
-
-/// Steps (insert, remove, replace, swap neighbours) from one word to another.
-int edit_distance(std::string_view a, std::string_view b);
-/// The nearest of these words, or nothing when none is near enough to be what was meant.
-std::optional<std::string> nearest_word(std::string_view word,
-                                        const std::vector<std::string>& known);
 
 }  // namespace luxodus

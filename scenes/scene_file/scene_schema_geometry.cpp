@@ -55,7 +55,8 @@ TableSpec run_keys() {
       "`[run]`",
       {
           {"seed", "integer", "", "1", "[0, 9e18]", "seed of all random numbers"},
-          {"bands_most", "integer", "", "8", "[1, 64]", "most wavelength bands; 1 forces one"},
+          {"max_bands", "integer", "", "8", "[1, 64]", "most wavelength bands; 1 forces one",
+           "bands_most"},
           {"band_edges_nm", "numbers", "nm", "", "[380, 780]",
            "edges of the bands, ascending, first 380, last 780; without it bands are told apart "
            "automatically"},
@@ -74,8 +75,8 @@ TableSpec run_keys() {
            "what gets tallies of its own: nothing, each circuit (or `group`, where one is named), "
            "each "
            "emitter"},
-          {"eye_share", "number", "", "1", "[0, 1000]",
-           "paths from the eye per batch, relative to the default"},
+          {"eye_path_factor", "number", "", "1", "[0, 1000]",
+           "paths from the eye per batch, relative to the default", "eye_share"},
           {"error_of", "texts", "", "[\"all\"]", "",
            "what the error of a run is judged by, the worst of them: \"all\" (planes, probes and "
            "signs, or surfaces where there are none of these), \"planes\", \"probes\", \"signs\", "

@@ -35,8 +35,13 @@ Keys surface_keys() {
 }
 
 KeySpec round_key() {
-  return {"bound_m", "number",     "m",
-          "0.002",   "[1e-6, 10]", "largest distance between the mesh and the true surface"};
+  return {"mesh_tolerance_m",
+          "number",
+          "m",
+          "0.002",
+          "[1e-6, 10]",
+          "largest distance between the mesh and the true surface",
+          "bound_m"};
 }
 
 std::vector<TableSpec> flat_shapes() {

@@ -12,7 +12,7 @@
 
 namespace luxodus {
 
-/// How a score turns into its unit: see readout.hpp.
+/// How a score turns into its unit: see scenes/transport/readout.hpp.
 enum class ScoreUnit {
   weight,         // carried flux: watts per unit weight
   weight_length,  // flux times path length: watts metre per unit

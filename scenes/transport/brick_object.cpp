@@ -45,31 +45,31 @@ std::vector<std::byte> encode_brick(const Brick& brick) {
 Result<Brick> decode_brick(std::span<const std::byte> bytes, const BrickTable& table,
                            size_t brick) {
   Header header{};
-  if (bytes.size() < sizeof header) return Problem{{}, "a brick of smoke data is cut short"};
+  if (bytes.size() < sizeof header) return problem("a brick of smoke data is cut short");
   std::memcpy(&header, bytes.data(), sizeof header);
   bytes = bytes.subspan(sizeof header);
-  if (header.magic != magic) return Problem{{}, "these bytes are no brick of smoke data"};
+  if (header.magic != magic) return problem("these bytes are no brick of smoke data");
   if (header.unused != 0 ||
       header.quantities !=
           quantities_of(table.has_extinction, table.has_albedo, table.has_emission))
-    return Problem{{}, "a brick of smoke data has other quantities than its data set"};
+    return problem("a brick of smoke data has other quantities than its data set");
   Brick out;
   for (auto [has, values] :
        {std::pair(table.has_extinction, &out.extinction), std::pair(table.has_albedo, &out.albedo),
         std::pair(table.has_emission, &out.emission)}) {
     if (!has) continue;
-    if (bytes.size() < array_bytes) return Problem{{}, "a brick of smoke data is cut short"};
+    if (bytes.size() < array_bytes) return problem("a brick of smoke data is cut short");
     values->resize(limits::brick_cells);
     std::memcpy(values->data(), bytes.data(), array_bytes);
     bytes = bytes.subspan(array_bytes);
   }
-  if (!bytes.empty()) return Problem{{}, "a brick of smoke data is longer than it says"};
+  if (!bytes.empty()) return problem("a brick of smoke data is longer than it says");
   constexpr float any = std::numeric_limits<float>::max();
   if (!sound(out.extinction, any) || !sound(out.albedo, 1) || !sound(out.emission, any))
-    return Problem{{}, "a brick of smoke data has values that cannot be"};
+    return problem("a brick of smoke data has values that cannot be");
   complete(out);
   if (summary_of(out) != table.bricks[brick])
-    return Problem{{}, "a brick of smoke data does not belong to this scene"};
+    return problem("a brick of smoke data does not belong to this scene");
   return out;
 }
 

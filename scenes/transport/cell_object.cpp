@@ -64,15 +64,15 @@ std::vector<std::byte> encode_cell(const GeometryCell& cell) {
 
 Result<GeometryCell> decode_cell(std::span<const std::byte> bytes, const CellLimits& limits) {
   Header header{};
-  if (bytes.size() < sizeof header) return Problem{{}, "a geometry cell is cut short"};
+  if (bytes.size() < sizeof header) return problem("a geometry cell is cut short");
   std::memcpy(&header, bytes.data(), sizeof header);
   bytes = bytes.subspan(sizeof header);
-  if (header.magic != magic) return Problem{{}, "these bytes are no geometry cell"};
+  if (header.magic != magic) return problem("these bytes are no geometry cell");
   const size_t triangle_bytes = size_t{header.triangles} * sizeof(TriangleRecord);
   const size_t uv_bytes = size_t{header.texture_uvs} * sizeof(GeometryCell::TriangleUv);
   if (bytes.size() != triangle_bytes + uv_bytes)
-    return Problem{{}, "a geometry cell has not the length that it says"};
-  if (!near(header.low) || !near(header.high)) return Problem{{}, "a geometry cell has no size"};
+    return problem("a geometry cell has not the length that it says");
+  if (!near(header.low) || !near(header.high)) return problem("a geometry cell has no size");
   GeometryCell cell;
   cell.low = header.low;
   cell.high = header.high;
@@ -81,12 +81,12 @@ Result<GeometryCell> decode_cell(std::span<const std::byte> bytes, const CellLim
   if (triangle_bytes > 0) std::memcpy(cell.triangles.data(), bytes.data(), triangle_bytes);
   if (uv_bytes > 0) std::memcpy(cell.texture_uv.data(), bytes.data() + triangle_bytes, uv_bytes);
   for (const TriangleRecord& t : cell.triangles) {
-    if (!fits(t, limits)) return Problem{{}, "a geometry cell does not belong to this scene"};
+    if (!fits(t, limits)) return problem("a geometry cell does not belong to this scene");
   }
   uint32_t next = 0;
   for (const GeometryCell::TriangleUv& uv : cell.texture_uv) {
     if (uv.triangle < next || uv.triangle >= header.triangles || !finite(uv))
-      return Problem{{}, "texture coordinates of a geometry cell are out of order"};
+      return problem("texture coordinates of a geometry cell are out of order");
     next = uv.triangle + 1;
   }
   return cell;

@@ -6,16 +6,17 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <numeric>
 
 #include "scenes/emergency/onset.hpp"
-#include "scenes/emergency/sign_geometry.hpp"
+#include "scenes/emergency/sign_light.hpp"
 
 namespace luxodus {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+constexpr double pi = std::numbers::pi;
 
 double emitter_flux(const Emitter& e, const Scenario& scenario) {
   switch (scenario.operation) {
@@ -108,6 +109,17 @@ double factor_of(const std::vector<Scenario::Factor>& factors, const std::string
     if (f.name == name) return f.factor;
   }
   return other;
+}
+
+double extinction_factor(const Scenario& scenario, const std::string& medium) {
+  return factor_of(scenario.media, medium, scenario.smoke_factor);
+}
+
+double factor_of_medium(const Scenario& scenario, const Medium& medium) {
+  const double named = factor_of(scenario.media, medium.name, -1);
+  if (named >= 0) return named;
+  // A flame is no smoke: the general factor leaves it alone.
+  return medium.emission ? 1.0 : scenario.smoke_factor;
 }
 
 double scenario_luminance(const Sign& sign, SignColour colour, const Scenario& scenario) {

@@ -27,6 +27,13 @@ struct ActiveSource {
 double factor_of(const std::vector<Scenario::Factor>& factors, const std::string& name,
                  double other);
 
+/// What multiplies the extinction of the medium of this name; 0: it is not there.
+double extinction_factor(const Scenario& scenario, const std::string& medium);
+
+/// How much of a medium a scenario leaves: as above, but the factor of all smoke leaves flames
+/// alone.
+double factor_of_medium(const Scenario& scenario, const Medium& medium);
+
 /// Luminance [cd/m2] along the normal of a colour of a sign in this scenario.
 double scenario_luminance(const Sign& sign, SignColour colour, const Scenario& scenario);
 

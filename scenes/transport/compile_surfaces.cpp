@@ -53,7 +53,7 @@ Mesh mesh_in(const Object& object, const Scenario& scenario) {
   Mesh mesh = object.mesh;
   if (object.door && door_is_open(object, scenario)) {
     const auto turn = rotation(object.door->axis, object.door->open_angle_deg);
-    if (turn.ok()) {
+    if (turn) {
       apply(translation(-object.door->hinge), mesh);
       apply(turn.value(), mesh);
       apply(translation(object.door->hinge), mesh);
@@ -87,19 +87,17 @@ Mesh body_mesh(const Emitter& e) {
     }
     case EmitterShape::disc: {
       const auto n = shapes::segments_within(e.size.x / 2, bound);
-      if (auto shape = shapes::disc(e.size.x / 2, n.ok() ? n.value() : 32); shape.ok())
-        mesh = shape->mesh;
+      if (auto shape = shapes::disc(e.size.x / 2, n ? n.value() : 32); shape) mesh = shape->mesh;
       apply(rotation({1, 0, 0}, 180).value(), mesh);
       break;
     }
     case EmitterShape::sphere:
-      if (auto shape = shapes::sphere(e.size.x / 2, bound); shape.ok()) mesh = shape->mesh;
+      if (auto shape = shapes::sphere(e.size.x / 2, bound); shape) mesh = shape->mesh;
       break;
     case EmitterShape::tube: {
       const auto n = shapes::segments_within(e.size.y / 2, bound);
-      auto shape =
-          shapes::cylinder(e.size.y / 2, e.size.x, n.ok() ? n.value() : 32, shapes::Caps::none);
-      if (shape.ok()) mesh = shape->mesh;
+      auto shape = shapes::cylinder(e.size.y / 2, e.size.x, n ? n.value() : 32, shapes::Caps::none);
+      if (shape) mesh = shape->mesh;
       apply(translation({0, 0, -e.size.x / 2}), mesh);
       apply(rotation({0, 1, 0}, 90).value(), mesh);
       break;
@@ -300,8 +298,8 @@ Result<void> add_surfaces(CompiledScene& scene, TriangleBuilder& builder) {
     s.material[1] = static_cast<uint32_t>(object.back_material);
     s.one_patch = object.one_patch;
     const Mesh mesh = mesh_in(object, scene.scenario);
-    if (auto ok = builder.add(std::move(s), object.place, mesh, object.patch_edge_m); !ok.ok())
-      return ok;
+    if (auto ok = builder.add(std::move(s), object.place, mesh, object.patch_edge_m); !ok)
+      return ok.problem();
   }
   for (uint32_t i = 0; i < scene.signs.size(); ++i) {
     const Sign& sign = scene.description->signs[scene.signs[i].sign];
@@ -311,7 +309,7 @@ Result<void> add_surfaces(CompiledScene& scene, TriangleBuilder& builder) {
     s.sign = i;
     scene.signs[i].surface = static_cast<uint32_t>(scene.surfaces.size());
     const Mesh face = face_mesh(scene.signs[i].frame, sign.width_m, sign.height_m);
-    if (auto ok = builder.add(std::move(s), sign.place, face, 0); !ok.ok()) return ok;
+    if (auto ok = builder.add(std::move(s), sign.place, face, 0); !ok) return ok.problem();
   }
   for (uint32_t i = 0; i < scene.description->emitters.size(); ++i) {
     const Emitter& e = scene.description->emitters[i];
@@ -323,7 +321,7 @@ Result<void> add_surfaces(CompiledScene& scene, TriangleBuilder& builder) {
     for (uint32_t m = 0; m < scene.materials.size(); ++m) {
       if (scene.materials[m].name == e.body_material) s.material[0] = s.material[1] = m;
     }
-    if (auto ok = builder.add(std::move(s), e.place, body_mesh(e), 0); !ok.ok()) return ok;
+    if (auto ok = builder.add(std::move(s), e.place, body_mesh(e), 0); !ok) return ok.problem();
   }
   return {};
 }
@@ -396,7 +394,7 @@ void compile_sign_faces(CompiledScene& scene) {
 
 Result<void> compile_triangles(CompiledScene& scene, int cells) {
   TriangleBuilder builder(scene);
-  if (auto ok = add_surfaces(scene, builder); !ok.ok()) return ok.problem();
+  if (auto ok = add_surfaces(scene, builder); !ok) return ok.problem();
   if (builder.degenerate() > 0) {
     scene.warnings.push_back({{scene.description->file, 0},
                               std::to_string(builder.degenerate()) +
@@ -419,9 +417,9 @@ std::vector<std::string> open_doors(const SceneDescription& description, const S
 Result<void> adopt_packed_geometry(CompiledScene& scene) {
   const PackedScene& packed = *scene.description->packed;
   if (open_doors(*scene.description, scene.scenario) != packed.open_doors) {
-    return Problem{{packed.file->name(), 0},
-                   "in scenario \"" + scene.scenario.name +
-                       "\" other doors are open than in the one that was packed: pack that one"};
+    return problem_in(packed.file->name(),
+                      "in scenario \"" + scene.scenario.name +
+                          "\" other doors are open than in the one that was packed: pack that one");
   }
   scene.surfaces = packed.surfaces;
   scene.triangles = packed.triangles;

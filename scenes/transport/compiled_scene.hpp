@@ -112,7 +112,7 @@ struct VoxelGrid {
   uint32_t count() const { return static_cast<uint32_t>(nx * ny * nz); }
 };
 
-/// What the error of a run is judged by; see judged.hpp.
+/// What the error of a run is judged by; see error_target.hpp.
 struct ErrorTarget {
   std::vector<std::string> words;                 // that said so
   std::vector<uint32_t> planes, probes, targets;  // targets: of the eye
@@ -156,7 +156,7 @@ struct Features {
 /// What is estimated along the rays to one part (white, green, surround) of a sign: mean luminances
 /// [cd/m2] at the face (own, reflected), at the eye (face and path together), of the path alone,
 /// the transmission and the share of the part that nothing solid hides. Scored as values, see
-/// look.hpp.
+/// eye_paths.hpp.
 inline constexpr uint32_t eye_quantities = 6;
 enum class EyeQuantity : uint32_t { own, reflected, at_eye, path, transmission, visible };
 

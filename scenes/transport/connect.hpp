@@ -57,14 +57,14 @@ double medium_transmittance(const CompiledScene& scene, const Ray& ray, Real len
 }
 
 /// A straight line from a place to a point of an emitter.
-struct Connection {
+struct ShadowRay {
   Ray ray;            // ends where solid things may begin that are not in the way
   Real distance = 0;  // of the two places: what smoke and the inverse square know
 };
 
 /// `axis` is the emitting side's normal; a target on a solid face is met just in front of it.
-inline Connection connect(const CompiledScene& scene, const Vec3& from, const Vec3& to,
-                          const Vec3& axis, bool on_surface) {
+inline ShadowRay connect(const CompiledScene& scene, const Vec3& from, const Vec3& to,
+                         const Vec3& axis, bool on_surface) {
   Vec3 target = to;
   if (on_surface) {
     const Vec3 side = glm::dot(from - to, axis) >= 0 ? axis : -axis;

@@ -17,40 +17,12 @@
 
 #include "scenes/geometry/real.hpp"
 #include "scenes/transport/connect.hpp"
+#include "scenes/transport/direct_light.hpp"
 #include "scenes/transport/emission.hpp"
 #include "scenes/transport/emitter_cells.hpp"
 #include "scenes/transport/polygon_light.hpp"
 
 namespace luxodus {
-
-struct DirectLight {
-  std::vector<double> illuminance_lx;  // per source group
-  std::vector<double> fluence_lm_m2;   // per source group, all directions alike
-  double total_lx() const {
-    double sum = 0;
-    for (const double e : illuminance_lx) sum += e;
-    return sum;
-  }
-  double total_fluence() const {
-    double sum = 0;
-    for (const double e : fluence_lm_m2) sum += e;
-    return sum;
-  }
-};
-
-/// What is known of an emitter before it is looked at, from places around.
-enum class KnownSight : uint8_t { nothing, hidden, clear };
-
-struct DirectOptions {
-  bool media = true;             // false: as in clear air (what regulations calculate)
-  double part_share = 1.0 / 16;  // spacing of an emitter's points over their distance
-  /// Of all light that arrives, what shadows' edges across emitters may err by. Coarser where many
-  /// points are averaged: their errors are of either sign.
-  double tolerance = 1e-3;
-  /// By emitter; empty: nothing. Those that are hidden are left out, those that are clear take no
-  /// shadow rays.
-  std::span<const KnownSight> known{};
-};
 
 namespace limits {
 /// Quarterings of cells that something hides in part, of all emitters at one point: half of a lamp
@@ -78,29 +50,6 @@ double mean_extinction(const CompiledScene& scene, const CompiledEmitter& emitte
                                            distance, resolver) /
          static_cast<double>(distance);
 }
-
-/// Light from one emitter.
-struct DirectFromEmitter {
-  double illuminance_lx = 0;
-  double fluence_lm_m2 = 0;
-  double clear_air_lx = 0;  // illuminance as if there were no media
-  double open_lx = 0;       // illuminance as if nothing solid stood in the way
-
-  DirectFromEmitter& operator+=(const DirectFromEmitter& o) {
-    illuminance_lx += o.illuminance_lx;
-    fluence_lm_m2 += o.fluence_lm_m2;
-    clear_air_lx += o.clear_air_lx;
-    open_lx += o.open_lx;
-    return *this;
-  }
-};
-
-/// Light that arrives from one point of an emitter, or one cell of it.
-struct ArrivingLight {
-  uint32_t emitter = 0;
-  Vec3 direction{0};  // towards the emitter
-  double illuminance_lx = 0;
-};
 
 /// The direct light of all emitters at one point. One thread or fiber at a time; suspends where the
 /// resolver does.
@@ -237,7 +186,7 @@ class DirectSum {
     return lumens;
   }
 
-  Connection line_to(const CompiledEmitter& e, const EmitterPart& part) const {
+  ShadowRay line_to(const CompiledEmitter& e, const EmitterPart& part) const {
     return connect(scene_, from_, part.point.position, part.point.axis,
                    e.kind != EmitterKind::volume);
   }
@@ -248,7 +197,7 @@ class DirectSum {
                      bool known_clear = false) {
     const CompiledEmitter& e = scene_.emitters[index];
     PointLight out;
-    const Connection c = line_to(e, part);
+    const ShadowRay c = line_to(e, part);
     const Vec3 to_part = part.point.position - place_;
     const Real away = glm::length(to_part);
     if (!(c.distance > 0) || !(away > 0) || !(part.share > 0)) return out;
@@ -296,7 +245,7 @@ class DirectSum {
     const CellPoints corners = cells.corner_points(cell);
     for (const EmitterPart& part : corners.all()) {
       if (hidden && seen) return;
-      const Connection c = line_to(e, part);
+      const ShadowRay c = line_to(e, part);
       if (!(c.distance > 0) || glm::dot(normal_, c.ray.direction) <= 0) continue;
       if (directional_density(e, part.point, -c.ray.direction, resolver_) <= 0) continue;
       const bool passes =
@@ -336,7 +285,7 @@ class DirectSum {
 
   /// Whether the place sees a point of an emitter.
   bool sees(const CompiledEmitter& e, const EmitterPart& part) {
-    const Connection c = line_to(e, part);
+    const ShadowRay c = line_to(e, part);
     return c.distance > 0 && solid_transmittance(scene_, c.ray, c.ray.length,
                                                  scene_.bands.count() / 2, resolver_) == 1;
   }

@@ -7,12 +7,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace luxodus {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+constexpr double pi = std::numbers::pi;
 constexpr double plastic = 1.2207440846057596;  // root of x^4 = x + 1
 /// Points of the Gauss-Legendre rule of two, from 0 to 1.
 constexpr Real gauss[2] = {0.2113248654051871_r, 0.7886751345948129_r};
@@ -151,14 +152,14 @@ EmitterPart EmitterCells::at(uint32_t patch, Real u, Real v) const {
   return {{e.origin, down}, 0};
 }
 
-EmitterCells::Sight EmitterCells::sight_of(const EmitterCell& cell) const {
+EmitterCells::SeenCell EmitterCells::sight_of(const EmitterCell& cell) const {
   const Vec3 a = at(cell.patch, cell.u0, cell.v0).point.position;
   const Vec3 b = at(cell.patch, cell.u1, cell.v0).point.position;
   const Vec3 c = at(cell.patch, cell.u1, cell.v1).point.position;
   const Vec3 d = at(cell.patch, cell.u0, cell.v1).point.position;
   const Vec3 middle =
       at(cell.patch, 0.5_r * (cell.u0 + cell.u1), 0.5_r * (cell.v0 + cell.v1)).point.position;
-  Sight sight;
+  SeenCell sight;
   sight.width_u = std::max(length_of(b - a), length_of(c - d));
   sight.width_v = std::max(length_of(d - a), length_of(c - b));
   sight.distance = length_of(middle - from_.place);
@@ -174,7 +175,7 @@ EmitterCells::Sight EmitterCells::sight_of(const EmitterCell& cell) const {
 
 /// How many times its allowed width a cell has: light falls with the fourth power of the distance,
 /// or as fast as exp(-sigma_t d), or to nothing at the horizon.
-double EmitterCells::excess_width(const EmitterCell& cell, const Sight& sight) const {
+double EmitterCells::excess_width(const EmitterCell& cell, const SeenCell& sight) const {
   const double width = sight.width() * (1 + from_.sigma_t * sight.distance / 4);
   const bool one_point = cell.whole || emitter_->kind == EmitterKind::sign_face;
   const double allowed = from_.part_share * (one_point ? whole_share : 2) * sight.distance;
@@ -187,7 +188,7 @@ bool EmitterCells::small_whole(EmitterCell& cell) const {
   const CompiledEmitter& e = *emitter_;
   const bool round = e.kind == EmitterKind::disc || e.kind == EmitterKind::sphere;
   if (!round && e.kind != EmitterKind::rectangle) return false;
-  Sight sight;
+  SeenCell sight;
   sight.width_u = static_cast<double>(e.size.x);
   sight.width_v = static_cast<double>(round ? e.size.x : e.size.y);
   sight.distance = length_of(e.origin - from_.place);
@@ -249,7 +250,7 @@ std::vector<EmitterCell> EmitterCells::cut() const {
   if (emitter_->kind == EmitterKind::point) return cells;
   for (size_t next = 0; next < cells.size(); ++next) {
     const EmitterCell cell = cells[next];
-    const Sight sight = cell.whole ? Sight{} : sight_of(cell);
+    const SeenCell sight = cell.whole ? SeenCell{} : sight_of(cell);
     const bool room = small.size() + (cells.size() - next) < limits::direct_cells;
     if (cell.whole || !room || excess_width(cell, sight) <= 1) {
       small.push_back(cell);

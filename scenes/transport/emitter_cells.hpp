@@ -83,14 +83,14 @@ class EmitterCells {
 
  private:
   /// A cell as it is seen.
-  struct Sight {
+  struct SeenCell {
     double width_u = 0, width_v = 0, distance = 0;
     bool cut_by_horizon = false;
     double width() const { return std::max(width_u, width_v); }
   };
   EmitterPart at(uint32_t patch, Real u, Real v) const;
-  Sight sight_of(const EmitterCell& cell) const;
-  double excess_width(const EmitterCell& cell, const Sight& sight) const;
+  SeenCell sight_of(const EmitterCell& cell) const;
+  double excess_width(const EmitterCell& cell, const SeenCell& sight) const;
   std::vector<EmitterCell> patches() const;
   std::vector<EmitterCell> mesh_points() const;
   bool is_mesh_of_points() const;

@@ -106,7 +106,9 @@ class Judging {
                 known);
   }
 
-  Problem fail(std::string what) const { return {{scene_.description->file, 0}, std::move(what)}; }
+  Problem fail(std::string what) const {
+    return problem_in(scene_.description->file, std::move(what));
+  }
 
   const CompiledScene& scene_;
   ErrorTarget judged_;
@@ -123,7 +125,7 @@ Result<ErrorTarget> error_target_of(const CompiledScene& scene,
   Judging judging(scene, words);
   if (words.empty()) judging.add_all();
   for (const std::string& word : words) {
-    if (auto ok = judging.add(word); !ok.ok()) return ok.problem();
+    if (auto ok = judging.add(word); !ok) return ok.problem();
   }
   return judging.take();
 }

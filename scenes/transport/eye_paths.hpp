@@ -149,7 +149,7 @@ class EyeScores {
     const Vec3 aimed = sign.origin +
                        sign.axes[0] * ((uv.x - 0.5_r) * static_cast<Real>(d.width_m)) +
                        sign.axes[1] * ((uv.y - 0.5_r) * static_cast<Real>(d.height_m));
-    const Connection c = connect(scene_, eye, aimed, sign.axes[2], true);
+    const ShadowRay c = connect(scene_, eye, aimed, sign.axes[2], true);
     const PathBand chosen = choose_band();
     if (part == 2) return look_along(c, chosen);
     const double solid = solid_transmittance(scene_, c.ray, c.ray.length, chosen.band, resolver_);
@@ -169,7 +169,7 @@ class EyeScores {
   }
 
   /// What the eye receives along a line on which nothing of the sign is to be seen.
-  void look_along(const Connection& c, const PathBand& chosen) {
+  void look_along(const ShadowRay& c, const PathBand& chosen) {
     eye_.radiance({c.ray.origin, c.ray.direction}, chosen.band, EmitterHits::all, chosen.lm_per_w,
                   at_eye_);
   }
@@ -180,7 +180,7 @@ class EyeScores {
     int group = 0;
     double at_face = 0, at_eye = 0, through = 0, through_scene = 0;
   };
-  OwnLight own_light(const CompiledSign& sign, const Vec2& uv, const Connection& c,
+  OwnLight own_light(const CompiledSign& sign, const Vec2& uv, const ShadowRay& c,
                      int chosen_band) {
     OwnLight own;
     for (int b = 0; b < scene_.bands.count(); ++b) {
@@ -217,7 +217,7 @@ class EyeScores {
 
   /// Light scattered, or emitted by flames, into the line of sight, into light_: one collision is
   /// forced on it.
-  void gather_path_light(const Connection& c, const PathBand& chosen) {
+  void gather_path_light(const ShadowRay& c, const PathBand& chosen) {
     light_.clear();
     if (scene_.features.media == MediaNeed::none) return;
     const int band = chosen.band;

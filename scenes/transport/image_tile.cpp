@@ -65,22 +65,22 @@ std::vector<std::byte> encode_tile(const ImageTile& tile) {
 
 Result<ImageTile> decode_tile(std::span<const std::byte> bytes, const Image& image, uint32_t tile) {
   Header header{};
-  if (bytes.size() < sizeof header) return Problem{{}, "a tile of a picture is cut short"};
+  if (bytes.size() < sizeof header) return problem("a tile of a picture is cut short");
   std::memcpy(&header, bytes.data(), sizeof header);
   bytes = bytes.subspan(sizeof header);
-  if (header.magic != magic) return Problem{{}, "these bytes are no tile of a picture"};
+  if (header.magic != magic) return problem("these bytes are no tile of a picture");
   ImageTile out = outline(image, tile);
   const size_t texels = row_floats(out) * static_cast<size_t>(out.height);
   if (header.width != static_cast<uint32_t>(out.width) ||
       header.height != static_cast<uint32_t>(out.height) ||
       header.channels != static_cast<uint32_t>(out.channels) || header.unused != 0)
-    return Problem{{}, "a tile does not belong to this picture"};
+    return problem("a tile does not belong to this picture");
   if (bytes.size() != texels * sizeof(float))
-    return Problem{{}, "a tile of a picture has not the length that it says"};
+    return problem("a tile of a picture has not the length that it says");
   out.texels.resize(texels);
   std::memcpy(out.texels.data(), bytes.data(), bytes.size());
   if (!std::all_of(out.texels.begin(), out.texels.end(), [](float v) { return v >= 0 && v <= 1; }))
-    return Problem{{}, "a tile of a picture has a texel outside 0 to 1"};
+    return problem("a tile of a picture has a texel outside 0 to 1");
   return out;
 }
 

@@ -1,18 +1,12 @@
-// Choosing a kernel at run time. Each medium need is compiled in a source of its own
-// (kernel_*.cpp), so that the loops of each build side by side.
+// Choosing a kernel at run time, below the choice of its media (particle_batches.hpp). Each medium
+// need is compiled in a source of its own (kernel_*.cpp), so that the loops of each build side by
+// side.
 #pragma once
 
 #include "scenes/transport/particle.hpp"
-#include "scenes/transport/resolver.hpp"
+#include "scenes/transport/particle_batches.hpp"
 
 namespace luxodus {
-
-/// Particles only; what traces eyes is compiled once, not once per kernel.
-class ParticleBatches {
- public:
-  virtual ~ParticleBatches() = default;
-  virtual void trace(int group, uint64_t first, int64_t count, BatchScores& scores) = 0;
-};
 
 template <class K, class Resolver>
 class KernelBatches final : public ParticleBatches {
@@ -55,14 +49,5 @@ std::unique_ptr<ParticleBatches> choose_kernel(const CompiledScene& scene,
   if (f.surfaces) return choose_detectors<Media, false, true>(scene, access, seed);
   return choose_detectors<Media, false, false>(scene, access, seed);
 }
-
-extern template std::unique_ptr<ParticleBatches> choose_kernel<MediaNeed::none>(
-    const CompiledScene&, const GeometryAccess&, uint64_t);
-extern template std::unique_ptr<ParticleBatches> choose_kernel<MediaNeed::homogeneous>(
-    const CompiledScene&, const GeometryAccess&, uint64_t);
-extern template std::unique_ptr<ParticleBatches> choose_kernel<MediaNeed::layered>(
-    const CompiledScene&, const GeometryAccess&, uint64_t);
-extern template std::unique_ptr<ParticleBatches> choose_kernel<MediaNeed::general>(
-    const CompiledScene&, const GeometryAccess&, uint64_t);
 
 }  // namespace luxodus

@@ -29,18 +29,18 @@ Result<Brick> load_brick(const PackedScene& packed, const SceneParts& parts, uin
   const uint32_t object = parts.of_brick(static_cast<int>(medium), static_cast<int>(brick));
   if (object == none_index) return clear_brick();
   const auto bytes = object_bytes(packed, object);
-  if (!bytes.ok()) return bytes.problem();
+  if (!bytes) return bytes.problem();
   auto decoded = decode_brick(bytes.value(), parts.table(medium), brick);
-  if (!decoded.ok()) return Problem{{packed.file->name(), 0}, decoded.problem().what};
+  if (!decoded) return problem_in(packed.file->name(), decoded.problem().what);
   return decoded;
 }
 
 Result<ImageTile> load_tile(const PackedScene& packed, const SceneParts& parts, uint32_t index,
                             const Image& image, uint32_t tile) {
   const auto bytes = object_bytes(packed, parts.of_tile(index, tile));
-  if (!bytes.ok()) return bytes.problem();
+  if (!bytes) return bytes.problem();
   auto decoded = decode_tile(bytes.value(), image, tile);
-  if (!decoded.ok()) return Problem{{packed.file->name(), 0}, decoded.problem().what};
+  if (!decoded) return problem_in(packed.file->name(), decoded.problem().what);
   return decoded;
 }
 
@@ -52,7 +52,7 @@ Result<std::shared_ptr<const Image>> load_image(const CompiledScene& scene, cons
                        static_cast<size_t>(image->channels));
   for (uint32_t tile = 0; tile < tile_columns(*image) * tile_rows(*image); ++tile) {
     const auto decoded = load_tile(packed, parts, index, *image, tile);
-    if (!decoded.ok()) return decoded.problem();
+    if (!decoded) return decoded.problem();
     place_tile(decoded.value(), tile, *image);
   }
   return std::shared_ptr<const Image>(std::move(image));
@@ -96,10 +96,10 @@ Result<GeometryCell> load_cell(const CompiledScene& scene, uint32_t cell) {
   if (scene.description->packed == nullptr) return scene.cells[cell];
   const PackedScene& packed = *scene.description->packed;
   const auto bytes = object_bytes(packed, cell);
-  if (!bytes.ok()) return bytes.problem();
+  if (!bytes) return bytes.problem();
   auto decoded =
       decode_cell(bytes.value(), {static_cast<uint32_t>(scene.surfaces.size()), scene.patch_count});
-  if (!decoded.ok()) return Problem{{packed.file->name(), 0}, decoded.problem().what};
+  if (!decoded) return problem_in(packed.file->name(), decoded.problem().what);
   return decoded;
 }
 
@@ -110,7 +110,7 @@ Result<void> check_objects(const CompiledScene& scene) {
   for (uint32_t i = 0; i < parts.count(); ++i) {
     const ScenePart part = parts[i];
     const auto problem_in = [](const auto& read) {
-      return read.ok() ? std::nullopt : std::optional(read.problem());
+      return read ? std::nullopt : std::optional(read.problem());
     };
     std::optional<Problem> bad;
     if (part.kind == ScenePart::Kind::cell) {
@@ -133,7 +133,7 @@ Result<std::shared_ptr<const MediaBricks>> load_bricks(const CompiledScene& scen
     const auto medium = static_cast<uint32_t>(placed.grid.medium());
     for (uint32_t i = 0; i < parts.table(medium).bricks.size(); ++i) {
       auto brick = load_brick(*scene.description->packed, parts, medium, i);
-      if (!brick.ok()) return brick.problem();
+      if (!brick) return brick.problem();
       out[medium].push_back(std::move(brick).value());
     }
   }
@@ -146,7 +146,7 @@ Result<std::vector<std::shared_ptr<const Image>>> load_images(const CompiledScen
   std::vector<std::shared_ptr<const Image>> out;
   for (uint32_t i = 0; i < scene.images.size(); ++i) {
     auto image = load_image(scene, parts, i);
-    if (!image.ok()) return image.problem();
+    if (!image) return image.problem();
     out.push_back(std::move(image).value());
   }
   return out;

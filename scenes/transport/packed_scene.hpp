@@ -88,7 +88,7 @@ Result<void> for_each_cell(const CompiledScene& scene, Visit&& visit) {
       continue;
     }
     auto cell = load_cell(scene, i);
-    if (!cell.ok()) return cell.problem();
+    if (!cell) return cell.problem();
     visit(cell.value());
   }
   return {};

@@ -240,7 +240,7 @@ class ParticleTracer {
     score_collision(scene_, place, p.band, static_cast<uint32_t>(flight.medium), before - after,
                     after, *batch_);
     p.weight = after;
-    if (!goes_on(p)) return false;
+    if (!survives_roulette(p)) return false;
     p.ray.origin = place;
     const Vec3 incoming = p.ray.direction;
     p.ray.direction =
@@ -281,7 +281,7 @@ class ParticleTracer {
     if constexpr (flawed) Flaws::counted(patch[0], before);
     batch_->balance.absorbed_surfaces += before - after;
     p.weight = after;
-    if (!goes_on(p)) return false;
+    if (!survives_roulette(p)) return false;
     const Vec3 normal = front ? triangle.unit_normal() : -triangle.unit_normal();
     p.ray.direction = to_world(normal, turn.lambertian);
     p.ray.origin = offset_ray(triangle.at(hit.u, hit.v), normal, scene_.least_offset_m);
@@ -308,7 +308,7 @@ class ParticleTracer {
     patch_score(hit, front != sampled.transmitted, p.band)[1] += static_cast<int64_t>(after);
     batch_->balance.absorbed_surfaces += before - after;
     p.weight = after;
-    if (!goes_on(p)) return false;
+    if (!survives_roulette(p)) return false;
     const bool straight =
         sampled.transmitted && sampled.specular && model.kind != SurfaceKind::dielectric;
     p.direct = p.direct && straight;
@@ -341,7 +341,7 @@ class ParticleTracer {
   }
 
   /// Russian roulette. Survival with probability weight / roulette_to keeps the expectation.
-  bool goes_on(State& p) {
+  bool survives_roulette(State& p) {
     if (p.weight >= defaults::roulette_below) return true;
     if (p.weight == 0) return false;
     const uint64_t r = (uint64_t{random_.bits()} * defaults::roulette_to) >> 32;

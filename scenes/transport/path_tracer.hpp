@@ -20,6 +20,7 @@
 #include "scenes/transport/connect.hpp"
 #include "scenes/transport/emission.hpp"
 #include "scenes/transport/emitter_choice.hpp"
+#include "scenes/transport/patch_radiance.hpp"
 #include "scenes/transport/textures.hpp"
 
 namespace luxodus {
@@ -64,14 +65,6 @@ class GroupLight {
  private:
   std::vector<double> by_group_;
   double total_ = 0;
-};
-
-/// Outgoing radiance of a patch, for final gathers: [W/(m2 sr)]. Implemented where flux is
-/// collected.
-class PatchRadiance {
- public:
-  virtual ~PatchRadiance() = default;
-  virtual double radiance(const Hit& hit, bool front, int band) const = 0;
 };
 
 /// Which emitters count when a path meets them on its way.
@@ -226,7 +219,7 @@ class PathTracer {
           flight.collided ? scatter(path, flight, hit.distance) : meet_surface(path, hit, gather);
       // Last, since asking may drop the cell that the hit is of.
       add_single_scattering(stretch, hit.distance, flight, 1, path.band, weight, path.into);
-      if (!alive || (event >= 2 && !survives(path.throughput))) return;
+      if (!alive || (event >= 2 && !survives_roulette(path.throughput))) return;
     }
   }
 
@@ -313,7 +306,7 @@ class PathTracer {
     return true;
   }
 
-  bool survives(double& throughput) {
+  bool survives_roulette(double& throughput) {
     if (throughput >= 0.2) return true;
     const double survival = throughput / 0.4;
     const auto u = static_cast<double>(random_.uniform());
@@ -414,7 +407,7 @@ class PathTracer {
   /// Nothing from points that are not farther than `min_distance`: paths hit them.
   Arriving light_from(const CompiledEmitter& e, const EmissionPoint& point, const Vec3& place,
                       Real min_distance, int band) {
-    const Connection c =
+    const ShadowRay c =
         connect(scene_, place, point.position, point.axis, e.kind != EmitterKind::volume);
     if (!(c.distance > min_distance)) return {};
     const auto density =

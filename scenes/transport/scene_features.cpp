@@ -37,7 +37,7 @@ SceneFeature bands(const CompiledScene& scene) {
                                                             : ", as [run] band_edges_nm says")};
   }
   return {"wavelength bands", false,
-          run.max_bands == 1 ? "one, as [run] bands_most says"
+          run.max_bands == 1 ? "one, as [run] max_bands says"
                              : "one: no spectrum of a material or medium changes over wavelengths"};
 }
 

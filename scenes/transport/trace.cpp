@@ -1,6 +1,8 @@
 #include "scenes/transport/trace.hpp"
 
-#include "scenes/transport/kernels.hpp"
+#include "scenes/transport/direct.hpp"
+#include "scenes/transport/eye_paths.hpp"
+#include "scenes/transport/particle_batches.hpp"
 
 namespace luxodus {
 

@@ -1,11 +1,14 @@
-// Batches: the door through which callers trace a scene, whatever its kernel and its partition.
+// Batches: the door through which callers trace a scene, whatever its kernel and its partition. It
+// includes no template of a resolver, so that callers compile quickly: those stay behind it.
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "scenes/geometry/real.hpp"
-#include "scenes/transport/direct.hpp"
-#include "scenes/transport/eye_paths.hpp"
+#include "scenes/tally/batch_scores.hpp"
+#include "scenes/transport/direct_light.hpp"
+#include "scenes/transport/patch_radiance.hpp"
 #include "scenes/transport/resolver.hpp"
 
 namespace luxodus {

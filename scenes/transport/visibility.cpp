@@ -1,5 +1,7 @@
 #include "scenes/transport/visibility.hpp"
 
+#include "scenes/transport/direct.hpp"
+
 namespace luxodus {
 
 std::vector<DirectFromEmitter> direct_lights(const CompiledScene& scene,
@@ -30,7 +32,7 @@ std::vector<ArrivingLight> direct_arrivals(const CompiledScene& scene, const Geo
 double clear_share(const CompiledScene& scene, const GeometryAccess& access, const Vec3& from,
                    const Vec3& to) {
   return with_resolver(scene, access, [&](auto resolver) {
-    const Connection line = connect(scene, from, to, glm::normalize(from - to), true);
+    const ShadowRay line = connect(scene, from, to, glm::normalize(from - to), true);
     return solid_transmittance(scene, line.ray, line.ray.length, scene.bands.count() / 2, resolver);
   });
 }

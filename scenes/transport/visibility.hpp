@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "scenes/geometry/real.hpp"
-#include "scenes/transport/direct.hpp"
+#include "scenes/transport/direct_light.hpp"
 #include "scenes/transport/resolver.hpp"
 
 namespace luxodus {

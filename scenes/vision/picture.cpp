@@ -13,9 +13,4 @@ uint8_t srgb_byte(double linear) {
   return static_cast<uint8_t>(std::lround(255 * encoded));
 }
 
-double linear_of_srgb_byte(uint8_t byte) {
-  const double v = byte / 255.0;
-  return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-}
-
 }  // namespace luxodus

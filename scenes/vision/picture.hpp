@@ -27,7 +27,5 @@ struct SrgbPicture {
 
 /// The sRGB byte of a linear value: clamped to [0, 1], encoded, rounded. NaN gives 0.
 uint8_t srgb_byte(double linear);
-/// The linear value of an sRGB byte.
-double linear_of_srgb_byte(uint8_t byte);
 
 }  // namespace luxodus

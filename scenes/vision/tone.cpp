@@ -99,7 +99,7 @@ constexpr double fovea_deg = 1.0;
 // A small picture is not averaged into fewer cells than this: a histogram of ten is none.
 constexpr double least_cells = 256;
 
-struct Histogram {
+struct LogHistogram {
   double log_low = 0;
   double step = 0;
   std::vector<double> count;
@@ -112,14 +112,14 @@ struct Histogram {
   double log_centre(size_t b) const { return log_low + (static_cast<double>(b) + 0.5) * step; }
 };
 
-Histogram histogram_of(const std::vector<double>& luminances) {
+LogHistogram histogram_of(const std::vector<double>& luminances) {
   double low = std::log(luminances.front());
   double high = low;
   for (const double l : luminances) {
     low = std::min(low, std::log(l));
     high = std::max(high, std::log(l));
   }
-  Histogram h{low, (high - low) / histogram_bins, std::vector<double>(histogram_bins, 0.0)};
+  LogHistogram h{low, (high - low) / histogram_bins, std::vector<double>(histogram_bins, 0.0)};
   for (const double l : luminances) {
     const double position = h.step > 0 ? (std::log(l) - low) / h.step : 0;
     h.count[std::min(static_cast<size_t>(position), h.count.size() - 1)] += 1;
@@ -131,7 +131,7 @@ Histogram histogram_of(const std::vector<double>& luminances) {
 //   f(b) <= dL_t(L_d)/dL_t(L_w) * T step L_w / (log(L_dmax/L_dmin) L_d)     (their eq. 10)
 // until a pass cuts little. False when hardly anything is left: the scene has less contrast than
 // the display.
-bool trim_to_human_contrast(Histogram& h, double log_black, double log_white) {
+bool trim_to_human_contrast(LogHistogram& h, double log_black, double log_white) {
   const double whole = h.total();
   for (int pass = 0; pass < most_passes; ++pass) {
     const double total = h.total();
@@ -307,7 +307,7 @@ ToneCurve human_curve(const std::vector<double>& adaptation_cd_m2, const Display
   if (lit.empty()) return linear_curve(lit, display);
   const double log_black = std::log(display.black_cd_m2);
   const double log_white = std::log(display.white_cd_m2);
-  Histogram h = histogram_of(lit);
+  LogHistogram h = histogram_of(lit);
   const bool fits = h.step * histogram_bins <= log_white - log_black;
   if (fits || !trim_to_human_contrast(h, log_black, log_white)) return linear_curve(lit, display);
 

@@ -311,6 +311,10 @@ inline constexpr std::array<std::string_view, 6> side_words{"west",  "east",   "
 // ---- scenarios and run ------------------------------------------------------------------------
 
 enum class Operation { mains, emergency, dark };
+inline constexpr std::array<const char*, 3> operation_words{"mains", "emergency", "dark"};
+constexpr const char* name_of(Operation operation) {
+  return operation_words[static_cast<size_t>(operation)];
+}
 
 struct Scenario {
   struct Factor {

@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 
 #include "actors/display/pictures.hpp"
@@ -219,7 +220,8 @@ double veil_by_voxels(const LocalRun& run) {
     const uint32_t voxel = voxel_of(scene.voxels, Vec3(at - scene.local_origin));
     const double fluence =
         readout.lumens(scene.blocks.voxels, voxel, 0).value / (edge * edge * edge);
-    luminance += sigma * albedo * fluence / (4 * M_PI) * std::exp(-sigma * along) * step;
+    luminance +=
+        sigma * albedo * fluence / (4 * std::numbers::pi) * std::exp(-sigma * along) * step;
   }
   return luminance;
 }
@@ -251,7 +253,7 @@ void print_face() {
   Estimate of_bin;
   for (const uint32_t patch : {face.first_patch, face.first_patch + 2}) {
     const Estimate out =
-        readout.lumens(scene.blocks.patches, patch, 1) * (1 / (M_PI * face.area_m2));
+        readout.lumens(scene.blocks.patches, patch, 1) * (1 / (std::numbers::pi * face.area_m2));
     of_bin.value += out.value;
     of_bin.standard_error = std::hypot(of_bin.standard_error, out.standard_error);
   }

@@ -1,12 +1,11 @@
 // luxodus_bench [--repeats N] [--share X] [--scene NAME] [--pack FILE] [TABLE ...]: prints the
 // tables named, or all.
-#include <xmmintrin.h>
-
 #include <charconv>
 #include <cstdio>
 #include <set>
 #include <string>
 
+#include "runtime/core/denormals.hpp"
 #include "runtime/core/isolated_job.hpp"
 #include "tests/bench/tables.hpp"
 
@@ -30,6 +29,7 @@ constexpr Table tables[] = {
     {"speed", [](const Options& o) { luxodus::bench::print_speed(o.repeats); }},
     {"threads", [](const Options& o) { luxodus::bench::print_threads(o.repeats); }},
     {"pieces", [](const Options& o) { luxodus::bench::print_pieces(o.repeats); }},
+    {"flights", [](const Options&) { luxodus::bench::print_flights(); }},
     {"switch", [](const Options& o) { luxodus::bench::print_switch(o.repeats); }},
     {"nodes", [](const Options& o) { luxodus::bench::print_nodes(o.repeats); }},
     {"delay", [](const Options& o) { luxodus::bench::print_delay(o.repeats); }},
@@ -53,7 +53,7 @@ bool is_table(const std::string& word) {
 
 int main(int argc, char** argv) {
   if (const auto served = luxodus::serve_isolated_job(argc, argv)) return *served;
-  _mm_setcsr(_mm_getcsr() | 0x8040);  // denormals to zero, as in a run
+  luxodus::flush_denormals();
   Options options;
   std::set<std::string> wanted;
   for (int i = 1; i < argc; ++i) {

@@ -15,6 +15,11 @@ inline double wall_seconds() {
   return clock_seconds(CLOCK_MONOTONIC);
 }
 
+/// Of all threads of this process [s].
+inline double process_seconds() {
+  return clock_seconds(CLOCK_PROCESS_CPUTIME_ID);
+}
+
 /// A line of /proc/self/status [bytes], e.g. "VmRSS" or "VmHWM"; 0 where there is none.
 inline int64_t process_bytes(const std::string& key) {
   std::ifstream status("/proc/self/status");

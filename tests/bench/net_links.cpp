@@ -16,6 +16,7 @@
 
 #include "runtime/net/network.hpp"
 #include "runtime/net/zmq_transport.hpp"
+#include "tests/kit/temporary_folder.hpp"
 
 using namespace luxodus;
 
@@ -161,9 +162,8 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "net_bench [--seconds 1..600]\n");
     return 2;
   }
-  const std::string path = "ipc://" + (std::filesystem::temp_directory_path() /
-                                       ("luxodus-net-bench-" + std::to_string(::getpid())))
-                                          .string();
+  const test::TemporaryFolder folder;
+  const std::string path = "ipc://" + (folder / "link").string();
   const Endpoints tcp{"tcp://127.0.0.1:*", "tcp://127.0.0.1:*"};
   fmt::print("{:<12} {:>9} {:>9} {:>12} {:>11} {:>11} {:>11}\n", "transport", "p50 [us]",
              "p99 [us]", "questions/s", "16 KiB/s", "128 KiB/s", "1 MiB/s");

@@ -62,7 +62,7 @@ std::unique_ptr<LocalRun> traced(const std::shared_ptr<const CompiledScene>& sce
 }
 
 /// Variance of the mean illuminance of a plane as dealt usually, over that with as many batches
-/// dealt for this plane by `luxodus run --by-need`.
+/// dealt for this plane by `luxodus run --adaptive`.
 double gain_by_need(const LocalRun& usual, const SceneDescription& d, const char* scenario,
                     uint32_t plane) {
   CompileOptions options;
@@ -187,7 +187,7 @@ void print_edit(const Edit& edit, Air air, bool stratified) {
 void print_allocation(double share) {
   fmt::print(
       "\nVariance as dealt usually over that with batches dealt by the deviation of each group,\n"
-      "were it known, and as luxodus run --by-need finds it (particles alike, the first round "
+      "were it known, and as luxodus run --adaptive finds it (particles alike, the first round "
       "aside)\n{:<16} {:<24} {:>9} {:>9}\n",
       "office floor", "result", "known", "found");
   for (const char* scenario : {"clear_emergency", "smoke_emergency"})

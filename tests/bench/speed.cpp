@@ -4,11 +4,11 @@
 #include <limits>
 
 #include "actors/run/local_run.hpp"
-#include "scenes/intersect/replay.hpp"
 #include "scenes/transport/particle.hpp"
 #include "tests/bench/bench_scenes.hpp"
 #include "tests/bench/measure.hpp"
 #include "tests/bench/tables.hpp"
+#include "tests/kit/replay_rays.hpp"
 
 namespace luxodus::bench {
 
@@ -128,7 +128,7 @@ void print_speed(int repeats) {
     const std::vector<Ray> to_surface = without_ends(rays);
     Runner runner(*scene, index);
     runner.batch();
-    uint64_t checksum = replay_rays(index.cell(0), rays);
+    uint64_t checksum = test::replay_rays(index.cell(0), rays);
     std::vector<double> run, bare, whole, share, whole_share;
     for (int i = 0; i < repeats; ++i) {
       run.push_back(rays_per_second([&] {
@@ -137,11 +137,11 @@ void print_speed(int repeats) {
         return static_cast<double>(runner.balance().rays - before);
       }));
       bare.push_back(rays_per_second([&] {
-        checksum += replay_rays(index.cell(0), rays);
+        checksum += test::replay_rays(index.cell(0), rays);
         return static_cast<double>(rays.size());
       }));
       whole.push_back(rays_per_second([&] {
-        checksum += replay_rays(index.cell(0), to_surface);
+        checksum += test::replay_rays(index.cell(0), to_surface);
         return static_cast<double>(to_surface.size());
       }));
       share.push_back(run.back() / bare.back());

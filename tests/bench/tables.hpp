@@ -17,6 +17,8 @@ void print_memory(int n);
 void print_pieces(int repeats);
 /// Nanoseconds of the runtime's own steps: switches, messages, timers.
 void print_switch(int repeats);
+/// Nanoseconds of a free flight and of an optical depth, by kind of media.
+void print_flights();
 /// How often nodes find parts of a scene resident, and what they fetch, with and without a profile:
 /// of the office floor, or of a pack of a scene that is ten times what a node may hold.
 void print_residency(const std::string& pack);

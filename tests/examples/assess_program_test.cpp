@@ -56,10 +56,11 @@ const std::string clear =
     "[[scenario]]\nname = \"clear\"\noperation = \"emergency\"\nmedia = { smoke = 0 }\n";
 const std::string emergency = "operation = \"emergency\"\n";
 
-Outcome assess(const Folder& folder, const std::string& scene, const std::string& options) {
-  std::ofstream(folder.path / "scene.toml") << scene;
-  return run_luxodus(folder, "assess " + (folder.path / "scene.toml").string() + " --out " +
-                                 (folder.path / "out").string() + " " + options);
+Outcome assess(const TemporaryFolder& folder, const std::string& scene,
+               const std::string& options) {
+  std::ofstream(folder / "scene.toml") << scene;
+  return run_luxodus(folder, "assess " + (folder / "scene.toml").string() + " --out " +
+                                 (folder / "out").string() + " " + options);
 }
 
 bool has(const std::string& text, const std::string& words) {
@@ -70,7 +71,7 @@ bool has(const std::string& text, const std::string& words) {
 
 TEST_CASE("assess refuses what was not named, with what to write, and writes nothing",
           "[program][assess]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string rules = "--rules en1838-2024 ";
   const auto refused = [&](const std::string& scene, const std::string& options,
                            const std::string& words) {
@@ -78,7 +79,7 @@ TEST_CASE("assess refuses what was not named, with what to write, and writes not
     INFO(outcome.err);
     CHECK(outcome.code == 2);
     CHECK(has(outcome.err, words));
-    CHECK_FALSE(fs::exists(folder.path / "out"));
+    CHECK_FALSE(fs::exists(folder / "out"));
   };
   refused(corridor, rules, "there is no [[scenario]]");
   refused(corridor + smoky + clear, rules, "\"fire\" (mains operation, with smoke)");
@@ -91,7 +92,7 @@ TEST_CASE("assess refuses what was not named, with what to write, and writes not
 
 TEST_CASE("assess says the judged state before any verdict, and never that a building complies",
           "[program][assess]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string scene =
       corridor + smoky + emergency + "seconds_after_failure = 5\n" + clear +
       "[assessment]\nirritant_smoke = true\nspacing_m = 4\nrules = [\"en1838-2024\"]\n";
@@ -108,14 +109,14 @@ TEST_CASE("assess says the judged state before any verdict, and never that a bui
   CHECK(outcome.out.find("not assessed") < outcome.out.find("written to"));
   CHECK_FALSE(has(outcome.out, "checks pass"));
   CHECK_FALSE(has(outcome.out, "complies"));
-  const std::string page = slurp(folder.path / "out" / "report.html");
+  const std::string page = slurp(folder / "out" / "report.html");
   CHECK(has(page, "1 of 1 lit"));
   CHECK(has(page, "em 1"));
   CHECK_FALSE(has(page, "checks pass"));
 }
 
 TEST_CASE("mains operation is judged where it is named, with a warning", "[program][assess]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const Outcome outcome =
       assess(folder, corridor + smoky, "--scenario fire --codes-alone --rules en1838-2024");
   CHECK(outcome.code == 0);
@@ -125,7 +126,7 @@ TEST_CASE("mains operation is judged where it is named, with a warning", "[progr
 
 TEST_CASE("a limit that was read nowhere is told, and with --strict it is open",
           "[program][assess]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string scene = corridor + smoky + emergency;
   const Outcome said = assess(folder, scene, "--codes-alone --rules en1838-2024");
   CHECK(said.code == 0);

@@ -33,8 +33,8 @@ std::string with_lamp_far_away() {
          "position = [2000, 1500, 2500]\nflux_lm = 100\n";
 }
 
-std::string written(const Folder& folder, const std::string& text) {
-  const fs::path file = folder.path / "scene.toml";
+std::string written(const TemporaryFolder& folder, const std::string& text) {
+  const fs::path file = folder / "scene.toml";
   std::ofstream(file) << text;
   return file.string();
 }
@@ -45,14 +45,14 @@ TEST_CASE(
     "check names each finding with its severity, file and line, counts them, and fails on "
     "errors alone",
     "[program]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const auto fine = run_luxodus(folder, "check " + written(folder, good));
   CHECK(fine.code == 0);
   CHECK(fine.out.find("no errors, no warnings, no notes") != std::string::npos);
   const auto bad = run_luxodus(folder, "check " + written(folder, with_lamp_far_away()));
   CHECK(bad.code == 2);
-  CHECK(bad.err.find("error: " + (folder.path / "scene.toml").string() +
-                     ":19: emitter \"lost\" is ") != std::string::npos);
+  CHECK(bad.err.find("error: " + (folder / "scene.toml").string() + ":19: emitter \"lost\" is ") !=
+        std::string::npos);
   CHECK(bad.out.find("1 error, no warnings, no notes") != std::string::npos);
   const auto open =
       run_luxodus(folder, "check " + written(folder, "open_sides = [\"top\"]\n" + good));
@@ -60,7 +60,7 @@ TEST_CASE(
 }
 
 TEST_CASE("check gives its findings as JSON, too", "[program]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const auto bad = run_luxodus(folder, "check --json " + written(folder, with_lamp_far_away()));
   CHECK(bad.code == 2);
   const auto json = nlohmann::json::parse(bad.out);
@@ -73,9 +73,9 @@ TEST_CASE("check gives its findings as JSON, too", "[program]") {
 }
 
 TEST_CASE("run and pack refuse a scene with an error before they write anything", "[program]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string scene = written(folder, with_lamp_far_away());
-  const std::string out = (folder.path / "out").string();
+  const std::string out = (folder / "out").string();
   for (const std::string& command :
        {"run " + scene + " --particles 10k --out " + out, "pack " + scene + " --out " + out}) {
     const auto refused = run_luxodus(folder, command);

@@ -47,8 +47,8 @@ std::string flush_of(int worker) {
 }
 
 /// A hall of 900 boxes, twice as large as a budget, and batches that are soon traced.
-std::string boxes(const Folder& folder) {
-  const fs::path path = folder.path / "boxes.toml";
+std::string boxes(const TemporaryFolder& folder) {
+  const fs::path path = folder / "boxes.toml";
   std::ofstream(path) << R"(title = "Boxes in rows"
 patch_edge_m = 5
 [run]
@@ -93,12 +93,12 @@ ClusterText fetching(const std::string& scene) {
   return text;
 }
 
-std::string cells_of(const Folder& folder) {
+std::string cells_of(const TemporaryFolder& folder) {
   return " --cells " + std::to_string(number_in(folder, "cells"));
 }
 
 /// Ends the run, and compares what it left.
-void end_with_same_bits(const Folder& folder, const Running& nodes, const FaultRow& row) {
+void end_with_same_bits(const TemporaryFolder& folder, const Running& nodes, const FaultRow& row) {
   nodes.end();
   INFO(nodes.controller->text());
   check_goes_on(folder, 100'000);
@@ -109,7 +109,7 @@ void end_with_same_bits(const Folder& folder, const Running& nodes, const FaultR
 
 TEST_CASE("half of the workers may be killed at once, or all but one, with the same bits",
           "[cluster][faults]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const int killed = GENERATE(2, 3);
   const Running nodes = start(write_cluster(folder, over_tcp(quick(4))), 4);
   REQUIRE(nodes.controller->says(flush_of(1)));
@@ -123,7 +123,7 @@ TEST_CASE("half of the workers may be killed at once, or all but one, with the s
 
 TEST_CASE("a worker that is stopped is given up, and works again when it goes on",
           "[cluster][faults]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const Running nodes = start(write_cluster(folder, over_tcp(quick(3))), 3);
   REQUIRE(nodes.controller->says(flush_of(1)));
   FaultRow row("a worker is stopped (SIGSTOP)", *nodes.controller);
@@ -137,7 +137,7 @@ TEST_CASE("a worker that is stopped is given up, and works again when it goes on
 }
 
 TEST_CASE("a partition that heals in time costs nobody, with the same bits", "[cluster][faults]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   ClusterText text = quick(3);
   text.more.replace(text.more.find("lost_s = 0.5"), 12, "lost_s = 30 ");
   const auto [how, what] = GENERATE(
@@ -159,7 +159,7 @@ TEST_CASE("a partition that heals in time costs nobody, with the same bits", "[c
 
 TEST_CASE("a worker that a partition has cut off for long ends, and is taken in when started again",
           "[cluster][faults]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const ProxiedCluster cluster = behind_proxy(folder, quick(3), 1);
   Running nodes = start(cluster, 3, 1);
   REQUIRE(nodes.controller->says(flush_of(1)));
@@ -178,7 +178,7 @@ TEST_CASE("a worker that a partition has cut off for long ends, and is taken in 
 
 TEST_CASE("connections that break again and again cost time, with the same bits",
           "[cluster][faults]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const ProxiedCluster cluster = behind_proxy(folder, quick(3), 1);
   const Running nodes = start(cluster, 3, 1);
   REQUIRE(nodes.controller->says(flush_of(1)));
@@ -194,7 +194,7 @@ TEST_CASE("connections that break again and again cost time, with the same bits"
 
 TEST_CASE("a link that is slow and long delays its worker, with the same bits",
           "[cluster][faults]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const ProxiedCluster cluster = behind_proxy(folder, quick(3), 1);
   const Running nodes = start(cluster, 3, 1);
   REQUIRE(nodes.controller->says(flush_of(1)));
@@ -207,7 +207,7 @@ TEST_CASE("a link that is slow and long delays its worker, with the same bits",
 
 TEST_CASE("bytes that a network harms are found and sent again, with the same bits",
           "[cluster][faults]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const bool keys = GENERATE(false, true);
   ClusterText text = quick(2);
   // Workers at full speed: what slows them also writes into frames how long these are to be held.
@@ -237,7 +237,7 @@ TEST_CASE("bytes that a network harms are found and sent again, with the same bi
 
 TEST_CASE("a node whose thread is stuck is given up while its process lives, and comes back",
           "[cluster][faults]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   ClusterText text = over_tcp(quick(3));
   // Its process answers for it on the wire, and has another node that works on.
   for (const char* name : {"n1", "n2"}) text.of_node[name] = "process = \"pair\"\n";
@@ -260,7 +260,7 @@ TEST_CASE("a node whose thread is stuck is given up while its process lives, and
 
 TEST_CASE("the holder of objects that all ask for may be killed, with the same bits",
           "[cluster][faults]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const Running nodes = start(write_cluster(folder, over_tcp(fetching(boxes(folder)))), 3);
   REQUIRE(nodes.controller->says(flush_of(2)));
   FaultRow row("one of two holders of all objects is killed", *nodes.controller);
@@ -276,9 +276,9 @@ TEST_CASE("the holder of objects that all ask for may be killed, with the same b
 
 TEST_CASE("particles that need objects which nobody has any more are lost, and the run says so",
           "[cluster][faults]") {
-  const Folder folder;
-  const std::string pack = (folder.path / "boxes.luxpack").string();
-  const std::string skeleton = (folder.path / "skeleton.luxpack").string();
+  const TemporaryFolder folder;
+  const std::string pack = (folder / "boxes.luxpack").string();
+  const std::string skeleton = (folder / "skeleton.luxpack").string();
   REQUIRE(run_luxodus(folder, "pack " + boxes(folder) + " --cell-kib 16 --out " + pack).code == 0);
   REQUIRE(run_luxodus(folder, "pack " + pack + " --skeleton-only --out " + skeleton).code == 0);
   ClusterText text = over_tcp(fetching(pack));
@@ -301,7 +301,7 @@ TEST_CASE("particles that need objects which nobody has any more are lost, and t
   CHECK(nodes.controller->said("lease=given_back"));
   CHECK(nodes.controller->said(" particles are lost: "));
   CHECK(nodes.workers[2]->wait() == 0);
-  const std::string result = slurp(folder.path / "out" / "result.json");
+  const std::string result = slurp(folder / "out" / "result.json");
   CHECK(result.find("\"stopped_by\": \"objects lost\"") != std::string::npos);
   // What is there is whole batches, and says which it lacks.
   check_goes_on(folder, 4'000, pack);
@@ -310,7 +310,7 @@ TEST_CASE("particles that need objects which nobody has any more are lost, and t
 
 TEST_CASE("a second process under a node's name on its host ends, and the first goes on",
           "[cluster][faults]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string cluster = write_cluster(folder, over_tcp(quick(2)));
   const Running nodes = start(cluster, 2);
   REQUIRE(nodes.controller->says(flush_of(1)));
@@ -326,7 +326,7 @@ TEST_CASE("a second process under a node's name on its host ends, and the first 
 
 TEST_CASE("a second process under a node's name on another host does not harm the result",
           "[cluster][faults]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   ClusterText text = over_tcp(quick(3));
   const std::string cluster = write_cluster(folder, text);
   text.ports[1] = free_ports(1).front();  // where nobody looks for it
@@ -341,7 +341,7 @@ TEST_CASE("a second process under a node's name on another host does not harm th
 }
 
 TEST_CASE("who looks at a run and reads nothing holds up nobody", "[cluster][faults]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   ClusterText text = over_tcp(quick(2));
   std::vector<uint16_t> pages = free_ports(2);  // its three processes take these in their order
   while (pages[1] != pages[0] + 2) pages = {pages[1], free_ports(1).front()};

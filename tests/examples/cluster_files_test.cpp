@@ -30,8 +30,8 @@ std::vector<fs::path> files_in(const fs::path& folder) {
 }
 
 /// Two workers and a controller on this machine.
-std::string small_cluster(const Folder& folder) {
-  const fs::path file = folder.path / "it's 100% small.toml";
+std::string small_cluster(const TemporaryFolder& folder) {
+  const fs::path file = folder / "it's 100% small.toml";
   std::ofstream(file) << "[run]\nname = \"small\"\nscene = \"s.toml\"\n[[host]]\nname = \"here\"\n"
                          "[[node]]\nname = \"n\"\ncount = 2\n"
                          "[[node]]\nname = \"c\"\nrole = \"controller\"\n";
@@ -39,8 +39,8 @@ std::string small_cluster(const Folder& folder) {
 }
 
 /// A program that stands in for luxodus: `body` in a shell, with a node's command line.
-std::string stand_in(const Folder& folder, const std::string& body) {
-  const fs::path file = folder.path / "stand in";
+std::string stand_in(const TemporaryFolder& folder, const std::string& body) {
+  const fs::path file = folder / "stand in";
   std::ofstream(file) << "#!/bin/bash\n" << body;
   fs::permissions(file, fs::perms::owner_all);
   return "\"" + file.string() + "\"";
@@ -56,8 +56,8 @@ size_t lines_with(const std::string& text, const std::string& words) {
 }  // namespace
 
 TEST_CASE("keygen makes a pair for each node of a cluster, secret to its owner", "[program]") {
-  const Folder folder;
-  const fs::path keys = folder.path / "keys";
+  const TemporaryFolder folder;
+  const fs::path keys = folder / "keys";
   const Outcome made = run_luxodus(
       folder, "keygen --cluster " + example("three_hosts.toml") + " --out " + keys.string());
   INFO(made.err);
@@ -73,8 +73,8 @@ TEST_CASE("keygen makes a pair for each node of a cluster, secret to its owner",
 }
 
 TEST_CASE("keygen replaces no key unless it is told to", "[program]") {
-  const Folder folder;
-  const fs::path keys = folder.path / "keys";
+  const TemporaryFolder folder;
+  const fs::path keys = folder / "keys";
   const std::string arguments = "keygen n0 n1 --out " + keys.string();
   REQUIRE(run_luxodus(folder, arguments).code == 0);
   const std::string before = slurp(keys / "n0.key");
@@ -88,14 +88,14 @@ TEST_CASE("keygen replaces no key unless it is told to", "[program]") {
 }
 
 TEST_CASE("keygen says why it makes no keys", "[program]") {
-  const Folder folder;
-  const std::string out = " --out " + (folder.path / "keys").string();
+  const TemporaryFolder folder;
+  const std::string out = " --out " + (folder / "keys").string();
   const auto refused = [&](const std::string& arguments, const std::string& words) {
     const Outcome outcome = run_luxodus(folder, "keygen " + arguments);
     INFO(arguments << "\n" << outcome.err);
     CHECK(outcome.code == 2);
     CHECK(outcome.err.find(words) != std::string::npos);
-    CHECK_FALSE(fs::exists(folder.path / "keys"));
+    CHECK_FALSE(fs::exists(folder / "keys"));
   };
   refused("n0", "say where keys go");
   refused(out, "name nodes, or a cluster");
@@ -103,17 +103,17 @@ TEST_CASE("keygen says why it makes no keys", "[program]") {
   refused("x9 --cluster " + example("three_hosts.toml") + out, "there is no node \"x9\"");
   refused("--cluster /nowhere.toml" + out, "cannot be read");
   refused("--cluster " + example("one_host.toml"), "say where keys go");
-  fs::permissions(folder.path, fs::perms::all);
-  const Outcome open = run_luxodus(folder, "keygen n0 --out " + folder.path.string());
+  fs::permissions(folder.path(), fs::perms::all);
+  const Outcome open = run_luxodus(folder, "keygen n0 --out " + folder.path().string());
   CHECK(open.code == 2);
   CHECK(open.err.find("others may write here") != std::string::npos);
 }
 
 TEST_CASE("a deployment of each example starts each node once, on its host", "[program]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   for (const std::string file : examples) {
     for (const std::string means : {"systemd", "slurm", "ssh"}) {
-      const fs::path out = folder.path / (file + means);
+      const fs::path out = folder / (file + means);
       const Outcome made = run_luxodus(
           folder, "deploy " + example(file) + " --for " + means + " --out " + out.string());
       INFO(file << " " << means << "\n" << made.err);
@@ -127,7 +127,7 @@ TEST_CASE("a deployment of each example starts each node once, on its host", "[p
       CHECK(lines_with(text, " --name " + quote + "controller" + quote) == 1);
     }
   }
-  const fs::path birch = folder.path / "three_hosts.tomlsystemd" / "birch";
+  const fs::path birch = folder / "three_hosts.tomlsystemd" / "birch";
   CHECK(fs::exists(birch / "luxodus-theatre-b0.service"));
   CHECK_FALSE(fs::exists(birch / "luxodus-theatre-a0.service"));
 }
@@ -137,10 +137,10 @@ TEST_CASE("units pass systemd's own check", "[program]") {
     WARN("skipped: there is no systemd-analyze here");
     return;
   }
-  const Folder folder;
+  const TemporaryFolder folder;
   for (const std::string& cluster :
        {example(examples[0]), example(examples[1]), example(examples[2]), small_cluster(folder)}) {
-    const fs::path out = folder.path / "units";
+    const fs::path out = folder / "units";
     fs::remove_all(out);
     REQUIRE(
         run_luxodus(folder, "deploy " + cluster + " --for systemd --out " + out.string()).code ==
@@ -156,12 +156,12 @@ TEST_CASE("units pass systemd's own check", "[program]") {
 }
 
 TEST_CASE("scripts parse, and shellcheck has nothing to say", "[program]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const bool checks = is_there("shellcheck");
   if (!checks) WARN("there is no shellcheck here: only bash looks at the scripts");
   for (const std::string& cluster : {example(examples[1]), small_cluster(folder)}) {
     for (const std::string means : {"slurm", "ssh"}) {
-      const fs::path out = folder.path / means;
+      const fs::path out = folder / means;
       REQUIRE(
           run_luxodus(folder, "deploy " + cluster + " --for " + means + " --out " + out.string())
               .code == 0);
@@ -177,13 +177,13 @@ TEST_CASE("scripts parse, and shellcheck has nothing to say", "[program]") {
 }
 
 TEST_CASE("the script over ssh starts every process, and ends well when all do", "[program]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string program = stand_in(folder, "echo \"started: $*\"\n");
   REQUIRE(run_luxodus(folder, "deploy " + small_cluster(folder) + " --for ssh --program " +
-                                  program + " --out " + folder.path.string())
+                                  program + " --out " + folder.path().string())
               .code == 0);
-  const std::string home = "export HOME=" + folder.path.string() + "; ";
-  const Outcome run = shell(folder, home + (folder.path / "small.sh").string());
+  const std::string home = "export HOME=" + folder.path().string() + "; ";
+  const Outcome run = shell(folder, home + (folder / "small.sh").string());
   INFO(run.out << run.err);
   CHECK(run.code == 0);
   const std::string config = "it's 100% small.toml";
@@ -191,11 +191,11 @@ TEST_CASE("the script over ssh starts every process, and ends well when all do",
     CHECK(lines_with(run.out, name + ": started: node --config ") == 1);
     CHECK(lines_with(run.out, config + " --name " + name) == 1);
   }
-  CHECK(files_in(folder.path / ".luxodus").empty());
+  CHECK(files_in(folder / ".luxodus").empty());
 }
 
 TEST_CASE("the script over ssh stops all when one fails, and says which", "[program]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   // The controller fails once the others wait, which they do until they are stopped.
   const std::string program = stand_in(folder, R"(
 case $* in
@@ -206,10 +206,10 @@ echo ready >"$HOME/${*: -1}"
 while :; do read -r _ <>"$HOME/never"; done
 )");
   REQUIRE(run_luxodus(folder, "deploy " + small_cluster(folder) + " --for ssh --program " +
-                                  program + " --out " + folder.path.string())
+                                  program + " --out " + folder.path().string())
               .code == 0);
-  const std::string home = "export HOME=" + folder.path.string() + "; cd; mkfifo n0 n1 never; ";
-  const Outcome run = shell(folder, home + (folder.path / "small.sh").string());
+  const std::string home = "export HOME=" + folder.path().string() + "; cd; mkfifo n0 n1 never; ";
+  const Outcome run = shell(folder, home + (folder / "small.sh").string());
   INFO(run.out << run.err);
   CHECK(run.code == 3);
   CHECK(run.err.find("c: ended with 3") != std::string::npos);
@@ -218,9 +218,9 @@ while :; do read -r _ <>"$HOME/never"; done
 }
 
 TEST_CASE("the batch job gives each task its nodes and its host", "[program]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   // In Slurm's place: every task here, after the name of its host.
-  std::ofstream(folder.path / "srun") << R"sh(#!/bin/bash
+  std::ofstream(folder / "srun") << R"sh(#!/bin/bash
 while [ "$1" != bash ]; do shift; done
 rank=0
 while read -r host; do
@@ -228,13 +228,13 @@ while read -r host; do
   rank=$((rank + 1))
 done <"$SLURM_HOSTFILE"
 )sh";
-  fs::permissions(folder.path / "srun", fs::perms::owner_all);
+  fs::permissions(folder / "srun", fs::perms::owner_all);
   const std::string program = stand_in(folder, "echo \"$@\"\n");
   REQUIRE(run_luxodus(folder, "deploy " + example("eight_hosts.toml") + " --for slurm --program " +
-                                  program + " --out " + folder.path.string())
+                                  program + " --out " + folder.path().string())
               .code == 0);
   const Outcome run = shell(
-      folder, "PATH=" + folder.path.string() + ":$PATH " + (folder.path / "tower.sbatch").string());
+      folder, "PATH=" + folder.path().string() + ":$PATH " + (folder / "tower.sbatch").string());
   INFO(run.out << run.err);
   CHECK(run.code == 0);
   CHECK(lines_with(run.out, "") == 9);
@@ -244,11 +244,11 @@ done <"$SLURM_HOSTFILE"
 }
 
 TEST_CASE("deploy tells every problem of a cluster and writes nothing then", "[program]") {
-  const Folder folder;
-  const fs::path file = folder.path / "bad.toml";
+  const TemporaryFolder folder;
+  const fs::path file = folder / "bad.toml";
   std::ofstream(file) << "[run]\nname = \"bad\"\nscene = \"s\"\n[[host]]\nnam = \"h\"\n"
                          "[[node]]\nname = \"n\"\n";
-  const fs::path out = folder.path / "out";
+  const fs::path out = folder / "out";
   const Outcome bad =
       run_luxodus(folder, "deploy " + file.string() + " --for ssh --out " + out.string());
   CHECK(bad.code == 2);

@@ -122,12 +122,12 @@ struct ClusterText {
 
 /// Writes FOLDER/FILE.toml: workers n0, n1, ... and a controller, each a process, on this machine.
 /// All of a folder are the same run, whatever their files are called.
-inline std::string write_cluster(const Folder& folder, const ClusterText& text,
+inline std::string write_cluster(const TemporaryFolder& folder, const ClusterText& text,
                                  const std::string& file = "cluster") {
-  const fs::path path = folder.path / (file + ".toml");
+  const fs::path path = folder / (file + ".toml");
   std::ofstream out(path);
-  out << "[run]\nname = \"" << folder.path.filename().string().substr(8) << "\"\nscene = \""
-      << text.scene << "\"\nout = \"" << (folder.path / text.out).string() << "\"\n"
+  out << "[run]\nname = \"" << folder.path().filename().string().substr(8) << "\"\nscene = \""
+      << text.scene << "\"\nout = \"" << (folder / text.out).string() << "\"\n"
       << text.run << "[[host]]\nname = \"here\"\n";
   for (int i = 0; i <= text.workers; ++i) {
     const std::string name = i < text.workers ? "n" + std::to_string(i) : "controller";
@@ -179,36 +179,36 @@ inline Running start(const std::string& cluster, int workers) {
 constexpr const char* endless = "particles = 1_000_000_000_000\n";
 
 /// Whether OUT holds the flux of as many particles of the plain loop. `how`: more of its options.
-inline void check_plain_flux(const Folder& folder, const std::string& particles,
+inline void check_plain_flux(const TemporaryFolder& folder, const std::string& particles,
                              const std::string& scene = smoke_tank(), const std::string& how = "") {
   REQUIRE(run_luxodus(folder, "run " + scene + " --no-views --particles " + particles + how +
-                                  " --out " + (folder.path / "plain").string())
+                                  " --out " + (folder / "plain").string())
               .code == 0);
-  const std::string flux = slurp(folder.path / "out" / "flux.lux");
+  const std::string flux = slurp(folder / "out" / "flux.lux");
   CHECK_FALSE(flux.empty());
-  CHECK((flux == slurp(folder.path / "plain" / "flux.lux")));  // bytes that are no text
+  CHECK((flux == slurp(folder / "plain" / "flux.lux")));  // bytes that are no text
 }
 
 /// A whole number that the result in OUT says.
-inline int64_t number_in(const Folder& folder, const std::string& key) {
-  const std::string result = slurp(folder.path / "out" / "result.json");
+inline int64_t number_in(const TemporaryFolder& folder, const std::string& key) {
+  const std::string result = slurp(folder / "out" / "result.json");
   const size_t at = result.find("\"" + key + "\": ");
   REQUIRE(at != std::string::npos);
   return std::stoll(result.substr(at + key.size() + 4));
 }
 
-inline int64_t particles_in(const Folder& folder) {
+inline int64_t particles_in(const TemporaryFolder& folder) {
   return number_in(folder, "particles");
 }
 
 /// Goes on from OUT, somewhat farther than it is, and compares. What was lent and lost is made up
 /// for first, which may be farther still.
-inline void check_goes_on(const Folder& folder, int64_t more = 500'000,
+inline void check_goes_on(const TemporaryFolder& folder, int64_t more = 500'000,
                           const std::string& scene = smoke_tank(), const std::string& how = "") {
   const int64_t farther = particles_in(folder) + more;
   REQUIRE(run_luxodus(folder, "run " + scene + " --resume --no-views --particles " +
                                   std::to_string(farther) + how + " --out " +
-                                  (folder.path / "out").string())
+                                  (folder / "out").string())
               .code == 0);
   CHECK(particles_in(folder) >= farther);
   check_plain_flux(folder, std::to_string(particles_in(folder)), scene, how);

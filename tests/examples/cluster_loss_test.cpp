@@ -17,7 +17,7 @@ ClusterText workers(int count, const std::string& run) {
 }  // namespace
 
 TEST_CASE("a worker that is killed is done without: the others leave the same bits", "[cluster]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const Running nodes = start(write_cluster(folder, workers(3, "particles = 1_500_000\n")), 3);
   nodes.workers[1]->kill(SIGKILL);
   CHECK(nodes.controller->wait() == 0);
@@ -29,7 +29,7 @@ TEST_CASE("a worker that is killed is done without: the others leave the same bi
 
 TEST_CASE("a worker that is killed and started again is taken in, with the same bits",
           "[cluster]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string cluster = write_cluster(folder, workers(2, "particles = 1_500_000\n"));
   Running nodes = start(cluster, 2);
   nodes.workers[0]->kill(SIGKILL);
@@ -44,7 +44,7 @@ TEST_CASE("a worker that is killed and started again is taken in, with the same 
 
 TEST_CASE("a controller that is killed and started again begins anew, with the same bits",
           "[cluster]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   ClusterText text = workers(2, "particles = 1_500_000\n");
   text.more = "[timeouts]\nlost_s = 60\n";
   const std::string cluster = write_cluster(folder, text);
@@ -60,7 +60,7 @@ TEST_CASE("a controller that is killed and started again begins anew, with the s
 }
 
 TEST_CASE("a worker whose controller has vanished ends and says so", "[cluster]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   ClusterText text = workers(2, endless);
   text.more += "[observe]\nlog_level = \"debug\"\n";
   const Running nodes = start(write_cluster(folder, text), 2);
@@ -75,7 +75,7 @@ TEST_CASE("a worker whose controller has vanished ends and says so", "[cluster]"
 
 TEST_CASE("a worker that is killed takes the run with it where it holds a shard of the totals",
           "[cluster][shards]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   ClusterText text = workers(2, endless);
   text.more += "[observe]\nlog_level = \"debug\"\n[tally]\nshards = [\"n1\"]\n";
   const Running nodes = start(write_cluster(folder, text), 2);
@@ -86,13 +86,13 @@ TEST_CASE("a worker that is killed takes the run with it where it holds a shard 
   CHECK(nodes.controller->said("n1 is lost, and with it a shard of the totals"));
   CHECK(nodes.workers[0]->wait() == 1);
   CHECK(nodes.workers[0]->said("a shard of the totals"));
-  CHECK_FALSE(fs::exists(folder.path / "out" / "flux.lux"));
-  CHECK_FALSE(fs::exists(folder.path / "out" / "result.json"));
+  CHECK_FALSE(fs::exists(folder / "out" / "flux.lux"));
+  CHECK_FALSE(fs::exists(folder / "out" / "result.json"));
 }
 
 TEST_CASE("a worker that is killed and started again beside shards is taken in, with the same bits",
           "[cluster][shards]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   ClusterText text = workers(3, "particles = 1_500_000\n");
   text.more += "[tally]\nshards = [\"n0\", \"n2\"]\n";
   const std::string cluster = write_cluster(folder, text);
@@ -108,7 +108,7 @@ TEST_CASE("a worker that is killed and started again beside shards is taken in, 
 
 TEST_CASE("a controller whose workers have all vanished leaves what can be gone on from",
           "[cluster]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   ClusterText text = workers(2, endless);
   text.more += "[observe]\nlog_level = \"debug\"\n";
   const Running nodes = start(write_cluster(folder, text), 2);
@@ -117,13 +117,13 @@ TEST_CASE("a controller whose workers have all vanished leaves what can be gone 
   CHECK(nodes.controller->wait() == 1);
   INFO(nodes.controller->text());
   CHECK(nodes.controller->said("all workers were lost"));
-  CHECK(slurp(folder.path / "out" / "result.json").find("workers lost") != std::string::npos);
+  CHECK(slurp(folder / "out" / "result.json").find("workers lost") != std::string::npos);
   check_goes_on(folder);
 }
 
 TEST_CASE("a cluster that is told to end leaves whole batches that can be gone on from",
           "[cluster]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   ClusterText text = workers(2, endless);
   text.more += "[observe]\nlog_level = \"debug\"\n";
   SECTION("with all totals at the controller") {}
@@ -142,7 +142,7 @@ TEST_CASE("a cluster that is told to end leaves whole batches that can be gone o
 
 TEST_CASE("a disk that fills up under the journal costs the journal, and not the run",
           "[cluster][loss]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   ClusterText text = workers(2, "particles = 3_000_000\n");
   text.more =
       "[lease]\nduration_s = 4\n[[faults.event]]\nkind = \"full_disk\"\n"
@@ -157,8 +157,8 @@ TEST_CASE("a disk that fills up under the journal costs the journal, and not the
 
 TEST_CASE("a disk that is really full when a cluster ends has room for the results",
           "[cluster][loss]") {
-  const Folder folder;
-  const fs::path out = folder.path / "out", kept = folder.path / "kept";
+  const TemporaryFolder folder;
+  const fs::path out = folder / "out", kept = folder / "kept";
   fs::create_directories(out);
   fs::create_directories(kept);
   const std::string mount = "mount -t tmpfs -o size=8m none " + out.string();
@@ -181,7 +181,7 @@ TEST_CASE("a disk that is really full when a cluster ends has room for the resul
 
 TEST_CASE("who stops cluster up stops all its nodes, and the results are written",
           "[cluster][loss]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string cluster = write_cluster(folder, workers(2, endless));
   Process up(LUX_PROGRAM, {"cluster", "up", cluster});
   REQUIRE(up.says("run=begun"));
@@ -194,7 +194,7 @@ TEST_CASE("who stops cluster up stops all its nodes, and the results are written
 
 TEST_CASE("a controller that is killed and started again goes on from its journal",
           "[cluster][loss]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   ClusterText text = workers(2, "particles = 3_000_000\n");
   text.more =
       "[timeouts]\nlost_s = 30\n[lease]\nduration_s = 4\n[observe]\nlog_level = \"debug\"\n";
@@ -203,8 +203,8 @@ TEST_CASE("a controller that is killed and started again goes on from its journa
   REQUIRE(nodes.controller->says("flush=taken"));
   nodes.controller->kill(SIGKILL);
   CHECK(nodes.controller->wait() == 128 + SIGKILL);
-  CHECK_FALSE(fs::exists(folder.path / "out" / "flux.lux"));
-  const fs::path journal = folder.path / "out" / "run.journal";
+  CHECK_FALSE(fs::exists(folder / "out" / "flux.lux"));
+  const fs::path journal = folder / "out" / "run.journal";
   std::ofstream(journal, std::ios::app) << "what a crash has torn";
   nodes.controller = node(cluster, "controller");
   const int code = nodes.controller->wait();

@@ -23,8 +23,8 @@ void check_refused(const std::string& of_controller, const std::string& of_worke
   CHECK(worker->said("n0: the controller has not been heard of for 2 s (start_s); node "));
 }
 
-std::string other_scene(const Folder& folder) {
-  const fs::path path = folder.path / "another_scene.toml";
+std::string other_scene(const TemporaryFolder& folder) {
+  const fs::path path = folder / "another_scene.toml";
   std::string text = slurp(smoke_tank());
   const size_t at = text.find("albedo = 0.3");
   REQUIRE(at != std::string::npos);
@@ -35,16 +35,16 @@ std::string other_scene(const Folder& folder) {
 }  // namespace
 
 TEST_CASE("another scene is refused at both ends, with the reason", "[cluster]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string one = write_cluster(folder, {}, "one");
   ClusterText text;
   text.scene = other_scene(folder);
   check_refused(one, write_cluster(folder, text, "other"), "scene");
-  CHECK_FALSE(fs::exists(folder.path / "out"));
+  CHECK_FALSE(fs::exists(folder / "out"));
 }
 
 TEST_CASE("another level is refused at both ends, with the reason", "[cluster]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string one = write_cluster(folder, {}, "one");
   ClusterText text;
   text.run += "level = \"statistical\"\n";
@@ -52,7 +52,7 @@ TEST_CASE("another level is refused at both ends, with the reason", "[cluster]")
 }
 
 TEST_CASE("another topology is refused at both ends, with the reason", "[cluster]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const auto linked = [&](const std::string& pairs, const std::string& file) {
     ClusterText text;
     text.workers = 3;
@@ -67,7 +67,7 @@ TEST_CASE("another topology is refused at both ends, with the reason", "[cluster
 TEST_CASE("another protocol, instruction set, build or fingerprint is refused at both ends",
           "[cluster]") {
   for (const std::string what : {"protocol", "isa", "build", "fingerprint"}) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const std::string cluster = write_cluster(folder, {});
     const auto controller = node(cluster, "controller");
     Process odd(LUX_ODD_NODE, {cluster, "n0", what});
@@ -84,7 +84,7 @@ TEST_CASE("another protocol, instruction set, build or fingerprint is refused at
 
 TEST_CASE("a node whose key the other end does not list is turned away, and both ends say so",
           "[cluster]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const auto keyed = [&](const std::string& keys) {
     ClusterText text;
     text.more += "[links]\nsame_host = \"tcp\"\n[[host]]\n[keys]\nfolder = \"" + keys + "\"\n";
@@ -98,7 +98,7 @@ TEST_CASE("a node whose key the other end does not list is turned away, and both
   SECTION("the controller's key is not listed at the worker") {
     // All else of the controller's agrees: it knows the worker.
     for (const std::string name : {"n0.key", "n0.key.pub"})
-      fs::copy_file(folder.path / "ours" / name, folder.path / "theirs" / name,
+      fs::copy_file(folder / "ours" / name, folder / "theirs" / name,
                     fs::copy_options::overwrite_existing);
     const auto controller = node(theirs, "controller");
     const auto worker = node(ours, "n0");
@@ -128,7 +128,7 @@ TEST_CASE("a node whose key the other end does not list is turned away, and both
 
 TEST_CASE("a second cluster of one file with other results is refused, and the first goes on",
           "[cluster]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   ClusterText text;
   text.workers = 3;
   text.run = "particles = 3_000_000\n";
@@ -142,9 +142,8 @@ TEST_CASE("a second cluster of one file with other results is refused, and the f
     CHECK(intruder->wait() == 1);
     INFO(intruder->text() << nodes.controller->text());
     CHECK(intruder->said("its workers are not free"));
-    CHECK(
-        intruder->said("works for the run whose results go to " + (folder.path / "out").string()));
-    CHECK_FALSE(fs::exists(folder.path / "elsewhere"));
+    CHECK(intruder->said("works for the run whose results go to " + (folder / "out").string()));
+    CHECK_FALSE(fs::exists(folder / "elsewhere"));
     CHECK(nodes.controller->wait() == 0);
     for (const auto& worker : nodes.workers) CHECK(worker->wait() == 0);
     CHECK_FALSE(nodes.controller->said("lease=fenced"));
@@ -173,7 +172,7 @@ TEST_CASE("a second cluster of one file with other results is refused, and the f
 }
 
 TEST_CASE("a run without one of its workers does not begin, and names it", "[cluster]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   ClusterText text;
   text.workers = 2;
   const std::string cluster = write_cluster(folder, text);
@@ -188,5 +187,5 @@ TEST_CASE("a run without one of its workers does not begin, and names it", "[clu
   CHECK(worker_code == 1);
   CHECK(worker->said("n0: the controller says: the run did not begin"));
   CHECK(worker->said("n1 has not come"));
-  CHECK_FALSE(fs::exists(folder.path / "out"));
+  CHECK_FALSE(fs::exists(folder / "out"));
 }

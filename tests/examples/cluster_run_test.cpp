@@ -1,6 +1,7 @@
 // Whole clusters as a person starts them: processes that meet over sockets, and leave what the
 // plain program leaves, to the bit.
 #include "tests/examples/program_kit.hpp"
+#include "tests/kit/test_length.hpp"
 
 using namespace luxodus::program;
 
@@ -11,44 +12,45 @@ std::string smoke_tank() {
 }
 
 /// A controller and three workers, each a process; `more` is added to the file.
-fs::path cluster_file(const Folder& folder, const std::string& more) {
-  const fs::path file = folder.path / "cluster.toml";
+fs::path cluster_file(const TemporaryFolder& folder, const std::string& more) {
+  const fs::path file = folder / "cluster.toml";
   std::ofstream(file) << "[run]\nname = \"test\"\nscene = \"" << smoke_tank()
-                      << "\"\nparticles = 100_000\nout = \"" << (folder.path / "out").string()
+                      << "\"\nparticles = 100_000\nout = \"" << (folder / "out").string()
                       << "\"\n[[host]]\nname = \"here\"\n[[node]]\nname = \"n\"\ncount = 3\n"
                          "[[node]]\nname = \"controller\"\nrole = \"controller\"\n"
                       << more;
   return file;
 }
 
-void check_same_flux(const Folder& folder, const fs::path& cluster) {
+void check_same_flux(const TemporaryFolder& folder, const fs::path& cluster) {
   const Outcome up = run_luxodus(folder, "cluster up " + cluster.string());
   INFO(up.err);
   REQUIRE(up.code == 0);
   REQUIRE(run_luxodus(folder, "run " + smoke_tank() + " --particles 100k --no-views --out " +
-                                  (folder.path / "plain").string())
+                                  (folder / "plain").string())
               .code == 0);
-  const std::string flux = slurp(folder.path / "out" / "flux.lux");
+  const std::string flux = slurp(folder / "out" / "flux.lux");
   CHECK(!flux.empty());
-  CHECK(flux == slurp(folder.path / "plain" / "flux.lux"));
-  CHECK(fs::exists(folder.path / "out" / "result.json"));
+  CHECK(flux == slurp(folder / "plain" / "flux.lux"));
+  CHECK(fs::exists(folder / "out" / "result.json"));
 }
 
 }  // namespace
 
 TEST_CASE("four processes over local sockets leave the flux file of the plain loop", "[cluster]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   check_same_flux(folder, cluster_file(folder, ""));
 }
 
 TEST_CASE("processes that plan by a profile leave the flux file of the plain loop", "[cluster]") {
-  const Folder folder;
-  const fs::path cluster = folder.path / "cluster.toml";
+  const TemporaryFolder folder;
+  const std::string particles = test::in_full() ? "60000" : "15000";
+  const fs::path cluster = folder / "cluster.toml";
   const std::string office =
       (fs::path(LUX_SOURCE_DIR) / "scenes/library/office_floor.toml").string();
   std::ofstream(cluster) << "[run]\nname = \"planned\"\nscene = \"" << office
-                         << "\"\nparticles = 60_000\nprofile = \"its.profile\"\nout = \""
-                         << (folder.path / "out").string()
+                         << "\"\nparticles = " << particles
+                         << "\nprofile = \"its.profile\"\nout = \"" << (folder / "out").string()
                          << "\"\n[[host]]\nname = \"here\"\n[[node]]\nname = \"n\"\ncount = 2\n"
                             "[[node]]\nname = \"controller\"\nrole = \"controller\"\n"
                             "[budget]\nobject_bytes = \"1 MiB\"\nfibers = 256\n";
@@ -58,26 +60,27 @@ TEST_CASE("processes that plan by a profile leave the flux file of the plain loo
   const Outcome profiled = run_luxodus(folder, "profile " + cluster.string());
   INFO(profiled.err);
   REQUIRE(profiled.code == 0);
-  CHECK(fs::exists(folder.path / "its.profile"));
+  CHECK(fs::exists(folder / "its.profile"));
   const Outcome up = run_luxodus(folder, "cluster up " + cluster.string());
   INFO(up.err);
   REQUIRE(up.code == 0);
   const std::string cells = profiled.out.substr(
       0, profiled.out.find(' '));  // "N objects, ...": this scene has cells only
-  REQUIRE(run_luxodus(folder, "run " + office + " --particles 60k --no-views --cells " + cells +
-                                  " --out " + (folder.path / "plain").string())
+  REQUIRE(run_luxodus(folder, "run " + office + " --particles " + particles +
+                                  " --no-views --cells " + cells + " --out " +
+                                  (folder / "plain").string())
               .code == 0);
-  const std::string flux = slurp(folder.path / "out" / "flux.lux");
+  const std::string flux = slurp(folder / "out" / "flux.lux");
   CHECK(!flux.empty());
-  CHECK(flux == slurp(folder.path / "plain" / "flux.lux"));
+  CHECK(flux == slurp(folder / "plain" / "flux.lux"));
 }
 
 TEST_CASE("a controller that traces, alone in one process, leaves the flux of the plain loop",
           "[cluster]") {
-  const Folder folder;
-  const fs::path file = folder.path / "cluster.toml";
+  const TemporaryFolder folder;
+  const fs::path file = folder / "cluster.toml";
   std::ofstream(file) << "[run]\nname = \"alone\"\nscene = \"" << smoke_tank()
-                      << "\"\nparticles = 100_000\nout = \"" << (folder.path / "out").string()
+                      << "\"\nparticles = 100_000\nout = \"" << (folder / "out").string()
                       << "\"\n[[host]]\nname = \"here\"\n[[node]]\nname = \"controller\"\n"
                          "role = \"controller\"\ntraces = true\n";
   const Outcome run = run_luxodus(folder, "node --config " + file.string() + " --name controller");
@@ -88,7 +91,7 @@ TEST_CASE("a controller that traces, alone in one process, leaves the flux of th
 
 TEST_CASE("a rehearsal of faults, by the cluster's file, leaves the flux of the plain loop",
           "[cluster]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   check_same_flux(folder, cluster_file(folder,
                                        "[faults]\ndelay_ms = 1\njitter_ms = 0.5\ntail_ms = 20\n"
                                        "tail_share = 0.02\nloss = 0.02\nduplication = 0.02\n"
@@ -100,7 +103,7 @@ TEST_CASE("a rehearsal of faults, by the cluster's file, leaves the flux of the 
 }
 
 TEST_CASE("four processes over TCP with keys leave the flux file of the plain loop", "[cluster]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const fs::path cluster =
       cluster_file(folder, "[links]\nsame_host = \"tcp\"\n[keys]\nfolder = \"keys\"\n");
   REQUIRE(run_luxodus(folder, "keygen --cluster " + cluster.string()).code == 0);
@@ -109,27 +112,27 @@ TEST_CASE("four processes over TCP with keys leave the flux file of the plain lo
 
 TEST_CASE("four hosts with addresses of their own leave the flux file of the plain loop",
           "[cluster]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string script = std::string(LUX_SOURCE_DIR) + "/tests/tools/four_hosts.sh";
   const int status =
-      std::system((script + " " + LUX_PROGRAM + " " + smoke_tank() + " " + folder.path.string() +
-                   " >" + (folder.path / "hosts").string() + " 2>&1")
+      std::system((script + " " + LUX_PROGRAM + " " + smoke_tank() + " " + folder.path().string() +
+                   " >" + (folder / "hosts").string() + " 2>&1")
                       .c_str());
   constexpr int not_here = 77;
   if (WEXITSTATUS(status) == not_here) {
     WARN("skipped: network namespaces need root and iproute2");
     return;
   }
-  INFO(slurp(folder.path / "hosts"));
+  INFO(slurp(folder / "hosts"));
   REQUIRE(WEXITSTATUS(status) == 0);
   REQUIRE(run_luxodus(folder, "run " + smoke_tank() + " --particles 100k --no-views --out " +
-                                  (folder.path / "plain").string())
+                                  (folder / "plain").string())
               .code == 0);
-  CHECK(slurp(folder.path / "out" / "flux.lux") == slurp(folder.path / "plain" / "flux.lux"));
+  CHECK(slurp(folder / "out" / "flux.lux") == slurp(folder / "plain" / "flux.lux"));
 }
 
 TEST_CASE("a cluster whose keys or scene are missing says which, and starts nothing", "[cluster]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string node =
       "node --config " + cluster_file(folder, "[keys]\nfolder = \"keys\"\n").string() + " --name ";
   const Outcome keyless = run_luxodus(folder, node + "n0");
@@ -139,5 +142,5 @@ TEST_CASE("a cluster whose keys or scene are missing says which, and starts noth
   CHECK(unknown.code == 2);
   CHECK(unknown.err.find("nobody") != std::string::npos);
   CHECK(run_luxodus(folder, node + "n0 --name n1").code == 2);
-  CHECK_FALSE(fs::exists(folder.path / "out"));
+  CHECK_FALSE(fs::exists(folder / "out"));
 }

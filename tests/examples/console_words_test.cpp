@@ -5,9 +5,11 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/examples/program_kit.hpp"
+#include "tests/kit/replaced.hpp"
 
 using namespace luxodus::program;
 using Catch::Matchers::Contains;
+using luxodus::test::replaced;
 
 namespace {
 
@@ -104,13 +106,13 @@ const std::string sign = R"(<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0
 )";
 
 struct Corridor {
-  Folder folder;
-  std::string scene = (folder.path / "corridor.toml").string();
-  fs::path out = folder.path / "out";
+  TemporaryFolder folder;
+  std::string scene = (folder / "corridor.toml").string();
+  fs::path out = folder / "out";
 
   explicit Corridor(const std::string& text = corridor) {
     std::ofstream(scene) << text;
-    std::ofstream(folder.path / "sign.svg") << sign;
+    std::ofstream(folder / "sign.svg") << sign;
   }
   Outcome luxodus(const std::string& command, const std::string& under = "") const {
     return run_luxodus(folder, command, under);
@@ -119,12 +121,6 @@ struct Corridor {
     return luxodus("run " + scene + " --out " + out.string() + " " + options);
   }
 };
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const size_t at = text.find(from);
-  REQUIRE(at != std::string::npos);
-  return text.replace(at, from.size(), to);
-}
 
 }  // namespace
 
@@ -210,7 +206,7 @@ TEST_CASE("too fine voxels are told with their key and its line", "[program][wor
 }
 
 TEST_CASE("a command that is misspelt is guessed", "[program][words]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const auto said = [&](const std::string& command) {
     const Outcome wrong = run_luxodus(folder, command);
     CHECK(wrong.code == 2);
@@ -234,7 +230,7 @@ TEST_CASE("the folder of an assessment is called that where a run is wanted", "[
     CHECK_THAT(refused.err, Contains("folder of an assessment"));
     CHECK(refused.err.find("create the folder first") == std::string::npos);
   }
-  CHECK_THAT(place.luxodus("render " + (place.folder.path / "none").string()).err,
+  CHECK_THAT(place.luxodus("render " + (place.folder / "none").string()).err,
              Contains("there is no result.json here"));
 }
 
@@ -247,10 +243,10 @@ TEST_CASE("progress is rare in a pipe, and one line on a terminal", "[program][w
     WARN("skipped: no terminal without script(1)");
     return;
   }
-  const fs::path typed = place.folder.path / "typescript";
+  const fs::path typed = place.folder / "typescript";
   const Outcome shown =
       shell(place.folder, "script -qec '" + std::string(LUX_PROGRAM) + " run " + place.scene +
-                              " --out " + (place.folder.path / "shown").string() +
+                              " --out " + (place.folder / "shown").string() +
                               " --no-views --time 3s' " + typed.string());
   INFO(slurp(typed));
   CHECK(shown.code == 0);
@@ -268,7 +264,7 @@ TEST_CASE("what the browser says while it prints is shown only where it fails",
   INFO(assessed.err);
   REQUIRE(assessed.code == 0);
   CHECK(assessed.out.find(", )") == std::string::npos);
-  const fs::path tools = place.folder.path / "tools";
+  const fs::path tools = place.folder / "tools";
   fs::create_directory(tools);
   const auto browser = [&](const std::string& does) {
     std::ofstream(tools / "chromium") << "#!/bin/sh\necho '[ERROR:dbus.cc] no bus' >&2\n" << does;

@@ -78,7 +78,7 @@ struct ProxiedCluster {
   std::unique_ptr<FaultProxy> proxy;
 };
 
-inline ProxiedCluster behind_proxy(const Folder& folder, ClusterText text, size_t worker) {
+inline ProxiedCluster behind_proxy(const TemporaryFolder& folder, ClusterText text, size_t worker) {
   ProxiedCluster cluster;
   const auto nodes = static_cast<size_t>(text.workers) + 1;
   cluster.ports = free_ports(nodes);

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 #include "tests/examples/program_kit.hpp"
 
@@ -28,19 +29,19 @@ std::string guide_scene() {
 struct WaitingRoom {
   explicit WaitingRoom(const std::string& scene) {
     for (const char* name : {"luminaires/emergency_downlight.ldt", "signs/exit_straight.svg"}) {
-      fs::create_directories((folder.path / name).parent_path());
-      fs::copy_file(source / "scenes/library" / name, folder.path / name);
+      fs::create_directories((folder / name).parent_path());
+      fs::copy_file(source / "scenes/library" / name, folder / name);
     }
-    std::ofstream(folder.path / "waiting_room.toml") << scene;
+    std::ofstream(folder / "waiting_room.toml") << scene;
   }
   Outcome assess() const {
-    return run_luxodus(folder, "assess " + (folder.path / "waiting_room.toml").string() +
-                                   " --out " + (folder.path / "out").string());
+    return run_luxodus(folder, "assess " + (folder / "waiting_room.toml").string() + " --out " +
+                                   (folder / "out").string());
   }
   nlohmann::json assessment() const {
-    return nlohmann::json::parse(slurp(folder.path / "out" / "assessment.json"));
+    return nlohmann::json::parse(slurp(folder / "out" / "assessment.json"));
   }
-  Folder folder;
+  TemporaryFolder folder;
 };
 
 std::string with(const std::string& what, const std::string& instead) {
@@ -99,6 +100,53 @@ TEST_CASE("each mistake that the guide lists is refused in words", "[program][gu
     const Outcome run = room.assess();
     CHECK(run.code != 0);
     CHECK(run.err.find(mistake.words) != std::string::npos);
-    CHECK_FALSE(fs::exists(room.folder.path / "out" / "assessment.json"));
+    CHECK_FALSE(fs::exists(room.folder / "out" / "assessment.json"));
+  }
+}
+
+namespace {
+
+/// The texts of a guide's blocks of TOML, in their order.
+std::vector<std::string> toml_blocks(const std::string& text) {
+  const std::string fence = "```toml\n";
+  std::vector<std::string> blocks;
+  for (size_t at = text.find(fence); at != std::string::npos; at = text.find(fence, at)) {
+    at += fence.size();
+    blocks.push_back(text.substr(at, text.find("```", at) - at));
+  }
+  return blocks;
+}
+
+}  // namespace
+
+TEST_CASE("the revisions of the guide's project have the verdicts that it tells",
+          "[program][guide]") {
+  const std::string text = slurp(source / "docs/guide/en1838-project.md");
+  const std::vector<std::string> blocks = toml_blocks(text);
+  REQUIRE(blocks.size() == 2);
+  const Folder folder;
+  const fs::path project = folder.path / "project";
+  fs::create_directories(project);
+  fs::create_directories(folder.path / "scenes");
+  fs::create_directory_symlink(source / "scenes/library", folder.path / "scenes/library");
+  const char* const names[] = {"revision_a", "revision_b"};
+  for (size_t i = 0; i < 2; ++i) {
+    const std::string name = names[i];
+    std::ofstream(project / (name + ".toml")) << blocks[i];
+    const Outcome run =
+        run_luxodus(folder, "assess " + (project / (name + ".toml")).string() +
+                                " --codes-alone --out " + (folder.path / name).string());
+    INFO(run.err);
+    REQUIRE(run.code == 0);
+    const auto a = nlohmann::json::parse(slurp(folder.path / name / "assessment.json"));
+    const std::string verdict = a["verdict"]["words"];
+    INFO(verdict);
+    const size_t count = verdict.find(',');
+    CHECK(text.find(verdict.substr(0, count)) != std::string::npos);
+    for (const auto& check : a["checks"])
+      if (i == 1 && check["verdict"] == "fail") {
+        INFO(check["rule"] << " " << check["subject"]);
+        CHECK(check["subject"] == "open area \"open plan\"");
+      }
   }
 }

@@ -28,8 +28,8 @@ position = [2, 2, 2]
 flux_lm = 100
 )";
 
-std::string write(const Folder& folder, const char* name, const std::string& text) {
-  const fs::path file = folder.path / name;
+std::string write(const TemporaryFolder& folder, const char* name, const std::string& text) {
+  const fs::path file = folder / name;
   std::ofstream(file, std::ios::binary) << text;
   return file.string();
 }
@@ -44,13 +44,13 @@ bool printable(const std::string& text) {
 
 TEST_CASE("control characters in names and titles do not reach the terminal",
           "[program][hostile]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string scene = write(
       folder, "evil.toml", "title = \"a\\u001B]0;owned\\u0007b\\u009Bc\"\n" + std::string(room));
   for (const char* verb : {"check ", "run --particles 1k --out "}) {
     const std::string arguments = verb == std::string("check ")
                                       ? verb + scene
-                                      : verb + (folder.path / "out").string() + " " + scene;
+                                      : verb + (folder / "out").string() + " " + scene;
     const Outcome told = run_luxodus(folder, arguments);
     INFO(told.out << told.err);
     CHECK(printable(told.out));
@@ -60,10 +60,10 @@ TEST_CASE("control characters in names and titles do not reach the terminal",
 }
 
 TEST_CASE("a pipe in the place of a file is refused and not waited for", "[program][hostile]") {
-  const Folder folder;
-  const std::string pipe = (folder.path / "pipe.toml").string();
+  const TemporaryFolder folder;
+  const std::string pipe = (folder / "pipe.toml").string();
   REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
-  const std::string image = (folder.path / "pipe.png").string();
+  const std::string image = (folder / "pipe.png").string();
   REQUIRE(::mkfifo(image.c_str(), 0600) == 0);
   const std::string painted = write(folder, "painted.toml",
                                     std::string(room) +
@@ -83,7 +83,7 @@ TEST_CASE("a pipe in the place of a file is refused and not waited for", "[progr
 
 TEST_CASE("a file that a scene includes is not told to whoever reads the errors",
           "[program][hostile]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   write(folder, "shadow", "root:$6$secret$hash:19000:0:99999:7:::\n");
   const std::string scene = write(folder, "s.toml", "include = [\"shadow\"]\n");
   const Outcome told = run_luxodus(folder, "check " + scene);
@@ -95,7 +95,7 @@ TEST_CASE("a file that a scene includes is not told to whoever reads the errors"
 
 TEST_CASE("a mesh that makes the importer crash is one error with its file and line",
           "[program][hostile]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   write(folder, "tex.mtl", "map_Kd grey.png\nnewmtl red\n");
   write(folder, "tex.obj", "mtllib tex.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nusemtl red\nf 1 2 3\n");
   const std::string scene =
@@ -111,18 +111,18 @@ TEST_CASE("a mesh that makes the importer crash is one error with its file and l
 
 TEST_CASE("a damaged object of a pack is named with its file before nodes begin",
           "[program][hostile]") {
-  const Folder folder;
-  const std::string scene = luxodus::write_gallery(folder.path).string();
-  const std::string pack = (folder.path / "x.luxpack").string();
+  const TemporaryFolder folder;
+  const std::string scene = luxodus::write_gallery(folder.path()).string();
+  const std::string pack = (folder / "x.luxpack").string();
   REQUIRE(run_luxodus(folder, "pack " + scene + " --scenario smoky --out " + pack).code == 0);
   std::string bytes = slurp(pack);
   bytes[300] = static_cast<char>(bytes[300] ^ 4);  // behind the head: the first object
   std::ofstream(pack, std::ios::binary) << bytes;
   const Outcome told = run_luxodus(folder,
                                    "run " + pack +
-                                       " --scenario smoky --nodes 2 --object-mib 1 "
+                                       " --scenario smoky --nodes 2 --part-cache-mib 1 "
                                        "--particles 10k --out " +
-                                       (folder.path / "out").string(),
+                                       (folder / "out").string(),
                                    "timeout 60 ");
   INFO(told.err);
   CHECK(told.code != 0);
@@ -133,7 +133,7 @@ TEST_CASE("a damaged object of a pack is named with its file before nodes begin"
 TEST_CASE("the program is linked so that an overwritten pointer finds no table to lead astray",
           "[program][hostile]") {
 #if defined(LUX_HARDENED)
-  const Folder folder;
+  const TemporaryFolder folder;
   const Outcome elf = shell(folder, std::string("readelf -hldW ") + LUX_PROGRAM);
   if (elf.code != 0) {
     WARN("skipped: there is no readelf here");

@@ -48,9 +48,9 @@ height = 30
 const std::string endless = " --particles 1000G ";
 
 struct Place {
-  Folder folder;
-  std::string scene = (folder.path / "room.toml").string();
-  fs::path out = folder.path / "out";
+  TemporaryFolder folder;
+  std::string scene = (folder / "room.toml").string();
+  fs::path out = folder / "out";
 
   explicit Place(const std::string& text = room) { std::ofstream(scene) << text; }
   Outcome run(const std::string& options, const std::string& under = "") const {
@@ -69,7 +69,7 @@ size_t lines(const std::string& text) {
 
 TEST_CASE("a run learns before it traces that its results cannot be written", "[program][keep]") {
   const Place place;
-  const fs::path elsewhere = place.folder.path / "elsewhere";
+  const fs::path elsewhere = place.folder / "elsewhere";
   fs::create_directory(elsewhere);
   std::string said;
   SECTION("a folder in the place of flux.lux") {
@@ -100,12 +100,13 @@ TEST_CASE("a run learns before it traces that its results cannot be written", "[
 
 TEST_CASE("every command that works long looks first at where it will write", "[program][keep]") {
   const Place place;
-  const std::string file = (place.folder.path / "file").string();
+  const std::string file = (place.folder / "file").string();
   std::ofstream(file) << "mine";
-  for (const std::string& command : {"converge " + place.scene + endless + "--out " + file,
-                                     "assess " + place.scene + " --out " + file + "/below",
-                                     "pack " + place.scene + " --out " + place.folder.path.string(),
-                                     "validate --full --out " + file}) {
+  for (const std::string& command :
+       {"converge " + place.scene + endless + "--out " + file,
+        "assess " + place.scene + " --out " + file + "/below",
+        "pack " + place.scene + " --out " + place.folder.path().string(),
+        "validate --full --out " + file}) {
     const Outcome refused = run_luxodus(place.folder, command, in_time);
     INFO(command << "\n" << refused.err);
     CHECK(refused.code == 2);
@@ -116,7 +117,7 @@ TEST_CASE("every command that works long looks first at where it will write", "[
 TEST_CASE("pictures never leave the folder of their run through a link", "[program][keep]") {
   const Place place;
   REQUIRE(place.run("--particles 20k --no-views").code == 0);
-  const fs::path elsewhere = place.folder.path / "elsewhere";
+  const fs::path elsewhere = place.folder / "elsewhere";
   fs::create_directory(elsewhere);
   fs::create_directory_symlink(elsewhere, place.out / "views");
   const Outcome drawn = run_luxodus(place.folder, "render " + place.out.string() + " --paths 1");
@@ -148,7 +149,7 @@ TEST_CASE("a run that is killed goes on from its last checkpoint with the same b
   const auto ended = nlohmann::json::parse(slurp(place.out / "result.json"));
   CHECK(ended["finished"] == true);
   CHECK(ended["particles"].get<int64_t>() >= 2 * particles);
-  const fs::path whole = place.folder.path / "whole";
+  const fs::path whole = place.folder / "whole";
   REQUIRE(run_luxodus(place.folder, "run " + place.scene + " --no-views --out " + whole.string() +
                                         " --particles " + ended["particles"].dump())
               .code == 0);
@@ -261,9 +262,9 @@ TEST_CASE("Ctrl-C and SIGTERM end the making of pictures, and keep what is done"
 TEST_CASE("a pack that is interrupted leaves nothing, and takes away what a killed one left",
           "[program][keep]") {
   const Place place;
-  const fs::path stale = place.folder.path / ".luxodus-999999-0.tmp";
+  const fs::path stale = place.folder / ".luxodus-999999-0.tmp";
   std::ofstream(stale) << "half a pack";
-  const std::string pack = (place.folder.path / "room.luxpack").string();
+  const std::string pack = (place.folder / "room.luxpack").string();
   REQUIRE(run_luxodus(place.folder, "pack " + place.scene + " --out " + pack).code == 0);
   CHECK_FALSE(fs::exists(stale));
   const std::string many = R"([[object]]
@@ -279,9 +280,9 @@ repeat = [{ count = 100, step = [0.02, 0, 0] }, { count = 100, step = [0, 0.02, 
     for (const char* signal : {"INT", "TERM", "KILL"}) {
       run_luxodus(large.folder,
                   "pack " + large.scene + " --cell-kib 1 --out " +
-                      (large.folder.path / "large.luxpack").string(),
+                      (large.folder / "large.luxpack").string(),
                   std::string("timeout --signal=") + signal + " " + after + " ");
-      for (const auto& entry : fs::directory_iterator(large.folder.path))
+      for (const auto& entry : fs::directory_iterator(large.folder.path()))
         CHECK(entry.path().extension() != ".tmp");
     }
 }

@@ -1,4 +1,4 @@
-// What tests that run the program share: a folder of their own, what a command said and left.
+// What tests that run the program share: what a command said and left.
 #pragma once
 
 #include <catch2/catch.hpp>
@@ -8,23 +8,13 @@
 #include <sstream>
 #include <string>
 
+#include "tests/kit/temporary_folder.hpp"
+
 namespace luxodus::program {
 
 namespace fs = std::filesystem;
 
-/// A folder of its own for one test, gone afterwards.
-class Folder {
- public:
-  Folder() {
-    std::string name = (fs::temp_directory_path() / "luxodus_test_XXXXXX").string();
-    REQUIRE(mkdtemp(name.data()) != nullptr);
-    path = name;
-  }
-  ~Folder() { fs::remove_all(path); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  fs::path path;
-};
+using test::TemporaryFolder;
 
 inline std::string slurp(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
@@ -40,15 +30,15 @@ struct Outcome {
 };
 
 /// Runs a line of shell.
-inline Outcome shell(const Folder& folder, const std::string& command) {
-  const int status = std::system(("{ " + command + "; } >" + (folder.path / "stdout").string() +
-                                  " 2>" + (folder.path / "stderr").string())
+inline Outcome shell(const TemporaryFolder& folder, const std::string& command) {
+  const int status = std::system(("{ " + command + "; } >" + (folder / "stdout").string() + " 2>" +
+                                  (folder / "stderr").string())
                                      .c_str());
-  return {WEXITSTATUS(status), slurp(folder.path / "stdout"), slurp(folder.path / "stderr")};
+  return {WEXITSTATUS(status), slurp(folder / "stdout"), slurp(folder / "stderr")};
 }
 
 /// Runs the program. `under`: a program that starts it.
-inline Outcome run_luxodus(const Folder& folder, const std::string& arguments,
+inline Outcome run_luxodus(const TemporaryFolder& folder, const std::string& arguments,
                            const std::string& under = "") {
   return shell(folder, under + LUX_PROGRAM + " " + arguments);
 }

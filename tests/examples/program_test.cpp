@@ -32,18 +32,18 @@ std::string two_scenarios() {
          "[[scenario]]\nname = \"clear\"\nmedia = { haze = 0 }\n[[scenario]]\nname = \"hazy\"\n";
 }
 
-std::string write_scene(const Folder& folder, const std::string& text) {
-  const fs::path file = folder.path / "room.toml";
+std::string write_scene(const TemporaryFolder& folder, const std::string& text) {
+  const fs::path file = folder / "room.toml";
   std::ofstream(file) << text;
   return file.string();
 }
 
-std::string out(const Folder& folder, const char* name) {
-  return (folder.path / name).string();
+std::string out(const TemporaryFolder& folder, const char* name) {
+  return (folder / name).string();
 }
 
-std::string flux(const Folder& folder, const char* name) {
-  const std::string bytes = slurp(folder.path / name / "flux.lux");
+std::string flux(const TemporaryFolder& folder, const char* name) {
+  const std::string bytes = slurp(folder / name / "flux.lux");
   REQUIRE(!bytes.empty());
   return bytes;
 }
@@ -51,7 +51,7 @@ std::string flux(const Folder& folder, const char* name) {
 }  // namespace
 
 TEST_CASE("the guide's first scene runs and leaves what the guide lists", "[program]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string guide = first_guide();
   const std::string scene = write_scene(folder, readme_scene());
   const Outcome run = run_luxodus(folder, "run " + scene + " --out " + out(folder, "room") +
@@ -61,17 +61,17 @@ TEST_CASE("the guide's first scene runs and leaves what the guide lists", "[prog
   for (const char* file : {"result.json", "flux.lux", "planes/floor.csv", "planes/floor.png",
                            "views/door.exr", "views/door.png", "patches.vtp", "volume.vti"}) {
     INFO(file);
-    CHECK(fs::file_size(folder.path / "room" / file) > 0);
+    CHECK(fs::file_size(folder / "room" / file) > 0);
     CHECK(guide.find("`" + std::string(file) + "`") != std::string::npos);
   }
-  const auto result = nlohmann::json::parse(slurp(folder.path / "room" / "result.json"));
+  const auto result = nlohmann::json::parse(slurp(folder / "room" / "result.json"));
   CHECK(result["ledger"]["closes"] == true);
   CHECK(result["planes"][0]["mean_illuminance"]["standard_error"].get<double>() > 0);
   CHECK(result["particles"].get<int64_t>() >= 50'000);
 }
 
 TEST_CASE("the flux file has the same bits for one, two and three threads", "[program]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string scene = write_scene(folder, readme_scene());
   for (const char* threads : {"1", "2", "3"}) {
     REQUIRE(run_luxodus(folder, "run " + scene + " --no-views --particles 100k --out " +
@@ -83,7 +83,7 @@ TEST_CASE("the flux file has the same bits for one, two and three threads", "[pr
 }
 
 TEST_CASE("a resumed run equals an uninterrupted one bit for bit", "[program]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string scene = write_scene(folder, readme_scene());
   const std::string common = "run " + scene + " --no-views --cells 4 --out ";
   REQUIRE(run_luxodus(folder, common + out(folder, "whole") + " --particles 120k").code == 0);
@@ -95,12 +95,12 @@ TEST_CASE("a resumed run equals an uninterrupted one bit for bit", "[program]") 
 }
 
 TEST_CASE("a run by need has the same bits on nodes and resumed, and can be drawn", "[program]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string scene = write_scene(
       folder, readme_scene() +
                   "[[emitter]]\nname = \"other\"\nshape = \"rectangle\"\nposition = [1, 1, 2.4]\n"
                   "size = [0.2, 0.2]\nflux_lm = 50\n[run]\ngroups = \"emitter\"\n");
-  const std::string common = "run " + scene + " --no-views --by-need --out ";
+  const std::string common = "run " + scene + " --no-views --adaptive --out ";
   REQUIRE(run_luxodus(folder, common + out(folder, "whole") + " --particles 200k").code == 0);
   REQUIRE(run_luxodus(folder, common + out(folder, "parts") + " --particles 80k").code == 0);
   REQUIRE(run_luxodus(folder, common + out(folder, "parts") + " --particles 200k --resume").code ==
@@ -109,17 +109,17 @@ TEST_CASE("a run by need has the same bits on nodes and resumed, and can be draw
   REQUIRE(run_luxodus(folder, common + out(folder, "nodes") + " --particles 200k --nodes 2").code ==
           0);
   CHECK(flux(folder, "whole") == flux(folder, "nodes"));
-  const auto result = nlohmann::json::parse(slurp(folder.path / "whole" / "result.json"));
+  const auto result = nlohmann::json::parse(slurp(folder / "whole" / "result.json"));
   CHECK(result["source_groups"].size() == 2);
   CHECK(result["source_groups"][0]["batch_share"].get<double>() > 0);
   CHECK(run_luxodus(folder, "render " + out(folder, "whole") + " --paths 1").code == 0);
-  CHECK(run_luxodus(folder, "run " + write_scene(folder, readme_scene()) + " --by-need --out " +
+  CHECK(run_luxodus(folder, "run " + write_scene(folder, readme_scene()) + " --adaptive --out " +
                                 out(folder, "one"))
             .err.find("groups = \"emitter\"") != std::string::npos);
 }
 
 TEST_CASE("another seed is another flux, and resuming with it is refused by name", "[program]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string scene = write_scene(folder, readme_scene());
   const std::string common = "run " + scene + " --no-views --particles 20k --out ";
   REQUIRE(run_luxodus(folder, common + out(folder, "a") + " --seed 1").code == 0);
@@ -132,7 +132,7 @@ TEST_CASE("another seed is another flux, and resuming with it is refused by name
 
 TEST_CASE("resuming all scenarios keeps the finished and starts those that were not begun",
           "[program]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string scene = write_scene(folder, two_scenarios());
   const std::string common = "run " + scene + " --no-views --particles 20k --out ";
   REQUIRE(run_luxodus(folder, common + out(folder, "all/clear") + " --scenario clear").code == 0);
@@ -146,7 +146,7 @@ TEST_CASE("resuming all scenarios keeps the finished and starts those that were 
 }
 
 TEST_CASE("the results of all scenarios are printed as one JSON array", "[program]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string scene = write_scene(folder, two_scenarios());
   const Outcome run = run_luxodus(
       folder, "run " + scene + " --no-views --json --scenario all --particles 20k --out " +
@@ -160,9 +160,9 @@ TEST_CASE("the results of all scenarios are printed as one JSON array", "[progra
 
 TEST_CASE("a run clears away the maps and pictures of the one before, and only these",
           "[program]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string scene = write_scene(folder, readme_scene());
-  const fs::path room = folder.path / "room";
+  const fs::path room = folder / "room";
   const std::string common =
       "run " + scene + " --particles 20k --picture-paths 1 --out " + room.string();
   REQUIRE(run_luxodus(folder, common).code == 0);
@@ -189,27 +189,27 @@ TEST_CASE("a run clears away the maps and pictures of the one before, and only t
 }
 
 TEST_CASE("a finished run is rendered again without tracing", "[program]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string scene = write_scene(folder, readme_scene());
   REQUIRE(run_luxodus(folder,
                       "run " + scene + " --particles 20k --no-views --out " + out(folder, "room"))
               .code == 0);
   const std::string before = flux(folder, "room");
-  CHECK_FALSE(fs::exists(folder.path / "room" / "views"));
+  CHECK_FALSE(fs::exists(folder / "room" / "views"));
   REQUIRE(run_luxodus(folder, "render " + out(folder, "room") + " --view door --paths 1").code ==
           0);
-  const std::string gathered = slurp(folder.path / "room" / "views" / "door.exr");
-  CHECK(fs::exists(folder.path / "room" / "views" / "door.png"));
+  const std::string gathered = slurp(folder / "room" / "views" / "door.exr");
+  CHECK(fs::exists(folder / "room" / "views" / "door.png"));
   REQUIRE(run_luxodus(folder, "render " + out(folder, "room") + " --paths 1 --full-paths").code ==
           0);
-  CHECK(slurp(folder.path / "room" / "views" / "door.exr") != gathered);
+  CHECK(slurp(folder / "room" / "views" / "door.exr") != gathered);
   CHECK(flux(folder, "room") == before);
   CHECK(run_luxodus(folder, "render " + out(folder, "room") + " --view nowhere").code == 2);
 }
 
 TEST_CASE("bad input is one line with file and line, exit code 2, and nothing written",
           "[program]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string good = readme_scene();
   struct Mistake {
     std::string from, to, said;
@@ -231,12 +231,12 @@ TEST_CASE("bad input is one line with file and line, exit code 2, and nothing wr
     CHECK(run.err.find("room.toml:") != std::string::npos);
     CHECK(run.err.find(m.said) != std::string::npos);
     CHECK(std::count(run.err.begin(), run.err.end(), '\n') == 1);
-    CHECK_FALSE(fs::exists(folder.path / "never"));
+    CHECK_FALSE(fs::exists(folder / "never"));
   }
 }
 
 TEST_CASE("wrong words on the command line are exit code 2 and explained", "[program]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   CHECK(run_luxodus(folder, "").code == 2);
   CHECK(run_luxodus(folder, "simulate").code == 2);
   CHECK(run_luxodus(folder, "run").code == 2);
@@ -250,7 +250,7 @@ TEST_CASE("wrong words on the command line are exit code 2 and explained", "[pro
 }
 
 TEST_CASE("check and info speak JSON on request", "[program]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string scene = write_scene(folder, readme_scene());
   const auto check = nlohmann::json::parse(run_luxodus(folder, "check --json " + scene).out);
   CHECK(check["scenarios"][0]["luminous_flux"]["value"].get<double>() == Approx(3000));
@@ -261,21 +261,21 @@ TEST_CASE("check and info speak JSON on request", "[program]") {
 
 TEST_CASE("converge writes its table and plots, and the error falls like one over the root",
           "[program]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string scene = write_scene(folder, readme_scene());
   const Outcome run = run_luxodus(
       folder, "converge " + scene + " --particles 2M --json --out " + out(folder, "converge"));
   INFO(run.err);
   REQUIRE(run.code == 0);
   for (const char* file : {"converge.csv", "error_particles.svg", "error_seconds.svg"})
-    CHECK(fs::file_size(folder.path / "converge" / file) > 0);
+    CHECK(fs::file_size(folder / "converge" / file) > 0);
   const auto json = nlohmann::json::parse(run.out);
   // Seven doublings; each standard error is itself known to about 1 / sqrt(2 n) of n >= 8 batches.
   CHECK(json["slope_particles"].get<double>() == Approx(-0.5).margin(0.12));
 }
 
 TEST_CASE("a seed that 64 bits do not hold is refused in one line of words", "[program]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string scene = write_scene(folder, readme_scene());
   for (const char* command : {"run", "converge"}) {
     for (const char* seed : {"-1", "99999999999999999999", "1.5", "0x10", "one"}) {
@@ -285,7 +285,7 @@ TEST_CASE("a seed that 64 bits do not hold is refused in one line of words", "[p
       CHECK(run.code == 2);
       CHECK(run.err.find("--seed") != std::string::npos);
       CHECK(run.err.find("\"" + std::string(seed) + "\" is no whole number") != std::string::npos);
-      CHECK_FALSE(fs::exists(folder.path / "never"));
+      CHECK_FALSE(fs::exists(folder / "never"));
     }
   }
   const std::string common = "run " + scene + " --no-views --particles 20k --out ";
@@ -297,7 +297,7 @@ TEST_CASE("a seed that 64 bits do not hold is refused in one line of words", "[p
 }
 
 TEST_CASE("converge says that a scene measured without chance has no error", "[program]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string scene = write_scene(
       folder,
       "[[object]]\nname = \"floor\"\nshape = \"quad\"\ncorner = [0, 0, 0]\n"
@@ -310,11 +310,11 @@ TEST_CASE("converge says that a scene measured without chance has no error", "[p
   INFO(run.err);
   CHECK(run.code == 2);
   CHECK(run.err.find("exactly 0") != std::string::npos);
-  CHECK_FALSE(fs::exists(folder.path / "never"));
+  CHECK_FALSE(fs::exists(folder / "never"));
 }
 
 TEST_CASE("an interrupted converge says so and ends with 130", "[program]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string scene = write_scene(folder, readme_scene());
   // `timeout` sends the signal of Ctrl-C; the particles asked for would take days.
   const Outcome run = run_luxodus(
@@ -327,7 +327,7 @@ TEST_CASE("an interrupted converge says so and ends with 130", "[program]") {
 
 TEST_CASE("a scene with more patches than are counted is refused before memory is taken",
           "[program]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   std::string text = readme_scene();
   // At this edge each triangle has 2^31 patches: two of them are none in 32 bits.
   const size_t edge = text.find("patch_edge_m");
@@ -340,8 +340,8 @@ TEST_CASE("a scene with more patches than are counted is refused before memory i
 }
 
 TEST_CASE("check counts the triangles without area that it drops", "[program]") {
-  const Folder folder;
-  std::ofstream(folder.path / "scrap.obj")
+  const TemporaryFolder folder;
+  std::ofstream(folder / "scrap.obj")
       << "v 0 0 1\nv 1 0 1\nv 0 1 1\nv 2 0 1\nf 1 2 3\nf 1 2 4\nf 1 1 3\n";
   const std::string scene =
       write_scene(folder, readme_scene() +
@@ -355,7 +355,7 @@ TEST_CASE("check counts the triangles without area that it drops", "[program]") 
 
 TEST_CASE("a packed scene runs as its scene file does, resident and on nodes with a budget",
           "[program]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string scene = write_scene(
       folder, readme_scene() +
                   "[[object]]\nname = \"blocks\"\nshape = \"box\"\nlow = [1, 1, 0]\n"
@@ -373,8 +373,8 @@ TEST_CASE("a packed scene runs as its scene file does, resident and on nodes wit
                                   out(folder, "plain"))
               .code == 0);
   REQUIRE(run_luxodus(folder, "run " + pack + common + out(folder, "packed")).code == 0);
-  REQUIRE(run_luxodus(folder, "run " + pack + " --nodes 2 --fibers 32 --object-mib 0.05" + common +
-                                  out(folder, "nodes"))
+  REQUIRE(run_luxodus(folder, "run " + pack + " --nodes 2 --fibers 32 --part-cache-mib 0.05" +
+                                  common + out(folder, "nodes"))
               .code == 0);
   CHECK(flux(folder, "packed") == flux(folder, "plain"));
   CHECK(flux(folder, "nodes") == flux(folder, "plain"));
@@ -390,8 +390,8 @@ TEST_CASE("a packed scene runs as its scene file does, resident and on nodes wit
 
 TEST_CASE("a packed scene of smoke data and pictures runs on nodes that hold a part of it",
           "[program]") {
-  const Folder folder;
-  const std::string scene = luxodus::write_gallery(folder.path).string();
+  const TemporaryFolder folder;
+  const std::string scene = luxodus::write_gallery(folder.path()).string();
   const std::string pack = out(folder, "gallery.luxpack");
   const Outcome packed = run_luxodus(folder, "pack " + scene + " --json --out " + pack);
   REQUIRE(packed.code == 0);
@@ -400,7 +400,7 @@ TEST_CASE("a packed scene of smoke data and pictures runs on nodes that hold a p
   CHECK(told["tiles"].get<int>() == 6);
   const std::string common = " --no-views --particles 8k --out ";
   REQUIRE(run_luxodus(folder, "run " + scene + common + out(folder, "plain")).code == 0);
-  const std::string nodes = "run " + pack + " --nodes 2 --fibers 64 --object-mib 1";
+  const std::string nodes = "run " + pack + " --nodes 2 --fibers 64 --part-cache-mib 1";
   const Outcome shared = run_luxodus(folder, nodes + common + out(folder, "shared"));
   INFO(shared.err);
   REQUIRE(shared.code == 0);
@@ -412,13 +412,13 @@ TEST_CASE("a packed scene of smoke data and pictures runs on nodes that hold a p
 
 TEST_CASE("a run shows pictures of itself while it goes on, and its result does not notice",
           "[program]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string scene = write_scene(folder, readme_scene());
   const std::string common = "run " + scene + " --no-views --particles 300k --out ";
   REQUIRE(run_luxodus(folder, common + out(folder, "plain")).code == 0);
   REQUIRE(run_luxodus(folder, common + out(folder, "shown") + " --preview 0.1s").code == 0);
-  CHECK(fs::exists(folder.path / "shown" / "preview" / "views" / "door.exr"));
-  CHECK(fs::exists(folder.path / "shown" / "preview" / "views" / "door.png"));
+  CHECK(fs::exists(folder / "shown" / "preview" / "views" / "door.exr"));
+  CHECK(fs::exists(folder / "shown" / "preview" / "views" / "door.png"));
   CHECK(flux(folder, "shown") == flux(folder, "plain"));
   CHECK(run_luxodus(folder, common + out(folder, "never") + " --preview soon").code == 2);
 }

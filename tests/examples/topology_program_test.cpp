@@ -10,24 +10,24 @@ using Json = nlohmann::json;
 
 namespace {
 
-Json json_of(const Folder& folder, const std::string& arguments) {
+Json json_of(const TemporaryFolder& folder, const std::string& arguments) {
   const Outcome said = run_luxodus(folder, "topology " + arguments + " --json");
   INFO(said.err);
   REQUIRE(said.code == 0);
   return Json::parse(said.out);
 }
 
-std::string in(const Folder& folder, const std::string& file) {
-  return (folder.path / file).string();
+std::string in(const TemporaryFolder& folder, const std::string& file) {
+  return (folder / file).string();
 }
 
 /// What it says of something it refuses; it must end with 2 and leave nothing of this name.
-std::string refusal(const Folder& folder, const std::string& arguments,
+std::string refusal(const TemporaryFolder& folder, const std::string& arguments,
                     const std::string& file = "none") {
   const Outcome said = run_luxodus(folder, "topology " + arguments);
   CHECK(said.code == 2);
   CHECK(said.out.empty());
-  CHECK_FALSE(fs::exists(folder.path / file));
+  CHECK_FALSE(fs::exists(folder / file));
   return said.err;
 }
 
@@ -39,7 +39,7 @@ bool has(const std::string& text, const std::string& words) {
 
 TEST_CASE("a minimum-path graph of 32 nodes and 4 links meets the bound that none can beat",
           "[program][topology]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const Json graph = json_of(folder, "amp --nodes 32 --links 4 -o " + in(folder, "a.toml"));
   CHECK(graph["links"] == 64);
   // From each of 32 nodes: 4 at one hop, at most 12 at two, 15 left at three.
@@ -51,7 +51,7 @@ TEST_CASE("a minimum-path graph of 32 nodes and 4 links meets the bound that non
 }
 
 TEST_CASE("a controller of its own links is a vertex more", "[program][topology]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const Json graph = json_of(
       folder, "amp --nodes 12 --links 4 --controller 2 --seed 3 -o " + in(folder, "c.toml"));
   CHECK(graph["nodes"] == 12);
@@ -61,15 +61,15 @@ TEST_CASE("a controller of its own links is a vertex more", "[program][topology]
 }
 
 TEST_CASE("a search with a seed finds the same graph again", "[program][topology]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string search = "amp --nodes 14 --links 3 --search --seed 5 -o ";
   json_of(folder, search + in(folder, "one.toml"));
   json_of(folder, search + in(folder, "two.toml"));
-  CHECK(slurp(folder.path / "one.toml") == slurp(folder.path / "two.toml"));
+  CHECK(slurp(folder / "one.toml") == slurp(folder / "two.toml"));
 }
 
 TEST_CASE("graphs with a name have the paths of their closed forms", "[program][topology]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const auto average = [&](const std::string& kind) {
     return json_of(folder, "build " + kind)["all"]["paths"]["average"].get<double>();
   };
@@ -81,7 +81,7 @@ TEST_CASE("graphs with a name have the paths of their closed forms", "[program][
 
 TEST_CASE("in a comparison no graph of as many links has shorter paths than the minimum-path graph",
           "[program][topology]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const Json compared = json_of(folder, "compare --nodes 32");
   REQUIRE(compared.size() == 8);
   const Json& best = compared.back();
@@ -98,12 +98,12 @@ TEST_CASE("in a comparison no graph of as many links has shorter paths than the 
 }
 
 TEST_CASE("a drawing shows every node and every link once", "[program][topology]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   json_of(folder, "build ring --nodes 8 -o " + in(folder, "r.toml"));
   REQUIRE(
       run_luxodus(folder, "topology draw " + in(folder, "r.toml") + " -o " + in(folder, "r.dot"))
           .code == 0);
-  const std::string dot = slurp(folder.path / "r.dot");
+  const std::string dot = slurp(folder / "r.dot");
   size_t links = 0;
   for (size_t at = dot.find(" -- "); at != std::string::npos; at = dot.find(" -- ", at + 1))
     ++links;
@@ -111,13 +111,13 @@ TEST_CASE("a drawing shows every node and every link once", "[program][topology]
   REQUIRE(
       run_luxodus(folder, "topology draw " + in(folder, "r.toml") + " -o " + in(folder, "r.svg"))
           .code == 0);
-  const std::string svg = slurp(folder.path / "r.svg");
+  const std::string svg = slurp(folder / "r.svg");
   CHECK(svg.starts_with("<svg "));
   CHECK(has(svg, "diameter 4"));
 }
 
 TEST_CASE("wishes that no graph meets are refused with the reason", "[program][topology]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string out = " -o " + in(folder, "none");
   CHECK(has(refusal(folder, "amp --nodes 32 --links 1" + out), "give each node more links"));
   CHECK(has(refusal(folder, "build hypercube --nodes 9" + out), "9 is no power of two"));
@@ -127,14 +127,14 @@ TEST_CASE("wishes that no graph meets are refused with the reason", "[program][t
 }
 
 TEST_CASE("a graph's file that is wrong is refused with its line", "[program][topology]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   json_of(folder, "build ring --nodes 8 -o " + in(folder, "r.toml"));
-  const std::string good = slurp(folder.path / "r.toml");
+  const std::string good = slurp(folder / "r.toml");
   const auto changed = [&](const std::string& from, const std::string& to) {
     std::string text = good;
     const size_t at = text.find(from);
     REQUIRE(at != std::string::npos);
-    std::ofstream(folder.path / "w.toml") << text.replace(at, from.size(), to);
+    std::ofstream(folder / "w.toml") << text.replace(at, from.size(), to);
     return refusal(folder, "measure " + in(folder, "w.toml"));
   };
   CHECK(has(changed("[0, 1]", "[0, 99]"), "w.toml:7: there is no vertex 99"));

@@ -84,7 +84,7 @@ std::string port_of(Process& process) {
 }  // namespace
 
 TEST_CASE("a cluster traces for a live view, and retraces what is moved", "[cluster][view]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   Process up(LUX_PROGRAM, {"cluster", "up", write_cluster(folder, viewed())});
   {
     Page page(port_of(up));
@@ -111,10 +111,10 @@ TEST_CASE("a cluster traces for a live view, and retraces what is moved", "[clus
 }
 
 TEST_CASE("a live view of a folder is of the scene and state that were run", "[program][view]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string scene =
       (fs::path(LUX_SOURCE_DIR) / "scenes/library/office_floor.toml").string();
-  const std::string out = (folder.path / "out").string();
+  const std::string out = (folder / "out").string();
   const Outcome run = run_luxodus(
       folder,
       "run " + scene + " --scenario clear_emergency --particles 20k --no-views --out " + out);
@@ -132,18 +132,18 @@ TEST_CASE("a live view of a folder is of the scene and state that were run", "[p
 
 TEST_CASE("a folder of nothing cannot be viewed, nor one of something else",
           "[program][view][failure]") {
-  const Folder folder;
-  const Outcome empty = run_luxodus(folder, "view " + folder.path.string());
+  const TemporaryFolder folder;
+  const Outcome empty = run_luxodus(folder, "view " + folder.path().string());
   CHECK(empty.code == 2);
   CHECK(empty.err.find("result.json") != std::string::npos);
-  std::ofstream(folder.path / "assessment.json") << "{\"scene\": 3}";
-  const Outcome other = run_luxodus(folder, "view " + folder.path.string());
+  std::ofstream(folder / "assessment.json") << "{\"scene\": 3}";
+  const Outcome other = run_luxodus(folder, "view " + folder.path().string());
   CHECK(other.code == 2);
   CHECK(other.err.find("assessment.json") != std::string::npos);
 }
 
 TEST_CASE("a live view refuses nodes that do not hold the scene", "[cluster][view][failure]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   ClusterText text = viewed();
   text.more += "[budget]\nobject_bytes = \"1 MiB\"\n";
   Process node(LUX_PROGRAM,
@@ -154,10 +154,10 @@ TEST_CASE("a live view refuses nodes that do not hold the scene", "[cluster][vie
 
 TEST_CASE("a live view says an address that a browser takes, and serves it there alone",
           "[program][view]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string scene = (fs::path(LUX_SOURCE_DIR) / "scenes/library/empty_room.toml").string();
   Process view(LUX_PROGRAM, {"view", scene, "--port", "0", "--particles", "10k", "--address", "::1",
-                             "--save-folder", folder.path.string()});
+                             "--save-folder", folder.path().string()});
   if (!view.says("Ctrl-C")) {
     CHECK(view.wait() == 2);
     WARN("skipped: this machine has no IPv6 loopback: " << view.text());
@@ -188,9 +188,9 @@ TEST_CASE("a live view says an address that a browser takes, and serves it there
 
 TEST_CASE("a live view whose variants could not be saved says so before it begins",
           "[program][view][failure]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string scene = (fs::path(LUX_SOURCE_DIR) / "scenes/library/empty_room.toml").string();
-  const fs::path missing = folder.path / "missing";
+  const fs::path missing = folder / "missing";
   const Outcome none =
       run_luxodus(folder, "view " + scene + " --port 0 --save-folder " + missing.string());
   CHECK(none.code == 2);

@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "actors/tally/flush_codec.hpp"
+#include "tests/kit/encode_flush.hpp"
 
 namespace luxodus::test {
 

@@ -227,14 +227,14 @@ TEST_CASE("error bars are honest, and if they were 20 % too small or too large i
   scene.run.voxels = false;
   scene.run.batch_particles = 128;
   const int wall = add_grey(scene, 0.5);
-  for (const Face& f : faces_of_box({0, 0, 0}, {1, 1, 1})) {
+  for (const BoxFace& f : faces_of_box({0, 0, 0}, {1, 1, 1})) {
     add_quad(scene, f.name, f.corner, f.u, f.v, wall);
     add_face_emitter(scene, f, 0.5);
   }
   add_homogeneous(scene, smoke(2, 1, 0.5));
   add_box_group(scene, {0.2, 0.2, 0.2}, {0.6, 0.7, 0.8});
   const auto compiled = compile(std::move(scene));
-  constexpr int runs = thrift == 1 ? 800 : 400;
+  const int runs = thrift == 1 ? 800 : 400;
   std::vector<std::pair<std::string, Distances>> measured = {
       {"wall", {}}, {"volume", {}}, {"patch", {}}};
   for (int seed = 0; seed < runs; ++seed) {

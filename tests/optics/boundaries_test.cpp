@@ -31,7 +31,7 @@ void add_beam(SceneDescription& scene, const glm::dvec3& from, const glm::dvec3&
 void add_room(SceneDescription& scene, const glm::dvec3& low, const glm::dvec3& high,
               double reflectance, const std::string& name = "") {
   const int wall = add_grey(scene, reflectance);
-  for (const Face& f : faces_of_box(low, high))
+  for (const BoxFace& f : faces_of_box(low, high))
     add_quad(scene, name + f.name, f.corner, f.u, f.v, wall);
 }
 
@@ -128,7 +128,7 @@ TEST_CASE("emitters at walls send no light behind them") {
       SceneDescription scene;
       const int wall = add_grey(scene, 0.5);
       const double size = row.size_m;
-      for (const Face& f : faces_of_box({0, 0, 0}, {size, 0.8 * size, 0.7 * size})) {
+      for (const BoxFace& f : faces_of_box({0, 0, 0}, {size, 0.8 * size, 0.7 * size})) {
         add_quad(scene, f.name, pose.point(f.corner), pose.way(f.u), pose.way(f.v), wall);
         const glm::dvec3 at = f.corner + 0.5 * (f.u + f.v) + row.distance_m * f.inward;
         Emitter& e = add_rectangle(scene, pose.point(at), pose.way(f.inward), glm::length(f.u),
@@ -231,7 +231,7 @@ TEST_CASE("walls of slivers reflect as whole ones, and let nothing through") {
     SceneDescription scene;
     add_room(scene, {0, 0, 0}, {1, 1, 1}, 0.8);
     add_point(scene, {0.4, 0.5, 0.6}, 1);
-    const std::vector<Face> faces = faces_of_box({0, 0, 0}, {1, 1, 1});
+    const std::vector<BoxFace> faces = faces_of_box({0, 0, 0}, {1, 1, 1});
     for (const size_t f : {4, 5}) {
       if (way == 1) scene.objects[f].mesh = strips(faces[f].corner, faces[f].u, faces[f].v, count);
       if (way == 2) scene.objects[f].mesh = fan(faces[f].corner, faces[f].u, faces[f].v, 50);
@@ -245,7 +245,7 @@ TEST_CASE("walls of slivers reflect as whole ones, and let nothing through") {
     const Run run(cube(way), small(1 << 18));
     CHECK(run.balance().escaped == 0);
     // The same histories, but for those whose hits are kept off edges that are new.
-    for (const Face& f : faces_of_box({0, 0, 0}, {1, 1, 1})) {
+    for (const BoxFace& f : faces_of_box({0, 0, 0}, {1, 1, 1})) {
       const Estimate found = run.into(f.name), expected = whole.into(f.name);
       INFO(f.name << ": " << found.value << " and " << expected.value << " +- "
                   << expected.standard_error);

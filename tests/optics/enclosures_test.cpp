@@ -18,8 +18,8 @@ TEST_CASE("a wall that glows up to its edges loses no light at them") {
   // Particles are born a millionth off the edges: on them they would start in the next wall.
   SceneDescription scene;
   const int wall = add_grey(scene, 0.5);
-  const std::vector<Face> faces = faces_of_box({0, 0, 0}, {1, 1, 1});
-  for (const Face& f : faces) add_quad(scene, f.name, f.corner, f.u, f.v, wall);
+  const std::vector<BoxFace> faces = faces_of_box({0, 0, 0}, {1, 1, 1});
+  for (const BoxFace& f : faces) add_quad(scene, f.name, f.corner, f.u, f.v, wall);
   add_rectangle(scene, {0.5, 0.5, 1 - 1e-5}, {0, 0, -1}, 1, 1, 1);
   RunOptions options;
   options.particles = 1 << 24;
@@ -30,7 +30,7 @@ TEST_CASE("a wall that glows up to its edges loses no light at them") {
 TEST_CASE("a plane in a wall counts what the wall receives, cell by cell") {
   SceneDescription scene = cases_named("cube c03_office").front().plan().scene;
   constexpr int parts = 4;
-  const Face floor = faces_of_box({0, 0, 0}, {1, 1, 1})[4];
+  const BoxFace floor = faces_of_box({0, 0, 0}, {1, 1, 1})[4];
   PlaneMeasure plane;
   plane.name = "floor";
   plane.corner = floor.corner;

@@ -15,7 +15,7 @@ namespace {
 
 SceneDescription plain_room() {
   SceneDescription scene;
-  for (const Face& f : faces_of_box({0, 0, 0}, {4, 3, 2.5}))
+  for (const BoxFace& f : faces_of_box({0, 0, 0}, {4, 3, 2.5}))
     add_quad(scene, f.name, f.corner, f.u, f.v, add_grey(scene, 0.5));
   add_rectangle(scene, {2, 1.5, 2.4}, {0, 0, -1}, 0.5, 0.5, 1);
   return scene;

@@ -193,7 +193,7 @@ namespace {
 SceneDescription white_room(double reflectance) {
   SceneDescription scene;
   const int wall = add_grey(scene, reflectance);
-  for (const Face& f : faces_of_box({0, 0, 0}, {1, 1, 1}))
+  for (const BoxFace& f : faces_of_box({0, 0, 0}, {1, 1, 1}))
     add_quad(scene, f.name, f.corner, f.u, f.v, wall);
   add_point(scene, {0.4, 0.5, 0.6}, 1);
   return scene;
@@ -226,7 +226,7 @@ TEST_CASE("a history that never ends is counted as lost, and the ledger closes")
 TEST_CASE("walls of a millimetre keep light in") {
   SceneDescription scene = white_room(0.8);
   const int wall = add_grey(scene, 0.8);
-  for (const Face& f : faces_of_box({-1e-3, -1e-3, -1e-3}, {1.001, 1.001, 1.001}))
+  for (const BoxFace& f : faces_of_box({-1e-3, -1e-3, -1e-3}, {1.001, 1.001, 1.001}))
     add_quad(scene, "outer " + f.name, f.corner, f.u, f.v, wall);
   RunOptions options;
   options.particles = 1 << 22;
@@ -242,7 +242,7 @@ TEST_CASE("out of a closed room of the thickest smoke nothing leaks") {
   SceneDescription scene;
   scene.run.voxels = false;
   const int wall = add_grey(scene, 0.5);
-  for (const Face& f : faces_of_box({0, 0, 0}, {1, 1, 1})) {
+  for (const BoxFace& f : faces_of_box({0, 0, 0}, {1, 1, 1})) {
     add_quad(scene, f.name, f.corner, f.u, f.v, wall);
     add_face_emitter(scene, f, 1);
   }
@@ -261,7 +261,7 @@ TEST_CASE("out of a closed room of the thickest smoke nothing leaks") {
 
 TEST_CASE("of surfaces that lie in one another each particle meets one, and none is lost") {
   SceneDescription scene = white_room(0.5);
-  const Face floor = faces_of_box({0, 0, 0}, {1, 1, 1})[4];
+  const BoxFace floor = faces_of_box({0, 0, 0}, {1, 1, 1})[4];
   add_quad(scene, "carpet", floor.corner, floor.u, floor.v, add_grey(scene, 0.5));
   const Run twice(std::move(scene)), once(white_room(0.5), {.seed = 2});
   const double on_floor = twice.into("z0").value + twice.into("carpet").value;

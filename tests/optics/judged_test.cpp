@@ -14,7 +14,7 @@ namespace {
 /// A lamp in a room; one plane below it, a small one in a corner; a probe at either place.
 const char* const lit_room = R"(
 [run]
-bands_most = 1
+max_bands = 1
 batch_particles = 4096
 
 [[object]]
@@ -125,7 +125,7 @@ TEST_CASE("the error of a plane's cells is what 95 of 100 of them do not exceed"
 TEST_CASE("what is judged and has no light is named, and has no part in the error") {
   SceneDescription scene = scene_from_toml(lit_room);
   // Within a box of its own, where no lamp is.
-  for (const Face& f : faces_of_box({0.05, 0.05, 0.01}, {0.3, 0.3, 0.2}))
+  for (const BoxFace& f : faces_of_box({0.05, 0.05, 0.01}, {0.3, 0.3, 0.2}))
     add_quad(scene, "box " + f.name, f.corner, f.u, f.v, add_grey(scene, 0.5));
   scene.run.error_of = {"planes", "cells", "patches"};
   const Run run(std::move(scene), {.particles = 64 * 4096});

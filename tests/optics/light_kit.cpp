@@ -1,28 +1,15 @@
 #include "tests/optics/light_kit.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 
 #include "scenes/scene_file/scene_file.hpp"
+#include "tests/kit/described.hpp"
 
 namespace luxodus::light {
 
 SceneDescription scene_from_toml(const std::string& text) {
-  static int made = 0;
-  const auto folder =
-      std::filesystem::temp_directory_path() /
-      ("luxodus_light_" + std::to_string(::getpid()) + "_" + std::to_string(made++));
-  std::filesystem::create_directories(folder);
-  std::ofstream(folder / "scene.toml") << text;
-  ReadScene read = read_scene(folder / "scene.toml");
-  std::filesystem::remove_all(folder);
-  for (const Problem& p : read.problems.list()) UNSCOPED_INFO(p.text());
-  REQUIRE(read.scene);
-  return std::move(*read.scene);
+  return *test::described_text(text);
 }
 
 namespace {
@@ -50,7 +37,7 @@ Run::Run(SceneDescription scene, const RunOptions& options, const std::vector<Bi
 // ---- comparisons -------------------------------------------------------------------------------
 
 int64_t particles_for(double share) {
-  constexpr double wanted = half_percent / root_of_thrift;
+  constexpr double wanted = 5e-3;
   return static_cast<int64_t>(std::ceil(1 / (wanted * wanted * share)));
 }
 
@@ -92,7 +79,7 @@ void check_share(const Estimate& estimate, double reference, int64_t particles, 
 
 namespace {
 
-int64_t particles_of(const Plan& plan, double emitted_w, const CaseOptions& options) {
+int64_t particles_of(const PreparedCase& plan, double emitted_w, const CaseOptions& options) {
   double rarest = 1;
   for (const Quantity& q : plan.quantities) {
     const double share = std::abs(q.reference) / (q.unit > 0 ? q.unit : emitted_w);
@@ -114,7 +101,7 @@ double power_of(const SceneDescription& scene) {
 
 void check_case(const Case& one, const CaseOptions& options) {
   INFO(one.name);
-  const Plan plan = one.plan();
+  const PreparedCase plan = one.plan();
   for (const Computed& c : plan.computed) {
     const double value = c.value(direct_light_at);
     INFO(c.name << ": " << value << " instead of " << c.reference);

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "actors/validate/scene_kit.hpp"
 #include "actors/validate/traced.hpp"
 #include "scenes/transport/compile.hpp"
+#include "tests/kit/test_length.hpp"
 
 namespace luxodus::light {
 
@@ -23,16 +25,16 @@ SceneDescription scene_from_toml(const std::string& text);
 
 // ---- runs --------------------------------------------------------------------------------------
 
-/// Sanitizers are after memory and arithmetic, and a program under them is some ten times slower:
-/// there runs have fewer particles by this factor, and errors may be larger by its root and a
-/// quarter, since few batches know their own error less well.
+/// Runs have fewer particles by this factor, and errors may be larger by its root and a quarter,
+/// since few batches know their own error less well. Sanitizers are after memory and arithmetic,
+/// and a program under them is some ten times slower.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-inline constexpr int64_t thrift = 64;
-inline constexpr double root_of_thrift = 10;
+inline const int64_t thrift = 64;
 #else
-inline constexpr int64_t thrift = 1;
-inline constexpr double root_of_thrift = 1;
+inline const int64_t thrift = test::in_full() ? 1 : 8;
 #endif
+inline const double root_of_thrift =
+    thrift == 1 ? 1 : 1.25 * std::sqrt(static_cast<double>(thrift));
 
 struct RunOptions {
   int64_t particles = 1 << 20;  // divided by `thrift`
@@ -53,7 +55,7 @@ class Run : public Traced {
 
 inline constexpr double four_standard_errors = 4;
 /// The relative standard error at which a comparison means something: four of them are 2 %.
-inline constexpr double half_percent = 5e-3 * root_of_thrift;
+inline const double half_percent = 5e-3 * root_of_thrift;
 
 /// How many particles make the relative standard error of a share of them half a percent, before
 /// they are divided by `thrift`.

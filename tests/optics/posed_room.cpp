@@ -45,7 +45,7 @@ void add_walls(SceneDescription& scene, const Pose& pose) {
              add_grey(scene, reflectance));
   };
   double reflectance = 0.2;
-  for (const Face& f : faces_of_box(room_low, room_high)) {
+  for (const BoxFace& f : faces_of_box(room_low, room_high)) {
     // The opening: a third of one wall.
     add(f.name, f.corner, f.u, f.name == "x1" ? f.v * (2.0 / 3) : f.v, reflectance += 0.1);
   }
@@ -135,7 +135,7 @@ glm::dmat3 turned_again() {
 }
 
 void close_opening(SceneDescription& room, const Pose& pose) {
-  const Face f = faces_of_box(room_low, room_high)[1];
+  const BoxFace f = faces_of_box(room_low, room_high)[1];
   SceneDescription whole;
   room.objects[1].mesh = add_quad(whole, f.name, pose.point(f.corner), pose.scale * pose.way(f.u),
                                   pose.scale * pose.way(f.v), 0)

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "scenes/geometry/primitives.hpp"
+#include "scenes/transport/eye_paths.hpp"
 #include "scenes/transport/kernels.hpp"
 #include "scenes/transport/trace.hpp"
 #include "tests/optics/light_kit.hpp"
@@ -28,7 +29,7 @@ SceneDescription room_of_everything() {
   scene.run.voxel_edge_m = 0.5;
   const int wall = add_grey(scene, 0.6);
   scene.materials.back().reflectance = reflectance_from_linear_srgb(0.7, 0.5, 0.3);
-  for (const Face& f : faces_of_box({0, 0, 0}, {4, 3, 2.5})) {
+  for (const BoxFace& f : faces_of_box({0, 0, 0}, {4, 3, 2.5})) {
     add_quad(scene, f.name, f.corner, f.u, f.v, wall).patch_edge_m = 0.7;
   }
   const int picture = add_grey(scene, 0.9);
@@ -301,7 +302,7 @@ TEST_CASE("a partition changes the triangle only of rays that meet an edge") {
 
 TEST_CASE("a partition gives the same light within standard errors") {
   const auto merged = compile(room_of_everything());
-  constexpr int64_t particles = 800'000 / thrift;
+  const int64_t particles = 800'000 / thrift;
   LocalRun a(merged, 11, 2);
   trace(a, particles);
   for (const int cells : {4, 9}) {

@@ -17,9 +17,9 @@ std::string two_lamps(double left_lm, double right_lm) {
 title = "Two lamps and a sign in smoke"
 [run]
 groups = "emitter"
-bands_most = 1
+max_bands = 1
 voxels = false
-eye_share = 15
+eye_path_factor = 15
 [[object]]
 name = "room"
 shape = "room"

@@ -1,5 +1,6 @@
 // What smoke beside a lamp sends to an eye, against integrals along the line of sight.
 #include <cmath>
+#include <numbers>
 
 #include "scenes/transport/eye_paths.hpp"
 #include "tests/optics/light_kit.hpp"
@@ -7,7 +8,7 @@
 namespace luxodus::light {
 namespace {
 
-constexpr double four_pi = 4 * 3.14159265358979324;
+constexpr double four_pi = 4 * std::numbers::pi;
 /// So little that nothing is scattered twice, to what is known here.
 constexpr double albedo = 1e-3;
 constexpr double sigma = 0.2;  // [1/m]

@@ -1,13 +1,13 @@
 #include "tests/precision/batches.hpp"
 
 #include <fmt/core.h>
-#include <xmmintrin.h>
 
 #include <atomic>
 #include <map>
 #include <set>
 #include <thread>
 
+#include "runtime/core/denormals.hpp"
 #include "scenes/transport/trace.hpp"
 
 namespace luxodus::precision {
@@ -98,7 +98,7 @@ std::vector<std::vector<double>> trace_batches(const CompiledScene& scene,
   std::vector<std::vector<double>> rows(static_cast<size_t>(batches));
   std::atomic<int64_t> next{0};
   const auto work = [&] {
-    _mm_setcsr(_mm_getcsr() | 0x8040);  // denormals count as zero, as in a run
+    flush_denormals();
     const auto tracer = make_batch_tracer(scene, GeometryAccess::resident(index), seed);
     BatchScores batch;
     for (int64_t k = next++; k < batches; k = next++) {

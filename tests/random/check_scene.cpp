@@ -6,6 +6,7 @@
 #include <cmath>
 #include <thread>
 
+#include "runtime/core/denormals.hpp"
 #include "scenes/transport/compile.hpp"
 #include "scenes/transport/readout.hpp"
 #include "scenes/transport/trace.hpp"
@@ -56,7 +57,7 @@ bool is_patient(const SceneDescription& d) {
 /// As threads that trace are set: denormals are zero.
 class TracingArithmetic {
  public:
-  TracingArithmetic() { _mm_setcsr(before_ | 0x8040); }
+  TracingArithmetic() { flush_denormals(); }
   ~TracingArithmetic() { _mm_setcsr(before_); }
   TracingArithmetic(const TracingArithmetic&) = delete;
   TracingArithmetic& operator=(const TracingArithmetic&) = delete;

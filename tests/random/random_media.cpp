@@ -1,6 +1,7 @@
 // Smoke and flames of every kind, over one another.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "scenes/geometry/transform.hpp"
 #include "scenes/optics/quadric_shapes.hpp"
@@ -63,7 +64,7 @@ void draw_footprint(Draw& draw, Footprint& footprint) {
     const double start = dice.between(0, 6);
     for (int i = 0; i < corners; ++i) {  // a star
       const double r = draw.size_m * dice.between(0.1, 0.8);
-      const double turn = start + 2 * 3.14159265358979 * i / corners;
+      const double turn = start + 2 * std::numbers::pi * i / corners;
       footprint.polygon.emplace_back(centre.x + r * std::cos(turn), centre.y + r * std::sin(turn));
     }
     if (dice.chance(0.5)) std::reverse(footprint.polygon.begin(), footprint.polygon.end());

@@ -7,6 +7,7 @@
 
 #include "scenes/transport/compile.hpp"
 #include "scenes/transport/trace.hpp"
+#include "tests/kit/temporary_folder.hpp"
 #include "tests/random/check_scene.hpp"
 #include "tests/random/check_scores.hpp"
 #include "tests/random/features.hpp"
@@ -69,9 +70,7 @@ TEST_CASE("a random scene follows from its number alone") {
 
 TEST_CASE("random scene files are taken, or refused with file and line") {
   const EmbreeDevice device(BuildThreads::calling);
-  const auto folder =
-      std::filesystem::temp_directory_path() / ("luxodus_random_" + std::to_string(::getpid()));
-  std::filesystem::create_directories(folder);
+  const test::TemporaryFolder folder;
   uint64_t accepted = 0;
   for (uint64_t number = 0; number < texts; ++number) {
     const Verdict verdict = check_text(number, folder / "scene.toml", device);
@@ -79,7 +78,6 @@ TEST_CASE("random scene files are taken, or refused with file and line") {
     REQUIRE(verdict.findings.empty());
     accepted += verdict.accepted ? 1 : 0;
   }
-  std::filesystem::remove_all(folder);
   CHECK(accepted > texts / 10);
   CHECK(accepted < texts * 9 / 10);
 }

@@ -231,16 +231,37 @@ void draw_materials(Draw& draw) {
   }
 }
 
+/// The walls, floor and ceiling of a room over an outline, seen from inside; none where the outline
+/// is no polygon.
+std::vector<Mesh> room_over(std::span<const glm::dvec2> outline, double height) {
+  const auto flat = shapes::polygon(outline);
+  if (!flat.ok()) return {};
+  std::vector<Mesh> parts;
+  const bool counter_clockwise = signed_area(outline) > 0;
+  for (size_t i = 0; i < outline.size(); ++i) {
+    glm::dvec2 from = outline[i], to = outline[(i + 1) % outline.size()];
+    // From inside a counter-clockwise outline, edges run to the left: u starts at their end.
+    if (counter_clockwise) std::swap(from, to);
+    Mesh wall;
+    wall.positions = {{from, 0}, {to, 0}, {to, height}, {from, height}};
+    wall.texture_uv = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    wall.triangles = {{0, 1, 2}, {0, 2, 3}};
+    parts.push_back(std::move(wall));
+  }
+  parts.push_back(flat->mesh);
+  Mesh ceiling = flat->mesh;
+  apply(translation({0, 0, height}), ceiling);
+  flip(ceiling);
+  parts.push_back(std::move(ceiling));
+  return parts;
+}
+
 void draw_room(Draw& draw) {
   Dice& dice = draw.dice;
   const int kind = dice.below(8);
   if (kind < 2 || draw.bare) return;  // in the open
   if (kind == 2) {
-    auto room = shapes::room_over(draw_outline(draw, draw.size_m), draw.size().z);
-    if (!room.ok()) return;
-    std::vector<Mesh> parts = room->walls;
-    parts.push_back(room->floor);
-    parts.push_back(room->ceiling);
+    std::vector<Mesh> parts = room_over(draw_outline(draw, draw.size_m), draw.size().z);
     for (size_t i = 0; i < parts.size(); ++i) {
       apply(translation(draw.low), parts[i]);
       add_object(draw, parts[i], "part " + std::to_string(i), draw_opaque(draw));

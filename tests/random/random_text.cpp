@@ -62,7 +62,7 @@ opening = [{ at = 1, width = 1.0, height = 2 }]
 name = "ball"
 shape = "sphere"
 radius = 0.3
-bound_m = 0.1
+mesh_tolerance_m = 0.1
 material = "pane"
 translate = [3, 3, 1]
 repeat = [{ count = 2, step = [0, -1, 0] }]
@@ -244,7 +244,7 @@ class TextWriter {
   /// The tables of the schema that say what a table of this kind may hold.
   static std::vector<const TableSpec*> specs_of(const std::string& kind) {
     std::vector<const TableSpec*> out;
-    for (const TableSpec& t : scene_schema()) {
+    for (const TableSpec& t : scene_schema().tables) {
       const bool own = t.name == kind;
       const bool part = t.name.size() > kind.size() && t.name.substr(0, kind.size()) == kind &&
                         t.name[kind.size()] == '.';
@@ -266,7 +266,7 @@ class TextWriter {
   }
 
   void add_table() {
-    const TableSpec& spec = dice_.any(scene_schema());
+    const TableSpec& spec = dice_.any(scene_schema().tables);
     const std::string kind(spec.name.substr(0, spec.name.find('.')));
     if (kind == "scene") return;
     const bool single = kind == "run" || kind == "assessment";
@@ -340,7 +340,7 @@ class TextWriter {
   }
 
   std::string number_for(const KeySpec& key) {
-    const Interval range = interval_of(key.range).value_or(Interval{-10, 10});
+    const toml::Interval range = toml::interval_of(key.range).value_or(toml::Interval{-10, 10});
     const int where = dice_.below(10);
     double v = std::clamp(dice_.between(-5, 10), range.low, range.high);
     if (where == 0) v = range.low;
@@ -373,7 +373,7 @@ class TextWriter {
       return std::string(key.fallback);
     if (type == "number" || type == "integer") return number_for(key);
     if (type == "flag") return dice_.chance(0.5) ? "true" : "false";
-    if (type == "choice") return '"' + std::string(dice_.any(words_of(key.range))) + '"';
+    if (type == "choice") return '"' + std::string(dice_.any(toml::words_of(key.range))) + '"';
     if (type == "name") return "\"name " + std::to_string(dice_.below(30)) + '"';
     if (type == "text") return dice_.any(texts_);
     if (type == "texts") return "[" + dice_.any(texts_) + "]";
@@ -393,7 +393,7 @@ class TextWriter {
 
   /// Of any inner table: most will be refused by name.
   std::string inner_keys() {
-    const TableSpec& spec = dice_.any(scene_schema());
+    const TableSpec& spec = dice_.any(scene_schema().tables);
     std::string out;
     for (const KeySpec& key : spec.keys) {
       if (key.type == "table" || key.type == "tables") continue;

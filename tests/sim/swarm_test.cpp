@@ -1,6 +1,6 @@
-// Runs under faults that are drawn from seeds: 200 of them in every test run, each twice, and those
-// that once found a fault of the program (tests/sim/seeds). Many more: `luxodus sim SCENE --seeds
-// 0..10000`.
+// Runs under faults that are drawn from seeds: 50 of them in every test run and 200 in full, each
+// twice, and those that once found a fault of the program (tests/sim/seeds). Many more: `luxodus
+// sim SCENE --seeds 0..10000`.
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -12,6 +12,7 @@
 #include "actors/simulate/simulation.hpp"
 #include "scenes/scene_file/scene_file.hpp"
 #include "scenes/transport/compile.hpp"
+#include "tests/kit/test_length.hpp"
 
 using namespace luxodus;
 
@@ -83,10 +84,7 @@ struct Trouble {
   }
 };
 
-}  // namespace
-
-TEMPLATE_TEST_CASE_SIG("swarms of faults change no bit, and a seed is one run", "[sim]",
-                       ((uint64_t part), part), 0, 1, 2, 3, 4, 5, 6, 7) {
+void check_swarm(uint64_t part) {
   const SimScene scene = scene_of("empty_room");
   Trouble all;
   for (uint64_t seed = 25 * part; seed < 25 * (part + 1); ++seed)
@@ -100,14 +98,28 @@ TEMPLATE_TEST_CASE_SIG("swarms of faults change no bit, and a seed is one run", 
   CHECK(all.rare_ways > 1000);
 }
 
+}  // namespace
+
+TEMPLATE_TEST_CASE_SIG("swarms of faults change no bit, and a seed is one run", "[sim]",
+                       ((uint64_t part), part), 0, 1) {
+  check_swarm(part);
+}
+TEMPLATE_TEST_CASE_SIG("more swarms of faults change no bit, and a seed is one run",
+                       "[sim][.][long]", ((uint64_t part), part), 2, 3, 4, 5, 6, 7) {
+  check_swarm(part);
+}
+
 TEST_CASE("swarms change no bit of a run in smoke", "[sim]") {
   const SimScene scene = scene_of("smoke_tank");
-  for (uint64_t seed = 1000; seed < 1005; ++seed) checked(scene, "smoke_tank", options_of(seed, 3));
+  const uint64_t seeds = test::in_full() ? 5 : 2;
+  for (uint64_t seed = 1000; seed < 1000 + seeds; ++seed)
+    checked(scene, "smoke_tank", options_of(seed, 3));
 }
 
 TEST_CASE("swarms change no bit of a run on 32 nodes", "[sim]") {
   const SimScene scene = scene_of("empty_room");
-  for (uint64_t seed = 2000; seed < 2002; ++seed) {
+  const uint64_t seeds = test::in_full() ? 2 : 1;
+  for (uint64_t seed = 2000; seed < 2000 + seeds; ++seed) {
     SimOptions options = options_of(seed, 32);
     options.work = seconds(240);
     checked(scene, "empty_room", options);

@@ -11,8 +11,9 @@
 #include "actors/study/report.hpp"
 #include "actors/study/runs.hpp"
 #include "actors/study/scenes.hpp"
-#include "runtime/config/schema.hpp"
+#include "actors/study/study_schema.hpp"
 #include "scenes/scene_file/scene_file.hpp"
+#include "tests/kit/temporary_folder.hpp"
 
 using namespace luxodus;
 
@@ -122,14 +123,14 @@ TEST_CASE("the points of a study are all combinations of its values", "[study]")
 }
 
 TEST_CASE("costs are read back from the file that they were written to", "[study]") {
-  const auto path = std::filesystem::temp_directory_path() / "luxodus_costs_test.toml";
+  const test::TemporaryFolder folder;
+  const auto path = folder / "costs.toml";
   const MeasuredCosts measured{some_costs(), "a machine", "a scene"};
   REQUIRE(write_file_atomically(path, costs_text(measured)).ok());
   const ReadCosts read = read_costs(path);
   REQUIRE(read.measured);
   CHECK(read.measured->costs == measured.costs);
   CHECK(read.measured->machine == "a machine");
-  std::filesystem::remove(path);
 }
 
 TEST_CASE("the README of studies ends with every table and key of the schema", "[study]") {
@@ -138,7 +139,7 @@ TEST_CASE("the README of studies ends with every table and key of the schema", "
   text << in.rdbuf();
   const size_t from = text.str().find("### ");
   REQUIRE(from != std::string::npos);
-  CHECK(text.str().substr(from) + "\n" == config::schema_markdown(config::study_schema()));
+  CHECK(text.str().substr(from) + "\n" == toml::schema_markdown(study_schema()));
 }
 
 TEST_CASE("a fit finds the costs that times were made of, disturbed rows aside", "[study]") {
@@ -166,10 +167,9 @@ TEST_CASE("a simulated study run twice has the same results, bit for bit", "[stu
 }
 
 TEST_CASE("a study leaves a table, JSON, a drawing for each plot and a page", "[study]") {
-  const auto folder = std::filesystem::temp_directory_path() / "luxodus_study_test";
-  std::filesystem::remove_all(folder);
+  const test::TemporaryFolder folder;
   const Study study = good("seeds = 1\n", small);
-  REQUIRE(write_study(folder, outcome_of(study, some_costs())).ok());
+  REQUIRE(write_study(folder.path(), outcome_of(study, some_costs())).ok());
   for (const char* name : {"results.csv", "results.json", "p.svg", "index.html"})
     CHECK(std::filesystem::file_size(folder / name) > 100);
   std::ifstream in(folder / "index.html");
@@ -177,7 +177,6 @@ TEST_CASE("a study leaves a table, JSON, a drawing for each plot and a page", "[
   page << in.rdbuf();
   CHECK(page.str().find("<svg") != std::string::npos);
   CHECK(page.str().find("http") == page.str().find("http://www.w3.org/2000/svg"));
-  std::filesystem::remove_all(folder);
 }
 
 TEST_CASE("builds take virtual time: as many of them as there were", "[study]") {

@@ -16,6 +16,7 @@
 #include <thread>
 
 #include "runtime/core/isolated_job.hpp"
+#include "tests/kit/temporary_folder.hpp"
 #include "tests/random/check_scene.hpp"
 #include "tests/random/features.hpp"
 #include "tests/random/random_text.hpp"
@@ -95,18 +96,13 @@ struct Summary {
 
 class Tries {
  public:
-  explicit Tries(const Options& options)
-      : options_(options),
-        next_(options.first),
-        folder_(std::filesystem::temp_directory_path() /
-                ("random_scenes_" + std::to_string(::getpid()))) {}
+  explicit Tries(const Options& options) : options_(options), next_(options.first) {}
 
   Summary run() {
     std::vector<std::thread> threads;
     for (int job = 0; job < options_.jobs; ++job) threads.emplace_back([this, job] { work(job); });
     tell_progress();
     for (std::thread& t : threads) t.join();
-    if (options_.texts) std::filesystem::remove_all(folder_);
     return total_;
   }
 
@@ -185,7 +181,7 @@ class Tries {
 
   const Options options_;
   std::atomic<uint64_t> next_;
-  const std::filesystem::path folder_;
+  const TemporaryFolder folder_;
   std::mutex mutex_;  // of what follows, and of printing
   std::condition_variable ended_;
   uint64_t finished_ = 0;

@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "runtime/core/check.hpp"
+#include "scenes/transport/direct.hpp"
+#include "scenes/transport/eye_paths.hpp"
 
 namespace luxodus::light {
 

@@ -58,10 +58,19 @@ TEST_CASE("the graph in the README is one", "[topology][file]") {
 TEST_CASE("spacing and comments of a graph's text are free", "[topology][file]") {
   const std::string text =
       "# by hand\n\nformat=\"luxodus graph 1\"\r\n\tlinks = [\n[0,1] , # here\n[ 1,\n"
-      "2 ]\n] # end\nnodes = 3\nrotation = 1\nlinks_most = 2\ncontroller = \"none\"\n";
+      "2 ]\n] # end\nnodes = 3\nrotation = 1\nmax_links = 2\ncontroller = \"none\"\n";
   const Graph expected = test::graph(3, 2, {{0, 1}, {1, 2}});
   const std::string hash_line = graph_text(expected).substr(graph_text(expected).find("hash"));
   CHECK(problem_of(text + hash_line).empty());
+}
+
+TEST_CASE("a graph's file of an earlier release is read, under the former name of a key",
+          "[topology][file]") {
+  const std::string text = graph_text(test::graph(3, 2, {{0, 1}, {1, 2}}));
+  std::string old = text;
+  old.replace(old.find("max_links"), std::string("max_links").size(), "links_most");
+  CHECK(problem_of(old).empty());
+  CHECK(parse_graph(old, "g.toml")->hash() == parse_graph(text, "g.toml")->hash());
 }
 
 TEST_CASE("each mistake in a graph's text is told with its line", "[topology][file]") {

@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <map>
+#include <numbers>
 
 #include "actors/assess/assessment_json.hpp"
 #include "actors/report/report.hpp"
@@ -24,7 +25,7 @@ const Check& check_of(const Assessment& a, const std::string& id, const std::str
 TEST_CASE("the code mode is direct light at the end of the duration, without smoke or walls",
           "[assess]") {
   // I cos^3 / h^2 of 500 lm x 0.8 x 0.75, 5 m aside, 2.48 m above the plane.
-  const double intensity = 300 / (4 * 3.14159265358979323846), h = 2.5 - 0.02;
+  const double intensity = 300 / (4 * std::numbers::pi), h = 2.5 - 0.02;
   const double expected = intensity * h / std::pow(h * h + 25, 1.5);
   for (const std::string& text : {room, with_smoke(2, 0.3)}) {
     const Assessment a = assessed(text, codes_alone());
@@ -42,7 +43,7 @@ TEST_CASE("in absorbing smoke a sign's difference follows Koschmieder's law", "[
   const Assessment a = assessed(with_smoke(0.4, 0), options);
   REQUIRE(a.sights.size() == 3);
   for (const SightRow& row : a.sights) {
-    const double cosine = std::cos(row.view.angle_deg * 3.14159265358979323846 / 180);
+    const double cosine = std::cos(row.view.angle_deg * std::numbers::pi / 180);
     CHECK(cosine > 0.9);
     CHECK(row.look.transmission == Approx(std::exp(-0.4 * row.view.distance_m)).epsilon(0.01));
     // 100 - 10 cd/m2 of the sign itself, and the lamp's light on white and green letters.
@@ -65,7 +66,7 @@ TEST_CASE("people stand on routes and in areas, for all of their length and area
   }
   CHECK(metres == Approx(10));
   CHECK(square_metres == Approx(24));
-  const auto scene = scene_of(room + hall);
+  const auto scene = described_text(room + hall);
   const std::string page = report_html(assessment_json(*scene, a, "1"), {}, "out", {});
   CHECK(page.find("10\u00a0m, 24\u00a0m²") != std::string::npos);  // all of both is legible
 }
@@ -179,7 +180,7 @@ TEST_CASE("an assessment is read back, and a comparison says what has changed", 
   const test::TemporaryFolder folder;
   AssessOptions options;
   options.rounds = 1;
-  const auto scene = scene_of(with_smoke(0.4, 0));
+  const auto scene = described_text(with_smoke(0.4, 0));
   const Json before = assessment_json(*scene, assessed(with_smoke(0.4, 0), options), "1");
   REQUIRE(write_assessment(folder / "a", before).ok());
   const auto again = read_assessment(folder / "a");
@@ -189,7 +190,7 @@ TEST_CASE("an assessment is read back, and a comparison says what has changed", 
   for (const auto& [key, rows] : nothing.items()) CHECK(rows.empty());
   std::string dimmer = with_smoke(0.4, 0);
   dimmer.replace(dimmer.find("emergency_flux = 500"), 20, "emergency_flux = 250");
-  const Json after = assessment_json(*scene_of(dimmer), assessed(dimmer, options), "1");
+  const Json after = assessment_json(*described_text(dimmer), assessed(dimmer, options), "1");
   const Json changed = comparison_of(before, after);
   CHECK_FALSE(changed["values"].empty());
   CHECK(comparison_text(changed).find("E1 (EN 1838:2013) route \"way\"") != std::string::npos);
@@ -197,7 +198,7 @@ TEST_CASE("an assessment is read back, and a comparison says what has changed", 
 }
 
 TEST_CASE("the report counts, and never says that a building complies", "[assess]") {
-  const auto scene = scene_of(room);
+  const auto scene = described_text(room);
   AssessOptions options;
   options.rounds = 1;
   const std::string page = report_html(assessment_json(*scene, assessed(room, options), "1"),

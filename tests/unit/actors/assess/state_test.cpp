@@ -19,8 +19,8 @@ bool has(const std::string& text, const std::string& words) {
 
 /// The room's only scenario, replaced by these lines, in smoke of 0.5/m.
 std::string in_states(const std::string& scenarios) {
-  return changed(with_smoke(0.5, 0.3),
-                 "[[scenario]]\nname = \"failed\"\noperation = \"emergency\"\n", scenarios);
+  return replaced_all(with_smoke(0.5, 0.3),
+                      "[[scenario]]\nname = \"failed\"\noperation = \"emergency\"\n", scenarios);
 }
 
 std::string state(const std::string& name, const std::string& more) {
@@ -109,7 +109,7 @@ TEST_CASE("mains operation is judged only where it is named, and then said first
   REQUIRE_FALSE(a.warnings.empty());
   CHECK(has(a.warnings.front().what, "MAINS OPERATION"));
   CHECK(a.warnings.front().where.line > 0);
-  const Json json = assessment_json(*scene_of(text), a, "1");
+  const Json json = assessment_json(*described_text(text), a, "1");
   CHECK(json["state"]["operation"] == "mains");
   CHECK(has(state_text(json), "MAINS: not an emergency"));
   CHECK(has(json["state"]["remarks"].dump(), "Checks by the codes are for emergency operation"));
@@ -119,14 +119,14 @@ TEST_CASE("mains operation is judged only where it is named, and then said first
 TEST_CASE("no rule set is assumed, and a scene may name its own", "[assess][state]") {
   static const std::atomic<bool> nobody{false};
   const auto judge = [&](const std::string& text) {
-    return assess(scene_of(text), codes_alone(), nobody, [](const std::string&, double) {});
+    return assess(described_text(text), codes_alone(), nobody, [](const std::string&, double) {});
   };
   const auto none = judge(room);
   REQUIRE_FALSE(none.ok());
   CHECK(has(none.problem().what, "en1838-2013, en1838-2024, nfpa101"));
-  const auto said = judge(changed(room, "spacing_m = 4\n",
-                                  "spacing_m = 4\nrules = [\"nfpa101\"]\n"
-                                  "deviations = [\"us-ibc\"]\n"));
+  const auto said = judge(replaced_all(room, "spacing_m = 4\n",
+                                       "spacing_m = 4\nrules = [\"nfpa101\"]\n"
+                                       "deviations = [\"us-ibc\"]\n"));
   REQUIRE(said.ok());
   REQUIRE(said->state.codes.size() == 1);
   CHECK(said->state.codes[0].set == RuleSet::nfpa101);
@@ -135,7 +135,7 @@ TEST_CASE("no rule set is assumed, and a scene may name its own", "[assess][stat
 }
 
 TEST_CASE("whether smoke stings is said, or nothing is judged in it", "[assess][state]") {
-  const std::string unsaid = changed(with_smoke(0.5, 0.3), "irritant_smoke = false\n", "");
+  const std::string unsaid = replaced_all(with_smoke(0.5, 0.3), "irritant_smoke = false\n", "");
   const Problem problem = refused(unsaid, one_round());
   CHECK(has(problem.what, "irritant_smoke = true"));
   CHECK(has(problem.what, "scenario \"failed\""));
@@ -143,20 +143,20 @@ TEST_CASE("whether smoke stings is said, or nothing is judged in it", "[assess][
   CHECK(has(problem.where.file, "scene.toml"));
   // The codes know no smoke, and clear air does not sting.
   CHECK(tried(unsaid, codes_alone()).ok());
-  CHECK(tried(changed(room, "irritant_smoke = false\n", ""), one_round()).ok());
+  CHECK(tried(replaced_all(room, "irritant_smoke = false\n", ""), one_round()).ok());
 }
 
 TEST_CASE("the judged state stands in the JSON, in words, and first on the page",
           "[assess][state]") {
   std::string text = with_smoke(0.5, 0.3);
-  text = changed(text, "operation = \"emergency\"\n",
-                 "operation = \"emergency\"\nseconds_after_failure = 5\n"
-                 "media = { smoke = 0.4 }\n");
+  text = replaced_all(text, "operation = \"emergency\"\n",
+                      "operation = \"emergency\"\nseconds_after_failure = 5\n"
+                      "media = { smoke = 0.4 }\n");
   text +=
       "[[emitter]]\nname = \"hall\"\nshape = \"point\"\ndistribution = \"isotropic\"\n"
       "position = [3, 0, 2.5]\nflux_lm = 1000\n";
   const Assessment a = assessed(text, one_round());
-  const Json json = assessment_json(*scene_of(text), a, "1");
+  const Json json = assessment_json(*described_text(text), a, "1");
   const Json& s = json["state"];
   CHECK(s["scenario"] == "failed");
   CHECK(s["operation"] == "emergency");
@@ -197,7 +197,7 @@ TEST_CASE("the judged state stands in the JSON, in words, and first on the page"
 TEST_CASE("eyes are said to be unadapted within a minute of the failure, and not after",
           "[assess][state]") {
   for (const double seconds : {0.0, 59.0, 60.0, 600.0}) {
-    const std::string text = changed(
+    const std::string text = replaced_all(
         room, "operation = \"emergency\"\n",
         "operation = \"emergency\"\nseconds_after_failure = " + std::to_string(seconds) + "\n");
     const Json json = state_json(assessed(text, codes_alone()).state);
@@ -211,9 +211,9 @@ TEST_CASE("eyes are said to be unadapted within a minute of the failure, and not
 TEST_CASE("clear air in a scene with smoke, and luminaires that are off, are said",
           "[assess][state]") {
   const std::string text =
-      changed(in_states(state("fire", emergency) + state("clear", emergency + clear) +
-                        state("failed", emergency + "circuits = { lamps = 0 }\n")),
-              "name = \"lamp\"\n", "name = \"lamp\"\ncircuit = \"lamps\"\n");
+      replaced_all(in_states(state("fire", emergency) + state("clear", emergency + clear) +
+                             state("failed", emergency + "circuits = { lamps = 0 }\n")),
+                   "name = \"lamp\"\n", "name = \"lamp\"\ncircuit = \"lamps\"\n");
   const auto remarks = [&](const std::string& scenario) {
     AssessOptions options = codes_alone();
     options.scenario = scenario;
@@ -227,11 +227,12 @@ TEST_CASE("clear air in a scene with smoke, and luminaires that are off, are sai
 
 TEST_CASE("views are judged in aged and in new light, and the worse verdict counts",
           "[assess][state]") {
-  const Json aged_and_new = assessment_json(*scene_of(room), assessed(room, one_round()), "1");
+  const Json aged_and_new =
+      assessment_json(*described_text(room), assessed(room, one_round()), "1");
   // The same with nothing aged: what new light alone gives.
   const std::string fresh =
-      changed(changed(room, "maintenance_factor = 0.8", "maintenance_factor = 1"),
-              "end_of_duration_factor = 0.75", "end_of_duration_factor = 1");
+      replaced_all(replaced_all(room, "maintenance_factor = 0.8", "maintenance_factor = 1"),
+                   "end_of_duration_factor = 0.75", "end_of_duration_factor = 1");
   const Assessment as_new = assessed(fresh, one_round());
   const Assessment both = assessed(room, one_round());
   REQUIRE(both.sights.size() == as_new.sights.size());
@@ -260,12 +261,12 @@ TEST_CASE("views are judged in aged and in new light, and the worse verdict coun
 
 TEST_CASE("a sign that only new light's glare hides is not legible", "[assess][state]") {
   // A lamp beside the line of sight, whose light falls to a hundredth in its time.
-  std::string glare = changed(room, "position = [6, 0, 2.5]", "position = [6, 0.3, 2.3]");
-  glare = changed(glare, "emergency_flux = 500", "emergency_flux = 60000");
-  glare = changed(glare, "maintenance_factor = 0.8", "maintenance_factor = 0.1");
-  glare = changed(glare, "end_of_duration_factor = 0.75", "end_of_duration_factor = 0.1");
-  glare = changed(glare, "emergency_white = 100\nemergency_green = 10",
-                  "emergency_white = 10\nemergency_green = 1");
+  std::string glare = replaced_all(room, "position = [6, 0, 2.5]", "position = [6, 0.3, 2.3]");
+  glare = replaced_all(glare, "emergency_flux = 500", "emergency_flux = 60000");
+  glare = replaced_all(glare, "maintenance_factor = 0.8", "maintenance_factor = 0.1");
+  glare = replaced_all(glare, "end_of_duration_factor = 0.75", "end_of_duration_factor = 0.1");
+  glare = replaced_all(glare, "emergency_white = 100\nemergency_green = 10",
+                       "emergency_white = 10\nemergency_green = 1");
   AssessOptions options;
   options.rounds = 4;
   bool turned = false;
@@ -286,9 +287,9 @@ TEST_CASE("luminaires that have aged differently are renewed each by its own sha
   const Assessment both = assessed(room + second, one_round());
   std::string fresh = room + second;
   for (const char* factor : {"maintenance_factor = 0.8", "maintenance_factor = 0.5"})
-    fresh = changed(fresh, factor, "maintenance_factor = 1");
+    fresh = replaced_all(fresh, factor, "maintenance_factor = 1");
   for (const char* factor : {"end_of_duration_factor = 0.75", "end_of_duration_factor = 0.5"})
-    fresh = changed(fresh, factor, "end_of_duration_factor = 1");
+    fresh = replaced_all(fresh, factor, "end_of_duration_factor = 1");
   const Assessment as_new = assessed(fresh, one_round());
   REQUIRE(both.sights.size() == as_new.sights.size());
   for (size_t i = 0; i < both.sights.size(); ++i) {
@@ -303,8 +304,8 @@ TEST_CASE("luminaires that have aged differently are renewed each by its own sha
 }
 
 TEST_CASE("in mains operation new light is that before maintenance alone", "[assess][state]") {
-  std::string text = changed(room, "\"non-maintained\"", "\"maintained\"");
-  text = changed(text, "operation = \"emergency\"\n", "operation = \"mains\"\n");
+  std::string text = replaced_all(room, "\"non-maintained\"", "\"maintained\"");
+  text = replaced_all(text, "operation = \"emergency\"\n", "operation = \"mains\"\n");
   for (const SightRow& row : assessed(text, one_round("failed")).sights) {
     REQUIRE(row.other.has_value());
     const double aged = (row.in_new_light ? row.other->look : row.look).veil_cd_m2;
@@ -318,7 +319,7 @@ TEST_CASE("a comparison says that two judged states differ", "[assess][state]") 
   AssessOptions options = codes_alone();
   const auto json = [&](const std::string& scenario) {
     options.scenario = scenario;
-    return assessment_json(*scene_of(text), assessed(text, options), "1");
+    return assessment_json(*described_text(text), assessed(text, options), "1");
   };
   const std::string said = comparison_text(comparison_of(json("fire"), json("clear")));
   CHECK(has(said, "scenario: fire -> clear"));

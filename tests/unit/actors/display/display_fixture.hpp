@@ -10,20 +10,14 @@
 #include "actors/run/local_run.hpp"
 #include "scenes/scene_file/scene_file.hpp"
 #include "scenes/transport/compile.hpp"
-#include "tests/kit/scratch_folder.hpp"
+#include "tests/kit/described.hpp"
+#include "tests/kit/temporary_folder.hpp"
 
 namespace luxodus::test {
 
 /// Reads and compiles a scene, first scenario; a problem fails the test with its text.
 inline std::shared_ptr<const CompiledScene> scene_of(const std::string& toml, int cells = 1) {
-  const ScratchFolder folder;
-  std::ofstream(folder / "test.toml", std::ios::binary) << toml;
-  ReadScene read = read_scene(folder / "test.toml");
-  std::string problems;
-  for (const Problem& p : read.problems.list()) problems += p.text() + "\n";
-  INFO(problems);
-  REQUIRE(read.scene.has_value());
-  auto description = std::make_shared<const SceneDescription>(std::move(*read.scene));
+  const auto description = described_text(toml);
   const auto scenario = find_scenario(*description, "");
   REQUIRE(scenario.ok());
   auto compiled = compile_scene(description, scenario.value(), {cells});

@@ -109,7 +109,7 @@ TEST_CASE("a plane's direct light is the inverse square law, with and without sm
 
 TEST_CASE("the means of a plane's table are those of result.json, and extremes are cells of it",
           "[display]") {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const auto run = traced(smoky_room, 1 << 17);
   const auto done = write_report(folder.path(), *run, {"test.toml", "particles", 1});
   if (!done.ok()) FAIL(done.problem().text());
@@ -295,7 +295,7 @@ position = [11, 21, 0]
 }
 
 TEST_CASE("a run of one batch says that an error needs two", "[display]") {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const auto run = traced(smoky_room, 1);
   REQUIRE(run->traced() == 1);
   const auto result = write_report(folder.path(), *run, {"test.toml", "particles", 1});
@@ -317,7 +317,7 @@ TEST_CASE("a run of one batch says that an error needs two", "[display]") {
 TEST_CASE("rates of a resumed run are of all its time, or of the part whose time is known",
           "[display]") {
   const auto first = traced(smoky_room, 1 << 17);
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   REQUIRE(save_flux(folder / "flux.lux", *first).ok());
   const auto go_on = [&](std::optional<double> earlier_s) {
     auto run = std::make_unique<LocalRun>(scene_of(smoky_room), 11, 1);
@@ -342,7 +342,7 @@ TEST_CASE("rates of a resumed run are of all its time, or of the part whose time
 }
 
 TEST_CASE("patches and voxels on disk hold the run's flux, in scene coordinates", "[display]") {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const int cells = GENERATE(1, 3);
   const auto run = traced(smoky_room, 1 << 15, 1, cells);
   REQUIRE(write_flux_maps(folder.path(), *run).ok());
@@ -387,7 +387,7 @@ TEST_CASE("patches and voxels on disk hold the run's flux, in scene coordinates"
 
 TEST_CASE("a patch drawn in patches.vtp lies where its light fell", "[display]") {
   // A beam straight down on one spot: the brightest cell's corners surround it.
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const auto run = traced(R"(
 patch_edge_m = 0.3
 [[object]]

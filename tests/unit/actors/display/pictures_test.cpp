@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "scenes/images/write_image.hpp"
+#include "tests/kit/read_exr.hpp"
 #include "tests/unit/actors/display/display_fixture.hpp"
 
 using namespace luxodus;
@@ -26,7 +27,7 @@ name = "sphere"
 shape = "sphere"
 radius = 2
 patch_edge_m = 0.5
-bound_m = 0.01
+mesh_tolerance_m = 0.01
 material = "white"
 [[emitter]]
 name = "lamp"
@@ -127,7 +128,7 @@ TEST_CASE("an Ulbricht sphere has the luminance of the closed form, gathered or 
 TEST_CASE("colours of a picture are those of the bands", "[display]") {
   // A reddish sphere: each band's luminance follows its own reflectance.
   const auto run = traced(
-      "[run]\nbands_most = 4\n" + ulbricht_sphere("[[400, 0.2], [550, 0.4], [700, 0.8]]"), 1 << 18);
+      "[run]\nmax_bands = 4\n" + ulbricht_sphere("[[400, 0.2], [550, 0.4], [700, 0.8]]"), 1 << 18);
   const CompiledScene& scene = run->scene();
   REQUIRE(scene.bands.count() == 4);
   double exact[3] = {0, 0, 0}, scotopic = 0;
@@ -219,7 +220,7 @@ TEST_CASE("the standard error of a pixel is that of repeated pictures", "[displa
 }
 
 TEST_CASE("views are written as luminance data and as pixels", "[display]") {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const auto run = traced(ulbricht_sphere("0.6"), 1 << 15);
   double last = 0;
   PictureOptions options;
@@ -230,20 +231,18 @@ TEST_CASE("views are written as luminance data and as pixels", "[display]") {
   });
   if (!done.ok()) FAIL(done.problem().text());
   CHECK(last == Approx(1));
-  const auto exr = read_exr(folder.path() / "views" / "inside.exr");
-  REQUIRE(exr.ok());
+  const ExrImage exr = test::read_exr(folder / "views/inside.exr");
   for (const char* name : {"X", "Y", "Z", "R", "G", "B", "scotopic", "standard_error.Y"})
-    CHECK(exr.value().find(name) != nullptr);
-  CHECK(exr.value().unit == "cd/m2");
+    CHECK(exr.find(name) != nullptr);
+  CHECK(exr.unit == "cd/m2");
   const TracedPicture picture = picture_of(*run, 4, true);
-  const ExrChannel* y = exr.value().find("Y");
+  const ExrChannel* y = exr.find("Y");
   for (size_t i = 0; i < picture.light.pixels(); ++i)
     CHECK(y->values[i] == picture.light.xyz[3 * i + 1]);
   // Rec. 709 luminance of R, G, B is Y again.
-  const auto& v = exr.value();
   for (size_t i = 0; i < 10; ++i) {
-    const float sum = 0.2126f * v.find("R")->values[i] + 0.7152f * v.find("G")->values[i] +
-                      0.0722f * v.find("B")->values[i];
+    const float sum = 0.2126f * exr.find("R")->values[i] + 0.7152f * exr.find("G")->values[i] +
+                      0.0722f * exr.find("B")->values[i];
     CHECK(sum == Approx(y->values[i]).epsilon(1e-3));
   }
   for (const char* name : {"inside.png", "inside_human.png", "inside_luminance.png"})
@@ -252,7 +251,7 @@ TEST_CASE("views are written as luminance data and as pixels", "[display]") {
 
 TEST_CASE("pictures that are interrupted end at once, and what is not whole is not written",
           "[display]") {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const auto run = traced(ulbricht_sphere("0.6"), 1 << 13);
   std::atomic<bool> interrupt{false};
   PictureOptions options;
@@ -266,7 +265,7 @@ TEST_CASE("pictures that are interrupted end at once, and what is not whole is n
 }
 
 TEST_CASE("a view that the scene does not have is refused by name", "[display]") {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const auto run = traced(ulbricht_sphere("0.6"), 1 << 13);
   const auto done = render_views(folder.path(), *run, "outside", {}, {});
   REQUIRE_FALSE(done.ok());

@@ -58,7 +58,7 @@ double column_of(const std::string& line, int column) {
 
 TEST_CASE("cells in bodies are in no mean and no extreme of a plane, and are counted",
           "[display]") {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const auto run = traced(hall, 1 << 17);
   const auto done = write_report(folder.path(), *run, {"test.toml", "particles", 1});
   if (!done.ok()) FAIL(done.problem().text());

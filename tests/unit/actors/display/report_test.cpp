@@ -112,7 +112,7 @@ TEST_CASE("names of the scene become names of files without blanks, and the resu
       "height = 8\n[[camera]]\nname = \"the_door\"\neye = [1, 1, 1]\ntarget = [2, 2, 1]\n"
       "width = 8\nheight = 8\n";
   const auto run = traced(text, 1 << 13);
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   const auto written = write_report(scratch.path(), *run, {"test.toml", "particles", 1});
   REQUIRE(written.ok());
   PictureOptions options;
@@ -139,7 +139,7 @@ TEST_CASE("names of the scene become names of files without blanks, and the resu
 }
 
 TEST_CASE("files that no run has written are refused, those of a run are not", "[display]") {
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   const auto run = traced(asking_room, 1 << 13);
   const OutputPlan plan = run_output(*run->scene().description, true);
   CHECK(refuse_foreign_files(scratch.path(), plan).ok());
@@ -162,7 +162,7 @@ TEST_CASE("files that no run has written are refused, those of a run are not", "
 }
 
 TEST_CASE("a run that is killed goes on from its checkpoint with the same bits", "[display]") {
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   const auto scene = scene_of(asking_room);
   StopRule stop;
   stop.particles = 12 * scene->batch_particles;
@@ -194,7 +194,7 @@ TEST_CASE("a run that is killed goes on from its checkpoint with the same bits",
 }
 
 TEST_CASE("a checkpoint does not take the place of a longer run", "[display]") {
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   const auto scene = scene_of(asking_room);
   put(scratch / "flux.lux");
   LocalRun run(scene, 11, 1);
@@ -224,7 +224,7 @@ TEST_CASE("the worst relative error is the worst of those of planes, probes and 
 }
 
 TEST_CASE("old maps are cleared only where a result of ours names them", "[display]") {
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   const std::filesystem::path folder = scratch / "run";
   put(folder / "planes" / "floor.csv");
   put(folder / "patches.vtp");

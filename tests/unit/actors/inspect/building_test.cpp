@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <numbers>
 
 #include "actors/inspect/plane_cells.hpp"
 #include "tests/unit/actors/inspect/inspect_kit.hpp"
@@ -127,7 +128,7 @@ TEST_CASE("the share that escapes is that of the closed form, by lamps inside al
   }();
   const double a = 12, b = 4, d = 0.5;
   const double angle = 4 * std::asin(a * b / std::sqrt((a * a + 4 * d * d) * (b * b + 4 * d * d)));
-  const double expected = angle / (4 * 3.14159265358979323846);
+  const double expected = angle / (4 * std::numbers::pi);
   const auto found = inspected(scene);
   const auto open = that_say(found, "not closed");
   REQUIRE(open.size() == 1);

@@ -3,15 +3,14 @@
 #pragma once
 
 #include <catch2/catch.hpp>
-#include <filesystem>
-#include <fstream>
 #include <string>
 #include <vector>
 
 #include "actors/inspect/inspect.hpp"
-#include "scenes/scene_file/scene_file.hpp"
 #include "scenes/transport/compile.hpp"
-#include "tests/kit/temporary_folder.hpp"
+#include "tests/kit/described.hpp"
+#include "tests/kit/replaced.hpp"
+#include "tests/kit/room_texts.hpp"
 
 namespace luxodus::inspection {
 
@@ -24,32 +23,8 @@ low = [0, -2, 0]
 high = [12, 2, 3]
 material = "grey50"
 )";
-inline const std::string lamp = R"(
-[[emitter]]
-name = "lamp"
-shape = "point"
-distribution = "isotropic"
-position = [6, 0, 2.5]
-flux_lm = 1000
-emergency = "non-maintained"
-emergency_flux = 500
-maintenance_factor = 0.8
-end_of_duration_factor = 0.75
-)";
-inline const std::string exit_sign = R"(
-[[sign]]
-name = "exit"
-position = [11.95, 0, 2.2]
-facing = [-1, 0, 0]
-width = 0.4
-height = 0.2
-text = "EXIT"
-letter_height = 0.15
-mains_white = 500
-mains_green = 50
-emergency_white = 100
-emergency_green = 10
-)";
+inline const std::string lamp = test::middle_lamp;
+inline const std::string exit_sign = test::exit_sign_at("[11.95, 0, 2.2]");
 inline const std::string furnished_room = closed_room + lamp + exit_sign;
 
 /// A wall of 0.2 m across the room, its faces at x = 8 and 8.2, with a doorway in its middle.
@@ -65,12 +40,7 @@ material = "grey50"
 opening = [{ at = 1, width = 2, height = 2.1 }]
 )";
 
-inline std::shared_ptr<const SceneDescription> described(const std::filesystem::path& file) {
-  ReadScene read = read_scene(file);
-  for (const Problem& problem : read.problems.list()) UNSCOPED_INFO(problem.text());
-  REQUIRE(read.scene);
-  return std::make_shared<const SceneDescription>(std::move(*read.scene));
-}
+using test::described;
 
 inline std::vector<Finding> inspected(const std::shared_ptr<const SceneDescription>& scene) {
   std::vector<Scenario> scenarios = scene->scenarios;
@@ -116,10 +86,6 @@ inline void check_no_alarm(const std::vector<Finding>& findings) {
   }
 }
 
-inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const size_t at = text.find(from);
-  REQUIRE(at != std::string::npos);
-  return text.replace(at, from.size(), to);
-}
+using test::replaced;
 
 }  // namespace luxodus::inspection

@@ -12,6 +12,7 @@
 #include "actors/run/batch_plan.hpp"
 #include "scenes/scene_file/scene_file.hpp"
 #include "scenes/transport/compile.hpp"
+#include "tests/kit/temporary_folder.hpp"
 
 using namespace luxodus;
 namespace fs = std::filesystem;
@@ -72,8 +73,8 @@ TEST_CASE("a profile comes back from its file, and is refused for another partit
   const auto scene = tank(24);
   const ReferenceProfile profile = profile_of(*scene, plenty);
   const size_t objects = scene->cell_boxes.size();  // and no smoke data, no pictures
-  const fs::path file =
-      fs::temp_directory_path() / ("luxodus_profile_" + std::to_string(::getpid()));
+  const test::TemporaryFolder folder;
+  const fs::path file = folder / "profile";
   REQUIRE(write_profile(file, profile).ok());
   const auto back = read_profile(file, *scene, objects);
   REQUIRE(back.ok());
@@ -85,5 +86,4 @@ TEST_CASE("a profile comes back from its file, and is refused for another partit
   CHECK_FALSE(read_profile(file, *scene, objects).ok());
   std::ofstream(file) << "no profile";
   CHECK_FALSE(read_profile(file, *scene, objects).ok());
-  fs::remove(file);
 }

@@ -8,7 +8,7 @@
 
 #include "actors/output/json_out.hpp"
 #include "runtime/core/output_text.hpp"
-#include "tests/kit/scratch_folder.hpp"
+#include "tests/kit/temporary_folder.hpp"
 
 using namespace luxodus;
 
@@ -105,7 +105,7 @@ TEST_CASE("a row with too few or too many cells is a mistake of the programmer",
   table.cell(2);
   CHECK_THROWS_AS(table.cell(3), std::logic_error);
   table.end_row();
-  const ScratchFolder folder;
+  const test::TemporaryFolder folder;
   CHECK(write_csv(folder / "t.csv", table).ok());
   CHECK_FALSE(write_csv(folder / "none" / "t.csv", table).ok());
 }
@@ -157,7 +157,7 @@ TEST_CASE("JSON keeps the order of keys and never holds NaN or infinity", "[form
   CHECK(back["raw"].is_null());
   CHECK(back["name"] == "bad \xEF\xBF\xBD byte");
 
-  const ScratchFolder folder;
+  const test::TemporaryFolder folder;
   CHECK(write_json(folder / "a.json", document).ok());
   CHECK_FALSE(write_json(folder / "none" / "a.json", document).ok());
 }

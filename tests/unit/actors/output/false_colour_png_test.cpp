@@ -7,7 +7,7 @@
 #include "actors/output/contour_lines.hpp"
 #include "actors/output/light_colours.hpp"
 #include "actors/output/plot_axis.hpp"
-#include "tests/kit/scratch_folder.hpp"
+#include "tests/kit/temporary_folder.hpp"
 
 // fontconfig keeps what it has read until the process ends; the leak sanitizer need not report it.
 // Weak, so that the test program may have suppressions of its own.
@@ -170,7 +170,7 @@ TEST_CASE("a grid that does not fit together is refused with its numbers", "[for
                p.scale_low = 0;
              }),
              Contains("above zero"));
-  const ScratchFolder folder;
+  const test::TemporaryFolder folder;
   CHECK(write_false_colour_png(folder / "a.png", example(4, 3)).ok());
   CHECK_THAT(write_false_colour_png(folder / "none" / "a.png", example(4, 3)).problem().text(),
              Contains("none/a.png") && Contains("No such file"));

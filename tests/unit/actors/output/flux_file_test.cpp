@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "tests/kit/scratch_folder.hpp"
+#include "tests/kit/temporary_folder.hpp"
 
 using namespace luxodus;
 
@@ -69,7 +69,7 @@ using Catch::Matchers::Contains;
 
 TEST_CASE("a flux file comes back as it was put, in its order", "[format][flux]") {
   const FluxFile file = example();
-  const ScratchFolder folder;
+  const test::TemporaryFolder folder;
   REQUIRE(write_flux_file(folder / "a.lux", file).ok());
   const Result<FluxFile> back = read_flux_file(folder / "a.lux");
   REQUIRE(back.ok());
@@ -203,7 +203,7 @@ TEST_CASE("names that could not be told apart or read are not written", "[format
 }
 
 TEST_CASE("a flux file that cannot be written or read says where and why", "[format][flux]") {
-  const ScratchFolder folder;
+  const test::TemporaryFolder folder;
   const auto written = write_flux_file(folder / "none" / "a.lux", example());
   REQUIRE_FALSE(written.ok());
   CHECK_THAT(written.problem().text(), Contains("none/a.lux") && Contains("No such file"));

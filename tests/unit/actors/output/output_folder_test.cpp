@@ -8,7 +8,7 @@
 #include <csignal>
 #include <fstream>
 
-#include "tests/kit/scratch_folder.hpp"
+#include "tests/kit/temporary_folder.hpp"
 
 using namespace luxodus;
 using Catch::Matchers::Contains;
@@ -26,7 +26,7 @@ std::string refusal(const fs::path& folder, const OutputPlan& plan = {}) {
 }  // namespace
 
 TEST_CASE("a folder is made for who claims it, and is gone if nothing was written", "[format]") {
-  const ScratchFolder scratch;
+  const test::TemporaryFolder scratch;
   const fs::path folder = scratch / "a" / "b";
   {
     const auto claimed = OutputFolder::claim(folder, {});
@@ -44,7 +44,7 @@ TEST_CASE("a folder is made for who claims it, and is gone if nothing was writte
 }
 
 TEST_CASE("one at a time writes into a folder, and the second hears who", "[format]") {
-  const ScratchFolder scratch;
+  const test::TemporaryFolder scratch;
   {
     const auto first = OutputFolder::claim(scratch.path(), {});
     REQUIRE(first.ok());
@@ -55,7 +55,7 @@ TEST_CASE("one at a time writes into a folder, and the second hears who", "[form
 }
 
 TEST_CASE("a folder is free again however its holder ends", "[format]") {
-  const ScratchFolder scratch;
+  const test::TemporaryFolder scratch;
   int told[2];
   REQUIRE(::pipe(told) == 0);
   const pid_t child = ::fork();
@@ -77,7 +77,7 @@ TEST_CASE("a folder is free again however its holder ends", "[format]") {
 }
 
 TEST_CASE("what is no plain file in the place of a result is refused before the work", "[format]") {
-  const ScratchFolder scratch;
+  const test::TemporaryFolder scratch;
   const OutputPlan plan{{"flux.lux", "views/door.png"}, {"views"}};
   CHECK(OutputFolder::claim(scratch.path(), plan).ok());
   fs::create_directory(scratch / "flux.lux");
@@ -90,7 +90,7 @@ TEST_CASE("what is no plain file in the place of a result is refused before the 
   CHECK_THAT(refusal(scratch.path(), plan), Contains("device or a pipe"));
   fs::remove(scratch / "flux.lux");
 
-  const ScratchFolder elsewhere;
+  const test::TemporaryFolder elsewhere;
   fs::create_directory_symlink(elsewhere.path(), scratch / "views");
   CHECK_THAT(refusal(scratch.path(), plan), Contains("views") && Contains("symbolic link"));
   fs::remove(scratch / "views");
@@ -99,7 +99,7 @@ TEST_CASE("what is no plain file in the place of a result is refused before the 
 }
 
 TEST_CASE("a folder that cannot be made or written is named with the system's reason", "[format]") {
-  const ScratchFolder scratch;
+  const test::TemporaryFolder scratch;
   std::ofstream(scratch / "file") << "x";
   CHECK_THAT(refusal(scratch / "file"), Contains("file: cannot make this folder"));
   CHECK_THAT(refusal(scratch / "file" / "below"), Contains("Not a directory"));
@@ -110,7 +110,7 @@ TEST_CASE("a folder that cannot be made or written is named with the system's re
 }
 
 TEST_CASE("a folder that its user has made a link is followed, once", "[format]") {
-  const ScratchFolder scratch;
+  const test::TemporaryFolder scratch;
   fs::create_directory(scratch / "disk");
   fs::create_directory_symlink("disk", scratch / "out");
   const auto claimed = OutputFolder::claim(scratch / "out", {});
@@ -120,7 +120,7 @@ TEST_CASE("a folder that its user has made a link is followed, once", "[format]"
 }
 
 TEST_CASE("a file that is to be written is tried without leaving anything", "[format]") {
-  const ScratchFolder scratch;
+  const test::TemporaryFolder scratch;
   CHECK(check_output_file(scratch / "a.luxpack").ok());
   CHECK(scratch.entries() == 0);
   CHECK_FALSE(check_output_file(scratch / "none" / "a.luxpack").ok());

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "tests/kit/scratch_folder.hpp"
+#include "tests/kit/temporary_folder.hpp"
 
 using namespace luxodus;
 using Catch::Matchers::Contains;
@@ -173,7 +173,7 @@ TEST_CASE("a plot that does not fit together is refused, a bad place named", "[f
   CHECK_THAT(refusal([](SvgPlot& p) { p.log_y = false; }), Contains("reference slope"));
   CHECK_THAT(refusal([](SvgPlot& p) { p.series.resize(100); }), Contains("at most 32 series"));
   CHECK_THAT(refusal([](SvgPlot& p) { p.width = 10; }), Contains("320 x 240"));
-  const ScratchFolder folder;
+  const test::TemporaryFolder folder;
   CHECK(write_svg_plot(folder / "a.svg", convergence()).ok());
   CHECK_THAT(write_svg_plot(folder / "none" / "a.svg", convergence()).problem().text(),
              Contains("none/a.svg") && Contains("No such file"));

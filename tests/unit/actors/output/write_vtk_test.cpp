@@ -6,7 +6,8 @@
 #include <cstring>
 #include <map>
 
-#include "tests/kit/scratch_folder.hpp"
+#include "runtime/core/regular_file.hpp"
+#include "tests/kit/temporary_folder.hpp"
 
 using namespace luxodus;
 using Catch::Matchers::Contains;
@@ -94,7 +95,7 @@ VtkVolume volume_example() {
 }
 
 /// Whether Python's XML parser takes the head, closed by hand; true where there is no Python.
-bool python_parses(const ScratchFolder& folder, const std::string& head) {
+bool python_parses(const test::TemporaryFolder& folder, const std::string& head) {
   if (std::system("command -v python3 > /dev/null 2>&1") != 0) return true;
   REQUIRE(write_file_atomically(folder / "head.xml", std::string_view(head + "</VTKFile>")).ok());
   const std::string command =
@@ -108,7 +109,7 @@ bool python_parses(const ScratchFolder& folder, const std::string& head) {
 }  // namespace
 
 TEST_CASE("a surface written for VTK comes back array by array", "[format][vtk]") {
-  const ScratchFolder folder;
+  const test::TemporaryFolder folder;
   REQUIRE(write_vtp(folder / "patches.vtp", surface_example()).ok());
   const FoundFile file(folder / "patches.vtp");
   CHECK_THAT(file.head,
@@ -136,7 +137,7 @@ TEST_CASE("a surface written for VTK comes back array by array", "[format][vtk]"
 }
 
 TEST_CASE("a volume written for VTK has its extent, its place and its voxels", "[format][vtk]") {
-  const ScratchFolder folder;
+  const test::TemporaryFolder folder;
   REQUIRE(write_vti(folder / "volume.vti", volume_example()).ok());
   const FoundFile file(folder / "volume.vti");
   CHECK_THAT(file.head, Contains("<VTKFile type=\"ImageData\""));
@@ -149,7 +150,7 @@ TEST_CASE("a volume written for VTK has its extent, its place and its voxels", "
 }
 
 TEST_CASE("a surface without triangles and a name without a file are handled", "[format][vtk]") {
-  const ScratchFolder folder;
+  const test::TemporaryFolder folder;
   REQUIRE(write_vtp(folder / "empty.vtp", VtkSurface{}).ok());
   CHECK(FoundFile(folder / "empty.vtp").arrays.at("Points").bytes.empty());
   CHECK_THAT(write_vtp(folder / "none" / "a.vtp", surface_example()).problem().text(),
@@ -159,7 +160,7 @@ TEST_CASE("a surface without triangles and a name without a file are handled", "
 }
 
 TEST_CASE("what VTK could not read is not written", "[format][vtk]") {
-  const ScratchFolder folder;
+  const test::TemporaryFolder folder;
   const auto surface_refusal = [&](auto change) {
     VtkSurface surface = surface_example();
     change(surface);

@@ -9,6 +9,7 @@
 #include <catch2/catch.hpp>
 #include <cstdlib>
 #include <map>
+#include <numbers>
 #include <regex>
 
 #include "actors/assess/assessment_check.hpp"
@@ -16,6 +17,7 @@
 #include "actors/report/hand_over.hpp"
 #include "actors/report/isolux.hpp"
 #include "actors/report/pdf.hpp"
+#include "runtime/core/regular_file.hpp"
 #include "tests/kit/temporary_folder.hpp"
 #include "tests/unit/actors/assess/assessed_room.hpp"
 
@@ -40,7 +42,7 @@ const Json& assessed_json() {
     AssessOptions options;
     options.rounds = 1;
     const std::string text = project + room;
-    return assessment_json(*scene_of(text), assessed(text, options), "1.2.3");
+    return assessment_json(*described_text(text), assessed(text, options), "1.2.3");
   }();
   return json;
 }
@@ -239,7 +241,7 @@ TEST_CASE("a damaged assessment is refused with its file and the missing key", "
 TEST_CASE("lines of equal illuminance lie where the closed form has them, and end at walls",
           "[report]") {
   // I h / (h^2 + r^2)^1.5 of 300 lm in all directions, 2.48 m above the plane.
-  const double intensity = 300 / (4 * 3.14159265358979323846), h = 2.5 - 0.02;
+  const double intensity = 300 / (4 * std::numbers::pi), h = 2.5 - 0.02;
   const auto lux = [&](double r) { return intensity * h / std::pow(h * h + r * r, 1.5); };
   size_t points = 0;
   for (const IsoluxLine& one : isolux_lines(assessed_json()["plan"]["levels"][0]))

@@ -1,13 +1,12 @@
 // Flux files that somebody has changed on purpose: the checksums are right again, a count is not.
 #include "actors/run/flux_store.hpp"
 
-#include <unistd.h>
-
 #include <catch2/catch.hpp>
 #include <functional>
 
 #include "actors/output/flux_file.hpp"
 #include "actors/output/json_out.hpp"
+#include "tests/kit/temporary_folder.hpp"
 #include "tests/unit/actors/supervise/library_scene.hpp"
 
 using namespace luxodus;
@@ -26,8 +25,8 @@ void trace(LocalRun& run, int64_t batches) {
 TEST_CASE("a flux file whose header is forged is refused, and counts no batch twice",
           "[flux][hostile]") {
   const auto scene = scene_of("smoke_tank", "", 1);
-  const auto file = std::filesystem::temp_directory_path() /
-                    ("luxodus_forged_" + std::to_string(::getpid()) + ".lux");
+  const test::TemporaryFolder folder;
+  const auto file = folder / "forged.lux";
   LocalRun first(scene, 1, 1);
   trace(first, 4);
   REQUIRE(save_flux(file, first).ok());
@@ -66,5 +65,4 @@ TEST_CASE("a flux file whose header is forged is refused, and counts no batch tw
   CHECK(refused([](json& h) { h["groups"] = 7; }).find("source groups") != std::string::npos);
   CHECK(refused([](json& h) { h.erase("groups"); }).find("source groups") != std::string::npos);
   CHECK(refused([](json& h) { h["layout"] = "x"; }).find("another layout") != std::string::npos);
-  std::filesystem::remove(file);
 }

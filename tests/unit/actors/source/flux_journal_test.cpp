@@ -10,6 +10,8 @@
 #include "actors/supervise/run_journal.hpp"
 #include "actors/tally/flush_codec.hpp"
 #include "runtime/storage/memory_store.hpp"
+#include "tests/kit/encode_flush.hpp"
+#include "tests/kit/temporary_folder.hpp"
 #include "tests/unit/actors/supervise/library_scene.hpp"
 
 using namespace luxodus;
@@ -36,7 +38,7 @@ class Worker {
       tracer_->look(batch.number, unit, scores);
     Totals totals(scene.layout, static_cast<int>(scene.groups.size()), photopic_weights(scene));
     totals.merge(scores, batch.group);
-    return encode_flush(totals);
+    return test::encode_flush(totals);
   }
 
  private:
@@ -122,11 +124,9 @@ TEST_CASE("a journal that has become a snapshot, and one that was about to, end 
   LocalRun whole(scene, 1, 1);
   trace(whole, 4);
   const Worker worker(whole);
-  const std::filesystem::path folder =
-      std::filesystem::temp_directory_path() / "luxodus_run_journal_test";
-  std::filesystem::remove_all(folder);
+  const test::TemporaryFolder folder;
   RunJournalConfig config;
-  config.folder = folder;
+  config.folder = folder.path();
   config.max_bytes = 1;
   const SystemClock clock;
   const bool cut = GENERATE(true, false);  // a crash before the journal was cut, or none
@@ -152,8 +152,7 @@ TEST_CASE("a journal that has become a snapshot, and one that was about to, end 
   trace(second, 4);
   CHECK(same(whole, second));
   journal.value()->remove();
-  CHECK(std::filesystem::is_empty(folder));
-  std::filesystem::remove_all(folder);
+  CHECK(folder.entries() == 0);
 }
 
 TEST_CASE("what a journal on a full disk could not take is in a snapshot, and nothing is lost",
@@ -162,12 +161,10 @@ TEST_CASE("what a journal on a full disk could not take is in a snapshot, and no
   LocalRun whole(scene, 1, 1);
   trace(whole, 4);
   const Worker worker(whole);
-  const std::filesystem::path folder =
-      std::filesystem::temp_directory_path() / ("luxodus_full_" + std::to_string(::getpid()));
-  std::filesystem::remove_all(folder);
+  const test::TemporaryFolder folder;
   ManualClock clock;
   RunJournalConfig config;
-  config.folder = folder;
+  config.folder = folder.path();
   config.retry = seconds(10);
   config.faults.faults.push_back({Fault::Kind::full_disk, seconds(5), seconds(60), {}, {}});
   {
@@ -200,7 +197,6 @@ TEST_CASE("what a journal on a full disk could not take is in a snapshot, and no
   REQUIRE(journal.ok());
   CHECK(journal.value()->recovered() == 4);
   CHECK(same(whole, second));
-  std::filesystem::remove_all(folder);
 }
 
 TEST_CASE("a snapshot that cannot be written is tried again, and the journal stays as it is",
@@ -208,12 +204,10 @@ TEST_CASE("a snapshot that cannot be written is tried again, and the journal sta
   const auto scene = scene_of("smoke_tank", "", 1);
   LocalRun run(scene, 1, 1);
   const Worker worker(run);
-  const std::filesystem::path folder =
-      std::filesystem::temp_directory_path() / ("luxodus_retry_" + std::to_string(::getpid()));
-  std::filesystem::remove_all(folder);
+  const test::TemporaryFolder folder;
   ManualClock clock;
   RunJournalConfig config;
-  config.folder = folder;
+  config.folder = folder.path();
   config.max_bytes = 1;
   const auto journal = RunJournal::open(config, run, clock);
   REQUIRE(journal.ok());
@@ -232,7 +226,6 @@ TEST_CASE("a snapshot that cannot be written is tried again, and the journal sta
   journal.value()->rest();
   CHECK(std::filesystem::is_regular_file(folder / "run.snapshot"));
   CHECK(journal_bytes() < before);
-  std::filesystem::remove_all(folder);
 }
 
 TEST_CASE("a run that goes on from its flux file, after any batch, ends as one that never stopped",
@@ -241,8 +234,8 @@ TEST_CASE("a run that goes on from its flux file, after any batch, ends as one t
   constexpr int64_t batches = 5;
   LocalRun whole(scene, 1, 1);
   trace(whole, batches);
-  const auto file = std::filesystem::temp_directory_path() /
-                    ("luxodus_boundaries_" + std::to_string(::getpid()) + ".lux");
+  const test::TemporaryFolder folder;
+  const auto file = folder / "boundaries.lux";
   for (int64_t stop = 0; stop <= batches; ++stop) {
     INFO("stopped after " << stop << " batches");
     LocalRun first(scene, 1, 1);
@@ -254,7 +247,6 @@ TEST_CASE("a run that goes on from its flux file, after any batch, ends as one t
     trace(second, batches);
     CHECK(same(whole, second));
   }
-  std::filesystem::remove(file);
 }
 
 TEST_CASE("records that do not belong to a run are refused", "[journal]") {

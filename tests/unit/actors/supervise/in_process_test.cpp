@@ -8,7 +8,7 @@
 #include "actors/supervise/out_of_core_for.hpp"
 #include "actors/supervise/residency_setup.hpp"
 #include "scenes/pack/scene_pack.hpp"
-#include "tests/kit/scratch_folder.hpp"
+#include "tests/kit/temporary_folder.hpp"
 #include "tests/unit/actors/supervise/library_scene.hpp"
 
 using namespace luxodus;
@@ -311,7 +311,7 @@ TEST_CASE("a budget without a partition, or more holders than nodes, is refused"
 TEST_CASE("nodes of a packed scene that nobody holds whole give the bits of the plain loop",
           "[nodes]") {
   const auto scene = scene_of("office_floor", "smoke_emergency", 64);
-  const ScratchFolder folder;
+  const test::TemporaryFolder folder;
   const auto file = folder / "floor.luxpack";
   REQUIRE(write_pack(file, *scene, 64).ok());
   const auto description = read_pack(file).value();

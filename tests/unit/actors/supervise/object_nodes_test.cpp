@@ -11,7 +11,7 @@
 #include "actors/supervise/out_of_core_for.hpp"
 #include "runtime/observe/metrics_text.hpp"
 #include "scenes/pack/scene_pack.hpp"
-#include "tests/kit/scratch_folder.hpp"
+#include "tests/kit/temporary_folder.hpp"
 #include "tests/unit/scenes/pack/burning_gallery.hpp"
 
 using namespace luxodus;
@@ -39,7 +39,7 @@ struct Gallery {
     packed = compiled(description.value(), 1);
   }
 
-  const ScratchFolder folder;
+  const test::TemporaryFolder folder;
   const fs::path file = folder.path() / "gallery.luxpack";
   std::shared_ptr<const CompiledScene> scene, packed;
 };

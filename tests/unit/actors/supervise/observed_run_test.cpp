@@ -10,6 +10,7 @@
 #include "actors/supervise/node_plan.hpp"
 #include "actors/tally/flush_codec.hpp"
 #include "runtime/observe/metrics_text.hpp"
+#include "tests/kit/encode_flush.hpp"
 #include "tests/unit/actors/supervise/library_scene.hpp"
 #include "topology/shipped.hpp"
 
@@ -98,7 +99,7 @@ TEST_CASE("what a plan says of a flush, no flush passes", "[nodes][plan]") {
   const MemoryPlan plan = tally_plan(*scene, NodeSetup{});
   for (const MemoryPlan::Term& term : plan.terms())
     if (term.name == "flush") planned = term.bytes;
-  const size_t packed = encode_flush(run.totals()).size();
+  const size_t packed = test::encode_flush(run.totals()).size();
   CHECK(packed > 0);
   CHECK(packed <= planned);
 }

@@ -8,25 +8,16 @@
 #include <nlohmann/json.hpp>
 
 #include "actors/supervise/in_process.hpp"
+#include "runtime/core/regular_file.hpp"
 #include "scenes/scene_file/scene_file.hpp"
 #include "scenes/transport/compile.hpp"
+#include "tests/kit/temporary_folder.hpp"
 
 using namespace luxodus;
 
 namespace {
 
 constexpr uint64_t every = 500;
-
-class Folder {
- public:
-  Folder() {
-    std::string name = (std::filesystem::temp_directory_path() / "luxodus_trace_XXXXXX").string();
-    REQUIRE(mkdtemp(name.data()) != nullptr);
-    path = name;
-  }
-  ~Folder() { std::filesystem::remove_all(path); }
-  std::filesystem::path path;
-};
 
 std::shared_ptr<const CompiledScene> office() {
   auto read = read_scene(std::string(LUX_SOURCE_DIR) + "/scenes/library/office_floor.toml");
@@ -83,7 +74,7 @@ std::map<std::string, int> check_spans(const nlohmann::json& events) {
 TEST_CASE("a run's trace nests, and tells waits of sampled particles only", "[nodes][trace]") {
   spdlog::set_level(spdlog::level::err);
   const auto scene = office();
-  const Folder folder;
+  const test::TemporaryFolder folder;
   ObserveOptions observe;
   observe.trace_every = every;
   const auto seen = Observation::start(observe);
@@ -99,9 +90,9 @@ TEST_CASE("a run's trace nests, and tells waits of sampled particles only", "[no
   const auto ignore = [](const Progress&) {};
   LocalRun run(scene, 1, 1);
   REQUIRE(run_on_nodes(run, options, stop, nobody, ignore).ok());
-  REQUIRE(seen.value()->write_trace(folder.path / "trace.json").ok());
+  REQUIRE(seen.value()->write_trace(folder / "trace.json").ok());
 
-  const auto bytes = read_whole_file(folder.path / "trace.json", 1 << 26);
+  const auto bytes = read_whole_file(folder / "trace.json", 1 << 26);
   REQUIRE(bytes.ok());
   const auto* text = reinterpret_cast<const char*>(bytes.value().data());
   const auto trace = nlohmann::json::parse(text, text + bytes.value().size());
@@ -126,11 +117,11 @@ TEST_CASE("a run's trace nests, and tells waits of sampled particles only", "[no
 }
 
 TEST_CASE("without a sample there is no trace and no file", "[nodes][trace]") {
-  const Folder folder;
+  const test::TemporaryFolder folder;
   const auto seen = Observation::start({});
   REQUIRE(seen.ok());
   CHECK_FALSE(seen.value()->watches());
   CHECK(seen.value()->trace_of({0}) == nullptr);
-  REQUIRE(seen.value()->write_trace(folder.path / "trace.json").ok());
-  CHECK_FALSE(std::filesystem::exists(folder.path / "trace.json"));
+  REQUIRE(seen.value()->write_trace(folder / "trace.json").ok());
+  CHECK_FALSE(std::filesystem::exists(folder / "trace.json"));
 }

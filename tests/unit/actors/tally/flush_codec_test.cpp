@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "runtime/core/random.hpp"
+#include "tests/kit/encode_flush.hpp"
 
 using namespace luxodus;
 
@@ -130,7 +131,7 @@ TEST_CASE("reading a long flush rests between its parts, and can be broken off",
   gain.groups.resize(1);
   for (int64_t i = 0; i < 100'000; ++i) gain.groups[0].bins.push_back({i, {i, 1}});
   node.add(gain);
-  const auto bytes = encode_flush(node);
+  const auto bytes = test::encode_flush(node);
   int rests = 0;
   const auto read = decode_flush(bytes, 1, 100'000, [&] { return ++rests > 0; });
   REQUIRE(read.ok());
@@ -159,10 +160,10 @@ TEST_CASE("totals that take the gains of others are the totals of all batches", 
     BatchScores copy = scores;
     whole.merge(scores, 0);
     (batch % 3 == 0 ? here : there).merge(copy, 0);
-    if (batch % 7 == 6) decode_flush(encode_flush(there), 1, layout.totals())->add_to(here);
+    if (batch % 7 == 6) decode_flush(test::encode_flush(there), 1, layout.totals())->add_to(here);
   }
-  decode_flush(encode_flush(there), 1, layout.totals())->add_to(here);
-  CHECK(decode_flush(encode_flush(there), 1, layout.totals())->bins() == 0);
+  decode_flush(test::encode_flush(there), 1, layout.totals())->add_to(here);
+  CHECK(decode_flush(test::encode_flush(there), 1, layout.totals())->bins() == 0);
   REQUIRE(here.batches(0) == 20);
   for (size_t i = 0; i < whole.state(0).totals.size(); ++i) {
     CHECK(here.state(0).totals[i].sum == whole.state(0).totals[i].sum);

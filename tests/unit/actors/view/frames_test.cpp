@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <glm/gtc/packing.hpp>
+#include <numbers>
 
 #include "tests/unit/actors/view/live_room.hpp"
 
@@ -38,7 +39,7 @@ double lumens_in(const LiveFrame& frame, const VoxelGrid& grid) {
     sum += of_channel[i % 3] * static_cast<double>(glm::unpackHalf1x16(half));
   }
   const auto edge = static_cast<double>(grid.edge);
-  return sum * 4 * 3.14159265358979 * edge * edge * edge;
+  return sum * 4 * std::numbers::pi * edge * edge * edge;
 }
 
 }  // namespace

@@ -5,12 +5,12 @@
 #include <string>
 
 #include "actors/view/live_scene.hpp"
-#include "scenes/scene_file/scene_file.hpp"
-#include "tests/kit/temporary_folder.hpp"
+#include "tests/kit/described.hpp"
+#include "tests/kit/room_texts.hpp"
 
 namespace luxodus::test {
 
-inline const std::string live_room = R"(
+inline const std::string two_lamps = R"(
 [[object]]
 name = "room"
 shape = "room"
@@ -31,20 +31,9 @@ shape = "point"
 distribution = "isotropic"
 position = [4, 2, 2]
 flux_lm = 1000
-
-[[sign]]
-name = "exit"
-position = [5.9, 2, 2.2]
-facing = [-1, 0, 0]
-width = 0.4
-height = 0.2
-text = "EXIT"
-letter_height = 0.15
-mains_white = 500
-mains_green = 50
-emergency_white = 100
-emergency_green = 10
 )";
+inline const std::string live_sign = exit_sign_at("[5.9, 2, 2.2]");
+inline const std::string live_room = two_lamps + live_sign;
 
 /// Source groups of the room, in their order.
 inline constexpr int left = 0, right = 1, sign = 2;
@@ -52,11 +41,7 @@ inline constexpr int left = 0, right = 1, sign = 2;
 class LiveRoom {
  public:
   /// `more`: what is in it besides.
-  explicit LiveRoom(const std::string& more = "") {
-    auto read = read_scene(folder_.write("room.toml", live_room + more));
-    REQUIRE(read.scene);
-    scene_ = std::make_shared<const SceneDescription>(std::move(*read.scene));
-  }
+  explicit LiveRoom(const std::string& more = "") : scene_(described_text(live_room + more)) {}
   const std::shared_ptr<const SceneDescription>& scene() const { return scene_; }
   std::shared_ptr<const CompiledScene> compiled(const SceneEdits& edits) const {
     auto out = compile_live(*scene_, edits);
@@ -65,7 +50,6 @@ class LiveRoom {
   }
 
  private:
-  const TemporaryFolder folder_;
   std::shared_ptr<const SceneDescription> scene_;
 };
 

@@ -3,6 +3,8 @@
 #include <catch2/catch.hpp>
 
 #include "scenes/scene_file/scene_file.hpp"
+#include "tests/kit/described.hpp"
+#include "tests/kit/room_texts.hpp"
 #include "tests/kit/temporary_folder.hpp"
 
 using namespace luxodus;
@@ -23,20 +25,8 @@ shape = "rectangle"
 position = [3, 2, 2.9]
 size = [0.5, 0.5]
 flux_lm = 1000
-
-[[sign]]
-name = "exit"
-position = [5.9, 2, 2.2]
-facing = [-1, 0, 0]
-width = 0.4
-height = 0.2
-text = "EXIT"
-letter_height = 0.15
-mains_white = 500
-mains_green = 50
-emergency_white = 100
-emergency_green = 10
-
+)" + test::exit_sign_at("[5.9, 2, 2.2]") +
+                         R"(
 [[medium]]
 name = "haze"
 kind = "homogeneous"
@@ -52,10 +42,7 @@ media = { haze = 0 }
 )";
 
 SceneDescription scene_of(const std::string& file) {
-  auto read = read_scene(file);
-  for (const Problem& problem : read.problems.list()) UNSCOPED_INFO(problem.text());
-  REQUIRE(read.scene);
-  return std::move(*read.scene);
+  return *test::described(file);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <condition_variable>
 #include <cstring>
 #include <mutex>
+#include <numbers>
 #include <set>
 
 #include "scenes/scene_file/scene_file.hpp"
@@ -15,33 +16,8 @@ using namespace luxodus;
 
 namespace {
 
-const std::string room = R"(
-[[object]]
-name = "room"
-shape = "room"
-low = [0, 0, 0]
-high = [6, 4, 3]
-material = "grey50"
-
-[[emitter]]
-name = "left"
-shape = "point"
-distribution = "isotropic"
-position = [2, 2, 2]
-flux_lm = 1000
-
-[[emitter]]
-name = "right"
-shape = "point"
-distribution = "isotropic"
-position = [4, 2, 2]
-flux_lm = 1000
-)";
-
 std::shared_ptr<const SceneDescription> scene_in(const test::TemporaryFolder& folder) {
-  auto read = read_scene(folder.write("room.toml", room));
-  REQUIRE(read.scene);
-  return std::make_shared<SceneDescription>(std::move(*read.scene));
+  return test::described(folder.write("room.toml", test::two_lamps));
 }
 
 struct Remembers final : Viewer {
@@ -151,7 +127,7 @@ TEST_CASE("what moves begins a new generation, and light answers for its place",
   CHECK(full["illuminance"].get<double>() > 10);
   // Lambertian grey of a half: luminance = 0.5 E / pi.
   CHECK(full["luminance"].get<double>() ==
-        Approx(0.5 * full["illuminance"].get<double>() / 3.14159265).epsilon(1e-6));
+        Approx(0.5 * full["illuminance"].get<double>() / std::numbers::pi).epsilon(1e-6));
   for (const char* group : {"left", "right"})
     hub.says(viewer, std::string(R"({"type":"factor","factor":0.5,"group":")") + group + "\"}");
   viewer.texts.clear();

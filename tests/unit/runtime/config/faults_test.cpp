@@ -2,6 +2,7 @@
 #include <fstream>
 
 #include "runtime/config/cluster_file.hpp"
+#include "tests/kit/temporary_folder.hpp"
 #include "tests/unit/runtime/config/cluster_kit.hpp"
 
 namespace luxodus {
@@ -55,9 +56,10 @@ TEST_CASE("faults of nobody, or of too few, are told with their line", "[runtime
 }
 
 TEST_CASE("a file of faults alone is for the nodes that are named", "[runtime][config]") {
-  const auto path = std::filesystem::temp_directory_path() / "luxodus_faults_test.toml";
-  std::ofstream(path) << "[faults]\ncorruption = 0.5\n[[faults.event]]\nkind = \"crash\"\n"
-                         "node = \"second\"\nat_s = 1\n";
+  const test::TemporaryFolder folder;
+  const auto path = folder.write("faults.toml",
+                                 "[faults]\ncorruption = 0.5\n[[faults.event]]\nkind = \"crash\"\n"
+                                 "node = \"second\"\nat_s = 1\n");
   const ReadFaults read = read_fault_file(path, {"first", "second"});
   REQUIRE(read.plan);
   CHECK(read.plan->links.corruption == 0.5);

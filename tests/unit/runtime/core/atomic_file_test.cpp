@@ -12,7 +12,8 @@
 #include <string>
 
 #include "runtime/core/output_path.hpp"
-#include "tests/kit/scratch_folder.hpp"
+#include "runtime/core/regular_file.hpp"
+#include "tests/kit/temporary_folder.hpp"
 
 using namespace luxodus;
 
@@ -53,7 +54,7 @@ class FileSizeLimit {
 }  // namespace
 
 TEST_CASE("what is written is what is read, and nothing else is in the folder", "[format]") {
-  const ScratchFolder folder;
+  const test::TemporaryFolder folder;
   const std::string text("line\n\0\xff end", 11);
   REQUIRE(write_file_atomically(folder / "a.txt", std::string_view(text)).ok());
   CHECK(read(folder / "a.txt") == text);
@@ -66,7 +67,7 @@ TEST_CASE("what is written is what is read, and nothing else is in the folder", 
 }
 
 TEST_CASE("a file may have any name the system takes", "[format]") {
-  const ScratchFolder folder;
+  const test::TemporaryFolder folder;
   const std::vector<std::string> names = {
       "ä ö ü.txt",   "with space", "new\nline", "\xff\xfe", "-rf",
       "a'b\"c<d>&e", "%s%n",       "*?[]$(x)`", ".hidden",  std::string(255, 'n')};
@@ -78,7 +79,7 @@ TEST_CASE("a file may have any name the system takes", "[format]") {
 }
 
 TEST_CASE("a disk that fills up leaves the old file, no new one, and says why", "[format]") {
-  const ScratchFolder folder;
+  const test::TemporaryFolder folder;
   REQUIRE(write_file_atomically(folder / "a.txt", std::string_view("old")).ok());
   {
     const FileSizeLimit limit(1000);
@@ -94,7 +95,7 @@ TEST_CASE("a disk that fills up leaves the old file, no new one, and says why", 
 }
 
 TEST_CASE("a place that cannot be written to is named with the system's reason", "[format]") {
-  const ScratchFolder folder;
+  const test::TemporaryFolder folder;
   REQUIRE(write_file_atomically(folder / "file", std::string_view("x")).ok());
   const auto reason = [](const std::filesystem::path& path) {
     const auto result = write_file_atomically(path, std::string_view("text"));
@@ -116,7 +117,7 @@ TEST_CASE("a place that cannot be written to is named with the system's reason",
 }
 
 TEST_CASE("a folder without permission to write refuses, except to root", "[format]") {
-  const ScratchFolder folder;
+  const test::TemporaryFolder folder;
   std::filesystem::create_directory(folder / "locked");
   ::chmod((folder / "locked").c_str(), 0555);
   const auto result = write_file_atomically(folder / "locked" / "a", std::string_view("x"));
@@ -130,7 +131,7 @@ TEST_CASE("a folder without permission to write refuses, except to root", "[form
 }
 
 TEST_CASE("a replaced file keeps its permissions, and no link is followed", "[format]") {
-  const ScratchFolder folder;
+  const test::TemporaryFolder folder;
   REQUIRE(write_file_atomically(folder / "real", std::string_view("1")).ok());
   ::chmod((folder / "real").c_str(), 0640);
   REQUIRE(write_file_atomically(folder / "real", std::string_view("2")).ok());
@@ -152,7 +153,7 @@ TEST_CASE("a replaced file keeps its permissions, and no link is followed", "[fo
 
 TEST_CASE("a folder that is a link is not written into, unless who named it resolves it",
           "[format]") {
-  const ScratchFolder folder;
+  const test::TemporaryFolder folder;
   std::filesystem::create_directory(folder / "real");
   std::filesystem::create_directory_symlink("real", folder / "link");
   const std::filesystem::path file = folder / "link" / "a";
@@ -165,7 +166,7 @@ TEST_CASE("a folder that is a link is not written into, unless who named it reso
 }
 
 TEST_CASE("a writer that is killed leaves nothing", "[format]") {
-  const ScratchFolder folder;
+  const test::TemporaryFolder folder;
   const pid_t child = ::fork();
   if (child == 0) {
     auto file = AtomicFile::create(folder / "a");
@@ -182,7 +183,7 @@ TEST_CASE("a writer that is killed leaves nothing", "[format]") {
 
 TEST_CASE("stale temporary files are removed, those of living writers and of others are not",
           "[format]") {
-  const ScratchFolder folder;
+  const test::TemporaryFolder folder;
   const auto make = [&](const char* name) {
     return ::open((folder / name).c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0644);
   };
@@ -199,7 +200,7 @@ TEST_CASE("stale temporary files are removed, those of living writers and of oth
 }
 
 TEST_CASE("a reader gets a whole file up to its limit and refuses a longer one", "[format]") {
-  const ScratchFolder folder;
+  const test::TemporaryFolder folder;
   REQUIRE(write_file_atomically(folder / "a", std::string_view("12345")).ok());
   CHECK(read_whole_file(folder / "a", 5).ok());
   const auto longer = read_whole_file(folder / "a", 4);

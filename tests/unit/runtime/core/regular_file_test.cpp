@@ -6,21 +6,12 @@
 #include <catch2/catch.hpp>
 #include <fstream>
 
+#include "tests/kit/temporary_folder.hpp"
+
 using namespace luxodus;
 namespace fs = std::filesystem;
 
 namespace {
-
-class Folder {
- public:
-  Folder() {
-    std::string name = (fs::temp_directory_path() / "luxodus_regular_XXXXXX").string();
-    REQUIRE(::mkdtemp(name.data()) != nullptr);
-    path = name;
-  }
-  ~Folder() { fs::remove_all(path); }
-  fs::path path;
-};
 
 std::string refusal(const fs::path& path) {
   const auto read = read_regular_file(path, 100);
@@ -32,8 +23,8 @@ std::string refusal(const fs::path& path) {
 }  // namespace
 
 TEST_CASE("a file is read whole, up to its limit", "[core][files]") {
-  const Folder folder;
-  const fs::path file = folder.path / "a";
+  const test::TemporaryFolder folder;
+  const fs::path file = folder / "a";
   for (const size_t bytes : {size_t{0}, size_t{1}, size_t{99}, size_t{100}}) {
     std::ofstream(file, std::ios::binary) << std::string(bytes, 'x');
     const auto read = read_regular_file(file, 100);
@@ -46,12 +37,12 @@ TEST_CASE("a file is read whole, up to its limit", "[core][files]") {
 }
 
 TEST_CASE("what is no file is refused, and never waited for", "[core][files]") {
-  const Folder folder;
-  const fs::path pipe = folder.path / "pipe";
+  const test::TemporaryFolder folder;
+  const fs::path pipe = folder / "pipe";
   REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
   CHECK(refusal(pipe).find("a pipe, a socket or a device") != std::string::npos);
   CHECK(refusal("/dev/zero").find("a pipe, a socket or a device") != std::string::npos);
-  CHECK(refusal(folder.path).find("Is a directory") != std::string::npos);
-  CHECK(refusal(folder.path / "absent").find("No such file") != std::string::npos);
-  CHECK(refusal(folder.path / std::string("a\0b", 3)).find("zero byte") != std::string::npos);
+  CHECK(refusal(folder.path()).find("Is a directory") != std::string::npos);
+  CHECK(refusal(folder / "absent").find("No such file") != std::string::npos);
+  CHECK(refusal(folder / std::string("a\0b", 3)).find("zero byte") != std::string::npos);
 }

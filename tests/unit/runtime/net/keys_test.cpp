@@ -1,36 +1,22 @@
 #include "runtime/net/keys.hpp"
 
-#include <unistd.h>
-
 #include <catch2/catch.hpp>
 #include <fstream>
+
+#include "tests/kit/temporary_folder.hpp"
 
 using namespace luxodus;
 namespace fs = std::filesystem;
 
-namespace {
-
-/// A folder of its own for each test, gone at its end.
-struct Folder {
-  fs::path path = fs::temp_directory_path() / ("luxodus-keys-" + std::to_string(::getpid()));
-  Folder() {
-    fs::remove_all(path);
-    fs::create_directories(path);
-  }
-  ~Folder() { fs::remove_all(path); }
-};
-
-}  // namespace
-
 TEST_CASE("keys are read back as they were written", "[runtime][keys]") {
-  const Folder folder;
+  const test::TemporaryFolder folder;
   const KeyPair keys = make_keypair();
-  REQUIRE(write_keys(keys, folder.path / "n1.key").ok());
-  const auto read = read_keys(folder.path / "n1.key");
+  REQUIRE(write_keys(keys, folder / "n1.key").ok());
+  const auto read = read_keys(folder / "n1.key");
   REQUIRE(read.ok());
   CHECK(read->secret_key == keys.secret_key);
   CHECK(read->public_key == keys.public_key);
-  const auto open = read_public_key(folder.path / "n1.key.pub");
+  const auto open = read_public_key(folder / "n1.key.pub");
   REQUIRE(open.ok());
   CHECK(open.value() == keys.public_key);
 }
@@ -40,8 +26,8 @@ TEST_CASE("two pairs are never the same", "[runtime][keys]") {
 }
 
 TEST_CASE("a secret key's file is for its owner alone", "[runtime][keys]") {
-  const Folder folder;
-  const fs::path path = folder.path / "n1.key";
+  const test::TemporaryFolder folder;
+  const fs::path path = folder / "n1.key";
   REQUIRE(write_keys(make_keypair(), path).ok());
   CHECK(fs::status(path).permissions() == (fs::perms::owner_read | fs::perms::owner_write));
   fs::permissions(path, fs::perms::others_read, fs::perm_options::add);
@@ -51,20 +37,20 @@ TEST_CASE("a secret key's file is for its owner alone", "[runtime][keys]") {
 }
 
 TEST_CASE("a key that is there already is not overwritten", "[runtime][keys]") {
-  const Folder folder;
-  const fs::path path = folder.path / "n1.key";
+  const test::TemporaryFolder folder;
+  const fs::path path = folder / "n1.key";
   const KeyPair first = make_keypair();
   REQUIRE(write_keys(first, path).ok());
   CHECK_FALSE(write_keys(make_keypair(), path).ok());
   CHECK(read_keys(path)->secret_key == first.secret_key);
   size_t files = 0;
-  for ([[maybe_unused]] const auto& entry : fs::directory_iterator(folder.path)) ++files;
+  for ([[maybe_unused]] const auto& entry : fs::directory_iterator(folder.path())) ++files;
   CHECK(files == 2);  // nothing half-written is left
 }
 
 TEST_CASE("a file that holds no key is refused with the reason", "[runtime][keys]") {
-  const Folder folder;
-  const fs::path path = folder.path / "n1.key";
+  const test::TemporaryFolder folder;
+  const fs::path path = folder / "n1.key";
   CHECK_FALSE(read_keys(path).ok());
   for (const std::string& text : {std::string(), std::string("short\n"), std::string(10'000, 'x'),
                                   std::string(39, 'a') + "\"\n"}) {

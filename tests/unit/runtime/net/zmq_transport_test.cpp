@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <thread>
 
+#include "tests/kit/temporary_folder.hpp"
 #include "tests/unit/runtime/net/net_kit.hpp"
 
 using namespace luxodus;
@@ -87,8 +88,8 @@ struct CurvePair {
 }  // namespace
 
 TEST_CASE("nodes exchange frames over inproc, ipc and tcp", "[runtime][zmq]") {
-  const std::string path =
-      (std::filesystem::temp_directory_path() / ("luxodus-" + std::to_string(::getpid()))).string();
+  const test::TemporaryFolder folder;
+  const std::string path = folder / "link";
   const Endpoints table[] = {
       {"inproc://a", "inproc://a-bulk"},
       {"ipc://" + path + ".control", "ipc://" + path + ".bulk"},

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "runtime/storage/memory_store.hpp"
+#include "tests/kit/temporary_folder.hpp"
 
 using namespace luxodus;
 
@@ -169,9 +170,7 @@ TEST_CASE("a journal of another run is refused, and one begun anew is empty", "[
 }
 
 TEST_CASE("a file keeps a journal, for one process at a time", "[storage]") {
-  const fs::path folder = fs::temp_directory_path() / "luxodus_journal_test";
-  fs::remove_all(folder);
-  fs::create_directories(folder);
+  const test::TemporaryFolder folder;
   const fs::path path = folder / "run.journal";
   std::vector<std::string> records;
   const auto visit = [&](std::span<const std::byte> record) {
@@ -196,7 +195,6 @@ TEST_CASE("a file keeps a journal, for one process at a time", "[storage]") {
   CHECK(records == std::vector<std::string>{"kept"});
   CHECK(journal->torn_bytes() == 4);
   CHECK(fs::file_size(path) == journal->bytes());
-  CHECK_FALSE(FileStore::open(folder).ok());
+  CHECK_FALSE(FileStore::open(folder.path()).ok());
   CHECK_FALSE(FileStore::open(folder / "none" / "run.journal").ok());
-  fs::remove_all(folder);
 }

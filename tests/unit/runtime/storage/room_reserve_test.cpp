@@ -5,17 +5,19 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 
+#include "tests/kit/temporary_folder.hpp"
+
 using namespace luxodus;
 
 TEST_CASE("room is kept without a file that anybody sees, and more than there is is refused",
           "[storage]") {
-  std::string name = (std::filesystem::temp_directory_path() / "luxodus-room-XXXXXX").string();
-  REQUIRE(::mkdtemp(name.data()) != nullptr);
+  const test::TemporaryFolder folder;
+  const std::string name = folder.path();
   struct statvfs before {};
   REQUIRE(::statvfs(name.c_str(), &before) == 0);
   RoomReserve room;
   REQUIRE(room.take(name, 1 << 20).ok());
-  CHECK(std::filesystem::is_empty(name));
+  CHECK(folder.entries() == 0);
   if (!room.held()) {
     WARN("skipped: this file system does not promise room");
   } else {
@@ -28,5 +30,4 @@ TEST_CASE("room is kept without a file that anybody sees, and more than there is
     room.release();
     CHECK_FALSE(room.held());
   }
-  std::filesystem::remove_all(name);
 }

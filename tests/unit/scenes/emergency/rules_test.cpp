@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <numbers>
 
 #include "scenes/emergency/sign_face.hpp"
 
@@ -171,7 +172,7 @@ TEST_CASE("a task needs 15 lx or a tenth of its mains light, whichever is more",
 TEST_CASE("glare is judged by the new luminaire's intensity and its height", "[emergency][rules]") {
   SceneDescription scene = corridor();
   // 4 pi I lumens when new, half of it at the end.
-  const double pi = 3.14159265358979323846;
+  const double pi = std::numbers::pi;
   scene.emitters = {luminaire("low", {2, 0, 2.4}, 0.5 * 4 * pi * 501),
                     luminaire("high", {2, 0, 2.6}, 0.5 * 4 * pi * 501)};
   const auto checks = checks_of_glare(scene, {});
@@ -185,7 +186,7 @@ TEST_CASE("glare is judged by the new luminaire's intensity and its height", "[e
 }
 
 TEST_CASE("a spot glares where its cone reaches, a beam where it points", "[emergency][rules]") {
-  const double pi = 3.14159265358979323846;
+  const double pi = std::numbers::pi;
   SceneDescription scene = corridor();
   scene.emitters = {luminaire("spot", {2, 0, 2.4}, 100)};
   Emitter& spot = scene.emitters.front();
@@ -209,7 +210,7 @@ TEST_CASE("a spot glares where its cone reaches, a beam where it points", "[emer
 }
 
 TEST_CASE("tubes and meshes have the intensity of their surfaces", "[emergency][rules]") {
-  const double pi = 3.14159265358979323846;
+  const double pi = std::numbers::pi;
   SceneDescription scene = corridor();
   scene.emitters = {luminaire("bare", {2, 0, 2.4}, 100)};
   Emitter& lamp = scene.emitters.front();

@@ -1,7 +1,6 @@
 #include "scenes/emergency/sign_face.hpp"
 
 #include <png.h>
-#include <unistd.h>
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -10,35 +9,23 @@
 #include <numbers>
 #include <string>
 
+#include "tests/kit/temporary_folder.hpp"
+
 using namespace luxodus;
 namespace fs = std::filesystem;
 
 namespace {
 
-/// A folder for one test, gone afterwards.
-struct Scratch {
-  fs::path folder;
-  Scratch() {
-    std::string name = (fs::temp_directory_path() / "luxodus_face_XXXXXX").string();
-    folder = mkdtemp(name.data());
-  }
-  ~Scratch() { fs::remove_all(folder); }
-
-  fs::path write(const std::string& name, const std::string& bytes) const {
-    std::ofstream(folder / name, std::ios::binary) << bytes;
-    return folder / name;
-  }
-  fs::path write_png(const std::string& name, int width, int height,
-                     const std::vector<uint8_t>& rgb) const {
-    png_image image{};
-    image.version = PNG_IMAGE_VERSION;
-    image.width = static_cast<png_uint_32>(width);
-    image.height = static_cast<png_uint_32>(height);
-    image.format = PNG_FORMAT_RGB;
-    REQUIRE(png_image_write_to_file(&image, (folder / name).c_str(), 0, rgb.data(), 0, nullptr));
-    return folder / name;
-  }
-};
+fs::path write_png(const test::TemporaryFolder& folder, const std::string& name, int width,
+                   int height, const std::vector<uint8_t>& rgb) {
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  image.width = static_cast<png_uint_32>(width);
+  image.height = static_cast<png_uint_32>(height);
+  image.format = PNG_FORMAT_RGB;
+  REQUIRE(png_image_write_to_file(&image, (folder / name).c_str(), 0, rgb.data(), 0, nullptr));
+  return folder / name;
+}
 
 std::string svg(const std::string& body, const std::string& size = "viewBox='0 0 200 100'") {
   return "<svg xmlns='http://www.w3.org/2000/svg' " + size + ">" + body + "</svg>";
@@ -99,7 +86,7 @@ TEST_CASE("sign colours are told from others by eye's distance", "[emergency][fa
 
 TEST_CASE("a drawing fills the face: its colours lie where and as large as drawn",
           "[emergency][face]") {
-  Scratch scratch;
+  const test::TemporaryFolder scratch;
   const auto file = scratch.write("a.svg", svg(left_green));
   const SignFace face = face_of(face_from_svg(file, 0.4, 0.2, 200));
   CHECK(face.width == 200);
@@ -112,7 +99,7 @@ TEST_CASE("a drawing fills the face: its colours lie where and as large as drawn
 }
 
 TEST_CASE("the top row of a drawing is the face's first", "[emergency][face]") {
-  Scratch scratch;
+  const test::TemporaryFolder scratch;
   const auto file = scratch.write("a.svg", svg("<rect width='200' height='100' fill='white'/>"
                                                "<rect width='200' height='30' fill='#237F52'/>"));
   const SignFace face = face_of(face_from_svg(file, 0.4, 0.2, 100));
@@ -121,7 +108,7 @@ TEST_CASE("the top row of a drawing is the face's first", "[emergency][face]") {
 }
 
 TEST_CASE("a drawing scales by its size as well as by its viewBox", "[emergency][face]") {
-  Scratch scratch;
+  const test::TemporaryFolder scratch;
   for (const char* size : {"width='200' height='100'", "viewBox='0 0 200 100'",
                            "width='20mm' height='10mm' viewBox='0 0 200 100'",
                            "width='100%' height='100%' viewBox='0 0 200 100'"}) {
@@ -134,7 +121,7 @@ TEST_CASE("a drawing scales by its size as well as by its viewBox", "[emergency]
 
 TEST_CASE("the area of a round shape is right to a part in a thousand, with no seam at its edge",
           "[emergency][face]") {
-  Scratch scratch;
+  const test::TemporaryFolder scratch;
   const auto file = scratch.write("a.svg", svg("<rect width='200' height='100' fill='#237F52'/>"
                                                "<circle cx='100' cy='50' r='40' fill='#ECECE7'/>"));
   const SignFace face = face_of(face_from_svg(file, 0.4, 0.2, 400));
@@ -143,7 +130,7 @@ TEST_CASE("the area of a round shape is right to a part in a thousand, with no s
 }
 
 TEST_CASE("what is neither white nor green, or not painted, is other", "[emergency][face]") {
-  Scratch scratch;
+  const test::TemporaryFolder scratch;
   const auto file = scratch.write("a.svg", svg("<rect width='50' height='100' fill='#237F52'/>"
                                                "<rect x='50' width='50' height='100' fill='#fff'/>"
                                                "<rect x='100' width='50' height='100'/>"));
@@ -155,7 +142,7 @@ TEST_CASE("what is neither white nor green, or not painted, is other", "[emergen
 
 TEST_CASE("a drawing that cannot be a sign is refused with its file and the reason",
           "[emergency][face]") {
-  Scratch scratch;
+  const test::TemporaryFolder scratch;
   const auto refusal = [&](const std::string& bytes) {
     const auto file = scratch.write("bad.svg", bytes);
     const std::string text = problem_of(face_from_svg(file, 0.4, 0.2, 100));
@@ -175,16 +162,15 @@ TEST_CASE("a drawing that cannot be a sign is refused with its file and the reas
   CHECK(
       refusal(std::string(static_cast<size_t>(limits::max_drawing_bytes) + 1, ' ')).find("4 MiB") !=
       std::string::npos);
-  CHECK(
-      problem_of(face_from_svg(scratch.folder / "none.svg", 0.4, 0.2, 100)).find("no such file") !=
-      std::string::npos);
-  CHECK(problem_of(face_from_svg(scratch.folder, 0.4, 0.2, 100)).find("no such file") !=
+  CHECK(problem_of(face_from_svg(scratch / "none.svg", 0.4, 0.2, 100)).find("no such file") !=
+        std::string::npos);
+  CHECK(problem_of(face_from_svg(scratch.path(), 0.4, 0.2, 100)).find("no such file") !=
         std::string::npos);
 }
 
 TEST_CASE("a drawing loads no other file", "[emergency][face]") {
-  Scratch scratch;
-  scratch.write_png("white.png", 1, 1, {255, 255, 255});
+  const test::TemporaryFolder scratch;
+  write_png(scratch, "white.png", 1, 1, {255, 255, 255});
   const auto file = scratch.write("a.svg", svg("<rect width='200' height='100' fill='#237F52'/>"
                                                "<image href='white.png' width='100' height='100' "
                                                "preserveAspectRatio='none'/>"));
@@ -205,14 +191,14 @@ TEST_CASE("sizes outside the limits are refused before anything is read", "[emer
 }
 
 TEST_CASE("a picture becomes the same face as the drawing of the same sign", "[emergency][face]") {
-  Scratch scratch;
+  const test::TemporaryFolder scratch;
   std::vector<uint8_t> rgb;
   for (int y = 0; y < 100; ++y)
     for (int x = 0; x < 200; ++x)
       for (uint8_t c : x < 50 ? std::array<uint8_t, 3>{0x23, 0x7f, 0x52}
                               : std::array<uint8_t, 3>{0xec, 0xec, 0xe7})
         rgb.push_back(c);
-  const auto png = scratch.write_png("a.png", 200, 100, rgb);
+  const auto png = write_png(scratch, "a.png", 200, 100, rgb);
   const auto drawing = scratch.write("a.svg", svg(left_green));
   for (int texels : {40, 200, 400})
     CHECK(face_of(face_from_png(png, 0.4, 0.2, texels)).colour ==
@@ -221,20 +207,19 @@ TEST_CASE("a picture becomes the same face as the drawing of the same sign", "[e
 
 TEST_CASE("a picture that is absent, damaged, or no sign is refused with its file",
           "[emergency][face]") {
-  Scratch scratch;
-  CHECK(
-      problem_of(face_from_png(scratch.folder / "none.png", 0.4, 0.2, 100)).find("no such file") !=
-      std::string::npos);
+  const test::TemporaryFolder scratch;
+  CHECK(problem_of(face_from_png(scratch / "none.png", 0.4, 0.2, 100)).find("no such file") !=
+        std::string::npos);
   const auto text = scratch.write("text.png", "not a picture");
   CHECK(problem_of(face_from_png(text, 0.4, 0.2, 100)).find("not a PNG") != std::string::npos);
   std::vector<uint8_t> noise(3 * 64 * 32);
   for (size_t i = 0; i < noise.size(); ++i) noise[i] = static_cast<uint8_t>(i * 2654435761u >> 7);
-  const auto whole = scratch.write_png("whole.png", 64, 32, noise);
+  const auto whole = write_png(scratch, "whole.png", 64, 32, noise);
   std::ifstream in(whole, std::ios::binary);
   std::string bytes((std::istreambuf_iterator<char>(in)), {});
   const auto cut = scratch.write("cut.png", bytes.substr(0, bytes.size() / 2));
   CHECK(problem_of(face_from_png(cut, 0.4, 0.2, 100)).find("damaged") != std::string::npos);
-  const auto square = scratch.write_png("square.png", 2, 2, std::vector<uint8_t>(12, 255));
+  const auto square = write_png(scratch, "square.png", 2, 2, std::vector<uint8_t>(12, 255));
   CHECK(problem_of(face_from_png(square, 0.4, 0.2, 100)).find("aspect") != std::string::npos);
   CHECK(problem_of(face_from_png(square, 0.2, 0.2, 100)).find("green") != std::string::npos);
 }
@@ -311,7 +296,7 @@ TEST_CASE("a uniform face is of one colour throughout", "[emergency][face]") {
 
 TEST_CASE("a luminance map keeps its pattern and has a mean of 1 within each colour",
           "[emergency][face]") {
-  Scratch scratch;
+  const test::TemporaryFolder scratch;
   const auto file = scratch.write("a.svg", svg(left_green));
   const SignFace plain = face_of(face_from_svg(file, 0.4, 0.2, 40));
   Image map{8, 4, 1, {}};
@@ -394,7 +379,7 @@ TEST_CASE("drawings of ISO 7010 signs by others become green and white faces",
 
 TEST_CASE("a drawing that would draw for minutes is refused before it does",
           "[emergency][sign_face][hostile]") {
-  const Scratch scratch;
+  const test::TemporaryFolder scratch;
   const auto refusal = [&](const std::string& body) {
     return problem_of(face_from_svg(scratch.write("bad.svg", svg(body)), 0.4, 0.2, 100));
   };
@@ -410,7 +395,7 @@ TEST_CASE("a drawing that would draw for minutes is refused before it does",
 }
 
 TEST_CASE("a drawing may speak of filters where it uses none", "[emergency][sign_face]") {
-  const Scratch scratch;
+  const test::TemporaryFolder scratch;
   const auto file = scratch.write(
       "a.svg", svg(left_green + std::string("<!-- no filter --><g style='filter:none'/>")));
   CHECK(face_from_svg(file, 0.4, 0.2, 64).ok());

@@ -4,7 +4,9 @@
 #include <cstring>
 #include <limits>
 
+#include "runtime/core/base64.hpp"
 #include "scenes/fields/data_set_fields.hpp"
+#include "tests/kit/replaced.hpp"
 #include "tests/kit/temporary_folder.hpp"
 
 using namespace luxodus;
@@ -19,33 +21,12 @@ std::string bytes_of(const std::vector<T>& values) {
   return out;
 }
 
-std::string base64(const std::string& bytes) {
-  static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string out;
-  for (size_t i = 0; i < bytes.size(); i += 3) {
-    uint32_t group = 0;
-    for (size_t k = 0; k < 3; ++k) {
-      group = group << 8 | (i + k < bytes.size() ? static_cast<uint8_t>(bytes[i + k]) : 0u);
-    }
-    for (size_t k = 0; k < 4; ++k) {
-      out += i + k > bytes.size() ? '=' : digits[group >> (18 - 6 * k) & 63];
-    }
-  }
-  return out;
-}
-
 /// 3 x 2 x 1 values 0, 0.5, ... 2.5.
 const std::vector<float> six = {0, 0.5f, 1, 1.5f, 2, 2.5f};
 
 const std::string nrrd_head =
     "NRRD0004\n# smoke\ntype: float\ndimension: 3\nsizes: 3 2 1\nspacings: 0.1 0.2 0.5\n"
     "encoding: raw\nendian: little\n";
-
-std::string with(std::string text, const std::string& from, const std::string& to) {
-  const size_t at = text.find(from);
-  REQUIRE(at != std::string::npos);
-  return text.replace(at, from.size(), to);
-}
 
 /// A VTI of 3 x 2 x 1 cells around the given arrays.
 std::string vti(const std::string& inside, const std::string& behind = "",
@@ -119,7 +100,7 @@ TEST_CASE("a detached NRRD reads its data file, behind skipped lines and bytes",
 
 TEST_CASE("8-bit NRRD samples are mapped to the range they state", "[format][nrrd]") {
   const TemporaryFolder folder;
-  const std::string head = with(with(nrrd_head, "float", "uint8"), "endian: little\n", "");
+  const std::string head = replaced(replaced(nrrd_head, "float", "uint8"), "endian: little\n", "");
   const std::string samples("\x00\x33\x66\x99\xcc\xff", 6);
   const auto plain = read_ok(folder.write("a.nrrd", head + "\n" + samples));
   CHECK(plain.data.extinction == std::vector<float>{0, 51, 102, 153, 204, 255});
@@ -142,9 +123,9 @@ TEST_CASE("an NRRD says which field it is, and may hold several", "[format][nrrd
 
   std::vector<float> interlaced;
   for (const float v : six) interlaced.insert(interlaced.end(), {v, v / 10});
-  const std::string head =
-      with(with(with(nrrd_head, "dimension: 3", "dimension: 4"), "sizes: 3", "sizes: 2 3"),
-           "spacings: ", "spacings: nan ");
+  const std::string head = replaced(
+      replaced(replaced(nrrd_head, "dimension: 3", "dimension: 4"), "sizes: 3", "sizes: 2 3"),
+      "spacings: ", "spacings: nan ");
   const auto both = read_ok(
       folder.write("c.nrrd", head + "fields:=extinction albedo\n\n" + bytes_of(interlaced)));
   CHECK(both.data.extinction == six);
@@ -154,9 +135,9 @@ TEST_CASE("an NRRD says which field it is, and may hold several", "[format][nrrd
 TEST_CASE("NRRD places by directions and units come out in metres", "[format][nrrd]") {
   const TemporaryFolder folder;
   const std::string head =
-      with(nrrd_head, "spacings: 0.1 0.2 0.5\n",
-           "space: right-anterior-superior\nspace directions: (100,0,0) (0,200,0) (0,0,500)\n"
-           "space origin: (50,100,250)\nspace units: \"mm\" \"mm\" \"mm\"\n");
+      replaced(nrrd_head, "spacings: 0.1 0.2 0.5\n",
+               "space: right-anterior-superior\nspace directions: (100,0,0) (0,200,0) (0,0,500)\n"
+               "space origin: (50,100,250)\nspace units: \"mm\" \"mm\" \"mm\"\n");
   const auto loaded = read_ok(folder.write("a.nrrd", head + "\n" + bytes_of(six)));
   CHECK(glm::length(loaded.origin) < 1e-12);
   CHECK(glm::length(loaded.spacing - glm::dvec3(0.1, 0.2, 0.5)) < 1e-12);
@@ -182,7 +163,7 @@ TEST_CASE("a large NRRD is read whole, across the blocks it is read in", "[forma
   const TemporaryFolder folder;
   std::vector<float> many(100 * 90 * 80);
   for (size_t i = 0; i < many.size(); ++i) many[i] = static_cast<float>(i);
-  const std::string head = with(nrrd_head, "sizes: 3 2 1", "sizes: 100 90 80");
+  const std::string head = replaced(nrrd_head, "sizes: 3 2 1", "sizes: 100 90 80");
   CHECK(read_ok(folder.write("a.nrrd", head + "\n" + bytes_of(many))).data.extinction == many);
 }
 
@@ -192,7 +173,7 @@ TEST_CASE("malformed NRRD files are refused with the line and what to do", "[for
   const float inf = std::numeric_limits<float>::infinity();
   const std::string data = bytes_of(six);
   const auto head = [&](const std::string& from, const std::string& to) {
-    return with(nrrd_head, from, to) + "\n" + data;
+    return replaced(nrrd_head, from, to) + "\n" + data;
   };
   const Row rows[] = {
       {"empty", "", "not an NRRD"},
@@ -314,7 +295,7 @@ TEST_CASE("VTI point values become the mean of each cell's corners", "[format][v
     }
   }
   std::string content = vti(cell_array("emission", "Float64", "ascii", text));
-  content = with(with(content, "<CellData", "<PointData"), "</CellData", "</PointData");
+  content = replaced(replaced(content, "<CellData", "<PointData"), "</CellData", "</PointData");
   const auto loaded = read_ok(folder.write("a.vti", content));
   REQUIRE(loaded.data.emission.size() == 6);
   for (int y = 0; y < 2; ++y) {
@@ -324,7 +305,7 @@ TEST_CASE("VTI point values become the mean of each cell's corners", "[format][v
     }
   }
   // A negative point is not hidden by its neighbours.
-  const std::string negative = with(content, "12 ", "-12 ");
+  const std::string negative = replaced(content, "12 ", "-12 ");
   const auto refused = read_data_set(folder.write("b.vti", negative));
   REQUIRE_FALSE(refused.ok());
   CHECK(refused.problem().what.find("point") != std::string::npos);
@@ -333,8 +314,9 @@ TEST_CASE("VTI point values become the mean of each cell's corners", "[format][v
 TEST_CASE("a VTI whose extent does not start at 0 stands where its cells are", "[format][vti]") {
   const TemporaryFolder folder;
   std::string content = vti(cell_array("extinction", "Float32", "ascii", "1 1 1 1 1 1"));
-  content = with(with(content, "WholeExtent=\"0 3 0 2 0 1\"", "WholeExtent=\"10 13 -5 -3 0 1\""),
-                 "Piece Extent=\"0 3 0 2 0 1\"", "Piece Extent=\"10 13 -5 -3 0 1\"");
+  content =
+      replaced(replaced(content, "WholeExtent=\"0 3 0 2 0 1\"", "WholeExtent=\"10 13 -5 -3 0 1\""),
+               "Piece Extent=\"0 3 0 2 0 1\"", "Piece Extent=\"10 13 -5 -3 0 1\"");
   const auto loaded = read_ok(folder.write("a.vti", content));
   CHECK(glm::length(loaded.origin - glm::dvec3(2, 1, 3)) < 1e-12);
 }
@@ -348,7 +330,7 @@ TEST_CASE("arrays of other names are passed over, also those of the file's own f
       "7</DataArray></FieldData>\n";
   std::string content = vti(cell_array("temperature", "Float32", "ascii", "20 20") +
                             cell_array("soot_density", "Float32", "ascii", "0 1e-4 0 0 0 0"));
-  content = with(content, "<Piece", time + "<Piece");
+  content = replaced(content, "<Piece", time + "<Piece");
   const auto loaded = read_ok(folder.write("a.vti", content));
   CHECK(loaded.data.extinction[1] == Approx(0.87));
 }
@@ -370,53 +352,55 @@ TEST_CASE("malformed VTI files are refused with the line and what to do", "[form
       {"empty", "", "ImageData"},
       {"text", "no tags at all", "ImageData"},
       {"another root", "<html></html>", "VTKFile"},
-      {"another type", with(good, "\"ImageData\"", "\"RectilinearGrid\""), "RectilinearGrid"},
-      {"big endian", with(good, "LittleEndian", "BigEndian"), "LittleEndian"},
-      {"compressed", with(good, "byte_order=", "compressor=\"vtkZLibDataCompressor\" byte_order="),
+      {"another type", replaced(good, "\"ImageData\"", "\"RectilinearGrid\""), "RectilinearGrid"},
+      {"big endian", replaced(good, "LittleEndian", "BigEndian"), "LittleEndian"},
+      {"compressed",
+       replaced(good, "byte_order=", "compressor=\"vtkZLibDataCompressor\" byte_order="),
        "compress"},
-      {"header type", with(good, "UInt32", "UInt16"), "header_type"},
+      {"header type", replaced(good, "UInt32", "UInt16"), "header_type"},
       {"cut", good.substr(0, good.find("</Piece>")), "ends within"},
       {"cut in a tag", good.substr(0, 100), "quote"},
       {"cut in an array", good.substr(0, good.find("3 4 5")), "closing tag"},
-      {"interlaced", with(good, "</DataArray>\n</CellData>", "</CellData>\n</DataArray>"),
+      {"interlaced", replaced(good, "</DataArray>\n</CellData>", "</CellData>\n</DataArray>"),
        "interlaced"},
-      {"stray end", with(good, "</Piece>", "</Piece></Piece>"), "closes nothing"},
-      {"no equals", with(good, "Origin=", "Origin "), "not well formed"},
-      {"entity", with(good, "Name=\"extinction\"", "Name=\"&quot;\""), "entities"},
-      {"declaration", with(good, "<VTKFile", "<!DOCTYPE x>\n<VTKFile"), "begins no tag"},
-      {"endless comment", with(good, "-->", "--"), "no end"},
-      {"turned", with(good, "Origin=", "Direction=\"0 1 0 -1 0 0 0 0 1\" Origin="), "turn"},
-      {"extent", with(good, "WholeExtent=\"0 3 0 2 0 1\"", "WholeExtent=\"0 3 0 2\""),
+      {"stray end", replaced(good, "</Piece>", "</Piece></Piece>"), "closes nothing"},
+      {"no equals", replaced(good, "Origin=", "Origin "), "not well formed"},
+      {"entity", replaced(good, "Name=\"extinction\"", "Name=\"&quot;\""), "entities"},
+      {"declaration", replaced(good, "<VTKFile", "<!DOCTYPE x>\n<VTKFile"), "begins no tag"},
+      {"endless comment", replaced(good, "-->", "--"), "no end"},
+      {"turned", replaced(good, "Origin=", "Direction=\"0 1 0 -1 0 0 0 0 1\" Origin="), "turn"},
+      {"extent", replaced(good, "WholeExtent=\"0 3 0 2 0 1\"", "WholeExtent=\"0 3 0 2\""),
        "WholeExtent"},
-      {"descending", with(good, "WholeExtent=\"0 3", "WholeExtent=\"3 0"), "ascend"},
-      {"flat", with(good, "WholeExtent=\"0 3 0 2 0 1\"", "WholeExtent=\"0 3 0 2 0 0\""),
+      {"descending", replaced(good, "WholeExtent=\"0 3", "WholeExtent=\"3 0"), "ascend"},
+      {"flat", replaced(good, "WholeExtent=\"0 3 0 2 0 1\"", "WholeExtent=\"0 3 0 2 0 0\""),
        "no cells"},
       {"huge extent",
-       with(good, "WholeExtent=\"0 3", "WholeExtent=\"-9223372036854775808 9223372036854775807"),
+       replaced(good, "WholeExtent=\"0 3",
+                "WholeExtent=\"-9223372036854775808 9223372036854775807"),
        "ascend"},
       {"too many cells",
-       with(good, "WholeExtent=\"0 3 0 2 0 1\"", "WholeExtent=\"0 99999 0 99999 0 9\""),
+       replaced(good, "WholeExtent=\"0 3 0 2 0 1\"", "WholeExtent=\"0 99999 0 99999 0 9\""),
        "the most"},
-      {"pieces", with(good, "</Piece>", "</Piece><Piece Extent=\"0 3 0 2 0 1\"></Piece>"),
+      {"pieces", replaced(good, "</Piece>", "</Piece><Piece Extent=\"0 3 0 2 0 1\"></Piece>"),
        "2 pieces"},
-      {"part of a grid", with(good, "Piece Extent=\"0 3", "Piece Extent=\"0 2"), "one piece"},
-      {"origin", with(good, "Origin=\"1 2 3\"", "Origin=\"1 2\""), "Origin"},
-      {"nan origin", with(good, "Origin=\"1 2 3\"", "Origin=\"1 nan 3\""), "origin"},
-      {"zero spacing", with(good, "Spacing=\"0.1", "Spacing=\"0"), "spacing"},
-      {"negative spacing", with(good, "Spacing=\"0.1", "Spacing=\"-0.1"), "spacing"},
-      {"no field", with(good, "Name=\"extinction\"", "Name=\"smell\""), "smell"},
-      {"vectors", with(good, "format=\"ascii\"", "NumberOfComponents=\"3\" format=\"ascii\""),
+      {"part of a grid", replaced(good, "Piece Extent=\"0 3", "Piece Extent=\"0 2"), "one piece"},
+      {"origin", replaced(good, "Origin=\"1 2 3\"", "Origin=\"1 2\""), "Origin"},
+      {"nan origin", replaced(good, "Origin=\"1 2 3\"", "Origin=\"1 nan 3\""), "origin"},
+      {"zero spacing", replaced(good, "Spacing=\"0.1", "Spacing=\"0"), "spacing"},
+      {"negative spacing", replaced(good, "Spacing=\"0.1", "Spacing=\"-0.1"), "spacing"},
+      {"no field", replaced(good, "Name=\"extinction\"", "Name=\"smell\""), "smell"},
+      {"vectors", replaced(good, "format=\"ascii\"", "NumberOfComponents=\"3\" format=\"ascii\""),
        "component"},
-      {"type", with(good, "Float32", "Int32"), "Int32"},
-      {"format", with(good, "\"ascii\"", "\"morse\""), "format"},
-      {"few values", with(good, "0 1 2 3 4 5", "0 1 2 3 4"), "6 values"},
-      {"many values", with(good, "0 1 2 3 4 5", "0 1 2 3 4 5 6"), "6 values"},
-      {"a word", with(good, "3 4 5", "3 4 x"), "not a number"},
-      {"nan", with(good, "3 4 5", "3 nan 5"), "index 4"},
-      {"inf", with(good, "3 4 5", "inf 4 5"), "index 3"},
-      {"beyond float", with(good, "3 4 5", "3 4 1e60"), "index 5"},
-      {"negative", with(good, "0 1 2", "0 -1 2"), "cell (1, 0, 0)"},
-      {"albedo", with(good, "Name=\"extinction\"", "Name=\"albedo\""), "0 to 1"},
+      {"type", replaced(good, "Float32", "Int32"), "Int32"},
+      {"format", replaced(good, "\"ascii\"", "\"morse\""), "format"},
+      {"few values", replaced(good, "0 1 2 3 4 5", "0 1 2 3 4"), "6 values"},
+      {"many values", replaced(good, "0 1 2 3 4 5", "0 1 2 3 4 5 6"), "6 values"},
+      {"a word", replaced(good, "3 4 5", "3 4 x"), "not a number"},
+      {"nan", replaced(good, "3 4 5", "3 nan 5"), "index 4"},
+      {"inf", replaced(good, "3 4 5", "inf 4 5"), "index 3"},
+      {"beyond float", replaced(good, "3 4 5", "3 4 1e60"), "index 5"},
+      {"negative", replaced(good, "0 1 2", "0 -1 2"), "cell (1, 0, 0)"},
+      {"albedo", replaced(good, "Name=\"extinction\"", "Name=\"albedo\""), "0 to 1"},
       {"twice",
        vti(cell_array("extinction", "Float32", "ascii", "0 1 2 3 4 5") +
            cell_array("soot_density", "Float32", "ascii", "0 1 2 3 4 5")),
@@ -426,9 +410,9 @@ TEST_CASE("malformed VTI files are refused with the line and what to do", "[form
            cell_array("extinction", "Float32", "ascii", "0 1 2 3 4 5")),
        "twice"},
       {"one offset for two",
-       with(appended(header + bytes_of(six)), "</CellData>",
-            "<DataArray type=\"Float32\" Name=\"albedo\" format=\"appended\" "
-            "offset=\"0\"/></CellData>"),
+       replaced(appended(header + bytes_of(six)), "</CellData>",
+                "<DataArray type=\"Float32\" Name=\"albedo\" format=\"appended\" "
+                "offset=\"0\"/></CellData>"),
        "the same offset"},
       {"no base64", binary("?" + base64(header + bytes_of(six))), "values"},
       {"base64 breaks", binary(base64(header + bytes_of(six)).replace(20, 1, "?")), "base64"},
@@ -438,12 +422,13 @@ TEST_CASE("malformed VTI files are refused with the line and what to do", "[form
       {"appended is short", appended(header + "ab"), "6 values"},
       {"appended header lies", appended(bytes_of<uint32_t>({23}) + bytes_of(six)), "6 values"},
       {"appended offset",
-       with(appended(header + bytes_of(six)), "offset=\"0\"", "offset=\"9999999\""), "offset"},
+       replaced(appended(header + bytes_of(six)), "offset=\"0\"", "offset=\"9999999\""), "offset"},
       {"appended overflow",
-       with(appended(header + bytes_of(six)), "offset=\"0\"", "offset=\"18446744073709551615\""),
+       replaced(appended(header + bytes_of(six)), "offset=\"0\"",
+                "offset=\"18446744073709551615\""),
        "offset"},
       {"appended missing", vti(appended_array), "there are none"},
-      {"no mark", with(appended(header), ">_", ">"), "\"_\""},
+      {"no mark", replaced(appended(header), ">_", ">"), "\"_\""},
       {"deep",
        "<VTKFile type=\"ImageData\" byte_order=\"LittleEndian\">" +
            [] {
@@ -455,7 +440,7 @@ TEST_CASE("malformed VTI files are refused with the line and what to do", "[form
   };
   for (const Row& row : rows) check_refused(folder, "a.vti", row);
   const auto result =
-      read_data_set(folder.write("b.vti", with(good, "Origin=\"1 2 3\"", "Origin=\"\"")));
+      read_data_set(folder.write("b.vti", replaced(good, "Origin=\"1 2 3\"", "Origin=\"\"")));
   CHECK(result.problem().where.line == 4);
 }
 

@@ -1,12 +1,12 @@
 #include "scenes/geometry/import.hpp"
 
-#include <unistd.h>
-
 #include <catch2/catch.hpp>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 
+#include "runtime/core/base64.hpp"
+#include "tests/kit/temporary_folder.hpp"
 #include "tests/unit/scenes/geometry/mesh_checks.hpp"
 
 using namespace luxodus;
@@ -14,42 +14,6 @@ using namespace luxodus::test;
 namespace fs = std::filesystem;
 
 namespace {
-
-/// A folder of its own for each test, gone with it.
-class Folder {
- public:
-  Folder() {
-    static int count = 0;
-    path_ = fs::temp_directory_path() /
-            ("luxodus_import_" + std::to_string(getpid()) + "_" + std::to_string(count++));
-    fs::create_directories(path_);
-  }
-  ~Folder() { fs::remove_all(path_); }
-
-  std::string write(const std::string& name, const std::string& content) const {
-    std::ofstream(path_ / name, std::ios::binary) << content;
-    return (path_ / name).string();
-  }
-  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
-
- private:
-  fs::path path_;
-};
-
-std::string base64(const std::string& bytes) {
-  static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string out;
-  for (size_t i = 0; i < bytes.size(); i += 3) {
-    uint32_t group = 0;
-    for (size_t k = 0; k < 3; ++k) {
-      group = group << 8 | (i + k < bytes.size() ? static_cast<uint8_t>(bytes[i + k]) : 0u);
-    }
-    for (size_t k = 0; k < 4; ++k) {
-      out += i + k > bytes.size() ? '=' : digits[group >> (18 - 6 * k) & 63];
-    }
-  }
-  return out;
-}
 
 template <class T>
 std::string bytes_of(std::initializer_list<T> values) {
@@ -92,7 +56,7 @@ std::vector<ImportedPart> import_ok(const std::string& path, double unit = 1,
 
 TEST_CASE("an OBJ gives its objects with names, materials and colours, in order",
           "[geometry][import]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   folder.write("house.mtl", "newmtl plaster\nKd 0.7 0.6 0.5\nnewmtl wood\nKd 0.2 0.1 0.05\n");
   const std::string path = folder.write("house.obj",
                                         "mtllib house.mtl\n"
@@ -121,7 +85,7 @@ TEST_CASE("an OBJ gives its objects with names, materials and colours, in order"
 
 TEST_CASE("an OBJ without materials has none, and normals do not keep vertices apart",
           "[geometry][import]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string path = folder.write("a.obj",
                                         "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvn 0 0 1\nvn 0 1 1\nf "
                                         "1//1 2//1 3//1\nf 1//2 3//2 4//2\n");
@@ -134,7 +98,7 @@ TEST_CASE("an OBJ without materials has none, and normals do not keep vertices a
 }
 
 TEST_CASE("an OBJ keeps its texture coordinates, v upwards", "[geometry][import]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const auto parts = import_ok(
       folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n"));
   const Mesh& mesh = parts[0].mesh;
@@ -146,7 +110,7 @@ TEST_CASE("an OBJ keeps its texture coordinates, v upwards", "[geometry][import]
 }
 
 TEST_CASE("units scale an import and the up axis turns it", "[geometry][import]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string path = folder.write("a.obj", "v 0 0 0\nv 1000 0 0\nv 0 2000 0\nf 1 2 3\n");
   const auto z_up = import_ok(path, 0.001, UpAxis::z);
   CHECK(bounds_of(z_up[0].mesh).high == glm::dvec3(1, 2, 0));
@@ -156,7 +120,7 @@ TEST_CASE("units scale an import and the up axis turns it", "[geometry][import]"
 }
 
 TEST_CASE("degenerate faces of a file are dropped and counted", "[geometry][import]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const auto parts = import_ok(folder.write("a.obj",
                                             "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 0 0\nv 1 0 0\n"
                                             "o good\nf 1 2 3\nf 1 2 4\nf 1 2 5\n"
@@ -168,7 +132,7 @@ TEST_CASE("degenerate faces of a file are dropped and counted", "[geometry][impo
 
 TEST_CASE("a glTF gives nodes with transforms applied and its linear base colour",
           "[geometry][import]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string path =
       folder.write("a.gltf", gltf(R"({"name":"group","translation":[10,0,0],"children":[1]},)"
                                   R"({"name":"leaf","mesh":0,"scale":[2,2,2]})",
@@ -187,7 +151,7 @@ TEST_CASE("a glTF gives nodes with transforms applied and its linear base colour
 
 TEST_CASE("a mirrored glTF node keeps its front, and a mesh placed twice gives two parts",
           "[geometry][import]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string path =
       folder.write("a.gltf", gltf(R"({"name":"twin","mesh":0,"scale":[1,1,-1]},)"
                                   R"({"name":"twin","mesh":0,"scale":[-1,1,1]})",
@@ -202,7 +166,7 @@ TEST_CASE("a mirrored glTF node keeps its front, and a mesh placed twice gives t
 }
 
 TEST_CASE("a binary glTF is read like its text", "[geometry][import]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   std::string json = gltf(R"({"name":"n","mesh":0})", "0");
   // The buffer goes into a chunk of its own.
   const size_t uri = json.find(",\"uri\"");
@@ -222,7 +186,7 @@ TEST_CASE("a binary glTF is read like its text", "[geometry][import]") {
 
 TEST_CASE("files that hold no usable mesh are refused with a sentence that names them",
           "[geometry][import]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
   struct Row {
     const char* name;
@@ -279,7 +243,7 @@ TEST_CASE("files that hold no usable mesh are refused with a sentence that names
 }
 
 TEST_CASE("a missing file, a folder and a unit of nothing are refused", "[geometry][import]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   CHECK_FALSE(import_mesh(folder / "absent.obj", 1, UpAxis::z).ok());
   fs::create_directories(folder / "folder.obj");
   CHECK_FALSE(import_mesh(folder / "folder.obj", 1, UpAxis::z).ok());
@@ -307,7 +271,7 @@ void refuses(const std::string& path, const std::string& at_fault, int line,
 
 TEST_CASE("a material library that gives maps to no material is refused, not followed",
           "[geometry][import][hostile]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string obj =
       folder.write("tex.obj", "mtllib tex.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nusemtl red\nf 1 2 3\n");
   for (const char* words : {"map_Kd grey.png\n", "ndwmtl red\nKd 1 0 0\nmap_Kd grey.png\n"}) {
@@ -320,7 +284,7 @@ TEST_CASE("a material library that gives maps to no material is refused, not fol
 
 TEST_CASE("glTF that nests or chains too deep, or names nodes twice, is refused",
           "[geometry][import][hostile]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const auto repeat = [](const std::string& text, int times) {
     std::string out;
     for (int i = 0; i < times; ++i) out += text;
@@ -357,7 +321,7 @@ TEST_CASE("glTF that nests or chains too deep, or names nodes twice, is refused"
 
 TEST_CASE("an OBJ with texture coordinates that are no numbers, or endless objects, is refused",
           "[geometry][import][hostile]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
   for (const char* word : {"nan", "-inf", "1e99", "NaN(7)"}) {
     const std::string path =
@@ -375,7 +339,7 @@ TEST_CASE("an OBJ with texture coordinates that are no numbers, or endless objec
 }
 
 TEST_CASE("what the importer says of a file does not quote it", "[geometry][import][hostile]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   for (const char* name : {"a.obj", "a.gltf", "a.glb"}) {
     const auto result = import_mesh(folder.write(name, "v root:secret:0:0 1 2\n"), 1, UpAxis::z);
     REQUIRE_FALSE(result.ok());
@@ -385,7 +349,7 @@ TEST_CASE("what the importer says of a file does not quote it", "[geometry][impo
 
 TEST_CASE("coordinates far from the origin are read where their step is small enough",
           "[geometry][import]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string path =
       folder.write("a.obj", "v 100000 0 0\nv 100001 0 0\nv 100000 1 0\nf 1 2 3\n");
   CHECK(area_of(import_ok(path)[0].mesh) == Approx(0.5));

@@ -85,11 +85,3 @@ TEST_CASE("volume keeps its digits far from the origin", "[geometry][mesh]") {
   flip(mesh);
   CHECK(signed_volume_of(mesh) == Approx(-1).epsilon(1e-9));
 }
-
-TEST_CASE("the longest edge and the centroid are those of the triangle", "[geometry][mesh]") {
-  Mesh mesh;
-  mesh.positions = {{0, 0, 0}, {3, 0, 0}, {0, 4, 0}};
-  mesh.triangles = {{0, 1, 2}};
-  CHECK(longest_edge_of(mesh, 0) == 5);
-  CHECK(glm::length(triangle_centroids(mesh)[0] - glm::dvec3(1, 4.0 / 3, 0)) < 1e-15);
-}

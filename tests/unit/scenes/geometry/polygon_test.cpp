@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <numbers>
 
 using namespace luxodus;
 
@@ -35,7 +36,7 @@ std::string refusal_of(const std::vector<glm::dvec2>& outline) {
 TEST_CASE("an outline may have many points on one wall, whichever way it slants", "[geometry]") {
   for (int degrees = 0; degrees < 180; ++degrees) {
     INFO(degrees << " degrees");
-    const auto outline = turned(corridor(), degrees * 3.14159265358979 / 180);
+    const auto outline = turned(corridor(), degrees * std::numbers::pi / 180);
     CHECK(checked_outline(outline).ok());
     CHECK(triangulate(outline).ok());
   }
@@ -49,7 +50,7 @@ TEST_CASE("an outline that crosses or touches itself is refused with both edges"
         "edges 1 and 3 of the outline touch or cross: outlines must be simple");
   for (int degrees = 0; degrees < 180; degrees += 7) {
     INFO(degrees << " degrees");
-    const auto bow = turned({{0, 0}, {2, 2}, {2, 0}, {0, 2}}, degrees * 3.14159265358979 / 180);
+    const auto bow = turned({{0, 0}, {2, 2}, {2, 0}, {0, 2}}, degrees * std::numbers::pi / 180);
     CHECK_FALSE(checked_outline(bow).ok());
   }
 }

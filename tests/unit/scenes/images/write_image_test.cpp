@@ -8,7 +8,9 @@
 #include <cstring>
 #include <random>
 
-#include "tests/kit/scratch_folder.hpp"
+#include "runtime/core/regular_file.hpp"
+#include "tests/kit/read_exr.hpp"
+#include "tests/kit/temporary_folder.hpp"
 
 using namespace luxodus;
 using Catch::Matchers::Contains;
@@ -74,45 +76,43 @@ std::string chunk(const std::vector<std::byte>& bytes, const std::string& type) 
 
 TEST_CASE("float channels come back from EXR bit by bit, with everything said about them",
           "[format][image]") {
-  const ScratchFolder folder;
+  const test::TemporaryFolder folder;
   ExrImage image = exr_example(37, 23);
   image.channels[1].values[5] = std::nanf("");
   image.channels[1].values[6] = 3e38f;
   image.channels[1].values[7] = 1e-42f;
   REQUIRE(write_exr(folder / "a.exr", image).ok());
-  const Result<ExrImage> back = read_exr(folder / "a.exr");
-  REQUIRE(back.ok());
-  CHECK(back->width == 37);
-  CHECK(back->height == 23);
-  CHECK_FALSE(back->half);
-  CHECK(back->unit == "cd/m2");
-  CHECK(back->white_luminance_cd_m2 == 200.0f);
-  REQUIRE(back->chromaticities);
-  CHECK(back->chromaticities->white == Chromaticities{}.white);
-  CHECK(back->chromaticities->blue == Chromaticities{}.blue);
-  CHECK(back->channels.size() == image.channels.size());
+  const ExrImage back = test::read_exr(folder / "a.exr");
+  CHECK(back.width == 37);
+  CHECK(back.height == 23);
+  CHECK_FALSE(back.half);
+  CHECK(back.unit == "cd/m2");
+  CHECK(back.white_luminance_cd_m2 == 200.0f);
+  REQUIRE(back.chromaticities);
+  CHECK(back.chromaticities->white == Chromaticities{}.white);
+  CHECK(back.chromaticities->blue == Chromaticities{}.blue);
+  CHECK(back.channels.size() == image.channels.size());
   for (const ExrChannel& channel : image.channels) {
-    const ExrChannel* read = back->find(channel.name);
+    const ExrChannel* read = back.find(channel.name);
     REQUIRE(read != nullptr);
     REQUIRE(read->values.size() == channel.values.size());
     CHECK(std::memcmp(read->values.data(), channel.values.data(),
                       channel.values.size() * sizeof(float)) == 0);
   }
-  CHECK(back->text == image.text);
-  CHECK(back->numbers == decltype(image.numbers){{"extinction_1_m", 0.1}, {"particles", 1e6}});
-  CHECK(back->find("A") == nullptr);
+  CHECK(back.text == image.text);
+  CHECK(back.numbers == decltype(image.numbers){{"extinction_1_m", 0.1}, {"particles", 1e6}});
+  CHECK(back.find("A") == nullptr);
 }
 
 TEST_CASE("half channels keep three digits and refuse what they cannot hold", "[format][image]") {
-  const ScratchFolder folder;
+  const test::TemporaryFolder folder;
   ExrImage image = exr_example(16, 9);
   image.half = true;
   REQUIRE(write_exr(folder / "a.exr", image).ok());
-  const Result<ExrImage> back = read_exr(folder / "a.exr");
-  REQUIRE(back.ok());
-  CHECK(back->half);
+  const ExrImage back = test::read_exr(folder / "a.exr");
+  CHECK(back.half);
   for (const ExrChannel& channel : image.channels) {
-    const std::vector<float>& read = back->find(channel.name)->values;
+    const std::vector<float>& read = back.find(channel.name)->values;
     for (size_t i = 0; i < read.size(); ++i) {
       REQUIRE(std::abs(read[i] - channel.values[i]) <= channel.values[i] / 2048 + 1e-7f);
     }
@@ -125,7 +125,7 @@ TEST_CASE("half channels keep three digits and refuse what they cannot hold", "[
 }
 
 TEST_CASE("equal pictures give equal bytes", "[format][image]") {
-  const ScratchFolder folder;
+  const test::TemporaryFolder folder;
   REQUIRE(write_exr(folder / "a.exr", exr_example(20, 20)).ok());
   REQUIRE(write_exr(folder / "b.exr", exr_example(20, 20)).ok());
   CHECK(read_whole_file(folder / "a.exr", 1 << 20).value() ==
@@ -133,7 +133,7 @@ TEST_CASE("equal pictures give equal bytes", "[format][image]") {
 }
 
 TEST_CASE("an EXR picture whose parts do not fit together is refused", "[format][image]") {
-  const ScratchFolder folder;
+  const test::TemporaryFolder folder;
   const auto refusal = [&](auto change) {
     ExrImage image = exr_example(4, 3);
     change(image);
@@ -161,41 +161,17 @@ TEST_CASE("an EXR picture whose parts do not fit together is refused", "[format]
 }
 
 TEST_CASE("channels and texts may have odd names", "[format][image]") {
-  const ScratchFolder folder;
+  const test::TemporaryFolder folder;
   ExrImage image = exr_example(2, 2);
   image.channels.resize(2);
   image.channels[0].name = "flux \"Lämpchen\" <3>";
   image.channels[1].name = std::string(255, 'c');
   image.text = {{"ä", "bad \xff byte"}};
   REQUIRE(write_exr(folder / "a.exr", image).ok());
-  const Result<ExrImage> back = read_exr(folder / "a.exr");
-  REQUIRE(back.ok());
-  CHECK(back->find(image.channels[0].name) != nullptr);
-  CHECK(back->find(image.channels[1].name) != nullptr);
-  CHECK(back->text[0].second == "bad \xEF\xBF\xBD byte");
-}
-
-TEST_CASE("a cut or damaged EXR picture is refused or read, never a crash", "[format][image]") {
-  const ScratchFolder folder;
-  REQUIRE(write_exr(folder / "a.exr", exr_example(40, 40)).ok());
-  const std::vector<std::byte> good = read_whole_file(folder / "a.exr", 1 << 24).value();
-  for (size_t size = 0; size < good.size(); size += 1 + good.size() / 97) {
-    REQUIRE(write_file_atomically(folder / "b.exr", std::span(good).first(size)).ok());
-    const Result<ExrImage> cut = read_exr(folder / "b.exr");
-    REQUIRE_FALSE(cut.ok());
-    CHECK(cut.problem().where.file == (folder / "b.exr").string());
-  }
-  std::mt19937 random(3);
-  for (int round = 0; round < 150; ++round) {
-    std::vector<std::byte> bytes = good;
-    bytes[random() % 600] ^= static_cast<std::byte>(1u << (random() % 8));  // mostly the header
-    REQUIRE(write_file_atomically(folder / "b.exr", bytes).ok());
-    const Result<ExrImage> read = read_exr(folder / "b.exr");
-    if (read.ok()) CHECK(read->width * read->height <= limits::max_image_edge * 40);
-  }
-  REQUIRE(write_file_atomically(folder / "b.exr", std::string_view("no picture at all")).ok());
-  CHECK_THAT(read_exr(folder / "b.exr").problem().what, Contains("not an EXR picture"));
-  CHECK_THAT(read_exr(folder / "none.exr").problem().what, Contains("No such file"));
+  const ExrImage back = test::read_exr(folder / "a.exr");
+  CHECK(back.find(image.channels[0].name) != nullptr);
+  CHECK(back.find(image.channels[1].name) != nullptr);
+  CHECK(back.text[0].second == "bad \xEF\xBF\xBD byte");
 }
 
 TEST_CASE("PNG pixels come back exactly, marked as sRGB", "[format][image]") {
@@ -215,7 +191,7 @@ TEST_CASE("PNG pixels come back exactly, marked as sRGB", "[format][image]") {
   CHECK(chunk(bytes.value(), "iTXt") == std::string("Comment\0\0\0\0\0", 12) + "grün € 😀");
   CHECK(chunk(bytes.value(), "tIME") == "(none)");
 
-  const ScratchFolder folder;
+  const test::TemporaryFolder folder;
   REQUIRE(write_png(folder / "a.png", image).ok());
   CHECK(read_whole_file(folder / "a.png", 1 << 20).value() == bytes.value());
   CHECK_THAT(write_png(folder / "none" / "a.png", image).problem().text(),

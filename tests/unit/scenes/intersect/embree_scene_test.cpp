@@ -5,7 +5,7 @@
 
 #include "runtime/core/random.hpp"
 #include "scenes/geometry/partition.hpp"
-#include "scenes/intersect/replay.hpp"
+#include "tests/kit/replay_rays.hpp"
 
 using namespace luxodus;
 
@@ -250,5 +250,5 @@ TEST_CASE("replayed rays hit the same triangles as asked one by one", "[intersec
     const Hit hit = scene.nearest(rays.back());
     if (hit.found()) sum += hit.index;
   }
-  CHECK(replay_rays(scene, rays) == sum);
+  CHECK(test::replay_rays(scene, rays) == sum);
 }

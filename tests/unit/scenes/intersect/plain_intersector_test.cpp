@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "runtime/core/random.hpp"
@@ -26,8 +27,8 @@ TriangleRecord triangle(const glm::vec3& a, const glm::vec3& b, const glm::vec3&
 /// A closed ball of 2 n n triangles about the origin, whose corners lie at odd places.
 std::vector<TriangleRecord> ball(int n) {
   const auto at = [n](int i, int j) {
-    const double polar = M_PI * i / n;
-    const double azimuth = 2 * M_PI * (j % n) / n + 0.1;
+    const double polar = std::numbers::pi * i / n;
+    const double azimuth = 2 * std::numbers::pi * (j % n) / n + 0.1;
     const double ring = i == 0 || i == n ? 0 : std::sin(polar);
     return glm::vec3(ring * std::cos(azimuth), ring * std::sin(azimuth), std::cos(polar));
   };
@@ -45,7 +46,7 @@ std::vector<TriangleRecord> ball(int n) {
 
 glm::dvec3 any_direction(Random& random) {
   const double z = 2 * random.uniform_double() - 1;
-  const double phi = 2 * M_PI * random.uniform_double();
+  const double phi = 2 * std::numbers::pi * random.uniform_double();
   const double r = std::sqrt(1 - z * z);
   return {r * std::cos(phi), r * std::sin(phi), z};
 }

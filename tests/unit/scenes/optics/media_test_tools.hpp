@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdlib>
+#include <numbers>
 #include <random>
 #include <string>
 
@@ -12,7 +13,7 @@
 
 namespace luxodus::media_test {
 
-inline constexpr double pi = 3.14159265358979323846;
+inline constexpr double pi = std::numbers::pi;
 inline constexpr float infinite = std::numeric_limits<float>::infinity();
 
 /// Uniform numbers with a seed that is printed on failure and may be set.

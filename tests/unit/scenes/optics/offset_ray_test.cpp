@@ -2,6 +2,7 @@
 
 #include <array>
 #include <catch2/catch.hpp>
+#include <numbers>
 
 #include "runtime/core/random.hpp"
 #include "tests/unit/scenes/optics/sampler_checks.hpp"
@@ -48,7 +49,7 @@ Triangle any_triangle(Uniform& next, double distance, double size, int i) {
     normal = glm::normalize(normal);
   }
   const Basis plane = basis_around(glm::vec3(normal));
-  const double turn = 2 * M_PI * static_cast<double>(next());
+  const double turn = 2 * std::numbers::pi * static_cast<double>(next());
   Triangle out;
   for (int k = 0; k < 3; ++k) {
     const double angle = turn + k * 2.1;

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <functional>
 #include <limits>
+#include <numbers>
 
 #include "tests/unit/scenes/optics/sampler_checks.hpp"
 
@@ -50,7 +51,8 @@ double over_sphere(const PhaseFunction& phase) {
   for (int i = 0; i < cells; ++i) {
     const double s = (i + 0.5) / cells;
     const float cos_theta = static_cast<float>(1 - 2 * s * s * s);
-    sum += 2 * M_PI * static_cast<double>(evaluate(phase, cos_theta)) * 6 * s * s / cells;
+    sum +=
+        2 * std::numbers::pi * static_cast<double>(evaluate(phase, cos_theta)) * 6 * s * s / cells;
   }
   return sum;
 }
@@ -157,7 +159,7 @@ TEST_CASE("Henyey-Greenstein samples follow its distribution and its density int
     for (const float c : {-1.0F, -0.75F, 0.0F, 0.5F, 0.9375F, 1.0F}) {
       CAPTURE(g, c);
       const double square = 1 + g * g - 2 * g * static_cast<double>(c);
-      const double exact = (1 - g * g) / (4 * M_PI * std::pow(square, 1.5));
+      const double exact = (1 - g * g) / (4 * std::numbers::pi * std::pow(square, 1.5));
       CHECK(static_cast<double>(evaluate(henyey_greenstein(g), c)) == Approx(exact).epsilon(2e-6));
     }
   }
@@ -179,7 +181,7 @@ TEST_CASE("g = 1 goes straight on, g = -1 straight back, for every number", "[op
 
 TEST_CASE("isotropic scattering is uniform and g = 0 is the same function", "[optics][phase]") {
   const PhaseFunction phase;
-  CHECK(evaluate(phase, 0.3F) == Approx(1 / (4 * M_PI)));
+  CHECK(evaluate(phase, 0.3F) == Approx(1 / (4 * std::numbers::pi)));
   CHECK(phase.mean_cosine() == 0.0F);
   CHECK(henyey_greenstein(0).kind() == PhaseKind::isotropic);
   const Fit off = fit(phase, seed_or(23), [](double c) { return 0.5 * (1 + c); });
@@ -275,8 +277,8 @@ TEST_CASE(
   }
   const PhaseFunction ramp = tabulated({-1, 1}, {0, 1});
   CHECK(ramp.mean_cosine() == Approx(1.0 / 3));
-  CHECK(evaluate(ramp, 1.0F) == Approx(1 / (2 * M_PI)));
-  CHECK(evaluate(ramp, 0.0F) == Approx(0.5 / (2 * M_PI)));
+  CHECK(evaluate(ramp, 1.0F) == Approx(1 / (2 * std::numbers::pi)));
+  CHECK(evaluate(ramp, 0.0F) == Approx(0.5 / (2 * std::numbers::pi)));
   CHECK(evaluate(ramp, -1.0F) == 0.0F);
   for (const float u : {0.0F, last_unit}) CHECK(length_error(sample(ramp, {0, 1, 0}, u, 0)) < 3e-7);
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
+#include <numbers>
 #include <random>
 #include <string>
 #include <vector>
@@ -23,7 +24,7 @@ inline uint32_t seed_or(uint32_t fixed) {
 class Uniform {
  public:
   explicit Uniform(uint32_t seed) : engine_(seed) {}
-  float operator()() { return unit_float(static_cast<uint32_t>(engine_())); }
+  float operator()() { return static_cast<float>(engine_() >> 8) * 0x1p-24F; }
 
  private:
   std::mt19937 engine_;
@@ -97,7 +98,7 @@ class Histogram {
 };
 
 inline double turn_share(double x, double y) {
-  const double turn = std::atan2(y, x) / (2 * M_PI);
+  const double turn = std::atan2(y, x) / (2 * std::numbers::pi);
   return turn < 0 ? turn + 1 : turn;
 }
 

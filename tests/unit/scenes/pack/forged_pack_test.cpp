@@ -10,10 +10,11 @@
 #include "runtime/core/atomic_file.hpp"
 #include "runtime/core/hash.hpp"
 #include "runtime/core/random.hpp"
+#include "runtime/core/regular_file.hpp"
 #include "scenes/pack/scene_pack.hpp"
 #include "scenes/pack/skeleton.hpp"
 #include "scenes/transport/compile.hpp"
-#include "tests/kit/scratch_folder.hpp"
+#include "tests/kit/temporary_folder.hpp"
 #include "tests/unit/scenes/pack/burning_gallery.hpp"
 
 using namespace luxodus;
@@ -28,7 +29,7 @@ constexpr const char* crowded_text = R"(
 [run]
 batch_particles = 512
 voxel_edge_m = 1
-bands_most = 3
+max_bands = 3
 groups = "emitter"
 [[material]]
 name = "shiny"
@@ -290,7 +291,7 @@ bool used(const fs::path& file) {
 }  // namespace
 
 TEST_CASE("a forged pack is refused or traced, and ends no program", "[pack][hostile]") {
-  const ScratchFolder folder;
+  const test::TemporaryFolder folder;
   const fs::path file = folder.path() / "x.luxpack";
   std::vector<Sample> samples;
   samples.push_back(sample_of(gallery_in(folder.path()), file));
@@ -315,7 +316,7 @@ TEST_CASE("a forged pack is refused or traced, and ends no program", "[pack][hos
 }
 
 TEST_CASE("a forged value is named for what it is", "[pack][hostile]") {
-  const ScratchFolder folder;
+  const test::TemporaryFolder folder;
   const auto description = gallery_in(folder.path());
   auto scene = compile_scene(description, find_scenario(*description, "smoky").value(), {2});
   REQUIRE(scene.ok());

@@ -7,10 +7,11 @@
 #include "actors/run/local_run.hpp"
 #include "runtime/core/atomic_file.hpp"
 #include "runtime/core/random.hpp"
+#include "runtime/core/regular_file.hpp"
 #include "scenes/pack/skeleton.hpp"
 #include "scenes/scene_file/scene_file.hpp"
 #include "scenes/transport/compile.hpp"
-#include "tests/kit/scratch_folder.hpp"
+#include "tests/kit/temporary_folder.hpp"
 #include "tests/unit/scenes/pack/burning_gallery.hpp"
 
 using namespace luxodus;
@@ -75,7 +76,7 @@ std::vector<std::byte> bytes_of(const fs::path& file) {
 }  // namespace
 
 TEST_CASE("a packed scene is the scene that was packed, and is traced to the same bits", "[pack]") {
-  const ScratchFolder folder;
+  const test::TemporaryFolder folder;
   const fs::path file = folder.path() / "x.luxpack";
   struct Case {
     const char* scene;
@@ -103,7 +104,7 @@ TEST_CASE("a packed scene is the scene that was packed, and is traced to the sam
 }
 
 TEST_CASE("the open sides of a scene go through a pack", "[pack]") {
-  const ScratchFolder folder;
+  const test::TemporaryFolder folder;
   auto scene = std::make_shared<SceneDescription>(*described("empty_room.toml"));
   scene->open_sides = {Side::top, Side::west};
   REQUIRE(write_pack(folder / "open.luxpack", *compiled(scene, "", 1), 1).ok());
@@ -112,7 +113,7 @@ TEST_CASE("the open sides of a scene go through a pack", "[pack]") {
 
 TEST_CASE("smoke data and pictures go through a pack as objects, and not in its skeleton",
           "[pack]") {
-  const ScratchFolder folder;
+  const test::TemporaryFolder folder;
   const fs::path file = folder.path() / "x.luxpack";
   const auto description = gallery_in(folder.path());
   for (const auto& [packed_in, cells] : {std::pair("smoky", 5), std::pair("aired", 1)}) {
@@ -139,7 +140,7 @@ TEST_CASE("smoke data and pictures go through a pack as objects, and not in its 
 
 TEST_CASE("a skeleton alone compiles a scene of smoke data, whose numbers are those of the pack",
           "[pack]") {
-  const ScratchFolder folder;
+  const test::TemporaryFolder folder;
   const fs::path whole = folder.path() / "x.luxpack", skeleton = folder.path() / "s.luxpack";
   const auto scene = compiled(gallery_in(folder.path()), "smoky", 5);
   REQUIRE(write_pack(whole, *scene, 5).ok());
@@ -160,7 +161,7 @@ TEST_CASE("a skeleton alone compiles a scene of smoke data, whose numbers are th
 }
 
 TEST_CASE("a pack whose brick or tile is damaged is refused where it is read", "[pack]") {
-  const ScratchFolder folder;
+  const test::TemporaryFolder folder;
   const fs::path file = folder.path() / "x.luxpack";
   REQUIRE(write_pack(file, *compiled(gallery_in(folder.path()), "smoky", 1), 1).ok());
   const auto whole = compiled(opened(file), "smoky", 1);
@@ -184,7 +185,7 @@ TEST_CASE("a pack whose brick or tile is damaged is refused where it is read", "
 
 TEST_CASE("a pack serves every scenario that leaves its doors alone, and refuses the others",
           "[pack]") {
-  const ScratchFolder folder;
+  const test::TemporaryFolder folder;
   const std::string text = R"(
 [[object]]
 name = "room"
@@ -231,7 +232,7 @@ doors_open = ["leaf"]
 }
 
 TEST_CASE("a skeleton alone compiles, and says that it holds no triangles", "[pack]") {
-  const ScratchFolder folder;
+  const test::TemporaryFolder folder;
   const fs::path whole = folder.path() / "x.luxpack", skeleton = folder.path() / "s.luxpack";
   const auto description = described("office_floor.toml");
   const auto scene = compiled(description, "clear_mains", 9);
@@ -247,7 +248,7 @@ TEST_CASE("a skeleton alone compiles, and says that it holds no triangles", "[pa
 }
 
 TEST_CASE("a damaged pack is refused, wherever the damage is", "[pack]") {
-  const ScratchFolder folder;
+  const test::TemporaryFolder folder;
   const fs::path file = folder.path() / "x.luxpack", broken = folder.path() / "broken.luxpack";
   const auto description = described("empty_room.toml");
   REQUIRE(write_pack(file, *compiled(description, "", 3), 3).ok());
@@ -281,7 +282,7 @@ TEST_CASE("a damaged pack is refused, wherever the damage is", "[pack]") {
 }
 
 TEST_CASE("no bytes of a skeleton harm whoever reads them", "[pack]") {
-  const ScratchFolder folder;
+  const test::TemporaryFolder folder;
   const auto description = gallery_in(folder.path());
   const auto scene = compiled(description, "", 2);
   const std::vector<std::byte> bytes =

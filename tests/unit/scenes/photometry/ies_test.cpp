@@ -7,16 +7,14 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
-#include <numbers>
+
+#include "tests/kit/temporary_folder.hpp"
+#include "tests/unit/scenes/photometry/photometric_kit.hpp"
 
 using namespace luxodus;
+using namespace luxodus::test;
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
-const std::filesystem::path shared_data = LUX_SHARED_DATA;
-const std::filesystem::path luminaires =
-    std::filesystem::path(LUX_SOURCE_DIR) / "scenes/library/luminaires";
 
 /// The parts of an IES file that the tests vary; even light of 100 cd unless told otherwise.
 struct Ies {
@@ -51,30 +49,11 @@ std::string refusal(const std::string& text) {
   return file ? "was read" : file.problem().text();
 }
 
-glm::dvec3 toward(double c_deg, double gamma_deg) {
-  const double c = c_deg * pi / 180;
-  const double g = gamma_deg * pi / 180;
-  return {std::sin(g) * std::cos(c), std::sin(g) * std::sin(c), -std::cos(g)};
-}
-
 /// Type B direction as the header of the reader states it.
 glm::dvec3 lateral(double h_deg, double v_deg) {
   const double h = h_deg * pi / 180;
   const double v = v_deg * pi / 180;
   return {std::cos(h) * std::sin(v), -std::sin(h), -std::cos(h) * std::cos(v)};
-}
-
-bool warns(const PhotometricFile& file, const std::string& words) {
-  for (const Problem& warning : file.warnings) {
-    if (warning.what.find(words) != std::string::npos) return true;
-  }
-  return false;
-}
-
-bool data_is_there(const char* folder) {
-  if (std::filesystem::is_directory(shared_data / folder)) return true;
-  WARN("skipped: the measured files are not there (" << (shared_data / folder).string() << ")");
-  return false;
 }
 
 }  // namespace
@@ -300,19 +279,17 @@ TEST_CASE("a tilt table is kept, and the level luminaire's factor is used", "[fo
   CHECK(inside.lamp_tilt.value().angle_deg.size() == 3);
   CHECK(warns(inside, "tilted"));
 
-  const auto folder = std::filesystem::temp_directory_path() / "luxodus_ies_tilt_test";
-  std::filesystem::create_directories(folder);
-  std::ofstream(folder / "lamp.tlt") << "2\n2\n0 90\n0.9 0.5\n";
+  const TemporaryFolder folder;
+  folder.write("lamp.tlt", "2\n2\n0 90\n0.9 0.5\n");
   ies.tilt = "TILT=lamp.tlt\n";
-  const PhotometricFile beside = read(ies, folder);
+  const PhotometricFile beside = read(ies, folder.path());
   CHECK(beside.web->peak_cd() == Approx(90));
   CHECK(beside.lamp_tilt.value().geometry == 2);
   CHECK(beside.files_read.size() == 1);
-  std::ofstream(folder / "lamp.tlt") << "2\n2\n0 90\n0.9\n";
-  const auto broken = read_ies(ies.text(), "test.ies", folder);
+  folder.write("lamp.tlt", "2\n2\n0 90\n0.9\n");
+  const auto broken = read_ies(ies.text(), "test.ies", folder.path());
   REQUIRE_FALSE(broken.ok());
   CHECK(broken.problem().where.file == (folder / "lamp.tlt").string());
-  std::filesystem::remove_all(folder);
 }
 
 TEST_CASE("signs of width, length and height give the opening of their edition", "[format][ies]") {
@@ -437,12 +414,10 @@ TEST_CASE("every cut of an IES file is refused, none is half read", "[format][ie
 }
 
 TEST_CASE("a file's contents, not only its name, tell IES from EULUMDAT", "[format][ies]") {
-  const auto folder = std::filesystem::temp_directory_path() / "luxodus_ies_name_test";
-  std::filesystem::create_directories(folder);
-  std::ofstream(folder / "lamp.txt", std::ios::binary) << Ies{}.text();
+  const TemporaryFolder folder;
+  folder.write("lamp.txt", Ies{}.text());
   const auto file = read_photometric_file(folder / "lamp.txt");
   CHECK(file.ok());
   CHECK(file->format == "IES LM-63-2002");
   CHECK(file->files_read.front() == folder / "lamp.txt");
-  std::filesystem::remove_all(folder);
 }

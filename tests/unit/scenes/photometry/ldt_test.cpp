@@ -6,16 +6,13 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
-#include <numbers>
+
+#include "tests/unit/scenes/photometry/photometric_kit.hpp"
 
 using namespace luxodus;
+using namespace luxodus::test;
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
-const std::filesystem::path shared_data = LUX_SHARED_DATA;
-const std::filesystem::path luminaires =
-    std::filesystem::path(LUX_SOURCE_DIR) / "scenes/library/luminaires";
 
 /// The parts of an EULUMDAT file that the tests vary; even light of 100 cd/klm unless told
 /// otherwise.
@@ -65,25 +62,6 @@ PhotometricFile read(const Ldt& ldt) {
 std::string refusal(const std::string& text) {
   const auto file = read_ldt(text, "test.ldt");
   return file ? "was read" : file.problem().text();
-}
-
-glm::dvec3 toward(double c_deg, double gamma_deg) {
-  const double c = c_deg * pi / 180;
-  const double g = gamma_deg * pi / 180;
-  return {std::sin(g) * std::cos(c), std::sin(g) * std::sin(c), -std::cos(g)};
-}
-
-bool warns(const PhotometricFile& file, const std::string& words) {
-  for (const Problem& warning : file.warnings) {
-    if (warning.what.find(words) != std::string::npos) return true;
-  }
-  return false;
-}
-
-bool data_is_there(const char* folder) {
-  if (std::filesystem::is_directory(shared_data / folder)) return true;
-  WARN("skipped: the measured files are not there (" << (shared_data / folder).string() << ")");
-  return false;
 }
 
 }  // namespace

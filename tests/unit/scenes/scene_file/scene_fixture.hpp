@@ -1,39 +1,30 @@
 // A folder for scene files of tests, gone afterwards, and tiny verbs to write and read them.
 #pragma once
 
-#include <unistd.h>
-
 #include <catch2/catch.hpp>
 #include <filesystem>
-#include <fstream>
 #include <numbers>
 #include <string>
 #include <vector>
 
 #include "scenes/scene_file/scene_file.hpp"
+#include "tests/kit/temporary_folder.hpp"
 
 namespace luxodus {
 
 class SceneFolder {
  public:
   SceneFolder() {
-    std::string pattern =
-        (std::filesystem::temp_directory_path() / "luxodus_scene_XXXXXX").string();
-    folder_ = mkdtemp(pattern.data());
     put("lamp.ies", lamp);
     put("cube.obj", cube);
     put("cube.mtl", "newmtl paint\nKd 0.5 0.5 0.5\nnewmtl steel\nKd 0.2 0.2 0.2\n");
   }
-  ~SceneFolder() { std::filesystem::remove_all(folder_); }
-  SceneFolder(const SceneFolder&) = delete;
-  SceneFolder& operator=(const SceneFolder&) = delete;
 
   std::filesystem::path put(const std::string& name, const std::string& text) {
-    std::ofstream(folder_ / name, std::ios::binary) << text;
-    return folder_ / name;
+    return folder_.write(name, text);
   }
   ReadScene read(const std::string& text) { return read_scene(put("scene.toml", text)); }
-  const std::filesystem::path& path() const { return folder_; }
+  const std::filesystem::path& path() const { return folder_.path(); }
 
  private:
   /// 300, 200 and 0 cd at 0, 45 and 90 degrees; a round opening of 0.2 m.
@@ -45,7 +36,7 @@ class SceneFolder {
   static constexpr const char* cube =
       "mtllib cube.mtl\no leaf\nv 0 0 0\nv 100 0 0\nv 0 200 0\nusemtl paint\nf 1 2 3\no frame\n"
       "v 0 0 50\nv 100 0 50\nv 0 200 50\nusemtl steel\nf 4 5 6\n";
-  std::filesystem::path folder_;
+  test::TemporaryFolder folder_;
 };
 
 /// All problems, one a line: for messages of failed checks.

@@ -394,7 +394,7 @@ TEST_CASE("a flood of mistakes is cut off with a sentence", "[format][scene]") {
   std::string text;
   for (int i = 0; i < 1500; ++i) text += "[[probe]]\nname = \"p" + std::to_string(i) + "\"\n";
   const ReadScene read = f.read(text);
-  CHECK(read.problems.list().size() == scene_limits::problems + 1);
+  CHECK(read.problems.list().size() == limits::toml_problems + 1);
   CHECK(read.problems.list().back().what.find("more problems follow") != std::string::npos);
 }
 

@@ -39,7 +39,7 @@ TEST_CASE("the README lists every key of the reader and no other, with the same 
   const size_t from = text.find("## Every table and key");
   REQUIRE(from != std::string::npos);
   const std::string tables = text.substr(from);
-  const std::string schema = schema_markdown();
+  const std::string schema = toml::schema_markdown(scene_schema());
   for (const std::string start : {"### ", "| `"}) {
     const auto said = lines(tables, start), meant = lines(schema, start);
     for (const auto& line : meant) {
@@ -60,14 +60,14 @@ TEST_CASE("every type of the schema is explained, every range and default is sou
   const std::string text = readme();
   const size_t from = text.find("### Words of the column");
   const std::string types = text.substr(from, text.find("### Spectra") - from);
-  for (const TableSpec& table : scene_schema()) {
+  for (const TableSpec& table : scene_schema().tables) {
     for (const KeySpec& key : table.keys) {
       INFO(table.name << "." << key.name);
       CHECK(types.find(std::string(key.type)) != std::string::npos);
       CHECK_FALSE(key.meaning.empty());
       if (key.range.empty() || key.type == "choice") continue;
       if (key.range.front() != '[' && key.range.front() != '(') continue;
-      const auto range = interval_of(key.range);
+      const auto range = toml::interval_of(key.range);
       REQUIRE(range.has_value());
       CHECK(range->low < range->high);
       char* end = nullptr;
@@ -161,14 +161,7 @@ TEST_CASE("a flame's visible share is Planck's, with the emissivity of soot or o
   }
 }
 
-TEST_CASE("the nearest word is what was meant, or nothing", "[format][scene]") {
-  CHECK(edit_distance("kitten", "sitting") == 3);
-  CHECK(edit_distance("abcd", "abdc") == 1);
-  CHECK(edit_distance("", "abc") == 3);
-  const std::vector<std::string> known = {"reflectance", "roughness", "ior"};
-  CHECK(nearest_word("reflectence", known) == std::optional<std::string>("reflectance"));
-  CHECK(nearest_word("oir", known) == std::optional<std::string>("ior"));
-  CHECK_FALSE(nearest_word("transparency", known).has_value());
+TEST_CASE("a grey is named by its reflectance in percent", "[format][scene]") {
   CHECK(named_grey("grey50") == std::optional<double>(0.5));
   CHECK(named_grey("white80") == std::optional<double>(0.8));
   CHECK_FALSE(named_grey("grey").has_value());

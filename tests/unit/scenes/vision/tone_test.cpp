@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "scenes/optics/chromaticity.hpp"
+#include "tests/unit/scenes/vision/linear_of_srgb.hpp"
 
 using namespace luxodus;
 
@@ -33,8 +34,8 @@ Rgb8 at(const SrgbPicture& p, size_t i) {
 }
 
 double luminance(Rgb8 c) {
-  return xyz_from_linear_srgb(
-      {linear_of_srgb_byte(c.r), linear_of_srgb_byte(c.g), linear_of_srgb_byte(c.b)})[1];
+  return xyz_from_linear_srgb({test::linear_of_srgb_byte(c.r), test::linear_of_srgb_byte(c.g),
+                               test::linear_of_srgb_byte(c.b)})[1];
 }
 
 int spread(Rgb8 c) {
@@ -119,8 +120,9 @@ TEST_CASE("the colour of a light is the same at every exposure, also far beyond 
     const SrgbPicture p = tone_plain(row({20, 100, 1000, 1e6}, colour), white_at(100));
     for (size_t i = 0; i < 4; ++i) {
       const Rgb8 c = at(p, i);
-      const std::array<double, 3> rgb{linear_of_srgb_byte(c.r), linear_of_srgb_byte(c.g),
-                                      linear_of_srgb_byte(c.b)};
+      const std::array<double, 3> rgb{test::linear_of_srgb_byte(c.r),
+                                      test::linear_of_srgb_byte(c.g),
+                                      test::linear_of_srgb_byte(c.b)};
       const double most = *std::max_element(rgb.begin(), rgb.end());
       for (size_t k = 0; k < 3; ++k) CHECK(rgb[k] / most == Approx(colour[k]).margin(0.01));
     }

@@ -1,0 +1,14 @@
+// A cluster's file for the subcommands that take one.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "runtime/config/cluster_config.hpp"
+
+namespace luxodus::cli {
+
+/// The cluster of a file, or nothing after every problem was told. Warnings are logged.
+std::optional<ClusterConfig> load_cluster(const std::filesystem::path& file);
+
+}  // namespace luxodus::cli

@@ -1,0 +1,36 @@
+// How far some work is, on standard error. One thread at a time.
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace luxodus {
+struct Progress;
+}
+
+namespace luxodus::cli {
+
+/// On a terminal one line that is rewritten; elsewhere a line in the log for each tenth of the
+/// work, not more often than every half minute, and one at the end of what took longer.
+class ProgressLine {
+ public:
+  explicit ProgressLine(const std::string& title);
+  ~ProgressLine();
+  void show(const Progress& progress);
+  /// Adds an estimate of the time that is left.
+  void show_share(double share);
+  /// `last`: all is done. `share`: of the work, where it is known.
+  void put(const std::string& text, bool last, std::optional<double> share = {});
+
+ private:
+  bool is_worth_a_line(bool last, std::optional<double> share);
+
+  std::string title_;
+  bool terminal_;
+  bool shown_ = false;
+  double began_s_;
+  double logged_s_;
+  int tenths_ = 0;
+};
+
+}  // namespace luxodus::cli

@@ -1,0 +1,72 @@
+#include "runtime/toml/words.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <numeric>
+#include <string>
+#include <utility>
+
+namespace luxodus::toml {
+
+namespace {
+
+/// Longer words are no slips of the pen; the bound also keeps the search cheap.
+constexpr size_t max_misspelt_chars = 200;
+
+/// Optimal string alignment: three rows suffice, as a swap looks two rows back.
+size_t distance(std::string_view a, std::string_view b) {
+  std::vector<size_t> before, last, row(b.size() + 1);
+  std::iota(row.begin(), row.end(), size_t{0});
+  for (size_t i = 1; i <= a.size(); ++i) {
+    before = std::exchange(last, row);
+    row[0] = i;
+    for (size_t j = 1; j <= b.size(); ++j) {
+      const size_t replaced = last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+      row[j] = std::min({last[j] + 1, row[j - 1] + 1, replaced});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        row[j] = std::min(row[j], before[j - 2] + 1);
+    }
+  }
+  return row.back();
+}
+
+}  // namespace
+
+std::optional<std::string_view> nearest_word(std::string_view word,
+                                             const std::vector<std::string_view>& known) {
+  if (word.size() > max_misspelt_chars) return std::nullopt;
+  std::optional<std::string_view> nearest;
+  size_t too_far = word.size() / 3 + 1;
+  for (const auto candidate : known) {
+    const size_t steps = distance(word, candidate);
+    // A word of which nothing is left was not meant.
+    if (steps >= std::min(too_far, candidate.size())) continue;
+    too_far = steps;
+    nearest = candidate;
+  }
+  return nearest;
+}
+
+std::optional<double> bytes_in(std::string_view text) {
+  constexpr std::array<std::pair<std::string_view, double>, 9> units{{{"", 1},
+                                                                      {"KiB", 0x1p10},
+                                                                      {"MiB", 0x1p20},
+                                                                      {"GiB", 0x1p30},
+                                                                      {"TiB", 0x1p40},
+                                                                      {"KB", 1e3},
+                                                                      {"MB", 1e6},
+                                                                      {"GB", 1e9},
+                                                                      {"TB", 1e12}}};
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc()) return std::nullopt;
+  text.remove_prefix(static_cast<size_t>(end - text.data()));
+  if (text.size() > 1 && text.front() == ' ') text.remove_prefix(1);
+  for (const auto& [unit, factor] : units) {
+    if (text == unit) return value * factor;
+  }
+  return std::nullopt;
+}
+
+}  // namespace luxodus::toml

@@ -1,0 +1,19 @@
+// Words as people write them: what a misspelt one was meant to be, sizes with their unit. Any
+// thread.
+#pragma once
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace luxodus::toml {
+
+/// The nearest of these words, or nothing where none is near enough to be what was meant: a third
+/// of the word may be wrong. Near are few steps: insert, remove, replace, swap neighbours.
+std::optional<std::string_view> nearest_word(std::string_view word,
+                                             const std::vector<std::string_view>& known);
+
+/// "4096", "512 MiB", "1.5 GB" -> bytes; nothing for other texts.
+std::optional<double> bytes_in(std::string_view text);
+
+}  // namespace luxodus::toml

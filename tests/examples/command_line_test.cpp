@@ -1,0 +1,211 @@
+// The command line for people and for shells: help, old names of options, words that are refused,
+// completion, and the scenes that an installed program has with it.
+#include <algorithm>
+#include <regex>
+#include <vector>
+
+#include "tests/examples/program_kit.hpp"
+
+using namespace luxodus::program;
+using Catch::Matchers::Contains;
+
+namespace {
+
+/// Lines of a text that match, by their first group.
+std::vector<std::string> found(const std::string& text, const std::string& pattern) {
+  std::vector<std::string> out;
+  std::istringstream lines(text);
+  const std::regex wanted(pattern);
+  std::smatch match;
+  for (std::string line; std::getline(lines, line);)
+    if (std::regex_match(line, match, wanted)) out.push_back(match[1]);
+  return out;
+}
+
+/// Names of the commands that a help text lists.
+std::vector<std::string> commands_in(const std::string& help) {
+  return found(help, "  ([a-z]+)  +[A-Z].*");
+}
+
+/// "run", "topology amp", ...: all commands and those of commands.
+std::vector<std::string> all_commands(const Folder& folder) {
+  std::vector<std::string> all;
+  for (const std::string& name : commands_in(run_luxodus(folder, "--help").out)) {
+    all.push_back(name);
+    for (const std::string& inner : commands_in(run_luxodus(folder, name + " --help").out))
+      all.push_back(name + (" " + inner));
+  }
+  return all;
+}
+
+/// What bash offers for the last of these words.
+std::vector<std::string> completed(const Folder& folder, const std::string& words) {
+  const Outcome said =
+      shell(folder, "bash -c 'source <(\"$0\" completion bash); COMP_WORDS=(luxodus " + words +
+                        "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _luxodus; "
+                        "printf \"%s\\n\" \"${COMPREPLY[@]}\"' " +
+                        LUX_PROGRAM);
+  INFO(said.err);
+  CHECK(said.code == 0);
+  return found(said.out, "(.+)");
+}
+
+constexpr const char* room = R"(
+[[material]]
+name = "white"
+reflectance = 0.5
+[[object]]
+name = "room"
+shape = "room"
+low = [0, 0, 0]
+high = [3, 3, 3]
+material = "white"
+[[emitter]]
+name = "lamp"
+shape = "sphere"
+center = [1.5, 1.5, 2]
+radius = 0.1
+flux_lm = 100
+)";
+
+}  // namespace
+
+TEST_CASE("the help lists every command once, under the seven headings", "[program][help]") {
+  const Folder folder;
+  const std::string help = run_luxodus(folder, "--help").out;
+  INFO(help);
+  std::vector<std::string> headings = found(help, "([A-Z][a-z ]+):");
+  headings.erase(std::find(headings.begin(), headings.end(), "First steps"));
+  CHECK(headings == std::vector<std::string>{"Options", "Scenes", "Results", "Assess", "Live",
+                                             "Cluster", "Study", "Tools"});
+  const std::vector<std::string> commands = commands_in(help);
+  CHECK(commands ==
+        std::vector<std::string>{"check",    "pack",   "run",       "render",  "converge", "assess",
+                                 "compare",  "report", "view",      "cluster", "node",     "status",
+                                 "topology", "keygen", "profile",   "deploy",  "sim",      "study",
+                                 "validate", "info",   "completion"});
+}
+
+TEST_CASE("every option is described by a noun phrase within 92 columns", "[program][help]") {
+  const Folder folder;
+  const std::vector<std::string> commands = all_commands(folder);
+  CHECK(commands.size() > 25);
+  for (const std::string& command : commands) {
+    const Outcome help = run_luxodus(folder, command + " --help");
+    INFO(command << "\n" << help.out);
+    CHECK(help.code == 0);
+    CHECK(found(help.out, "(.{93,})").empty());
+    // A name and its meaning stand in a line, or the meaning in the next one.
+    const std::vector<std::string> meanings = found(help.out, "  -.{27}(.+)");
+    for (const std::string& meaning : meanings) CHECK_FALSE(std::islower(meaning[0]));
+    for (const char* verb : {"Write ", "Print ", "Make ", "Serve ", "Trace ", "Go ", "Hold ",
+                             "Replace ", "Of ", "How "})
+      for (const std::string& meaning : meanings) CHECK_FALSE(meaning.starts_with(verb));
+  }
+  CHECK_THAT(run_luxodus(folder, "run --help").out,
+             Contains("--seed UINT                 Seed of the random number generator"));
+}
+
+TEST_CASE("an option's old name does what the new one does, and says it", "[program][help]") {
+  const Folder folder;
+  std::ofstream(folder.path / "room.toml") << room;
+  const std::string run = "run " + (folder.path / "room.toml").string() + " --cells 4 --nodes 2 ";
+  const Outcome old = run_luxodus(folder, run + "--plan --object-mib 64");
+  const Outcome now = run_luxodus(folder, run + "--plan --part-cache-mib 64");
+  INFO(old.err);
+  CHECK(old.code == 0);
+  CHECK(old.out == now.out);
+  CHECK_THAT(old.err, Contains("--object-mib is now --part-cache-mib"));
+  CHECK(now.err.find("is now") == std::string::npos);
+  const Outcome adaptive = run_luxodus(folder, run + "--plan --by-need");
+  CHECK(adaptive.code == 2);
+  CHECK_THAT(adaptive.err, Contains("--by-need is now --adaptive") &&
+                               Contains("--adaptive excludes --part-cache-mib and --plan"));
+  CHECK(run_luxodus(folder, run + "--object-mib 1 --part-cache-mib 2").code == 2);
+  CHECK(run_luxodus(folder, "run --help").out.find("--object-mib") == std::string::npos);
+}
+
+TEST_CASE("a command line that cannot be obeyed is refused in a sentence", "[program][help]") {
+  const Folder folder;
+  std::ofstream(folder.path / "room.toml") << room;
+  const std::string scene = (folder.path / "room.toml").string();
+  const std::vector<std::pair<std::string, std::string>> wrong{
+      {"run " + scene + " --link-delay 1ms", "--link-delay requires --nodes"},
+      {"run " + scene + " --tally-shards 2", "--tally-shards requires --nodes"},
+      {"run " + scene + " --seed -1", "--seed: \"-1\" is no whole number from 0 to 18446744073709"},
+      {"run " + scene + " --seed 99999999999999999999", "is no whole number"},
+      {"run " + scene + " --threads 0", "\"0\" is no whole number from 1 to 1024"},
+      {"run " + scene + " --threads 2.5", "\"2.5\" is no whole number"},
+      {"run " + scene + " --part-cache-mib nan", "\"nan\" is no number from 0 to 1048576"},
+      {"run " + scene + " --metrics 65536", "is no whole number from 0 to 65535"},
+      {"run " + scene + " --sed 3", "luxodus run has no option --sed: did you mean --seed?"},
+      {"run", "scene is required"},
+      {"run " + scene + " --resume --overwrite", "excludes"},
+      {"report x --language it", "\"it\" is none of en|de|fr"},
+      {"topology", "luxodus topology --help"},
+      {"validate --case-time 1m", "--case-time requires --full"}};
+  for (const auto& [command, words] : wrong) {
+    const Outcome refused = run_luxodus(folder, command);
+    INFO(command << "\n" << refused.err);
+    CHECK(refused.code == 2);
+    CHECK(refused.out.empty());
+    CHECK_THAT(refused.err, Contains(words));
+    CHECK(std::count(refused.err.begin(), refused.err.end(), '\n') == 1);
+  }
+}
+
+TEST_CASE("bash completes commands, options and their words", "[program][help]") {
+  const Folder folder;
+  using Words = std::vector<std::string>;
+  CHECK(completed(folder, "conv") == Words{"converge"});
+  CHECK(completed(folder, "run --se") == Words{"--seed"});
+  CHECK(completed(folder, "topology am") == Words{"amp"});
+  CHECK(completed(folder, "topology amp --controller-f") == Words{"--controller-forwards"});
+  CHECK(completed(folder, "report --language \"\"") == Words{"en", "de", "fr"});
+  CHECK(completed(folder, "run --seed \"\"").empty());
+  CHECK(completed(folder, "completion z") == Words{"zsh"});
+  const std::vector<std::string> all = completed(folder, "\"\"");
+  for (const std::string& command : commands_in(run_luxodus(folder, "--help").out))
+    CHECK(std::count(all.begin(), all.end(), command) == 1);
+}
+
+TEST_CASE("zsh is told each command and option", "[program][help]") {
+  const Folder folder;
+  const std::string script = run_luxodus(folder, "completion zsh").out;
+  CHECK(script.starts_with("#compdef luxodus\n"));
+  CHECK_THAT(script, Contains("'--seed[Seed of the random number generator]:UINT: '"));
+  CHECK_THAT(script, Contains("'--language[Language of the report]:en|de|fr:(en de fr)'"));
+  CHECK_THAT(script, Contains("_luxodus_topology_amp() {"));
+  std::ofstream(folder.path / "_luxodus") << script;
+  if (shell(folder, "command -v zsh").code == 0)
+    CHECK(shell(folder, "zsh -n " + (folder.path / "_luxodus").string()).code == 0);
+}
+
+TEST_CASE("an installed program finds the scenes that ship with it", "[program][help]") {
+  const Folder folder;
+  fs::create_directories(folder.path / "bin");
+  fs::copy_file(LUX_PROGRAM, folder.path / "bin" / "luxodus");
+  const fs::path library = folder.path / "share/luxodus/scenes/library";
+  fs::create_directories(library);
+  std::ofstream(library / "shipped.toml") << room;
+  fs::create_directories(folder.path / "elsewhere");
+  const auto check = [&](const std::string& scene) {
+    return shell(folder, "cd " + (folder.path / "elsewhere").string() +
+                             " && ../bin/luxodus check --json " + scene);
+  };
+  for (const char* name : {"shipped", "shipped.toml", "scenes/library/shipped.toml"}) {
+    INFO(name);
+    CHECK(check(name).code == 0);
+  }
+  CHECK(check("absent").code == 2);
+  // A file of one's own goes before.
+  std::ofstream(folder.path / "elsewhere" / "shipped.toml") << "not = \"a scene\"\n";
+  CHECK(check("shipped.toml").code == 2);
+}
+
+TEST_CASE("the version names the commit", "[program][help]") {
+  const Folder folder;
+  CHECK(std::regex_match(
+      run_luxodus(folder, "--version").out,
+      std::regex("luxodus [0-9]+\\.[0-9]+\\.[0-9]+ \\(([0-9a-f]+\\+?|unknown)\\)\n")));
+}

@@ -1,0 +1,20 @@
+// A flush in one go, where nothing else waits for the thread.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "actors/tally/flush_codec.hpp"
+
+namespace luxodus::test {
+
+/// Empties totals into the bytes of a flush.
+inline std::vector<std::byte> encode_flush(Totals& totals) {
+  FlushEncoder encoder(totals.groups(), totals.layout().totals());
+  encoder.begin(totals);
+  while (!encoder.step(totals.layout().totals())) {
+  }
+  return encoder.bytes();
+}
+
+}  // namespace luxodus::test

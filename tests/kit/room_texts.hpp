@@ -1,0 +1,37 @@
+// Pieces of scene files that several rooms of tests are made of.
+#pragma once
+
+#include <string>
+
+namespace luxodus::test {
+
+/// A point of 1000 lm over the middle of a room of 12 m by 4 m, with what the codes ask of it.
+inline const std::string middle_lamp = R"(
+[[emitter]]
+name = "lamp"
+shape = "point"
+distribution = "isotropic"
+position = [6, 0, 2.5]
+flux_lm = 1000
+emergency = "non-maintained"
+emergency_flux = 500
+maintenance_factor = 0.8
+end_of_duration_factor = 0.75
+)";
+
+/// A sign on an east wall, which faces west. `position` as the scene file writes it.
+inline std::string exit_sign_at(const std::string& position) {
+  return "\n[[sign]]\nname = \"exit\"\nposition = " + position + R"(
+facing = [-1, 0, 0]
+width = 0.4
+height = 0.2
+text = "EXIT"
+letter_height = 0.15
+mains_white = 500
+mains_green = 50
+emergency_white = 100
+emergency_green = 10
+)";
+}
+
+}  // namespace luxodus::test
