@@ -6,7 +6,7 @@
 #include <cstring>
 #include <optional>
 
-#include "actors/source/flux_store.hpp"
+#include "actors/run/flux_store.hpp"
 #include "actors/source/snapshot_journal.hpp"
 #include "runtime/core/check.hpp"
 #include "runtime/core/random.hpp"

@@ -10,7 +10,6 @@
 
 #include "actors/study/results.hpp"
 #include "actors/study/study_schema.hpp"
-#include "runtime/config/document.hpp"
 #include "runtime/core/printable.hpp"
 #include "runtime/core/regular_file.hpp"
 #include "runtime/toml/document.hpp"
