@@ -182,8 +182,8 @@ Result<ExitCode> converge(const ConvergeOptions& options) {
     print_points(course.points, options.json, folder);
   }
   if (!course.interrupted) return ExitCode::success;
-  log_warning(enough ? "interrupted; the points measured until then were written"
-                     : "interrupted before there were two points; nothing was written");
+  log_warning("{}", enough ? "interrupted; the points measured until then were written"
+                           : "interrupted before there were two points; nothing was written");
   return ExitCode::interrupted;
 }
 

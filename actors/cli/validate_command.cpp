@@ -35,7 +35,7 @@ std::string seconds_text(double seconds) {
 }
 
 void print_verdict(const light::Verdict& verdict, const std::string& out, bool interrupted) {
-  for (const light::Check& c : verdict.checks)
+  for (const light::OverallTest& c : verdict.checks)
     std::printf("%-36s %-28s (allowed: %s) %s\n", c.name.c_str(), c.found.c_str(),
                 c.allowed.c_str(), c.passed ? "passed" : "FAILED");
   std::printf("%zu statistical quantities, %zu computed, %zu too rare to be judged\n",
@@ -50,7 +50,7 @@ void print_verdict(const light::Verdict& verdict, const std::string& out, bool i
 void tell_failures(const std::vector<light::CaseResult>& results, const light::Verdict& verdict) {
   for (size_t i = 0; i < results.size(); ++i) {
     for (size_t k = 0; k < results[i].findings.size(); ++k) {
-      const light::Finding& f = results[i].findings[k];
+      const light::QuantityResult& f = results[i].findings[k];
       if (verdict.judged[i][k].judgement != light::Judgement::failed) continue;
       log_error("{}: {}: {} +- {}, reference {}, z {:.2f}", results[i].name, f.quantity,
                 f.estimate.value, f.estimate.standard_error, f.reference, verdict.judged[i][k].z);
