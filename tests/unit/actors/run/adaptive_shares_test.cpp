@@ -19,7 +19,7 @@ SceneDescription two_halls(GroupRule groups) {
   const int white = light::add_grey(d, 0.7);
   for (const std::string name : {"left", "right"}) {
     const double x = name == "left" ? 0 : 10;
-    for (const light::Face& f : light::faces_of_box({x, 0, 0}, {x + 6, 6, 3}))
+    for (const light::BoxFace& f : light::faces_of_box({x, 0, 0}, {x + 6, 6, 3}))
       light::add_quad(d, name + f.name, f.corner, f.u, f.v, white);
     light::add_point(d, {x + 2, 3, 2.5}, name == "left" ? 1 : 20).name = name;
     PlaneMeasure plane;

@@ -10,7 +10,7 @@ namespace {
 constexpr std::string_view alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789";
 constexpr LetterSize nfpa;  // 6 in high, 3/4 in strokes, 3/8 in apart
 
-std::string problem(std::string_view text, const LetterSize& size = nfpa) {
+std::string refusal(std::string_view text, const LetterSize& size = nfpa) {
   const auto lettering = lay_out_text(text, size);
   return lettering ? "" : lettering.problem().what;
 }
@@ -80,21 +80,21 @@ TEST_CASE("a space parts words and is no letter", "[emergency][letters]") {
 }
 
 TEST_CASE("every mark that the message names is drawn", "[emergency][letters]") {
-  CHECK(problem("-+/.:!'<>").empty());
+  CHECK(refusal("-+/.:!'<>").empty());
 }
 
 TEST_CASE("what cannot be lettered is refused by name", "[emergency][letters]") {
-  CHECK(problem("EXiT").find("'i'") != std::string::npos);
-  CHECK(problem("SALIDA \xc3\x91").find("byte 195") != std::string::npos);
-  CHECK(problem("").find("empty") != std::string::npos);
-  CHECK(problem("   ").find("blank") != std::string::npos);
-  CHECK(problem(std::string(65, 'A')).find("at most 64") != std::string::npos);
-  CHECK(problem("EXIT", {0.15, 0.04, 0.01}).find("stroke") != std::string::npos);
-  CHECK(problem("EXIT", {0, 0.02, 0.01}).find("positive") != std::string::npos);
-  CHECK(problem("EXIT", {0.15, -1, 0.01}).find("positive") != std::string::npos);
-  CHECK(problem("EXIT", {0.15, 0.02, NAN}).find("positive") != std::string::npos);
+  CHECK(refusal("EXiT").find("'i'") != std::string::npos);
+  CHECK(refusal("SALIDA \xc3\x91").find("byte 195") != std::string::npos);
+  CHECK(refusal("").find("empty") != std::string::npos);
+  CHECK(refusal("   ").find("blank") != std::string::npos);
+  CHECK(refusal(std::string(65, 'A')).find("at most 64") != std::string::npos);
+  CHECK(refusal("EXIT", {0.15, 0.04, 0.01}).find("stroke") != std::string::npos);
+  CHECK(refusal("EXIT", {0, 0.02, 0.01}).find("positive") != std::string::npos);
+  CHECK(refusal("EXIT", {0.15, -1, 0.01}).find("positive") != std::string::npos);
+  CHECK(refusal("EXIT", {0.15, 0.02, NAN}).find("positive") != std::string::npos);
 }
 
 TEST_CASE("a stroke of exactly a fifth of the height is allowed", "[emergency][letters]") {
-  CHECK(problem("E8B", {0.1524, 0.1524 / 5, 0.01}).empty());
+  CHECK(refusal("E8B", {0.1524, 0.1524 / 5, 0.01}).empty());
 }

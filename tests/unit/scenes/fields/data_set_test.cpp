@@ -537,10 +537,10 @@ TEST_CASE("what a data set says is quoted short and without what a terminal obey
   const TemporaryFolder folder;
   const std::string word = "\x1b[2J\xFF" + std::string(500, 'x');
   const std::string quoted = "\\x1B[2J\\xFFxxx";
-  for (const Row& row : {Row{"a.nrrd", with(nrrd_head, "type: float", word + ": float"), ""},
-                         Row{"a.nrrd", with(nrrd_head, "float", word), ""},
+  for (const Row& row : {Row{"a.nrrd", replaced(nrrd_head, "type: float", word + ": float"), ""},
+                         Row{"a.nrrd", replaced(nrrd_head, "float", word), ""},
                          Row{"a.nrrd", nrrd_head + "field:=" + word + "\n\n", ""},
-                         Row{"a.vti", with(vti(""), "\"ImageData\"", "\"" + word + "\""), ""},
+                         Row{"a.vti", replaced(vti(""), "\"ImageData\"", "\"" + word + "\""), ""},
                          Row{"a.vti", vti(cell_array("extinction", word, "ascii", "1")), ""},
                          Row{"a.vti", vti(cell_array("extinction", "Float32", word, "1")), ""},
                          Row{"a.vti", vti(cell_array(word, "Float32", "ascii", "1")), ""}}) {

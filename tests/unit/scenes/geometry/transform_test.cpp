@@ -1,3 +1,4 @@
+#include "scenes/geometry/shape_checks.hpp"
 #include "scenes/geometry/transform.hpp"
 
 #include <catch2/catch.hpp>
@@ -24,7 +25,7 @@ bool is_rigid(const Frame& frame) {
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j)
       if (!(std::abs(gram[i][j] - (i == j ? 1.0 : 0.0)) <= 1e-9)) return false;
-  return finite(frame.origin) && glm::determinant(frame.axes) > 0;
+  return finite_within_limit(frame.origin) && glm::determinant(frame.axes) > 0;
 }
 
 }  // namespace

@@ -206,7 +206,7 @@ TEST_CASE("what is no PNG, or not there, is refused by name", "[format][image]")
   const TemporaryFolder folder;
   const auto absent = read_png(folder / "absent.png");
   REQUIRE_FALSE(absent.ok());
-  CHECK(absent.problem().text() == folder / "absent.png" + ": there is no such file");
+  CHECK(absent.problem().text() == (folder / "absent.png").string() + ": there is no such file");
   CHECK(read_png(folder.write("a.png", "GIF89a.........")).problem().what ==
         "this is not a PNG file");
   CHECK_FALSE(read_png(folder.write("empty.png", "")).ok());
