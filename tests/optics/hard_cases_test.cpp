@@ -154,7 +154,8 @@ TEST_CASE("an emitter a million times weaker than others has its share of all ra
   // arithmetic.
   HistoryRandom random(*scene, 3);
   int weak = 0;
-  for (uint64_t particle = 0; particle < (1 << 19) / thrift; ++particle) {
+  for (uint64_t particle = 0; particle < (uint64_t{1} << 19) / static_cast<uint64_t>(thrift);
+       ++particle) {
     random.start(particle);
     const uint64_t bits = random.bits64();
     const auto watt = static_cast<uint64_t>((static_cast<Int128>(bits) * total_w) >> 64);

@@ -39,7 +39,7 @@ Cases named(const std::vector<std::string>& names) {
 Cases with_share_of_particles(Cases cases, int64_t divisor) {
   for (Case& c : cases) {
     c.plan = [plan = c.plan, divisor] {
-      Plan less = plan();
+      PreparedCase less = plan();
       less.quick_particles /= divisor;
       less.batch_particles = std::max<int64_t>(less.batch_particles / divisor, 1);
       return less;
