@@ -44,7 +44,7 @@ TEST_CASE("four processes over local sockets leave the flux file of the plain lo
 
 TEST_CASE("processes that plan by a profile leave the flux file of the plain loop", "[cluster]") {
   const TemporaryFolder folder;
-  const std::string particles = test::in_full() ? "60000" : "15000";
+  const std::string particles = luxodus::test::in_full() ? "60000" : "15000";
   const fs::path cluster = folder / "cluster.toml";
   const std::string office =
       (fs::path(LUX_SOURCE_DIR) / "scenes/library/office_floor.toml").string();

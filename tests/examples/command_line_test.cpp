@@ -28,7 +28,7 @@ std::vector<std::string> commands_in(const std::string& help) {
 }
 
 /// "run", "topology amp", ...: all commands and those of commands.
-std::vector<std::string> all_commands(const Folder& folder) {
+std::vector<std::string> all_commands(const TemporaryFolder& folder) {
   std::vector<std::string> all;
   for (const std::string& name : commands_in(run_luxodus(folder, "--help").out)) {
     all.push_back(name);
@@ -39,7 +39,7 @@ std::vector<std::string> all_commands(const Folder& folder) {
 }
 
 /// What bash offers for the last of these words.
-std::vector<std::string> completed(const Folder& folder, const std::string& words) {
+std::vector<std::string> completed(const TemporaryFolder& folder, const std::string& words) {
   const Outcome said =
       shell(folder, "bash -c 'source <(\"$0\" completion bash); COMP_WORDS=(luxodus " + words +
                         "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _luxodus; "
@@ -71,7 +71,7 @@ flux_lm = 100
 }  // namespace
 
 TEST_CASE("the help lists every command once, under the seven headings", "[program][help]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string help = run_luxodus(folder, "--help").out;
   INFO(help);
   std::vector<std::string> headings = found(help, "([A-Z][a-z ]+):");
@@ -87,7 +87,7 @@ TEST_CASE("the help lists every command once, under the seven headings", "[progr
 }
 
 TEST_CASE("every option is described by a noun phrase within 92 columns", "[program][help]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::vector<std::string> commands = all_commands(folder);
   CHECK(commands.size() > 25);
   for (const std::string& command : commands) {
@@ -107,9 +107,9 @@ TEST_CASE("every option is described by a noun phrase within 92 columns", "[prog
 }
 
 TEST_CASE("an option's old name does what the new one does, and says it", "[program][help]") {
-  const Folder folder;
-  std::ofstream(folder.path / "room.toml") << room;
-  const std::string run = "run " + (folder.path / "room.toml").string() + " --cells 4 --nodes 2 ";
+  const TemporaryFolder folder;
+  std::ofstream(folder / "room.toml") << room;
+  const std::string run = "run " + (folder / "room.toml").string() + " --cells 4 --nodes 2 ";
   const Outcome old = run_luxodus(folder, run + "--plan --object-mib 64");
   const Outcome now = run_luxodus(folder, run + "--plan --part-cache-mib 64");
   INFO(old.err);
@@ -126,9 +126,9 @@ TEST_CASE("an option's old name does what the new one does, and says it", "[prog
 }
 
 TEST_CASE("a command line that cannot be obeyed is refused in a sentence", "[program][help]") {
-  const Folder folder;
-  std::ofstream(folder.path / "room.toml") << room;
-  const std::string scene = (folder.path / "room.toml").string();
+  const TemporaryFolder folder;
+  std::ofstream(folder / "room.toml") << room;
+  const std::string scene = (folder / "room.toml").string();
   const std::vector<std::pair<std::string, std::string>> wrong{
       {"run " + scene + " --link-delay 1ms", "--link-delay requires --nodes"},
       {"run " + scene + " --tally-shards 2", "--tally-shards requires --nodes"},
@@ -155,7 +155,7 @@ TEST_CASE("a command line that cannot be obeyed is refused in a sentence", "[pro
 }
 
 TEST_CASE("bash completes commands, options and their words", "[program][help]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   using Words = std::vector<std::string>;
   CHECK(completed(folder, "conv") == Words{"converge"});
   CHECK(completed(folder, "run --se") == Words{"--seed"});
@@ -170,27 +170,27 @@ TEST_CASE("bash completes commands, options and their words", "[program][help]")
 }
 
 TEST_CASE("zsh is told each command and option", "[program][help]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string script = run_luxodus(folder, "completion zsh").out;
   CHECK(script.starts_with("#compdef luxodus\n"));
   CHECK_THAT(script, Contains("'--seed[Seed of the random number generator]:UINT: '"));
   CHECK_THAT(script, Contains("'--language[Language of the report]:en|de|fr:(en de fr)'"));
   CHECK_THAT(script, Contains("_luxodus_topology_amp() {"));
-  std::ofstream(folder.path / "_luxodus") << script;
+  std::ofstream(folder / "_luxodus") << script;
   if (shell(folder, "command -v zsh").code == 0)
-    CHECK(shell(folder, "zsh -n " + (folder.path / "_luxodus").string()).code == 0);
+    CHECK(shell(folder, "zsh -n " + (folder / "_luxodus").string()).code == 0);
 }
 
 TEST_CASE("an installed program finds the scenes that ship with it", "[program][help]") {
-  const Folder folder;
-  fs::create_directories(folder.path / "bin");
-  fs::copy_file(LUX_PROGRAM, folder.path / "bin" / "luxodus");
-  const fs::path library = folder.path / "share/luxodus/scenes/library";
+  const TemporaryFolder folder;
+  fs::create_directories(folder / "bin");
+  fs::copy_file(LUX_PROGRAM, folder / "bin" / "luxodus");
+  const fs::path library = folder / "share/luxodus/scenes/library";
   fs::create_directories(library);
   std::ofstream(library / "shipped.toml") << room;
-  fs::create_directories(folder.path / "elsewhere");
+  fs::create_directories(folder / "elsewhere");
   const auto check = [&](const std::string& scene) {
-    return shell(folder, "cd " + (folder.path / "elsewhere").string() +
+    return shell(folder, "cd " + (folder / "elsewhere").string() +
                              " && ../bin/luxodus check --json " + scene);
   };
   for (const char* name : {"shipped", "shipped.toml", "scenes/library/shipped.toml"}) {
@@ -199,12 +199,12 @@ TEST_CASE("an installed program finds the scenes that ship with it", "[program][
   }
   CHECK(check("absent").code == 2);
   // A file of one's own goes before.
-  std::ofstream(folder.path / "elsewhere" / "shipped.toml") << "not = \"a scene\"\n";
+  std::ofstream(folder / "elsewhere" / "shipped.toml") << "not = \"a scene\"\n";
   CHECK(check("shipped.toml").code == 2);
 }
 
 TEST_CASE("the version names the commit", "[program][help]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   CHECK(std::regex_match(
       run_luxodus(folder, "--version").out,
       std::regex("luxodus [0-9]+\\.[0-9]+\\.[0-9]+ \\(([0-9a-f]+\\+?|unknown)\\)\n")));

@@ -124,21 +124,21 @@ TEST_CASE("the revisions of the guide's project have the verdicts that it tells"
   const std::string text = slurp(source / "docs/guide/en1838-project.md");
   const std::vector<std::string> blocks = toml_blocks(text);
   REQUIRE(blocks.size() == 2);
-  const Folder folder;
-  const fs::path project = folder.path / "project";
+  const TemporaryFolder folder;
+  const fs::path project = folder / "project";
   fs::create_directories(project);
-  fs::create_directories(folder.path / "scenes");
-  fs::create_directory_symlink(source / "scenes/library", folder.path / "scenes/library");
+  fs::create_directories(folder / "scenes");
+  fs::create_directory_symlink(source / "scenes/library", folder / "scenes/library");
   const char* const names[] = {"revision_a", "revision_b"};
   for (size_t i = 0; i < 2; ++i) {
     const std::string name = names[i];
     std::ofstream(project / (name + ".toml")) << blocks[i];
     const Outcome run =
         run_luxodus(folder, "assess " + (project / (name + ".toml")).string() +
-                                " --codes-alone --out " + (folder.path / name).string());
+                                " --codes-alone --out " + (folder / name).string());
     INFO(run.err);
     REQUIRE(run.code == 0);
-    const auto a = nlohmann::json::parse(slurp(folder.path / name / "assessment.json"));
+    const auto a = nlohmann::json::parse(slurp(folder / name / "assessment.json"));
     const std::string verdict = a["verdict"]["words"];
     INFO(verdict);
     const size_t count = verdict.find(',');

@@ -28,7 +28,7 @@ position = [2, 2, 2]
 flux_lm = 100
 )";
 
-std::string write(const TemporaryFolder& folder, const char* name, const std::string& text) {
+std::string write(const TemporaryFolder& folder, const std::string& name, const std::string& text) {
   const fs::path file = folder / name;
   std::ofstream(file, std::ios::binary) << text;
   return file.string();
@@ -132,9 +132,9 @@ TEST_CASE("a damaged object of a pack is named with its file before nodes begin"
 
 TEST_CASE("a node that stores a damaged pack ends at once and names its file",
           "[program][hostile]") {
-  const Folder folder;
-  const std::string scene = luxodus::write_gallery(folder.path).string();
-  const std::string pack = (folder.path / "x.luxpack").string();
+  const TemporaryFolder folder;
+  const std::string scene = luxodus::write_gallery(folder.path()).string();
+  const std::string pack = (folder / "x.luxpack").string();
   REQUIRE(run_luxodus(folder, "pack " + scene + " --scenario smoky --out " + pack).code == 0);
   std::string bytes = slurp(pack);
   bytes[300] = static_cast<char>(bytes[300] ^ 4);  // behind the head: the first object
@@ -142,7 +142,7 @@ TEST_CASE("a node that stores a damaged pack ends at once and names its file",
   const std::string cluster = write(folder, "c.toml",
                                     "[run]\nname = \"damaged\"\nscene = \"" + pack +
                                         "\"\nscenario = \"smoky\"\nparticles = 10_000\nout = \"" +
-                                        (folder.path / "out").string() +
+                                        (folder / "out").string() +
                                         "\"\n[[host]]\nname = \"here\"\n[[node]]\nname = \"n\"\n"
                                         "count = 2\n[[node]]\nname = \"controller\"\n"
                                         "role = \"controller\"\n[budget]\n"
@@ -156,15 +156,15 @@ TEST_CASE("a node that stores a damaged pack ends at once and names its file",
     CHECK(told.code != 124);
     CHECK((told.out + told.err).find("x.luxpack: object 0 of this pack is damaged") !=
           std::string::npos);
-    CHECK_FALSE(fs::exists(folder.path / "out"));
+    CHECK_FALSE(fs::exists(folder / "out"));
   }
 }
 
 TEST_CASE("pipes in place of keys, profiles, graphs and results are refused, not waited for",
           "[program][hostile]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const auto pipe = [&](const std::string& name) {
-    const fs::path path = folder.path / name;
+    const fs::path path = folder / name;
     fs::create_directories(path.parent_path());
     REQUIRE(::mkfifo(path.c_str(), 0600) == 0);
     return path.string();
@@ -174,7 +174,7 @@ TEST_CASE("pipes in place of keys, profiles, graphs and results are refused, not
     return write(folder, name,
                  "[run]\nname = \"" + name + "\"\nscene = \"" +
                      (fs::path(LUX_SOURCE_DIR) / "scenes/library/office_floor.toml").string() +
-                     "\"\nparticles = 10_000\nout = \"" + (folder.path / "out").string() + "\"\n" +
+                     "\"\nparticles = 10_000\nout = \"" + (folder / "out").string() + "\"\n" +
                      run +
                      "[[host]]\nname = \"here\"\n[[node]]\nname = \"n\"\ncount = 2\n[[node]]\n"
                      "name = \"controller\"\nrole = \"controller\"\n" +
@@ -199,10 +199,10 @@ TEST_CASE("pipes in place of keys, profiles, graphs and results are refused, not
 
   const std::string keyed = cluster("keyed.toml", "", "[keys]\nfolder = \"keys\"\n");
   REQUIRE(run_luxodus(folder, "keygen --cluster " + keyed).code == 0);
-  fs::remove(folder.path / "keys/n0.key");
+  fs::remove(folder / "keys/n0.key");
   pipe("keys/n0.key");
   refused("node --config " + keyed + " --name n0", "keys/n0.key");
-  fs::remove(folder.path / "keys/n1.key.pub");
+  fs::remove(folder / "keys/n1.key.pub");
   pipe("keys/n1.key.pub");
   refused("node --config " + keyed + " --name n1", "keys/n1.key.pub");
 
@@ -212,7 +212,7 @@ TEST_CASE("pipes in place of keys, profiles, graphs and results are refused, not
               " --name n0",
           "graph.toml");
   pipe("results/assessment.json");
-  refused("report " + (folder.path / "results").string(), "assessment.json");
+  refused("report " + (folder / "results").string(), "assessment.json");
 }
 
 TEST_CASE("the program is linked so that an overwritten pointer finds no table to lead astray",

@@ -144,7 +144,7 @@ TEST_CASE("a folder of nothing cannot be viewed, nor one of something else",
 
 TEST_CASE("a second live view whose workers trace for another ends, and says why",
           "[cluster][view][failure]") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string first = write_cluster(folder, viewed(), "first");
   const std::string second = write_cluster(folder, viewed(), "second");
   Process up(LUX_PROGRAM, {"cluster", "up", first});

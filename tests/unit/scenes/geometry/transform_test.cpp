@@ -25,7 +25,7 @@ bool is_rigid(const Frame& frame) {
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j)
       if (!(std::abs(gram[i][j] - (i == j ? 1.0 : 0.0)) <= 1e-9)) return false;
-  return finite_within_limit(frame.origin) && glm::determinant(frame.axes) > 0;
+  return shapes::finite_within_limit(frame.origin) && glm::determinant(frame.axes) > 0;
 }
 
 }  // namespace

@@ -58,7 +58,8 @@ std::vector<double> even_logs(double low, double high, int n) {
 }  // namespace
 
 TEST_CASE("sRGB bytes survive the way through linear light", "[vision][picture]") {
-  for (int i = 0; i < 256; ++i) CHECK(srgb_byte(test::linear_of_srgb_byte(static_cast<uint8_t>(i))) == i);
+  for (int i = 0; i < 256; ++i)
+    CHECK(srgb_byte(test::linear_of_srgb_byte(static_cast<uint8_t>(i))) == i);
   CHECK(srgb_byte(-1) == 0);
   CHECK(srgb_byte(2) == 255);
   CHECK(srgb_byte(std::nan("")) == 0);
