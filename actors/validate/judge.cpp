@@ -11,9 +11,14 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
+/// Whether too few particles make the quantity, or, where no error was seen, what it lacks to the
+/// unit: a run may meet none of the few that are not absorbed, and has no error bar then.
 bool is_rare(const QuantityResult& f, int64_t particles) {
-  return f.reference != 0 &&
-         std::abs(f.reference) * static_cast<double>(particles) < rule::least_count * f.unit;
+  const auto few = [&](double value) {
+    return value > 0 && value * static_cast<double>(particles) < rule::least_count * f.unit;
+  };
+  return few(std::abs(f.reference)) ||
+         (f.estimate.standard_error == 0 && few(f.unit - std::abs(f.reference)));
 }
 
 /// Whether chance has a part in it: an estimate that came out alike in every batch has no error

@@ -63,8 +63,8 @@ material = "white"
 [[emitter]]
 name = "lamp"
 shape = "sphere"
-center = [1.5, 1.5, 2]
-radius = 0.1
+position = [1.5, 1.5, 2]
+diameter = 0.2
 flux_lm = 100
 )";
 

@@ -133,9 +133,8 @@ TEST_CASE("the revisions of the guide's project have the verdicts that it tells"
   for (size_t i = 0; i < 2; ++i) {
     const std::string name = names[i];
     std::ofstream(project / (name + ".toml")) << blocks[i];
-    const Outcome run =
-        run_luxodus(folder, "assess " + (project / (name + ".toml")).string() +
-                                " --codes-alone --out " + (folder / name).string());
+    const Outcome run = run_luxodus(folder, "assess " + (project / (name + ".toml")).string() +
+                                                " --codes-alone --out " + (folder / name).string());
     INFO(run.err);
     REQUIRE(run.code == 0);
     const auto a = nlohmann::json::parse(slurp(folder / name / "assessment.json"));

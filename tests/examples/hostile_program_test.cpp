@@ -174,8 +174,7 @@ TEST_CASE("pipes in place of keys, profiles, graphs and results are refused, not
     return write(folder, name,
                  "[run]\nname = \"" + name + "\"\nscene = \"" +
                      (fs::path(LUX_SOURCE_DIR) / "scenes/library/office_floor.toml").string() +
-                     "\"\nparticles = 10_000\nout = \"" + (folder / "out").string() + "\"\n" +
-                     run +
+                     "\"\nparticles = 10_000\nout = \"" + (folder / "out").string() + "\"\n" + run +
                      "[[host]]\nname = \"here\"\n[[node]]\nname = \"n\"\ncount = 2\n[[node]]\n"
                      "name = \"controller\"\nrole = \"controller\"\n" +
                      more);

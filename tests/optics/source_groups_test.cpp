@@ -101,14 +101,15 @@ TEST_CASE("a source group's light is what it gives alone") {
   const TallyBlocks& a = alone.blocks();
   for (const uint32_t quantity : {0u, 1u}) {
     check_agree(of_group(both, b.probes_by_group, 0, "left", quantity),
-                of_group(alone, a.probes_by_group, 0, "left", quantity), 0.015);
+                of_group(alone, a.probes_by_group, 0, "left", quantity), 0.015 * root_of_thrift);
   }
   for (const uint32_t part : {white, green, surround}) {
     check_agree(of_group(both, b.views_by_group, part, "left", group_at_eye),
-                of_group(alone, a.views_by_group, part, "left", group_at_eye), 0.02);
+                of_group(alone, a.views_by_group, part, "left", group_at_eye),
+                0.02 * root_of_thrift);
   }
   check_agree(of_group(both, b.views_by_group, white, "left", group_veil),
-              of_group(alone, a.views_by_group, white, "left", group_veil), 0.02);
+              of_group(alone, a.views_by_group, white, "left", group_veil), 0.02 * root_of_thrift);
 }
 
 TEST_CASE("a scene of one source group pays for no second copy of its values") {

@@ -41,7 +41,8 @@ inline constexpr int left = 0, right = 1, sign = 2;
 class LiveRoom {
  public:
   /// `more`: what is in it besides.
-  explicit LiveRoom(const std::string& more = "") : scene_(described_text(live_room + more)) {}
+  explicit LiveRoom(const std::string& more = "")
+      : scene_(described(folder_.write("scene.toml", live_room + more))) {}
   const std::shared_ptr<const SceneDescription>& scene() const { return scene_; }
   std::shared_ptr<const CompiledScene> compiled(const SceneEdits& edits) const {
     auto out = compile_live(*scene_, edits);
@@ -50,6 +51,7 @@ class LiveRoom {
   }
 
  private:
+  TemporaryFolder folder_;  // variants of the scene refer to its file
   std::shared_ptr<const SceneDescription> scene_;
 };
 

@@ -235,6 +235,12 @@ class Edited {
     REQUIRE(at != list.end());
     return *at;
   }
+  /// All that the hub has told since something was said.
+  std::string answers() const {
+    std::string out;
+    for (const Json& text : viewer.texts) out += text.dump() + "\n";
+    return out;
+  }
   std::string why() const { return (*viewer.last("refused"))["why"].get<std::string>(); }
 
   const test::TemporaryFolder folder;
@@ -462,6 +468,7 @@ TEST_CASE("an edit that is refused is not in force, and no variant has it", "[vi
   CHECK(live.scene()["generation"] == before + 1);
   CHECK(live.scene()["scenario"] == "day");
   live.says(R"({"type":"save","name":"moved"})");
+  INFO(live.answers());
   REQUIRE(live.viewer.last("saved") != nullptr);
   const auto saved = read_scene(live.folder / "moved.toml");
   REQUIRE(saved.scene);
@@ -479,6 +486,7 @@ TEST_CASE("nothing is moved out of the world, and a variant has it where it was"
     CHECK(live.why().find("outside of the building") != std::string::npos);
   }
   live.says(R"({"type":"save","name":"near"})");
+  INFO(live.answers());
   REQUIRE(live.viewer.last("saved") != nullptr);
   const auto saved = read_scene(live.folder / "near.toml");
   REQUIRE(saved.scene);

@@ -1,10 +1,10 @@
-#include "scenes/geometry/shape_checks.hpp"
 #include "scenes/geometry/transform.hpp"
 
 #include <catch2/catch.hpp>
 #include <limits>
 
 #include "scenes/geometry/primitives.hpp"
+#include "scenes/geometry/shape_checks.hpp"
 #include "tests/unit/scenes/geometry/mesh_checks.hpp"
 
 using namespace luxodus;

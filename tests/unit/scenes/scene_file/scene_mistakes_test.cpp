@@ -322,7 +322,7 @@ TEST_CASE("measurements and scenarios may name only what there is", "[format][sc
       {scenario + "operation = \"night\"\n", 3, "must be one of \"mains\""},
       {scenario + "circuits = { c1 = 0.5 }\n", 3, "there is no circuit 'c1'"},
       {point + "flux_lm = 1\ncircuit = \"c1\"\n" + scenario + "circuits = { cl = 0.5 }\n", 9,
-       "did you mean 'c1'?"},
+       "there is no circuit 'cl'; known: 'c1'"},
       {point + "flux_lm = 1\ncircuit = \"c1\"\n" + scenario + "circuits = { c1 = -1 }\n", 9,
        "'circuits' of 'c1' is -1"},
       {scenario + "media = { smoke = 0 }\n", 3, "there is no medium 'smoke'"},
