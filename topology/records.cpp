@@ -3,7 +3,7 @@
 namespace luxodus {
 namespace {
 
-struct Row {
+struct BestKnown {
   uint32_t nodes;
   uint32_t links;
   KnownBest best;
@@ -14,7 +14,7 @@ constexpr KnownSource published = KnownSource::published;
 constexpr KnownSource searched = KnownSource::searched;
 
 // Nodes, links a node; diameter, average path length, and who says so.
-constexpr Row rows[] = {
+constexpr BestKnown best_known[] = {
     {8, 3, {2, 1.571429, bound}},       {13, 3, {3, 2.038462, bound}},
     {16, 3, {3, 2.200000, bound}},      {32, 3, {4, 2.935484, bound}},
     {36, 3, {4, 3.067, published}},     {40, 3, {5, 3.171795, searched}},
@@ -44,7 +44,7 @@ constexpr Row rows[] = {
 }  // namespace
 
 std::optional<KnownBest> known_best(uint32_t nodes, uint32_t links) {
-  for (const Row& row : rows) {
+  for (const BestKnown& row : best_known) {
     if (row.nodes == nodes && row.links == links) return row.best;
   }
   return std::nullopt;

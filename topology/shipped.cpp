@@ -7,14 +7,14 @@ namespace luxodus {
 namespace {
 
 /// A graph, as one link of each family that turns into each other.
-struct Row {
+struct ShippedRow {
   ShippedSize size;
   uint32_t rotation;
   std::vector<GraphLink> families;
 };
 
-std::vector<Row> rows() {
-  // clang-format off: rows stay rows.
+std::vector<ShippedRow> shipped_rows() {
+  // clang-format off: shipped_rows stay shipped_rows.
   return {
       {{6, 4, 0}, 6, {{0, 1}, {0, 2}}},
       {{7, 4, 0}, 7, {{0, 2}, {0, 3}}},
@@ -196,12 +196,12 @@ std::vector<Row> rows() {
 
 std::vector<ShippedSize> shipped_sizes() {
   std::vector<ShippedSize> sizes;
-  for (const Row& row : rows()) sizes.push_back(row.size);
+  for (const ShippedRow& row : shipped_rows()) sizes.push_back(row.size);
   return sizes;
 }
 
 std::optional<Graph> shipped_graph(const ShippedSize& size, ControllerRole role) {
-  for (const Row& row : rows()) {
+  for (const ShippedRow& row : shipped_rows()) {
     if (row.size != size) continue;
     if (size.controller_links == 0) role = ControllerRole::none;
     return Graph({size.nodes, size.links, role, row.rotation,

@@ -27,12 +27,12 @@ enum class Kind {
 /// A key that is read. "a.b" is b of a; "a[].b" is b of every entry of a. What may be absent ends
 /// in
 /// "?": below it, what is asked for is asked only where it is there.
-struct Key {
+struct RequiredKey {
   std::string_view path;
   Kind kind;
 };
 
-constexpr Key keys[] = {
+constexpr RequiredKey keys[] = {
     {"version", Kind::text},
     {"scene.name", Kind::text},
     {"scene.title", Kind::text},
@@ -194,7 +194,7 @@ constexpr Key keys[] = {
     {"plan.levels[].map.lux", Kind::list},
 };
 
-const char* word_of(Kind kind) {
+const char* type_word(Kind kind) {
   constexpr const char* words[] = {"a text",
                                    "a number",
                                    "a number or null",
@@ -248,7 +248,7 @@ using Fault = std::optional<std::string>;
 
 Fault missing(const Json& value, std::string_view path, Kind kind, const std::string& where) {
   if (path.empty())
-    return is_kind(value, kind) ? Fault() : Fault(where + " is not " + word_of(kind));
+    return is_kind(value, kind) ? Fault() : Fault(where + " is not " + type_word(kind));
   if (path.starts_with("[]")) {
     if (!value.is_array()) return where + " is not a list";
     path.remove_prefix(path.starts_with("[].") ? 3 : 2);
@@ -334,7 +334,7 @@ Fault bad_counts(const Json& a) {
 
 std::optional<std::string> fault_of_assessment(const Json& a) {
   if (Fault fault = too_large(a, "", 0)) return fault;
-  for (const Key& key : keys)
+  for (const RequiredKey& key : keys)
     if (Fault fault = missing(a, key.path, key.kind, "")) return fault;
   if (Fault fault = bad_plan(a)) return fault;
   return bad_counts(a);

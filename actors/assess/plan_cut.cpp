@@ -51,13 +51,13 @@ bool stands_open(const Object& object, const Scenario& doors) {
 void cut_level(const SceneDescription& scene, const Scenario& doors, PlanLevel& level) {
   for (const Object& object : scene.objects) {
     if (stands_open(object, doors)) continue;
-    const bool furniture =
+    const bool is_furnishing =
         std::find(object.tags.begin(), object.tags.end(), "furniture") != object.tags.end();
     for (const auto& triangle : object.mesh.triangles) {
       const glm::dvec3 corners[3] = {object.mesh.positions[triangle[0]],
                                      object.mesh.positions[triangle[1]],
                                      object.mesh.positions[triangle[2]]};
-      cut(corners, level.floor_m + breast_m, furniture ? level.furniture : level.walls);
+      cut(corners, level.floor_m + breast_m, is_furnishing ? level.furniture : level.walls);
     }
   }
   keep_longest(level.walls);

@@ -40,11 +40,11 @@ Json info() {
           {"packages", packages}};
 }
 
-void print(const Json& j, int indent) {
+void print_tree(const Json& j, int indent) {
   for (const auto& [key, value] : j.items()) {
     if (value.is_object()) {
       std::printf("%s\n", key.c_str());
-      print(value, indent + 2);
+      print_tree(value, indent + 2);
       continue;
     }
     const std::string text = value.is_string() ? value.get<std::string>() : value.dump();
@@ -66,7 +66,7 @@ Command info_command() {
             if (*json)
               std::fputs(json_text(j).c_str(), stdout);
             else
-              print(j, 0);
+              print_tree(j, 0);
             return ExitCode::success;
           }};
 }

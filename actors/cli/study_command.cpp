@@ -50,7 +50,7 @@ void tell_all(const Problems& problems) {
   for (const Problem& problem : problems.list()) tell(problem);
 }
 
-std::optional<Prepared> prepare(const std::string& file) {
+std::optional<Prepared> prepare_study(const std::string& file) {
   ReadStudy read = read_study(file);
   tell_all(read.problems);
   for (const Problem& warning : read.warnings) log_warning("{}", warning.text());
@@ -181,7 +181,7 @@ void print_outcome(const StudyOutcome& outcome, const fs::path& out) {
 }
 
 Result<ExitCode> study(const StudyCommandOptions& options) {
-  const auto prepared = prepare(options.file);
+  const auto prepared = prepare_study(options.file);
   if (!prepared) return ExitCode::bad_input;
   const fs::path folder =
       options.out.empty() ? fs::path("out") / file_name_of(fs::path(options.file).stem().string())

@@ -21,7 +21,7 @@ Json measured(const Estimate& e, const char* unit) {
   return measured_json(e.value, e.standard_error, unit);
 }
 
-Json vector_json(const glm::dvec3& v) {
+Json place_json(const glm::dvec3& v) {
   return {v.x, v.y, v.z};
 }
 
@@ -177,8 +177,8 @@ Json probes_json(const LocalRun& run, const Readout& readout) {
     }
     out.push_back(
         {{"name", probe.name},
-         {"position", vector_json(probe.position)},
-         {"normal", vector_json(probe.normal)},
+         {"position", place_json(probe.position)},
+         {"normal", place_json(probe.normal)},
          {"direct_illuminance", exact_json(direct.total_lx(), "lx")},
          {"luminaires_direct_in_clear_air", exact_json(direct_light[p].luminaires_clear_lx, "lx")},
          {"indirect_illuminance", measured(indirect, "lx")},

@@ -14,7 +14,7 @@ namespace luxodus {
 
 namespace {
 
-constexpr uint64_t seed = 17;
+constexpr uint64_t escape_seed = 17;
 /// Of 1 % the standard error is then 0.08 %.
 constexpr int64_t particles = 1 << 14;
 constexpr size_t pieces = 16;
@@ -82,7 +82,7 @@ std::optional<EscapeShares> escape_shares(const SceneDescription& scene, const S
     constexpr auto each = particles / static_cast<int64_t>(pieces);
     BatchScores scores;
     scores.reset(compiled.layout);
-    make_batch_tracer(compiled, access, seed)
+    make_batch_tracer(compiled, access, escape_seed)
         ->trace(0, static_cast<uint64_t>(piece) * each, each, scores);
     for (uint32_t side = 0; side < 6; ++side) {
       const int64_t at = compiled.layout.score_index(compiled.blocks.escape, side, 0, 0);

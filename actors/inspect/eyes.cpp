@@ -11,7 +11,7 @@ namespace luxodus {
 
 namespace {
 
-constexpr Real far_m = 1e5_r;
+constexpr Real sight_m = 1e5_r;
 /// Smoke that passes less leaves nothing of the brightest lamp beside the darkest wall.
 constexpr double least_transmission = 1e-4;
 /// Of a camera: rays across and down its picture.
@@ -21,7 +21,7 @@ constexpr int rays_around = 128;
 /// A probe on a surface is looked at from before it [m].
 constexpr double before_probe_m = 1e-3;
 /// A probe that has a surface as near before it measures that surface [m].
-constexpr Real shut_m = 0.05_r;
+constexpr Real shut_probe_m = 0.05_r;
 
 struct EyePlace {
   std::string name;  // camera "hall"
@@ -84,9 +84,10 @@ bool is_open(const Facing& facing) {
 bool sees_anything(const Site& site, const GeometryAccess& access, const EyePlace& eye) {
   const CompiledScene& scene = site.building.scene();
   const Vec3 at = site.building.local(eye.at);
-  const bool surface = std::any_of(
-      eye.directions.begin(), eye.directions.end(),
-      [&](const Vec3& d) { return first_stop(scene, access, at, d, far_m, is_open).has_value(); });
+  const bool surface =
+      std::any_of(eye.directions.begin(), eye.directions.end(), [&](const Vec3& d) {
+        return first_stop(scene, access, at, d, sight_m, is_open).has_value();
+      });
   return surface ||
          std::any_of(site.scene.emitters.begin(), site.scene.emitters.end(), [&](const Emitter& e) {
            const Vec3 way = Vec3(e.frame.origin - eye.at);
@@ -99,7 +100,7 @@ bool sees_backs_alone(const Site& site, const GeometryAccess& access, const EyeP
   const Vec3 at = site.building.local(eye.at);
   bool any = false;
   for (const Vec3& d : eye.directions) {
-    const auto met = first_stop(site.building.scene(), access, at, d, far_m, is_open);
+    const auto met = first_stop(site.building.scene(), access, at, d, sight_m, is_open);
     if (!met) continue;
     if (!site.is_back(*met)) return false;
     any = true;
@@ -120,8 +121,8 @@ bool sees_a_sign(const Site& site, const GeometryAccess& access, const Observer&
   return false;
 }
 
-std::optional<Finding> placed_wrong(const Site& site, const GeometryAccess& access,
-                                    const EyePlace& eye) {
+std::optional<Finding> wrong_eye(const Site& site, const GeometryAccess& access,
+                                 const EyePlace& eye) {
   if (auto far = site.remote.told(eye.name, eye.at))
     return Finding{Severity::error, "far", {eye.place, *far}};
   if (site.in_body(access, eye.at))
@@ -143,8 +144,8 @@ std::optional<Finding> placed_wrong(const Site& site, const GeometryAccess& acce
                         "Move it into the room"}};
   if (!eye.is_probe) return std::nullopt;
   const auto shut =
-      first_stop(site.building.scene(), access, site.building.local(eye.at), eye.ahead, shut_m,
-                 [&](const Facing& f) {
+      first_stop(site.building.scene(), access, site.building.local(eye.at), eye.ahead,
+                 shut_probe_m, [&](const Facing& f) {
                    return f.surface >= site.scene.objects.size() || lets_light_through(f.kind);
                  });
   if (shut)
@@ -164,9 +165,9 @@ double best_transmission(const Building& smoky, const GeometryAccess& access, co
   double best = 0;
   with_resolver(scene, access, [&](auto resolver) {
     for (const Vec3& d : eye.directions) {
-      const auto met = first_stop(scene, access, at, d, far_m,
+      const auto met = first_stop(scene, access, at, d, sight_m,
                                   [](const Facing& f) { return lets_light_through(f.kind); });
-      const Real length = met ? met->distance_m : far_m;
+      const Real length = met ? met->distance_m : sight_m;
       best = std::max(best, medium_transmittance(scene, {at, d}, length, band, resolver));
       if (best >= least_transmission) return;
     }
@@ -180,7 +181,7 @@ void inspect_eyes(const Site& site, Findings& out) {
   const std::vector<EyePlace> eyes = eyes_of(site.scene, true);
   std::vector<std::optional<Finding>> found(eyes.size());
   site.building.each(eyes.size(), [&](const GeometryAccess& access, size_t i) {
-    found[i] = placed_wrong(site, access, eyes[i]);
+    found[i] = wrong_eye(site, access, eyes[i]);
     const auto& observers = site.scene.observers;  // the first of the eyes
     if (found[i] || i >= observers.size() || site.scene.signs.empty()) return;
     if (!sees_a_sign(site, access, observers[i]))

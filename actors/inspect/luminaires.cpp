@@ -22,7 +22,7 @@ namespace {
 constexpr Real near_m = 0.02_r;
 /// A lamp outside whose light ends so near on the outer side of a room was meant to be in it [m].
 constexpr Real recess_m = 0.5_r;
-constexpr Real far_m = 1e5_r;
+constexpr Real light_reach_m = 1e5_r;
 /// Rays of a first look, by which most luminaires are right, and of a second one.
 constexpr int few_rays = 64;
 constexpr int many_rays = 1024;
@@ -30,16 +30,16 @@ constexpr double few_share = 0.25;
 /// More than a half by two standard errors of the second look: a lamp that hangs right before a
 /// wall and shines all ways loses a half and is no mistake.
 constexpr double lost_share = 0.5 + 2 * 0.5 / 32;
-constexpr uint64_t seed = 17;
+constexpr uint64_t ends_seed = 17;
 /// Two things nearer than this stand in one place [m].
 constexpr double one_place_m = 0.01;
 /// Of the flux of its file, on emergency supply: more is a percentage taken for a share, less may
 /// be a luminaire of the same make with more lamps.
-constexpr double most_share = 4;
+constexpr double most_flux_share = 4;
 /// Two directions within 8 degrees are one.
 constexpr double one_direction = 0.99;
 
-std::string name_of(const Emitter& e) {
+std::string emitter_text(const Emitter& e) {
   return (e.distribution == Distribution::web ? "luminaire \"" : "emitter \"") + e.name + "\"";
 }
 
@@ -63,7 +63,7 @@ Ends ends_of(const Site& site, const GeometryAccess& access, uint32_t emitter, i
   std::map<uint32_t, int> by_surface;
   int near = 0, back = 0, close_back = 0;
   with_resolver(scene, access, [&](auto resolver) {
-    Random random(seed, RandomStream::layout);
+    Random random(ends_seed, RandomStream::layout);
     for (int i = 0; i < rays; ++i) {
       random.start(static_cast<uint64_t>(i));
       const EmissionPoint point = emission_point(scene, e, random, resolver);
@@ -73,9 +73,10 @@ Ends ends_of(const Site& site, const GeometryAccess& access, uint32_t emitter, i
         const Vec3 side = glm::dot(point.axis, direction) >= 0 ? point.axis : -point.axis;
         origin = offset_ray(origin, side, scene.least_offset_m);
       }
-      const auto end = first_stop(scene, access, origin, direction, far_m, [&](const Facing& f) {
-        return lets_light_through(f.kind) || scene.surfaces[f.surface].body_emitter == emitter;
-      });
+      const auto end =
+          first_stop(scene, access, origin, direction, light_reach_m, [&](const Facing& f) {
+            return lets_light_through(f.kind) || scene.surfaces[f.surface].body_emitter == emitter;
+          });
       if (!end) continue;
       near += end->distance_m <= near_m ? 1 : 0;
       back += site.is_back(*end) ? 1 : 0;
@@ -99,11 +100,11 @@ std::string surface_text(const Site& site, uint32_t surface) {
 }
 
 /// What is wrong with one emitter's place; `stands_outside` where it is outside.
-std::optional<Finding> placed_wrong(const Site& site, const GeometryAccess& access,
-                                    uint32_t emitter, char& stands_outside) {
+std::optional<Finding> wrong_emitter(const Site& site, const GeometryAccess& access,
+                                     uint32_t emitter, char& stands_outside) {
   const Emitter& e = site.scene.emitters[emitter];
   const glm::dvec3 middle = middle_of(e);
-  if (auto far = site.remote.told(name_of(e), middle)) {
+  if (auto far = site.remote.told(emitter_text(e), middle)) {
     stands_outside = 1;
     return Finding{Severity::error, "far", {e.place, *far}};
   }
@@ -115,14 +116,14 @@ std::optional<Finding> placed_wrong(const Site& site, const GeometryAccess& acce
         "inside",
         {e.place, fmt::format("{} lies in a wall or body: {:.0f} % of its light ends "
                               "within 2 cm, most of that on {}: move it out",
-                              name_of(e), 100 * ends.near, surface_text(site, ends.surface))}};
+                              emitter_text(e), 100 * ends.near, surface_text(site, ends.surface))}};
   if (ends.back > 0.5 && site.in_body(access, middle))
     return Finding{
         Severity::error,
         "inside",
         {e.place, fmt::format("{} lies inside {}, where {:.0f} % of its light ends: "
                               "move it out",
-                              name_of(e), surface_text(site, ends.surface), 100 * ends.back)}};
+                              emitter_text(e), surface_text(site, ends.surface), 100 * ends.back)}};
   if (!site.is_outside(access, middle)) return std::nullopt;
   stands_outside = 1;
   if (ends.close_back > 0.5)
@@ -131,11 +132,11 @@ std::optional<Finding> placed_wrong(const Site& site, const GeometryAccess& acce
         "outside",
         {e.place, fmt::format("{} stands outside, and {:.0f} % of its light ends on the outer side "
                               "of {}: is it above the ceiling? Move it into the room",
-                              name_of(e), 100 * ends.back, surface_text(site, ends.surface))}};
+                              emitter_text(e), 100 * ends.back, surface_text(site, ends.surface))}};
   return Finding{
       Severity::note,
       "outside",
-      {e.place, name_of(e) + " stands outside the building, as luminaires at final exits do"}};
+      {e.place, emitter_text(e) + " stands outside the building, as luminaires at final exits do"}};
 }
 
 /// Both shine in one operation, alike, and to one side.
@@ -146,7 +147,7 @@ bool same_light(const Emitter& a, const Emitter& b) {
          glm::dot(a.frame.axes[2], b.frame.axes[2]) > one_direction;
 }
 
-void find_doubles(const SceneDescription& scene, Findings& out) {
+void find_double_emitters(const SceneDescription& scene, Findings& out) {
   std::vector<size_t> order;
   for (size_t i = 0; i < scene.emitters.size(); ++i)
     if (scene.emitters[i].shape != EmitterShape::mesh) order.push_back(i);
@@ -159,12 +160,13 @@ void find_doubles(const SceneDescription& scene, Findings& out) {
       if (glm::length(first.frame.origin - second.frame.origin) >= one_place_m ||
           !same_light(first, second))
         continue;
-      out.push_back({Severity::warning,
-                     "same place",
-                     {second.place, fmt::format("{} stands where {} (line {}) does, at {}: its "
-                                                "light counts twice; remove one of them",
-                                                name_of(second), name_of(first), first.place.line,
-                                                place_text(second.frame.origin))}});
+      out.push_back(
+          {Severity::warning,
+           "same place",
+           {second.place, fmt::format("{} stands where {} (line {}) does, at {}: its "
+                                      "light counts twice; remove one of them",
+                                      emitter_text(second), emitter_text(first), first.place.line,
+                                      place_text(second.frame.origin))}});
     }
 }
 
@@ -230,24 +232,24 @@ void inspect_luminaires(const Site& site, Findings& out, std::vector<char>& outs
   std::vector<std::optional<Finding>> found(count);
   outside.assign(count, 0);
   site.building.each(count, [&](const GeometryAccess& access, size_t i) {
-    found[i] = placed_wrong(site, access, static_cast<uint32_t>(i), outside[i]);
+    found[i] = wrong_emitter(site, access, static_cast<uint32_t>(i), outside[i]);
   });
   for (auto& finding : found)
     if (finding) out.push_back(std::move(*finding));
-  find_doubles(site.scene, out);
+  find_double_emitters(site.scene, out);
 }
 
 void inspect_fluxes(const SceneDescription& scene, Findings& out) {
   for (const Emitter& e : scene.emitters) {
     if (!e.web || e.radiometric || !(e.emergency_flux > 0)) continue;
     const double share = e.emergency_flux / e.emergency_ageing / e.web->flux_lm();
-    if (share <= most_share) continue;
+    if (share <= most_flux_share) continue;
     out.push_back({Severity::warning,
                    "flux",
                    {e.place, fmt::format("{} gives {:.3g} times the {:.4g} lm of its file in "
                                          "emergency operation: emergency_factor is a share, 0.15 "
                                          "for 15 %, and emergency_flux is in lm",
-                                         name_of(e), share, e.web->flux_lm())}});
+                                         emitter_text(e), share, e.web->flux_lm())}});
   }
 }
 
@@ -263,12 +265,12 @@ void inspect_judged_places(const Site& site, Findings& out) {
   for (size_t i = 0; i < luminaires.size(); ++i) {
     if (useful[i] != 0) continue;
     const Emitter& e = site.scene.emitters[luminaires[i]];
-    out.push_back(
-        {Severity::note,
-         "no judged place",
-         {e.place, name_of(e) + " is an emergency luminaire whose direct light reaches no route, "
-                                "area, point of emphasis or externally lit sign: nothing there "
-                                "is judged"}});
+    out.push_back({Severity::note,
+                   "no judged place",
+                   {e.place, emitter_text(e) +
+                                 " is an emergency luminaire whose direct light reaches no route, "
+                                 "area, point of emphasis or externally lit sign: nothing there "
+                                 "is judged"}});
   }
 }
 

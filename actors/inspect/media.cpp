@@ -14,8 +14,8 @@ namespace {
 /// Places along each edge of the box that two media share.
 constexpr int steps = 12;
 /// A flame of which more than this share burns outside was meant to be in a room.
-constexpr double part_share = 0.1;
-constexpr double one_place_m = 0.02;
+constexpr double overlap_share = 0.1;
+constexpr double one_flame_m = 0.02;
 const Bounds everywhere{glm::dvec3(-1e9), glm::dvec3(1e9)};
 /// Where the thinner one adds less than this share of the thicker one it is a haze in it.
 constexpr double haze_share = 0.25;
@@ -112,7 +112,7 @@ Burning burning_of(const Building& smoky, size_t index) {
   return out;
 }
 
-std::string name_of(const Medium& m) {
+std::string medium_text(const Medium& m) {
   return (m.emission ? "the flame \"" : "the medium \"") + m.name + "\"";
 }
 
@@ -127,7 +127,7 @@ void tell_layers(const Medium& m, const Bounds& building, Findings& out) {
          {m.place, fmt::format("layer {} of {}, from z = {:.6g} to {:.6g} m, lies outside "
                                "the building, which reaches from {:.6g} to {:.6g} m: it "
                                "dims nothing; are its heights in metres?",
-                               i + 1, name_of(m), layer.z_low, layer.z_high, building.low.z,
+                               i + 1, medium_text(m), layer.z_low, layer.z_high, building.low.z,
                                building.high.z)}});
   }
 }
@@ -147,13 +147,14 @@ void inspect_reach(const SceneDescription& scene, Findings& out) {
       continue;
     }
     const glm::dvec3 nearest = glm::clamp((building.low + building.high) * 0.5, box.low, box.high);
-    if (auto far = remote.told(name_of(m), nearest))
+    if (auto far = remote.told(medium_text(m), nearest))
       out.push_back({Severity::error, "far", {m.place, *far}});
     else if (!m.emission)
-      out.push_back({Severity::warning,
-                     "media",
-                     {m.place, name_of(m) + " lies outside the building, with all of it: it dims "
-                                            "nothing; are its place and its heights in metres?"}});
+      out.push_back(
+          {Severity::warning,
+           "media",
+           {m.place, medium_text(m) + " lies outside the building, with all of it: it dims "
+                                      "nothing; are its place and its heights in metres?"}});
   }
 }
 
@@ -171,18 +172,18 @@ void inspect_flames(const Building& smoky, Findings& out, std::vector<char>& mis
     if (2 * burning.in_bodies > burning.all)
       out.push_back({Severity::error,
                      "inside",
-                     {m.place, name_of(m) + " lies inside a wall or body, with " +
+                     {m.place, medium_text(m) + " lies inside a wall or body, with " +
                                    percent(burning.in_bodies) + " of it: move it out"}});
     else if (burning.outside == burning.all && !burning.around)
       out.push_back(
-          {Severity::note, "outside", {m.place, name_of(m) + " burns outside the building"}});
-    else if (burning.outside > part_share * burning.all)
-      out.push_back(
-          {Severity::warning,
-           "outside",
-           {m.place, name_of(m) + " burns outside the building with " + percent(burning.outside) +
-                         " of it: move it into the room, or "
-                         "make it smaller"}});
+          {Severity::note, "outside", {m.place, medium_text(m) + " burns outside the building"}});
+    else if (burning.outside > overlap_share * burning.all)
+      out.push_back({Severity::warning,
+                     "outside",
+                     {m.place, medium_text(m) + " burns outside the building with " +
+                                   percent(burning.outside) +
+                                   " of it: move it into the room, or "
+                                   "make it smaller"}});
     else
       continue;
     misplaced[i] = 1;
@@ -193,13 +194,13 @@ void inspect_flames(const Building& smoky, Findings& out, std::vector<char>& mis
       const Medium *first = &media[a], *second = &media[b];
       const Bounds x = media_bounds({&first, 1}, everywhere);
       const Bounds y = media_bounds({&second, 1}, everywhere);
-      if (glm::length(x.low - y.low) + glm::length(x.high - y.high) >= one_place_m) continue;
-      out.push_back(
-          {Severity::warning,
-           "same place",
-           {second->place, fmt::format("{} burns where {} (line {}) does: its light "
-                                       "counts twice; remove one of them",
-                                       name_of(*second), name_of(*first), first->place.line)}});
+      if (glm::length(x.low - y.low) + glm::length(x.high - y.high) >= one_flame_m) continue;
+      out.push_back({Severity::warning,
+                     "same place",
+                     {second->place,
+                      fmt::format("{} burns where {} (line {}) does: its light "
+                                  "counts twice; remove one of them",
+                                  medium_text(*second), medium_text(*first), first->place.line)}});
     }
 }
 

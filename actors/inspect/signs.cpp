@@ -11,13 +11,13 @@ namespace luxodus {
 
 namespace {
 
-constexpr Real near_m = 0.02_r;
+constexpr Real near_face_m = 0.02_r;
 /// A face that has a surface as near before it shows itself to nobody [m].
 constexpr Real before_sign_m = 0.3_r;
 constexpr int points_per_side = 3;
 constexpr int rays_per_point = 16;
-constexpr double one_place_m = 0.01;
-constexpr double one_direction = 0.99;
+constexpr double one_sign_place_m = 0.01;
+constexpr double one_sign_direction = 0.99;
 
 struct Face {
   glm::dvec3 centre{0}, right{1, 0, 0}, up{0, 1, 0}, normal{0, 0, 1};
@@ -29,7 +29,7 @@ Face face_of(const Sign& sign, bool back) {
   return {sign.frame.origin - axes[2] * sign.thickness_m, -axes[0], axes[1], -axes[2]};
 }
 
-/// Shares of a face's light that ends within near_m, and of its points that look at something
+/// Shares of a face's light that ends within near_face_m, and of its points that look at something
 /// within before_sign_m; on which surface.
 struct Before {
   double near = 0, close = 0;
@@ -61,7 +61,8 @@ Before before(const Site& site, const GeometryAccess& access, const Sign& sign, 
         const Vec3 d =
             cosine_hemisphere((static_cast<Real>(k) + 0.5_r) / rays_per_point,
                               static_cast<Real>((7 * k) % rays_per_point) / rays_per_point);
-        if (first_stop(scene, access, at, right * d.x + up * d.y + normal * d.z, near_m, passes))
+        if (first_stop(scene, access, at, right * d.x + up * d.y + normal * d.z, near_face_m,
+                       passes))
           ++near;
       }
     }
@@ -99,8 +100,8 @@ Finding of_sign(Severity severity, const char* kind, const Sign& sign, const std
   return {severity, kind, {sign.place, "sign \"" + sign.name + "\" " + what}};
 }
 
-std::optional<Finding> placed_wrong(const Site& site, const GeometryAccess& access,
-                                    const Sign& sign) {
+std::optional<Finding> wrong_sign(const Site& site, const GeometryAccess& access,
+                                  const Sign& sign) {
   if (auto far = site.remote.told("sign \"" + sign.name + "\"", sign.frame.origin))
     return Finding{Severity::error, "far", {sign.place, *far}};
   const Face front = face_of(sign, false);
@@ -127,13 +128,13 @@ std::optional<Finding> placed_wrong(const Site& site, const GeometryAccess& acce
   return std::nullopt;
 }
 
-void find_doubles(const SceneDescription& scene, Findings& out) {
+void find_double_signs(const SceneDescription& scene, Findings& out) {
   const auto& signs = scene.signs;
   for (size_t i = 0; i < signs.size(); ++i)
     for (size_t k = 0; k < i; ++k) {
       const Frame &a = signs[k].frame, &b = signs[i].frame;
-      if (glm::length(a.origin - b.origin) >= one_place_m ||
-          glm::dot(a.axes[2], b.axes[2]) < one_direction)
+      if (glm::length(a.origin - b.origin) >= one_sign_place_m ||
+          glm::dot(a.axes[2], b.axes[2]) < one_sign_direction)
         continue;
       out.push_back(of_sign(Severity::warning, "same place", signs[i],
                             fmt::format("hangs where sign \"{}\" (line {}) does, at {}: remove "
@@ -148,7 +149,7 @@ void inspect_signs(const Site& site, Findings& out, std::vector<char>& misplaced
   const size_t count = site.scene.signs.size();
   std::vector<std::optional<Finding>> found(count);
   site.building.each(count, [&](const GeometryAccess& access, size_t i) {
-    found[i] = placed_wrong(site, access, site.scene.signs[i]);
+    found[i] = wrong_sign(site, access, site.scene.signs[i]);
   });
   misplaced.assign(count, 0);
   for (size_t i = 0; i < count; ++i) {
@@ -156,7 +157,7 @@ void inspect_signs(const Site& site, Findings& out, std::vector<char>& misplaced
     misplaced[i] = 1;
     out.push_back(std::move(*found[i]));
   }
-  find_doubles(site.scene, out);
+  find_double_signs(site.scene, out);
 }
 
 }  // namespace luxodus

@@ -165,7 +165,7 @@ std::string notice_box(const Texts& t) {
 }
 
 /// "Appendix A: ..." names itself.
-std::string number_of(size_t section) {
+std::string section_number(size_t section) {
   return section < numbered ? std::to_string(section + 1) : "";
 }
 
@@ -187,9 +187,9 @@ std::string report_page(const PageParts& parts, const PageOptions& options) {
     contents += fmt::format(
         "<li><a href=\"#{}\"><span class=\"n\">{}</span><span class=\"t\">{}</span><span "
         "class=\"p\">{}</span></a></li>\n",
-        section.id, number_of(i), escaped(t(section.heading)),
+        section.id, section_number(i), escaped(t(section.heading)),
         page == options.pages.end() ? "" : std::to_string(page->second));
-    const std::string number = number_of(i);
+    const std::string number = section_number(i);
     body += fmt::format("<h2 id=\"{}\" class=\"{}\">{}{}</h2>\n", section.id, section.css_class,
                         number.empty() ? "" : "<span class=\"n\">" + number + "</span>",
                         escaped(t(section.heading))) +

@@ -246,7 +246,7 @@ void blocks(Drawing& out, const Schedule& schedule) {
   out.end_section();
 }
 
-void luminaires(Drawing& out, const Json& a, const Schedule& schedule, size_t level) {
+void draw_luminaires(Drawing& out, const Json& a, const Schedule& schedule, size_t level) {
   for (size_t i = 0; i < a["luminaires"].size(); ++i) {
     const Json &one = a["luminaires"][i], &p = one["position"];
     const double z = p[2].get<double>();
@@ -259,7 +259,7 @@ void luminaires(Drawing& out, const Json& a, const Schedule& schedule, size_t le
   }
 }
 
-void signs(Drawing& out, const Json& a, const Schedule& schedule, size_t level) {
+void draw_signs(Drawing& out, const Json& a, const Schedule& schedule, size_t level) {
   for (size_t i = 0; i < a["signs"].size(); ++i) {
     const Json &one = a["signs"][i], &p = one["position"], &f = one["facing"];
     const double z = p[2].get<double>();
@@ -275,7 +275,7 @@ void signs(Drawing& out, const Json& a, const Schedule& schedule, size_t level) 
   }
 }
 
-void places(Drawing& out, const Json& a, const Schedule& schedule, size_t level) {
+void draw_places(Drawing& out, const Json& a, const Schedule& schedule, size_t level) {
   for (const Json& route : a["places"]["routes"]) {
     const bool here = std::any_of(route["path"].begin(), route["path"].end(), [&](const Json& p) {
       return schedule.level_of(p[2].get<double>()) == level;
@@ -337,9 +337,9 @@ Result<void> write_plan_dxf(const fs::path& path, const Json& a, const Schedule&
       for (const Json& l : level[kind])
         out.line(layer, {l[0].get<double>(), l[1].get<double>()},
                  {l[2].get<double>(), l[3].get<double>()});
-    places(out, a, schedule, number);
-    luminaires(out, a, schedule, number);
-    signs(out, a, schedule, number);
+    draw_places(out, a, schedule, number);
+    draw_luminaires(out, a, schedule, number);
+    draw_signs(out, a, schedule, number);
     for (const IsoluxLine& one : isolux_lines(level)) {
       out.polyline(isolux_layer(one.lux), one.line.points, one.line.closed);
       out.text(isolux_layer(one.lux), one.line.points[one.line.points.size() / 2],

@@ -5,7 +5,7 @@ namespace luxodus {
 
 namespace {
 
-constexpr ReportText rows[] = {
+constexpr ReportText page_rows[] = {
     {"page.kind",
      {"Emergency lighting and exit signs: calculation report",
       "Notbeleuchtung und Rettungszeichen: Berechnungsbericht",
@@ -169,7 +169,7 @@ constexpr ReportText rows[] = {
 }  // namespace
 
 std::span<const ReportText> page_texts() {
-  return rows;
+  return page_rows;
 }
 
 }  // namespace luxodus

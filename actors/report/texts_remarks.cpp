@@ -6,7 +6,7 @@ namespace luxodus {
 
 namespace {
 
-constexpr ReportText rows[] = {
+constexpr ReportText remarks_rows[] = {
     // Conditions of checks.
     {"",
      {"{0} s after the mains have failed", "{0} s nach dem Netzausfall",
@@ -264,7 +264,7 @@ constexpr ReportText rows[] = {
 }  // namespace
 
 std::span<const ReportText> remark_texts() {
-  return rows;
+  return remarks_rows;
 }
 
 }  // namespace luxodus

@@ -6,7 +6,7 @@ namespace luxodus {
 
 namespace {
 
-constexpr ReportText rows[] = {
+constexpr ReportText rules_rows[] = {
     {"rule.E1",
      {"Illuminance on the centre line of an escape route",
       "Beleuchtungsstärke auf der Mittellinie eines Rettungswegs",
@@ -186,7 +186,7 @@ constexpr ReportText rows[] = {
 }  // namespace
 
 std::span<const ReportText> rule_texts() {
-  return rows;
+  return rules_rows;
 }
 
 }  // namespace luxodus

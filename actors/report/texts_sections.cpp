@@ -5,7 +5,7 @@ namespace luxodus {
 
 namespace {
 
-constexpr ReportText rows[] = {
+constexpr ReportText sections_rows[] = {
     {"state.scenario", {"Scenario", "Szenario", "Scénario"}},
     {"state.no_scenario",
      {"none named: the scene as written", "keines genannt: die Szene wie geschrieben",
@@ -341,7 +341,7 @@ constexpr ReportText rows[] = {
 }  // namespace
 
 std::span<const ReportText> section_texts() {
-  return rows;
+  return sections_rows;
 }
 
 }  // namespace luxodus

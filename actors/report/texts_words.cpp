@@ -5,7 +5,7 @@ namespace luxodus {
 
 namespace {
 
-constexpr ReportText rows[] = {
+constexpr ReportText words_rows[] = {
     {"word.none", {"none", "keiner", "aucun"}},
     {"word.yes", {"yes", "ja", "oui"}},
     {"word.no", {"no", "nein", "non"}},
@@ -99,7 +99,7 @@ constexpr ReportText rows[] = {
 }  // namespace
 
 std::span<const ReportText> word_texts() {
-  return rows;
+  return words_rows;
 }
 
 }  // namespace luxodus

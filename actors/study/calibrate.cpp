@@ -25,10 +25,6 @@ constexpr int64_t merged_batches = 200;
 constexpr int64_t bins_of_a_step = 16384;  // as a node packs them
 constexpr int flushes = 20;
 
-double nanoseconds_since(double start) {
-  return 1e9 * (thread_seconds() - start);
-}
-
 /// The processor's own words.
 std::string machine_name() {
   std::ifstream file("/proc/cpuinfo");
@@ -49,7 +45,7 @@ Result<void> measure_builds(const CompiledScene& scene, const SceneObjects& obje
       const double start = thread_seconds();
       const auto built = builder.built(i, objects.bytes(i).bytes);
       if (!built) return built.problem();
-      values.push_back(nanoseconds_since(start));
+      values.push_back(thread_nanoseconds_since(start));
       rows.push_back({1, static_cast<double>(objects.places()[i].wire_bytes)});
     }
   }
@@ -76,7 +72,7 @@ void measure_pieces(const CompiledScene& scene, BatchTracer& tracer, const Resid
     const uint64_t references = parts.references();
     const double start = thread_seconds();
     tracer.trace(batch.group, batch.first_particle, count, scores);
-    const double taken = nanoseconds_since(start);
+    const double taken = thread_nanoseconds_since(start);
     if (piece < warm_pieces) continue;
     rows.push_back({static_cast<double>(count),
                     static_cast<double>(scores.balance.rays - before.rays),
@@ -101,7 +97,7 @@ void measure_looks(const CompiledScene& scene, BatchTracer& tracer, const Reside
   const uint64_t references = parts.references();
   const double start = thread_seconds();
   for (uint32_t unit = 0; unit < units; ++unit) tracer.look(0, unit, scores);
-  const double taken = nanoseconds_since(start);
+  const double taken = thread_nanoseconds_since(start);
   const double asked = static_cast<double>(parts.references() - references);
   costs.look_ns = std::max(0.0, (taken - asked * costs.reference_ns) / units);
 }
@@ -144,19 +140,19 @@ Result<void> measure_counting(const CompiledScene& scene, SimCosts& costs) {
       const double start = thread_seconds();
       own.merge(scores, batch.group);
       scores.reset(scene.layout);
-      leases_ns += nanoseconds_since(start);
+      leases_ns += thread_nanoseconds_since(start);
     }
     double start = thread_seconds();
     encoder.begin(own);
     while (!encoder.step(bins_of_a_step)) {
     }
-    pack_ns += nanoseconds_since(start);
+    pack_ns += thread_nanoseconds_since(start);
     bytes += static_cast<double>(encoder.bytes().size());
     start = thread_seconds();
     auto gain = decode_flush(encoder.bytes(), groups, scene.layout.totals());
     if (!gain) return gain.problem();
     gain->add_to(all);
-    count_ns += nanoseconds_since(start);
+    count_ns += thread_nanoseconds_since(start);
   }
   if (parts.problem()) return *parts.problem();
   costs.lease_ns = leases_ns / static_cast<double>(merged_batches);

@@ -28,10 +28,6 @@ const SystemClock& machine_clock() {
   return clock;
 }
 
-double nanoseconds_since(double start) {
-  return 1e9 * (thread_seconds() - start);
-}
-
 void measure_switches(SimCosts& costs) {
   QuietSource source(machine_clock());
   SchedulerLimits limits;
@@ -39,7 +35,7 @@ void measure_switches(SimCosts& costs) {
   Scheduler scheduler(limits, machine_clock(), source);
   double start = thread_seconds();
   for (int i = 0; i < turns; ++i) scheduler.turn();
-  costs.turn_ns = nanoseconds_since(start) / turns;
+  costs.turn_ns = thread_nanoseconds_since(start) / turns;
   for (size_t i = 0; i < fibers; ++i)
     (void)scheduler.fibers().start("measured", [&scheduler] {
       while (scheduler.fibers().yield() == Wake::woken) {
@@ -49,8 +45,9 @@ void measure_switches(SimCosts& costs) {
   const uint64_t before = scheduler.counters().resumes;
   start = thread_seconds();
   for (int i = 0; i < turns / 10; ++i) scheduler.turn();
-  costs.switch_ns = nanoseconds_since(start) / static_cast<double>(std::max<uint64_t>(
-                                                   1, scheduler.counters().resumes - before));
+  costs.switch_ns =
+      thread_nanoseconds_since(start) /
+      static_cast<double>(std::max<uint64_t>(1, scheduler.counters().resumes - before));
   scheduler.fibers().cancel_all();
   while (scheduler.fibers().live() > 0) (void)scheduler.fibers().run_next();
 }
@@ -125,7 +122,7 @@ double question_cost(Peer& first, Peer& second, uint64_t object, int count) {
     }
     poll_both(first, second);
   }
-  return nanoseconds_since(start) / count;
+  return thread_nanoseconds_since(start) / count;
 }
 
 /// Of a question with its answer between two threads that rest meanwhile [ns].
@@ -152,7 +149,7 @@ RoundTrip round_trip(Peer& first, Peer& second) {
     run(first, [&] { return first.answers > 0; });
     spans.push_back(static_cast<double>(machine_clock().now() - start));
   }
-  const double work = nanoseconds_since(begun) / trips;
+  const double work = thread_nanoseconds_since(begun) / trips;
   done = true;
   second.transport.wake();
   answering.join();
@@ -171,7 +168,7 @@ Result<void> measure_frames(SimCosts& costs) {
     poll_both(first, second);
   double start = thread_seconds();
   for (int i = 0; i < turns; ++i) poll_both(first, second);
-  costs.turn_ns += nanoseconds_since(start) / (2 * turns);
+  costs.turn_ns += thread_nanoseconds_since(start) / (2 * turns);
   (void)question_cost(first, second, 0, questions / 10);  // warm
   const double small = question_cost(first, second, 0, questions);
   const double large = question_cost(first, second, object_bytes, objects);

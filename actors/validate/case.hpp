@@ -5,12 +5,22 @@
 
 #include <functional>
 #include <memory>
+#include <numbers>
 #include <string>
 #include <vector>
 
 #include "actors/validate/traced.hpp"
 
 namespace luxodus::light {
+
+inline constexpr double pi = std::numbers::pi;
+/// The reference table of closed forms, each with its id.
+inline constexpr const char* exact_table = "misc_exact.csv";
+
+/// Of the first sign's white part, at the first eye.
+inline Estimate first_view(const Traced& run, EyeQuantity quantity) {
+  return run.value(run.blocks().views, 0, static_cast<uint32_t>(quantity));
+}
 
 /// What tracing estimates, and what it ought to be.
 struct Quantity {

@@ -13,9 +13,6 @@ namespace luxodus::light {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
-constexpr const char* table = "misc_exact.csv";
-
 Mesh sphere_mesh(double radius, double sagitta) {
   auto shape = shapes::sphere(radius, sagitta);
   LUX_CHECK(shape.ok(), "no sphere");
@@ -131,7 +128,8 @@ PreparedCase plates_plan(const std::string& p) {
 /// Rows of two names that stand in the same order, side by side.
 template <class Make>
 void for_each_pair(const std::string& first, const std::string& second, const Make& make) {
-  const std::vector<Row> a = rows_where(table, "id", first), b = rows_where(table, "id", second);
+  const std::vector<Row> a = rows_where(exact_table, "id", first),
+                         b = rows_where(exact_table, "id", second);
   LUX_CHECK(a.size() == b.size(), "rows of one parameter each");
   for (size_t i = 0; i < a.size(); ++i)
     make(a[i].text("parameters"), a[i].number("value"), b[i].number("value"));
@@ -142,7 +140,7 @@ void add_plates(Cases& cases) {
   for_each_pair("parallel_plates_E2", "parallel_plates_E1",
                 [&](const std::string& p, double second, double first) {
                   cases.push_back(
-                      {"plates", "plates " + p, table, [=] {
+                      {"plates", "plates " + p, exact_table, [=] {
                          PreparedCase plan = plates_plan(p);
                          plan.add(
                              "flux into plate 2", second,
@@ -157,7 +155,7 @@ void add_plates(Cases& cases) {
       "parallel_plates_gas_E2", "parallel_plates_gas_abs",
       [&](const std::string& p, double second, double absorbed) {
         cases.push_back(
-            {"plates", "plates and gas " + p, table, [=] {
+            {"plates", "plates and gas " + p, exact_table, [=] {
                PreparedCase plan = plates_plan(p);
                add_homogeneous(plan.scene, smoke(parameter(p, "tau") / 0.5, 0));
                plan.add(
@@ -175,10 +173,10 @@ void add_plates(Cases& cases) {
 
 void add_enclosure_cases(Cases& cases) {
   const auto add = [&](const std::string& id, const std::string& name, const auto& plan) {
-    for (const Row& row : rows_where(table, "id", id)) {
+    for (const Row& row : rows_where(exact_table, "id", id)) {
       const std::string p = row.text("parameters");
       const double value = row.number("value");
-      cases.push_back({"sphere", name + " " + p, table, [=] { return plan(p, value); }});
+      cases.push_back({"sphere", name + " " + p, exact_table, [=] { return plan(p, value); }});
     }
   };
   add("sphere_integrating", "integrating sphere",
@@ -190,7 +188,7 @@ void add_enclosure_cases(Cases& cases) {
   });
   for_each_pair("concentric_absorbed_inner", "concentric_absorbed_outer",
                 [&](const std::string& p, double inside, double outside) {
-                  cases.push_back({"sphere", "concentric spheres " + p, table,
+                  cases.push_back({"sphere", "concentric spheres " + p, exact_table,
                                    [=] { return concentric_plan(p, inside, outside); }});
                 });
   add_plates(cases);

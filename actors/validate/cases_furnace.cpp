@@ -14,7 +14,6 @@ namespace luxodus::light {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr double off_the_walls = 2e-5;  // sources stand 0.01 mm off them
 constexpr const char* walls[] = {"x0", "x1", "y0", "y1", "z0", "z1"};
 constexpr const char* kinds[] = {"homogeneous", "layers", "a ball", "cells",

@@ -8,16 +8,15 @@ namespace luxodus::light {
 
 namespace {
 
-constexpr double edge = 4;  // [m] of the mirrored box that stands for infinity
-constexpr const char* table = "misc_exact.csv";
+constexpr double gas_edge = 4;  // [m] of the mirrored box that stands for infinity
 
 /// Black floor and ceiling (objects 4 and 5) around gas of `height`, which is infinite otherwise.
 SceneDescription black_plates(double height) {
   SceneDescription scene;
   scene.run.voxels = false;
-  add_mirror_walls(scene, {0, 0, 0}, {edge, edge, height});
+  add_mirror_walls(scene, {0, 0, 0}, {gas_edge, gas_edge, height});
   const int black = add_grey(scene, 0);
-  const std::vector<BoxFace> faces = faces_of_box({0, 0, 0}, {edge, edge, height});
+  const std::vector<BoxFace> faces = faces_of_box({0, 0, 0}, {gas_edge, gas_edge, height});
   add_quad(scene, "floor", faces[4].corner, faces[4].u, faces[4].v, black);
   add_quad(scene, "ceiling", faces[5].corner, faces[5].u, faces[5].v, black);
   return scene;
@@ -26,7 +25,7 @@ SceneDescription black_plates(double height) {
 /// Gas of one extinction from `low` to `high` that glows evenly with a power of 1 and absorbs.
 void add_glowing_gas(SceneDescription& scene, double low, double high, double extinction) {
   Medium& gas = add_cells(
-      scene, {0, 0, low}, {edge, edge, high - low}, 2,
+      scene, {0, 0, low}, {gas_edge, gas_edge, high - low}, 2,
       [&](const glm::dvec3&) { return extinction; }, 0);
   gas.data.emission = gas.data.extinction;
   gas.emission = MediumEmission{};
@@ -37,7 +36,7 @@ PreparedCase layer_plan(const std::string& depth, double passed) {
   PreparedCase plan;
   plan.scene = black_plates(1);
   add_homogeneous(plan.scene, smoke(parameter(depth, "tau"), 0));
-  add_face_emitter(plan.scene, faces_of_box({0, 0, 0}, {edge, edge, 1})[5], 1);
+  add_face_emitter(plan.scene, faces_of_box({0, 0, 0}, {gas_edge, gas_edge, 1})[5], 1);
   constexpr double off_the_ceiling = 5e-5;  // the light stands 0.01 mm off it
   plan.add(
       "absorbed", 1 - passed, [](const Traced& run) { return run.absorbed_by_medium(0); },
@@ -83,9 +82,9 @@ PreparedCase flame_plan(const Flame& f) {
 }
 
 void add_flames(Cases& cases) {
-  const std::vector<Row> to_floor = rows_where(table, "id", "flame_layer_to_floor"),
-                         to_ceiling = rows_where(table, "id", "flame_layer_to_ceiling"),
-                         absorbed = rows_where(table, "id", "flame_layer_absorbed");
+  const std::vector<Row> to_floor = rows_where(exact_table, "id", "flame_layer_to_floor"),
+                         to_ceiling = rows_where(exact_table, "id", "flame_layer_to_ceiling"),
+                         absorbed = rows_where(exact_table, "id", "flame_layer_absorbed");
   LUX_CHECK(to_floor.size() == to_ceiling.size() && to_floor.size() == absorbed.size(),
             "three rows for each flame");
   for (size_t i = 0; i < to_floor.size(); ++i) {
@@ -98,7 +97,7 @@ void add_flames(Cases& cases) {
                       to_floor[i].number("value"),
                       to_ceiling[i].number("value"),
                       absorbed[i].number("value")};
-    cases.push_back({"gas", "flame between layers of depth " + depths, table,
+    cases.push_back({"gas", "flame between layers of depth " + depths, exact_table,
                      [flame] { return flame_plan(flame); }});
   }
 }
@@ -106,17 +105,17 @@ void add_flames(Cases& cases) {
 }  // namespace
 
 void add_gas_cases(Cases& cases) {
-  for (const Row& row : rows_where(table, "id", "2E3")) {
+  for (const Row& row : rows_where(exact_table, "id", "2E3")) {
     const std::string depth = row.text("parameters");
     const double passed = row.number("value");
     cases.push_back({"gas", "layer of gas, " + depth, "misc_exact.csv, 2 E3(tau)",
                      [=] { return layer_plan(depth, passed); }});
   }
-  for (const Row& row : rows_where(table, "id", "slab_emission_escape")) {
+  for (const Row& row : rows_where(exact_table, "id", "slab_emission_escape")) {
     const std::string depth = row.text("parameters");
     const double tau = parameter(depth, "tau"), escaping = row.number("value");
     const double emissivity = exact("slab_emissivity", depth);
-    cases.push_back({"gas", "glowing layer, " + depth, table,
+    cases.push_back({"gas", "glowing layer, " + depth, exact_table,
                      [=] { return glowing_layer_plan(tau, escaping, emissivity); }});
   }
   add_flames(cases);

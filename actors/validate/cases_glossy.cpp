@@ -13,8 +13,7 @@ namespace luxodus::light {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
-constexpr double diffuse = 0.2, specular = 0.6;
+constexpr double glossy_diffuse = 0.2, glossy_specular = 0.6;
 
 /// Both directions point away from a surface whose normal is z.
 double brdf(const glm::dvec3& wo, const glm::dvec3& wi, double alpha) {
@@ -27,14 +26,14 @@ double brdf(const glm::dvec3& wo, const glm::dvec3& wi, double alpha) {
     return 0.5 * (std::sqrt(1 + a2 * tan2) - 1);
   };
   const double masking = 1 / (1 + lambda(wo.z) + lambda(wi.z));
-  return diffuse / pi + specular * d * masking / (4 * wo.z * wi.z);
+  return glossy_diffuse / pi + glossy_specular * d * masking / (4 * wo.z * wi.z);
 }
 
 int add_glossy(SceneDescription& scene, double alpha) {
-  const int number = add_grey(scene, diffuse);
+  const int number = add_grey(scene, glossy_diffuse);
   Material& m = scene.materials[static_cast<size_t>(number)];
   m.kind = MaterialKind::glossy;
-  m.specular = Spectrum::constant(specular);
+  m.specular = Spectrum::constant(glossy_specular);
   m.roughness = alpha;
   return number;
 }

@@ -12,8 +12,7 @@ namespace luxodus::light {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
-constexpr double lamp_lm = 1000;
+constexpr double bare_lamp_lm = 1000;
 constexpr double computed = 1e-3;  // what computed direct light may err by
 constexpr double cell = 0.25;      // edge of those that the table averages over [m]
 constexpr const char* points_table = "area_light_points.csv";
@@ -25,7 +24,7 @@ SceneDescription lamp_of(const Row& row) {
   Emitter& e = add_rectangle(scene, {(r[0] + r[1]) / 2, (r[2] + r[3]) / 2, row.number("height")},
                              {0, 0, -1}, r[1] - r[0], r[3] - r[2], 0);
   e.radiometric = false;
-  e.mains_flux = lamp_lm;
+  e.mains_flux = bare_lamp_lm;
   constexpr double floor_edge = 24, h = floor_edge / 2;
   add_quad(scene, "floor", {-h, -h, 0}, {floor_edge, 0, 0}, {0, floor_edge, 0}, add_grey(scene, 0));
   return scene;
@@ -110,8 +109,8 @@ PreparedCase traced_cells_plan(const std::vector<Row>& points) {
         points[i].number("E_cell_avg_lx") * cell * cell * static_cast<double>(images.bins.size());
     plan.sums.push_back(images);
     plan.add("share of the flux in cells like " + points[i].text("x") + ", " + points[i].text("y"),
-             lumens / lamp_lm,
-             [i, lm_per_w](const Traced& run) { return run.sum(i) * (lm_per_w / lamp_lm); })
+             lumens / bare_lamp_lm,
+             [i, lm_per_w](const Traced& run) { return run.sum(i) * (lm_per_w / bare_lamp_lm); })
         .unit = 1;
   }
   return plan;

@@ -17,8 +17,6 @@ namespace luxodus::light {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
-
 /// Leaning towards C0: I = I0 cos(gamma) (1 + cos(C) / 2) below the horizon, none above.
 constexpr double peak_cd = 500;
 double intensity(double c_deg, double gamma_deg) {

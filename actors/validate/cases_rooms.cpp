@@ -11,8 +11,6 @@ namespace luxodus::light {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
-
 /// Configuration factors between unit squares of a cube, opposite and adjacent.
 constexpr double to_opposite = 0.199824895698387, to_adjacent = 0.200043776075403;
 

@@ -13,8 +13,6 @@ namespace luxodus::light {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
-
 // ---- Smokeview ---------------------------------------------------------------------------------
 
 /// Verification Guide, "Verifying Smoke Transparency": soot of 7.922e-5 kg/m3 at 8700 m2/kg takes
@@ -61,8 +59,8 @@ PreparedCase grey_plan(double cell_m) {
 
 // ---- evenly lit smoke --------------------------------------------------------------------------
 
-constexpr double extinction = 3;  // [1/m]
-constexpr double sign_x = 4.8;
+constexpr double sight_extinction = 3;  // [1/m]
+constexpr double far_sign_x = 4.8;
 
 /// A sign of `luminance` that reflects nothing and is too small to light or shade the smoke that
 /// it is seen through; smoke that absorbs nothing, between walls that all glow: everything receives
@@ -78,31 +76,26 @@ SceneDescription lit_smoke(double lux, double luminance, double distance, double
     const double flux = lux * (1 - reflectance) * glm::length(f.u) * glm::length(f.v);
     add_face_emitter(scene, f, flux).radiometric = false;
   }
-  add_homogeneous(scene, smoke(extinction, 1, g));
-  add_tiny_sign(scene, {sign_x, 0.5, 0.5}, luminance);
-  add_eye(scene, {sign_x - distance, 0.5, 0.5});
+  add_homogeneous(scene, smoke(sight_extinction, 1, g));
+  add_tiny_sign(scene, {far_sign_x, 0.5, 0.5}, luminance);
+  add_eye(scene, {far_sign_x - distance, 0.5, 0.5});
   return scene;
-}
-
-/// Of the sign's white part, at the only eye.
-Estimate seen(const Traced& run, EyeQuantity quantity) {
-  return run.value(run.blocks().views, 0, static_cast<uint32_t>(quantity));
 }
 
 /// The sign's own light brightens the smoke right before it, over a length of about its edge: a
 /// share of what arrives of the sign. Measured with an edge of 2 mm: 0.72 of this bound with g =
 /// 0.6, 0.2 with g = 0.
-constexpr double of_the_sign = extinction * tiny_sign_m;
+constexpr double of_the_sign = sight_extinction * tiny_sign_m;
 
 PreparedCase koschmieder_plan(double depth, double g) {
   constexpr double lux = 100, luminance = 100, horizon = lux / pi;
   PreparedCase plan;
-  plan.scene = lit_smoke(lux, luminance, depth / extinction, g);
+  plan.scene = lit_smoke(lux, luminance, depth / sight_extinction, g);
   plan.look_rather(4);
   const double passed = std::exp(-depth);
   const auto add = [&](const std::string& name, double reference, EyeQuantity quantity) {
     plan.add(
-            name, reference, [quantity](const Traced& run) { return seen(run, quantity); },
+            name, reference, [quantity](const Traced& run) { return first_view(run, quantity); },
             of_the_sign * luminance * passed / reference)
         .unit = reference;
   };
@@ -136,19 +129,19 @@ constexpr JinRow jin_table[] = {{1, {6.27, 8.02, 10.20, 10.35, 11.96, 13.35}},
 /// the contrast that the eye receives there.
 PreparedCase jin_plan(double lux, double luminance, double c) {
   PreparedCase plan;
-  plan.scene = lit_smoke(lux, luminance, c / extinction, 0);
+  plan.scene = lit_smoke(lux, luminance, c / sight_extinction, 0);
   plan.look_rather(8);
   const double smoke_cd_m2 = lux / pi;
   const double sign = luminance > smoke_cd_m2 ? 1 : -1;
   constexpr double digits = 0.005;  // of the table, in C
   plan.add(
           "luminance at the eye [cd/m2]", smoke_cd_m2 * (1 + sign * threshold),
-          [](const Traced& run) { return seen(run, EyeQuantity::at_eye); },
+          [](const Traced& run) { return first_view(run, EyeQuantity::at_eye); },
           threshold * (digits + of_the_sign))
       .unit = smoke_cd_m2;
   // dC = d ln(contrast): linear about the threshold, so that z stays normal.
   Quantity& measured = plan.add("C", c, [=](const Traced& run) {
-    const Estimate eye = seen(run, EyeQuantity::at_eye);
+    const Estimate eye = first_view(run, EyeQuantity::at_eye);
     const double contrast = sign * (eye.value / smoke_cd_m2 - 1);
     return Estimate{c + contrast / threshold - 1, eye.standard_error / (smoke_cd_m2 * threshold)};
   });
@@ -157,9 +150,9 @@ PreparedCase jin_plan(double lux, double luminance, double c) {
   // The veil is all chance in it, and smoke as bright as it is in an even field is known: what is
   // passed of the sign's contrast says C to the digits of the table.
   Quantity& passed = plan.add("C, of the contrast that is passed", c, [=](const Traced& run) {
-    const double own = seen(run, EyeQuantity::own).value;
+    const double own = first_view(run, EyeQuantity::own).value;
     const double contrast =
-        sign * (own / smoke_cd_m2 - 1) * seen(run, EyeQuantity::transmission).value;
+        sign * (own / smoke_cd_m2 - 1) * first_view(run, EyeQuantity::transmission).value;
     return Estimate{c + std::log(contrast / threshold), 0};
   });
   passed.bias = digits;

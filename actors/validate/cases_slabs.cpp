@@ -12,13 +12,13 @@ namespace luxodus::light {
 
 namespace {
 
-constexpr double edge = 20;   // [m], wide: few reflections on the mirrors
-constexpr double height = 3;  // of every stack
-constexpr double gap = 1e-3;  // clear air between stack and receiving face
+constexpr double slab_edge = 20;  // [m], wide: few reflections on the mirrors
+constexpr double height = 3;      // of every stack
+constexpr double gap = 1e-3;      // clear air between stack and receiving face
 
 /// Albedos are single precision and err by 6e-8, at each of many collisions; the table has nine
 /// digits.
-constexpr double rounding = 1e-6;
+constexpr double slab_rounding = 1e-6;
 
 /// Particles for a quick look at a history that collides some `depth` times.
 int64_t affordable(double depth) {
@@ -32,12 +32,12 @@ SceneDescription stack_of(const Row& row) {
   scene.run.voxels = false;
   const bool from_top = row.text("from") == "top";
   const double low = from_top ? -gap : 0, high = from_top ? height : height + gap;
-  add_mirror_walls(scene, {0, 0, low}, {edge, edge, high});
-  const BoxFace far = faces_of_box({0, 0, low}, {edge, edge, high})[from_top ? 4 : 5];
+  add_mirror_walls(scene, {0, 0, low}, {slab_edge, slab_edge, high});
+  const BoxFace far = faces_of_box({0, 0, low}, {slab_edge, slab_edge, high})[from_top ? 4 : 5];
   add_quad(scene, "far", far.corner, far.u, far.v, add_grey(scene, row.number("floor_rho")));
   const glm::dvec3 way(0, 0, from_top ? -1 : 1);
-  Emitter& e =
-      add_rectangle(scene, {edge / 2, edge / 2, from_top ? height : 0}, way, edge, edge, 1);
+  Emitter& e = add_rectangle(scene, {slab_edge / 2, slab_edge / 2, from_top ? height : 0}, way,
+                             slab_edge, slab_edge, 1);
   if (row.text("incidence") == "normal") e.distribution = Distribution::collimated;
 
   const std::vector<double> sigma = row.numbers("sigma_t"), thickness = row.numbers("thickness"),
@@ -54,8 +54,8 @@ SceneDescription stack_of(const Row& row) {
   CountingPlaneMeasure plane;  // forward is the way of the light
   plane.name = "before far";
   plane.corner = {0, 0, from_top ? -gap / 2 : height + gap / 2};
-  plane.edge_u = from_top ? glm::dvec3(0, edge, 0) : glm::dvec3(edge, 0, 0);
-  plane.edge_v = from_top ? glm::dvec3(edge, 0, 0) : glm::dvec3(0, edge, 0);
+  plane.edge_u = from_top ? glm::dvec3(0, slab_edge, 0) : glm::dvec3(slab_edge, 0, 0);
+  plane.edge_v = from_top ? glm::dvec3(slab_edge, 0, 0) : glm::dvec3(0, slab_edge, 0);
   scene.counting_planes.push_back(plane);
   return scene;
 }
@@ -69,7 +69,7 @@ PreparedCase stack_plan(const Row& row) {
   const auto add = [&](const std::string& name, double reference,
                        std::function<Estimate(const Traced&)> read) -> Quantity& {
     Quantity& q = plan.add(name, reference, std::move(read));
-    q.bias = rounding;
+    q.bias = slab_rounding;
     return q;
   };
   add("reflected", row.number("R"), [back](const Traced& run) { return run.escaped(back); });
@@ -85,7 +85,7 @@ PreparedCase stack_plan(const Row& row) {
     add("absorbed" + layer, absorbed[i], [i](const Traced& run) { return run.absorbed_in(i); });
     Quantity& path =
         add("path" + layer, track[i], [i](const Traced& run) { return run.track_length(i); });
-    path.bias = 2 * rounding * track[i];
+    path.bias = 2 * slab_rounding * track[i];
     // A particle that gets deep into a thick layer stays there for long [m].
     path.unit = std::max(2.0, 0.5 * tau);
   }
@@ -99,19 +99,20 @@ PreparedCase half_space_plan(double albedo, double cosine, double reflected) {
   SceneDescription& scene = plan.scene;
   scene.run.voxels = false;
   const double top = height + 10 * gap;
-  add_mirror_walls(scene, {0, 0, 0}, {edge, edge, top});
-  add_quad(scene, "end", {0, 0, 0}, {edge, 0, 0}, {0, edge, 0}, add_grey(scene, 0));
+  add_mirror_walls(scene, {0, 0, 0}, {slab_edge, slab_edge, top});
+  add_quad(scene, "end", {0, 0, 0}, {slab_edge, 0, 0}, {0, slab_edge, 0}, add_grey(scene, 0));
   // Fluence falls by e in at least 1 / sqrt(3 (1 - albedo)) free paths; what is scattered beyond
   // would have to come back as well.
   const double depth = 15 + 8 / std::sqrt(3 * (1 - albedo));
   add_layers(scene, 0, {height}, {smoke(depth / height, albedo)});
   const bool beam = cosine > 0;
   const glm::dvec3 way(beam ? std::sqrt(1 - cosine * cosine) : 0, 0, beam ? -cosine : -1);
-  Emitter& lamp = add_rectangle(scene, {edge / 2, edge / 2, height + 5 * gap}, way, gap, gap, 1);
+  Emitter& lamp =
+      add_rectangle(scene, {slab_edge / 2, slab_edge / 2, height + 5 * gap}, way, gap, gap, 1);
   if (beam) lamp.distribution = Distribution::collimated;
   plan.quick_particles = affordable(0.5 / (1 - albedo));
   plan.add("reflected", reflected, [](const Traced& run) { return run.escaped(5); }).bias =
-      2 * rounding;
+      2 * slab_rounding;
   Quantity& end = plan.add("reached the end", 0, [](const Traced& run) { return run.into("end"); });
   end.bias = 1e-3;
   end.certain = true;

@@ -12,8 +12,6 @@ namespace luxodus::light {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
-
 void add_specks(SceneDescription& scene, double away) {
   add_speck(scene, {away, away, away});
   add_speck(scene, {-away, -away, -away});

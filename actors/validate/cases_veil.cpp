@@ -12,16 +12,11 @@ namespace luxodus::light {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
-constexpr double sign_x = 4;        // the eye is at the origin
-constexpr double extinction = 0.3;  // [1/m]
+constexpr double sign_x = 4;             // the eye is at the origin
+constexpr double veil_extinction = 0.3;  // [1/m]
 /// So little is scattered that nothing is twice: what is looked for is in proportion to it, and
 /// nothing of it is left to chance.
 constexpr double albedo = 1e-5;
-
-Estimate seen(const Traced& run, EyeQuantity quantity) {
-  return run.value(run.blocks().views, 0, static_cast<uint32_t>(quantity));
-}
 
 /// Simpson's rule.
 double integral(double from, double to, const std::function<double(double)>& f) {
@@ -48,7 +43,7 @@ PreparedCase veil_plan(const VeilCase& veil) {
   }
   add_eye(scene, {0, 0, 0});
   add_tiny_sign(scene, {sign_x, 0, 0}, 1);
-  SmokeOptics optics = smoke(extinction, albedo);
+  SmokeOptics optics = smoke(veil_extinction, albedo);
   optics.phase = veil.phase;
   add_homogeneous(scene, optics);
   double from = 0;
@@ -62,17 +57,18 @@ PreparedCase veil_plan(const VeilCase& veil) {
   const double veiled = integral(from, sign_x, [&](double x) {
     const glm::dvec3 way = glm::dvec3(x, 0, 0) - veil_lamp;
     const double d = glm::length(way);
-    return extinction * albedo * std::exp(-extinction * (x + d)) / (d * d) * veil.candela(way / d) *
-           veil.density(-way.x / d);
+    return veil_extinction * albedo * std::exp(-veil_extinction * (x + d)) / (d * d) *
+           veil.candela(way / d) * veil.density(-way.x / d);
   });
   plan.look_rather(8);
   plan.add(
           "luminance of the path [cd/m2]", veiled,
-          [](const Traced& run) { return seen(run, EyeQuantity::path); }, 10 * albedo + veil.bias)
+          [](const Traced& run) { return first_view(run, EyeQuantity::path); },
+          10 * albedo + veil.bias)
       .unit = veiled;
   Quantity& passed = plan.add(
-      "transmission", std::exp(-extinction * sign_x),
-      [](const Traced& run) { return seen(run, EyeQuantity::transmission); }, 1e-5);
+      "transmission", std::exp(-veil_extinction * sign_x),
+      [](const Traced& run) { return first_view(run, EyeQuantity::transmission); }, 1e-5);
   passed.certain = true;
   return plan;
 }
@@ -102,7 +98,7 @@ PreparedCase glow_plan(double depth, double gas_from, double gas_to) {
   plan.look_rather(1);
   const auto add = [&](const std::string& name, double reference, EyeQuantity quantity) {
     Quantity& q = plan.add(
-        name, reference, [quantity](const Traced& run) { return seen(run, quantity); }, 2e-5);
+        name, reference, [quantity](const Traced& run) { return first_view(run, quantity); }, 2e-5);
     q.certain = true;  // places are single precision
   };
   add("luminance of the path [cd/m2]", glow, EyeQuantity::path);

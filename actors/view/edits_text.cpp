@@ -8,15 +8,15 @@ namespace {
 
 using Moves = std::map<std::string, SceneEdits::Move>;
 
-Json numbers(const glm::dvec3& v) {
+Json vector_json(const glm::dvec3& v) {
   return {v.x, v.y, v.z};
 }
 
 Json moves_json(const Moves& moves) {
   Json out = Json::object();
   for (const auto& [name, move] : moves) {
-    Json one = {{"position", numbers(move.position)}};
-    if (move.facing) one["facing"] = numbers(*move.facing);
+    Json one = {{"position", vector_json(move.position)}};
+    if (move.facing) one["facing"] = vector_json(*move.facing);
     out[name] = std::move(one);
   }
   return out;

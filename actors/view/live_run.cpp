@@ -21,9 +21,9 @@ constexpr double tick_every_s = 0.25;
 /// large, of the right building.
 constexpr int64_t caught_up_at = 4;
 
-using Clock = std::chrono::steady_clock;
-double since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
+using SteadyClock = std::chrono::steady_clock;
+double since(SteadyClock::time_point start) {
+  return std::chrono::duration<double>(SteadyClock::now() - start).count();
 }
 
 bool same_triangles(const CompiledScene& a, const CompiledScene& b,
@@ -192,7 +192,7 @@ class LiveRun::Work final : public LiveWork {
  public:
   Work(LiveRun& run, std::vector<int64_t> goal, const std::function<bool()>& stop,
        const std::function<void()>& tick)
-      : run_(run), goal_(std::move(goal)), stop_(stop), tick_(tick), start_(Clock::now()) {}
+      : run_(run), goal_(std::move(goal)), stop_(stop), tick_(tick), start_(SteadyClock::now()) {}
 
   const CompiledScene& scene() const override { return *run_.scene_; }
   GeometryAccess access() const override { return GeometryAccess::resident(run_.geometry_->index); }
@@ -228,7 +228,7 @@ class LiveRun::Work final : public LiveWork {
   const std::vector<int64_t> goal_;
   const std::function<bool()>& stop_;
   const std::function<void()>& tick_;
-  const Clock::time_point start_;
+  const SteadyClock::time_point start_;
   std::mutex mutex_;
   double ticked_ = 0;
 };
@@ -239,7 +239,7 @@ bool LiveRun::trace(int64_t level, Scope scope, LiveTracers& tracers,
   for (size_t g = 0; g < goal.size(); ++g)
     if (is_of(scope, g)) goal[g] = wanted(g, level);
   if (neediest(goal) < 0) return true;
-  const Clock::time_point start = Clock::now();
+  const SteadyClock::time_point start = SteadyClock::now();
   Work work(*this, goal, stop, tick);
   tracers.trace(work);
   seconds_ += since(start);

@@ -19,7 +19,7 @@ constexpr Nanoseconds send_again_after = milliseconds(1);
 constexpr int64_t portion_particles = 128;
 /// Leases at hand; more are not taken. A live view lends two at a time.
 constexpr size_t max_orders = 8;
-constexpr uint32_t max_batches = 1 << 16;
+constexpr uint32_t max_lease_batches = 1 << 16;
 /// What particles' ids have room for: see first_particle_of.
 constexpr uint64_t max_batch_numbers = uint64_t{1} << 30;
 constexpr uint32_t max_streams = (uint32_t{1} << 20) - 1;
@@ -160,7 +160,7 @@ Result<void> LiveWorker::enter(const Order& order) {
 std::string LiveWorker::trace_portion(const Order& order) try {
   if (const auto entered = enter(order); !entered) return entered.problem().text();
   const CompiledScene& scene = *tracing_->state->scene;
-  if (order.what.group >= scene.groups.size() || order.what.batches > max_batches ||
+  if (order.what.group >= scene.groups.size() || order.what.batches > max_lease_batches ||
       order.what.first_batch > max_batch_numbers || order.what.stream > max_streams)
     return "there are no such batches";
   const int group = static_cast<int>(order.what.group);

@@ -18,4 +18,9 @@ inline double thread_seconds() {
   return clock_seconds(CLOCK_THREAD_CPUTIME_ID);
 }
 
+/// Of this thread, since thread_seconds() was `start` [ns].
+inline double thread_nanoseconds_since(double start) {
+  return 1e9 * (thread_seconds() - start);
+}
+
 }  // namespace luxodus

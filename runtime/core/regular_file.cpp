@@ -13,7 +13,7 @@ namespace luxodus {
 namespace {
 
 /// Linux moves at most 2 GiB in one call.
-constexpr size_t transfer_bytes = size_t{1} << 30;
+constexpr size_t largest_read_bytes = size_t{1} << 30;
 
 template <class Bytes>
 Result<Bytes> read_all(const std::filesystem::path& path, uint64_t most_bytes) {
@@ -34,7 +34,7 @@ Result<Bytes> read_all(const std::filesystem::path& path, uint64_t most_bytes) {
       bytes.resize(static_cast<size_t>(wanted));
     }
     const ssize_t n = ::read(file->descriptor.number(), bytes.data() + filled,
-                             std::min(bytes.size() - filled, transfer_bytes));
+                             std::min(bytes.size() - filled, largest_read_bytes));
     if (n < 0 && errno == EINTR) continue;
     if (n < 0) return system_problem(path, "this file cannot be read", errno);
     if (n == 0) break;

@@ -36,7 +36,7 @@ size_t nodes_of(const std::vector<ObjectPlace>& objects) {
   return nodes;
 }
 
-void check(const FetchConfig& config, const std::vector<ObjectPlace>& objects) {
+void check_fetch(const FetchConfig& config, const std::vector<ObjectPlace>& objects) {
   if (config.tries == 0 || config.flights == 0)
     throw std::invalid_argument("fetch: without a try or a flight nothing is fetched");
   for (const ObjectPlace& object : objects) {
@@ -56,7 +56,7 @@ void check(const FetchConfig& config, const std::vector<ObjectPlace>& objects) {
 Fetcher::Fetcher(const FetchConfig& config, const std::vector<ObjectPlace>& objects,
                  ObjectStore& store, Network& network, Timers& timers, const Clock& clock,
                  const Random& jitter)
-    : config_((check(config, objects), config)),
+    : config_((check_fetch(config, objects), config)),
       objects_(objects),
       store_(store),
       network_(network),

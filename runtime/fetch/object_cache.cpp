@@ -14,7 +14,7 @@ namespace luxodus {
 
 namespace {
 
-void check(const CacheConfig& config) {
+void check_cache(const CacheConfig& config) {
   if (config.largest_build_bytes == 0 || !(config.pinned_share >= 0) || config.pinned_share > 1)
     throw std::invalid_argument("cache: a build's size and a share of 0 to 1 are needed");
   if (config.budget_bytes < 2 * config.largest_build_bytes + config.max_pinned_bytes())
@@ -28,7 +28,7 @@ void check(const CacheConfig& config) {
 
 ObjectCache::ObjectCache(const CacheConfig& config, size_t objects, Fetcher& fetcher,
                          ObjectBuilder& builder, Fibers& fibers, Timers& timers, const Clock& clock)
-    : config_((check(config), config)),
+    : config_((check_cache(config), config)),
       fetcher_(fetcher),
       builder_(builder),
       fibers_(fibers),

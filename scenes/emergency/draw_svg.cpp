@@ -21,7 +21,7 @@ namespace {
 constexpr IsolatedLimits for_a_sign{uint64_t{1} << 30, 5};
 
 using Drawing = std::unique_ptr<RsvgHandle, Release<g_object_unref>>;
-using Failure = std::unique_ptr<GError, Release<g_error_free>>;
+using SvgFailure = std::unique_ptr<GError, Release<g_error_free>>;
 
 // ---- in the other process ----------------------------------------------------------------------
 
@@ -48,7 +48,7 @@ Result<DrawnSvg> drawn(const std::string& bytes, int across, int down) {
   Drawing drawing(rsvg_handle_new_from_data(reinterpret_cast<const guint8*>(bytes.data()),
                                             bytes.size(), &error));
   if (!drawing) {
-    Failure failure(error);
+    SvgFailure failure(error);
     return problem(std::string("it is not an SVG drawing (") +
                    (failure ? failure->message : "no reason given") + ")");
   }
@@ -60,7 +60,7 @@ Result<DrawnSvg> drawn(const std::string& bytes, int across, int down) {
   cairo_scale(pen.get(), across / size->first, down / size->second);
   const RsvgRectangle viewport{0, 0, size->first, size->second};
   const bool good = rsvg_handle_render_document(drawing.get(), pen.get(), &viewport, &error);
-  Failure failure(error);
+  SvgFailure failure(error);
   if (!good || cairo_status(pen.get()) != CAIRO_STATUS_SUCCESS)
     return problem(std::string("the drawing cannot be rendered (") +
                    (failure ? failure->message : "out of memory") + ")");

@@ -231,7 +231,7 @@ std::string quoted(char c) {
 }
 
 /// "" when text and sizes are sound, else what is wrong with them.
-std::string fault_of(std::string_view text, const LetterSize& size) {
+std::string letters_fault(std::string_view text, const LetterSize& size) {
   if (text.empty()) return "the legend is empty; give the text that the sign shows";
   if (text.size() > limits::max_legend_characters)
     return "the legend has " + std::to_string(text.size()) + " characters, at most " +
@@ -250,7 +250,8 @@ std::string fault_of(std::string_view text, const LetterSize& size) {
 }  // namespace
 
 Result<Lettering> lay_out_text(std::string_view text, const LetterSize& size) {
-  if (std::string wrong = fault_of(text, size); !wrong.empty()) return problem(std::move(wrong));
+  if (std::string wrong = letters_fault(text, size); !wrong.empty())
+    return problem(std::move(wrong));
   // A word space of half a letter's height parts words clearly at any spacing of letters.
   constexpr double word_space_share = 0.4;
   Lettering out;

@@ -63,21 +63,21 @@ Check even(const Rule& rule, const std::string& subject, const Spread& spread) {
 }
 
 /// Where it is darkest when one luminaire fails, and which.
-struct Failure {
+struct LampFailure {
   Spread spread;
   std::string luminaire;
 };
 
-std::optional<Failure> worst_failure(const SceneDescription& scene,
-                                     const std::vector<LitPoint>& points) {
+std::optional<LampFailure> worst_failure(const SceneDescription& scene,
+                                         const std::vector<LitPoint>& points) {
   const auto luminaires = emergency_luminaires(scene);
-  std::optional<Failure> worst;
+  std::optional<LampFailure> worst;
   for (size_t i = 0; i < luminaires.size(); ++i) {
     std::vector<double> factors = all_lit(points);
     if (i < factors.size()) factors[i] = 0;
     const Spread spread = spread_of(points, factors);
     if (!worst || spread.least < worst->spread.least)
-      worst = Failure{spread, scene.emitters[luminaires[i]].name};
+      worst = LampFailure{spread, scene.emitters[luminaires[i]].name};
   }
   return worst;
 }

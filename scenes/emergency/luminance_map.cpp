@@ -18,7 +18,7 @@ double luminance_of(const Image& map, size_t pixel) {
 }
 
 /// "" when the image keeps its own rules, else what is wrong.
-std::string fault_of(const Image& map) {
+std::string map_fault(const Image& map) {
   const bool layout = map.width > 0 && map.height > 0 &&
                       (map.channels == 1 || map.channels == 3 || map.channels == 4) &&
                       map.texels.size() == static_cast<size_t>(map.width) *
@@ -58,7 +58,7 @@ double average(const Image& map, const SignFace& face, int column, int row) {
 }  // namespace
 
 Result<SignFace> with_luminance_map(SignFace face, const Image& map) {
-  if (std::string wrong = fault_of(map); !wrong.empty()) return problem(std::move(wrong));
+  if (std::string wrong = map_fault(map); !wrong.empty()) return problem(std::move(wrong));
   std::vector<double> luminance;
   luminance.reserve(face.colour.size());
   for (int row = 0; row < face.height; ++row)

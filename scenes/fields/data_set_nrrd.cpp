@@ -55,9 +55,10 @@ bool contains(const List& list, std::string_view name) {
   return std::find(std::begin(list), std::end(list), name) != std::end(list);
 }
 
-class Reader {
+class NrrdReader {
  public:
-  Reader(const std::string& path, const DataSetOptions& options) : path_(path), options_(options) {}
+  NrrdReader(const std::string& path, const DataSetOptions& options)
+      : path_(path), options_(options) {}
 
   Result<Grid> read() {
     if (auto bad = read_header()) return *bad;
@@ -407,7 +408,7 @@ class Reader {
 }  // namespace
 
 Result<Grid> read_nrrd(const std::string& path, const DataSetOptions& options) {
-  return Reader(path, options).read();
+  return NrrdReader(path, options).read();
 }
 
 }  // namespace luxodus::data_set

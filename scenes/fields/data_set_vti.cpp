@@ -107,9 +107,9 @@ class Base64 {
   size_t ready_ = 0, given_ = 0;
 };
 
-class Reader {
+class VtiReader {
  public:
-  explicit Reader(const std::string& path) : path_(path) {}
+  explicit VtiReader(const std::string& path) : path_(path) {}
 
   Result<Grid> read() {
     if (auto wrong = load()) return *wrong;
@@ -576,7 +576,7 @@ class Reader {
 }  // namespace
 
 Result<Grid> read_vti(const std::string& path) {
-  return Reader(path).read();
+  return VtiReader(path).read();
 }
 
 }  // namespace luxodus::data_set

@@ -21,11 +21,11 @@
 namespace luxodus {
 namespace {
 
-namespace limits {
+namespace web_limits {
 // 0.1 degree steps around need 3601. Ten times more is no measured luminaire, and 32 MB of table.
 constexpr size_t web_angles = 4096;
 constexpr size_t web_values = size_t{1} << 22;
-}  // namespace limits
+}  // namespace web_limits
 
 constexpr double radian = std::numbers::pi / 180;
 constexpr double below_one = 1 - 0x1p-53;
@@ -141,8 +141,8 @@ double bilinear(const double* near_column, const double* far_column, double s, d
 
 /// What is wrong with a list of angles that must run from 0 to `last`; empty when nothing is.
 std::string fault_of_angles(const std::vector<double>& angles, double last, const char* name) {
-  if (angles.size() < 2 || angles.size() > limits::web_angles) {
-    return std::string("a web needs 2 to ") + std::to_string(limits::web_angles) + " " + name +
+  if (angles.size() < 2 || angles.size() > web_limits::web_angles) {
+    return std::string("a web needs 2 to ") + std::to_string(web_limits::web_angles) + " " + name +
            " angles, not " + std::to_string(angles.size());
   }
   if (angles.front() != 0 || angles.back() != last) {
@@ -176,7 +176,7 @@ Result<PhotometricWeb> PhotometricWeb::make(std::vector<double> azimuth_deg,
   if (!fault.empty()) return problem(std::move(fault));
   const size_t columns = azimuth_deg.size();
   const size_t rows = polar_deg.size();
-  if (columns * rows > limits::web_values) return problem("the web holds too many values");
+  if (columns * rows > web_limits::web_values) return problem("the web holds too many values");
   if (candela.size() != columns * rows) {
     return problem("a web of " + std::to_string(columns) + " x " + std::to_string(rows) +
                    " angles needs as many intensities, not " + std::to_string(candela.size()));

@@ -11,7 +11,7 @@ namespace luxodus {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double no_end = std::numeric_limits<double>::infinity();
 constexpr double pi = std::numbers::pi;
 /// Axes read from a file with 7 digits pass, a scaled or skewed frame does not.
 constexpr double orthonormal_tolerance = 1e-6;
@@ -35,16 +35,16 @@ double discriminant(double a, double b, double c) {
 int below_zero(double a, double b, double c, RayInterval out[2]) {
   if (a == 0) {
     if (b == 0) {
-      out[0] = {-infinity, infinity};
+      out[0] = {-no_end, no_end};
       return c <= 0 ? 1 : 0;
     }
     const double root = -c / b;
-    out[0] = b > 0 ? RayInterval{-infinity, root} : RayInterval{root, infinity};
+    out[0] = b > 0 ? RayInterval{-no_end, root} : RayInterval{root, no_end};
     return 1;
   }
   const double disc = discriminant(a, b, c);
   if (disc <= 0) {  // touching is missing
-    out[0] = {-infinity, infinity};
+    out[0] = {-no_end, no_end};
     return a < 0 ? 1 : 0;
   }
   // The sum of two numbers of one sign; the other root follows from the product of the roots.
@@ -57,8 +57,8 @@ int below_zero(double a, double b, double c, RayInterval out[2]) {
     out[0] = {low, high};
     return 1;
   }
-  out[0] = {-infinity, low};
-  out[1] = {high, infinity};
+  out[0] = {-no_end, low};
+  out[1] = {high, no_end};
   return 2;
 }
 

@@ -17,7 +17,7 @@
 
 namespace luxodus {
 
-namespace limits {
+namespace ies_limits {
 constexpr double vertical_angles = 1801;    // 0.1 degree steps; real files stop at 181 to 721
 constexpr double horizontal_angles = 1441;  // 0.25 degree steps; real files stop at 73 to 361
 constexpr double tilt_angles = 1000;
@@ -27,7 +27,7 @@ constexpr double candela = 1e9;      // a searchlight reaches 1e8
 constexpr double watts = 1e6;
 constexpr double factor = 1e6;
 constexpr double lamps = 1e4;
-}  // namespace limits
+}  // namespace ies_limits
 
 namespace {
 
@@ -36,7 +36,7 @@ constexpr double same_angle_deg = 0.01;
 
 // The planes at 0 and 360 degrees are one plane measured twice; a difference beyond this share of
 // its peak is no noise.
-constexpr double odd_share = 0.01;
+constexpr double odd_ies_share = 0.01;
 
 enum class Edition { y1986, y1991, y1995, y2002, y2019 };
 
@@ -183,10 +183,10 @@ class TokenReader {
 LampTilt read_tilt_table(TokenReader& in) {
   LampTilt tilt;
   tilt.geometry = in.whole("the lamp-to-luminaire geometry", 1, 3);
-  const int count = in.whole("the number of tilt angles", 1, limits::tilt_angles);
+  const int count = in.whole("the number of tilt angles", 1, ies_limits::tilt_angles);
   tilt.angle_deg = in.ascending(count, "the tilt angle", -180, 180);
   for (int i = 0; i < count && !in.fault(); ++i) {
-    tilt.factor.push_back(in.number("the tilt factor", 0, limits::factor));
+    tilt.factor.push_back(in.number("the tilt factor", 0, ies_limits::factor));
   }
   return tilt;
 }
@@ -350,12 +350,14 @@ class IesReader {
   }
 
   void read_main() {
-    lamp_.lamps = in_.number("the number of lamps", 0, limits::lamps);
-    const double lumens = in_.number("the lumens per lamp", -limits::lumens, limits::lumens);
+    lamp_.lamps = in_.number("the number of lamps", 0, ies_limits::lamps);
+    const double lumens =
+        in_.number("the lumens per lamp", -ies_limits::lumens, ies_limits::lumens);
     const int lumens_line = in_.line();
-    const double multiplier = in_.number("the candela multiplier", 0, limits::factor);
-    vertical_count_ = in_.whole("the number of vertical angles", 2, limits::vertical_angles);
-    horizontal_count_ = in_.whole("the number of horizontal angles", 1, limits::horizontal_angles);
+    const double multiplier = in_.number("the candela multiplier", 0, ies_limits::factor);
+    vertical_count_ = in_.whole("the number of vertical angles", 2, ies_limits::vertical_angles);
+    horizontal_count_ =
+        in_.whole("the number of horizontal angles", 1, ies_limits::horizontal_angles);
     type_ = in_.whole("the photometric type", 1, 3);
     if (!in_.fault() && type_ == 3) {
       in_.fail(in_.line(),
@@ -364,14 +366,14 @@ class IesReader {
     }
     const int units = in_.whole("the unit type (1 feet, 2 metres)", 1, 2);
     const double metres = units == 1 ? metres_per_foot : 1.0;
-    const double most = limits::dimension_m / metres;
+    const double most = ies_limits::dimension_m / metres;
     const double width = in_.number("the width of the opening", -most, most);
     const double length = in_.number("the length of the opening", -most, most);
     const double height = in_.number("the height of the opening", -most, most);
     out_.opening = opening_of(width * metres, length * metres, height * metres, edition_);
-    const double ballast = in_.number("the ballast factor", 0, limits::factor);
+    const double ballast = in_.number("the ballast factor", 0, ies_limits::factor);
     const double lamp_factor = read_lamp_factor();
-    out_.input_watts = lamp_.watts = in_.number("the input watts", 0, limits::watts);
+    out_.input_watts = lamp_.watts = in_.number("the input watts", 0, ies_limits::watts);
     if (in_.fault()) return;
     out_.absolute = lumens < 0;
     if (out_.absolute && lumens != -1) {
@@ -388,7 +390,7 @@ class IesReader {
   /// The number after the ballast factor: a factor up to 1995, unused in 2002, a code of the file's
   /// origin in 2019.
   double read_lamp_factor() {
-    const double value = in_.number("the ballast-lamp photometric factor", 0, limits::factor);
+    const double value = in_.number("the ballast-lamp photometric factor", 0, ies_limits::factor);
     if (edition_ < Edition::y2002) return value;
     if (edition_ == Edition::y2002 && value != 1 && !in_.fault()) {
       warn(in_.line(), "the field after the ballast factor is " + shown(value) +
@@ -409,7 +411,7 @@ class IesReader {
       std::vector<double> column;
       const std::string what = "the candela at horizontal angle " + shown(horizontals_[size_t(a)]);
       for (int p = 0; p < vertical_count_ && !in_.fault(); ++p) {
-        column.push_back(in_.number(what, 0, limits::candela) * scale_);
+        column.push_back(in_.number(what, 0, ies_limits::candela) * scale_);
       }
       candela_.push_back(std::move(column));
     }
@@ -449,7 +451,7 @@ class IesReader {
       peak = std::max(peak, candela_.front()[p]);
       gap = std::max(gap, std::abs(candela_.front()[p] - candela_.back()[p]));
     }
-    if (gap > odd_share * peak) {
+    if (gap > odd_ies_share * peak) {
       warn(horizontal_line_, "the planes at 0 and 360 degrees differ; the one at 0 is used");
     }
   }

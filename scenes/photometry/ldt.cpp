@@ -14,7 +14,7 @@
 
 namespace luxodus {
 
-namespace limits {
+namespace ldt_limits {
 constexpr double c_planes = 1440;       // 0.25 degree steps; real files stop at 72 to 361
 constexpr double gammas = 1801;         // 0.1 degree steps; real files stop at 181 to 721
 constexpr double lamp_sets = 20;        // the format's own limit
@@ -24,13 +24,13 @@ constexpr double candela = 1e9;         // a searchlight reaches 1e8
 constexpr double watts = 1e6;
 constexpr double factor = 1e4;
 constexpr double lamps = 1e4;
-}  // namespace limits
+}  // namespace ldt_limits
 
 namespace {
 
 // Header and integral of a clean file agree to 0.1 %; beyond 2 % one of them is about something
 // else.
-constexpr double odd_share = 0.02;
+constexpr double odd_ldt_share = 0.02;
 
 class LdtReader {
  public:
@@ -84,10 +84,10 @@ class LdtReader {
     out_.manufacturer = text("the manufacturer");
     read_type();
     symmetry_ = whole("the symmetry indicator (Isym)", 0, 4);
-    c_count_ = whole("the number of C planes (Mc)", 1, limits::c_planes);
+    c_count_ = whole("the number of C planes (Mc)", 1, ldt_limits::c_planes);
     mc_line_ = line_;
     c_step_ = number("the distance between C planes (Dc)", 0, 360, Blank::is_zero);
-    gamma_count_ = whole("the number of intensities in a plane (Ng)", 2, limits::gammas);
+    gamma_count_ = whole("the number of intensities in a plane (Ng)", 2, ldt_limits::gammas);
     gamma_step_ = number("the distance between intensities (Dg)", 0, 180, Blank::is_zero);
     text("the report number");
     out_.luminaire = text("the luminaire's name");
@@ -109,7 +109,7 @@ class LdtReader {
 
   void read_dimensions() {
     const auto metres = [this](const char* what) {
-      return number(what, 0, limits::dimension_mm, Blank::is_zero) / 1000;
+      return number(what, 0, ldt_limits::dimension_mm, Blank::is_zero) / 1000;
     };
     const double length = metres("the length of the luminaire");
     const double width = metres("the width of the luminaire");
@@ -133,7 +133,7 @@ class LdtReader {
     down_line_ = line_;
     output_percent_ = number("the light output ratio (LORL)", 0, 1000, Blank::is_zero);
     output_line_ = line_;
-    factor_ = number("the conversion factor", 0, limits::factor, Blank::is_zero);
+    factor_ = number("the conversion factor", 0, ldt_limits::factor, Blank::is_zero);
     if (!numbers_.fault() && factor_ == 0) {
       warn(line_, "the conversion factor is 0 or missing; 1 is used");
       factor_ = 1;
@@ -146,19 +146,19 @@ class LdtReader {
   }
 
   void read_lamps() {
-    const int sets = whole("the number of lamp sets", 1, limits::lamp_sets);
+    const int sets = whole("the number of lamp sets", 1, ldt_limits::lamp_sets);
     const int sets_line = line_;
     for (int i = 0; i < sets && !numbers_.fault(); ++i) {
       LampSet set;
-      const int count = whole("the number of lamps", -limits::lamps, limits::lamps);
+      const int count = whole("the number of lamps", -ldt_limits::lamps, ldt_limits::lamps);
       // A negative count marks absolute photometry; the flux is then the luminaire's own.
       if (count < 0) out_.absolute = true;
       set.lamps = std::abs(count);
       set.type = text("the type of the lamps");
-      set.flux_lm = number("the flux of the lamps", 0, limits::flux_lm);
+      set.flux_lm = number("the flux of the lamps", 0, ldt_limits::flux_lm);
       set.colour = text("the colour of the lamps");
       set.rendering = text("the colour rendering of the lamps");
-      set.watts = number("the wattage of the lamps", 0, limits::watts, Blank::is_zero);
+      set.watts = number("the wattage of the lamps", 0, ldt_limits::watts, Blank::is_zero);
       out_.lamp_flux_lm += set.flux_lm;
       out_.input_watts += set.watts;
       if (!out_.cct_k) out_.cct_k = colour_temperature_k(set.colour);
@@ -260,7 +260,7 @@ class LdtReader {
       const std::string what =
           "the intensity in plane C" + shown(std::fmod(table_.azimuth_deg[a], 360));
       for (int p = 0; p < gamma_count_ && !numbers_.fault(); ++p) {
-        column.push_back(number(what, 0, limits::candela) * factor_ * out_.lamp_flux_lm / 1000);
+        column.push_back(number(what, 0, ldt_limits::candela) * factor_ * out_.lamp_flux_lm / 1000);
       }
       table_.columns.push_back(std::move(column));
     }
@@ -303,7 +303,7 @@ class LdtReader {
     if (output_percent_ > 0) {
       out_.light_output_ratio = output_percent_ / 100;
       out_.header_flux_lm = out_.lamp_flux_lm * out_.light_output_ratio;
-      if (std::abs(ratio / out_.light_output_ratio - 1) > odd_share) {
+      if (std::abs(ratio / out_.light_output_ratio - 1) > odd_ldt_share) {
         warn(output_line_, "the light output ratio says " + shown(output_percent_) +
                                " %, the intensities add up to " + shown(100 * ratio) + " %");
       }
@@ -313,7 +313,7 @@ class LdtReader {
     }
     if (down_percent_ > 0) {
       out_.header_down_share = down_percent_ / 100;
-      if (std::abs(out_.down_share - down_percent_ / 100) > odd_share) {
+      if (std::abs(out_.down_share - down_percent_ / 100) > odd_ldt_share) {
         warn(down_line_, "the downward flux fraction says " + shown(down_percent_) +
                              " %, the intensities give " + shown(100 * out_.down_share) + " %");
       }

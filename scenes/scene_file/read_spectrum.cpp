@@ -109,7 +109,8 @@ std::optional<Spectrum> named_shape(KeyReader& keys, std::string_view key, std::
   return led ? white_led_shape(*kelvin) : blackbody_shape(*kelvin);
 }
 
-std::optional<Spectrum> shape_of(KeyReader& keys, std::string_view key, const toml::Value& value) {
+std::optional<Spectrum> spectrum_shape(KeyReader& keys, std::string_view key,
+                                       const toml::Value& value) {
   if (const auto* text = value.as_text()) return named_shape(keys, key, *text);
   if (const auto* table = value.as_table()) {
     const auto rgb = colour_of(keys, key, *table);
@@ -209,7 +210,7 @@ Spectrum property(KeyReader& keys, std::string_view key) {
 
 Spectrum emission_shape(KeyReader& keys, std::string_view key) {
   const toml::Value* value = keys.value(key);
-  if (value) return shape_of(keys, key, *value).value_or(equal_energy_shape());
+  if (value) return spectrum_shape(keys, key, *value).value_or(equal_energy_shape());
   const auto literal = keys.default_text(key);
   if (!literal) return equal_energy_shape();
   return named_shape(keys, key, *literal).value_or(equal_energy_shape());

@@ -14,7 +14,7 @@ using luxodus::test::replaced;
 namespace {
 
 /// A corridor with two signs and two people who see both, and a wall whose top is long.
-const std::string corridor = R"(title = "A corridor"
+const std::string words_corridor = R"(title = "A corridor"
 patch_edge_m = 1
 [[material]]
 name = "white"
@@ -110,7 +110,7 @@ struct Corridor {
   std::string scene = (folder / "corridor.toml").string();
   fs::path out = folder / "out";
 
-  explicit Corridor(const std::string& text = corridor) {
+  explicit Corridor(const std::string& text = words_corridor) {
     std::ofstream(scene) << text;
     std::ofstream(folder / "sign.svg") << sign;
   }
@@ -172,12 +172,12 @@ TEST_CASE("check counts signs and observers, and takes no wall's top for a floor
   CHECK_THAT(check.out, Contains("2 signs seen by 2 observers"));
   CHECK_THAT(check.out, Contains("floors at z = 0 m"));
   // The low wall's top: 8 m long, 0.8 m2; a higher one has more than a square metre.
-  const Corridor thick(replaced(corridor, "high = [11, 2.6, 1]", "high = [11, 2.8, 1]"));
+  const Corridor thick(replaced(words_corridor, "high = [11, 2.6, 1]", "high = [11, 2.8, 1]"));
   CHECK_THAT(thick.luxodus("check " + thick.scene).out, Contains("floors at z = 0 m"));
-  const Corridor table(replaced(corridor, "high = [11, 2.6, 1]", "high = [5, 4.5, 1]"));
+  const Corridor table(replaced(words_corridor, "high = [11, 2.6, 1]", "high = [5, 4.5, 1]"));
   CHECK_THAT(table.luxodus("check " + table.scene).out, Contains("floors at z = 0, 1 m"));
   const std::string open =
-      replaced(corridor, "shape = \"room\"\nlow = [0, 0, 0]\nhigh = [12, 3, 3]",
+      replaced(words_corridor, "shape = \"room\"\nlow = [0, 0, 0]\nhigh = [12, 3, 3]",
                "shape = \"quad\"\ncorner = [0, 0, 0]\nedge_u = [0, 0, 3]\n"
                "edge_v = [0, 3, 0]");
   const Corridor none(replaced(open, "high = [11, 2.6, 1]", "high = [3.1, 2.6, 1]"));
@@ -192,7 +192,7 @@ TEST_CASE("names of scenarios are quoted where they are listed", "[program][word
 }
 
 TEST_CASE("too fine voxels are told with their key and its line", "[program][words]") {
-  const Corridor place(corridor + "[run]\nvoxel_edge_m = 0.001\n");
+  const Corridor place(words_corridor + "[run]\nvoxel_edge_m = 0.001\n");
   const Outcome check = place.luxodus("check " + place.scene);
   const std::string text = slurp(place.scene);
   const auto line =
@@ -255,7 +255,7 @@ TEST_CASE("progress is rare in a pipe, and one line on a terminal", "[program][w
 
 TEST_CASE("what the browser says while it prints is shown only where it fails",
           "[program][words]") {
-  const Corridor place(corridor +
+  const Corridor place(words_corridor +
                        "[[route]]\nname = \"along\"\npath = [[1, 1, 0], [11, 1, 0]]\n"
                        "width = 1\n");
   const Outcome assessed =

@@ -14,7 +14,7 @@ using namespace luxodus::program;
 
 namespace {
 
-constexpr const char* room = R"(
+constexpr const char* hostile_room = R"(
 [[object]]
 name = "room"
 shape = "room"
@@ -45,8 +45,9 @@ bool printable(const std::string& text) {
 TEST_CASE("control characters in names and titles do not reach the terminal",
           "[program][hostile]") {
   const TemporaryFolder folder;
-  const std::string scene = write(
-      folder, "evil.toml", "title = \"a\\u001B]0;owned\\u0007b\\u009Bc\"\n" + std::string(room));
+  const std::string scene =
+      write(folder, "evil.toml",
+            "title = \"a\\u001B]0;owned\\u0007b\\u009Bc\"\n" + std::string(hostile_room));
   for (const char* verb : {"check ", "run --particles 1k --out "}) {
     const std::string arguments = verb == std::string("check ")
                                       ? verb + scene
@@ -66,7 +67,7 @@ TEST_CASE("a pipe in the place of a file is refused and not waited for", "[progr
   const std::string image = (folder / "pipe.png").string();
   REQUIRE(::mkfifo(image.c_str(), 0600) == 0);
   const std::string painted = write(folder, "painted.toml",
-                                    std::string(room) +
+                                    std::string(hostile_room) +
                                         "[[material]]\nname = \"painted\"\nkind = \"lambertian\"\n"
                                         "reflectance = 0.9\nimage = \"pipe.png\"\n");
   const std::string including = write(folder, "including.toml", "include = [\"pipe.toml\"]\n");
@@ -100,7 +101,7 @@ TEST_CASE("a mesh that makes the importer crash is one error with its file and l
   write(folder, "tex.obj", "mtllib tex.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nusemtl red\nf 1 2 3\n");
   const std::string scene =
       write(folder, "s.toml",
-            std::string(room) +
+            std::string(hostile_room) +
                 "[[import]]\nname = \"m\"\nfile = \"tex.obj\"\nunits = \"m\"\n"
                 "up = \"y\"\nmaterial = \"grey50\"\n");
   const Outcome told = run_luxodus(folder, "check " + scene);

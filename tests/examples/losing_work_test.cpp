@@ -13,7 +13,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-const std::string room = R"(title = "A room"
+const std::string lost_room = R"(title = "A room"
 patch_edge_m = 1
 [[material]]
 name = "white"
@@ -52,7 +52,7 @@ struct Place {
   std::string scene = (folder / "room.toml").string();
   fs::path out = folder / "out";
 
-  explicit Place(const std::string& text = room) { std::ofstream(scene) << text; }
+  explicit Place(const std::string& text = lost_room) { std::ofstream(scene) << text; }
   Outcome run(const std::string& options, const std::string& under = "") const {
     return run_luxodus(folder, "run " + scene + " --out " + out.string() + " " + options, under);
   }
@@ -275,7 +275,7 @@ high = [1.01, 1.01, 0.01]
 material = "white"
 repeat = [{ count = 100, step = [0.02, 0, 0] }, { count = 100, step = [0, 0.02, 0] }]
 )";
-  const Place large(room + many);
+  const Place large(lost_room + many);
   for (const char* after : {"0.2", "0.4", "0.8"})
     for (const char* signal : {"INT", "TERM", "KILL"}) {
       run_luxodus(large.folder,

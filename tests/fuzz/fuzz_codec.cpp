@@ -1,22 +1,11 @@
 #include "tests/fuzz/fuzz_codec.hpp"
 
-#include <cstdio>
-#include <cstdlib>
 #include <vector>
 
 #include "proto/codec.hpp"
+#include "tests/fuzz/must.hpp"
 
 namespace luxodus::test {
-
-namespace {
-
-void must(bool holds, const char* what) {
-  if (holds) return;
-  std::fprintf(stderr, "fuzz_one: %s\n", what);
-  std::abort();
-}
-
-}  // namespace
 
 bool fuzz_one(std::span<const std::byte> bytes) {
   Codec codec;

@@ -2,10 +2,8 @@
 
 #include <zstd.h>
 
-#include <cstdio>
-#include <cstdlib>
-
 #include "actors/tally/flush_codec.hpp"
+#include "tests/fuzz/must.hpp"
 #include "tests/kit/encode_flush.hpp"
 
 namespace luxodus::test {
@@ -14,12 +12,6 @@ namespace {
 
 constexpr int groups = 2;
 constexpr int64_t bins = 500;
-
-void must(bool holds, const char* what) {
-  if (holds) return;
-  std::fprintf(stderr, "fuzz_flush: %s\n", what);
-  std::abort();
-}
 
 TallyLayout layout() {
   TallyLayout made(1);

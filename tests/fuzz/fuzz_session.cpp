@@ -2,9 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
-#include <cstdio>
-#include <cstdlib>
-
+#include "tests/fuzz/must.hpp"
 #include "tests/fuzz/samples.hpp"
 #include "tests/unit/runtime/net/net_kit.hpp"
 
@@ -13,12 +11,6 @@ namespace luxodus::test {
 namespace {
 
 constexpr uint64_t of_first_life = 1000;
-
-void must(bool holds, const char* what) {
-  if (holds) return;
-  std::fprintf(stderr, "fuzz_session: %s\n", what);
-  std::abort();
-}
 
 /// Reads the input to its end, and zeros behind it.
 class Script {

@@ -1,6 +1,5 @@
 // Direct light that is computed, against closed forms and fine sums over a grid of places: to a
 // thousandth everywhere, at grazing places, in smoke, and where something hides a part of a lamp.
-#include <numbers>
 
 #include "scenes/emergency/sight.hpp"
 #include "scenes/transport/polygon_light.hpp"
@@ -10,7 +9,6 @@
 namespace luxodus::light {
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr double lumens = 1000;
 constexpr double thousandth = 1e-3;
 

@@ -7,9 +7,10 @@ using namespace luxodus::inspection;
 
 namespace {
 
-const std::string way = "[[route]]\nname = \"way\"\npath = [[1, 0, 0], [11, 0, 0]]\nwidth = 1\n";
+const std::string slip_way =
+    "[[route]]\nname = \"way\"\npath = [[1, 0, 0], [11, 0, 0]]\nwidth = 1\n";
 
-std::string smoke(const std::string& where) {
+std::string slip_smoke(const std::string& where) {
   return "[[medium]]\nname = \"smoke\"\nkind = \"homogeneous\"\nextinction = 0.5\nalbedo = 0.3\n" +
          where;
 }
@@ -66,17 +67,17 @@ std::string with_sign(const std::string& from, const std::string& to) {
 }  // namespace
 
 TEST_CASE("smoke that reaches nothing of the building is told", "[inspect]") {
-  check_found(found_in(furnished_room + smoke("box = [[20, -2], [28, 2]]\n")), Severity::warning,
-              "the medium \"smoke\" lies outside the building");
-  check_found(found_in(furnished_room + smoke("z_low = 1500\nz_high = 3000\n")), Severity::error,
-              "the medium \"smoke\" is 1.5 km from everything solid");
+  check_found(found_in(furnished_room + slip_smoke("box = [[20, -2], [28, 2]]\n")),
+              Severity::warning, "the medium \"smoke\" lies outside the building");
+  check_found(found_in(furnished_room + slip_smoke("z_low = 1500\nz_high = 3000\n")),
+              Severity::error, "the medium \"smoke\" is 1.5 km from everything solid");
   const std::string two = replaced(layers(1.5, 2.2), " }]",
                                    " }, { z_low = 2200, z_high = 3000, extinction = 1, "
                                    "albedo = 0.3 }]");
   check_found(found_in(furnished_room + two), Severity::warning,
               "layer 2 of the medium \"smoke\", from z = 2200 to 3000 m, lies outside");
   check_no_alarm(found_in(furnished_room + layers(1.5, 30)));
-  check_no_alarm(found_in(furnished_room + smoke("box = [[10, -2], [28, 2]]\n")));
+  check_no_alarm(found_in(furnished_room + slip_smoke("box = [[10, -2], [28, 2]]\n")));
 }
 
 TEST_CASE("flames in bodies, outside and twice in one place are told", "[inspect]") {
@@ -102,17 +103,17 @@ TEST_CASE("flames in bodies, outside and twice in one place are told", "[inspect
 }
 
 TEST_CASE("furniture that stands on a route is no wall, and hides no floor", "[inspect]") {
-  check_no_alarm(found_in(furnished_room + way + rack("tags = [\"furniture\"]\n")));
-  check_found(found_in(furnished_room + way + rack("")), Severity::error,
+  check_no_alarm(found_in(furnished_room + slip_way + rack("tags = [\"furniture\"]\n")));
+  check_found(found_in(furnished_room + slip_way + rack("")), Severity::error,
               "route \"way\" leads through the wall or body \"rack\"");
 }
 
 TEST_CASE("a room of single faces that look outwards is told, and taken as a room", "[inspect]") {
-  const auto turned = found_in(six_faces(false) + lamp + exit_sign + way);
+  const auto turned = found_in(six_faces(false) + lamp + exit_sign + slip_way);
   check_found(turned, Severity::warning, "is drawn with its faces to the outside (\"");
   CHECK(that_say(turned, "inside").empty());
   CHECK(that_say(turned, "leads through").empty());
-  CHECK(found_in(six_faces(true) + lamp + exit_sign + way).empty());
+  CHECK(found_in(six_faces(true) + lamp + exit_sign + slip_way).empty());
 }
 
 TEST_CASE("signs outside are no hole in the rooms, and backs on walls show nothing", "[inspect]") {

@@ -10,7 +10,7 @@ using namespace luxodus;
 namespace {
 
 using Bytes = std::vector<std::byte>;
-const SourcePlace place{"test.lux", 0};
+const SourcePlace flux_place{"test.lux", 0};
 
 Bytes noise(size_t size, uint64_t seed) {
   std::mt19937_64 random(seed);
@@ -19,7 +19,7 @@ Bytes noise(size_t size, uint64_t seed) {
   return out;
 }
 
-FluxFile example() {
+FluxFile example_flux() {
   FluxFile file;
   file.header_json = R"({"seed": 7, "scene": "box"})";
   file.blocks.push_back({"patch.flux", noise(300, 1)});
@@ -30,7 +30,7 @@ FluxFile example() {
 }
 
 Bytes encoded(const FluxFile& file) {
-  Result<Bytes> bytes = encode_flux_file(file, place);
+  Result<Bytes> bytes = encode_flux_file(file, flux_place);
   REQUIRE(bytes.ok());
   return bytes.value();
 }
@@ -56,10 +56,10 @@ std::vector<size_t> record_starts(const Bytes& bytes) {
   return starts;
 }
 
-std::string refusal(const Bytes& bytes) {
-  const Result<FluxFile> file = decode_flux_file(bytes, place);
+std::string flux_refusal(const Bytes& bytes) {
+  const Result<FluxFile> file = decode_flux_file(bytes, flux_place);
   REQUIRE_FALSE(file.ok());
-  CHECK(file.problem().where.file == place.file);
+  CHECK(file.problem().where.file == flux_place.file);
   return file.problem().what;
 }
 
@@ -68,7 +68,7 @@ using Catch::Matchers::Contains;
 }  // namespace
 
 TEST_CASE("a flux file comes back as it was put, in its order", "[format][flux]") {
-  const FluxFile file = example();
+  const FluxFile file = example_flux();
   const test::TemporaryFolder folder;
   REQUIRE(write_flux_file(folder / "a.lux", file).ok());
   const Result<FluxFile> back = read_flux_file(folder / "a.lux");
@@ -85,84 +85,84 @@ TEST_CASE("a flux file comes back as it was put, in its order", "[format][flux]"
 }
 
 TEST_CASE("a flux file may be empty or large", "[format][flux]") {
-  CHECK(decode_flux_file(encoded({}), place).ok());
+  CHECK(decode_flux_file(encoded({}), flux_place).ok());
   FluxFile file;
   file.blocks.push_back({"zeros", Bytes(size_t{40} << 20)});
   file.blocks.push_back({"noise", noise(size_t{3} << 20, 3)});
   const Bytes bytes = encoded(file);
   CHECK(bytes.size() < (size_t{4} << 20));
-  const Result<FluxFile> back = decode_flux_file(bytes, place);
+  const Result<FluxFile> back = decode_flux_file(bytes, flux_place);
   REQUIRE(back.ok());
   CHECK(back->blocks[0].bytes == file.blocks[0].bytes);
   CHECK(back->blocks[1].bytes == file.blocks[1].bytes);
 }
 
 TEST_CASE("equal content gives equal bytes", "[format][flux]") {
-  CHECK(encoded(example()) == encoded(example()));
+  CHECK(encoded(example_flux()) == encoded(example_flux()));
 }
 
 TEST_CASE("every flipped bit of a flux file is found", "[format][flux]") {
-  const Bytes good = encoded(example());
+  const Bytes good = encoded(example_flux());
   Bytes bytes = good;
   size_t found = 0;
   for (size_t bit = 0; bit < 8 * good.size(); ++bit) {
     bytes[bit / 8] ^= static_cast<std::byte>(1u << (bit % 8));
-    if (!decode_flux_file(bytes, place).ok()) ++found;
+    if (!decode_flux_file(bytes, flux_place).ok()) ++found;
     bytes[bit / 8] = good[bit / 8];
   }
   CHECK(found == 8 * good.size());
 }
 
 TEST_CASE("a damaged block is named", "[format][flux]") {
-  const Bytes good = encoded(example());
+  const Bytes good = encoded(example_flux());
   const std::vector<size_t> starts = record_starts(good);
   const std::vector<std::string> names = {"the header", "'patch.flux'", "'zeros'", "'empty'"};
   for (size_t i = 0; i < names.size(); ++i) {
     Bytes bytes = good;
     bytes[starts[i + 1] - 1] ^= std::byte{0x10};  // the last byte of its compressed data
-    CHECK_THAT(refusal(bytes), Contains(names[i]));
+    CHECK_THAT(flux_refusal(bytes), Contains(names[i]));
     bytes = good;
     bytes[starts[i] + 24] ^= std::byte{1};  // its checksum
-    CHECK_THAT(refusal(bytes), Contains(names[i]) && Contains("checksum"));
+    CHECK_THAT(flux_refusal(bytes), Contains(names[i]) && Contains("checksum"));
   }
 }
 
 TEST_CASE("a flux file cut anywhere is refused, and between records it says what is missing",
           "[format][flux]") {
-  const Bytes good = encoded(example());
+  const Bytes good = encoded(example_flux());
   for (size_t size = 0; size < good.size(); ++size) {
-    REQUIRE_FALSE(decode_flux_file(std::span(good).first(size), place).ok());
+    REQUIRE_FALSE(decode_flux_file(std::span(good).first(size), flux_place).ok());
   }
   const std::vector<size_t> starts = record_starts(good);
   for (size_t i = 1; i < starts.size(); ++i) {
     const Bytes cut(good.begin(), good.begin() + static_cast<std::ptrdiff_t>(starts[i]));
-    CHECK_THAT(refusal(cut), Contains("cut short"));
+    CHECK_THAT(flux_refusal(cut), Contains("cut short"));
   }
-  CHECK_THAT(refusal({}), Contains("not a flux file"));
+  CHECK_THAT(flux_refusal({}), Contains("not a flux file"));
   Bytes longer = good;
   longer.push_back({});
-  CHECK_THAT(refusal(longer), Contains("goes on after its last block"));
+  CHECK_THAT(flux_refusal(longer), Contains("goes on after its last block"));
 }
 
 TEST_CASE("other files and newer versions are refused by name", "[format][flux]") {
-  Bytes bytes = encoded(example());
+  Bytes bytes = encoded(example_flux());
   set_number(bytes, 8, 4, 2);
-  CHECK_THAT(refusal(bytes), Contains("version 2") && Contains("up to 1"));
+  CHECK_THAT(flux_refusal(bytes), Contains("version 2") && Contains("up to 1"));
   set_number(bytes, 8, 4, 0);
-  CHECK_THAT(refusal(bytes), Contains("version 0"));
-  CHECK_THAT(refusal(noise(1000, 9)), Contains("not a flux file"));
-  bytes = encoded(example());
+  CHECK_THAT(flux_refusal(bytes), Contains("version 0"));
+  CHECK_THAT(flux_refusal(noise(1000, 9)), Contains("not a flux file"));
+  bytes = encoded(example_flux());
   bytes[7] = std::byte{1};
-  CHECK_THAT(refusal(bytes), Contains("not a flux file"));
+  CHECK_THAT(flux_refusal(bytes), Contains("not a flux file"));
 }
 
 TEST_CASE("absurd sizes are refused before memory is taken for them", "[format][flux]") {
-  const Bytes good = encoded(example());
+  const Bytes good = encoded(example_flux());
   const size_t patch = record_starts(good)[1];
   const auto with = [&](size_t at, size_t size, uint64_t value) {
     Bytes bytes = good;
     set_number(bytes, at, size, value);
-    return refusal(bytes);
+    return flux_refusal(bytes);
   };
   for (const uint64_t huge : {uint64_t{1} << 30, uint64_t{1} << 45, ~uint64_t{0}}) {
     CHECK_THAT(with(patch + 8, 8, huge), Contains("'patch.flux'") && Contains("more than it can"));
@@ -179,7 +179,7 @@ TEST_CASE("absurd sizes are refused before memory is taken for them", "[format][
 
 TEST_CASE("random bytes after a good start never pass and never crash", "[format][flux]") {
   std::mt19937_64 random(11);
-  const Bytes good = encoded(example());
+  const Bytes good = encoded(example_flux());
   for (int round = 0; round < 3000; ++round) {
     Bytes bytes = good;
     const size_t from = 16 + random() % (bytes.size() - 16);
@@ -187,13 +187,13 @@ TEST_CASE("random bytes after a good start never pass and never crash", "[format
     for (size_t i = from; i < std::min(bytes.size(), from + count); ++i) {
       bytes[i] = static_cast<std::byte>(random());
     }
-    if (bytes != good) REQUIRE_FALSE(decode_flux_file(bytes, place).ok());
+    if (bytes != good) REQUIRE_FALSE(decode_flux_file(bytes, flux_place).ok());
   }
 }
 
 TEST_CASE("names that could not be told apart or read are not written", "[format][flux]") {
   const auto refused = [](std::vector<Block> blocks) {
-    const Result<Bytes> bytes = encode_flux_file({"{}", std::move(blocks)}, place);
+    const Result<Bytes> bytes = encode_flux_file({"{}", std::move(blocks)}, flux_place);
     return bytes.ok() ? std::string() : bytes.problem().what;
   };
   CHECK_THAT(refused({{"a", {}}, {"a", {}}}), Contains("'a' is there twice"));
@@ -204,7 +204,7 @@ TEST_CASE("names that could not be told apart or read are not written", "[format
 
 TEST_CASE("a flux file that cannot be written or read says where and why", "[format][flux]") {
   const test::TemporaryFolder folder;
-  const auto written = write_flux_file(folder / "none" / "a.lux", example());
+  const auto written = write_flux_file(folder / "none" / "a.lux", example_flux());
   REQUIRE_FALSE(written.ok());
   CHECK_THAT(written.problem().text(), Contains("none/a.lux") && Contains("No such file"));
   CHECK_THAT(read_flux_file(folder / "a.lux").problem().text(),

@@ -15,7 +15,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-const SourcePlace place{"plot.svg", 0};
+const SourcePlace plot_place{"plot.svg", 0};
 
 SvgPlot convergence() {
   SvgPlot plot;
@@ -35,8 +35,8 @@ SvgPlot convergence() {
   return plot;
 }
 
-std::string drawn(const SvgPlot& plot) {
-  Result<std::string> text = svg_plot_text(plot, place);
+std::string drawn_plot(const SvgPlot& plot) {
+  Result<std::string> text = svg_plot_text(plot, plot_place);
   REQUIRE(text.ok());
   return text.value();
 }
@@ -86,25 +86,25 @@ std::vector<std::pair<double, double>> polyline(const std::string& svg) {
 }  // namespace
 
 TEST_CASE("a plot is an SVG that another library draws", "[format][svg]") {
-  const std::string svg = drawn(convergence());
+  const std::string svg = drawn_plot(convergence());
   CHECK(ink(svg) > 2000);
   CHECK_THAT(svg, Contains("Error against particles") && Contains("wall mean") &&
                       Contains("slope −1/2") && Contains("relative error"));
   CHECK(count(svg, "<circle") == 6);  // five points and the legend
-  CHECK(svg == drawn(convergence()));
+  CHECK(svg == drawn_plot(convergence()));
   CHECK_THAT(svg, !Contains("<script") && !Contains("href"));
 }
 
 TEST_CASE("a power law is a straight line on logarithmic axes, and so is its reference",
           "[format][svg]") {
-  const auto points = polyline(drawn(convergence()));
+  const auto points = polyline(drawn_plot(convergence()));
   REQUIRE(points.size() == 5);
   const double slope = (points[4].second - points[0].second) / (points[4].first - points[0].first);
   CHECK(slope > 0);  // falling: y grows downwards
   for (const auto& [x, y] : points) {
     CHECK(y == Approx(points[0].second + slope * (x - points[0].first)).margin(0.05));
   }
-  const std::string svg = drawn(convergence());
+  const std::string svg = drawn_plot(convergence());
   const size_t line = svg.rfind("<line ", svg.find("stroke=\"#7a828e\""));
   const double x1 = std::stod(between(svg, "x1=\"", line));
   const double y1 = std::stod(between(svg, "y1=\"", line));
@@ -118,28 +118,28 @@ TEST_CASE("points that an axis cannot show are left out, counted, and break the 
   SvgPlot plot = convergence();
   plot.series[0].y[1] = 0;
   plot.series[0].y[3] = std::nan("");
-  const std::string svg = drawn(plot);
+  const std::string svg = drawn_plot(plot);
   CHECK_THAT(svg, Contains("2 points are not shown"));
   CHECK(count(svg, "<polyline") == 3);
   CHECK(count(svg, "nan") == 0);
   plot.series[0].y[3] = 0.01;
-  CHECK_THAT(drawn(plot), Contains("1 point is not shown"));
-  CHECK_THAT(drawn(convergence()), !Contains("not shown"));
+  CHECK_THAT(drawn_plot(plot), Contains("1 point is not shown"));
+  CHECK_THAT(drawn_plot(convergence()), !Contains("not shown"));
 }
 
 TEST_CASE("every plot can be drawn: empty, flat, one point, huge errors, huge ranges",
           "[format][svg]") {
   SvgPlot plot;
-  CHECK(ink(drawn(plot)) > 0);
+  CHECK(ink(drawn_plot(plot)) > 0);
   plot.log_x = plot.log_y = true;
-  CHECK(ink(drawn(plot)) > 0);
+  CHECK(ink(drawn_plot(plot)) > 0);
   for (const bool logarithmic : {false, true}) {
     plot.log_x = plot.log_y = logarithmic;
     for (const double y : {1e-300, 1e-9, 0.0, 3.0, 1e300}) {
       PlotSeries s{"s", {5, 5}, {y, y}, {1e3 * y, 0}, true, true};
       plot.series = {s, {"wide", {1, 1e9}, {1, 1e12}, {}, true, false}};
       plot.reference = PlotReference{};
-      const std::string svg = drawn(plot);
+      const std::string svg = drawn_plot(plot);
       CHECK(ink(svg) > 0);
       CHECK(count(svg, "nan") == 0);
       CHECK(count(svg, "inf") == 0);
@@ -152,7 +152,7 @@ TEST_CASE("names with odd characters stay text", "[format][svg]") {
   plot.title = "</title><script>alert(1)</script> & \xff";
   plot.series[0].name = "\"<&>'\" ]]> \x01";
   plot.label_x = "grün [€]";
-  const std::string svg = drawn(plot);
+  const std::string svg = drawn_plot(plot);
   CHECK(count(svg, "<script") == 0);
   CHECK_THAT(svg, Contains("&lt;script&gt;") && Contains("grün [€]"));
   CHECK(ink(svg) > 2000);
@@ -162,7 +162,7 @@ TEST_CASE("a plot that does not fit together is refused, a bad place named", "[f
   const auto refusal = [](auto change) {
     SvgPlot plot = convergence();
     change(plot);
-    const Result<std::string> text = svg_plot_text(plot, place);
+    const Result<std::string> text = svg_plot_text(plot, plot_place);
     REQUIRE_FALSE(text.ok());
     return text.problem().what;
   };

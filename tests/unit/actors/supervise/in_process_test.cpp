@@ -9,36 +9,18 @@
 #include "actors/supervise/residency_setup.hpp"
 #include "scenes/pack/scene_pack.hpp"
 #include "tests/kit/temporary_folder.hpp"
+#include "tests/unit/actors/supervise/equal_bits.hpp"
 #include "tests/unit/actors/supervise/library_scene.hpp"
 
 using namespace luxodus;
 
 namespace {
 
-const std::atomic<bool> nobody{false};
-void ignore(const Progress&) {}
-
 NodesOptions nodes_of(int nodes, size_t fibers) {
   NodesOptions options;
   options.nodes = nodes;
   options.fibers = fibers;
   return options;
-}
-
-/// Bins of the totals that differ in any bit; every one where batches do.
-int64_t differences(const LocalRun& a, const LocalRun& b) {
-  int64_t count = 0;
-  for (int g = 0; g < a.totals().groups(); ++g) {
-    const auto& x = a.totals().state(g);
-    const auto& y = b.totals().state(g);
-    CHECK(x.batches == y.batches);
-    for (size_t i = 0; i < x.totals.size(); ++i) {
-      count += x.totals[i].sum != y.totals[i].sum || x.totals[i].squares != y.totals[i].squares;
-    }
-  }
-  CHECK(a.totals().balance().rays == b.totals().balance().rays);
-  CHECK(b.totals().balance().closes());
-  return count;
 }
 
 void check_same_bits(const std::shared_ptr<const CompiledScene>& scene, const StopRule& stop,

@@ -5,14 +5,12 @@
 
 #include "actors/supervise/in_process.hpp"
 #include "actors/supervise/node_plan.hpp"
+#include "tests/unit/actors/supervise/equal_bits.hpp"
 #include "tests/unit/actors/supervise/library_scene.hpp"
 
 using namespace luxodus;
 
 namespace {
-
-const std::atomic<bool> nobody{false};
-void ignore(const Progress&) {}
 
 /// A tank of smoke in voxels so small that all bins take tens of megabytes.
 std::shared_ptr<const CompiledScene> fine_tank(double voxel_edge_m) {
@@ -24,18 +22,6 @@ std::shared_ptr<const CompiledScene> fine_tank(double voxel_edge_m) {
   auto compiled = compile_scene(description, find_scenario(*description, "").value(), {1});
   REQUIRE(compiled.ok());
   return compiled.value();
-}
-
-int64_t differences(const LocalRun& a, const LocalRun& b) {
-  int64_t count = 0;
-  for (int g = 0; g < a.totals().groups(); ++g) {
-    const auto& x = a.totals().state(g);
-    const auto& y = b.totals().state(g);
-    CHECK(x.batches == y.batches);
-    for (size_t i = 0; i < x.totals.size(); ++i)
-      count += x.totals[i].sum != y.totals[i].sum || x.totals[i].squares != y.totals[i].squares;
-  }
-  return count;
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ using namespace luxodus;
 namespace {
 
 constexpr NodeId controller{9};
-constexpr int groups = 2;
+constexpr int shard_groups = 2;
 constexpr int64_t bins = 1000;
 
 TallyLayout layout_of_bins() {
@@ -35,8 +35,8 @@ struct Letter {
 struct Stage {
   explicit Stage(std::vector<NodeId> owners)
       : plan{std::move(owners)},
-        totals(layout, groups, {}),
-        expected(layout, groups, {}),
+        totals(layout, shard_groups, {}),
+        expected(layout, shard_groups, {}),
         control(
             plan, totals, node.clock,
             [this] {
@@ -47,7 +47,7 @@ struct Stage {
       const NodeId owner = plan.owners[i];
       shards.emplace(owner, std::make_unique<TallyShard>(
                                 TallyShardConfig{owner, controller, plan.range(i + 1, bins)},
-                                layout, groups, node.scheduler, post_of(owner)));
+                                layout, shard_groups, node.scheduler, post_of(owner)));
     }
   }
   SendFunction post_of(NodeId from) {
@@ -82,13 +82,13 @@ struct Stage {
     auto& sender = senders[worker];
     if (!sender) {
       sender = std::make_unique<SliceSender>(plan, post_of(worker));
-      sender->make_room(groups, bins);
+      sender->make_room(shard_groups, bins);
     }
-    Totals own(layout, groups, {});
+    Totals own(layout, shard_groups, {});
     TotalsGain gain;
     Random random(seed, RandomStream::test);
     random.start(id.sequence);
-    for (int g = 0; g < groups; ++g) {
+    for (int g = 0; g < shard_groups; ++g) {
       auto& group = gain.groups.emplace_back();
       group.batches = 1;
       for (int64_t i = random.bits() % 9; i < bins; i += 1 + random.bits() % 9)
@@ -102,7 +102,7 @@ struct Stage {
       while (!encoder.step(100)) {
       }
     }
-    FlushEncoder rest(groups, bins);
+    FlushEncoder rest(shard_groups, bins);
     rest.begin(own, sender->own_bins(), FlushCounts::with);
     while (!rest.step(100)) {
     }
@@ -113,7 +113,7 @@ struct Stage {
   /// What the controller does when it takes the flush that was packed last.
   void take(const MessageId& id, const std::vector<uint64_t>& hashes) {
     control.take(id, hashes);
-    decode_flush(payload, groups, plan.range(0, bins)).value().add_to(totals);
+    decode_flush(payload, shard_groups, plan.range(0, bins)).value().add_to(totals);
   }
   bool gather() {
     bool done = false;
@@ -123,7 +123,7 @@ struct Stage {
   }
   int64_t differences() const {
     int64_t count = 0;
-    for (int g = 0; g < groups; ++g) {
+    for (int g = 0; g < shard_groups; ++g) {
       count += totals.batches(g) != expected.batches(g);
       for (size_t i = 0; i < bins; ++i) {
         const Total &a = totals.state(g).totals[i], &b = expected.state(g).totals[i];

@@ -15,7 +15,7 @@ using namespace luxodus::test;
 
 namespace {
 
-constexpr int64_t level = 24;
+constexpr int64_t level_batches = 24;
 
 const auto never_stop = [] { return false; };
 const auto no_tick = [] {};
@@ -44,7 +44,7 @@ void same_light(const LiveRun& a, const LiveRun& b) {
 LiveRun traced_here(const LiveRoom& room, const SceneEdits& edits) {
   LiveRun run(room.compiled(edits), 1, 1, nullptr, false);
   LiveThreads threads(1);
-  CHECK(run.trace(level, LiveRun::Scope::all, threads, never_stop, no_tick));
+  CHECK(run.trace(level_batches, LiveRun::Scope::all, threads, never_stop, no_tick));
   return run;
 }
 
@@ -56,7 +56,7 @@ TEST_CASE("nodes give a live view the light of threads, state after state", "[vi
   LiveCluster& cluster = *nodes->tracers();
   cluster.enter({});
   LiveRun first(room.compiled({}), 1, 1, nullptr, false);
-  CHECK(first.trace(level, LiveRun::Scope::all, cluster, never_stop, no_tick));
+  CHECK(first.trace(level_batches, LiveRun::Scope::all, cluster, never_stop, no_tick));
   same_light(first, traced_here(room, {}));
   CHECK(cluster.counters().workers == 2);
   first.tell(first.news());
@@ -66,7 +66,7 @@ TEST_CASE("nodes give a live view the light of threads, state after state", "[vi
   cluster.enter(moved_lamp());
   LiveRun second(room.compiled(moved_lamp()), 1, 1, &first, true);
   CHECK(second.light(right) == ShownLight::own);
-  CHECK(second.trace(level, LiveRun::Scope::all, cluster, never_stop, no_tick));
+  CHECK(second.trace(level_batches, LiveRun::Scope::all, cluster, never_stop, no_tick));
   same_light(second, traced_here(room, moved_lamp()));
   CHECK(second.particles() == particles);
 }
@@ -79,8 +79,8 @@ TEST_CASE("nodes trace what a viewer has added, by its own random numbers", "[vi
   LiveRun beside(room.compiled({}), 1, 1, nullptr, false);
   LiveThreads threads(1);
   cluster.enter({});
-  CHECK(first.trace(level, LiveRun::Scope::all, cluster, never_stop, no_tick));
-  CHECK(beside.trace(level, LiveRun::Scope::all, threads, never_stop, no_tick));
+  CHECK(first.trace(level_batches, LiveRun::Scope::all, cluster, never_stop, no_tick));
+  CHECK(beside.trace(level_batches, LiveRun::Scope::all, threads, never_stop, no_tick));
   first.tell(first.news());
   beside.tell(beside.news());
   SceneEdits edits;
@@ -89,8 +89,8 @@ TEST_CASE("nodes trace what a viewer has added, by its own random numbers", "[vi
   cluster.enter(edits);
   LiveRun second(room.compiled(edits), 1, 1, &first, true);
   LiveRun second_beside(room.compiled(edits), 1, 1, &beside, true);
-  CHECK(second.trace(level, LiveRun::Scope::all, cluster, never_stop, no_tick));
-  CHECK(second_beside.trace(level, LiveRun::Scope::all, threads, never_stop, no_tick));
+  CHECK(second.trace(level_batches, LiveRun::Scope::all, cluster, never_stop, no_tick));
+  CHECK(second_beside.trace(level_batches, LiveRun::Scope::all, threads, never_stop, no_tick));
   REQUIRE(second.lights().size() == 4);
   same_light(second, second_beside);
 }
@@ -107,7 +107,7 @@ TEST_CASE("a building that was foreseen and never entered changes nothing", "[vi
   cluster.foresee(refused);
   CHECK(run.trace(8, LiveRun::Scope::all, cluster, never_stop, no_tick));
   cluster.foresee(moved_lamp());
-  CHECK(run.trace(level, LiveRun::Scope::all, cluster, never_stop, no_tick));
+  CHECK(run.trace(level_batches, LiveRun::Scope::all, cluster, never_stop, no_tick));
   same_light(run, traced_here(room, {}));
 }
 
@@ -124,7 +124,7 @@ TEST_CASE("what nodes have not given when tracing stops is traced later", "[view
   for (int patience = 6; !done; patience *= 2) {
     std::atomic<int> asked = 0;
     done = run.trace(
-        level, LiveRun::Scope::all, cluster, [&] { return ++asked > patience; }, no_tick);
+        level_batches, LiveRun::Scope::all, cluster, [&] { return ++asked > patience; }, no_tick);
     stops += done ? 0 : 1;
   }
   CHECK(stops > 0);
@@ -149,7 +149,7 @@ TEST_CASE("a live view goes on when one of its nodes leaves", "[view][nodes][fai
   LiveRun run(room.compiled({}), 1, 1, nullptr, false);
   CHECK(run.trace(4, LiveRun::Scope::all, cluster, never_stop, no_tick));
   one_leaves = true;
-  CHECK(run.trace(level, LiveRun::Scope::all, cluster, never_stop, no_tick));
+  CHECK(run.trace(level_batches, LiveRun::Scope::all, cluster, never_stop, no_tick));
   same_light(run, traced_here(room, {}));
 }
 

@@ -16,13 +16,13 @@ struct Score {
   uint64_t particle;
   int weight;
 };
-struct Beat {};
+struct SealedBeat {};
 
-class Tally final : public Actor<Tally, ControlLane<Accepts<Beat, 1, WhenFull::coalesce>>,
+class Tally final : public Actor<Tally, ControlLane<Accepts<SealedBeat, 1, WhenFull::coalesce>>,
                                  DataLane<Accepts<Score, 8, WhenFull::wait>>> {
  public:
   explicit Tally(Scheduler& scheduler) : Actor(scheduler, "tally") {}
-  void on(const Beat&) { ++beats; }
+  void on(const SealedBeat&) { ++beats; }
   void on(const Score& score) {
     sum += score.weight;
     ++scores;
@@ -44,7 +44,8 @@ struct Stage {
     if (scheduler.fibers().wait(objects, "object") != Wake::woken) return;
     const Wake answer = scheduler.wait_until(answers, start + milliseconds(2), "answer");
     if (answer == Wake::cancelled || scheduler.fibers().yield() == Wake::cancelled) return;
-    if (tally.send(Score{particle, 3}) != Offered::taken || tally.offer(Beat{}) != Offered::taken)
+    if (tally.send(Score{particle, 3}) != Offered::taken ||
+        tally.offer(SealedBeat{}) != Offered::taken)
       return;
     latency.add(scheduler.clock().now() - start);
   }

@@ -16,30 +16,30 @@ using namespace luxodus;
 namespace {
 
 /// What the other process is to do with its question.
-enum class Task { answer, crash, take_memory, loop, throw_up, write_much, lie, count };
+enum class ChildTask { answer, crash, take_memory, loop, throw_up, write_much, lie, count };
 
 volatile uint64_t spun = 0;
 
 void work(PlainReader& question, PlainWriter& answer) {
-  auto task = Task::answer;
+  auto task = ChildTask::answer;
   std::string text;
   std::vector<uint32_t> numbers;
   if (!question.get(task) || !question.get(text) || !question.get(numbers))
     throw std::runtime_error("no question");
   std::vector<std::string> taken;
   switch (task) {
-    case Task::crash:
+    case ChildTask::crash:
       std::raise(SIGSEGV);
       break;
-    case Task::take_memory:
+    case ChildTask::take_memory:
       for (;;) taken.emplace_back(size_t{1} << 20, 'x');
-    case Task::loop:
+    case ChildTask::loop:
       for (;;) spun = spun + 1;
-    case Task::throw_up:
+    case ChildTask::throw_up:
       throw std::runtime_error("no");
-    case Task::write_much:
+    case ChildTask::write_much:
       for (;;) answer.put(std::string(size_t{1} << 20, 'x'));
-    case Task::lie:
+    case ChildTask::lie:
       answer.put(uint64_t{1} << 60);  // numbers that do not follow
       return;
     default:
@@ -52,7 +52,7 @@ void work(PlainReader& question, PlainWriter& answer) {
 const IsolatedJob job("test", work);
 constexpr IsolatedLimits little{uint64_t{64} << 20, 1};
 
-Result<PlainReader> run(Task task, const std::vector<uint32_t>& numbers = {}) {
+Result<PlainReader> run(ChildTask task, const std::vector<uint32_t>& numbers = {}) {
   return job.run(
       [&](PlainWriter& question) {
         question.put(task);
@@ -62,7 +62,7 @@ Result<PlainReader> run(Task task, const std::vector<uint32_t>& numbers = {}) {
       little);
 }
 
-std::string failure(Task task) {
+std::string failure(ChildTask task) {
   const auto done = run(task);
   REQUIRE_FALSE(done.ok());
   return done.problem().what;
@@ -74,7 +74,7 @@ TEST_CASE("a job in a process of its own gets its question and gives its answer"
           "[runtime][isolated]") {
   std::vector<uint32_t> numbers(100'000);
   std::iota(numbers.begin(), numbers.end(), 0u);
-  auto answer = run(Task::answer, numbers);
+  auto answer = run(ChildTask::answer, numbers);
   INFO((answer.ok() ? std::string() : answer.problem().what));
   REQUIRE(answer.ok());
   std::string text;
@@ -88,17 +88,17 @@ TEST_CASE("a job in a process of its own gets its question and gives its answer"
 
 TEST_CASE("a crash, a loop and a flood of a job are problems of their own words",
           "[runtime][isolated]") {
-  CHECK(failure(Task::crash).find("crash (Segmentation fault)") != std::string::npos);
-  CHECK(failure(Task::loop).find("takes longer than") != std::string::npos);
-  CHECK(failure(Task::throw_up).find("without a reason") != std::string::npos);
-  CHECK(failure(Task::write_much).find("more than 64 MiB") != std::string::npos);
+  CHECK(failure(ChildTask::crash).find("crash (Segmentation fault)") != std::string::npos);
+  CHECK(failure(ChildTask::loop).find("takes longer than") != std::string::npos);
+  CHECK(failure(ChildTask::throw_up).find("without a reason") != std::string::npos);
+  CHECK(failure(ChildTask::write_much).find("more than 64 MiB") != std::string::npos);
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-  CHECK(failure(Task::take_memory).find("more than 64 MiB of memory") != std::string::npos);
+  CHECK(failure(ChildTask::take_memory).find("more than 64 MiB of memory") != std::string::npos);
 #endif
 }
 
 TEST_CASE("an answer that claims more than it holds takes no memory", "[runtime][isolated]") {
-  auto answer = run(Task::lie);
+  auto answer = run(ChildTask::lie);
   REQUIRE(answer.ok());
   std::vector<double> numbers;
   CHECK_FALSE(answer->get(numbers));
@@ -111,12 +111,12 @@ TEST_CASE("threads run jobs side by side, and none leaves a descriptor", "[runti
     std::vector<std::jthread> threads;
     for (int& mine : good)
       threads.emplace_back([&mine] {
-        for (int i = 0; i < 5; ++i) mine += run(Task::answer).ok() ? 1 : 0;
+        for (int i = 0; i < 5; ++i) mine += run(ChildTask::answer).ok() ? 1 : 0;
       });
   }
   CHECK(good == std::vector<int>(4, 5));
   const int first = ::dup(0);
-  for (int i = 0; i < 3; ++i) CHECK_FALSE(run(Task::crash).ok());
+  for (int i = 0; i < 3; ++i) CHECK_FALSE(run(ChildTask::crash).ok());
   const int second = ::dup(0);
   CHECK(second == first + 1);
   ::close(first);

@@ -25,7 +25,7 @@ struct Pair {
   FetchSetup setup;
 };
 
-void bring(FetchCluster& cluster, size_t node, uint32_t object) {
+void bring_shared(FetchCluster& cluster, size_t node, uint32_t object) {
   cluster[node].cache.prefetch(std::array{object});
   cluster.run(milliseconds(20), milliseconds(1));
 }
@@ -36,8 +36,8 @@ TEST_CASE("an object that another node of the process has is neither fetched nor
           "[runtime][fetch]") {
   Pair pair(3);
   FetchCluster cluster(2, pair.objects, pair.setup);
-  bring(cluster, 0, 1);
-  bring(cluster, 1, 1);
+  bring_shared(cluster, 0, 1);
+  bring_shared(cluster, 1, 1);
   CHECK(cluster[0].cache.state(1) == ObjectState::resident);
   CHECK(cluster[1].cache.state(1) == ObjectState::resident);
   CHECK(cluster[0].cache.find(1) == cluster[1].cache.find(1));
@@ -53,18 +53,18 @@ TEST_CASE("an object that another node of the process has is neither fetched nor
 TEST_CASE("a shared object lives until the last node has let it go", "[runtime][fetch]") {
   Pair pair(5);
   FetchCluster cluster(2, pair.objects, pair.setup);
-  bring(cluster, 0, 0);
-  bring(cluster, 1, 0);
-  for (const uint32_t other : {1u, 2u}) bring(cluster, 0, other);
+  bring_shared(cluster, 0, 0);
+  bring_shared(cluster, 1, 0);
+  for (const uint32_t other : {1u, 2u}) bring_shared(cluster, 0, other);
   CHECK(cluster[0].cache.state(0) == ObjectState::absent);
   CHECK(*cluster[0].builder.alive == 3);
   REQUIRE(cluster[1].cache.find(0) != nullptr);
   CHECK(static_cast<const TestObject*>(cluster[1].cache.find(0))->number == 0);
-  bring(cluster, 0, 0);  // and is taken back
+  bring_shared(cluster, 0, 0);  // and is taken back
   CHECK(cluster[0].cache.counters().builds == 3);
   CHECK(cluster[0].cache.counters().builds_saved == 1);
   for (const size_t node : {0u, 1u})
-    for (const uint32_t other : {3u, 4u}) bring(cluster, node, other);
+    for (const uint32_t other : {3u, 4u}) bring_shared(cluster, node, other);
   CHECK(pair.shared.find(0) == nullptr);
 }
 
@@ -105,7 +105,7 @@ TEST_CASE("a node that shares nothing builds for itself", "[runtime][fetch]") {
   Pair pair(2);
   pair.setup.cache.shared = nullptr;
   FetchCluster cluster(2, pair.objects, pair.setup);
-  for (const size_t node : {0u, 1u}) bring(cluster, node, 1);
+  for (const size_t node : {0u, 1u}) bring_shared(cluster, node, 1);
   CHECK(cluster[0].cache.find(1) != cluster[1].cache.find(1));
   CHECK(cluster[1].cache.counters().builds == 1);
   CHECK(cluster[1].cache.counters().builds_saved == 0);

@@ -7,13 +7,11 @@
 
 #include "scenes/emergency/rule_table.hpp"
 #include "scenes/emergency/rules.hpp"
+#include "tests/unit/scenes/emergency/code_choices.hpp"
 
 using namespace luxodus;
 
 namespace {
-
-const CodeChoice en13{RuleSet::en1838_2013, {}}, en24{RuleSet::en1838_2024, {}},
-    nfpa{RuleSet::nfpa101, {}};
 
 /// A route and an area under two luminaires that say how they come on, a bench, an exit sign, a
 /// hose: something for every rule.
@@ -95,7 +93,7 @@ std::set<std::string> ids(const std::vector<Check>& checks) {
   return out;
 }
 
-const Check& of(const std::vector<Check>& checks, const std::string& id) {
+const Check& set_of(const std::vector<Check>& checks, const std::string& id) {
   for (const Check& check : checks)
     if (check.rule.id == id) return check;
   FAIL("no check " << id);
@@ -167,7 +165,7 @@ TEST_CASE("the rules of 2024 are whole, and say what they take over from 2013",
     CHECK((check.rule.status.find("carried over from EN 1838:2013") == 0) ==
           (check.rule.id != "E5"));
   }
-  CHECK(of(report(en13), "E4").rule.status == "superseded by EN 1838:2024");
+  CHECK(set_of(report(en13), "E4").rule.status == "superseded by EN 1838:2024");
 }
 
 TEST_CASE("each deviation changes a limit or adds a check, with its source", "[emergency][rules]") {
@@ -176,32 +174,32 @@ TEST_CASE("each deviation changes a limit or adds a check, with its source", "[e
   CHECK_FALSE(lacks.contains("E10g"));
   const auto german = report(with(en24, Deviation::de_asr));
   // 15 s after the failure: 0.6 + 0.4 x 7/12 of 0.8 lx.
-  CHECK(*of(german, "E10g").value == Approx(0.8 * (0.6 + 0.4 * 7 / 12)));
-  CHECK(*of(german, "E10g").limit == 1);
-  CHECK(of(german, "E10g").verdict == CheckVerdict::fail);
-  CHECK(of(german, "E10g").rule.source == "messefrankfurt");
-  CHECK(of(german, "E10g").rule.deviation == "de-asr-a3.4-3");
+  CHECK(*set_of(german, "E10g").value == Approx(0.8 * (0.6 + 0.4 * 7 / 12)));
+  CHECK(*set_of(german, "E10g").limit == 1);
+  CHECK(set_of(german, "E10g").verdict == CheckVerdict::fail);
+  CHECK(set_of(german, "E10g").rule.source == "messefrankfurt");
+  CHECK(set_of(german, "E10g").rule.deviation == "de-asr-a3.4-3");
   const auto din = report(with(en24, Deviation::de_din_4844));
-  CHECK(of(din, "S5").verdict == CheckVerdict::fail);  // 400 of 500 cd/m2
-  CHECK(*of(report(en24), "E11").limit == 1);
+  CHECK(set_of(din, "S5").verdict == CheckVerdict::fail);  // 400 of 500 cd/m2
+  CHECK(*set_of(report(en24), "E11").limit == 1);
   const auto long_lived = report(with(en24, Deviation::duration_3h));
-  CHECK(*of(long_lived, "E11n").limit == 3);
+  CHECK(*set_of(long_lived, "E11n").limit == 3);
   CHECK_FALSE(ids(long_lived).contains("E11"));
   const auto british = report(with(en24, Deviation::uk_bs_5266));
-  CHECK(*of(british, "E11u").limit == 3);
-  CHECK(of(british, "E6").verdict == CheckVerdict::pass);  // 0.8 lx of 0.5 lx
-  CHECK(*of(british, "E6k").limit == 1);
+  CHECK(*set_of(british, "E11u").limit == 3);
+  CHECK(set_of(british, "E6").verdict == CheckVerdict::pass);  // 0.8 lx of 0.5 lx
+  CHECK(*set_of(british, "E6k").limit == 1);
   // NFPA asks for a mean of 6.5 lx at the end, IBC for 6 lx; both for a least of theirs.
   const auto ibc = report(with(nfpa, Deviation::us_ibc));
-  CHECK(*of(report(nfpa), "N2").limit == 6.5);
-  CHECK(*of(ibc, "I2").limit == 6);
-  CHECK(*of(ibc, "I1").limit == 11);
-  CHECK(*of(ibc, "I1m").limit == 1);
-  CHECK(*of(ibc, "I2m").limit == 0.6);
+  CHECK(*set_of(report(nfpa), "N2").limit == 6.5);
+  CHECK(*set_of(ibc, "I2").limit == 6);
+  CHECK(*set_of(ibc, "I1").limit == 11);
+  CHECK(*set_of(ibc, "I1m").limit == 1);
+  CHECK(*set_of(ibc, "I2m").limit == 0.6);
   CHECK_FALSE(ids(ibc).contains("N2"));
   const auto hospital = report(with(nfpa, Deviation::us_ibc_i2));
-  CHECK(*of(hospital, "N4").value == Approx(0.4));
-  CHECK(of(hospital, "N4").verdict == CheckVerdict::fail);
+  CHECK(*set_of(hospital, "N4").value == Approx(0.4));
+  CHECK(set_of(hospital, "N4").verdict == CheckVerdict::fail);
 }
 
 TEST_CASE("a limit that was read nowhere neither passes nor fails a check", "[emergency][rules]") {

@@ -6,13 +6,11 @@
 #include <numbers>
 
 #include "scenes/emergency/sign_face.hpp"
+#include "tests/unit/scenes/emergency/code_choices.hpp"
 
 using namespace luxodus;
 
 namespace {
-
-const CodeChoice en13{RuleSet::en1838_2013, {}}, en24{RuleSet::en1838_2024, {}},
-    nfpa{RuleSet::nfpa101, {}};
 
 /// The checks of every set, one after the other.
 template <class Checks>

@@ -33,7 +33,7 @@ std::string svg(const std::string& body, const std::string& size = "viewBox='0 0
 const std::string left_green =
     "<rect width='200' height='100' fill='#ECECE7'/><rect width='50' height='100' fill='#237F52'/>";
 
-SignColour at(const SignFace& face, double u, double v) {
+SignColour face_at(const SignFace& face, double u, double v) {
   return face.colour.at(texel_index(face, u, v));
 }
 SignFace face_of(Result<SignFace> face) {
@@ -93,8 +93,8 @@ TEST_CASE("a drawing fills the face: its colours lie where and as large as drawn
   CHECK(face.height == 100);
   CHECK(colour_share(face, green) == Approx(0.25).margin(1e-12));
   CHECK(colour_share(face, white) == Approx(0.75).margin(1e-12));
-  CHECK(at(face, 0.1, 0.5) == green);
-  CHECK(at(face, 0.3, 0.5) == white);
+  CHECK(face_at(face, 0.1, 0.5) == green);
+  CHECK(face_at(face, 0.3, 0.5) == white);
   CHECK(face.relative_luminance.empty());
 }
 
@@ -103,8 +103,8 @@ TEST_CASE("the top row of a drawing is the face's first", "[emergency][face]") {
   const auto file = scratch.write("a.svg", svg("<rect width='200' height='100' fill='white'/>"
                                                "<rect width='200' height='30' fill='#237F52'/>"));
   const SignFace face = face_of(face_from_svg(file, 0.4, 0.2, 100));
-  CHECK(at(face, 0.5, 0.1) == green);
-  CHECK(at(face, 0.5, 0.9) == white);
+  CHECK(face_at(face, 0.5, 0.1) == green);
+  CHECK(face_at(face, 0.5, 0.9) == white);
 }
 
 TEST_CASE("a drawing scales by its size as well as by its viewBox", "[emergency][face]") {
@@ -135,8 +135,8 @@ TEST_CASE("what is neither white nor green, or not painted, is other", "[emergen
                                                "<rect x='50' width='50' height='100' fill='#fff'/>"
                                                "<rect x='100' width='50' height='100'/>"));
   const SignFace face = face_of(face_from_svg(file, 0.4, 0.2, 80));
-  CHECK(at(face, 0.6, 0.5) == other);
-  CHECK(at(face, 0.9, 0.5) == other);
+  CHECK(face_at(face, 0.6, 0.5) == other);
+  CHECK(face_at(face, 0.9, 0.5) == other);
   CHECK(colour_share(face, other) == 0.5);
 }
 
@@ -230,11 +230,11 @@ TEST_CASE("an I is a bar of one stroke by the letter height, in the middle of th
     const SignFace face = face_of(face_from_text("I", 0.3, 0.2, 0.15, 0.02, 0.01, legend, 300));
     CHECK(face.legend == legend);
     CHECK(colour_share(face, legend) == Approx(0.15 * 0.02 / 0.06).epsilon(0.01));
-    CHECK(at(face, 0.5, 0.5) == legend);
-    CHECK(at(face, 0.5 + 0.009 / 0.3, 0.5) == legend);
-    CHECK(at(face, 0.5 + 0.011 / 0.3, 0.5) != legend);
-    CHECK(at(face, 0.5, 0.5 + 0.074 / 0.2) == legend);
-    CHECK(at(face, 0.5, 0.5 + 0.076 / 0.2) != legend);
+    CHECK(face_at(face, 0.5, 0.5) == legend);
+    CHECK(face_at(face, 0.5 + 0.009 / 0.3, 0.5) == legend);
+    CHECK(face_at(face, 0.5 + 0.011 / 0.3, 0.5) != legend);
+    CHECK(face_at(face, 0.5, 0.5 + 0.074 / 0.2) == legend);
+    CHECK(face_at(face, 0.5, 0.5 + 0.076 / 0.2) != legend);
     CHECK(colour_share(face, other) == 0);
   }
 }
@@ -353,9 +353,9 @@ TEST_CASE("the signs that ship are wholly green and white, and left mirrors righ
   }
   // A texel that an edge halves may fall either way: fewer than one in a thousand.
   CHECK(mirror_differences(left, right) < 80);
-  CHECK(at(right, 0.87, 0.5) == white);    // the arrow's head
-  CHECK(at(right, 0.33, 0.225) == green);  // the runner's head, within the white door
-  CHECK(at(straight, 0.715, 0.16) == white);
+  CHECK(face_at(right, 0.87, 0.5) == white);    // the arrow's head
+  CHECK(face_at(right, 0.33, 0.225) == green);  // the runner's head, within the white door
+  CHECK(face_at(straight, 0.715, 0.16) == white);
   CHECK(right.colour != straight.colour);
 }
 

@@ -44,14 +44,14 @@ std::vector<TriangleRecord> ball(int n) {
   return out;
 }
 
-glm::dvec3 any_direction(Random& random) {
+glm::dvec3 plain_direction(Random& random) {
   const double z = 2 * random.uniform_double() - 1;
   const double phi = 2 * std::numbers::pi * random.uniform_double();
   const double r = std::sqrt(1 - z * z);
   return {r * std::cos(phi), r * std::sin(phi), z};
 }
 
-glm::dvec3 any_point(Random& random, double reach) {
+glm::dvec3 plain_point(Random& random, double reach) {
   const double x = random.uniform_double();
   const double y = random.uniform_double();
   const double z = random.uniform_double();
@@ -114,8 +114,8 @@ TEMPLATE_TEST_CASE("a closed ball lets no ray out through its shared edges, in a
   int escaped = 0;
   for (uint64_t i = 0; i < 40'000; ++i) {
     random.start(i);
-    const glm::dvec3 origin = any_point(random, 0.4);
-    glm::dvec3 direction = any_direction(random);
+    const glm::dvec3 origin = plain_point(random, 0.4);
+    glm::dvec3 direction = plain_direction(random);
     if (i % 4 !=
         0) {  // aimed at an edge, at its middle or anywhere but at its ends to the last bit
       const TriangleRecord& t = triangles[random.bits() % triangles.size()];
@@ -140,8 +140,8 @@ TEMPLATE_TEST_CASE("boxes of groups change no hit, whether rays run along axes o
   int wrong = 0, hits = 0;
   for (uint64_t i = 0; i < 20'000; ++i) {
     random.start(i);
-    glm::dvec3 origin = any_point(random, 2);
-    glm::dvec3 direction = any_direction(random);
+    glm::dvec3 origin = plain_point(random, 2);
+    glm::dvec3 direction = plain_direction(random);
     if (i % 3 == 1) {  // from a corner's height, along an axis
       const glm::dvec3 corner(triangles[random.bits() % triangles.size()].corner[0]);
       origin = {corner.x, corner.y, origin.z};
@@ -171,8 +171,8 @@ TEST_CASE("the double intersector agrees with Embree but for its rounding", "[in
   double farthest = 0, farthest_place = 0;
   for (uint64_t i = 0; i < 50'000; ++i) {
     random.start(i);
-    const glm::vec3 origin(any_point(random, 1.5));  // some outside
-    const glm::vec3 direction(any_direction(random));
+    const glm::vec3 origin(plain_point(random, 1.5));  // some outside
+    const glm::vec3 direction(plain_direction(random));
     const auto exact = plain_nearest<double>(cell.triangles, {origin, direction});
     const Hit hit = scene.nearest({origin, direction});
     if (hit.found() != (exact.index != no_triangle)) {  // past a silhouette

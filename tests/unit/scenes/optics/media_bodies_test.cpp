@@ -6,7 +6,7 @@ using namespace luxodus::media_test;
 
 namespace {
 
-Result<QuadricBody> made(const QuadricShape& shape, const Frame& frame = {}) {
+Result<QuadricBody> made_bodies(const QuadricShape& shape, const Frame& frame = {}) {
   return QuadricBody::make(body(shape, smoke(1), frame), glm::dvec3(0));
 }
 
@@ -27,7 +27,7 @@ Medium prism(std::vector<glm::dvec2> polygon, double low, double high, double si
 }  // namespace
 
 TEST_CASE("the volumes of the named bodies are their closed forms", "[optics][media]") {
-  const auto volume = [](const QuadricShape& s) { return made(s)->volume(); };
+  const auto volume = [](const QuadricShape& s) { return made_bodies(s)->volume(); };
   CHECK(volume(ellipsoid({1, 2, 3})).m3 == Approx(4 * pi / 3 * 6).epsilon(1e-12));
   CHECK(volume(cylinder(0.5, 2)).m3 == Approx(pi * 0.25 * 2).epsilon(1e-12));
   CHECK(volume(cone(0.5, 2)).m3 == Approx(pi * 0.25 * 2 / 3).epsilon(1e-12));
@@ -41,14 +41,14 @@ TEST_CASE("the volume of a body that has no closed form errs by no more than it 
           "[optics][media]") {
   QuadricShape half = ellipsoid({1, 1, 1});
   half.quadric.clips.push_back({glm::normalize(glm::dvec3(1, 1, 1)), 0.0});
-  const QuadricBody::Volume cut = made(half)->volume();
+  const QuadricBody::Volume cut = made_bodies(half)->volume();
   CHECK(cut.error_m3 > 0);
   CHECK(cut.error_m3 < 1e-3 * cut.m3);
   CHECK(std::abs(cut.m3 - 2 * pi / 3) < 3 * cut.error_m3 + 1e-4);
   // A box that cuts the body is part of it.
   QuadricShape boxed = ellipsoid({1, 1, 1});
   boxed.bounds.high.x = 0;
-  const QuadricBody::Volume sliced = made(boxed)->volume();
+  const QuadricBody::Volume sliced = made_bodies(boxed)->volume();
   CHECK(std::abs(sliced.m3 - 2 * pi / 3) < 3 * sliced.error_m3 + 1e-4);
   // One-sheet hyperboloid x^2 + y^2 - z^2 <= 1 between z = -1 and 1: pi (2 + 2/3).
   QuadricShape waist;
@@ -56,7 +56,7 @@ TEST_CASE("the volume of a body that has no closed form errs by no more than it 
   waist.quadric.a[2][2] = -1;
   waist.quadric.c = -1;
   waist.bounds = {glm::dvec3(-1.5, -1.5, -1), glm::dvec3(1.5, 1.5, 1)};
-  CHECK(made(waist)->volume().m3 == Approx(pi * 8 / 3).epsilon(1e-12));
+  CHECK(made_bodies(waist)->volume().m3 == Approx(pi * 8 / 3).epsilon(1e-12));
 }
 
 TEST_CASE("chords of a sphere are 2 sqrt(r^2 - b^2) from any distance", "[optics][media]") {
@@ -64,7 +64,7 @@ TEST_CASE("chords of a sphere are 2 sqrt(r^2 - b^2) from any distance", "[optics
   frame.axes = turned(0.7);
   frame.origin = {1, 2, 3};
   for (const double r : {1e-3, 1.0, 1e3}) {
-    const auto sphere = made(ellipsoid(glm::dvec3(r)), frame);
+    const auto sphere = made_bodies(ellipsoid(glm::dvec3(r)), frame);
     REQUIRE(sphere.ok());
     for (const double far : {0.0, 10.0, 1e4}) {
       for (const double b : {0.0, 0.5, 0.99}) {
@@ -82,15 +82,15 @@ TEST_CASE("chords of a sphere are 2 sqrt(r^2 - b^2) from any distance", "[optics
 
 TEST_CASE("rays along an axis or a side, where the quadratic degenerates, are exact",
           "[optics][media]") {
-  const auto tube = made(cylinder(1, 3));
+  const auto tube = made_bodies(cylinder(1, 3));
   CHECK(chord(*tube.operator->(), {0.5, 0, -1}, {0, 0, 1}) == Approx(3).epsilon(1e-14));
   CHECK(chord(*tube.operator->(), {1.5, 0, -1}, {0, 0, 1}) == 0);
   CHECK(chord(*tube.operator->(), {0.5, 0, -1}, {1e-30, 0, 1}) == Approx(3).epsilon(1e-14));
-  const auto bowl = made(paraboloid(1, 1));
+  const auto bowl = made_bodies(paraboloid(1, 1));
   CHECK(chord(*bowl.operator->(), {0.5, 0, -1}, {0, 0, 1}) == Approx(0.75).epsilon(1e-14));
   CHECK(chord(*bowl.operator->(), {0.5, 0, 5}, {0, 0, -1}) == Approx(0.75).epsilon(1e-14));
   // Parallel to a side of the cone (45 degrees): one root has gone to infinity.
-  const auto hat = made(cone(1, 1));
+  const auto hat = made_bodies(cone(1, 1));
   const double s = std::sqrt(0.5);
   CHECK(chord(*hat.operator->(), {0, 0, 0}, {s, 0, -s}) == 0);
   CHECK(chord(*hat.operator->(), {-0.5, 0, 0}, {s, 0, s}) == Approx(0.75 / s).epsilon(1e-12));
@@ -158,11 +158,11 @@ TEST_CASE("the mean chord of a convex body is 4 V / S", "[optics][media]") {
     return m;
   };
   double error = 0;
-  const auto sphere = made(ellipsoid(glm::dvec3(0.8)));
+  const auto sphere = made_bodies(ellipsoid(glm::dvec3(0.8)));
   double m = mean(*sphere.operator->(), 1, 21, error);
   CHECK(std::abs(m - 4 * 0.8 / 3) < 4 * error);
   // Cylinder: 4 pi r^2 h / (2 pi r (r + h)).
-  const auto can = made(cylinder(0.5, 0.7));
+  const auto can = made_bodies(cylinder(0.5, 0.7));
   m = mean(*can.operator->(), 1, 22, error);
   CHECK(std::abs(m - 2 * 0.5 * 0.7 / 1.2) < 4 * error);
 }

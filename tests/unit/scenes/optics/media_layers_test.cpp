@@ -6,7 +6,7 @@ using namespace luxodus::media_test;
 
 namespace {
 
-const glm::vec3 up(0, 0, 1);
+const glm::vec3 upwards(0, 0, 1);
 const glm::vec3 down(0, 0, -1);
 
 Medium three_layers(double a, double b, double c) {
@@ -46,7 +46,7 @@ TEST_CASE("a factor scales extinction, and 0 takes a medium away", "[optics][med
   const auto set = MediaSet::compile(inputs, 1, first_sample, glm::dvec3(0));
   REQUIRE(set.ok());
   CHECK(set->count() == 2);
-  CHECK(depth(set.value(), {0, 0, 0}, up, 2) == Approx(3.0).epsilon(1e-15));
+  CHECK(depth(set.value(), {0, 0, 0}, upwards, 2) == Approx(3.0).epsilon(1e-15));
   const std::vector<MediumInput> none = {{&a, 0.0}, {&b, 0.0}};
   CHECK(MediaSet::compile(none, 1, first_sample, glm::dvec3(0))->need() == MediaNeed::none);
 }
@@ -68,7 +68,7 @@ TEST_CASE("extinction follows Angstrom's law from its own wavelength", "[optics]
   REQUIRE(set.ok());
   ResidentBricks bricks(set.value());
   for (int b = 0; b < 81; b += 20) {
-    CHECK(optical_depth<MediaNeed::homogeneous>(set.value(), b, {0, 0, 0}, up, 1, bricks) ==
+    CHECK(optical_depth<MediaNeed::homogeneous>(set.value(), b, {0, 0, 0}, upwards, 1, bricks) ==
           Approx(2.0 * 633 / Spectrum::wavelength_nm(b)));
   }
 }
@@ -76,32 +76,32 @@ TEST_CASE("extinction follows Angstrom's law from its own wavelength", "[optics]
 TEST_CASE("layers obey Beer-Lambert: depth is the sum of extinction times slant thickness",
           "[optics][media]") {
   const MediaSet set = compiled({three_layers(0.5, 0, 4)});
-  CHECK(depth(set, {0, 0, -1}, up, 10) == Approx(4.5).epsilon(1e-14));
+  CHECK(depth(set, {0, 0, -1}, upwards, 10) == Approx(4.5).epsilon(1e-14));
   CHECK(depth(set, {0, 0, 9}, down, 20) == Approx(4.5).epsilon(1e-14));
-  CHECK(depth(set, {0, 0, 0.5F}, up, 2) == Approx(0.25 + 4 * 0.5).epsilon(1e-14));
+  CHECK(depth(set, {0, 0, 0.5F}, upwards, 2) == Approx(0.25 + 4 * 0.5).epsilon(1e-14));
   const float c = 0.6F;
   const glm::vec3 slant(0.8F, 0, c);
   CHECK(depth(set, {0, 0, -1}, slant, 100) == Approx(4.5 / static_cast<double>(c)).epsilon(1e-14));
-  CHECK(depth(set, {0, 0, -1}, up, infinite) == Approx(4.5).epsilon(1e-14));
-  CHECK(depth(set, {0, 0, 5}, up, infinite) == 0);
+  CHECK(depth(set, {0, 0, -1}, upwards, infinite) == Approx(4.5).epsilon(1e-14));
+  CHECK(depth(set, {0, 0, 5}, upwards, infinite) == 0);
 }
 
 TEST_CASE("free flight collides where the depth is used up and passes empty layers untouched",
           "[optics][media]") {
   const MediaSet set = compiled({three_layers(0.5, 0, 4)});
-  CHECK(fly(set, {0, 0, 0}, up, 10, 0.25).t == Approx(0.5F));
+  CHECK(fly(set, {0, 0, 0}, upwards, 10, 0.25).t == Approx(0.5F));
   // The depth of the first layer is 0.5: any more is reached in the third, never in the empty one.
-  CHECK(fly(set, {0, 0, 0}, up, 10, 0.5).t == 2.0F);
-  CHECK(fly(set, {0, 0, 0}, up, 10, 0.5 + 1e-12).t == Approx(2.0F));
-  CHECK(fly(set, {0, 0, 0}, up, 10, 0.5 - 1e-12).t == Approx(1.0F));
+  CHECK(fly(set, {0, 0, 0}, upwards, 10, 0.5).t == 2.0F);
+  CHECK(fly(set, {0, 0, 0}, upwards, 10, 0.5 + 1e-12).t == Approx(2.0F));
+  CHECK(fly(set, {0, 0, 0}, upwards, 10, 0.5 - 1e-12).t == Approx(1.0F));
   CHECK(fly(set, {0, 0, 3}, down, 10, 4.25).t == Approx(2.5F));
-  const FreeFlight through = fly(set, {0, 0, 0}, up, 10, 4.5 + 1e-9);
+  const FreeFlight through = fly(set, {0, 0, 0}, upwards, 10, 4.5 + 1e-9);
   CHECK_FALSE(through.collided);
   CHECK(through.t == 10.0F);
-  CHECK_FALSE(fly(set, {0, 0, 0}, up, 1.5F, 0.6).collided);
+  CHECK_FALSE(fly(set, {0, 0, 0}, upwards, 1.5F, 0.6).collided);
   // tau = 0 collides where smoke begins.
-  CHECK(fly(set, {0, 0, 1.25F}, up, 10, 0).t == Approx(0.75F));
-  CHECK_FALSE(fly(set, {0, 0, 7}, up, infinite, 0).collided);
+  CHECK(fly(set, {0, 0, 1.25F}, upwards, 10, 0).t == Approx(0.75F));
+  CHECK_FALSE(fly(set, {0, 0, 7}, upwards, infinite, 0).collided);
   CHECK_FALSE(fly(set, {0, 0, 1.5F}, {1, 0, 0}, infinite, 0).collided);
 }
 
@@ -201,9 +201,9 @@ TEST_CASE("coordinates of a million metres lose nothing after the move to the lo
   Frame frame;
   frame.origin = far + glm::dvec3(10, 0, 0);
   const MediaSet set = compiled({m, body(ellipsoid({1, 1, 1}), smoke(2), frame)}, far);
-  CHECK(depth(set, {1, 1, -1}, up, 10) == Approx(6.0).epsilon(1e-9));
+  CHECK(depth(set, {1, 1, -1}, upwards, 10) == Approx(6.0).epsilon(1e-9));
   CHECK(depth(set, {-5, 1, 0.5F}, {1, 0, 0}, 10) == Approx(4.0).epsilon(1e-9));
-  CHECK(depth(set, {10, 0, -5}, up, 10) == Approx(4.0).epsilon(1e-9));
+  CHECK(depth(set, {10, 0, -5}, upwards, 10) == Approx(4.0).epsilon(1e-9));
 }
 
 TEST_CASE("overlapping media collide in proportion to their extinctions", "[optics][media]") {
@@ -218,7 +218,7 @@ TEST_CASE("overlapping media collide in proportion to their extinctions", "[opti
   const double albedo[5] = {0.1, 0.2, 0.3, 0.4, 0.6};
   for (int i = 0; i < n; ++i) {
     const double choice = draw();
-    const FreeFlight f = fly(set, {0.5F, 0.5F, 0.5F}, up, 10, 1e-3, choice);
+    const FreeFlight f = fly(set, {0.5F, 0.5F, 0.5F}, upwards, 10, 1e-3, choice);
     REQUIRE(f.collided);
     REQUIRE(f.medium >= 0);
     ++hits[f.medium];
@@ -237,13 +237,13 @@ TEST_CASE("the last medium is chosen at the very end of the unit interval", "[op
   const MediaSet set =
       compiled({everywhere(smoke(0.1)), everywhere(smoke(0.2)), everywhere(smoke(0.7))});
   const double last = 1 - 0x1p-53;
-  CHECK(fly(set, {0, 0, 0}, up, 100, 1, 0).medium == 0);
-  CHECK(fly(set, {0, 0, 0}, up, 100, 1, last).medium == 2);
+  CHECK(fly(set, {0, 0, 0}, upwards, 100, 1, 0).medium == 0);
+  CHECK(fly(set, {0, 0, 0}, upwards, 100, 1, last).medium == 2);
 }
 
 TEST_CASE("the albedo of nearly conservative smoke keeps its distance from 1", "[optics][media]") {
   const MediaSet set = compiled({everywhere(smoke(1, 1 - 1e-6))});
-  CHECK(1 - fly(set, {0, 0, 0}, up, 100, 1).albedo == Approx(1e-6).epsilon(1e-9));
+  CHECK(1 - fly(set, {0, 0, 0}, upwards, 100, 1).albedo == Approx(1e-6).epsilon(1e-9));
 }
 
 TEST_CASE("flights through smoke are exponential", "[optics][media]") {
@@ -253,7 +253,7 @@ TEST_CASE("flights through smoke are exponential", "[optics][media]") {
   int passed = 0;
   for (int i = 0; i < n; ++i) {
     const double tau = -std::log1p(-draw());
-    if (!fly(set, {0, 0, 0}, up, 2.5F, tau).collided) ++passed;
+    if (!fly(set, {0, 0, 0}, upwards, 2.5F, tau).collided) ++passed;
   }
   const double expected = std::exp(-2.0);
   const double error = std::sqrt(expected * (1 - expected) / n);

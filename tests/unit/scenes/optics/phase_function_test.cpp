@@ -12,8 +12,8 @@ using namespace luxodus::checks;
 
 namespace {
 
-constexpr int draws = 200000;
-constexpr float last_unit = 1.0F - 0x1p-24F;
+constexpr int phase_draws = 200000;
+constexpr float phase_last_unit = 1.0F - 0x1p-24F;
 const SourcePlace place{"scene.toml", 12};
 
 PhaseFunction henyey_greenstein(double g) {
@@ -65,7 +65,7 @@ struct Fit {
 Fit fit(const PhaseFunction& phase, uint32_t seed, const std::function<double(double)>& below) {
   Uniform next(seed);
   Histogram share(64), turn(32);
-  for (int i = 0; i < draws; ++i) {
+  for (int i = 0; i < phase_draws; ++i) {
     const float u = next();
     const float v = next();
     const glm::vec3 d = sample(phase, {0, 0, 1}, u, v);
@@ -167,7 +167,7 @@ TEST_CASE("Henyey-Greenstein samples follow its distribution and its density int
 
 TEST_CASE("g = 1 goes straight on, g = -1 straight back, for every number", "[optics][phase]") {
   const glm::vec3 before = glm::normalize(glm::vec3(-0.2F, 0.4F, 0.7F));
-  for (const float u : {0.0F, 0x1p-24F, 0.5F, last_unit}) {
+  for (const float u : {0.0F, 0x1p-24F, 0.5F, phase_last_unit}) {
     CHECK(glm::length(sample(henyey_greenstein(1), before, u, 0.3F) - before) < 3e-7F);
     CHECK(glm::length(sample(henyey_greenstein(-1), before, u, 0.3F) + before) < 3e-7F);
     CHECK(glm::length(sample(henyey_greenstein(1 - 1e-12), before, u, 0.3F) - before) < 3e-7F);
@@ -203,7 +203,7 @@ TEST_CASE(
   CHECK(off.azimuth < allowed);
   double worst = 0;
   for (int i = 0; i <= 4096; ++i) {
-    const float u = std::min(last_unit, static_cast<float>(i) / 4096.0F);
+    const float u = std::min(phase_last_unit, static_cast<float>(i) / 4096.0F);
     const double q = 4 * static_cast<double>(u) - 2;  // Cardano: c = a - 1 / a
     const double a = std::cbrt(q + std::sqrt(q * q + 1));
     worst = std::max(worst, std::fabs(static_cast<double>(phase.deflection(u).cos) - (a - 1 / a)));
@@ -212,7 +212,7 @@ TEST_CASE(
   CHECK(worst < 3e-7);
   Uniform next(seed);
   Mean z, zz;
-  for (int i = 0; i < draws; ++i) {
+  for (int i = 0; i < phase_draws; ++i) {
     const double c = phase.deflection(next()).cos;
     z.add(c);
     zz.add(c * c);
@@ -262,7 +262,7 @@ TEST_CASE(
     Mean cosine;
     bool where_none = false;
     double worst = 0;
-    for (int i = 0; i < draws; ++i) {
+    for (int i = 0; i < phase_draws; ++i) {
       const float u = next();
       const float x = phase.deflection(u).cos;
       cosine.add(x);
@@ -280,7 +280,8 @@ TEST_CASE(
   CHECK(evaluate(ramp, 1.0F) == Approx(1 / (2 * std::numbers::pi)));
   CHECK(evaluate(ramp, 0.0F) == Approx(0.5 / (2 * std::numbers::pi)));
   CHECK(evaluate(ramp, -1.0F) == 0.0F);
-  for (const float u : {0.0F, last_unit}) CHECK(length_error(sample(ramp, {0, 1, 0}, u, 0)) < 3e-7);
+  for (const float u : {0.0F, phase_last_unit})
+    CHECK(length_error(sample(ramp, {0, 1, 0}, u, 0)) < 3e-7);
 }
 
 TEST_CASE("a phase function that cannot be is refused with its place and what to do",

@@ -11,7 +11,7 @@ using namespace luxodus::checks;
 
 namespace {
 
-constexpr float last_unit = 1.0F - 0x1p-24F;
+constexpr float surface_last_unit = 1.0F - 0x1p-24F;
 const glm::vec3 up(0, 0, 1);
 
 SurfaceModel lambertian(double rho) {
@@ -340,9 +340,9 @@ TEST_CASE(
     for (const glm::vec3& normal : normals) {
       for (const double degrees : {0.0, 1e-4, 30.0, 60.0, 89.0, 89.9999, 90.0}) {
         const glm::vec3 incoming = -to_world(normal, towards(radians(degrees), 1.1));
-        for (const float a : {0.0F, 0.5F, last_unit}) {
-          for (const float u : {0.0F, 0x1p-24F, 0.5F, last_unit}) {
-            for (const float v : {0.0F, 0.3F, last_unit}) {
+        for (const float a : {0.0F, 0.5F, surface_last_unit}) {
+          for (const float u : {0.0F, 0x1p-24F, 0.5F, surface_last_unit}) {
+            for (const float v : {0.0F, 0.3F, surface_last_unit}) {
               for (const bool front : {true, false}) {
                 const SurfaceSample out = sample_surface(model, incoming, normal, front, a, u, v);
                 const float side =
@@ -441,12 +441,12 @@ TEST_CASE(
     CAPTURE(degrees);
     const double sin = std::sin(radians(degrees));
     const SurfaceSample in =
-        sample_surface(glass, -towards(radians(degrees)), up, true, last_unit, 0, 0);
+        sample_surface(glass, -towards(radians(degrees)), up, true, surface_last_unit, 0, 0);
     CHECK(in.transmitted);
     CHECK(in.weight == 1.0F);
     CHECK(std::fabs(static_cast<double>(-in.direction.x) - sin / 1.5) < 3e-7);
     const SurfaceSample out =
-        sample_surface(glass, -towards(radians(degrees)), up, false, last_unit, 0, 0);
+        sample_surface(glass, -towards(radians(degrees)), up, false, surface_last_unit, 0, 0);
     if (1.5 * sin > 1) {
       CHECK_FALSE(out.transmitted);
       CHECK(out.direction.z > 0);

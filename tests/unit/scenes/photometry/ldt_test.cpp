@@ -53,13 +53,13 @@ struct Ldt {
   }
 };
 
-PhotometricFile read(const Ldt& ldt) {
+PhotometricFile read_ldt_text(const Ldt& ldt) {
   auto file = read_ldt(ldt.text(), "test.ldt");
   if (!file) FAIL(file.problem().text());
   return std::move(file).value();
 }
 
-std::string refusal(const std::string& text) {
+std::string ldt_refusal(const std::string& text) {
   const auto file = read_ldt(text, "test.ldt");
   return file ? "was read" : file.problem().text();
 }
@@ -152,7 +152,7 @@ TEST_CASE("cd/klm become candela by the lamps' flux and the conversion factor", 
   ldt.lamps[0][2] = "2500";
   ldt.factor = "0.8";
   ldt.lorl = "100.53";
-  const PhotometricFile file = read(ldt);
+  const PhotometricFile file = read_ldt_text(ldt);
   CHECK(file.web->peak_cd() == Approx(100 * 2.5 * 0.8));
   CHECK(file.flux_lm == Approx(4 * pi * 200));
   CHECK(file.header_flux_lm.value() == Approx(2513.25));
@@ -185,7 +185,7 @@ TEST_CASE("each symmetry puts the listed planes where they belong", "[format][ld
     ldt.symmetry = c.symmetry;
     ldt.candela.clear();
     for (const auto& value : c.listed) ldt.candela.insert(ldt.candela.end(), {value, value});
-    const PhotometricFile file = read(ldt);
+    const PhotometricFile file = read_ldt_text(ldt);
     for (size_t i = 0; i < c.at.size(); ++i) {
       CHECK(file.web->intensity(toward(45.0 * double(i), 70)) == Approx(c.at[i]));
     }
@@ -199,7 +199,7 @@ TEST_CASE("unequal C and gamma angles are taken from their lists", "[format][ldt
   ldt.gamma = {"0", "5", "80", "180"};
   ldt.gamma_step = "0";
   ldt.candela = {"8", "8", "8", "8", "4", "4", "4", "4", "2", "2", "6", "2"};
-  const PhotometricFile file = read(ldt);
+  const PhotometricFile file = read_ldt_text(ldt);
   CHECK(file.web->intensity(toward(10, 30)) == Approx(4));
   CHECK(file.web->intensity(toward(-5, 30)) == Approx(6));
   CHECK(file.web->intensity(toward(270, 80)) == Approx(6));
@@ -211,7 +211,7 @@ TEST_CASE("a file that stops at the horizon is dark above it", "[format][ldt]") 
   ldt.gamma = {"0", "90"};
   ldt.candela = {"100", "100"};
   ldt.lorl = "62.83";
-  const PhotometricFile file = read(ldt);
+  const PhotometricFile file = read_ldt_text(ldt);
   CHECK(file.flux_lm == Approx(2 * pi * 100).epsilon(1e-6));
   CHECK(file.web->intensity(toward(0, 89.9)) == Approx(100));
   CHECK(file.web->intensity(toward(0, 90.01)) == 0);
@@ -220,7 +220,7 @@ TEST_CASE("a file that stops at the horizon is dark above it", "[format][ldt]") 
 TEST_CASE("lamp sets burn together, and the reader says so", "[format][ldt]") {
   Ldt ldt;
   ldt.lamps = {{"1", "direct", "1500", "3000", "90", "12"}, {"2", "indirect", "500", "", "", "4"}};
-  const PhotometricFile file = read(ldt);
+  const PhotometricFile file = read_ldt_text(ldt);
   CHECK(file.lamp_flux_lm == 2000);
   CHECK(file.web->peak_cd() == Approx(200));
   CHECK(file.input_watts == 16);
@@ -232,7 +232,7 @@ TEST_CASE("lamp sets burn together, and the reader says so", "[format][ldt]") {
 TEST_CASE("a negative lamp count marks absolute photometry", "[format][ldt]") {
   Ldt ldt;
   ldt.lamps[0][0] = "-1";
-  const PhotometricFile file = read(ldt);
+  const PhotometricFile file = read_ldt_text(ldt);
   CHECK(file.absolute);
   CHECK(file.lamp_sets[0].lamps == 1);
   CHECK(file.flux_lm == Approx(4 * pi * 100));
@@ -249,7 +249,7 @@ TEST_CASE("commas, quotes, encodings, line ends and padding do not change the lu
   for (const char* end : {"\n", "\r\n", "\r"}) {
     ldt.end = end;
     ldt.tail = std::string("0") + end + end + "0.0" + end + "\x1A";
-    const PhotometricFile file = read(ldt);
+    const PhotometricFile file = read_ldt_text(ldt);
     CHECK(file.manufacturer ==
           "B\xC3\xBC"
           "ro");
@@ -260,7 +260,7 @@ TEST_CASE("commas, quotes, encodings, line ends and padding do not change the lu
       "\xEF\xBB\xBF"
       "B\xC3\xBC"
       "ro";  // UTF-8 with its mark
-  CHECK(read(ldt).manufacturer ==
+  CHECK(read_ldt_text(ldt).manufacturer ==
         "B\xC3\xBC"
         "ro");
 }
@@ -268,53 +268,53 @@ TEST_CASE("commas, quotes, encodings, line ends and padding do not change the lu
 TEST_CASE("the opening lies with its length along C90 and its width along C0", "[format][ldt]") {
   using Shape = LuminousOpening::Shape;
   Ldt ldt;
-  CHECK(read(ldt).opening.shape == Shape::rectangle);
-  CHECK(read(ldt).opening.size_m == glm::dvec3(0.09, 0.18, 0));
-  CHECK(read(ldt).housing_m == glm::dvec3(0.1, 0.2, 0.05));
+  CHECK(read_ldt_text(ldt).opening.shape == Shape::rectangle);
+  CHECK(read_ldt_text(ldt).opening.size_m == glm::dvec3(0.09, 0.18, 0));
+  CHECK(read_ldt_text(ldt).housing_m == glm::dvec3(0.1, 0.2, 0.05));
   ldt.sizes = {"200", "100", "50", "180", "90", "20", "0", "30", "0"};
-  CHECK(read(ldt).opening.shape == Shape::box);
-  CHECK(read(ldt).opening.size_m.z == Approx(0.03));
+  CHECK(read_ldt_text(ldt).opening.shape == Shape::box);
+  CHECK(read_ldt_text(ldt).opening.size_m.z == Approx(0.03));
   ldt.sizes = {"200", "0", "50", "180", "0", "0", "0", "0", "0"};
-  CHECK(read(ldt).opening.shape == Shape::disc);
-  CHECK(read(ldt).opening.size_m == glm::dvec3(0.18, 0.18, 0));
+  CHECK(read_ldt_text(ldt).opening.shape == Shape::disc);
+  CHECK(read_ldt_text(ldt).opening.size_m == glm::dvec3(0.18, 0.18, 0));
   ldt.sizes[5] = "25";
-  CHECK(read(ldt).opening.shape == Shape::cylinder);
+  CHECK(read_ldt_text(ldt).opening.shape == Shape::cylinder);
   ldt.sizes = std::vector<std::string>(9, "0");
-  CHECK(read(ldt).opening.shape == Shape::point);
+  CHECK(read_ldt_text(ldt).opening.shape == Shape::point);
 }
 
 TEST_CASE("what looks odd is read and said with its line", "[format][ldt]") {
   Ldt ldt;
   ldt.lorl = "80";
-  PhotometricFile file = read(ldt);
+  PhotometricFile file = read_ldt_text(ldt);
   REQUIRE(file.warnings.size() == 1);
   CHECK(file.warnings[0].where.line == 23);
   CHECK(file.warnings[0].where.file == "test.ldt");
   CHECK(warns(file, "light output ratio says 80 %"));
   ldt.lorl = "";
-  CHECK(warns(read(ldt), "0 or missing"));
+  CHECK(warns(read_ldt_text(ldt), "0 or missing"));
   ldt.lorl = "125.66";
   ldt.tilt = "15";
-  file = read(ldt);
+  file = read_ldt_text(ldt);
   CHECK(file.measured_tilt_deg == 15);
   CHECK(warns(file, "tilted by 15"));
   ldt.tilt = "0";
   ldt.gamma_step = "45";
-  CHECK(warns(read(ldt), "stated step of 45"));
+  CHECK(warns(read_ldt_text(ldt), "stated step of 45"));
   ldt.gamma_step = "90";
   for (const char* type : {"4", "-1", "1.5", "point", ""}) {
     ldt.type = type;
     INFO(type);
-    CHECK(warns(read(ldt), "Ityp"));
+    CHECK(warns(read_ldt_text(ldt), "Ityp"));
   }
   ldt.type = "\x1b[2J" + std::string(500, 'x');
-  const std::string hostile = read(ldt).warnings.at(0).what;
+  const std::string hostile = read_ldt_text(ldt).warnings.at(0).what;
   CHECK(hostile.find("not \"\\x1B[2Jxxx") != std::string::npos);
   CHECK(hostile.size() < 200);
   ldt.type = "3";
-  CHECK(read(ldt).warnings.empty());
+  CHECK(read_ldt_text(ldt).warnings.empty());
   ldt.tail = "more\r\n";
-  CHECK(warns(read(ldt), "not used"));
+  CHECK(warns(read_ldt_text(ldt), "not used"));
 }
 
 TEST_CASE("a broken EULUMDAT file is one problem that names the line", "[format][ldt]") {
@@ -370,15 +370,15 @@ TEST_CASE("a broken EULUMDAT file is one problem that names the line", "[format]
   for (const Case& c : cases) {
     Ldt ldt;
     c.spoil(ldt);
-    const std::string said = refusal(ldt.text());
+    const std::string said = ldt_refusal(ldt.text());
     INFO(said << "\nexpected: " << c.line << " " << c.words);
     CHECK(said.starts_with("test.ldt:" + std::to_string(c.line) + ": "));
     CHECK(said.find(c.words) != std::string::npos);
   }
-  CHECK(refusal("").find("cut off") != std::string::npos);
-  CHECK(refusal(std::string("A\n1\n\0", 5)).starts_with("test.ldt:3: a NUL byte"));
-  CHECK(refusal("\xFF\xFE"
-                "A")
+  CHECK(ldt_refusal("").find("cut off") != std::string::npos);
+  CHECK(ldt_refusal(std::string("A\n1\n\0", 5)).starts_with("test.ldt:3: a NUL byte"));
+  CHECK(ldt_refusal("\xFF\xFE"
+                    "A")
             .find("UTF-16") != std::string::npos);
 }
 

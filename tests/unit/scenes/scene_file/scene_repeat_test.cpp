@@ -6,7 +6,7 @@
 namespace luxodus {
 namespace {
 
-const std::string lamp = R"(
+const std::string repeated_lamp = R"(
 [[emitter]]
 name = "lamp"
 shape = "point"
@@ -34,9 +34,10 @@ std::string only_problem(const std::string& text) {
 
 TEST_CASE("rows of copies multiply, and stand where their steps lead", "[format][scene]") {
   SceneFolder folder;
-  const SceneDescription scene = good(
-      folder,
-      box("repeat = [{ count = 3, step = [2, 0, 0] }, { count = 4, step = [0, 0, 10] }]\n") + lamp);
+  const SceneDescription scene =
+      good(folder,
+           box("repeat = [{ count = 3, step = [2, 0, 0] }, { count = 4, step = [0, 0, 10] }]\n") +
+               repeated_lamp);
   REQUIRE(scene.objects.size() == 1);
   CHECK(scene.objects[0].mesh.triangles.size() == 12 * 12);
   Bounds bounds;
@@ -49,7 +50,7 @@ TEST_CASE("copies of a luminaire are emitters of their own, with numbered names"
           "[format][scene]") {
   SceneFolder folder;
   const SceneDescription scene =
-      good(folder, box("") + lamp + "repeat = [{ count = 3, step = [0, 2, 0] }]\n");
+      good(folder, box("") + repeated_lamp + "repeat = [{ count = 3, step = [0, 2, 0] }]\n");
   REQUIRE(scene.emitters.size() == 3);
   CHECK(scene.emitters[0].name == "lamp");
   CHECK(scene.emitters[2].name == "lamp.3");
@@ -58,22 +59,22 @@ TEST_CASE("copies of a luminaire are emitters of their own, with numbered names"
 }
 
 TEST_CASE("repeats that cannot be are told with their line", "[format][scene]") {
-  CHECK(only_problem(box("repeat = [{ count = 0, step = [1, 0, 0] }]\n") + lamp).find("count") !=
-        std::string::npos);
+  CHECK(only_problem(box("repeat = [{ count = 0, step = [1, 0, 0] }]\n") + repeated_lamp)
+            .find("count") != std::string::npos);
   CHECK(only_problem(box("repeat = [{ count = 1000, step = [1, 0, 0] }, { count = 1000, step = "
                          "[0, 1, 0] }]\n") +
-                     lamp)
+                     repeated_lamp)
             .find("100000 copies") != std::string::npos);
   CHECK(only_problem("[[object]]\nname = \"ball\"\nshape = \"sphere\"\nradius = 1\nbound_m = "
                      "0.0001\nmaterial = \"grey50\"\nrepeat = [{ count = 100000, step = [3, 0, 0] "
                      "}]\n" +
-                     lamp)
+                     repeated_lamp)
             .find("more than a scene may have") != std::string::npos);
   CHECK(only_problem(box("door = { hinge = [0, 0, 0] }\nrepeat = [{ count = 2, step = [3, 0, 0] "
                          "}]\n") +
-                     lamp)
+                     repeated_lamp)
             .find("hinge") != std::string::npos);
-  CHECK(only_problem(box("one_patch = true\npatch_edge_m = 1\n") + lamp).find("exclude") !=
+  CHECK(only_problem(box("one_patch = true\npatch_edge_m = 1\n") + repeated_lamp).find("exclude") !=
         std::string::npos);
 }
 

@@ -7,12 +7,12 @@ using namespace luxodus;
 
 namespace {
 
-const Bounds scene{{0, 0, 0}, {10, 8, 3}};
+const Bounds scene_bounds{{0, 0, 0}, {10, 8, 3}};
 
 Bounds bounds_of(const std::vector<Medium>& media) {
   std::vector<const Medium*> list;
   for (const Medium& m : media) list.push_back(&m);
-  return media_bounds(list, scene);
+  return media_bounds(list, scene_bounds);
 }
 
 void check_box(const Bounds& box, const glm::dvec3& low, const glm::dvec3& high) {
@@ -50,8 +50,8 @@ Medium ball(const glm::dvec3& centre, double radius) {
 }  // namespace
 
 TEST_CASE("a medium without bounds is all of the scene") {
-  check_box(bounds_of({everywhere()}), scene.low, scene.high);
-  check_box(bounds_of({ball({5, 4, 1}, 1), everywhere()}), scene.low, scene.high);
+  check_box(bounds_of({everywhere()}), scene_bounds.low, scene_bounds.high);
+  check_box(bounds_of({ball({5, 4, 1}, 1), everywhere()}), scene_bounds.low, scene_bounds.high);
 }
 
 TEST_CASE("layers are where they have extinction, within their footprint and the scene") {

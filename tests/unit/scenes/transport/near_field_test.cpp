@@ -12,7 +12,7 @@ using namespace luxodus;
 namespace {
 
 /// lamp.ies has a round opening of 0.2 m and shines down: five openings are 1 m.
-const std::string room = R"(
+const std::string near_room = R"(
 [[object]]
 name = "room"
 shape = "room"
@@ -36,7 +36,7 @@ position = [8, 8, 2.9]
 
 std::vector<NearPlace> near_in(const std::string& text, const SeesPlace& sees = {}) {
   SceneFolder folder;
-  const SceneDescription scene = good(folder, room + text);
+  const SceneDescription scene = good(folder, near_room + text);
   return near_field_places(scene, find_scenario(scene, "").value(), sees);
 }
 
@@ -75,7 +75,7 @@ TEST_CASE("probes, routes and signs are told of and what is far, dark or behind 
 
 TEST_CASE("a luminaire knows its file, its product and its opening", "[format][scene]") {
   SceneFolder folder;
-  const SceneDescription scene = good(folder, room);
+  const SceneDescription scene = good(folder, near_room);
   CHECK(scene.emitters[0].file == "lamp.ies");
   CHECK(scene.emitters[0].opening_m.x == Approx(0.2));
 }

@@ -1,0 +1,12 @@
+// The rule sets that tests judge by, without deviations.
+#pragma once
+
+#include "scenes/emergency/rule_sets.hpp"
+
+namespace luxodus {
+
+inline const CodeChoice en13{RuleSet::en1838_2013, {}};
+inline const CodeChoice en24{RuleSet::en1838_2024, {}};
+inline const CodeChoice nfpa{RuleSet::nfpa101, {}};
+
+}  // namespace luxodus
