@@ -60,7 +60,7 @@ class FlowNetwork {
   std::vector<std::vector<uint32_t>> edges_of_;
 };
 
-uint32_t least_degree(const Adjacency& graph) {
+uint32_t min_degree(const Adjacency& graph) {
   uint32_t least = std::numeric_limits<uint32_t>::max();
   for (Vertex v = 0; v < graph.vertices(); ++v) least = std::min(least, graph.degree(v));
   return least;
@@ -79,7 +79,7 @@ uint32_t edge_connectivity(const Adjacency& graph) {
     for (const Vertex to : graph.of(v)) network.add(v, to);
   }
   // Some vertex lies on the other side of the least cut than vertex 0 does.
-  uint32_t least = least_degree(graph);
+  uint32_t least = min_degree(graph);
   for (Vertex v = 1; v < graph.vertices(); ++v) least = std::min(least, network.flow(0, v, least));
   return least;
 }
@@ -92,7 +92,7 @@ uint32_t vertex_connectivity(const Adjacency& graph) {
     for (const Vertex to : graph.of(v)) network.add(2 * v + 1, 2 * to);
   }
   // Of the first k + 1 vertices one at least is outside a least cut of k.
-  uint32_t least = least_degree(graph);
+  uint32_t least = min_degree(graph);
   for (Vertex from = 0; from <= least && from < graph.vertices(); ++from) {
     for (Vertex to = from + 1; to < graph.vertices(); ++to) {
       if (linked(graph, from, to)) continue;

@@ -25,8 +25,8 @@ std::optional<double> seconds_in(const Json& result) {
 }  // namespace
 
 Result<Json> read_json_file(const fs::path& file) {
-  constexpr uint64_t most_bytes = uint64_t{1} << 30;
-  auto bytes = read_whole_file(file, most_bytes);
+  constexpr uint64_t max_bytes = uint64_t{1} << 30;
+  auto bytes = read_whole_file(file, max_bytes);
   if (!bytes) return bytes.problem();
   const auto* text = reinterpret_cast<const char*>(bytes->data());
   return Json::parse(text, text + bytes->size(), nullptr, false);

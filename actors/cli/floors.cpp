@@ -14,10 +14,10 @@ namespace luxodus::cli {
 namespace {
 
 /// What is narrower [m] is the top of a wall or a beam, a shelf or a sill.
-constexpr double least_width_m = 0.5;
-constexpr double least_area_m2 = 1;
+constexpr double min_width_m = 0.5;
+constexpr double min_area_m2 = 1;
 /// Of the largest height's area: less is furniture.
-constexpr double least_share = 0.05;
+constexpr double min_share = 0.05;
 
 /// Horizontal surfaces at one height. Edges that two triangles share are inside.
 struct Level {
@@ -65,8 +65,8 @@ std::vector<double> floor_heights(const CompiledScene& scene) {
   for (const auto& [z, level] : levels) most = std::max(most, level.area_m2);
   std::vector<double> out;
   for (const auto& [z, level] : levels) {
-    if (level.area_m2 >= least_area_m2 && level.area_m2 > least_share * most &&
-        level.width_m() >= least_width_m)
+    if (level.area_m2 >= min_area_m2 && level.area_m2 > min_share * most &&
+        level.width_m() >= min_width_m)
       out.push_back(static_cast<double>(z) / 1000);
   }
   return out;

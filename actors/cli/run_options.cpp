@@ -213,8 +213,8 @@ Result<Nanoseconds> link_delay_of(const RunOptions& options) {
   if (options.link_delay.empty()) return Nanoseconds{0};
   auto delay_s = parse_seconds(options.link_delay);
   if (!delay_s) return delay_s.problem();
-  const double most_s = static_cast<double>(limits::link_delay) * 1e-9;
-  if (delay_s.value() > most_s)
+  const double max_s = static_cast<double>(limits::link_delay) * 1e-9;
+  if (delay_s.value() > max_s)
     return problem("a link's delay must not be longer than 100 ms: beats count time");
   return static_cast<Nanoseconds>(delay_s.value() * 1e9);
 }

@@ -13,7 +13,7 @@ namespace {
 
 constexpr Real sight_m = 1e5_r;
 /// Smoke that passes less leaves nothing of the brightest lamp beside the darkest wall.
-constexpr double least_transmission = 1e-4;
+constexpr double min_transmission = 1e-4;
 /// Of a camera: rays across and down its picture.
 constexpr int rays_across = 16;
 constexpr int rays_down = 9;
@@ -29,7 +29,7 @@ struct EyePlace {
   glm::dvec3 at{0};
   std::vector<Vec3> directions{};  // in which it looks
   Vec3 ahead{0, 0, 1};             // their middle
-  Real least_cosine = -1;          // with it, of what it sees
+  Real min_cosine = -1;            // with it, of what it sees
   bool is_camera = false, is_probe = false;
 };
 
@@ -44,7 +44,7 @@ EyePlace eye_of(const Camera& c) {
   const double high = std::tan(glm::radians(c.vertical_fov_deg) / 2);
   const double wide = high * c.width / std::max(c.height, 1);
   eye.ahead = Vec3(ahead);
-  eye.least_cosine = static_cast<Real>(1 / std::sqrt(1 + high * high + wide * wide));
+  eye.min_cosine = static_cast<Real>(1 / std::sqrt(1 + high * high + wide * wide));
   for (int j = 0; j < rays_down; ++j)
     for (int i = 0; i < rays_across; ++i) {
       const double u = 2 * (i + 0.5) / rays_across - 1, v = 2 * (j + 0.5) / rays_down - 1;
@@ -61,7 +61,7 @@ EyePlace eye_of(const ProbeMeasure& p) {
   EyePlace eye{"probe \"" + p.name + "\"", p.place, p.position + p.normal * before_probe_m};
   eye.ahead = Vec3(p.normal);
   eye.is_probe = true;
-  eye.least_cosine = 0;
+  eye.min_cosine = 0;
   for (const Vec3& d : sphere_directions(rays_around))
     if (glm::dot(d, Vec3(p.normal)) > 0) eye.directions.push_back(d);
   return eye;
@@ -91,7 +91,7 @@ bool sees_anything(const Site& site, const GeometryAccess& access, const EyePlac
   return surface ||
          std::any_of(site.scene.emitters.begin(), site.scene.emitters.end(), [&](const Emitter& e) {
            const Vec3 way = Vec3(e.frame.origin - eye.at);
-           return glm::dot(way, eye.ahead) >= eye.least_cosine * glm::length(way);
+           return glm::dot(way, eye.ahead) >= eye.min_cosine * glm::length(way);
          });
 }
 
@@ -169,7 +169,7 @@ double best_transmission(const Building& smoky, const GeometryAccess& access, co
                                   [](const Facing& f) { return lets_light_through(f.kind); });
       const Real length = met ? met->distance_m : sight_m;
       best = std::max(best, medium_transmittance(scene, {at, d}, length, band, resolver));
-      if (best >= least_transmission) return;
+      if (best >= min_transmission) return;
     }
   });
   return best;
@@ -199,7 +199,7 @@ void inspect_smoke(const SceneDescription& scene, const Building& smoky, Finding
   const std::vector<EyePlace> eyes = eyes_of(scene, false);
   std::vector<char> blind(eyes.size(), 0);
   smoky.each(eyes.size(), [&](const GeometryAccess& access, size_t i) {
-    blind[i] = best_transmission(smoky, access, eyes[i]) < least_transmission ? 1 : 0;
+    blind[i] = best_transmission(smoky, access, eyes[i]) < min_transmission ? 1 : 0;
   });
   for (size_t i = 0; i < eyes.size(); ++i)
     if (blind[i] != 0)

@@ -35,7 +35,7 @@ constexpr uint64_t ends_seed = 17;
 constexpr double one_place_m = 0.01;
 /// Of the flux of its file, on emergency supply: more is a percentage taken for a share, less may
 /// be a luminaire of the same make with more lamps.
-constexpr double most_flux_share = 4;
+constexpr double max_flux_share = 4;
 /// Two directions within 8 degrees are one.
 constexpr double one_direction = 0.99;
 
@@ -71,7 +71,7 @@ Ends ends_of(const Site& site, const GeometryAccess& access, uint32_t emitter, i
       Vec3 origin = point.position;
       if (e.distribution != Distribution::collimated) {
         const Vec3 side = glm::dot(point.axis, direction) >= 0 ? point.axis : -point.axis;
-        origin = offset_ray(origin, side, scene.least_offset_m);
+        origin = offset_ray(origin, side, scene.min_offset_m);
       }
       const auto end =
           first_stop(scene, access, origin, direction, light_reach_m, [&](const Facing& f) {
@@ -175,9 +175,9 @@ void find_double_emitters(const SceneDescription& scene, Findings& out) {
 /// Points of calculation are this far apart, and so far above a floor [m].
 constexpr double grid_m = 1;
 constexpr double above_floor_m = 0.02;
-constexpr size_t most_places = 4000;
+constexpr size_t max_places = 4000;
 /// A fiftieth of the 0.5 lx that EN 1838 asks for: less lights nothing.
-constexpr double least_lx = 0.01;
+constexpr double min_lx = 0.01;
 
 std::vector<glm::dvec3> judged_places(const SceneDescription& scene) {
   std::vector<glm::dvec3> all;
@@ -195,7 +195,7 @@ std::vector<glm::dvec3> judged_places(const SceneDescription& scene) {
   for (const Sign& sign : scene.signs)
     if (sign.lighting == SignLighting::external)
       out.push_back(sign.frame.origin + sign.frame.axes[2] * 0.01);
-  const size_t step = all.size() / most_places + 1;
+  const size_t step = all.size() / max_places + 1;
   for (size_t i = 0; i < all.size(); i += step) out.push_back(all[i]);
   return out;
 }
@@ -218,7 +218,7 @@ bool lights(const Site& site, const GeometryAccess& access, uint32_t emitter,
       const EmissionPoint point{middle, round ? direction : -e.axes[2]};
       const auto density = static_cast<double>(directional_density(e, point, direction, resolver));
       const double watt_to_lm = site.scene.emitters[emitter].radiometric ? 100 : 1;
-      if (lumens * watt_to_lm * density / (distance * distance) < least_lx) return false;
+      if (lumens * watt_to_lm * density / (distance * distance) < min_lx) return false;
       const Vec3 before = middle + direction * std::min(0.01_r, static_cast<Real>(distance) / 2);
       return clear_share(scene, access, site.building.local(place), before) > 0;
     });
@@ -243,7 +243,7 @@ void inspect_fluxes(const SceneDescription& scene, Findings& out) {
   for (const Emitter& e : scene.emitters) {
     if (!e.web || e.radiometric || !(e.emergency_flux > 0)) continue;
     const double share = e.emergency_flux / e.emergency_ageing / e.web->flux_lm();
-    if (share <= most_flux_share) continue;
+    if (share <= max_flux_share) continue;
     out.push_back({Severity::warning,
                    "flux",
                    {e.place, fmt::format("{} gives {:.3g} times the {:.4g} lm of its file in "

@@ -11,8 +11,8 @@ namespace luxodus {
 namespace {
 
 /// Smaller than a button, larger than any site: metres for millimetres, or the other way round [m].
-constexpr double least_size_m = 0.02;
-constexpr double most_size_m = 1000;
+constexpr double min_size_m = 0.02;
+constexpr double max_size_m = 1000;
 constexpr size_t shown_names = 4;
 
 using Table = std::pair<std::string, int>;
@@ -56,8 +56,8 @@ void inspect_sizes(const SceneDescription& scene, Findings& out) {
     const double largest = std::max({size.x, size.y, size.z});
     const double least = std::min({size.x, size.y, size.z});
     // A lone disc or quad may be a pilot lamp, or a plain to the horizon.
-    const bool small = whole.in_parts && largest < least_size_m;
-    const bool large = largest > most_size_m && least > 0;
+    const bool small = whole.in_parts && largest < min_size_m;
+    const bool large = largest > max_size_m && least > 0;
     if (!small && !large) continue;
     out.push_back({Severity::warning,
                    "unit",

@@ -16,7 +16,7 @@ constexpr Real off_the_floor_m = 0.25_r;
 /// A plane that has a surface as near before it counts that surface's light [m].
 constexpr Real shut_m = 0.05_r;
 /// Of the cells: more than these shares are no coincidence.
-constexpr double most_share = 0.9;
+constexpr double max_share = 0.9;
 constexpr double part_share = 0.1;
 
 /// In a body where it is, or as what is above it with nothing in between.
@@ -80,7 +80,7 @@ void tell_places(const Site& site, const PlaneMeasure& plane, const CellPlaces& 
     out.push_back({severity, "plane", {plane.place, name + what}});
   };
   if (cells.all == 0) return;
-  if (cells.shut > most_share * cells.all) {
+  if (cells.shut > max_share * cells.all) {
     tell(Severity::warning,
          fmt::format(" looks at {}, less than {} before it: light is counted on the side that "
                      "cross(edge_u, edge_v) looks to; swap the two edges, or move it",

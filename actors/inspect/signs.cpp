@@ -52,7 +52,7 @@ Before before(const Site& site, const GeometryAccess& access, const Sign& sign, 
       const Vec3 at =
           offset_ray(site.building.local(face.centre + face.right * (uv.x * sign.width_m) +
                                          face.up * (uv.y * sign.height_m)),
-                     normal, scene.least_offset_m);
+                     normal, scene.min_offset_m);
       if (const auto met = first_stop(scene, access, at, normal, before_sign_m, passes)) {
         ++close;
         out.surface = met->surface;

@@ -28,7 +28,7 @@ inline TallyNeed tally_need(const CompiledScene& scene, uint64_t open_batches) {
 
 /// The least budget that a run is begun with: what packs flushes, the marks of pages, and room for
 /// a few pages of each kind. Whether a batch fits beside that is found when one is traced.
-inline uint64_t least_tally_bytes(const CompiledScene& scene) {
+inline uint64_t min_tally_bytes(const CompiledScene& scene) {
   constexpr uint64_t packing = 2 << 20;
   const TallyNeed need = tally_need(scene, 1);
   return packing + (need.scores + need.totals) / ZeroedMemory::page_bytes +

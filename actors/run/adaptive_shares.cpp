@@ -20,7 +20,7 @@ constexpr int steps = 100;
 /// Of the first round, of each group: a variance is then known to a quarter. Small, for only ratios
 /// of variances count.
 constexpr int64_t first_batches = 32, first_batch_particles = 512;
-constexpr double least_of_usual = 0.1;
+constexpr double min_of_usual = 0.1;
 
 /// A flux by which a run is judged: the square of its relative deviation per batch, by group.
 struct Need {
@@ -102,11 +102,11 @@ std::vector<double> adaptive_shares(const CompiledScene& scene, const Totals& to
     const std::vector<double> better = better_shares(needs, shares);
     // Half the way, for the worst of two needs takes turns; a share of 0 would be one for ever.
     for (size_t g = 0; g < shares.size(); ++g)
-      shares[g] = std::sqrt(shares[g] * std::max(better[g], least_of_usual * usual[g]));
+      shares[g] = std::sqrt(shares[g] * std::max(better[g], min_of_usual * usual[g]));
     scale_to_one(shares);
   }
   for (size_t g = 0; g < shares.size(); ++g)
-    shares[g] = (1 - least_of_usual) * shares[g] + least_of_usual * usual[g];
+    shares[g] = (1 - min_of_usual) * shares[g] + min_of_usual * usual[g];
   return shares;
 }
 

@@ -449,7 +449,7 @@ bool Controller::deliver(const Delivery& delivery) {
 }
 
 /// Nobody takes more than its share of what is left, so that all end together.
-uint32_t Controller::most_to_lend() const {
+uint32_t Controller::max_to_lend() const {
   if (scheduler_.rarely(Buggify::Site::small_grant)) return 1;
   const auto workers = static_cast<int64_t>(peers_.size());
   const int64_t share = (book_.waiting() + workers - 1) / workers;
@@ -467,7 +467,7 @@ void Controller::lend(const Delivery& delivery, const RequestLease& request) {
   Answered& last = last_grant_[delivery.source];
   if (last.question != delivery.id) {
     const LentBatches lent =
-        book_.lend(delivery.source, std::min(request.batches, most_to_lend()),
+        book_.lend(delivery.source, std::min(request.batches, max_to_lend()),
                    scheduler_.clock().now(), config_.lease_time, rank_of(delivery.source));
     counters_.leases += static_cast<uint64_t>(lent.count);
     note_book();

@@ -114,7 +114,7 @@ class Controller {
   void wait_for_farewells(Nanoseconds now);
   void set_timer();
   bool nothing_left() const;
-  uint32_t most_to_lend() const;
+  uint32_t max_to_lend() const;
   void lend(const Delivery& delivery, const RequestLease& request);
   LeaseBook::Rank rank_of(NodeId worker);
   size_t group_of(int64_t batch);

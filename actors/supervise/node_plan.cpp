@@ -179,7 +179,7 @@ MemoryPlan controller_plan(const RunSetup& run, const NodeSetup& node) {
 
 std::optional<std::string> budget_fault(const RunSetup& run, const NodeSetup& node) {
   const std::string name = run.name_of(node.net.self);
-  const uint64_t least = least_tally_bytes(run.scene);
+  const uint64_t least = min_tally_bytes(run.scene);
   const uint64_t all = tally_need(run.scene, node.photons.batches_in_work()).all();
   if (all > node.tally_bytes && !ZeroedMemory::use_is_told())
     return fmt::format(

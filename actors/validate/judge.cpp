@@ -15,7 +15,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 /// unit: a run may meet none of the few that are not absorbed, and has no error bar then.
 bool is_rare(const QuantityResult& f, int64_t particles) {
   const auto few = [&](double value) {
-    return value > 0 && value * static_cast<double>(particles) < rule::least_count * f.unit;
+    return value > 0 && value * static_cast<double>(particles) < rule::min_count * f.unit;
   };
   return few(std::abs(f.reference)) ||
          (f.estimate.standard_error == 0 && few(f.unit - std::abs(f.reference)));
@@ -88,7 +88,7 @@ bool known(const CaseResult& result) {
   for (const QuantityResult& f : result.findings) {
     if (!by_chance(f)) continue;
     chance = true;
-    if (f.estimate.standard_error <= rule::least_known * std::abs(f.reference)) return true;
+    if (f.estimate.standard_error <= rule::min_known * std::abs(f.reference)) return true;
   }
   return !chance;
 }
@@ -97,7 +97,7 @@ void check_distribution(const std::vector<double>& leads, Verdict& verdict) {
   verdict.lead_count = leads.size();
   if (!verdict.z.empty()) verdict.all = sample_of(verdict.z);
   if (!leads.empty()) verdict.leads = sample_of(leads);
-  if (leads.size() < rule::least_leads) return;
+  if (leads.size() < rule::min_leads) return;
   const auto n = static_cast<double>(leads.size());
   const double max_mean = normal_exceeded(rule::false_alarm / 2) / std::sqrt(n);
   const double low = chi_square_exceeded(1 - rule::false_alarm / 2, n);
@@ -156,17 +156,17 @@ std::vector<std::string> rule_text() {
       "What is computed without chance differs by no more than its stated tolerance; the ledger "
       "closes in integers, no history is endless, closed rooms lose nothing.",
       fmt::format("Quantities that fewer than {} particles would bring are told, not judged.",
-                  rule::least_count),
+                  rule::min_count),
       fmt::format("Each case knows one of its quantities to {:g} %, so that none passes by being "
                   "noisy.",
-                  100 * rule::least_known),
+                  100 * rule::min_known),
       fmt::format(
           "Of each case the quantity with the largest reference (of those whose declared bias is "
           "below {} standard errors) stands for it, for quantities of a case are correlated and "
           "cases are not. Over these the mean and the variance of z and Kolmogorov and Smirnov's "
           "test are within what a right program exceeds with probability {} each; fewer than {} "
           "are not judged.",
-          rule::unbiased, rule::false_alarm, rule::least_leads)};
+          rule::unbiased, rule::false_alarm, rule::min_leads)};
 }
 
 }  // namespace luxodus::light

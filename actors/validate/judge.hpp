@@ -15,13 +15,13 @@ namespace rule {
 inline constexpr double false_alarm = 1e-3;
 /// A quantity is judged once so many particles, each bringing its unit, would make its reference:
 /// of fewer the distribution is not normal.
-inline constexpr double least_count = 1000;
+inline constexpr double min_count = 1000;
 /// Declared biases below this share of the standard error leave the distribution of z as it is.
 inline constexpr double unbiased = 0.1;
 /// A case that knows none of its quantities better than this has shown nothing.
-inline constexpr double least_known = 0.05;
+inline constexpr double min_known = 0.05;
 /// Fewer independent z than this are no distribution to be judged.
-inline constexpr size_t least_leads = 20;
+inline constexpr size_t min_leads = 20;
 }  // namespace rule
 
 enum class Judgement {

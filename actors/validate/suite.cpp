@@ -27,7 +27,7 @@ constexpr size_t quick_checkpoints = 5;
 
 /// Shares of less than a hundredth of what a quantity could be are wanted to a hundredth of the
 /// error, absolutely.
-constexpr double least_share = 0.01;
+constexpr double min_share = 0.01;
 /// More particles tell little where the error bar is less than this share of the declared bias.
 constexpr double useful_share = 0.25;
 
@@ -36,7 +36,7 @@ double need(const CaseResult& result, double error) {
   double most = 0;
   for (const QuantityResult& f : result.findings) {
     if (!f.statistical || !(f.estimate.standard_error > 0)) continue;
-    const double wanted = std::max(error * std::max(std::abs(f.reference), least_share * f.unit),
+    const double wanted = std::max(error * std::max(std::abs(f.reference), min_share * f.unit),
                                    useful_share * f.bias);
     most = std::max(most, std::pow(f.estimate.standard_error / wanted, 2));
   }
@@ -69,7 +69,7 @@ CoursePoint course_point(const CaseResult& result) {
   CoursePoint point{result.particles, result.seconds};
   double n = 0;
   for (const QuantityResult& f : result.findings) {
-    if (!f.statistical || !(std::abs(f.reference) >= least_share * f.unit) ||
+    if (!f.statistical || !(std::abs(f.reference) >= min_share * f.unit) ||
         !(f.estimate.standard_error > 0))
       continue;
     n += 1;
@@ -226,7 +226,7 @@ Precision precision_of(const std::vector<CaseResult>& results, double error) {
   for (const CaseResult& r : results) {
     for (const QuantityResult& f : r.findings) {
       if (!f.statistical || !(f.estimate.standard_error > 0)) continue;
-      const double wanted = error * std::abs(f.reference), floor = error * least_share * f.unit;
+      const double wanted = error * std::abs(f.reference), floor = error * min_share * f.unit;
       const bool reached = f.estimate.standard_error <= std::max(wanted, floor);
       if (useful_share * f.bias > std::max(wanted, floor))
         ++out.by_reference;

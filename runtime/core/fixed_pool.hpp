@@ -48,7 +48,7 @@ class FixedPool {
     const size_t i = resting_.back();
     resting_.pop_back();
     ++changes_[i];
-    if (in_use() > most_in_use_) most_in_use_ = in_use();
+    if (in_use() > max_in_use_) max_in_use_ = in_use();
     return &objects_[i];
   }
 
@@ -65,7 +65,7 @@ class FixedPool {
 
   size_t capacity() const { return capacity_; }
   size_t in_use() const { return capacity_ - resting_.size(); }
-  size_t most_in_use() const { return most_in_use_; }
+  size_t max_in_use() const { return max_in_use_; }
 
   /// Requires: `object` is lent.
   Loan loan_of(const T& object) const {
@@ -108,7 +108,7 @@ class FixedPool {
   std::unique_ptr<T[]> objects_;
   std::vector<size_t> resting_;
   std::vector<uint64_t> changes_;  // odd while lent
-  size_t most_in_use_ = 0;
+  size_t max_in_use_ = 0;
 };
 
 }  // namespace luxodus

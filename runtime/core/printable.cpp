@@ -60,13 +60,13 @@ size_t utf8_length(std::string_view text) {
   return 0;
 }
 
-std::string excerpt(std::string_view text, size_t most_bytes) {
+std::string excerpt(std::string_view text, size_t max_bytes) {
   std::string out;
   for (size_t at = 0; at < text.size();) {
     const size_t control = control_bytes(text, at);
     const size_t character = utf8_length(text.substr(at));
     const size_t bytes = std::max({control, character, size_t{1}});
-    if (at + bytes > most_bytes) return out + "...";
+    if (at + bytes > max_bytes) return out + "...";
     if (control > 0 || character == 0)
       add_escaped(out, text.substr(at, bytes));
     else

@@ -24,6 +24,6 @@ inline constexpr size_t excerpt_bytes = 60;
 /// What a file of others says, for the quotes of a message: no longer than that, with "..." where
 /// it is cut, and without what is no character: control characters and bytes that are no UTF-8
 /// stand as \xNN. Every message that quotes such bytes quotes this.
-std::string excerpt(std::string_view text, size_t most_bytes = limits::excerpt_bytes);
+std::string excerpt(std::string_view text, size_t max_bytes = limits::excerpt_bytes);
 
 }  // namespace luxodus

@@ -16,21 +16,21 @@ namespace {
 constexpr size_t largest_read_bytes = size_t{1} << 30;
 
 template <class Bytes>
-Result<Bytes> read_all(const std::filesystem::path& path, uint64_t most_bytes) {
+Result<Bytes> read_all(const std::filesystem::path& path, uint64_t max_bytes) {
   auto file = open_regular_file(path);
   if (!file) return file.problem();
   const auto too_long = [&] {
-    return problem_in(path, "this file is longer than " + std::to_string(most_bytes) +
+    return problem_in(path, "this file is longer than " + std::to_string(max_bytes) +
                                 " bytes, the most that is read from a file of its kind");
   };
-  if (file->bytes > most_bytes) return too_long();
+  if (file->bytes > max_bytes) return too_long();
   // The size is a hint only: a file of /proc has none, and any may grow while it is read.
   Bytes bytes;
   size_t filled = 0;
   uint64_t wanted = file->bytes + 1;
   while (true) {
     if (filled == bytes.size()) {
-      wanted = std::min(std::max<uint64_t>(wanted, filled + filled / 2 + 4096), most_bytes + 1);
+      wanted = std::min(std::max<uint64_t>(wanted, filled + filled / 2 + 4096), max_bytes + 1);
       bytes.resize(static_cast<size_t>(wanted));
     }
     const ssize_t n = ::read(file->descriptor.number(), bytes.data() + filled,
@@ -39,7 +39,7 @@ Result<Bytes> read_all(const std::filesystem::path& path, uint64_t most_bytes) {
     if (n < 0) return system_problem(path, "this file cannot be read", errno);
     if (n == 0) break;
     filled += static_cast<size_t>(n);
-    if (filled > most_bytes) return too_long();
+    if (filled > max_bytes) return too_long();
   }
   bytes.resize(filled);
   return bytes;
@@ -64,13 +64,13 @@ Result<RegularFile> open_regular_file(const std::filesystem::path& path) {
   return RegularFile{std::move(file), static_cast<uint64_t>(about.st_size)};
 }
 
-Result<std::string> read_regular_file(const std::filesystem::path& path, uint64_t most_bytes) {
-  return read_all<std::string>(path, most_bytes);
+Result<std::string> read_regular_file(const std::filesystem::path& path, uint64_t max_bytes) {
+  return read_all<std::string>(path, max_bytes);
 }
 
 Result<std::vector<std::byte>> read_whole_file(const std::filesystem::path& path,
-                                               uint64_t most_bytes) {
-  return read_all<std::vector<std::byte>>(path, most_bytes);
+                                               uint64_t max_bytes) {
+  return read_all<std::vector<std::byte>>(path, max_bytes);
 }
 
 }  // namespace luxodus

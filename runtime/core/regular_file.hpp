@@ -22,10 +22,10 @@ struct RegularFile {
 /// Opens a file for reading. Errors: not there, not readable, a folder, pipe, socket or device.
 Result<RegularFile> open_regular_file(const std::filesystem::path& path);
 
-/// All bytes of a file. Errors: as open_regular_file; longer than `most_bytes`; a failed read.
-Result<std::string> read_regular_file(const std::filesystem::path& path, uint64_t most_bytes);
+/// All bytes of a file. Errors: as open_regular_file; longer than `max_bytes`; a failed read.
+Result<std::string> read_regular_file(const std::filesystem::path& path, uint64_t max_bytes);
 /// The same, of a file that is no text.
 Result<std::vector<std::byte>> read_whole_file(const std::filesystem::path& path,
-                                               uint64_t most_bytes);
+                                               uint64_t max_bytes);
 
 }  // namespace luxodus

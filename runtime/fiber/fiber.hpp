@@ -131,7 +131,7 @@ class Fibers {
 
   size_t capacity() const { return pool_.capacity(); }
   size_t live() const { return pool_.in_use(); }
-  size_t most_live() const { return pool_.most_in_use(); }
+  size_t max_live() const { return pool_.max_in_use(); }
   size_t suspended() const { return suspended_; }
   const StackPool& stacks() const { return stacks_; }
   /// Bytes of a fiber beside its stack, for a memory plan.

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "scenes/emergency/rule_limits.hpp"
 #include "scenes/emergency/rule_table.hpp"
@@ -93,7 +94,7 @@ std::vector<Check> mounting(const SceneDescription& scene, const Sign& sign,
   const double farthest = viewing_distance(sign, from_ahead).allowed_m;
   const double above = sign.frame.origin.z - *floor - standing_eye_m;
   const double elevation =
-      std::asin(std::clamp(above / std::max(farthest, 1e-9), -1.0, 1.0)) * 180 / 3.14159265358979;
+      std::asin(std::clamp(above / std::max(farthest, 1e-9), -1.0, 1.0)) * 180 / std::numbers::pi;
   return {judged(rule_of("S6", codes), subject, height, min_height_m, true, "m", sign.frame.origin),
           judged(rule_of("S6a", codes), subject, elevation, max_elevation_deg, false, "deg",
                  sign.frame.origin)};

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr size_t most_fields = 8;
+constexpr size_t max_fields = 8;
 /// Samples converted at a time: a megabyte or so.
 constexpr uint64_t block_samples = 1 << 18;
 
@@ -196,10 +196,10 @@ class NrrdReader {
     } else if (is_said) {
       names = words_of(said->second.value);
     }
-    if (several && (names.empty() || first_size > most_fields || names.size() != first_size)) {
+    if (several && (names.empty() || first_size > max_fields || names.size() != first_size)) {
       return bad(line, fmt::format("the first axis has {} fields: name each, at most {}, as in "
                                    "\"fields:=extinction albedo\"",
-                                   first_size, most_fields));
+                                   first_size, max_fields));
     }
     for (const std::string_view name : names) {
       if (!is_known_field(name)) {

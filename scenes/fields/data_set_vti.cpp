@@ -18,8 +18,8 @@ namespace luxodus::data_set {
 namespace {
 
 constexpr size_t deepest = 32;
-constexpr size_t most_attributes = 32;
-constexpr size_t most_arrays = 256;
+constexpr size_t max_attributes = 32;
+constexpr size_t max_arrays = 256;
 
 using Fault = std::optional<Problem>;
 
@@ -216,7 +216,7 @@ class VtiReader {
       if (value.find_first_of("<&") != std::string_view::npos) {
         return bad(tag.first, "\"<\" and entities in attributes are not read");
       }
-      if (tag.attributes.size() >= most_attributes) return bad(tag.first, "too many attributes");
+      if (tag.attributes.size() >= max_attributes) return bad(tag.first, "too many attributes");
       tag.attributes.emplace_back(key, value);
       here = end + 1;
     }
@@ -334,7 +334,7 @@ class VtiReader {
   /// Takes the text up to its closing tag; elements within (value ranges and units) are passed
   /// over.
   Fault enter_array(Tag& tag, bool of_points) {
-    if (arrays_.size() >= most_arrays) return bad(tag.first, "too many arrays");
+    if (arrays_.size() >= max_arrays) return bad(tag.first, "too many arrays");
     Array array{tag.attribute("Name"),
                 tag.attribute("type"),
                 tag.attribute("format"),

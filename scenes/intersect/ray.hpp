@@ -23,11 +23,11 @@ struct TriangleRecord {
   glm::vec3 normal;          // unit, front side
   uint32_t first_patch;      // flux bins: front side first, then back: 2 * subdivision^2
   uint16_t subdivision;      // patches per edge
-  uint16_t edge_margin;      // in 2^-16 of a barycentric, see `at`; at most `most_edge_margin`
+  uint16_t edge_margin;      // in 2^-16 of a barycentric, see `at`; at most `max_edge_margin`
   uint32_t surface;          // index of the object it belongs to
   uint32_t global_triangle;  // its number in the whole scene: ties go to the smaller
 
-  static constexpr uint16_t most_edge_margin = 1024;  // 1/64
+  static constexpr uint16_t max_edge_margin = 1024;  // 1/64
 
   /// The point at barycentrics (u, v), kept off the edges: a ray that leaves a point nearer to a
   /// neighbour in a corner of the room than its own offset would start beyond it, outside.

@@ -185,24 +185,24 @@ std::vector<double> told_apart(const std::vector<Spectrum>& properties,
     runs.push_back(run);
   }
 
-  const auto most_runs = static_cast<size_t>(std::max(1, most));
+  const auto max_runs = static_cast<size_t>(std::max(1, most));
   while (runs.size() > 1) {
-    size_t least_at = 0;
+    size_t min_at = 0;
     double least = std::numeric_limits<double>::infinity();
     for (size_t i = 0; i + 1 < runs.size(); ++i) {
       const double d = difference(runs[i], runs[i + 1]);
       if (d < least) {
         least = d;
-        least_at = i;
+        min_at = i;
       }
     }
-    if (least > tolerance && runs.size() <= most_runs) break;
+    if (least > tolerance && runs.size() <= max_runs) break;
     // Which neighbour a dark run joins does not matter; a lit run's mean counts, not the dark
     // one's.
-    Run joined = merged(runs[least_at], runs[least_at + 1]);
-    if (runs[least_at].weight <= 0) joined.mean = runs[least_at + 1].mean;
-    runs[least_at] = joined;
-    runs.erase(runs.begin() + static_cast<std::ptrdiff_t>(least_at) + 1);
+    Run joined = merged(runs[min_at], runs[min_at + 1]);
+    if (runs[min_at].weight <= 0) joined.mean = runs[min_at + 1].mean;
+    runs[min_at] = joined;
+    runs.erase(runs.begin() + static_cast<std::ptrdiff_t>(min_at) + 1);
   }
 
   std::vector<double> edges{spectrum_first_nm};

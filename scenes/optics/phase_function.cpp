@@ -16,8 +16,8 @@ std::string table_fault(const Phase& phase) {
     return "a phase table needs as many values as cosines (" + std::to_string(cosines.size()) +
            " cosines, " + std::to_string(values.size()) + " values)";
   }
-  if (cosines.size() < 2 || cosines.size() > phase_limits::most_table_entries) {
-    return "a phase table needs 2 to " + std::to_string(phase_limits::most_table_entries) +
+  if (cosines.size() < 2 || cosines.size() > phase_limits::max_table_entries) {
+    return "a phase table needs 2 to " + std::to_string(phase_limits::max_table_entries) +
            " entries, this one has " + std::to_string(cosines.size());
   }
   if (cosines.front() != -1.0 || cosines.back() != 1.0) {
@@ -53,7 +53,7 @@ Result<PhaseFunction> PhaseFunction::make(const Phase& phase, const SourcePlace&
       return Problem{where, "the asymmetry g of a phase function lies between -1 and 1"};
     }
     const double magnitude = std::fabs(phase.g);
-    const bool straight = 1.0 - magnitude < phase_limits::least_one_minus_g;
+    const bool straight = 1.0 - magnitude < phase_limits::min_one_minus_g;
     if (magnitude == 0.0) out.kind_ = PhaseKind::isotropic;
     out.sign_ = phase.g < 0 ? -1.0_r : 1.0_r;
     out.g_ = straight ? 1.0_r : static_cast<Real>(magnitude);

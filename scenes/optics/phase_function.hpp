@@ -21,10 +21,10 @@ namespace luxodus {
 namespace phase_limits {
 /// Entries of a tabulated phase function: Mie tables have some thousand; ten times as many would
 /// only spill the first-level cache that sampling lives from.
-inline constexpr std::size_t most_table_entries = 4096;
+inline constexpr std::size_t max_table_entries = 4096;
 /// Closer to 1 than this, |g| is taken as 1 (scattering without deviation): the peak of the
 /// density, 1 / (2 pi (1 - g)^2), would leave the range that float holds with its cube.
-inline constexpr double least_one_minus_g = 1e-9;
+inline constexpr double min_one_minus_g = 1e-9;
 }  // namespace phase_limits
 
 class PhaseFunction {

@@ -85,8 +85,8 @@ Inside polar_inverse(const Row& row, double c0, double slope, double share) {
   double low = 0;
   double high = width;
   double x = width * linear_inverse(c0 * row.sine, (c0 + slope * width) * row.end_sine, share);
-  constexpr int most_steps = 60;  // halving alone reaches the last bit in 53; Newton needs 2 to 4
-  for (int step = 0; step < most_steps; ++step) {
+  constexpr int max_steps = 60;  // halving alone reaches the last bit in 53; Newton needs 2 to 4
+  for (int step = 0; step < max_steps; ++step) {
     const Sweep part = sweep(row.sine, row.cosine, x);
     const double excess = c0 * part.even + slope * part.sloped - target;
     low = excess > 0 ? low : x;

@@ -93,14 +93,14 @@ class ColourMatch {
   // Levenberg-Marquardt from the grey of the wanted luminance. Very saturated colours ask for ever
   // steeper sigmoids; the best one met within the step limit is then the answer.
   SmoothReflectance find(const Vector3& wanted) const {
-    constexpr int most_steps = 200;
+    constexpr int max_steps = 200;
     constexpr double good_enough = 1e-24;  // squared XYZ distance: rounding
     SmoothReflectance best;
     const double grey = std::clamp(2 * wanted[1] - 1, -0.999, 0.999);
     best.c[0] = grey / std::sqrt(1 - grey * grey);
     double error = squared_error(best, wanted);
     double damping = 1e-3;
-    for (int step = 0; step < most_steps && error > good_enough; ++step) {
+    for (int step = 0; step < max_steps && error > good_enough; ++step) {
       const SmoothReflectance next = damped_step(best, wanted, damping);
       const double next_error = squared_error(next, wanted);
       if (next_error < error) {

@@ -12,7 +12,7 @@ namespace {
 
 // The largest sensible web (0.5 degree steps all around) is 3 MB of text; 10x more is another kind
 // of file.
-constexpr std::uintmax_t most_file_bytes = 16u << 20;
+constexpr std::uintmax_t max_file_bytes = 16u << 20;
 
 bool is_digit(char c) {
   return c >= '0' && c <= '9';
@@ -86,10 +86,10 @@ Result<std::string> read_photometric_bytes(const std::filesystem::path& path) {
   const std::uintmax_t size = std::filesystem::file_size(path, error);
   if (error)
     return Problem{place, "the photometric file's size cannot be read; is it still there?"};
-  if (size > most_file_bytes) {
+  if (size > max_file_bytes) {
     return Problem{place, "the file is larger than 16 MiB, more than any photometric file needs"};
   }
-  return read_regular_file(path, most_file_bytes);
+  return read_regular_file(path, max_file_bytes);
 }
 
 Result<std::vector<std::string>> photometric_lines(std::string_view bytes,

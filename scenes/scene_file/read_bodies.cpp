@@ -65,7 +65,7 @@ void read_body(KeyReader& keys, const std::string& body, Medium& m) {
 void read_data_set(KeyReader& keys, Medium& m) {
   // Stands for "not stated": soot times this stays below any real extinction, and is recognised by
   // it.
-  constexpr double no_mass_extinction = 1e-30, least_real_extinction = 1e-20;
+  constexpr double no_mass_extinction = 1e-30, min_real_extinction = 1e-20;
   const std::string quantity = keys.choice("quantity");
   const std::string smoke = keys.maybe_choice("smoke").value_or("");
   auto mass = keys.maybe_number("mass_extinction");
@@ -93,7 +93,7 @@ void read_data_set(KeyReader& keys, Medium& m) {
   m.frame.origin += m.frame.axes * loaded->origin;
   if (!mass && !m.data.extinction.empty()) {
     const float most = *std::max_element(m.data.extinction.begin(), m.data.extinction.end());
-    if (most > 0 && most < least_real_extinction) {
+    if (most > 0 && most < min_real_extinction) {
       keys.problem("quantity",
                    "this file holds soot density; say quantity = \"soot_density\" and its "
                    "'mass_extinction'");

@@ -35,7 +35,7 @@ Result<SignFace> drawn_face(const std::filesystem::path& path, const Sign& sign,
 }
 
 /// Lengths of a sign in millimetres are no smaller.
-constexpr double least_slip = 1;
+constexpr double min_slip = 1;
 
 /// A length of a sign that is written and longer than `most` is a slip of the unit more often than
 /// not, and would make small details large.
@@ -46,9 +46,9 @@ void bound_length(KeyReader& keys, const char* key, double value, double most, c
                         " m but must not exceed " + shortest_number(most) + " m, " + of +
                         " of a face of " + shortest_number(sign.width_m) + " x " +
                         shortest_number(sign.height_m) + " m" +
-                        (value >= least_slip ? "; metres? " + shortest_number(value) + " mm is " +
-                                                   shortest_number(value / 1000)
-                                             : ""));
+                        (value >= min_slip ? "; metres? " + shortest_number(value) + " mm is " +
+                                                 shortest_number(value / 1000)
+                                           : ""));
 }
 
 /// Every length of a sign is bounded by its face.

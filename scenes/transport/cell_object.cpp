@@ -41,7 +41,7 @@ bool finite(const GeometryCell::TriangleUv& t) {
 bool fits(const TriangleRecord& t, const CellLimits& limits) {
   const uint64_t bins = 2 * uint64_t{t.subdivision} * t.subdivision;
   return t.surface < limits.surfaces && t.subdivision > 0 &&
-         t.edge_margin <= TriangleRecord::most_edge_margin &&
+         t.edge_margin <= TriangleRecord::max_edge_margin &&
          uint64_t{t.first_patch} + bins <= limits.patches && near(t.corner[0]) &&
          near(t.corner[1]) && near(t.corner[2]) && is_direction(t.normal);
 }

@@ -258,7 +258,7 @@ Result<void> set_bounds(CompiledScene& scene) {
   scene.local_low = Vec3(scene.bounds.low - centre);
   scene.local_high = Vec3(scene.bounds.high - centre);
   scene.diagonal_m = glm::length(scene.local_high - scene.local_low);
-  scene.least_offset_m = least_offset(scene.diagonal_m);
+  scene.min_offset_m = min_offset(scene.diagonal_m);
   return {};
 }
 
@@ -296,6 +296,7 @@ Result<void> compile_emitters(CompiledScene& scene, const std::vector<ActiveSour
     const CompiledEmitter& e = scene.emitters.back();
     CompiledSign& sign = scene.signs[e.sign];
     auto& radiance = s.colour == SignColour::white ? sign.white_radiance : sign.green_radiance;
+    // Fifteen digits of pi, as ever: one more would change the last bits of what eyes see.
     for (const double p : e.power_w) {
       radiance.push_back(p * (static_cast<double>(e.exponent) + 1) /
                          (2 * 3.14159265358979 * e.area_m2));

@@ -101,7 +101,7 @@ Result<void> compile_detectors(CompiledScene& scene) {
     for (const CompiledPlane& p : *list)
       scene.plane_tests.push_back({p.normal, glm::dot(p.normal, p.corner)});
   }
-  scene.plane_reach_m = scene.least_offset_m * plane_reach_share;
+  scene.plane_reach_m = scene.min_offset_m * plane_reach_share;
   for (const VolumeGroupMeasure& v : d.volume_groups) {
     CompiledVolumeGroup out;
     out.shape = v.shape;

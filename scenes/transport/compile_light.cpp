@@ -163,7 +163,7 @@ void normalise_cdf(std::vector<double>& cdf) {
 
 /// A triangle whose normal has a smaller square before it is normalised [m4], edges of 30 nm or
 /// corners that single precision cannot tell apart, has none: it emits nothing.
-constexpr Real least_normal_squared = 1e-30_r;
+constexpr Real min_normal_squared = 1e-30_r;
 
 void compile_mesh(CompiledEmitter& out, const Emitter& e, const CompiledScene& scene) {
   for (const glm::uvec3& t : e.mesh.triangles) {
@@ -172,7 +172,7 @@ void compile_mesh(CompiledEmitter& out, const Emitter& e, const CompiledScene& s
     }
     const Vec3* c = &out.corners[out.corners.size() - 3];
     const Vec3 normal = glm::cross(c[1] - c[0], c[2] - c[0]);
-    const bool emits = glm::dot(normal, normal) >= least_normal_squared;
+    const bool emits = glm::dot(normal, normal) >= min_normal_squared;
     out.texel_cdf.push_back(emits ? 0.5 * static_cast<double>(glm::length(normal)) : 0.0);
     out.area_m2 += out.texel_cdf.back();
   }

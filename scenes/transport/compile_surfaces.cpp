@@ -124,19 +124,19 @@ constexpr double offsets_to_edge = 16;
 constexpr double along_slivers = 16;
 /// In 2^-16 of the triangle's heights; never 0, since an edge itself belongs to two.
 uint16_t edge_margin(const TriangleRecord& t, double twice_area_m2, double longest_m,
-                     double least_offset_m) {
+                     double min_offset_m) {
   float farthest = 0;
   for (const glm::vec3& corner : t.corner) {
     for (int axis = 0; axis < 3; ++axis) farthest = std::max(farthest, std::fabs(corner[axis]));
   }
-  const double off = offsets_to_edge * largest_offset(double{farthest}, least_offset_m);
+  const double off = offsets_to_edge * largest_offset(double{farthest}, min_offset_m);
   const double share =
       off * std::min(longest_m / twice_area_m2, along_slivers / longest_m) * 0x1p16;
-  return static_cast<uint16_t>(std::clamp(share, 1.0, double{TriangleRecord::most_edge_margin}));
+  return static_cast<uint16_t>(std::clamp(share, 1.0, double{TriangleRecord::max_edge_margin}));
 }
 
 /// Larger than any building: millimetres are likelier [m].
-constexpr double most_length_m = 1000;
+constexpr double max_length_m = 1000;
 
 double length_of(const Mesh& mesh) {
   Bounds box;
@@ -162,7 +162,7 @@ class TriangleBuilder {
       if (patches_ > limits::patches) {
         return Problem{place, "with \"" + surface.name + "\" the scene has more than " +
                                   std::to_string(limits::patches) + " flux patches: " +
-                                  (length_of(mesh) > most_length_m
+                                  (length_of(mesh) > max_length_m
                                        ? "it is longer than a kilometre: is it in another unit "
                                          "than metres? Else make patch_edge_m larger"
                                        : "make patch_edge_m larger")};
@@ -199,7 +199,7 @@ class TriangleBuilder {
     r.normal = glm::vec3(cross / twice_area);
     const bool cut = patch_edge_m > 0 && !surface.one_patch;
     r.subdivision = static_cast<uint16_t>(cut ? subdivision_for(longest, patch_edge_m) : 1);
-    r.edge_margin = edge_margin(r, twice_area, longest, scene_.least_offset_m);
+    r.edge_margin = edge_margin(r, twice_area, longest, scene_.min_offset_m);
     r.first_patch = surface.one_patch ? surface.first_patch : patches();
     r.surface = index;
     r.global_triangle = static_cast<uint32_t>(records_.size());

@@ -203,7 +203,7 @@ struct CompiledScene {
   Bounds bounds;               // scene coordinates
   Vec3 local_low{0}, local_high{0};
   Real diagonal_m = 1;
-  Real least_offset_m = 0;      // of rays that leave surfaces: see offset_ray
+  Real min_offset_m = 0;        // of rays that leave surfaces: see offset_ray
   double length_unit_m = 1;     // a path-length score of weight * this is one unit weight
   double scores_per_metre = 1;  // its inverse; both are powers of two, hence exact
   Bands bands{{spectrum_first_nm, spectrum_last_nm}, equal_energy_shape()};

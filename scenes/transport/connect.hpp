@@ -40,7 +40,7 @@ double solid_transmittance(const CompiledScene& scene, Ray ray, Real length, int
     }
     const Vec3 end = ray.origin + ray.direction * ray.length;
     ray.origin = offset_ray(t.at(hit.u, hit.v), cosine < 0 ? -t.unit_normal() : t.unit_normal(),
-                            scene.least_offset_m);
+                            scene.min_offset_m);
     ray.length = glm::dot(end - ray.origin, ray.direction);
     if (ray.length <= 0) return share;
   }
@@ -68,7 +68,7 @@ inline ShadowRay connect(const CompiledScene& scene, const Vec3& from, const Vec
   Vec3 target = to;
   if (on_surface) {
     const Vec3 side = glm::dot(from - to, axis) >= 0 ? axis : -axis;
-    target = offset_ray(to, side, scene.least_offset_m);
+    target = offset_ray(to, side, scene.min_offset_m);
   }
   const Vec3 difference = target - from;
   const Real length = glm::length(difference);

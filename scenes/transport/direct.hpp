@@ -61,7 +61,7 @@ class DirectSum {
             const DirectOptions& options, Resolver& resolver)
       : scene_(scene),
         place_(point),
-        from_(offset_ray(point, normal, scene.least_offset_m)),
+        from_(offset_ray(point, normal, scene.min_offset_m)),
         normal_(normal),
         options_(options),
         resolver_(resolver),
@@ -208,7 +208,7 @@ class DirectSum {
     // Below the horizon of the point only the fluence counts, and a line into the surface is no
     // line.
     double in_media = 0, clear = 0, open = 0;
-    double solid = -1, least_solid = 1;
+    double solid = -1, min_solid = 1;
     const auto distance = static_cast<double>(away);
     for (int b = 0; b < scene_.bands.count(); ++b) {
       const double power = e.power_w[static_cast<size_t>(b)] * scene_.bands[b].lm_per_w;
@@ -217,7 +217,7 @@ class DirectSum {
         solid = 1;
       else if (solid < 0 || (scene_.features.surfaces && solid > 0))
         solid = solid_transmittance(scene_, c.ray, c.ray.length, b, resolver_);
-      least_solid = std::min(least_solid, solid);
+      min_solid = std::min(min_solid, solid);
       const double passes =
           !in_media_  ? 1
           : solid > 0 ? medium_transmittance(scene_, c.ray, c.distance, b, resolver_)
@@ -233,7 +233,7 @@ class DirectSum {
     out.light.open_lx = open * per_lumen * cosine;
     out.arriving = {index, direction, out.light.illuminance_lx};
     if (cosine > 0)
-      out.seen = !(solid > 0) ? Seen::hidden : least_solid < 1 ? Seen::dimmed : Seen::clear;
+      out.seen = !(solid > 0) ? Seen::hidden : min_solid < 1 ? Seen::dimmed : Seen::clear;
     else if (!(solid > 0))
       out.seen = Seen::not_at_all;
     return out;

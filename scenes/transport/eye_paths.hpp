@@ -205,7 +205,7 @@ class EyeScores {
         make_surface(SurfaceKind::lambertian,
                      static_cast<double>(rho[static_cast<size_t>(chosen.band)]), 0, 1, 1, 1);
     const Vec3 normal = sign.axes[2];
-    const Vec3 start = offset_ray(place, normal, scene_.least_offset_m);
+    const Vec3 start = offset_ray(place, normal, scene_.min_offset_m);
     const SourceLight asked = eye_.reflected_light(start, direction, normal, model, chosen.band);
     light_.add(asked.group, chosen.lm_per_w * asked.radiance);
     const Real u = random_.uniform();
@@ -248,7 +248,7 @@ class EyeScores {
     const ProbeMeasure& probe = scene_.description->probes[p];
     const Vec3 normal(probe.normal);
     const Vec3 start =
-        offset_ray(Vec3(probe.position - scene_.local_origin), normal, scene_.least_offset_m);
+        offset_ray(Vec3(probe.position - scene_.local_origin), normal, scene_.min_offset_m);
     ++paths_;
     const PathBand chosen = choose_band();
     const double pi = static_cast<double>(pi_f);

@@ -136,7 +136,7 @@ class ParticleTracer {
     // beam starts where it is said to: how far it goes is what it is for.
     if (emitter.kind != EmitterKind::volume && emitter.distribution != Distribution::collimated) {
       const Vec3 side = glm::dot(point.axis, p.ray.direction) >= 0 ? point.axis : -point.axis;
-      p.ray.origin = offset_ray(p.ray.origin, side, scene_.least_offset_m);
+      p.ray.origin = offset_ray(p.ray.origin, side, scene_.min_offset_m);
     }
     // Collimated light has no density of directions, so the deterministic part cannot hold it.
     p.direct = emitter.distribution != Distribution::collimated;
@@ -213,7 +213,7 @@ class ParticleTracer {
 
   /// Collisions so close before a surface are looked at twice. Rounding reaches as far along a ray
   /// that comes in at 1/1000 from grazing.
-  Real near_surface_m() const { return 1000 * scene_.least_offset_m; }
+  Real near_surface_m() const { return 1000 * scene_.min_offset_m; }
 
   /// Single precision may round a place right before a surface to behind it, and the particle would
   /// go on in the next room, or outside: it begins its next flight from the surface's near side.
@@ -222,8 +222,7 @@ class ParticleTracer {
     if (ahead.distance > flight.t + near_surface_m()) return place;
     const Vec3 outward = ahead.triangle->unit_normal();
     const Vec3 normal = glm::dot(outward, ray.direction) < 0 ? outward : -outward;
-    const Vec3 foot =
-        offset_ray(ahead.triangle->at(ahead.u, ahead.v), normal, scene_.least_offset_m);
+    const Vec3 foot = offset_ray(ahead.triangle->at(ahead.u, ahead.v), normal, scene_.min_offset_m);
     const Real behind = glm::dot(foot - place, normal);
     return behind > 0 ? foot : place;
   }
@@ -284,7 +283,7 @@ class ParticleTracer {
     if (!survives_roulette(p)) return false;
     const Vec3 normal = front ? triangle.unit_normal() : -triangle.unit_normal();
     p.ray.direction = to_world(normal, turn.lambertian);
-    p.ray.origin = offset_ray(triangle.at(hit.u, hit.v), normal, scene_.least_offset_m);
+    p.ray.origin = offset_ray(triangle.at(hit.u, hit.v), normal, scene_.min_offset_m);
     if constexpr (flawed) Flaws::departure(p.ray.origin, triangle.at(hit.u, hit.v));
     p.direct = false;
     return true;
@@ -313,7 +312,7 @@ class ParticleTracer {
         sampled.transmitted && sampled.specular && model.kind != SurfaceKind::dielectric;
     p.direct = p.direct && straight;
     p.ray.direction = sampled.direction;
-    p.ray.origin = offset_ray(place, sampled.transmitted ? -normal : normal, scene_.least_offset_m);
+    p.ray.origin = offset_ray(place, sampled.transmitted ? -normal : normal, scene_.min_offset_m);
     return true;
   }
 

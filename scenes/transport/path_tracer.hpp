@@ -282,8 +282,8 @@ class PathTracer {
     const Vec3 normal = front ? t.unit_normal() : -t.unit_normal();
     const Vec3 place = t.at(hit.u, hit.v);
     if (model.kind == SurfaceKind::lambertian || model.kind == SurfaceKind::glossy) {
-      p.add(reflected_light(offset_ray(place, normal, scene_.least_offset_m), p.ray.direction,
-                            normal, model, p.band));
+      p.add(reflected_light(offset_ray(place, normal, scene_.min_offset_m), p.ray.direction, normal,
+                            model, p.band));
     }
     const Real lobe = random_.uniform();
     const Real u = random_.uniform();
@@ -302,7 +302,7 @@ class PathTracer {
     }
     if (!s.specular) p.diffused = true;
     p.ray.direction = s.direction;
-    p.ray.origin = offset_ray(place, s.transmitted ? -normal : normal, scene_.least_offset_m);
+    p.ray.origin = offset_ray(place, s.transmitted ? -normal : normal, scene_.min_offset_m);
     return true;
   }
 

@@ -37,7 +37,7 @@ constexpr double room_length_m = 1.5;
 constexpr double room_height_m = 1.8;
 /// Sides, of six, on which a room's backs must be what is seen most.
 constexpr int sides_of_room = 4;
-constexpr size_t most_places = 64;
+constexpr size_t max_places = 64;
 /// Where people on a route look from [m].
 constexpr double waist_m = 1.0;
 /// Off a lamp's opening, a sign's face: none of them lies within what it is fixed to [m].
@@ -81,7 +81,7 @@ std::vector<Vec3> inhabited(const CompiledScene& scene) {
   for (const EscapeRoute& r : d.routes)
     for (const glm::dvec3& p : r.path) all.push_back(p + glm::dvec3(0, 0, waist_m));
   std::vector<Vec3> out;
-  const size_t step = all.size() / most_places + 1;
+  const size_t step = all.size() / max_places + 1;
   for (size_t i = 0; i < all.size(); i += step) out.emplace_back(all[i] - scene.local_origin);
   return out;
 }

@@ -43,7 +43,7 @@ std::optional<Facing> first_stop(const CompiledScene& scene, const GeometryAcces
                                  const Vec3& from, const Vec3& direction, Real length_m,
                                  Passes&& passes) {
   // Behind what was passed: beyond the rounding of its distance, before anything that is apart.
-  const Real beyond = std::max(1e-5_r, 8 * scene.least_offset_m);
+  const Real beyond = std::max(1e-5_r, 8 * scene.min_offset_m);
   Real gone = 0;
   for (int i = 0; i <= limits::surfaces_passed; ++i) {
     const auto met =

@@ -15,7 +15,7 @@ constexpr double slope = 0.3334;
 // The published start. Light of strong red with nearly no scotopic part has several fixed points;
 // the start selects the one the recommendation means.
 constexpr double first_adaptation = 0.5;
-constexpr int most_steps = 500;
+constexpr int max_steps = 500;
 constexpr double settled = 1e-12;
 
 double usable(double v) {
@@ -32,7 +32,7 @@ double mesopic_luminance_adapted(double photopic_cd_m2, double scotopic_cd_m2, d
 
 MesopicLuminance mesopic_luminance(double photopic_cd_m2, double scotopic_cd_m2) {
   double m = first_adaptation;
-  for (int step = 0; step < most_steps; ++step) {
+  for (int step = 0; step < max_steps; ++step) {
     const double l = mesopic_luminance_adapted(photopic_cd_m2, scotopic_cd_m2, m);
     const double next = l > 0 ? std::clamp(offset + slope * std::log10(l), 0.0, 1.0) : 0.0;
     const bool done = std::abs(next - m) < settled;

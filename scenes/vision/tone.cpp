@@ -94,10 +94,10 @@ Exposure exposure_of(const XyzPicture& picture, const PlainTone& tone) {
 
 constexpr int histogram_bins = 100;       // Ward Larson et al. 1997
 constexpr double trim_tolerance = 0.025;  // their share of the histogram that a pass may still cut
-constexpr int most_passes = 200;
+constexpr int max_passes = 200;
 constexpr double fovea_deg = 1.0;
 // A small picture is not averaged into fewer cells than this: a histogram of ten is none.
-constexpr double least_cells = 256;
+constexpr double min_cells = 256;
 
 struct LogHistogram {
   double log_low = 0;
@@ -133,7 +133,7 @@ LogHistogram histogram_of(const std::vector<double>& luminances) {
 // the display.
 bool trim_to_human_contrast(LogHistogram& h, double log_black, double log_white) {
   const double whole = h.total();
-  for (int pass = 0; pass < most_passes; ++pass) {
+  for (int pass = 0; pass < max_passes; ++pass) {
     const double total = h.total();
     if (total < trim_tolerance * whole) return false;
     double trimmed = 0;
@@ -189,7 +189,7 @@ struct Seen {
 Seen see(const XyzPicture& picture, const HumanTone& tone) {
   Seen seen;
   const auto n = static_cast<double>(picture.pixels());
-  const double widest = std::max(1.0, std::floor(std::sqrt(n / least_cells)));
+  const double widest = std::max(1.0, std::floor(std::sqrt(n / min_cells)));
   const double wanted = tone.degrees_per_pixel > 0 ? fovea_deg / tone.degrees_per_pixel : 1;
   seen.cell_px = static_cast<int>(std::clamp(std::round(wanted), 1.0, widest));
   seen.cells_wide = (picture.width + seen.cell_px - 1) / seen.cell_px;

@@ -27,7 +27,7 @@ TEST_CASE("deterministic direct light is attenuated by absorbing gas along every
 }
 
 TEST_CASE("traced light over the cells of a plane is the exact average of the cells") {
-  check_lamps("traced", 3, {.least_particles = 1 << 25, .most_particles = 1 << 25});
+  check_lamps("traced", 3, {.min_particles = 1 << 25, .max_particles = 1 << 25});
 }
 
 TEST_CASE("a point source obeys the cosine cubed law") {

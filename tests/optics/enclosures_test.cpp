@@ -5,13 +5,13 @@
 namespace luxodus::light {
 
 TEST_CASE("walls and their parts in diffuse cubes receive their radiosity") {
-  check_cases("cube c", 6, {.least_particles = 1 << 22});
+  check_cases("cube c", 6, {.min_particles = 1 << 22});
 }
 
 TEST_CASE("walls and their parts in diffuse cubes around a point source receive their radiosity") {
   for (const std::string set : {"p01", "p03", "p07"})
-    check_cases("cube " + set, 1, {.least_particles = 1 << 22});
-  check_cases("cube p05", 1, {.least_particles = 1 << 20, .most_particles = 1 << 20});
+    check_cases("cube " + set, 1, {.min_particles = 1 << 22});
+  check_cases("cube p05", 1, {.min_particles = 1 << 20, .max_particles = 1 << 20});
 }
 
 TEST_CASE("a wall that glows up to its edges loses no light at them") {
@@ -52,32 +52,32 @@ TEST_CASE("a plane in a wall counts what the wall receives, cell by cell") {
 }
 
 TEST_CASE("a closed sphere of any reflectance receives the sum of all reflections") {
-  check_cases("integrating sphere", 5, {.least_particles = 1 << 16, .most_particles = 1 << 17});
+  check_cases("integrating sphere", 5, {.min_particles = 1 << 16, .max_particles = 1 << 17});
 }
 
 TEST_CASE("in an integrating sphere each reflection adds one and the same irradiance everywhere") {
   for (const std::string rho : {"0.2", "0.5", "0.8"})
-    check_cases("probes in a sphere rho=" + rho, 1, {.most_particles = 1 << 18});
+    check_cases("probes in a sphere rho=" + rho, 1, {.max_particles = 1 << 18});
   for (const std::string rho : {"0.95", "0.99"})
     check_cases("probes in a sphere rho=" + rho, 1,
-                {.least_particles = 1 << 16, .most_particles = 1 << 16});
+                {.min_particles = 1 << 16, .max_particles = 1 << 16});
 }
 
 TEST_CASE("a sphere's port lets out the share that its solid angle and area say") {
-  check_cases("sphere with a port", 2, {.least_particles = 1 << 19});
+  check_cases("sphere with a port", 2, {.min_particles = 1 << 19});
 }
 
 TEST_CASE("concentric spheres share light by their areas") {
-  check_cases("concentric spheres", 3, {.least_share = 1e-3});
+  check_cases("concentric spheres", 3, {.min_share = 1e-3});
 }
 
 TEST_CASE("infinite parallel plates exchange a geometric series, and gas takes its share") {
-  check_cases("plates r1", 3, {.least_particles = 1 << 16, .most_particles = 1 << 16});
-  check_cases("plates and gas", 2, {.least_particles = 1 << 20});
+  check_cases("plates r1", 3, {.min_particles = 1 << 16, .max_particles = 1 << 16});
+  check_cases("plates and gas", 2, {.min_particles = 1 << 20});
 }
 
 TEST_CASE("a cube of absorbing gas passes the exact share to every wall") {
-  check_cases("cube of gas", 7, {.least_share = 1e-3, .most_particles = 1 << 25});
+  check_cases("cube of gas", 7, {.min_share = 1e-3, .max_particles = 1 << 25});
 }
 
 }  // namespace luxodus::light

@@ -5,8 +5,7 @@
 namespace luxodus::light {
 namespace {
 
-constexpr CaseOptions gas{
-    .least_share = 1e-3, .least_particles = 1 << 20, .most_particles = 1 << 25};
+constexpr CaseOptions gas{.min_share = 1e-3, .min_particles = 1 << 20, .max_particles = 1 << 25};
 
 }  // namespace
 

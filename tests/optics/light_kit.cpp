@@ -84,9 +84,9 @@ int64_t particles_of(const PreparedCase& plan, double emitted_w, const CaseOptio
   double rarest = 1;
   for (const Quantity& q : plan.quantities) {
     const double share = std::abs(q.reference) / (q.unit > 0 ? q.unit : emitted_w);
-    if (!q.certain && share >= options.least_share) rarest = std::min(rarest, share);
+    if (!q.certain && share >= options.min_share) rarest = std::min(rarest, share);
   }
-  return std::clamp(particles_for(rarest), options.least_particles, options.most_particles);
+  return std::clamp(particles_for(rarest), options.min_particles, options.max_particles);
 }
 
 double power_of(const SceneDescription& scene) {

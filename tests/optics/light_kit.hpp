@@ -77,9 +77,9 @@ void check_share(const Estimate& estimate, double reference, int64_t particles, 
 /// How well cases are run: every quantity of at least that share of what all particles could bring
 /// is wanted to half a percent, within these numbers of particles.
 struct CaseOptions {
-  double least_share = 0.005;
-  int64_t least_particles = 1 << 18;
-  int64_t most_particles = 1 << 24;
+  double min_share = 0.005;
+  int64_t min_particles = 1 << 18;
+  int64_t max_particles = 1 << 24;
   double most = 1;  // that a particle brings to a quantity, in its unit
 };
 /// Runs a case of `luxodus validate` and compares all its quantities, as check_share does.

@@ -5,11 +5,11 @@
 namespace luxodus::light {
 
 TEST_CASE("in a closed room of equal walls white smoke of any density changes nothing anywhere") {
-  check_cases("furnace, white smoke", 5, {.least_share = 0.01, .most_particles = 1 << 19});
+  check_cases("furnace, white smoke", 5, {.min_share = 0.01, .max_particles = 1 << 19});
 }
 
 TEST_CASE("smoke as hot as the walls around it absorbs in every part what it emits") {
-  check_cases("furnace, smoke as hot", 1, {.least_particles = 1 << 20});
+  check_cases("furnace, smoke as hot", 1, {.min_particles = 1 << 20});
 }
 
 TEST_CASE("the mean path through white smoke is four volumes over surface, whatever its density") {
@@ -17,15 +17,15 @@ TEST_CASE("the mean path through white smoke is four volumes over surface, whate
 }
 
 TEST_CASE("around a point source in endless fog light spreads as Case's solution says") {
-  check_cases("point source in fog", 2, {.least_particles = 1 << 21, .most_particles = 1 << 21});
+  check_cases("point source in fog", 2, {.min_particles = 1 << 21, .max_particles = 1 << 21});
 }
 
 TEST_CASE("a ball of smoke lets out, passes and absorbs what collision probabilities say") {
-  check_cases("ball of smoke", 39, {.least_particles = 1 << 20, .most_particles = 1 << 22});
+  check_cases("ball of smoke", 39, {.min_particles = 1 << 20, .max_particles = 1 << 22});
 }
 
 TEST_CASE("the glowing cube of Burns and Christon loses and keeps what quadrature says") {
-  check_cases("Burns and Christon", 1, {.least_particles = 1 << 24, .most = 2});
+  check_cases("Burns and Christon", 1, {.min_particles = 1 << 24, .most = 2});
 }
 
 }  // namespace luxodus::light

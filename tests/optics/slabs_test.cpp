@@ -11,15 +11,15 @@ double depth_of(const Case& stack) {
 }
 
 /// A history collides some twice as often as the stack is deep: rare shares have to be left.
-void check_stacks(double least_depth, double most_depth, const std::string& incidence) {
+void check_stacks(double min_depth, double max_depth, const std::string& incidence) {
   int cases = 0;
   for (const Case& c : all_cases()) {
     if (c.group != "stack" || c.name.find(", " + incidence) == std::string::npos) continue;
     const double depth = depth_of(c);
-    if (depth < least_depth || depth > most_depth) continue;
+    if (depth < min_depth || depth > max_depth) continue;
     CaseOptions options;
-    options.least_share = depth <= 1 ? 0.002 : depth <= 10 ? 0.005 : 0.01;
-    options.most_particles = depth >= 100 ? 1 << 19 : 1 << 25;
+    options.min_share = depth <= 1 ? 0.002 : depth <= 10 ? 0.005 : 0.01;
+    options.max_particles = depth >= 100 ? 1 << 19 : 1 << 25;
     check_case(c, options);
     ++cases;
   }
@@ -58,7 +58,7 @@ TEST_CASE("a hundred free paths of layers do with diffuse light what the transpo
 
 TEST_CASE("a half space of gas returns what Chandrasekhar's H function says") {
   CaseOptions options;
-  options.least_particles = 1 << 16;
+  options.min_particles = 1 << 16;
   check_cases("half space", 36, options);
 }
 

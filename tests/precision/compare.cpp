@@ -27,7 +27,7 @@ constexpr double sharp_enough = 0.1;
 /// Bins are many: of a thousand one lies beyond 3.3 standard errors by chance.
 constexpr double chance = 4;
 /// A bin that few batches reach has no variance to speak of.
-constexpr double least_share_of_batches = 0.5;
+constexpr double min_share_of_batches = 0.5;
 
 struct Mean {
   double value = 0, error = 0;
@@ -109,7 +109,7 @@ bool compare(const Traced& single, const Traced& twice) {
   for (size_t i = 0; i < single.names.size(); ++i) {
     const auto reached = std::count_if(single.rows.begin(), single.rows.end(),
                                        [&](const auto& row) { return row[i] != 0; });
-    if (static_cast<double>(reached) < least_share_of_batches * static_cast<double>(batches)) {
+    if (static_cast<double>(reached) < min_share_of_batches * static_cast<double>(batches)) {
       ++left_out;
       continue;
     }

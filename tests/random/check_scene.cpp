@@ -23,33 +23,33 @@ constexpr int batches_per_group = 2;  // a standard error needs two
 constexpr double longest_sentence = 600;
 
 /// A share kept at each event below which no history lasts a million of them.
-constexpr double least_patience = 0.9999;
+constexpr double min_patience = 0.9999;
 
-double most_of(const Spectrum& s) {
+double max_of(const Spectrum& s) {
   return *std::max_element(s.value.begin(), s.value.end());
 }
 
 bool keeps_light(const SmokeOptics& optics) {
-  return most_of(optics.albedo) >= least_patience;
+  return max_of(optics.albedo) >= min_patience;
 }
 
 /// Whether something in the scene may keep light for as long as a history lasts.
 bool is_patient(const SceneDescription& d) {
   for (const Material& m : d.materials) {
     if (m.kind == MaterialKind::dielectric) return true;  // total reflection takes nothing
-    const double mirror = m.kind == MaterialKind::lambertian ? 0 : most_of(m.specular);
-    if (most_of(m.reflectance) + mirror >= least_patience) return true;
+    const double mirror = m.kind == MaterialKind::lambertian ? 0 : max_of(m.specular);
+    if (max_of(m.reflectance) + mirror >= min_patience) return true;
   }
   for (const Sign& s : d.signs) {
-    if (most_of(s.white_reflectance) >= least_patience) return true;
-    if (most_of(s.green_reflectance) >= least_patience) return true;
+    if (max_of(s.white_reflectance) >= min_patience) return true;
+    if (max_of(s.green_reflectance) >= min_patience) return true;
   }
   for (const Medium& m : d.media) {
     if (keeps_light(m.optics)) return true;
     for (const Layer& l : m.layers)
       if (keeps_light(l.optics)) return true;
     for (const float a : m.data.albedo)
-      if (static_cast<double>(a) >= least_patience) return true;
+      if (static_cast<double>(a) >= min_patience) return true;
   }
   return false;
 }

@@ -117,7 +117,7 @@ TEST_CASE("a budget that is too small is refused with the key and what it must b
   NodeSetup node;
   node.net.self = {1};
   const uint64_t needed =
-      std::min(least_tally_bytes(*scene), tally_need(*scene, node.photons.batches_in_work()).all());
+      std::min(min_tally_bytes(*scene), tally_need(*scene, node.photons.batches_in_work()).all());
   node.tally_bytes = needed;
   CHECK_FALSE(budget_fault(run, node).has_value());
   CHECK(tally_plan(*scene, node).total_bytes() <= needed);

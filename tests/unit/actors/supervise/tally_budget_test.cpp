@@ -58,7 +58,7 @@ TEST_CASE("a batch that is more than the budget by itself ends the run with the 
   stop.particles = 40'000;
   NodesOptions options;
   options.nodes = 1;
-  options.tally_bytes = least_tally_bytes(*scene) + (1 << 18);
+  options.tally_bytes = min_tally_bytes(*scene) + (1 << 18);
   LocalRun run(scene, 1, 1);
   const auto ended = run_on_nodes(run, options, stop, nobody, ignore);
   REQUIRE_FALSE(ended.ok());

@@ -45,7 +45,7 @@ TEST_CASE("a pool lends each object once, the last given back first", "[core][po
   CHECK(pool.in_use() == 2);
   CHECK(pool.take() == &middle);
   CHECK(middle.state == 42);
-  CHECK(pool.most_in_use() == 3);
+  CHECK(pool.max_in_use() == 3);
   CHECK(pool.index_of(middle) == 1);
 }
 

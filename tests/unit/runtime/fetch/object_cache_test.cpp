@@ -126,11 +126,11 @@ TEST_CASE("with room for one object thousands of fibers reach all that they visi
   std::vector<Walker> walkers;
   for (uint32_t i = 0; i < fibers; ++i) walkers.push_back({&node, i});
   for (Walker& walker : walkers) node.start([&walker] { walker.walk(); });
-  int most_alive = 0;
-  node.builder.on_build = [&](uint32_t) { most_alive = std::max(most_alive, *node.builder.alive); };
+  int max_alive = 0;
+  node.builder.on_build = [&](uint32_t) { max_alive = std::max(max_alive, *node.builder.alive); };
   cluster.until([&] { return node.fibers.live() == 0; });
   for (const Walker& walker : walkers) REQUIRE(walker.reached == visits);
-  CHECK(most_alive <= 1);
+  CHECK(max_alive <= 1);
   // Those who wait for one object share its fetch: far fewer fetches than visits.
   CHECK(node.fetcher.counters().fetches < fibers * visits / 50);
 }

@@ -149,7 +149,7 @@ TEST_CASE("destructors run on cancelled fibers, and the pool is full again", "[r
   stage.run();
   CHECK(held.use_count() == 1);
   CHECK(stage.fibers.live() == 0);
-  CHECK(stage.fibers.most_live() == 4);
+  CHECK(stage.fibers.max_live() == 4);
 }
 
 TEST_CASE("a body of any later start runs on the stack of the one before it", "[runtime][fiber]") {

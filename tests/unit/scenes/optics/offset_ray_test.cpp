@@ -93,8 +93,7 @@ TEST_CASE("a ray offset from a triangle never meets it again, in scenes of 2e-3 
       const glm::vec3 hit = t.at(uniform_triangle(u, v));
       const double side = next() < 0.5F ? 1.0 : -1.0;
       const glm::vec3 normal(side * t.normal());
-      const glm::vec3 start =
-          offset_ray(hit, normal, least_offset(static_cast<float>(2 * distance)));
+      const glm::vec3 start = offset_ray(hit, normal, min_offset(static_cast<float>(2 * distance)));
       if (!(side * t.height(start) > 0)) ++wrong_side;
       farthest = std::max(farthest, glm::length(glm::dvec3(start) - glm::dvec3(hit)));
       const float u2 = next();
@@ -121,7 +120,7 @@ TEST_CASE("a point near the origin of a triangle that reaches 50 m out is offset
     const float jitter = 0.01F * next();
     const glm::vec3 hit = t.at({1.0F / 3 + jitter, 1.0F / 3 - jitter, 1.0F / 3});
     const glm::vec3 normal(t.normal());
-    const glm::vec3 start = offset_ray(hit, normal, least_offset(100));
+    const glm::vec3 start = offset_ray(hit, normal, min_offset(100));
     if (!(t.height(start) > 0)) ++wrong_side;
     const float u = next();
     const float v = next();
@@ -133,17 +132,17 @@ TEST_CASE("a point near the origin of a triangle that reaches 50 m out is offset
 
 TEST_CASE("an offset moves only along the normal's coordinates and stays under 1 mm within 100 m",
           "[optics][offset]") {
-  CHECK(offset_ray({1, 2, 3}, {0, 0, 1}, least_offset(30)).x == 1.0F);
-  CHECK(offset_ray({1, 2, 3}, {0, 0, 1}, least_offset(30)).y == 2.0F);
-  CHECK(offset_ray({1, 2, 3}, {0, 0, 1}, least_offset(30)).z > 3.0F);
-  CHECK(offset_ray({1, 2, 3}, {0, 0, -1}, least_offset(30)).z < 3.0F);
-  CHECK(offset_ray({1, 2, -3}, {0, 0, 1}, least_offset(30)).z > -3.0F);
-  CHECK(offset_ray({1, 2, -3}, {0, 0, -1}, least_offset(30)).z < -3.0F);
+  CHECK(offset_ray({1, 2, 3}, {0, 0, 1}, min_offset(30)).x == 1.0F);
+  CHECK(offset_ray({1, 2, 3}, {0, 0, 1}, min_offset(30)).y == 2.0F);
+  CHECK(offset_ray({1, 2, 3}, {0, 0, 1}, min_offset(30)).z > 3.0F);
+  CHECK(offset_ray({1, 2, 3}, {0, 0, -1}, min_offset(30)).z < 3.0F);
+  CHECK(offset_ray({1, 2, -3}, {0, 0, 1}, min_offset(30)).z > -3.0F);
+  CHECK(offset_ray({1, 2, -3}, {0, 0, -1}, min_offset(30)).z < -3.0F);
   CHECK(offset_ray({0, 0, 0}, {0, -1, 0}, 0x1p-16F).y == -0x1p-16F);
   CHECK(offset_ray({-0.0F, 0, 0}, {1, 0, 0}, 0x1p-16F).x == 0x1p-16F);
   for (const float x : {0.01F, 1.0F, 10.0F, 99.0F, -99.0F}) {
-    CHECK(std::fabs(offset_ray({x, 0, 0}, {1, 0, 0}, least_offset(30)).x - x) < 1e-3F);
-    CHECK(std::fabs(offset_ray({x, 0, 0}, {-1, 0, 0}, least_offset(30)).x - x) < 1e-3F);
+    CHECK(std::fabs(offset_ray({x, 0, 0}, {1, 0, 0}, min_offset(30)).x - x) < 1e-3F);
+    CHECK(std::fabs(offset_ray({x, 0, 0}, {-1, 0, 0}, min_offset(30)).x - x) < 1e-3F);
   }
 }
 
@@ -151,7 +150,7 @@ TEST_CASE("a coordinate a few steps from zero crosses it instead of wrapping rou
           "[optics][offset]") {
   for (const float x : {0x1p-149F, 0x1p-140F, -0x1p-149F, -0x1p-143F}) {
     for (const float n : {1.0F, -1.0F, 0.01F, -0.01F}) {
-      const float moved = offset_coordinate(x, n, least_offset(30));
+      const float moved = offset_coordinate(x, n, min_offset(30));
       CHECK(std::isfinite(moved));
       CHECK((moved - x) * n > 0.0F);
       CHECK(std::fabs(moved) < 1e-4F);

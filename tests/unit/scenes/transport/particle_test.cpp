@@ -35,7 +35,7 @@ TriangleRecord compiled_triangle(const glm::dvec3& place, double edge_m, double 
   description->objects.push_back(object);
   CompiledScene scene;
   scene.description = description;
-  scene.least_offset_m = least_offset(static_cast<Real>(scene_m));
+  scene.min_offset_m = min_offset(static_cast<Real>(scene_m));
   compile_materials(scene);
   REQUIRE(compile_triangles(scene, 1).ok());
   return scene.cells.at(0).triangles.at(0);
@@ -66,12 +66,12 @@ TEST_CASE("hits keep farther from edges than the rays that leave them start from
       INFO(far << " m out, " << edge << " m");
       const TriangleRecord t = compiled_triangle({far, -far, far}, edge, 40);
       const Vec3 hit = t.at(0, 0);
-      const Vec3 start = offset_ray(hit, t.unit_normal(), least_offset(40));
+      const Vec3 start = offset_ray(hit, t.unit_normal(), min_offset(40));
       const double off = glm::distance(glm::dvec3(start), glm::dvec3(hit));
       // Along both legs the hit has moved at least as far as from the edge of the other.
       const double from_edge = glm::dot(glm::dvec3(hit) - glm::dvec3(t.corner[0]),
                                         glm::normalize(glm::dvec3(t.corner[1] - t.corner[0])));
-      const bool as_far_as_may_be = t.edge_margin == TriangleRecord::most_edge_margin;
+      const bool as_far_as_may_be = t.edge_margin == TriangleRecord::max_edge_margin;
       CHECK((from_edge >= 16 * off || as_far_as_may_be));
       CHECK(from_edge <= edge / 32);
       CHECK((far > 1 || !as_far_as_may_be));
