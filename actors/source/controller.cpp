@@ -336,11 +336,22 @@ void Controller::end_run(StopReason reason) {
 // Then all are let go, and tell their neighbours as they leave. Who interrupts the run waits for
 // nobody who is out of reach.
 
+RunEnded Controller::end_word() const {
+  return {round(), fault_ ? fault_->what.substr(0, limits::text_bytes) : ""};
+}
+
 void Controller::tell_end() {
-  const std::string text = fault_ ? fault_->what.substr(0, limits::text_bytes) : "";
+  const RunEnded word = end_word();
   for (const auto& [worker, peer] : peers_)
-    if (peer.here || done_before_) send(worker, network_.next_id(), RunEnded{round(), text});
+    if (peer.here || done_before_) send(worker, network_.next_id(), word);
   let_go_when_told();
+}
+
+/// Who asks for work then has begun anew since it was told. An answer without batches would have it
+/// wait for the next round, of a controller that may leave before it can say more.
+void Controller::answer_with_end(const Delivery& delivery) {
+  send(delivery.source, delivery.id, end_word());
+  if (letting_go_) send(delivery.source, network_.next_id(), EnterPhase{EndPhase::leave, 0});
 }
 
 bool Controller::knows_end(NodeId worker, const Peer& peer) const {
@@ -354,9 +365,15 @@ bool Controller::knows_end(NodeId worker, const Peer& peer) const {
 void Controller::let_go_when_told() {
   if (letting_go_) return;
   const auto knows = [&](const auto& entry) { return knows_end(entry.first, entry.second); };
-  if (!std::all_of(peers_.begin(), peers_.end(), knows) && over_for() < config_.lost) return;
+  const bool all_know = std::all_of(peers_.begin(), peers_.end(), knows);
+  if ((!all_know || awaits_keeper()) && over_for() < config_.lost) return;
   letting_go_ = true;
   let_go();
+}
+
+/// Were this node to crash without its workers, nobody could trace again what is not kept yet.
+bool Controller::awaits_keeper() const {
+  return config_.keeper != nullptr && !config_.keeper->is_whole() && !fault_ && !interrupt_.load();
 }
 
 /// Until the network has taken the word for each that it can reach.
@@ -408,9 +425,17 @@ void Controller::look() {
 }
 
 void Controller::wait_for_farewells(Nanoseconds now) {
+  let_keeper_rest();
   tell_end();
   if (letting_go_ || now < next_word_) return;
   next_word_ = now + waiting_word;
+  if (who_lacks_end().empty()) {
+    log_info(
+        "run=over text=\"its workers stay until the journal has what it lacks: that takes {:g} s "
+        "(lost_s) at most\"",
+        seconds_of(config_.lost));
+    return;
+  }
   log_info("run=over text=\"{} must hear of it, or be lost: that takes {:g} s (lost_s) at most\"",
            who_lacks_end(), seconds_of(config_.lost));
 }
@@ -464,6 +489,7 @@ void Controller::lend(const Delivery& delivery, const RequestLease& request) {
     peer.told = scheduler_.clock().now();
     return let_go_when_told();
   }
+  if (over_) return answer_with_end(delivery);
   Answered& last = last_grant_[delivery.source];
   if (last.question != delivery.id) {
     const LentBatches lent =

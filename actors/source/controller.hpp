@@ -135,9 +135,12 @@ class Controller {
   void end_run(StopReason reason);
   void tell_end();
   bool knows_end(NodeId worker, const Peer& peer) const;
+  RunEnded end_word() const;
+  void answer_with_end(const Delivery& delivery);
   void let_go_when_told();
   void let_go();
   std::string who_lacks_end() const;
+  bool awaits_keeper() const;
   void note_book();
   uint32_t round() const { return static_cast<uint32_t>(counters_.round); }
   Progress progress() const;

@@ -15,6 +15,8 @@ class FlushKeeper {
   /// Keeps a flush and the numbers of its batches, whatever happens after this has returned true.
   /// Errors: it could not; the controller counts the flush all the same.
   virtual Result<void> keep(std::span<const int64_t> batches, std::span<const std::byte> flush) = 0;
+  /// Whether all that was counted outlives the node.
+  virtual bool is_whole() const { return true; }
   /// Whether it wants to tidy up; then rest() is called soon, off any fiber, when the run and its
   /// totals hold all that was kept.
   virtual bool rest_is_due() const { return false; }

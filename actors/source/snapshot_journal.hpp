@@ -30,6 +30,7 @@ class SnapshotJournal final : public FlushKeeper {
         clock_(clock) {}
 
   Result<void> keep(std::span<const int64_t> batches, std::span<const std::byte> flush) override;
+  bool is_whole() const override { return !lacks_; }
   /// Where the journal is long, or lacks a flush that the totals have.
   bool rest_is_due() const override {
     return (lacks_ || journal_->bytes() >= config_.max_bytes) && clock_.now() >= not_before_;
