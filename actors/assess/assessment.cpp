@@ -80,6 +80,8 @@ Result<Assessment> assess(const std::shared_ptr<const SceneDescription>& scene,
   const Nanoseconds began = clock.now();
   Assessment out;
   out.state = state_of(*scene, scenario.value(), codes.value());
+  for (std::string& words : overruled(*scene, options.rules, options.deviations))
+    out.state.remarks.push_back(std::move(words));
   out.reality = options.reality;
   if (scenario->operation == Operation::mains)
     out.warnings.push_back({scenario->place, out.state.remarks.front()});

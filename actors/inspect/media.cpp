@@ -166,7 +166,7 @@ void inspect_flames(const Building& smoky, Findings& out, std::vector<char>& mis
     const Burning burning = burning_of(smoky, i);
     if (burning.all == 0) continue;
     const auto percent = [&](int part) {
-      return fmt::format("{:.0f} %", 100.0 * part / burning.all);
+      return percent_text(static_cast<double>(part) / burning.all);
     };
     if (2 * burning.in_bodies > burning.all)
       out.push_back({Severity::error,

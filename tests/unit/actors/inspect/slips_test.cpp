@@ -188,6 +188,8 @@ TEST_CASE("a percentage taken for a share of the flux is told", "[inspect]") {
                           factor + "\nmaintenance_factor = 0.8\nend_of_duration_factor = 0.7\n")));
   };
   check_found(lit("15"), Severity::warning, "luminaire \"light\" gives 15 times the 200 lm");
-  CHECK(lit("2").empty());
+  const auto twice = lit("2");
+  check_found(twice, Severity::warning, "'emergency_factor' is 2: on emergency supply");
+  check_found(twice, Severity::note, "gives 400 lm in emergency operation, and its file 200 lm");
   CHECK(lit("0.15").empty());
 }

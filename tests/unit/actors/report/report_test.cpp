@@ -125,7 +125,8 @@ TEST_CASE("the program's own sentences are said in each language", "[report]") {
                   "that was read nowhere: look it up") ==
         "über alle Maßen: es gibt keines, oder gar kein Licht; der Wert verletzt einen Grenzwert, "
         "der nirgends gelesen wurde: nachschlagen");
-  CHECK(fr.remark("undecided: needs more particles") == "indécis : il faut plus de particules");
+  CHECK(fr.remark("undecided: legible or not: more paths tell (--rounds)") ==
+        "indécis : lisible ou non : plus de chemins le diront (--rounds)");
   CHECK_FALSE(de.remark("a sentence that nobody says"));
   for (const ReportText& row : remark_texts()) {
     INFO(row.text[0]);
