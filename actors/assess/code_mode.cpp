@@ -96,6 +96,9 @@ class CodeMode {
       const std::function<std::vector<Check>(const std::vector<LitPoint>&, const CodeChoice&)>&
           checks) const;
   std::vector<std::vector<ClearSign>> clear_signs(const std::vector<Walker>& people) const;
+  /// Whether a line to the middle of a face that is seen passes through a pane.
+  bool is_behind_glass(const GeometryAccess& access, const SignView& view,
+                       const glm::dvec3& eye) const;
   double lux_on_face(const Sign& sign) const;
   std::optional<double> vertical_lux(const EmphasisPoint& point) const;
   LinesOfSight seen_from(const std::vector<glm::dvec3>& places) const;
@@ -132,10 +135,17 @@ std::vector<std::vector<ClearSign>> CodeMode::clear_signs(const std::vector<Walk
     for (uint32_t s = 0; s < scene_.signs.size(); ++s) {
       const SignView view = view_of_sign(scene_.signs[s], eye);
       if (!view.behind && building_.seen_share(access, scene_.signs[s], view, eye) > 0.5)
-        out[i].push_back({s, view});
+        out[i].push_back({s, view, is_behind_glass(access, view, eye)});
     }
   });
   return out;
+}
+
+bool CodeMode::is_behind_glass(const GeometryAccess& access, const SignView& view,
+                               const glm::dvec3& eye) const {
+  const double clear = clear_share(building_.scene(), access, building_.local(eye),
+                                   building_.local(view.centre + view.normal * 1e-3));
+  return clear > 0 && clear < 1 - faint_share;
 }
 
 std::vector<Check> CodeMode::of_route(const EscapeRoute& route) const {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numbers>
 
 #include "scenes/emergency/legibility.hpp"
 
@@ -114,9 +115,11 @@ std::string smoke_row(const Json& state) {
   if (at == state.end() || !at->is_object()) return "none";
   std::string out;
   if (const auto all = at->find("extinction"); all != at->end() && all->is_object())
-    out = fmt::format("extinction {} at {:g} nm",
+    out = fmt::format("extinction {} at {:g} nm (optical density {})",
                       range_words(number_at(*all, "min"), number_at(*all, "max")),
-                      number_at(*all, "wavelength_nm"));
+                      number_at(*all, "wavelength_nm"),
+                      range_words(number_at(*all, "min") / std::numbers::ln10,
+                                  number_at(*all, "max") / std::numbers::ln10));
   else
     out = "none";
   for (const Json& medium : list_at(*at, "media")) {

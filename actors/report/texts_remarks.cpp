@@ -160,6 +160,12 @@ constexpr ReportText rows[] = {
       "das hier nicht vorliegt",
       "une face photoluminescente est classée par sa rémanence (ISO 16069, ISO 17398), qui ne sont "
       "pas disponibles"}},
+    {"",
+     {"from {0} of {1} places signs are seen through glass alone, where reflections may hide them",
+      "von {0} der {1} Stellen sind Zeichen nur durch Glas zu sehen, wo Spiegelungen sie verdecken "
+      "können",
+      "depuis {0} des {1} lieux, les panneaux ne sont vus qu’à travers une vitre, où des reflets "
+      "peuvent les cacher"}},
     {"", {"it has no letters", "es hat keine Buchstaben", "il n’a pas de lettres"}},
     {"",
      {"this code judges paths of egress: name them as [[route]]",

@@ -105,7 +105,7 @@ std::vector<Check> checks_beyond(const SceneDescription& scene, const CodeChoice
     out.back().unit = "h";
   };
   const char* const all = "all luminaires and signs";
-  if (scene.routes.empty() && !scene.open_areas.empty())
+  if (scene.routes.empty())
     add(codes.european() ? (codes.set == RuleSet::en1838_2013 ? "E1" : "E5") : "N1", "the building",
         "the scene names no escape route ([[route]])");
   if (codes.european() && emphasis_of(scene).empty())

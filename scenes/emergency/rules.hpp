@@ -89,6 +89,7 @@ std::vector<Check> checks_of_sign(const SceneDescription& scene, const Sign& sig
 struct ClearSign {
   uint32_t sign;
   SignView view;
+  bool through_glass = false;
 };
 /// Whether people on a route have a sign ahead of them near enough everywhere, by the codes'
 /// distances.

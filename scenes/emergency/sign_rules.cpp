@@ -132,7 +132,8 @@ Check lit_green(const SceneDescription& scene, const Sign& sign, const std::stri
 Check reflected_contrast(const Sign& sign, const std::string& subject, const CodeChoice& codes) {
   const double green = luminous_mean(sign.green_reflectance);
   if (!(green > 0)) return not_assessed(rule_of("S3", codes), subject, "green has no luminance");
-  const double ratio = luminous_mean(sign.white_reflectance) / green;
+  // Reflectances are written to some digits, means are sums of many.
+  const double ratio = std::round(luminous_mean(sign.white_reflectance) / green * 1e9) / 1e9;
   const bool low = ratio < min_contrast;
   Check check = judged(rule_of("S3", codes), subject, ratio, low ? min_contrast : max_contrast, low,
                        "1", sign.frame.origin);
@@ -197,14 +198,19 @@ std::vector<Check> checks_of_distance(const SceneDescription& scene, const Escap
   // Of the best sign, as a share of what its rule allows; and the nearest in metres.
   double worst_share = 0, worst_distance = 0;
   glm::dvec3 where_share(0), where_distance(0);
+  size_t through_glass = 0;
   for (size_t i = 0; i < walkers.size(); ++i) {
     double share = std::numeric_limits<double>::infinity(), distance = share;
+    bool any = false, bare = false;
     for (const ClearSign& seen : clear[i]) {
       if (!lies_ahead(walkers[i], seen.view)) continue;
+      any = true;
+      bare = bare || !seen.through_glass;
       const double allowed = viewing_distance(scene.signs[seen.sign], seen.view).allowed_oblique_m;
       if (allowed > 0) share = std::min(share, seen.view.distance_m / allowed);
       distance = std::min(distance, seen.view.distance_m);
     }
+    through_glass += any && !bare ? 1 : 0;
     if (share > worst_share) {
       worst_share = share;
       where_share = walkers[i].foot;
@@ -225,6 +231,10 @@ std::vector<Check> checks_of_distance(const SceneDescription& scene, const Escap
                          where_distance));
     if (std::isinf(worst_distance)) out.back().reason = no_sign_ahead;
   }
+  if (through_glass > 0 && out.back().reason.empty())
+    out.back().reason =
+        "from " + std::to_string(through_glass) + " of " + std::to_string(walkers.size()) +
+        " places signs are seen through glass alone, where reflections may hide them";
   return out;
 }
 
