@@ -154,6 +154,25 @@ void add_switched(const SceneDescription& scene, const Scenario& scenario,
                     signs));
 }
 
+/// Smoke that this state has thinned, and light that no file has measured.
+void add_thinned(const SceneDescription& scene, const Scenario& scenario,
+                 std::vector<std::string>& remarks) {
+  for (const Medium& m : scene.media) {
+    const double factor = extinction_factor(scenario, m.name);
+    if (is_flame(m) || !(factor > 0 && factor < 1)) continue;
+    remarks.push_back(fmt::format(
+        "this state has {:.3g} of the extinction that the scene states of \"{}\"", factor, m.name));
+  }
+  const auto ideal = std::count_if(
+      scene.emitters.begin(), scene.emitters.end(),
+      [](const Emitter& e) { return e.emergency_flux > 0 && e.distribution != Distribution::web; });
+  if (ideal > 0)
+    remarks.push_back(
+        fmt::format("{} emergency luminaires are emitters of simple shape, without a "
+                    "photometric file: nobody has measured their intensities",
+                    ideal));
+}
+
 /// The shortest rated duration that the chosen codes ask for [h].
 double rated_hours(const std::vector<CodeChoice>& codes) {
   double least = std::numeric_limits<double>::infinity();
@@ -259,6 +278,7 @@ void add_remarks(const SceneDescription& scene, const Scenario& scenario, Assess
                                   dark == 1 ? " is" : "s are"));
   add_switched(scene, scenario, remarks);
   add_time(scene, state, remarks);
+  add_thinned(scene, scenario, remarks);
   add_people(scene, state, remarks);
   for (const CodeChoice& codes : state.codes)
     if (const NamedRules& set = named(codes.set); set.status[0] != '\0')

@@ -1,6 +1,7 @@
 // How bright surfaces and signs are stated to be: reflectances that no paint has, rooms that are
 // black all over, signs that are dark, reversed, or brighter than their kind can be.
 #include <algorithm>
+#include <cmath>
 
 #include "actors/inspect/site.hpp"
 #include "scenes/emergency/sign_light.hpp"
@@ -22,6 +23,8 @@ constexpr double most_lit_cd_m2 = 5000;
 constexpr double least_mains_contrast = 2, most_mains_contrast = 50;
 /// Of a sign's shorter side; the details of pictograms are a tenth of it.
 constexpr double large_detail = 0.34;
+/// Luminance ~ cos^n: with more, little is seen from aside.
+constexpr double most_exponent = 2;
 /// A glow that lasts this long is in minutes, or that of another sign [s].
 constexpr double glow_s = 600, most_glow_share = 0.5;
 
@@ -107,11 +110,19 @@ void inspect_glow(const Sign& sign, Findings& out) {
 
 void inspect_face(const Sign& sign, Findings& out) {
   const double white = luminous(sign.white_reflectance), green = luminous(sign.green_reflectance);
-  if (sign.lighting == SignLighting::external && white <= green)
+  if (white <= green)
     tell_of(sign, Severity::warning,
-            fmt::format("is lit from outside, and its white reflects {:.3g}, its green {:.3g}: "
-                        "white is the brighter one; are they swapped?",
-                        white, green),
+            fmt::format(
+                "has colours that reflect light, and its white reflects {:.3g}, its green {:.3g}: "
+                "white is the brighter one; are they swapped?",
+                white, green),
+            out);
+  if (sign.lighting != SignLighting::external && sign.angular_exponent > most_exponent)
+    tell_of(sign, Severity::note,
+            fmt::format("shines ahead alone: at 60 degrees from its normal it has {:.2g} % of its "
+                        "luminance (angular_exponent), and checks take the luminance along the "
+                        "normal",
+                        100 * std::pow(0.5, sign.angular_exponent)),
             out);
   const double shorter = std::min(sign.width_m, sign.height_m);
   if (sign.smallest_detail_m > large_detail * shorter)

@@ -112,6 +112,13 @@ ColumnFault fault_of(const Column& c) {
   while (top > 0 && !c.smoky(top - 1)) --top;
   size_t bottom = 0;
   while (bottom < top && !c.smoky(bottom)) ++bottom;
+  const size_t middle = bottom + (top - bottom) / 2;
+  if (middle > bottom && c.mean(bottom, middle) > upside_down * c.mean(middle, top))
+    return {3, fmt::format("is densest below: {:.3g} /m in its lower half, {:.3g} /m in its upper "
+                           "one, between z = {:.3g} and {:.3g} m. Smoke is denser above: are its "
+                           "layers upside down?",
+                           c.mean(bottom, middle), c.mean(middle, top), c.height(bottom),
+                           c.height(top - 1))};
   const double above_m = static_cast<double>(column_steps - top) * c.step_m();
   if (top < column_steps && above_m >= least_gap_m)
     return {2, fmt::format("ends at z = {:.3g} m and leaves clear air above it, up to the ceiling "

@@ -18,6 +18,8 @@ constexpr double thickest_cell = 200;
 constexpr double flaming_albedo = 0.6, least_albedo = 0.05, most_albedo = 0.995;
 /// Mean cosine of smoke: 0.5 to 0.8.
 constexpr double most_g = 0.95;
+/// Extinction follows wavelength^-1 of soot, up to ^-3.5 of brown smoke.
+constexpr double most_angstrom = 3.5, least_nm = 350, most_nm = 1100;
 
 double albedo_of(const SmokeOptics& optics) {
   return optics.albedo.integral_with(cie_y()) / cie_y().integral();
@@ -41,6 +43,7 @@ class SmokePart {
     if (medium_.emission) return;
     tell_albedo();
     tell_phase();
+    tell_spectrum();
   }
 
  private:
@@ -94,7 +97,26 @@ class SmokePart {
                       albedo));
   }
 
+  void tell_spectrum() {
+    const Extinction& e = optics_.extinction;
+    if (e.table) return;
+    if (e.angstrom > most_angstrom || e.angstrom < 0)
+      tell(
+          fmt::format("has an Angstrom exponent of {:.3g}: soot has 1, droplets of smouldering "
+                      "fires 0 to 3",
+                      e.angstrom));
+    if (e.angstrom != 0 && (e.wavelength_nm > most_nm || e.wavelength_nm < least_nm))
+      tell(
+          fmt::format("states its extinction at {:.4g} nm, from where it is carried to visible "
+                      "light by a power of the wavelength: meters of smoke use 450 to 1000 nm",
+                      e.wavelength_nm));
+  }
+
   void tell_phase() {
+    if (optics_.phase.kind == PhaseKind::rayleigh)
+      tell(
+          "scatters as Rayleigh has it, as particles far smaller than a wavelength do: those of "
+          "smoke are not (phase = \"hg\", g = 0.6)");
     if (optics_.phase.kind != PhaseKind::henyey_greenstein) return;
     const double g = optics_.phase.g;
     if (g < 0)

@@ -125,6 +125,26 @@ void tell_people(const SceneDescription& scene, Findings& out) {
          "that is in force decides");
 }
 
+/// Smoke that is described, and left out of every state.
+void tell_unused_smoke(const SceneDescription& scene, const std::vector<Scenario>& scenarios,
+                       Findings& out) {
+  const auto smokes = [&](const Medium& m) {
+    return !m.emission && std::any_of(scenarios.begin(), scenarios.end(), [&](const Scenario& s) {
+      return factor_of_medium(s, m) > 0;
+    });
+  };
+  const auto first = std::find_if(scene.media.begin(), scene.media.end(),
+                                  [](const Medium& m) { return !m.emission; });
+  if (first == scene.media.end() || !judges_people(scene) ||
+      scenarios.size() < scene.scenarios.size() ||
+      std::any_of(scene.media.begin(), scene.media.end(), smokes))
+    return;
+  out.push_back({Severity::warning,
+                 "scenario",
+                 {first->place, "no scenario has the smoke \"" + first->name +
+                                    "\", nor any other: signs are judged in clear air"}});
+}
+
 }  // namespace
 
 void inspect_states(const SceneDescription& scene, const std::vector<Scenario>& scenarios,
@@ -135,6 +155,7 @@ void inspect_states(const SceneDescription& scene, const std::vector<Scenario>& 
     tell_time(scene, s, out);
   }
   tell_people(scene, out);
+  tell_unused_smoke(scene, scenarios, out);
   for (const AssessedArea& area : scene.task_areas)
     if (area.mains_lx < least_task_lx)
       out.push_back({Severity::warning,

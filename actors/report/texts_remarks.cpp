@@ -166,6 +166,17 @@ constexpr ReportText rows[] = {
       "können",
       "depuis {0} des {1} lieux, les panneaux ne sont vus qu’à travers une vitre, où des reflets "
       "peuvent les cacher"}},
+    {"",
+     {"this state has {0} of the extinction that the scene states of {1}",
+      "dieser Zustand hat {0} der Extinktion, die die Szene für {1} angibt",
+      "cet état a {0} de l’extinction que la scène indique pour {1}"}},
+    {"",
+     {"{0} emergency luminaires are emitters of simple shape, without a photometric file: nobody "
+      "has measured their intensities",
+      "{0} Notleuchten sind Strahler einfacher Form ohne photometrische Datei: ihre Lichtstärken "
+      "hat niemand gemessen",
+      "{0} luminaires de secours sont des émetteurs de forme simple, sans fichier photométrique : "
+      "personne n’a mesuré leurs intensités"}},
     {"", {"it has no letters", "es hat keine Buchstaben", "il n’a pas de lettres"}},
     {"",
      {"this code judges paths of egress: name them as [[route]]",

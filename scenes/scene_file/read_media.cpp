@@ -25,6 +25,9 @@ constexpr double flaming_mass_extinction = 8700;
 constexpr double least_mass_extinction = 500, most_mass_extinction = 5e4;
 /// Beside a fire there are some grams in a cubic metre.
 constexpr double most_soot_kg_m3 = 0.01;
+/// Of flames in buildings, radiated.
+constexpr double coldest_flame_k = 1000, hottest_flame_k = 2500;
+constexpr double weakest_flame_w = 300, most_flame_w = 3e8;
 /// Smouldering smoke is of droplets, which hardly absorb.
 constexpr double least_smouldering_albedo = 0.4;
 
@@ -225,6 +228,18 @@ void read_placed(KeyReader& keys, Medium& m) {
   MediumEmission e;
   e.power_w = emission.number("power_w");
   const double kelvin = emission.number("temperature_k");
+  if (emission.clean() && (kelvin < coldest_flame_k || kelvin > hottest_flame_k))
+    keys.reading().warning(
+        emission.place("temperature_k"),
+        "'temperature_k' is " + shortest_number(kelvin) +
+            " K: flames of buildings have 1100 to 1700 K (900 degrees Celsius are "
+            "1173 K), and their light rises steeply with it");
+  if (emission.clean() && e.power_w > 0 &&
+      (e.power_w < weakest_flame_w || e.power_w > most_flame_w))
+    keys.reading().warning(emission.place("power_w"),
+                           "'power_w' is " + shortest_number(e.power_w) +
+                               " W: burning things radiate a third of their heat release, a waste "
+                               "basket 2e4 W, a room 1e6 W. Is it in kW?");
   const FlameSpectrum flame = flame_spectrum(kelvin, emission.choice("emissivity") == "soot");
   e.spectrum = flame.shape;
   e.visible_fraction = flame.visible_fraction;

@@ -195,6 +195,12 @@ TEST_CASE("faces lit from outside with colours swapped, and large details, are t
   check_found(external("white_reflectance = 0.1\ngreen_reflectance = 0.6\n"), Severity::warning,
               "its white reflects 0.1, its green 0.6");
   CHECK(that_say(external(""), "swapped").empty());
+  check_found(with_exit_sign("emergency_green = 10",
+                             "emergency_green = 10\nwhite_reflectance = 0.1\n"
+                             "green_reflectance = 0.9"),
+              Severity::warning, "its white reflects 0.1, its green 0.9");
+  check_found(with_exit_sign("emergency_green = 10", "emergency_green = 10\nangular_exponent = 8"),
+              Severity::note, "shines ahead alone");
   check_found(with_exit_sign("letter_height = 0.15", "letter_height = 0.15\nsmallest_detail = 0.1"),
               Severity::warning, "more than a third of its shorter side of 0.2 m");
 }

@@ -63,6 +63,11 @@ TEST_CASE("optics that no smoke has are told", "[inspect][smoke]") {
               "nearly all that it scatters goes straight on");
   check_found(found("albedo = 0.3\nphase = \"hg\"\ng = -0.6"), Severity::warning,
               "it would scatter back more than on");
+  check_found(found("albedo = 0.3\nphase = \"rayleigh\""), Severity::warning,
+              "as particles far smaller than a wavelength do");
+  check_found(found("albedo = 0.3\nangstrom = 5"), Severity::warning, "an Angstrom exponent of 5");
+  check_found(found("albedo = 0.3\nangstrom = 1\nwavelength_nm = 4000"), Severity::warning,
+              "states its extinction at 4000 nm");
   check_no_alarm(found("albedo = 0.3\nphase = \"hg\"\ng = 0.6"));
   check_no_alarm(found("albedo = 0.95\nsmoke = \"smouldering\""));
   // Where nobody looks for signs it may be meant.
@@ -73,6 +78,8 @@ TEST_CASE("smoke upside down, with gaps, or over no judged place is told", "[ins
   const auto found = [](const std::string& smoke) { return found_in(judged_room + smoke); };
   check_found(found(layered(layer(0, 1.5, 1) + layer(1.5, 3, 0.1))), Severity::warning,
               "is denser below than above: 1 /m in the lower half");
+  check_found(found(layered(layer(1.5, 2.2, 0.8) + layer(2.2, 3, 0.2))), Severity::warning,
+              "is densest below: 0.8 /m in its lower half");
   check_found(found(even("extinction = 0.5\nalbedo = 0.3", "z_high = 1.2\n")), Severity::warning,
               "is denser below than above");
   check_found(found(layered(layer(1.5, 2.7, 0.5))), Severity::warning,
@@ -87,7 +94,33 @@ TEST_CASE("smoke upside down, with gaps, or over no judged place is told", "[ins
   CHECK(found(even("extinction = 0.5\nalbedo = 0.3")).empty());
   // In a state without it nothing is over anything.
   CHECK(
-      found(layered(layer(0, 1.5, 1) + layer(1.5, 3, 0.1)) + state("smoke_factor = 0\n")).empty());
+      that_say(found(layered(layer(0, 1.5, 1) + layer(1.5, 3, 0.1)) + state("smoke_factor = 0\n")),
+               "denser below")
+          .empty());
+}
+
+TEST_CASE("flames of another unit are told", "[inspect][smoke]") {
+  const auto found = [](const std::string& emission) {
+    return found_in(judged_room +
+                    "[[medium]]\nname = \"fire\"\nkind = \"bounded\"\nbody = \"ellipsoid\"\n"
+                    "position = [3, 1, 0.6]\nradii = [0.2, 0.2, 0.5]\nextinction = 0.5\n"
+                    "albedo = 0.2\n[medium.emission]\n" +
+                    emission);
+  };
+  check_found(found("power_w = 50\ntemperature_k = 1400\n"), Severity::warning, "Is it in kW?");
+  check_found(found("power_w = 5e9\ntemperature_k = 1400\n"), Severity::warning, "Is it in kW?");
+  check_found(found("power_w = 50000\ntemperature_k = 900\n"), Severity::warning,
+              "900 degrees Celsius are 1173 K");
+  check_no_alarm(found("power_w = 50000\ntemperature_k = 1400\n"));
+}
+
+TEST_CASE("smoke that no scenario has is told", "[inspect][smoke]") {
+  const std::string smoke = even("extinction = 0.5\nalbedo = 0.3");
+  check_found(found_in(judged_room + smoke + state("smoke_factor = 0\n")), Severity::warning,
+              "no scenario has the smoke \"smoke\"");
+  CHECK(found_in(judged_room + smoke + state("smoke_factor = 0\n") +
+                 "[[scenario]]\nname = \"smoke\"\n")
+            .empty());
 }
 
 TEST_CASE("settings that contradict the smoke are told", "[inspect][smoke]") {
