@@ -79,7 +79,7 @@ TEST_CASE("smoke upside down, with gaps, or over no judged place is told", "[ins
   check_found(found(layered(layer(0, 1.5, 1) + layer(1.5, 3, 0.1))), Severity::warning,
               "is denser below than above: 1 /m in the lower half");
   check_found(found(layered(layer(1.5, 2.2, 0.8) + layer(2.2, 3, 0.2))), Severity::warning,
-              "is densest below: 0.8 /m in its lower half");
+              "is densest below: 0.75 /m in its lower half");
   check_found(found(even("extinction = 0.5\nalbedo = 0.3", "z_high = 1.2\n")), Severity::warning,
               "is denser below than above");
   check_found(found(layered(layer(1.5, 2.7, 0.5))), Severity::warning,
