@@ -291,7 +291,8 @@ void add_remarks(const SceneDescription& scene, const Scenario& scenario, Assess
 
 bool has_smoke(const SceneDescription& scene, const Scenario& scenario) {
   return std::any_of(scene.media.begin(), scene.media.end(), [&](const Medium& medium) {
-    return !is_flame(medium) && extinction_factor(scenario, medium.name) > 0;
+    return !is_flame(medium) && extinction_factor(scenario, medium.name) > 0 &&
+           range_of(medium).second > 0;
   });
 }
 
@@ -383,7 +384,7 @@ AssessedState state_of(const SceneDescription& scene, const Scenario& scenario,
     if (!(factor > 0)) continue;
     const auto [low, high] = range_of(medium);
     const bool flame = is_flame(medium);
-    state.smoke = state.smoke || !flame;
+    state.smoke = state.smoke || (!flame && high > 0);
     state.media.push_back({medium.name,
                            flame ? "flame" : medium_words.at(static_cast<size_t>(medium.kind)),
                            source_of(medium, factor), factor * low, factor * high});

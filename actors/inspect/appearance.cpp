@@ -25,6 +25,8 @@ constexpr double least_mains_contrast = 2, most_mains_contrast = 50;
 constexpr double large_detail = 0.34;
 /// Luminance ~ cos^n: with more, little is seen from aside.
 constexpr double most_exponent = 2;
+/// Across the longer side of a drawn face, whose details are a tenth of the shorter one.
+constexpr int least_texels = 40;
 /// A glow that lasts this long is in minutes, or that of another sign [s].
 constexpr double glow_s = 600, most_glow_share = 0.5;
 
@@ -123,6 +125,12 @@ void inspect_face(const Sign& sign, Findings& out) {
                         "luminance (angular_exponent), and checks take the luminance along the "
                         "normal",
                         100 * std::pow(0.5, sign.angular_exponent)),
+            out);
+  if (!sign.file.empty() && std::max(sign.face.width, sign.face.height) < least_texels)
+    tell_of(sign, Severity::warning,
+            fmt::format("is drawn with {} x {} texels, too few for the details of \"{}\": say "
+                        "texels = 96 or more",
+                        sign.face.width, sign.face.height, sign.file),
             out);
   const double shorter = std::min(sign.width_m, sign.height_m);
   if (sign.smallest_detail_m > large_detail * shorter)

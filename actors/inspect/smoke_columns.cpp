@@ -190,6 +190,13 @@ void inspect_columns(const SceneDescription& scene, const Building& smoky, Findi
                    "smoke",
                    {smoke->place, "the smoke over " + places[where].of + ", at " +
                                       place_text(places[where].foot) + ", " + worst.text}});
+  if (in_smoke > 0 && 2 * in_smoke < with_ceiling)
+    out.push_back({Severity::note,
+                   "smoke",
+                   {smoke->place, fmt::format("the smoke of this state lies over {} of the {} "
+                                              "places that were tried on routes and in open areas: "
+                                              "people elsewhere are in clear air",
+                                              in_smoke, with_ceiling)}});
   if (in_smoke > 0 && below == in_smoke)
     out.push_back({Severity::note,
                    "smoke",

@@ -194,6 +194,16 @@ void inspect_smoke_numbers(const SceneDescription& scene, Findings& out) {
       inspect_cells(scene, m, out);
       continue;
     }
+    const bool dense = std::any_of(m.layers.begin(), m.layers.end(), [](const Layer& layer) {
+      return layer.optics.extinction.sigma_t > 0;
+    });
+    if (!dense && !(m.kind != MediumKind::layered && m.optics.extinction.sigma_t > 0) &&
+        !m.emission) {
+      out.push_back({judges_people(scene) ? Severity::warning : Severity::note,
+                     "smoke optics",
+                     {m.place, name + " has an extinction of 0: it is clear air"}});
+      continue;
+    }
     if (m.kind != MediumKind::layered) {
       SmokePart(scene, m, m.optics, name, out).inspect();
       continue;

@@ -91,6 +91,17 @@ TEST_CASE("eyes, spacing and rules that make verdicts better are said", "[assess
   CHECK_FALSE(remarks(with("rules = [\"en1838-2013\"]\n"), "the scene names other rules", older));
 }
 
+TEST_CASE("smoke of no extinction is clear air", "[assess][slips]") {
+  const std::string none =
+      "[[medium]]\nname = \"smoke\"\nkind = \"homogeneous\"\nextinction = 0\nalbedo = 0.3\n";
+  const Assessment a = assessed(room + none, by_codes());
+  CHECK_FALSE(a.state.smoke);
+  CHECK(remarks(room + none, "CLEAR AIR"));
+  CHECK(std::any_of(a.warnings.begin(), a.warnings.end(), [](const Problem& w) {
+    return w.what.find("CLEAR AIR") != std::string::npos;
+  }));
+}
+
 TEST_CASE("the first sentence says what was judged and what came of it", "[assess][slips]") {
   const Assessment a = assessed(in_state("seconds_after_failure = 600\n"), by_codes());
   const Json json = assessment_json(*described_text(room), a, "1");

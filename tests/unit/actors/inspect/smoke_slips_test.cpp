@@ -123,6 +123,14 @@ TEST_CASE("smoke that no scenario has is told", "[inspect][smoke]") {
             .empty());
 }
 
+TEST_CASE("smoke of no extinction, or over few of the judged places, is told", "[inspect][smoke]") {
+  check_found(found_in(judged_room + even("extinction = 0\nalbedo = 0.3")), Severity::warning,
+              "has an extinction of 0: it is clear air");
+  check_found(found_in(judged_room + layered(layer(1, 3, 0.5), "box = [[0, -2], [3.5, 2]]\n")),
+              Severity::note, "lies over 2 of the 6 places");
+  CHECK(found_in(judged_room + layered(layer(1, 2, 0) + layer(2, 3, 0.5))).size() == 1);
+}
+
 TEST_CASE("settings that contradict the smoke are told", "[inspect][smoke]") {
   const std::string flaming = even("extinction = 0.5\nsmoke = \"flaming\"\nalbedo = 0.3");
   const auto found = [&](const std::string& keys, const std::string& smoke) {
