@@ -21,6 +21,8 @@ constexpr double beside_m = 0.3;
 constexpr double before_opening_m = 0.01;
 /// Of a luminaire's largest intensity: less sent to a place is none.
 constexpr double faint_share = 1e-3;
+/// Panes that pass less hide a sign: clear ones pass 0.9, two of them 0.8.
+constexpr double dark_pane = 0.5;
 /// A floor is looked for so far below a thing, and not in the thing's own body [m].
 constexpr Real deepest_m = 1000, own_body_m = 0.15_r;
 /// What is met so little above a route is no floor: desks, counters [m].
@@ -30,13 +32,26 @@ bool is_furniture(const Object& object) {
   return std::count(object.tags.begin(), object.tags.end(), furniture) > 0;
 }
 
-/// The scene with emergency fluxes as the circuits of the judged state leave them, never above what
-/// is stated: a luminaire that the state has switched off lights no check.
+/// A sign that is lit from within and gives no light in an emergency shows nobody the way.
+bool is_dark(const Sign& sign) {
+  return sign.lighting == SignLighting::internal && sign.emergency.white_cd_m2 == 0 &&
+         sign.emergency.green_cd_m2 == 0;
+}
+
+/// The scene with emergency fluxes and luminances of signs as the circuits of the judged state
+/// leave them, never above what is stated: a luminaire that the state has switched off lights no
+/// check.
 SceneDescription as_switched(const SceneDescription& scene, const Scenario& state) {
   SceneDescription out = scene;
   if (state.operation == Operation::mains) return out;
   for (Emitter& e : out.emitters)
     e.emergency_flux *= std::min(1.0, factor_of(state.circuits, e.circuit, 1));
+  for (Sign& sign : out.signs) {
+    if (sign.lighting != SignLighting::internal) continue;
+    const double factor = std::min(1.0, factor_of(state.circuits, sign.circuit, 1));
+    sign.emergency.white_cd_m2 *= factor;
+    sign.emergency.green_cd_m2 *= factor;
+  }
   return out;
 }
 
@@ -96,9 +111,9 @@ class CodeMode {
       const std::function<std::vector<Check>(const std::vector<LitPoint>&, const CodeChoice&)>&
           checks) const;
   std::vector<std::vector<ClearSign>> clear_signs(const std::vector<Walker>& people) const;
-  /// Whether a line to the middle of a face that is seen passes through a pane.
-  bool is_behind_glass(const GeometryAccess& access, const SignView& view,
-                       const glm::dvec3& eye) const;
+  /// Of the light from the middle of a face to an eye, what panes on the way let pass.
+  double passed_by_panes(const GeometryAccess& access, const SignView& view,
+                         const glm::dvec3& eye) const;
   double lux_on_face(const Sign& sign) const;
   std::optional<double> vertical_lux(const EmphasisPoint& point) const;
   LinesOfSight seen_from(const std::vector<glm::dvec3>& places) const;
@@ -133,19 +148,21 @@ std::vector<std::vector<ClearSign>> CodeMode::clear_signs(const std::vector<Walk
   building_.each(people.size(), [&](const GeometryAccess& access, size_t i) {
     const glm::dvec3 eye = people[i].foot + glm::dvec3(0, 0, standing_eye_m);
     for (uint32_t s = 0; s < scene_.signs.size(); ++s) {
+      if (is_dark(scene_.signs[s])) continue;
       const SignView view = view_of_sign(scene_.signs[s], eye);
-      if (!view.behind && building_.seen_share(access, scene_.signs[s], view, eye) > 0.5)
-        out[i].push_back({s, view, is_behind_glass(access, view, eye)});
+      if (view.behind || building_.seen_share(access, scene_.signs[s], view, eye) <= 0.5) continue;
+      const double passed = passed_by_panes(access, view, eye);
+      if (passed > 0 && passed < dark_pane) continue;
+      out[i].push_back({s, view, passed > 0 && passed < 1 - faint_share});
     }
   });
   return out;
 }
 
-bool CodeMode::is_behind_glass(const GeometryAccess& access, const SignView& view,
-                               const glm::dvec3& eye) const {
-  const double clear = clear_share(building_.scene(), access, building_.local(eye),
-                                   building_.local(view.centre + view.normal * 1e-3));
-  return clear > 0 && clear < 1 - faint_share;
+double CodeMode::passed_by_panes(const GeometryAccess& access, const SignView& view,
+                                 const glm::dvec3& eye) const {
+  return clear_share(building_.scene(), access, building_.local(eye),
+                     building_.local(view.centre + view.normal * 1e-3));
 }
 
 std::vector<Check> CodeMode::of_route(const EscapeRoute& route) const {

@@ -149,8 +149,8 @@ void add_switched(const SceneDescription& scene, const Scenario& scenario,
                     raised));
   if (signs > 0)
     remarks.push_back(
-        fmt::format("the circuits of this state switch off {} signs: checks of their "
-                    "luminance are for those that are lit",
+        fmt::format("the circuits of this state switch off {} signs: checks by the codes "
+                    "take them as dark",
                     signs));
 }
 

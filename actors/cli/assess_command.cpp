@@ -70,6 +70,11 @@ void print_summary(const Json& a) {
   for (const char* verdict : {"fail", "not verified"})
     for (const Json& check : a["checks"])
       if (check["verdict"] == verdict) print_check(check);
+  for (const Json& check : a["checks"])
+    if (check["verdict"] == "pass" && (check["rule"] == "S4" || check["rule"] == "N8") &&
+        !check.value("reason", "").empty())
+      std::printf("  passes, but: %s: %s\n", check_words(check).c_str(),
+                  check["reason"].get<std::string>().c_str());
   std::string seen;
   for (const auto& [word, count] : a["sight_counts"].items())
     seen += fmt::format("{}{} {}", seen.empty() ? "" : ", ", count.get<int>(), word);

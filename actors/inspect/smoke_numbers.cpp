@@ -12,6 +12,8 @@ namespace {
 
 /// Smoke through which people still walk has 0.05 to 3 /m, that of a fire's own room some 10 /m.
 constexpr double thickest = 20, thinnest = 5e-4;
+/// People do not walk through what is denser.
+constexpr double impassable = 5;
 /// In a cell of a fire simulation, beside the fire.
 constexpr double thickest_cell = 200;
 /// Soot of flaming fires absorbs: its albedo is 0.15 to 0.3, that of white smoke up to 0.99.
@@ -69,6 +71,14 @@ class SmokePart {
                       "metre: smoke in buildings has 0.05 to 10 /m. Is it in 1/km, or its soot in "
                       "g/m3 or mg/m3 instead of kg/m3?",
                       times, sigma * factor, std::exp(-std::min(700.0, sigma * factor))));
+    else if (sigma * factor > impassable && !medium_.emission)
+      out_.push_back({Severity::note,
+                      "smoke optics",
+                      {medium_.place,
+                       name_ + fmt::format(" has{} an extinction of {:.4g} /m, in which a lit sign "
+                                           "is seen for {:.2g} m (Jin, 8/K): is it a visibility "
+                                           "in metres?",
+                                           times, sigma * factor, 8 / (sigma * factor))}});
     else if (factor > 0 && sigma * factor < thinnest)
       tell(
           fmt::format("has{} an extinction of {:.2g} /m, which takes {:.2g} % of the light in a "

@@ -216,12 +216,12 @@ constexpr ReportText rows[] = {
       "les circuits de cet état élèvent le flux de {0} luminaires de secours au-dessus de "
       "l’indiqué : les vues sont jugées ainsi, pas les vérifications"}},
     {"",
-     {"the circuits of this state switch off {0} signs: checks of their luminance are for those "
-      "that are lit",
-      "die Stromkreise dieses Zustands schalten {0} Zeichen aus: Prüfungen ihrer Leuchtdichte "
-      "gelten für leuchtende",
-      "les circuits de cet état éteignent {0} panneaux : les vérifications de luminance valent "
-      "pour ceux qui sont allumés"}},
+     {"the circuits of this state switch off {0} signs: checks by the codes take them as dark",
+      "die Stromkreise dieses Zustands schalten {0} Zeichen aus: die Prüfungen nach den Codes "
+      "nehmen "
+      "sie als dunkel",
+      "les circuits de cet état éteignent {0} panneaux : les vérifications selon les codes les "
+      "prennent comme éteints"}},
     {"",
      {"{0} s after the failure of the mains is later than the rated duration of {1} h that the "
       "rules ask for: batteries may be empty, and luminaires are taken as lit",

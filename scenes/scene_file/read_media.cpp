@@ -144,7 +144,7 @@ SmokeOptics read_optics(KeyReader& keys) {
   if (keys.clean() && keys.maybe_choice("smoke").value_or("") == "smouldering" &&
       albedo < least_smouldering_albedo)
     keys.reading().warning(keys.place("albedo"),
-                           "'albedo' is " + shortest_number(albedo) +
+                           "'albedo' is " + shortest_number(std::round(1000 * albedo) / 1000) +
                                " of smouldering smoke, whose droplets hardly absorb: it has 0.7 to "
                                "0.99, and veils more than soot");
   return optics;

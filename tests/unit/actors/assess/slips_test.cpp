@@ -154,6 +154,25 @@ TEST_CASE("a sign that is seen through glass alone is told beside its check", "[
   CHECK(first_of(assessed(behind, by_codes()), "S4").reason.find(words) != std::string::npos);
 }
 
+TEST_CASE("a dark sign, and one behind dark glass, shows nobody the way", "[assess][slips]") {
+  CHECK(first_of(assessed(room, by_codes()), "S4").verdict == CheckVerdict::pass);
+  const std::string dark = replaced(room, "emergency_white = 100\nemergency_green = 10",
+                                    "emergency_white = 0\nemergency_green = 0");
+  CHECK(first_of(assessed(dark, by_codes()), "S4").verdict == CheckVerdict::fail);
+  const std::string off = replaced(in_state("circuits = { signs = 0 }\n"), "emergency_green = 10\n",
+                                   "emergency_green = 10\ncircuit = \"signs\"\n");
+  CHECK(first_of(assessed(off, by_codes()), "S4").verdict == CheckVerdict::fail);
+  CHECK(*first_of(assessed(off, by_codes()), "S1").value == 0);
+  CHECK(remarks(off, "switch off 1 signs: checks by the codes take them as dark"));
+  const std::string pane =
+      "[[material]]\nname = \"pane\"\nkind = \"glass\"\ntransmittance = 0.1\n"
+      "[[object]]\nname = \"screen\"\nshape = \"quad\"\ncorner = [11, -2, 0]\n"
+      "edge_u = [0, 4, 0]\nedge_v = [0, 0, 3]\nmaterial = \"pane\"\n";
+  const std::string behind =
+      replaced(room, "path = [[1, 0, 0], [11, 0, 0]]", "path = [[1, 0, 0], [10.5, 0, 0]]") + pane;
+  CHECK(first_of(assessed(behind, by_codes()), "S4").verdict == CheckVerdict::fail);
+}
+
 TEST_CASE("an assessment replaces its own files and refuses those of others", "[assess][slips]") {
   const TemporaryFolder folder;
   const std::vector<std::string> files{"report.html", "assessment.json", "checks.csv"};

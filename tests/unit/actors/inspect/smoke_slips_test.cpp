@@ -33,6 +33,8 @@ TEST_CASE("extinctions of another unit are told, with the factor of a scenario",
           "[inspect][smoke]") {
   check_found(found_in(judged_room + even("extinction = 500\nalbedo = 0.3")), Severity::warning,
               "has an extinction of 500 /m");
+  check_found(found_in(judged_room + even("extinction = 10\nalbedo = 0.3")), Severity::note,
+              "is it a visibility in metres?");
   check_found(found_in(judged_room + even("extinction = 0.0002\nalbedo = 0.3")), Severity::warning,
               "which takes 0.02 % of the light in a metre");
   check_found(
