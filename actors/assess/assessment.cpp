@@ -80,9 +80,15 @@ Result<Assessment> assess(const std::shared_ptr<const SceneDescription>& scene,
   const Nanoseconds began = clock.now();
   Assessment out;
   out.state = state_of(*scene, scenario.value(), codes.value());
+  for (std::string& words : overruled(*scene, options.rules, options.deviations))
+    out.state.remarks.push_back(std::move(words));
   out.reality = options.reality;
   if (scenario->operation == Operation::mains)
     out.warnings.push_back({scenario->place, out.state.remarks.front()});
+  for (const std::string& remark : out.state.remarks)
+    if (remark.starts_with("CLEAR AIR") ||
+        remark.find(" not lit in this state") != std::string::npos)
+      out.warnings.push_back({scenario->place, remark});
   out.seed = options.seed;
   out.scene_hash = scene->content_hash;
   out.levels = plan_levels(*scene, scenario.value());

@@ -96,7 +96,7 @@ struct Assessment {
   std::vector<PlanLevel> levels;  // from below; at least one
   std::vector<Problem> warnings;
   std::vector<Finding> findings;  // of the inspection; its warnings are among the above
-  int64_t paths = 0;  // from eyes, of all rounds
+  int64_t paths = 0;              // from eyes, of all rounds
   double seconds = 0;
   uint64_t scene_hash = 0;
   uint64_t seed = 1;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <string_view>
 
 namespace luxodus {
@@ -316,6 +317,41 @@ Fault bad_plan(const Json& a) {
   return std::nullopt;
 }
 
+bool is_listed(const Json& state, const char* key, const std::string& id) {
+  const auto rows = state.find(key);
+  return rows != state.end() && rows->is_array() &&
+         std::any_of(rows->begin(), rows->end(),
+                     [&](const Json& row) { return row.value("id", "") == id; });
+}
+
+/// Checks by rules that the judged state does not name, and counts that are not those of the
+/// checks: a verdict made of these would be of something else.
+Fault bad_checks(const Json& a) {
+  const Json& state = a["state"];
+  std::map<std::string, double> counts;
+  for (size_t i = 0; i < a["checks"].size(); ++i) {
+    const Json& check = a["checks"][i];
+    ++counts[check["verdict"].get<std::string>()];
+    for (const auto& [key, list] :
+         {std::pair("rule_set", "rules"), std::pair("deviation", "deviations")}) {
+      const std::string id = check.value(key, "");
+      if (!id.empty() && !is_listed(state, list, id))
+        return fmt::format("checks[{}] is by \"{}\", which is not among state.{}", i, id, list);
+    }
+  }
+  const std::pair<const char*, const char*> words[] = {{"fail", "fail"},
+                                                       {"not_assessed", "not assessed"},
+                                                       {"not_verified", "not verified"},
+                                                       {"pass", "pass"}};
+  for (const char* table : {"counts", "verdict"})
+    for (const auto& [key, verdict] : words) {
+      const Json said = a[table].value(key, Json());
+      if (said.is_number() && said.get<double>() != counts[verdict])
+        return fmt::format("{}.{} is not the number of its checks", table, key);
+    }
+  return std::nullopt;
+}
+
 Fault bad_counts(const Json& a) {
   for (const auto& [word, count] : a["sight_counts"].items())
     if (!count.is_number()) return "sight_counts." + word + " is not a number";
@@ -337,6 +373,7 @@ std::optional<std::string> fault_of_assessment(const Json& a) {
   for (const RequiredKey& key : keys)
     if (Fault fault = missing(a, key.path, key.kind, "")) return fault;
   if (Fault fault = bad_plan(a)) return fault;
+  if (Fault fault = bad_checks(a)) return fault;
   return bad_counts(a);
 }
 

@@ -173,7 +173,7 @@ Json assessment_json(const SceneDescription& scene, const Assessment& assessment
         {"content_hash", fmt::format("{:016x}", assessment.scene_hash)},
         {"scenario", assessment.state.scenario}}},
       {"state", state_json(assessment.state)},
-      {"verdict", verdict_json(counts)},
+      {"verdict", verdict_json(assessment.state, counts, sight_counts)},
       {"not_assessed", not_assessed_json(assessment)},
       {"people",
        {{"age", exact_json(scene.assessment.age_years, "years")},
@@ -248,6 +248,20 @@ Result<void> write_assessment(const fs::path& folder, const Json& assessment) {
                                                     "jin.legible",
                                                     "viewing_distance.within"});
   if (auto ok = write_csv(folder / "sights.csv", sights); !ok) return ok.problem();
+  return {};
+}
+
+Result<void> refuse_files_of_others(const fs::path& folder, const std::vector<std::string>& files) {
+  const auto text = read_regular_file(folder / "assessment.json", limits::assessment_bytes);
+  const Json old = text ? Json::parse(text.value(), nullptr, false) : Json();
+  if (old.is_object() && old.value("format", Json()) == assessment_format) return {};
+  std::error_code error;
+  for (const std::string& file : files) {
+    if (!fs::exists(fs::symlink_status(folder / file, error))) continue;
+    return problem_in(folder / file,
+                      "this file is there and no assessment has written it: move it away, give "
+                      "another folder, or add --overwrite to luxodus assess to replace it");
+  }
   return {};
 }
 

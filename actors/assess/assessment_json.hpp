@@ -23,6 +23,11 @@ Json assessment_json(const SceneDescription& scene, const Assessment& assessment
 /// Errors: as write_file_atomically; a folder that cannot be made.
 Result<void> write_assessment(const std::filesystem::path& folder, const Json& assessment);
 
+/// Errors: one of these files is in the folder, and no assessment has written it: assessment.json
+/// there is none, or is of another program.
+Result<void> refuse_files_of_others(const std::filesystem::path& folder,
+                                    const std::vector<std::string>& files);
+
 /// Errors: no assessment.json in the folder, or none of ours.
 Result<Json> read_assessment(const std::filesystem::path& folder);
 

@@ -6,6 +6,8 @@
 #include <numeric>
 
 #include "actors/assess/plan_cut.hpp"
+#include "scenes/transport/compile_light.hpp"
+#include "scenes/transport/surroundings.hpp"
 
 namespace luxodus {
 
@@ -17,9 +19,40 @@ constexpr double standing_eye_m = 1.65;
 constexpr double beside_m = 0.3;
 /// So far before a luminous opening a line ends: it may lie in a ceiling [m].
 constexpr double before_opening_m = 0.01;
+/// Of a luminaire's largest intensity: less sent to a place is none.
+constexpr double faint_share = 1e-3;
+/// Panes that pass less hide a sign: clear ones pass 0.9, two of them 0.8.
+constexpr double dark_pane = 0.5;
+/// A floor is looked for so far below a thing, and not in the thing's own body [m].
+constexpr Real deepest_m = 1000, own_body_m = 0.15_r;
+/// What is met so little above a route is no floor: desks, counters [m].
+constexpr double desk_m = 1.3;
 
 bool is_furniture(const Object& object) {
   return std::count(object.tags.begin(), object.tags.end(), furniture) > 0;
+}
+
+/// A sign that is lit from within and gives no light in an emergency shows nobody the way.
+bool is_dark(const Sign& sign) {
+  return sign.lighting == SignLighting::internal && sign.emergency.white_cd_m2 == 0 &&
+         sign.emergency.green_cd_m2 == 0;
+}
+
+/// The scene with emergency fluxes and luminances of signs as the circuits of the judged state
+/// leave them, never above what is stated: a luminaire that the state has switched off lights no
+/// check.
+SceneDescription as_switched(const SceneDescription& scene, const Scenario& state) {
+  SceneDescription out = scene;
+  if (state.operation == Operation::mains) return out;
+  for (Emitter& e : out.emitters)
+    e.emergency_flux *= std::min(1.0, factor_of(state.circuits, e.circuit, 1));
+  for (Sign& sign : out.signs) {
+    if (sign.lighting != SignLighting::internal) continue;
+    const double factor = std::min(1.0, factor_of(state.circuits, sign.circuit, 1));
+    sign.emergency.white_cd_m2 *= factor;
+    sign.emergency.green_cd_m2 *= factor;
+  }
+  return out;
 }
 
 /// The building as the codes look at it.
@@ -78,9 +111,17 @@ class CodeMode {
       const std::function<std::vector<Check>(const std::vector<LitPoint>&, const CodeChoice&)>&
           checks) const;
   std::vector<std::vector<ClearSign>> clear_signs(const std::vector<Walker>& people) const;
+  /// Of the light from the middle of a face to an eye, what panes on the way let pass.
+  double passed_by_panes(const GeometryAccess& access, const SignView& view,
+                         const glm::dvec3& eye) const;
   double lux_on_face(const Sign& sign) const;
   std::optional<double> vertical_lux(const EmphasisPoint& point) const;
   LinesOfSight seen_from(const std::vector<glm::dvec3>& places) const;
+  /// Whether a luminaire sends any of its light to a place.
+  bool shines_at(const GeometryAccess& access, uint32_t luminaire, const glm::dvec3& place) const;
+  /// The floor that a thing hangs over: what is met below it, without furniture; a route's or an
+  /// area's where that is met a little below.
+  std::optional<double> floor_under(const glm::dvec3& place) const;
 
   const SceneDescription& scene_;
   const Building& building_;
@@ -107,12 +148,21 @@ std::vector<std::vector<ClearSign>> CodeMode::clear_signs(const std::vector<Walk
   building_.each(people.size(), [&](const GeometryAccess& access, size_t i) {
     const glm::dvec3 eye = people[i].foot + glm::dvec3(0, 0, standing_eye_m);
     for (uint32_t s = 0; s < scene_.signs.size(); ++s) {
+      if (is_dark(scene_.signs[s])) continue;
       const SignView view = view_of_sign(scene_.signs[s], eye);
-      if (!view.behind && building_.seen_share(access, scene_.signs[s], view, eye) > 0.5)
-        out[i].push_back({s, view});
+      if (view.behind || building_.seen_share(access, scene_.signs[s], view, eye) <= 0.5) continue;
+      const double passed = passed_by_panes(access, view, eye);
+      if (passed > 0 && passed < dark_pane) continue;
+      out[i].push_back({s, view, passed > 0 && passed < 1 - faint_share});
     }
   });
   return out;
+}
+
+double CodeMode::passed_by_panes(const GeometryAccess& access, const SignView& view,
+                                 const glm::dvec3& eye) const {
+  return clear_share(building_.scene(), access, building_.local(eye),
+                     building_.local(view.centre + view.normal * 1e-3));
 }
 
 std::vector<Check> CodeMode::of_route(const EscapeRoute& route) const {
@@ -165,11 +215,47 @@ LinesOfSight CodeMode::seen_from(const std::vector<glm::dvec3>& places) const {
       if (!(distance > before_opening_m)) continue;
       const glm::dvec3 before = lamp + (place - lamp) * (before_opening_m / distance);
       if (clear_share(building_.scene(), access, building_.local(place), building_.local(before)) >
-          0)
+              0 &&
+          shines_at(access, luminaires[i], place))
         seen[i] = 1;
     }
   });
   return LinesOfSight(seen.begin(), seen.end());
+}
+
+bool CodeMode::shines_at(const GeometryAccess& access, uint32_t luminaire,
+                         const glm::dvec3& place) const {
+  const Emitter& e = scene_.emitters[luminaire];
+  if (e.distribution == Distribution::web) {
+    const glm::dvec3 local = glm::transpose(e.frame.axes) * glm::normalize(place - e.frame.origin);
+    return e.web->intensity(local) > faint_share * e.web->peak_cd();
+  }
+  // Of simple shapes by what falls on a face that is turned to them.
+  const auto luminaires = emergency_luminaires(scene_);
+  const auto at = std::find(luminaires.begin(), luminaires.end(), luminaire);
+  const auto column = static_cast<size_t>(at - luminaires.begin());
+  if (column >= columns_.size()) return true;
+  DirectOptions clear_air;
+  clear_air.media = false;
+  const auto lux = direct_by_emitter(building_.scene(), access, building_.local(place),
+                                     glm::vec3(glm::normalize(e.frame.origin - place)), clear_air);
+  return lux[columns_[column]] > 0;
+}
+
+std::optional<double> CodeMode::floor_under(const glm::dvec3& place) const {
+  const auto stated = floor_below(scene_, place);
+  std::optional<double> met;
+  building_.each(1, [&](const GeometryAccess& access, size_t) {
+    const auto stop =
+        first_stop(building_.scene(), access, building_.local(place), glm::vec3(0, 0, -1),
+                   deepest_m, [&](const Facing& f) {
+                     return f.surface >= building_.scene().description->objects.size() ||
+                            lets_light_through(f.kind) || f.distance_m < own_body_m;
+                   });
+    if (stop) met = place.z - static_cast<double>(stop->distance_m);
+  });
+  if (!met) return stated;
+  return stated && *stated < *met && *met - *stated < desk_m ? stated : met;
 }
 
 /// Where a point of emphasis is looked from: before its front, else from all around it, since a
@@ -236,15 +322,17 @@ std::vector<Check> CodeMode::checks_by_light() const {
 
 std::vector<Check> CodeMode::checks_of_parts() const {
   std::vector<Check> out;
+  const FloorUnder floor = [this](const glm::dvec3& place) { return floor_under(place); };
   for (const Sign& sign : scene_.signs) {
     const double lux = lux_on_face(sign);
     const LinesOfSight seen = seen_from(
         {sign.frame.origin + sign.frame.axes[2] * (sign.thickness_m / 2 + floor_plane_m)});
     for (const CodeChoice& codes : codes_)
-      append(out, checks_of_sign(scene_, sign, lux, seen, codes));
+      append(out, checks_of_sign(scene_, sign, lux, seen, codes, floor));
   }
   for (const CodeChoice& codes : codes_) {
-    append(out, checks_of_glare(scene_, codes));
+    append(out, checks_of_glare(scene_, codes, floor));
+    append(out, checks_of_height(scene_, codes, floor));
     append(out, checks_beyond(scene_, codes));
   }
   return out;
@@ -281,14 +369,15 @@ void CodeMode::fill_plan(std::vector<PlanLevel>& levels) const {
 Result<void> assess_by_codes(const SceneDescription& scene, const Scenario& scenario,
                              const AssessOptions& options, const AssessProgress& progress,
                              Assessment& out) {
+  const SceneDescription switched = as_switched(scene, scenario);
   const bool has_furniture = std::any_of(scene.objects.begin(), scene.objects.end(), is_furniture);
   for (const bool furnished : {false, true}) {
     if (furnished && !has_furniture) break;
     progress(furnished ? "codes, with furniture" : "codes, without furniture", furnished ? 0.5 : 0);
-    auto building = Building::make(code_scene(scene, furnished), code_scenario(scene, scenario),
-                                   options.threads);
+    auto building = Building::make(code_scene(switched, furnished),
+                                   code_scenario(switched, scenario), options.threads);
     if (!building) return building.problem();
-    const CodeMode mode(scene, *building.value(), out.state.codes);
+    const CodeMode mode(switched, *building.value(), out.state.codes);
     if (!furnished) mode.fill_plan(out.levels);
     auto checks = mode.checks_by_light();
     if (has_furniture) add_condition(checks, furnished ? "with furniture" : "without furniture");

@@ -1,18 +1,25 @@
 #include "actors/assess/judged_state.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <limits>
 
 #include "actors/assess/aged_light.hpp"
+#include "scenes/emergency/rule_limits.hpp"
 #include "scenes/transport/compile.hpp"
 #include "scenes/transport/compile_light.hpp"
 
 namespace luxodus {
 
 namespace {
+
+/// Eyes younger than this, and eyes below this height [m], are not those of everybody.
+constexpr double young_years = 40, upright_m = 1.4;
+/// People this far apart leave much of a route unseen [m].
+constexpr double far_apart_m = 5;
 
 constexpr std::array medium_words{"homogeneous", "layered", "bounded", "data set"};
 
@@ -112,7 +119,131 @@ std::string ageing_words(const SceneDescription& scene, const AssessedState& sta
       least);
 }
 
-void add_remarks(const SceneDescription& scene, AssessedState& state) {
+/// Emergency luminaires and signs whose circuits this state has dimmed or switched off.
+void add_switched(const SceneDescription& scene, const Scenario& scenario,
+                  std::vector<std::string>& remarks) {
+  if (scenario.operation == Operation::mains) return;
+  size_t off = 0, dimmed = 0, raised = 0, signs = 0;
+  for (const Emitter& e : scene.emitters) {
+    if (!(e.emergency_flux > 0)) continue;
+    const double factor = factor_of(scenario.circuits, e.circuit, 1);
+    off += factor == 0 ? 1 : 0;
+    dimmed += factor > 0 && factor < 1 ? 1 : 0;
+    raised += factor > 1 ? 1 : 0;
+  }
+  for (const Sign& sign : scene.signs)
+    signs += sign.lighting == SignLighting::internal && sign.emergency.white_cd_m2 > 0 &&
+                     factor_of(scenario.circuits, sign.circuit, 1) == 0
+                 ? 1
+                 : 0;
+  if (off + dimmed > 0)
+    remarks.push_back(
+        fmt::format("the circuits of this state switch off {} emergency luminaires "
+                    "and dim {}: checks by the codes take them so, too",
+                    off, dimmed));
+  if (raised > 0)
+    remarks.push_back(
+        fmt::format("the circuits of this state raise the flux of {} emergency "
+                    "luminaires above what is stated: views are judged so, checks by "
+                    "the codes are not",
+                    raised));
+  if (signs > 0)
+    remarks.push_back(
+        fmt::format("the circuits of this state switch off {} signs: checks by the codes "
+                    "take them as dark",
+                    signs));
+}
+
+/// Smoke that this state has thinned, and light that no file has measured.
+void add_thinned(const SceneDescription& scene, const Scenario& scenario,
+                 std::vector<std::string>& remarks) {
+  for (const Medium& m : scene.media) {
+    const double factor = extinction_factor(scenario, m.name);
+    if (is_flame(m) || !(factor > 0 && factor < 1)) continue;
+    remarks.push_back(fmt::format(
+        "this state has {:.3g} of the extinction that the scene states of \"{}\"", factor, m.name));
+  }
+  const auto ideal = std::count_if(
+      scene.emitters.begin(), scene.emitters.end(),
+      [](const Emitter& e) { return e.emergency_flux > 0 && e.distribution != Distribution::web; });
+  if (ideal > 0)
+    remarks.push_back(
+        fmt::format("{} emergency luminaires are emitters of simple shape, without a "
+                    "photometric file: nobody has measured their intensities",
+                    ideal));
+}
+
+/// The shortest rated duration that the chosen codes ask for [h].
+double rated_hours(const std::vector<CodeChoice>& codes) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const CodeChoice& c : codes) {
+    const bool long_one = c.has(Deviation::uk_bs_5266) || c.has(Deviation::duration_3h);
+    least = std::min(least, !c.european() ? rule_limit::us_duration_h
+                            : long_one    ? rule_limit::national_duration_h
+                                          : rule_limit::duration_h);
+  }
+  return least;
+}
+
+/// What is lit or glows so long after the failure by assumption alone.
+void add_time(const SceneDescription& scene, const AssessedState& state,
+              std::vector<std::string>& remarks) {
+  if (!state.seconds_after_failure) return;
+  const double seconds = *state.seconds_after_failure, rated = rated_hours(state.codes);
+  if (state.operation == Operation::emergency && seconds > 3600 * rated)
+    remarks.push_back(
+        fmt::format("{:g} s after the failure of the mains is later than the rated "
+                    "duration of {:g} h that the rules ask for: batteries may be "
+                    "empty, and luminaires are taken as lit",
+                    seconds, rated));
+  const auto silent =
+      std::count_if(scene.emitters.begin(), scene.emitters.end(),
+                    [](const Emitter& e) { return e.emergency_flux > 0 && e.onset.empty(); });
+  if (state.operation == Operation::emergency && seconds < adapted_after_s && silent > 0)
+    remarks.push_back(
+        fmt::format("{} emergency luminaires do not say how fast they come on "
+                    "(onset): they are taken as fully on {:g} s after the failure",
+                    silent, seconds));
+  for (const Sign& sign : scene.signs)
+    if (!sign.decay.empty() && seconds > sign.decay.back().x)
+      return remarks.push_back(
+          fmt::format("the glow of sign \"{}\" is known up to {:g} s after "
+                      "the failure, and is extrapolated",
+                      sign.name, sign.decay.back().x));
+}
+
+/// Who looks, where that is not the usual, and what nobody looks at.
+void add_people(const SceneDescription& scene, const AssessedState& state,
+                std::vector<std::string>& remarks) {
+  const AssessmentSettings& said = scene.assessment;
+  if (said.age_years < young_years)
+    remarks.push_back(fmt::format("signs are judged by eyes of {:g} years: older people see less",
+                                  said.age_years));
+  const double highest = *std::max_element(said.eye_heights_m.begin(), said.eye_heights_m.end());
+  if (highest < upright_m && !scene.routes.empty())
+    remarks.push_back(
+        fmt::format("the highest eyes on routes are {:g} m above the floor: nobody "
+                    "who walks upright is judged",
+                    highest));
+  if (said.spacing_m > far_apart_m && !scene.routes.empty())
+    remarks.push_back(
+        fmt::format("people on routes stand {:g} m apart: what is read between them "
+                    "is not judged",
+                    said.spacing_m));
+  if (scene.signs.empty())
+    remarks.emplace_back("the scene has no sign: nothing is judged of what people read");
+  const auto has_set = [&](RuleSet set) {
+    return std::any_of(state.codes.begin(), state.codes.end(),
+                       [&](const CodeChoice& c) { return c.set == set; });
+  };
+  if (has_set(RuleSet::en1838_2013) && has_set(RuleSet::en1838_2024))
+    remarks.emplace_back(
+        "two editions of EN 1838 are judged: their limits differ, and the one in force decides");
+  if (has_set(RuleSet::nfpa101) && state.codes.size() > 1)
+    remarks.emplace_back("rules of Europe and of the United States are judged beside each other");
+}
+
+void add_remarks(const SceneDescription& scene, const Scenario& scenario, AssessedState& state) {
   auto& remarks = state.remarks;
   if (state.operation == Operation::mains)
     remarks.emplace_back(
@@ -143,9 +274,12 @@ void add_remarks(const SceneDescription& scene, AssessedState& state) {
         return e.emergency_flux > 0 && !std::count(state.lit.begin(), state.lit.end(), e.name);
       }));
   if (state.operation == Operation::emergency && dark > 0)
-    remarks.push_back(fmt::format(
-        "{} emergency luminaire{} not lit in this state; checks by the codes take all as lit", dark,
-        dark == 1 ? " is" : "s are"));
+    remarks.push_back(fmt::format("{} emergency luminaire{} not lit in this state", dark,
+                                  dark == 1 ? " is" : "s are"));
+  add_switched(scene, scenario, remarks);
+  add_time(scene, state, remarks);
+  add_thinned(scene, scenario, remarks);
+  add_people(scene, state, remarks);
   for (const CodeChoice& codes : state.codes)
     if (const NamedRules& set = named(codes.set); set.status[0] != '\0')
       remarks.push_back(fmt::format("{}: {}", set.edition, set.status));
@@ -157,7 +291,8 @@ void add_remarks(const SceneDescription& scene, AssessedState& state) {
 
 bool has_smoke(const SceneDescription& scene, const Scenario& scenario) {
   return std::any_of(scene.media.begin(), scene.media.end(), [&](const Medium& medium) {
-    return !is_flame(medium) && extinction_factor(scenario, medium.name) > 0;
+    return !is_flame(medium) && extinction_factor(scenario, medium.name) > 0 &&
+           range_of(medium).second > 0;
   });
 }
 
@@ -217,6 +352,23 @@ Result<void> irritation_is_said(const SceneDescription& scene, const Scenario& s
                              smoke->name, scenario.name)};
 }
 
+std::vector<std::string> overruled(const SceneDescription& scene,
+                                   const std::vector<std::string>& rules,
+                                   const std::vector<std::string>& deviations) {
+  std::vector<std::string> out;
+  const auto compare = [&](const char* what, std::vector<std::string> said,
+                           std::vector<std::string> asked) {
+    std::sort(said.begin(), said.end());
+    std::sort(asked.begin(), asked.end());
+    if (said.empty() || asked.empty() || said == asked) return;
+    out.push_back(fmt::format("the scene names other {} ({}) than were asked for", what,
+                              fmt::join(said, ", ")));
+  };
+  compare("rules", scene.assessment.rules, rules);
+  compare("deviations", scene.assessment.deviations, deviations);
+  return out;
+}
+
 AssessedState state_of(const SceneDescription& scene, const Scenario& scenario,
                        std::vector<CodeChoice> codes) {
   AssessedState state;
@@ -232,14 +384,14 @@ AssessedState state_of(const SceneDescription& scene, const Scenario& scenario,
     if (!(factor > 0)) continue;
     const auto [low, high] = range_of(medium);
     const bool flame = is_flame(medium);
-    state.smoke = state.smoke || !flame;
+    state.smoke = state.smoke || (!flame && high > 0);
     state.media.push_back({medium.name,
                            flame ? "flame" : medium_words.at(static_cast<size_t>(medium.kind)),
                            source_of(medium, factor), factor * low, factor * high});
   }
   state.codes = std::move(codes);
   state.light = ageing_words(scene, state);
-  add_remarks(scene, state);
+  add_remarks(scene, scenario, state);
   return state;
 }
 

@@ -60,6 +60,11 @@ bool has_smoke(const SceneDescription& scene, const Scenario& scenario);
 /// Errors: there is smoke, and the scene does not say whether it stings.
 Result<void> irritation_is_said(const SceneDescription& scene, const Scenario& scenario);
 
+/// What was asked for by options, and the scene says otherwise: a sentence for each.
+std::vector<std::string> overruled(const SceneDescription& scene,
+                                   const std::vector<std::string>& rules,
+                                   const std::vector<std::string>& deviations);
+
 AssessedState state_of(const SceneDescription& scene, const Scenario& scenario,
                        std::vector<CodeChoice> codes);
 

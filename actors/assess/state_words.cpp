@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numbers>
 
 #include "scenes/emergency/legibility.hpp"
 
@@ -114,9 +115,11 @@ std::string smoke_row(const Json& state) {
   if (at == state.end() || !at->is_object()) return "none";
   std::string out;
   if (const auto all = at->find("extinction"); all != at->end() && all->is_object())
-    out = fmt::format("extinction {} at {:g} nm",
+    out = fmt::format("extinction {} at {:g} nm (optical density {})",
                       range_words(number_at(*all, "min"), number_at(*all, "max")),
-                      number_at(*all, "wavelength_nm"));
+                      number_at(*all, "wavelength_nm"),
+                      range_words(number_at(*all, "min") / std::numbers::ln10,
+                                  number_at(*all, "max") / std::numbers::ln10));
   else
     out = "none";
   for (const Json& medium : list_at(*at, "media")) {
@@ -153,6 +156,32 @@ void add_unassessed(const Json& assessment, std::vector<StateRow>& rows) {
   if (*what != '\0') rows.emplace_back(what, "nothing");
 }
 
+/// "\"fire\", emergency operation, 60 s after the failure, in smoke of 0.2/m to 0.8/m".
+std::string judged_words(const AssessedState& state) {
+  std::string out = fmt::format("\"{}\", {} operation", state.scenario, name_of(state.operation));
+  if (state.seconds_after_failure)
+    out += fmt::format(", {:g} s after the failure", *state.seconds_after_failure);
+  const Json smoke = smoke_json(state);
+  if (!smoke.is_object()) return out + ", in clear air";
+  const Json& extinction = smoke["extinction"];
+  return out + ", in smoke of " +
+         range_words(number_at(extinction, "min"), number_at(extinction, "max"));
+}
+
+std::string first_sentence(const AssessedState& state, const CheckCounts& counts,
+                           const std::map<std::string, size_t>& sights) {
+  std::string rules;
+  for (const CodeChoice& codes : state.codes)
+    rules += (rules.empty() ? "" : " and ") + std::string(named(codes.set).edition);
+  std::string out = fmt::format("{}, by {}: {}", judged_words(state), rules, words_of(counts));
+  size_t all = 0;
+  for (const auto& [verdict, count] : sights) all += count;
+  if (all == 0) return out + "; no view of a sign was judged";
+  const auto legible = sights.find(name_of(SightVerdict::legible));
+  return out + fmt::format("; {} of {} views of signs are legible",
+                           legible == sights.end() ? 0 : legible->second, all);
+}
+
 }  // namespace
 
 Json state_json(const AssessedState& state) {
@@ -169,8 +198,10 @@ Json state_json(const AssessedState& state) {
           {"remarks", state.remarks}};
 }
 
-Json verdict_json(const CheckCounts& counts) {
-  return {{"words", words_of(counts)},
+Json verdict_json(const AssessedState& state, const CheckCounts& counts,
+                  const std::map<std::string, size_t>& sights) {
+  return {{"first", first_sentence(state, counts, sights)},
+          {"words", words_of(counts)},
           {"fail", count_of(counts, CheckVerdict::fail)},
           {"not_assessed", count_of(counts, CheckVerdict::not_assessed)},
           {"not_verified", count_of(counts, CheckVerdict::not_verified)},
@@ -212,6 +243,13 @@ std::string verdict_words(const Json& assessment) {
     for (size_t i = 0; i < counts.size(); ++i)
       if (state_text(check, "verdict") == name_of(static_cast<CheckVerdict>(i))) ++counts[i];
   return words_of(counts);
+}
+
+std::string first_words(const Json& assessment) {
+  const auto verdict = assessment.find("verdict");
+  if (verdict != assessment.end() && verdict->is_object())
+    if (const std::string words = state_text(*verdict, "first"); !words.empty()) return words;
+  return verdict_words(assessment);
 }
 
 bool anything_open(const Json& assessment) {

@@ -3,6 +3,7 @@
 // have their own words in several languages. Pure; any thread.
 #pragma once
 
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,8 +17,14 @@ namespace luxodus {
 /// "state" of assessment.json.
 Json state_json(const AssessedState& state);
 
-/// "verdict" of assessment.json: {"words", "pass", "fail", "not_assessed", "not_verified"}.
-Json verdict_json(const CheckCounts& counts);
+/// "verdict" of assessment.json: {"first", "words", "pass", "fail", "not_assessed",
+/// "not_verified"}. `first` is the sentence that stands first wherever the assessment is shown:
+/// what was judged, by which rules, and what came of it, views of signs included.
+Json verdict_json(const AssessedState& state, const CheckCounts& counts,
+                  const std::map<std::string, size_t>& sights);
+
+/// The "first" of the verdict; of an assessment without one, its words.
+std::string first_words(const Json& assessment);
 
 /// Of what a row is, and what it says: ("operation", "emergency, 600 s after the failure of the
 /// mains"); "" where it goes on from the one before. Of an assessment without a "state", made

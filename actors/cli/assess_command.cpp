@@ -31,6 +31,7 @@ struct AssessCommandOptions {
   AssessOptions assess;
   bool codes_alone = false;
   bool strict = false;
+  bool overwrite = false;
   ReportWords report;
 };
 
@@ -49,27 +50,52 @@ void print_check(const Json& check) {
                 check.value("reason", "").c_str());
 }
 
+/// Views of signs that the people on routes have behind them: read when they turn round.
+std::string behind_words(const Json& a) {
+  size_t behind = 0, legible = 0;
+  for (const Json& row : a["sights"]) {
+    const Json gaze = row["angle_from_gaze"].value("value", Json());
+    if (!gaze.is_number() || gaze.get<double>() <= 90) continue;
+    ++behind;
+    legible += row["verdict"] == name_of(SightVerdict::legible) ? 1 : 0;
+  }
+  if (behind == 0) return "";
+  return fmt::format("of these {} views are of signs behind the walkers, {} of them legible",
+                     behind, legible);
+}
+
 void print_summary(const Json& a) {
-  std::printf("%s%s\n", state_text(a).c_str(), verdict_words(a).c_str());
+  std::printf("%s\n%s%s\n", first_words(a).c_str(), state_text(a).c_str(),
+              verdict_words(a).c_str());
   for (const char* verdict : {"fail", "not verified"})
     for (const Json& check : a["checks"])
       if (check["verdict"] == verdict) print_check(check);
+  for (const Json& check : a["checks"])
+    if (check["verdict"] == "pass" && (check["rule"] == "S4" || check["rule"] == "N8") &&
+        !check.value("reason", "").empty())
+      std::printf("  passes, but: %s: %s\n", check_words(check).c_str(),
+                  check["reason"].get<std::string>().c_str());
   std::string seen;
   for (const auto& [word, count] : a["sight_counts"].items())
     seen += fmt::format("{}{} {}", seen.empty() ? "" : ", ", count.get<int>(), word);
   if (!seen.empty()) std::printf("signs, from routes and areas: %s\n", seen.c_str());
+  if (const std::string behind = behind_words(a); !behind.empty())
+    std::printf("%s\n", behind.c_str());
 }
 
 Result<ExitCode> assess_scene(const AssessCommandOptions& options) {
-  const auto scene = load_scene(options.scene);
+  const auto scene = load_scene(options.scene, ReadingWarnings::left_to_inspection);
   if (!scene) return ExitCode::bad_input;
   const fs::path folder = options.out.empty()
                               ? fs::path("out") / file_name_of(scene->name + "-assessed")
                               : fs::path(options.out);
-  const auto out = OutputFolder::claim(
-      folder, {{"report.html", "report.pdf", "assessment.json", "checks.csv", "sights.csv"},
-               {"plans", "schedules"}});
+  const OutputPlan plan{
+      {"report.html", "report.pdf", "assessment.json", "checks.csv", "sights.csv"},
+      {"plans", "schedules"}};
+  const auto out = OutputFolder::claim(folder, plan);
   if (!out) return out.problem();
+  if (!options.overwrite)
+    if (auto ok = refuse_files_of_others(out->path(), plan.files); !ok) return ok.problem();
   install_interrupt_handler();
   AssessOptions asked = options.assess;
   asked.reality = !options.codes_alone;
@@ -156,6 +182,8 @@ Command assess_command() {
            {"--codes-alone", &o->codes_alone,
             "Assessment by the codes only: no smoke, no "
             "reflections"},
+           {"--overwrite", &o->overwrite,
+            "Replacement of files in the folder that no assessment has written"},
            {"--strict", &o->strict,
             "Exit code 1 where anything fails, is undecided, not assessed or not verified"}},
       .notes =

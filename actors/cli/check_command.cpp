@@ -156,7 +156,7 @@ void add_refusals(const SceneDescription& scene, std::vector<Finding>& out) {
 }
 
 int check(const CheckOptions& options) {
-  const auto description = load_scene(options.scene);
+  const auto description = load_scene(options.scene, ReadingWarnings::left_to_inspection);
   if (!description) return ExitCode::bad_input;
   auto scenarios = chosen_scenarios(*description, options.scenario);
   if (!scenarios) {

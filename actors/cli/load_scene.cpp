@@ -7,7 +7,8 @@
 
 namespace luxodus::cli {
 
-std::shared_ptr<const SceneDescription> load_scene(const std::string& file) {
+std::shared_ptr<const SceneDescription> load_scene(const std::string& file,
+                                                   ReadingWarnings warnings) {
   if (is_pack(file)) {
     auto packed = read_pack(file);
     if (packed) return packed.value();
@@ -17,7 +18,8 @@ std::shared_ptr<const SceneDescription> load_scene(const std::string& file) {
   ReadScene read = read_scene(file);
   for (const Problem& p : read.problems.list()) tell(p);
   if (!read.scene) return nullptr;
-  for (const Problem& w : read.scene->warnings) warn(w.text());
+  if (warnings == ReadingWarnings::told)
+    for (const Problem& w : read.scene->warnings) warn(w.text());
   return std::make_shared<const SceneDescription>(std::move(*read.scene));
 }
 

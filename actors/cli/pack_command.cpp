@@ -47,7 +47,7 @@ Result<PackReport> pack_scene(const PackOptions& options) {
         "--skeleton-only copies from a pack, so that both are of the same cells: pack "
         "the scene first");
   }
-  const auto description = load_scene(options.scene);
+  const auto description = load_scene(options.scene, ReadingWarnings::left_to_inspection);
   if (!description) return problem_in(options.scene, "the scene has problems, told above");
   if (auto ok = check_output_file(options.out); !ok) return ok.problem();
   auto scenario = find_scenario(*description, options.scenario);

@@ -337,7 +337,7 @@ int run_scene(const RunOptions& options) {
     tell(rule.problem());
     return ExitCode::bad_input;
   }
-  const auto description = load_scene(options.scene);
+  const auto description = load_scene(options.scene, ReadingWarnings::left_to_inspection);
   if (!description) return ExitCode::bad_input;
   auto scenarios = chosen_scenarios(*description, options.scenario);
   if (!scenarios) {

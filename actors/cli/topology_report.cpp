@@ -141,7 +141,7 @@ Json loads_json(const LinkLoads& loads) {
 
 Json measures_json(const Graph& graph, const Measures& m) {
   Json json = {
-      {"nodes", graph.workers()},          {"links_most", graph.max_links()},
+      {"nodes", graph.workers()},          {"max_links", graph.max_links()},
       {"links", graph.links().size()},     {"controller", name_of(graph.controller_role())},
       {"rotation", graph.rotation()},      {"hash", hex(graph.hash())},
       {"routes_hash", hex(m.routes_hash)}, {"all", part_json(m.all)}};

@@ -39,7 +39,7 @@ Result<SceneState> wanted_state(const ViewOptions& options) {
 Result<ExitCode> view(const ViewOptions& options) {
   auto wanted = wanted_state(options);
   if (!wanted) return wanted.problem();
-  const auto scene = load_scene(wanted->scene_file);
+  const auto scene = load_scene(wanted->scene_file, ReadingWarnings::left_to_inspection);
   if (!scene) return ExitCode::bad_input;
   const std::string scenario = scene->scenarios.empty() ? "" : wanted->scenario;
   const auto found = find_scenario(*scene, scenario);

@@ -90,7 +90,9 @@ std::string signs(const Json& result) {
   return text;
 }
 
+/// What is not all is never rounded to it.
 std::string percent(double share) {
+  if (share < 1 && share > 0.995) return fmt::format("{:.4g} %", 100 * share);
   return share < 0.0995 ? fmt::format("{:.2g} %", 100 * share)
                         : fmt::format("{:.0f} %", 100 * share);
 }

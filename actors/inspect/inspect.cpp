@@ -175,6 +175,7 @@ std::optional<Problem> inspect_media_of(const SceneDescription& scene, const Sce
   inspect_media(building.value()->scene(), out);
   inspect_flames(*building.value(), out, misplaced.media);
   inspect_smoke(scene, *building.value(), out);
+  inspect_columns(scene, *building.value(), out);
   return std::nullopt;
 }
 
@@ -229,9 +230,16 @@ Result<std::vector<Finding>> inspect(const std::shared_ptr<const SceneDescriptio
   std::vector<const Scenario*> all;
   for (const Scenario& s : scenarios) all.push_back(&s);
   Findings of_scene;
+  for (const Problem& warning : scene->warnings)
+    of_scene.push_back({Severity::warning, "file", warning});
   inspect_sizes(*scene, of_scene);
   inspect_reach(*scene, of_scene);
   inspect_fluxes(*scene, of_scene);
+  inspect_materials(*scene, of_scene);
+  inspect_sign_light(*scene, of_scene);
+  inspect_smoke_numbers(*scene, of_scene);
+  inspect_smoke_settings(*scene, scenarios, of_scene);
+  inspect_states(*scene, scenarios, of_scene);
   out.add(std::move(of_scene), names_of(all));
   Misplaced misplaced;
   for (const auto& state : alike(all, doors_of)) {

@@ -33,9 +33,6 @@ constexpr double lost_share = 0.5 + 2 * 0.5 / 32;
 constexpr uint64_t ends_seed = 17;
 /// Two things nearer than this stand in one place [m].
 constexpr double one_place_m = 0.01;
-/// Of the flux of its file, on emergency supply: more is a percentage taken for a share, less may
-/// be a luminaire of the same make with more lamps.
-constexpr double max_flux_share = 4;
 /// Two directions within 8 degrees are one.
 constexpr double one_direction = 0.99;
 
@@ -111,28 +108,29 @@ std::optional<Finding> wrong_emitter(const Site& site, const GeometryAccess& acc
   Ends ends = ends_of(site, access, emitter, few_rays);
   if (ends.near > few_share) ends = ends_of(site, access, emitter, many_rays);
   if (ends.near > lost_share)
-    return Finding{
-        Severity::error,
-        "inside",
-        {e.place, fmt::format("{} lies in a wall or body: {:.0f} % of its light ends "
-                              "within 2 cm, most of that on {}: move it out",
-                              emitter_text(e), 100 * ends.near, surface_text(site, ends.surface))}};
+    return Finding{Severity::error,
+                   "inside",
+                   {e.place, fmt::format("{} lies in a wall or body: {} of its light ends "
+                                         "within 2 cm, most of that on {}: move it out",
+                                         emitter_text(e), percent_text(ends.near),
+                                         surface_text(site, ends.surface))}};
   if (ends.back > 0.5 && site.in_body(access, middle))
-    return Finding{
-        Severity::error,
-        "inside",
-        {e.place, fmt::format("{} lies inside {}, where {:.0f} % of its light ends: "
-                              "move it out",
-                              emitter_text(e), surface_text(site, ends.surface), 100 * ends.back)}};
+    return Finding{Severity::error,
+                   "inside",
+                   {e.place, fmt::format("{} lies inside {}, where {} of its light ends: "
+                                         "move it out",
+                                         emitter_text(e), surface_text(site, ends.surface),
+                                         percent_text(ends.back))}};
   if (!site.is_outside(access, middle)) return std::nullopt;
   stands_outside = 1;
   if (ends.close_back > 0.5)
     return Finding{
         Severity::warning,
         "outside",
-        {e.place, fmt::format("{} stands outside, and {:.0f} % of its light ends on the outer side "
-                              "of {}: is it above the ceiling? Move it into the room",
-                              emitter_text(e), 100 * ends.back, surface_text(site, ends.surface))}};
+        {e.place,
+         fmt::format("{} stands outside, and {} of its light ends on the outer side "
+                     "of {}: is it above the ceiling? Move it into the room",
+                     emitter_text(e), percent_text(ends.back), surface_text(site, ends.surface))}};
   return Finding{
       Severity::note,
       "outside",
@@ -237,20 +235,6 @@ void inspect_luminaires(const Site& site, Findings& out, std::vector<char>& outs
   for (auto& finding : found)
     if (finding) out.push_back(std::move(*finding));
   find_double_emitters(site.scene, out);
-}
-
-void inspect_fluxes(const SceneDescription& scene, Findings& out) {
-  for (const Emitter& e : scene.emitters) {
-    if (!e.web || e.radiometric || !(e.emergency_flux > 0)) continue;
-    const double share = e.emergency_flux / e.emergency_ageing / e.web->flux_lm();
-    if (share <= max_flux_share) continue;
-    out.push_back({Severity::warning,
-                   "flux",
-                   {e.place, fmt::format("{} gives {:.3g} times the {:.4g} lm of its file in "
-                                         "emergency operation: emergency_factor is a share, 0.15 "
-                                         "for 15 %, and emergency_flux is in lm",
-                                         emitter_text(e), share, e.web->flux_lm())}});
-  }
 }
 
 void inspect_judged_places(const Site& site, Findings& out) {

@@ -12,7 +12,7 @@ namespace luxodus {
 namespace {
 
 /// Places along each edge of the box that two media share.
-constexpr int steps = 12;
+constexpr int overlap_steps = 12;
 /// A flame of which more than this share burns outside was meant to be in a room.
 constexpr double overlap_share = 0.1;
 constexpr double one_flame_m = 0.02;
@@ -42,9 +42,11 @@ Overlap overlap_of(const CompiledScene& scene, int a, int b) {
   if (glm::any(glm::greaterThanEqual(box.low, box.high))) return out;
   ResidentBricks bricks(scene.media);
   const int band = scene.bands.count() / 2;
-  for (int i = 0; i < steps * steps * steps; ++i) {
-    const glm::dvec3 share = (glm::dvec3(i % steps, i / steps % steps, i / steps / steps) + 0.5) /
-                             static_cast<double>(steps);
+  for (int i = 0; i < overlap_steps * overlap_steps * overlap_steps; ++i) {
+    const glm::dvec3 share = (glm::dvec3(i % overlap_steps, i / overlap_steps % overlap_steps,
+                                         i / overlap_steps / overlap_steps) +
+                              0.5) /
+                             static_cast<double>(overlap_steps);
     const glm::dvec3 place = box.low + (box.high - box.low) * share;
     double first = 0, second = 0;
     for_each_medium_at(scene.media, band, Vec3(place - scene.local_origin), bricks,
@@ -167,7 +169,7 @@ void inspect_flames(const Building& smoky, Findings& out, std::vector<char>& mis
     const Burning burning = burning_of(smoky, i);
     if (burning.all == 0) continue;
     const auto percent = [&](int part) {
-      return fmt::format("{:.0f} %", 100.0 * part / burning.all);
+      return percent_text(static_cast<double>(part) / burning.all);
     };
     if (2 * burning.in_bodies > burning.all)
       out.push_back({Severity::error,

@@ -34,6 +34,12 @@ std::string place_text(const glm::dvec3& p) {
   return fmt::format("({:.2f}, {:.2f}, {:.2f})", p.x, p.y, p.z);
 }
 
+std::string percent_text(double share) {
+  if (share < 1 && share > 0.99) return "over 99 %";
+  if (share > 0 && share < 0.01) return "under 1 %";
+  return fmt::format("{:.0f} %", 100 * share);
+}
+
 std::string object_text(const Object& object) {
   const SourcePlace& place = object.place;
   return fmt::format("\"{}\"{}", object.name,

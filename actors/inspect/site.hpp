@@ -17,6 +17,8 @@ using Findings = std::vector<Finding>;
 /// "0.15 m", "4 mm", "12.3 km"; "(1.00, 2.50, 0.00)".
 std::string length_text(double length_m);
 std::string place_text(const glm::dvec3& place);
+/// "37 %"; what is not all and not nothing is never rounded to it: "over 99 %", "under 1 %".
+std::string percent_text(double share);
 /// "wall" (scene.toml:12)
 std::string object_text(const Object& object);
 
@@ -31,6 +33,9 @@ class Remoteness {
   std::vector<Bounds> objects_;
   double height_m_ = 0;
 };
+
+/// Whether somebody looks for signs, or walks: what makes a verdict wrong is then a warning.
+bool judges_people(const SceneDescription& scene);
 
 struct Site {
   const SceneDescription& scene;  // as it is described
@@ -68,6 +73,14 @@ void inspect_turned_rooms(const Site& site, Findings& out);
 void inspect_sizes(const SceneDescription& scene, Findings& out);
 void inspect_reach(const SceneDescription& scene, Findings& out);
 void inspect_fluxes(const SceneDescription& scene, Findings& out);
+void inspect_materials(const SceneDescription& scene, Findings& out);
+void inspect_sign_light(const SceneDescription& scene, Findings& out);
+void inspect_smoke_numbers(const SceneDescription& scene, Findings& out);
+/// Of these scenarios and the settings of the assessment.
+void inspect_smoke_settings(const SceneDescription& scene, const std::vector<Scenario>& scenarios,
+                            Findings& out);
+void inspect_states(const SceneDescription& scene, const std::vector<Scenario>& scenarios,
+                    Findings& out);
 
 /// Media of a scenario that overlap. `scene`: compiled with its media.
 void inspect_media(const CompiledScene& scene, Findings& out);
@@ -76,6 +89,8 @@ void inspect_media(const CompiledScene& scene, Findings& out);
 void inspect_flames(const Building& smoky, Findings& out, std::vector<char>& misplaced);
 /// Eyes in smoke through which nothing can be seen. `smoky`: a building with its media.
 void inspect_smoke(const SceneDescription& scene, const Building& smoky, Findings& out);
+/// Smoke from the floor to the ceiling of the places that are judged.
+void inspect_columns(const SceneDescription& scene, const Building& smoky, Findings& out);
 
 /// What stands outside or is told to stand wrong: its light is not meant for the rooms.
 struct Misplaced {

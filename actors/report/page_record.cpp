@@ -145,7 +145,9 @@ std::string verdict_words(const Texts& texts, const Json& a) {
   const Json& v = a["verdict"];
   const auto fails = v["fail"].get<int64_t>(), open = v["not_assessed"].get<int64_t>(),
              unverified = v["not_verified"].get<int64_t>();
-  if (texts.language() == Language::en && !text_in(v, "words").empty()) return text_in(v, "words");
+  if (texts.language() == Language::en)
+    for (const char* key : {"first", "words"})
+      if (!text_in(v, key).empty()) return text_in(v, key);
   std::string out = fails > 0 ? texts.say("verdict.lead.fails", fails, open)
                               : texts.say("verdict.lead.none", open);
   if (unverified > 0) out += ", " + texts.say("verdict.unverified", unverified);

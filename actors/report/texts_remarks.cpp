@@ -80,8 +80,8 @@ constexpr ReportText remarks_rows[] = {
       "es ist ein bodennahes, das die hohen ergänzen kann (ISO 16069)",
       "c’est un panneau bas, qui peut compléter ceux du haut (ISO 16069)"}},
     {"",
-     {"no sign faces this place", "kein Zeichen ist dieser Stelle zugewandt",
-      "aucun panneau n’est tourné vers ce lieu"}},
+     {"no sign ahead faces this place", "kein Zeichen voraus ist dieser Stelle zugewandt",
+      "aucun panneau devant n’est tourné vers ce lieu"}},
     {"",
      {"a beam of parallel light has no intensity, and it points where glare counts",
       "paralleles Licht hat keine Lichtstärke, und es zielt dorthin, wo Blendung zählt",
@@ -91,20 +91,25 @@ constexpr ReportText remarks_rows[] = {
       "als ob kein Teil des Netzes einen anderen verdeckte",
       "comme si aucune partie du maillage n’en cachait une autre"}},
     {"",
-     {"the nearest is {0}; {1} is {2} m away, but behind something solid",
-      "die nächste ist {0}; {1} ist {2} m entfernt, aber hinter etwas Festem",
-      "le plus proche est {0} ; {1} est à {2} m, mais derrière un obstacle"}},
+     {"the nearest is {0}; {1} is {2} m away, but behind something solid, or shining elsewhere",
+      "die nächste ist {0}; {1} ist {2} m entfernt, aber hinter etwas Festem oder anderswohin "
+      "strahlend",
+      "le plus proche est {0} ; {1} est à {2} m, mais derrière un obstacle ou éclairant ailleurs"}},
     {"", {"the nearest is {0}", "die nächste ist {0}", "le plus proche est {0}"}},
     {"",
-     {"no emergency luminaire is in sight; {0} is {1} m away, but behind something solid",
-      "keine Notleuchte ist in Sicht; {0} ist {1} m entfernt, aber hinter etwas Festem",
-      "aucun luminaire de secours n’est en vue ; {0} est à {1} m, mais derrière un obstacle"}},
+     {"no emergency luminaire is in sight; {0} is {1} m away, but behind something solid, or "
+      "shining elsewhere",
+      "keine Notleuchte ist in Sicht; {0} ist {1} m entfernt, aber hinter etwas Festem oder "
+      "anderswohin strahlend",
+      "aucun luminaire de secours n’est en vue ; {0} est à {1} m, mais derrière un obstacle ou "
+      "éclairant ailleurs"}},
     {"",
      {"no emergency luminaire above it is in sight; {0} is {1} m away, but behind something "
-      "solid",
-      "keine Notleuchte darüber ist in Sicht; {0} ist {1} m entfernt, aber hinter etwas Festem",
+      "solid, or shining elsewhere",
+      "keine Notleuchte darüber ist in Sicht; {0} ist {1} m entfernt, aber hinter etwas Festem "
+      "oder anderswohin strahlend",
       "aucun luminaire de secours au-dessus n’est en vue ; {0} est à {1} m, mais derrière un "
-      "obstacle"}},
+      "obstacle ou éclairant ailleurs"}},
     {"",
      {"no emergency luminaire is above it", "keine Notleuchte ist darüber",
       "aucun luminaire de secours n’est au-dessus"}},
@@ -115,10 +120,22 @@ constexpr ReportText remarks_rows[] = {
     // Reasons of views.
     {"", {"views of signs", "Sichten auf Zeichen", "vues de panneaux"}},
     {"", {"undecided: {0}", "unentschieden: {0}", "indécis : {0}"}},
-    {"", {"needs more particles", "braucht mehr Teilchen", "il faut plus de particules"}},
     {"",
-     {"the building hides a part of it", "das Bauwerk verdeckt einen Teil davon",
-      "le bâtiment en cache une partie"}},
+     {"visible or invisible: more paths tell (--rounds)",
+      "sichtbar oder unsichtbar: mehr Pfade zeigen es (--rounds)",
+      "visible ou invisible : plus de chemins le diront (--rounds)"}},
+    {"",
+     {"legible or not: more paths tell (--rounds)",
+      "lesbar oder nicht: mehr Pfade zeigen es (--rounds)",
+      "lisible ou non : plus de chemins le diront (--rounds)"}},
+    {"",
+     {"legible or even invisible: more paths tell (--rounds)",
+      "lesbar oder gar unsichtbar: mehr Pfade zeigen es (--rounds)",
+      "lisible ou même invisible : plus de chemins le diront (--rounds)"}},
+    {"",
+     {"the building hides a part of it: what is left may be read or not",
+      "das Bauwerk verdeckt einen Teil davon: ob der Rest lesbar ist, ist offen",
+      "le bâtiment en cache une partie : le reste est lisible ou non"}},
     {"",
      {"the eye is in a solid thing", "das Auge steckt in etwas Festem",
       "l’œil se trouve dans un corps solide"}},
@@ -133,6 +150,122 @@ constexpr ReportText remarks_rows[] = {
       "fumée irritante : trop loin pour des yeux qui piquent (Jin et Yamada 1985)"}},
     // The judged state.
     {"", {"no luminaire is lit", "keine Leuchte brennt", "aucun luminaire n’est allumé"}},
+    {"",
+     {"no check could be made", "keine Prüfung war möglich",
+      "aucune vérification n’a pu être faite"}},
+    {"",
+     {"a photoluminescent face is classed by its glow (ISO 16069, ISO 17398), which are not at "
+      "hand",
+      "eine nachleuchtende Fläche wird nach ihrem Nachleuchten eingestuft (ISO 16069, ISO 17398), "
+      "das hier nicht vorliegt",
+      "une face photoluminescente est classée par sa rémanence (ISO 16069, ISO 17398), qui ne sont "
+      "pas disponibles"}},
+    {"",
+     {"from {0} of {1} places signs are seen through glass alone, where reflections may hide them",
+      "von {0} der {1} Stellen sind Zeichen nur durch Glas zu sehen, wo Spiegelungen sie verdecken "
+      "können",
+      "depuis {0} des {1} lieux, les panneaux ne sont vus qu’à travers une vitre, où des reflets "
+      "peuvent les cacher"}},
+    {"",
+     {"this state has {0} of the extinction that the scene states of {1}",
+      "dieser Zustand hat {0} der Extinktion, die die Szene für {1} angibt",
+      "cet état a {0} de l’extinction que la scène indique pour {1}"}},
+    {"",
+     {"{0} emergency luminaires are emitters of simple shape, without a photometric file: nobody "
+      "has measured their intensities",
+      "{0} Notleuchten sind Strahler einfacher Form ohne photometrische Datei: ihre Lichtstärken "
+      "hat niemand gemessen",
+      "{0} luminaires de secours sont des émetteurs de forme simple, sans fichier photométrique : "
+      "personne n’a mesuré leurs intensités"}},
+    {"", {"it has no letters", "es hat keine Buchstaben", "il n’a pas de lettres"}},
+    {"",
+     {"this code judges paths of egress: name them as [[route]]",
+      "dieser Code beurteilt Fluchtwege: als [[route]] angeben",
+      "ce code juge les chemins d’évacuation : les indiquer par [[route]]"}},
+    {"",
+     {"the scene names no escape route ([[route]])",
+      "die Szene nennt keinen Rettungsweg ([[route]])",
+      "la scène n’indique aucun chemin d’évacuation ([[route]])"}},
+    {"",
+     {"the scene names no place that a luminaire must be near to ([[emphasis]]): exits, stairs, "
+      "equipment",
+      "die Szene nennt keine hervorzuhebende Stelle ([[emphasis]]): Ausgänge, Treppen, "
+      "Einrichtungen",
+      "la scène n’indique aucun point à signaler ([[emphasis]]) : sorties, escaliers, "
+      "équipements"}},
+    {"",
+     {"{0} emergency luminaire is not lit in this state",
+      "{0} Notleuchte brennt in diesem Zustand nicht",
+      "{0} luminaire de secours n’est pas allumé dans cet état"}},
+    {"",
+     {"{0} emergency luminaires are not lit in this state",
+      "{0} Notleuchten brennen in diesem Zustand nicht",
+      "{0} luminaires de secours ne sont pas allumés dans cet état"}},
+    {"",
+     {"the circuits of this state switch off {0} emergency luminaires and dim {1}: checks by the "
+      "codes take them so, too",
+      "die Stromkreise dieses Zustands schalten {0} Notleuchten aus und dimmen {1}: die Prüfungen "
+      "nach den Codes nehmen sie ebenso",
+      "les circuits de cet état éteignent {0} luminaires de secours et en réduisent {1} : les "
+      "vérifications selon les codes les prennent ainsi"}},
+    {"",
+     {"the circuits of this state raise the flux of {0} emergency luminaires above what is stated: "
+      "views are judged so, checks by the codes are not",
+      "die Stromkreise dieses Zustands heben den Lichtstrom von {0} Notleuchten über den "
+      "angegebenen: Sichten werden so beurteilt, Prüfungen nach den Codes nicht",
+      "les circuits de cet état élèvent le flux de {0} luminaires de secours au-dessus de "
+      "l’indiqué : les vues sont jugées ainsi, pas les vérifications"}},
+    {"",
+     {"the circuits of this state switch off {0} signs: checks by the codes take them as dark",
+      "die Stromkreise dieses Zustands schalten {0} Zeichen aus: die Prüfungen nach den Codes "
+      "nehmen "
+      "sie als dunkel",
+      "les circuits de cet état éteignent {0} panneaux : les vérifications selon les codes les "
+      "prennent comme éteints"}},
+    {"",
+     {"{0} s after the failure of the mains is later than the rated duration of {1} h that the "
+      "rules ask for: batteries may be empty, and luminaires are taken as lit",
+      "{0} s nach dem Netzausfall ist später als die verlangte Betriebsdauer von {1} h: Batterien "
+      "können leer sein, und Leuchten gelten als leuchtend",
+      "{0} s après la coupure du secteur dépassent l’autonomie de {1} h exigée : les batteries "
+      "peuvent être vides, et les luminaires sont pris comme allumés"}},
+    {"",
+     {"{0} emergency luminaires do not say how fast they come on (onset): they are taken as fully "
+      "on {1} s after the failure",
+      "von {0} Notleuchten ist nicht angegeben, wie schnell sie angehen (onset): sie gelten {1} s "
+      "nach dem Ausfall als voll leuchtend",
+      "{0} luminaires de secours n’indiquent pas leur vitesse d’allumage (onset) : ils sont pris "
+      "comme pleinement allumés {1} s après la coupure"}},
+    {"",
+     {"the glow of sign {0} is known up to {1} s after the failure, and is extrapolated",
+      "das Nachleuchten des Zeichens {0} ist bis {1} s nach dem Ausfall bekannt und wird "
+      "fortgesetzt",
+      "la rémanence du panneau {0} est connue jusqu’à {1} s après la coupure, et extrapolée"}},
+    {"",
+     {"signs are judged by eyes of {0} years: older people see less",
+      "Zeichen werden mit Augen von {0} Jahren beurteilt: ältere Menschen sehen weniger",
+      "les panneaux sont jugés par des yeux de {0} ans : les personnes plus âgées voient moins"}},
+    {"",
+     {"the highest eyes on routes are {0} m above the floor: nobody who walks upright is judged",
+      "die höchsten Augen auf Wegen liegen {0} m über dem Boden: niemand geht aufrecht",
+      "les yeux les plus hauts sur les chemins sont à {0} m du sol : personne ne marche debout"}},
+    {"",
+     {"people on routes stand {0} m apart: what is read between them is not judged",
+      "Personen auf Wegen stehen {0} m auseinander: dazwischen wird nicht beurteilt",
+      "les personnes sur les chemins sont espacées de {0} m : entre elles rien n’est jugé"}},
+    {"",
+     {"the scene has no sign: nothing is judged of what people read",
+      "die Szene hat kein Zeichen: nichts ist beurteilt, was Menschen lesen",
+      "la scène n’a pas de panneau : rien n’est jugé de ce que l’on lit"}},
+    {"",
+     {"two editions of EN 1838 are judged: their limits differ, and the one in force decides",
+      "zwei Ausgaben von EN 1838 sind beurteilt: ihre Grenzwerte unterscheiden sich, die geltende "
+      "entscheidet",
+      "deux éditions de l’EN 1838 sont jugées : leurs limites diffèrent, celle en vigueur décide"}},
+    {"",
+     {"rules of Europe and of the United States are judged beside each other",
+      "Regeln Europas und der Vereinigten Staaten stehen nebeneinander",
+      "des règles d’Europe et des États-Unis sont jugées côte à côte"}},
     {"",
      {"as stated: no lit luminaire says that its light falls with age",
       "wie angegeben: keine brennende Leuchte nennt einen Rückgang mit dem Alter",
@@ -196,18 +329,6 @@ constexpr ReportText remarks_rows[] = {
      {"CLEAR AIR: the scene has smoke, but not in this scenario",
       "KLARE LUFT: die Szene hat Rauch, aber nicht in diesem Szenario",
       "AIR CLAIR : la scène a de la fumée, mais pas dans ce scénario"}},
-    {"",
-     {"{0} emergency luminaire is not lit in this state; checks by the codes take all as lit",
-      "{0} Notleuchte brennt in diesem Zustand nicht; die Prüfungen nach den Normen nehmen alle "
-      "als brennend",
-      "{0} luminaire de secours n’est pas allumé dans cet état ; les contrôles selon les normes "
-      "les supposent tous allumés"}},
-    {"",
-     {"{0} emergency luminaires are not lit in this state; checks by the codes take all as lit",
-      "{0} Notleuchten brennen in diesem Zustand nicht; die Prüfungen nach den Normen nehmen "
-      "alle als brennend",
-      "{0} luminaires de secours ne sont pas allumés dans cet état ; les contrôles selon les "
-      "normes les supposent tous allumés"}},
     {"", {"{0}, {1} layer", "{0}, {1} Schicht", "{0}, {1} couche"}},
     {"", {"{0}, {1} layers", "{0}, {1} Schichten", "{0}, {1} couches"}},
     // Rule sets and deviations.

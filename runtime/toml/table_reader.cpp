@@ -16,6 +16,9 @@ namespace luxodus::toml {
 
 namespace {
 
+/// Where a share is asked for, a number from here to 100 is a percentage more often than not.
+constexpr double min_percent = 5;
+
 /// Shortest text that reads well: 0.5, 2, 1e+07.
 std::string shown(double v) {
   return fmt::format("{:.10g}", v);
@@ -181,6 +184,8 @@ std::optional<double> TableReader::bounded(const KeySpec& s, const SourcePlace& 
   if (!s.unit.empty()) wrong += fmt::format(" {}", s.unit);
   if (s.unit == "m" && v > range->high)
     wrong += fmt::format("; metres? {} mm is {}", shown(v), shown(v / 1000));
+  if (s.unit.empty() && range->high == 1 && v >= min_percent && v <= 100)
+    wrong += fmt::format("; a share? {} % is {}", shown(v), shown(v / 100));
   report(where, std::move(wrong));
   return std::nullopt;
 }

@@ -72,7 +72,9 @@ size_t count_of(const CheckCounts& counts, CheckVerdict verdict) {
 std::string words_of(const CheckCounts& counts) {
   const size_t fail = count_of(counts, CheckVerdict::fail);
   const size_t unverified = count_of(counts, CheckVerdict::not_verified);
-  std::string out = fail == 0   ? "no check made fails"
+  const size_t made = fail + unverified + count_of(counts, CheckVerdict::pass);
+  std::string out = made == 0   ? "no check could be made"
+                    : fail == 0 ? "no check made fails"
                     : fail == 1 ? "1 check fails"
                                 : std::to_string(fail) + " checks fail";
   out += ", " + std::to_string(count_of(counts, CheckVerdict::not_assessed)) + " not assessed";

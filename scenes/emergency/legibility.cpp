@@ -55,6 +55,16 @@ bool unseen(const Uncertain& pattern, const Uncertain& silhouette) {
   return surely_below(pattern, level_seen) && no_silhouette;
 }
 
+/// Between which verdicts chance has left a view open, the better first.
+const char* open_between(const Uncertain& reading, const Uncertain& pattern,
+                         const Uncertain& silhouette) {
+  const bool may_be_read = !surely_below(reading, level_read);
+  const bool seen = surely_above(pattern, level_seen) || surely_above(silhouette, level_seen);
+  if (!may_be_read) return "visible or invisible: more paths tell (--rounds)";
+  return seen ? "legible or not: more paths tell (--rounds)"
+              : "legible or even invisible: more paths tell (--rounds)";
+}
+
 /// By what the eye receives alone.
 void judge_by_light(Sight& sight, const SignView& view, const SignLook& look, const Eye& eye) {
   const double whole = std::sqrt(view.width_arcmin * view.height_arcmin);
@@ -73,7 +83,7 @@ void judge_by_light(Sight& sight, const SignView& view, const SignLook& look, co
     sight.verdict = SightVerdict::visible;
   } else {
     sight.verdict = SightVerdict::undecided;
-    sight.reason = "needs more particles";
+    sight.reason = open_between(sight.reading_level, pattern, silhouette);
   }
 }
 
@@ -111,7 +121,7 @@ Sight judge_sight(const Sign& sign, const SignView& view, const SignLook& look,
     return sight;
   }
   if (look.visible_share < whole_share) {
-    sight.reason = "the building hides a part of it";
+    sight.reason = "the building hides a part of it: what is left may be read or not";
     return sight;
   }
   if (!has_legend(sign.face)) {

@@ -82,6 +82,8 @@ std::optional<LampFailure> worst_failure(const SceneDescription& scene,
   return worst;
 }
 
+constexpr const char* no_american_areas =
+    "this code judges paths of egress: name them as [[route]]";
 constexpr const char* no_luminaire = "there is no emergency luminaire";
 
 /// Of hospitals: what is left must be enough.
@@ -192,7 +194,7 @@ std::vector<Check> checks_of_route(const SceneDescription& scene, const EscapeRo
 std::vector<Check> checks_of_open_area(const SceneDescription& scene, const AssessedArea& area,
                                        const std::vector<LitPoint>& core, const CodeChoice& codes) {
   const std::string subject = "open area \"" + area.name + "\"";
-  if (!codes.european()) return {};
+  if (!codes.european()) return {not_assessed(rule_of("N1", codes), subject, no_american_areas)};
   const auto rule = [&](const char* id) { return rule_of(id, codes); };
   if (core.empty())
     return {not_assessed(rule("E6"), subject,
@@ -211,7 +213,7 @@ std::vector<Check> checks_of_task_area(const SceneDescription& scene, const Asse
                                        const std::vector<LitPoint>& plane,
                                        const CodeChoice& codes) {
   const std::string subject = "task area \"" + area.name + "\"";
-  if (!codes.european()) return {};
+  if (!codes.european()) return {not_assessed(rule_of("N1", codes), subject, no_american_areas)};
   const Spread spread = spread_of(plane, all_lit(plane));
   const double limit = std::max(task_lx, task_share * area.mains_lx);
   std::vector<Check> out{

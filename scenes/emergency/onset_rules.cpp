@@ -105,6 +105,13 @@ std::vector<Check> checks_beyond(const SceneDescription& scene, const CodeChoice
     out.back().unit = "h";
   };
   const char* const all = "all luminaires and signs";
+  if (scene.routes.empty())
+    add(codes.european() ? (codes.set == RuleSet::en1838_2013 ? "E1" : "E5") : "N1", "the building",
+        "the scene names no escape route ([[route]])");
+  if (codes.european() && emphasis_of(scene).empty())
+    add("E12", "the building",
+        "the scene names no place that a luminaire must be near to ([[emphasis]]): exits, stairs, "
+        "equipment");
   const bool unsaid = none_states(scene);
   const char* const no_onset = "no luminaire says how fast it comes on ('onset')";
   if (!codes.european()) {

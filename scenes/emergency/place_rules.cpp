@@ -20,6 +20,8 @@ using namespace rule_limit;
 namespace {
 
 constexpr double pi = std::numbers::pi;
+/// Floors that differ by less are of one storey: landings, ramps, stages [m].
+constexpr double storey_m = 2;
 constexpr int directions_azimuth = 72, directions_polar = 90, tube_steps = 360;
 
 double glare_limit(double height_m) {
@@ -160,13 +162,36 @@ bool is_equipment(EmphasisKind kind) {
 
 }  // namespace
 
-std::vector<Check> checks_of_glare(const SceneDescription& scene, const CodeChoice& codes) {
+std::optional<double> floor_of(const SceneDescription& scene, const FloorUnder& floor_under,
+                               const glm::dvec3& place) {
+  return floor_under ? floor_under(place) : floor_below(scene, place);
+}
+
+std::vector<Check> checks_of_height(const SceneDescription& scene, const CodeChoice& codes,
+                                    const FloorUnder& floor_under) {
   std::vector<Check> out;
   if (!codes.european()) return out;
   for (const uint32_t number : emergency_luminaires(scene)) {
     const Emitter& e = scene.emitters[number];
     const std::string subject = "luminaire \"" + e.name + "\"";
-    const auto floor = floor_below(scene, e.frame.origin);
+    const auto floor = floor_of(scene, floor_under, e.frame.origin);
+    out.push_back(floor ? judged(rule_of("E14", codes), subject, e.frame.origin.z - *floor,
+                                 min_height_m, true, "m", e.frame.origin)
+                        : not_assessed(rule_of("E14", codes), subject,
+                                       "no route or open area lies below it: its height is not "
+                                       "known"));
+  }
+  return out;
+}
+
+std::vector<Check> checks_of_glare(const SceneDescription& scene, const CodeChoice& codes,
+                                   const FloorUnder& floor_under) {
+  std::vector<Check> out;
+  if (!codes.european()) return out;
+  for (const uint32_t number : emergency_luminaires(scene)) {
+    const Emitter& e = scene.emitters[number];
+    const std::string subject = "luminaire \"" + e.name + "\"";
+    const auto floor = floor_of(scene, floor_under, e.frame.origin);
     const double lumens =
         e.radiometric ? e.emergency_flux * efficacy_lm_per_w(e.spectrum) : e.emergency_flux;
     const bool zone_alone = over_level_route(scene, e.frame.origin);
@@ -214,24 +239,31 @@ Check luminaire_near(const Rule& rule, const SceneDescription& scene, const std:
   struct Near {
     double distance_m = none;
     std::string name;
-  } open, hidden;
+  } open, hidden, upstairs;
+  const auto floor = floor_below(scene, place);
   const auto luminaires = emergency_luminaires(scene);
   for (size_t i = 0; i < luminaires.size(); ++i) {
     const Emitter& e = scene.emitters[luminaires[i]];
     const double distance = in_plan(e.frame.origin, place);
-    Near& nearest = seen.empty() || seen[i] ? open : hidden;
+    const auto its_floor = floor_below(scene, e.frame.origin);
+    const bool here = !floor || !its_floor || std::abs(*floor - *its_floor) < storey_m;
+    Near& nearest = !here ? upstairs : seen.empty() || seen[i] ? open : hidden;
     if ((!above || e.frame.origin.z >= place.z) && distance < nearest.distance_m)
       nearest = {distance, "\"" + e.name + "\""};
   }
   Check check = judged(rule, subject, open.distance_m, near_m, false, "m", place);
   const std::string there = above ? "above it " : "";
   check.reason = !open.name.empty() ? "the nearest is " + open.name
-                 : hidden.name.empty()
+                 : hidden.name.empty() && upstairs.name.empty()
                      ? "no emergency luminaire is " + (above ? "above it"s : "there"s)
                      : "no emergency luminaire " + there + "is in sight";
   if (hidden.distance_m < open.distance_m)
-    check.reason += fmt::format("; {} is {:.2f} m away, but behind something solid", hidden.name,
-                                hidden.distance_m);
+    check.reason +=
+        fmt::format("; {} is {:.2f} m away, but behind something solid, or shining elsewhere",
+                    hidden.name, hidden.distance_m);
+  if (upstairs.distance_m < std::min(open.distance_m, near_m))
+    check.reason += fmt::format("; {} is {:.2f} m away, but on another storey", upstairs.name,
+                                upstairs.distance_m);
   return check;
 }
 

@@ -59,6 +59,7 @@ constexpr Row rows[] = {
      "recollection, not a source", Deviation::uk_bs_5266},
     {"E12", en13, "4.1.2", "A luminaire within 2 m of a point of emphasis", "glamox.de"},
     {"E13", en13, "4.1.2", "Vertical illuminance at equipment", "glamox.de"},
+    {"E14", en13, "4.1.2", "Height of an emergency luminaire above the floor", "TRILUX"},
     {"S1", en13, "5.4.1", "Smallest luminance of a sign's safety colour", "299lighting; TRILUX"},
     {"S2", en13, "5.4.2", "Largest over smallest luminance within a colour of a sign", makers},
     {"S3", en13, "5.4.3", "Luminance of white over that of green", makers},

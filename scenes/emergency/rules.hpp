@@ -6,6 +6,8 @@
 // it is quoted from. Pure functions; any thread.
 #pragma once
 
+#include <functional>
+
 #include "scenes/emergency/check.hpp"
 #include "scenes/emergency/rule_sets.hpp"
 #include "scenes/emergency/sign_geometry.hpp"
@@ -31,6 +33,11 @@ std::vector<uint32_t> emergency_luminaires(const SceneDescription& scene);
 /// luminaire, in their order; empty: taken for granted.
 using LinesOfSight = std::vector<bool>;
 
+/// Height of the floor that a thing hangs over [m]; empty: that of the nearest route or area below.
+using FloorUnder = std::function<std::optional<double>(const glm::dvec3&)>;
+std::optional<double> floor_of(const SceneDescription& scene, const FloorUnder& floor_under,
+                               const glm::dvec3& place);
+
 /// Points that the rules for a route ask for.
 struct RoutePoints {
   std::vector<glm::dvec3> centre;  // of its strips of 2 m at most (EN 1838)
@@ -54,12 +61,17 @@ std::vector<Check> checks_of_task_area(const SceneDescription& scene, const Asse
 Check check_of_failure(const SceneDescription& scene, const std::string& subject,
                        const std::vector<LitPoint>& points);
 /// Disability glare of a luminaire by its intensity, with the highest emergency flux.
-std::vector<Check> checks_of_glare(const SceneDescription& scene, const CodeChoice& codes);
+std::vector<Check> checks_of_glare(const SceneDescription& scene, const CodeChoice& codes,
+                                   const FloorUnder& floor_under = {});
+/// Whether emergency luminaires hang high enough above the floor.
+std::vector<Check> checks_of_height(const SceneDescription& scene, const CodeChoice& codes,
+                                    const FloorUnder& floor_under = {});
 
 /// The places of emphasis that the scene names, and the bends of its routes.
 std::vector<EmphasisPoint> emphasis_of(const SceneDescription& scene);
-/// A luminaire is near by its distance in plan, if it is in sight of the place, and higher where
-/// `above` asks for it; one that is nearer behind something solid is named.
+/// A luminaire is near by its distance in plan, if it is on the storey of the place, in sight of it
+/// and shines there, and higher where `above` asks for it; one that is nearer and does not is
+/// named.
 Check luminaire_near(const Rule& rule, const SceneDescription& scene, const std::string& subject,
                      const glm::dvec3& place, bool above, const LinesOfSight& seen);
 /// `vertical_lx`: on the front of equipment; none where it says no facing.
@@ -70,14 +82,17 @@ std::vector<Check> checks_of_emphasis(const SceneDescription& scene, const Empha
 /// What a sign is by itself. `face_lx`: mean direct light on an externally lit face in emergency
 /// operation. `seen`: from its face.
 std::vector<Check> checks_of_sign(const SceneDescription& scene, const Sign& sign, double face_lx,
-                                  const LinesOfSight& seen, const CodeChoice& codes);
+                                  const LinesOfSight& seen, const CodeChoice& codes,
+                                  const FloorUnder& floor_under = {});
 
 /// A sign that somebody on a route has a clear line to.
 struct ClearSign {
   uint32_t sign;
   SignView view;
+  bool through_glass = false;
 };
-/// Whether people on a route have a sign near enough everywhere, by the codes' distances.
+/// Whether people on a route have a sign ahead of them near enough everywhere, by the codes'
+/// distances.
 /// `clear`: by walker.
 std::vector<Check> checks_of_distance(const SceneDescription& scene, const EscapeRoute& route,
                                       const std::vector<Walker>& walkers,

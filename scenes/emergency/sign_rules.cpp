@@ -34,6 +34,14 @@ Extremes pattern_of(const SignFace& face, SignColour colour) {
   return e;
 }
 
+/// Whether somebody who walks on comes nearer to a sign: one behind him is none, whatever it says.
+bool lies_ahead(const Walker& walker, const SignView& view) {
+  return glm::dot(glm::dvec2(view.centre - walker.foot), glm::dvec2(walker.ahead)) > 0;
+}
+
+constexpr const char* no_sign_ahead = "no sign ahead faces this place";
+constexpr const char* glows =
+    "a photoluminescent face is classed by its glow (ISO 16069, ISO 17398), which are not at hand";
 constexpr const char* one_number =
     "one luminance for each colour is known, not how it varies over the face: give a luminance_map";
 
@@ -68,6 +76,11 @@ Check evenness(const Sign& sign, const std::string& subject, const CodeChoice& c
   return judged(rule_of("S2", codes), subject, worst, max_evenness, false, "1", sign.frame.origin);
 }
 
+/// As the eye weighs wavelengths, in equal-energy light.
+double luminous_mean(const Spectrum& s) {
+  return s.integral_with(cie_y()) / cie_y().integral();
+}
+
 /// By the means of the colours.
 std::vector<Check> contrast(const Sign& sign, const std::string& subject, const CodeChoice& codes) {
   const double green = sign.emergency.green_cd_m2;
@@ -81,8 +94,9 @@ std::vector<Check> contrast(const Sign& sign, const std::string& subject, const 
 }
 
 std::vector<Check> mounting(const SceneDescription& scene, const Sign& sign,
-                            const std::string& subject, const CodeChoice& codes) {
-  const auto floor = floor_below(scene, sign.frame.origin);
+                            const std::string& subject, const FloorUnder& floor_under,
+                            const CodeChoice& codes) {
+  const auto floor = floor_of(scene, floor_under, sign.frame.origin);
   if (!floor)
     return {not_assessed(rule_of("S6", codes), subject,
                          "no route or open area lies below it: its height is not known")};
@@ -100,9 +114,36 @@ std::vector<Check> mounting(const SceneDescription& scene, const Sign& sign,
                  sign.frame.origin)};
 }
 
+/// Of a face that shows what falls on it.
+Check lit_green(const SceneDescription& scene, const Sign& sign, const std::string& subject,
+                double lux, const CodeChoice& codes) {
+  const double limit = scene.assessment.smoke_expected ? min_green_in_smoke : min_green;
+  const double mean = lux * luminous_mean(sign.green_reflectance) / std::numbers::pi;
+  Check check =
+      judged(rule_of("S1", codes), subject, mean, limit, true, "cd/m2", sign.frame.origin);
+  check.condition = scene.assessment.smoke_expected ? "smoke may occur" : "no smoke is expected";
+  if (check.verdict == CheckVerdict::pass) {
+    check.verdict = CheckVerdict::not_assessed;
+    check.reason = one_number;
+  }
+  return check;
+}
+
+Check reflected_contrast(const Sign& sign, const std::string& subject, const CodeChoice& codes) {
+  const double green = luminous_mean(sign.green_reflectance);
+  if (!(green > 0)) return not_assessed(rule_of("S3", codes), subject, "green has no luminance");
+  // Reflectances are written to some digits, means are sums of many.
+  const double ratio = std::round(luminous_mean(sign.white_reflectance) / green * 1e9) / 1e9;
+  const bool low = ratio < min_contrast;
+  Check check = judged(rule_of("S3", codes), subject, ratio, low ? min_contrast : max_contrast, low,
+                       "1", sign.frame.origin);
+  check.condition = "5 to 15, of the means";
+  return check;
+}
+
 std::vector<Check> en_checks(const SceneDescription& scene, const Sign& sign,
-                             const std::string& subject, const LinesOfSight& seen,
-                             const CodeChoice& codes) {
+                             const std::string& subject, double lux, const LinesOfSight& seen,
+                             const FloorUnder& floor_under, const CodeChoice& codes) {
   std::vector<Check> out;
   if (sign.lighting == SignLighting::internal) {
     out.push_back(smallest_green(scene, sign, subject, codes));
@@ -112,20 +153,29 @@ std::vector<Check> en_checks(const SceneDescription& scene, const Sign& sign,
       out.push_back(judged(rule_of("S5", codes), subject, sign.mains.white_cd_m2, mains_white, true,
                            "cd/m2", sign.frame.origin));
   }
+  if (sign.lighting == SignLighting::photoluminescent)
+    for (const char* id : {"S1", "S3"})
+      out.push_back(not_assessed(rule_of(id, codes), subject, glows));
+  if (sign.lighting == SignLighting::external) {
+    out.push_back(lit_green(scene, sign, subject, lux, codes));
+    out.push_back(reflected_contrast(sign, subject, codes));
+  }
   if (sign.lighting == SignLighting::external)
     out.push_back(
         luminaire_near(rule_of("S6l", codes), scene, subject, sign.frame.origin, false, seen));
-  for (Check& check : mounting(scene, sign, subject, codes)) out.push_back(std::move(check));
+  for (Check& check : mounting(scene, sign, subject, floor_under, codes))
+    out.push_back(std::move(check));
   return out;
 }
 
 }  // namespace
 
 std::vector<Check> checks_of_sign(const SceneDescription& scene, const Sign& sign, double lux,
-                                  const LinesOfSight& seen, const CodeChoice& codes) {
+                                  const LinesOfSight& seen, const CodeChoice& codes,
+                                  const FloorUnder& floor_under) {
   const std::string subject = "sign \"" + sign.name + "\"";
   std::vector<Check> out;
-  if (codes.european()) return en_checks(scene, sign, subject, seen, codes);
+  if (codes.european()) return en_checks(scene, sign, subject, lux, seen, floor_under, codes);
   if (sign.lighting == SignLighting::external)
     out.push_back(
         judged(rule_of("N6", codes), subject, lux, face_lx, true, "lx", sign.frame.origin));
@@ -134,6 +184,8 @@ std::vector<Check> checks_of_sign(const SceneDescription& scene, const Sign& sig
                          "m", sign.frame.origin));
     out.push_back(judged(rule_of("N7s", codes), subject, sign.letters->stroke_m, min_stroke_m, true,
                          "m", sign.frame.origin));
+  } else {
+    out.push_back(not_assessed(rule_of("N7", codes), subject, "it has no letters"));
   }
   return out;
 }
@@ -146,13 +198,19 @@ std::vector<Check> checks_of_distance(const SceneDescription& scene, const Escap
   // Of the best sign, as a share of what its rule allows; and the nearest in metres.
   double worst_share = 0, worst_distance = 0;
   glm::dvec3 where_share(0), where_distance(0);
+  size_t through_glass = 0;
   for (size_t i = 0; i < walkers.size(); ++i) {
     double share = std::numeric_limits<double>::infinity(), distance = share;
+    bool any = false, bare = false;
     for (const ClearSign& seen : clear[i]) {
+      if (!lies_ahead(walkers[i], seen.view)) continue;
+      any = true;
+      bare = bare || !seen.through_glass;
       const double allowed = viewing_distance(scene.signs[seen.sign], seen.view).allowed_oblique_m;
       if (allowed > 0) share = std::min(share, seen.view.distance_m / allowed);
       distance = std::min(distance, seen.view.distance_m);
     }
+    through_glass += any && !bare ? 1 : 0;
     if (share > worst_share) {
       worst_share = share;
       where_share = walkers[i].foot;
@@ -166,13 +224,17 @@ std::vector<Check> checks_of_distance(const SceneDescription& scene, const Escap
   if (codes.european()) {
     out.push_back(judged(rule_of("S4", codes), subject, worst_share, 1, false,
                          "of the viewing distance", where_share));
-    if (std::isinf(worst_share)) out.back().reason = "no sign faces this place";
+    if (std::isinf(worst_share)) out.back().reason = no_sign_ahead;
   }
   if (!codes.european()) {
     out.push_back(judged(rule_of("N8", codes), subject, worst_distance, max_nearest_m, false, "m",
                          where_distance));
-    if (std::isinf(worst_distance)) out.back().reason = "no sign faces this place";
+    if (std::isinf(worst_distance)) out.back().reason = no_sign_ahead;
   }
+  if (through_glass > 0 && out.back().reason.empty())
+    out.back().reason =
+        "from " + std::to_string(through_glass) + " of " + std::to_string(walkers.size()) +
+        " places signs are seen through glass alone, where reflections may hide them";
   return out;
 }
 

@@ -38,6 +38,11 @@ constexpr double same_angle_deg = 0.01;
 // its peak is no noise.
 constexpr double odd_ies_share = 0.01;
 
+/// An absolute file whose candela add up to this was normalised and not scaled again.
+constexpr double normalised_lm = 1000, normalised_share = 0.005;
+/// Luminaires let out more than this share of their lamps' light.
+constexpr double poor_ratio = 0.45;
+
 enum class Edition { y1986, y1991, y1995, y2002, y2019 };
 
 struct EditionName {
@@ -527,6 +532,16 @@ class IesReader {
     out_.down_share = down_share_of(*out_.web);
     if (out_.lamp_flux_lm > 0) out_.light_output_ratio = out_.flux_lm / out_.lamp_flux_lm;
     out_.lamp_sets.push_back(lamp_);
+    if (const auto odd = odd_efficacy(out_)) warn(in_.line(), *odd);
+    if (out_.absolute && std::abs(out_.flux_lm / normalised_lm - 1) < normalised_share)
+      warn(in_.line(), "the file is absolute (-1 lumens per lamp), and its candela add up to " +
+                           shown(out_.flux_lm) +
+                           " lm: are they candela per 1000 lm, with the flux left out?");
+    if (lamp_.lamps >= 2 && out_.lamp_flux_lm > 0 && out_.light_output_ratio < poor_ratio &&
+        out_.light_output_ratio * lamp_.lamps > poor_ratio)
+      warn(in_.line(), "the candela add up to " + shown(100 * out_.light_output_ratio) + " % of " +
+                           shown(lamp_.lamps) + " times " + shown(out_.lamp_flux_lm / lamp_.lamps) +
+                           " lm; LM-63 states the lumens of one lamp: are they those of all?");
     // A luminaire cannot give more than its lamps; 2 % leaves room for the measurement.
     if (out_.lamp_flux_lm > 0 && out_.light_output_ratio > 1.02) {
       warn(in_.line(), "the candela add up to " + shown(out_.flux_lm) +

@@ -31,6 +31,8 @@ namespace {
 // Header and integral of a clean file agree to 0.1 %; beyond 2 % one of them is about something
 // else.
 constexpr double odd_ldt_share = 0.02;
+/// No lamp of a luminaire with several of them gives less for its power.
+constexpr double few_lm_per_w = 30;
 
 class LdtReader {
  public:
@@ -98,6 +100,30 @@ class LdtReader {
 
   /// Ityp says point, line or other, which the light of the file does not depend on; but what is
   /// not 0 to 3 hints at lines that were lost.
+  /// The file's unit is the millimetre, and a luminaire is no smaller than what shines of it.
+  void check_opening(int line) {
+    const glm::dvec3 lit = out_.opening.size_m, housing = out_.housing_m;
+    const double longest = std::max(housing.x, housing.y);
+    if (longest > 0 && std::max(lit.x, lit.y) > longest * (1 + odd_ldt_share))
+      warn(line, "the luminous area of " + shown(1000 * std::max(lit.x, lit.y)) +
+                     " mm is longer than the luminaire of " + shown(1000 * longest) +
+                     " mm; are they in different units?");
+  }
+
+  /// Of several lamps the file states the flux of all, and light of one lamp only is half or less.
+  void check_lamps(const LampSet& set) {
+    if (set.lamps >= 2 && !out_.absolute && set.watts > 0 && set.flux_lm > 0 &&
+        set.flux_lm / set.watts < few_lm_per_w)
+      warn(line_, shown(set.lamps) + " lamps give " + shown(set.flux_lm) + " lm with " +
+                      shown(set.watts) +
+                      " W; EULUMDAT states the flux of all lamps of a set together: is it that of "
+                      "one?");
+    const auto colour = decimal(set.colour, true);
+    if (colour && *colour > 0 && !colour_temperature_k(set.colour))
+      warn(line_, "the colour of the lamps, \"" + excerpt(set.colour) +
+                      "\", is no colour temperature in kelvin; it is not used");
+  }
+
   void read_type() {
     const std::string_view type = text("the type indicator");
     const std::optional<double> value = decimal(type, true);
@@ -129,6 +155,7 @@ class LdtReader {
       out_.opening.shape = round ? (lit_height > 0 ? Shape::cylinder : Shape::disc)
                                  : (lit_height > 0 ? Shape::box : Shape::rectangle);
     }
+    if (!numbers_.fault()) check_opening(line_);
     down_percent_ = number("the downward flux fraction (DFF)", 0, 100.5, Blank::is_zero);
     down_line_ = line_;
     output_percent_ = number("the light output ratio (LORL)", 0, 1000, Blank::is_zero);
@@ -163,6 +190,7 @@ class LdtReader {
       out_.input_watts += set.watts;
       if (!out_.cct_k) out_.cct_k = colour_temperature_k(set.colour);
       if (!out_.cri) out_.cri = colour_rendering(set.rendering);
+      if (!numbers_.fault()) check_lamps(set);
       out_.lamp_sets.push_back(std::move(set));
     }
     if (numbers_.fault()) return;
@@ -298,6 +326,7 @@ class LdtReader {
     out_.web = web.value();
     out_.flux_lm = out_.web->flux_lm();
     out_.down_share = down_share_of(*out_.web);
+    if (const auto odd = odd_efficacy(out_)) warn(line_, *odd);
     const double ratio = out_.flux_lm / out_.lamp_flux_lm;
     out_.light_output_ratio = ratio;
     if (output_percent_ > 0) {

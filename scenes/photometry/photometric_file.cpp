@@ -40,4 +40,13 @@ Result<PhotometricFile> read_photometric_file(const std::filesystem::path& path)
   return file;
 }
 
+std::optional<std::string> odd_efficacy(const PhotometricFile& file) {
+  // White light has at most some 330 lm/W; the best luminaires reach 220.
+  constexpr double max_lm_per_w = 300;
+  if (!(file.input_watts > 0) || file.flux_lm / file.input_watts <= max_lm_per_w)
+    return std::nullopt;
+  return "the intensities add up to " + shown(file.flux_lm) + " lm with " +
+         shown(file.input_watts) + " W, more than any lamp gives: is a factor of the file wrong?";
+}
+
 }  // namespace luxodus

@@ -89,6 +89,9 @@ struct PhotometricFile {
   std::vector<Problem> warnings;
 };
 
+/// What is odd about the flux for the power that a file states; none where the power is not said.
+std::optional<std::string> odd_efficacy(const PhotometricFile& file);
+
 /// Reads a photometric file; its contents (a TILT= line) tell IES from EULUMDAT, then its name.
 /// Errors: the file cannot be read, is neither, or breaks its format; one Problem with the line.
 Result<PhotometricFile> read_photometric_file(const std::filesystem::path& path);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "runtime/core/output_text.hpp"
 #include "scenes/geometry/import.hpp"
 #include "scenes/geometry/mesh_tools.hpp"
 #include "scenes/scene_file/read_files.hpp"
@@ -60,6 +61,12 @@ void read_operation(KeyReader& keys, Emitter& e, double rated) {
   }
   const std::string why = " is needed where 'emergency' is set: no standard value is assumed";
   keys.exactly_one({"emergency_flux", "emergency_factor"}, true);
+  if (factor.value_or(0) > 1)
+    keys.reading().warning(
+        keys.place("emergency_factor"),
+        "'emergency_factor' is " + shortest_number(*factor) +
+            ": on emergency supply a luminaire gives no more than its rated flux; it is a share, "
+            "0.15 for 15 %");
   if (!keys.has("maintenance_factor")) keys.problem("'maintenance_factor'" + why);
   if (!keys.has("end_of_duration_factor")) keys.problem("'end_of_duration_factor'" + why);
   e.end_of_duration_factor = end_of_duration.value_or(1);

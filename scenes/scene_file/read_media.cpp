@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "runtime/core/output_text.hpp"
 #include "scenes/geometry/polygon.hpp"
 #include "scenes/optics/flame_spectrum.hpp"
 #include "scenes/scene_file/read_placement.hpp"
@@ -20,6 +21,36 @@ constexpr double metres_per_foot = 0.3048;
 /// Specific extinction of flaming fires' soot at 633 nm [m2/kg], mean of 29 fuels (Mulholland and
 /// Croarkin).
 constexpr double flaming_mass_extinction = 8700;
+/// Smouldering smoke has some 4000; what is far from both is in another unit [m2/kg].
+constexpr double min_mass_extinction = 500, max_mass_extinction = 5e4;
+/// Beside a fire there are some grams in a cubic metre.
+constexpr double max_soot_kg_m3 = 0.01;
+/// Of flames in buildings, radiated.
+constexpr double coldest_flame_k = 1000, hottest_flame_k = 2500;
+constexpr double weakest_flame_w = 300, max_flame_w = 3e8;
+/// Smouldering smoke is of droplets, which hardly absorb.
+constexpr double min_smouldering_albedo = 0.4;
+
+/// What a key is probably meant to say when its number is no smoke's in its unit.
+void warn_of_units(KeyReader& keys, const std::string& given) {
+  const auto warn = [&](const char* key, const std::string& what) {
+    keys.reading().warning(keys.place(key), "'" + std::string(key) + "' is " + what);
+  };
+  const double value = keys.number(given);
+  const bool percent = given == "percent_per_m" || given == "percent_per_ft";
+  if (percent && value > 0 && value < 1)
+    warn(given.c_str(), shortest_number(value) + " %, next to nothing: half of the light is 50");
+  if (given == "soot_density" && value > max_soot_kg_m3)
+    warn("soot_density", shortest_number(value) +
+                             " kg/m3, more than any fire makes: 1 g/m3 is 1e-3 and 1 mg/m3 1e-6");
+  const auto own = keys.maybe_number("mass_extinction");
+  if (!own) return;
+  if (*own < min_mass_extinction)
+    warn("mass_extinction",
+         shortest_number(*own) + " m2/kg: soot has 8700; 8.7 m2/g is 8700 m2/kg");
+  if (*own > max_mass_extinction)
+    warn("mass_extinction", shortest_number(*own) + " m2/kg: soot has 8700");
+}
 
 /// Extinction [1/m] of the key that was used, by the definitions T = exp(-K d) = 10^(-OD d).
 double extinction_of(KeyReader& keys, const std::string& given, const std::string& smoke) {
@@ -59,6 +90,7 @@ Extinction read_extinction(KeyReader& keys) {
     if (e.table) e.sigma_t = e.table->at(e.wavelength_nm);
   } else if (!given.empty()) {
     e.sigma_t = extinction_of(keys, given, smoke);
+    if (keys.clean()) warn_of_units(keys, given);
   }
   return e;
 }
@@ -108,6 +140,13 @@ SmokeOptics read_optics(KeyReader& keys) {
   optics.extinction = read_extinction(keys);
   optics.albedo = property(keys, "albedo");
   optics.phase = read_phase(keys);
+  const double albedo = optics.albedo.integral() / Spectrum::constant(1).integral();
+  if (keys.clean() && keys.maybe_choice("smoke").value_or("") == "smouldering" &&
+      albedo < min_smouldering_albedo)
+    keys.reading().warning(keys.place("albedo"),
+                           "'albedo' is " + shortest_number(std::round(1000 * albedo) / 1000) +
+                               " of smouldering smoke, whose droplets hardly absorb: it has 0.7 to "
+                               "0.99, and veils more than soot");
   return optics;
 }
 
@@ -189,6 +228,17 @@ void read_placed(KeyReader& keys, Medium& m) {
   MediumEmission e;
   e.power_w = emission.number("power_w");
   const double kelvin = emission.number("temperature_k");
+  if (emission.clean() && (kelvin < coldest_flame_k || kelvin > hottest_flame_k))
+    keys.reading().warning(
+        emission.place("temperature_k"),
+        "'temperature_k' is " + shortest_number(kelvin) +
+            " K: flames of buildings have 1100 to 1700 K (900 degrees Celsius are "
+            "1173 K), and their light rises steeply with it");
+  if (emission.clean() && e.power_w > 0 && (e.power_w < weakest_flame_w || e.power_w > max_flame_w))
+    keys.reading().warning(emission.place("power_w"),
+                           "'power_w' is " + shortest_number(e.power_w) +
+                               " W: burning things radiate a third of their heat release, a waste "
+                               "basket 2e4 W, a room 1e6 W. Is it in kW?");
   const FlameSpectrum flame = flame_spectrum(kelvin, emission.choice("emissivity") == "soot");
   e.spectrum = flame.shape;
   e.visible_fraction = flame.visible_fraction;

@@ -15,6 +15,8 @@ namespace {
 constexpr double absolute_cold_k = 500;  // below, the visible share underflows all use
 constexpr double absolute_hot_k = 100'000;
 constexpr double led_cold_k = 2700, led_hot_k = 6500;  // what white_led_shape is made for
+/// Of lamps, flames aside; beyond them a digit is wrong.
+constexpr double reddest_lamp_k = 1200, bluest_lamp_k = 20000;
 
 std::string in_quotes(std::string_view key) {
   return "'" + std::string(key) + "'";
@@ -106,6 +108,10 @@ std::optional<Spectrum> named_shape(KeyReader& keys, std::string_view key, std::
                           ", " + std::to_string(static_cast<int>(high)) + "] K");
     return std::nullopt;
   }
+  if (!led && (*kelvin > bluest_lamp_k || *kelvin < reddest_lamp_k))
+    keys.reading().warning(keys.place(key),
+                           in_quotes(key) + " is a black body of " + std::string(text) +
+                               ": lamps have 1800 to 8000 K (65000 K for D65 is 6500 K)");
   return led ? white_led_shape(*kelvin) : blackbody_shape(*kelvin);
 }
 

@@ -146,6 +146,8 @@ class NearField {
 };
 
 bool is_looked_at(const SceneDescription& scene, uint32_t sign) {
+  const bool people = !scene.routes.empty() || !scene.open_areas.empty();
+  if (people && scene.signs[sign].lighting == SignLighting::external) return true;
   return std::any_of(scene.observers.begin(), scene.observers.end(), [&](const Observer& o) {
     return !o.signs || std::find(o.signs->begin(), o.signs->end(), sign) != o.signs->end();
   });

@@ -14,6 +14,10 @@
 
 namespace luxodus::inspection {
 
+/// From end to end of the furnished and of the closed room.
+inline const std::string long_way =
+    "[[route]]\nname = \"way\"\npath = [[1, 0, 0], [11, 0, 0]]\nwidth = 1\n";
+
 /// 12 m by 4 m by 3 m, closed: a lamp under the ceiling and an exit sign at the east end.
 inline const std::string closed_room = R"(
 [[object]]

@@ -7,9 +7,6 @@ using namespace luxodus::inspection;
 
 namespace {
 
-const std::string slip_way =
-    "[[route]]\nname = \"way\"\npath = [[1, 0, 0], [11, 0, 0]]\nwidth = 1\n";
-
 std::string slip_smoke(const std::string& where) {
   return "[[medium]]\nname = \"smoke\"\nkind = \"homogeneous\"\nextinction = 0.5\nalbedo = 0.3\n" +
          where;
@@ -103,17 +100,17 @@ TEST_CASE("flames in bodies, outside and twice in one place are told", "[inspect
 }
 
 TEST_CASE("furniture that stands on a route is no wall, and hides no floor", "[inspect]") {
-  check_no_alarm(found_in(furnished_room + slip_way + rack("tags = [\"furniture\"]\n")));
-  check_found(found_in(furnished_room + slip_way + rack("")), Severity::error,
+  check_no_alarm(found_in(furnished_room + long_way + rack("tags = [\"furniture\"]\n")));
+  check_found(found_in(furnished_room + long_way + rack("")), Severity::error,
               "route \"way\" leads through the wall or body \"rack\"");
 }
 
 TEST_CASE("a room of single faces that look outwards is told, and taken as a room", "[inspect]") {
-  const auto turned = found_in(six_faces(false) + lamp + exit_sign + slip_way);
+  const auto turned = found_in(six_faces(false) + lamp + exit_sign + long_way);
   check_found(turned, Severity::warning, "is drawn with its faces to the outside (\"");
   CHECK(that_say(turned, "inside").empty());
   CHECK(that_say(turned, "leads through").empty());
-  CHECK(found_in(six_faces(true) + lamp + exit_sign + slip_way).empty());
+  CHECK(found_in(six_faces(true) + lamp + exit_sign + long_way).empty());
 }
 
 TEST_CASE("signs outside are no hole in the rooms, and backs on walls show nothing", "[inspect]") {
@@ -189,6 +186,8 @@ TEST_CASE("a percentage taken for a share of the flux is told", "[inspect]") {
                           factor + "\nmaintenance_factor = 0.8\nend_of_duration_factor = 0.7\n")));
   };
   check_found(lit("15"), Severity::warning, "luminaire \"light\" gives 15 times the 200 lm");
-  CHECK(lit("2").empty());
+  const auto twice = lit("2");
+  check_found(twice, Severity::warning, "'emergency_factor' is 2: on emergency supply");
+  check_found(twice, Severity::note, "gives 400 lm in emergency operation, and its file 200 lm");
   CHECK(lit("0.15").empty());
 }

@@ -119,13 +119,15 @@ TEST_CASE("the program's own sentences are said in each language", "[report]") {
   CHECK(en.remark("5 s after the mains have failed") == "5 s after the mains have failed");
   // Names stay; numbers have the decimal sign; two sentences in one; one within another.
   CHECK(de.remark("the nearest is \"north; lamp\"; \"near\" is 1.25 m away, but behind something "
-                  "solid") ==
-        "die nächste ist \"north; lamp\"; \"near\" ist 1,25 m entfernt, aber hinter etwas Festem");
+                  "solid, or shining elsewhere") ==
+        "die nächste ist \"north; lamp\"; \"near\" ist 1,25 m entfernt, aber hinter etwas Festem "
+        "oder anderswohin strahlend");
   CHECK(de.remark("beyond all measure: there is none, or no light at all; the value breaks a limit "
                   "that was read nowhere: look it up") ==
         "über alle Maßen: es gibt keines, oder gar kein Licht; der Wert verletzt einen Grenzwert, "
         "der nirgends gelesen wurde: nachschlagen");
-  CHECK(fr.remark("undecided: needs more particles") == "indécis : il faut plus de particules");
+  CHECK(fr.remark("undecided: legible or not: more paths tell (--rounds)") ==
+        "indécis : lisible ou non : plus de chemins le diront (--rounds)");
   CHECK_FALSE(de.remark("a sentence that nobody says"));
   for (const ReportText& row : remark_texts()) {
     INFO(row.text[0]);

@@ -237,7 +237,8 @@ TEST_CASE("a luminaire behind a wall is not near, and is named", "[emergency][ru
   CHECK(of(hidden, "E12").verdict == CheckVerdict::fail);
   CHECK(*of(hidden, "E12").value == Approx(5));
   CHECK(of(hidden, "E12").reason ==
-        "the nearest is \"b\"; \"a\" is 1.00 m away, but behind something solid");
+        "the nearest is \"b\"; \"a\" is 1.00 m away, but behind something solid, or shining "
+        "elsewhere");
   const auto none = checks_of_emphasis(scene, door, {false, false}, std::nullopt, {});
   CHECK(of(none, "E12").verdict == CheckVerdict::fail);
   CHECK(of(none, "E12").reason.find("no emergency luminaire above it is in sight; \"a\"") == 0);
@@ -304,7 +305,28 @@ TEST_CASE("low signs stand beside high ones, and letters have their measures",
   Sign lit = sign_of(0, 0);
   lit.lighting = SignLighting::external;
   CHECK(of(checks_of_sign(scene, lit, 60, {}, nfpa), "N6").verdict == CheckVerdict::pass);
-  CHECK_FALSE(has(checks_of_sign(scene, lit, 60, {}, en13), "S1"));
+  CHECK(of(checks_of_sign(scene, words, 0, {}, en13), "S6").verdict == CheckVerdict::pass);
+  CHECK(of(checks_of_sign(scene, sign_of(90, 12), 0, {}, nfpa), "N7").verdict ==
+        CheckVerdict::not_assessed);
+}
+
+TEST_CASE("a sign behind the walker is none", "[emergency][rules]") {
+  SceneDescription scene = corridor();
+  scene.signs = {sign_of(90, 12)};
+  scene.signs[0].frame.origin = {-1, 0, 2};
+  scene.signs[0].frame.axes =
+      glm::dmat3(glm::dvec3(0, -1, 0), glm::dvec3(0, 0, 1), glm::dvec3(1, 0, 0));
+  const auto people = walkers(scene.routes.front(), 5);
+  std::vector<std::vector<ClearSign>> clear(people.size());
+  for (size_t i = 0; i < people.size(); ++i) {
+    clear[i] = {{0, view_of_sign(scene.signs[0], people[i].foot + glm::dvec3(0, 0, 2))}};
+    REQUIRE_FALSE(clear[i][0].view.behind);
+  }
+  for (const auto& [codes, id] : {std::pair(en13, "S4"), std::pair(nfpa, "N8")}) {
+    const auto checks = checks_of_distance(scene, scene.routes.front(), people, clear, codes);
+    CHECK(of(checks, id).verdict == CheckVerdict::fail);
+    CHECK(of(checks, id).reason == "no sign ahead faces this place");
+  }
 }
 
 TEST_CASE("a route needs a sign near enough everywhere", "[emergency][rules]") {
@@ -375,5 +397,72 @@ TEST_CASE("what a scene says nothing of is never a pass", "[emergency][rules]") 
   }
   const CheckCounts counts = counts_of(checks);
   CHECK(words_of(counts) ==
-        "no check made fails, " + std::to_string(checks.size()) + " not assessed");
+        "no check could be made, " + std::to_string(checks.size()) + " not assessed");
+}
+
+TEST_CASE("signs lit from outside are judged by what falls on them, and glowing ones never pass",
+          "[emergency][rules]") {
+  SceneDescription scene = corridor();
+  Sign lit = sign_of(0, 0);
+  lit.lighting = SignLighting::external;
+  lit.green_reflectance = Spectrum::constant(0.15);
+  lit.white_reflectance = Spectrum::constant(0.75);
+  const auto dim = checks_of_sign(scene, lit, 60, {}, en13);
+  CHECK(of(dim, "S1").verdict == CheckVerdict::fail);
+  CHECK(*of(dim, "S1").value == Approx(60 * 0.15 / std::numbers::pi));  // Lambert
+  CHECK(*of(dim, "S3").value == Approx(5));
+  // One number says nothing of the dimmest place.
+  CHECK(of(checks_of_sign(scene, lit, 300, {}, en13), "S1").verdict == CheckVerdict::not_assessed);
+  lit.white_reflectance = Spectrum::constant(0.1);
+  CHECK(of(checks_of_sign(scene, lit, 60, {}, en13), "S3").verdict == CheckVerdict::fail);
+  Sign glow = sign_of(1, 0.1);
+  glow.lighting = SignLighting::photoluminescent;
+  CHECK(of(checks_of_sign(scene, glow, 0, {}, en13), "S1").verdict == CheckVerdict::not_assessed);
+}
+
+TEST_CASE("a luminaire on another storey is not near, and is named", "[emergency][rules]") {
+  SceneDescription scene = corridor();
+  EscapeRoute upper = scene.routes.front();
+  upper.name = "gallery";
+  upper.path = {{0, 3, 3.2}, {10, 3, 3.2}};
+  scene.routes.push_back(upper);
+  scene.emitters = {luminaire("far", {8, 0, 2.8}, 100), luminaire("above", {3, 2.5, 6}, 100)};
+  EmphasisPoint door;
+  door.name = "door";
+  door.position = {3, 1, 0};
+  const Check check = of(checks_of_emphasis(scene, door, {true, true}, std::nullopt, {}), "E12");
+  CHECK(check.verdict == CheckVerdict::fail);
+  CHECK(check.reason.find("\"above\" is 1.50 m away, but on another storey") != std::string::npos);
+}
+
+TEST_CASE("luminaires hang 2 m above the floor that is met below them", "[emergency][rules]") {
+  const SceneDescription scene = corridor();
+  for (const Check& check : checks_of_height(scene, en13)) {
+    CHECK(check.verdict == CheckVerdict::pass);
+    CHECK(*check.value == Approx(2.8));
+  }
+  const FloorUnder gallery = [](const glm::dvec3&) { return std::optional(1.0); };
+  CHECK(of(checks_of_height(scene, en13, gallery), "E14").verdict == CheckVerdict::fail);
+  // Glare: 200 lm new, the same to all sides, is 15.9 cd; the limit is that of the true height.
+  CHECK(*of(checks_of_glare(scene, en13), "E8").limit == 900);
+  CHECK(*of(checks_of_glare(scene, en13, gallery), "E8").limit == 500);
+  CHECK(checks_of_height(scene, nfpa).empty());
+}
+
+TEST_CASE("a code that knows no areas says so, and what a scene does not name is not assessed",
+          "[emergency][rules]") {
+  SceneDescription scene = corridor();
+  const AssessedArea hall{"hall", {}, {{0, 0}, {4, 0}, {4, 4}, {0, 4}}, 0, 0};
+  CHECK(of(checks_of_open_area(scene, hall, {at(1, 5, 5)}, nfpa), "N1").verdict ==
+        CheckVerdict::not_assessed);
+  CHECK(of(checks_of_task_area(scene, hall, {at(1, 5, 5)}, nfpa), "N1").verdict ==
+        CheckVerdict::not_assessed);
+  CHECK(has(checks_beyond(scene, en24), "E12"));
+  EmphasisPoint door;
+  scene.emphasis = {door};
+  CHECK_FALSE(has(checks_beyond(scene, en24), "E12"));
+  CHECK_FALSE(has(checks_beyond(scene, en24), "E5"));
+  scene.routes.clear();
+  CHECK(has(checks_beyond(scene, en24), "E5"));
+  CHECK(has(checks_beyond(scene, nfpa), "N1"));
 }

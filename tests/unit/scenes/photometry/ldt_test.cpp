@@ -229,6 +229,34 @@ TEST_CASE("lamp sets burn together, and the reader says so", "[format][ldt]") {
   CHECK(warns(file, "burning together"));
 }
 
+TEST_CASE("fluxes of one lamp of several, openings in another unit and odd colours are told",
+          "[photometry]") {
+  const auto warned = [](const Ldt& ldt, const std::string& words) {
+    size_t count = 0;
+    for (const Problem& w : read_ldt_text(ldt).warnings)
+      count += w.what.find(words) != std::string::npos && w.where.line > 0 ? 1 : 0;
+    return count == 1;
+  };
+  const Ldt plain;
+  for (const char* words :
+       {"is it that of one", "longer than the luminaire", "in kelvin", "more than any lamp gives"})
+    CHECK_FALSE(warned(plain, words));
+  Ldt lamps;
+  lamps.lamps = {{"4", "T8", "1000", "4000 K", "80", "72"}};
+  CHECK(warned(lamps, "4 lamps give 1000 lm with 72 W"));
+  Ldt metres;
+  metres.sizes = {"0.2", "0.1", "0.05", "180", "90", "0", "0", "0", "0"};
+  CHECK(warned(metres, "longer than the luminaire of 0.2 mm"));
+  for (const char* colour : {"40", "65000"}) {
+    Ldt kelvin;
+    kelvin.lamps = {{"1", "LED", "1000", colour, "80", "10"}};
+    CHECK(warned(kelvin, "is no colour temperature in kelvin"));
+  }
+  Ldt bright;
+  bright.lamps = {{"1", "LED", "10000", "840", "80", "10"}};
+  CHECK(warned(bright, "more than any lamp gives"));
+}
+
 TEST_CASE("a negative lamp count marks absolute photometry", "[format][ldt]") {
   Ldt ldt;
   ldt.lamps[0][0] = "-1";

@@ -68,6 +68,15 @@ TEST_CASE("probes, routes and signs are told of and what is far, dark or behind 
   const auto emergency = near_in(way + "[[scenario]]\nname = \"e\"\noperation = \"emergency\"\n");
   REQUIRE(emergency.size() == 1);
   CHECK(emergency[0].judged);
+  // A sign lit from outside is judged where people walk, with no observer to look at it.
+  const std::string sign =
+      "[[sign]]\nname = \"outer\"\nposition = [5, 5.3, 0.4]\nfacing = [0, -1, 0]\nwidth = 0.3\n"
+      "height = 0.15\nplain = \"green\"\nsmallest_detail = 0.01\nlighting = \"external\"\n";
+  CHECK(near_in(sign).empty());
+  const auto lit = near_in(way + sign + "[[scenario]]\nname = \"e\"\noperation = \"emergency\"\n");
+  REQUIRE(lit.size() == 2);
+  CHECK(lit[1].problem.what.starts_with("sign \"outer\" is "));
+  CHECK(lit[1].judged);
   CHECK(near_in("[[probe]]\nname = \"p\"\nposition = [5, 5.2, 0.2]\n[[scenario]]\n"
                 "name = \"off\"\ncircuits = { a = 0 }\n")
             .empty());
