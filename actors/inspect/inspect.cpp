@@ -147,6 +147,7 @@ std::optional<Problem> inspect_doors(const SceneDescription& scene,
   inspect_turned_rooms(site, found);
   inspect_luminaires(site, found, misplaced.emitters);
   inspect_signs(site, found, misplaced.signs);
+  inspect_postures(site, misplaced.signs, found);
   inspect_eyes(site, found);
   inspect_routes(site, found);
   inspect_areas(site, found);

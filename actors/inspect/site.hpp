@@ -32,6 +32,9 @@ class Remoteness {
   double height_m_ = 0;
 };
 
+/// Objects with the tag "furniture".
+bool is_furniture(const Object& object);
+
 struct Site {
   const SceneDescription& scene;  // as it is described
   const Building& building;       // of it: first the emitters, in their order
@@ -50,6 +53,14 @@ struct Site {
   }
 };
 
+/// Furniture, by surface.
+std::vector<char> furniture_of(const Site& site);
+/// The nearest wall, floor or body within `length_m`; signs, luminaires and what lets light through
+/// are none, and furniture only if `furniture`.
+std::optional<Facing> solid_ahead(const Site& site, const GeometryAccess& access,
+                                  const glm::dvec3& from, const glm::dvec3& direction,
+                                  double length_m, bool furniture = true);
+
 // Of one state of the doors. `outside`: by emitter, those that stand outside.
 void inspect_luminaires(const Site& site, Findings& out, std::vector<char>& outside);
 void inspect_judged_places(const Site& site, Findings& out);
@@ -57,6 +68,8 @@ void inspect_judged_places(const Site& site, Findings& out);
 void inspect_near_field(const Site& site, const Scenario& scenario, Findings& out);
 /// `misplaced`: by sign, those of which anything is told.
 void inspect_signs(const Site& site, Findings& out, std::vector<char>& misplaced);
+/// How signs hang and eyes look. `misplaced`: as inspect_signs says.
+void inspect_postures(const Site& site, const std::vector<char>& misplaced, Findings& out);
 void inspect_eyes(const Site& site, Findings& out);
 void inspect_routes(const Site& site, Findings& out);
 void inspect_areas(const Site& site, Findings& out);
