@@ -73,12 +73,15 @@ void inspect_postures(const Site& site, const std::vector<char>& misplaced, Find
 void inspect_eyes(const Site& site, Findings& out);
 void inspect_routes(const Site& site, Findings& out);
 void inspect_areas(const Site& site, Findings& out);
+void inspect_furniture(const Site& site, Findings& out);
 void inspect_emphasis(const Site& site, Findings& out);
 /// `outside`: as inspect_luminaires says.
 void inspect_planes(const Site& site, const std::vector<char>& outside, Findings& out);
 void inspect_turned_rooms(const Site& site, Findings& out);
 // Of the scene as it is written.
 void inspect_sizes(const SceneDescription& scene, Findings& out);
+void inspect_doubled_objects(const SceneDescription& scene, Findings& out);
+void inspect_doors(const SceneDescription& scene, Findings& out);
 void inspect_reach(const SceneDescription& scene, Findings& out);
 void inspect_fluxes(const SceneDescription& scene, Findings& out);
 

@@ -139,3 +139,48 @@ TEST_CASE("barriers, sills and beams across a route are told", "[inspect]") {
               Severity::warning, "has less than 1.9 m of headroom under \"bar\"");
   CHECK(found_in(furnished_room + way + bar("[5, -2, 2.1]", "[5.1, 2, 3]")).empty());
 }
+
+TEST_CASE("furniture that floats is told, and slabs, hung and stacked things are not",
+          "[inspect]") {
+  const auto piece = [](const std::string& low, const std::string& high) {
+    return found_in(furnished_room + bar(low, high) + "tags = [\"furniture\"]\n");
+  };
+  check_found(piece("[5, -0.5, 0.4]", "[6, 0.5, 1.4]"), Severity::warning,
+              "the furniture \"bar\" floats 0.4 m above");
+  CHECK(piece("[5, -0.5, 0]", "[6, 0.5, 1]").empty());
+  CHECK(piece("[5, -0.5, 0.72]", "[6, 0.5, 0.75]").empty());
+  CHECK(piece("[5, 1.6, 1.4]", "[6, 2, 2]").empty());
+}
+
+TEST_CASE("a door that turns about a hinge away from its leaf is told", "[inspect]") {
+  const auto leaf = [](const std::string& door) {
+    return found_in(furnished_room + thick_wall + bar("[8.05, -1, 0.01]", "[8.09, 1, 2.1]") +
+                    "door = { " + door + " }\n");
+  };
+  check_found(leaf("hinge = [8.07, 4, 0]"), Severity::error,
+              "turns about a hinge that is 3 m away");
+  check_found(leaf("hinge = [8.07, 1.3, 0]"), Severity::warning, "a hinge that is 0.3 m away");
+  check_found(leaf("hinge = [8.07, 1, 0], axis = [1, 0, 0]"), Severity::warning,
+              "turns about a level axis");
+  CHECK(leaf("hinge = [8.07, 1, 0]").empty());
+}
+
+TEST_CASE("objects laid exactly on each other are told", "[inspect]") {
+  const std::string second = replaced(bar("[5, 1, 0]", "[6, 2, 1]"), "\"bar\"", "\"again\"");
+  check_found(found_in(furnished_room + bar("[5, 1, 0]", "[6, 2, 1]") + second), Severity::warning,
+              "\"again\" fills the very space of \"bar\"");
+  check_found(found_in(furnished_room + bar("[0, -2, 0]", "[12, 2, 3]")), Severity::warning,
+              "\"bar\" fills the very space of \"room\"");
+  const std::string beside = replaced(bar("[6, 1, 0]", "[7, 2, 1]"), "\"bar\"", "\"beside\"");
+  CHECK(found_in(furnished_room + bar("[5, 1, 0]", "[6, 2, 1]") + beside).empty());
+}
+
+TEST_CASE("planes over people's heads and above the ceiling are told", "[inspect]") {
+  const auto plane = [](const std::string& z) {
+    return found_in(furnished_room + "[[plane]]\nname = \"desk\"\ncorner = [1, -1, " + z +
+                    "]\nedge_u = [5, 0, 0]\nedge_v = [0, 2, 0]\ncells = [5, 2]\n");
+  };
+  check_found(plane("2.2"), Severity::note, "lies 2.2 m above what is below it");
+  check_found(plane("3.2"), Severity::warning, "plane \"desk\" lies above the ceiling");
+  CHECK(plane("0.85").empty());
+}
