@@ -18,7 +18,8 @@ constexpr double standing_eye_m = 1.65;
 /// What stands from here to the eye is no step, sill or table [m].
 constexpr double waist_m = 1.0;
 /// Higher than any step, and lower than a sill or a barrier [m].
-constexpr double knee_m = 0.4;
+constexpr double knee_m = 0.35;
+constexpr double chest_m = 1.35;
 /// People walk upright below what hangs higher [m].
 constexpr double headroom_m = 1.9;
 /// Steps along a route at which its width is measured [m].
@@ -266,7 +267,8 @@ void tell_barriers(const Site& site, const EscapeRoute& route, const Walk& walk,
   const char* over =
       "people cannot walk there; lead it around, draw its opening from the floor, "
       "or give its points the heights of the steps";
-  if (told(knee_m, "climbs over", over) || told(waist_m, "climbs over or ducks under", over))
+  if (told(knee_m, "climbs over", over) || told(chest_m, "ducks under", over) ||
+      told(waist_m, "climbs over or ducks under", over))
     return;
   told(headroom_m, "has less than 1.9 m of headroom under",
        "is its height right, and that of the opening?");

@@ -135,6 +135,10 @@ TEST_CASE("barriers, sills and beams across a route are told", "[inspect]") {
               Severity::warning, "route \"way\" climbs over \"bar\"");
   check_found(found_in(furnished_room + way + bar("[5, -2, 0.9]", "[5.1, 2, 1.3]")),
               Severity::warning, "route \"way\" climbs over or ducks under \"bar\"");
+  check_found(found_in(furnished_room + way + bar("[5, -2, 1.2]", "[5.1, 2, 1.5]")),
+              Severity::warning, "route \"way\" ducks under \"bar\"");
+  check_found(found_in(furnished_room + way + bar("[5, -2, 0]", "[5.1, 2, 0.4]")),
+              Severity::warning, "route \"way\" climbs over \"bar\"");
   check_found(found_in(furnished_room + way + bar("[5, -2, 1.8]", "[5.1, 2, 3]")),
               Severity::warning, "has less than 1.9 m of headroom under \"bar\"");
   CHECK(found_in(furnished_room + way + bar("[5, -2, 2.1]", "[5.1, 2, 3]")).empty());
