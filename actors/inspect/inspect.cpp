@@ -133,9 +133,9 @@ Scenario lit_scenario(const Scenario& scenario) {
 }
 
 /// `state`: scenarios with the same doors. What keeps it from being compiled, if anything does.
-std::optional<Problem> inspect_doors(const SceneDescription& scene,
-                                     const std::vector<const Scenario*>& state, int threads,
-                                     Collected& out, Misplaced& misplaced) {
+std::optional<Problem> inspect_doors_state(const SceneDescription& scene,
+                                           const std::vector<const Scenario*>& state, int threads,
+                                           Collected& out, Misplaced& misplaced) {
   SceneDescription clear = all_lit(scene);
   clear.media.clear();
   Scenario lit = lit_scenario(*state.front());
@@ -147,10 +147,12 @@ std::optional<Problem> inspect_doors(const SceneDescription& scene,
   inspect_turned_rooms(site, found);
   inspect_luminaires(site, found, misplaced.emitters);
   inspect_signs(site, found, misplaced.signs);
+  inspect_postures(site, misplaced.signs, found);
   inspect_eyes(site, found);
   inspect_routes(site, found);
   inspect_areas(site, found);
   inspect_emphasis(site, found);
+  inspect_furniture(site, found);
   inspect_planes(site, misplaced.emitters, found);
   inspect_judged_places(site, found);
   out.add(std::move(found), names_of(state));
@@ -233,6 +235,8 @@ Result<std::vector<Finding>> inspect(const std::shared_ptr<const SceneDescriptio
   for (const Problem& warning : scene->warnings)
     of_scene.push_back({Severity::warning, "file", warning});
   inspect_sizes(*scene, of_scene);
+  inspect_doubled_objects(*scene, of_scene);
+  inspect_doors(*scene, of_scene);
   inspect_reach(*scene, of_scene);
   inspect_fluxes(*scene, of_scene);
   inspect_materials(*scene, of_scene);
@@ -243,7 +247,7 @@ Result<std::vector<Finding>> inspect(const std::shared_ptr<const SceneDescriptio
   out.add(std::move(of_scene), names_of(all));
   Misplaced misplaced;
   for (const auto& state : alike(all, doors_of)) {
-    if (auto problem = inspect_doors(*scene, state, threads, out, misplaced)) return *problem;
+    if (auto problem = inspect_doors_state(*scene, state, threads, out, misplaced)) return *problem;
   }
   const auto media_of = [](const Scenario& s) {
     return std::tuple(listed(s.media), s.smoke_factor, doors_of(s));

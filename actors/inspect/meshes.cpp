@@ -43,6 +43,26 @@ std::vector<Whole> wholes_of(const SceneDescription& scene) {
   return out;
 }
 
+/// A flat thing's front; of others nothing, as they are seen from all sides.
+glm::dvec3 front_of(const Object& object) {
+  const Mesh& mesh = object.mesh;
+  if (mesh.triangles.empty() || !is_flat(mesh)) return glm::dvec3(0);
+  const glm::uvec3& t = mesh.triangles.front();
+  return glm::normalize(glm::cross(mesh.positions[t.y] - mesh.positions[t.x],
+                                   mesh.positions[t.z] - mesh.positions[t.x]));
+}
+
+/// Two things that fill one space, seen from one side.
+bool coincide(const Whole& a, const Whole& b) {
+  constexpr double one_place_m = 1e-3;
+  const auto near = [](const glm::dvec3& p, const glm::dvec3& q) {
+    return glm::all(glm::lessThan(glm::abs(p - q), glm::dvec3(one_place_m)));
+  };
+  if (!near(a.bounds.low, b.bounds.low) || !near(a.bounds.high, b.bounds.high)) return false;
+  if (a.first->door.has_value() != b.first->door.has_value()) return false;
+  return !(glm::dot(front_of(*a.first), front_of(*b.first)) < 0);
+}
+
 std::string size_text(const glm::dvec3& size) {
   return length_text(size.x) + " x " + length_text(size.y) + " x " + length_text(size.z);
 }
@@ -66,6 +86,27 @@ void inspect_sizes(const SceneDescription& scene, Findings& out) {
                                 "metres; an import says units = \"mm\", \"cm\" or \"m\"",
                                 whole_name(*whole.first), size_text(size))}});
   }
+}
+
+void inspect_doubled_objects(const SceneDescription& scene, Findings& out) {
+  constexpr double window_m = 1e-3;
+  std::vector<Whole> wholes = wholes_of(scene);
+  const auto empty = [](const Whole& w) { return w.bounds.empty(); };
+  wholes.erase(std::remove_if(wholes.begin(), wholes.end(), empty), wholes.end());
+  const auto x = [](const Whole& w) { return w.bounds.low.x; };
+  std::stable_sort(wholes.begin(), wholes.end(),
+                   [&](const Whole& a, const Whole& b) { return x(a) < x(b); });
+  for (size_t i = 0; i < wholes.size(); ++i)
+    for (size_t k = i + 1; k < wholes.size() && x(wholes[k]) - x(wholes[i]) < window_m; ++k) {
+      if (!coincide(wholes[i], wholes[k])) continue;
+      const Object &first = *wholes[i].first, &second = *wholes[k].first;
+      out.push_back({Severity::warning,
+                     "same place",
+                     {second.place,
+                      fmt::format("\"{}\" fills the very space of \"{}\" (line {}): which of the "
+                                  "two is met is left to rounding; remove one of them",
+                                  whole_name(second), whole_name(first), first.place.line)}});
+    }
 }
 
 void inspect_turned_rooms(const Site& site, Findings& out) {

@@ -15,6 +15,10 @@ constexpr double above_plane_m = 1e-3;
 constexpr Real off_the_floor_m = 0.25_r;
 /// A plane that has a surface as near before it counts that surface's light [m].
 constexpr Real shut_m = 0.05_r;
+/// People's heads are lower than that; a plane so near above a ceiling was meant below it [m].
+constexpr double head_height_m = 2;
+constexpr double close_above_m = 0.5;
+constexpr double floor_below_m = 30;
 /// Of the cells: more than these shares are no coincidence.
 constexpr double max_share = 0.9;
 constexpr double part_share = 0.1;
@@ -80,7 +84,19 @@ void tell_places(const Site& site, const PlaneMeasure& plane, const CellPlaces& 
     out.push_back({severity, "plane", {plane.place, name + what}});
   };
   if (cells.all == 0) return;
-  if (cells.shut > max_share * cells.all) {
+  const glm::dvec3 middle = plane.corner + 0.5 * (plane.edge_u + plane.edge_v);
+  double plane_height = 0;
+  bool above_ceiling = false;
+  site.building.each(1, [&](const GeometryAccess& access, size_t) {
+    const glm::dvec3 normal = glm::cross(plane.edge_u, plane.edge_v);
+    if (normal.z < 0.9 * glm::length(normal)) return;
+    const auto below = solid_ahead(site, access, middle + glm::dvec3(0, 0, above_plane_m),
+                                   glm::dvec3(0, 0, -1), floor_below_m, false);
+    if (!below) return;
+    plane_height = static_cast<double>(below->distance_m) - above_plane_m;
+    above_ceiling = site.is_back(*below) && plane_height < close_above_m;
+  });
+  if (cells.shut > most_share * cells.all) {
     tell(Severity::warning,
          fmt::format(" looks at {}, less than {} before it: light is counted on the side that "
                      "cross(edge_u, edge_v) looks to; swap the two edges, or move it",
@@ -89,9 +105,18 @@ void tell_places(const Site& site, const PlaneMeasure& plane, const CellPlaces& 
     return;
   }
   if (cells.outside == cells.all) {
+    if (above_ceiling) {
+      tell(Severity::warning,
+           " lies above the ceiling, with all of its cells: is its height right?");
+      return;
+    }
     if (rooms_are_lit) tell(Severity::note, " lies outside the building, with all of its cells");
     return;
   }
+  if (plane_height > head_height_m)
+    tell(Severity::note,
+         fmt::format(" lies {} above what is below it, over people's heads: is its height right?",
+                     length_text(plane_height)));
   if (cells.outside > part_share * cells.all)
     tell(Severity::warning,
          fmt::format(": {:.0f} % of its cells lie outside the building, and count in its mean, "

@@ -46,6 +46,26 @@ std::string object_text(const Object& object) {
                      place.line > 0 ? fmt::format(" ({}:{})", place.file, place.line) : "");
 }
 
+bool is_furniture(const Object& object) {
+  return std::count(object.tags.begin(), object.tags.end(), "furniture") > 0;
+}
+
+std::vector<char> furniture_of(const Site& site) {
+  std::vector<char> out;
+  for (const Object& object : site.scene.objects) out.push_back(is_furniture(object) ? 1 : 0);
+  return out;
+}
+
+std::optional<Facing> solid_ahead(const Site& site, const GeometryAccess& access,
+                                  const glm::dvec3& from, const glm::dvec3& direction,
+                                  double length_m, bool furniture) {
+  return first_stop(site.building.scene(), access, site.building.local(from), Vec3(direction),
+                    static_cast<Real>(length_m), [&](const Facing& f) {
+                      return f.surface >= site.scene.objects.size() || lets_light_through(f.kind) ||
+                             (!furniture && is_furniture(site.scene.objects[f.surface]));
+                    });
+}
+
 Remoteness::Remoteness(const SceneDescription& scene) {
   Bounds all;
   for (const Object& object : scene.objects) {

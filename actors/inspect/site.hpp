@@ -36,6 +36,8 @@ class Remoteness {
 
 /// Whether somebody looks for signs, or walks: what makes a verdict wrong is then a warning.
 bool judges_people(const SceneDescription& scene);
+/// Objects with the tag "furniture".
+bool is_furniture(const Object& object);
 
 struct Site {
   const SceneDescription& scene;  // as it is described
@@ -55,6 +57,14 @@ struct Site {
   }
 };
 
+/// Furniture, by surface.
+std::vector<char> furniture_of(const Site& site);
+/// The nearest wall, floor or body within `length_m`; signs, luminaires and what lets light through
+/// are none, and furniture only if `furniture`.
+std::optional<Facing> solid_ahead(const Site& site, const GeometryAccess& access,
+                                  const glm::dvec3& from, const glm::dvec3& direction,
+                                  double length_m, bool furniture = true);
+
 // Of one state of the doors. `outside`: by emitter, those that stand outside.
 void inspect_luminaires(const Site& site, Findings& out, std::vector<char>& outside);
 void inspect_judged_places(const Site& site, Findings& out);
@@ -62,15 +72,20 @@ void inspect_judged_places(const Site& site, Findings& out);
 void inspect_near_field(const Site& site, const Scenario& scenario, Findings& out);
 /// `misplaced`: by sign, those of which anything is told.
 void inspect_signs(const Site& site, Findings& out, std::vector<char>& misplaced);
+/// How signs hang and eyes look. `misplaced`: as inspect_signs says.
+void inspect_postures(const Site& site, const std::vector<char>& misplaced, Findings& out);
 void inspect_eyes(const Site& site, Findings& out);
 void inspect_routes(const Site& site, Findings& out);
 void inspect_areas(const Site& site, Findings& out);
+void inspect_furniture(const Site& site, Findings& out);
 void inspect_emphasis(const Site& site, Findings& out);
 /// `outside`: as inspect_luminaires says.
 void inspect_planes(const Site& site, const std::vector<char>& outside, Findings& out);
 void inspect_turned_rooms(const Site& site, Findings& out);
 // Of the scene as it is written.
 void inspect_sizes(const SceneDescription& scene, Findings& out);
+void inspect_doubled_objects(const SceneDescription& scene, Findings& out);
+void inspect_doors(const SceneDescription& scene, Findings& out);
 void inspect_reach(const SceneDescription& scene, Findings& out);
 void inspect_fluxes(const SceneDescription& scene, Findings& out);
 void inspect_materials(const SceneDescription& scene, Findings& out);

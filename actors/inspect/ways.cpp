@@ -17,6 +17,11 @@ constexpr double on_floor_m = 0.05;
 constexpr double standing_eye_m = 1.65;
 /// What stands from here to the eye is no step, sill or table [m].
 constexpr double waist_m = 1.0;
+/// Higher than any step, and lower than a sill or a barrier [m].
+constexpr double knee_m = 0.35;
+constexpr double chest_m = 1.35;
+/// People walk upright below what hangs higher [m].
+constexpr double headroom_m = 1.9;
 /// Steps along a route at which its width is measured [m].
 constexpr double width_step_m = 0.5;
 /// Less than so much is plaster [m].
@@ -32,10 +37,6 @@ constexpr double area_border_m = 0.25;
 /// On more than this share of its points an area is not where it should be.
 constexpr double area_share = 0.1;
 
-bool is_furniture(const Object& object) {
-  return std::count(object.tags.begin(), object.tags.end(), "furniture") > 0;
-}
-
 /// What stands in the way of people: objects that are no furniture. Signs and luminaires are passed
 /// under.
 auto passable(const Site& site) {
@@ -43,13 +44,6 @@ auto passable(const Site& site) {
     return f.surface >= site.scene.objects.size() || f.kind == MaterialKind::open ||
            is_furniture(site.scene.objects[f.surface]);
   };
-}
-
-/// Furniture, by surface.
-std::vector<char> furniture_of(const Site& site) {
-  std::vector<char> out;
-  for (const Object& object : site.scene.objects) out.push_back(is_furniture(object) ? 1 : 0);
-  return out;
 }
 
 std::optional<Facing> first_wall(const Site& site, const GeometryAccess& access,
@@ -150,6 +144,20 @@ std::vector<Obstacle> obstacles(const Site& site, const Walk& walk) {
   return out;
 }
 
+/// What stands in the way on level ground at one height alone: a barrier, a sill or a beam.
+std::optional<Obstacle> met_at(const Site& site, const Walk& walk, double height_m) {
+  const size_t legs = walk.places.empty() ? 0 : walk.places.size() - 1;
+  std::vector<std::vector<Obstacle>> met(legs);
+  site.building.each(legs, [&](const GeometryAccess& access, size_t i) {
+    if (std::abs(walk.places[i].z - walk.places[i + 1].z) > 1e-6) return;
+    met[i] = met_between(site, access, walk.places[i], walk.places[i + 1], height_m);
+  });
+  for (const auto& some : met)
+    for (const Obstacle& one : some)
+      if (!one.object->door) return one;
+  return std::nullopt;
+}
+
 Finding of_route(Severity severity, const EscapeRoute& route, const std::string& what) {
   return {severity, "route", {route.place, "route \"" + route.name + "\" " + what}};
 }
@@ -246,6 +254,26 @@ void tell_width(const Site& site, const EscapeRoute& route, Findings& out) {
   }
 }
 
+/// What is met neither at the waist nor at the eye, or at one of them alone.
+void tell_barriers(const Site& site, const EscapeRoute& route, const Walk& walk, Findings& out) {
+  const auto told = [&](double height_m, const char* how, const char* advice) {
+    const auto met = met_at(site, walk, height_m);
+    if (!met) return false;
+    out.push_back(of_route(Severity::warning, route,
+                           fmt::format("{} {} at {}: {}", how, object_text(*met->object),
+                                       place_text(met->place), advice)));
+    return true;
+  };
+  const char* over =
+      "people cannot walk there; lead it around, draw its opening from the floor, "
+      "or give its points the heights of the steps";
+  if (told(knee_m, "climbs over", over) || told(chest_m, "ducks under", over) ||
+      told(waist_m, "climbs over or ducks under", over))
+    return;
+  told(headroom_m, "has less than 1.9 m of headroom under",
+       "is its height right, and that of the opening?");
+}
+
 void inspect_route(const Site& site, const EscapeRoute& route, Findings& out) {
   const Walk walk = walk_along(site, route);
   const size_t before = out.size();
@@ -270,6 +298,7 @@ void inspect_route(const Site& site, const EscapeRoute& route, Findings& out) {
     out.push_back(of_route(Severity::error, route,
                            "leads through a wall, at " + place_text(walk.places[at])));
   }
+  if (wall == nullptr && inside == walk.inside.end()) tell_barriers(site, route, walk, out);
   const bool wrong = std::any_of(out.begin() + static_cast<std::ptrdiff_t>(before), out.end(),
                                  [](const Finding& f) { return f.severity == Severity::error; });
   if (!wrong) tell_width(site, route, out);
@@ -328,29 +357,6 @@ void inspect_area(const Site& site, const char* word, const AssessedArea& area, 
 
 void inspect_routes(const Site& site, Findings& out) {
   for (const EscapeRoute& route : site.scene.routes) inspect_route(site, route, out);
-}
-
-void inspect_emphasis(const Site& site, Findings& out) {
-  constexpr double above_m = 0.02;
-  const std::vector<char> furniture = furniture_of(site);
-  for (const EmphasisPoint& point : site.scene.emphasis) {
-    const std::string name = "point of emphasis \"" + point.name + "\"";
-    if (auto far = site.remote.told(name, point.position)) {
-      out.push_back({Severity::error, "far", {point.place, *far}});
-      continue;
-    }
-    bool inside = false;
-    site.building.each(1, [&](const GeometryAccess& access, size_t) {
-      const glm::dvec3 before = point.facing.value_or(glm::dvec3(0, 0, 1)) * above_m;
-      inside = site.building.in_solid(access, point.position + before, furniture);
-    });
-    if (inside)
-      out.push_back(
-          {Severity::warning,
-           "inside",
-           {point.place, name + " lies inside a wall or body, at " + place_text(point.position) +
-                             ": no luminaire is near to it there; move it out"}});
-  }
 }
 
 void inspect_areas(const Site& site, Findings& out) {

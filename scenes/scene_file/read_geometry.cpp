@@ -37,6 +37,16 @@ Result<Shape> wall_shape(KeyReader& keys) {
                    std::to_string(height) + " m");
       return Problem{};
     }
+    for (size_t i = 0; hole.clean() && i + 1 < openings.size(); ++i) {
+      constexpr double shared_m = 1e-6;
+      const auto& other = openings[i];
+      const double wide = std::min(o.x + o.width, other.x + other.width) - std::max(o.x, other.x);
+      const double high = std::min(o.z + o.height, other.z + other.height) - std::max(o.z, other.z);
+      if (wide > shared_m && high > shared_m)
+        hole.problem("this opening overlaps opening " + std::to_string(i + 1) +
+                     " of its wall: 'at' is from the wall's start to the opening's nearer edge; "
+                     "move it, or write one opening for both");
+    }
     if (!hole.clean()) return Problem{};
   }
   if (!keys.clean()) return Problem{};

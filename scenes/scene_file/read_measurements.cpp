@@ -11,6 +11,9 @@ namespace {
 /// Cells of one plane: 4096 x 4096 tallies are 400 MB; more is a slip in the cell's size.
 constexpr int64_t max_plane_cells = int64_t{1} << 24;
 
+/// More are told of: a hall of 250 x 250 m in cells of half a metre has as many.
+constexpr int64_t many_plane_cells = 250000;
+
 /// A problem unless two edges span an area.
 void check_span(KeyReader& keys, const glm::dvec3& u, const glm::dvec3& v) {
   if (!keys.clean()) return;
@@ -48,6 +51,18 @@ void read_plane(const toml::Table& table, SceneReading& reading) {
     const double cell = keys.number("cell_m");
     p.cells_u = cells_along(glm::length(p.edge_u), cell);
     p.cells_v = cells_along(glm::length(p.edge_v), cell);
+    const double longer = std::max(glm::length(p.edge_u), glm::length(p.edge_v));
+    if (keys.clean() && cell > longer)
+      keys.reading().warning(keys.place("cell_m"),
+                             "plane '" + p.name +
+                                 "' is smaller than one cell of 'cell_m', and has one value: no "
+                                 "minimum, no uniformity; make the cells smaller");
+    if (keys.clean() && int64_t{p.cells_u} * p.cells_v > many_plane_cells)
+      keys.reading().warning(
+          keys.place("cell_m"),
+          "plane '" + p.name + "' has " + std::to_string(p.cells_u) + " x " +
+              std::to_string(p.cells_v) +
+              " cells, each of which few particles meet; is 'cell_m' in metres?");
   }
   if (keys.clean() && int64_t{p.cells_u} * p.cells_v > max_plane_cells) {
     keys.problem(given, "this plane would have " + std::to_string(p.cells_u) + " x " +

@@ -149,6 +149,12 @@ TEST_CASE("objects and imports that cannot be are refused where they are said", 
       {name + "shape = \"wall\"\nfrom = [0, 0, 0]\nto = [1, 0, 0]\nheight = 2\nthickness = 0.1\n"
               "opening = [{ at = 0.5, width = 1, height = 1 }]\n",
        9, "reaches outside its wall"},
+      {name +
+           "shape = \"wall\"\nfrom = [0, 0, 0]\nto = [4, 0, 0]\nheight = 2\nthickness = 0.1\n"
+           "opening = [{ at = 0.5, width = 1, height = 1 }, { at = 1, width = 1, height = 1 }]\n",
+       9, "overlaps opening 1 of its wall"},
+      {name + "shape = \"wall\"\nfrom = [0, 0, 0]\nto = [4, 0, 0]\nheight = 2\nthickness = 100\n",
+       8, "100 mm is 0.1"},
       {name + "shape = \"polygon\"\noutline = [[0, 0], [1, 1], [1, 0], [0, 1]]\n", 1, "cross"},
       {name + "shape = \"stairs\"\nsteps = 1000\nrise = 0.1\ngoing = 0.3\nwidth = 1\n", 5,
        "'steps' is 1000"},
