@@ -21,10 +21,6 @@ Json measured(const Estimate& e, const char* unit) {
   return measured_json(e.value, e.standard_error, unit);
 }
 
-Json vector_json(const glm::dvec3& v) {
-  return {v.x, v.y, v.z};
-}
-
 Json ledger_json(const EnergyBalance& l) {
   const auto units = [](Int128 v) { return to_string(v); };
   return {{"unit", "2^-32 of a particle's birth weight"},

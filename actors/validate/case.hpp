@@ -5,12 +5,15 @@
 
 #include <functional>
 #include <memory>
+#include <numbers>
 #include <string>
 #include <vector>
 
 #include "actors/validate/traced.hpp"
 
 namespace luxodus::light {
+
+inline constexpr double pi = std::numbers::pi;
 
 /// What tracing estimates, and what it ought to be.
 struct Quantity {

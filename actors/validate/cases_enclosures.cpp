@@ -1,6 +1,5 @@
 // Spheres and infinite plates against closed forms.
 #include <cmath>
-#include <numbers>
 
 #include "actors/validate/case.hpp"
 #include "actors/validate/reference.hpp"
@@ -13,7 +12,6 @@ namespace luxodus::light {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr const char* table = "misc_exact.csv";
 
 Mesh sphere_mesh(double radius, double sagitta) {

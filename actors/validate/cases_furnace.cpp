@@ -1,7 +1,6 @@
 // What a uniform field of light does in smoke: nothing, however dense that is, where it absorbs
 // nothing or is as hot as the walls. Exact for every voxel, layer and body.
 #include <cmath>
-#include <numbers>
 
 #include "actors/validate/case.hpp"
 #include "actors/validate/reference.hpp"
@@ -14,7 +13,6 @@ namespace luxodus::light {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr double off_the_walls = 2e-5;  // sources stand 0.01 mm off them
 constexpr const char* walls[] = {"x0", "x1", "y0", "y1", "z0", "z1"};
 constexpr const char* kinds[] = {"homogeneous", "layers", "a ball", "cells",

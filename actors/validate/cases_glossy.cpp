@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "actors/validate/case.hpp"
 #include "actors/validate/scene_kit.hpp"
@@ -13,7 +12,6 @@ namespace luxodus::light {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr double diffuse = 0.2, specular = 0.6;
 
 /// Both directions point away from a surface whose normal is z.

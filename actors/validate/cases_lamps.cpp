@@ -2,7 +2,6 @@
 // what smoke and glass leave of it. (CIE 171:2006, 5.2, 5.3 and 5.5 are of this kind.)
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "actors/validate/case.hpp"
 #include "actors/validate/reference.hpp"
@@ -12,7 +11,6 @@ namespace luxodus::light {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr double lamp_lm = 1000;
 constexpr double computed = 1e-3;  // what computed direct light may err by
 constexpr double cell = 0.25;      // edge of those that the table averages over [m]

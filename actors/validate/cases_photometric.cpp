@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <functional>
-#include <numbers>
 
 #include "actors/validate/case.hpp"
 #include "actors/validate/scene_kit.hpp"
@@ -16,8 +15,6 @@
 namespace luxodus::light {
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 /// Leaning towards C0: I = I0 cos(gamma) (1 + cos(C) / 2) below the horizon, none above.
 constexpr double peak_cd = 500;

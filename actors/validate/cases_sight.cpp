@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "actors/validate/case.hpp"
 #include "actors/validate/scene_kit.hpp"
@@ -12,8 +11,6 @@
 namespace luxodus::light {
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 // ---- Smokeview ---------------------------------------------------------------------------------
 

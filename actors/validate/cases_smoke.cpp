@@ -2,7 +2,6 @@
 // cube of Burns and Christon (quadrature).
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "actors/validate/case.hpp"
 #include "actors/validate/reference.hpp"
@@ -11,8 +10,6 @@
 namespace luxodus::light {
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 void add_specks(SceneDescription& scene, double away) {
   add_speck(scene, {away, away, away});

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "actors/validate/scene_kit.hpp"
 #include "actors/validate/veil.hpp"
@@ -12,7 +11,6 @@ namespace luxodus::light {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr double sign_x = 4;        // the eye is at the origin
 constexpr double extinction = 0.3;  // [1/m]
 /// So little is scattered that nothing is twice: what is looked for is in proportion to it, and

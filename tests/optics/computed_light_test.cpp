@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "scenes/emergency/sight.hpp"
+#include "scenes/emergency/veil.hpp"
 #include "scenes/transport/polygon_light.hpp"
 #include "scenes/transport/visibility.hpp"
 #include "tests/optics/light_kit.hpp"
