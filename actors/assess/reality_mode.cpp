@@ -12,6 +12,7 @@
 #include "actors/inspect/building.hpp"
 #include "actors/run/local_run.hpp"
 #include "scenes/emergency/sign_face.hpp"
+#include "scenes/emergency/veil.hpp"
 #include "scenes/geometry/polygon.hpp"
 
 namespace luxodus {

@@ -28,10 +28,6 @@ struct CheckOptions {
   bool json = false;
 };
 
-Json point_json(const glm::dvec3& p) {
-  return {p.x, p.y, p.z};
-}
-
 Json memory_json(const CompiledScene& scene) {
   const auto triangles = static_cast<double>(scene.triangles);
   const double scores = static_cast<double>(scene.layout.scores()) * sizeof(int64_t);
@@ -65,26 +61,26 @@ Json describe(const CompiledScene& scene) {
   Json bands = Json::array();
   for (int b = 0; b < scene.bands.count(); ++b)
     bands.push_back({scene.bands[b].low_nm, scene.bands[b].high_nm});
-  return {
-      {"scenario", scene.scenario.name},
-      {"surfaces", scene.surfaces.size()},
-      {"triangles", scene.triangles},
-      {"degenerate_triangles_dropped", d.degenerate_triangles},
-      {"area", exact_json(scene.total_area_m2, "m2")},
-      {"patches", scene.patch_count},
-      {"voxels", scene.voxels.edge > 0 ? scene.voxels.count() : 0},
-      {"bounds", {{"low", point_json(scene.bounds.low)}, {"high", point_json(scene.bounds.high)}}},
-      {"floor_heights_m", floor_heights(scene)},
-      {"luminous_flux", exact_json(lumens, "lm")},
-      {"emitters", emitters},
-      {"media", scene.media_names},
-      {"bands_nm", bands},
-      {"kernel", describe_kernel(scene)},
-      {"features", features_json(scene)},
-      {"cells", scene.cell_boxes.size()},
-      {"batch_particles", scene.batch_particles},
-      {"eye_paths_per_batch", scene.eye_paths_per_batch},
-      {"memory", memory_json(scene)}};
+  return {{"scenario", scene.scenario.name},
+          {"surfaces", scene.surfaces.size()},
+          {"triangles", scene.triangles},
+          {"degenerate_triangles_dropped", d.degenerate_triangles},
+          {"area", exact_json(scene.total_area_m2, "m2")},
+          {"patches", scene.patch_count},
+          {"voxels", scene.voxels.edge > 0 ? scene.voxels.count() : 0},
+          {"bounds",
+           {{"low", vector_json(scene.bounds.low)}, {"high", vector_json(scene.bounds.high)}}},
+          {"floor_heights_m", floor_heights(scene)},
+          {"luminous_flux", exact_json(lumens, "lm")},
+          {"emitters", emitters},
+          {"media", scene.media_names},
+          {"bands_nm", bands},
+          {"kernel", describe_kernel(scene)},
+          {"features", features_json(scene)},
+          {"cells", scene.cell_boxes.size()},
+          {"batch_particles", scene.batch_particles},
+          {"eye_paths_per_batch", scene.eye_paths_per_batch},
+          {"memory", memory_json(scene)}};
 }
 
 void print(const Json& s) {

@@ -64,10 +64,6 @@ Estimate traced_lumens(const CompiledScene& scene, const Readout& readout, const
 
 // ---- result.json -------------------------------------------------------------------------------
 
-Json vector_json(const glm::dvec3& v) {
-  return {v.x, v.y, v.z};
-}
-
 Json lux(const Estimate& e) {
   return measured_json(e.value, e.standard_error, "lx");
 }

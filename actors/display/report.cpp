@@ -21,10 +21,6 @@ Json measured(const Estimate& e, const char* unit) {
   return measured_json(e.value, e.standard_error, unit);
 }
 
-Json place_json(const glm::dvec3& v) {
-  return {v.x, v.y, v.z};
-}
-
 Json ledger_json(const EnergyBalance& l) {
   const auto units = [](Int128 v) { return to_string(v); };
   return {{"unit", "2^-32 of a particle's birth weight"},
@@ -177,8 +173,8 @@ Json probes_json(const LocalRun& run, const Readout& readout) {
     }
     out.push_back(
         {{"name", probe.name},
-         {"position", place_json(probe.position)},
-         {"normal", place_json(probe.normal)},
+         {"position", vector_json(probe.position)},
+         {"normal", vector_json(probe.normal)},
          {"direct_illuminance", exact_json(direct.total_lx(), "lx")},
          {"luminaires_direct_in_clear_air", exact_json(direct_light[p].luminaires_clear_lx, "lx")},
          {"indirect_illuminance", measured(indirect, "lx")},

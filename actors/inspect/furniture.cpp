@@ -15,7 +15,6 @@ constexpr double slab_m = 0.15;
 constexpr double foot_m = 0.05;
 /// What bears a thing that does not stand: a wall beside it, a ceiling above it [m].
 constexpr double beside_m = 0.1;
-constexpr double floor_below_m = 30;
 /// Asked so far below a foot [m].
 constexpr double below_foot_m = 1e-3;
 constexpr size_t feet_asked = 8;

@@ -54,9 +54,9 @@ glm::dvec3 front_of(const Object& object) {
 
 /// Two things that fill one space, seen from one side.
 bool coincide(const Whole& a, const Whole& b) {
-  constexpr double one_place_m = 1e-3;
+  constexpr double one_space_m = 1e-3;
   const auto near = [](const glm::dvec3& p, const glm::dvec3& q) {
-    return glm::all(glm::lessThan(glm::abs(p - q), glm::dvec3(one_place_m)));
+    return glm::all(glm::lessThan(glm::abs(p - q), glm::dvec3(one_space_m)));
   };
   if (!near(a.bounds.low, b.bounds.low) || !near(a.bounds.high, b.bounds.high)) return false;
   if (a.first->door.has_value() != b.first->door.has_value()) return false;

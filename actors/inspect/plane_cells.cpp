@@ -18,7 +18,6 @@ constexpr Real shut_m = 0.05_r;
 /// People's heads are lower than that; a plane so near above a ceiling was meant below it [m].
 constexpr double head_height_m = 2;
 constexpr double close_above_m = 0.5;
-constexpr double floor_below_m = 30;
 /// Of the cells: more than these shares are no coincidence.
 constexpr double max_share = 0.9;
 constexpr double part_share = 0.1;
@@ -96,7 +95,7 @@ void tell_places(const Site& site, const PlaneMeasure& plane, const CellPlaces& 
     plane_height = static_cast<double>(below->distance_m) - above_plane_m;
     above_ceiling = site.is_back(*below) && plane_height < close_above_m;
   });
-  if (cells.shut > most_share * cells.all) {
+  if (cells.shut > max_share * cells.all) {
     tell(Severity::warning,
          fmt::format(" looks at {}, less than {} before it: light is counted on the side that "
                      "cross(edge_u, edge_v) looks to; swap the two edges, or move it",

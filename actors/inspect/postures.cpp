@@ -15,16 +15,15 @@ namespace {
 /// More than 45 degrees from the level, or from upright.
 constexpr double steep = 0.7;
 /// Faces of exit signs are from 5 cm to 1.5 m high [m].
-constexpr double least_face_m = 0.05;
-constexpr double most_face_m = 1.5;
+constexpr double min_face_m = 0.05;
+constexpr double max_face_m = 1.5;
 /// Signs hang above people or low on walls, as guidance in smoke does: between these heights of
 /// the lower edge above the floor people and furniture hide them [m].
 constexpr double low_sign_m = 0.6;
 constexpr double high_sign_m = 1.5;
-constexpr double floor_below_m = 30;
 /// Of an observer: an eye is so high above what it stands on [m].
-constexpr double least_eye_m = 0.2;
-constexpr double most_eye_m = 2.3;
+constexpr double min_eye_m = 0.2;
+constexpr double max_eye_m = 2.3;
 /// A route is judged by a sign's arrow if it leads by so near [m], and on for so far [m].
 constexpr double passes_near_m = 6;
 constexpr double leads_on_m = 2;
@@ -50,7 +49,7 @@ std::optional<Finding> turned_wrong(const Sign& sign) {
 }
 
 std::optional<Finding> sized_wrong(const Sign& sign) {
-  if (sign.height_m >= least_face_m && sign.height_m <= most_face_m) return std::nullopt;
+  if (sign.height_m >= min_face_m && sign.height_m <= max_face_m) return std::nullopt;
   return sign_finding(Severity::warning, "unit", sign,
                       fmt::format("is {} wide and {} high: width and height are in metres",
                                   length_text(sign.width_m), length_text(sign.height_m)));
@@ -155,7 +154,7 @@ std::optional<std::string> looks_wrong(const Site& site, const GeometryAccess& a
            ": glare is judged for where it looks; give it the sign as its target";
   const auto floor = solid_ahead(site, access, o.eye, glm::dvec3(0, 0, -1), floor_below_m);
   const double height = floor ? static_cast<double>(floor->distance_m) : 1;
-  if (height < least_eye_m || height > most_eye_m)
+  if (height < min_eye_m || height > max_eye_m)
     return fmt::format(
         "has its eye {} above what is below it: people's eyes are 0.6 m (crawling) "
         "to 1.8 m above the floor",

@@ -14,6 +14,9 @@ namespace luxodus {
 
 using Findings = std::vector<Finding>;
 
+/// A floor is looked for no deeper below a thing [m].
+inline constexpr double floor_below_m = 30;
+
 /// "0.15 m", "4 mm", "12.3 km"; "(1.00, 2.50, 0.00)".
 std::string length_text(double length_m);
 std::string place_text(const glm::dvec3& place);

@@ -9,6 +9,10 @@ Json number_json(double value) {
   return value;
 }
 
+Json vector_json(const glm::dvec3& v) {
+  return {v.x, v.y, v.z};
+}
+
 Json measured_json(double value, double standard_error, std::string_view unit) {
   Json out = Json::object();
   out["value"] = number_json(value);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <glm/glm.hpp>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
@@ -17,6 +18,9 @@ using Json = nlohmann::ordered_json;
 
 /// The number, or null where it is not finite.
 Json number_json(double value);
+
+/// [x, y, z].
+Json vector_json(const glm::dvec3& v);
 
 /// {"value": v, "standard_error": e, "unit": u}: how every result stands in a report.
 Json measured_json(double value, double standard_error, std::string_view unit);

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "scenes/vision/picture.hpp"
+#include "scenes/optics/chromaticity.hpp"
 
 namespace luxodus {
 namespace {

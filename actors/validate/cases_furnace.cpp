@@ -1,7 +1,6 @@
 // What a uniform field of light does in smoke: nothing, however dense that is, where it absorbs
 // nothing or is as hot as the walls. Exact for every voxel, layer and body.
 #include <cmath>
-#include <numbers>
 
 #include "actors/validate/case.hpp"
 #include "actors/validate/reference.hpp"

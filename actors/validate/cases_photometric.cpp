@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <functional>
-#include <numbers>
 
 #include "actors/validate/case.hpp"
 #include "actors/validate/scene_kit.hpp"

@@ -2,7 +2,6 @@
 // rectangle (5.2), conservation through an opening (5.4), reflection by a diffuse surface (5.6)
 // and past an obstruction (5.7), the mean of all reflections (5.8), and a mirror.
 #include <cmath>
-#include <numbers>
 
 #include "actors/validate/case.hpp"
 #include "actors/validate/scene_kit.hpp"

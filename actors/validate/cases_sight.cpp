@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "actors/validate/case.hpp"
 #include "actors/validate/scene_kit.hpp"

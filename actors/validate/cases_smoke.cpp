@@ -2,7 +2,6 @@
 // cube of Burns and Christon (quadrature).
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "actors/validate/case.hpp"
 #include "actors/validate/reference.hpp"

@@ -12,8 +12,6 @@ constexpr double detection = 2.6, long_enough_s = 2;
 /// Below this the threshold is that of darkness [cd/m2]: far under the dimmest background of the
 /// law's data, and above zero, of which it takes the logarithm.
 constexpr double darkness = 1e-6;
-/// Iris pigmentation of CIE 146: 0 black, 0.5 brown, 1.0 blue-green, 1.2 light blue.
-constexpr double brown = 0.5;
 
 double squared(double x) {
   return x * x;
@@ -78,13 +76,6 @@ double visibility_level(double target_cd_m2, double background_cd_m2, double siz
   const double difference = target_cd_m2 - background_cd_m2;
   return std::abs(difference) /
          luminance_threshold(background_cd_m2, size_arcmin, difference < 0, eye);
-}
-
-double veil_per_lux(double angle_deg, double age_years) {
-  const double angle = std::clamp(angle_deg, 0.1, 100.0);
-  const double ageing = 1 + std::pow(age_years / 62.5, 4);
-  return 10 / std::pow(angle, 3) + (5 / squared(angle) + 0.1 * brown / angle) * ageing +
-         0.0025 * brown;
 }
 
 }  // namespace luxodus

@@ -1,6 +1,6 @@
 // What an eye can tell apart: the threshold of luminance differences by size, background, age and
-// time (Adrian 1989, as in IESNA RP-8), and the veil that bright sources lay over the field of view
-// (CIE 146:2002). Photopic, since reading is foveal. Pure functions; any thread.
+// time (Adrian 1989, as in IESNA RP-8). Photopic, since reading is foveal. Pure functions; any
+// thread. The veil of glare that is added to the background: veil.hpp.
 #pragma once
 
 namespace luxodus {
@@ -28,10 +28,5 @@ double luminance_threshold(double background_cd_m2, double size_arcmin, bool dar
 double visibility_level(double target_cd_m2, double background_cd_m2, double size_arcmin,
                         const Eye& eye);
 inline constexpr double level_seen = 1, level_read = 7;
-
-/// Veiling luminance for each lux that a source gives at the eye, perpendicular to the line of
-/// sight, at this angle from it [cd/m2 per lx]: the general disability glare equation of CIE 146
-/// for brown eyes. Held at 0.1 degrees below that, where the equation ends, and at 100 beyond.
-double veil_per_lux(double angle_deg, double age_years);
 
 }  // namespace luxodus

@@ -1,21 +1,12 @@
 #include "scenes/images/logo.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include "scenes/images/image_file.hpp"
 #include "scenes/images/write_image.hpp"
+#include "scenes/optics/chromaticity.hpp"
 
 namespace luxodus {
 
 namespace {
-
-/// The sRGB byte of a linear value (IEC 61966-2-1).
-uint8_t srgb_byte(double linear) {
-  const double v = std::clamp(linear, 0.0, 1.0);
-  const double encoded = v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055;
-  return static_cast<uint8_t>(std::lround(255 * encoded));
-}
 
 PngImage on_white(const Image& image) {
   PngImage out;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 
 #include "scenes/optics/spectrum.hpp"
 
@@ -20,6 +21,9 @@ Xyz xyz_of(const Spectrum& light);
 
 /// CIE XYZ of linear sRGB (IEC 61966-2-1), Y = 1 for (1, 1, 1).
 Xyz xyz_from_linear_srgb(const std::array<double, 3>& rgb);
+
+/// The sRGB byte of a linear value: clamped to [0, 1], encoded, rounded. NaN gives 0.
+uint8_t srgb_byte(double linear);
 
 /// The colour that looks under white `to` as `colour` does under white `from`: Bradford transform,
 /// linear form (Lam 1985; ICC.1:2010 annex E).

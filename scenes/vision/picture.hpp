@@ -25,7 +25,4 @@ struct SrgbPicture {
   std::vector<uint8_t> rgb;
 };
 
-/// The sRGB byte of a linear value: clamped to [0, 1], encoded, rounded. NaN gives 0.
-uint8_t srgb_byte(double linear);
-
 }  // namespace luxodus

@@ -2,6 +2,7 @@
 // thousandth everywhere, at grazing places, in smoke, and where something hides a part of a lamp.
 
 #include "scenes/emergency/sight.hpp"
+#include "scenes/emergency/veil.hpp"
 #include "scenes/transport/polygon_light.hpp"
 #include "scenes/transport/visibility.hpp"
 #include "tests/optics/light_kit.hpp"

@@ -126,7 +126,7 @@ const std::map<std::string, std::vector<std::string>> arrows{
     {"scenes/vision", {"scenes/optics"}},
     {"scenes/photometry", {"scenes/optics"}},
     {"scenes/fields", {"scenes/geometry", "scenes/optics"}},
-    {"scenes/images", {"scenes/world"}},
+    {"scenes/images", {"scenes/optics", "scenes/world"}},
     {"scenes/emergency", {"scenes/world"}},
     {"scenes/scene_file",
      {"runtime/toml", "scenes/emergency", "scenes/fields", "scenes/geometry", "scenes/images",

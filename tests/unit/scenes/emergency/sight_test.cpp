@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "scenes/emergency/smoke_laws.hpp"
+#include "scenes/emergency/veil.hpp"
 
 using namespace luxodus;
 
