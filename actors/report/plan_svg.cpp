@@ -213,21 +213,26 @@ std::string luminaire_label(const std::string& text, double x, double y, bool em
                             LabelSpace& space) {
   const double size = emergency ? text_mm : 1.7, width = text_width_mm(text, size);
   const double up = 1.5 + size / 2, across = 1.8 + width / 2, first = emergency ? -up : up;
-  const std::array<std::array<double, 2>, 8> offsets{{{0, first},
-                                                      {0, -first},
-                                                      {across, 0},
-                                                      {-across, 0},
-                                                      {across, first},
-                                                      {-across, first},
-                                                      {across, -first},
-                                                      {-across, -first}}};
-  auto at = offsets[0];
-  for (const auto& offset : offsets) {
-    if (!space.take(x + offset[0], y + offset[1], width, size)) continue;
-    at = offset;
-    break;
-  }
-  return text_at(x + at[0], y + at[1] + 0.36 * size, text,
+  const double far = first + std::copysign(size + 0.6, first);  // a row further
+  const std::array<std::array<double, 2>, 14> offsets{{{0, first},
+                                                       {0, -first},
+                                                       {across, 0},
+                                                       {-across, 0},
+                                                       {across, first},
+                                                       {-across, first},
+                                                       {across, -first},
+                                                       {-across, -first},
+                                                       {0, far},
+                                                       {0, -far},
+                                                       {across, far},
+                                                       {-across, far},
+                                                       {across, -far},
+                                                       {-across, -far}}};
+  const auto* at = std::find_if(offsets.begin(), offsets.end(), [&](const auto& offset) {
+    return space.take(x + offset[0], y + offset[1], width, size);
+  });
+  if (at == offsets.end()) at = offsets.begin();
+  return text_at(x + (*at)[0], y + (*at)[1] + 0.36 * size, text,
                  emergency ? "text-anchor=\"middle\" font-weight=\"bold\""
                            : "text-anchor=\"middle\" fill=\"#666\"",
                  size);
@@ -261,11 +266,14 @@ std::string luminaires(const Json& a, const Schedule& schedule, const Texts& tex
     labels->reserve(x, y, 2.2, 2.2);
     wanted.push_back({type.letter + " " + texts.fixed(schedule.above_floor(z)), x, y, emergency});
   }
-  // Emergency luminaires choose first: the plan is about them.
+  // Emergency luminaires choose first and are drawn last: the plan is about them.
+  std::string emergency_labels;
   for (const bool emergency : {true, false})
     for (const Label& label : wanted)
       if (label.emergency == emergency)
-        out += luminaire_label(label.text, label.x, label.y, emergency, *labels);
+        (emergency ? emergency_labels : out) +=
+            luminaire_label(label.text, label.x, label.y, emergency, *labels);
+  out += emergency_labels;
   return out + "</g>\n";
 }
 
@@ -491,6 +499,11 @@ std::string verdict_shape(const std::string& verdict, double x, double y, double
     shape = fmt::format(
         "<circle r=\".9\" fill=\"#fff\" stroke=\"{0}\" stroke-width=\".22\"/><path "
         "d=\"M0 -.1V.55M0 -.5V-.28\" stroke=\"{0}\" stroke-width=\".24\"/>",
+        colour);
+  else if (verdict == "hidden by the building")  // a hollow square with a stroke across
+    shape = fmt::format(
+        "<path d=\"M-.8 -.8H.8V.8H-.8ZM-.8 .8L.8 -.8\" fill=\"#fff\" stroke=\"{}\" "
+        "stroke-width=\".22\"/>",
         colour);
   else  // a ring with a bar: no answer
     shape = fmt::format(

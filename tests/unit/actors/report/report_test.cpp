@@ -18,6 +18,7 @@
 #include "actors/report/hand_over.hpp"
 #include "actors/report/isolux.hpp"
 #include "actors/report/pdf.hpp"
+#include "actors/report/plan_svg.hpp"
 #include "runtime/core/regular_file.hpp"
 #include "tests/kit/temporary_folder.hpp"
 #include "tests/unit/actors/assess/assessed_room.hpp"
@@ -350,6 +351,14 @@ TEST_CASE("labels of luminaires in one place do not lie on each other", "[report
   for (std::sregex_iterator at(svg.begin(), svg.end(), label), end; at != end; ++at)
     places.insert((*at)[1].str() + " " + (*at)[2].str());
   CHECK(places.size() == 2);
+}
+
+TEST_CASE("no two verdicts on a sign have the same shape", "[report]") {
+  std::set<std::string> shapes;
+  for (const char* verdict : {"legible", "undecided", "visible but not legible", "invisible",
+                              "not assessed", "hidden by the building"})
+    shapes.insert(verdict_shape(verdict, 0, 0, 1));
+  CHECK(shapes.size() == 6);
 }
 
 TEST_CASE("the legend of what people read names every verdict in every language", "[report]") {
