@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <vector>
 
 #include "actors/output/light_colours.hpp"
 #include "actors/report/isolux.hpp"
@@ -77,6 +78,38 @@ std::string text_at(double x, double y, const std::string& text, const char* mor
                      size, more, xml_escape(text));
 }
 
+/// About how wide a text is on paper: these fonts have letters of about half their height.
+double text_width_mm(const std::string& text, double size_mm) {
+  const auto letters = std::count_if(text.begin(), text.end(), [](char c) {
+    return (static_cast<unsigned char>(c) & 0xc0) != 0x80;  // not within a letter of UTF-8
+  });
+  return 0.58 * size_mm * static_cast<double>(letters);
+}
+
+/// What is drawn already, so that labels stand beside it and beside each other.
+class LabelSpace {
+ public:
+  void reserve(double x, double y, double width, double height) {
+    boxes_.push_back({x - width / 2, y - height / 2, x + width / 2, y + height / 2});
+  }
+  /// Reserves a box about (x, y) [mm] and says so, unless something is there.
+  bool take(double x, double y, double width, double height) {
+    const Box box{x - width / 2, y - height / 2, x + width / 2, y + height / 2};
+    const bool is_free = std::none_of(boxes_.begin(), boxes_.end(), [&](const Box& other) {
+      return box.left < other.right && other.left < box.right && box.top < other.bottom &&
+             other.top < box.bottom;
+    });
+    if (is_free) boxes_.push_back(box);
+    return is_free;
+  }
+
+ private:
+  struct Box {
+    double left, top, right, bottom;
+  };
+  std::vector<Box> boxes_;
+};
+
 std::string lines_path(const Json& lines, const Sheet& sheet, const char* style) {
   std::string path;
   for (const Json& line : lines)
@@ -134,7 +167,8 @@ std::string places(const Json& a, const Schedule& schedule, size_t level, const 
 }
 
 /// Names of routes at a third of their first leg, so that those of two directions stand apart.
-std::string place_names(const Json& a, const Schedule& schedule, size_t level, const Sheet& sheet) {
+std::string place_names(const Json& a, const Schedule& schedule, size_t level, const Sheet& sheet,
+                        LabelSpace& space) {
   std::string out = "<g class=\"names\" fill=\"#1f5fa8\" font-style=\"italic\">\n";
   for (const Json& area : a["places"]["areas"]) {
     if (schedule.level_of(number_of(area["z"])) != level) continue;
@@ -153,18 +187,67 @@ std::string place_names(const Json& a, const Schedule& schedule, size_t level, c
     const double dx = sheet.x(number_of(to[0])) - x0, dy = sheet.y(number_of(to[1])) - y0;
     double turn = std::atan2(dy, dx) * 180 / std::numbers::pi;
     if (turn > 90.01 || turn <= -89.99) turn += 180;
+    const double radians = turn * std::numbers::pi / 180, side = 4.4;  // of the text's middle
+    const double width = text_width_mm(route["name"], text_mm);
+    const double c = std::abs(std::cos(radians)), s = std::abs(std::sin(radians));
+    double along = 0.3;
+    for (const double share : {0.3, 0.2, 0.4, 0.25, 0.35, 0.5, 0.6, 0.7, 0.8}) {
+      if (!space.take(x0 + share * dx - side * std::sin(radians),
+                      y0 + share * dy + side * std::cos(radians), width * c + text_mm * s,
+                      width * s + text_mm * c))
+        continue;
+      along = share;
+      break;
+    }
     out += text_at(0, 5.2, route["name"],
                    fmt::format("text-anchor=\"middle\" transform=\"translate({:.2f} {:.2f}) "
                                "rotate({:.1f})\"",
-                               x0 + 0.3 * dx, y0 + 0.3 * dy, turn)
+                               x0 + along * dx, y0 + along * dy, turn)
                        .c_str());
   }
   return out + "</g>\n";
 }
 
+/// Letter and height beside a luminaire at (x, y): where nothing else stands, above it at first.
+std::string luminaire_label(const std::string& text, double x, double y, bool emergency,
+                            LabelSpace& space) {
+  const double size = emergency ? text_mm : 1.7, width = text_width_mm(text, size);
+  const double up = 1.5 + size / 2, across = 1.8 + width / 2, first = emergency ? -up : up;
+  const double far = first + std::copysign(size + 0.6, first);  // a row further
+  const std::array<std::array<double, 2>, 14> offsets{{{0, first},
+                                                       {0, -first},
+                                                       {across, 0},
+                                                       {-across, 0},
+                                                       {across, first},
+                                                       {-across, first},
+                                                       {across, -first},
+                                                       {-across, -first},
+                                                       {0, far},
+                                                       {0, -far},
+                                                       {across, far},
+                                                       {-across, far},
+                                                       {across, -far},
+                                                       {-across, -far}}};
+  const auto* at = std::find_if(offsets.begin(), offsets.end(), [&](const auto& offset) {
+    return space.take(x + offset[0], y + offset[1], width, size);
+  });
+  if (at == offsets.end()) at = offsets.begin();
+  return text_at(x + (*at)[0], y + (*at)[1] + 0.36 * size, text,
+                 emergency ? "text-anchor=\"middle\" font-weight=\"bold\""
+                           : "text-anchor=\"middle\" fill=\"#666\"",
+                 size);
+}
+
+/// Symbols; with `labels`, letters and heights as well, placed in what `labels` leaves free.
 std::string luminaires(const Json& a, const Schedule& schedule, const Texts& texts, size_t level,
-                       const Sheet& sheet, bool labels) {
+                       const Sheet& sheet, LabelSpace* labels) {
   std::string out = "<g class=\"luminaires\">\n";
+  struct Label {
+    std::string text;
+    double x, y;
+    bool emergency;
+  };
+  std::vector<Label> wanted;
   const Json& all = a["luminaires"];
   for (size_t i = 0; i < all.size(); ++i) {
     const double z = number_of(all[i]["position"][2]);
@@ -179,14 +262,37 @@ std::string luminaires(const Json& a, const Schedule& schedule, const Texts& tex
         xml_escape(all[i]["name"].get<std::string>()), x - (emergency ? 1.1 : 0.9),
         y - (emergency ? 1.1 : 0.9), emergency ? 2.2 : 1.8, emergency ? 2.2 : 1.8,
         emergency ? emergency_colour : "#fff", emergency ? emergency_colour : "#777");
-    if (labels)
-      out += text_at(x, y + (emergency ? -1.7 : 2.7),
-                     type.letter + " " + texts.fixed(schedule.above_floor(z)),
-                     emergency ? "text-anchor=\"middle\" font-weight=\"bold\""
-                               : "text-anchor=\"middle\" fill=\"#666\"",
-                     emergency ? text_mm : 1.7);
+    if (labels == nullptr) continue;
+    labels->reserve(x, y, 2.2, 2.2);
+    wanted.push_back({type.letter + " " + texts.fixed(schedule.above_floor(z)), x, y, emergency});
   }
+  // Emergency luminaires choose first and are drawn last: the plan is about them.
+  std::string emergency_labels;
+  for (const bool emergency : {true, false})
+    for (const Label& label : wanted)
+      if (label.emergency == emergency)
+        (emergency ? emergency_labels : out) +=
+            luminaire_label(label.text, label.x, label.y, emergency, *labels);
+  out += emergency_labels;
   return out + "</g>\n";
+}
+
+/// Where a sign's number stands [mm]: beside the arrow, away from where the sign looks.
+std::array<double, 2> sign_number_place(const Json& sign, const Sheet& sheet) {
+  const double fx = number_of(sign["facing"][0]), fy = -number_of(sign["facing"][1]);
+  return {sheet.x(number_of(sign["position"][0])) - 2.9 * fx + (std::abs(fx) > 0.7 ? 0 : 2.6),
+          sheet.y(number_of(sign["position"][1])) - 2.9 * fy - (std::abs(fx) > 0.7 ? 2.6 : 0)};
+}
+
+void reserve_signs(const Json& a, const Schedule& schedule, size_t level, const Sheet& sheet,
+                   LabelSpace& space) {
+  for (const Json& sign : a["signs"]) {
+    if (schedule.level_of(number_of(sign["position"][2])) != level) continue;
+    const auto number = sign_number_place(sign, sheet);
+    space.reserve(number[0], number[1], 4.2, 4.2);
+    space.reserve(sheet.x(number_of(sign["position"][0])) + 2 * number_of(sign["facing"][0]),
+                  sheet.y(number_of(sign["position"][1])) - 2 * number_of(sign["facing"][1]), 4, 4);
+  }
 }
 
 /// A circled number beside each sign, and an arrow from the sign to where it faces.
@@ -207,9 +313,7 @@ std::string signs(const Json& a, const Schedule& schedule, size_t level, const S
         "-1V1Z\"/>{}</g>\n",
         xml_escape(all[i]["name"].get<std::string>()), x, y, turn,
         all[i]["double_sided"].get<bool>() ? "<path d=\"M-4 0L-1.9 -1V1Z\"/>" : "");
-    // The number stands beside the arrow, away from where the sign looks.
-    const double cx = x - 2.9 * fx + (std::abs(fx) > 0.7 ? 0 : 2.6);
-    const double cy = y - 2.9 * fy - (std::abs(fx) > 0.7 ? 2.6 : 0);
+    const auto [cx, cy] = sign_number_place(all[i], sheet);
     out += fmt::format(
                "<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"1.9\" fill=\"#fff\" "
                "stroke=\"#000\" stroke-width=\"0.3\"/>",
@@ -283,8 +387,10 @@ std::string isolux_colour(double lux) {
   return fmt::format("#{:02x}{:02x}{:02x}", c[0], c[1], c[2]);
 }
 
-/// The line, and its value about every 60 mm, where there is room for it.
-std::string isolux_line(const IsoluxLine& one, const Sheet& sheet, const Texts& texts) {
+/// The line, and its value about every 36 mm, where nothing else is labelled.
+std::string isolux_line(const IsoluxLine& one, const Sheet& sheet, const Texts& texts,
+                        LabelSpace& space) {
+  const double label_width = text_width_mm(texts.number(one.lux), 2.4) + 0.6;
   std::string path;
   double length = 0, labelled = -30;
   std::string labels;
@@ -294,7 +400,7 @@ std::string isolux_line(const IsoluxLine& one, const Sheet& sheet, const Texts& 
     path += fmt::format("{}{:.2f} {:.2f}", i == 0 ? "M" : "L", x, y);
     if (i == 0) continue;
     length += std::hypot(x - sheet.x(points[i - 1].x), y - sheet.y(points[i - 1].y));
-    if (length - labelled < 36) continue;
+    if (length - labelled < 36 || !space.take(x, y, label_width, 2.6)) continue;
     labelled = length;
     labels += text_at(x, y + 0.8, texts.number(one.lux),
                       fmt::format("text-anchor=\"middle\" font-weight=\"bold\" fill=\"{}\"",
@@ -303,14 +409,6 @@ std::string isolux_line(const IsoluxLine& one, const Sheet& sheet, const Texts& 
                       2.4);
   }
   if (length < 3) return "";  // a speck
-  if (labels.empty() && length >= 8) {
-    const auto& p = points[points.size() / 2];
-    labels = text_at(sheet.x(p.x), sheet.y(p.y) + 0.8, texts.number(one.lux),
-                     fmt::format("text-anchor=\"middle\" font-weight=\"bold\" fill=\"{}\"",
-                                 isolux_colour(one.lux))
-                         .c_str(),
-                     2.4);
-  }
   return fmt::format(
              "<path class=\"isolux\" data-lux=\"{}\" d=\"{}\" fill=\"none\" stroke=\"{}\" "
              "stroke-width=\"{}\" stroke-linejoin=\"round\"{}/>\n",
@@ -350,16 +448,16 @@ std::string grid_values(const Json& level, const Sheet& sheet, const Texts& text
 constexpr std::array<const char*, 6> ranks{"legible",   "undecided",    "visible but not legible",
                                            "invisible", "not assessed", "hidden by the building"};
 
+/// In two rows where one is too narrow, so that no language loses a verdict.
 std::string sight_legend(const Sheet& sheet, const Texts& texts) {
   std::string out;
-  double x = border_mm + 1;
-  for (const char* rank :
-       {"legible", "undecided", "visible but not legible", "invisible", "hidden by the building"}) {
+  double x = border_mm + 1, y = sheet.height() + 13.7;
+  for (const char* rank : ranks) {
     const std::string word = texts.word("sight", rank);
-    if (x + 4 + 1.25 * static_cast<double>(word.size()) > sheet.width() - 4) break;
-    out += verdict_shape(rank, x, sheet.height() + 13.7, 1.3) +
-           text_at(x + 2.2, sheet.height() + 14.5, word);
-    x += 7 + 1.25 * static_cast<double>(word.size());
+    const double width = 3 + text_width_mm(word, text_mm);
+    if (x > border_mm + 1 && x + width > sheet.width() - 2) x = border_mm + 1, y += 3.6;
+    out += verdict_shape(rank, x, y, 1.3) + text_at(x + 2.2, y + 0.8, word);
+    x += width + 3;
   }
   return out;
 }
@@ -402,6 +500,11 @@ std::string verdict_shape(const std::string& verdict, double x, double y, double
         "<circle r=\".9\" fill=\"#fff\" stroke=\"{0}\" stroke-width=\".22\"/><path "
         "d=\"M0 -.1V.55M0 -.5V-.28\" stroke=\"{0}\" stroke-width=\".24\"/>",
         colour);
+  else if (verdict == "hidden by the building")  // a hollow square with a stroke across
+    shape = fmt::format(
+        "<path d=\"M-.8 -.8H.8V.8H-.8ZM-.8 .8L.8 -.8\" fill=\"#fff\" stroke=\"{}\" "
+        "stroke-width=\".22\"/>",
+        colour);
   else  // a ring with a bar: no answer
     shape = fmt::format(
         "<circle r=\".85\" fill=\"#fff\" stroke=\"{0}\" stroke-width=\".25\"/><path "
@@ -414,20 +517,25 @@ std::string verdict_shape(const std::string& verdict, double x, double y, double
 Plan Plans::installation(size_t number) const {
   const Json& level = a_["plan"]["levels"][number];
   const Sheet sheet(a_, level, schedule_, number, size_);
+  LabelSpace space;
+  reserve_signs(a_, schedule_, number, sheet, space);
+  // Before the names of routes, which can stand elsewhere.
+  const std::string symbols = luminaires(a_, schedule_, texts_, number, sheet, &space);
   return finished(sheet, building(level, sheet) + places(a_, schedule_, number, sheet) +
-                             emphasis(a_, schedule_, number, sheet) +
-                             luminaires(a_, schedule_, texts_, number, sheet, true) +
+                             emphasis(a_, schedule_, number, sheet) + symbols +
                              signs(a_, schedule_, number, sheet) +
-                             place_names(a_, schedule_, number, sheet) + foot(a_, sheet, texts_));
+                             place_names(a_, schedule_, number, sheet, space) +
+                             foot(a_, sheet, texts_));
 }
 
 Plan Plans::isolux(size_t number, bool values) const {
   const Json& level = a_["plan"]["levels"][number];
   const Sheet sheet(a_, level, schedule_, number, size_);
   std::string lines = "<g class=\"lines\">\n";
-  for (const IsoluxLine& one : isolux_lines(level)) lines += isolux_line(one, sheet, texts_);
+  LabelSpace space;
+  for (const IsoluxLine& one : isolux_lines(level)) lines += isolux_line(one, sheet, texts_, space);
   return finished(sheet, building(level, sheet) + places(a_, schedule_, number, sheet) +
-                             luminaires(a_, schedule_, texts_, number, sheet, false) +
+                             luminaires(a_, schedule_, texts_, number, sheet, nullptr) +
                              (values ? grid_values(level, sheet, texts_) : "") + lines + "</g>\n" +
                              isolux_legend(sheet, texts_) + foot(a_, sheet, texts_));
 }

@@ -11,12 +11,14 @@
 #include <map>
 #include <numbers>
 #include <regex>
+#include <set>
 
 #include "actors/assess/assessment_check.hpp"
 #include "actors/assess/assessment_json.hpp"
 #include "actors/report/hand_over.hpp"
 #include "actors/report/isolux.hpp"
 #include "actors/report/pdf.hpp"
+#include "actors/report/plan_svg.hpp"
 #include "runtime/core/regular_file.hpp"
 #include "tests/kit/temporary_folder.hpp"
 #include "tests/unit/actors/assess/assessed_room.hpp"
@@ -336,6 +338,45 @@ TEST_CASE("plans are drawings that a reader of SVG takes, with a scale and a nor
   CHECK(has(isolux, "data-lux=\"1\""));
   CHECK(has(isolux, "class=\"values\""));
   CHECK(has(content(fs::path(folder / "plans") / "installation.svg"), ">A 2.50<"));
+}
+
+TEST_CASE("labels of luminaires in one place do not lie on each other", "[report]") {
+  Json two = assessed_json();
+  Json again = two["luminaires"][0];
+  again["name"] = "its twin";
+  two["luminaires"].push_back(again);
+  const TemporaryFolder folder;
+  REQUIRE(write_report(fs::path(folder / ""), two, {}).ok());
+  const std::string svg = content(fs::path(folder / "plans") / "installation.svg");
+  static const std::regex label("<text x=\"([0-9.]+)\" y=\"([0-9.]+)\"[^>]*>A 2.50<");
+  std::set<std::string> places;
+  for (std::sregex_iterator at(svg.begin(), svg.end(), label), end; at != end; ++at)
+    places.insert((*at)[1].str() + " " + (*at)[2].str());
+  CHECK(places.size() == 2);
+}
+
+TEST_CASE("no two verdicts on a sign have the same shape", "[report]") {
+  std::set<std::string> shapes;
+  for (const char* verdict : {"legible", "undecided", "visible but not legible", "invisible",
+                              "not assessed", "hidden by the building"})
+    shapes.insert(verdict_shape(verdict, 0, 0, 1));
+  CHECK(shapes.size() == 6);
+}
+
+TEST_CASE("the legend of what people read names every verdict in every language", "[report]") {
+  for (const Language language : {Language::en, Language::de, Language::fr}) {
+    ReportOptions options;
+    options.language = language;
+    const TemporaryFolder folder;
+    REQUIRE(write_report(fs::path(folder / ""), assessed_json(), options).ok());
+    const std::string svg = content(fs::path(folder / "plans") / "legibility_1.65m.svg");
+    const Texts texts(language);
+    for (const char* verdict : {"legible", "undecided", "visible but not legible", "invisible",
+                                "not assessed", "hidden by the building"}) {
+      INFO(verdict);
+      CHECK(has(svg, ">" + texts.word("sight", verdict) + "</text>"));
+    }
+  }
 }
 
 TEST_CASE("schedules have units in their headers and a place in every row", "[report]") {
