@@ -49,6 +49,7 @@ Controller::Controller(const ControllerConfig& config, LocalRun& run, const Stop
       began_(scheduler.clock().now()),
       error_(std::numeric_limits<double>::quiet_NaN()) {
   for (const NodeId worker : config_.workers) peers_[worker];
+  untold_.reserve(config_.workers.size());
 }
 
 void Controller::start() {
@@ -340,11 +341,27 @@ RunEnded Controller::end_word() const {
   return {round(), fault_ ? fault_->what.substr(0, limits::text_bytes) : ""};
 }
 
+/// Whom there was no room for the last time comes first, or a full outbox would hide the end from
+/// the same workers each time.
 void Controller::tell_end() {
-  const RunEnded word = end_word();
   for (const auto& [worker, peer] : peers_)
-    if (peer.here || done_before_) send(worker, network_.next_id(), word);
+    if ((peer.here || done_before_) && std::count(untold_.begin(), untold_.end(), worker) == 0)
+      untold_.push_back(worker);
+  tell_untold();
   let_go_when_told();
+}
+
+/// Until the network has taken the word for each.
+void Controller::tell_untold() {
+  std::erase_if(untold_, [&](NodeId worker) {
+    return network_.send(worker, network_.next_id(), end_word()) != SendOutcome::full;
+  });
+  if (untold_.empty() || telling_) return;
+  telling_ = true;
+  scheduler_.timers().set(scheduler_.clock().now() + say_again_after, [this] {
+    telling_ = false;
+    tell_untold();
+  });
 }
 
 /// Who asks for work then has begun anew since it was told. An answer without batches would have it

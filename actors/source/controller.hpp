@@ -134,6 +134,7 @@ class Controller {
   void end_round();
   void end_run(StopReason reason);
   void tell_end();
+  void tell_untold();
   bool knows_end(NodeId worker, const Peer& peer) const;
   RunEnded end_word() const;
   void answer_with_end(const Delivery& delivery);
@@ -169,6 +170,8 @@ class Controller {
   bool closing_ = false;  // no lease beyond the last: time is up or somebody interrupts
   bool over_ = false;
   Nanoseconds over_since_ = 0;
+  std::vector<NodeId> untold_;  // of the end: the network had no room; in the order of waiting
+  bool telling_ = false;        // a timer is set for tell_untold()
   bool letting_go_ = false;
   StopReason reason_ = StopReason::particles;
   /// The last answer to each worker's question of each kind, by the question's sequence: a question
