@@ -85,10 +85,8 @@ Result<Assessment> assess(const std::shared_ptr<const SceneDescription>& scene,
   out.reality = options.reality;
   if (scenario->operation == Operation::mains)
     out.warnings.push_back({scenario->place, out.state.remarks.front()});
-  for (const std::string& remark : out.state.remarks)
-    if (remark.starts_with("CLEAR AIR") ||
-        remark.find(" not lit in this state") != std::string::npos)
-      out.warnings.push_back({scenario->place, remark});
+  for (const std::string& words : out.state.warnings)
+    out.warnings.push_back({scenario->place, words});
   out.seed = options.seed;
   out.scene_hash = scene->content_hash;
   out.levels = plan_levels(*scene, scenario.value());

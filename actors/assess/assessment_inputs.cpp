@@ -14,10 +14,6 @@ namespace luxodus {
 
 namespace {
 
-Json point_json(const glm::dvec3& p) {
-  return {p.x, p.y, p.z};
-}
-
 /// To four significant digits: a map of light is for drawing, and its file stays small.
 Json drawn_lux(double lux) {
   if (!std::isfinite(lux)) return nullptr;
@@ -66,7 +62,7 @@ Json luminaire_json(const Emitter& e) {
               {"product", e.product},
               {"shape", word_of(e.shape)},
               {"distribution", word_of(e.distribution)},
-              {"position", point_json(e.frame.origin)},
+              {"position", vector_json(e.frame.origin)},
               {"circuit", e.circuit},
               {"operation", !emergency         ? "mains"
                             : e.mains_flux > 0 ? "maintained"
@@ -76,11 +72,11 @@ Json luminaire_json(const Emitter& e) {
               {"maintenance_factor", e.maintenance_factor},
               {"end_of_duration_factor", e.end_of_duration_factor},
               {"emergency_ageing", e.emergency_ageing}};
-  if (e.opening_m != glm::dvec3(0)) out["opening_m"] = point_json(e.opening_m);
+  if (e.opening_m != glm::dvec3(0)) out["opening_m"] = vector_json(e.opening_m);
   if (e.shape == EmitterShape::mesh && !e.mesh.positions.empty()) {
     glm::dvec3 sum(0);
     for (const glm::dvec3& p : e.mesh.positions) sum += p;
-    out["position"] = point_json(sum / static_cast<double>(e.mesh.positions.size()));
+    out["position"] = vector_json(sum / static_cast<double>(e.mesh.positions.size()));
   }
   Json& onset = out["onset"] = Json::array();
   for (const glm::dvec2& row : e.onset) onset.push_back({row.x, row.y});
@@ -89,8 +85,8 @@ Json luminaire_json(const Emitter& e) {
 
 Json sign_json(const Sign& s) {
   Json out = {{"name", s.name},
-              {"position", point_json(s.frame.origin)},
-              {"facing", point_json(s.frame.axes[2])},
+              {"position", vector_json(s.frame.origin)},
+              {"facing", vector_json(s.frame.axes[2])},
               {"file", s.file},
               {"text", s.text},
               {"width", exact_json(s.width_m, "m")},
@@ -164,7 +160,7 @@ Json places_json(const SceneDescription& scene) {
   Json routes = Json::array(), areas = Json::array(), emphasis = Json::array();
   for (const EscapeRoute& route : scene.routes) {
     Json path = Json::array();
-    for (const glm::dvec3& p : route.path) path.push_back(point_json(p));
+    for (const glm::dvec3& p : route.path) path.push_back(vector_json(p));
     routes.push_back({{"name", route.name}, {"path", path}, {"width", route.width_m}});
   }
   for (const AssessedArea& area : scene.open_areas) areas.push_back(area_json(area, "open"));
@@ -176,7 +172,7 @@ Json places_json(const SceneDescription& scene) {
   for (const EmphasisPoint& point : scene.emphasis)
     emphasis.push_back({{"name", point.name},
                         {"kind", std::string(emphasis_words[static_cast<size_t>(point.kind)])},
-                        {"position", point_json(point.position)}});
+                        {"position", vector_json(point.position)}});
   return {{"routes", routes}, {"areas", areas}, {"emphasis", emphasis}};
 }
 

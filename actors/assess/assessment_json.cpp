@@ -17,10 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Json place_json(const glm::dvec3& p) {
-  return {p.x, p.y, p.z};
-}
-
 Json uncertain_json(const Uncertain& u, const char* unit) {
   return measured_json(u.value, u.error, unit);
 }
@@ -46,7 +42,7 @@ Json check_json(const Check& check) {
               {"limit", optional_json(check.limit)},
               {"sense", check.at_least ? "at least" : "at most"},
               {"margin", optional_json(check.margin())}};
-  if (check.worst) out["worst_place"] = place_json(*check.worst);
+  if (check.worst) out["worst_place"] = vector_json(*check.worst);
   if (!check.reason.empty()) out["reason"] = check.reason;
   return out;
 }
@@ -68,7 +64,7 @@ Json sight_json(const SightRow& row) {
               {"stands_for", exact_json(row.stands_for, row.from[0] == 'r' ? "m" : "m2")},
               {"along", exact_json(row.along_m, "m")},
               {"eye_height", exact_json(row.height_m, "m")},
-              {"eye", place_json(row.eye)},
+              {"eye", vector_json(row.eye)},
               {"sign", row.sign},
               {"back_face", row.back_face},
               {"verdict", name_of(row.sight.verdict)}};

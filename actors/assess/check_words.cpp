@@ -6,11 +6,6 @@ namespace luxodus {
 
 namespace {
 
-std::string text_at(const Json& check, const char* key) {
-  const auto at = check.find(key);
-  return at != check.end() && at->is_string() ? at->get<std::string>() : "";
-}
-
 /// " lx"; a share of 1 has none.
 std::string unit_words(const std::string& unit) {
   if (unit.empty() || unit == "1") return "";
@@ -20,8 +15,8 @@ std::string unit_words(const std::string& unit) {
 std::string value_words(const Json& check) {
   const Json value = check.value("value", Json());
   if (value.is_number())
-    return readable_number(value.get<double>()) + unit_words(text_at(check, "unit"));
-  const std::string reason = text_at(check, "reason");
+    return readable_number(value.get<double>()) + unit_words(text_in(check, "unit"));
+  const std::string reason = text_in(check, "reason");
   return reason.empty() ? "no value" : reason;
 }
 
@@ -29,11 +24,11 @@ std::string value_words(const Json& check) {
 
 std::string check_words(const Json& check) {
   std::string text =
-      text_at(check, "subject") + ": " + text_at(check, "title") + ": " + value_words(check);
+      text_in(check, "subject") + ": " + text_in(check, "title") + ": " + value_words(check);
   if (const Json limit = check.value("limit", Json()); limit.is_number())
-    text += ", " + text_at(check, "sense") + " " + readable_number(limit.get<double>());
-  const std::string condition = text_at(check, "condition");
-  return text + " (" + text_at(check, "rule") + (condition.empty() ? "" : ", ") + condition + ")";
+    text += ", " + text_in(check, "sense") + " " + readable_number(limit.get<double>());
+  const std::string condition = text_in(check, "condition");
+  return text + " (" + text_in(check, "rule") + (condition.empty() ? "" : ", ") + condition + ")";
 }
 
 }  // namespace luxodus

@@ -245,6 +245,10 @@ void add_people(const SceneDescription& scene, const AssessedState& state,
 
 void add_remarks(const SceneDescription& scene, const Scenario& scenario, AssessedState& state) {
   auto& remarks = state.remarks;
+  const auto warn = [&state](const std::string& words) {
+    state.remarks.push_back(words);
+    state.warnings.push_back(words);
+  };
   if (state.operation == Operation::mains)
     remarks.emplace_back(
         "MAINS OPERATION: views of signs are judged with the mains on, not in an emergency. Checks "
@@ -268,14 +272,14 @@ void add_remarks(const SceneDescription& scene, const Scenario& scenario, Assess
     remarks.emplace_back("flames burn in this state, but there is no smoke around them");
   if (!state.smoke && std::any_of(scene.media.begin(), scene.media.end(),
                                   [](const Medium& m) { return !is_flame(m); }))
-    remarks.emplace_back("CLEAR AIR: the scene has smoke, but not in this scenario");
+    warn("CLEAR AIR: the scene has smoke, but not in this scenario");
   const size_t dark = static_cast<size_t>(
       std::count_if(scene.emitters.begin(), scene.emitters.end(), [&](const Emitter& e) {
         return e.emergency_flux > 0 && !std::count(state.lit.begin(), state.lit.end(), e.name);
       }));
   if (state.operation == Operation::emergency && dark > 0)
-    remarks.push_back(fmt::format("{} emergency luminaire{} not lit in this state", dark,
-                                  dark == 1 ? " is" : "s are"));
+    warn(fmt::format("{} emergency luminaire{} not lit in this state", dark,
+                     dark == 1 ? " is" : "s are"));
   add_switched(scene, scenario, remarks);
   add_time(scene, state, remarks);
   add_thinned(scene, scenario, remarks);

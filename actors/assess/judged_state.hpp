@@ -38,6 +38,7 @@ struct AssessedState {
   std::vector<CodeChoice> codes;
   std::string light;  // what views were judged with
   std::vector<std::string> remarks;
+  std::vector<std::string> warnings;  // those of the remarks that a designer is warned of at once
 };
 
 /// The state that is judged: the one that is named, in whatever operation. Without a name, the one

@@ -14,11 +14,6 @@ namespace {
 /// Names that a row lists before it counts the rest.
 constexpr size_t names_listed = 12;
 
-std::string state_text(const Json& object, const char* key) {
-  const auto at = object.find(key);
-  return at != object.end() && at->is_string() ? at->get<std::string>() : std::string();
-}
-
 double number_at(const Json& object, const char* key) {
   const auto at = object.find(key);
   return at != object.end() && at->is_number() ? at->get<double>() : 0;
@@ -83,7 +78,7 @@ Json smoke_json(const AssessedState& state) {
 }
 
 std::string operation_row(const Json& state) {
-  std::string out = state_text(state, "operation");
+  std::string out = text_in(state, "operation");
   if (out == "mains") return "MAINS: not an emergency";
   if (out == "dark") out += ": neither mains nor emergency luminaires";
   const auto seconds = state.find("seconds_after_failure");
@@ -124,9 +119,9 @@ std::string smoke_row(const Json& state) {
     out = "none";
   for (const Json& medium : list_at(*at, "media")) {
     out += fmt::format(
-        "; {} \"{}\" {}", state_text(medium, "kind"), state_text(medium, "name"),
+        "; {} \"{}\" {}", text_in(medium, "kind"), text_in(medium, "name"),
         range_words(number_at(medium, "extinction_min"), number_at(medium, "extinction_max")));
-    if (const std::string source = state_text(medium, "source"); !source.empty())
+    if (const std::string source = text_in(medium, "source"); !source.empty())
       out += " (" + source + ")";
   }
   return out;
@@ -135,10 +130,9 @@ std::string smoke_row(const Json& state) {
 std::string named_row(const Json& rows) {
   std::string out;
   for (const Json& row : rows) {
-    out +=
-        (out.empty() ? "" : "; ") + state_text(row, "edition") + " (" + state_text(row, "id") + ")";
+    out += (out.empty() ? "" : "; ") + text_in(row, "edition") + " (" + text_in(row, "id") + ")";
     for (const char* key : {"what", "status"})
-      if (const std::string text = state_text(row, key); !text.empty()) out += ", " + text;
+      if (const std::string text = text_in(row, key); !text.empty()) out += ", " + text;
   }
   return out.empty() ? "none" : out;
 }
@@ -148,9 +142,8 @@ void add_unassessed(const Json& assessment, std::vector<StateRow>& rows) {
   const char* what = "not assessed";
   for (const Json& group : list_at(assessment, "not_assessed")) {
     const double count = number_at(group, "count");
-    rows.emplace_back(what,
-                      fmt::format("{}: {}{}", state_text(group, "what"), state_text(group, "why"),
-                                  count > 1 ? fmt::format(" ({:.0f} times)", count) : ""));
+    rows.emplace_back(what, fmt::format("{}: {}{}", text_in(group, "what"), text_in(group, "why"),
+                                        count > 1 ? fmt::format(" ({:.0f} times)", count) : ""));
     what = "";
   }
   if (*what != '\0') rows.emplace_back(what, "nothing");
@@ -214,9 +207,9 @@ std::vector<StateRow> state_rows(const Json& assessment) {
     return {{"judged state", "not recorded: this assessment is of an older version; make it anew"}};
   const Json& state = *at;
   std::vector<StateRow> rows{
-      {"scenario", state_text(state, "scenario")}, {"operation", operation_row(state)},
-      {"luminaires", luminaire_row(state)},        {"smoke", smoke_row(state)},
-      {"light", state_text(state, "light")},       {"rules", named_row(list_at(state, "rules"))}};
+      {"scenario", text_in(state, "scenario")}, {"operation", operation_row(state)},
+      {"luminaires", luminaire_row(state)},     {"smoke", smoke_row(state)},
+      {"light", text_in(state, "light")},       {"rules", named_row(list_at(state, "rules"))}};
   if (!list_at(state, "deviations").empty())
     rows.emplace_back("deviations", named_row(list_at(state, "deviations")));
   add_unassessed(assessment, rows);
@@ -237,18 +230,18 @@ std::string state_text(const Json& assessment) {
 std::string verdict_words(const Json& assessment) {
   const auto verdict = assessment.find("verdict");
   if (verdict != assessment.end() && verdict->is_object())
-    if (const std::string words = state_text(*verdict, "words"); !words.empty()) return words;
+    if (const std::string words = text_in(*verdict, "words"); !words.empty()) return words;
   CheckCounts counts{};
   for (const Json& check : list_at(assessment, "checks"))
     for (size_t i = 0; i < counts.size(); ++i)
-      if (state_text(check, "verdict") == name_of(static_cast<CheckVerdict>(i))) ++counts[i];
+      if (text_in(check, "verdict") == name_of(static_cast<CheckVerdict>(i))) ++counts[i];
   return words_of(counts);
 }
 
 std::string first_words(const Json& assessment) {
   const auto verdict = assessment.find("verdict");
   if (verdict != assessment.end() && verdict->is_object())
-    if (const std::string words = state_text(*verdict, "first"); !words.empty()) return words;
+    if (const std::string words = text_in(*verdict, "first"); !words.empty()) return words;
   return verdict_words(assessment);
 }
 

@@ -2,6 +2,8 @@
 
 #include <functional>
 
+#include "actors/cli/words.hpp"
+
 namespace luxodus::cli {
 
 namespace {
@@ -21,12 +23,6 @@ std::vector<std::string> names_of(const Option& option) {
   const size_t comma = all.find(',');
   if (comma == all.npos) return {all};
   return {all.substr(0, comma), all.substr(comma + 1)};
-}
-
-std::string joined(const std::vector<std::string>& words, const char* between) {
-  std::string out;
-  for (const std::string& word : words) out += (out.empty() ? "" : between) + word;
-  return out;
 }
 
 /// What compgen is to offer for a value; "" where nobody knows.

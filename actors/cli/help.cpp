@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "actors/cli/options.hpp"
+#include "actors/cli/words.hpp"
 
 namespace luxodus::cli {
 
@@ -42,19 +43,6 @@ std::string entry(const std::string& name, const std::string& meaning) {
   return out + filled(meaning, indent) + "\n";
 }
 
-/// As few digits as say it.
-std::string few_digits(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.15g", value);
-  return text;
-}
-
-std::string joined_words(const std::vector<std::string>& words, const char* between) {
-  std::string out;
-  for (const std::string& word : words) out += (out.empty() ? "" : between) + word;
-  return out;
-}
-
 std::string upper(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
                  [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
@@ -74,11 +62,11 @@ std::string described(const Option& option) {
   std::vector<std::string> more;
   if (option.traits.required && !option.is_argument()) more.emplace_back("required");
   if (const auto& range = option.traits.range)
-    more.push_back(few_digits(range->low) + " to " + few_digits(range->high));
+    more.push_back(number_text(range->low) + " to " + number_text(range->high));
   if (option.traits.needs) more.push_back(std::string("requires ") + option.traits.needs);
   if (option.traits.excludes) more.push_back(std::string("excludes ") + option.traits.excludes);
   if (const std::string usual = option.default_text(); !usual.empty()) more.push_back(usual);
-  return more.empty() ? text : text + " (" + joined_words(more, "; ") + ")";
+  return more.empty() ? text : text + " (" + joined(more, "; ") + ")";
 }
 
 std::string usage(const Command& command, const std::string& path) {
@@ -162,7 +150,7 @@ std::string Option::long_name() const {
 
 std::string Option::value_word() const {
   if (is_flag()) return "";
-  if (!traits.choices.empty()) return joined_words(traits.choices, "|");
+  if (!traits.choices.empty()) return joined(traits.choices, "|");
   constexpr const char* words[] = {"TEXT",  "NAME",  "FILE",  "FOLDER",
                                    "SCENE", "COUNT", "SHARE", "DURATION"};
   if (std::holds_alternative<double*>(value) || std::holds_alternative<std::vector<double>*>(value))
@@ -179,7 +167,7 @@ std::string Option::default_text() const {
     if constexpr (std::is_same_v<T, std::string>)
       return *target;
     else if constexpr (std::is_arithmetic_v<T> && !std::is_same_v<T, bool>)
-      return few_digits(static_cast<double>(*target));
+      return number_text(static_cast<double>(*target));
     else
       return "";
   };

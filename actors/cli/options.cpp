@@ -17,6 +17,7 @@
 
 #include "actors/cli/command.hpp"
 #include "actors/cli/library.hpp"
+#include "actors/cli/words.hpp"
 
 namespace luxodus::cli {
 
@@ -26,12 +27,6 @@ namespace {
 struct Refused {
   std::string why;
 };
-
-std::string number_text(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.15g", value);
-  return text;
-}
 
 template <class T>
 T read_number(const Option& option, const std::string& text) {

@@ -13,6 +13,11 @@ Json vector_json(const glm::dvec3& v) {
   return {v.x, v.y, v.z};
 }
 
+std::string text_in(const Json& object, const char* key) {
+  const auto at = object.find(key);
+  return at != object.end() && at->is_string() ? at->get<std::string>() : std::string();
+}
+
 Json measured_json(double value, double standard_error, std::string_view unit) {
   Json out = Json::object();
   out["value"] = number_json(value);

@@ -22,6 +22,9 @@ Json number_json(double value);
 /// [x, y, z].
 Json vector_json(const glm::dvec3& v);
 
+/// The text of a key; "" where there is none.
+std::string text_in(const Json& object, const char* key);
+
 /// {"value": v, "standard_error": e, "unit": u}: how every result stands in a report.
 Json measured_json(double value, double standard_error, std::string_view unit);
 

@@ -33,11 +33,6 @@ std::string escaped(const std::string& text) {
   return xml_escape(text);
 }
 
-std::string text_in(const Json& object, const char* key) {
-  const auto at = object.find(key);
-  return at != object.end() && at->is_string() ? at->get<std::string>() : std::string();
-}
-
 std::string cell(const std::string& text) {
   return "<td>" + escaped(text) + "</td>";
 }

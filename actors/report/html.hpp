@@ -28,8 +28,6 @@ struct PageParts {
 };
 
 std::string escaped(const std::string& text);
-/// The text of a key; "" where there is none.
-std::string text_in(const Json& object, const char* key);
 
 std::string cell(const std::string& text);
 std::string html_cell(const std::string& html, const char* css_class = "");

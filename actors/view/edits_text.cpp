@@ -8,10 +8,6 @@ namespace {
 
 using Moves = std::map<std::string, SceneEdits::Move>;
 
-Json vector_json(const glm::dvec3& v) {
-  return {v.x, v.y, v.z};
-}
-
 Json moves_json(const Moves& moves) {
   Json out = Json::object();
   for (const auto& [name, move] : moves) {

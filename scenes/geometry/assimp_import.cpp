@@ -76,10 +76,6 @@ Transform transform_of(const aiMatrix4x4& m) {
   return out;
 }
 
-bool finite_place(const glm::dvec3& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
 /// Step between neighbouring floats at a coordinate.
 double float_step(double coordinate) {
   const auto magnitude = static_cast<float>(std::abs(coordinate));
@@ -206,7 +202,7 @@ class Collector {
 
   std::optional<Problem> bad_position(const ImportedPart& part) const {
     for (size_t i = 0; i < part.mesh.positions.size(); ++i) {
-      if (finite_place(part.mesh.positions[i])) continue;
+      if (is_finite(part.mesh.positions[i])) continue;
       return problem(fmt::format("part \"{}\": the position of vertex {} is not a finite number",
                                  excerpt(part.name), i + 1));
     }

@@ -13,10 +13,6 @@
 namespace luxodus {
 namespace {
 
-bool finite(const glm::dvec3& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
 /// Sine and cosine of an angle in degrees, exact where they are 0 or +-1.
 std::pair<double, double> sine_cosine(double degrees) {
   const double turn = std::remainder(degrees, 360.0);  // exact; [-180, 180]
@@ -41,10 +37,10 @@ glm::dvec3 unit(const glm::dvec3& v) {
 
 bool Transform::usable() const {
   for (int column = 0; column < 3; ++column) {
-    if (!finite(linear[column])) return false;
+    if (!is_finite(linear[column])) return false;
   }
   const double determinant = glm::determinant(linear);
-  return finite(offset) && std::isfinite(determinant) && determinant != 0;
+  return is_finite(offset) && std::isfinite(determinant) && determinant != 0;
 }
 
 Transform operator*(const Transform& second, const Transform& first) {
@@ -64,7 +60,7 @@ Transform translation(const glm::dvec3& offset) {
 }
 
 Result<Transform> rotation(const glm::dvec3& axis, double degrees) {
-  if (!finite(axis) || !std::isfinite(degrees)) {
+  if (!is_finite(axis) || !std::isfinite(degrees)) {
     return problem("a rotation needs a finite axis and angle");
   }
   if (axis == glm::dvec3(0))
@@ -110,7 +106,7 @@ Result<UpAxis> up_axis_named(std::string_view word) {
 
 Result<Frame> frame_facing(const glm::dvec3& origin, const glm::dvec3& direction,
                            const glm::dvec3& up) {
-  if (!finite(origin) || !finite(direction) || !finite(up)) {
+  if (!is_finite(origin) || !is_finite(direction) || !is_finite(up)) {
     return problem("a position or direction is not finite");
   }
   if (direction == glm::dvec3(0)) return problem("a direction is (0, 0, 0)");

@@ -2,6 +2,7 @@
 // The scene is right-handed, in metres, with z up. Plain values; any thread.
 #pragma once
 
+#include <cmath>
 #include <string_view>
 
 #include "runtime/core/result.hpp"
@@ -9,6 +10,10 @@
 #include "scenes/geometry/mesh.hpp"
 
 namespace luxodus {
+
+inline bool is_finite(const glm::dvec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
 
 /// p -> linear * p + offset.
 struct Transform {

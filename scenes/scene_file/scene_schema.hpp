@@ -14,6 +14,12 @@ using toml::TableSpec;
 /// All tables, in the order of the README.
 const toml::Schema& scene_schema();
 
+/// Those of `a`, then those of `b`.
+inline std::vector<KeySpec> joined(std::vector<KeySpec> a, const std::vector<KeySpec>& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
 /// The key `repeat`, wherever things are placed.
 KeySpec repeat_key();
 

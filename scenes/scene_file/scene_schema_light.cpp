@@ -7,11 +7,6 @@ namespace {
 
 using Keys = std::vector<KeySpec>;
 
-Keys joined(Keys a, const Keys& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
-}
-
 Keys aim_keys() {
   return {
       {"position", "point", "m", "required", "[-1e7, 1e7]", "centre of the luminous opening"},

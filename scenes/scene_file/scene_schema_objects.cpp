@@ -7,11 +7,6 @@ namespace {
 
 using Keys = std::vector<KeySpec>;
 
-Keys with(Keys a, const Keys& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
-}
-
 Keys transform_keys() {
   return {
       {"translate", "point", "m", "[0, 0, 0]", "[-1e7, 1e7]", "moved by, after the turn"},
@@ -158,15 +153,16 @@ std::vector<TableSpec> object_schema() {
   std::vector<TableSpec> all = {
       {"object",
        "`[[object]]`: a surface or body; its local coordinates are the scene's, then transformed",
-       with(with({{"name", "name", "", "required", "", "name of the object"},
-                  {"shape", "choice", "", "required",
-                   "quad, box, room, polygon, prism, wall, stairs, ramp, cylinder, disc, tube, "
-                   "sphere",
-                   "what it is"},
-                  {"material", "text", "", "required", "", "name of a material, or a named grey"}},
-                 surface_keys()),
-            with(transform_keys(),
-                 {repeat_key(), {"door", "table", "", "", "", "makes it a leaf that turns"}}))},
+       joined(
+           joined({{"name", "name", "", "required", "", "name of the object"},
+                   {"shape", "choice", "", "required",
+                    "quad, box, room, polygon, prism, wall, stairs, ramp, cylinder, disc, tube, "
+                    "sphere",
+                    "what it is"},
+                   {"material", "text", "", "required", "", "name of a material, or a named grey"}},
+                  surface_keys()),
+           joined(transform_keys(),
+                  {repeat_key(), {"door", "table", "", "", "", "makes it a leaf that turns"}}))},
   };
   for (auto& t : flat_shapes()) all.push_back(std::move(t));
   for (auto& t : round_shapes()) all.push_back(std::move(t));
@@ -185,28 +181,30 @@ std::vector<TableSpec> object_schema() {
        "`[[import]]`: an OBJ or glTF 2.0 file; becomes one object NAME.PART for each of its parts, "
        "which "
        "all bear the tag NAME",
-       with(
-           with({{"name", "name", "", "required", "", "name, which opens the names of its parts"},
-                 {"file", "path", "", "required", "", "the .obj, .gltf or .glb file"},
-                 {"units", "choice", "", "required", "m, cm, mm, km, in, ft",
-                  "unit of length of the file (glTF: m)"},
-                 {"up", "choice", "", "required", "y, z",
-                  "axis that points up in the file (glTF: y)"},
-                 {"materials", "words", "", "", "",
-                  "table: material of the file = material of the scene"},
-                 {"material", "text", "", "", "", "material of parts that the table does not name"},
-                 {"file_colours", "flag", "", "false", "",
-                  "parts that neither names are Lambertian in the colour of the file"}},
-                surface_keys()),
-           with(transform_keys(),
-                {repeat_key(), {"part", "tables", "", "", "", "what is said of single parts"}}))});
-  all.push_back(
-      {"import.part", "`[[import.part]]`: replaces for some parts what the import says",
-       with({{"match", "text", "", "required", "",
-              "name of a part in the file; `*` stands for any characters"},
-             {"omit", "flag", "", "false", "", "leave it out"},
-             {"material", "text", "", "", "", "material"}},
-            with(surface_keys(), {{"door", "table", "", "", "", "makes it a leaf that turns"}}))});
+       joined(
+           joined(
+               {{"name", "name", "", "required", "", "name, which opens the names of its parts"},
+                {"file", "path", "", "required", "", "the .obj, .gltf or .glb file"},
+                {"units", "choice", "", "required", "m, cm, mm, km, in, ft",
+                 "unit of length of the file (glTF: m)"},
+                {"up", "choice", "", "required", "y, z",
+                 "axis that points up in the file (glTF: y)"},
+                {"materials", "words", "", "", "",
+                 "table: material of the file = material of the scene"},
+                {"material", "text", "", "", "", "material of parts that the table does not name"},
+                {"file_colours", "flag", "", "false", "",
+                 "parts that neither names are Lambertian in the colour of the file"}},
+               surface_keys()),
+           joined(
+               transform_keys(),
+               {repeat_key(), {"part", "tables", "", "", "", "what is said of single parts"}}))});
+  all.push_back({"import.part", "`[[import.part]]`: replaces for some parts what the import says",
+                 joined({{"match", "text", "", "required", "",
+                          "name of a part in the file; `*` stands for any characters"},
+                         {"omit", "flag", "", "false", "", "leave it out"},
+                         {"material", "text", "", "", "", "material"}},
+                        joined(surface_keys(),
+                               {{"door", "table", "", "", "", "makes it a leaf that turns"}}))});
   all.push_back(
       {"repeat",
        "`[[object.repeat]]`, `[[import.repeat]]`, `[[luminaire.repeat]]`, `[[emitter.repeat]]`: a "
