@@ -15,6 +15,8 @@ constexpr glm::dvec3 room_size{20, 15, 3};
 constexpr int boxes = 131;  // of five quads: 655, and six walls
 constexpr double patch_edge_m = 1.5;
 constexpr double albedo = 0.8;
+constexpr glm::dvec3 pictured_size{10, 8, 3};
+constexpr double pictured_albedo = 0.6;
 constexpr double layer_sigma_t[6] = {0.05, 0.1, 0.25, 0.5, 1, 2};  // [1/m], upwards
 
 std::shared_ptr<const CompiledScene> compiled(SceneDescription description) {
@@ -52,21 +54,23 @@ Mesh furniture(const glm::dvec3& low, const glm::dvec3& size) {
   return mesh;
 }
 
-void furnish(SceneDescription& d) {
-  const auto room = shapes::room(room_size).value();
+/// Walls and boxes; the boxes shrink with the floor.
+void furnish(SceneDescription& d, const glm::dvec3& size) {
+  const auto room = shapes::room(size).value();
   const Mesh* walls[] = {&room.floor, &room.ceiling, &room.x0, &room.x1, &room.y0, &room.y1};
   const char* names[] = {"floor", "ceiling", "x0", "x1", "y0", "y1"};
   for (int i = 0; i < 6; ++i) add_object(d, names[i], *walls[i], patch_edge_m);
   // On a grid of 14 x 10 places, each box with its own size and shift: nothing overlaps.
   Random random(1, RandomStream::test);
   random.start(0);
-  const double place_x = room_size.x / 14, place_y = room_size.y / 10;
+  const double place_x = size.x / 14, place_y = size.y / 10;
+  const double x = size.x / room_size.x, y = size.y / room_size.y;
   for (int i = 0; i < boxes; ++i) {
-    const double sx = 0.3 + 0.5 * random.uniform_double();
-    const double sy = 0.3 + 0.5 * random.uniform_double();
+    const double sx = x * (0.3 + 0.5 * random.uniform_double());
+    const double sy = y * (0.3 + 0.5 * random.uniform_double());
     const double sz = 0.4 + 1.6 * random.uniform_double() * random.uniform_double();
-    const double dx = 0.1 + (place_x - sx - 0.2) * random.uniform_double();
-    const double dy = 0.1 + (place_y - sy - 0.2) * random.uniform_double();
+    const double dx = x * 0.1 + (place_x - sx - x * 0.2) * random.uniform_double();
+    const double dy = y * 0.1 + (place_y - sy - y * 0.2) * random.uniform_double();
     add_object(d, "box " + std::to_string(i),
                furniture({place_x * (i % 14) + dx, place_y * (i / 14) + dy, 0}, {sx, sy, sz}),
                patch_edge_m);
@@ -83,10 +87,10 @@ Emitter lamp(const glm::dvec3& at, const glm::dvec3& size) {
   return e;
 }
 
-Medium smoke(Air air) {
+Medium smoke(Air air, double scattered) {
   Medium m;
   m.name = "smoke";
-  m.optics.albedo = Spectrum::constant(albedo);
+  m.optics.albedo = Spectrum::constant(scattered);
   m.optics.extinction.sigma_t = 0.1;
   if (air != Air::layered) return m;
   m.kind = MediumKind::layered;
@@ -104,9 +108,9 @@ SceneDescription furnished(Air air, const Counting& counting) {
   SceneDescription d;
   d.name = "furnished room";
   d.materials.emplace_back().name = "grey";
-  furnish(d);
+  furnish(d, room_size);
   d.emitters.push_back(lamp({10, 7.5, 2.99}, {2, 1, 0}));
-  if (air != Air::clear) d.media.push_back(smoke(air));
+  if (air != Air::clear) d.media.push_back(smoke(air, albedo));
   d.run.max_bands = 1;
   d.run.voxels = counting.voxels;
   if (counting.detectors) {
@@ -136,6 +140,29 @@ SceneDescription furnished(Air air, const Counting& counting) {
 
 std::shared_ptr<const CompiledScene> furnished_room(Air air, const Counting& counting) {
   return compiled(furnished(air, counting));
+}
+
+std::shared_ptr<const CompiledScene> pictured_room(Air air, int width, int height) {
+  SceneDescription d;
+  d.name = "pictured room";
+  d.materials.emplace_back().name = "grey";
+  furnish(d, pictured_size);
+  for (const double x : {0.25, 0.75}) {
+    for (const double y : {0.25, 0.75})
+      d.emitters.push_back(
+          lamp({x * pictured_size.x, y * pictured_size.y, pictured_size.z - 0.01}, {0.6, 0.3, 0}));
+  }
+  if (air != Air::clear) d.media.push_back(smoke(air, pictured_albedo));
+  d.run.max_bands = 1;
+  d.run.eye_share = 0;  // pictures take their paths themselves
+  Camera camera;
+  camera.name = "corner";
+  camera.eye = {0.2, 0.2, 1.6};
+  camera.target = {pictured_size.x / 2, pictured_size.y / 2, 1.2};
+  camera.width = width;
+  camera.height = height;
+  d.cameras.push_back(camera);
+  return compiled(std::move(d));
 }
 
 std::shared_ptr<const CompiledScene> landscape(int n) {

@@ -23,6 +23,10 @@ struct Counting {
 SceneDescription furnished(Air air, const Counting& counting);
 std::shared_ptr<const CompiledScene> furnished_room(Air air, const Counting& counting);
 
+/// Of 10 x 8 x 3 m, as full of boxes, with four ceiling lamps of 0.6 x 0.3 m and a camera in a
+/// corner. Smoke as above, albedo 0.6.
+std::shared_ptr<const CompiledScene> pictured_room(Air air, int width, int height);
+
 /// A hilly floor of 2 n^2 triangles under a lamp, one patch a side of each.
 std::shared_ptr<const CompiledScene> landscape(int n);
 
