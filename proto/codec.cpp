@@ -175,8 +175,8 @@ void write(wire::Message::Builder out, const Message& message) {
             enter.setPhase(static_cast<uint8_t>(m.phase));
             enter.setDurationMs(m.duration_ms);
           },
-          [&](const FlushSlice& m) { out.initFlushPart().setPayloadHash(m.payload_hash); },
-          [&](const SliceHeld&) { out.setPartHeld(); },
+          [&](const FlushSlice& m) { out.initFlushSlice().setPayloadHash(m.payload_hash); },
+          [&](const SliceHeld&) { out.setSliceHeld(); },
           [&](const FlushDecided& m) { write_decision(out.initFlushDecided(), m); },
           [&](const FlushSettled& m) { out.initFlushSettled().setWhole(m.whole); },
           [&](const AskTotals& m) {
@@ -379,9 +379,9 @@ Message read(wire::Message::Reader in) {
       return EnterPhase{read_enum<EndPhase>(enter.getPhase(), last_phase, "phase"),
                         enter.getDurationMs()};
     }
-    case wire::Message::FLUSH_PART:
-      return FlushSlice{in.getFlushPart().getPayloadHash()};
-    case wire::Message::PART_HELD:
+    case wire::Message::FLUSH_SLICE:
+      return FlushSlice{in.getFlushSlice().getPayloadHash()};
+    case wire::Message::SLICE_HELD:
       return SliceHeld{};
     case wire::Message::FLUSH_DECIDED:
       return read_decision(in.getFlushDecided());

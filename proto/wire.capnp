@@ -51,8 +51,8 @@ struct Message {
     askStatus @18 :Void;
     statusAnswered @19 :Void;
     enterPhase @20 :EnterPhase;
-    flushPart @21 :FlushPart;
-    partHeld @22 :Void;
+    flushSlice @21 :FlushSlice;
+    sliceHeld @22 :Void;
     flushDecided @23 :FlushDecided;
     flushSettled @24 :FlushSettled;
     askTotals @25 :AskTotals;
@@ -153,7 +153,7 @@ struct EnterPhase {
   durationMs @1 :UInt32;
 }
 
-struct FlushPart {
+struct FlushSlice {
   payloadHash @0 :UInt64;
 }
 

@@ -31,6 +31,7 @@ Command sim_command();
 Command study_command();
 // tools
 Command validate_command();
+Command keys_command();
 Command info_command();
 /// For commands of the whole program, which it does not hold: the tables of `all` are asked for
 /// when it runs.

@@ -1,5 +1,5 @@
 // The help of a command, from its tables: usage, arguments, options and commands under their
-// headings, notes. Descriptions are filled to `columns`.
+// headings, notes.
 #include <algorithm>
 #include <cstdio>
 #include <sstream>
@@ -12,36 +12,6 @@
 namespace luxodus::cli {
 
 namespace {
-
-constexpr size_t columns = 90;
-/// Where descriptions begin; a longer name has a line of its own.
-constexpr size_t indent = 30;
-
-/// Words of a text in lines, each but the first after `before` blanks.
-std::string filled(const std::string& text, size_t before) {
-  std::string out;
-  size_t column = before;
-  std::istringstream words(text);
-  for (std::string word; words >> word;) {
-    if (!out.empty() && column + 1 + word.size() > columns) {
-      out += "\n" + std::string(before, ' ') + word;
-      column = before + word.size();
-    } else {
-      out += (out.empty() ? "" : " ") + word;
-      column += word.size() + 1;
-    }
-  }
-  return out;
-}
-
-std::string entry(const std::string& name, const std::string& meaning) {
-  std::string out = "  " + name;
-  if (out.size() + 2 > indent)
-    out += "\n" + std::string(indent, ' ');
-  else
-    out.resize(indent, ' ');
-  return out + filled(meaning, indent) + "\n";
-}
 
 std::string upper(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),

@@ -262,7 +262,7 @@ Command study_command() {
                   {"--log", &o->log, "Log of the nodes"}},
       .notes =
           "A study is a TOML file: a scene, what is varied, what is drawn (its keys: "
-          "docs/reference/study-file.md). Studies that ship, with their findings: "
+          "`luxodus keys study`). Studies that ship, with their findings: "
           "tests/studies.\n"
           "  luxodus study tests/studies/fibers.toml --out out/fibers",
       .commands = {calibrate_command()},

@@ -1,4 +1,4 @@
-// Words and numbers as help, completion and messages of options show them. Pure.
+// Words and numbers as help, lists of keys, completion and messages of options show them. Pure.
 #pragma once
 
 #include <cstdio>
@@ -19,5 +19,11 @@ inline std::string joined(const std::vector<std::string>& words, const char* bet
   for (const std::string& word : words) out += (out.empty() ? "" : between) + word;
   return out;
 }
+
+/// Words of a text in lines of at most 90 columns, each but the first after `before` blanks.
+std::string filled(const std::string& text, size_t before);
+
+/// A name and what it means, as help lists both: the meaning in a column of its own.
+std::string entry(const std::string& name, const std::string& meaning);
 
 }  // namespace luxodus::cli

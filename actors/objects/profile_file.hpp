@@ -14,7 +14,7 @@ namespace luxodus {
 /// Errors: as write_flux_file.
 Result<void> write_profile(const std::filesystem::path& path, const ReferenceProfile& profile);
 
-/// `objects`: how many data objects the scene has. Errors: as read_flux_file; a file that is no
+/// `objects`: how many parts the scene has. Errors: as read_flux_file; a file that is no
 /// profile; one of another scene, scenario or partition.
 Result<ReferenceProfile> read_profile(const std::filesystem::path& path, const CompiledScene& scene,
                                       size_t objects);

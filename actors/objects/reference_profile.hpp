@@ -1,4 +1,4 @@
-// The profile of a scene: how often its light asks for each data object, counted by a coarse run
+// The profile of a scene: how often its light asks for each scene part, counted by a coarse run
 // over a small share of particles. What it traces is thrown away and belongs to no result: its
 // random numbers are its own. It gives counts, not order. A pure function of scene, seed and number
 // of particles, so every process may make it, or read it from a file (profile_file.hpp).

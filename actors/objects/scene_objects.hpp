@@ -1,7 +1,6 @@
-// The parts of a run's scene as data objects: cells, bricks and tiles as bytes with a name, who
-// holds them, and what tracers ask for them. Bytes are made once a process; a node's store answers
-// for those objects that it holds. Thread rule: SceneObjects is immutable once made; the rest
-// belongs to one node.
+// The parts of a run's scene as bytes with a name (cells, bricks, tiles), who holds them, and what
+// tracers ask for them. Bytes are made once a process; a node's store answers for those that it
+// holds. Thread rule: SceneObjects is immutable once made; the rest belongs to one node.
 #pragma once
 
 #include <memory>

@@ -42,7 +42,7 @@ void TallyShard::add_metrics(Metrics& metrics) const {
 bool TallyShard::deliver(const Delivery& delivery) {
   if (const auto* part = std::get_if<FlushSlice>(&delivery.message)) {
     // The id is that of the worker's flush: nobody sends parts of another's.
-    if (delivery.id.node == delivery.source) take_part(delivery, *part);
+    if (delivery.id.node == delivery.source) take_slice(delivery, *part);
     return true;
   }
   if (delivery.source != config_.controller) return false;
@@ -63,7 +63,7 @@ uint64_t TallyShard::decided(const Life& life) const {
 
 // ---- parts -------------------------------------------------------------------------------------
 
-void TallyShard::take_part(const Delivery& delivery, const FlushSlice& part) {
+void TallyShard::take_slice(const Delivery& delivery, const FlushSlice& part) {
   const Life life{delivery.id.node, delivery.id.incarnation};
   if (delivery.id.sequence <= decided(life)) return;  // it comes late, and again
   if (const auto at = parts_.find(life); at != parts_.end()) {

@@ -69,7 +69,7 @@ class TallyShard {
   };
   using Life = std::pair<NodeId, Incarnation>;
 
-  void take_part(const Delivery& delivery, const FlushSlice& part);
+  void take_slice(const Delivery& delivery, const FlushSlice& part);
   void take_decision(const Delivery& delivery, const FlushDecided& decision);
   void tell_totals(const Delivery& delivery, const AskTotals& question);
   void work(std::shared_ptr<Part> part);

@@ -33,7 +33,7 @@ class Hasher {
   std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state_;
 };
 
-/// The name of a data object with these bytes, by which they are known to be right.
+/// The name of an object with these bytes, by which they are known to be right.
 inline ObjectId object_id_of(std::span<const std::byte> bytes) {
   return {XXH3_64bits(bytes.data(), bytes.size())};
 }

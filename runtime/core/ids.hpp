@@ -22,7 +22,7 @@ using NodeId = Id<struct NodeTag, std::uint16_t>;
 /// One start of one node: drawn at random, so that what an earlier life sent is known as such.
 using Incarnation = Id<struct IncarnationTag, std::uint64_t>;
 
-/// An immutable data object, named by the hash of its bytes.
+/// An immutable object, named by the hash of its bytes.
 using ObjectId = Id<struct ObjectTag, std::uint64_t>;
 
 }  // namespace luxodus

@@ -260,16 +260,17 @@ double sagitta(double radius, int segments) {
   return 2 * radius * s * s;
 }
 
-Result<int> segments_within(double radius, double bound_m) {
-  if (auto bad = bad_length({{"the radius", radius}, {"the allowed distance", bound_m}}))
+Result<int> segments_within(double radius, double mesh_tolerance_m) {
+  if (auto bad = bad_length({{"the radius", radius}, {"the allowed distance", mesh_tolerance_m}}))
     return *bad;
-  const double half_angle = 2 * std::asin(std::sqrt(std::min(1.0, bound_m / (2 * radius))));
+  const double half_angle =
+      2 * std::asin(std::sqrt(std::min(1.0, mesh_tolerance_m / (2 * radius))));
   const double wanted = std::ceil(std::numbers::pi / half_angle * (1 - 1e-12));
   if (wanted > limits::shape_segments) {
     return problem(
         fmt::format("a circle of radius {:g} m within {:g} m needs {:.0f} segments, the most "
                     "are {}: allow a larger distance",
-                    radius, bound_m, wanted, limits::shape_segments));
+                    radius, mesh_tolerance_m, wanted, limits::shape_segments));
   }
   return std::max(3, static_cast<int>(wanted));
 }
@@ -331,19 +332,20 @@ Result<Shape> tube(double outer_radius, double inner_radius, double length, int 
   return shape;
 }
 
-Result<Shape> sphere(double radius, double bound_m) {
-  if (auto bad = bad_length({{"the sphere's radius", radius}, {"the allowed distance", bound_m}})) {
+Result<Shape> sphere(double radius, double mesh_tolerance_m) {
+  if (auto bad = bad_length(
+          {{"the sphere's radius", radius}, {"the allowed distance", mesh_tolerance_m}})) {
     return *bad;
   }
   // The bound falls with every step of the frequency (about as its square), so bisection finds the
   // least.
   int low = 1, high = limits::sphere_frequency;
-  const double wanted = bound_m / radius;
+  const double wanted = mesh_tolerance_m / radius;
   if (unit_sphere_bound(high) > wanted) {
     return problem(
         fmt::format("a sphere of radius {:g} m within {:g} m needs too many triangles: allow "
                     "{:g} m or more",
-                    radius, bound_m, radius * unit_sphere_bound(high)));
+                    radius, mesh_tolerance_m, radius * unit_sphere_bound(high)));
   }
   while (low < high) {
     const int middle = (low + high) / 2;

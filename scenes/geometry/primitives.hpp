@@ -63,13 +63,13 @@ Result<Shape> disc(double radius, int segments);
 /// ends. Requires: 0 < inner_radius < outer_radius.
 Result<Shape> tube(double outer_radius, double inner_radius, double length, int segments);
 
-/// About the origin; an icosahedron whose faces are split as little as keeps within `bound_m` of
-/// the true sphere. Vertices lie on it, so the body is slightly small.
-Result<Shape> sphere(double radius, double bound_m);
+/// About the origin; an icosahedron whose faces are split as little as keeps within
+/// `mesh_tolerance_m` of the true sphere. Vertices lie on it, so the body is slightly small.
+Result<Shape> sphere(double radius, double mesh_tolerance_m);
 
-/// Least number of segments, 3 or more, that keeps a circle's chords within `bound_m` of its arc.
-/// Errors: also where that exceeds limits::shape_segments.
-Result<int> segments_within(double radius, double bound_m);
+/// Least number of segments, 3 or more, that keeps a circle's chords within `mesh_tolerance_m` of
+/// its arc. Errors: also where that exceeds limits::shape_segments.
+Result<int> segments_within(double radius, double mesh_tolerance_m);
 
 /// Largest distance of arc and chord (the sagitta) of a circle of `segments` chords [m].
 double sagitta(double radius, int segments);

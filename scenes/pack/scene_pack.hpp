@@ -1,5 +1,5 @@
 // A scene as one file that many machines can share: its triangles, smoke data and pictures, cut
-// into data objects named by their content, and the skeleton that every machine reads. The file is
+// into scene parts named by their content, and the skeleton that every machine reads. The file is
 // mapped, not read: an object takes memory only while it is looked at, and a scene may be larger
 // than a machine. A pack may hold the skeleton alone, for machines that get all objects from
 // others.

@@ -25,10 +25,12 @@ KeySpec repeat_key();
 
 // Pieces of the schema, one per source file.
 std::vector<TableSpec> geometry_schema();
+TableSpec run_keys();                      // part of geometry_schema
 std::vector<TableSpec> object_schema();    // part of geometry_schema
 std::vector<TableSpec> data_set_schema();  // part of light_schema
 std::vector<TableSpec> light_schema();
-std::vector<TableSpec> measure_schema();
+std::vector<TableSpec> measurement_schema();
+std::vector<TableSpec> scenario_schema();
 std::vector<TableSpec> assessment_schema();
 std::vector<TableSpec> project_schema();
 

@@ -1,4 +1,4 @@
-// A brick of smoke data as an immutable data object: the bytes that travel, lie on disk and are
+// A brick of smoke data as an immutable scene part: the bytes that travel, lie on disk and are
 // named by their hash. Arrays are written as they stand in memory, little endian; what follows from
 // them is computed anew. Bytes come from other machines and are held against the data set's table
 // before they are used. Pure; any thread.

@@ -1,4 +1,4 @@
-// A geometry cell as an immutable data object: the bytes that travel, lie on disk and are named by
+// A geometry cell as an immutable scene part: the bytes that travel, lie on disk and are named by
 // their hash. Records are written as they stand in memory, little endian. Bytes come from other
 // machines: every count and index is held against the scene before anything is built of them.
 // Pure; any thread.

@@ -1,6 +1,6 @@
 // What the tracer needs, and nothing else: one scenario of a scene, in local coordinates, per
 // band. The skeleton (surfaces, materials, emitters, media tables, detectors, tally layout) is
-// small and always there; geometry cells, bricks and texels are data objects, which the transport
+// small and always there; geometry cells, bricks and texels are scene parts, which the transport
 // loop, as photometric webs, reads only through its resolver. Immutable once compiled; any thread.
 #pragma once
 

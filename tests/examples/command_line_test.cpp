@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "tests/examples/program_kit.hpp"
+#include "tests/kit/room_texts.hpp"
 
 using namespace luxodus::program;
 using Catch::Matchers::Contains;
@@ -50,16 +51,7 @@ std::vector<std::string> completed(const TemporaryFolder& folder, const std::str
   return found(said.out, "(.+)");
 }
 
-constexpr const char* room = R"(
-[[material]]
-name = "white"
-reflectance = 0.5
-[[object]]
-name = "room"
-shape = "room"
-low = [0, 0, 0]
-high = [3, 3, 3]
-material = "white"
+const std::string room = luxodus::test::white_room("[3, 3, 3]") + R"(
 [[emitter]]
 name = "lamp"
 shape = "sphere"
@@ -80,10 +72,10 @@ TEST_CASE("the help lists every command once, under the seven headings", "[progr
                                              "Cluster", "Study", "Tools"});
   const std::vector<std::string> commands = commands_in(help);
   CHECK(commands ==
-        std::vector<std::string>{"check",    "pack",   "run",       "render",  "converge", "assess",
-                                 "compare",  "report", "view",      "cluster", "node",     "status",
-                                 "topology", "keygen", "profile",   "deploy",  "sim",      "study",
-                                 "validate", "info",   "completion"});
+        std::vector<std::string>{"check",    "pack",   "run",     "render",    "converge", "assess",
+                                 "compare",  "report", "view",    "cluster",   "node",     "status",
+                                 "topology", "keygen", "profile", "deploy",    "sim",      "study",
+                                 "validate", "keys",   "info",    "completion"});
 }
 
 TEST_CASE("every option is described by a noun phrase within 92 columns", "[program][help]") {
@@ -104,6 +96,33 @@ TEST_CASE("every option is described by a noun phrase within 92 columns", "[prog
   }
   CHECK_THAT(run_luxodus(folder, "run --help").out,
              Contains("--seed UINT                 Seed of the random number generator"));
+}
+
+TEST_CASE("keys of files are explained by the schemas that read them", "[program][help]") {
+  const TemporaryFolder folder;
+  const auto keys = [&](const std::string& words) {
+    const Outcome said = run_luxodus(folder, "keys " + words);
+    INFO(said.err);
+    CHECK(said.code == 0);
+    CHECK(found(said.out, "(.{93,})").empty());
+    return said.out;
+  };
+  CHECK_THAT(keys("scene"), Contains("  medium.data_set") && Contains("  route "));
+  const std::string medium = keys("scene medium");
+  CHECK_THAT(medium, Contains("  mass_extinction") && Contains("required)"));
+  CHECK(medium.find("maintenance_factor") == std::string::npos);
+  const std::string factor = keys("scene maintenance_factor");
+  CHECK_THAT(factor, Contains("[[luminaire]]") && Contains("[[emitter]]"));
+  CHECK(factor.find("flux_lm") == std::string::npos);
+  CHECK_THAT(keys("cluster budget"), Contains("[budget]"));
+  CHECK_THAT(keys("study sweep"), Contains("  fibers "));
+  const std::string all = run_luxodus(folder, "keys scene --markdown").out;
+  REQUIRE(all.size() > 10'000);
+  CHECK_THAT(slurp(std::string(LUX_SOURCE_DIR) + "/scenes/scene_file/README.md"),
+             Contains(all.substr(0, all.size() - 1)));
+  const Outcome wrong = run_luxodus(folder, "keys scene luminare");
+  CHECK(wrong.code == 2);
+  CHECK_THAT(wrong.err, Contains("did you mean luminaire?"));
 }
 
 TEST_CASE("an option's old name does what the new one does, and says it", "[program][help]") {

@@ -6,6 +6,7 @@
 
 #include "tests/examples/program_kit.hpp"
 #include "tests/kit/replaced.hpp"
+#include "tests/kit/room_texts.hpp"
 
 using namespace luxodus::program;
 using Catch::Matchers::Contains;
@@ -14,17 +15,8 @@ using luxodus::test::replaced;
 namespace {
 
 /// A corridor with two signs and two people who see both, and a wall whose top is long.
-const std::string words_corridor = R"(title = "A corridor"
-patch_edge_m = 1
-[[material]]
-name = "white"
-reflectance = 0.5
-[[object]]
-name = "corridor"
-shape = "room"
-low = [0, 0, 0]
-high = [12, 3, 3]
-material = "white"
+const std::string words_corridor =
+    "title = \"A corridor\"\npatch_edge_m = 1\n" + luxodus::test::white_room("[12, 3, 3]") + R"(
 [[object]]
 name = "low wall"
 shape = "box"
@@ -105,20 +97,9 @@ const std::string sign = R"(<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0
 <rect x="10" y="5" width="20" height="10" fill="#ffffff"/></svg>
 )";
 
-struct Corridor {
-  TemporaryFolder folder;
-  std::string scene = (folder / "corridor.toml").string();
-  fs::path out = folder / "out";
-
-  explicit Corridor(const std::string& text = words_corridor) {
-    std::ofstream(scene) << text;
+struct Corridor : ScenePlace {
+  explicit Corridor(const std::string& text = words_corridor) : ScenePlace("corridor.toml", text) {
     std::ofstream(folder / "sign.svg") << sign;
-  }
-  Outcome luxodus(const std::string& command, const std::string& under = "") const {
-    return run_luxodus(folder, command, under);
-  }
-  Outcome run(const std::string& options) const {
-    return luxodus("run " + scene + " --out " + out.string() + " " + options);
   }
 };
 

@@ -7,23 +7,15 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/examples/program_kit.hpp"
+#include "tests/kit/room_texts.hpp"
 
 using namespace luxodus::program;
 using Catch::Matchers::Contains;
 
 namespace {
 
-const std::string lost_room = R"(title = "A room"
-patch_edge_m = 1
-[[material]]
-name = "white"
-reflectance = 0.5
-[[object]]
-name = "room"
-shape = "room"
-low = [0, 0, 0]
-high = [5, 4, 3]
-material = "white"
+const std::string lost_room =
+    "title = \"A room\"\npatch_edge_m = 1\n" + luxodus::test::white_room("[5, 4, 3]") + R"(
 [[emitter]]
 name = "lamp"
 shape = "rectangle"
@@ -47,15 +39,8 @@ height = 30
 /// More particles than can be traced while somebody waits.
 const std::string endless = " --particles 1000G ";
 
-struct Place {
-  TemporaryFolder folder;
-  std::string scene = (folder / "room.toml").string();
-  fs::path out = folder / "out";
-
-  explicit Place(const std::string& text = lost_room) { std::ofstream(scene) << text; }
-  Outcome run(const std::string& options, const std::string& under = "") const {
-    return run_luxodus(folder, "run " + scene + " --out " + out.string() + " " + options, under);
-  }
+struct LostRoom : ScenePlace {
+  explicit LostRoom(const std::string& text = lost_room) : ScenePlace("room.toml", text) {}
 };
 
 /// Each: at most 20 s, so that a program that does not end fails the test and not the machine.
@@ -68,7 +53,7 @@ size_t lines(const std::string& text) {
 }  // namespace
 
 TEST_CASE("a run learns before it traces that its results cannot be written", "[program][keep]") {
-  const Place place;
+  const LostRoom place;
   const fs::path elsewhere = place.folder / "elsewhere";
   fs::create_directory(elsewhere);
   std::string said;
@@ -99,7 +84,7 @@ TEST_CASE("a run learns before it traces that its results cannot be written", "[
 }
 
 TEST_CASE("every command that works long looks first at where it will write", "[program][keep]") {
-  const Place place;
+  const LostRoom place;
   const std::string file = (place.folder / "file").string();
   std::ofstream(file) << "mine";
   for (const std::string& command :
@@ -107,7 +92,7 @@ TEST_CASE("every command that works long looks first at where it will write", "[
         "assess " + place.scene + " --out " + file + "/below",
         "pack " + place.scene + " --out " + place.folder.path().string(),
         "validate --full --out " + file}) {
-    const Outcome refused = run_luxodus(place.folder, command, in_time);
+    const Outcome refused = place.luxodus(command, in_time);
     INFO(command << "\n" << refused.err);
     CHECK(refused.code == 2);
     CHECK(slurp(file) == "mine");
@@ -115,12 +100,12 @@ TEST_CASE("every command that works long looks first at where it will write", "[
 }
 
 TEST_CASE("pictures never leave the folder of their run through a link", "[program][keep]") {
-  const Place place;
+  const LostRoom place;
   REQUIRE(place.run("--particles 20k --no-views").code == 0);
   const fs::path elsewhere = place.folder / "elsewhere";
   fs::create_directory(elsewhere);
   fs::create_directory_symlink(elsewhere, place.out / "views");
-  const Outcome drawn = run_luxodus(place.folder, "render " + place.out.string() + " --paths 1");
+  const Outcome drawn = place.luxodus("render " + place.out.string() + " --paths 1");
   CHECK(drawn.code == 2);
   CHECK_THAT(drawn.err, Contains("symbolic link"));
   CHECK(fs::is_empty(elsewhere));
@@ -128,7 +113,7 @@ TEST_CASE("pictures never leave the folder of their run through a link", "[progr
 
 TEST_CASE("a run that is killed goes on from its last checkpoint with the same bits",
           "[program][keep]") {
-  const Place place;
+  const LostRoom place;
   const std::string nodes = GENERATE("", " --nodes 2");
   const Outcome killed =
       shell(place.folder, std::string(LUX_PROGRAM) + " run " + place.scene + " --out " +
@@ -150,8 +135,9 @@ TEST_CASE("a run that is killed goes on from its last checkpoint with the same b
   CHECK(ended["finished"] == true);
   CHECK(ended["particles"].get<int64_t>() >= 2 * particles);
   const fs::path whole = place.folder / "whole";
-  REQUIRE(run_luxodus(place.folder, "run " + place.scene + " --no-views --out " + whole.string() +
-                                        " --particles " + ended["particles"].dump())
+  REQUIRE(place
+              .luxodus("run " + place.scene + " --no-views --out " + whole.string() +
+                       " --particles " + ended["particles"].dump())
               .code == 0);
   const bool same = slurp(place.out / "flux.lux") == slurp(whole / "flux.lux");
   CHECK(same);
@@ -159,7 +145,7 @@ TEST_CASE("a run that is killed goes on from its last checkpoint with the same b
 
 TEST_CASE("a longer run of the same scene is not replaced by a shorter one unasked",
           "[program][keep]") {
-  const Place place;
+  const LostRoom place;
   REQUIRE(place.run("--no-views --particles 100k").code == 0);
   const std::string long_run = slurp(place.out / "flux.lux");
   for (const char* shorter : {"--particles 20k", "--particles 100k --time 1ms", "--error 50%",
@@ -182,7 +168,7 @@ TEST_CASE("a longer run of the same scene is not replaced by a shorter one unask
 }
 
 TEST_CASE("a command that stops by time or error may be repeated", "[program][keep]") {
-  const Place place;
+  const LostRoom place;
   for (const char* stop : {"--error 5%", "--time 1s"}) {
     CHECK(place.run(std::string("--no-views --overwrite ") + stop).code == 0);
     const Outcome again = place.run(std::string("--no-views ") + stop);
@@ -192,7 +178,7 @@ TEST_CASE("a command that stops by time or error may be repeated", "[program][ke
 }
 
 TEST_CASE("a repeated run that is interrupted leaves the longer one as it was", "[program][keep]") {
-  const Place place;
+  const LostRoom place;
   REQUIRE(place.run("--no-views --time 4s").code == 0);
   const std::string long_run = slurp(place.out / "flux.lux");
   const Outcome stopped = place.run("--no-views --checkpoint 1s" + endless,
@@ -205,7 +191,7 @@ TEST_CASE("a repeated run that is interrupted leaves the longer one as it was", 
 }
 
 TEST_CASE("files that no run has written are not replaced unasked", "[program][keep]") {
-  const Place place;
+  const LostRoom place;
   fs::create_directories(place.out / "planes");
   for (const char* name : {"result.json", "planes/the_floor.csv", "flux.lux"}) {
     std::ofstream(place.out / name) << "mine";
@@ -222,7 +208,7 @@ TEST_CASE("files that no run has written are not replaced unasked", "[program][k
 }
 
 TEST_CASE("two runs do not write into one folder", "[program][keep]") {
-  const Place place;
+  const LostRoom place;
   const std::string run = std::string(LUX_PROGRAM) + " run " + place.scene + " --out " +
                           place.out.string() + " --no-views" + endless;
   // The lock is there before the first particle; the second command waits for it, then is refused.
@@ -240,14 +226,13 @@ TEST_CASE("two runs do not write into one folder", "[program][keep]") {
 
 TEST_CASE("Ctrl-C and SIGTERM end the making of pictures, and keep what is done",
           "[program][keep]") {
-  const Place place;
+  const LostRoom place;
   REQUIRE(place.run("--particles 20k --no-views").code == 0);
   for (const std::string signal : {"INT", "TERM"}) {
     // 1200 pixels of a hundred thousand paths take minutes.
     const std::string under =
         "timeout --kill-after=15 --preserve-status --signal=" + signal + " 2 ";
-    const Outcome drawn =
-        run_luxodus(place.folder, "render " + place.out.string() + " --paths 60000", under);
+    const Outcome drawn = place.luxodus("render " + place.out.string() + " --paths 60000", under);
     INFO(signal << "\n" << drawn.err);
     CHECK(drawn.code == 130);
     CHECK_THAT(drawn.err, Contains("interrupted"));
@@ -261,11 +246,11 @@ TEST_CASE("Ctrl-C and SIGTERM end the making of pictures, and keep what is done"
 
 TEST_CASE("a pack that is interrupted leaves nothing, and takes away what a killed one left",
           "[program][keep]") {
-  const Place place;
+  const LostRoom place;
   const fs::path stale = place.folder / ".luxodus-999999-0.tmp";
   std::ofstream(stale) << "half a pack";
   const std::string pack = (place.folder / "room.luxpack").string();
-  REQUIRE(run_luxodus(place.folder, "pack " + place.scene + " --out " + pack).code == 0);
+  REQUIRE(place.luxodus("pack " + place.scene + " --out " + pack).code == 0);
   CHECK_FALSE(fs::exists(stale));
   const std::string many = R"([[object]]
 name = "blocks"
@@ -275,7 +260,7 @@ high = [1.01, 1.01, 0.01]
 material = "white"
 repeat = [{ count = 100, step = [0.02, 0, 0] }, { count = 100, step = [0, 0.02, 0] }]
 )";
-  const Place large(lost_room + many);
+  const LostRoom large(lost_room + many);
   for (const char* after : {"0.2", "0.4", "0.8"})
     for (const char* signal : {"INT", "TERM", "KILL"}) {
       run_luxodus(large.folder,
@@ -288,7 +273,7 @@ repeat = [{ count = 100, step = [0.02, 0, 0] }, { count = 100, step = [0, 0.02, 
 }
 
 TEST_CASE("a standard output that cannot be written is an error in one line", "[program][keep]") {
-  const Place place;
+  const LostRoom place;
   for (const std::string& command :
        {std::string("info"), std::string("info --json"), std::string("--help"),
         std::string("--version"), "check " + place.scene, "check --json " + place.scene}) {
@@ -301,12 +286,12 @@ TEST_CASE("a standard output that cannot be written is an error in one line", "[
     INFO(closed.err);
     CHECK(closed.code == 1);
   }
-  CHECK(run_luxodus(place.folder, "info").code == 0);
+  CHECK(place.luxodus("info").code == 0);
 }
 
 TEST_CASE("a reader that has gone is an error, and what was computed is written first",
           "[program][keep]") {
-  const Place place;
+  const LostRoom place;
   const std::string run = std::string(LUX_PROGRAM) + " run " + place.scene + " --out " +
                           place.out.string() + " --no-views --particles 50k";
   const Outcome gone =

@@ -43,4 +43,21 @@ inline Outcome run_luxodus(const TemporaryFolder& folder, const std::string& arg
   return shell(folder, under + LUX_PROGRAM + " " + arguments);
 }
 
+/// A scene in a folder of its own, and where its results go.
+struct ScenePlace {
+  TemporaryFolder folder;
+  std::string scene;
+  fs::path out = folder / "out";
+
+  ScenePlace(const std::string& name, const std::string& text) : scene((folder / name).string()) {
+    std::ofstream(scene) << text;
+  }
+  Outcome luxodus(const std::string& command, const std::string& under = "") const {
+    return run_luxodus(folder, command, under);
+  }
+  Outcome run(const std::string& options, const std::string& under = "") const {
+    return luxodus("run " + scene + " --out " + out.string() + " " + options, under);
+  }
+};
+
 }  // namespace luxodus::program

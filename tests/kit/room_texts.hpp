@@ -5,6 +5,21 @@
 
 namespace luxodus::test {
 
+/// A closed room with its corner at the origin, of half reflectance. `high`: the corner across, as
+/// the scene file writes it.
+inline std::string white_room(const std::string& high) {
+  return R"(
+[[material]]
+name = "white"
+reflectance = 0.5
+[[object]]
+name = "room"
+shape = "room"
+low = [0, 0, 0]
+high = )" +
+         high + "\nmaterial = \"white\"\n";
+}
+
 /// A point of 1000 lm over the middle of a room of 12 m by 4 m, with what the codes ask of it.
 inline const std::string middle_lamp = R"(
 [[emitter]]

@@ -12,7 +12,7 @@
 
 namespace luxodus::test {
 
-/// 12 m by 4 m by 3 m, black; a point of 300 lm above the middle, a sign at the end.
+/// 12 m by 4 m by 3 m, black; a lamp above the middle, a sign at the end.
 inline const std::string room = R"(
 [[object]]
 name = "room"

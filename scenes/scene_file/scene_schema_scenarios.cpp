@@ -1,0 +1,45 @@
+// Keys of scenarios, and of what a variant changes.
+#include "scenes/scene_file/scene_schema.hpp"
+
+namespace luxodus {
+
+std::vector<TableSpec> scenario_schema() {
+  return {
+      {"scenario",
+       "`[[scenario]]`: one state of the building",
+       {
+           {"name", "name", "", "required", "", "name of the scenario"},
+           {"operation", "choice", "", "\"mains\"", "mains, emergency, dark",
+            "which flux the luminaires give; `dark`: flames alone"},
+           {"seconds_after_failure", "number", "s", "0", "[0, 1e6]",
+            "since the mains failed: photoluminescent signs fade, and where it is given luminaires "
+            "come on by their `onset`"},
+           {"circuits", "factors", "", "", "[0, 1000]",
+            "flux factor by name of the circuit; others 1"},
+           {"media", "factors", "", "", "[0, 1e6]",
+            "extinction factor by name of the medium; 0 removes it"},
+           {"smoke_factor", "number", "", "1", "[0, 1e6]",
+            "extinction factor of every medium not named in `media`"},
+           {"emission_factor", "number", "", "1", "[0, 1e6]", "factor for the power of all flames"},
+           {"doors_open", "texts", "", "", "", "names of doors that stand open"},
+           {"doors_closed", "texts", "", "", "", "names of doors that are closed"},
+       }},
+      {"change",
+       "`[[change]]`: what a variant has otherwise than the files that it includes",
+       {
+           {"kind", "choice", "", "required", "sign, luminaire, medium",
+            "what is changed; emitters are luminaires, too"},
+           {"of", "text", "", "required", "", "its name"},
+           {"copy", "name", "", "", "",
+            "name of a copy that is added instead, the one in `of` staying as it is; of signs and "
+            "luminaires, with `position`; later changes may name it"},
+           {"position", "point", "m", "", "[-1e7, 1e7]", "where it is, of signs and luminaires"},
+           {"facing", "direction", "", "", "[-1e7, 1e7]",
+            "where a sign's face looks, or a luminaire aims; with `position`"},
+           {"factor", "number", "", "1", "[0, 1000]",
+            "of its light in every operation; of a medium's extinction in every scenario"},
+       }},
+  };
+}
+
+}  // namespace luxodus
