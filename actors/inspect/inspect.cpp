@@ -217,7 +217,7 @@ const char* word_of(Severity severity) {
 }
 
 std::string Finding::text() const {
-  return std::string(word_of(severity)) + ": " + problem.text();
+  return Problem{problem.where, std::string(word_of(severity)) + ": " + problem.what}.text();
 }
 
 bool has_error(const std::vector<Finding>& findings) {
