@@ -116,7 +116,7 @@ Result<ExitCode> assess_scene(const AssessCommandOptions& options) {
   for (const Problem& warning : assessed->warnings)
     if (std::none_of(assessed->findings.begin(), assessed->findings.end(),
                      [&](const Finding& f) { return f.problem.text() == warning.text(); }))
-      log_warning("{}", warning.text());
+      warn(warning);
   const Json json = assessment_json(*scene, assessed.value(), build.version);
   if (auto ok = write_assessment(out->path(), json); !ok) return ok.problem();
   print_summary(json);

@@ -4,16 +4,14 @@
 #include <cstdio>
 #include <thread>
 
-#include "runtime/core/log.hpp"
-
 namespace luxodus::cli {
 
 void tell(const Problem& problem) {
   std::fprintf(stderr, "%s\n", problem.text().c_str());
 }
 
-void warn(const std::string& text) {
-  log_warning("{}", text);
+void warn(const Problem& warning) {
+  tell({warning.where, "warning: " + warning.what});
 }
 
 int exit_code_of(const Result<ExitCode>& result) {

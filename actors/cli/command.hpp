@@ -11,8 +11,8 @@ enum ExitCode : int { success = 0, failure = 1, bad_input = 2, interrupted = 130
 
 /// One line "file:line: sentence" on standard error.
 void tell(const Problem& problem);
-/// The same as a warning of the log.
-void warn(const std::string& text);
+/// One line "file:line: warning: sentence" on standard error.
+void warn(const Problem& warning);
 
 /// The exit code of what a command did; that of bad input after its problem was told.
 int exit_code_of(const Result<ExitCode>& result);

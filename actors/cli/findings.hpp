@@ -6,7 +6,7 @@
 
 namespace luxodus::cli {
 
-/// One line "warning: file:line: sentence" on standard error for each, in their order.
+/// One line "file:line: warning: sentence" on standard error for each, in their order.
 void tell_findings(const std::vector<Finding>& findings);
 
 /// "2 errors, 1 warning, no notes"

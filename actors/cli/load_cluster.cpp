@@ -2,14 +2,13 @@
 
 #include "actors/cli/command.hpp"
 #include "runtime/config/cluster_file.hpp"
-#include "runtime/core/log.hpp"
 
 namespace luxodus::cli {
 
 std::optional<ClusterConfig> load_cluster(const std::filesystem::path& file) {
   ReadCluster read = read_cluster(file);
   for (const Problem& problem : read.problems.list()) tell(problem);
-  for (const Problem& warning : read.warnings) log_warning("{}", warning.text());
+  for (const Problem& warning : read.warnings) warn(warning);
   return std::move(read.cluster);
 }
 

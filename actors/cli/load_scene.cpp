@@ -19,7 +19,7 @@ std::shared_ptr<const SceneDescription> load_scene(const std::string& file,
   for (const Problem& p : read.problems.list()) tell(p);
   if (!read.scene) return nullptr;
   if (warnings == ReadingWarnings::told)
-    for (const Problem& w : read.scene->warnings) warn(w.text());
+    for (const Problem& w : read.scene->warnings) warn(w);
   return std::make_shared<const SceneDescription>(std::move(*read.scene));
 }
 

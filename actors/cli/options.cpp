@@ -89,7 +89,8 @@ void add_name(CLI::App& app, const Option& option, const std::string& name) {
   const bool is_old = name != option.name;
   const auto take = [&option, name, is_old](const std::vector<std::string>& texts) {
     if (is_old)
-      warn(name + " is now " + option.long_name() + "; the old name goes with the next release");
+      warn(problem(name + " is now " + option.long_name() +
+                   "; the old name goes with the next release"));
     try {
       store(option, texts);
     } catch (const Refused& refused) {

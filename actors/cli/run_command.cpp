@@ -24,8 +24,6 @@
 #include "actors/supervise/residency_setup.hpp"
 #include "runtime/core/log.hpp"
 #include "scenes/transport/compile.hpp"
-#include "scenes/transport/near_field.hpp"
-#include "scenes/transport/visibility.hpp"
 
 namespace luxodus::cli {
 
@@ -194,7 +192,7 @@ Result<PreparedScenario> prepare_scenario(
     const fs::path& folder, const RunOptions& options, const StopRule& rule) {
   auto scene = compile_scene(description, scenario, {options.cells, options.error_of});
   if (!scene) return scene.problem();
-  for (const Problem& w : scene.value()->warnings) log_warning("{}", w.text());
+  for (const Problem& w : scene.value()->warnings) warn(w);
   PreparedScenario prepared{scenario, scene.value(), std::nullopt};
   if (options.plan) return prepared;
   // Of several scenarios the later ones may not have been begun when the run was stopped.

@@ -9,7 +9,6 @@
 #include "actors/output/json_out.hpp"
 #include "actors/supervise/cluster_status.hpp"
 #include "runtime/config/cluster_file.hpp"
-#include "runtime/core/log.hpp"
 
 namespace luxodus::cli {
 
@@ -51,7 +50,7 @@ Result<std::vector<AskedProcess>> processes_from(const StatusOptions& options) {
   if (options.config.empty()) return asked;
   const ReadCluster read = read_cluster(options.config);
   if (!read.cluster) return read.problems.list().front();
-  for (const Problem& warning : read.warnings) log_warning("{}", warning.text());
+  for (const Problem& warning : read.warnings) warn(warning);
   auto processes = processes_of(*read.cluster);
   if (!processes) return processes.problem();
   for (AskedProcess& process : processes.value()) asked.push_back(std::move(process));

@@ -53,7 +53,7 @@ void tell_all(const Problems& problems) {
 std::optional<Prepared> prepare_study(const std::string& file) {
   ReadStudy read = read_study(file);
   tell_all(read.problems);
-  for (const Problem& warning : read.warnings) log_warning("{}", warning.text());
+  for (const Problem& warning : read.warnings) warn(warning);
   if (!read.study) return std::nullopt;
   Prepared prepared{std::move(*read.study), {}, nullptr};
   if (!prepared.study.costs.empty()) {

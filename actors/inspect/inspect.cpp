@@ -148,12 +148,17 @@ std::optional<Problem> inspect_doors_state(const SceneDescription& scene,
   inspect_luminaires(site, found, misplaced.emitters);
   inspect_signs(site, found, misplaced.signs);
   inspect_postures(site, misplaced.signs, found);
+  inspect_sign_sight(site, misplaced.signs, found);
   inspect_eyes(site, found);
   inspect_routes(site, found);
+  inspect_route_plan(site, found);
   inspect_areas(site, found);
+  inspect_area_parts(site, found);
+  inspect_leaves(site, found);
   inspect_emphasis(site, found);
   inspect_furniture(site, found);
   inspect_planes(site, misplaced.emitters, found);
+  inspect_plane_shapes(site, found);
   inspect_judged_places(site, found);
   out.add(std::move(found), names_of(state));
   const auto light_of = [](const Scenario& s) {
@@ -217,7 +222,7 @@ const char* word_of(Severity severity) {
 }
 
 std::string Finding::text() const {
-  return std::string(word_of(severity)) + ": " + problem.text();
+  return Problem{problem.where, std::string(word_of(severity)) + ": " + problem.what}.text();
 }
 
 bool has_error(const std::vector<Finding>& findings) {
@@ -235,6 +240,7 @@ Result<std::vector<Finding>> inspect(const std::shared_ptr<const SceneDescriptio
   for (const Problem& warning : scene->warnings)
     of_scene.push_back({Severity::warning, "file", warning});
   inspect_sizes(*scene, of_scene);
+  inspect_imports(*scene, of_scene);
   inspect_doubled_objects(*scene, of_scene);
   inspect_doors(*scene, of_scene);
   inspect_reach(*scene, of_scene);

@@ -22,7 +22,7 @@ struct Finding {
   std::string kind;  // for programs: one of the words of README.md
   Problem problem;   // file, line, what, what to do
 
-  /// "error: file:line: what"
+  /// "file:line: error: what"
   std::string text() const;
 };
 

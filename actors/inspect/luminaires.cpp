@@ -10,6 +10,7 @@
 #include "runtime/core/random.hpp"
 #include "scenes/emergency/rules.hpp"
 #include "scenes/emergency/way.hpp"
+#include "scenes/geometry/mesh_tools.hpp"
 #include "scenes/optics/offset_ray.hpp"
 #include "scenes/transport/emission.hpp"
 #include "scenes/transport/near_field.hpp"
@@ -33,6 +34,8 @@ constexpr double lost_share = 0.5 + 2 * 0.5 / 32;
 constexpr uint64_t ends_seed = 17;
 /// Two things nearer than this stand in one place [m].
 constexpr double one_place_m = 0.01;
+/// A panel that stands for the sky is a few times as large as the building, and no lamp is.
+constexpr double times_building = 5;
 /// Two directions within 8 degrees are one.
 constexpr double one_direction = 0.99;
 
@@ -96,11 +99,29 @@ std::string surface_text(const Site& site, uint32_t surface) {
                                : "\"" + site.building.scene().surfaces[surface].name + "\"";
 }
 
+/// Of the longest side of all that is built; 0 where nothing is.
+double building_length(const SceneDescription& scene) {
+  Bounds all;
+  for (const Object& object : scene.objects) all.extend(bounds_of(object.mesh));
+  if (all.empty()) return 0;
+  const glm::dvec3 size = all.high - all.low;
+  return std::max({size.x, size.y, size.z});
+}
+
 /// What is wrong with one emitter's place; `stands_outside` where it is outside.
 std::optional<Finding> wrong_emitter(const Site& site, const GeometryAccess& access,
-                                     uint32_t emitter, char& stands_outside) {
+                                     uint32_t emitter, double building_m, char& stands_outside) {
   const Emitter& e = site.scene.emitters[emitter];
   const glm::dvec3 middle = middle_of(e);
+  const double large_m = std::max({e.size.x, e.size.y, e.size.z});
+  if (building_m > 0 && large_m > times_building * building_m) {
+    stands_outside = 1;
+    return Finding{
+        Severity::warning,
+        "unit",
+        {e.place, fmt::format("{} is {} large, and the building {}: sizes are in metres",
+                              emitter_text(e), length_text(large_m), length_text(building_m))}};
+  }
   if (auto far = site.remote.told(emitter_text(e), middle)) {
     stands_outside = 1;
     return Finding{Severity::error, "far", {e.place, *far}};
@@ -229,8 +250,9 @@ void inspect_luminaires(const Site& site, Findings& out, std::vector<char>& outs
   const size_t count = site.scene.emitters.size();
   std::vector<std::optional<Finding>> found(count);
   outside.assign(count, 0);
+  const double building_m = building_length(site.scene);
   site.building.each(count, [&](const GeometryAccess& access, size_t i) {
-    found[i] = wrong_emitter(site, access, static_cast<uint32_t>(i), outside[i]);
+    found[i] = wrong_emitter(site, access, static_cast<uint32_t>(i), building_m, outside[i]);
   });
   for (auto& finding : found)
     if (finding) out.push_back(std::move(*finding));

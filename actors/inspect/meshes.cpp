@@ -10,9 +10,6 @@ namespace luxodus {
 
 namespace {
 
-/// Smaller than a button, larger than any site: metres for millimetres, or the other way round [m].
-constexpr double min_size_m = 0.02;
-constexpr double max_size_m = 1000;
 constexpr size_t shown_names = 4;
 
 using Table = std::pair<std::string, int>;
@@ -73,18 +70,18 @@ void inspect_sizes(const SceneDescription& scene, Findings& out) {
   for (const Whole& whole : wholes_of(scene)) {
     if (whole.bounds.empty()) continue;
     const glm::dvec3 size = whole.bounds.high - whole.bounds.low;
-    const double largest = std::max({size.x, size.y, size.z});
     const double least = std::min({size.x, size.y, size.z});
+    const double largest = std::max({size.x, size.y, size.z});
     // A lone disc or quad may be a pilot lamp, or a plain to the horizon.
-    const bool small = whole.in_parts && largest < min_size_m;
-    const bool large = largest > max_size_m && least > 0;
-    if (!small && !large) continue;
-    out.push_back({Severity::warning,
-                   "unit",
-                   {whole.first->place,
-                    fmt::format("\"{}\" is {} large: is it drawn in another unit? The scene is in "
-                                "metres; an import says units = \"mm\", \"cm\" or \"m\"",
-                                whole_name(*whole.first), size_text(size))}});
+    const bool may_be = largest < 1 ? !whole.in_parts : !(least > 0);
+    if (!no_buildings_size(size) || may_be) continue;
+    out.push_back(
+        {Severity::warning,
+         "unit",
+         {whole.first->place,
+          fmt::format("\"{}\" is {} large: is it drawn in another unit? The scene is in "
+                      "metres; an import says units = \"mm\", \"cm\", \"m\", \"in\" or \"ft\"",
+                      whole_name(*whole.first), size_text(size))}});
   }
 }
 

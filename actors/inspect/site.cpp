@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "scenes/geometry/mesh_tools.hpp"
+
 namespace luxodus {
 
 namespace {
@@ -11,12 +13,8 @@ namespace {
 constexpr double heights_away = 10;
 /// What is flatter, as a share of its longer side, has no height of its own: a lone floor.
 constexpr double flat_share = 0.01;
-
-Bounds bounds_of(const Mesh& mesh) {
-  Bounds out;
-  for (const glm::dvec3& p : mesh.positions) out.extend(p);
-  return out;
-}
+constexpr double min_size_m = 0.02;
+constexpr double max_size_m = 1000;
 
 double distance_to(const Bounds& box, const glm::dvec3& place) {
   return glm::length(place - glm::clamp(place, box.low, box.high));
@@ -44,6 +42,11 @@ std::string object_text(const Object& object) {
   const SourcePlace& place = object.place;
   return fmt::format("\"{}\"{}", object.name,
                      place.line > 0 ? fmt::format(" ({}:{})", place.file, place.line) : "");
+}
+
+bool no_buildings_size(const glm::dvec3& size) {
+  const double largest = std::max({size.x, size.y, size.z});
+  return largest < min_size_m || largest > max_size_m;
 }
 
 bool is_furniture(const Object& object) {

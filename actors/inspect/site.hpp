@@ -25,6 +25,9 @@ std::string percent_text(double share);
 /// "wall" (scene.toml:12)
 std::string object_text(const Object& object);
 
+/// Smaller than a button, or larger than any site: metres for millimetres, or the other way round.
+bool no_buildings_size(const glm::dvec3& size);
+
 /// Tells places that are farther from everything solid than ten times the height of the building.
 class Remoteness {
  public:
@@ -77,16 +80,23 @@ void inspect_near_field(const Site& site, const Scenario& scenario, Findings& ou
 void inspect_signs(const Site& site, Findings& out, std::vector<char>& misplaced);
 /// How signs hang and eyes look. `misplaced`: as inspect_signs says.
 void inspect_postures(const Site& site, const std::vector<char>& misplaced, Findings& out);
+/// Whom signs serve, and doorways that they hang in. `misplaced`: as inspect_signs says.
+void inspect_sign_sight(const Site& site, const std::vector<char>& misplaced, Findings& out);
 void inspect_eyes(const Site& site, Findings& out);
 void inspect_routes(const Site& site, Findings& out);
+void inspect_route_plan(const Site& site, Findings& out);
 void inspect_areas(const Site& site, Findings& out);
+void inspect_area_parts(const Site& site, Findings& out);
 void inspect_furniture(const Site& site, Findings& out);
+void inspect_leaves(const Site& site, Findings& out);
 void inspect_emphasis(const Site& site, Findings& out);
 /// `outside`: as inspect_luminaires says.
 void inspect_planes(const Site& site, const std::vector<char>& outside, Findings& out);
+void inspect_plane_shapes(const Site& site, Findings& out);
 void inspect_turned_rooms(const Site& site, Findings& out);
 // Of the scene as it is written.
 void inspect_sizes(const SceneDescription& scene, Findings& out);
+void inspect_imports(const SceneDescription& scene, Findings& out);
 void inspect_doubled_objects(const SceneDescription& scene, Findings& out);
 void inspect_doors(const SceneDescription& scene, Findings& out);
 void inspect_reach(const SceneDescription& scene, Findings& out);

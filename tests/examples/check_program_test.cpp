@@ -51,7 +51,7 @@ TEST_CASE(
   CHECK(fine.out.find("no errors, no warnings, no notes") != std::string::npos);
   const auto bad = run_luxodus(folder, "check " + written(folder, with_lamp_far_away()));
   CHECK(bad.code == 2);
-  CHECK(bad.err.find("error: " + (folder / "scene.toml").string() + ":19: emitter \"lost\" is ") !=
+  CHECK(bad.err.find((folder / "scene.toml").string() + ":19: error: emitter \"lost\" is ") !=
         std::string::npos);
   CHECK(bad.out.find("1 error, no warnings, no notes") != std::string::npos);
   const auto open =
