@@ -293,6 +293,19 @@ TEST_CASE("lines of equal illuminance lie where the closed form has them, and en
     for (const glm::dvec2& p : one.line.points) CHECK(std::abs(p.x - 6) > 0.1);
 }
 
+TEST_CASE("no line of equal illuminance follows the dark floor within a wall", "[report]") {
+  // Two rows of places in a breast wall below a pane, which the plan shows; the room is lit evenly.
+  Json level = assessed_json()["plan"]["levels"][0];
+  Json& map = level["map"];
+  const auto columns = map["columns"].get<size_t>();
+  for (size_t i = 0; i < map["lux"].size(); ++i) map["lux"][i] = i < 2 * columns ? 0 : 3;
+  level["walls"] = Json::array();
+  CHECK_FALSE(isolux_lines(level).empty());
+  const double x = map["corner"][0], y = map["corner"][1], spacing = map["spacing"];
+  level["walls"].push_back({x - 1, y + spacing / 2, x + 30, y + spacing / 2});
+  CHECK(isolux_lines(level).empty());
+}
+
 TEST_CASE("a plan in DXF is read back with its layers, luminaires and lines", "[report]") {
   const TemporaryFolder folder;
   const Json& a = assessed_json();
