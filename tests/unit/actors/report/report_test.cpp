@@ -146,17 +146,44 @@ TEST_CASE("the program's own sentences are said in each language", "[report]") {
   }
 }
 
-TEST_CASE("a verdict without failures is said in each language", "[report]") {
-  const Json one = {{"verdict",
-                     {{"words", "no check made fails, 6 not assessed, 1 not verified"},
-                      {"fail", 0},
-                      {"not_assessed", 6},
-                      {"not_verified", 1}}}};
-  CHECK(verdict_words(Texts(Language::en), one) == one["verdict"]["words"]);
-  CHECK(verdict_words(Texts(Language::de), one) ==
-        "Keine der durchgeführten Prüfungen schlägt fehl, 6 nicht bewertet, 1 nicht belegt");
-  CHECK(verdict_words(Texts(Language::fr), one) ==
-        "Aucun contrôle effectué n’échoue, 6 non évalués, 1 non vérifiés");
+TEST_CASE("a verdict is said in each language", "[report]") {
+  const auto counted = [](int fail, int open, int unverified, int pass) {
+    return Json{
+        {"verdict",
+         {{"fail", fail}, {"not_assessed", open}, {"not_verified", unverified}, {"pass", pass}}}};
+  };
+  const auto said = [](Language language, const Json& one) {
+    return verdict_words(Texts(language), one);
+  };
+  const Json none = counted(0, 6, 1, 9), one = counted(1, 1, 0, 9), many = counted(3, 0, 0, 9);
+  CHECK(said(Language::en, none) == "no check made fails, 6 not assessed, 1 not verified");
+  CHECK(said(Language::de, none) ==
+        "keine der durchgeführten Prüfungen schlägt fehl, 6 nicht bewertet, 1 nicht belegt");
+  CHECK(said(Language::fr, none) ==
+        "aucun contrôle effectué n’échoue, 6 non évalués, 1 non vérifié");
+  CHECK(said(Language::en, one) == "1 check fails, 1 not assessed");
+  CHECK(said(Language::de, one) == "1 Prüfung nicht bestanden, 1 nicht bewertet");
+  CHECK(said(Language::fr, many) == "3 contrôles non satisfaits, 0 non évalué");
+  CHECK(said(Language::de, counted(0, 4, 0, 0)) == "keine Prüfung war möglich, 4 nicht bewertet");
+}
+
+TEST_CASE("a report's headline says in each language what a terminal says first", "[report]") {
+  const Json& a = assessed_json();
+  CHECK(headline(Texts(Language::en), a) == a["verdict"]["first"]);
+  Json smoky = a;
+  smoky["state"]["scenario"] = "Brand";
+  smoky["state"]["seconds_after_failure"] = {{"value", 600}, {"unit", "s"}};
+  smoky["state"]["smoke"] = {{"extinction", {{"min", 0.05}, {"max", 2}, {"unit", "1/m"}}}};
+  smoky["verdict"] = {{"fail", 2}, {"not_assessed", 1}, {"not_verified", 0}, {"pass", 7}};
+  smoky["sight_counts"] = {{"legible", 3}, {"invisible", 5}};
+  CHECK(headline(Texts(Language::de), smoky) ==
+        "„Brand“, Notbetrieb, 600 s nach dem Netzausfall, in Rauch von 0,05/m bis 2/m, nach " +
+            text_in(a["state"]["rules"][0], "edition") +
+            ": 2 Prüfungen nicht bestanden, 1 nicht bewertet; 3 von 8 Sichten auf Zeichen sind "
+            "lesbar");
+  for (const Language language : {Language::en, Language::de, Language::fr})
+    CHECK(page_in(language).find(escaped(headline(Texts(language), a))) <
+          page_in(language).find("<h2 "));
 }
 
 TEST_CASE("a report says what it is not, on its first page and in its footer, in each language",
