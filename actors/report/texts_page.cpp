@@ -145,15 +145,10 @@ constexpr ReportText page_rows[] = {
      {"Luminaires, signs and routes", "Leuchten, Zeichen und Wege",
       "Luminaires, panneaux et chemins"}},
     {"plan.installation_note",
-     {"Filled: emergency luminaires; hollow: mains only; beside them the type of the schedule and "
-      "the height above the floor [m]. Circled numbers: signs of the schedule, with an arrow to "
-      "where they face. Dashed: routes, in the direction of escape; dotted: areas.",
-      "Gefüllt: Notleuchten; hohl: nur Netz; daneben der Typ der Stückliste und die Höhe über dem "
-      "Boden [m]. Zahlen in Kreisen: Zeichen der Liste, mit einem Pfeil in ihre Blickrichtung. "
-      "Gestrichelt: Wege in Fluchtrichtung; gepunktet: Bereiche.",
-      "Pleins : luminaires de secours ; creux : secteur seul ; à côté, le type de la nomenclature "
-      "et la hauteur au-dessus du sol [m]. Nombres cerclés : panneaux, avec une flèche vers où ils "
-      "regardent. Tirets : chemins dans le sens de l’évacuation ; points : espaces."}},
+     {"Letters and numbers are those of the schedules. Walls are cut 1.2 m above the floor.",
+      "Buchstaben und Nummern sind die der Stücklisten. Wände sind 1,2 m über dem Boden "
+      "geschnitten.",
+      "Lettres et numéros sont ceux des nomenclatures. Les murs sont coupés à 1,2 m du sol."}},
     {"plan.isolux",
      {"Lines of equal illuminance on the floor", "Linien gleicher Beleuchtungsstärke am Boden",
       "Courbes isolux au sol"}},
@@ -182,6 +177,20 @@ constexpr ReportText page_rows[] = {
     {"plan.sights_note",
      {"The best of all signs, place by place.", "Das beste aller Zeichen, Stelle für Stelle.",
       "Le meilleur de tous les panneaux, lieu par lieu."}},
+    {"legend.emergency", {"emergency luminaire", "Notleuchte", "luminaire de secours"}},
+    {"legend.mains", {"luminaire on mains only", "Leuchte, nur Netz", "luminaire, secteur seul"}},
+    {"legend.letters",
+     {"type, height above the floor [m]", "Typ, Höhe über dem Boden [m]",
+      "type, hauteur au-dessus du sol [m]"}},
+    {"legend.sign",
+     {"sign, and where it faces", "Zeichen und wohin es blickt", "panneau et son orientation"}},
+    {"legend.double_sided", {"double-sided sign", "zweiseitiges Zeichen", "panneau double face"}},
+    {"legend.emphasis", {"point of emphasis", "hervorzuhebende Stelle", "point à signaler"}},
+    {"legend.route",
+     {"route, direction of escape", "Weg in Fluchtrichtung", "chemin, sens de l’évacuation"}},
+    {"legend.area", {"area", "Bereich", "espace"}},
+    {"legend.walls", {"walls, closed doors", "Wände, geschlossene Türen", "murs, portes fermées"}},
+    {"legend.furniture", {"furniture", "Möbel", "mobilier"}},
     {"plan.north", {"N", "N", "N"}},
     {"plan.scale", {"1:{0} on {1}", "1:{0} auf {1}", "1:{0} en {1}"}},
 };

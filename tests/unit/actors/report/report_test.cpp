@@ -20,6 +20,7 @@
 #include "actors/report/isolux.hpp"
 #include "actors/report/pdf.hpp"
 #include "actors/report/plan_svg.hpp"
+#include "actors/report/svg_sheet.hpp"
 #include "runtime/core/regular_file.hpp"
 #include "tests/kit/temporary_folder.hpp"
 #include "tests/unit/actors/assess/assessed_room.hpp"
@@ -389,6 +390,41 @@ TEST_CASE("plans are drawings that a reader of SVG takes, with a scale and a nor
   CHECK(has(content(fs::path(folder / "plans") / "installation.svg"), ">A 2.50<"));
 }
 
+TEST_CASE("the plan of the installation explains each of its symbols in each language",
+          "[report]") {
+  for (const Language language : {Language::en, Language::de, Language::fr}) {
+    const Texts texts(language);
+    const Schedule schedule(assessed_json());
+    // As wide as a small figure: what does not fit a row begins another, within the drawing.
+    for (const double width : {120.0, 267.0}) {
+      const std::string svg =
+          Plans(assessed_json(), schedule, texts, {width, 150}).installation(0).svg;
+      const size_t legend = svg.find("class=\"legend\"");
+      REQUIRE(legend != std::string::npos);
+      for (const char* symbol :
+           {"legend.emergency", "legend.letters", "legend.sign", "legend.route", "legend.walls"}) {
+        INFO(texts.code() << " " << symbol);
+        CHECK(svg.find(">" + std::string(texts(symbol)) + "</text>", legend) != std::string::npos);
+      }
+      // Of what is not there it says nothing.
+      CHECK_FALSE(has(svg, texts("legend.mains")));
+      CHECK_FALSE(has(svg, texts("legend.double_sided")));
+      CHECK_FALSE(has(svg, texts("legend.furniture")));  // it is below the cut
+      std::smatch size;
+      REQUIRE(std::regex_search(svg, size, std::regex("viewBox=\"0 0 ([0-9.]+) ([0-9.]+)\"")));
+      static const std::regex text(
+          "<text x=\"([0-9.]+)\" y=\"([0-9.]+)\" font-size=\"2.50\" >([^<]*)<");
+      for (std::sregex_iterator
+               at(svg.begin() + static_cast<std::ptrdiff_t>(legend), svg.end(), text),
+           end;
+           at != end; ++at) {
+        CHECK(std::stod((*at)[2]) < std::stod(size[2]));
+        CHECK(std::stod((*at)[1]) + text_width_mm((*at)[3], 2.5) < std::stod(size[1]));
+      }
+    }
+  }
+}
+
 TEST_CASE("labels of luminaires in one place do not lie on each other", "[report]") {
   Json two = assessed_json();
   Json again = two["luminaires"][0];
@@ -396,7 +432,8 @@ TEST_CASE("labels of luminaires in one place do not lie on each other", "[report
   two["luminaires"].push_back(again);
   const TemporaryFolder folder;
   REQUIRE(write_report(fs::path(folder / ""), two, {}).ok());
-  const std::string svg = content(fs::path(folder / "plans") / "installation.svg");
+  const std::string plan = content(fs::path(folder / "plans") / "installation.svg");
+  const std::string svg = plan.substr(0, plan.find("class=\"legend\""));
   static const std::regex label("<text x=\"([0-9.]+)\" y=\"([0-9.]+)\"[^>]*>A 2.50<");
   std::set<std::string> places;
   for (std::sregex_iterator at(svg.begin(), svg.end(), label), end; at != end; ++at)
