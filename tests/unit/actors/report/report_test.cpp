@@ -22,6 +22,7 @@
 #include "actors/report/plan_svg.hpp"
 #include "actors/report/svg_sheet.hpp"
 #include "runtime/core/regular_file.hpp"
+#include "scenes/images/write_image.hpp"
 #include "tests/kit/temporary_folder.hpp"
 #include "tests/unit/actors/assess/assessed_room.hpp"
 
@@ -423,6 +424,65 @@ TEST_CASE("the plan of the installation explains each of its symbols in each lan
       }
     }
   }
+}
+
+TEST_CASE("a report takes in pictures of its own state alone", "[report]") {
+  const Json& a = assessed_json();
+  const auto picture = [&](const std::string& scenario) {
+    const PngImage image{1,
+                         1,
+                         {1, 2, 3},
+                         {{"Scene", a["scene"]["name"]},
+                          {"Scenario", scenario},
+                          {"View", "Blick zum Ausgang, Süd"}}};
+    const auto bytes = encode_png(image, {});
+    REQUIRE(bytes.ok());
+    return std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+  };
+  const TemporaryFolder folder;
+  fs::create_directories(folder / "run/views");
+  folder.write("run/views/south.png", picture("failed"));
+  folder.write("run/views/south_human.png", picture("failed"));
+  folder.write("run/views/south_luminance.png", picture("failed"));
+  const std::string page = report_html(a, pictures_in(folder / ""), "x", {});
+  const Texts en(Language::en);
+  const auto images = [](const std::string& text) {
+    size_t count = 0;
+    for (size_t at = 0; (at = text.find("src=\"data:image/png", at)) != std::string::npos; ++at)
+      ++count;
+    return count;
+  };
+  CHECK(images(page) == 2);
+  CHECK(page.find("Blick zum Ausgang, Süd: " + std::string(en("view.human"))) <
+        page.find("Blick zum Ausgang, Süd: " + std::string(en("view.luminance"))));
+  CHECK_FALSE(has(page, en("view.plain")));
+  folder.write("run/views/south_human.png", picture("mains"));
+  const std::string mixed = report_html(a, pictures_in(folder / ""), "x", {});
+  CHECK(images(mixed) == 1);
+  CHECK(has(mixed, en.say("sights.other_pictures", 1)));
+}
+
+TEST_CASE("texts in pictures are read, and damaged pictures have none", "[report]") {
+  const PngImage image{1, 1, {1, 2, 3}, {{"Scenario", "Rauch, größer"}, {"View", "plain"}}};
+  const auto bytes = encode_png(image, {});
+  REQUIRE(bytes.ok());
+  const std::string png(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+  CHECK(png_text(png, "Scenario") == "Rauch, größer");
+  CHECK(png_text(png, "View") == "plain");
+  CHECK_FALSE(png_text(png, "Scene"));
+  CHECK_FALSE(png_text("no PNG", "View"));
+  for (size_t cut = 0; cut < png.size(); ++cut) png_text(png.substr(0, cut), "View");
+  std::string forged = png;
+  forged[8] = '\x7f';  // the length of its first chunk
+  CHECK_FALSE(png_text(forged, "View"));
+}
+
+TEST_CASE("a scene without cameras is told which would show its worst views", "[report]") {
+  Json a = assessed_json();
+  a["sights"][0]["verdict"] = "invisible";
+  const std::string page = report_html(a, {}, "x", {});
+  CHECK(has(page, "[[camera]]\nname = &quot;exit&quot;\neye = ["));
+  CHECK(has(page, "target = [11.95, 0, 2.2]"));
 }
 
 TEST_CASE("labels of luminaires in one place do not lie on each other", "[report]") {
