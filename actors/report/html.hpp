@@ -5,16 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "actors/report/eye_pictures.hpp"
 #include "actors/report/schedule.hpp"
 #include "actors/report/texts.hpp"
 
 namespace luxodus {
-
-/// A PNG picture that stands in a report.
-struct ReportPicture {
-  std::string name;  // of its file, without ".png"
-  std::string png;
-};
 
 /// What all parts of a page are made of.
 struct PageParts {

@@ -69,6 +69,18 @@ std::vector<char> crossed(const ValueGrid& grid, const Json& walls) {
   return out;
 }
 
+/// Dark corners of crossed squares lie in walls, or in the breast walls of windows, of which a plan
+/// shows the pane alone: between them and lit places is no line of equal illuminance.
+void leave_out_walls(const std::vector<char>& cut, ValueGrid& grid) {
+  const size_t across = grid.columns - 1;
+  for (size_t square = 0; square < cut.size(); ++square) {
+    if (cut[square] == 0) continue;
+    const size_t first = square / across * grid.columns + square % across;
+    for (const size_t corner : {first, first + 1, first + grid.columns, first + grid.columns + 1})
+      if (grid.lux[corner] == 0) grid.lux[corner] = std::nan("");
+  }
+}
+
 using Key = std::pair<int64_t, int64_t>;
 
 /// Pieces whose ends meet, as one line.
@@ -135,10 +147,11 @@ void add_row(const ValueGrid& grid, const std::vector<char>& cut, size_t j, doub
 }  // namespace
 
 std::vector<IsoluxLine> isolux_lines(const Json& level) {
-  const ValueGrid grid = grid_of(level["map"]);
+  ValueGrid grid = grid_of(level["map"]);
   std::vector<IsoluxLine> out;
   if (grid.columns < 2 || grid.rows < 2) return out;
   const auto cut = crossed(grid, level["walls"]);
+  leave_out_walls(cut, grid);
   for (const double lux : isolux_levels) {
     std::vector<ContourLine> pieces;
     for (size_t j = 0; j + 1 < grid.rows; ++j) add_row(grid, cut, j, lux, pieces);

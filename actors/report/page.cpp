@@ -147,7 +147,7 @@ std::string verdict_box(const PageParts& parts) {
       "<div class=\"box\"><svg viewBox=\"-1.25 -1.25 2.5 2.5\" "
       "aria-hidden=\"true\">" +
       verdict_shape(mark, 0, 0, 1) + "</svg><div><p class=\"words\">" +
-      escaped(verdict_words(t, parts.a)) + "</p><p class=\"chips\">" + chips + "</p>";
+      escaped(headline(t, parts.a)) + "</p><p class=\"chips\">" + chips + "</p>";
   if (!parts.a["sights"].empty()) {
     out += "<p>" + escaped(t("verdict.sights")) + "</p><p class=\"chips\">";
     for (const auto& [verdict, times] : parts.a["sight_counts"].items())

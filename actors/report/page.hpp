@@ -34,5 +34,8 @@ std::string thumb_appendix(const PageParts& parts);
 
 /// The verdict in words: "3 checks fail, 2 not assessed".
 std::string verdict_words(const Texts& texts, const Json& assessment);
+/// What stands first: what was judged, by which rules, and what came of it, views of signs
+/// included. In English what first_words (actors/assess) says on a terminal.
+std::string headline(const Texts& texts, const Json& assessment);
 
 }  // namespace luxodus

@@ -188,7 +188,7 @@ constexpr const char* check_columns[] = {"column.verdict", "column.check",  "col
 
 std::string check_table(const PageParts& parts, const std::string& rows) {
   return table(parts.texts, {std::begin(check_columns), std::end(check_columns)},
-               {13, 25, 9, 9, 8, 14, 22}, rows, "checks");
+               {13, 23, 10, 9, 8, 15, 22}, rows, "checks");
 }
 
 bool is_place(const std::string& subject) {

@@ -141,19 +141,6 @@ std::string group_text(const Texts& t, const std::string& what) {
 
 }  // namespace
 
-std::string verdict_words(const Texts& texts, const Json& a) {
-  const Json& v = a["verdict"];
-  const auto fails = v["fail"].get<int64_t>(), open = v["not_assessed"].get<int64_t>(),
-             unverified = v["not_verified"].get<int64_t>();
-  if (texts.language() == Language::en)
-    for (const char* key : {"first", "words"})
-      if (!text_in(v, key).empty()) return text_in(v, key);
-  std::string out = fails > 0 ? texts.say("verdict.lead.fails", fails, open)
-                              : texts.say("verdict.lead.none", open);
-  if (unverified > 0) out += ", " + texts.say("verdict.unverified", unverified);
-  return out;
-}
-
 std::string state_section(const PageParts& parts) {
   const Texts& t = parts.texts;
   const Json &s = parts.a["state"], &scenario = parts.a["scenario"];

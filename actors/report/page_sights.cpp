@@ -136,28 +136,72 @@ std::string observers_table(const PageParts& parts) {
 constexpr std::array<std::pair<const char*, const char*>, 3> picture_kinds{
     {{"_human", "view.human"}, {"_luminance", "view.luminance"}, {"", "view.plain"}}};
 
-/// What each camera sees; one exposure only where there is nothing better.
-std::string pictures(const PageParts& parts) {
-  const Texts& t = parts.texts;
-  std::map<std::string, std::map<std::string, const ReportPicture*>> cameras;
-  for (const ReportPicture& picture : parts.pictures)
-    for (const auto& [ending, kind] : picture_kinds)
-      if (picture.name.ends_with(ending)) {
-        const std::string camera =
-            picture.name.substr(0, picture.name.size() - std::string_view(ending).size());
-        cameras[camera][kind] = &picture;
-        break;
-      }
-  std::string out;
-  for (const auto& [camera, kinds] : cameras)
-    for (const auto& [kind, picture] : kinds) {
-      if (kind == "view.plain" && kinds.size() > 1) continue;
-      out += figure("<img alt=\"" + escaped(camera) + "\" src=\"data:image/png;base64," +
-                        base64(picture->png) + "\">",
-                    camera + ": " + t(kind));
+/// A picture of another state would show as visible what is hidden by smoke in this one.
+bool is_of_another_state(const Json& a, const ReportPicture& picture) {
+  const auto scene = png_text(picture.png, "Scene"), scenario = png_text(picture.png, "Scenario");
+  return (scene && *scene != text_in(a["scene"], "name")) ||
+         (scenario && *scenario != text_in(a["scene"], "scenario"));
+}
+
+/// Pictures of this state by camera and kind.
+using CameraPictures = std::map<std::string, std::map<size_t, const ReportPicture*>>;
+
+CameraPictures pictures_by_camera(const PageParts& parts, size_t& others) {
+  CameraPictures out;
+  for (const ReportPicture& picture : parts.pictures) {
+    if (is_of_another_state(parts.a, picture)) {
+      ++others;
+      continue;
     }
-  if (!out.empty()) return "<div class=\"pictures\">\n" + out + "</div>\n";
-  if (parts.a["cameras"].empty()) return paragraph(t("sights.no_cameras"), "note");
+    size_t kind = 0;
+    while (!picture.name.ends_with(picture_kinds[kind].first)) ++kind;
+    const size_t ending = std::string_view(picture_kinds[kind].first).size();
+    const std::string name = picture.name.substr(0, picture.name.size() - ending);
+    out[png_text(picture.png, "View").value_or(name)][kind] = &picture;
+  }
+  return out;
+}
+
+/// As HTML, cameras for a scene that has none: at the place from which each of the worst signs is
+/// seen worst.
+std::string suggested_cameras(const PageParts& parts) {
+  constexpr size_t most = 3;
+  std::map<std::string, const Json*> worst;  // by sign
+  for (const Json& sight : parts.a["sights"]) {
+    const size_t rank = rank_of(sight);
+    if (rank == 0 || rank > 3) continue;  // legible, or there is nothing to see
+    const auto known = worst.try_emplace(text_in(sight, "sign"), &sight).first;
+    if (rank > rank_of(*known->second)) known->second = &sight;
+  }
+  std::string out;
+  size_t count = 0;
+  for (const Json& sign : parts.a["signs"]) {
+    const auto at = worst.find(text_in(sign, "name"));
+    if (at == worst.end() || ++count > most) continue;
+    const auto vector = [](const Json& v) {
+      return fmt::format("[{:g}, {:g}, {:g}]", v[0].get<double>(), v[1].get<double>(),
+                         v[2].get<double>());
+    };
+    out += fmt::format(
+        "{}[[camera]]\nname = {}\neye = {}\ntarget = {}\nvertical_fov_deg = 30\nwidth = "
+        "640\nheight = 360\n",
+        out.empty() ? "" : "\n", escaped(Json(at->first).dump()), vector((*at->second)["eye"]),
+        vector(sign["position"]));
+  }
+  return out;
+}
+
+/// What makes pictures that are not there.
+std::string how_to_make_pictures(const PageParts& parts) {
+  const Texts& t = parts.texts;
+  std::string out;
+  if (parts.a["cameras"].empty()) {
+    out = paragraph(t("sights.no_cameras"), "note");
+    const std::string cameras = suggested_cameras(parts);
+    if (!cameras.empty())
+      out += paragraph(t("sights.add_cameras")) + "<pre>" + cameras + "</pre>\n";
+    return out;
+  }
   const std::string run = "luxodus run " + text_in(parts.a["scene"], "file") +
                           (text_in(parts.a["scene"], "scenario").empty()
                                ? ""
@@ -165,6 +209,24 @@ std::string pictures(const PageParts& parts) {
                           " --out " + parts.folder + "/run";
   return paragraph(t("sights.no_pictures")) + "<pre>" + escaped(run) + "\n" +
          escaped("luxodus report " + parts.folder) + "</pre>\n";
+}
+
+/// What each camera sees; one exposure only where there is nothing better.
+std::string pictures(const PageParts& parts) {
+  const Texts& t = parts.texts;
+  size_t others = 0;
+  std::string out;
+  for (const auto& [camera, kinds] : pictures_by_camera(parts, others))
+    for (const auto& [kind, picture] : kinds) {
+      const std::string name = picture_kinds[kind].second;
+      if (name == "view.plain" && kinds.size() > 1) continue;
+      out += figure("<img alt=\"" + escaped(camera) + "\" src=\"data:image/png;base64," +
+                        base64(picture->png) + "\">",
+                    camera + ": " + t(name));
+    }
+  out = out.empty() ? how_to_make_pictures(parts) : "<div class=\"pictures\">\n" + out + "</div>\n";
+  if (others > 0) out += paragraph(t.say("sights.other_pictures", others), "note");
+  return out;
 }
 
 std::string sweep_table(const PageParts& parts) {
@@ -270,7 +332,7 @@ std::string sights_section(const PageParts& parts) {
   const auto heights = heights_of(parts.a);
   std::string out = paragraph(t("sights.lead"));
   out += heights_table(parts, heights);
-  const Plans plans(parts.a, parts.schedule, t, {parts.paper_width_mm, 105});
+  const Plans plans(parts.a, parts.schedule, t, {parts.paper_width_mm, 90});
   for (const double height : heights)
     for (size_t level = 0; level < parts.schedule.levels(); ++level)
       out += "<figure class=\"plan\">" + plans.sights(level, height, "").svg + "<figcaption><b>" +

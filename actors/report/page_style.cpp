@@ -81,6 +81,7 @@ figcaption b { color: var(--ink); }
   h2.fresh, section.sheet, section.wide { break-before: page; }
   section.wide { page: wide; }
   section.sheet h3, section.wide h3 { margin-top: 0; }
+  table.facts { break-inside: avoid; }
   h2.plans { break-before: page; page: wide; }
   h2.plans + section { break-before: avoid; }
   figure.plan > svg { width: auto; max-height: 165mm; margin: 0 auto; border: 0; }

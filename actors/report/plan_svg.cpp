@@ -11,79 +11,24 @@
 
 #include "actors/output/light_colours.hpp"
 #include "actors/report/isolux.hpp"
+#include "actors/report/svg_sheet.hpp"
 #include "runtime/core/output_text.hpp"
 
 namespace luxodus {
 
 namespace {
 
-constexpr double border_mm = 4, foot_mm = 19, text_mm = 2.5;
 constexpr const char* emergency_colour = "#0b6e3c";
+constexpr const char* wall_style = "stroke=\"#222\" stroke-width=\"0.35\" stroke-linecap=\"round\"";
+constexpr const char* furniture_style = "stroke=\"#b9b9b9\" stroke-width=\"0.15\"";
+constexpr const char* route_style =
+    "fill=\"none\" stroke=\"#1f5fa8\" stroke-width=\"0.5\" stroke-dasharray=\"2.4 1.2\"";
+constexpr const char* area_style =
+    "fill=\"none\" stroke=\"#1f5fa8\" stroke-width=\"0.3\" stroke-dasharray=\"0.3 1\" "
+    "stroke-linecap=\"round\"";
 
 double number_of(const Json& value) {
   return value.get<double>();
-}
-
-/// Metres of a level to millimetres of paper, +y up.
-class Sheet {
- public:
-  Sheet(const Json& a, const Json& level, const Schedule& schedule, size_t number,
-        const PlanSize& size) {
-    for (const char* kind : {"walls", "furniture"})
-      for (const Json& line : level[kind])
-        for (const size_t k : {size_t{0}, size_t{2}})
-          take(number_of(line[k]), number_of(line[k + 1]));
-    for (const Json& p : level["points"]) take(number_of(p[0]), number_of(p[1]));
-    for (const char* kind : {"luminaires", "signs"})
-      for (const Json& thing : a[kind])
-        if (schedule.level_of(number_of(thing["position"][2])) == number)
-          take(number_of(thing["position"][0]), number_of(thing["position"][1]));
-    if (low_[0] > high_[0]) low_[0] = low_[1] = 0, high_[0] = high_[1] = 1;
-    const double across = std::max(high_[0] - low_[0], 0.5), up = std::max(high_[1] - low_[1], 0.5);
-    unit_ = std::min((size.width_mm - 2 * border_mm) / across,
-                     (size.height_mm - foot_mm - 2 * border_mm) / up);
-    unit_ = 1000 / round_scale(1000 / unit_);
-    width_ = std::max(across * unit_ + 2 * border_mm, std::min(120.0, size.width_mm));
-    left_ = (width_ - across * unit_) / 2;
-    height_ = up * unit_ + 2 * border_mm;
-  }
-  double x(double metres) const { return left_ + (metres - low_[0]) * unit_; }
-  double y(double metres) const { return border_mm + (high_[1] - metres) * unit_; }
-  double mm(double metres) const { return metres * unit_; }
-  double width() const { return width_; }
-  double height() const { return height_; }
-  double scale() const { return 1000 / unit_; }
-
- private:
-  void take(double x, double y) {
-    low_[0] = std::min(low_[0], x);
-    low_[1] = std::min(low_[1], y);
-    high_[0] = std::max(high_[0], x);
-    high_[1] = std::max(high_[1], y);
-  }
-  /// The next of 1, 1.25, 1.5, 2, 2.5, 3, 4, 5, 7.5 times a power of ten.
-  static double round_scale(double scale) {
-    const double ten = std::pow(10, std::floor(std::log10(scale)));
-    for (const double step : {1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 7.5})
-      if (step * ten >= scale * (1 - 1e-9)) return step * ten;
-    return 10 * ten;
-  }
-  double low_[2] = {1e300, 1e300}, high_[2] = {-1e300, -1e300};
-  double unit_ = 1, width_ = 0, height_ = 0, left_ = 0;
-};
-
-std::string text_at(double x, double y, const std::string& text, const char* more = "",
-                    double size = text_mm) {
-  return fmt::format("<text x=\"{:.2f}\" y=\"{:.2f}\" font-size=\"{:.2f}\" {}>{}</text>\n", x, y,
-                     size, more, xml_escape(text));
-}
-
-/// About how wide a text is on paper: these fonts have letters of about half their height.
-double text_width_mm(const std::string& text, double size_mm) {
-  const auto letters = std::count_if(text.begin(), text.end(), [](char c) {
-    return (static_cast<unsigned char>(c) & 0xc0) != 0x80;  // not within a letter of UTF-8
-  });
-  return 0.58 * size_mm * static_cast<double>(letters);
 }
 
 /// What is drawn already, so that labels stand beside it and beside each other.
@@ -120,12 +65,8 @@ std::string lines_path(const Json& lines, const Sheet& sheet, const char* style)
 }
 
 std::string building(const Json& level, const Sheet& sheet) {
-  return "<g class=\"furniture\">" +
-         lines_path(level["furniture"], sheet, "stroke=\"#b9b9b9\" stroke-width=\"0.15\"") +
-         "</g>\n<g class=\"walls\">" +
-         lines_path(level["walls"], sheet,
-                    "stroke=\"#222\" stroke-width=\"0.35\" stroke-linecap=\"round\"") +
-         "</g>\n";
+  return "<g class=\"furniture\">" + lines_path(level["furniture"], sheet, furniture_style) +
+         "</g>\n<g class=\"walls\">" + lines_path(level["walls"], sheet, wall_style) + "</g>\n";
 }
 
 std::string path_of(const Json& points, const Sheet& sheet, bool closed) {
@@ -136,14 +77,19 @@ std::string path_of(const Json& points, const Sheet& sheet, bool closed) {
   return out + (closed ? "Z" : "");
 }
 
+std::string route_end(double x, double y, double turn) {
+  return fmt::format(
+      "<path d=\"M0 0L-2.6 -1.1V1.1Z\" fill=\"#1f5fa8\" transform=\"translate({:.2f} {:.2f}) "
+      "rotate({:.1f})\"/>\n",
+      x, y, turn);
+}
+
 /// Routes with an arrow at their ends and their names beside their middles, and areas.
 std::string places(const Json& a, const Schedule& schedule, size_t level, const Sheet& sheet) {
   std::string out = "<g class=\"places\">\n";
   for (const Json& area : a["places"]["areas"]) {
     if (schedule.level_of(number_of(area["z"])) != level) continue;
-    out += "<path d=\"" + path_of(area["outline"], sheet, true) +
-           "\" fill=\"none\" stroke=\"#1f5fa8\" stroke-width=\"0.3\" "
-           "stroke-dasharray=\"0.3 1\" stroke-linecap=\"round\"/>\n";
+    out += "<path d=\"" + path_of(area["outline"], sheet, true) + "\" " + area_style + "/>\n";
   }
   for (const Json& route : a["places"]["routes"]) {
     const Json& path = route["path"];
@@ -151,17 +97,12 @@ std::string places(const Json& a, const Schedule& schedule, size_t level, const 
       return schedule.level_of(number_of(p[2])) == level;
     });
     if (!here) continue;
-    out += "<path d=\"" + path_of(path, sheet, false) +
-           "\" fill=\"none\" stroke=\"#1f5fa8\" stroke-width=\"0.5\" "
-           "stroke-dasharray=\"2.4 1.2\"/>\n";
+    out += "<path d=\"" + path_of(path, sheet, false) + "\" " + route_style + "/>\n";
     const Json &end = path[path.size() - 1], &before = path[path.size() - 2];
     const double dx = sheet.x(number_of(end[0])) - sheet.x(number_of(before[0]));
     const double dy = sheet.y(number_of(end[1])) - sheet.y(number_of(before[1]));
-    out += fmt::format(
-        "<path d=\"M0 0L-2.6 -1.1V1.1Z\" fill=\"#1f5fa8\" transform=\"translate({:.2f} {:.2f}) "
-        "rotate({:.1f})\"/>\n",
-        sheet.x(number_of(end[0])), sheet.y(number_of(end[1])),
-        std::atan2(dy, dx) * 180 / std::numbers::pi);
+    out += route_end(sheet.x(number_of(end[0])), sheet.y(number_of(end[1])),
+                     std::atan2(dy, dx) * 180 / std::numbers::pi);
   }
   return out + "</g>\n";
 }
@@ -208,6 +149,23 @@ std::string place_names(const Json& a, const Schedule& schedule, size_t level, c
   return out + "</g>\n";
 }
 
+std::string luminaire_symbol(double x, double y, bool emergency) {
+  const double edge = emergency ? 2.2 : 1.8;
+  return fmt::format(
+      "<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{}\" height=\"{}\" fill=\"{}\" stroke=\"{}\" "
+      "stroke-width=\"0.25\"/>",
+      x - edge / 2, y - edge / 2, edge, edge, emergency ? emergency_colour : "#fff",
+      emergency ? emergency_colour : "#777");
+}
+
+std::string luminaire_letters(const std::string& text, double x, double y, bool emergency) {
+  const double size = emergency ? text_mm : 1.7;
+  return text_at(x, y + 0.36 * size, text,
+                 emergency ? "text-anchor=\"middle\" font-weight=\"bold\""
+                           : "text-anchor=\"middle\" fill=\"#666\"",
+                 size);
+}
+
 /// Letter and height beside a luminaire at (x, y): where nothing else stands, above it at first.
 std::string luminaire_label(const std::string& text, double x, double y, bool emergency,
                             LabelSpace& space) {
@@ -232,10 +190,7 @@ std::string luminaire_label(const std::string& text, double x, double y, bool em
     return space.take(x + offset[0], y + offset[1], width, size);
   });
   if (at == offsets.end()) at = offsets.begin();
-  return text_at(x + (*at)[0], y + (*at)[1] + 0.36 * size, text,
-                 emergency ? "text-anchor=\"middle\" font-weight=\"bold\""
-                           : "text-anchor=\"middle\" fill=\"#666\"",
-                 size);
+  return luminaire_letters(text, x + (*at)[0], y + (*at)[1], emergency);
 }
 
 /// Symbols; with `labels`, letters and heights as well, placed in what `labels` leaves free.
@@ -256,12 +211,9 @@ std::string luminaires(const Json& a, const Schedule& schedule, const Texts& tex
     const double x = sheet.x(number_of(all[i]["position"][0]));
     const double y = sheet.y(number_of(all[i]["position"][1]));
     const bool emergency = type.emergency();
-    out += fmt::format(
-        "<g><title>{}</title><rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{}\" height=\"{}\" "
-        "fill=\"{}\" stroke=\"{}\" stroke-width=\"0.25\"/></g>\n",
-        xml_escape(all[i]["name"].get<std::string>()), x - (emergency ? 1.1 : 0.9),
-        y - (emergency ? 1.1 : 0.9), emergency ? 2.2 : 1.8, emergency ? 2.2 : 1.8,
-        emergency ? emergency_colour : "#fff", emergency ? emergency_colour : "#777");
+    out +=
+        fmt::format("<g><title>{}</title>{}</g>\n", xml_escape(all[i]["name"].get<std::string>()),
+                    luminaire_symbol(x, y, emergency));
     if (labels == nullptr) continue;
     labels->reserve(x, y, 2.2, 2.2);
     wanted.push_back({type.letter + " " + texts.fixed(schedule.above_floor(z)), x, y, emergency});
@@ -295,6 +247,23 @@ void reserve_signs(const Json& a, const Schedule& schedule, size_t level, const 
   }
 }
 
+/// A sign as a bar across where it looks, with an arrow there.
+std::string sign_arrow(double x, double y, double turn, bool double_sided) {
+  return fmt::format(
+      "<g transform=\"translate({:.2f} {:.2f}) rotate({:.1f})\"><path d=\"M0 -1.8V1.8M0 "
+      "0H2.2\" stroke=\"#000\" stroke-width=\"0.6\"/><path d=\"M4 0L1.9 -1V1Z\"/>{}</g>\n",
+      x, y, turn, double_sided ? "<path d=\"M-4 0L-1.9 -1V1Z\"/>" : "");
+}
+
+std::string sign_number(double x, double y, size_t number) {
+  return fmt::format(
+             "<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"1.9\" fill=\"#fff\" stroke=\"#000\" "
+             "stroke-width=\"0.3\"/>",
+             x, y) +
+         text_at(x, y + 0.8, std::to_string(number),
+                 "text-anchor=\"middle\" font-weight=\"bold\" stroke=\"none\"", 2.3);
+}
+
 /// A circled number beside each sign, and an arrow from the sign to where it faces.
 std::string signs(const Json& a, const Schedule& schedule, size_t level, const Sheet& sheet,
                   const std::string& only = "") {
@@ -307,22 +276,19 @@ std::string signs(const Json& a, const Schedule& schedule, size_t level, const S
     const double x = sheet.x(number_of(position[0])), y = sheet.y(number_of(position[1]));
     const double fx = number_of(all[i]["facing"][0]), fy = -number_of(all[i]["facing"][1]);
     const double turn = std::atan2(fy, fx) * 180 / std::numbers::pi;
-    out += fmt::format(
-        "<g><title>{}</title><g transform=\"translate({:.2f} {:.2f}) rotate({:.1f})\"><path "
-        "d=\"M0 -1.8V1.8M0 0H2.2\" stroke=\"#000\" stroke-width=\"0.6\"/><path d=\"M4 0L1.9 "
-        "-1V1Z\"/>{}</g>\n",
-        xml_escape(all[i]["name"].get<std::string>()), x, y, turn,
-        all[i]["double_sided"].get<bool>() ? "<path d=\"M-4 0L-1.9 -1V1Z\"/>" : "");
     const auto [cx, cy] = sign_number_place(all[i], sheet);
-    out += fmt::format(
-               "<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"1.9\" fill=\"#fff\" "
-               "stroke=\"#000\" stroke-width=\"0.3\"/>",
-               cx, cy) +
-           text_at(cx, cy + 0.8, std::to_string(i + 1),
-                   "text-anchor=\"middle\" font-weight=\"bold\" stroke=\"none\"", 2.3) +
+    out += fmt::format("<g><title>{}</title>", xml_escape(all[i]["name"].get<std::string>())) +
+           sign_arrow(x, y, turn, all[i]["double_sided"].get<bool>()) + sign_number(cx, cy, i + 1) +
            "</g>\n";
   }
   return out + "</g>\n";
+}
+
+std::string emphasis_symbol(double x, double y) {
+  return fmt::format(
+      "<path d=\"M{:.2f} {:.2f}l1.3 1.3l-1.3 1.3l-1.3 -1.3Z\" fill=\"#fff\" "
+      "stroke=\"#8a2be2\" stroke-width=\"0.35\"/>",
+      x, y - 1.3);
 }
 
 std::string emphasis(const Json& a, const Schedule& schedule, size_t level, const Sheet& sheet) {
@@ -330,11 +296,8 @@ std::string emphasis(const Json& a, const Schedule& schedule, size_t level, cons
   for (const Json& point : a["places"]["emphasis"]) {
     const Json& p = point["position"];
     if (schedule.level_of(number_of(p[2])) != level) continue;
-    out += fmt::format(
-        "<g><title>{}</title><path d=\"M{:.2f} {:.2f}l1.3 1.3l-1.3 1.3l-1.3 -1.3Z\" fill=\"#fff\" "
-        "stroke=\"#8a2be2\" stroke-width=\"0.35\"/></g>\n",
-        xml_escape(point["name"].get<std::string>()), sheet.x(number_of(p[0])),
-        sheet.y(number_of(p[1])) - 1.3);
+    out += fmt::format("<g><title>{}</title>{}</g>\n", xml_escape(point["name"].get<std::string>()),
+                       emphasis_symbol(sheet.x(number_of(p[0])), sheet.y(number_of(p[1]))));
   }
   return out;
 }
@@ -366,7 +329,7 @@ std::string foot(const Json& a, const Sheet& sheet, const Texts& texts) {
   return out + "</g>\n";
 }
 
-Plan finished(const Sheet& sheet, const std::string& body) {
+Plan finished(const Sheet& sheet, const Legend& legend, const std::string& body) {
   Plan plan;
   plan.width_mm = sheet.width();
   plan.scale = sheet.scale();
@@ -376,8 +339,8 @@ Plan finished(const Sheet& sheet, const std::string& body) {
                  "Helvetica, DejaVu Sans, sans-serif\">\n<style>text {{ paint-order: stroke; "
                  "stroke: #fff; stroke-width: 0.5px; stroke-linejoin: round }}</style>\n"
                  "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n",
-                 sheet.width(), sheet.height() + foot_mm) +
-             body + "</svg>\n";
+                 sheet.width(), sheet.height() + sheet.foot()) +
+             body + legend.svg(sheet.width(), sheet.height()) + "</svg>\n";
   return plan;
 }
 
@@ -385,6 +348,11 @@ Plan finished(const Sheet& sheet, const std::string& body) {
 std::string isolux_colour(double lux) {
   const LightColour c = colour_of_illuminance(lux);
   return fmt::format("#{:02x}{:02x}{:02x}", c[0], c[1], c[2]);
+}
+
+std::string isolux_style(double lux) {
+  return fmt::format("fill=\"none\" stroke=\"{}\" stroke-width=\"{}\"{}", isolux_colour(lux),
+                     lux == 1 ? 0.6 : 0.35, lux < 0.7 ? " stroke-dasharray=\"1.6 0.8\"" : "");
 }
 
 /// The line, and its value about every 36 mm, where nothing else is labelled.
@@ -410,25 +378,9 @@ std::string isolux_line(const IsoluxLine& one, const Sheet& sheet, const Texts& 
   }
   if (length < 3) return "";  // a speck
   return fmt::format(
-             "<path class=\"isolux\" data-lux=\"{}\" d=\"{}\" fill=\"none\" stroke=\"{}\" "
-             "stroke-width=\"{}\" stroke-linejoin=\"round\"{}/>\n",
-             one.lux, path, isolux_colour(one.lux), one.lux == 1 ? 0.6 : 0.35,
-             one.lux < 0.7 ? " stroke-dasharray=\"1.6 0.8\"" : "") +
+             "<path class=\"isolux\" data-lux=\"{}\" d=\"{}\" stroke-linejoin=\"round\" {}/>\n",
+             one.lux, path, isolux_style(one.lux)) +
          labels;
-}
-
-std::string isolux_legend(const Sheet& sheet, const Texts& texts) {
-  std::string out;
-  double x = border_mm;
-  const double y = sheet.height() + 14.5;
-  for (const double lux : isolux_levels) {
-    out += fmt::format("<path d=\"M{:.2f} {:.2f}h8\" stroke=\"{}\" stroke-width=\"{}\"{}/>\n", x,
-                       y - 0.8, isolux_colour(lux), lux == 1 ? 0.6 : 0.35,
-                       lux < 0.7 ? " stroke-dasharray=\"1.6 0.8\"" : "") +
-           text_at(x + 9, y, texts.number(lux) + " lx");
-    x += 23;
-  }
-  return out;
 }
 
 std::string grid_values(const Json& level, const Sheet& sheet, const Texts& texts) {
@@ -448,18 +400,94 @@ std::string grid_values(const Json& level, const Sheet& sheet, const Texts& text
 constexpr std::array<const char*, 6> ranks{"legible",   "undecided",    "visible but not legible",
                                            "invisible", "not assessed", "hidden by the building"};
 
-/// In two rows where one is too narrow, so that no language loses a verdict.
-std::string sight_legend(const Sheet& sheet, const Texts& texts) {
-  std::string out;
-  double x = border_mm + 1, y = sheet.height() + 13.7;
-  for (const char* rank : ranks) {
-    const std::string word = texts.word("sight", rank);
-    const double width = 3 + text_width_mm(word, text_mm);
-    if (x > border_mm + 1 && x + width > sheet.width() - 2) x = border_mm + 1, y += 3.6;
-    out += verdict_shape(rank, x, y, 1.3) + text_at(x + 2.2, y + 0.8, word);
-    x += width + 3;
+std::string legend_line(double width, const std::string& style) {
+  return fmt::format("<path d=\"M0 0h{}\" {}/>", width, style);
+}
+
+/// Luminaires of a level, with letters and heights beside them or without.
+void explain_luminaires(Legend& legend, const Json& a, const Schedule& schedule, const Texts& texts,
+                        size_t level, bool with_letters) {
+  std::string letters;  // of the first that the plan shows
+  for (const bool emergency : {true, false}) {
+    bool any = false;
+    for (size_t i = 0; i < a["luminaires"].size(); ++i) {
+      const double z = number_of(a["luminaires"][i]["position"][2]);
+      if (schedule.level_of(z) != level || schedule.type_of(i).emergency() != emergency) continue;
+      any = true;
+      if (letters.empty())
+        letters = schedule.type_of(i).letter + " " + texts.fixed(schedule.above_floor(z));
+    }
+    if (any)
+      legend.add(luminaire_symbol(1.1, 0, emergency), 2.2,
+                 texts(emergency ? "legend.emergency" : "legend.mains"));
   }
-  return out;
+  if (!with_letters || letters.empty()) return;
+  const double width = text_width_mm(letters, text_mm);
+  legend.add(luminaire_letters(letters, width / 2, 0, true), width, texts("legend.letters"));
+}
+
+void explain_signs(Legend& legend, const Json& a, const Schedule& schedule, const Texts& texts,
+                   size_t level) {
+  bool any = false, double_sided = false;
+  for (const Json& sign : a["signs"]) {
+    if (schedule.level_of(number_of(sign["position"][2])) != level) continue;
+    any = true;
+    double_sided = double_sided || sign["double_sided"].get<bool>();
+  }
+  if (any)
+    legend.add(sign_number(1.9, 0, 1) + sign_arrow(4.6, 0, 0, false), 8.6, texts("legend.sign"));
+  if (double_sided) legend.add(sign_arrow(4, 0, 0, true), 8, texts("legend.double_sided"));
+}
+
+/// Routes, areas, walls and furniture.
+void explain_building(Legend& legend, const Json& a, const Schedule& schedule, const Texts& texts,
+                      size_t level, bool with_furniture) {
+  const auto here = [&](const Json& z) { return schedule.level_of(number_of(z)) == level; };
+  const Json &routes = a["places"]["routes"], &areas = a["places"]["areas"];
+  if (std::any_of(routes.begin(), routes.end(), [&](const Json& route) {
+        return std::any_of(route["path"].begin(), route["path"].end(),
+                           [&](const Json& p) { return here(p[2]); });
+      }))
+    legend.add(legend_line(8, route_style) + route_end(9.4, 0, 0), 9.4, texts("legend.route"));
+  if (std::any_of(areas.begin(), areas.end(), [&](const Json& area) { return here(area["z"]); }))
+    legend.add(legend_line(8, area_style), 8, texts("legend.area"));
+  const Json& drawn = a["plan"]["levels"][level];
+  if (!drawn["walls"].empty()) legend.add(legend_line(6, wall_style), 6, texts("legend.walls"));
+  if (with_furniture && !drawn["furniture"].empty())
+    legend.add(legend_line(6, furniture_style), 6, texts("legend.furniture"));
+}
+
+Legend installation_legend(const Json& a, const Schedule& schedule, const Texts& texts,
+                           size_t level) {
+  Legend legend;
+  explain_luminaires(legend, a, schedule, texts, level, true);
+  explain_signs(legend, a, schedule, texts, level);
+  for (const Json& point : a["places"]["emphasis"])
+    if (schedule.level_of(number_of(point["position"][2])) == level) {
+      legend.add(emphasis_symbol(1.3, 0), 2.6, texts("legend.emphasis"));
+      break;
+    }
+  explain_building(legend, a, schedule, texts, level, true);
+  return legend;
+}
+
+Legend isolux_legend(const Json& a, const Schedule& schedule, const Texts& texts, size_t level) {
+  Legend legend;
+  for (const double lux : isolux_levels)
+    legend.add(legend_line(8, isolux_style(lux)), 8, texts.number(lux) + " lx");
+  explain_luminaires(legend, a, schedule, texts, level, false);
+  explain_building(legend, a, schedule, texts, level, false);
+  return legend;
+}
+
+Legend sight_legend(const Json& a, const Schedule& schedule, const Texts& texts, size_t level,
+                    const std::string& sign) {
+  Legend legend;
+  for (const char* rank : ranks)
+    legend.add(verdict_shape(rank, 1.3, 0, 1.3), 2.6, texts.word("sight", rank));
+  // A map of one sign is small, and its caption names the sign.
+  if (sign.empty()) explain_signs(legend, a, schedule, texts, level);
+  return legend;
 }
 
 }  // namespace
@@ -516,33 +544,37 @@ std::string verdict_shape(const std::string& verdict, double x, double y, double
 
 Plan Plans::installation(size_t number) const {
   const Json& level = a_["plan"]["levels"][number];
-  const Sheet sheet(a_, level, schedule_, number, size_);
+  const Legend legend = installation_legend(a_, schedule_, texts_, number);
+  const Sheet sheet(a_, schedule_, number, size_, legend);
   LabelSpace space;
   reserve_signs(a_, schedule_, number, sheet, space);
   // Before the names of routes, which can stand elsewhere.
   const std::string symbols = luminaires(a_, schedule_, texts_, number, sheet, &space);
-  return finished(sheet, building(level, sheet) + places(a_, schedule_, number, sheet) +
-                             emphasis(a_, schedule_, number, sheet) + symbols +
-                             signs(a_, schedule_, number, sheet) +
-                             place_names(a_, schedule_, number, sheet, space) +
-                             foot(a_, sheet, texts_));
+  return finished(sheet, legend,
+                  building(level, sheet) + places(a_, schedule_, number, sheet) +
+                      emphasis(a_, schedule_, number, sheet) + symbols +
+                      signs(a_, schedule_, number, sheet) +
+                      place_names(a_, schedule_, number, sheet, space) + foot(a_, sheet, texts_));
 }
 
 Plan Plans::isolux(size_t number, bool values) const {
   const Json& level = a_["plan"]["levels"][number];
-  const Sheet sheet(a_, level, schedule_, number, size_);
+  const Legend legend = isolux_legend(a_, schedule_, texts_, number);
+  const Sheet sheet(a_, schedule_, number, size_, legend);
   std::string lines = "<g class=\"lines\">\n";
   LabelSpace space;
   for (const IsoluxLine& one : isolux_lines(level)) lines += isolux_line(one, sheet, texts_, space);
-  return finished(sheet, building(level, sheet) + places(a_, schedule_, number, sheet) +
-                             luminaires(a_, schedule_, texts_, number, sheet, nullptr) +
-                             (values ? grid_values(level, sheet, texts_) : "") + lines + "</g>\n" +
-                             isolux_legend(sheet, texts_) + foot(a_, sheet, texts_));
+  return finished(sheet, legend,
+                  building(level, sheet) + places(a_, schedule_, number, sheet) +
+                      luminaires(a_, schedule_, texts_, number, sheet, nullptr) +
+                      (values ? grid_values(level, sheet, texts_) : "") + lines + "</g>\n" +
+                      foot(a_, sheet, texts_));
 }
 
 Plan Plans::sights(size_t number, double eye_height_m, const std::string& sign) const {
   const Json& level = a_["plan"]["levels"][number];
-  const Sheet sheet(a_, level, schedule_, number, size_);
+  const Legend legend = sight_legend(a_, schedule_, texts_, number, sign);
+  const Sheet sheet(a_, schedule_, number, size_, legend);
   std::map<std::pair<double, double>, size_t> best;  // by place, a number of ranks
   for (const Json& sight : a_["sights"]) {
     const double eye = number_of(sight["eye_height"]["value"]);
@@ -561,9 +593,9 @@ Plan Plans::sights(size_t number, double eye_height_m, const std::string& sign) 
   for (const auto& [place, rank] : best)
     marks += verdict_shape(ranks[std::min(rank, ranks.size() - 1)], sheet.x(place.first),
                            sheet.y(place.second), 1.3);
-  return finished(sheet, building(level, sheet) + marks + "</g>\n" +
-                             signs(a_, schedule_, number, sheet, sign) +
-                             sight_legend(sheet, texts_) + foot(a_, sheet, texts_));
+  return finished(sheet, legend,
+                  building(level, sheet) + marks + "</g>\n" +
+                      signs(a_, schedule_, number, sheet, sign) + foot(a_, sheet, texts_));
 }
 
 }  // namespace luxodus

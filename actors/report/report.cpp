@@ -96,26 +96,6 @@ Result<void> print_report(const fs::path& folder, const Json& a,
 
 }  // namespace
 
-std::vector<ReportPicture> pictures_in(const fs::path& folder) {
-  std::vector<ReportPicture> out;
-  for (const fs::path& views : {folder / "views", folder / "run" / "views"}) {
-    std::error_code failed;
-    std::vector<fs::path> files;
-    for (const auto& entry : fs::directory_iterator(views, failed))
-      if (entry.path().extension() == ".png" && entry.is_regular_file(failed) &&
-          entry.file_size(failed) <= limits::report_picture_bytes)
-        files.push_back(entry.path());
-    std::sort(files.begin(), files.end());
-    for (const fs::path& path : files) {
-      const auto bytes = read_whole_file(path, limits::report_picture_bytes);
-      if (bytes && out.size() < limits::report_pictures)
-        out.push_back({path.stem().string(), bytes_text(bytes.value())});
-    }
-    if (!out.empty()) break;
-  }
-  return out;
-}
-
 std::string report_html(const Json& a, const std::vector<ReportPicture>& pictures,
                         const std::string& folder, const ReportOptions& options,
                         const std::map<std::string, int>& pages) {

@@ -9,13 +9,6 @@
 
 namespace luxodus {
 
-namespace limits {
-/// Largest picture that a report takes in [bytes].
-inline constexpr uint64_t report_picture_bytes = uint64_t{16} << 20;
-/// Pictures that a report takes in; cameras have up to three each.
-inline constexpr size_t report_pictures = 60;
-}  // namespace limits
-
 struct ReportOptions {
   Language language = Language::en;
   bool letter = false;  // paper: Letter, else A4
@@ -23,9 +16,6 @@ struct ReportOptions {
   bool pdf = false;
   std::string named;  // the folder as people name it, for commands on the page; "": as it is
 };
-
-/// Pictures of `luxodus run` and `render` in folder/views and folder/run/views, by name.
-std::vector<ReportPicture> pictures_in(const std::filesystem::path& folder);
 
 /// The page alone.
 std::string report_html(const Json& assessment, const std::vector<ReportPicture>& pictures,

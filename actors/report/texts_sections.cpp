@@ -167,6 +167,17 @@ constexpr ReportText sections_rows[] = {
      {"The scene has no [[camera]] to make pictures from.",
       "Die Szene hat keine [[camera]], von der Bilder gemacht werden.",
       "La scène n’a pas de [[camera]] dont on fasse des images."}},
+    {"sights.add_cameras",
+     {"From these places signs are read worst; added to the scene, these cameras show them:",
+      "Von diesen Stellen sind Zeichen am schlechtesten zu lesen; diese Kameras, in der Szene "
+      "ergänzt, zeigen es:",
+      "De ces lieux les panneaux se lisent le moins bien ; ces caméras, ajoutées à la scène, les "
+      "montrent :"}},
+    {"sights.other_pictures",
+     {"{0} pictures in the folder are of another scene or scenario and are left out.",
+      "{0} Bilder im Ordner zeigen eine andere Szene oder ein anderes Szenario und sind "
+      "ausgelassen.",
+      "{0} images du dossier montrent une autre scène ou un autre scénario et sont omises."}},
     {"sights.by_sign",
      {"Of how much of the routes [m] and areas [m²] that a sign faces it has which verdict.",
       "Von wie viel der Wege [m] und Bereiche [m²], denen ein Zeichen zugewandt ist, es welches "

@@ -25,7 +25,7 @@ constexpr ReportText words_rows[] = {
      {"hidden by the building", "vom Bauwerk verdeckt", "caché par le bâtiment"}},
     {"operation.mains", {"mains operation", "Netzbetrieb", "fonctionnement sur secteur"}},
     {"operation.emergency", {"emergency operation", "Notbetrieb", "fonctionnement de secours"}},
-    {"operation.dark", {"dark", "dunkel", "obscurité"}},
+    {"operation.dark", {"dark operation", "Dunkelbetrieb", "obscurité"}},
     {"lamp.mains", {"mains only", "nur Netz", "secteur seul"}},
     {"lamp.maintained", {"maintained", "Dauerschaltung", "permanent"}},
     {"lamp.non-maintained", {"non-maintained", "Bereitschaftsschaltung", "non permanent"}},

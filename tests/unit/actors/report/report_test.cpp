@@ -20,7 +20,9 @@
 #include "actors/report/isolux.hpp"
 #include "actors/report/pdf.hpp"
 #include "actors/report/plan_svg.hpp"
+#include "actors/report/svg_sheet.hpp"
 #include "runtime/core/regular_file.hpp"
+#include "scenes/images/write_image.hpp"
 #include "tests/kit/temporary_folder.hpp"
 #include "tests/unit/actors/assess/assessed_room.hpp"
 
@@ -146,17 +148,44 @@ TEST_CASE("the program's own sentences are said in each language", "[report]") {
   }
 }
 
-TEST_CASE("a verdict without failures is said in each language", "[report]") {
-  const Json one = {{"verdict",
-                     {{"words", "no check made fails, 6 not assessed, 1 not verified"},
-                      {"fail", 0},
-                      {"not_assessed", 6},
-                      {"not_verified", 1}}}};
-  CHECK(verdict_words(Texts(Language::en), one) == one["verdict"]["words"]);
-  CHECK(verdict_words(Texts(Language::de), one) ==
-        "Keine der durchgeführten Prüfungen schlägt fehl, 6 nicht bewertet, 1 nicht belegt");
-  CHECK(verdict_words(Texts(Language::fr), one) ==
-        "Aucun contrôle effectué n’échoue, 6 non évalués, 1 non vérifiés");
+TEST_CASE("a verdict is said in each language", "[report]") {
+  const auto counted = [](int fail, int open, int unverified, int pass) {
+    return Json{
+        {"verdict",
+         {{"fail", fail}, {"not_assessed", open}, {"not_verified", unverified}, {"pass", pass}}}};
+  };
+  const auto said = [](Language language, const Json& one) {
+    return verdict_words(Texts(language), one);
+  };
+  const Json none = counted(0, 6, 1, 9), one = counted(1, 1, 0, 9), many = counted(3, 0, 0, 9);
+  CHECK(said(Language::en, none) == "no check made fails, 6 not assessed, 1 not verified");
+  CHECK(said(Language::de, none) ==
+        "keine der durchgeführten Prüfungen schlägt fehl, 6 nicht bewertet, 1 nicht belegt");
+  CHECK(said(Language::fr, none) ==
+        "aucun contrôle effectué n’échoue, 6 non évalués, 1 non vérifié");
+  CHECK(said(Language::en, one) == "1 check fails, 1 not assessed");
+  CHECK(said(Language::de, one) == "1 Prüfung nicht bestanden, 1 nicht bewertet");
+  CHECK(said(Language::fr, many) == "3 contrôles non satisfaits, 0 non évalué");
+  CHECK(said(Language::de, counted(0, 4, 0, 0)) == "keine Prüfung war möglich, 4 nicht bewertet");
+}
+
+TEST_CASE("a report's headline says in each language what a terminal says first", "[report]") {
+  const Json& a = assessed_json();
+  CHECK(headline(Texts(Language::en), a) == a["verdict"]["first"]);
+  Json smoky = a;
+  smoky["state"]["scenario"] = "Brand";
+  smoky["state"]["seconds_after_failure"] = {{"value", 600}, {"unit", "s"}};
+  smoky["state"]["smoke"] = {{"extinction", {{"min", 0.05}, {"max", 2}, {"unit", "1/m"}}}};
+  smoky["verdict"] = {{"fail", 2}, {"not_assessed", 1}, {"not_verified", 0}, {"pass", 7}};
+  smoky["sight_counts"] = {{"legible", 3}, {"invisible", 5}};
+  CHECK(headline(Texts(Language::de), smoky) ==
+        "„Brand“, Notbetrieb, 600 s nach dem Netzausfall, in Rauch von 0,05/m bis 2/m, nach " +
+            text_in(a["state"]["rules"][0], "edition") +
+            ": 2 Prüfungen nicht bestanden, 1 nicht bewertet; 3 von 8 Sichten auf Zeichen sind "
+            "lesbar");
+  for (const Language language : {Language::en, Language::de, Language::fr})
+    CHECK(page_in(language).find(escaped(headline(Texts(language), a))) <
+          page_in(language).find("<h2 "));
 }
 
 TEST_CASE("a report says what it is not, on its first page and in its footer, in each language",
@@ -293,6 +322,19 @@ TEST_CASE("lines of equal illuminance lie where the closed form has them, and en
     for (const glm::dvec2& p : one.line.points) CHECK(std::abs(p.x - 6) > 0.1);
 }
 
+TEST_CASE("no line of equal illuminance follows the dark floor within a wall", "[report]") {
+  // Two rows of places in a breast wall below a pane, which the plan shows; the room is lit evenly.
+  Json level = assessed_json()["plan"]["levels"][0];
+  Json& map = level["map"];
+  const auto columns = map["columns"].get<size_t>();
+  for (size_t i = 0; i < map["lux"].size(); ++i) map["lux"][i] = i < 2 * columns ? 0 : 3;
+  level["walls"] = Json::array();
+  CHECK_FALSE(isolux_lines(level).empty());
+  const double x = map["corner"][0], y = map["corner"][1], spacing = map["spacing"];
+  level["walls"].push_back({x - 1, y + spacing / 2, x + 30, y + spacing / 2});
+  CHECK(isolux_lines(level).empty());
+}
+
 TEST_CASE("a plan in DXF is read back with its layers, luminaires and lines", "[report]") {
   const TemporaryFolder folder;
   const Json& a = assessed_json();
@@ -349,6 +391,100 @@ TEST_CASE("plans are drawings that a reader of SVG takes, with a scale and a nor
   CHECK(has(content(fs::path(folder / "plans") / "installation.svg"), ">A 2.50<"));
 }
 
+TEST_CASE("the plan of the installation explains each of its symbols in each language",
+          "[report]") {
+  for (const Language language : {Language::en, Language::de, Language::fr}) {
+    const Texts texts(language);
+    const Schedule schedule(assessed_json());
+    // As wide as a small figure: what does not fit a row begins another, within the drawing.
+    for (const double width : {120.0, 267.0}) {
+      const std::string svg =
+          Plans(assessed_json(), schedule, texts, {width, 150}).installation(0).svg;
+      const size_t legend = svg.find("class=\"legend\"");
+      REQUIRE(legend != std::string::npos);
+      for (const char* symbol :
+           {"legend.emergency", "legend.letters", "legend.sign", "legend.route", "legend.walls"}) {
+        INFO(texts.code() << " " << symbol);
+        CHECK(svg.find(">" + std::string(texts(symbol)) + "</text>", legend) != std::string::npos);
+      }
+      // Of what is not there it says nothing.
+      CHECK_FALSE(has(svg, texts("legend.mains")));
+      CHECK_FALSE(has(svg, texts("legend.double_sided")));
+      CHECK_FALSE(has(svg, texts("legend.furniture")));  // it is below the cut
+      std::smatch size;
+      REQUIRE(std::regex_search(svg, size, std::regex("viewBox=\"0 0 ([0-9.]+) ([0-9.]+)\"")));
+      static const std::regex text(
+          "<text x=\"([0-9.]+)\" y=\"([0-9.]+)\" font-size=\"2.50\" >([^<]*)<");
+      for (std::sregex_iterator
+               at(svg.begin() + static_cast<std::ptrdiff_t>(legend), svg.end(), text),
+           end;
+           at != end; ++at) {
+        CHECK(std::stod((*at)[2]) < std::stod(size[2]));
+        CHECK(std::stod((*at)[1]) + text_width_mm((*at)[3], 2.5) < std::stod(size[1]));
+      }
+    }
+  }
+}
+
+TEST_CASE("a report takes in pictures of its own state alone", "[report]") {
+  const Json& a = assessed_json();
+  const auto picture = [&](const std::string& scenario) {
+    const PngImage image{1,
+                         1,
+                         {1, 2, 3},
+                         {{"Scene", a["scene"]["name"]},
+                          {"Scenario", scenario},
+                          {"View", "Blick zum Ausgang, Süd"}}};
+    const auto bytes = encode_png(image, {});
+    REQUIRE(bytes.ok());
+    return std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+  };
+  const TemporaryFolder folder;
+  fs::create_directories(folder / "run/views");
+  folder.write("run/views/south.png", picture("failed"));
+  folder.write("run/views/south_human.png", picture("failed"));
+  folder.write("run/views/south_luminance.png", picture("failed"));
+  const std::string page = report_html(a, pictures_in(folder / ""), "x", {});
+  const Texts en(Language::en);
+  const auto images = [](const std::string& text) {
+    size_t count = 0;
+    for (size_t at = 0; (at = text.find("src=\"data:image/png", at)) != std::string::npos; ++at)
+      ++count;
+    return count;
+  };
+  CHECK(images(page) == 2);
+  CHECK(page.find("Blick zum Ausgang, Süd: " + std::string(en("view.human"))) <
+        page.find("Blick zum Ausgang, Süd: " + std::string(en("view.luminance"))));
+  CHECK_FALSE(has(page, en("view.plain")));
+  folder.write("run/views/south_human.png", picture("mains"));
+  const std::string mixed = report_html(a, pictures_in(folder / ""), "x", {});
+  CHECK(images(mixed) == 1);
+  CHECK(has(mixed, en.say("sights.other_pictures", 1)));
+}
+
+TEST_CASE("texts in pictures are read, and damaged pictures have none", "[report]") {
+  const PngImage image{1, 1, {1, 2, 3}, {{"Scenario", "Rauch, größer"}, {"View", "plain"}}};
+  const auto bytes = encode_png(image, {});
+  REQUIRE(bytes.ok());
+  const std::string png(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+  CHECK(png_text(png, "Scenario") == "Rauch, größer");
+  CHECK(png_text(png, "View") == "plain");
+  CHECK_FALSE(png_text(png, "Scene"));
+  CHECK_FALSE(png_text("no PNG", "View"));
+  for (size_t cut = 0; cut < png.size(); ++cut) png_text(png.substr(0, cut), "View");
+  std::string forged = png;
+  forged[8] = '\x7f';  // the length of its first chunk
+  CHECK_FALSE(png_text(forged, "View"));
+}
+
+TEST_CASE("a scene without cameras is told which would show its worst views", "[report]") {
+  Json a = assessed_json();
+  a["sights"][0]["verdict"] = "invisible";
+  const std::string page = report_html(a, {}, "x", {});
+  CHECK(has(page, "[[camera]]\nname = &quot;exit&quot;\neye = ["));
+  CHECK(has(page, "target = [11.95, 0, 2.2]"));
+}
+
 TEST_CASE("labels of luminaires in one place do not lie on each other", "[report]") {
   Json two = assessed_json();
   Json again = two["luminaires"][0];
@@ -356,7 +492,8 @@ TEST_CASE("labels of luminaires in one place do not lie on each other", "[report
   two["luminaires"].push_back(again);
   const TemporaryFolder folder;
   REQUIRE(write_report(fs::path(folder / ""), two, {}).ok());
-  const std::string svg = content(fs::path(folder / "plans") / "installation.svg");
+  const std::string plan = content(fs::path(folder / "plans") / "installation.svg");
+  const std::string svg = plan.substr(0, plan.find("class=\"legend\""));
   static const std::regex label("<text x=\"([0-9.]+)\" y=\"([0-9.]+)\"[^>]*>A 2.50<");
   std::set<std::string> places;
   for (std::sregex_iterator at(svg.begin(), svg.end(), label), end; at != end; ++at)
