@@ -19,6 +19,7 @@
 #include "scenes/transport/emission.hpp"
 #include "scenes/transport/emitter_choice.hpp"
 #include "scenes/transport/group_light.hpp"
+#include "scenes/transport/known_radiance.hpp"
 
 namespace luxodus {
 
@@ -65,13 +66,17 @@ class NextEvent {
   }
 
   /// Adds `weight` times the radiance [W/(m2 sr)] that emitters send to the stretch and the medium
-  /// there turns against its ray, once. `flight` is one along it. Suspends: where the resolver
-  /// does.
-  void add_scattered(const Stretch& s, const FreeFlight& flight, double weight, GroupLight& into) {
+  /// there turns against its ray, once; but for places where `known` has all light. `flight` is one
+  /// along it. Suspends: where the resolver does.
+  void add_scattered(const Stretch& s, const FreeFlight& flight, double weight, GroupLight& into,
+                     const KnownRadiance* known = nullptr) {
     const bool emitters_near = choice_.weigh_along(s.ray, s.end, s.band);
-    if (flight.collided && flight.albedo > 0)
+    const auto is_known = [&](Real t) {
+      return known != nullptr && known->knows(s.ray.origin + s.ray.direction * t);
+    };
+    if (flight.collided && flight.albedo > 0 && !is_known(flight.t))
       add_at_collision(s, flight, emitters_near, weight * s.share * flight.albedo, into);
-    if (emitters_near) add_near_emitter(s, weight, into);
+    if (emitters_near) add_near_emitter(s, is_known, weight, into);
   }
 
   /// Weight of light that a path meets at a point of an emitter by its own direction.
@@ -169,13 +174,15 @@ class NextEvent {
   }
 
   /// The emitter is chosen first, and the place as its light falls on the stretch.
-  void add_near_emitter(const Stretch& s, double weight, GroupLight& into) {
+  template <class IsKnown>
+  void add_near_emitter(const Stretch& s, IsKnown&& is_known, double weight, GroupLight& into) {
     const auto [chosen, share] = choice_.choose_along(random_.uniform_double());
     if (!(share > 0)) return;
     const CompiledEmitter& e = scene_.emitters[chosen];
     const EmissionPoint point = emission_point(scene_, e, random_, resolver_);
     const EquiangularLine line = seen_from(point.position, s);
     const auto t = static_cast<Real>(line.sample(random_.uniform_double()));
+    if (is_known(t)) return;
     const Vec3 place = s.ray.origin + s.ray.direction * t;
     const double sigma_t = extinction_at(scene_.media, s.band, place, resolver_);
     if (!(sigma_t > 0)) return;

@@ -1,7 +1,7 @@
 // A path tracer: radiance along a ray, traced from where it is seen, the eye or a probe. Paths run
 // backwards (all laws are reciprocal). At every event one emitter is sampled directly (next-event
 // estimation, next_event.hpp), and a path also counts the emitters that it hits, each by its
-// weight. Unbiased, except where pictures end a path in the patches' flux (final gather).
+// weight. Unbiased, except where pictures end a path in what a run has counted (final gather).
 // eye_paths.hpp estimates signs and probes with it. Not seen: point emitters and caustics through
 // mirrors and refracting solids; the forward tracer counts those. Thread rule: one PathTracer per
 // thread or fiber.
@@ -15,8 +15,8 @@
 #include "scenes/transport/connect.hpp"
 #include "scenes/transport/emission.hpp"
 #include "scenes/transport/group_light.hpp"
+#include "scenes/transport/known_radiance.hpp"
 #include "scenes/transport/next_event.hpp"
-#include "scenes/transport/patch_radiance.hpp"
 #include "scenes/transport/textures.hpp"
 
 namespace luxodus {
@@ -69,11 +69,11 @@ class PathTracer {
   }
 
   /// Adds `weight` times the radiance [W/(m2 sr)] in `band` that arrives against `ray.direction`,
-  /// from one path. `counted`: which emitters count before the first event. `gather`: where paths
-  /// may end after their first diffuse event; null traces them to their end.
+  /// from one path. `counted`: which emitters count before the first event. `known`: in which light
+  /// paths may end after their first diffuse event; null traces them to their end.
   void radiance(const Ray& ray, int band, EmitterHits counted, double weight, GroupLight& into,
-                const PatchRadiance* gather = nullptr) {
-    trace({ray, band, counted, weight, into}, gather);
+                const KnownRadiance* known = nullptr) {
+    trace({ray, band, counted, weight, into}, known);
   }
 
   /// The same of a path that a Lambertian surface has sent along `ray`, where `reflected_light` has
@@ -170,17 +170,21 @@ class PathTracer {
   // ---- events
   // ------------------------------------------------------------------------------------
 
-  void trace(Path path, const PatchRadiance* gather) {
+  void trace(Path path, const KnownRadiance* known) {
     for (int event = 0; event < limits::eye_events; ++event) {
       const Hit hit = resolver_.nearest(path.ray);
       if (path.counted != EmitterHits::none) add_emitted_along(path, hit);
       const Ray stretch = path.ray;
       const double weight = path.weight * path.throughput;
       const FreeFlight flight = fly(stretch, hit.distance, path.band);
+      const KnownRadiance* end = path.diffused ? known : nullptr;  // where the path may end here
       const bool alive =
-          flight.collided ? scatter(path, flight, hit.distance) : meet_surface(path, hit, gather);
+          flight.collided ? scatter(path, flight, hit.distance, end) : meet_surface(path, hit, end);
       // Last, since asking may drop the cell that the hit is of.
-      add_single_scattering(stretch, hit.distance, flight, 1, path.band, weight, path.into);
+      if (scene_.features.media != MediaNeed::none) {
+        next_event_.add_scattered({stretch, line_end(hit.distance), 1, path.band}, flight, weight,
+                                  path.into, end);
+      }
       if (!alive || (event >= 2 && !survives_roulette(path.throughput))) return;
     }
   }
@@ -209,12 +213,18 @@ class PathTracer {
     return kind == MaterialKind::lambertian || kind == MaterialKind::glossy;
   }
 
-  /// Medium event: a new direction. Light sampled from emitters is `add_single_scattering`'s. False
-  /// ends the path.
-  bool scatter(Path& p, const FreeFlight& flight, Real length) {
+  /// Medium event: a new direction, or the end in known light. Light sampled from emitters is
+  /// NextEvent's, where it is not of the known. False ends the path.
+  bool scatter(Path& p, const FreeFlight& flight, Real length, const KnownRadiance* known) {
     p.throughput *= flight.albedo;
     if (p.throughput <= 0) return false;
     const PhaseFunction& phase = scene_.phases[static_cast<size_t>(flight.phase)];
+    const Vec3 place = p.ray.origin + p.ray.direction * flight.t;
+    if (known != nullptr && known->knows(place)) {
+      p.into.add_of_all(p.weight * p.throughput *
+                        known->of_medium(place, p.ray.direction, phase, p.band));
+      return false;
+    }
     const Real u = random_.uniform();
     const Real v = random_.uniform();
     const Vec3 direction = sample(phase, p.ray.direction, u, v);
@@ -234,12 +244,12 @@ class PathTracer {
             flight.t};
   }
 
-  /// Surface event, where a gather may end the path. False ends it.
-  bool meet_surface(Path& p, const Hit& hit, const PatchRadiance* gather) {
+  /// Surface event, where the path may end in known light. False ends it.
+  bool meet_surface(Path& p, const Hit& hit, const KnownRadiance* known) {
     if (!hit.found()) return false;
-    if (gather == nullptr || !p.diffused || !reflects_diffusely(hit, p.ray)) return bounce(p, hit);
+    if (known == nullptr || !reflects_diffusely(hit, p.ray)) return bounce(p, hit);
     const bool front = glm::dot(hit.triangle->unit_normal(), p.ray.direction) < 0;
-    p.into.add_of_all(p.weight * p.throughput * gather->radiance(hit, front, p.band));
+    p.into.add_of_all(p.weight * p.throughput * known->of_surface(hit, front, p.band));
     return false;
   }
 
