@@ -7,12 +7,8 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 
-#include "actors/run/parallel_for.hpp"
-#include "scenes/geometry/patches.hpp"
 #include "scenes/optics/sampling.hpp"
-#include "scenes/transport/packed_scene.hpp"
 
 namespace luxodus {
 
@@ -21,57 +17,6 @@ namespace {
 /// A path's number: camera, pixel (28 bits), path.
 constexpr int camera_shift = 48;
 constexpr int pixel_shift = 17;
-
-class FluxRadiance final : public PatchRadiance {
- public:
-  explicit FluxRadiance(const LocalRun& run)
-      : bands_(static_cast<size_t>(run.scene().bands.count())),
-        table_(size_t{run.scene().patch_count} * bands_) {
-    const CompiledScene& scene = run.scene();
-    const Readout readout(scene, run.totals());
-    for (const CompiledSurface& s : scene.surfaces)
-      if (s.one_patch) fill(scene, readout, s.first_patch, s.patches, s.area_m2);
-    constexpr int64_t per_row = 1024;  // triangles
-    const auto read = for_each_cell(scene, [&](const GeometryCell& cell) {
-      const auto count = static_cast<int64_t>(cell.triangles.size());
-      const auto fill_row = [&](int64_t row) {
-        for (int64_t i = row * per_row; i < std::min(count, (row + 1) * per_row); ++i) {
-          fill_triangle(scene, readout, cell.triangles[static_cast<size_t>(i)]);
-        }
-      };
-      parallel_for((count + per_row - 1) / per_row, run.threads(), [&] { return fill_row; });
-    });
-    if (!read) throw std::runtime_error(read.problem().text());
-  }
-
-  double radiance(const Hit& hit, bool front, int band) const override {
-    const TriangleRecord& t = *hit.triangle;
-    const uint32_t n = t.subdivision;
-    const uint32_t patch = t.first_patch + (front ? 0 : n * n) + sub_triangle(hit.u, hit.v, n);
-    return static_cast<double>(table_[patch * bands_ + static_cast<size_t>(band)]);
-  }
-
- private:
-  void fill_triangle(const CompiledScene& scene, const Readout& readout, const TriangleRecord& t) {
-    const CompiledSurface& surface = scene.surfaces[t.surface];
-    if (surface.one_patch) return;
-    fill(scene, readout, t.first_patch, 2 * t.subdivision * t.subdivision,
-         surface.patch_area_m2(t));
-  }
-  void fill(const CompiledScene& scene, const Readout& readout, uint32_t first, uint32_t count,
-            double area_m2) {
-    const double per_watt = 1 / (static_cast<double>(pi_f) * area_m2);
-    for (uint32_t patch = first; patch < first + count; ++patch) {
-      for (size_t b = 0; b < bands_; ++b) {
-        const Estimate out = readout.watts(scene.blocks.patches, patch, static_cast<int>(b), 1);
-        table_[patch * bands_ + b] = static_cast<float>(out.value * per_watt);
-      }
-    }
-  }
-
-  size_t bands_;
-  std::vector<float> table_;
-};
 
 /// A camera without a lens: every ray passes through one point.
 class Pinhole {
@@ -129,7 +74,7 @@ struct PixelSums {
 class PixelTracer {
  public:
   PixelTracer(const LocalRun& run, const GeometryAccess& access, size_t camera,
-              const PictureOptions& options, const PatchRadiance* flux)
+              const PictureOptions& options, const KnownRadiance* flux)
       : scene_(run.scene()),
         tracer_(make_picture_tracer(run.scene(), access, run.seed())),
         pinhole_(run.scene().description->cameras[camera], run.scene().local_origin),
@@ -158,17 +103,13 @@ class PixelTracer {
   Pinhole pinhole_;
   uint64_t first_path_;
   int paths_;
-  const PatchRadiance* flux_;
+  const KnownRadiance* flux_;
 };
 
 }  // namespace
 
-std::unique_ptr<PatchRadiance> flux_radiance(const LocalRun& run) {
-  return std::make_unique<FluxRadiance>(run);
-}
-
 TracedPicture trace_picture(const LocalRun& run, size_t camera, const PictureOptions& options,
-                            const PatchRadiance* flux, const ShareDone& progress) {
+                            const KnownRadiance* flux, const ShareDone& progress) {
   const Camera& view = run.scene().description->cameras[camera];
   TracedPicture out;
   out.light.width = view.width;

@@ -1,9 +1,9 @@
 // Pictures of a run's cameras: luminance data first (OpenEXR, cd/m2), pixels second. Paths are
-// traced from the eye; a path ends in the run's flux at the second surface it meets after something
-// diffuse (final gather), so a picture takes seconds once the flux is there. Nothing is clamped,
-// blurred or denoised. The standard error of a pixel is that of its paths; what the flux itself
-// errs comes on top. The pixels depend on the scene, the flux, the seed and the paths per pixel,
-// never on the number of threads. One call at a time per run.
+// traced from the eye; a path ends in the run's flux at the first event after something diffuse, on
+// a surface or in smoke (final gather), so a picture takes seconds once the flux is there. Nothing
+// is clamped, blurred or denoised. The standard error of a pixel is that of its paths; what the
+// flux itself errs comes on top. The pixels depend on the scene, the flux, the seed and the paths
+// per pixel, never on the number of threads. One call at a time per run.
 #pragma once
 
 #include <atomic>
@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "actors/display/flux_radiance.hpp"
 #include "actors/run/local_run.hpp"
 #include "runtime/core/atomic_file.hpp"
 #include "scenes/vision/picture.hpp"
@@ -41,14 +42,11 @@ struct TracedPicture {
   std::vector<float> standard_error_y;  // [cd/m2]; NaN with one path per pixel
 };
 
-/// Outgoing radiance of every patch of the run [W/(m2 sr)], spread evenly over directions.
-std::unique_ptr<PatchRadiance> flux_radiance(const LocalRun& run);
-
 /// One camera's picture; without meaning where it was interrupted. `flux`: where paths end, or
 /// null. Requires: camera is one of the scene's; 1 <= paths_per_pixel <=
 /// limits::max_paths_per_pixel.
 TracedPicture trace_picture(const LocalRun& run, size_t camera, const PictureOptions& options,
-                            const PatchRadiance* flux, const ShareDone& progress = {});
+                            const KnownRadiance* flux, const ShareDone& progress = {});
 
 /// Traces every camera, or the one named `only_view`, and writes into folder/views (made if
 /// missing): NAME.exr (X, Y, Z, R, G, B, scotopic, standard_error.Y), NAME.png (one exposure),

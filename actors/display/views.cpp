@@ -253,7 +253,7 @@ Result<void> render_views(const std::filesystem::path& folder, const LocalRun& r
   std::error_code error;
   std::filesystem::create_directories(folder / "views", error);
   if (error) return problem_in(folder / "views", "cannot make this folder: " + error.message());
-  std::unique_ptr<PatchRadiance> flux;
+  std::unique_ptr<KnownRadiance> flux;
   if (options.gather && run.batches() > 0) flux = flux_radiance(run);
   const std::vector<std::string> names = result_names(scene).views;
   double all = 0, before = 0;

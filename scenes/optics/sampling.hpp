@@ -179,6 +179,9 @@ inline Vec3 cosine_hemisphere(Real u, Real v) {
   return {radius * phi.cos, radius * phi.sin, std::sqrt(1.0_r - u)};
 }
 
+/// Density [1/sr] of such a direction, by its cosine.
+inline Real cosine_pdf(Real cos_theta) { return std::max(0.0_r, cos_theta) * inverse_pi_f; }
+
 /// Uniform point of the unit disc.
 inline Vec2 uniform_disc(Real u, Real v) {
   const Real radius = std::sqrt(u);

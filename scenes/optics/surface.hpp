@@ -113,7 +113,16 @@ inline Vec3 sample_ggx_visible_normal(const Vec3& wo, Real alpha, Real u, Real v
   return glm::normalize(Vec3(alpha * h.x, alpha * h.y, std::max(1e-6_r, h.z)));
 }
 
-// ---- the two calls of the tracer ---------------------------------------------------------------
+/// Density of microfacet normals of GGX [1/sr] (Trowbridge and Reitz 1975).
+inline Real ggx_density(Real alpha, const Vec3& h, const Vec3& normal) {
+  const Real cos_h = glm::dot(h, normal);
+  const Vec3 flat = glm::cross(h, normal);  // sin^2 from here: 1 - cos^2 would lose a narrow lobe
+  const Real alpha_square = alpha * alpha;
+  const Real spread = cos_h * cos_h * alpha_square + glm::dot(flat, flat);
+  return inverse_pi_f * alpha_square / (spread * spread);
+}
+
+// ---- the calls of the tracers ---------------------------------------------------------------
 
 /// BRDF [1/sr] of everything that is spread over directions (Lambert + GGX with Smith's
 /// height-correlated masking, Heitz, JCGT 3(2), 2014); 0 for mirror, pane, dielectric and open, and
@@ -125,15 +134,26 @@ inline Real evaluate_surface(const SurfaceModel& model, const Vec3& wo, const Ve
   if (!(cos_o > 0.0_r && cos_i > 0.0_r)) return 0.0_r;
   if (model.kind == SurfaceKind::lambertian) return model.reflectance * inverse_pi_f;
   if (model.kind != SurfaceKind::glossy) return 0.0_r;
-  const Vec3 h = glm::normalize(wo + wi);
-  const Real cos_h = glm::dot(h, normal);
-  const Vec3 flat = glm::cross(h, normal);  // sin^2 from here: 1 - cos^2 would lose a narrow lobe
-  const Real alpha_square = model.alpha * model.alpha;
-  const Real spread = cos_h * cos_h * alpha_square + glm::dot(flat, flat);
-  const Real d = inverse_pi_f * alpha_square / (spread * spread);
+  const Real d = ggx_density(model.alpha, glm::normalize(wo + wi), normal);
   const Real masking =
       cos_i * ggx_stretch(cos_o, model.alpha) + cos_o * ggx_stretch(cos_i, model.alpha);
   return model.reflectance * inverse_pi_f + model.specular * d * 0.5_r / masking;
+}
+
+/// Density [1/sr] with which `sample_surface` draws wi, of everything that is spread over
+/// directions; 0 for mirror, pane, dielectric and open, and below the horizon.
+inline Real surface_pdf(const SurfaceModel& model, const Vec3& wo, const Vec3& wi,
+                        const Vec3& normal) {
+  const Real cos_o = std::max(glm::dot(wo, normal), surface_limits::min_cos);
+  const Real cos_i = glm::dot(wi, normal);
+  if (!(cos_i > 0.0_r)) return 0.0_r;
+  if (model.kind == SurfaceKind::lambertian) return cosine_pdf(cos_i);
+  const Real sum = model.reflectance + model.specular;
+  if (model.kind != SurfaceKind::glossy || !(sum > 0.0_r)) return 0.0_r;
+  // Of visible normals, per direction that they reflect to: D G1 / (4 cos).
+  const Real d = ggx_density(model.alpha, glm::normalize(wo + wi), normal);
+  const Real lobe = d * 0.5_r / (cos_o + ggx_stretch(cos_o, model.alpha));
+  return (model.reflectance * cosine_pdf(cos_i) + model.specular * lobe) / sum;
 }
 
 namespace surface_detail {

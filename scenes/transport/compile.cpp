@@ -119,7 +119,6 @@ void place_flame(CompiledEmitter& e, const std::vector<glm::vec3>& points) {
   }
   e.origin = Vec3(sum / static_cast<double>(points.size()));
   e.size = Vec3(high - low);
-  e.near_m = 0.5_r * std::max({e.size.x, e.size.y, e.size.z});
 }
 
 void scatter_volume_points(CompiledScene& scene) {

@@ -233,20 +233,6 @@ void compile_sign_face(CompiledEmitter& out, const ActiveSource& s, const Compil
   normalise_cdf(out.texel_cdf);
 }
 
-/// Half the largest extent of an emitter [m]. Of a flame it follows from its points, later.
-Real near_distance(const CompiledEmitter& e, const CompiledScene& scene) {
-  if (e.kind == EmitterKind::point || e.kind == EmitterKind::volume) return 0;
-  if (e.kind == EmitterKind::sign_face) return scene.signs[e.sign].near_m;
-  if (e.kind != EmitterKind::mesh) return 0.5_r * std::max(e.size.x, e.size.y);
-  Vec3 low = e.corners.front(), high = low;
-  for (const Vec3& c : e.corners) {
-    low = glm::min(low, c);
-    high = glm::max(high, c);
-  }
-  const Vec3 size = high - low;
-  return 0.5_r * std::max({size.x, size.y, size.z});
-}
-
 }  // namespace
 
 CompiledEmitter compile_emitter(const ActiveSource& s, const CompiledScene& scene) {
@@ -272,7 +258,6 @@ CompiledEmitter compile_emitter(const ActiveSource& s, const CompiledScene& scen
   } else {
     compile_sign_face(out, s, scene);
   }
-  out.near_m = near_distance(out, scene);
   // The bands' efficacies hold for the scene's light as a whole; an emitter of another spectrum is
   // scaled so that its lumens are exact.
   const int bands = scene.bands.count();

@@ -393,7 +393,6 @@ void compile_sign_faces(CompiledScene& scene) {
       out.axes = Mat3(out.frame.axes);
       out.white_cd_m2 = scenario_luminance(sign, SignColour::white, scene.scenario);
       out.green_cd_m2 = scenario_luminance(sign, SignColour::green, scene.scenario);
-      out.near_m = static_cast<Real>(0.5 * std::max(sign.width_m, sign.height_m));
       for (int b = 0; b < scene.bands.count(); ++b) {
         out.white_reflectance.push_back(
             static_cast<Real>(scene.bands.average(sign.white_reflectance, b)));

@@ -68,8 +68,6 @@ struct CompiledEmitter {
   uint32_t medium = none_index;  // volume
   int group = 0;
   double area_m2 = 0;
-  Real near_m =
-      0;  // half its size: eyes that are closer meet it instead of asking it; 0 for points
   double luminous_flux_lm = 0;
   std::vector<double> power_w;    // per band
   std::vector<double> texel_cdf;  // sign face: by texel; mesh: by triangle; cumulative share
@@ -180,7 +178,6 @@ struct CompiledSign {
   Frame frame;                           // local origin kept in double
   Vec3 origin{0};                        // local
   Mat3 axes{1.0_r};
-  Real near_m = 0;                                     // as of its emitters
   double white_cd_m2 = 0, green_cd_m2 = 0;             // along the normal, in this scenario
   std::vector<double> white_radiance, green_radiance;  // [W/(m2 sr)] per band
   std::vector<Real> white_reflectance, green_reflectance;

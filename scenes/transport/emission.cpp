@@ -98,6 +98,14 @@ Real flat_distance(const CompiledEmitter& e, const Ray& ray) {
   return in ? t : none;
 }
 
+/// Normal of the face at one of its points. The axis of a photometric web is another.
+Vec3 outward(const CompiledEmitter& e, const EmissionPoint& point) {
+  const Vec3 p = point.position - e.origin;
+  if (e.kind == EmitterKind::sphere) return glm::normalize(p);
+  if (e.kind == EmitterKind::tube) return glm::normalize(p - e.axes[0] * glm::dot(p, e.axes[0]));
+  return point.axis;
+}
+
 /// Whether the ray misses the sphere before `length`.
 bool passes(const EmitterBound& bound, const Ray& ray, Real length) {
   const Vec3 d = bound.centre - ray.origin;
@@ -158,6 +166,34 @@ EmissionPoint emission_point(const CompiledEmitter& e, Real u, Real v, double w)
       return point_on_sign(e, u, v, w);
   }
   return {e.origin, down};
+}
+
+double sampled_area_m2(const CompiledEmitter& e, const Vec3& point) {
+  if (e.kind != EmitterKind::sign_face) return e.area_m2;
+  const auto columns = static_cast<size_t>(e.texel_columns);
+  const size_t rows = e.texel_cdf.size() / columns;
+  const Vec3 p = point - e.origin;
+  const auto index = [](Real share, size_t count) {
+    const Real at = share * static_cast<Real>(count);
+    return std::min(static_cast<size_t>(std::max(0.0_r, at)), count - 1);
+  };
+  const size_t x = index(glm::dot(p, e.axes[0]) / e.size.x + 0.5_r, columns);
+  const size_t y = index(0.5_r - glm::dot(p, e.axes[1]) / e.size.y, rows);
+  const size_t texel = y * columns + x;
+  const double share = e.texel_cdf[texel] - (texel > 0 ? e.texel_cdf[texel - 1] : 0.0);
+  const double area = static_cast<double>(e.size.x) * static_cast<double>(e.size.y) /
+                      static_cast<double>(e.texel_cdf.size());
+  return share > 0 ? area / share : 0;
+}
+
+double apparent_face(const CompiledEmitter& e, const EmissionPoint& point, const Vec3& to_place,
+                     Real distance) {
+  if (e.kind == EmitterKind::point || e.kind == EmitterKind::volume) return 0;
+  const Real facing = glm::dot(outward(e, point), to_place);
+  const bool flat = e.kind == EmitterKind::rectangle || e.kind == EmitterKind::disc;
+  const auto cosine = static_cast<double>(flat ? std::abs(facing) : std::max(0.0_r, facing));
+  const auto d = static_cast<double>(distance);
+  return sampled_area_m2(e, point.position) * cosine / (d * d);
 }
 
 EmitterHit nearest_emitter(const CompiledScene& scene, const Ray& ray, Real length) {

@@ -37,6 +37,15 @@ EmissionPoint emission_point(const CompiledScene& scene, const CompiledEmitter& 
   return emission_point(emitter, u, v, w);
 }
 
+/// Area [m2] that a point of an emitting face stands for: one over the density with which
+/// `emission_point` draws it. 0 where it draws none.
+double sampled_area_m2(const CompiledEmitter& emitter, const Vec3& point);
+
+/// The solid angle [sr] at a place that the face would fill if it all looked as at the point, whose
+/// direction to the place and distance are given. 0 where a ray from there cannot hit it.
+double apparent_face(const CompiledEmitter& emitter, const EmissionPoint& point,
+                     const Vec3& to_place, Real distance);
+
 /// Density [1/sr] of directions at a point of the emitter; 0 for collimated light, which is no
 /// density.
 template <class Resolver>

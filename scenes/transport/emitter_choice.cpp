@@ -43,13 +43,12 @@ bool EmitterChoice::weigh_along(const Ray& ray, Real end, int band) {
   const bool few = scene_.emitters.size() <= limits::nearby_emitters;
   bool near = !few;
   const double total = weigh(along_, band, [&](const CompiledEmitter& e) {
-    if (!is_small(e, end)) return 0.0;
     if (!few) return 1.0;
     const Vec3 from_origin = centre_of(e) - ray.origin;
     const Real t = glm::clamp(glm::dot(from_origin, ray.direction), 0.0_r, end);
     const Real distance = glm::length(from_origin - ray.direction * t);
     const Real half = 0.5_r * glm::length(e.size);
-    near |= distance < limits::near_line * end;
+    near |= distance < limits::near_line * end + half;
     const Real least = distance + half + 1e-4_r * end;
     return static_cast<double>(end / (least * (least + end / 3)));
   });

@@ -12,12 +12,8 @@ namespace luxodus {
 
 namespace limits {
 inline constexpr size_t nearby_emitters = 256;  // up to here distance decides which is chosen
-/// An emitter whose half size is a smaller share than this of a stretch's length is small: it is
-/// sampled at any distance, since a path that came near would still miss it. Large ones, as
-/// luminaires in a room are, a path hits soon enough.
-inline constexpr Real small_emitter = 0x1p-7_r;
-/// A small emitter is near where it is closer to the stretch than this share of its length:
-/// collisions, which are spread over all of it, would seldom come as close.
+/// An emitter is near where it is closer to the stretch than this share of its length and half its
+/// own size: collisions, which are spread over all of it, would seldom come as close.
 inline constexpr Real near_line = 0.125_r;
 }  // namespace limits
 
@@ -30,10 +26,6 @@ class EmitterChoice {
  public:
   explicit EmitterChoice(const CompiledScene& scene) : scene_(scene) {}
 
-  static bool is_small(const CompiledEmitter& emitter, Real stretch_m) {
-    return emitter.near_m < limits::small_emitter * stretch_m;
-  }
-
   /// Weighs all emitters as seen from a place, by squared distance where they are few. False where
   /// none shines in this band.
   bool weigh_at(const Vec3& place, int band);
@@ -41,7 +33,7 @@ class EmitterChoice {
   EmitterSample choose_at(double u) const { return choose(at_, u); }
   double probability_at(size_t emitter) const { return share_of(emitter, at_); }
 
-  /// Weighs small emitters by what each sends to the first `end` of a ray, nearly: the angle at
+  /// Weighs emitters by what each sends to the first `end` of a ray, nearly: the angle at
   /// which it sees it, over its distance. False where none is near, so that none need be chosen so.
   bool weigh_along(const Ray& ray, Real end, int band);
   EmitterSample choose_along(double u) const { return choose(along_, u); }

@@ -211,8 +211,9 @@ class EyeScores {
     const Real u = random_.uniform();
     const Real v = random_.uniform();
     const Ray onward{start, to_world(normal, cosine_hemisphere(u, v))};
-    eye_.radiance(onward, chosen.band, EmitterHits::near,
-                  chosen.lm_per_w * static_cast<double>(model.reflectance), light_);
+    eye_.radiance_after_reflection(onward, normal, chosen.band,
+                                   chosen.lm_per_w * static_cast<double>(model.reflectance),
+                                   light_);
   }
 
   /// Light scattered, or emitted by flames, into the line of sight, into light_: one collision is
@@ -234,10 +235,10 @@ class EyeScores {
     eye_.add_single_scattering(c.ray, c.distance, flight, collided, band, chosen.lm_per_w, light_);
     if (!flight.collided || flight.albedo <= 0) return;
     const PhaseFunction& phase = scene_.phases[static_cast<size_t>(flight.phase)];
-    const Vec3 place = c.ray.origin + c.ray.direction * flight.t;
     const Real u = random_.uniform();
     const Real v = random_.uniform();
-    eye_.radiance_after_scattering({place, sample(phase, c.ray.direction, u, v)}, c.distance, band,
+    const Vec3 direction = sample(phase, c.ray.direction, u, v);
+    eye_.radiance_after_scattering(c.ray, c.distance, flight, collided, direction, band,
                                    chosen.lm_per_w * collided * flight.albedo, light_);
   }
 

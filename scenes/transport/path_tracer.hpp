@@ -1,26 +1,22 @@
 // A path tracer: radiance along a ray, traced from where it is seen, the eye or a probe. Paths run
 // backwards (all laws are reciprocal). At every event one emitter is sampled directly (next-event
-// estimation, emitter_choice.hpp), so that a path need not hit it by chance. Close to an emitter
-// that estimate has no bounded variance (1/r2). So light from points nearer than the emitter's half
-// size counts only where a path hits it, and light from farther points only where it is sampled:
-// each pair of places once. In smoke a second place is drawn as the light of a near, small emitter
-// falls on the stretch of the path (equiangular.hpp). The balance heuristic weights the two.
-// Unbiased, except where pictures end a path in the patches' flux (final gather). eye_paths.hpp
-// estimates signs and probes with it. Not seen: point emitters and caustics through mirrors and
-// refracting solids; the forward tracer counts those. Thread rule: one PathTracer per thread or
-// fiber.
+// estimation, next_event.hpp), and a path also counts the emitters that it hits, each by its
+// weight. Unbiased, except where pictures end a path in what a run has counted (final gather).
+// eye_paths.hpp estimates signs and probes with it. Not seen: point emitters and caustics through
+// mirrors and refracting solids; the forward tracer counts those. Thread rule: one PathTracer per
+// thread or fiber.
 #pragma once
 
 #include <cmath>
 
 #include "runtime/core/random.hpp"
 #include "scenes/geometry/real.hpp"
-#include "scenes/optics/equiangular.hpp"
 #include "scenes/tally/batch_scores.hpp"
 #include "scenes/transport/connect.hpp"
 #include "scenes/transport/emission.hpp"
-#include "scenes/transport/emitter_choice.hpp"
-#include "scenes/transport/patch_radiance.hpp"
+#include "scenes/transport/group_light.hpp"
+#include "scenes/transport/known_radiance.hpp"
+#include "scenes/transport/next_event.hpp"
 #include "scenes/transport/textures.hpp"
 
 namespace luxodus {
@@ -32,53 +28,21 @@ inline constexpr int emitters_per_line = 16;  // emitting faces that one straigh
 inline constexpr Real longest_line = 4;
 }  // namespace limits
 
-/// Light of one source group on its way to an eye [W/(m2 sr)].
-struct SourceLight {
-  int group = 0;
-  double radiance = 0;
-};
-
-/// Light that arrives at a place, by source group: what an eye path adds up.
-class GroupLight {
- public:
-  explicit GroupLight(size_t groups) : by_group_(groups, 0.0) {}
-
-  void clear() {
-    std::fill(by_group_.begin(), by_group_.end(), 0.0);
-    total_ = 0;
-  }
-  void add(int group, double amount) {
-    by_group_[static_cast<size_t>(group)] += amount;
-    total_ += amount;
-  }
-  /// Light of which nobody knows the source, as of a patch that all groups have lit.
-  void add_of_all(double amount) { total_ += amount; }
-
-  void add_scaled(const GroupLight& light, double factor) {
-    for (size_t g = 0; g < by_group_.size(); ++g) by_group_[g] += factor * light.by_group_[g];
-    total_ += factor * light.total_;
-  }
-
-  double total() const { return total_; }
-  double of(size_t group) const { return by_group_[group]; }
-
- private:
-  std::vector<double> by_group_;
-  double total_ = 0;
-};
-
 /// Which emitters count when a path meets them on its way.
 enum class EmitterHits {
-  none,  // somebody else holds all direct light of this place
-  near,  // those closer than their half size; the others were sampled
-  all,   // none was sampled
+  none,      // somebody else holds all direct light of this place
+  weighted,  // emitters were sampled too: by the balance heuristic
+  all,       // none was sampled
 };
 
 template <class Resolver>
 class PathTracer {
  public:
   PathTracer(const CompiledScene& scene, Resolver& resolver, uint64_t seed, RandomStream stream)
-      : scene_(scene), resolver_(resolver), random_(seed, stream), choice_(scene) {
+      : scene_(scene),
+        resolver_(resolver),
+        random_(seed, stream),
+        next_event_(scene, resolver, random_) {
     // A picture shows colours, an estimate of luminance needs few.
     const double colour = stream == RandomStream::picture ? 1.0 : 0.05;
     double total = 0;
@@ -105,19 +69,31 @@ class PathTracer {
   }
 
   /// Adds `weight` times the radiance [W/(m2 sr)] in `band` that arrives against `ray.direction`,
-  /// from one path. `counted`: which emitters count before the first event. `gather`: where paths
-  /// may end after their first diffuse event; null traces them to their end.
+  /// from one path. `counted`: which emitters count before the first event. `known`: in which light
+  /// paths may end after their first diffuse event; null traces them to their end.
   void radiance(const Ray& ray, int band, EmitterHits counted, double weight, GroupLight& into,
-                const PatchRadiance* gather = nullptr) {
-    trace({ray, band, counted, weight, into}, gather);
+                const KnownRadiance* known = nullptr) {
+    trace({ray, band, counted, weight, into}, known);
   }
 
-  /// The same of a path that a medium has turned to `ray`, somewhere on the first `length` of a ray
-  /// for which `add_single_scattering` has sampled emitters.
-  void radiance_after_scattering(const Ray& ray, Real length, int band, double weight,
+  /// The same of a path that a Lambertian surface has sent along `ray`, where `reflected_light` has
+  /// sampled emitters.
+  void radiance_after_reflection(const Ray& ray, const Vec3& normal, int band, double weight,
                                  GroupLight& into) {
-    Path path{ray, band, EmitterHits::near, weight, into};
-    path.small_sampled = limits::small_emitter * line_end(length);
+    Path path{ray, band, EmitterHits::weighted, weight, into};
+    path.turn.place = ray.origin;
+    path.turn.pdf = static_cast<double>(cosine_pdf(glm::dot(ray.direction, normal)));
+    trace(path, nullptr);
+  }
+
+  /// The same of a path that a medium has turned to `direction`, where `flight` along `line`, for
+  /// which `add_single_scattering` has sampled emitters, has collided.
+  void radiance_after_scattering(const Ray& line, Real length, const FreeFlight& flight,
+                                 double share, const Vec3& direction, int band, double weight,
+                                 GroupLight& into) {
+    const PathTurn turn = scattered({line, line_end(length), share, band}, flight, direction);
+    Path path{{turn.place, direction}, band, EmitterHits::weighted, weight, into};
+    path.turn = turn;
     trace(path, nullptr);
   }
 
@@ -128,27 +104,13 @@ class PathTracer {
   void add_single_scattering(const Ray& ray, Real length, const FreeFlight& flight, double share,
                              int band, double weight, GroupLight& into) {
     if (scene_.features.media == MediaNeed::none) return;
-    const Real end = line_end(length);
-    const Stretch stretch{ray, end, share, band, choice_.weigh_along(ray, end, band)};
-    if (flight.collided && flight.albedo > 0)
-      add_at_collision(stretch, flight, weight * share * flight.albedo, into);
-    if (stretch.emitters_near) add_near_emitter(stretch, weight, into);
+    next_event_.add_scattered({ray, line_end(length), share, band}, flight, weight, into);
   }
 
-  /// Light of an emitter that a surface sends against `direction`; one emitter is sampled, and
-  /// divided by the probability of asking it.
+  /// Light of an emitter that a surface sends against `direction`; one emitter is sampled.
   SourceLight reflected_light(const Vec3& place, const Vec3& direction, const Vec3& normal,
                               const SurfaceModel& model, int band) {
-    const EmitterSample sampled = sample_emitter(place, band);
-    if (sampled.probability <= 0) return {};
-    const CompiledEmitter& e = scene_.emitters[sampled.emitter];
-    const EmissionPoint point = emission_point(scene_, e, random_, resolver_);
-    const Arriving a = light_from(e, point, place, e.near_m, band);
-    const Real cosine = glm::dot(a.direction, normal);
-    if (a.irradiance <= 0 || cosine <= 0) return {};
-    return {e.group,
-            a.irradiance / sampled.probability * static_cast<double>(cosine) *
-                static_cast<double>(evaluate_surface(model, -direction, a.direction, normal))};
+    return next_event_.reflected(place, direction, normal, model, band);
   }
 
   /// Own light of a point of a sign's face towards an eye, without path or room light.
@@ -196,9 +158,9 @@ class PathTracer {
     double weight;
     GroupLight& into;
     double throughput = 1;
-    Real travelled = 0;      // from the last event to the ray's origin, through panes
-    Real small_sampled = 0;  // emitters of a smaller half size were sampled there at any distance
-    bool diffused = false;   // a surface or a medium has spread it
+    PathTurn turn{};        // where `counted` is weighted
+    Real travelled = 0;     // from the last event to the ray's origin, through panes
+    bool diffused = false;  // a surface or a medium has spread it
 
     void add(const SourceLight& light) {
       into.add(light.group, weight * throughput * light.radiance);
@@ -208,17 +170,21 @@ class PathTracer {
   // ---- events
   // ------------------------------------------------------------------------------------
 
-  void trace(Path path, const PatchRadiance* gather) {
+  void trace(Path path, const KnownRadiance* known) {
     for (int event = 0; event < limits::eye_events; ++event) {
       const Hit hit = resolver_.nearest(path.ray);
       if (path.counted != EmitterHits::none) add_emitted_along(path, hit);
       const Ray stretch = path.ray;
       const double weight = path.weight * path.throughput;
       const FreeFlight flight = fly(stretch, hit.distance, path.band);
+      const KnownRadiance* end = path.diffused ? known : nullptr;  // where the path may end here
       const bool alive =
-          flight.collided ? scatter(path, flight, hit.distance) : meet_surface(path, hit, gather);
+          flight.collided ? scatter(path, flight, hit.distance, end) : meet_surface(path, hit, end);
       // Last, since asking may drop the cell that the hit is of.
-      add_single_scattering(stretch, hit.distance, flight, 1, path.band, weight, path.into);
+      if (scene_.features.media != MediaNeed::none) {
+        next_event_.add_scattered({stretch, line_end(hit.distance), 1, path.band}, flight, weight,
+                                  path.into, end);
+      }
       if (!alive || (event >= 2 && !survives_roulette(path.throughput))) return;
     }
   }
@@ -247,29 +213,43 @@ class PathTracer {
     return kind == MaterialKind::lambertian || kind == MaterialKind::glossy;
   }
 
-  /// Medium event: a new direction. Light sampled from emitters is `add_single_scattering`'s. False
-  /// ends the path.
-  bool scatter(Path& p, const FreeFlight& flight, Real length) {
+  /// Medium event: a new direction, or the end in known light. Light sampled from emitters is
+  /// NextEvent's, where it is not of the known. False ends the path.
+  bool scatter(Path& p, const FreeFlight& flight, Real length, const KnownRadiance* known) {
     p.throughput *= flight.albedo;
     if (p.throughput <= 0) return false;
     const PhaseFunction& phase = scene_.phases[static_cast<size_t>(flight.phase)];
-    p.ray.origin += p.ray.direction * flight.t;
+    const Vec3 place = p.ray.origin + p.ray.direction * flight.t;
+    if (known != nullptr && known->knows(place)) {
+      p.into.add_of_all(p.weight * p.throughput *
+                        known->of_medium(place, p.ray.direction, phase, p.band));
+      return false;
+    }
     const Real u = random_.uniform();
     const Real v = random_.uniform();
-    p.ray.direction = sample(phase, p.ray.direction, u, v);
-    p.counted = EmitterHits::near;
+    const Vec3 direction = sample(phase, p.ray.direction, u, v);
+    p.turn = scattered({p.ray, line_end(length), 1, p.band}, flight, direction);
+    p.ray = {p.turn.place, direction};
+    p.counted = EmitterHits::weighted;
     p.travelled = 0;
-    p.small_sampled = limits::small_emitter * line_end(length);
     p.diffused = true;
     return true;
   }
 
-  /// Surface event, where a gather may end the path. False ends it.
-  bool meet_surface(Path& p, const Hit& hit, const PatchRadiance* gather) {
+  PathTurn scattered(const Stretch& stretch, const FreeFlight& flight, const Vec3& direction) {
+    const PhaseFunction& phase = scene_.phases[static_cast<size_t>(flight.phase)];
+    const Vec3& before = stretch.ray.direction;
+    return {stretch.ray.origin + before * flight.t,
+            static_cast<double>(evaluate(phase, glm::dot(before, direction))), true, stretch,
+            flight.t};
+  }
+
+  /// Surface event, where the path may end in known light. False ends it.
+  bool meet_surface(Path& p, const Hit& hit, const KnownRadiance* known) {
     if (!hit.found()) return false;
-    if (gather == nullptr || !p.diffused || !reflects_diffusely(hit, p.ray)) return bounce(p, hit);
+    if (known == nullptr || !reflects_diffusely(hit, p.ray)) return bounce(p, hit);
     const bool front = glm::dot(hit.triangle->unit_normal(), p.ray.direction) < 0;
-    p.into.add_of_all(p.weight * p.throughput * gather->radiance(hit, front, p.band));
+    p.into.add_of_all(p.weight * p.throughput * known->of_surface(hit, front, p.band));
     return false;
   }
 
@@ -296,13 +276,19 @@ class PathTracer {
     if (straight) {
       p.travelled += hit.distance;
     } else {
-      p.counted = s.specular ? EmitterHits::all : EmitterHits::near;
+      p.counted = s.specular ? EmitterHits::all : EmitterHits::weighted;
       p.travelled = 0;
-      p.small_sampled = 0;
     }
-    if (!s.specular) p.diffused = true;
+    const Vec3 incoming = p.ray.direction;
     p.ray.direction = s.direction;
     p.ray.origin = offset_ray(place, s.transmitted ? -normal : normal, scene_.min_offset_m);
+    if (s.specular) return true;
+    p.diffused = true;
+    p.turn = {p.ray.origin,
+              static_cast<double>(surface_pdf(model, -incoming, s.direction, normal)),
+              false,
+              {},
+              0};
     return true;
   }
 
@@ -330,11 +316,10 @@ class PathTracer {
       if (e.emitter == none_index) break;
       const CompiledEmitter& emitter = scene_.emitters[e.emitter];
       const Real distance = before + e.distance;
-      if (counts(p, distance, emitter.near_m)) {
-        p.add({emitter.group,
-               emitted_radiance(emitter, e.point, -p.ray.direction, p.band, resolver_) *
-                   medium_transmittance(scene_, p.ray, distance, p.band, resolver_)});
-      }
+      p.add({emitter.group,
+             weight_of_face(p, e.emitter, e.point, distance) *
+                 emitted_radiance(emitter, e.point, -p.ray.direction, p.band, resolver_) *
+                 medium_transmittance(scene_, p.ray, distance, p.band, resolver_)});
       const Real step = std::nextafter(e.distance * slack, std::numeric_limits<Real>::infinity());
       rest.origin += rest.direction * step;
       before += step;
@@ -345,9 +330,13 @@ class PathTracer {
     add_flames_met(p, hit.distance);
   }
 
-  static bool counts(const Path& p, Real distance, Real near) {
-    return p.counted == EmitterHits::all ||
-           (near >= p.small_sampled && p.travelled + distance < near);
+  /// Weight of a point of an emitting face that the path hits, `distance` along its ray.
+  double weight_of_face(const Path& p, uint32_t emitter, const EmissionPoint& point,
+                        Real distance) {
+    if (p.counted == EmitterHits::all) return 1;
+    const double apparent_sr =
+        apparent_face(scene_.emitters[emitter], point, -p.ray.direction, p.travelled + distance);
+    return next_event_.weight_of_hit(p.turn, emitter, point.position, apparent_sr, p.band);
   }
 
   void add_emitted_by_sign(Path& p, const Hit& hit) {
@@ -355,26 +344,90 @@ class PathTracer {
     const uint32_t index = scene_.surfaces[hit.triangle->surface].sign;
     if (index == none_index || glm::dot(hit.triangle->unit_normal(), p.ray.direction) >= 0) return;
     const CompiledSign& sign = scene_.signs[index];
-    if (!counts(p, hit.distance, sign.near_m)) return;
     const SourceLight own = texel_light(sign, texture_uv(*hit.cell, hit), -p.ray.direction, p.band);
     if (own.radiance <= 0) return;
-    p.add({own.group,
-           own.radiance * medium_transmittance(scene_, p.ray, hit.distance, p.band, resolver_)});
+    const EmissionPoint point{hit.triangle->at(hit.u, hit.v), sign.axes[2]};
+    const Real distance = hit.distance;
+    p.add({own.group, weight_of_sign(p, index, own.group, point, distance) * own.radiance *
+                          medium_transmittance(scene_, p.ray, distance, p.band, resolver_)});
   }
 
-  /// Flames that count: all along the line, or the part of each that is near.
+  /// Of a sign's face, each colour is an emitter.
+  double weight_of_sign(const Path& p, uint32_t sign, int group, const EmissionPoint& point,
+                        Real distance) {
+    for (uint32_t i = 0; i < scene_.emitters.size(); ++i) {
+      const CompiledEmitter& e = scene_.emitters[i];
+      if (e.kind == EmitterKind::sign_face && e.sign == sign && e.group == group &&
+          sampled_area_m2(e, point.position) > 0)
+        return weight_of_face(p, i, point, distance);
+    }
+    return 1;  // nothing that is sampled: hits count alone
+  }
+
+  /// Flames on the line, up to the surface: all of their light, or what the weight leaves of it.
   void add_flames_met(const Path& p, Real length) {
     if (scene_.volume_points.empty()) return;
-    const double weight = p.weight * p.throughput;
-    if (p.counted == EmitterHits::all) return add_flames(p.ray, length, p.band, -1, weight, p.into);
-    for (const CompiledEmitter& e : scene_.emitters) {
-      if (e.kind != EmitterKind::volume) continue;
-      const Real rest = e.near_m - p.travelled;
-      if (rest > 0 && e.near_m >= p.small_sampled) {
-        add_flames(p.ray, std::min(length, rest), p.band, static_cast<int>(e.medium), weight,
-                   p.into);
-      }
+    if (p.counted == EmitterHits::all)
+      return add_flames(p.ray, length, p.band, -1, p.weight * p.throughput, p.into);
+    for (uint32_t i = 0; i < scene_.emitters.size(); ++i) {
+      if (scene_.emitters[i].kind == EmitterKind::volume) add_flame_hit(p, i, length);
     }
+  }
+
+  /// A place of the line in proportion to the light that it sends back along it.
+  struct FlamePlace {
+    double light =
+        0;  // of the whole line: emission density, times what passes, times length [1/m2]
+    double density = 0;  // mean of the segment [1/m3]
+    Real t = 0;
+  };
+
+  FlamePlace place_in_flame(const Path& p, const CompiledEmitter& flame, Real length) {
+    FlamePlace chosen;
+    double depth = 0;
+    double u = random_.uniform_double();  // used again for each segment: what is left is uniform
+    for_each_segment(
+        scene_.media, p.band, p.ray.origin, p.ray.direction, line_end(length), resolver_,
+        [&](const MediaSegment& s) {
+          const double tau = s.sigma_t * s.length;
+          for (const EmissionPart& part : s.emission) {
+            if (static_cast<uint32_t>(part.medium) != flame.medium) continue;
+            const double through = s.sigma_t > 0 ? -std::expm1(-tau) / s.sigma_t : s.length;
+            const double light = part.density * std::exp(-depth) * through;
+            if (!(light > 0)) continue;
+            chosen.light += light;
+            const double share = light / chosen.light;
+            if (u >= share) {
+              u = (u - share) / (1 - share);
+              continue;
+            }
+            u /= share;
+            const double along =
+                s.sigma_t > 0 ? -std::log1p(u * std::expm1(-tau)) / s.sigma_t : u * s.length;
+            chosen.density = part.density;
+            chosen.t = s.t0 + static_cast<Real>(along);
+          }
+          depth += tau;
+          return depth < 50;
+        });
+    return chosen;
+  }
+
+  void add_flame_hit(const Path& p, uint32_t emitter, Real length) {
+    const CompiledEmitter& flame = scene_.emitters[emitter];
+    const double power = flame.power_w[static_cast<size_t>(p.band)];
+    if (!(power > 0)) return;
+    const FlamePlace place = place_in_flame(p, flame, length);
+    if (!(place.light > 0)) return;
+    const EmissionPoint point{p.ray.origin + p.ray.direction * place.t, Vec3(0, 0, -1)};
+    const double density =
+        scene_.media.emission_density(static_cast<int>(flame.medium), point.position, resolver_);
+    const double apparent_sr =
+        next_event_.apparent_solid_angle(flame, point, -p.ray.direction, p.travelled + place.t);
+    const double weight =
+        next_event_.weight_of_hit(p.turn, emitter, point.position, apparent_sr, p.band);
+    p.into.add(flame.group, p.weight * p.throughput * weight * power * place.light *
+                                (density / place.density) / (4 * static_cast<double>(pi_f)));
   }
 
   /// The emitter that stands for a medium's glow; null where the scenario has put it out.
@@ -390,121 +443,11 @@ class PathTracer {
     return static_cast<double>(face.relative_luminance[texel_at(face, uv)]);
   }
 
-  // ---- next-event estimation
-  // -------------------------------------------------------------------------
-
-  EmitterSample sample_emitter(const Vec3& place, int band) {
-    if (!choice_.weigh_at(place, band)) return {};
-    return choice_.choose_at(random_.uniform_double());
-  }
-
-  /// Irradiance [W/m2] of a point of an emitter, normal to the line between.
-  struct Arriving {
-    Vec3 direction{0};  // towards the emitter
-    double irradiance = 0;
-  };
-
-  /// Nothing from points that are not farther than `min_distance`: paths hit them.
-  Arriving light_from(const CompiledEmitter& e, const EmissionPoint& point, const Vec3& place,
-                      Real min_distance, int band) {
-    const ShadowRay c =
-        connect(scene_, place, point.position, point.axis, e.kind != EmitterKind::volume);
-    if (!(c.distance > min_distance)) return {};
-    const auto density =
-        static_cast<double>(directional_density(e, point, -c.ray.direction, resolver_));
-    if (density <= 0) return {};
-    const double solid = solid_transmittance(scene_, c.ray, c.ray.length, band, resolver_);
-    if (solid <= 0) return {};
-    const double medium = medium_transmittance(scene_, c.ray, c.distance, band, resolver_);
-    const auto d = static_cast<double>(c.distance);
-    return {c.ray.direction,
-            e.power_w[static_cast<size_t>(band)] * density * solid * medium / (d * d)};
-  }
-
-  // ---- light scattered into a stretch of a path
-  // -------------------------------------------------------------------------
-
-  struct Stretch {
-    Ray ray;
-    Real end;      // places near emitters are drawn up to here
-    double share;  // see add_single_scattering
-    int band;
-    bool emitters_near;  // of EmitterChoice::weigh_along
-
-    /// Places on it as a point of an emitter sees them.
-    EquiangularLine seen_from(const EmissionPoint& point) const {
-      return {glm::dvec3(ray.origin), glm::dvec3(ray.direction), static_cast<double>(end),
-              glm::dvec3(point.position)};
-    }
-    /// Up to which distance points of an emitter count only where a path hits them.
-    Real hit_only_within(const CompiledEmitter& e) const {
-      return EmitterChoice::is_small(e, end) ? 0 : e.near_m;
-    }
-  };
-
-  double collision_density(const Stretch& s, Real t, double sigma_t) {
-    return sigma_t * medium_transmittance(scene_, s.ray, t, s.band, resolver_) / s.share;
-  }
-
-  /// The place is where a flight has collided; an emitter is sampled there.
-  void add_at_collision(const Stretch& s, const FreeFlight& flight, double weight,
-                        GroupLight& into) {
-    const Vec3 place = s.ray.origin + s.ray.direction * flight.t;
-    const EmitterSample sampled = sample_emitter(place, s.band);
-    if (sampled.probability <= 0) return;
-    const CompiledEmitter& e = scene_.emitters[sampled.emitter];
-    const EmissionPoint point = emission_point(scene_, e, random_, resolver_);
-    const Arriving a = light_from(e, point, place, s.hit_only_within(e), s.band);
-    if (a.irradiance <= 0) return;
-    double probability = sampled.probability;
-    if (s.emitters_near) {
-      const double sigma_t = extinction_at(scene_.media, s.band, place, resolver_);
-      const double here = collision_density(s, flight.t, sigma_t);
-      if (!(here > 0)) return;
-      probability += choice_.probability_along(sampled.emitter) *
-                     s.seen_from(point).density(static_cast<double>(flight.t)) / here;
-    }
-    const PhaseFunction& phase = scene_.phases[static_cast<size_t>(flight.phase)];
-    const auto turned =
-        static_cast<double>(evaluate(phase, glm::dot(a.direction, s.ray.direction)));
-    into.add(e.group, weight * turned * a.irradiance / probability);
-  }
-
-  /// The emitter is chosen first, and the place as its light falls on the stretch.
-  void add_near_emitter(const Stretch& s, double weight, GroupLight& into) {
-    const auto [chosen, share] = choice_.choose_along(random_.uniform_double());
-    if (!(share > 0)) return;
-    const CompiledEmitter& e = scene_.emitters[chosen];
-    const EmissionPoint point = emission_point(scene_, e, random_, resolver_);
-    const EquiangularLine line = s.seen_from(point);
-    const auto t = static_cast<Real>(line.sample(random_.uniform_double()));
-    const Vec3 place = s.ray.origin + s.ray.direction * t;
-    const double sigma_t = extinction_at(scene_.media, s.band, place, resolver_);
-    if (!(sigma_t > 0)) return;
-    const Arriving a = light_from(e, point, place, s.hit_only_within(e), s.band);
-    if (a.irradiance <= 0) return;
-    const Real cosine = glm::dot(a.direction, s.ray.direction);
-    double turned = 0;
-    for_each_medium_at(
-        scene_.media, s.band, place, resolver_, [&](int, int phase, double sigma, double albedo) {
-          turned +=
-              sigma * albedo *
-              static_cast<double>(evaluate(scene_.phases[static_cast<size_t>(phase)], cosine));
-        });
-    if (turned <= 0) return;
-    const double here = collision_density(s, t, sigma_t);
-    choice_.weigh_at(place, s.band);
-    const double probability =
-        share * line.density(static_cast<double>(t)) + choice_.probability_at(chosen) * here;
-    // What passes up to here is in the density of collisions already.
-    into.add(e.group, weight * s.share * (here / sigma_t) * turned * a.irradiance / probability);
-  }
-
   const CompiledScene& scene_;
   Resolver& resolver_;
   Random random_;
   std::vector<double> band_cdf_;
-  EmitterChoice choice_;
+  NextEvent<Resolver> next_event_;
 };
 
 }  // namespace luxodus

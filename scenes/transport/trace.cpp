@@ -84,7 +84,7 @@ class ResolverPictureTracer final : public PictureTracer {
   Real uniform() override { return eye_.random().uniform(); }
   int choose_band(double u) const override { return eye_.choose_band(u); }
   double band_probability(int band) const override { return eye_.band_probability(band); }
-  double radiance(const Ray& ray, int band, const PatchRadiance* gather) override {
+  double radiance(const Ray& ray, int band, const KnownRadiance* gather) override {
     light_.clear();
     eye_.radiance(ray, band, EmitterHits::all, 1, light_, gather);
     return light_.total();

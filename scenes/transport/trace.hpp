@@ -8,7 +8,7 @@
 #include "scenes/geometry/real.hpp"
 #include "scenes/tally/batch_scores.hpp"
 #include "scenes/transport/direct_light.hpp"
-#include "scenes/transport/patch_radiance.hpp"
+#include "scenes/transport/known_radiance.hpp"
 #include "scenes/transport/resolver.hpp"
 
 namespace luxodus {
@@ -43,7 +43,7 @@ class PictureTracer {
   virtual Real uniform() = 0;
   virtual int choose_band(double u) const = 0;
   virtual double band_probability(int band) const = 0;
-  virtual double radiance(const Ray& ray, int band, const PatchRadiance* gather) = 0;
+  virtual double radiance(const Ray& ray, int band, const KnownRadiance* gather) = 0;
 };
 std::unique_ptr<PictureTracer> make_picture_tracer(const CompiledScene& scene,
                                                    const GeometryAccess& access, uint64_t seed);

@@ -199,7 +199,7 @@ TEST_CASE("light of a flame comes from where it glows, whatever else is in the s
     const glm::dvec3 middle = glm::dvec3(e.origin) + scene_with_flame->local_origin;
     INFO(middle.x << ", " << middle.y << ", " << middle.z);
     CHECK(glm::distance(middle, {3, 3.6, 0.8}) < 0.01);
-    CHECK(static_cast<double>(e.near_m) == Approx(0.3).epsilon(0.05));
+    CHECK(static_cast<double>(e.size.x) == Approx(0.6).epsilon(0.05));
   }
 }
 

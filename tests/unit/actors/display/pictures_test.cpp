@@ -87,6 +87,50 @@ height = 10
   return toml;
 }
 
+/// A room of 4 x 4 x 2.5 m full of smoke, under a lamp; and behind a wall of 0.1 m one like it
+/// without any light. The camera is in the first, or in the second.
+std::string two_rooms(bool in_the_dark) {
+  std::string toml = R"(
+patch_edge_m = 0.5
+[run]
+voxel_edge_m = 0.5
+[[material]]
+name = "grey"
+reflectance = 0.5
+[[object]]
+name = "lit"
+shape = "room"
+low = [0, 0, 0]
+high = [4, 4, 2.5]
+material = "grey"
+[[object]]
+name = "dark"
+shape = "room"
+low = [4.1, 0, 0]
+high = [8.1, 4, 2.5]
+material = "grey"
+[[medium]]
+name = "smoke"
+kind = "homogeneous"
+extinction = 0.8
+albedo = 0.8
+phase = "hg"
+g = 0.5
+[[emitter]]
+name = "lamp"
+shape = "rectangle"
+size = [0.6, 0.3]
+position = [2, 2, 2.4]
+flux_lm = 1000
+[[camera]]
+name = "view"
+width = 16
+height = 10
+)";
+  return toml + (in_the_dark ? "eye = [7.5, 2.2, 1.2]\ntarget = [4.1, 2, 1.1]\n"
+                             : "eye = [0.5, 2.2, 1.2]\ntarget = [4, 2, 1.1]\n");
+}
+
 struct MeanLuminance {
   double mean = 0, error = 0;
 };
@@ -164,6 +208,44 @@ TEST_CASE("white smoke in a box of even light is invisible", "[display]") {
   CHECK(seen.error < 5);
   // The emitters stand 0.5 mm before the walls, which loses 0.1 % at the edges.
   CHECK(std::abs(seen.mean - 200) < 4 * seen.error + 0.6);
+}
+
+TEST_CASE("a picture in smoke is as bright when its paths end in voxels as when they do not",
+          "[display]") {
+  const auto run = traced(two_rooms(false), 1 << 19);
+  const MeanLuminance full = mean_luminance(picture_of(*run, 4096, false));
+  const MeanLuminance gathered = mean_luminance(picture_of(*run, 256, true));
+  INFO(gathered.mean << " +- " << gathered.error << " against " << full.mean << " +- "
+                     << full.error);
+  CHECK(full.error < 0.005 * full.mean);
+  CHECK(gathered.error < 0.005 * gathered.mean);
+  // Voxels of half a metre: what has scattered twice varies little within one.
+  const double chance = std::hypot(full.error, gathered.error);
+  CHECK(std::abs(gathered.mean - full.mean) < 4 * chance + 0.01 * full.mean);
+}
+
+TEST_CASE("smoke in a dark room beside a bright one stays dark", "[display]") {
+  const auto run = traced(two_rooms(true), 1 << 17);
+  const TracedPicture picture = picture_of(*run, 64, true);
+  for (size_t i = 0; i < picture.light.pixels(); ++i) CHECK(picture.light.xyz[3 * i + 1] == 0);
+}
+
+TEST_CASE("light is known in voxels of gas, not in those that a wall or an emitter is in",
+          "[display]") {
+  const auto run = traced(two_rooms(true), 1 << 13);
+  const auto flux = flux_radiance(*run);
+  const glm::dvec3 origin = run->scene().local_origin;
+  const auto knows = [&](double x, double y, double z) {
+    return flux->knows(Vec3(glm::dvec3(x, y, z) - origin));
+  };
+  CHECK(knows(2, 2, 1.2));           // amid the lit room
+  CHECK(knows(6, 2, 1.2));           // amid the dark one
+  CHECK_FALSE(knows(3.9, 2, 1.2));   // before the wall
+  CHECK_FALSE(knows(4.05, 2, 1.2));  // in it
+  CHECK_FALSE(knows(4.2, 2, 1.2));   // behind it
+  CHECK_FALSE(knows(2, 2, 0.1));     // on the floor
+  CHECK_FALSE(knows(2, 2, 1.9));     // an edge below the lamp
+  CHECK_FALSE(knows(20, 2, 1.2));    // beyond all voxels
 }
 
 TEST_CASE("a lamp in clear air has its own luminance in every pixel, without chance", "[display]") {

@@ -329,6 +329,38 @@ TEST_CASE("no surface gives back more than arrives, at any angle and roughness",
   CHECK(over.reflectance == Approx(0.75));
 }
 
+TEST_CASE("directions that a surface sends light into have the density that it says",
+          "[optics][surface]") {
+  const uint32_t seed = seed_or(43);
+  INFO("seed " << seed);
+  Uniform next(seed);
+  for (const SurfaceModel& model : {lambertian(0.7), glossy(0.3, 0.5, 0.4), glossy(0, 1, 0.7)}) {
+    for (const double degrees : {0.0, 40.0, 75.0}) {
+      INFO("specular " << model.specular << ", " << degrees << " degrees");
+      const glm::vec3 wo = towards(radians(degrees));
+      constexpr int draws = 200000;
+      std::vector<double> found(height_bins * turn_bins, 0.0);
+      for (int i = 0; i < draws; ++i) {
+        const float lobe = next();
+        const float u = next();
+        const float v = next();
+        const SurfaceSample out = sample_surface(model, -wo, up, true, lobe, u, v);
+        if (out.weight > 0) found[bin_of(glm::dvec3(out.direction))] += 1.0 / draws;
+      }
+      const std::vector<double> said = integrals(48, [&](const glm::dvec3& wi) {
+        return static_cast<double>(surface_pdf(model, wo, glm::vec3(wi), up));
+      });
+      for (std::size_t bin = 0; bin < said.size(); ++bin) {
+        INFO("bin " << bin);
+        const double chance = std::sqrt(said[bin] / draws);
+        CHECK(std::fabs(found[bin] - said[bin]) < 5 * chance + 2e-3 * said[bin]);
+      }
+    }
+  }
+  CHECK(surface_pdf(mirror(1), up, up, up) == 0.0F);
+  CHECK(surface_pdf(lambertian(1), up, -up, up) == 0.0F);
+}
+
 TEST_CASE(
     "every surface answers every angle and number with a unit direction and a weight in [0, 1]",
     "[optics][surface]") {

@@ -1,0 +1,165 @@
+#include "actors/display/flux_radiance.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "actors/run/parallel_for.hpp"
+#include "scenes/geometry/patches.hpp"
+#include "scenes/transport/detectors.hpp"
+#include "scenes/transport/emission.hpp"
+#include "scenes/transport/packed_scene.hpp"
+
+namespace luxodus {
+
+namespace {
+
+/// Marks voxels of a grid that a box, grown by `grown` edges, may touch and `touches` affirms.
+class VoxelMarks {
+ public:
+  explicit VoxelMarks(const VoxelGrid& grid) : grid_(grid), free_(grid.count(), true) {}
+
+  template <class Touches>
+  void mark(glm::vec3 low, glm::vec3 high, float grown, Touches&& touches) {
+    const glm::vec3 from = (low - grid_.low) / grid_.edge - grown;
+    const glm::vec3 to = (high - grid_.low) / grid_.edge + grown;
+    for (int z = first(from.z); z <= last(to.z, grid_.nz); ++z) {
+      for (int y = first(from.y); y <= last(to.y, grid_.ny); ++y) {
+        for (int x = first(from.x); x <= last(to.x, grid_.nx); ++x) {
+          const auto voxel = static_cast<size_t>((int64_t{z} * grid_.ny + y) * grid_.nx + x);
+          if (!free_[voxel]) continue;
+          const glm::vec3 centre = grid_.low + (glm::vec3(x, y, z) + 0.5f) * grid_.edge;
+          if (touches(centre)) free_[voxel] = false;
+        }
+      }
+    }
+  }
+
+  std::vector<bool> take() { return std::move(free_); }
+
+ private:
+  static int first(float at) { return std::max(0, static_cast<int>(std::floor(at))); }
+  static int last(float at, int count) {
+    return std::min(count - 1, static_cast<int>(std::floor(at)));
+  }
+
+  const VoxelGrid& grid_;
+  std::vector<bool> free_;
+};
+
+/// Of a voxel's edge: what lies so near to its face may be on either side, by rounding.
+constexpr float rounding = 1e-3f;
+
+void mark_triangle(const VoxelGrid& grid, const TriangleRecord& t, VoxelMarks& marks) {
+  const glm::vec3 low = glm::min(t.corner[0], glm::min(t.corner[1], t.corner[2]));
+  const glm::vec3 high = glm::max(t.corner[0], glm::max(t.corner[1], t.corner[2]));
+  const glm::vec3 n = t.normal;
+  const float reach =
+      (0.5f + rounding) * grid.edge * (std::abs(n.x) + std::abs(n.y) + std::abs(n.z));
+  marks.mark(low, high, rounding, [&](const glm::vec3& centre) {
+    return std::abs(glm::dot(centre - t.corner[0], n)) <= reach;
+  });
+}
+
+class FluxRadiance final : public KnownRadiance {
+ public:
+  explicit FluxRadiance(const LocalRun& run)
+      : scene_(run.scene()),
+        readout_(run.scene(), run.totals()),
+        bands_(static_cast<size_t>(run.scene().bands.count())),
+        table_(size_t{run.scene().patch_count} * bands_) {
+    for (const CompiledSurface& s : scene_.surfaces)
+      if (s.one_patch) fill(s.first_patch, s.patches, s.area_m2);
+    constexpr int64_t per_row = 1024;  // triangles
+    const auto read = for_each_cell(scene_, [&](const GeometryCell& cell) {
+      const auto count = static_cast<int64_t>(cell.triangles.size());
+      const auto fill_row = [&](int64_t row) {
+        for (int64_t i = row * per_row; i < std::min(count, (row + 1) * per_row); ++i)
+          fill_triangle(cell.triangles[static_cast<size_t>(i)]);
+      };
+      parallel_for((count + per_row - 1) / per_row, run.threads(), [&] { return fill_row; });
+    });
+    if (!read) throw std::runtime_error(read.problem().text());
+    auto gas = voxels_of_gas(scene_);
+    if (!gas) throw std::runtime_error(gas.problem().text());
+    gas_ = std::move(gas).value();
+  }
+
+  double of_surface(const Hit& hit, bool front, int band) const override {
+    const TriangleRecord& t = *hit.triangle;
+    const uint32_t n = t.subdivision;
+    const uint32_t patch = t.first_patch + (front ? 0 : n * n) + sub_triangle(hit.u, hit.v, n);
+    return static_cast<double>(table_[patch * bands_ + static_cast<size_t>(band)]);
+  }
+
+  bool knows(const Vec3& place) const override {
+    if (gas_.empty()) return false;
+    const uint32_t voxel = voxel_of(scene_.voxels, place);
+    return voxel != none_index && gas_[voxel];
+  }
+
+  /// Of the fluence, as much as the net flux goes one way; the rest comes from everywhere. That has
+  /// the moments of the light up to the first, and is exact for a beam and for even light.
+  double of_medium(const Vec3& place, const Vec3& direction, const PhaseFunction& phase,
+                   int band) const override {
+    const uint32_t voxel = voxel_of(scene_.voxels, place);
+    const auto edge = static_cast<double>(scene_.voxels.edge);
+    const auto mean = [&](uint32_t quantity) {
+      return readout_.watts(scene_.blocks.voxels, voxel, band, quantity).value /
+             (edge * edge * edge);
+    };
+    const double fluence = mean(0);
+    const glm::dvec3 net(mean(1), mean(2), mean(3));
+    const double beam = glm::length(net);
+    const double even = std::max(0.0, fluence - beam) / (4 * static_cast<double>(pi_f));
+    if (!(beam > 0)) return even;
+    const double cosine = -glm::dot(net, glm::dvec3(direction)) / beam;
+    return even + beam * static_cast<double>(evaluate(phase, static_cast<Real>(cosine)));
+  }
+
+ private:
+  void fill_triangle(const TriangleRecord& t) {
+    const CompiledSurface& surface = scene_.surfaces[t.surface];
+    if (surface.one_patch) return;
+    fill(t.first_patch, 2 * t.subdivision * t.subdivision, surface.patch_area_m2(t));
+  }
+  void fill(uint32_t first, uint32_t count, double area_m2) {
+    const double per_watt = 1 / (static_cast<double>(pi_f) * area_m2);
+    for (uint32_t patch = first; patch < first + count; ++patch) {
+      for (size_t b = 0; b < bands_; ++b) {
+        const Estimate out = readout_.watts(scene_.blocks.patches, patch, static_cast<int>(b), 1);
+        table_[patch * bands_ + b] = static_cast<float>(out.value * per_watt);
+      }
+    }
+  }
+
+  const CompiledScene& scene_;
+  const Readout readout_;
+  size_t bands_;
+  std::vector<float> table_;  // of patches, by band
+  std::vector<bool> gas_;     // by voxel; empty without voxels
+};
+
+}  // namespace
+
+Result<std::vector<bool>> voxels_of_gas(const CompiledScene& scene) {
+  const VoxelGrid& grid = scene.voxels;
+  if (!(grid.edge > 0)) return std::vector<bool>();
+  VoxelMarks marks(grid);
+  const auto read = for_each_cell(scene, [&](const GeometryCell& cell) {
+    for (const TriangleRecord& t : cell.triangles) mark_triangle(grid, t, marks);
+  });
+  if (!read) return read.problem();
+  for (uint32_t i = 0; i < scene.emitters.size(); ++i) {
+    const EmitterBound bound = emitter_bound(scene, i);
+    const glm::vec3 centre(bound.centre), reach(static_cast<float>(bound.radius));
+    marks.mark(centre - reach, centre + reach, 1, [](const glm::vec3&) { return true; });
+  }
+  return marks.take();
+}
+
+std::unique_ptr<KnownRadiance> flux_radiance(const LocalRun& run) {
+  return std::make_unique<FluxRadiance>(run);
+}
+
+}  // namespace luxodus

@@ -1,0 +1,24 @@
+// Light that paths of pictures end in: what a run has counted in patches and voxels, as radiance.
+// Its own errors are common to all paths that end there. Made after a run; then any thread.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "actors/run/local_run.hpp"
+#include "scenes/transport/known_radiance.hpp"
+#include "scenes/transport/readout.hpp"
+
+namespace luxodus {
+
+/// Outgoing radiance of every patch of the run, spread evenly over directions; and of smoke, by
+/// the fluence and the net flux of its voxels. Requires: the run outlives it and traces nothing
+/// meanwhile. Throws std::runtime_error where a packed scene cannot be read.
+std::unique_ptr<KnownRadiance> flux_radiance(const LocalRun& run);
+
+/// The voxels that hold gas alone, so that their volume is their cube and no wall parts their
+/// light: none that a surface cuts or touches, and none beside an emitter, where light varies
+/// within a voxel. By voxel, true where it is known. Errors: a packed scene that cannot be read.
+Result<std::vector<bool>> voxels_of_gas(const CompiledScene& scene);
+
+}  // namespace luxodus

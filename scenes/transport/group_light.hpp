@@ -1,0 +1,45 @@
+// Light on its way to an eye or a probe, kept apart by source group. Pure; one thread or fiber.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace luxodus {
+
+/// Light of one source group on its way to an eye [W/(m2 sr)].
+struct SourceLight {
+  int group = 0;
+  double radiance = 0;
+};
+
+/// Light that arrives at a place, by source group: what an eye path adds up.
+class GroupLight {
+ public:
+  explicit GroupLight(size_t groups) : by_group_(groups, 0.0) {}
+
+  void clear() {
+    std::fill(by_group_.begin(), by_group_.end(), 0.0);
+    total_ = 0;
+  }
+  void add(int group, double amount) {
+    by_group_[static_cast<size_t>(group)] += amount;
+    total_ += amount;
+  }
+  /// Light of which nobody knows the source, as of a patch that all groups have lit.
+  void add_of_all(double amount) { total_ += amount; }
+
+  void add_scaled(const GroupLight& light, double factor) {
+    for (size_t g = 0; g < by_group_.size(); ++g) by_group_[g] += factor * light.by_group_[g];
+    total_ += factor * light.total_;
+  }
+
+  double total() const { return total_; }
+  double of(size_t group) const { return by_group_[group]; }
+
+ private:
+  std::vector<double> by_group_;
+  double total_ = 0;
+};
+
+}  // namespace luxodus
