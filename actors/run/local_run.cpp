@@ -47,6 +47,7 @@ LocalRun::LocalRun(std::shared_ptr<const CompiledScene> scene, uint64_t seed, in
       error_(std::numeric_limits<double>::quiet_NaN()) {}
 
 void LocalRun::resume(int64_t batches, std::vector<int64_t> missing) {
+  LUX_CHECK(batches >= plan_.given(), "batches that were given out are counted, or missing");
   plan_.skip(batches);
   missing_ = std::move(missing);
 }

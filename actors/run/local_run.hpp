@@ -58,7 +58,7 @@ class LocalRun {
   }
 
   /// Goes on from totals that hold the first `batches` batches, but for those `missing`: these are
-  /// traced before others. Requires: `missing` ascend and are among them.
+  /// traced before others. Requires: `missing` ascend and are among them; batches >= batches().
   void resume(int64_t batches, std::vector<int64_t> missing = {});
   /// Adds time that somebody else has traced into the totals.
   void add_seconds(double seconds) { seconds_ += seconds; }

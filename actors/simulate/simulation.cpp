@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cstring>
+#include <optional>
 
-#include "actors/source/flux_journal.hpp"
+#include "actors/run/flux_store.hpp"
+#include "actors/source/snapshot_journal.hpp"
 #include "runtime/core/check.hpp"
 #include "runtime/core/random.hpp"
 #include "runtime/sim/swarm.hpp"
@@ -107,6 +110,8 @@ uint64_t draw_life(uint64_t seed, NodeId node, uint32_t life) {
 
 /// Of RandomStream::faults: the swarm, the nodes' habits and torn ends have those before.
 constexpr uint64_t rare_ways_stream = uint64_t{1} << 32;
+/// Behind those of all nodes.
+constexpr uint64_t journal_stream = uint64_t{1} << 33;
 
 // ---- a run ------------------------------------------------------------------------------------
 
@@ -120,6 +125,7 @@ class Simulation {
   FaultPlan fault_plan() const;
   std::unique_ptr<SimNode> make(NodeId node, uint32_t life);
   void begin_controller(uint32_t life);
+  SnapshotJournal::Config drawn_journal() const;
   void go();
   std::string ended_well() const;
   NodeId controller() const { return {static_cast<uint16_t>(setups_.size() - 1)}; }
@@ -129,9 +135,10 @@ class Simulation {
 
   const SimScene& scene_;
   const SimOptions options_;
-  std::unique_ptr<LocalRun> run_;  // of the controller's present life
-  std::vector<std::byte> disk_;    // of the controller
-  std::unique_ptr<FluxJournal> journal_;
+  std::unique_ptr<LocalRun> run_;     // of the controller's present life
+  std::vector<std::byte> disk_;       // of the controller: its journal,
+  std::optional<FluxFile> snapshot_;  // and the snapshot, for which there is room, as on a real one
+  std::unique_ptr<SnapshotJournal> journal_;
   const RunSetup& setup_;
   std::vector<NodeSetup> setups_;   // the controller's is the last
   std::vector<Buggify> rare_ways_;  // of each, of all its lives
@@ -237,15 +244,35 @@ void Simulation::begin_controller(uint32_t life) {
     for (uint32_t torn = random.bits() % 64; torn > 0; --torn)
       disk_.push_back(static_cast<std::byte>(random.bits()));
   }
+  if (journal_) report_.snapshots += journal_->snapshots();
   journal_.reset();
   run_ = scene_.fresh_run(false);
   if (sharded()) return;
+  const int64_t before = run_->traced();
+  if (snapshot_)
+    LUX_CHECK(take_flux(*snapshot_, {}, *run_).ok(), "a simulated disk gives back a snapshot");
   auto store = std::make_unique<FaultyStore>(std::make_unique<MemoryStore>(disk_), controller(),
                                              fault_plan(), world_->clock(controller()));
   auto journal = FluxJournal::open(std::move(store), *run_);
   LUX_CHECK(journal.ok(), "a simulated disk gives back what was kept");
-  journal_ = std::move(journal).value();
-  report_.recovered += journal_->recovered();
+  const auto make_snapshot = [this]() -> Result<void> {
+    snapshot_ = flux_of(*run_);
+    return {};
+  };
+  journal_ = std::make_unique<SnapshotJournal>(std::move(journal).value(), drawn_journal(),
+                                               make_snapshot, world_->clock(controller()));
+  report_.recovered += run_->traced() - before;
+}
+
+/// Some are so short that they become snapshots often.
+SnapshotJournal::Config Simulation::drawn_journal() const {
+  SnapshotJournal::Config config;
+  if (!options_.draw_nodes) return config;
+  Random random(options_.seed, RandomStream::faults);
+  random.start(journal_stream);
+  constexpr std::array<uint64_t, 3> lengths{4 << 10, 64 << 10, 256 << 20};
+  config.max_bytes = lengths[random.bits() % lengths.size()];
+  return config;
 }
 
 void Simulation::note_last(const SimController& controller) {
@@ -284,6 +311,7 @@ void Simulation::go() {
           fmt::format("it has not ended {} s after all was healed", options_.patience / seconds(1));
   }
   if (report_.failure.empty()) report_.failure = ended_well();
+  if (journal_) report_.snapshots += journal_->snapshots();
   report_.virtual_time = world_->now();
   report_.trace_hash = world_->trace_hash();
   report_.world = world_->counters();

@@ -56,7 +56,8 @@ struct SimReport {
   Nanoseconds virtual_time = 0;
   uint64_t trace_hash = 0;
   SimWorld::Counters world;
-  int64_t recovered = 0;  // batches, by controllers that began anew
+  int64_t recovered = 0;   // batches, by controllers that began anew
+  uint64_t snapshots = 0;  // that journals became
   uint64_t leases = 0;
   uint64_t leases_fenced = 0;
   uint64_t flushes_refused = 0;

@@ -15,8 +15,9 @@ class FlushKeeper {
   /// Keeps a flush and the numbers of its batches, whatever happens after this has returned true.
   /// Errors: it could not; the controller counts the flush all the same.
   virtual Result<void> keep(std::span<const int64_t> batches, std::span<const std::byte> flush) = 0;
-  /// Whether all that was counted outlives the node.
-  virtual bool is_whole() const { return true; }
+  /// Whether all that was counted outlives the node. Workers stay until it does, since without
+  /// them nobody could trace again what a crash of the node loses.
+  virtual bool is_whole() const = 0;
   /// Whether it wants to tidy up; then rest() is called soon, off any fiber, when the run and its
   /// totals hold all that was kept.
   virtual bool rest_is_due() const { return false; }

@@ -50,7 +50,8 @@ class Recovery {
 
   void go_on() const {
     if (recovered_ == 0) return;
-    const int64_t end = *done_.rbegin() + 1;
+    // A snapshot may know of batches that were lent beyond the last one that anybody has counted.
+    const int64_t end = std::max(run_.batches(), *done_.rbegin() + 1);
     std::vector<int64_t> missing;
     for (int64_t batch = 0; batch < end; ++batch)
       if (done_.count(batch) == 0) missing.push_back(batch);

@@ -10,12 +10,11 @@
 #include <vector>
 
 #include "actors/run/local_run.hpp"
-#include "actors/source/flush_keeper.hpp"
 #include "runtime/storage/journal.hpp"
 
 namespace luxodus {
 
-class FluxJournal final : public FlushKeeper {
+class FluxJournal final {
  public:
   /// Counts into `run` what the store holds and the run does not, and has it go on from there.
   /// Errors: as Journal::open; a record that does not belong to this run, or fits it in part only.
@@ -23,7 +22,7 @@ class FluxJournal final : public FlushKeeper {
                                                    LocalRun& run);
 
   /// Errors: as Journal::append.
-  Result<void> keep(std::span<const int64_t> batches, std::span<const std::byte> flush) override;
+  Result<void> keep(std::span<const int64_t> batches, std::span<const std::byte> flush);
   /// The run's flux file holds everything now. Errors: as Journal::restart.
   Result<void> restart() { return journal_.restart(); }
 

@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 
+#include "actors/source/flush_keeper.hpp"
 #include "actors/source/flux_journal.hpp"
 #include "runtime/core/clock.hpp"
 

@@ -41,6 +41,7 @@ class RunJournal final : public FlushKeeper {
   Result<void> keep(std::span<const int64_t> batches, std::span<const std::byte> flush) override {
     return journal_->keep(batches, flush);
   }
+  bool is_whole() const override { return journal_->is_whole(); }
   bool rest_is_due() const override { return journal_->rest_is_due(); }
   /// In the room that was kept for it.
   void rest() override;

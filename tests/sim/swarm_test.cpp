@@ -73,7 +73,7 @@ SimOptions small_run() {
 
 /// What the runs of some seeds went through, together.
 struct Trouble {
-  uint64_t crashes = 0, lost = 0, harmed = 0, fenced = 0, fetches = 0, rare_ways = 0;
+  uint64_t crashes = 0, lost = 0, harmed = 0, fenced = 0, fetches = 0, rare_ways = 0, snapshots = 0;
   void add(const SimReport& report) {
     crashes += report.world.crashes;
     lost += report.world.lost;
@@ -81,6 +81,7 @@ struct Trouble {
     fenced += report.leases_fenced;
     fetches += report.caches.fetches;
     rare_ways += report.rare_ways;
+    snapshots += report.snapshots;
   }
 };
 
@@ -96,6 +97,7 @@ void check_swarm(uint64_t part) {
   CHECK(all.fenced > 0);
   CHECK(all.fetches > 0);
   CHECK(all.rare_ways > 1000);
+  CHECK(all.snapshots > 0);
 }
 
 }  // namespace
@@ -174,6 +176,27 @@ TEMPLATE_TEST_CASE_SIG("a small run bears the crash of any node after any event"
     REQUIRE(report.ok());
     REQUIRE(report->failure == "");
   }
+}
+
+TEST_CASE("a controller whose disk is full and that crashes goes on from a snapshot", "[sim]") {
+  const SimScene scene = scene_of("empty_room");
+  SimOptions options = small_run();
+  options.work = seconds(60);
+  const NodeId controller{2};
+  // From right behind the journal's head on: no flush finds room.
+  options.plan->faults.push_back({Fault::Kind::full_disk, 1, seconds(60), controller, {}});
+  const SimReport whole = simulate(scene, options).value();
+  CHECK(whole.failure == "");
+  CHECK(whole.snapshots >= 2);  // one every 10 s
+  Fault crash;
+  crash.node = controller;
+  crash.lasts = milliseconds(700);
+  crash.after_events = whole.world.events * 3 / 4;
+  options.plan->faults.push_back(crash);
+  const SimReport begun_anew = simulate(scene, options).value();
+  CHECK(begun_anew.failure == "");
+  CHECK(begun_anew.world.crashes == 1);
+  CHECK(begun_anew.recovered > 0);
 }
 
 // Hundreds of leases are late when one frame of their flush is lost. To be told so of each by

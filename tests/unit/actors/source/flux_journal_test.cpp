@@ -155,6 +155,37 @@ TEST_CASE("a journal that has become a snapshot, and one that was about to, end 
   CHECK(folder.entries() == 0);
 }
 
+// A run that was recovered so once ended without the last batches, and took itself for whole.
+TEST_CASE("batches that a snapshot lacks at its end are still missing when the journal is counted",
+          "[journal]") {
+  const auto scene = scene_of("smoke_tank", "", 1);
+  LocalRun whole(scene, 1, 1);
+  trace(whole, 5);
+  const Worker worker(whole);
+  const test::TemporaryFolder folder;
+  RunJournalConfig config;
+  config.folder = folder.path();
+  config.max_bytes = 1;
+  const SystemClock clock;
+  {
+    LocalRun first(scene, 1, 1);
+    const auto journal = RunJournal::open(config, first, clock);
+    REQUIRE(journal.ok());
+    trace(first, 1);
+    first.resume(5, {1, 2, 3, 4});  // all are lent, and one is counted
+    journal.value()->rest();
+    REQUIRE(journal.value()->keep(std::array<int64_t, 1>{2}, worker.flush_of(2)).ok());
+  }
+  LocalRun second(scene, 1, 1);
+  const auto journal = RunJournal::open(config, second, clock);
+  REQUIRE(journal.ok());
+  CHECK(second.traced() == 2);
+  CHECK(second.batches() == 5);
+  CHECK(second.missing() == std::vector<int64_t>{1, 3, 4});
+  trace(second, 5);
+  CHECK(same(whole, second));
+}
+
 TEST_CASE("what a journal on a full disk could not take is in a snapshot, and nothing is lost",
           "[journal]") {
   const auto scene = scene_of("smoke_tank", "", 1);
@@ -179,9 +210,12 @@ TEST_CASE("what a journal on a full disk could not take is in a snapshot, and no
     CHECK(keep(0));
     CHECK_FALSE(journal.value()->rest_is_due());
     clock.advance(seconds(6));
+    CHECK(journal.value()->is_whole());
     CHECK_FALSE(keep(1));
+    CHECK_FALSE(journal.value()->is_whole());  // so the controller keeps its workers
     REQUIRE(journal.value()->rest_is_due());
     journal.value()->rest();
+    CHECK(journal.value()->is_whole());
     CHECK_FALSE(journal.value()->rest_is_due());
     CHECK_FALSE(keep(2));
     CHECK_FALSE(journal.value()->rest_is_due());  // not after every flush
