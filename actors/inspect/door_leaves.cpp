@@ -138,15 +138,19 @@ bool has_frame(const Site& site, const GeometryAccess& access, const Leaf& leaf)
          meets(leaf.at(0, 0.5), glm::dvec3(0, 0, 1));
 }
 
-/// What an open leaf passes through, at two heights of three.
+/// What an open leaf passes through, at two heights of three and on both its faces: one that lies
+/// flat on a wall has the room before it.
 std::optional<uint32_t> wall_in_way(const Site& site, const GeometryAccess& access,
                                     const Leaf& leaf) {
   int met = 0;
   uint32_t surface = 0;
   for (const double height : {-0.3, 0.0, 0.3}) {
-    const auto wall = wall_ahead(site, access, leaf.at(from_hinge - 0.5, height), leaf.across,
-                                 (to_edge - from_hinge) * leaf.width_m);
-    if (!wall) continue;
+    const auto ahead = [&](double aside) {
+      return wall_ahead(site, access, leaf.at(from_hinge - 0.5, height) + leaf.normal * aside,
+                        leaf.across, (to_edge - from_hinge) * leaf.width_m);
+    };
+    const auto wall = ahead(off_leaf_m);
+    if (!wall || !ahead(-off_leaf_m)) continue;
     ++met;
     surface = wall->surface;
   }

@@ -84,7 +84,8 @@ std::optional<double> sunk_by(const Site& site, const GeometryAccess& access,
     const auto depth = static_cast<double>(floor->distance_m);
     least = std::min(least.value_or(depth), depth);
   }
-  return least && *least > sunk_m ? least : std::nullopt;
+  if (!least || *least <= sunk_m) return std::nullopt;
+  return *least + below_foot_m;
 }
 
 /// A wall that level edges of a thing pass through, and where.

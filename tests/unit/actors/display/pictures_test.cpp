@@ -214,7 +214,7 @@ TEST_CASE("a picture in smoke is as bright when its paths end in voxels as when 
           "[display]") {
   const auto run = traced(two_rooms(false), 1 << 19);
   const MeanLuminance full = mean_luminance(picture_of(*run, 4096, false));
-  const MeanLuminance gathered = mean_luminance(picture_of(*run, 256, true));
+  const MeanLuminance gathered = mean_luminance(picture_of(*run, 2048, true));
   INFO(gathered.mean << " +- " << gathered.error << " against " << full.mean << " +- "
                      << full.error);
   CHECK(full.error < 0.005 * full.mean);
