@@ -320,7 +320,8 @@ class PathTracer {
              weight_of_face(p, e.emitter, e.point, distance) *
                  emitted_radiance(emitter, e.point, -p.ray.direction, p.band, resolver_) *
                  medium_transmittance(scene_, p.ray, distance, p.band, resolver_)});
-      const Real step = std::nextafter(e.distance * slack, std::numeric_limits<Real>::infinity());
+      // Past it by more than rounding, or the same face would be hit again.
+      const Real step = e.distance * slack + scene_.min_offset_m;
       rest.origin += rest.direction * step;
       before += step;
       reach -= step;

@@ -105,22 +105,30 @@ TEST_CASE("the veil of a large lamp is known where the line of sight passes clos
     SceneDescription scene = eye_in_smoke(0);
     add_emitter(scene, EmitterShape::rectangle, {4, 0, above}, {0, 0, -1}, 1).size =
         glm::dvec3(2, 2, 0);
-    constexpr int points = 40, steps = 4000;
+    // Rows of the lamp by the angle at which the line sees them, places on the line by that at
+    // which a point of the lamp sees them, so that the integrand is smooth however near the lamp
+    // is.
+    constexpr int columns = 40, rows = 400, places = 200;
+    const double row_span = 2 * std::atan(1 / above);
     double sum = 0;
-    for (int i = 0; i < points; ++i) {
-      for (int j = 0; j < points; ++j) {
-        const double x = 4 - 1 + 2 * (i + 0.5) / points, y = -1 + 2 * (j + 0.5) / points;
+    for (int i = 0; i < columns; ++i) {
+      for (int j = 0; j < rows; ++j) {
+        const double x = 4 - 1 + 2 * (i + 0.5) / columns;
+        const double y = above * std::tan(row_span * ((j + 0.5) / rows - 0.5));
         const double beside = std::hypot(y, above);
+        const double row_m = beside * beside / above * row_span / rows;
         const double low = std::atan2(-x, beside), high = std::atan2(sight_m - x, beside);
-        for (int k = 0; k < steps / points; ++k) {
-          const double angle = low + (high - low) * (k + 0.5) * points / steps;
+        for (int k = 0; k < places; ++k) {
+          const double angle = low + (high - low) * (k + 0.5) / places;
           const double t = x + beside * std::tan(angle), d = beside / std::cos(angle);
           // cos / pi of the lamp; dt / d^2 is an angle over the distance beside.
-          sum += above / d / std::numbers::pi * std::exp(-sigma * (t + d)) * (high - low) / beside;
+          sum += row_m * above / d / std::numbers::pi * std::exp(-sigma * (t + d)) * (high - low) /
+                 beside;
         }
       }
     }
-    const double expected = sigma * albedo / four_pi * sum / (points * points) * points / steps;
+    // The lamp's power is spread over 4 m2, of which a column is 2 m / columns wide.
+    const double expected = sigma * albedo / four_pi * sum / (2 * columns * places);
     check_within(veil(std::move(scene)), expected, half_percent, 3e-3);
   }
 }
