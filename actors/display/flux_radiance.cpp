@@ -9,6 +9,7 @@
 #include "scenes/transport/detectors.hpp"
 #include "scenes/transport/emission.hpp"
 #include "scenes/transport/packed_scene.hpp"
+#include "scenes/transport/readout.hpp"
 
 namespace luxodus {
 

@@ -7,7 +7,6 @@
 
 #include "actors/run/local_run.hpp"
 #include "scenes/transport/known_radiance.hpp"
-#include "scenes/transport/readout.hpp"
 
 namespace luxodus {
 
