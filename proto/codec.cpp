@@ -100,14 +100,14 @@ void write_flush(wire::Flush::Builder out, const Flush& m) {
   out.setRound(m.round);
   out.setPayloadHash(m.payload_hash);
   write(out.initLeases(count(m.leases.size())), m.leases);
-  write(out.initPartHashes(count(m.part_hashes.size())), m.part_hashes);
+  write(out.initSliceHashes(count(m.slice_hashes.size())), m.slice_hashes);
 }
 
 void write_decision(wire::FlushDecided::Builder out, const FlushDecided& m) {
   out.setNode(m.flush.node.value);
   out.setIncarnation(m.flush.incarnation.value);
   out.setSequence(m.flush.sequence);
-  out.setPartHash(m.part_hash);
+  out.setSliceHash(m.slice_hash);
   out.setTaken(m.taken);
 }
 
@@ -215,7 +215,7 @@ bool within_limits(const Message& message) {
           [&](const LinkChanges& m) { return m.changes.size() <= limits::link_changes; },
           [&](const LeasesFenced& m) { return leases_fit(m.leases); },
           [&](const Flush& m) {
-            return leases_fit(m.leases) && m.part_hashes.size() <= limits::tally_shards;
+            return leases_fit(m.leases) && m.slice_hashes.size() <= limits::tally_shards;
           },
           [&](const FlushRefused& m) { return leases_fit(m.fenced) && text_fits(m.text); },
           [&](const RunEnded& m) { return text_fits(m.text); },
@@ -297,12 +297,12 @@ LinkChanges read_changes(capnp::List<wire::LinkChange>::Reader in) {
 
 Flush read_flush(wire::Flush::Reader in) {
   return {in.getRound(), in.getPayloadHash(), read_leases(in.getLeases()),
-          read_numbers(in.getPartHashes(), limits::tally_shards, "too many shards")};
+          read_numbers(in.getSliceHashes(), limits::tally_shards, "too many shards")};
 }
 
 FlushDecided read_decision(wire::FlushDecided::Reader in) {
   return {
-      {{in.getNode()}, {in.getIncarnation()}, in.getSequence()}, in.getPartHash(), in.getTaken()};
+      {{in.getNode()}, {in.getIncarnation()}, in.getSequence()}, in.getSliceHash(), in.getTaken()};
 }
 
 template <class Answer>

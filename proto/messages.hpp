@@ -32,7 +32,7 @@ inline constexpr size_t check_bytes = 8;
 inline constexpr size_t frame_head_bytes = check_bytes + envelope_bytes;
 /// Leases in one flush or fence: 8 bytes each, an eighth of a message.
 inline constexpr size_t leases = 1024;
-/// Shards of the totals: 8 bytes each in a flush, and a worker sends a part to every one.
+/// Shards of the totals: 8 bytes each in a flush, and a worker sends a slice to every one.
 inline constexpr size_t tally_shards = 256;
 /// Links of a graph that can be told of in one message: 1000 nodes of 4 links have 2000.
 inline constexpr size_t link_changes = 4096;
@@ -196,12 +196,12 @@ struct LeasesFenced {
 };
 
 /// Bins, squares and counts by fate follow as payload; the id names the flush. Where totals are
-/// sharded, the payload has the bins of the first shard, and the others hold their parts already.
+/// sharded, the payload has the bins of the first shard, and the others hold their slices already.
 struct Flush {
   uint32_t round = 0;
   uint64_t payload_hash = 0;
   std::vector<uint64_t> leases;
-  std::vector<uint64_t> part_hashes = {};  // of shards 1, 2, ...
+  std::vector<uint64_t> slice_hashes = {};  // of shards 1, 2, ...
   friend bool operator==(const Flush&, const Flush&) = default;
 };
 struct FlushTaken {
@@ -251,7 +251,7 @@ struct FlushSlice {
   uint64_t payload_hash = 0;
   friend bool operator==(const FlushSlice&, const FlushSlice&) = default;
 };
-/// The part has been read, found right, and waits for what is decided about the flush.
+/// The slice has been read, found right, and waits for what is decided about the flush.
 struct SliceHeld {
   friend bool operator==(const SliceHeld&, const SliceHeld&) = default;
 };
@@ -259,11 +259,11 @@ struct SliceHeld {
 /// were not decided about, too: they never will be.
 struct FlushDecided {
   MessageId flush;
-  uint64_t part_hash = 0;  // of the shard's part, where it was taken
+  uint64_t slice_hash = 0;  // of the shard's slice, where it was taken
   bool taken = false;
   friend bool operator==(const FlushDecided&, const FlushDecided&) = default;
 };
-/// The part is added, or dropped.
+/// The slice is added, or dropped.
 struct FlushSettled {
   bool whole = true;  // false: it should have been added, and is not here
   friend bool operator==(const FlushSettled&, const FlushSettled&) = default;

@@ -125,7 +125,7 @@ struct Flush {
   round @0 :UInt32;
   payloadHash @1 :UInt64;
   leases @2 :List(UInt64);
-  partHashes @3 :List(UInt64);
+  sliceHashes @3 :List(UInt64);
 }
 
 struct FlushRefused {
@@ -162,7 +162,7 @@ struct FlushDecided {
   taken @1 :Bool;
   incarnation @2 :UInt64;
   sequence @3 :UInt64;
-  partHash @4 :UInt64;
+  sliceHash @4 :UInt64;
 }
 
 struct FlushSettled {

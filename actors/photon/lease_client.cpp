@@ -18,19 +18,19 @@ constexpr Nanoseconds retry_after = milliseconds(20);
 }  // namespace
 
 LeaseClient::LeaseClient(const LeaseClientConfig& config, Scheduler& scheduler, Network& network,
-                         SliceSender& parts)
+                         SliceSender& slices)
     : config_(config),
       scheduler_(scheduler),
       network_(network),
-      parts_(parts),
+      slices_(slices),
       began_(scheduler.clock().now()) {}
 
 void LeaseClient::start(PhotonThreads& photons) {
   photons_ = &photons;
   began_ = scheduler_.clock().now();
   const Totals& totals = photons.totals();
-  parts_.make_room(totals.groups(), totals.layout().totals());
-  const BinRange own = parts_.own_bins();
+  slices_.make_room(totals.groups(), totals.layout().totals());
+  const BinRange own = slices_.own_bins();
   encoder_ = std::make_shared<FlushEncoder>(totals.groups(), own.end - own.first);
   done_.reserve(limits::leases);
   packed_leases_.reserve(limits::leases);
@@ -161,17 +161,17 @@ void LeaseClient::flush() {
 }
 
 bool LeaseClient::encoder_is_free() const {
-  return encoder_.use_count() == 1 && parts_.free();
+  return encoder_.use_count() == 1 && slices_.free();
 }
 
 /// On a fiber of its own, between the turns of the photon-threads.
 void LeaseClient::pack(Totals& totals) {
   packing_took_ = 0;
-  for (size_t part = 0; part < parts_.parts(); ++part) {
-    if (!pack_bins(parts_.encoder(part), totals, parts_.bins_of(part), FlushCounts::without))
+  for (size_t slice = 0; slice < slices_.slices(); ++slice) {
+    if (!pack_bins(slices_.encoder(slice), totals, slices_.bins_of(slice), FlushCounts::without))
       return;
   }
-  if (!pack_bins(*encoder_, totals, parts_.own_bins(), FlushCounts::with)) return;
+  if (!pack_bins(*encoder_, totals, slices_.own_bins(), FlushCounts::with)) return;
   const std::span<const std::byte> payload = encoder_->bytes();
   const uint64_t hash = XXH3_64bits(payload.data(), payload.size());  // as Hasher, in no memory
   packing_ = false;
@@ -182,7 +182,7 @@ void LeaseClient::pack(Totals& totals) {
     config_.trace->begin(TraceKind::flush, trace_id(flushing_->id), payload.size());
   ++counters_.flushes;
   counters_.flush_bytes += payload.size();
-  parts_.send(flushing_->id, scheduler_.clock().now());
+  slices_.send(flushing_->id, scheduler_.clock().now());
   put_flush();
   photons_->look_again();  // the totals that were packed are free
 }
@@ -200,17 +200,17 @@ bool LeaseClient::pack_bins(FlushEncoder& encoder, Totals& totals, const BinRang
   return true;
 }
 
-/// For the first time when all parts are placed; then as often as no answer comes.
+/// For the first time when all slices are placed; then as often as no answer comes.
 void LeaseClient::put_flush() {
   flushing_->asked = scheduler_.clock().now();
-  if (!parts_.placed()) return;
-  std::get<Flush>(flushing_->message).part_hashes = parts_.hashes();
+  if (!slices_.placed()) return;
+  std::get<Flush>(flushing_->message).slice_hashes = slices_.hashes();
   put(*flushing_);
 }
 
 bool LeaseClient::shard_answered(const Delivery& delivery) {
-  if (!parts_.deliver(delivery.source, delivery.id, delivery.message)) return false;
-  if (flushing_ && flushing_->id == delivery.id && parts_.placed()) put_flush();
+  if (!slices_.deliver(delivery.source, delivery.id, delivery.message)) return false;
+  if (flushing_ && flushing_->id == delivery.id && slices_.placed()) put_flush();
   return true;
 }
 
@@ -322,7 +322,7 @@ void LeaseClient::put(Question& question) {
 void LeaseClient::retry() {
   retries_soon_ = false;
   if (asking_ && !asking_->left) put(*asking_);
-  if (flushing_ && !flushing_->left && parts_.placed()) put(*flushing_);
+  if (flushing_ && !flushing_->left && slices_.placed()) put(*flushing_);
 }
 
 void LeaseClient::set_timer() {
@@ -337,7 +337,7 @@ void LeaseClient::on_timer() {
     ++counters_.asked_again;
     question == &flushing_ ? put_flush() : put(**question);
   }
-  if (flushing_) parts_.ask_again(now, config_.answer_patience);
+  if (flushing_) slices_.ask_again(now, config_.answer_patience);
   if (rested(now) || flush_due_) flush();
   if (round_empty_ && !over_ && now - emptied_ >= config_.answer_patience) begin_round();
   watch_controller(now);

@@ -37,9 +37,9 @@ constexpr Nanoseconds flush_interval(Nanoseconds least, Nanoseconds cost, Nanose
 
 class LeaseClient final : public LeasePort {
  public:
-  /// `parts` outlives it.
+  /// `slices` outlives it.
   LeaseClient(const LeaseClientConfig& config, Scheduler& scheduler, Network& network,
-              SliceSender& parts);
+              SliceSender& slices);
 
   /// Requires: once, before the photon-threads start.
   void start(PhotonThreads& photons);
@@ -49,7 +49,7 @@ class LeaseClient final : public LeasePort {
   void lease_failed(uint64_t lease, int64_t batch) override;
   void want_room() override;
   bool room_to_come() const override { return packing_ || flushing_ || !done_.empty(); }
-  size_t flush_bytes() const override { return encoder_->memory_bytes() + parts_.memory_bytes(); }
+  size_t flush_bytes() const override { return encoder_->memory_bytes() + slices_.memory_bytes(); }
   void give_up(const Problem& why) override { end(why); }
 
   /// A message of the controller or a shard; false where it is none of these.
@@ -117,10 +117,10 @@ class LeaseClient final : public LeasePort {
   LeaseClientConfig config_;
   Scheduler& scheduler_;
   Network& network_;
-  SliceSender& parts_;
+  SliceSender& slices_;
   PhotonThreads* photons_ = nullptr;
   std::optional<Question> asking_;    // for leases
-  std::optional<Question> flushing_;  // one at a time; put when all its parts are held
+  std::optional<Question> flushing_;  // one at a time; put when all its slices are held
   std::vector<uint64_t> done_;        // merged, in no flush yet
   std::vector<uint64_t> packed_leases_;
   std::shared_ptr<FlushEncoder> encoder_;  // shared with the network while it sends

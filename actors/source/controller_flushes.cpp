@@ -105,7 +105,7 @@ std::string Controller::count_flush(const Arrived& arrived) {
   const std::vector<uint64_t>& leases = arrived.flush.leases;
   const char* const fenced = "a lease was fenced";
   if (!book_.stand(arrived.worker, leases)) return fenced;
-  if (arrived.flush.part_hashes.size() != shards_.others()) return "shards lack their parts of it";
+  if (arrived.flush.slice_hashes.size() != shards_.others()) return "shards lack their slices of it";
   Hasher hash;
   for (std::span<const std::byte> left = arrived.payload; !left.empty(); take_turns()) {
     const auto piece = left.first(std::min(left.size(), bytes_of_a_step));
@@ -125,7 +125,7 @@ std::string Controller::count_flush(const Arrived& arrived) {
   keep(arrived);
   book_.commit(leases);
   gathered_ = false;
-  shards_.take(arrived.id, arrived.flush.part_hashes);
+  shards_.take(arrived.id, arrived.flush.slice_hashes);
   adding_ = true;
   gain->add_to(run_.totals(), rest);
   note_book();

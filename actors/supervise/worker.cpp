@@ -36,8 +36,8 @@ Worker::Worker(const RunSetup& run, const NodeSetup& node, const NodeSeams& seam
                                       : std::make_unique<FetchingObjects>(
                                             run, node, shell_, seams.make_builder, trace_)),
       shard_(own_shard()),
-      parts_(run.shards, post()),
-      leases_(lease_config(node, trace_), shell_.scheduler(), shell_.network(), parts_),
+      slices_(run.shards, post()),
+      leases_(lease_config(node, trace_), shell_.scheduler(), shell_.network(), slices_),
       photons_(run.scene,
                objects_ ? GeometryAccess::through(*run.proxies, objects_->source())
                         : GeometryAccess::resident(*run.index),

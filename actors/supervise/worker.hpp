@@ -53,7 +53,7 @@ class Worker {
   };
   std::deque<OwnMessage> own_messages_;
   std::unique_ptr<TallyShard> shard_;  // where it holds one of the totals
-  SliceSender parts_;
+  SliceSender slices_;
   LeaseClient leases_;
   PhotonThreads photons_;
   std::optional<NodeMetrics> metrics_;

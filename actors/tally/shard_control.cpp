@@ -30,8 +30,8 @@ ShardControl::ShardControl(const ShardPlan& plan, Totals& totals, const Clock& c
 
 // ---- decisions --------------------------------------------------------------------------------
 
-void ShardControl::take(const MessageId& flush, const std::vector<uint64_t>& part_hashes) {
-  for (size_t i = 0; i < shards_.size(); ++i) decide(i, {flush, part_hashes[i], true});
+void ShardControl::take(const MessageId& flush, const std::vector<uint64_t>& slice_hashes) {
+  for (size_t i = 0; i < shards_.size(); ++i) decide(i, {flush, slice_hashes[i], true});
 }
 
 void ShardControl::refuse(const MessageId& flush) {
@@ -56,7 +56,7 @@ bool ShardControl::settled() const {
 
 void ShardControl::settle(Shard& shard, const FlushSettled& answer) {
   if (!answer.whole && !fault_)
-    fault_ = "a shard of the totals lacks a part of a flush that was counted";
+    fault_ = "a shard of the totals lacks a slice of a flush that was counted";
   shard.decisions.pop_front();
   if (!shard.decisions.empty() || shard.next < shard.bins.end) ask(shard);
 }

@@ -30,8 +30,8 @@ class ShardControl {
   size_t others() const { return shards_.size(); }
   bool owns(NodeId worker) const { return plan_.shard_of(worker) != 0; }
 
-  /// Has every shard add its part of a flush, or drop it. Requires: as many hashes as others().
-  void take(const MessageId& flush, const std::vector<uint64_t>& part_hashes);
+  /// Has every shard add its slice of a flush, or drop it. Requires: as many hashes as others().
+  void take(const MessageId& flush, const std::vector<uint64_t>& slice_hashes);
   void refuse(const MessageId& flush);
   /// Of a worker's life that has ended no flush is taken any more.
   void end_life(NodeId worker, Incarnation life);

@@ -9,20 +9,20 @@ namespace luxodus {
 
 void SliceSender::make_room(int groups, int64_t totals) {
   totals_ = totals;
-  for (size_t part = 0; part < parts(); ++part) {
-    const BinRange bins = bins_of(part);
-    parts_.push_back({std::make_shared<FlushEncoder>(groups, bins.end - bins.first), 0, true});
+  for (size_t slice = 0; slice < slices(); ++slice) {
+    const BinRange bins = bins_of(slice);
+    slices_.push_back({std::make_shared<FlushEncoder>(groups, bins.end - bins.first), 0, true});
   }
 }
 
 bool SliceSender::free() const {
-  return std::all_of(parts_.begin(), parts_.end(),
-                     [](const Part& part) { return part.encoder.use_count() == 1; });
+  return std::all_of(slices_.begin(), slices_.end(),
+                     [](const Slice& slice) { return slice.encoder.use_count() == 1; });
 }
 
 size_t SliceSender::memory_bytes() const {
   size_t bytes = 0;
-  for (const Part& part : parts_) bytes += part.encoder->memory_bytes();
+  for (const Slice& slice : slices_) bytes += slice.encoder->memory_bytes();
   return bytes;
 }
 
@@ -30,36 +30,37 @@ void SliceSender::send(const MessageId& flush, Nanoseconds now) {
   flush_ = flush;
   refused_ = false;
   sent_ = now;
-  for (Part& part : parts_) {
-    const auto& bytes = part.encoder->bytes();
-    part.hash = XXH3_64bits(bytes.data(), bytes.size());  // as Hasher, in no memory
-    part.held = false;
+  for (Slice& slice : slices_) {
+    const auto& bytes = slice.encoder->bytes();
+    slice.hash = XXH3_64bits(bytes.data(), bytes.size());  // as Hasher, in no memory
+    slice.held = false;
   }
-  for (size_t part = 0; part < parts(); ++part) put(part);
+  for (size_t slice = 0; slice < slices(); ++slice) put(slice);
 }
 
 void SliceSender::put(size_t index) {
-  const Part& part = parts_[index];
-  post_(plan_.owners[index], flush_, FlushSlice{part.hash}, {part.encoder->bytes(), part.encoder});
+  const Slice& slice = slices_[index];
+  post_(plan_.owners[index], flush_, FlushSlice{slice.hash},
+        {slice.encoder->bytes(), slice.encoder});
 }
 
 bool SliceSender::placed() const {
   return refused_ ||
-         std::all_of(parts_.begin(), parts_.end(), [](const Part& part) { return part.held; });
+         std::all_of(slices_.begin(), slices_.end(), [](const Slice& slice) { return slice.held; });
 }
 
 std::vector<uint64_t> SliceSender::hashes() const {
   std::vector<uint64_t> hashes;
-  for (const Part& part : parts_)
-    if (!refused_) hashes.push_back(part.hash);
+  for (const Slice& slice : slices_)
+    if (!refused_) hashes.push_back(slice.hash);
   return hashes;
 }
 
 void SliceSender::ask_again(Nanoseconds now, Nanoseconds patience) {
   if (placed() || now - sent_ < patience) return;
   sent_ = now;
-  for (size_t part = 0; part < parts(); ++part)
-    if (!parts_[part].held) put(part);
+  for (size_t slice = 0; slice < slices(); ++slice)
+    if (!slices_[slice].held) put(slice);
 }
 
 bool SliceSender::deliver(NodeId from, const MessageId& id, const Message& message) {
@@ -69,10 +70,10 @@ bool SliceSender::deliver(NodeId from, const MessageId& id, const Message& messa
     return false;
   if (id != flush_) return true;  // of an earlier flush, late
   if (refusal != nullptr) {
-    log_warning("part=refused node={} shard={} text=\"{}\"", id.node.value, shard, refusal->text);
+    log_warning("slice=refused node={} shard={} text=\"{}\"", id.node.value, shard, refusal->text);
     refused_ = true;
   } else {
-    parts_[shard - 1].held = true;
+    slices_[shard - 1].held = true;
   }
   return true;
 }

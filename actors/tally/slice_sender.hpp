@@ -1,7 +1,7 @@
-// A worker's side of shards: sends every shard its part of a flush, again and again until the part
-// is held there. Only then the flush itself goes to the controller, who so decides about parts that
-// are all in place. With one shard there is nothing to send.
-// Thread rule: the node's thread.
+// A worker's side of shards: sends every shard its slice of a flush, again and again until the
+// slice is held there. Only then the flush itself goes to the controller, who so decides about
+// slices that are all in place. With one shard there is nothing to send. Thread rule: the node's
+// thread.
 #pragma once
 
 #include <memory>
@@ -21,20 +21,20 @@ class SliceSender {
   /// Takes room for flushes of so many source groups and totals each.
   void make_room(int groups, int64_t totals);
 
-  size_t parts() const { return plan_.owners.size(); }
-  /// The bins that stay with the flush; those of a part.
+  size_t slices() const { return plan_.owners.size(); }
+  /// The bins that stay with the flush; those of a slice.
   BinRange own_bins() const { return plan_.range(0, totals_); }
-  BinRange bins_of(size_t part) const { return plan_.range(part + 1, totals_); }
-  FlushEncoder& encoder(size_t part) { return *parts_[part].encoder; }
-  /// Whether the network has let go of all parts of the last flush.
+  BinRange bins_of(size_t slice) const { return plan_.range(slice + 1, totals_); }
+  FlushEncoder& encoder(size_t slice) { return *slices_[slice].encoder; }
+  /// Whether the network has let go of all slices of the last flush.
   bool free() const;
   size_t memory_bytes() const;
 
   /// Sends what is packed. Requires: free() before it was packed.
   void send(const MessageId& flush, Nanoseconds now);
-  /// Whether every part is held, or one was refused, which the controller then is told.
+  /// Whether every slice is held, or one was refused, which the controller then is told.
   bool placed() const;
-  /// Of all parts; none where one was refused, so that the controller refuses the flush.
+  /// Of all slices; none where one was refused, so that the controller refuses the flush.
   std::vector<uint64_t> hashes() const;
   /// Sends again what got no answer for so long.
   void ask_again(Nanoseconds now, Nanoseconds patience);
@@ -42,17 +42,17 @@ class SliceSender {
   bool deliver(NodeId from, const MessageId& id, const Message& message);
 
  private:
-  struct Part {
+  struct Slice {
     std::shared_ptr<FlushEncoder> encoder;  // shared with the network while it sends
     uint64_t hash = 0;
     bool held = false;
   };
-  void put(size_t part);
+  void put(size_t slice);
 
   const ShardPlan plan_;
   SendFunction post_;
   int64_t totals_ = 0;
-  std::vector<Part> parts_;
+  std::vector<Slice> slices_;
   MessageId flush_;
   bool refused_ = false;
   Nanoseconds sent_ = 0;

@@ -30,19 +30,19 @@ TallyShard::TallyShard(const TallyShardConfig& config, const TallyLayout& layout
 
 void TallyShard::add_metrics(Metrics& metrics) const {
   const Counters& c = counters_;
-  metrics.add_counter({"shard_parts", "", "Parts of flushes added to this shard.", ""}, c.parts);
-  metrics.add_counter({"shard_parts_dropped", "", "Parts of flushes that were refused.", ""},
-                      c.parts_dropped);
-  metrics.add_counter({"shard_in", "bytes", "Bytes of parts that came.", ""}, c.part_bytes);
-  metrics.add_gauge({"shard_parts_held", "", "Parts not decided about.", ""}, c.held);
+  metrics.add_counter({"shard_slices", "", "Slices of flushes added to this shard.", ""}, c.slices);
+  metrics.add_counter({"shard_slices_dropped", "", "Slices of flushes that were refused.", ""},
+                      c.slices_dropped);
+  metrics.add_counter({"shard_in", "bytes", "Bytes of slices that came.", ""}, c.slice_bytes);
+  metrics.add_gauge({"shard_slices_held", "", "Slices not decided about.", ""}, c.held);
   metrics.add_gauge({"shard_totals", "bytes", "Memory of this shard's totals.", ""},
                     c.totals_bytes);
 }
 
 bool TallyShard::deliver(const Delivery& delivery) {
-  if (const auto* part = std::get_if<FlushSlice>(&delivery.message)) {
-    // The id is that of the worker's flush: nobody sends parts of another's.
-    if (delivery.id.node == delivery.source) take_slice(delivery, *part);
+  if (const auto* slice = std::get_if<FlushSlice>(&delivery.message)) {
+    // The id is that of the worker's flush: nobody sends slices of another's.
+    if (delivery.id.node == delivery.source) take_slice(delivery, *slice);
     return true;
   }
   if (delivery.source != config_.controller) return false;
@@ -61,29 +61,29 @@ uint64_t TallyShard::decided(const Life& life) const {
   return at == decided_.end() ? 0 : at->second;
 }
 
-// ---- parts -------------------------------------------------------------------------------------
+// ---- slices -------------------------------------------------------------------------------------
 
-void TallyShard::take_slice(const Delivery& delivery, const FlushSlice& part) {
+void TallyShard::take_slice(const Delivery& delivery, const FlushSlice& slice) {
   const Life life{delivery.id.node, delivery.id.incarnation};
   if (delivery.id.sequence <= decided(life)) return;  // it comes late, and again
-  if (const auto at = parts_.find(life); at != parts_.end()) {
-    const Part& known = *at->second;
+  if (const auto at = slices_.find(life); at != slices_.end()) {
+    const Slice& known = *at->second;
     if (known.flush == delivery.id && known.gain) post_(known.from, known.flush, SliceHeld{}, {});
     return;
   }
-  auto made = std::make_shared<Part>();
+  auto made = std::make_shared<Slice>();
   made->flush = delivery.id;
   made->from = delivery.source;
-  made->hash = part.payload_hash;
+  made->hash = slice.payload_hash;
   made->payload.assign(delivery.payload.begin(), delivery.payload.end());
-  counters_.part_bytes += delivery.payload.size();
-  counters_.held = parts_.size() + 1;
-  parts_.emplace(life, made);
+  counters_.slice_bytes += delivery.payload.size();
+  counters_.held = slices_.size() + 1;
+  slices_.emplace(life, made);
   work(std::move(made));
 }
 
-void TallyShard::work(std::shared_ptr<Part> part) {
-  due_.push_back(std::move(part));
+void TallyShard::work(std::shared_ptr<Slice> slice) {
+  due_.push_back(std::move(slice));
   if (working_) return;
   working_ = true;
   LUX_CHECK(scheduler_.fibers().start("shard", [this] { work_off(); }).has_value(),
@@ -93,13 +93,13 @@ void TallyShard::work(std::shared_ptr<Part> part) {
 /// On a fiber of its own.
 void TallyShard::work_off() {
   while (!due_.empty()) {
-    const std::shared_ptr<Part> part = due_.front();
+    const std::shared_ptr<Slice> slice = due_.front();
     due_.pop_front();
-    if (part->dropped) continue;
-    if (part->taken)
-      add(*part);
+    if (slice->dropped) continue;
+    if (slice->taken)
+      add(*slice);
     else
-      read(*part);
+      read(*slice);
   }
   working_ = false;
 }
@@ -110,36 +110,36 @@ bool TallyShard::take_turns() {
   return true;
 }
 
-/// "" where the part is right, and then held.
-std::string TallyShard::reading_fault(Part& part) {
+/// "" where the slice is right, and then held.
+std::string TallyShard::reading_fault(Slice& slice) {
   Hasher hash;
-  for (std::span<const std::byte> left = part.payload; !left.empty(); take_turns()) {
+  for (std::span<const std::byte> left = slice.payload; !left.empty(); take_turns()) {
     const auto piece = left.first(std::min(left.size(), bytes_of_a_step));
     hash.add(piece.data(), piece.size());
     left = left.subspan(piece.size());
   }
-  if (hash.value() != part.hash) return "a part is not what its hash says";
-  auto gain = decode_flush(part.payload, totals_.groups(), config_.bins,
-                           [&] { return take_turns() && !part.dropped; });
+  if (hash.value() != slice.hash) return "a slice is not what its hash says";
+  auto gain = decode_flush(slice.payload, totals_.groups(), config_.bins,
+                           [&] { return take_turns() && !slice.dropped; });
   if (!gain) return gain.problem().what;
   // Batches and where their weight went are told to the controller, once.
-  if (gain->batches() != 0 || gain->balance().particles != 0) return "a part counts batches";
-  part.gain = std::move(gain).value();
+  if (gain->batches() != 0 || gain->balance().particles != 0) return "a slice counts batches";
+  slice.gain = std::move(gain).value();
   return "";
 }
 
-void TallyShard::read(Part& part) {
-  const std::string wrong = reading_fault(part);
-  part.payload = {};
-  if (part.dropped) return;
-  if (wrong.empty()) return post_(part.from, part.flush, SliceHeld{}, {});
-  post_(part.from, part.flush, FlushRefused{{}, wrong.substr(0, limits::text_bytes)}, {});
-  forget(part);
+void TallyShard::read(Slice& slice) {
+  const std::string wrong = reading_fault(slice);
+  slice.payload = {};
+  if (slice.dropped) return;
+  if (wrong.empty()) return post_(slice.from, slice.flush, SliceHeld{}, {});
+  post_(slice.from, slice.flush, FlushRefused{{}, wrong.substr(0, limits::text_bytes)}, {});
+  forget(slice);
 }
 
-void TallyShard::forget(const Part& part) {
-  parts_.erase({part.flush.node, part.flush.incarnation});
-  counters_.held = parts_.size();
+void TallyShard::forget(const Slice& slice) {
+  slices_.erase({slice.flush.node, slice.flush.incarnation});
+  counters_.held = slices_.size();
 }
 
 // ---- decisions ---------------------------------------------------------------------------------
@@ -150,32 +150,32 @@ void TallyShard::take_decision(const Delivery& delivery, const FlushDecided& dec
     post_(config_.controller, delivery.id, FlushSettled{whole}, {});
   };
   if (decision.flush.sequence <= decided(life)) return answer(true);
-  const auto at = parts_.find(life);
-  const std::shared_ptr<Part> part = at == parts_.end() ? nullptr : at->second;
+  const auto at = slices_.find(life);
+  const std::shared_ptr<Slice> slice = at == slices_.end() ? nullptr : at->second;
   if (!decision.taken) {
-    if (part && part->flush.sequence <= decision.flush.sequence) {
-      part->dropped = true;
-      ++counters_.parts_dropped;
-      forget(*part);
+    if (slice && slice->flush.sequence <= decision.flush.sequence) {
+      slice->dropped = true;
+      ++counters_.slices_dropped;
+      forget(*slice);
     }
     decided_[life] = decision.flush.sequence;
     return answer(true);
   }
   const bool held =
-      part && part->flush == decision.flush && part->gain && part->hash == decision.part_hash;
+      slice && slice->flush == decision.flush && slice->gain && slice->hash == decision.slice_hash;
   if (!held) return answer(false);  // this shard lacks what was counted
-  if (part->taken) return;          // it is being added; the answer follows
-  part->taken = delivery.id;
-  work(part);
+  if (slice->taken) return;         // it is being added; the answer follows
+  slice->taken = delivery.id;
+  work(slice);
 }
 
-void TallyShard::add(Part& part) {
-  part.gain->add_to(totals_, [this] { return take_turns(); });
-  ++counters_.parts;
+void TallyShard::add(Slice& slice) {
+  slice.gain->add_to(totals_, [this] { return take_turns(); });
+  ++counters_.slices;
   counters_.totals_bytes = totals_.bytes();
-  decided_[{part.flush.node, part.flush.incarnation}] = part.flush.sequence;
-  const MessageId decision = *part.taken;
-  forget(part);
+  decided_[{slice.flush.node, slice.flush.incarnation}] = slice.flush.sequence;
+  const MessageId decision = *slice.taken;
+  forget(slice);
   post_(config_.controller, decision, FlushSettled{true}, {});
 }
 

@@ -1,17 +1,17 @@
-// A shard of the totals, at the worker that owns it. Parts of flushes arrive from all workers, are
+// A shard of the totals, at the worker that owns it. Slices of flushes arrive from all workers, are
 // checked and held apart, and answered when they are held. The controller then says what has become
-// of each flush: a part of one that was taken is added, once; one of a flush that was refused is
+// of each flush: a slice of one that was taken is added, once; one of a flush that was refused is
 // dropped. At the end of a round the controller asks for the totals, piece by piece; what it has
 // got is no longer here.
 //
 // What if a message is lost, late, or comes twice?
-// - A part: the worker sends it until it is told that the part is held. One that comes again is
+// - A slice: the worker sends it until it is told that the slice is held. One that comes again is
 //   answered again; one of a flush that was decided meanwhile is old, and gets no answer.
 // - A decision: the controller repeats it until it is answered. It sends them one by one, each when
 //   the one before was answered; so what is older than the last is answered, and nothing done.
 // - A question for totals: it names the piece. The last piece is kept until the next one is asked
 //   for, which says that it has come.
-// A life of a worker has one part here at most: the next one gets no answer, so is sent again,
+// A life of a worker has one slice here at most: the next one gets no answer, so is sent again,
 // until the one before is decided. That bounds the memory, by one flush of each worker. When a life
 // ends the controller decides about all that was left of it, in one decision. Thread rule: the
 // node's thread.
@@ -46,9 +46,9 @@ class TallyShard {
   bool deliver(const Delivery& delivery);
 
   struct Counters {
-    uint64_t parts = 0;  // added
-    uint64_t parts_dropped = 0;
-    uint64_t part_bytes = 0;    // that came
+    uint64_t slices = 0;  // added
+    uint64_t slices_dropped = 0;
+    uint64_t slice_bytes = 0;   // that came
     uint64_t held = 0;          // now
     uint64_t totals_bytes = 0;  // in memory
   };
@@ -57,8 +57,8 @@ class TallyShard {
   void add_metrics(Metrics& metrics) const;
 
  private:
-  /// A part's way: read -> held -> added, or dropped from either of the first two.
-  struct Part {
+  /// A slice's way: read -> held -> added, or dropped from either of the first two.
+  struct Slice {
     MessageId flush;
     NodeId from;
     uint64_t hash = 0;
@@ -69,15 +69,15 @@ class TallyShard {
   };
   using Life = std::pair<NodeId, Incarnation>;
 
-  void take_slice(const Delivery& delivery, const FlushSlice& part);
+  void take_slice(const Delivery& delivery, const FlushSlice& slice);
   void take_decision(const Delivery& delivery, const FlushDecided& decision);
   void tell_totals(const Delivery& delivery, const AskTotals& question);
-  void work(std::shared_ptr<Part> part);
+  void work(std::shared_ptr<Slice> slice);
   void work_off();
-  void read(Part& part);
-  std::string reading_fault(Part& part);
-  void add(Part& part);
-  void forget(const Part& part);
+  void read(Slice& slice);
+  std::string reading_fault(Slice& slice);
+  void add(Slice& slice);
+  void forget(const Slice& slice);
   bool take_turns();
   uint64_t decided(const Life& life) const;
   SharedBytes next_piece(TotalsTold& told);
@@ -86,9 +86,9 @@ class TallyShard {
   Totals totals_;
   Scheduler& scheduler_;
   SendFunction post_;
-  std::map<Life, std::shared_ptr<Part>> parts_;
-  std::map<Life, uint64_t> decided_;       // by life, the sequence of the last flush decided about
-  std::deque<std::shared_ptr<Part>> due_;  // to be read or added, on a fiber
+  std::map<Life, std::shared_ptr<Slice>> slices_;
+  std::map<Life, uint64_t> decided_;        // by life, the sequence of the last flush decided about
+  std::deque<std::shared_ptr<Slice>> due_;  // to be read or added, on a fiber
   bool working_ = false;
   FlushEncoder encoder_;  // of pieces of the totals
   TotalsTold told_;       // the last piece

@@ -77,7 +77,7 @@ struct Stage {
     }
   }
 
-  /// A flush of a worker, packed in parts: adds to what is expected where it will be taken.
+  /// A flush of a worker, packed in slices: adds to what is expected where it will be taken.
   SliceSender& pack(NodeId worker, const MessageId& id, uint64_t seed, bool counts) {
     auto& sender = senders[worker];
     if (!sender) {
@@ -96,9 +96,9 @@ struct Stage {
     }
     own.add(gain);
     if (counts) expected.add(gain);
-    for (size_t part = 0; part < sender->parts(); ++part) {
-      FlushEncoder& encoder = sender->encoder(part);
-      encoder.begin(own, sender->bins_of(part), FlushCounts::without);
+    for (size_t slice = 0; slice < sender->slices(); ++slice) {
+      FlushEncoder& encoder = sender->encoder(slice);
+      encoder.begin(own, sender->bins_of(slice), FlushCounts::without);
       while (!encoder.step(100)) {
       }
     }
@@ -167,7 +167,7 @@ TEST_CASE("ranges of shards follow one another and cover all bins", "[shards]") 
   }
 }
 
-TEST_CASE("a part is held until its flush is decided, then added once or dropped", "[shards]") {
+TEST_CASE("a slice is held until its flush is decided, then added once or dropped", "[shards]") {
   Stage stage(std::vector<NodeId>{{0}, {2}});
   SliceSender& sender = stage.pack(worker, flush_of(worker, 1), 5, true);
   CHECK_FALSE(sender.placed());
@@ -179,14 +179,14 @@ TEST_CASE("a part is held until its flush is decided, then added once or dropped
   CHECK_FALSE(stage.control.settled());
   stage.pass();
   REQUIRE(stage.control.settled());
-  CHECK(stage.shards.at({2})->counters().parts == 1);
+  CHECK(stage.shards.at({2})->counters().slices == 1);
 
   stage.pack(worker, flush_of(worker, 2), 5, false);
   stage.pass();
   stage.control.refuse(flush_of(worker, 2));
   stage.pass();
   CHECK(stage.shards.at({2})->counters().held == 0);
-  CHECK(stage.shards.at({2})->counters().parts_dropped == 1);
+  CHECK(stage.shards.at({2})->counters().slices_dropped == 1);
   CHECK(stage.gather());
   CHECK(stage.differences() == 0);
   CHECK_FALSE(stage.control.fault());
@@ -213,11 +213,12 @@ TEST_CASE("what comes again, in any order and however late, adds nothing", "[sha
   }
   REQUIRE(stage.gather());
   CHECK(stage.differences() == 0);
-  CHECK(stage.shards.at({0})->counters().parts == 2);
+  CHECK(stage.shards.at({0})->counters().slices == 2);
   CHECK_FALSE(stage.control.fault());
 }
 
-TEST_CASE("a life has one part at a shard: the next waits until the first is decided", "[shards]") {
+TEST_CASE("a life has one slice at a shard: the next waits until the first is decided",
+          "[shards]") {
   Stage stage(std::vector<NodeId>{{2}});
   SliceSender& sender = stage.pack(worker, flush_of(worker, 1), 7, true);
   stage.pass();
@@ -259,11 +260,11 @@ TEST_CASE("what a life that ended has left at shards is dropped, and its next li
   CHECK(stage.differences() == 0);
 }
 
-TEST_CASE("a part that is damaged, of other bins, or counts batches is refused", "[shards]") {
+TEST_CASE("a slice that is damaged, of other bins, or counts batches is refused", "[shards]") {
   Stage stage(std::vector<NodeId>{{2}});
   stage.pack(worker, flush_of(worker, 1), 9, false);
   REQUIRE(stage.wire.size() == 1);
-  Letter part = stage.wire.front();
+  Letter slice = stage.wire.front();
   stage.wire.clear();
   const auto answer_to = [&](const Letter& sent) {
     stage.deliver(sent);
@@ -272,17 +273,17 @@ TEST_CASE("a part that is damaged, of other bins, or counts batches is refused",
     stage.wire.clear();
     return std::holds_alternative<FlushRefused>(answer);
   };
-  Letter damaged = part;
+  Letter damaged = slice;
   damaged.payload.back() ^= std::byte{1};
   CHECK(answer_to(damaged));
-  Letter other = part;  // the controller's bins, and its batches
+  Letter other = slice;  // the controller's bins, and its batches
   other.payload = stage.payload;
   other.message = FlushSlice{XXH3_64bits(other.payload.data(), other.payload.size())};
   CHECK(answer_to(other));
-  CHECK_FALSE(answer_to(part));
+  CHECK_FALSE(answer_to(slice));
   CHECK(stage.shards.at({2})->counters().held == 1);
-  // Nobody sends parts of somebody else's flush, nor decides but the controller.
-  Letter forged = part;
+  // Nobody sends slices of somebody else's flush, nor decides but the controller.
+  Letter forged = slice;
   forged.from = {3};
   stage.deliver(forged);
   stage.deliver({{3}, {2}, flush_of({3}, 1), FlushDecided{flush_of(worker, 1), 0, false}, {}});
@@ -290,7 +291,7 @@ TEST_CASE("a part that is damaged, of other bins, or counts batches is refused",
   CHECK(stage.shards.at({2})->counters().held == 1);
 }
 
-TEST_CASE("a sender whose part was refused tells the controller of no parts", "[shards]") {
+TEST_CASE("a sender whose slice was refused tells the controller of no slices", "[shards]") {
   Stage stage(std::vector<NodeId>{{0}, {2}});
   SliceSender& sender = stage.pack(worker, flush_of(worker, 1), 9, false);
   sender.deliver({2}, flush_of(worker, 1), FlushRefused{{}, "damaged"});
@@ -298,7 +299,7 @@ TEST_CASE("a sender whose part was refused tells the controller of no parts", "[
   CHECK(sender.hashes().empty());
 }
 
-TEST_CASE("a shard that lacks a part of a flush that was taken is a fault", "[shards]") {
+TEST_CASE("a shard that lacks a slice of a flush that was taken is a fault", "[shards]") {
   Stage stage(std::vector<NodeId>{{2}});
   stage.control.take(flush_of(worker, 1), {1});
   stage.pass();
