@@ -280,11 +280,17 @@ void LeaseClient::let_go() {
 }
 
 void LeaseClient::pass_on() {
-  std::erase_if(*tell_, [&](NodeId neighbour) {
-    return network_.send(neighbour, network_.next_id(), end_word_) != SendOutcome::full;
-  });
+  std::erase_if(*tell_, [&](NodeId neighbour) { return tell(neighbour) != SendOutcome::full; });
   if (tell_->empty()) return end(std::nullopt);
   scheduler_.timers().set(scheduler_.clock().now() + retry_after, [this] { pass_on(); });
+}
+
+SendOutcome LeaseClient::tell(NodeId neighbour) {
+  return network_.send(neighbour, network_.next_id(), end_word_);
+}
+
+void LeaseClient::tell_end(NodeId neighbour) {
+  if (tell_ && neighbour != config_.controller) (void)tell(neighbour);
 }
 
 void LeaseClient::watch_controller(Nanoseconds now) {

@@ -59,6 +59,8 @@ class LeaseClient final : public LeasePort {
   /// Whether it is over and this node may leave. A node that has heard of the end stays until it is
   /// let go, since others' word of it may have to pass through it.
   bool ended() const { return ended_; }
+  /// Passes the word of the run's end on to a neighbour, if this node has heard it.
+  void tell_end(NodeId neighbour);
   /// Why the run ended without this node, or could not begin.
   const std::optional<Problem>& fault() const { return fault_; }
 
@@ -111,6 +113,7 @@ class LeaseClient final : public LeasePort {
   void hear_of_end(NodeId from, const RunEnded& over);
   void let_go();
   void pass_on();
+  SendOutcome tell(NodeId neighbour);
   void flush_answered(const MessageId& answered, bool taken);
   Nanoseconds vain_since(uint64_t lease, int64_t batch);
 

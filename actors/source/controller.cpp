@@ -341,9 +341,17 @@ RunEnded Controller::end_word() const {
   return {round(), fault_ ? fault_->what.substr(0, limits::text_bytes) : ""};
 }
 
+/// Were this node to crash while its journal lacks work, that work would be traced again: by workers
+/// that have not heard of an end. After `lost` the disk is given up.
+bool Controller::awaits_keeper() const {
+  return config_.keeper != nullptr && !config_.keeper->is_whole() && !fault_ &&
+         !interrupt_.load() && over_for() < config_.lost;
+}
+
 /// Whom there was no room for the last time comes first, or a full outbox would hide the end from
 /// the same workers each time.
 void Controller::tell_end() {
+  if (awaits_keeper()) return;
   for (const auto& [worker, peer] : peers_)
     if ((peer.here || done_before_) && std::count(untold_.begin(), untold_.end(), worker) == 0)
       untold_.push_back(worker);
@@ -367,6 +375,7 @@ void Controller::tell_untold() {
 /// Who asks for work then has begun anew since it was told. An answer without batches would have it
 /// wait for the next round, of a controller that may leave before it can say more.
 void Controller::answer_with_end(const Delivery& delivery) {
+  if (awaits_keeper()) return send(delivery.source, delivery.id, grant_of({}));
   send(delivery.source, delivery.id, end_word());
   if (letting_go_) send(delivery.source, network_.next_id(), EnterPhase{EndPhase::leave, 0});
 }
@@ -383,14 +392,9 @@ void Controller::let_go_when_told() {
   if (letting_go_) return;
   const auto knows = [&](const auto& entry) { return knows_end(entry.first, entry.second); };
   const bool all_know = std::all_of(peers_.begin(), peers_.end(), knows);
-  if ((!all_know || awaits_keeper()) && over_for() < config_.lost) return;
+  if (awaits_keeper() || (!all_know && over_for() < config_.lost)) return;
   letting_go_ = true;
   let_go();
-}
-
-/// Were this node to crash without its workers, nobody could trace again what is not kept yet.
-bool Controller::awaits_keeper() const {
-  return config_.keeper != nullptr && !config_.keeper->is_whole() && !fault_ && !interrupt_.load();
 }
 
 /// Until the network has taken the word for each that it can reach.
@@ -446,7 +450,7 @@ void Controller::wait_for_farewells(Nanoseconds now) {
   tell_end();
   if (letting_go_ || now < next_word_) return;
   next_word_ = now + waiting_word;
-  if (who_lacks_end().empty()) {
+  if (awaits_keeper()) {
     log_info(
         "run=over text=\"its workers stay until the journal has what it lacks: that takes {:g} s "
         "(lost_s) at most\"",
@@ -498,6 +502,12 @@ uint32_t Controller::max_to_lend() const {
   return static_cast<uint32_t>(std::clamp<int64_t>(share, 1, config_.max_leases));
 }
 
+LeaseGranted Controller::grant_of(const LentBatches& lent) const {
+  return {lent.first_lease, round(), static_cast<uint64_t>(lent.first_batch),
+          static_cast<uint32_t>(lent.count),
+          static_cast<uint32_t>(config_.lease_time / milliseconds(1))};
+}
+
 void Controller::lend(const Delivery& delivery, const RequestLease& request) {
   Peer& peer = peers_[delivery.source];
   peer.left = request.batches == 0 && !over_;
@@ -514,10 +524,7 @@ void Controller::lend(const Delivery& delivery, const RequestLease& request) {
                    scheduler_.clock().now(), config_.lease_time, rank_of(delivery.source));
     counters_.leases += static_cast<uint64_t>(lent.count);
     note_book();
-    last = {delivery.id,
-            LeaseGranted{lent.first_lease, round(), static_cast<uint64_t>(lent.first_batch),
-                         static_cast<uint32_t>(lent.count),
-                         static_cast<uint32_t>(config_.lease_time / milliseconds(1))}};
+    last = {delivery.id, grant_of(lent)};
   }
   send(delivery.source, delivery.id, last.answer);
 }

@@ -115,6 +115,7 @@ class Controller {
   void set_timer();
   bool nothing_left() const;
   uint32_t max_to_lend() const;
+  LeaseGranted grant_of(const LentBatches& lent) const;
   void lend(const Delivery& delivery, const RequestLease& request);
   LeaseBook::Rank rank_of(NodeId worker);
   size_t group_of(int64_t batch);

@@ -7,7 +7,7 @@ namespace luxodus {
 namespace {
 
 /// Between the end of a node's work and its leaving: others' farewells still pass through it.
-constexpr Nanoseconds linger = milliseconds(100);
+constexpr Nanoseconds linger_time = milliseconds(100);
 /// At what may have changed from outside: soon enough for who pressed Ctrl-C, and seldom enough
 /// that a node with nothing to do takes no processor from those that have.
 constexpr Nanoseconds look_every = milliseconds(50);
@@ -83,6 +83,9 @@ class NodeShell::Handler final : public NetHandler {
   void link_changed(NodeId neighbour, LinkPhase phase) override {
     log_debug("link node={} neighbour={} phase={}", shell_.config_.net.self.value, neighbour.value,
               name_of(phase));
+    if (phase != LinkPhase::up || !shell_.leaving_ || !shell_.tell_newcomer_) return;
+    shell_.tell_newcomer_(neighbour);
+    shell_.linger();
   }
   NextHops reroute(std::span<const Edge> down) override {
     const NodeId self = shell_.config_.net.self;
@@ -120,10 +123,19 @@ void NodeShell::begin(std::function<bool()> ended) {
   Shutdown& shutdown = scheduler_.shutdown();
   shutdown.add(scheduler_.end_all_fibers(config_.shutdown_phase));
   shutdown.add(
-      {"pass on farewells", config_.shutdown_phase, [this] { left_at_ = clock_.now() + linger; },
-       [this] { return clock_.now() >= left_at_; }, [] { return "others to hear of it"; }});
+      {"pass on farewells", config_.shutdown_phase, [this] { linger(); },
+       [this] { return may_leave(); }, [] { return "others to hear of it"; }});
   shutdown.add({"leave", milliseconds(100), [this] { network_.say_bye(); }, [] { return true; },
                 [] { return ""; }});
+}
+
+void NodeShell::linger() {
+  left_at_ = clock_.now() + linger_time;
+}
+
+/// Who is being met waits for `start_s` if this node leaves without a word.
+bool NodeShell::may_leave() const {
+  return clock_.now() >= left_at_ && !network_.meets_neighbour();
 }
 
 void NodeShell::leave_if_ended() {

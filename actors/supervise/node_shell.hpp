@@ -51,6 +51,9 @@ class NodeShell {
   /// Says when this node's work is over: then it leaves, fibers end, neighbours are told. `ended`
   /// is asked after every turn. Requires: once, before the first turn.
   void begin(std::function<bool()> ended);
+  /// Has `tell` called for each neighbour that is met while this node is about to leave: nobody
+  /// else may be left who could tell it that the run is over.
+  void tell_newcomers(std::function<void(NodeId)> tell) { tell_newcomer_ = std::move(tell); }
   /// One turn, which never waits. Returns when the next is due, if nothing arrives before.
   Nanoseconds turn();
   /// Whether the node has left.
@@ -65,6 +68,8 @@ class NodeShell {
   class Handler;
 
   void leave_if_ended();
+  void linger();
+  bool may_leave() const;
 
   const ShellConfig config_;
   const Graph& graph_;
@@ -77,6 +82,7 @@ class NodeShell {
   std::unique_ptr<Source> source_;
   Scheduler scheduler_;
   std::function<bool()> ended_;
+  std::function<void(NodeId)> tell_newcomer_;
   bool leaving_ = false;
   Nanoseconds left_at_ = never;
 };

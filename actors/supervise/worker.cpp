@@ -97,6 +97,7 @@ void Worker::start(std::function<bool()> stop) {
   photons_.start();
   if (run_.observation != nullptr) show_to(*run_.observation);
   shell_.begin([this] { return may_leave(); });
+  shell_.tell_newcomers([this](NodeId neighbour) { leases_.tell_end(neighbour); });
   shell_.scheduler().seal();
 }
 

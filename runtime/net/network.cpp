@@ -133,6 +133,12 @@ std::vector<NodeId> Network::neighbours() const {
   return nodes;
 }
 
+bool Network::meets_neighbour() const {
+  return std::any_of(links_.begin(), links_.end(), [](const Link& link) {
+    return link.state().accepted() && !link.state().usable();
+  });
+}
+
 Link* Network::link_to(NodeId neighbour) {
   for (Link& link : links_)
     if (link.neighbour() == neighbour) return &link;

@@ -126,6 +126,9 @@ class Network {
   /// A neighbour that works for another run, as it has said: refusal_of() has its words.
   std::optional<NodeId> taken_elsewhere() const;
   std::vector<NodeId> neighbours() const;
+  /// Whether a neighbour has been accepted whose link does not stand yet: this node is about to
+  /// meet it, perhaps in a new life.
+  bool meets_neighbour() const;
   uint64_t epoch() const { return view_.epoch(); }
   /// Bytes of the fixed buffers.
   size_t memory_bytes() const;
