@@ -270,7 +270,7 @@ SceneDescription RealityMode::round_scene(int round) const {
   const auto paths = static_cast<double>(RoundSize(round).paths);
   const auto parts = static_cast<double>(3 * open_.size());
   // Half a path more, so that rounding down gives this many.
-  scene.run.eye_share = (paths + 0.5) * parts / (paths_per_particle * batch_particles);
+  scene.run.eye_path_factor = (paths + 0.5) * parts / (paths_per_particle * batch_particles);
   return scene;
 }
 

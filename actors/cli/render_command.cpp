@@ -26,6 +26,7 @@ struct RenderOptions {
   int threads = default_threads();
   int paths = 32;
   bool full_paths = false;
+  bool raw = false;
 };
 
 Result<ExitCode> render(const RenderOptions& options) {
@@ -57,6 +58,7 @@ Result<ExitCode> render(const RenderOptions& options) {
   PictureOptions picture;
   picture.paths_per_pixel = options.paths;
   picture.gather = !options.full_paths;
+  picture.raw = options.raw;
   picture.interrupt = &interrupt_flag();
   const auto drawn = render_views(out->path(), run, options.view, picture,
                                   [&](double share) { line.show_share(share); });
@@ -87,6 +89,7 @@ Command render_command() {
            {"--full-paths", &o->full_paths,
             "Paths traced to their end instead of to the run's flux: slower and noisier, free of "
             "the patches' size"},
+           {"--raw", &o->raw, "PNG files of the light as traced, with its noise"},
            {"--threads",
             &o->threads,
             "Number of threads",

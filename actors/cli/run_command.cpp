@@ -46,6 +46,7 @@ Result<Json> write_all(const RunFolder& out, const LocalRun& run, const RunRecor
   ProgressLine line("pictures");
   PictureOptions picture;
   picture.paths_per_pixel = options.picture_paths;
+  picture.raw = options.raw;
   picture.interrupt = &interrupt_flag();
   const auto drawn =
       render_views(folder, run, "", picture, [&](double share) { line.show_share(share); });

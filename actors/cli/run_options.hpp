@@ -40,6 +40,7 @@ struct RunOptions {
   bool overwrite = false;
   bool adaptive = false;
   bool no_views = false;
+  bool raw = false;
   bool json = false;
   bool verbose = false;
   int picture_paths = 32;

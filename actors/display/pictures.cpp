@@ -4,10 +4,12 @@
 // side.
 #include "actors/display/pictures.hpp"
 
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <limits>
 
+#include "actors/run/parallel_for.hpp"
 #include "scenes/optics/sampling.hpp"
 
 namespace luxodus {
@@ -51,23 +53,44 @@ class Pinhole {
 /// Pixels that one fiber traces in one go.
 constexpr int columns_at_once = 32;
 
-/// Light of one pixel.
-struct PixelSums {
-  double x = 0, y = 0, z = 0, scotopic = 0, y_squares = 0;
+/// Light by channels of a picture: X, Y, Z, scotopic.
+struct ChannelLight {
+  std::array<double, light_channels> values{};
 
   void add(const Band& band, double radiance) {
-    const double luminance = radiance * band.lm_per_w;
-    x += radiance * band.x_per_w;
-    y += luminance;
-    z += radiance * band.z_per_w;
-    scotopic += radiance * band.scotopic_lm_per_w;
-    y_squares += luminance * luminance;
+    values[0] += radiance * band.x_per_w;
+    values[1] += radiance * band.lm_per_w;
+    values[2] += radiance * band.z_per_w;
+    values[3] += radiance * band.scotopic_lm_per_w;
   }
-  double standard_error(double paths) const {
+};
+
+/// Sums over some of a pixel's paths.
+struct PathSums {
+  double paths = 0;
+  std::array<double, light_channels> light{}, squares{};
+
+  void add(const ChannelLight& path) {
+    paths += 1;
+    for (size_t c = 0; c < light_channels; ++c) {
+      light[c] += path.values[c];
+      squares[c] += path.values[c] * path.values[c];
+    }
+  }
+  double mean(size_t c) const { return light[c] / paths; }
+  /// Of the mean. NaN with one path.
+  double variance(size_t c) const {
     if (paths < 2) return std::numeric_limits<double>::quiet_NaN();
-    const double mean = y / paths;
-    return std::sqrt(std::max(0.0, y_squares / paths - mean * mean) / (paths - 1));
+    return std::max(0.0, squares[c] / paths - mean(c) * mean(c)) / (paths - 1);
   }
+};
+
+/// What the paths of one pixel have found.
+struct PixelSums {
+  PathSums all;                  // everything
+  std::array<PathSums, 2> half;  // of half of the paths each, without what emitters send straight
+  PathSums emitted;              // that
+  std::array<double, picture_features> features{};
 };
 
 /// Traces the pixels of one picture; one per thread.
@@ -80,7 +103,9 @@ class PixelTracer {
         pinhole_(run.scene().description->cameras[camera], run.scene().local_origin),
         first_path_(static_cast<uint64_t>(camera) << camera_shift),
         paths_(options.paths_per_pixel),
-        flux_(flux) {}
+        flux_(flux) {
+    for (int b = 0; b < scene_.bands.count(); ++b) white_.add(scene_.bands[b], 1);
+  }
 
   PixelSums trace(int column, int row, uint64_t pixel) {
     const uint64_t first = first_path_ + (pixel << pixel_shift);
@@ -92,32 +117,91 @@ class PixelTracer {
       const int band = tracer_->choose_band(static_cast<double>(tracer_->uniform()));
       const double probability = tracer_->band_probability(band);
       const Ray ray = pinhole_.ray(column + x, row + y);
-      sums.add(scene_.bands[band], tracer_->radiance(ray, band, flux_) / probability);
+      ChannelLight turned;
+      turned.add(scene_.bands[band], tracer_->radiance(ray, band, flux_) / probability);
+      sums.half[i < paths_ / 2 ? 0 : 1].add(turned);
+      tracer_->meet_first(ray, first_);
+      ChannelLight straight;
+      for (int b = 0; b < scene_.bands.count(); ++b)
+        straight.add(scene_.bands[b], first_.emitted[static_cast<size_t>(b)]);
+      sums.emitted.add(straight);
+      for (size_t c = 0; c < light_channels; ++c) turned.values[c] += straight.values[c];
+      sums.all.add(turned);
+      add_features(sums.features);
     }
     return sums;
   }
 
  private:
+  /// Means over the paths of the normal, the nearness, the transmittance and the albedo's X, Y, Z.
+  void add_features(std::array<double, picture_features>& into) const {
+    ChannelLight reflected;
+    for (int b = 0; b < scene_.bands.count(); ++b)
+      reflected.add(scene_.bands[b], first_.reflectance[static_cast<size_t>(b)]);
+    const std::array<double, picture_features> own{static_cast<double>(first_.normal.x),
+                                                   static_cast<double>(first_.normal.y),
+                                                   static_cast<double>(first_.normal.z),
+                                                   first_.nearness,
+                                                   first_.transmittance,
+                                                   reflected.values[0] / white_.values[0],
+                                                   reflected.values[1] / white_.values[1],
+                                                   reflected.values[2] / white_.values[2]};
+    for (size_t k = 0; k < picture_features; ++k) into[k] += own[k] / paths_;
+  }
+
   const CompiledScene& scene_;
   std::unique_ptr<PictureTracer> tracer_;
   Pinhole pinhole_;
   uint64_t first_path_;
   int paths_;
   const KnownRadiance* flux_;
+  ChannelLight white_;  // of a reflectance of 1 in all bands
+  FirstHit first_;      // of the last path
 };
+
+/// Room for a picture of so many pixels.
+TracedPicture empty_picture(const Camera& view) {
+  TracedPicture out;
+  out.light.width = out.noisy.width = view.width;
+  out.light.height = out.noisy.height = view.height;
+  const size_t pixels = out.light.pixels();
+  out.light.xyz.resize(3 * pixels);
+  out.light.scotopic.resize(pixels);
+  out.standard_error_y.resize(pixels);
+  out.emitted.resize(light_channels * pixels);
+  for (HalfPicture& half : out.noisy.half) {
+    half.light.resize(light_channels * pixels);
+    half.variance.resize(3 * pixels);
+  }
+  out.noisy.feature_count = picture_features;
+  out.noisy.features.resize(picture_features * pixels);
+  return out;
+}
+
+void store(const PixelSums& sums, size_t pixel, TracedPicture& out) {
+  for (size_t c = 0; c < light_channels; ++c) {
+    const size_t at = light_channels * pixel + c;
+    (c < 3 ? out.light.xyz[3 * pixel + c] : out.light.scotopic[pixel]) =
+        static_cast<float>(sums.all.mean(c));
+    out.emitted[at] = static_cast<float>(sums.emitted.mean(c));
+    for (size_t h : {size_t{0}, size_t{1}}) {
+      if (sums.half[h].paths == 0) continue;
+      out.noisy.half[h].light[at] = static_cast<float>(sums.half[h].mean(c));
+      if (c < 3)
+        out.noisy.half[h].variance[3 * pixel + c] = static_cast<float>(sums.half[h].variance(c));
+    }
+  }
+  out.standard_error_y[pixel] = static_cast<float>(std::sqrt(sums.all.variance(1)));
+  for (size_t k = 0; k < picture_features; ++k)
+    out.noisy.features[picture_features * pixel + k] = static_cast<float>(sums.features[k]);
+}
 
 }  // namespace
 
 TracedPicture trace_picture(const LocalRun& run, size_t camera, const PictureOptions& options,
                             const KnownRadiance* flux, const ShareDone& progress) {
   const Camera& view = run.scene().description->cameras[camera];
-  TracedPicture out;
-  out.light.width = view.width;
-  out.light.height = view.height;
-  out.light.xyz.resize(3 * out.light.pixels());
-  out.light.scotopic.resize(out.light.pixels());
-  out.standard_error_y.resize(out.light.pixels());
-  const double paths = options.paths_per_pixel;
+  TracedPicture out = empty_picture(view);
   // Parts of a row, so that there is work for many fibers.
   const int parts = (view.width + columns_at_once - 1) / columns_at_once;
   const auto make = [&](const GeometryAccess& access) {
@@ -128,12 +212,7 @@ TracedPicture trace_picture(const LocalRun& run, size_t camera, const PictureOpt
       for (int column = first; column < std::min(first + columns_at_once, view.width); ++column) {
         if (options.interrupted()) return;
         const auto pixel = static_cast<size_t>(int64_t{row} * view.width + column);
-        const PixelSums sums = tracer->trace(column, row, pixel);
-        out.light.xyz[3 * pixel] = static_cast<float>(sums.x / paths);
-        out.light.xyz[3 * pixel + 1] = static_cast<float>(sums.y / paths);
-        out.light.xyz[3 * pixel + 2] = static_cast<float>(sums.z / paths);
-        out.light.scotopic[pixel] = static_cast<float>(sums.scotopic / paths);
-        out.standard_error_y[pixel] = static_cast<float>(sums.standard_error(paths));
+        store(tracer->trace(column, row, pixel), pixel, out);
       }
     };
   };
@@ -141,6 +220,25 @@ TracedPicture trace_picture(const LocalRun& run, size_t camera, const PictureOpt
   run.rows().run(units, make, [&](int64_t done) {
     if (progress) progress(static_cast<double>(done) / static_cast<double>(units));
   });
+  return out;
+}
+
+FilteredView filter_traced(const TracedPicture& traced, int threads) {
+  const ShareWork share = [&](int64_t count, const std::function<void(int64_t)>& work) {
+    parallel_for(count, threads, [&] { return work; });
+  };
+  FilteredPicture filtered = filter_picture(traced.noisy, {}, share);
+  FilteredView out;
+  out.light.width = traced.light.width;
+  out.light.height = traced.light.height;
+  for (size_t i = 0; i < traced.light.pixels(); ++i) {
+    const auto value = [&](size_t c) {
+      return filtered.light[light_channels * i + c] + traced.emitted[light_channels * i + c];
+    };
+    for (const size_t c : {size_t{0}, size_t{1}, size_t{2}}) out.light.xyz.push_back(value(c));
+    out.light.scotopic.push_back(value(3));
+  }
+  out.standard_error_y = std::move(filtered.standard_error_y);
   return out;
 }
 

@@ -1,8 +1,8 @@
 // Pictures of a run's cameras: luminance data first (OpenEXR, cd/m2), pixels second. Paths are
 // traced from the eye; a path ends in the run's flux at the first event after something diffuse, on
-// a surface or in smoke (final gather), so a picture takes seconds once the flux is there. Nothing
-// is clamped, blurred or denoised. The standard error of a pixel is that of its paths; what the
-// flux itself errs comes on top. The pixels depend on the scene, the flux, the seed and the paths
+// a surface or in smoke (final gather), so a picture takes seconds once the flux is there. What is
+// traced is neither clamped nor blurred; what PNG files show is filtered (regression_filter.hpp).
+// The standard error of a pixel is that of its paths; what the flux itself errs comes on top. The pixels depend on the scene, the flux, the seed and the paths
 // per pixel, never on the number of threads. One call at a time per run.
 #pragma once
 
@@ -17,6 +17,7 @@
 #include "actors/run/local_run.hpp"
 #include "runtime/core/atomic_file.hpp"
 #include "scenes/vision/picture.hpp"
+#include "scenes/vision/regression_filter.hpp"
 
 namespace luxodus {
 
@@ -29,6 +30,7 @@ struct PictureOptions {
   /// End paths in the run's flux. Without it they are traced to their end: slower and noisier, free
   /// of the patches' size. A run that has traced nothing has no flux to end in.
   bool gather = true;
+  bool raw = false;  // PNG files show light as traced, instead of filtered
   /// When it is set, what is under way ends within a pixel, and pictures that are not whole are not
   /// written. Null: nobody interrupts.
   const std::atomic<bool>* interrupt = nullptr;
@@ -36,11 +38,30 @@ struct PictureOptions {
   bool interrupted() const { return interrupt != nullptr && interrupt->load(); }
 };
 
-/// A camera's picture and the standard error of its luminance.
+/// Features of a pixel: the normal's x, y, z, the nearness [1/m], the transmittance, and X, Y, Z of
+/// the albedo, relative to white. Each is the mean over the pixel's paths.
+inline constexpr size_t picture_features = 8;
+
+/// A camera's picture, the standard error of its luminance, and what a filter needs of it.
 struct TracedPicture {
   XyzPicture light;                     // with scotopic luminance from the bands
   std::vector<float> standard_error_y;  // [cd/m2]; NaN with one path per pixel
+  /// X, Y, Z, scotopic of what emitters send straight to the eye, without chance but for where in
+  /// the pixel [cd/m2]; the halves of `noisy` are without it.
+  std::vector<float> emitted;
+  NoisyPicture noisy;
 };
+
+struct FilteredView {
+  XyzPicture light;
+  std::vector<float> standard_error_y;  // [cd/m2] by the difference of two halves
+};
+
+/// Paths that a filter needs of a pixel: each half two, to know its error.
+inline constexpr int min_filtered_paths = 4;
+
+/// Requires: min_filtered_paths per pixel at least; threads >= 1. The same for any threads.
+FilteredView filter_traced(const TracedPicture& traced, int threads);
 
 /// One camera's picture; without meaning where it was interrupted. `flux`: where paths end, or
 /// null. Requires: camera is one of the scene's; 1 <= paths_per_pixel <=
@@ -49,7 +70,7 @@ TracedPicture trace_picture(const LocalRun& run, size_t camera, const PictureOpt
                             const KnownRadiance* flux, const ShareDone& progress = {});
 
 /// Traces every camera, or the one named `only_view`, and writes into folder/views (made if
-/// missing): NAME.exr (X, Y, Z, R, G, B, scotopic, standard_error.Y), NAME.png (one exposure),
+/// missing): NAME.exr (light as traced and filtered, errors, features), NAME.png (one exposure),
 /// NAME_human.png (what an adapted eye tells apart), NAME_luminance.png (false colours with a
 /// scale; up to 8192 pixels an edge); NAME is that of result_names(). A scene without cameras has
 /// no pictures, which is no error. Where it is interrupted, the pictures that are whole are there.

@@ -1,6 +1,8 @@
 // From traced pictures to files.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 
 #include "actors/display/pictures.hpp"
 #include "actors/display/result_files.hpp"
@@ -33,97 +35,68 @@ std::vector<ImageText> texts_of(const LocalRun& run, const Camera& camera) {
           {"View", camera.name}};
 }
 
+void add_xyz(ExrImage& image, const std::string& prefix, const XyzPicture& light) {
+  for (const size_t c : {size_t{0}, size_t{1}, size_t{2}}) {
+    std::vector<float> values(light.pixels());
+    for (size_t i = 0; i < values.size(); ++i) values[i] = light.xyz[3 * i + c];
+    image.channels.push_back({prefix + "XYZ"[c], std::move(values)});
+  }
+  image.channels.push_back({prefix + "scotopic", light.scotopic});
+}
+
+/// Features by the names that renderers and filters give them.
+void add_features(ExrImage& image, const NoisyPicture& noisy) {
+  constexpr std::array<const char*, picture_features> names{
+      "N.X", "N.Y", "N.Z", "nearness", "transmittance", "albedo.X", "albedo.Y", "albedo.Z"};
+  for (size_t k = 0; k < picture_features; ++k) {
+    std::vector<float> values(noisy.pixels());
+    for (size_t i = 0; i < values.size(); ++i) values[i] = noisy.features[picture_features * i + k];
+    image.channels.push_back({names[k], std::move(values)});
+  }
+}
+
+/// `filtered`: null where there are too few paths.
 ExrImage exr_of(const LocalRun& run, const Camera& camera, const TracedPicture& traced,
-                const PictureOptions& options) {
+                const FilteredView* filtered, const PictureOptions& options) {
   ExrImage image;
   image.width = camera.width;
   image.height = camera.height;
   const size_t pixels = traced.light.pixels();
-  for (const char* name : {"X", "Y", "Z", "R", "G", "B"})
+  add_xyz(image, "", traced.light);
+  for (const char* name : {"R", "G", "B"})
     image.channels.push_back({name, std::vector<float>(pixels)});
   const glm::dmat3 to_rgb = srgb_from_xyz();
   for (size_t i = 0; i < pixels; ++i) {
     const float* xyz = &traced.light.xyz[3 * i];
     const glm::dvec3 rgb = to_rgb * glm::dvec3(xyz[0], xyz[1], xyz[2]);
-    for (size_t c = 0; c < 3; ++c) {
-      image.channels[c].values[i] = xyz[c];
-      image.channels[3 + c].values[i] = static_cast<float>(rgb[static_cast<int>(c)]);
-    }
+    for (size_t c = 0; c < 3; ++c)
+      image.channels[light_channels + c].values[i] = static_cast<float>(rgb[static_cast<int>(c)]);
   }
-  image.channels.push_back({"scotopic", traced.light.scotopic});
   // An error needs two paths: where there are none, there is no channel of it, instead of NaN.
   const bool has_error = options.paths_per_pixel >= 2;
   if (has_error) image.channels.push_back({"standard_error.Y", traced.standard_error_y});
+  if (filtered != nullptr) {
+    add_xyz(image, "filtered.", filtered->light);
+    image.channels.push_back({"filtered_error.Y", filtered->standard_error_y});
+  }
+  add_features(image, traced.noisy);
   image.chromaticities = Chromaticities{};
   image.white_luminance_cd_m2 = 1.0f;
   image.text = texts_of(run, camera);
   image.text.emplace_back(
       "comments",
       std::string("X, Y, Z: CIE 1931, Y in cd/m2. R, G, B: linear sRGB of the same light, not "
-                  "clipped. scotopic: scotopic cd/m2. ") +
-          (has_error ? "standard_error.Y: of the pixel's paths."
-                     : "No standard error: it needs two paths per pixel."));
+                  "clipped. scotopic: scotopic cd/m2. All as traced, not filtered. ") +
+          (has_error ? "standard_error.Y: of the pixel's paths. "
+                     : "No standard error: it needs two paths per pixel. ") +
+          (filtered != nullptr ? "filtered: the same without most of its noise, and its error by "
+                                 "the difference of two halves. "
+                               : "") +
+          "N: normal; nearness: 1/m; transmittance of smoke up to the surface; albedo: relative to "
+          "white.");
   image.numbers = {{"paths_per_pixel", static_cast<double>(options.paths_per_pixel)},
                    {"particles", static_cast<double>(run.particles())}};
   return image;
-}
-
-/// Pixels as far as this are asked for a colour [px], and differ from the one that asks by at most
-/// this many standard errors: beyond it they show something else, the legend of a sign beside its
-/// background.
-constexpr int calm_reach_px = 3;
-constexpr double max_calm_errors = 3;
-
-/// Calls `with` with the index of every pixel near (x, y), itself included.
-template <class With>
-void for_each_near(const XyzPicture& in, int x, int y, const With& with) {
-  for (int j = std::max(0, y - calm_reach_px); j <= std::min(in.height - 1, y + calm_reach_px); ++j)
-    for (int i = std::max(0, x - calm_reach_px); i <= std::min(in.width - 1, x + calm_reach_px);
-         ++i)
-      with(static_cast<size_t>(j * in.width + i));
-}
-
-/// X, Y and Z summed over the pixels near (x, y) that show the same luminance within the errors,
-/// each of equal weight: bright neighbours must not colour what is beside them.
-glm::dvec3 colour_near(const TracedPicture& traced, int x, int y) {
-  const XyzPicture& in = traced.light;
-  const auto light = [&](size_t i) {
-    return glm::dvec3(in.xyz[3 * i], in.xyz[3 * i + 1], in.xyz[3 * i + 2]);
-  };
-  // A single pixel that has missed all rare paths does not know its error; its surroundings do.
-  double variance = 0, pixels = 0;
-  for_each_near(in, x, y, [&](size_t i) {
-    variance += std::pow(static_cast<double>(traced.standard_error_y[i]), 2);
-    pixels += 1;
-  });
-  const auto self = static_cast<size_t>(y * in.width + x);
-  const auto own_error = static_cast<double>(traced.standard_error_y[self]);
-  const double most = max_calm_errors * std::hypot(own_error, std::sqrt(variance / pixels));
-  const double own = light(self).y;
-  glm::dvec3 sum(0);
-  for_each_near(in, x, y, [&](size_t i) {
-    const glm::dvec3 near = light(i);
-    const double total = near.x + near.y + near.z;
-    if (total > 0 && std::abs(near.y - own) <= most) sum += near / (total + own);
-  });
-  return sum;
-}
-
-/// The picture with each pixel's chromaticity averaged over its neighbourhood, luminance untouched.
-/// A path carries one band, so few paths give right luminance in wrong colours; eyes resolve colour
-/// coarsely. For pictures on a screen only: the data of the EXR file stays as traced.
-XyzPicture with_calm_colour(const TracedPicture& traced) {
-  XyzPicture out = traced.light;
-  for (int y = 0; y < out.height; ++y) {
-    for (int x = 0; x < out.width; ++x) {
-      const glm::dvec3 sum = colour_near(traced, x, y);
-      if (!(sum.y > 0)) continue;
-      float* pixel = &out.xyz[3 * static_cast<size_t>(y * out.width + x)];
-      pixel[0] = static_cast<float>(static_cast<double>(pixel[1]) * sum.x / sum.y);
-      pixel[2] = static_cast<float>(static_cast<double>(pixel[1]) * sum.z / sum.y);
-    }
-  }
-  return out;
 }
 
 /// Light that an eye or a camera takes for white: within this of black bodies of these
@@ -199,10 +172,15 @@ Result<void> write_view(const std::filesystem::path& stem, const LocalRun& run,
                         const Camera& camera, const TracedPicture& traced,
                         const PictureOptions& options) {
   const auto path = [&](const char* ending) { return std::filesystem::path(stem) += ending; };
-  if (auto ok = write_exr(path(".exr"), exr_of(run, camera, traced, options)); !ok)
+  std::optional<FilteredView> filtered;
+  if (options.paths_per_pixel >= min_filtered_paths)
+    filtered = filter_traced(traced, run.threads());
+  const FilteredView* shown = filtered ? &*filtered : nullptr;
+  if (auto ok = write_exr(path(".exr"), exr_of(run, camera, traced, shown, options)); !ok)
     return ok.problem();
   const auto texts = texts_of(run, camera);
-  const XyzPicture balanced = white_balanced(run.scene(), with_calm_colour(traced));
+  const bool raw = options.raw || shown == nullptr;
+  const XyzPicture balanced = white_balanced(run.scene(), raw ? traced.light : shown->light);
   const PngImage plain = png_of(
       tone_plain(balanced, {}), texts,
       "One exposure, white balanced, as a camera takes it; luminance data is in the EXR file");

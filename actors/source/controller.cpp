@@ -341,8 +341,8 @@ RunEnded Controller::end_word() const {
   return {round(), fault_ ? fault_->what.substr(0, limits::text_bytes) : ""};
 }
 
-/// Were this node to crash while its journal lacks work, that work would be traced again: by workers
-/// that have not heard of an end. After `lost` the disk is given up.
+/// Were this node to crash while its journal lacks work, that work would be traced again: by
+/// workers that have not heard of an end. After `lost` the disk is given up.
 bool Controller::awaits_keeper() const {
   return config_.keeper != nullptr && !config_.keeper->is_whole() && !fault_ &&
          !interrupt_.load() && over_for() < config_.lost;

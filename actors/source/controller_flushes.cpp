@@ -105,7 +105,8 @@ std::string Controller::count_flush(const Arrived& arrived) {
   const std::vector<uint64_t>& leases = arrived.flush.leases;
   const char* const fenced = "a lease was fenced";
   if (!book_.stand(arrived.worker, leases)) return fenced;
-  if (arrived.flush.slice_hashes.size() != shards_.others()) return "shards lack their slices of it";
+  if (arrived.flush.slice_hashes.size() != shards_.others())
+    return "shards lack their slices of it";
   Hasher hash;
   for (std::span<const std::byte> left = arrived.payload; !left.empty(); take_turns()) {
     const auto piece = left.first(std::min(left.size(), bytes_of_a_step));

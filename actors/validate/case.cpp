@@ -39,7 +39,7 @@ void PreparedCase::add_closed() {
 void PreparedCase::look_rather(double paths_per_particle) {
   quick_particles = 1 << 13;
   // A share of 1 is a tenth of a path for each particle, divided among the three parts of a sign.
-  scene.run.eye_share = 30 * paths_per_particle;
+  scene.run.eye_path_factor = 30 * paths_per_particle;
 }
 
 Cases all_cases() {

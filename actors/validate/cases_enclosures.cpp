@@ -49,7 +49,7 @@ PreparedCase indirect_plan(double reflectance, double irradiance) {
     scene.probes.push_back(probe);
   }
   const double lm_per_w = efficacy_lm_per_w(scene.emitters[0].spectrum);
-  scene.run.eye_share = 10;
+  scene.run.eye_path_factor = 10;
   plan.quick_particles = reflectance > 0.9 ? 1 << 11 : 1 << 13;
   // Facets stand off the sphere by up to 0.025 %, and no point of one sees its own.
   constexpr double of_facets = 1.5e-3;

@@ -110,7 +110,7 @@ PreparedCase probe_plan(double alpha) {
            std::max(0.0, -glm::dot(gaze, wo)) / (d2 * d2);
   });
   plan.quick_particles = 1 << 14;
-  scene.run.eye_share = 60;
+  scene.run.eye_path_factor = 60;
   plan.add(
           "indirect illuminance [lx]", lux,
           [](const Traced& run) { return run.value(run.blocks().probes, 0); }, of_quadrature)

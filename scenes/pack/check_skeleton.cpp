@@ -301,7 +301,7 @@ void check(const RunSettings& r) {
     need(edges[i] > edges[i - 1], "a run's bands do not ascend");
   need(within(r.band_tolerance, 0, 1e3) && r.batch_particles >= 0 &&
            r.batch_particles <= 1'000'000 && within(r.voxel_edge_m, 0, 1e4) &&
-           within(r.eye_share, 0, 1e3),
+           within(r.eye_path_factor, 0, 1e3),
        "a run's settings cannot be");
 }
 

@@ -155,7 +155,7 @@ void serialize(A& a, Scenario& x) {
 template <class A>
 void serialize(A& a, RunSettings& x) {
   a(x.seed, x.max_bands, x.band_edges_nm, x.band_tolerance, x.batch_particles, x.voxel_edge_m,
-    x.voxels, x.analogue, x.stratified, choice(x.groups, GroupRule::by_emitter), x.eye_share,
+    x.voxels, x.analogue, x.stratified, choice(x.groups, GroupRule::by_emitter), x.eye_path_factor,
     x.error_of);
 }
 template <class A>

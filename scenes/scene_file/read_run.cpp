@@ -17,7 +17,7 @@ void read_run(const toml::Table& table, SceneReading& reading) {
   if (keys.has("voxels")) run.voxels = keys.flag("voxels");
   if (keys.has("analogue")) run.analogue = keys.flag("analogue");
   if (keys.has("stratified")) run.stratified = keys.flag("stratified");
-  if (keys.has("eye_path_factor")) run.eye_share = keys.number("eye_path_factor");
+  if (keys.has("eye_path_factor")) run.eye_path_factor = keys.number("eye_path_factor");
   if (keys.has("error_of")) {
     run.error_of = keys.texts("error_of");
     run.error_of_place = keys.place("error_of");

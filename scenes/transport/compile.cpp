@@ -169,7 +169,7 @@ void choose_batch(CompiledScene& scene) {
       static_cast<double>(3 * scene.eye_targets.size() + 2 * scene.description->probes.size());
   if (parts > 0) {
     // A path from the eye costs some ten histories' rays (each event asks the lights as well).
-    const double paths = 0.1 * run.eye_share * share_of_eyes(scene.error_target) *
+    const double paths = 0.1 * run.eye_path_factor * share_of_eyes(scene.error_target) *
                          static_cast<double>(scene.batch_particles) / parts;
     scene.eye_paths_per_batch = std::clamp(static_cast<int>(paths), 1, 1024);
   }

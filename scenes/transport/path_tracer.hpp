@@ -14,6 +14,7 @@
 #include "scenes/tally/batch_scores.hpp"
 #include "scenes/transport/connect.hpp"
 #include "scenes/transport/emission.hpp"
+#include "scenes/transport/first_hit.hpp"
 #include "scenes/transport/group_light.hpp"
 #include "scenes/transport/known_radiance.hpp"
 #include "scenes/transport/next_event.hpp"
@@ -42,7 +43,8 @@ class PathTracer {
       : scene_(scene),
         resolver_(resolver),
         random_(seed, stream),
-        next_event_(scene, resolver, random_) {
+        next_event_(scene, resolver, random_),
+        straight_(scene.groups.size()) {
     // A picture shows colours, an estimate of luminance needs few.
     const double colour = stream == RandomStream::picture ? 1.0 : 0.05;
     double total = 0;
@@ -52,6 +54,7 @@ class PathTracer {
       const Band& band = scene.bands[b];
       total += power * (band.lm_per_w + colour * (band.x_per_w + band.z_per_w));
       band_cdf_.push_back(total);
+      if (band.lm_per_w > scene.bands[brightest_band_].lm_per_w) brightest_band_ = b;
     }
     for (double& c : band_cdf_) c /= total;
   }
@@ -66,6 +69,25 @@ class PathTracer {
   }
   double band_probability(int b) const {
     return band_cdf_[static_cast<size_t>(b)] - (b > 0 ? band_cdf_[static_cast<size_t>(b - 1)] : 0);
+  }
+
+  /// What is known of the ray without chance. `first` keeps its memory.
+  void meet_first(const Ray& ray, FirstHit& first) {
+    const auto bands = static_cast<size_t>(scene_.bands.count());
+    first.emitted.assign(bands, 0.0);
+    through_.assign(bands, 1.0);
+    Ray rest = ray;
+    Real passed = 0;
+    Hit hit = resolver_.nearest(rest);
+    for (int pane = 0; pane < limits::panes_per_line; ++pane) {
+      add_straight_light(rest, hit, first.emitted);
+      if (!hit.found() || !pass_straight(rest, hit)) break;
+      passed += hit.distance;
+      hit = resolver_.nearest(rest);
+    }
+    describe(hit, rest, passed, first);
+    first.transmittance = medium_transmittance(scene_, ray, line_end(passed + hit.distance),
+                                               brightest_band_, resolver_);
   }
 
   /// Adds `weight` times the radiance [W/(m2 sr)] in `band` that arrives against `ray.direction`,
@@ -166,6 +188,53 @@ class PathTracer {
       into.add(light.group, weight * throughput * light.radiance);
     }
   };
+
+  // ---- what is known without chance
+  // ------------------------------------------------------------------------------------
+
+  /// Adds what emitters send along the ray up to the hit, of all bands, as `through_` lets pass.
+  void add_straight_light(const Ray& ray, const Hit& hit, std::vector<double>& emitted) {
+    for (int b = 0; b < scene_.bands.count(); ++b) {
+      const auto band = static_cast<size_t>(b);
+      straight_.clear();
+      Path path{ray, b, EmitterHits::all, through_[band], straight_};
+      add_emitted_along(path, hit);
+      emitted[band] += straight_.total();
+    }
+  }
+
+  /// Through a pane or an open surface, on the same line; false: something else ends the line.
+  bool pass_straight(Ray& ray, const Hit& hit) {
+    const TriangleRecord& t = *hit.triangle;
+    const Real cosine = glm::dot(t.unit_normal(), ray.direction);
+    const CompiledMaterial& material = material_at(hit, cosine < 0);
+    if (material.kind != MaterialKind::glass_pane && material.kind != MaterialKind::open)
+      return false;
+    for (size_t b = 0; b < through_.size(); ++b) {
+      if (material.kind == MaterialKind::glass_pane)
+        through_[b] *= static_cast<double>(pane_transmittance(material.by_band[b], cosine));
+      through_[b] *=
+          medium_transmittance(scene_, ray, line_end(hit.distance), static_cast<int>(b), resolver_);
+    }
+    ray.origin = offset_ray(t.at(hit.u, hit.v), cosine < 0 ? -t.unit_normal() : t.unit_normal(),
+                            scene_.min_offset_m);
+    return true;
+  }
+
+  void describe(const Hit& hit, const Ray& ray, Real passed, FirstHit& first) {
+    first.reflectance.assign(through_.size(), 0.0);
+    first.normal = Vec3(0);
+    first.nearness = 0;
+    if (!hit.found()) return;
+    const Vec3 normal = hit.triangle->unit_normal();
+    const bool front = glm::dot(normal, ray.direction) < 0;
+    first.normal = front ? normal : -normal;
+    first.nearness = 1 / static_cast<double>(passed + hit.distance);
+    const CompiledMaterial& material = material_at(hit, front);
+    for (size_t b = 0; b < through_.size(); ++b)
+      first.reflectance[b] = static_cast<double>(
+          surface_at(scene_, hit, front, static_cast<int>(b), material, resolver_).reflectance);
+  }
 
   // ---- events
   // ------------------------------------------------------------------------------------
@@ -449,6 +518,9 @@ class PathTracer {
   Random random_;
   std::vector<double> band_cdf_;
   NextEvent<Resolver> next_event_;
+  int brightest_band_ = 0;       // of the most lumens a watt
+  std::vector<double> through_;  // by band: what panes and media of a straight line let pass
+  GroupLight straight_;          // of one band
 };
 
 }  // namespace luxodus

@@ -86,9 +86,10 @@ class ResolverPictureTracer final : public PictureTracer {
   double band_probability(int band) const override { return eye_.band_probability(band); }
   double radiance(const Ray& ray, int band, const KnownRadiance* gather) override {
     light_.clear();
-    eye_.radiance(ray, band, EmitterHits::all, 1, light_, gather);
+    eye_.radiance(ray, band, EmitterHits::none, 1, light_, gather);
     return light_.total();
   }
+  void meet_first(const Ray& ray, FirstHit& first) override { eye_.meet_first(ray, first); }
 
  private:
   Resolver resolver_;

@@ -8,6 +8,7 @@
 #include "scenes/geometry/real.hpp"
 #include "scenes/tally/batch_scores.hpp"
 #include "scenes/transport/direct_light.hpp"
+#include "scenes/transport/first_hit.hpp"
 #include "scenes/transport/known_radiance.hpp"
 #include "scenes/transport/resolver.hpp"
 
@@ -43,7 +44,10 @@ class PictureTracer {
   virtual Real uniform() = 0;
   virtual int choose_band(double u) const = 0;
   virtual double band_probability(int band) const = 0;
+  /// But for what emitters send straight to the eye: meet_first() has that without chance.
   virtual double radiance(const Ray& ray, int band, const KnownRadiance* gather) = 0;
+  /// What is known of the ray without chance. `first` keeps its memory.
+  virtual void meet_first(const Ray& ray, FirstHit& first) = 0;
 };
 std::unique_ptr<PictureTracer> make_picture_tracer(const CompiledScene& scene,
                                                    const GeometryAccess& access, uint64_t seed);

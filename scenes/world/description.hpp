@@ -347,7 +347,7 @@ struct RunSettings {
   bool analogue = false;   // sampled absorption instead of weighted survival
   bool stratified = true;  // low-discrepancy points for the first draws of histories and eye paths
   GroupRule groups = GroupRule::one;
-  double eye_share = 1.0;  // paths from the eye per batch, relative to the default
+  double eye_path_factor = 1.0;  // paths from the eye per batch, relative to the default
   std::vector<std::string>
       error_of;  // what the error is judged by: see scenes/transport/error_target.hpp
   SourcePlace error_of_place;

@@ -154,7 +154,7 @@ std::shared_ptr<const CompiledScene> pictured_room(Air air, int width, int heigh
   }
   if (air != Air::clear) d.media.push_back(smoke(air, pictured_albedo));
   d.run.max_bands = 1;
-  d.run.eye_share = 0;  // pictures take their paths themselves
+  d.run.eye_path_factor = 0;  // pictures take their paths themselves
   Camera camera;
   camera.name = "corner";
   camera.eye = {0.2, 0.2, 1.6};

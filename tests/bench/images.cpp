@@ -45,7 +45,7 @@ std::shared_ptr<const CompiledScene> office(const char* scenario, bool stratifie
   if (!read.scene) throw std::runtime_error("scenes/library/office_floor.toml cannot be read");
   SceneDescription d = *read.scene;
   d.run.stratified = stratified;
-  d.run.eye_share = 0;  // pictures take their paths themselves
+  d.run.eye_path_factor = 0;  // pictures take their paths themselves
   d.cameras.resize(1);
   d.cameras[0].width = width;
   d.cameras[0].height = height;
@@ -189,7 +189,7 @@ constexpr glm::dvec3 eye{2, 7.5, 1.65}, sign_at{18, 7.5, 2.3};
 SceneDescription room_with_sign(double voxel_edge) {
   SceneDescription d = furnished(Air::homogeneous, {false, true});
   d.run.voxel_edge_m = voxel_edge;
-  d.run.eye_share = 4;
+  d.run.eye_path_factor = 4;
   Sign sign;
   sign.name = "sign";
   sign.frame.origin = sign_at;

@@ -83,7 +83,7 @@ void print_allocation(const char* scenario, double share) {
   SceneDescription d = office();
   d.run.groups = GroupRule::by_emitter;
   d.run.batch_particles = static_cast<int64_t>(share * 65536);
-  d.run.eye_share = 0;  // nothing here is seen by an eye
+  d.run.eye_path_factor = 0;  // nothing here is seen by an eye
   const auto scene = compiled(d, scenario);
   const auto run = traced(scene);
   const Readout readout(*scene, run->totals());

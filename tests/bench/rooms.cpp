@@ -31,10 +31,10 @@ std::unique_ptr<LocalRun> traced(Air air, uint64_t seed, int64_t particles) {
 }
 
 /// Root of the mean square of the relative deviation of luminance.
-double deviation(const TracedPicture& is, const TracedPicture& wanted) {
-  const size_t n = wanted.light.pixels();
-  const auto luminance = [](const TracedPicture& p, size_t i) {
-    return static_cast<double>(p.light.xyz[3 * i + 1]);
+double deviation(const XyzPicture& is, const XyzPicture& wanted) {
+  const size_t n = wanted.pixels();
+  const auto luminance = [](const XyzPicture& p, size_t i) {
+    return static_cast<double>(p.xyz[3 * i + 1]);
   };
   double mean = 0;
   for (size_t i = 0; i < n; ++i) mean += luminance(wanted, i) / static_cast<double>(n);
@@ -68,12 +68,16 @@ void print_room(const char* name, Air air, int64_t particles, int reference_path
       const double seconds = process_seconds() - start;
       // Two pictures of so many paths differ by the chance of both.
       const double own = std::sqrt(reference_paths / static_cast<double>(reference_paths + paths));
-      const double error = own * deviation(picture, wanted);
+      const double error = own * deviation(picture.light, wanted.light);
+      const double filter_start = process_seconds();
+      const FilteredView filtered = filter_traced(picture, 2);
+      const double filtering = process_seconds() - filter_start;
       const double full_size = 320.0 * 180.0 / (width * height);
       const double needed = full_size * seconds * std::pow(error / wanted_error, 2);
-      fmt::print("{:<12} {:<7} {:>5} {:>9.2f} {:>9.2f} % {:>12.1f} {:>12.1f}\n", name,
-                 gather ? "gather" : "full", paths, seconds, 100 * error, needed,
-                 gather ? needed + tracing : needed);
+      fmt::print("{:<12} {:<7} {:>5} {:>9.2f} {:>9.2f} % {:>12.1f} {:>12.1f} {:>9.2f} % {:>9.2f}\n",
+                 name, gather ? "gather" : "full", paths, seconds, 100 * error, needed,
+                 gather ? needed + tracing : needed, 100 * deviation(filtered.light, wanted.light),
+                 filtering);
       std::fflush(stdout);
     }
   }
@@ -87,9 +91,9 @@ void print_rooms(double share) {
   fmt::print(
       "\nPictures of a furnished room, {} x {} pixels, against one of {} paths a pixel in the same "
       "way;\nprocessor seconds to {:.0f} % are those of 320 x 180 pixels, without and with the "
-      "particles'\n{:<12} {:<7} {:>5} {:>9} {:>11} {:>12} {:>12}\n",
+      "particles'\n{:<12} {:<7} {:>5} {:>9} {:>11} {:>12} {:>12} {:>11} {:>9}\n",
       width, height, reference, 100 * wanted_error, "air", "paths", "each", "cpu [s]", "error",
-      "to it [s]", "in all [s]");
+      "to it [s]", "in all [s]", "filtered", "cpu [s]");
   print_room("clear", Air::clear, particles, reference);
   print_room("homogeneous", Air::homogeneous, particles, reference);
   print_room("layered", Air::layered, particles, reference);

@@ -138,7 +138,7 @@ TEST_CASE("indirect illuminance by paths from the eye is what crosses a plane th
       scene.probes.push_back(p);
     }
   }
-  scene.run.eye_share = 8;
+  scene.run.eye_path_factor = 8;
   const double lm_per_w = efficacy_lm_per_w(scene.emitters[0].spectrum);
   RunOptions options;
   options.particles = 1 << 23;

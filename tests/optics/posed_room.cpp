@@ -147,7 +147,7 @@ SceneDescription posed_room(const Pose& pose, Level level) {
   scene.run.max_bands = 1;
   scene.run.voxels = level == Level::with;
   scene.run.voxel_edge_m = 0.5 * pose.scale;
-  scene.run.eye_share = 4;
+  scene.run.eye_path_factor = 4;
   add_walls(scene, pose);
   add_lamps(scene, pose);
   add_smoke(scene, pose, level);

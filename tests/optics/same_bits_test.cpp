@@ -74,7 +74,7 @@ SceneDescription room_of_everything() {
   probe.position = {2, 1, 1};
   scene.probes.push_back(probe);
   scene.run.batch_particles = 2000;
-  scene.run.eye_share = 0.5;
+  scene.run.eye_path_factor = 0.5;
   return scene;
 }
 

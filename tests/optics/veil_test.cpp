@@ -18,7 +18,7 @@ constexpr double sight_m = 10;
 SceneDescription eye_in_smoke(double g) {
   SceneDescription scene;
   scene.run.voxels = false;
-  scene.run.eye_share = 1000;
+  scene.run.eye_path_factor = 1000;
   add_homogeneous(scene, smoke(sigma, albedo, g));
   Sign sign;
   sign.name = "sign";

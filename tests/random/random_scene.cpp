@@ -40,7 +40,7 @@ void draw_run(Draw& draw) {
   run.analogue = dice.chance(0.2);
   run.stratified = dice.chance(0.8);
   run.groups = dice.one_of({GroupRule::one, GroupRule::by_circuit, GroupRule::by_emitter});
-  run.eye_share = dice.one_of({0.0, 1.0, 1.0, 3.0});
+  run.eye_path_factor = dice.one_of({0.0, 1.0, 1.0, 3.0});
 }
 
 Scenario draw_scenario(Draw& draw) {

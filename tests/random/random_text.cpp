@@ -431,7 +431,7 @@ class TextWriter {
 /// So that a scene that was taken is traced in moments.
 void moderate(RunSettings& run) {
   run.batch_particles = std::clamp<int64_t>(run.batch_particles, 1, 32);
-  run.eye_share = std::min(run.eye_share, 1.0);
+  run.eye_path_factor = std::min(run.eye_path_factor, 1.0);
 }
 
 }  // namespace

@@ -256,6 +256,88 @@ TEST_CASE("a lamp in clear air has its own luminance in every pixel, without cha
   }
 }
 
+/// A black box with a coloured lamp on the wall that is looked at, behind a pane.
+const std::string lamp_behind_glass = R"(
+[run]
+max_bands = 4
+[[material]]
+name = "black"
+reflectance = [[400, 0], [700, 0.001]]
+[[material]]
+name = "pane"
+kind = "glass"
+[[object]]
+name = "box"
+shape = "room"
+low = [0, 0, 0]
+high = [4, 4, 3]
+material = "black"
+[[object]]
+name = "window"
+shape = "quad"
+corner = [2, 0.01, 0.01]
+edge_u = [0, 3.98, 0]
+edge_v = [0, 0, 2.98]
+material = "pane"
+[[emitter]]
+name = "lamp"
+shape = "rectangle"
+size = [3.9, 2.9]
+position = [3.999, 2, 1.5]
+direction = [-1, 0, 0]
+luminance_cd_m2 = 100
+spectrum = [[400, 0.1], [700, 1]]
+[[camera]]
+name = "view"
+eye = [1, 2, 1.5]
+target = [4, 2, 1.5]
+vertical_fov_deg = 20
+width = 12
+height = 8
+)";
+
+TEST_CASE("light that comes straight through a pane has all its colours, without chance",
+          "[display]") {
+  const auto run = traced(lamp_behind_glass, 1 << 12);
+  REQUIRE(run->scene().bands.count() == 4);
+  const TracedPicture picture = picture_of(*run, 4, true);
+  const float* first = picture.light.xyz.data();
+  for (size_t i = 0; i < picture.light.pixels(); ++i) {
+    CHECK(picture.light.xyz[3 * i + 1] == Approx(100 * 0.92).epsilon(0.02));
+    for (const size_t c : {size_t{0}, size_t{2}})
+      CHECK(picture.light.xyz[3 * i + c] == Approx(first[c]).epsilon(0.01));
+    CHECK(picture.standard_error_y[i] < 0.5f);
+  }
+  CHECK(first[0] > first[1]);
+  CHECK(first[2] < first[1]);
+}
+
+TEST_CASE("a filtered picture is nearer to the closed form, and says how near", "[display]") {
+  const auto run =
+      traced("[run]\nmax_bands = 4\n" + ulbricht_sphere("[[400, 0.2], [700, 0.8]]"), 1 << 18);
+  const TracedPicture long_picture = picture_of(*run, 512, true);
+  const double exact = mean_luminance(long_picture).mean;
+  const TracedPicture picture = picture_of(*run, 8, true);
+  const FilteredView filtered = filter_traced(picture, 2);
+  CHECK(filtered.light.xyz == filter_traced(picture, 1).light.xyz);
+  double raw_squares = 0, squares = 0, said = 0, colour = 0;
+  for (size_t i = 0; i < picture.light.pixels(); ++i) {
+    const auto of = [&](const XyzPicture& light, size_t c) {
+      return static_cast<double>(light.xyz[3 * i + c]);
+    };
+    raw_squares += std::pow(of(picture.light, 1) - exact, 2);
+    squares += std::pow(of(filtered.light, 1) - exact, 2);
+    said += std::pow(static_cast<double>(filtered.standard_error_y[i]), 2);
+    colour = std::max(colour, std::abs(of(filtered.light, 0) / of(filtered.light, 1) -
+                                       of(long_picture.light, 0) / of(long_picture.light, 1)));
+  }
+  INFO("raw " << raw_squares << ", filtered " << squares << ", said " << said);
+  CHECK(squares < raw_squares / 10);
+  CHECK(said < 5 * squares);
+  CHECK(said > squares / 20);
+  CHECK(colour < 0.2);
+}
+
 TEST_CASE("a picture is the same bits for one and three threads, and for geometry in cells",
           "[display]") {
   const std::string toml = glowing_box("0.5", "0.8");
@@ -313,8 +395,14 @@ TEST_CASE("views are written as luminance data and as pixels", "[display]") {
   if (!done.ok()) FAIL(done.problem().text());
   CHECK(last == Approx(1));
   const ExrImage exr = test::read_exr(folder / "views/inside.exr");
-  for (const char* name : {"X", "Y", "Z", "R", "G", "B", "scotopic", "standard_error.Y"})
+  for (const char* name :
+       {"X", "Y", "Z", "R", "G", "B", "scotopic", "standard_error.Y", "filtered.Y",
+        "filtered_error.Y", "N.X", "N.Y", "N.Z", "nearness", "transmittance", "albedo.Y"})
     CHECK(exr.find(name) != nullptr);
+  // The wall of a sphere of 2 m reflects 0.6, and no smoke is before it.
+  CHECK(exr.find("albedo.Y")->values[0] == Approx(0.6));
+  CHECK(exr.find("transmittance")->values[0] == 1);
+  CHECK(1 / exr.find("nearness")->values[0] == Approx(2).margin(0.5));
   CHECK(exr.unit == "cd/m2");
   const TracedPicture picture = picture_of(*run, 4, true);
   const ExrChannel* y = exr.find("Y");

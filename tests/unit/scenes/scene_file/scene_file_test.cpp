@@ -32,7 +32,7 @@ eye_path_factor = 0.5
   CHECK(s.run.band_edges_nm == std::vector<double>{380, 500, 780});
   CHECK_FALSE(s.run.voxels);
   CHECK(s.run.groups == GroupRule::by_circuit);
-  CHECK(s.run.eye_share == 0.5);
+  CHECK(s.run.eye_path_factor == 0.5);
   CHECK(s.run.band_tolerance == RunSettings{}.band_tolerance);
   CHECK(s.run.batch_particles == 0);
   CHECK_FALSE(s.run.analogue);
@@ -60,7 +60,7 @@ TEST_CASE("a scene with former names of keys is the same scene, by its hash, wit
   CHECK(before.content_hash == now.content_hash);
   CHECK(before.content_hash == XXH3_64bits(old.data(), old.size()));  // as it always was
   CHECK(before.run.max_bands == 3);
-  CHECK(before.run.eye_share == 0.5);
+  CHECK(before.run.eye_path_factor == 0.5);
   CHECK(before.objects[0].mesh.triangles.size() == now.objects[0].mesh.triangles.size());
   REQUIRE(before.warnings.size() == now.warnings.size() + 3);
   std::vector<std::string> told;

@@ -1,0 +1,471 @@
+#include "scenes/vision/regression_filter.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "runtime/core/check.hpp"
+
+namespace luxodus {
+
+namespace {
+
+/// Rows of centres that one piece of work has.
+constexpr int rows_of_a_band = 8;
+/// Differences of light below this share are no differences, however small the errors.
+constexpr float unseen_difference = 1e-3f;
+/// Ridge of the regression, relative to the features' own spread: where they do not vary in a
+/// window, they explain nothing.
+constexpr double ridge = 1e-4;
+/// And where colours are fitted: a pixel unlike all others of its window is to have their colour.
+constexpr double colour_ridge = 0.03;
+/// Pixels are as far as this asked for the variance of one that has missed all rare paths.
+constexpr int variance_reach_px = 2;
+/// And as far as this to compare what the variances say with how far the halves differ.
+constexpr int calibration_reach_px = 8;
+/// Of the windows in which colours are fitted: their reach, the steps between the pixels that are
+/// asked, and between centres.
+constexpr int colour_window_px = 27, colour_step_px = 2, colour_stride_px = 9;
+/// Of a pixel's own light beside what windows say of it: it decides where no centre is like it.
+constexpr double own_weight = 0.25;
+constexpr size_t max_features = 16;
+constexpr size_t colour_channels = 3;
+
+struct Rectangle {
+  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;  // without x1 and y1
+
+  int width() const { return x1 - x0; }
+  size_t pixels() const { return static_cast<size_t>(width()) * static_cast<size_t>(y1 - y0); }
+  size_t index(int x, int y) const {
+    return static_cast<size_t>(y - y0) * static_cast<size_t>(width()) + static_cast<size_t>(x - x0);
+  }
+};
+
+/// Sums over the (2 reach + 1)^2 surroundings of every pixel, in place; what lies beyond the edge
+/// is left out.
+void add_surroundings(std::vector<float>& values, const Rectangle& area, int reach,
+                      std::vector<float>& scratch) {
+  scratch.assign(values.size(), 0.0f);
+  for (int y = area.y0; y < area.y1; ++y)
+    for (int d = -reach; d <= reach; ++d) {
+      const int from = std::max(area.x0, area.x0 - d), to = std::min(area.x1, area.x1 - d);
+      const float* in = &values[area.index(area.x0, y)];
+      float* out = &scratch[area.index(area.x0, y)];
+      for (int x = from - area.x0; x < to - area.x0; ++x) out[x] += in[x + d];
+    }
+  std::fill(values.begin(), values.end(), 0.0f);
+  for (int y = area.y0; y < area.y1; ++y)
+    for (int j = std::max(area.y0, y - reach); j < std::min(area.y1, y + reach + 1); ++j) {
+      const float* in = &scratch[area.index(area.x0, j)];
+      float* out = &values[area.index(area.x0, y)];
+      for (int x = 0; x < area.width(); ++x) out[x] += in[x];
+    }
+}
+
+/// Light and variance of a half, channel by channel, as comparisons read them.
+struct Compared {
+  std::array<std::vector<float>, colour_channels> light, variance;
+};
+
+/// Variances of a half, one channel of it, that the difference of the halves bears out around each
+/// pixel. Low-discrepancy paths err less than the spread of their values says.
+std::vector<float> borne_out_variance(const NoisyPicture& picture, const HalfPicture& half,
+                                      size_t channel) {
+  const Rectangle all{0, 0, picture.width, picture.height};
+  std::vector<float> is(picture.pixels()), said(picture.pixels()), variance(picture.pixels());
+  std::vector<float> scratch;
+  for (size_t i = 0; i < picture.pixels(); ++i) {
+    const float difference = picture.half[0].light[light_channels * i + channel] -
+                             picture.half[1].light[light_channels * i + channel];
+    is[i] = difference * difference;
+    said[i] = picture.half[0].variance[colour_channels * i + channel] +
+              picture.half[1].variance[colour_channels * i + channel];
+    variance[i] = half.variance[colour_channels * i + channel];
+  }
+  add_surroundings(is, all, calibration_reach_px, scratch);
+  add_surroundings(said, all, calibration_reach_px, scratch);
+  for (size_t i = 0; i < picture.pixels(); ++i)
+    if (said[i] > is[i]) variance[i] *= is[i] / said[i];
+  return variance;
+}
+
+/// A pixel that has missed all rare paths does not know its error; its surroundings do.
+Compared compared(const NoisyPicture& picture, const HalfPicture& half) {
+  const Rectangle all{0, 0, picture.width, picture.height};
+  Compared out;
+  std::vector<float> count(picture.pixels(), 1.0f), scratch;
+  add_surroundings(count, all, variance_reach_px, scratch);
+  for (size_t c = 0; c < colour_channels; ++c) {
+    out.light[c].resize(picture.pixels());
+    for (size_t i = 0; i < picture.pixels(); ++i)
+      out.light[c][i] = half.light[light_channels * i + c];
+    out.variance[c] = borne_out_variance(picture, half, c);
+    std::vector<float> mean = out.variance[c];
+    add_surroundings(mean, all, variance_reach_px, scratch);
+    for (size_t i = 0; i < picture.pixels(); ++i)
+      out.variance[c][i] = std::max(out.variance[c][i], mean[i] / count[i]);
+  }
+  return out;
+}
+
+/// Every feature shifted and scaled to spread 1 over the picture.
+std::vector<float> standardised(const NoisyPicture& picture) {
+  const size_t n = picture.feature_count;
+  std::vector<double> mean(n, 0.0), squares(n, 0.0);
+  for (size_t i = 0; i < picture.pixels(); ++i)
+    for (size_t k = 0; k < n; ++k) {
+      const auto value = static_cast<double>(picture.features[n * i + k]);
+      mean[k] += value;
+      squares[k] += value * value;
+    }
+  const auto pixels = static_cast<double>(picture.pixels());
+  std::vector<float> out(picture.features.size());
+  for (size_t k = 0; k < n; ++k) {
+    mean[k] /= pixels;
+    const double spread = std::sqrt(std::max(0.0, squares[k] / pixels - mean[k] * mean[k]));
+    const double scale = spread > 0 ? 1 / spread : 0;
+    for (size_t i = 0; i < picture.pixels(); ++i)
+      out[n * i + k] =
+          static_cast<float>((static_cast<double>(picture.features[n * i + k]) - mean[k]) * scale);
+  }
+  return out;
+}
+
+/// A symmetric system of equations with several right-hand sides, solved by Cholesky's method.
+template <size_t MaxUnknowns, size_t Sides>
+class NormalEquations {
+ public:
+  explicit NormalEquations(size_t unknowns) : n_(unknowns) {}
+
+  void add(double weight, const double* row, const float* sides) {
+    for (size_t i = 0; i < n_; ++i) {
+      const double scaled = weight * row[i];
+      for (size_t j = 0; j <= i; ++j) matrix_[i][j] += scaled * row[j];
+      for (size_t c = 0; c < Sides; ++c) side_[i][c] += scaled * static_cast<double>(sides[c]);
+    }
+  }
+  void add_to_diagonal(size_t i, double amount) { matrix_[i][i] += amount; }
+  double diagonal(size_t i) const { return matrix_[i][i]; }
+
+  /// In place; a pivot that is nothing leaves its unknown at 0.
+  void solve() {
+    for (size_t i = 0; i < n_; ++i) {
+      for (size_t j = 0; j <= i; ++j) {
+        double sum = matrix_[i][j];
+        for (size_t k = 0; k < j; ++k) sum -= matrix_[i][k] * matrix_[j][k];
+        if (j < i)
+          matrix_[i][j] = matrix_[j][j] > 0 ? sum / matrix_[j][j] : 0;
+        else
+          matrix_[i][i] = sum > 1e-12 * matrix_[i][i] ? std::sqrt(sum) : 0;
+      }
+    }
+    for (size_t c = 0; c < Sides; ++c) {
+      for (size_t i = 0; i < n_; ++i) {
+        double sum = side_[i][c];
+        for (size_t k = 0; k < i; ++k) sum -= matrix_[i][k] * side_[k][c];
+        side_[i][c] = matrix_[i][i] > 0 ? sum / matrix_[i][i] : 0;
+      }
+      for (size_t i = n_; i-- > 0;) {
+        double sum = side_[i][c];
+        for (size_t k = i + 1; k < n_; ++k) sum -= matrix_[k][i] * side_[k][c];
+        side_[i][c] = matrix_[i][i] > 0 ? sum / matrix_[i][i] : 0;
+      }
+    }
+  }
+  const std::array<double, Sides>& solution(size_t i) const { return side_[i]; }
+
+ private:
+  size_t n_;
+  std::array<std::array<double, MaxUnknowns>, MaxUnknowns> matrix_{};
+  std::array<std::array<double, Sides>, MaxUnknowns> side_{};
+};
+
+/// Filters one half by the likeness of pixels in the other.
+class HalfFilter {
+ public:
+  HalfFilter(const NoisyPicture& picture, const RegressionFilter& filter, const Compared& likeness,
+             const HalfPicture& light, const std::vector<float>& features)
+      : picture_(picture),
+        filter_(filter),
+        likeness_(likeness),
+        light_(light),
+        features_(features),
+        offsets_(static_cast<size_t>(2 * filter.window_px + 1) *
+                 static_cast<size_t>(2 * filter.window_px + 1)),
+        sums_((light_channels + 1) * picture.pixels(), 0.0) {}
+
+  int bands() const {
+    const int centres = (picture_.height + filter_.stride_px - 1) / filter_.stride_px;
+    return (centres + rows_of_a_band - 1) / rows_of_a_band;
+  }
+
+  /// Adds what the windows of a band say of all their pixels. Bands that are not neighbours may be
+  /// done at once.
+  void filter_band(int band) {
+    const int rows = rows_of_a_band * filter_.stride_px;
+    const Rectangle centres{0, band * rows, picture_.width,
+                            std::min(picture_.height, (band + 1) * rows)};
+    const std::vector<float> weights = weigh(centres);
+    size_t centre = 0;
+    for_each_centre(centres,
+                    [&](int x, int y) { add_window(x, y, &weights[offsets_ * centre++]); });
+  }
+
+  /// [cd/m2]
+  double value(size_t pixel, size_t channel) const {
+    const double* sums = &sums_[(light_channels + 1) * pixel];
+    const auto own = static_cast<double>(light_.light[light_channels * pixel + channel]);
+    return (sums[channel] + own_weight * own) / (sums[light_channels] + own_weight);
+  }
+
+ private:
+  /// Calls with(x, y) for every centre of the rows: the middle of each stride, or what there is.
+  template <class With>
+  void for_each_centre(const Rectangle& rows, const With& with) const {
+    const int stride = filter_.stride_px;
+    for (int y = std::min(rows.y0 + stride / 2, rows.y1 - 1); y < rows.y1; y += stride)
+      for (int x = std::min(stride / 2, picture_.width - 1); x < picture_.width; x += stride)
+        with(x, y);
+  }
+
+  /// Weights of all pixels of all windows with centres in the rows.
+  std::vector<float> weigh(const Rectangle& rows) const {
+    const int reach = filter_.patch_px;
+    const Rectangle area{0, std::max(0, rows.y0 - reach), picture_.width,
+                         std::min(picture_.height, rows.y1 + reach)};
+    std::vector<float> inside(area.pixels(), 1.0f), distance(area.pixels()), scratch;
+    const auto lines =
+        static_cast<size_t>((rows.y1 - rows.y0 + filter_.stride_px - 1) / filter_.stride_px);
+    const auto columns =
+        static_cast<size_t>((picture_.width + filter_.stride_px - 1) / filter_.stride_px);
+    std::vector<float> weights(lines * columns * offsets_, 0.0f);
+    size_t at_offset = 0;
+    for (int dy = -filter_.window_px; dy <= filter_.window_px; ++dy)
+      for (int dx = -filter_.window_px; dx <= filter_.window_px; ++dx, ++at_offset) {
+        measure(area, dx, dy, distance, inside);
+        add_surroundings(distance, area, reach, scratch);
+        add_surroundings(inside, area, reach, scratch);
+        size_t centre = 0;
+        for_each_centre(rows, [&](int x, int y) {
+          const size_t of_centre = centre++;
+          if (x + dx < 0 || x + dx >= picture_.width || y + dy < 0 || y + dy >= picture_.height)
+            return;
+          const size_t at = area.index(x, y);
+          weights[offsets_ * of_centre + at_offset] =
+              std::exp(-std::max(0.0f, distance[at] / inside[at]));
+        });
+      }
+    return weights;
+  }
+
+  /// How unlike every pixel of the area and the one beside it by (dx, dy) are, in units of what
+  /// their errors explain; `inside` is 1 where both are in the picture.
+  void measure(const Rectangle& area, int dx, int dy, std::vector<float>& distance,
+               std::vector<float>& inside) const {
+    std::fill(distance.begin(), distance.end(), 0.0f);
+    std::fill(inside.begin(), inside.end(), 0.0f);
+    const auto k2 = static_cast<float>(filter_.tolerance * filter_.tolerance);
+    for (int y = area.y0; y < area.y1; ++y) {
+      if (y + dy < 0 || y + dy >= picture_.height) continue;
+      const int from = std::max(0, -dx), to = std::min(picture_.width, picture_.width - dx);
+      if (from >= to) continue;
+      const auto row = static_cast<size_t>(y) * static_cast<size_t>(picture_.width);
+      const auto other = static_cast<size_t>(y + dy) * static_cast<size_t>(picture_.width);
+      float* out = &distance[area.index(0, y)];
+      for (size_t c = 0; c < colour_channels; ++c) {
+        const float* u = &likeness_.light[c][row];
+        const float* v = &likeness_.variance[c][row];
+        const float* u_there = &likeness_.light[c][other] + dx;
+        const float* v_there = &likeness_.variance[c][other] + dx;
+        for (int x = from; x < to; ++x) {
+          const float difference = u[x] - u_there[x];
+          const float chance = v[x] + std::min(v[x], v_there[x]);
+          const float level = unseen_difference * (u[x] + u_there[x]);
+          const float scale = level * level + k2 * (v[x] + v_there[x]) + 1e-20f;
+          out[x] += (difference * difference - chance) / (scale * float{colour_channels});
+        }
+      }
+      float* there = &inside[area.index(0, y)];
+      std::fill(there + from, there + to, 1.0f);
+    }
+  }
+
+  /// Fits the light of a window, and adds the fit to all of its pixels.
+  void add_window(int x, int y, const float* weights) {
+    const size_t features = picture_.feature_count;
+    NormalEquations<max_features + 1, light_channels> equations(features + 1);
+    const auto centre = static_cast<size_t>(y * picture_.width + x);
+    const float* own = &features_[features * centre];
+    std::array<double, max_features + 1> row{};
+    row[0] = 1;
+    const auto for_each_pixel = [&](auto&& with) {
+      size_t at_offset = 0;
+      for (int dy = -filter_.window_px; dy <= filter_.window_px; ++dy)
+        for (int dx = -filter_.window_px; dx <= filter_.window_px; ++dx, ++at_offset) {
+          if (!(weights[at_offset] > 0)) continue;
+          const auto pixel = static_cast<size_t>((y + dy) * picture_.width + x + dx);
+          const float* there = &features_[features * pixel];
+          for (size_t k = 0; k < features; ++k) row[k + 1] = static_cast<double>(there[k] - own[k]);
+          with(pixel, static_cast<double>(weights[at_offset]));
+        }
+    };
+    for_each_pixel([&](size_t pixel, double weight) {
+      equations.add(weight, row.data(), &light_.light[light_channels * pixel]);
+    });
+    const double weight_of_all = equations.diagonal(0);
+    for (size_t k = 1; k <= features; ++k) equations.add_to_diagonal(k, ridge * weight_of_all);
+    equations.solve();
+    for_each_pixel([&](size_t pixel, double weight) {
+      double* sums = &sums_[(light_channels + 1) * pixel];
+      for (size_t c = 0; c < light_channels; ++c) {
+        double fit = 0;
+        for (size_t k = 0; k <= features; ++k) fit += row[k] * equations.solution(k)[c];
+        sums[c] += weight * fit;
+      }
+      sums[light_channels] += weight;
+    });
+  }
+
+  const NoisyPicture& picture_;
+  const RegressionFilter& filter_;
+  const Compared& likeness_;
+  const HalfPicture& light_;
+  const std::vector<float>& features_;
+  const size_t offsets_;
+  std::vector<double> sums_;  // per pixel: light_channels weighted values, and the weights
+};
+
+/// Windows of a band reach into its neighbours, but no further.
+void filter_half(HalfFilter& half, const ShareWork& share) {
+  for (const int parity : {0, 1}) {
+    const int64_t count = (half.bands() + 1 - parity) / 2;
+    share(count, [&](int64_t i) { half.filter_band(static_cast<int>(2 * i) + parity); });
+  }
+}
+
+/// Gives filtered light its colour: X, Z and scotopic light as multiples of the filtered luminance,
+/// by ratios that are linear in the features of a wide window. A path carries one band, so colours
+/// are noisier than luminance, and eyes resolve them less finely.
+class ColourFit {
+ public:
+  ColourFit(const NoisyPicture& picture, const std::vector<float>& features,
+            const std::vector<float>& luminance)
+      : picture_(picture),
+        features_(features),
+        luminance_(luminance),
+        sums_((light_channels + 1) * picture.pixels(), 0.0) {}
+
+  void fit_all() {
+    for (int y = std::min(colour_stride_px / 2, picture_.height - 1); y < picture_.height;
+         y += colour_stride_px)
+      for (int x = std::min(colour_stride_px / 2, picture_.width - 1); x < picture_.width;
+           x += colour_stride_px)
+        add_window(x, y);
+  }
+
+  /// Of X, Z or scotopic light to luminance, at least 0.
+  double ratio(size_t pixel, size_t channel) const {
+    const double* sums = &sums_[(light_channels + 1) * pixel];
+    return std::max(0.0, sums[channel] / sums[light_channels]);
+  }
+
+ private:
+  template <class With>
+  void for_each_pixel(int x, int y, int step, const With& with) const {
+    const int reach = colour_window_px;
+    for (int j = y - reach; j <= y + reach; j += step)
+      for (int i = x - reach; i <= x + reach; i += step)
+        if (i >= 0 && j >= 0 && i < picture_.width && j < picture_.height)
+          with(static_cast<size_t>(j * picture_.width + i), i - x, j - y);
+  }
+
+  void add_window(int x, int y) {
+    const size_t features = picture_.feature_count;
+    const float* own = &features_[features * static_cast<size_t>(y * picture_.width + x)];
+    NormalEquations<max_features + 1, light_channels> equations(features + 1);
+    std::array<double, max_features + 1> row{};
+    const auto describe = [&](size_t pixel) {
+      row[0] = 1;
+      for (size_t k = 0; k < features; ++k)
+        row[k + 1] = static_cast<double>(features_[features * pixel + k] - own[k]);
+    };
+    for_each_pixel(x, y, colour_step_px, [&](size_t pixel, int, int) {
+      const auto level = static_cast<double>(luminance_[pixel]);
+      if (!(level > 0)) return;
+      std::array<float, light_channels> ratios{};
+      for (size_t c = 0; c < light_channels; ++c)
+        ratios[c] = static_cast<float>(
+            static_cast<double>(picture_.half[0].light[light_channels * pixel + c] +
+                                picture_.half[1].light[light_channels * pixel + c]) /
+            2 / level);
+      describe(pixel);
+      equations.add(1, row.data(), ratios.data());
+    });
+    const double weight_of_all = equations.diagonal(0);
+    if (!(weight_of_all > 0)) return;
+    for (size_t k = 1; k <= features; ++k)
+      equations.add_to_diagonal(k, colour_ridge * weight_of_all);
+    equations.solve();
+    for_each_pixel(x, y, 1, [&](size_t pixel, int dx, int dy) {
+      describe(pixel);
+      double* sums = &sums_[(light_channels + 1) * pixel];
+      const double near = (1 - std::abs(dx) / (colour_window_px + 1.0)) *
+                          (1 - std::abs(dy) / (colour_window_px + 1.0));
+      std::array<double, light_channels> fit{};
+      for (size_t c = 0; c < light_channels; ++c)
+        for (size_t k = 0; k <= features; ++k) fit[c] += row[k] * equations.solution(k)[c];
+      // Relative to the luminance that the same paths have found, whose noise is then shared.
+      if (!(fit[1] > 0)) return;
+      for (size_t c = 0; c < light_channels; ++c) sums[c] += near * fit[c] / fit[1];
+      sums[light_channels] += near;
+    });
+  }
+
+  const NoisyPicture& picture_;
+  const std::vector<float>& features_;
+  const std::vector<float>& luminance_;  // filtered [cd/m2]
+  std::vector<double> sums_;             // per pixel: weighted ratios, and the weights
+};
+
+}  // namespace
+
+FilteredPicture filter_picture(const NoisyPicture& picture, const RegressionFilter& filter,
+                               const ShareWork& share) {
+  LUX_CHECK(picture.feature_count <= max_features, "a filter takes 16 features at most");
+  LUX_CHECK(filter.stride_px >= 1 && filter.stride_px <= filter.window_px &&
+                2 * filter.window_px <= rows_of_a_band * filter.stride_px,
+            "windows of two bands that are no neighbours must not meet");
+  const std::vector<float> features = standardised(picture);
+  const std::array<Compared, 2> likeness{compared(picture, picture.half[0]),
+                                         compared(picture, picture.half[1])};
+  std::vector<HalfFilter> halves;
+  for (const size_t h : {size_t{0}, size_t{1}})
+    halves.emplace_back(picture, filter, likeness[1 - h], picture.half[h], features);
+  for (HalfFilter& half : halves) filter_half(half, share);
+
+  FilteredPicture out;
+  out.light.resize(light_channels * picture.pixels());
+  std::vector<float> luminance(picture.pixels());
+  for (size_t i = 0; i < picture.pixels(); ++i)
+    luminance[i] =
+        static_cast<float>(std::max(0.0, (halves[0].value(i, 1) + halves[1].value(i, 1)) / 2));
+  ColourFit colour(picture, features, luminance);
+  colour.fit_all();
+  std::vector<float> squares(picture.pixels()), count(picture.pixels(), 1.0f), scratch;
+  for (size_t i = 0; i < picture.pixels(); ++i) {
+    for (size_t c = 0; c < light_channels; ++c)
+      out.light[light_channels * i + c] =
+          c == 1 ? luminance[i] : luminance[i] * static_cast<float>(colour.ratio(i, c));
+    const double half_difference = (halves[0].value(i, 1) - halves[1].value(i, 1)) / 2;
+    squares[i] = static_cast<float>(half_difference * half_difference);
+  }
+  const Rectangle all{0, 0, picture.width, picture.height};
+  add_surroundings(squares, all, filter.patch_px, scratch);
+  add_surroundings(count, all, filter.patch_px, scratch);
+  out.standard_error_y.resize(picture.pixels());
+  for (size_t i = 0; i < picture.pixels(); ++i)
+    out.standard_error_y[i] = std::sqrt(squares[i] / count[i]);
+  return out;
+}
+
+}  // namespace luxodus
