@@ -230,6 +230,8 @@ class FireReader {
   Result<void> find_flames() {
     for (const Form form : {Form::cell_slice, Form::node_slice, Form::plot, Form::smoke}) {
       auto series = open_series(fire_, form, Quantity::heat_release);
+      // Whoever wants no flames is not told what is wrong with them.
+      if (!series && !options_.flames) return {};
       if (!series) return series.problem();
       auto found = picked(std::move(series.value()), smoke_.time_s);
       if (!found || std::abs(found->time_s - smoke_.time_s) > fire_window_s) continue;
@@ -245,7 +247,7 @@ class FireReader {
                       smoke_.time_s));
     auto power = heat_release_kw(fire_, smoke_.time_s);
     if (!power) return power.problem();
-    heat_kw_ = std::max(0.0, power.value());
+    out_.heat_release_kw = std::max(0.0, power.value());
     return {};
   }
 
@@ -429,7 +431,7 @@ class FireReader {
     }
     for (size_t g = 0; g < out_.grids.size(); ++g) {
       if (of_grid[g] > 0)
-        out_.grids[g].heat_kw = heat_kw_ * of_grid[g] / heat;
+        out_.grids[g].heat_kw = out_.heat_release_kw * of_grid[g] / heat;
       else
         out_.grids[g].data.emission.clear();
     }
@@ -440,7 +442,6 @@ class FireReader {
   const FireOptions& options_;
   Picked smoke_;
   std::optional<Picked> heat_;
-  double heat_kw_ = 0;
   std::vector<Grid> plan_;
   std::vector<size_t> grid_of_;  // by mesh
   GasMasks gas_;

@@ -5,7 +5,7 @@
 // tests/unit/scenes/fields/fds_reference_test.cpp. Any thread; nothing is kept open.
 //
 // Formats: fds_case.hpp (index), fds_frames.hpp (records), fds_cells.hpp (values). Design:
-// docs/decisions/0035-fire-simulations.md.
+// docs/decisions/0036-fire-simulations.md.
 #pragma once
 
 #include <cstdint>
@@ -61,6 +61,7 @@ struct LoadedFire {
   uint64_t cells = 0;                 // of all meshes
   size_t resampled_meshes = 0;        // stretched ones
   bool overlapping = false;           // meshes that do, in cells with smoke
+  double heat_release_kw = 0;         // of the whole fire, where flames are read
   bool has_heat_release = false;      // the case has HRRPUV at this time
   double flame_extinction_share = 0;  // of the integral of extinction, taken out in flames
   std::string version;                // of FDS

@@ -33,10 +33,21 @@ struct NodeBox {
   glm::ivec3 high{0};
 };
 
+/// What an obstruction is called, and the surface of most of its sides (place in Case::surfaces).
+struct ObstructionLabel {
+  std::string name;
+  size_t surface = 0;
+};
+
 /// Face of a mesh that is open to the ambient, as a box without thickness [m].
 struct Opening {
   glm::dvec3 low{0};
   glm::dvec3 high{0};
+};
+
+struct Surface {
+  std::string name;
+  glm::dvec3 rgb{0.5};  // what Smokeview shows, encoded sRGB, 0 to 1
 };
 
 struct Mesh {
@@ -44,6 +55,7 @@ struct Mesh {
   glm::ivec3 cells{0};
   std::array<std::vector<double>, 3> nodes;  // by axis, ascending, one more than cells [m]
   std::vector<NodeBox> obstructions;         // snapped to the grid; in the order of the index
+  std::vector<ObstructionLabel> labels;      // one for each of them
   std::vector<Opening> openings;
   int line = 0;
 
@@ -104,6 +116,8 @@ struct Case {
   std::filesystem::path folder;
   std::string version;  // of FDS, as the index has it
   std::vector<Mesh> meshes;
+  std::vector<Surface> surfaces;
+  size_t default_surface = 0;  // of faces of meshes
   std::vector<Change> changes;  // by time
   std::vector<Slice> slices;
   std::vector<Smoke3d> smoke;

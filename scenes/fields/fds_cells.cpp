@@ -95,10 +95,8 @@ class Behind {
     }
     for (const size_t other : near_) {
       const Mesh& m = fire_.meshes[other];
-      const glm::ivec3 there(cell_of(m.nodes[0], place.x), cell_of(m.nodes[1], place.y),
-                             cell_of(m.nodes[2], place.z));
-      if (there.x >= 0 && there.y >= 0 && there.z >= 0)
-        return gas_[other][place_of(m.cells, there.x, there.y, there.z)] != 0;
+      if (const int64_t there = cell_at(m, place); there >= 0)
+        return gas_[other][static_cast<size_t>(there)] != 0;
     }
     return std::any_of(mesh_.openings.begin(), mesh_.openings.end(), [&](const Opening& opening) {
       return glm::all(glm::greaterThanEqual(face, opening.low - face_tolerance_m)) &&
@@ -115,7 +113,7 @@ class Behind {
 
 }  // namespace
 
-std::vector<uint8_t> gas_cells(const Case& fire, size_t mesh, double time_s) {
+std::vector<uint8_t> obstructions_at(const Case& fire, size_t mesh, double time_s) {
   const Mesh& m = fire.meshes[mesh];
   std::vector<uint8_t> there(m.obstructions.size(), 1), told(m.obstructions.size(), 0);
   for (const Change& change : fire.changes) {
@@ -127,7 +125,18 @@ std::vector<uint8_t> gas_cells(const Case& fire, size_t mesh, double time_s) {
     if (change.time_s <= time_s + 1e-5 * std::max(1.0, std::abs(time_s)))
       there[change.obstruction] = change.appears ? 1 : 0;
   }
-  return cells_outside(m, there);
+  return there;
+}
+
+std::vector<uint8_t> gas_cells(const Case& fire, size_t mesh, double time_s) {
+  return cells_outside(fire.meshes[mesh], obstructions_at(fire, mesh, time_s));
+}
+
+int64_t cell_at(const Mesh& mesh, const glm::dvec3& place) {
+  const glm::ivec3 cell(cell_of(mesh.nodes[0], place.x), cell_of(mesh.nodes[1], place.y),
+                        cell_of(mesh.nodes[2], place.z));
+  if (cell.x < 0 || cell.y < 0 || cell.z < 0) return -1;
+  return static_cast<int64_t>(place_of(mesh.cells, cell.x, cell.y, cell.z));
 }
 
 std::vector<uint8_t> gas_around_nodes(const Case& fire, const GasMasks& gas, size_t mesh) {
@@ -209,6 +218,9 @@ void take_means(const Mesh& mesh, const std::vector<float>& cells, const std::ve
 
 std::vector<float> cells_of_nodes(const Mesh& mesh, const std::vector<float>& nodes,
                                   const std::vector<uint8_t>& gas) {
+  // Most of a large building is clear: nothing is to be sought there.
+  if (std::all_of(nodes.begin(), nodes.end(), [](float v) { return v == 0; }))
+    return std::vector<float>(mesh.cell_count(), 0.0F);
   std::vector<float> cells = cell_means(mesh, nodes, gas);
   for (int round = 0; round < sharpening_rounds; ++round) {
     std::vector<float> rest = nodes;

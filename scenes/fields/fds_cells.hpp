@@ -11,6 +11,12 @@
 
 namespace luxodus::fds {
 
+/// By obstruction of a mesh: 1 where it is there at this time.
+std::vector<uint8_t> obstructions_at(const Case& fire, size_t mesh, double time_s);
+
+/// The cell of a place [m], x fastest; -1 outside of the mesh.
+int64_t cell_at(const Mesh& mesh, const glm::dvec3& place);
+
 /// 1 where a cell holds gas, x fastest; 0 in an obstruction that is there at this time.
 std::vector<uint8_t> gas_cells(const Case& fire, size_t mesh, double time_s);
 

@@ -73,7 +73,8 @@ class IndexReader {
   void keyword(std::string_view word, std::string_view line) {
     if (word == "FDSVERSION") return void(out_.version = excerpt(trimmed(next_line())));
     if (word == "CSVF") return csv_file();
-    if (word == "SURFACE") return void(surfaces_.emplace_back(trimmed(next_line())));
+    if (word == "SURFACE") return surface();
+    if (word == "SURFDEF") return void(default_surface_ = trimmed(next_line()));
     if (word == "GRID") return grid(line);
     if (word == "TRNX" || word == "TRNY" || word == "TRNZ")
       return nodes(static_cast<size_t>(word.back() - 'X'));
@@ -173,6 +174,38 @@ class IndexReader {
     out_.heat_release_file = file_name();
   }
 
+  /// Name, then ignition temperature and emissivity, then type, width, height and colour.
+  void surface() {
+    Surface surface;
+    surface.name = excerpt(trimmed(next_line()));
+    next_line();
+    const auto words = words_of(next_line());
+    for (int i = 0; i < 3; ++i) {
+      const size_t place = 3 + static_cast<size_t>(i);
+      const auto value = place < words.size() ? number_in<double>(words[place]) : std::nullopt;
+      if (value && *value >= 0 && *value <= 1) surface.rgb[i] = *value;
+    }
+    if (!failed()) out_.surfaces.push_back(std::move(surface));
+  }
+
+  /// "x0 x1 y0 y1 z0 z1 id and six surfaces ! name": what is not there has no name, and the first
+  /// surface.
+  static ObstructionLabel label_of(std::string_view line) {
+    ObstructionLabel label;
+    const size_t mark = line.find('!');
+    if (mark != std::string_view::npos) label.name = excerpt(trimmed(line.substr(mark + 1)));
+    const auto words = words_of(line.substr(0, mark));
+    size_t most = 0;
+    for (size_t i = 7; i < words.size() && i < 13; ++i) {
+      const auto same = static_cast<size_t>(std::count(words.begin() + 7, words.end(), words[i]));
+      const auto surface = number_in<size_t>(words[i]);
+      if (!surface || same <= most) continue;
+      most = same;
+      label.surface = *surface;
+    }
+    return label;
+  }
+
   void grid(std::string_view line) {
     if (out_.meshes.size() == limits::meshes)
       return fail(fmt::format("there are more than {} meshes", limits::meshes));
@@ -214,7 +247,7 @@ class IndexReader {
     Mesh* mesh = last_mesh("OBST");
     if (mesh == nullptr) return;
     const size_t n = count(words_of(next_line()), 0);
-    for (size_t i = 0; i < n && !failed(); ++i) next_line();
+    for (size_t i = 0; i < n && !failed(); ++i) mesh->labels.push_back(label_of(next_line()));
     for (size_t i = 0; i < n && !failed(); ++i) {
       const auto words = words_of(next_line());
       NodeBox box;
@@ -246,8 +279,9 @@ class IndexReader {
       }
       const auto surface = number<int64_t>(words, 7, "the surface of a vent");
       if (failed()) return;
-      const bool known = surface >= 0 && surface < static_cast<int64_t>(surfaces_.size());
-      if (known && surfaces_[static_cast<size_t>(surface)] == open_surface)
+      const auto& surfaces = out_.surfaces;
+      const bool known = surface >= 0 && surface < static_cast<int64_t>(surfaces.size());
+      if (known && surfaces[static_cast<size_t>(surface)].name == open_surface)
         mesh->openings.push_back(opening);
     }
     for (size_t i = 0; i < n && !failed(); ++i) next_line();
@@ -355,6 +389,10 @@ class IndexReader {
                            "xyz"[axis], "XYZ"[axis]));
       }
     }
+    const auto surface = std::find_if(out_.surfaces.begin(), out_.surfaces.end(),
+                                      [&](const Surface& s) { return s.name == default_surface_; });
+    if (surface != out_.surfaces.end())
+      out_.default_surface = static_cast<size_t>(surface - out_.surfaces.begin());
     const auto beyond = [&](const auto& list) {
       for (const auto& entry : list) {
         if (failed() || entry.mesh < out_.meshes.size()) continue;
@@ -382,7 +420,7 @@ class IndexReader {
   const fs::path folder_;
   std::vector<std::string_view> lines_;
   size_t at_ = 0;  // the line that is read
-  std::vector<std::string> surfaces_;
+  std::string default_surface_;
   Case out_;
   std::optional<Problem> problem_;
 };
