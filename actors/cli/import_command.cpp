@@ -105,8 +105,8 @@ Result<ExitCode> import_fds(const ImportOptions& options) {
       "boxes %zu, plates %zu, rectangles of walls, floors and ceilings %zu; obstructions that are "
       "not there at %s: %zu\n%s%s\n",
       building->solids, building->plates, building->faces, options.at.c_str(),
-      building->absent.size(), (folder / "geometry.toml").c_str(),
-      kept ? ", and scene.toml as it was" : (" and " + (folder / "scene.toml").string()).c_str());
+      building->absent.size(), (fs::path(options.out) / "geometry.toml").c_str(),
+      kept ? ", and scene.toml as it was" : " and scene.toml");
   return ExitCode::success;
 }
 

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "scenes/fields/fds.hpp"
+#include "scenes/fields/fds_building.hpp"
 #include "tests/fuzz/mutate.hpp"
 #include "tests/kit/small_fire.hpp"
 
@@ -128,6 +129,8 @@ TEST_CASE("harmed results of FDS are read or refused with one sentence", "[forma
     options.at_s = random.bits() % 4 == 0 ? 2.5 : 5;
     options.sources = sources[random.bits() % std::size(sources)];
     options.flames = random.bits() % 2 == 0;
+    const auto building = read_fire_building(folder / "case.smv", options.at_s);
+    if (!building.ok()) REQUIRE_FALSE(building.problem().what.empty());
     const auto fire = read_fire(folder / "case.smv", options);
     if (fire.ok()) {
       ++read;
