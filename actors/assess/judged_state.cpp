@@ -61,6 +61,9 @@ std::string source_of(const Medium& medium, double factor) {
     out += fmt::format(", {} layer{}", medium.layers.size(), medium.layers.size() == 1 ? "" : "s");
   if (medium.kind == MediumKind::data_set)
     out += fmt::format(", {} x {} x {} cells", medium.data.nx, medium.data.ny, medium.data.nz);
+  if (medium.simulation)
+    out += fmt::format(", a fire simulation at {:.6g} s ({})", medium.simulation->time_s,
+                       medium.simulation->source);
   if (factor != 1) out += fmt::format(", times {:g} in this scenario", factor);
   return out;
 }
@@ -280,6 +283,12 @@ void add_remarks(const SceneDescription& scene, const Scenario& scenario, Assess
   if (state.operation == Operation::emergency && dark > 0)
     warn(fmt::format("{} emergency luminaire{} not lit in this state", dark,
                      dark == 1 ? " is" : "s are"));
+  for (const Medium& m : scene.media)
+    if (m.simulation && !m.simulation->glows && extinction_factor(scenario, m.name) > 0)
+      warn(
+          fmt::format("FLAME GLARE IS MISSING: \"{}\" is the smoke of a fire without the light of "
+                      "its flames, which dazzles and veils signs",
+                      m.name));
   add_switched(scene, scenario, remarks);
   add_time(scene, state, remarks);
   add_thinned(scene, scenario, remarks);

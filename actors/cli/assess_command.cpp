@@ -29,6 +29,7 @@ struct AssessCommandOptions {
   std::string scene;
   std::string out;
   AssessOptions assess;
+  std::string at;
   bool codes_alone = false;
   bool strict = false;
   bool overwrite = false;
@@ -84,7 +85,8 @@ void print_summary(const Json& a) {
 }
 
 Result<ExitCode> assess_scene(const AssessCommandOptions& options) {
-  const auto scene = load_scene(options.scene, ReadingWarnings::left_to_inspection);
+  const auto scene =
+      load_scene(options.scene, ReadingWarnings::left_to_inspection, time_asked(options.at));
   if (!scene) return ExitCode::bad_input;
   const fs::path folder = options.out.empty()
                               ? fs::path("out") / file_name_of(scene->name + "-assessed")
@@ -154,6 +156,7 @@ Command assess_command() {
             {.form = Form::name,
              .otherwise = "the scenario in emergency operation, with smoke where any has it; none "
                           "is guessed"}},
+           at_option(o->at),
            {"--out",
             &o->out,
             "Folder of the results",

@@ -24,6 +24,7 @@ namespace {
 struct CheckOptions {
   std::string scene;
   std::string scenario = "all";
+  std::string at;
   int cells = 1;
   bool json = false;
 };
@@ -152,7 +153,8 @@ void add_refusals(const SceneDescription& scene, std::vector<Finding>& out) {
 }
 
 int check(const CheckOptions& options) {
-  const auto description = load_scene(options.scene, ReadingWarnings::left_to_inspection);
+  const auto description =
+      load_scene(options.scene, ReadingWarnings::left_to_inspection, time_asked(options.at));
   if (!description) return ExitCode::bad_input;
   auto scenarios = chosen_scenarios(*description, options.scenario);
   if (!scenarios) {
@@ -202,6 +204,7 @@ Command check_command() {
       .options =
           {{"scene", &o->scene, "Scene file, or a pack", {.form = Form::scene, .required = true}},
            {"--scenario", &o->scenario, "Name of a scenario, or 'all'", {.form = Form::name}},
+           at_option(o->at),
            {"--cells", &o->cells, "Number of geometry cells", {.range = Range{1, 1'000'000}}},
            {"--json", &o->json, "Output as JSON"}},
       .notes =

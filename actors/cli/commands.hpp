@@ -8,6 +8,7 @@ namespace luxodus::cli {
 // scenes
 Command check_command();
 Command pack_command();
+Command import_command();
 // results
 Command run_command();
 Command render_command();

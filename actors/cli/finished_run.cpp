@@ -51,9 +51,11 @@ Result<FinishedRun> read_finished_run(const fs::path& folder) {
       !json.value("cells", Json()).is_number_integer()) {
     return problem_in(file, "this is no result of a run: run the scene again");
   }
-  FinishedRun out{json["scene_file"], json["scenario"], json["seed"], json["cells"], {}, {}, 0, {}};
+  FinishedRun out{
+      json["scene_file"], json["scenario"], json["seed"], json["cells"], {}, {}, 0, {}, {}};
   if (json.value("batches", Json()).is_number_integer()) out.batches = json["batches"];
   out.seconds = seconds_in(json);
+  if (json.value("at_s", Json()).is_number()) out.at_s = json["at_s"];
   for (const Json& word : json.value("error_of", Json::array())) {
     if (word.is_string()) out.error_of.push_back(word);
   }
@@ -80,7 +82,7 @@ Result<SceneState> scene_of_folder(const fs::path& folder) {
   }
   const auto run = read_finished_run(folder);
   if (!run) return run.problem();
-  return SceneState{run->scene_file, run->scenario};
+  return SceneState{run->scene_file, run->scenario, run->at_s};
 }
 
 }  // namespace luxodus::cli

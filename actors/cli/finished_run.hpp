@@ -23,6 +23,7 @@ struct FinishedRun {
   std::vector<std::string> error_of;
   std::vector<double> batch_shares;  // of its source groups, where they were dealt by need
   int64_t batches = 0;
+  std::optional<double> at_s;     // of --at, where it was given
   std::optional<double> seconds;  // that these batches took, where all of it is known
 };
 
@@ -32,6 +33,7 @@ Result<FinishedRun> read_finished_run(const std::filesystem::path& folder);
 /// A state of a building, by its scene file.
 struct SceneState {
   std::string scene_file, scenario;
+  std::optional<double> at_s = {};
 };
 
 /// Of the folder of a run (result.json), or of an assessment (assessment.json).

@@ -1,6 +1,7 @@
 #include "actors/cli/load_scene.hpp"
 
 #include "actors/cli/command.hpp"
+#include "actors/cli/quantities.hpp"
 #include "scenes/pack/scene_pack.hpp"
 #include "scenes/scene_file/scene_file.hpp"
 #include "scenes/transport/compile.hpp"
@@ -8,19 +9,39 @@
 namespace luxodus::cli {
 
 std::shared_ptr<const SceneDescription> load_scene(const std::string& file,
-                                                   ReadingWarnings warnings) {
+                                                   ReadingWarnings warnings,
+                                                   std::optional<double> at_s) {
   if (is_pack(file)) {
+    if (at_s) {
+      tell(problem_in(file, "a pack is of one time: pack the scene again with --at"));
+      return nullptr;
+    }
     auto packed = read_pack(file);
     if (packed) return packed.value();
     tell(packed.problem());
     return nullptr;
   }
-  ReadScene read = read_scene(file);
+  ReadScene read = read_scene(file, at_s);
   for (const Problem& p : read.problems.list()) tell(p);
   if (!read.scene) return nullptr;
   if (warnings == ReadingWarnings::told)
     for (const Problem& w : read.scene->warnings) warn(w);
   return std::make_shared<const SceneDescription>(std::move(*read.scene));
+}
+
+Option at_option(std::string& at) {
+  return {"--at",
+          &at,
+          "Time of the scene's fire simulations, e.g. 60s, instead of at_s",
+          {.form = Form::duration, .fault = [](const std::string& text) {
+             const auto seconds = parse_seconds(text);
+             return seconds ? std::string() : seconds.problem().what;
+           }}};
+}
+
+std::optional<double> time_asked(const std::string& at) {
+  if (at.empty()) return std::nullopt;
+  return parse_seconds(at).value();
 }
 
 Result<std::vector<Scenario>> chosen_scenarios(const SceneDescription& scene,

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "actors/cli/options.hpp"
 #include "runtime/core/result.hpp"
 
 namespace luxodus {
@@ -17,9 +19,16 @@ namespace luxodus::cli {
 /// Who tells the warnings of reading: load_scene, or the inspection, whose findings they are, too.
 enum class ReadingWarnings { told, left_to_inspection };
 
-/// The scene of a scene file or a pack, or null after every problem was told.
-std::shared_ptr<const SceneDescription> load_scene(
-    const std::string& file, ReadingWarnings warnings = ReadingWarnings::told);
+/// The scene of a scene file or a pack, or null after every problem was told. `at_s`: time of its
+/// fire simulations instead of the one that it states; a pack has one time.
+std::shared_ptr<const SceneDescription> load_scene(const std::string& file,
+                                                   ReadingWarnings warnings = ReadingWarnings::told,
+                                                   std::optional<double> at_s = std::nullopt);
+
+/// The option --at, whose text goes to `at`.
+Option at_option(std::string& at);
+/// The time it says; none where it is empty. Requires: it was read as that option.
+std::optional<double> time_asked(const std::string& at);
 
 /// The scenarios that a name stands for: one, all of them for "all", the first for "".
 Result<std::vector<Scenario>> chosen_scenarios(const SceneDescription& scene,

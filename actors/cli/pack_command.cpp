@@ -24,6 +24,7 @@ struct PackOptions {
   std::string scene;
   std::string out;
   std::string scenario;
+  std::string at;
   double cell_kib = 1024;
   bool skeleton_only = false;
   bool json = false;
@@ -47,7 +48,8 @@ Result<PackReport> pack_scene(const PackOptions& options) {
         "--skeleton-only copies from a pack, so that both are of the same cells: pack "
         "the scene first");
   }
-  const auto description = load_scene(options.scene, ReadingWarnings::left_to_inspection);
+  const auto description =
+      load_scene(options.scene, ReadingWarnings::left_to_inspection, time_asked(options.at));
   if (!description) return problem_in(options.scene, "the scene has problems, told above");
   if (auto ok = check_output_file(options.out); !ok) return ok.problem();
   auto scenario = find_scenario(*description, options.scenario);
@@ -120,6 +122,7 @@ Command pack_command() {
                    &o->scenario,
                    "Name of the scenario whose doors count",
                    {.form = Form::name, .otherwise = "the first"}},
+                  at_option(o->at),
                   {"--cell-kib",
                    &o->cell_kib,
                    "Largest size of a geometry cell [KiB]; built it takes three times as much",

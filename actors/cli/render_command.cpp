@@ -33,7 +33,8 @@ Result<ExitCode> render(const RenderOptions& options) {
   const fs::path folder = options.folder;
   const auto finished = read_finished_run(folder);
   if (!finished) return finished.problem();
-  const auto description = load_scene(finished->scene_file, ReadingWarnings::left_to_inspection);
+  const auto description =
+      load_scene(finished->scene_file, ReadingWarnings::left_to_inspection, finished->at_s);
   if (!description)
     return problem_in(finished->scene_file, "the run's scene cannot be read any more");
   const std::string name = description->scenarios.empty() ? "" : finished->scenario;

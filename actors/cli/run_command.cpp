@@ -255,6 +255,7 @@ Result<Traced> run_scenario(const std::shared_ptr<const SceneDescription>& descr
   }
   RunRecord record;
   record.scene_file = fs::absolute(options.scene).string();
+  record.at_s = time_asked(options.at);
   record.cells = options.cells;
   record.stop = rule;
   auto watchers = Watchers::start(run, folder, record, options);
@@ -336,7 +337,8 @@ int run_scene(const RunOptions& options) {
     tell(rule.problem());
     return ExitCode::bad_input;
   }
-  const auto description = load_scene(options.scene, ReadingWarnings::left_to_inspection);
+  const auto description =
+      load_scene(options.scene, ReadingWarnings::left_to_inspection, time_asked(options.at));
   if (!description) return ExitCode::bad_input;
   auto scenarios = chosen_scenarios(*description, options.scenario);
   if (!scenarios) {

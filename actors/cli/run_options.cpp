@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "actors/cli/load_scene.hpp"
 #include "actors/cli/quantities.hpp"
 #include "actors/supervise/planned_nodes.hpp"
 
@@ -26,6 +27,7 @@ std::vector<Option> scene_options(RunOptions& o) {
        &o.scenario,
        "Name of a scenario, or 'all'",
        {.form = Form::name, .otherwise = "the first"}},
+      at_option(o.at),
       {"--seed", &o.seed, "Seed of the random number generator", {.otherwise = "the scene's"}},
       {"--threads",
        &o.threads,

@@ -17,6 +17,7 @@ struct RunOptions {
   std::string scene;
   std::string out;
   std::string scenario;
+  std::string at;
   std::string particles, error, time;
   std::vector<std::string> error_of;
   std::string preview;

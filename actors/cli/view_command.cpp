@@ -21,6 +21,7 @@ struct ViewOptions {
   HttpAddress server{"127.0.0.1", 8080};
   LiveOptions live;
   std::string scenario;
+  std::string at;
   std::string save_folder = ".";
   std::string particles = "100M";
   int nodes = 0;
@@ -30,16 +31,18 @@ struct ViewOptions {
 Result<SceneState> wanted_state(const ViewOptions& options) {
   std::error_code ignored;
   if (!std::filesystem::is_directory(options.scene, ignored))
-    return SceneState{options.scene, options.scenario};
+    return SceneState{options.scene, options.scenario, time_asked(options.at)};
   auto state = scene_of_folder(options.scene);
   if (state && !options.scenario.empty()) state.value().scenario = options.scenario;
+  if (state && !options.at.empty()) state.value().at_s = time_asked(options.at);
   return state;
 }
 
 Result<ExitCode> view(const ViewOptions& options) {
   auto wanted = wanted_state(options);
   if (!wanted) return wanted.problem();
-  const auto scene = load_scene(wanted->scene_file, ReadingWarnings::left_to_inspection);
+  const auto scene =
+      load_scene(wanted->scene_file, ReadingWarnings::left_to_inspection, wanted->at_s);
   if (!scene) return ExitCode::bad_input;
   const std::string scenario = scene->scenarios.empty() ? "" : wanted->scenario;
   const auto found = find_scenario(*scene, scenario);
@@ -80,6 +83,7 @@ Command view_command() {
                 &o->scenario,
                 "State of the building",
                 {.form = Form::name, .otherwise = "the first, or the folder's"}},
+               at_option(o->at),
                {"--port", &o->server.port, "Port of the page; 0: any that is free"},
                {"--address", &o->server.address, "Address to listen on"},
                {"--allow-host",

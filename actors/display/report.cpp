@@ -372,15 +372,17 @@ std::string why_no_errors(const LocalRun& run) {
 
 /// What every result.json begins with.
 Json head_json(const CompiledScene& scene, const RunRecord& record) {
-  return {{"schema", result_schema},
-          {"program", "luxodus"},
-          {"scene", scene.description->name},
-          {"title", scene.description->title},
-          {"scene_file", record.scene_file},
-          {"scene_hash", hash_text(scene)},
-          {"scenario", scene.scenario.name},
-          {"state", run_state_json(scene)},
-          {"cells", record.cells}};
+  Json head = {{"schema", result_schema},
+               {"program", "luxodus"},
+               {"scene", scene.description->name},
+               {"title", scene.description->title},
+               {"scene_file", record.scene_file},
+               {"scene_hash", hash_text(scene)},
+               {"scenario", scene.scenario.name},
+               {"state", run_state_json(scene)},
+               {"cells", record.cells}};
+  if (record.at_s) head["at_s"] = *record.at_s;
+  return head;
 }
 
 Json result_of(const LocalRun& run, const RunRecord& record, const PlaneMaps& maps) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
 #include "actors/output/json_out.hpp"
 #include "actors/run/local_run.hpp"
@@ -12,9 +13,10 @@ namespace luxodus {
 /// How the run came to its end, for the record.
 struct RunRecord {
   std::string scene_file;
-  std::string stopped_by;  // name_of(StopReason)
+  std::string stopped_by;           // name_of(StopReason)
   int cells = 1;
-  StopRule stop = {};  // what was asked for
+  StopRule stop = {};               // what was asked for
+  std::optional<double> at_s = {};  // of --at, where it was given
 };
 
 /// result.json as a value.

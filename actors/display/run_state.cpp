@@ -35,13 +35,17 @@ Json run_state_json(const CompiledScene& scene) {
       luminaires.insert(e.name);
   }
   Json smoke = Json::array(), flames = Json::array();
+  std::set<std::string> told;  // grids of one fire simulation have one name
   for (const Medium& medium : d.media) {
-    if (medium.emission) {
-      if (scenario.emission_factor > 0) flames.push_back(medium.name);
-      continue;
-    }
+    if (medium.emission && scenario.emission_factor > 0 &&
+        std::find(flames.begin(), flames.end(), medium.name) == flames.end())
+      flames.push_back(medium.name);
+    // A flame is no smoke; a data set of a fire holds both.
+    if (medium.emission && medium.kind != MediumKind::data_set) continue;
     const double factor = extinction_factor(scenario, medium.name);
-    if (factor > 0) smoke.push_back({{"name", medium.name}, {"extinction_factor", factor}});
+    if (!(factor > 0) || !told.insert(medium.name).second) continue;
+    smoke.push_back({{"name", medium.name}, {"extinction_factor", factor}});
+    if (medium.simulation) smoke.back()["time_s"] = medium.simulation->time_s;
   }
   const bool failed = scenario.operation != Operation::mains && scenario.says_seconds;
   return {{"scenario", scenario.name},
@@ -66,6 +70,8 @@ std::string run_state_text(const Json& state) {
   for (const Json& medium : state["smoke"]) {
     smoke += (smoke.empty() ? "" : ", ") + medium["name"].get<std::string>();
     const auto factor = medium["extinction_factor"].get<double>();
+    if (medium.contains("time_s"))
+      smoke += fmt::format(" at {:.6g} s", medium["time_s"].get<double>());
     if (factor != 1) smoke += fmt::format(" (times {:g})", factor);
   }
   text += smoke.empty() ? "; no smoke" : "; smoke: " + smoke;

@@ -183,6 +183,7 @@ std::optional<Problem> inspect_media_of(const SceneDescription& scene, const Sce
   inspect_flames(*building.value(), out, misplaced.media);
   inspect_smoke(scene, *building.value(), out);
   inspect_columns(scene, *building.value(), out);
+  inspect_fire_meshes(scene, *building.value(), out);
   return std::nullopt;
 }
 
@@ -239,6 +240,7 @@ Result<std::vector<Finding>> inspect(const std::shared_ptr<const SceneDescriptio
   Findings of_scene;
   for (const Problem& warning : scene->warnings)
     of_scene.push_back({Severity::warning, "file", warning});
+  for (const Problem& note : scene->notes) of_scene.push_back({Severity::note, "file", note});
   inspect_sizes(*scene, of_scene);
   inspect_imports(*scene, of_scene);
   inspect_doubled_objects(*scene, of_scene);

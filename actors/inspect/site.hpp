@@ -117,6 +117,8 @@ void inspect_media(const CompiledScene& scene, Findings& out);
 void inspect_flames(const Building& smoky, Findings& out, std::vector<char>& misplaced);
 /// Eyes in smoke through which nothing can be seen. `smoky`: a building with its media.
 void inspect_smoke(const SceneDescription& scene, const Building& smoky, Findings& out);
+/// People and what they look at outside of the meshes of fire simulations.
+void inspect_fire_meshes(const SceneDescription& scene, const Building& smoky, Findings& out);
 /// Smoke from the floor to the ceiling of the places that are judged.
 void inspect_columns(const SceneDescription& scene, const Building& smoky, Findings& out);
 

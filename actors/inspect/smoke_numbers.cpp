@@ -168,6 +168,14 @@ void inspect_cells(const SceneDescription& scene, const Medium& m, Findings& out
                    "smoke optics",
                    {m.place, "the data set \"" + m.name + "\" " + std::move(what)}});
   };
+  // Grids of one fire simulation have one name, and some have no smoke yet.
+  const bool others_smoke =
+      std::any_of(scene.media.begin(), scene.media.end(), [&](const Medium& other) {
+        return other.name == m.name &&
+               std::any_of(other.data.extinction.begin(), other.data.extinction.end(),
+                           [](float v) { return v > 0; });
+      });
+  if (most == 0 && others_smoke) return;
   if (most == 0)
     tell(
         "has no smoke in any of its cells: is it of a time before the fire, or of another "

@@ -192,8 +192,10 @@ std::string variant_text(const SceneDescription& scene, const SceneEdits& edits,
     const auto* move = move_of(edits.signs, sign.name);
     if (move != nullptr || factor != 1) change("sign", sign.name, "", move, factor);
   }
-  if (edits.smoke != 1)
-    for (const Medium& medium : scene.media)
+  // Grids of one fire simulation have one name.
+  std::set<std::string> media;
+  for (const Medium& medium : scene.media)
+    if (edits.smoke != 1 && media.insert(medium.name).second)
       out += fmt::format("\n[[change]]\nkind = \"medium\"\nof = \"{}\"\nfactor = {}\n", medium.name,
                          shortest_number(edits.smoke));
   return out;

@@ -86,6 +86,16 @@ struct MediumEmission {
   std::string circuit;
 };
 
+/// What is known of smoke that a fire simulation has computed, at one time.
+struct FireSimulation {
+  std::string file;            // its index, as the scene writes it
+  double time_s = 0;           // of the frame that was taken
+  std::string source;          // what extinction was taken from, for people
+  bool glows = false;          // the light of its flames is in the scene
+  Frame frame;                 // of the simulation's coordinates
+  std::vector<Bounds> meshes;  // in those coordinates [m]; nothing is known outside of them
+};
+
 struct Medium {
   std::string name;
   SourcePlace place;
@@ -98,6 +108,8 @@ struct Medium {
   Bounds local_bounds;        // bounded: a box that holds the body, local coordinates
   DataSet data;               // data_set
   std::optional<MediumEmission> emission;  // bounded, data_set
+  /// Of the first of the data sets that a simulation became; the others have its name.
+  std::optional<FireSimulation> simulation = std::nullopt;
 };
 
 }  // namespace luxodus

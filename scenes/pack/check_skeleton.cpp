@@ -207,6 +207,14 @@ void check(const Medium& m) {
   if (m.kind == MediumKind::data_set)
     need(near(m.data.extent) && glm::all(glm::greaterThan(m.data.extent, glm::dvec3(0))),
          "a data set has no size");
+  if (m.simulation) {
+    need(m.kind == MediumKind::data_set && std::isfinite(m.simulation->time_s),
+         "a simulated fire has no cells or no time");
+    need_frame(m.simulation->frame);
+    for (const Bounds& mesh : m.simulation->meshes)
+      need(near(mesh.low) && near(mesh.high) && ordered(mesh.low, mesh.high),
+           "a mesh of a simulated fire has no size");
+  }
   if (!m.emission) return;
   need(m.kind == MediumKind::bounded || m.kind == MediumKind::data_set, "a flame has no place");
   need(within(m.emission->power_w, 0, brightest) && within(m.emission->visible_fraction, 0, 1),

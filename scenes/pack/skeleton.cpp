@@ -196,9 +196,13 @@ void serialize(A& a, MediumEmission& x) {
   a(x.power_w, x.visible_fraction, x.spectrum, x.group, x.circuit);
 }
 template <class A>
+void serialize(A& a, FireSimulation& x) {
+  a(x.file, x.time_s, x.source, x.glows, x.frame, x.meshes);
+}
+template <class A>
 void serialize(A& a, Medium& x) {
   a(x.name, x.place, choice(x.kind, MediumKind::data_set), x.optics, x.layers, x.footprint, x.frame,
-    x.quadric, x.local_bounds, x.data, x.emission);
+    x.quadric, x.local_bounds, x.data, x.emission, x.simulation);
 }
 template <class A>
 void serialize_sides(A& a, std::vector<Side>& x) {

@@ -86,19 +86,19 @@ void read_body(KeyReader& keys, Emitter& e) {
 /// The emitting shape of a file's luminous opening: what it shows below. Lying tubes and boxes
 /// become their rectangle, upright cylinders their disc; a line is 1 mm wide.
 void take_opening(const LuminousOpening& opening, Emitter& e) {
-  using Shape = LuminousOpening::Shape;
+  using OpeningShape = LuminousOpening::Shape;
   constexpr double line_m = 1e-3;
   const glm::dvec3 size = opening.size_m;
   const double largest = std::max({size.x, size.y, size.z});
-  if (opening.shape == Shape::point || largest < line_m) return;
-  if (opening.shape == Shape::sphere) {
+  if (opening.shape == OpeningShape::point || largest < line_m) return;
+  if (opening.shape == OpeningShape::sphere) {
     e.shape = EmitterShape::sphere;
     e.size.x =
         std::cbrt(std::max(size.x, line_m) * std::max(size.y, line_m) * std::max(size.z, line_m));
     return;
   }
   const double x = std::max(size.x, line_m), y = std::max(size.y, line_m);
-  const bool round = opening.shape == Shape::disc || opening.shape == Shape::cylinder;
+  const bool round = opening.shape == OpeningShape::disc || opening.shape == OpeningShape::cylinder;
   if (round && x < 2 * y && y < 2 * x) {
     e.shape = EmitterShape::disc;
     e.size.x = std::sqrt(x * y);  // same area where it is an ellipse

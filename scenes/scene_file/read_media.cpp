@@ -267,6 +267,7 @@ void read_medium(const toml::Table& table, SceneReading& reading) {
     keys.maybe_choice("body");
     if (!body.empty()) read_body(keys, body, m);
   }
+  if (kind == "fds") return read_fire_medium(keys, std::move(m));
   if (kind == "data_set") {
     m.kind = MediumKind::data_set;
     read_placed(keys, m);
@@ -280,7 +281,7 @@ std::vector<std::string> medium_specs(const std::string& kind, const std::string
   std::vector<std::string> specs = {"medium"};
   const bool all = kind.empty();
   if (all || kind == "homogeneous" || kind == "bounded") specs.push_back("medium.optics");
-  for (const char* k : {"homogeneous", "layered", "bounded", "data_set"}) {
+  for (const char* k : {"homogeneous", "layered", "bounded", "data_set", "fds"}) {
     if (all || kind == k) specs.push_back(std::string("medium.") + k);
   }
   if (!all && kind != "bounded") return specs;

@@ -16,5 +16,8 @@ void read_placed(KeyReader& keys, Medium& medium);
 void read_body(KeyReader& keys, const std::string& body, Medium& medium);
 /// Arrays, box and optics of a data set.
 void read_data_set(KeyReader& keys, Medium& medium);
+/// Of a medium with this name and place: the data sets that a fire simulation becomes, added to the
+/// scene.
+void read_fire_medium(KeyReader& keys, Medium medium);
 
 }  // namespace luxodus

@@ -171,8 +171,9 @@ void check_whole(SceneReading& reading) {
 
 }  // namespace
 
-ReadScene read_scene(const std::filesystem::path& path) {
+ReadScene read_scene(const std::filesystem::path& path, std::optional<double> at_s) {
   SceneReading reading;
+  reading.at_s = at_s;
   Loader loader(reading);
   loader.load(path, {path.string(), 1});
   const Documents& documents = loader.documents;
@@ -202,6 +203,10 @@ ReadScene read_scene(const std::filesystem::path& path) {
   };
   for (const auto& [key, reader] : order) read_all(documents, key, reader, reading);
   check_whole(reading);
+  if (at_s && !reading.has_fire && !reading.incomplete)
+    reading.problem({path.string(), 0},
+                    "a time is asked for, and no medium of this scene changes in time: only "
+                    "kind = \"fds\" does");
   ReadScene out;
   for (Problem& renamed : reading.findings.take_warnings())
     reading.scene.warnings.push_back(std::move(renamed));

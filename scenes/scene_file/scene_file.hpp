@@ -20,6 +20,8 @@ struct ReadScene {
 /// Reads the file, the files it includes, and the meshes, pictures and photometric data that they
 /// name. Warnings that do not hinder are in the scene. The content hash covers every byte of every
 /// file.
-ReadScene read_scene(const std::filesystem::path& path);
+/// `at_s`: time of its fire simulations instead of the one that they state; a problem where there
+/// is none.
+ReadScene read_scene(const std::filesystem::path& path, std::optional<double> at_s = std::nullopt);
 
 }  // namespace luxodus

@@ -16,6 +16,10 @@ void SceneReading::warning(SourcePlace where, std::string what) {
   scene.warnings.push_back({std::move(where), std::move(what)});
 }
 
+void SceneReading::note_for_reader(SourcePlace where, std::string what) {
+  scene.notes.push_back({std::move(where), std::move(what)});
+}
+
 void SceneReading::declare(std::string_view kind, const std::string& name,
                            const SourcePlace& place) {
   auto& of_kind = names_.try_emplace(std::string(kind)).first->second;

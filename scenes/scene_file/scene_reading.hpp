@@ -40,6 +40,11 @@ class SceneReading {
   /// missed.
   bool incomplete = false;
 
+  /// Time of every fire simulation, instead of the one that its medium states [s].
+  std::optional<double> at_s;
+  /// A fire simulation was named.
+  bool has_fire = false;
+
   toml::Findings findings;
 
   void problem(SourcePlace where, std::string what) {
@@ -47,6 +52,7 @@ class SceneReading {
   }
   void problem(Problem p) { problem(std::move(p.where), std::move(p.what)); }
   void warning(SourcePlace where, std::string what);
+  void note_for_reader(SourcePlace where, std::string what);
 
   /// Remembers a name of a kind ("material", "object"...); a problem where it is taken already.
   void declare(std::string_view kind, const std::string& name, const SourcePlace& place);

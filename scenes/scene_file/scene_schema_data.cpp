@@ -3,8 +3,62 @@
 
 namespace luxodus {
 
+namespace {
+
+TableSpec fire_keys() {
+  return {
+      "medium.fds",
+      "`[[medium]]` with `kind = \"fds\"`: smoke and flames of a fire simulation by FDS (NIST)",
+      {
+          {"file", "path", "", "required", "",
+           "index of the case (.smv); its results lie in the same folder or below it"},
+          {"at_s", "number", "s", "required", "[-1e6, 1e9]",
+           "time; the nearest frame is taken. `--at` overrides it"},
+          {"source", "choice", "", "\"best\"", "best, cells, nodes, plot3d, smoke3d",
+           "what extinction is taken from; `best`: the first of these with a frame within 1 s, "
+           "else the one nearest in time"},
+          {"mass_extinction", "number", "m2/kg", "", "(0, 1e6]",
+           "of soot, at `wavelength_nm`; as FDS has it unless said"},
+          {"wavelength_nm", "number", "nm", "633", "[200, 5000]",
+           "at which the extinction is said"},
+          {"angstrom", "number", "", "required", "[-2, 6]",
+           "extinction ~ wavelength^-angstrom; FDS does not know it. Soot of flaming fires has 1"},
+          {"albedo", "reflectance", "", "required", "[0, 1]",
+           "share of the extinction that scatters; FDS does not know it. Soot of flaming fires has "
+           "0.15 to 0.3"},
+          {"g", "number", "", "required", "[-0.9999, 0.9999]",
+           "mean cosine of scattering (Henyey-Greenstein); FDS does not know it. Smoke has 0.5 to "
+           "0.8"},
+          {"position", "point", "m", "[0, 0, 0]", "[-1e7, 1e7]",
+           "where the origin of the simulation is in the scene"},
+          {"rotate_deg", "point", "deg", "[0, 0, 0]", "[-360, 360]",
+           "turned about the scene's x, then y, then z axis through the simulation's origin"},
+          {"flames", "table", "", "", "", "light of its flames; none unless said"},
+      },
+  };
+}
+
+TableSpec fire_flame_keys() {
+  return {
+      "medium.flames",
+      "`[medium.flames]` of a fire simulation: where HRRPUV says that it burns",
+      {
+          {"radiant_fraction", "number", "", "required", "(0, 1]",
+           "share of the heat release (CASE_hrr.csv) that leaves the flames as radiation; 0.2 to "
+           "0.45 for most fuels"},
+          {"soot_temperature_k", "number", "K", "required", "[600, 6000]",
+           "temperature of the glowing soot, which gives the spectrum; never that of a cell, which "
+           "is a mean of flame and air"},
+          {"circuit", "name", "", "", "", "circuit that scenarios may scale it by"},
+          {"group", "name", "", "", "", "source group with tallies of its own"},
+      },
+  };
+}
+
+}  // namespace
+
 std::vector<TableSpec> data_set_schema() {
-  return {{
+  TableSpec data_set = {
       "medium.data_set",
       "`[[medium]]` with `kind = \"data_set\"`: cells in a box, from a file",
       {
@@ -36,7 +90,8 @@ std::vector<TableSpec> data_set_schema() {
           {"emission", "table", "", "", "",
            "light of flames, distributed as the file's `emission` array says, evenly without one"},
       },
-  }};
+  };
+  return {std::move(data_set), fire_keys(), fire_flame_keys()};
 }
 
 }  // namespace luxodus

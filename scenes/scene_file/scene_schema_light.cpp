@@ -224,8 +224,9 @@ std::vector<TableSpec> medium_keys() {
        "`[[medium]]`: smoke and flames",
        {
            {"name", "name", "", "required", "", "name of the medium"},
-           {"kind", "choice", "", "required", "homogeneous, layered, bounded, data_set",
-            "where it is: everywhere, in horizontal slabs, in a body, in a box of cells"},
+           {"kind", "choice", "", "required", "homogeneous, layered, bounded, data_set, fds",
+            "where it is: everywhere, in horizontal slabs, in a body, in a box of cells, in the "
+            "meshes of a fire simulation"},
        }},
       {"medium.optics", "Optics of a homogeneous or bounded medium, or of a layer", optics_keys()},
       {"medium.homogeneous", "`[[medium]]` with `kind = \"homogeneous\"`, besides the optics",

@@ -84,6 +84,14 @@ Bands choose_bands(const SceneDescription& scene, const Scenario& scenario,
   return Bands(edges, total);
 }
 
+/// Grids of one fire simulation have one name: the second is told as "smoke (2)".
+std::string display_name(const std::vector<Medium>& media, size_t index) {
+  const auto before = std::count_if(media.begin(), media.begin() + static_cast<ptrdiff_t>(index),
+                                    [&](const Medium& m) { return m.name == media[index].name; });
+  return before == 0 ? media[index].name
+                     : media[index].name + " (" + std::to_string(before + 1) + ")";
+}
+
 Result<void> compile_media(CompiledScene& scene) {
   const SceneDescription& d = *scene.description;
   std::vector<MediumInput> inputs;
@@ -92,7 +100,7 @@ Result<void> compile_media(CompiledScene& scene) {
     const bool stored = d.packed != nullptr && m.kind == MediumKind::data_set;
     inputs.push_back(
         {&m, factor_of_medium(scene.scenario, m), stored ? &d.packed->tables[i] : nullptr});
-    scene.media_names.push_back(m.name);
+    scene.media_names.push_back(display_name(d.media, i));
   }
   auto media = MediaSet::compile(
       inputs, scene.bands.count(),

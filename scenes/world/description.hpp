@@ -384,6 +384,7 @@ struct SceneDescription {
   uint64_t content_hash = 0;         // of every file read
   int64_t degenerate_triangles = 0;  // dropped on reading
   std::vector<Problem> warnings;     // said by `check`, not fatal
+  std::vector<Problem> notes;        // said by `check`: what a reader of the results should know
   /// Where the triangles are, if not in the objects; null where they are.
   std::shared_ptr<const PackedScene> packed;
 };

@@ -19,8 +19,9 @@
 #include "scenes/scene_file/scene_file.hpp"
 #include "scenes/transport/compile.hpp"
 
-using namespace luxodus;
 namespace fs = std::filesystem;
+
+namespace luxodus {
 
 namespace {
 
@@ -300,3 +301,5 @@ TEST_CASE("the office floor gives the numbers of its long runs, and smoke dims h
           "[library]") {
   check_library_scene("office_floor");
 }
+
+}  // namespace luxodus

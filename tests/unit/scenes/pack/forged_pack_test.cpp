@@ -340,6 +340,16 @@ TEST_CASE("a forged value is named for what it is", "[pack][hostile]") {
   CHECK_THAT(with([](D& d, P&) { d.emitters[0].spectrum = {}; }), contains("no light"));
   CHECK_THAT(with([](D& d, P&) { d.materials[0].reflectance = Spectrum::constant(1.5); }),
              contains("reflects"));
+  CHECK_THAT(with([](D& d, P&) {
+               FireSimulation fire;
+               fire.meshes = {{glm::dvec3(1), glm::dvec3(0)}};
+               for (Medium& m : d.media)
+                 if (m.kind == MediumKind::data_set) m.simulation = fire;
+             }),
+             contains("simulated fire"));
+  CHECK_THAT(
+      with([](D& d, P&) { d.media[0].simulation = FireSimulation{"", NAN, "", false, {}, {}}; }),
+      contains("not finite"));
   CHECK_THAT(with([](D& d, P&) { d.objects[0].material = 1000; }), contains("no material"));
   CHECK_THAT(with([](D& d, P&) { d.planes[0].cells_u = 1 << 30; }), contains("plane"));
   CHECK_THAT(with([](D& d, P&) { d.planes[0].edge_v = d.planes[0].edge_u; }), contains("no area"));

@@ -111,6 +111,29 @@ TEST_CASE("the open sides of a scene go through a pack", "[pack]") {
   CHECK(opened(folder / "open.luxpack")->open_sides == scene->open_sides);
 }
 
+TEST_CASE("the time, the meshes and the missing flames of a fire simulation go through a pack",
+          "[pack][fds]") {
+  const test::TemporaryFolder folder;
+  auto scene = std::make_shared<SceneDescription>(*gallery_in(folder.path()));
+  const auto smoke = std::find_if(scene->media.begin(), scene->media.end(),
+                                  [](const Medium& m) { return m.kind == MediumKind::data_set; });
+  REQUIRE(smoke != scene->media.end());
+  const size_t index = static_cast<size_t>(smoke - scene->media.begin());
+  smoke->simulation = FireSimulation{"fire.smv", 60.0264, "Smoke3D",
+                                     false,      Frame{}, {{glm::dvec3(0), glm::dvec3(1, 2, 3)}}};
+  const fs::path file = folder / "fire.luxpack";
+  REQUIRE(write_pack(file, *compiled(scene, "smoky", 1), 1).ok());
+  const auto packed = opened(file);
+  const auto& read = packed->media.at(index).simulation;
+  REQUIRE(read);
+  CHECK(read->file == "fire.smv");
+  CHECK(read->time_s == 60.0264);
+  CHECK(read->source == "Smoke3D");
+  CHECK_FALSE(read->glows);
+  REQUIRE(read->meshes.size() == 1);
+  CHECK(read->meshes[0].high == glm::dvec3(1, 2, 3));
+}
+
 TEST_CASE("smoke data and pictures go through a pack as objects, and not in its skeleton",
           "[pack]") {
   const test::TemporaryFolder folder;

@@ -1,0 +1,306 @@
+#include "scenes/fields/fds_building.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "scenes/fields/fds_case.hpp"
+#include "scenes/fields/fds_cells.hpp"
+
+namespace luxodus {
+
+namespace fds {
+namespace {
+
+constexpr double seam_m = 1e-5;
+/// A door begins at most so far above the floor of its mesh [m].
+constexpr double threshold_m = 0.05;
+constexpr double below_ceiling_m = 0.1;
+
+/// A name that a scene takes: no quotes, slashes, control characters, outer blanks or leading dot.
+std::string scene_name(const std::string& name, const std::string& otherwise) {
+  std::string out;
+  for (const char c : name) {
+    const auto u = static_cast<unsigned char>(c);
+    out += u < 0x20 || u >= 0x7f || c == '"' || c == '/' || c == '\\' ? '_' : c;
+  }
+  while (!out.empty() && (out.front() == ' ' || out.front() == '.')) out.erase(0, 1);
+  while (!out.empty() && out.back() == ' ') out.pop_back();
+  return out.empty() ? otherwise : out;
+}
+
+std::string metres_text(const glm::dvec3& p) {
+  return fmt::format("[{:.6g}, {:.6g}, {:.6g}]", p.x, p.y, p.z);
+}
+
+/// A rectangle of cells on a face of a mesh.
+struct Patch {
+  int u0, u1, v0, v1;
+};
+
+/// Cells that are set, as few rectangles: rows of runs, which grow while the next row has the same.
+std::vector<Patch> patches_of(const std::vector<uint8_t>& set, int nu, int nv) {
+  std::vector<Patch> done, open;
+  for (int v = 0; v <= nv; ++v) {
+    std::vector<Patch> runs;
+    for (int u = 0; v < nv && u < nu; ++u) {
+      const auto at = [&](int x) {
+        return set[static_cast<size_t>(v) * static_cast<size_t>(nu) + static_cast<size_t>(x)] != 0;
+      };
+      if (!at(u)) continue;
+      const int first = u;
+      while (u < nu && at(u)) ++u;
+      runs.push_back({first, u, v, v + 1});
+    }
+    std::vector<Patch> next;
+    for (Patch& run : runs) {
+      const auto same = std::find_if(open.begin(), open.end(), [&](const Patch& p) {
+        return p.u0 == run.u0 && p.u1 == run.u1;
+      });
+      if (same != open.end()) {
+        run.v0 = same->v0;
+        open.erase(same);
+      }
+      next.push_back(run);
+    }
+    done.insert(done.end(), open.begin(), open.end());
+    open = std::move(next);
+  }
+  return done;
+}
+
+class BuildingWriter {
+ public:
+  BuildingWriter(Case fire, double at_s) : fire_(std::move(fire)), at_s_(at_s) {}
+
+  Result<FireBuilding> write() {
+    for (const Mesh& mesh : fire_.meshes) {
+      out_.bounds.extend(mesh.low());
+      out_.bounds.extend(mesh.high());
+    }
+    for (size_t m = 0; m < fire_.meshes.size(); ++m) {
+      obstructions(m);
+      for (int axis = 0; axis < 3; ++axis)
+        for (const bool high : {false, true}) face(m, axis, high);
+      openings(fire_.meshes[m]);
+      if (objects_ > luxodus::limits::fire_objects)
+        return problem_in(fire_.file, fmt::format("its building has more than {} objects",
+                                                  luxodus::limits::fire_objects));
+    }
+    const Mesh& first = fire_.meshes.front();
+    out_.lamp = 0.5 * (first.low() + first.high());
+    out_.lamp.z = first.high().z - below_ceiling_m;
+    std::string materials;
+    for (const auto& [surface, name] : materials_) {
+      const glm::dvec3 rgb =
+          surface < fire_.surfaces.size() ? fire_.surfaces[surface].rgb : glm::dvec3(0.5);
+      materials += fmt::format(
+          "[[material]]\nname = \"{}\"\nkind = \"lambertian\"\nreflectance = {{ srgb = [{:.4g}, "
+          "{:.4g}, {:.4g}] }}\n\n",
+          name, rgb.x, rgb.y, rgb.z);
+    }
+    out_.objects = materials + objects_text_;
+    return std::move(out_);
+  }
+
+ private:
+  const std::string& material(size_t surface) {
+    const auto [at, fresh] = materials_.try_emplace(surface);
+    if (fresh) {
+      const std::string number = std::to_string(surface);
+      std::string name = surface < fire_.surfaces.size()
+                             ? scene_name(fire_.surfaces[surface].name, "surface " + number)
+                             : "surface " + number;
+      while (!material_names_.insert(name).second) name += " " + number;
+      at->second = std::move(name);
+    }
+    return at->second;
+  }
+
+  void object(const std::string& base, const std::string& shape, size_t surface) {
+    const size_t number = ++numbers_[base];
+    const std::string name = number == 1 ? base : fmt::format("{} {}", base, number);
+    if (!object_names_.insert(name).second) return object(base, shape, surface);
+    ++objects_;
+    objects_text_ += fmt::format("[[object]]\nname = \"{}\"\n{}material = \"{}\"\n\n", name, shape,
+                                 material(surface));
+  }
+
+  void quad(const std::string& base, const glm::dvec3& corner, const glm::dvec3& u,
+            const glm::dvec3& v, size_t surface) {
+    object(base,
+           fmt::format("shape = \"quad\"\ncorner = {}\nedge_u = {}\nedge_v = {}\n",
+                       metres_text(corner), metres_text(u), metres_text(v)),
+           surface);
+  }
+
+  void obstructions(size_t m) {
+    const Mesh& mesh = fire_.meshes[m];
+    const auto there = obstructions_at(fire_, m, at_s_);
+    for (size_t i = 0; i < mesh.obstructions.size(); ++i) {
+      const std::string name = scene_name(mesh.labels[i].name, "obstruction");
+      if (there[i] == 0) {
+        out_.absent.push_back(name);
+        continue;
+      }
+      const auto& [a, b] = mesh.obstructions[i];
+      glm::dvec3 low, high;
+      int flat = 0, across = 0;
+      for (int axis = 0; axis < 3; ++axis) {
+        const std::vector<double>& nodes = mesh.nodes[static_cast<size_t>(axis)];
+        low[axis] = nodes[static_cast<size_t>(a[axis])];
+        high[axis] = nodes[static_cast<size_t>(b[axis])];
+        if (a[axis] < b[axis]) continue;
+        ++flat;
+        across = axis;
+      }
+      if (flat > 1) continue;
+      if (flat == 0) {
+        ++out_.solids;
+        object(name,
+               fmt::format("shape = \"box\"\nlow = {}\nhigh = {}\n", metres_text(low),
+                           metres_text(high)),
+               mesh.labels[i].surface);
+        continue;
+      }
+      plate(mesh, name, low, high, across, mesh.labels[i].surface);
+    }
+  }
+
+  /// One without thickness; not on an outer face, where the face stands already, and once where
+  /// two meshes name it.
+  void plate(const Mesh& mesh, const std::string& name, const glm::dvec3& low,
+             const glm::dvec3& high, int across, size_t surface) {
+    const bool outer = std::abs(low[across] - out_.bounds.low[across]) < seam_m ||
+                       std::abs(low[across] - out_.bounds.high[across]) < seam_m;
+    if (outer || !plates_.insert(metres_text(low) + metres_text(high)).second) return;
+    const bool below = std::abs(low[across] - mesh.low()[across]) < seam_m;
+    if (below || std::abs(low[across] - mesh.high()[across]) < seam_m) {
+      // On a seam, the wall itself is often an obstruction of the mesh behind.
+      glm::dvec3 behind = 0.5 * (low + high);
+      behind[across] += below ? -seam_m : seam_m;
+      if (is_solid(behind)) return;
+    }
+    ++out_.plates;
+    const int u = (across + 1) % 3, v = (across + 2) % 3;
+    glm::dvec3 edge_u(0), edge_v(0);
+    edge_u[u] = high[u] - low[u];
+    edge_v[v] = high[v] - low[v];
+    quad(name, low, edge_u, edge_v, surface);
+  }
+
+  bool is_solid(const glm::dvec3& place) {
+    for (size_t m = 0; m < fire_.meshes.size(); ++m) {
+      const int64_t cell = cell_at(fire_.meshes[m], place);
+      if (cell >= 0) return gas(m)[static_cast<size_t>(cell)] == 0;
+    }
+    return false;
+  }
+
+  const std::vector<uint8_t>& gas(size_t m) {
+    if (gas_.empty()) gas_.resize(fire_.meshes.size());
+    if (gas_[m].empty()) gas_[m] = gas_cells(fire_, m, at_s_);
+    return gas_[m];
+  }
+
+  /// The closed part of a face of a mesh, before gas: not open, and no other mesh behind.
+  void face(size_t m, int axis, bool high) {
+    const Mesh& mesh = fire_.meshes[m];
+    const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+    const std::vector<double>& along = mesh.nodes[static_cast<size_t>(axis)];
+    const double plane = high ? along.back() : along.front();
+    std::vector<const Mesh*> touching;
+    for (const Mesh& other : fire_.meshes)
+      if (&other != &mesh && other.nodes[static_cast<size_t>(axis)].front() <= plane + seam_m &&
+          other.nodes[static_cast<size_t>(axis)].back() >= plane - seam_m &&
+          glm::all(glm::lessThanEqual(other.low(), mesh.high() + seam_m)) &&
+          glm::all(glm::greaterThanEqual(other.high(), mesh.low() - seam_m)))
+        touching.push_back(&other);
+    std::vector<uint8_t> closed;
+    for (int j = 0; j < mesh.cells[v]; ++j)
+      for (int i = 0; i < mesh.cells[u]; ++i) {
+        glm::dvec3 at;
+        at[axis] = plane;
+        at[u] = middle_of(mesh, u, i);
+        at[v] = middle_of(mesh, v, j);
+        glm::dvec3 outside = at, inside = at;
+        outside[axis] += high ? seam_m : -seam_m;
+        inside[axis] += high ? -seam_m : seam_m;
+        const auto cell = static_cast<size_t>(cell_at(mesh, inside));
+        const bool behind =
+            std::any_of(touching.begin(), touching.end(),
+                        [&](const Mesh* other) { return cell_at(*other, outside) >= 0; });
+        closed.push_back(!behind && !is_open(mesh, at) && gas(m)[cell] != 0 ? 1 : 0);
+      }
+    const std::vector<double>&nu = mesh.nodes[static_cast<size_t>(u)],
+          &nv = mesh.nodes[static_cast<size_t>(v)];
+    for (const Patch& p : patches_of(closed, mesh.cells[u], mesh.cells[v])) {
+      glm::dvec3 corner, edge_u(0), edge_v(0);
+      corner[axis] = plane;
+      corner[u] = nu[static_cast<size_t>(p.u0)];
+      corner[v] = nv[static_cast<size_t>(p.v0)];
+      edge_u[u] = nu[static_cast<size_t>(p.u1)] - corner[u];
+      edge_v[v] = nv[static_cast<size_t>(p.v1)] - corner[v];
+      ++out_.faces;
+      const char* const names[] = {"west wall",  "east wall", "south wall",
+                                   "north wall", "floor",     "ceiling"};
+      // The front looks into the mesh.
+      const std::string name = names[2 * axis + (high ? 1 : 0)];
+      if (high)
+        quad(name, corner, edge_v, edge_u, fire_.default_surface);
+      else
+        quad(name, corner, edge_u, edge_v, fire_.default_surface);
+    }
+  }
+
+  static double middle_of(const Mesh& mesh, int axis, int cell) {
+    const std::vector<double>& nodes = mesh.nodes[static_cast<size_t>(axis)];
+    const auto i = static_cast<size_t>(cell);
+    return 0.5 * (nodes[i] + nodes[i + 1]);
+  }
+
+  static bool is_open(const Mesh& mesh, const glm::dvec3& at) {
+    return std::any_of(mesh.openings.begin(), mesh.openings.end(), [&](const Opening& o) {
+      return glm::all(glm::greaterThanEqual(at, o.low - seam_m)) &&
+             glm::all(glm::lessThanEqual(at, o.high + seam_m));
+    });
+  }
+
+  void openings(const Mesh& mesh) {
+    constexpr const char* sides[] = {"west", "east", "south", "north", "bottom", "top"};
+    for (const Opening& o : mesh.openings)
+      for (int axis = 0; axis < 3; ++axis) {
+        if (o.high[axis] - o.low[axis] > seam_m) continue;
+        const bool high = o.low[axis] > 0.5 * (mesh.low()[axis] + mesh.high()[axis]);
+        const std::string side = sides[2 * axis + (high ? 1 : 0)];
+        if (std::count(out_.open_sides.begin(), out_.open_sides.end(), side) == 0)
+          out_.open_sides.push_back(side);
+        if (axis < 2 && o.low.z <= mesh.low().z + threshold_m)
+          out_.exits.push_back({0.5 * (o.low.x + o.high.x), 0.5 * (o.low.y + o.high.y), o.low.z});
+      }
+  }
+
+  Case fire_;
+  double at_s_;
+  FireBuilding out_;
+  GasMasks gas_;
+  size_t objects_ = 0;
+  std::string objects_text_;
+  std::map<size_t, std::string> materials_;  // by surface
+  std::set<std::string> material_names_{"open"}, object_names_, plates_;
+  std::map<std::string, size_t> numbers_;
+};
+
+}  // namespace
+}  // namespace fds
+
+Result<FireBuilding> read_fire_building(const std::filesystem::path& index, double at_s) {
+  auto fire = fds::read_case(index);
+  if (!fire) return fire.problem();
+  return fds::BuildingWriter(std::move(fire.value()), at_s).write();
+}
+
+}  // namespace luxodus

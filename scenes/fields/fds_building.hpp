@@ -1,0 +1,38 @@
+// The building of a fire simulation as tables of a scene file, snapped to the grid as FDS computed
+// it: obstructions as boxes, those without thickness as quads, and the closed faces of meshes as
+// rectangles. Any thread.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "runtime/core/result.hpp"
+#include "scenes/geometry/mesh.hpp"
+
+namespace luxodus {
+
+namespace limits {
+/// Objects that are written: a scene of more is read by nobody.
+inline constexpr size_t fire_objects = 100'000;
+}  // namespace limits
+
+struct FireBuilding {
+  std::string objects;                  // [[material]] and [[object]] tables
+  size_t solids = 0;                    // boxes
+  size_t plates = 0;                    // quads
+  size_t faces = 0;                     // rectangles of closed faces of meshes
+  std::vector<std::string> open_sides;  // words of the scene's key open_sides
+  std::vector<glm::dvec3> exits;    // middles of openings that reach the floor of their mesh [m]
+  std::vector<std::string> absent;  // obstructions that are not there at this time
+  Bounds bounds;                    // of the meshes [m]
+  glm::dvec3 lamp{0};               // a place in gas under the ceiling of the first mesh [m]
+};
+
+/// As it stands at a time. Colours are those of the surfaces in Smokeview, which are for display:
+/// FDS knows no reflectances.
+/// Errors: as fds_case.hpp says; more than limits::fire_objects.
+Result<FireBuilding> read_fire_building(const std::filesystem::path& index, double at_s);
+
+}  // namespace luxodus

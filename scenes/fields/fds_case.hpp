@@ -1,0 +1,134 @@
+// The index of a fire simulation: what the .smv file of FDS (NIST) names. Meshes with their nodes,
+// obstructions and openings, and the files of results that this program can use. No file of results
+// is opened here. Coordinates are absolute [m], times [s]. Any thread.
+//
+// Format: FDS User's Guide (NIST SP 1019), chapter on output file formats, and files of FDS 6.7 and
+// 6.9. A keyword stands in column 1, its data on lines that begin with a blank; others are passed.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "runtime/core/result.hpp"
+
+namespace luxodus::fds {
+
+namespace limits {
+/// An index of a large building has 10^5 lines, 10 MB.
+inline constexpr uint64_t index_bytes = uint64_t{256} << 20;
+inline constexpr size_t meshes = 4096;
+/// Cells along one side of a mesh, and cells of a mesh: 1 GB of node values in a frame.
+inline constexpr int side_cells = 8192;
+inline constexpr int64_t mesh_cells = int64_t{1} << 28;
+}  // namespace limits
+
+/// Cells low..high-1 of a mesh, by the numbers of their nodes.
+struct NodeBox {
+  glm::ivec3 low{0};
+  glm::ivec3 high{0};
+};
+
+/// What an obstruction is called, and the surface of most of its sides (place in Case::surfaces).
+struct ObstructionLabel {
+  std::string name;
+  size_t surface = 0;
+};
+
+/// Face of a mesh that is open to the ambient, as a box without thickness [m].
+struct Opening {
+  glm::dvec3 low{0};
+  glm::dvec3 high{0};
+};
+
+struct Surface {
+  std::string name;
+  glm::dvec3 rgb{0.5};  // what Smokeview shows, encoded sRGB, 0 to 1
+};
+
+struct Mesh {
+  std::string name;
+  glm::ivec3 cells{0};
+  std::array<std::vector<double>, 3> nodes;  // by axis, ascending, one more than cells [m]
+  std::vector<NodeBox> obstructions;         // snapped to the grid; in the order of the index
+  std::vector<ObstructionLabel> labels;      // one for each of them
+  std::vector<Opening> openings;
+  int line = 0;
+
+  glm::dvec3 low() const { return {nodes[0].front(), nodes[1].front(), nodes[2].front()}; }
+  glm::dvec3 high() const { return {nodes[0].back(), nodes[1].back(), nodes[2].back()}; }
+  size_t cell_count() const {
+    return static_cast<size_t>(cells.x) * static_cast<size_t>(cells.y) *
+           static_cast<size_t>(cells.z);
+  }
+  glm::ivec3 node_counts() const { return cells + 1; }
+  size_t node_count() const {
+    const glm::ivec3 n = node_counts();
+    return static_cast<size_t>(n.x) * static_cast<size_t>(n.y) * static_cast<size_t>(n.z);
+  }
+};
+
+/// An obstruction that appears or vanishes.
+struct Change {
+  size_t mesh = 0;
+  size_t obstruction = 0;
+  double time_s = 0;
+  bool appears = false;
+  int line = 0;
+};
+
+enum class Quantity { extinction, soot_density, optical_density, heat_release, other };
+
+/// A 3-D slice. Values of nodes, or of cells: value (i, j, k) is then that of the cell below the
+/// node (i, j, k) on every axis.
+struct Slice {
+  size_t mesh = 0;
+  bool of_cells = false;
+  Quantity quantity = Quantity::other;
+  NodeBox nodes;  // first and last
+  std::filesystem::path file;
+  int line = 0;
+};
+
+/// Bytes of nodes, compressed by run lengths.
+struct Smoke3d {
+  size_t mesh = 0;
+  Quantity quantity = Quantity::other;
+  std::filesystem::path file;
+  int line = 0;
+};
+
+/// Five quantities of all nodes at one time.
+struct Plot3d {
+  size_t mesh = 0;
+  double time_s = 0;
+  std::array<Quantity, 5> quantities{};
+  std::filesystem::path file;
+  int line = 0;
+};
+
+struct Case {
+  std::string file;  // the index
+  std::filesystem::path folder;
+  std::string version;  // of FDS, as the index has it
+  std::vector<Mesh> meshes;
+  std::vector<Surface> surfaces;
+  size_t default_surface = 0;  // of faces of meshes
+  std::vector<Change> changes;  // by time
+  std::vector<Slice> slices;
+  std::vector<Smoke3d> smoke;
+  std::vector<Plot3d> plots;
+  std::optional<std::filesystem::path> heat_release_file;  // CASE_hrr.csv
+  /// Mass extinction coefficient that FDS computed extinctions with [m2/kg].
+  std::optional<double> mass_extinction_m2_per_kg;
+};
+
+/// Errors, with their line: no index of FDS; a mesh without its nodes, nodes that do not ascend;
+/// numbers that are none; a file of results outside the folder of the index; more than the limits.
+Result<Case> read_case(const std::filesystem::path& index);
+
+}  // namespace luxodus::fds

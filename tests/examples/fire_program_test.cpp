@@ -1,0 +1,85 @@
+// A fire simulation from its files to a result, as a person goes the way: import, check, run at
+// another time, the pictures' time.
+#include <catch2/catch.hpp>
+
+#include "tests/examples/program_kit.hpp"
+#include "tests/kit/small_fire.hpp"
+
+using namespace luxodus::program;
+using Catch::Contains;
+
+namespace {
+
+/// A closed room of 2 x 2 x 2 m with an open door in the west: clear at 0 s, 0.5 /m at 30 s.
+void write_small_case(const TemporaryFolder& folder) {
+  using namespace luxodus::test;
+  SmallMesh mesh = even_mesh({0, 0, 0}, {0.5, 0.5, 0.5}, {4, 4, 4});
+  mesh.openings = {{0, 0, 0.5, 1.5, 0, 1.5}};
+  const auto even = [&](float v) { return cell_values(mesh, [v](int, int, int) { return v; }); };
+  folder.write("a.sf", slice_file(mesh, "SOOT EXTINCTION COEFFICIENT",
+                                  {{0, even(0)}, {15, even(0.25F)}, {30, even(0.5F)}}));
+  folder.write("fire.smv", index_of_meshes({mesh}) +
+                               slice_entry(1, true, mesh, "a.sf", "SOOT EXTINCTION COEFFICIENT"));
+}
+
+/// A path of the folder, as a command line has it.
+std::string in_folder(const TemporaryFolder& folder, const std::string& name) {
+  return (folder / name).string();
+}
+
+Outcome import_small_case(const TemporaryFolder& folder) {
+  return run_luxodus(folder, "import fds " + in_folder(folder, "fire.smv") + " --out " +
+                                 in_folder(folder, "room") + " --at 30s");
+}
+
+}  // namespace
+
+TEST_CASE("an imported fire is checked, run at another time, and kept when it is imported again",
+          "[program][fds]") {
+  const TemporaryFolder folder;
+  write_small_case(folder);
+  const Outcome imported = import_small_case(folder);
+  INFO(imported.err);
+  REQUIRE(imported.code == 0);
+  const Outcome checked = run_luxodus(folder, "check " + in_folder(folder, "room/scene.toml"));
+  INFO(checked.err);
+  CHECK(checked.code == 0);
+  CHECK_THAT(checked.err, Contains("the state at 30 s") && Contains("FLAME GLARE IS MISSING"));
+
+  const auto at = [&](const std::string& more) {
+    const Outcome run = run_luxodus(folder, "run " + in_folder(folder, "room/scene.toml") +
+                                                " --particles 20k --overwrite --out " +
+                                                in_folder(folder, "out") + " " + more);
+    INFO(run.err);
+    REQUIRE(run.code == 0);
+    return slurp(folder / "out/result.json");
+  };
+  CHECK_THAT(at(""), Contains("\"time_s\": 30.0") && !Contains("\"at_s\""));
+  CHECK_THAT(at("--at 14s"), Contains("\"time_s\": 15.0") && Contains("\"at_s\": 14.0"));
+  const Outcome late =
+      run_luxodus(folder, "check " + in_folder(folder, "room/scene.toml") + " --at 60s");
+  CHECK(late.code == 2);
+  CHECK_THAT(late.err, Contains("there is no frame near 60 s"));
+
+  const std::string mine = "# mine\n";
+  folder.write("room/scene.toml", mine);
+  REQUIRE(import_small_case(folder).code == 0);
+  CHECK(slurp(folder / "room/scene.toml") == mine);
+}
+
+TEST_CASE("a time that no scene and no pack can have is refused", "[program][fds]") {
+  const TemporaryFolder folder;
+  write_small_case(folder);
+  REQUIRE(import_small_case(folder).code == 0);
+  REQUIRE(run_luxodus(folder, "pack " + in_folder(folder, "room/scene.toml") + " --out " +
+                                  in_folder(folder, "fire.luxpack"))
+              .code == 0);
+  const Outcome packed =
+      run_luxodus(folder, "check " + in_folder(folder, "fire.luxpack") + " --at 15s");
+  CHECK(packed.code == 2);
+  CHECK_THAT(packed.err, Contains("a pack is of one time"));
+  folder.write("plain.toml", "title = \"no fire\"\n");
+  CHECK_THAT(run_luxodus(folder, "check " + in_folder(folder, "plain.toml") + " --at 15s").err,
+             Contains("no medium of this scene changes in time"));
+  CHECK(run_luxodus(folder, "check " + in_folder(folder, "plain.toml") + " --at soon").code == 2);
+}
