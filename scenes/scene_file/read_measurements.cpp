@@ -96,7 +96,7 @@ void read_surface_group(const toml::Table& table, SceneReading& reading) {
 }
 
 void read_volume_group(const toml::Table& table, SceneReading& reading) {
-  using Shape = VolumeGroupMeasure::Shape;
+  using GroupShape = VolumeGroupMeasure::Shape;
   VolumeGroupMeasure g;
   std::string shape;
   KeyReader keys = kind_reader(table, "volume_group", "shape", reading, shape);
@@ -107,21 +107,21 @@ void read_volume_group(const toml::Table& table, SceneReading& reading) {
     return;
   }
   if (shape == "box") {
-    g.shape = Shape::box;
+    g.shape = GroupShape::box;
     g.low = keys.point("low");
     g.high = keys.point("high");
     if (keys.clean() && !glm::all(glm::lessThan(g.low, g.high))) {
       keys.problem("high", "'high' must lie above 'low' in x, y and z");
     }
   } else if (shape == "layer") {
-    g.shape = Shape::layer;
+    g.shape = GroupShape::layer;
     g.low.z = keys.number("z_low");
     g.high.z = keys.number("z_high");
     if (keys.clean() && !(g.low.z < g.high.z)) {
       keys.problem("z_high", "'z_high' must lie above 'z_low'");
     }
   } else {
-    g.shape = shape == "sphere" ? Shape::sphere : Shape::shell;
+    g.shape = shape == "sphere" ? GroupShape::sphere : GroupShape::shell;
     g.centre = keys.point("centre");
     g.radius = keys.number("radius");
     if (shape == "shell") {
