@@ -75,8 +75,12 @@ glm::dvec3 before_face(const Sign& sign) {
   return sign.frame.origin + sign.frame.axes[2] * (sign.thickness_m / 2 + floor_plane_m);
 }
 
-CodeLight::CodeLight(const SceneDescription& scene, const Building& building)
-    : scene_(scene), building_(building), luminaires_(emergency_luminaires(scene)) {
+CodeLight::CodeLight(const SceneDescription& scene, const Building& building,
+                     std::vector<uint32_t> places)
+    : scene_(scene),
+      building_(building),
+      luminaires_(emergency_luminaires(scene)),
+      places_(std::move(places)) {
   if (luminaires_.empty()) return;
   const auto& emitters = building.scene().emitters;
   for (size_t i = 0; i < emitters.size(); ++i)
@@ -88,10 +92,42 @@ std::vector<LitPoint> CodeLight::lit(const std::vector<glm::dvec3>& places,
   std::vector<LitPoint> out(places.size());
   building_.each(places.size(), [&](const GeometryAccess& access, size_t i) {
     out[i].place = places[i] + normal * lift_m;
-    const auto lux = direct_by_emitter(building_.scene(), access, building_.local(out[i].place),
-                                       glm::vec3(normal), clear_air());
+    const auto lux = light_at(access, out[i].place, normal);
     for (const size_t column : columns_) out[i].lux.push_back(lux[column]);
   });
+  return out;
+}
+
+/// Of several luminaires in one place the first is looked at; the others are looked at only where
+/// it is hidden in part.
+std::vector<double> CodeLight::light_at(const GeometryAccess& access, const glm::dvec3& place,
+                                        const glm::dvec3& normal) const {
+  const CompiledScene& scene = building_.scene();
+  DirectOptions options = clear_air();
+  if (places_.empty())
+    return direct_by_emitter(scene, access, building_.local(place), glm::vec3(normal), options);
+  std::vector<KnownSight> first(scene.emitters.size(), KnownSight::hidden), rest = first;
+  for (size_t i = 0; i < columns_.size(); ++i)
+    if (i == 0 || places_[i] != places_[i - 1]) first[columns_[i]] = KnownSight::nothing;
+  options.known = first;
+  const auto of_first =
+      direct_lights(scene, access, building_.local(place), glm::vec3(normal), options);
+  std::vector<double> out(scene.emitters.size(), 0);
+  size_t leader = 0;
+  for (size_t i = 0; i < columns_.size(); ++i) {
+    const size_t column = columns_[i];
+    const bool leads = i == 0 || places_[i] != places_[i - 1];
+    if (leads) leader = column;
+    const DirectFromEmitter& seen = of_first[leader];
+    out[column] = leads ? seen.illuminance_lx : 0;
+    if (leads || (seen.illuminance_lx == 0 && seen.open_lx > 0)) continue;
+    const bool clear = seen.open_lx > 0 && seen.illuminance_lx >= seen.open_lx * (1 - 1e-9);
+    rest[column] = clear ? KnownSight::clear : KnownSight::nothing;
+  }
+  options.known = rest;
+  const auto others =
+      direct_by_emitter(scene, access, building_.local(place), glm::vec3(normal), options);
+  for (const size_t column : columns_) out[column] += others[column];
   return out;
 }
 

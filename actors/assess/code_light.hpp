@@ -38,8 +38,11 @@ struct AreaPoints {
 
 class CodeLight {
  public:
+  /// `places`: a number for each emergency luminaire; those of one number hang in one place, one
+  /// after another, so that what hides the first hides all of them. Empty: each has its own.
   /// Requires: `building` is made of code_scene(scene, ...) in code_scenario; both outlive this.
-  CodeLight(const SceneDescription& scene, const Building& building);
+  CodeLight(const SceneDescription& scene, const Building& building,
+            std::vector<uint32_t> places = {});
 
   /// What each luminaire gives at places, a little above them, on a surface that faces `normal`.
   std::vector<LitPoint> lit(const std::vector<glm::dvec3>& places, const glm::dvec3& normal,
@@ -57,6 +60,9 @@ class CodeLight {
   std::optional<double> floor_under(const glm::dvec3& place) const;
 
  private:
+  /// At one point, of each emitter [lx].
+  std::vector<double> light_at(const GeometryAccess& access, const glm::dvec3& place,
+                               const glm::dvec3& normal) const;
   /// Whether a luminaire sends any of its light to a place.
   bool shines_at(const GeometryAccess& access, uint32_t luminaire, const glm::dvec3& place) const;
 
@@ -64,6 +70,7 @@ class CodeLight {
   const Building& building_;
   std::vector<uint32_t> luminaires_;  // emergency luminaires among the scene's emitters
   std::vector<size_t> columns_;       // the same among the compiled emitters
+  std::vector<uint32_t> places_;      // of each
 };
 
 }  // namespace luxodus

@@ -77,6 +77,9 @@ void print_design(const SceneDescription& scene, const DesignResult& result) {
   for (const Check& check : result.others)
     std::printf("  fails with any layout: %s: %s\n", check.subject.c_str(),
                 check.rule.title.c_str());
+  for (const HiddenByFurniture& one : result.hidden)
+    std::printf("  planned without furniture, which hides %zu points from all candidates: %s, %s\n",
+                one.points, one.subject.c_str(), one.rule.c_str());
   for (size_t i = 0; i < result.groups.size(); ++i) {
     constexpr double binding = 0.05;
     const double share =
@@ -139,6 +142,10 @@ Result<ExitCode> design_scene(DesignCommandOptions o) {
   print_design(*scene, result.value());
   for (const char* file : {"design.html", "layout.toml"})
     std::printf("written to %s\n", (out->named() / file).string().c_str());
+  if (result->answer.end == LayoutEnd::interrupted) {
+    log_warning("interrupted; the best layout so far was written");
+    return ExitCode::interrupted;
+  }
   return ExitCode::success;
 }
 

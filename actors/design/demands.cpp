@@ -1,10 +1,13 @@
 // Furniture takes light away and never adds any. So minima are asked for with furniture, and
 // without it only at points that lie in furniture; ratios of illuminance are asked for both ways.
+// Where furniture hides a point from all candidates, no layout passes with furniture, and the rule
+// is asked for without it.
 #include "actors/design/demands.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "actors/inspect/site.hpp"
@@ -26,6 +29,13 @@ constexpr double so_many = 2;
 /// Points are one place below this [m].
 constexpr double one_point_m = 1e-6;
 const glm::dvec3 up(0, 0, 1);
+
+/// Places as keys: to a micrometre.
+std::array<int64_t, 3> key_of_place(const glm::dvec3& place) {
+  std::array<int64_t, 3> out;
+  for (int i = 0; i < 3; ++i) out[static_cast<size_t>(i)] = std::llround(place[i] / one_point_m);
+  return out;
+}
 
 Terms terms_of(const std::vector<double>& values, double smallest) {
   auto out = std::make_shared<std::vector<Term>>();
@@ -60,11 +70,12 @@ bool is_of_luminaires(const std::string& rule) {
 }
 
 struct Demands::Lit {
-  Lit(const SceneDescription& scene, std::unique_ptr<Building> made)
-      : building(std::move(made)), light(scene, *building) {}
+  Lit(const SceneDescription& scene, std::unique_ptr<Building> made, std::vector<uint32_t> places)
+      : building(std::move(made)), light(scene, *building, std::move(places)) {}
 
   std::unique_ptr<Building> building;
   CodeLight light;
+  std::map<std::array<int64_t, 3>, uint32_t> points;  // that are there, by their places
 };
 
 class Demands::Builder {
@@ -91,10 +102,10 @@ class Demands::Builder {
  private:
   using Points = std::vector<uint32_t>;
 
-  /// Points of a subject as rules are applied to it.
+  /// Points of a subject without furniture and, where there is any, with it.
   struct Both {
-    Points bare, furnished;  // alike where there is no furniture
-    Points minima;           // with furniture, and those that are in it without
+    Points bare, furnished;
+    Points with_both;  // those with furniture, and those that lie in it without
   };
 
   void add_options() {
@@ -142,39 +153,62 @@ class Demands::Builder {
     });
   }
 
-  Points add_points(const std::vector<LitPoint>& lit) {
+  /// Points that several rules ask for are computed once.
+  Points light_at(Lit& lit, const std::vector<glm::dvec3>& places) {
+    std::vector<glm::dvec3> fresh;
     Points out;
-    for (const LitPoint& p : lit) {
-      out.push_back(static_cast<uint32_t>(problem_.points.size()));
-      problem_.points.push_back({terms_of(p.lux, no_light_lx), p.place});
+    for (const glm::dvec3& place : places) {
+      const auto next = static_cast<uint32_t>(problem_.points.size() + fresh.size());
+      const auto [at, is_new] = lit.points.try_emplace(key_of_place(place), next);
+      if (is_new) fresh.push_back(place);
+      out.push_back(at->second);
     }
+    for (const LitPoint& p : lit.light.lit(fresh, up, floor_plane_m))
+      problem_.points.push_back({terms_of(p.lux, no_light_lx), p.place});
     return out;
-  }
-
-  Points light_at(const Lit& lit, const std::vector<glm::dvec3>& places) {
-    return add_points(lit.light.lit(places, up, floor_plane_m));
   }
 
   Both both_at(const std::vector<glm::dvec3>& bare, const std::vector<glm::dvec3>& furnished) {
     Both out;
     out.bare = light_at(*out_.bare_, bare);
-    if (!out_.furnished_) {
-      out.furnished = out.minima = out.bare;
-      return out;
-    }
+    if (!out_.furnished_) return out;
     out.furnished = light_at(*out_.furnished_, furnished);
-    out.minima = out.furnished;
-    for (const uint32_t p : out.bare) {
-      const glm::dvec3& place = problem_.points[p].place;
-      const bool again =
-          std::any_of(out.furnished.begin(), out.furnished.end(), [&](uint32_t other) {
-            return glm::length(problem_.points[other].place - place) < one_point_m;
-          });
-      if (!again) out.minima.push_back(p);
-    }
+    out.with_both = out.furnished;
+    std::set<std::array<int64_t, 3>> seen;
+    for (const uint32_t p : out.furnished) seen.insert(key_of_place(problem_.points[p].place));
+    for (const uint32_t p : out.bare)
+      if (!seen.contains(key_of_place(problem_.points[p].place))) out.with_both.push_back(p);
     return out;
   }
   Both both_at(const std::vector<glm::dvec3>& places) { return both_at(places, places); }
+
+  /// The points at which so much light is asked for: with furniture, unless some of them get less
+  /// from all candidates together. Then no layout passes with furniture, and none is asked to.
+  const Points& reachable(const char* rule, const std::string& subject, const Both& both,
+                          double asked_lx) {
+    if (both.furnished.empty()) return both.bare;
+    const auto hidden =
+        std::count_if(both.furnished.begin(), both.furnished.end(),
+                      [&](uint32_t p) { return most_at(p) < asked_lx; });
+    if (hidden == 0) return both.with_both;
+    out_.hidden_[{rule, subject}] = static_cast<size_t>(hidden);
+    return both.bare;
+  }
+
+  /// Of the best candidate of each place [lx].
+  double most_at(uint32_t point) const {
+    double sum = 0, best = 0;
+    uint32_t place = 0;
+    for (const Term& term : *problem_.points[point].light) {
+      if (candidates_[term.option].place != place) {
+        sum += best;
+        best = 0;
+        place = candidates_[term.option].place;
+      }
+      best = std::max(best, static_cast<double>(term.value));
+    }
+    return sum + best;
+  }
 
   Both both_of(const AssessedArea& area, double border_m) {
     const auto bare = out_.bare_->light.points_of(area, border_m).places;
@@ -191,20 +225,22 @@ class Demands::Builder {
     problem_.covers.push_back({group, std::move(terms), least, place});
   }
 
-  void add_minima(DemandKind kind, const char* rule, const std::string& subject,
-                  const Points& points, double limit_lx, const std::vector<double>& factors = {}) {
-    if (points.empty()) return;
+  void add_minima(DemandKind kind, const char* rule, const std::string& subject, const Both& both,
+                  double limit_lx, const std::vector<double>& factors = {}) {
+    if (both.bare.empty()) return;
     const double asked = limit_lx * design_.margin;
     const uint32_t group = add_group(kind, rule, subject, asked);
-    for (const uint32_t p : points) {
+    for (const uint32_t p : reachable(rule, subject, both, asked)) {
       const ReceiverPoint& point = problem_.points[p];
       add_cover(group, factors.empty() ? point.light : times(point.light, factors), asked,
                 point.place);
     }
   }
 
-  void add_mean(const char* rule, const std::string& subject, const Points& points,
-                double limit_lx, const std::vector<double>& factors = {}) {
+  /// With furniture, which only takes light away.
+  void add_mean(const char* rule, const std::string& subject, const Both& both, double limit_lx,
+                const std::vector<double>& factors = {}) {
+    const Points& points = both.furnished.empty() ? both.bare : both.furnished;
     if (points.empty()) return;
     std::vector<double> mean(candidates_.size(), 0);
     for (const uint32_t p : points)
@@ -218,27 +254,32 @@ class Demands::Builder {
 
   /// In time: `seconds` after the failure of the mains. Nothing where all light is there by then:
   /// as much is asked for at all times.
-  void add_early(const char* rule, const std::string& subject, const Points& points, double seconds,
+  void add_early(const char* rule, const std::string& subject, const Both& both, double seconds,
                  double limit_lx) {
     const auto shares = after(seconds);
-    if (all_one(shares)) return;
-    add_minima(DemandKind::early, rule, subject, points, limit_lx, shares);
+    if (all_one(shares)) {
+      // Only what furniture hides is told.
+      reachable(rule, subject, both, limit_lx * design_.margin);
+      return;
+    }
+    add_minima(DemandKind::early, rule, subject, both, limit_lx, shares);
   }
 
   /// Brightest places are looked for straight below luminaires, too, so that no peak hides between
-  /// the points of the grid.
-  void add_spread(const char* rule, const std::string& subject, const Both& points,
-                  const std::vector<glm::dvec3>& peaks, double ratio) {
-    if (points.bare.empty()) return;
+  /// the points of the grid. `limit_lx`: what is asked for at every point, anyway.
+  void add_spread(const char* rule, const std::string& subject, const Both& both,
+                  const std::vector<glm::dvec3>& peaks, double ratio, double limit_lx) {
+    if (both.bare.empty()) return;
     const uint32_t group = add_group(DemandKind::spread, rule, subject, ratio);
-    const auto add = [&](const Points& all) {
-      SpreadRows rows{group, ratio, all, all};
-      const Points below = light_at(*out_.bare_, peaks);
+    const Points below = light_at(*out_.bare_, peaks);
+    const auto add = [&](const Points& points) {
+      SpreadRows rows{group, ratio, points, points};
       rows.high.insert(rows.high.end(), below.begin(), below.end());
       problem_.spreads.push_back(std::move(rows));
     };
-    add(points.bare);
-    if (out_.furnished_ && !points.furnished.empty()) add(points.furnished);
+    add(both.bare);
+    const bool all = &reachable(rule, subject, both, limit_lx * design_.margin) == &both.with_both;
+    if (all && !both.furnished.empty()) add(both.furnished);
   }
 
   void add_failures(const char* rule, const std::string& subject, const Points& points,
@@ -261,8 +302,9 @@ class Demands::Builder {
 
   /// What holds when any one luminaire has failed. `limit_lx`: of the rules, at the same points.
   void add_single_failures(const std::string& subject, const std::vector<size_t>& above,
-                           const Points& points, double limit_lx) {
-    if (design_.failure == FailureDemand::none || points.empty()) return;
+                           const Both& both, double limit_lx) {
+    if (design_.failure == FailureDemand::none || both.bare.empty()) return;
+    const Points& points = reachable("", subject, both, limit_lx * design_.margin);
     if (design_.failure == FailureDemand::full)
       return add_failures("", subject, points, limit_lx);
     std::vector<double> count(candidates_.size(), 0);
@@ -306,16 +348,16 @@ class Demands::Builder {
     const Both centre = both_at(points.centre);
     const auto above = over(route, route.path.front().z);
     const auto peaks = peaks_of(route, places_of(above));
-    Points walked = centre.minima;
+    Both walked = centre;
     double walked_lx = route_lx;
     for (const CodeChoice& codes : codes_) {
       switch (codes.set) {
         case RuleSet::en1838_2013:
-          add_minima(DemandKind::minimum, "E1", subject, centre.minima, route_lx);
-          add_minima(DemandKind::minimum, "E2", subject, both_at(points.band).minima, band_lx);
+          add_minima(DemandKind::minimum, "E1", subject, centre, route_lx);
+          add_minima(DemandKind::minimum, "E2", subject, both_at(points.band), band_lx);
           break;
         case RuleSet::en1838_2024:
-          walked = both_at(points.inner).minima;
+          walked = both_at(points.inner);
           add_minima(DemandKind::minimum, "E5", subject, walked, route_lx);
           break;
         case RuleSet::nfpa101:
@@ -323,8 +365,8 @@ class Demands::Builder {
           add_american(subject, centre, peaks, codes);
           break;
       }
-      if (codes.european()) add_spread("E4", subject, centre, peaks, max_diversity);
-      add_onset(subject, centre.minima, route_lx, codes);
+      if (codes.european()) add_spread("E4", subject, centre, peaks, max_diversity, route_lx);
+      add_onset(subject, centre, route_lx, codes);
     }
     add_single_failures(subject, above, walked, walked_lx);
   }
@@ -333,19 +375,20 @@ class Demands::Builder {
                     const std::vector<glm::dvec3>& peaks, const CodeChoice& codes) {
     const bool ibc = codes.has(Deviation::us_ibc);
     const auto fresh = as_new();
-    const Points& points = centre.minima;
-    add_mean(ibc ? "I1" : "N1", subject, points, ibc ? ibc_first_mean_lx : first_mean_lx, fresh);
-    add_minima(DemandKind::minimum, ibc ? "I1m" : "N1m", subject, points,
+    add_mean(ibc ? "I1" : "N1", subject, centre, ibc ? ibc_first_mean_lx : first_mean_lx, fresh);
+    add_minima(DemandKind::minimum, ibc ? "I1m" : "N1m", subject, centre,
                ibc ? ibc_min_first_lx : min_first_lx, fresh);
-    add_mean(ibc ? "I2" : "N2", subject, points, ibc ? ibc_last_mean_lx : last_mean_lx);
-    add_minima(DemandKind::minimum, ibc ? "I2m" : "N2m", subject, points,
+    add_mean(ibc ? "I2" : "N2", subject, centre, ibc ? ibc_last_mean_lx : last_mean_lx);
+    add_minima(DemandKind::minimum, ibc ? "I2m" : "N2m", subject, centre,
                ibc ? ibc_min_last_lx : min_last_lx);
-    add_spread("N3", subject, centre, peaks, max_diversity);
+    add_spread("N3", subject, centre, peaks, max_diversity, min_last_lx);
     if (codes.has(Deviation::us_ibc_i2))
-      add_failures("N4", subject, points, min_failed_lx * design_.margin);
+      add_failures("N4", subject,
+                   reachable("N4", subject, centre, min_failed_lx * design_.margin),
+                   min_failed_lx * design_.margin);
   }
 
-  void add_onset(const std::string& subject, const Points& points, double limit_lx,
+  void add_onset(const std::string& subject, const Both& points, double limit_lx,
                  const CodeChoice& codes) {
     if (codes.european()) {
       add_early("E10h", subject, points, half_s, limit_lx / 2);
@@ -367,15 +410,15 @@ class Demands::Builder {
     for (const CodeChoice& codes : codes_) {
       if (!codes.european()) continue;
       judged = true;
-      add_minima(DemandKind::minimum, "E6", subject, core.minima, open_lx);
-      add_spread("E6d", subject, core, peaks, max_diversity);
+      add_minima(DemandKind::minimum, "E6", subject, core, open_lx);
+      add_spread("E6d", subject, core, peaks, max_diversity, open_lx);
       if (codes.has(Deviation::uk_bs_5266)) {
-        add_minima(DemandKind::minimum, "E6k", subject, core.minima, bs_open_lx);
+        add_minima(DemandKind::minimum, "E6k", subject, core, bs_open_lx);
         limit_lx = bs_open_lx;
       }
-      add_onset(subject, core.minima, open_lx, codes);
+      add_onset(subject, core, open_lx, codes);
     }
-    if (judged) add_single_failures(subject, above, core.minima, limit_lx);
+    if (judged) add_single_failures(subject, above, core, limit_lx);
   }
 
   void add_task_area(const AssessedArea& area) {
@@ -386,9 +429,9 @@ class Demands::Builder {
     const double limit_lx = std::max(task_lx, task_share * area.mains_lx);
     for (const CodeChoice& codes : codes_) {
       if (!codes.european()) continue;
-      add_minima(DemandKind::minimum, "E7", subject, plane.minima, limit_lx);
-      add_spread("E7u", subject, plane, peaks, 1 / task_uniformity);
-      add_early("E10t", subject, plane.minima, task_s, limit_lx);
+      add_minima(DemandKind::minimum, "E7", subject, plane, limit_lx);
+      add_spread("E7u", subject, plane, peaks, 1 / task_uniformity, limit_lx);
+      add_early("E10t", subject, plane, task_s, limit_lx);
     }
   }
 
@@ -462,7 +505,8 @@ Result<std::unique_ptr<Demands>> Demands::make(const SceneDescription& scene,
                                                const Scenario& doors, int threads) {
   std::unique_ptr<Demands> out(new Demands);
   out->scene_ = scene_of(scene, design, candidates);
-  out->margin_ = design.margin;
+  std::vector<uint32_t> places;
+  for (const LuminaireCandidate& one : candidates) places.push_back(one.place);
   const bool has_furniture = std::any_of(scene.objects.begin(), scene.objects.end(), is_furniture);
   for (const bool furnished : {false, true}) {
     if (furnished && !has_furniture) break;
@@ -470,10 +514,15 @@ Result<std::unique_ptr<Demands>> Demands::make(const SceneDescription& scene,
                                    code_scenario(out->scene_, doors), threads);
     if (!building) return building.problem();
     (furnished ? out->furnished_ : out->bare_) =
-        std::make_unique<Lit>(out->scene_, std::move(building).value());
+        std::make_unique<Lit>(out->scene_, std::move(building).value(), places);
   }
   Builder(*out, design, candidates, codes).build();
   return out;
+}
+
+bool Demands::is_hidden(const Check& check) const {
+  return check.condition.find("with furniture") != std::string::npos &&
+         hidden_.contains({check.rule.id, check.subject});
 }
 
 bool Demands::ask_for_more(const Check& check, const Layout& layout) {

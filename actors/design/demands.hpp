@@ -4,7 +4,10 @@
 // one thread, which has rows run on others.
 #pragma once
 
+#include <map>
 #include <memory>
+#include <string>
+#include <utility>
 
 #include "actors/assess/code_light.hpp"
 #include "actors/design/candidates.hpp"
@@ -30,6 +33,14 @@ class Demands {
 
   const LayoutProblem& problem() const { return problem_; }
 
+  /// Whether a check cannot pass with any layout, since furniture hides places from all candidates.
+  bool is_hidden(const Check& check) const;
+
+  /// Rules and subjects that are asked for without furniture alone, and how many points furniture
+  /// hides from all candidates.
+  using Hidden = std::map<std::pair<std::string, std::string>, size_t>;
+  const Hidden& hidden() const { return hidden_; }
+
   /// After an assessment has found that a check of a layout fails, though its rows hold: asks for
   /// more where it is worst, by as much as was missing. False where there is nothing to ask for.
   bool ask_for_more(const Check& check, const Layout& layout);
@@ -43,7 +54,7 @@ class Demands {
   SceneDescription scene_;  // with all candidates
   std::unique_ptr<Lit> bare_, furnished_;
   LayoutProblem problem_;
-  double margin_ = 1;
+  Hidden hidden_;
 };
 
 }  // namespace luxodus

@@ -186,6 +186,8 @@ class Designing {
     out_.left_out = candidates_.left_out;
     out_.points = demands_->problem().points.size();
     out_.groups = demands_->problem().groups;
+    for (const auto& [what, points] : demands_->hidden())
+      if (!what.first.empty()) out_.hidden.push_back({what.first, what.second, points});
     return std::nullopt;
   }
 
@@ -235,7 +237,8 @@ class Designing {
       if (check.verdict != CheckVerdict::fail) continue;
       const bool of_one = check.subject.starts_with("luminaire \"");
       const bool decided =
-          is_of_luminaires(check.rule.id) && (!of_one || ours.contains(check.subject));
+          is_of_luminaires(check.rule.id) && (!of_one || ours.contains(check.subject)) &&
+          !demands_->is_hidden(check);
       (decided ? out : out_.others).push_back(check);
     }
     return out;

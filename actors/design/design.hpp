@@ -33,6 +33,12 @@ struct PlacedLuminaire {
   bool is_new() const { return candidate.type != LuminaireCandidate::existing; }
 };
 
+/// A rule that is asked for without furniture alone: with it no layout passes.
+struct HiddenByFurniture {
+  std::string rule, subject;
+  size_t points = 0;  // that furniture hides from all candidates
+};
+
 struct DesignResult {
   /// The scene with the layout, as the variant on disk gives it; null where there is none.
   std::shared_ptr<const SceneDescription> variant;
@@ -41,6 +47,7 @@ struct DesignResult {
   size_t places = 0, candidates = 0;        // of new luminaires; of these and those that are there
   LeftOut left_out;
   size_t points = 0;  // of calculation
+  std::vector<HiddenByFurniture> hidden;
   std::vector<ConstraintGroup> groups;
   std::vector<double> tightest;  // of each group: the least share of what it asks for that is there
   LayoutAnswer answer;

@@ -347,6 +347,10 @@ Json design_json(const SceneDescription& scene, const DesignResult& result,
                          {"keep_out", left.keep_out},
                          {"too_low", left.too_low},
                          {"glaring", left.glaring}}}};
+  out["hidden_by_furniture"] = Json::array();
+  for (const HiddenByFurniture& one : result.hidden)
+    out["hidden_by_furniture"].push_back(
+        {{"rule", one.rule}, {"subject", one.subject}, {"points", one.points}});
   out["luminaires"] = luminaires_json_of(scene, result);
   out["removed"] = result.removed;
   out["types"] = types_json(scene, result);

@@ -141,6 +141,15 @@ std::string others(const Texts& t, const Json& d) {
                {8, 26, 36, 30}, rows);
 }
 
+std::string hidden(const Texts& t, const Json& d) {
+  std::string out;
+  for (const Json& one : d["hidden_by_furniture"])
+    out += paragraph(t.say("design.hidden", text_in(one, "rule"),
+                           subject_text(t, text_in(one, "subject")),
+                           one["points"].get<int64_t>()));
+  return out;
+}
+
 std::string settings(const Texts& t, const Json& d) {
   const Json& c = d["candidates"];
   const Json& s = d["settings"];
@@ -156,7 +165,7 @@ std::string settings(const Texts& t, const Json& d) {
                          t.word("design.failure", text_in(s, "failure")))) +
          paragraph(t.say("design.candidates", c["places"].get<int64_t>(),
                          c["luminaires"].get<int64_t>(), c["points"].get<int64_t>())) +
-         (left.empty() ? "" : paragraph(t.say("design.left_out", left)));
+         (left.empty() ? "" : paragraph(t.say("design.left_out", left))) + hidden(t, d);
 }
 
 }  // namespace

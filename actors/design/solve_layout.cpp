@@ -343,7 +343,7 @@ class Solving {
         else
           offer_repaired(sums.layout());
         raise_bound(found.bound);
-        tell("integer program", 0);
+        tell(("integer program, round " + std::to_string(answer_.rounds)).c_str(), 0);
         for (const Violation& v : spread_out(problem_, broken, rows_per_round)) growing.add(v);
         if (broken.empty() && gap > settings_.gap) gap = settings_.gap;
       }
@@ -381,7 +381,7 @@ class Solving {
   }
 
   void choose_among_equals() {
-    if (answer_.layout.empty() || interrupt_) return;
+    if (answer_.layout.empty() || answer_.end == LayoutEnd::interrupted) return;
     tell("choosing among equals", 0);
     const Layout liked = better(answer_.layout);
     const double objective = objective_of(problem_, liked);

@@ -145,6 +145,13 @@ constexpr ReportText design_rows[] = {
      {"{0} candidate places, {1} candidates of all types and turns, {2} points of calculation.",
       "{0} Kandidatenplätze, {1} Kandidaten aller Typen und Drehungen, {2} Berechnungspunkte.",
       "{0} places candidates, {1} candidats de tous types et rotations, {2} points de calcul."}},
+    {"design.hidden",
+     {"{0}, {1}: furniture hides {2} points of calculation from all candidates together, so that "
+      "no layout passes with furniture. It is planned for without furniture.",
+      "{0}, {1}: Möbel verdecken {2} Berechnungspunkte vor allen Kandidaten zusammen, so dass keine "
+      "Anordnung mit Möbeln genügt. Geplant ist ohne Möbel.",
+      "{0}, {1} : le mobilier cache {2} points de calcul à tous les candidats ensemble, si bien "
+      "qu’aucune implantation ne suffit avec mobilier. Le projet est fait sans mobilier."}},
     {"design.left_out",
      {"Left out: {0}.", "Ausgeschlossen: {0}.", "Écartés : {0}."}},
     {"design.left_no_ceiling",
