@@ -66,7 +66,7 @@ Result<void> refuse_designs_of_others(const fs::path& folder) {
 void print_design(const SceneDescription& scene, const DesignResult& result) {
   std::printf("%s\n", outcome_words(scene, result).c_str());
   const LayoutAnswer& answer = result.answer;
-  if (answer.greedy > 0)
+  if (answer.greedy)
     std::printf("greedy choice: objective %s\n",
                 readable_number(answer.greedy_objective, 4).c_str());
   std::printf("%zu places, %zu candidates, %zu points; first layout after %.1f s, all of %.1f s\n",

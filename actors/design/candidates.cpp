@@ -29,6 +29,8 @@ constexpr double one_row_width_m = 2.5;
 constexpr int wall_directions = 16;
 /// What is on one storey [m].
 constexpr double one_storey_m = 2;
+/// Places are told to the millimetre.
+constexpr double told_m = 1e-3;
 /// Light that changes by less over the azimuth, as a share of its largest, has no direction.
 constexpr double even_share = 0.02;
 
@@ -103,9 +105,18 @@ bool has_direction(const Emitter& e) {
   return false;
 }
 
-std::vector<double> turns_of(const DesignType& type) {
-  if (!type.turns_deg.empty()) return type.turns_deg;
-  return has_direction(type.emitter) ? std::vector<double>{0, 90} : std::vector<double>{0};
+glm::dvec3 rounded(const glm::dvec3& place) {
+  return glm::round(place / told_m) * told_m;
+}
+
+/// Rotations of a type over a way with this heading.
+std::vector<double> rotations_of(const DesignType& type, double heading_deg) {
+  std::vector<double> turns = type.turns_deg;
+  // Light without a direction is not turned: nobody would know which way.
+  if (turns.empty() && !has_direction(type.emitter)) return {0};
+  if (turns.empty()) turns = {0, 90};
+  for (double& turn : turns) turn = std::remainder(heading_deg + turn, 360.0);
+  return turns;
 }
 
 bool near_sign(const SceneDescription& scene, const glm::dvec3& p, double clearance_m) {
@@ -252,12 +263,12 @@ void add_new(const DesignSettings& design, const std::vector<Spot>& spots, Candi
   const auto first = static_cast<uint32_t>(out.all.size());
   for (uint32_t s = 0; s < spots.size(); ++s)
     for (size_t t = 0; t < design.types.size(); ++t)
-      for (const double turn : turns_of(design.types[t])) {
+      for (const double rotation_deg : rotations_of(design.types[t], spots[s].heading_deg)) {
         LuminaireCandidate one;
         one.type = t;
         one.place = first + s;
-        one.position = {spots[s].floor.x, spots[s].floor.y, *spots[s].z};
-        one.rotation_deg = std::remainder(spots[s].heading_deg + turn, 360.0);
+        one.position = rounded({spots[s].floor.x, spots[s].floor.y, *spots[s].z});
+        one.rotation_deg = rotation_deg;
         out.all.push_back(std::move(one));
       }
   out.places = spots.size();

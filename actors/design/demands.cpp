@@ -91,7 +91,9 @@ class Demands::Builder {
 
   void build() {
     add_options();
-    for (const LuminaireCandidate& one : candidates_) floors_.push_back(floor_below(scene_, one.position));
+    for (const LuminaireCandidate& one : candidates_)
+      floors_.push_back(floor_below(scene_, one.position));
+    find_regions();
     for (const EscapeRoute& route : scene_.routes) add_route(route);
     for (const AssessedArea& area : scene_.open_areas) add_open_area(area);
     for (const AssessedArea& area : scene_.task_areas) add_task_area(area);
@@ -117,6 +119,37 @@ class Demands::Builder {
       option.weight = one.fixed ? 0 : weight_of(one);
       problem_.options.push_back(option);
     }
+  }
+
+  /// Routes and areas that share candidates are one region: a corridor with its side corridors.
+  void find_regions() {
+    const auto join = [&](const std::string& subject, const std::vector<size_t>& above) {
+      const auto fresh = static_cast<uint32_t>(regions_.size());
+      regions_[subject] = fresh;
+      std::set<uint32_t> met;
+      for (const size_t i : above) {
+        uint32_t& region = problem_.options[i].region;
+        if (region != no_region) met.insert(region);
+        region = fresh;
+      }
+      for (LayoutOption& option : problem_.options)
+        if (met.contains(option.region)) option.region = fresh;
+      for (auto& [other, region] : regions_)
+        if (met.contains(region)) region = fresh;
+    };
+    for (const EscapeRoute& route : scene_.routes)
+      join(name_of_subject(route), over(route, route.path.front().z));
+    for (const AssessedArea& area : scene_.open_areas)
+      join(name_of_subject("open area", area), over(area, area.z_m));
+    for (const AssessedArea& area : scene_.task_areas)
+      join(name_of_subject("task area", area), over(area, area.z_m));
+  }
+
+  static std::string name_of_subject(const EscapeRoute& route) {
+    return "route \"" + route.name + "\"";
+  }
+  static std::string name_of_subject(const char* kind, const AssessedArea& area) {
+    return std::string(kind) + " \"" + area.name + "\"";
   }
 
   /// A luminaire that is there has been paid for.
@@ -217,7 +250,9 @@ class Demands::Builder {
   }
 
   uint32_t add_group(DemandKind kind, const char* rule, const std::string& subject, double asked) {
-    problem_.groups.push_back({kind, rule, subject, asked});
+    const auto region = regions_.find(subject);
+    problem_.groups.push_back(
+        {kind, rule, subject, asked, region == regions_.end() ? no_region : region->second});
     return static_cast<uint32_t>(problem_.groups.size() - 1);
   }
 
@@ -343,7 +378,7 @@ class Demands::Builder {
   }
 
   void add_route(const EscapeRoute& route) {
-    const std::string subject = "route \"" + route.name + "\"";
+    const std::string subject = name_of_subject(route);
     const RoutePoints points = points_of(route);
     const Both centre = both_at(points.centre);
     const auto above = over(route, route.path.front().z);
@@ -400,7 +435,7 @@ class Demands::Builder {
   }
 
   void add_open_area(const AssessedArea& area) {
-    const std::string subject = "open area \"" + area.name + "\"";
+    const std::string subject = name_of_subject("open area", area);
     const Both core = both_of(area, open_border_m);
     const auto above = over(area, area.z_m);
     auto peaks = places_of(above);
@@ -422,7 +457,7 @@ class Demands::Builder {
   }
 
   void add_task_area(const AssessedArea& area) {
-    const std::string subject = "task area \"" + area.name + "\"";
+    const std::string subject = name_of_subject("task area", area);
     const Both plane = both_of(area, 0);
     auto peaks = places_of(over(area, area.z_m));
     for (glm::dvec3& p : peaks) p.z = area.z_m;
@@ -496,6 +531,7 @@ class Demands::Builder {
   const std::vector<LuminaireCandidate>& candidates_;
   const std::vector<CodeChoice>& codes_;
   std::vector<std::optional<double>> floors_;  // below each candidate
+  std::map<std::string, uint32_t> regions_;    // by subject
 };
 
 Result<std::unique_ptr<Demands>> Demands::make(const SceneDescription& scene,

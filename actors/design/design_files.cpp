@@ -327,7 +327,7 @@ Json design_json(const SceneDescription& scene, const DesignResult& result,
       {"value", number_json(answer.objective)},
       {"bound", number_json(answer.bound)},
       {"gap", number_json(answer.gap())},
-      {"greedy", answer.greedy > 0 ? number_json(answer.greedy_objective) : Json()}};
+      {"greedy", answer.greedy ? number_json(answer.greedy_objective) : Json()}};
   out["settings"] = {
       {"margin", number_json(scene.design->margin)},
       {"failure", failure_words[static_cast<size_t>(scene.design->failure)]},

@@ -20,11 +20,16 @@ struct Term {
 /// same sum.
 using Terms = std::shared_ptr<const std::vector<Term>>;
 
+/// Of options and constraints that belong to no region.
+inline constexpr uint32_t no_region = static_cast<uint32_t>(-1);
+
 /// A luminaire of one type, turned in one way, at one place.
 struct LayoutOption {
   uint32_t place = 0;  // options of one place exclude each other
   double weight = 1;   // what it adds to the objective
   bool fixed = false;  // chosen in every layout
+  /// Options of different regions have little to do with each other: they are in other rooms.
+  uint32_t region = no_region;
   glm::dvec2 position{0};
 };
 
@@ -47,6 +52,7 @@ struct ConstraintGroup {
   std::string rule;     // "E5"; "" of what is no code's
   std::string subject;  // route "corridor"
   double asked = 0;     // the planned value, margin included
+  uint32_t region = no_region;
 };
 
 /// The sum is not below `least`, which is above 0.

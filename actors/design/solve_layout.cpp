@@ -24,6 +24,8 @@ constexpr double apart_m = 1;
 constexpr size_t rows_per_round = 80;
 /// Early rounds need no proof: their rows are not all there yet.
 constexpr double loose_gap = 0.04;
+/// Of the time of the search, what may go into the bounds of regions.
+constexpr double time_for_regions = 0.4;
 /// A variable is chosen above this.
 constexpr double chosen_above = 0.5;
 /// A row that the solver's rounding breaks, though it has it, is asked for by so much more.
@@ -67,8 +69,30 @@ class GrowingProgram {
   }
 
   const IntegerProgram& program() const { return program_; }
+  /// The same rows, where only the options of one region cost anything.
+  IntegerProgram of_region(uint32_t region) const {
+    IntegerProgram out = program_;
+    for (size_t i = 0; i < problem_.options.size(); ++i)
+      if (problem_.options[i].region != region) out.cost[i] = 0;
+    return out;
+  }
+  /// No layout's options of the region weigh less than this together.
+  void add_region_bound(uint32_t region, double least) {
+    LinearRow row;
+    for (size_t i = 0; i < problem_.options.size(); ++i) {
+      if (problem_.options[i].region != region || !(program_.cost[i] > 0)) continue;
+      row.column.push_back(static_cast<int>(i));
+      row.value.push_back(program_.cost[i]);
+    }
+    row.low = least;
+    row.high = infinite;
+    add_row(std::move(row), of_bound);
+  }
+  /// Rows that follow from the others; and those of places.
+  static constexpr int of_bound = -2, of_place = -1;
+
   size_t rows() const { return program_.rows.size(); }
-  /// Groups of the rows, as numbers of the problem; none: places.
+  /// Groups of the rows, as numbers of the problem; below 0: of none.
   const std::vector<int>& groups() const { return groups_; }
 
   /// False where the row is there already: then it is asked for by a little more.
@@ -119,7 +143,7 @@ class GrowingProgram {
       if (row.column.size() < 2) continue;
       row.low = -infinite;
       row.high = 1;
-      add_row(std::move(row), -1);
+      add_row(std::move(row), of_place);
     }
   }
 
@@ -271,7 +295,7 @@ class Solving {
     if (!first) return;
     const Layout layout = pruned(index_, *first);
     offer(layout);
-    answer_.greedy = chosen_in(layout);
+    answer_.greedy = true;
     answer_.greedy_objective = answer_.objective;
     offer(better(layout));
     tell("greedy", 0);
@@ -283,9 +307,7 @@ class Solving {
   }
 
   void raise_bound(double bound) {
-    // Objectives are multiples of a step: the next one is the bound.
-    if (step_ > 0) bound = std::ceil((bound - rounding) / step_) * step_;
-    bound += fixed_weight();
+    bound = rounded_up(bound) + fixed_weight();
     answer_.bound = std::max(answer_.bound, bound);
     if (!answer_.layout.empty()) answer_.bound = std::min(answer_.bound, answer_.objective);
   }
@@ -323,6 +345,7 @@ class Solving {
   void integer_program() {
     GrowingProgram growing(problem_, false);
     for (const Violation& v : first_rows(problem_)) growing.add(v);
+    bound_regions(growing);
     double gap = std::max(loose_gap, settings_.gap);
     LayoutSums sums(index_);
     for (answer_.rounds = 1; answer_.rounds <= limits::row_rounds; ++answer_.rounds) {
@@ -352,6 +375,54 @@ class Solving {
     fill_shares(growing);
   }
 
+  double rounded_up(double bound) const {
+    // Objectives are multiples of a step: the next one is the bound.
+    return step_ > 0 ? std::ceil((bound - rounding) / step_) * step_ : bound;
+  }
+
+  /// Each region by itself, the others' luminaires free: whole numbers of each region add up to
+  /// more than the whole number of all of them, and each is found sooner.
+  void bound_regions(GrowingProgram& growing) {
+    std::set<uint32_t> regions;
+    for (const LayoutOption& option : problem_.options)
+      if (option.region != no_region && !option.fixed) regions.insert(option.region);
+    if (regions.size() < 2) return;
+    const double until = seconds() + time_for_regions * (settings_.seconds - seconds());
+    size_t left = regions.size();
+    double sum = 0;
+    for (const uint32_t region : regions) {
+      const double share = (until - seconds()) / static_cast<double>(left--);
+      const double least = rounded_up(bound_of_region(growing, region, share));
+      if (least > 0) growing.add_region_bound(region, least);
+      sum += least;
+      raise_bound(sum);
+      tell("regions", 0);
+    }
+  }
+
+  double bound_of_region(GrowingProgram& growing, uint32_t region, double seconds_left) {
+    const double until = seconds() + seconds_left;
+    LayoutSums sums(index_);
+    double bound = 0;
+    for (int round = 0; round < limits::row_rounds && !interrupt_; ++round) {
+      const ProgramAnswer found =
+          solve_program(growing.of_region(region), {.seconds = until - seconds()}, interrupt_, {});
+      // Without any layout the whole program says so.
+      if (found.end == ProgramEnd::infeasible) return bound;
+      bound = std::max(bound, found.bound);
+      if (found.end == ProgramEnd::stopped || found.values.empty()) return bound;
+      sums.set(growing.layout_of(found.values));
+      auto broken = sums.violations();
+      std::erase_if(broken, [&](const Violation& v) {
+        const uint32_t of = problem_.groups[group_of(problem_, v)].region;
+        return of != region && of != no_region;
+      });
+      if (broken.empty() || seconds() > until) return bound;
+      for (const Violation& v : spread_out(problem_, broken, rows_per_round)) growing.add(v);
+    }
+    return bound;
+  }
+
   bool ended(const ProgramAnswer& found) {
     const bool stopped = found.end == ProgramEnd::stopped || interrupt_;
     const bool proven = !answer_.layout.empty() && answer_.bound >= answer_.objective - rounding;
@@ -372,9 +443,12 @@ class Solving {
   /// Of the program without whole numbers: what each group's rows add to its objective.
   void fill_shares(const GrowingProgram& growing) {
     answer_.share_of_group.assign(problem_.groups.size(), 0);
-    const auto prices = row_prices(growing.program());
+    IntegerProgram program = growing.program();
+    for (size_t i = 0; i < program.rows.size(); ++i)
+      if (growing.groups()[i] == GrowingProgram::of_bound) program.rows[i].low = 0;
+    const auto prices = row_prices(program);
     for (size_t i = 0; i < prices.size(); ++i) {
-      const LinearRow& row = growing.program().rows[i];
+      const LinearRow& row = program.rows[i];
       if (growing.groups()[i] >= 0 && std::isfinite(row.low))
         answer_.share_of_group[static_cast<size_t>(growing.groups()[i])] += prices[i] * row.low;
     }

@@ -41,8 +41,8 @@ struct LayoutAnswer {
   Layout layout;          // empty where none was found
   double objective = 0;   // of it
   double bound = 0;       // of every layout
-  size_t greedy = 0;      // luminaires of the greedy layout, pruned; 0: it found none
-  double greedy_objective = 0;
+  bool greedy = false;    // the greedy choice found a layout
+  double greedy_objective = 0;  // of it, pruned
   double first_seconds = 0;  // until the first layout
   double seconds = 0;
   size_t rows = 0;        // of the last program

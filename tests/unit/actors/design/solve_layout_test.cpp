@@ -28,12 +28,12 @@ LayoutAnswer solved(const LayoutProblem& problem, SolveSettings settings = {}) {
 LayoutProblem with_options(uint32_t options) {
   LayoutProblem out;
   for (uint32_t i = 0; i < options; ++i)
-    out.options.push_back({i, 1, false, {static_cast<double>(i), 0}});
+    out.options.push_back({i, 1, false, no_region, {static_cast<double>(i), 0}});
   return out;
 }
 
 void ask(LayoutProblem& problem, std::vector<Term> list, double least, const char* subject) {
-  problem.groups.push_back({DemandKind::minimum, "E1", subject, least});
+  problem.groups.push_back({DemandKind::minimum, "E1", subject, least, no_region});
   problem.covers.push_back(
       {static_cast<uint32_t>(problem.groups.size() - 1), terms(std::move(list)), least, {}});
 }
@@ -53,7 +53,7 @@ LayoutProblem random_problem(uint64_t seed, uint32_t options, uint32_t points) {
     out.options.push_back(option);
   }
   for (const DemandKind kind : {DemandKind::minimum, DemandKind::failed, DemandKind::spread})
-    out.groups.push_back({kind, "", "square", 1});
+    out.groups.push_back({kind, "", "square", 1, no_region});
   FailureRows failures{1, 0.05, {}};
   SpreadRows spread{2, 25, {}, {}};
   for (uint32_t p = 0; p < points; ++p) {
@@ -174,7 +174,7 @@ TEST_CASE("of constraints that cannot hold together the smallest set is named", 
   ask(problem, {{1, 1}, {2, 1}}, 1, "aside");
   problem.points.push_back({terms({{0, 10}}), {0, 0, 0}});
   problem.points.push_back({terms({{0, 0.1f}, {1, 0.1f}, {2, 0.1f}}), {5, 0, 0}});
-  problem.groups.push_back({DemandKind::spread, "E4", "even", 10});
+  problem.groups.push_back({DemandKind::spread, "E4", "even", 10, no_region});
   problem.spreads.push_back({2, 10, {1}, {0}});
   CHECK(solved(problem).end == LayoutEnd::infeasible);
   const Conflict conflict = conflict_of(problem, 10, nobody);
@@ -190,7 +190,7 @@ TEST_CASE("with any one luminaire failed, what the others give is enough", "[des
   ask(problem, all, 1, "a");
   CHECK(solved(problem).objective == Approx(1));
   problem.points.push_back({terms(all), {}});
-  problem.groups.push_back({DemandKind::failed, "", "a", 2});
+  problem.groups.push_back({DemandKind::failed, "", "a", 2, no_region});
   problem.failures.push_back({1, 2, {0}});
   CHECK(solved(problem).objective == Approx(3));
 }
