@@ -72,18 +72,16 @@ void print_design(const SceneDescription& scene, const DesignResult& result) {
   std::printf("%zu places, %zu candidates, %zu points; first layout after %.1f s, all of %.1f s\n",
               result.places, result.candidates, result.points, answer.first_seconds,
               answer.seconds);
-  std::printf("the layout, assessed: %s\n",
-              words_of(counts_of(result.assessment.checks)).c_str());
+  std::printf("the layout, assessed: %s\n", words_of(counts_of(result.assessment.checks)).c_str());
   for (const Check& check : result.others)
-    std::printf("  fails with any layout: %s: %s\n", check.subject.c_str(),
+    std::printf("  fails, and is not decided here: %s: %s\n", check.subject.c_str(),
                 check.rule.title.c_str());
   for (const HiddenByFurniture& one : result.hidden)
     std::printf("  planned without furniture, which hides %zu points from all candidates: %s, %s\n",
                 one.points, one.subject.c_str(), one.rule.c_str());
   for (size_t i = 0; i < result.groups.size(); ++i) {
     constexpr double binding = 0.05;
-    const double share =
-        answer.share_of_group.empty() ? 0 : answer.share_of_group[i];
+    const double share = answer.share_of_group.empty() ? 0 : answer.share_of_group[i];
     if (share > binding)
       std::printf("  binds (%s of the objective): %s\n", readable_number(share, 2).c_str(),
                   demand_words(result.groups[i]).c_str());
@@ -135,8 +133,8 @@ Result<ExitCode> design_scene(DesignCommandOptions o) {
       });
   if (!result) return result.problem();
   if (result->answer.layout.empty()) return tell_none(*scene, result.value());
-  if (auto ok = write_design(out->path(), *scene, result.value(), language_of(o.language),
-                             build.version);
+  if (auto ok =
+          write_design(out->path(), *scene, result.value(), language_of(o.language), build.version);
       !ok)
     return ok.problem();
   print_design(*scene, result.value());

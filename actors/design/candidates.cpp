@@ -37,7 +37,7 @@ constexpr double even_share = 0.02;
 /// A place on the floor that a candidate may hang over.
 struct Spot {
   glm::dvec3 floor;
-  double heading_deg = 0;  // of the route below; 0 over areas
+  double heading_deg = 0;   // of the route below; 0 over areas
   std::optional<double> z;  // stated
 };
 
@@ -138,8 +138,8 @@ bool kept_out(const SceneDescription& scene, const DesignSettings& design, const
 
 class PlaceFinder {
  public:
-  PlaceFinder(const SceneDescription& scene, const DesignSettings& design,
-              const Building& bare, const Building& furnished)
+  PlaceFinder(const SceneDescription& scene, const DesignSettings& design, const Building& bare,
+              const Building& furnished)
       : scene_(scene), design_(design), bare_(bare), furnished_(furnished) {}
 
   /// The spots that luminaires can hang over, each at its mounting height.
@@ -192,14 +192,13 @@ class PlaceFinder {
   double apart() const { return design_.places.empty() ? design_.spacing_m : 0.02; }
 
   static bool passes(const Building& building, const Facing& f) {
-    return f.surface >= building.scene().description->objects.size() ||
-           lets_light_through(f.kind);
+    return f.surface >= building.scene().description->objects.size() || lets_light_through(f.kind);
   }
 
   std::optional<double> mounting_z(const GeometryAccess& access, const glm::dvec3& floor) const {
-    const auto stop = first_stop(
-        bare_.scene(), access, bare_.local(floor) + Vec3(0, 0, above_floor_m), Vec3(0, 0, 1),
-        highest_m, [&](const Facing& f) { return passes(bare_, f); });
+    const auto stop =
+        first_stop(bare_.scene(), access, bare_.local(floor) + Vec3(0, 0, above_floor_m),
+                   Vec3(0, 0, 1), highest_m, [&](const Facing& f) { return passes(bare_, f); });
     const double ceiling =
         stop ? floor.z + static_cast<double>(above_floor_m + stop->distance_m) : 0;
     if (!design_.mounting_height_m) {
@@ -215,11 +214,10 @@ class PlaceFinder {
     if (!(design_.wall_clearance_m > 0)) return false;
     for (int i = 0; i < wall_directions; ++i) {
       const double azimuth = 2 * std::numbers::pi * (i + 0.5) / wall_directions;
-      const auto stop =
-          first_stop(furnished_.scene(), access, furnished_.local(p),
-                     Vec3(std::cos(azimuth), std::sin(azimuth), 0),
-                     static_cast<Real>(design_.wall_clearance_m),
-                     [&](const Facing& f) { return passes(furnished_, f); });
+      const auto stop = first_stop(furnished_.scene(), access, furnished_.local(p),
+                                   Vec3(std::cos(azimuth), std::sin(azimuth), 0),
+                                   static_cast<Real>(design_.wall_clearance_m),
+                                   [&](const Facing& f) { return passes(furnished_, f); });
       if (stop) return true;
     }
     return false;
@@ -379,7 +377,8 @@ Result<Candidates> find_candidates(const SceneDescription& scene, const DesignSe
                                out.all.size(), spots.size(), limits::design_candidates)};
   if (!out.all.empty()) leave_out_forbidden(scene, design, codes, *bare.value(), out);
   if (out.all.size() == existing &&
-      std::all_of(out.all.begin(), out.all.end(), [](const LuminaireCandidate& c) { return c.fixed; })) {
+      std::all_of(out.all.begin(), out.all.end(),
+                  [](const LuminaireCandidate& c) { return c.fixed; })) {
     const std::string why = words_of(out.left_out);
     return Problem{design.place, "there is no place for a luminaire" +
                                      (why.empty() ? std::string(": no route or area is there to "

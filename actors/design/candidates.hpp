@@ -23,11 +23,11 @@ inline constexpr size_t design_places = 5'000, design_candidates = 20'000;
 struct LuminaireCandidate {
   static constexpr size_t existing = static_cast<size_t>(-1);
 
-  size_t type = existing;      // of DesignSettings::types
-  uint32_t place = 0;          // candidates of one place exclude each other
+  size_t type = existing;  // of DesignSettings::types
+  uint32_t place = 0;      // candidates of one place exclude each other
   glm::dvec3 position{0};
-  double rotation_deg = 0;     // as a change of the variant writes it
-  std::string name;            // of an existing luminaire
+  double rotation_deg = 0;  // as a change of the variant writes it
+  std::string name;         // of an existing luminaire
   bool fixed = false;
 };
 
@@ -39,7 +39,7 @@ struct LeftOut {
 
 struct Candidates {
   std::vector<LuminaireCandidate> all;  // existing luminaires first
-  size_t places = 0;           // of new luminaires
+  size_t places = 0;                    // of new luminaires
   LeftOut left_out;
   std::vector<std::string> removed;  // luminaires of the scene that go in any case
 };

@@ -63,9 +63,9 @@ bool all_one(const std::vector<double>& factors) {
 
 bool is_of_luminaires(const std::string& rule) {
   static const std::set<std::string> rules{
-      "E1",   "E2",   "E4",   "E5",   "E6", "E6d", "E6k", "E7", "E7u", "E8", "E10h",
-      "E10f", "E10g", "E10t", "E12",  "E13", "E14", "S6l", "N1", "N1m", "N2", "N2m",
-      "N3",   "N4",   "N5",   "N6",   "I1", "I1m", "I2",  "I2m"};
+      "E1",   "E2",   "E4",   "E5",   "E6",  "E6d", "E6k", "E7",  "E7u", "E8",
+      "E10h", "E10f", "E10g", "E10t", "E12", "E13", "E14", "S6l", "N1",  "N1m",
+      "N2",   "N2m",  "N3",   "N4",   "N5",  "N6",  "I1",  "I1m", "I2",  "I2m"};
   return rules.contains(rule);
 }
 
@@ -80,8 +80,8 @@ struct Demands::Lit {
 
 class Demands::Builder {
  public:
-  Builder(Demands& out, const DesignSettings& design, const std::vector<LuminaireCandidate>& candidates,
-          const std::vector<CodeChoice>& codes)
+  Builder(Demands& out, const DesignSettings& design,
+          const std::vector<LuminaireCandidate>& candidates, const std::vector<CodeChoice>& codes)
       : out_(out),
         problem_(out.problem_),
         scene_(out.scene_),
@@ -220,9 +220,8 @@ class Demands::Builder {
   const Points& reachable(const char* rule, const std::string& subject, const Both& both,
                           double asked_lx) {
     if (both.furnished.empty()) return both.bare;
-    const auto hidden =
-        std::count_if(both.furnished.begin(), both.furnished.end(),
-                      [&](uint32_t p) { return most_at(p) < asked_lx; });
+    const auto hidden = std::count_if(both.furnished.begin(), both.furnished.end(),
+                                      [&](uint32_t p) { return most_at(p) < asked_lx; });
     if (hidden == 0) return both.with_both;
     out_.hidden_[{rule, subject}] = static_cast<size_t>(hidden);
     return both.bare;
@@ -245,8 +244,8 @@ class Demands::Builder {
 
   Both both_of(const AssessedArea& area, double border_m) {
     const auto bare = out_.bare_->light.points_of(area, border_m).places;
-    return both_at(bare, out_.furnished_ ? out_.furnished_->light.points_of(area, border_m).places
-                                         : bare);
+    return both_at(
+        bare, out_.furnished_ ? out_.furnished_->light.points_of(area, border_m).places : bare);
   }
 
   uint32_t add_group(DemandKind kind, const char* rule, const std::string& subject, double asked) {
@@ -340,8 +339,7 @@ class Demands::Builder {
                            const Both& both, double limit_lx) {
     if (design_.failure == FailureDemand::none || both.bare.empty()) return;
     const Points& points = reachable("", subject, both, limit_lx * design_.margin);
-    if (design_.failure == FailureDemand::full)
-      return add_failures("", subject, points, limit_lx);
+    if (design_.failure == FailureDemand::full) return add_failures("", subject, points, limit_lx);
     std::vector<double> count(candidates_.size(), 0);
     for (const size_t i : above) count[i] = 1;
     add_cover(add_group(DemandKind::two, "", subject, so_many), terms_of(count, 0), so_many,
@@ -418,8 +416,7 @@ class Demands::Builder {
                ibc ? ibc_min_last_lx : min_last_lx);
     add_spread("N3", subject, centre, peaks, max_diversity, min_last_lx);
     if (codes.has(Deviation::us_ibc_i2))
-      add_failures("N4", subject,
-                   reachable("N4", subject, centre, min_failed_lx * design_.margin),
+      add_failures("N4", subject, reachable("N4", subject, centre, min_failed_lx * design_.margin),
                    min_failed_lx * design_.margin);
   }
 

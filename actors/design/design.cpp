@@ -54,10 +54,11 @@ std::optional<Problem> first_error(const std::shared_ptr<const SceneDescription>
 /// The first of "L", "N", "P", ... that no luminaire's name begins with, before a number.
 std::string prefix_of_names(const SceneDescription& scene) {
   for (const char* prefix : {"L", "N", "P", "design L"}) {
-    const bool taken = std::any_of(
-        scene.emitters.begin(), scene.emitters.end(), [&](const Emitter& e) {
-          return e.name.starts_with(prefix) && e.name.find_first_not_of(
-                     "0123456789", std::string_view(prefix).size()) == std::string::npos;
+    const bool taken =
+        std::any_of(scene.emitters.begin(), scene.emitters.end(), [&](const Emitter& e) {
+          return e.name.starts_with(prefix) &&
+                 e.name.find_first_not_of("0123456789", std::string_view(prefix).size()) ==
+                     std::string::npos;
         });
     if (!taken) return prefix;
   }
@@ -122,8 +123,7 @@ std::vector<double> tightest_of(const LayoutProblem& problem, const Layout& layo
     for (const uint32_t p : rows.points) {
       double largest = 0;
       for (const Term& term : *problem.points[p].light)
-        if (layout[term.option] != 0)
-          largest = std::max(largest, static_cast<double>(term.value));
+        if (layout[term.option] != 0) largest = std::max(largest, static_cast<double>(term.value));
       out[rows.group] = std::min(out[rows.group], (sums.at_point(p) - largest) / rows.least);
     }
   for (const SpreadRows& rows : problem.spreads) {
@@ -236,9 +236,8 @@ class Designing {
     for (const Check& check : out_.assessment.checks) {
       if (check.verdict != CheckVerdict::fail) continue;
       const bool of_one = check.subject.starts_with("luminaire \"");
-      const bool decided =
-          is_of_luminaires(check.rule.id) && (!of_one || ours.contains(check.subject)) &&
-          !demands_->is_hidden(check);
+      const bool decided = is_of_luminaires(check.rule.id) &&
+                           (!of_one || ours.contains(check.subject)) && !demands_->is_hidden(check);
       (decided ? out : out_.others).push_back(check);
     }
     return out;

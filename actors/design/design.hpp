@@ -53,8 +53,8 @@ struct DesignResult {
   LayoutAnswer answer;
   Conflict conflict;  // where no layout exists
   Assessment assessment;
-  std::vector<Check> others;  // checks that fail and that no luminaire of the layout decides
-  bool added_scenario = false;       // the scene has none: the variant has one in emergency operation
+  std::vector<Check> others;    // checks that fail and that no luminaire of the layout decides
+  bool added_scenario = false;  // the scene has none: the variant has one in emergency operation
   std::vector<std::string> rules, deviations;  // that were asked for and that the scene lacks
   int verifications = 0;
 };

@@ -98,9 +98,8 @@ Json types_json(const SceneDescription& scene, const DesignResult& result) {
   const auto& types = scene.design->types;
   for (size_t i = 0; i < types.size(); ++i) {
     const auto count = std::count_if(
-        result.luminaires.begin(), result.luminaires.end(), [&](const PlacedLuminaire& one) {
-          return one.is_new() && one.candidate.type == i;
-        });
+        result.luminaires.begin(), result.luminaires.end(),
+        [&](const PlacedLuminaire& one) { return one.is_new() && one.candidate.type == i; });
     out.push_back({{"name", types[i].name},
                    {"count", count},
                    {"cost", number_json(types[i].cost)},
@@ -211,8 +210,7 @@ std::string outcome_words(const SceneDescription& scene, const DesignResult& res
   return out;
 }
 
-std::vector<std::string> conflict_words(const SceneDescription& scene,
-                                        const DesignResult& result) {
+std::vector<std::string> conflict_words(const SceneDescription& scene, const DesignResult& result) {
   std::vector<std::string> out;
   for (const Shortage& s : result.conflict.shortages) {
     const ConstraintGroup& group = result.groups[s.group];
@@ -227,15 +225,17 @@ std::vector<std::string> conflict_words(const SceneDescription& scene,
         line += "a smaller 'spacing_m' or 'wall_clearance_m', or a place in 'places', would help";
         break;
       case DemandKind::two:
-        line += "places over it would help ('over', 'spacing_m', 'wall_clearance_m'), or failure = "
-                "\"none\"";
+        line +=
+            "places over it would help ('over', 'spacing_m', 'wall_clearance_m'), or failure = "
+            "\"none\"";
         break;
       default:
         line += s.share > 0
                     ? fmt::format("types {:.2g} times as bright would do, or places nearer to it",
                                   1 / s.share)
-                    : std::string("no light reaches it: is it in a body, or in no room that has "
-                                  "places?");
+                    : std::string(
+                          "no light reaches it: is it in a body, or in no room that has "
+                          "places?");
     }
     out.push_back(std::move(line));
   }
@@ -243,12 +243,12 @@ std::vector<std::string> conflict_words(const SceneDescription& scene,
   for (const uint32_t group : result.conflict.groups)
     out.push_back(demand_words(result.groups[group]));
   if (!out.empty())
-    out.push_back(fmt::format("these {} cannot hold together{}; without any one of them the others "
-                              "can: other types, more places or a smaller 'margin' (now {}) would "
-                              "help",
-                              out.size(),
-                              result.conflict.proven ? "" : ", as far as is known in this time",
-                              readable_number(scene.design->margin, 3)));
+    out.push_back(
+        fmt::format("these {} cannot hold together{}; without any one of them the others "
+                    "can: other types, more places or a smaller 'margin' (now {}) would "
+                    "help",
+                    out.size(), result.conflict.proven ? "" : ", as far as is known in this time",
+                    readable_number(scene.design->margin, 3)));
   return out;
 }
 
@@ -256,8 +256,8 @@ std::string variant_text(const SceneDescription& scene, const DesignResult& resu
                          const fs::path& folder) {
   std::error_code failed;
   fs::path file = fs::absolute(scene.file, failed);
-  const fs::path near = fs::weakly_canonical(file, failed)
-                            .lexically_relative(fs::weakly_canonical(folder, failed));
+  const fs::path near =
+      fs::weakly_canonical(file, failed).lexically_relative(fs::weakly_canonical(folder, failed));
   if (!near.empty()) file = near;
   std::string out =
       "# A variant by `luxodus design`: emergency luminaires where it has placed them.\n"
@@ -322,16 +322,14 @@ Json design_json(const SceneDescription& scene, const DesignResult& result,
               {"program", "luxodus " + version},
               {"scene", {{"name", scene.name}, {"title", scene.title}}},
               {"outcome", {{"end", word_of(answer.end)}, {"words", outcome_words(scene, result)}}}};
-  out["objective"] = {
-      {"kind", objective_words[static_cast<size_t>(scene.design->objective)]},
-      {"value", number_json(answer.objective)},
-      {"bound", number_json(answer.bound)},
-      {"gap", number_json(answer.gap())},
-      {"greedy", answer.greedy ? number_json(answer.greedy_objective) : Json()}};
-  out["settings"] = {
-      {"margin", number_json(scene.design->margin)},
-      {"failure", failure_words[static_cast<size_t>(scene.design->failure)]},
-      {"spacing_m", number_json(scene.design->spacing_m)}};
+  out["objective"] = {{"kind", objective_words[static_cast<size_t>(scene.design->objective)]},
+                      {"value", number_json(answer.objective)},
+                      {"bound", number_json(answer.bound)},
+                      {"gap", number_json(answer.gap())},
+                      {"greedy", answer.greedy ? number_json(answer.greedy_objective) : Json()}};
+  out["settings"] = {{"margin", number_json(scene.design->margin)},
+                     {"failure", failure_words[static_cast<size_t>(scene.design->failure)]},
+                     {"spacing_m", number_json(scene.design->spacing_m)}};
   Json codes = Json::array();
   for (const CodeChoice& choice : result.assessment.state.codes)
     codes.push_back(named(choice.set).id);

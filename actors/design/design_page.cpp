@@ -35,15 +35,16 @@ std::string outcome(const Texts& t, const Json& d) {
       optimal ? t("design.optimal")
               : t.say("design.open", t.number(objective["bound"].get<double>(), 4),
                       t.number(100 * objective["gap"].get<double>(), 2));
-  std::string out = "<div class=\"box\"><svg viewBox=\"-1.25 -1.25 2.5 2.5\" aria-hidden=\"true\">" +
-                    verdict_shape("information", 0, 0, 1) + "</svg><div><p class=\"words\">" +
-                    escaped(words) + "</p>";
-  out += paragraph(t.say("design.objective",
-                         t.word("design.objective", text_in(objective, "kind")),
+  std::string out =
+      "<div class=\"box\"><svg viewBox=\"-1.25 -1.25 2.5 2.5\" aria-hidden=\"true\">" +
+      verdict_shape("information", 0, 0, 1) + "</svg><div><p class=\"words\">" + escaped(words) +
+      "</p>";
+  out += paragraph(t.say("design.objective", t.word("design.objective", text_in(objective, "kind")),
                          t.number(objective["value"].get<double>(), 4)) +
                    " " + proof);
   if (objective["greedy"].is_number())
-    out += paragraph(t.say("design.greedy", t.number(objective["greedy"].get<double>(), 4)), "note");
+    out +=
+        paragraph(t.say("design.greedy", t.number(objective["greedy"].get<double>(), 4)), "note");
   const Json& c = d["checks"];
   std::string chips;
   for (const auto& [key, verdict] :
@@ -89,8 +90,9 @@ std::string schedule_of(const Texts& t, const Json& d) {
   std::string gone;
   for (const Json& name : d["removed"])
     gone += (gone.empty() ? "" : ", ") + name.get<std::string>();
-  return table(t, {"column.type", "column.count", "column.emergency_flux", "design.cost",
-                   "design.watts"},
+  return table(t,
+               {"column.type", "column.count", "column.emergency_flux", "design.cost",
+                "design.watts"},
                {40, 12, 18, 15, 15}, types) +
          table(t, {"design.name", "column.type", "design.x", "design.y", "design.z", "design.turn"},
                {26, 34, 10, 10, 10, 10}, rows) +
@@ -118,14 +120,15 @@ std::string binding(const Texts& t, const Json& d) {
     const std::string said = share > binding_share ? t.say("design.binds", t.number(share, 2))
                              : tight               ? std::string(t("design.tight"))
                                                    : std::string(t("design.slack"));
-    rows += "<tr>" + cell(text_in(group, "rule")) +
-            cell(subject_text(t, text_in(group, "subject"))) + cell(demand_text(t, group)) +
-            (least.is_number() ? fixed_cell(t, 100 * least.get<double>(), 0)
-                               : html_cell("–", "n")) +
-            cell(said) + "</tr>\n";
+    rows +=
+        "<tr>" + cell(text_in(group, "rule")) + cell(subject_text(t, text_in(group, "subject"))) +
+        cell(demand_text(t, group)) +
+        (least.is_number() ? fixed_cell(t, 100 * least.get<double>(), 0) : html_cell("–", "n")) +
+        cell(said) + "</tr>\n";
   }
   return paragraph(t("design.binding_note"), "note") +
-         table(t, {"design.rule", "design.subject", "design.asked", "design.least", "design.binding"},
+         table(t,
+               {"design.rule", "design.subject", "design.asked", "design.least", "design.binding"},
                {8, 26, 34, 12, 20}, rows);
 }
 
@@ -145,8 +148,7 @@ std::string hidden(const Texts& t, const Json& d) {
   std::string out;
   for (const Json& one : d["hidden_by_furniture"])
     out += paragraph(t.say("design.hidden", text_in(one, "rule"),
-                           subject_text(t, text_in(one, "subject")),
-                           one["points"].get<int64_t>()));
+                           subject_text(t, text_in(one, "subject")), one["points"].get<int64_t>()));
   return out;
 }
 
@@ -159,8 +161,7 @@ std::string settings(const Texts& t, const Json& d) {
   std::string left;
   for (const auto& [why, count] : c["left_out"].items())
     if (count.get<int64_t>() > 0)
-      left += (left.empty() ? "" : "; ") +
-              t.say("design.left_" + why, count.get<int64_t>());
+      left += (left.empty() ? "" : "; ") + t.say("design.left_" + why, count.get<int64_t>());
   return paragraph(t.say("design.settings", rules, t.number(s["margin"].get<double>(), 3),
                          t.word("design.failure", text_in(s, "failure")))) +
          paragraph(t.say("design.candidates", c["places"].get<int64_t>(),
@@ -175,12 +176,12 @@ std::string design_page(const Json& d, const Json& a, Language language) {
   const Schedule schedule(a);
   std::string title = text_in(d["scene"], "title");
   if (title.empty()) title = text_in(d["scene"], "name");
-  const std::string body =
-      "<header class=\"cover\"><div>" + paragraph(t("design.page"), "kind") + "<h1>" +
-      escaped(title) + "</h1></div></header>\n" + outcome(t, d) + notice(t) +
-      heading(t, "heading.plans") + plans_of(t, a, schedule) + heading(t, "heading.schedules") +
-      schedule_of(t, d) + heading(t, "design.binding_heading") + binding(t, d) + others(t, d) +
-      heading(t, "design.settings_heading") + settings(t, d);
+  const std::string body = "<header class=\"cover\"><div>" + paragraph(t("design.page"), "kind") +
+                           "<h1>" + escaped(title) + "</h1></div></header>\n" + outcome(t, d) +
+                           notice(t) + heading(t, "heading.plans") + plans_of(t, a, schedule) +
+                           heading(t, "heading.schedules") + schedule_of(t, d) +
+                           heading(t, "design.binding_heading") + binding(t, d) + others(t, d) +
+                           heading(t, "design.settings_heading") + settings(t, d);
   return html_page({t.code(), title + " – " + t("design.page"), report_style}, body);
 }
 

@@ -107,8 +107,7 @@ Layout emptied(const LayoutProblem& problem, const Layout& layout, Random& rando
 size_t rows_of(const LayoutProblem& problem, const Layout& layout, int axis) {
   std::set<int64_t> rows;
   for (size_t i = 0; i < layout.size(); ++i)
-    if (layout[i] != 0)
-      rows.insert(std::llround(problem.options[i].position[axis] / one_row_m));
+    if (layout[i] != 0) rows.insert(std::llround(problem.options[i].position[axis] / one_row_m));
   return rows.size();
 }
 
@@ -162,7 +161,8 @@ double preference(const LayoutProblem& problem, const LayoutSums& sums) {
     d = std::min(d, sums.cover(i));
   }
   const double light = std::accumulate(darkest.begin(), darkest.end(), 0.0);
-  const size_t rows = std::min(rows_of(problem, sums.layout(), 0), rows_of(problem, sums.layout(), 1));
+  const size_t rows =
+      std::min(rows_of(problem, sums.layout(), 0), rows_of(problem, sums.layout(), 1));
   return light - worth_of_row * static_cast<double>(rows);
 }
 

@@ -105,9 +105,9 @@ inline constexpr double sum_tolerance = 1e-6;
 /// A sum that is not what is asked for. Exactly one of the three kinds.
 struct Violation {
   enum class Kind { cover, failure, spread } kind = Kind::cover;
-  uint32_t index = 0;  // of covers, failures or spreads
-  uint32_t point = 0;  // of a failure; of a spread the darkest
-  uint32_t place = 0;  // of a failure: whose luminaire is out
+  uint32_t index = 0;      // of covers, failures or spreads
+  uint32_t point = 0;      // of a failure; of a spread the darkest
+  uint32_t place = 0;      // of a failure: whose luminaire is out
   uint32_t brightest = 0;  // of a spread
   double share = 0;        // of what is asked for that is there: below 1
 };

@@ -5,7 +5,6 @@
 #include <CbcSolver.hpp>
 #include <CoinPackedMatrix.hpp>
 #include <OsiClpSolverInterface.hpp>
-
 #include <algorithm>
 #include <csignal>
 #include <limits>
@@ -49,7 +48,7 @@ class SignalKept {
   SignalKept& operator=(const SignalKept&) = delete;
 
  private:
-  struct sigaction before_{};
+  struct sigaction before_ {};
 };
 
 void load(const IntegerProgram& program, OsiClpSolverInterface& solver) {
@@ -107,8 +106,9 @@ ProgramAnswer solve_program(const IntegerProgram& program, const ProgramLimits& 
   words.insert(words.end(), {"-solve", "-quit"});
   std::vector<const char*> arguments;
   for (const std::string& word : words) arguments.push_back(word.c_str());
-  CbcMain1(static_cast<int>(arguments.size()), arguments.data(), model,
-           [](CbcModel*, int) { return 0; }, data);
+  CbcMain1(
+      static_cast<int>(arguments.size()), arguments.data(), model, [](CbcModel*, int) { return 0; },
+      data);
 
   ProgramAnswer answer;
   const double* best = model.bestSolution();

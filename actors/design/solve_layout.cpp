@@ -61,8 +61,8 @@ class GrowingProgram {
   /// `feasible_only`: any layout will do.
   GrowingProgram(const LayoutProblem& problem, bool feasible_only) : problem_(problem) {
     for (const LayoutOption& option : problem.options)
-      program_.add_variable(feasible_only || option.fixed ? 0 : option.weight,
-                            option.fixed ? 1 : 0, 1, true);
+      program_.add_variable(feasible_only || option.fixed ? 0 : option.weight, option.fixed ? 1 : 0,
+                            1, true);
     add_places();
     for (size_t i = 0; i < problem.spreads.size(); ++i)
       darkest_.push_back(program_.add_variable(0, 0, infinite_light, false));
@@ -149,8 +149,7 @@ class GrowingProgram {
 
   /// More than all that a row asks for helps it no more: clipped terms keep every layout and cut
   /// off fractions of luminaires.
-  void add_cover(const std::vector<Term>& terms, double least, uint32_t but_place,
-                 uint32_t group) {
+  void add_cover(const std::vector<Term>& terms, double least, uint32_t but_place, uint32_t group) {
     LinearRow row;
     double left_out = 0;
     for (const Term& term : terms) {
@@ -227,9 +226,8 @@ std::vector<Violation> spread_out(const LayoutProblem& problem, std::vector<Viol
     if (out.size() >= most) break;
     auto& near = taken[group_of(problem, v)];
     const glm::dvec3& place = place_of(problem, v);
-    if (std::any_of(near.begin(), near.end(), [&](const glm::dvec3& other) {
-          return glm::length(place - other) < apart_m;
-        }))
+    if (std::any_of(near.begin(), near.end(),
+                    [&](const glm::dvec3& other) { return glm::length(place - other) < apart_m; }))
       continue;
     near.push_back(place);
     out.push_back(v);
@@ -335,8 +333,8 @@ class Solving {
   }
 
   ProgramAnswer solve(const GrowingProgram& growing, double gap) {
-    const ProgramLimits asked{.seconds = settings_.seconds - seconds(), .gap = gap,
-                              .cutoff = cutoff()};
+    const ProgramLimits asked{
+        .seconds = settings_.seconds - seconds(), .gap = gap, .cutoff = cutoff()};
     return solve_program(growing.program(), asked, interrupt_, [&](double, double bound) {
       tell("integer program", bound + fixed_weight());
     });
@@ -502,9 +500,8 @@ Exists layout_exists(const LayoutProblem& problem, double seconds,
   for (int round = 0; round < limits::row_rounds; ++round) {
     const double left = seconds - 1e-9 * static_cast<double>(clock.now() - began);
     if (left <= 0 || interrupt) return Exists::not_known;
-    const ProgramAnswer found = solve_program(growing.program(),
-                                              {.seconds = left, .any_solution = true}, interrupt,
-                                              {});
+    const ProgramAnswer found =
+        solve_program(growing.program(), {.seconds = left, .any_solution = true}, interrupt, {});
     if (found.end == ProgramEnd::infeasible) return Exists::no;
     if (found.values.empty()) return Exists::not_known;
     sums.set(growing.layout_of(found.values));

@@ -21,9 +21,9 @@ inline constexpr int row_rounds = 500;
 
 struct SolveSettings {
   double seconds = 120;
-  double gap = 0;          // ends within this share of the best possible
+  double gap = 0;  // ends within this share of the best possible
   uint64_t seed = 1;
-  int greedy_rounds = 200; // of neighbourhoods that are filled anew, before and after the program
+  int greedy_rounds = 200;  // of neighbourhoods that are filled anew, before and after the program
 };
 
 /// How the search ended.
@@ -38,14 +38,14 @@ enum class LayoutEnd {
 
 struct LayoutAnswer {
   LayoutEnd end = LayoutEnd::unknown;
-  Layout layout;          // empty where none was found
-  double objective = 0;   // of it
-  double bound = 0;       // of every layout
-  bool greedy = false;    // the greedy choice found a layout
+  Layout layout;                // empty where none was found
+  double objective = 0;         // of it
+  double bound = 0;             // of every layout
+  bool greedy = false;          // the greedy choice found a layout
   double greedy_objective = 0;  // of it, pruned
-  double first_seconds = 0;  // until the first layout
+  double first_seconds = 0;     // until the first layout
   double seconds = 0;
-  size_t rows = 0;        // of the last program
+  size_t rows = 0;  // of the last program
   int rounds = 0;
   std::vector<double> share_of_group;  // of the bound of the program without whole numbers
 

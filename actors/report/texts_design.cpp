@@ -13,7 +13,8 @@ constexpr ReportText design_rows[] = {
     {"design.kept", {"{0} stay", "{0} bleiben", "{0} restent"}},
     {"design.gone", {"{0} go", "{0} entfallen", "{0} disparaissent"}},
     {"design.objective", {"{0}: {1}.", "{0}: {1}.", "{0} : {1}."}},
-    {"design.objective.number", {"Number of luminaires", "Anzahl der Leuchten", "Nombre de luminaires"}},
+    {"design.objective.number",
+     {"Number of luminaires", "Anzahl der Leuchten", "Nombre de luminaires"}},
     {"design.objective.cost", {"Cost", "Kosten", "Coût"}},
     {"design.objective.watts", {"Power [W]", "Leistung [W]", "Puissance [W]"}},
     {"design.objective.weighted", {"Weighted sum", "Gewichtete Summe", "Somme pondérée"}},
@@ -31,7 +32,8 @@ constexpr ReportText design_rows[] = {
     {"design.notice_codes",
      {"A calculation of direct light in clear air, by the rule sets named below. It does not say "
       "that a building complies with a code.",
-      "Eine Berechnung des direkten Lichts in klarer Luft nach den unten genannten Regelwerken. Sie "
+      "Eine Berechnung des direkten Lichts in klarer Luft nach den unten genannten Regelwerken. "
+      "Sie "
       "sagt nicht, dass ein Gebäude eine Norm erfüllt.",
       "Un calcul de la lumière directe en air clair, selon les référentiels nommés ci-dessous. Il "
       "ne dit pas qu’un bâtiment respecte une norme."}},
@@ -77,11 +79,10 @@ constexpr ReportText design_rows[] = {
     {"design.rule", {"Rule", "Regel", "Règle"}},
     {"design.subject", {"Of", "Von", "De"}},
     {"design.asked", {"Planned for", "Geplant auf", "Prévu"}},
-    {"design.least",
-     {"Least there [%]", "Kleinster Wert [%]", "Minimum atteint [%]"}},
+    {"design.least", {"Least there [%]", "Kleinster Wert [%]", "Minimum atteint [%]"}},
     {"design.binding", {"Effect", "Wirkung", "Effet"}},
-    {"design.binds", {"binds: {0} of the objective", "bindet: {0} des Zielwerts",
-                      "contraint : {0} de l’objectif"}},
+    {"design.binds",
+     {"binds: {0} of the objective", "bindet: {0} des Zielwerts", "contraint : {0} de l’objectif"}},
     {"design.tight", {"tight", "knapp", "serrée"}},
     {"design.slack", {"room to spare", "Reserve", "de la marge"}},
     {"design.kind_minimum",
@@ -112,15 +113,15 @@ constexpr ReportText design_rows[] = {
      {"at least {0} lx on its face", "mindestens {0} lx auf der Fläche",
       "au moins {0} lx sur sa surface"}},
     {"design.others",
-     {"What no luminaire of the layout decides", "Was keine Leuchte der Anordnung entscheidet",
-      "Ce qu’aucun luminaire de l’implantation ne décide"}},
+     {"What this design does not decide", "Was dieser Entwurf nicht entscheidet",
+      "Ce que ce projet ne décide pas"}},
     {"design.others_note",
-     {"These checks fail with any layout: they are of signs, of luminaires that stay, or of what "
-      "the scene does not say.",
-      "Diese Prüfungen sind bei jeder Anordnung nicht erfüllt: sie betreffen Zeichen, bleibende "
-      "Leuchten oder was die Szene nicht sagt.",
-      "Ces contrôles échouent avec toute implantation : ils concernent les panneaux, les "
-      "luminaires qui restent, ou ce que la scène ne dit pas."}},
+     {"These checks fail: they are of signs, of luminaires that stay, of places that furniture "
+      "hides, or of what the scene does not say.",
+      "Diese Prüfungen sind nicht erfüllt: sie betreffen Zeichen, bleibende Leuchten, von Möbeln "
+      "verdeckte Orte oder was die Szene nicht sagt.",
+      "Ces contrôles échouent : ils concernent les panneaux, les luminaires qui restent, les lieux "
+      "cachés par le mobilier, ou ce que la scène ne dit pas."}},
     {"design.settings_heading",
      {"What was asked for", "Was verlangt wurde", "Ce qui était demandé"}},
     {"design.settings",
@@ -148,14 +149,13 @@ constexpr ReportText design_rows[] = {
     {"design.hidden",
      {"{0}, {1}: furniture hides {2} points of calculation from all candidates together, so that "
       "no layout passes with furniture. It is planned for without furniture.",
-      "{0}, {1}: Möbel verdecken {2} Berechnungspunkte vor allen Kandidaten zusammen, so dass keine "
+      "{0}, {1}: Möbel verdecken {2} Berechnungspunkte vor allen Kandidaten zusammen, so dass "
+      "keine "
       "Anordnung mit Möbeln genügt. Geplant ist ohne Möbel.",
       "{0}, {1} : le mobilier cache {2} points de calcul à tous les candidats ensemble, si bien "
       "qu’aucune implantation ne suffit avec mobilier. Le projet est fait sans mobilier."}},
-    {"design.left_out",
-     {"Left out: {0}.", "Ausgeschlossen: {0}.", "Écartés : {0}."}},
-    {"design.left_no_ceiling",
-     {"{0} without a ceiling", "{0} ohne Decke", "{0} sans plafond"}},
+    {"design.left_out", {"Left out: {0}.", "Ausgeschlossen: {0}.", "Écartés : {0}."}},
+    {"design.left_no_ceiling", {"{0} without a ceiling", "{0} ohne Decke", "{0} sans plafond"}},
     {"design.left_in_bodies", {"{0} in bodies", "{0} in Körpern", "{0} dans des corps"}},
     {"design.left_near_walls",
      {"{0} too near to a wall", "{0} zu nahe an einer Wand", "{0} trop près d’un mur"}},
@@ -163,8 +163,7 @@ constexpr ReportText design_rows[] = {
      {"{0} too near to a sign", "{0} zu nahe an einem Zeichen", "{0} trop près d’un panneau"}},
     {"design.left_keep_out",
      {"{0} in keep-out zones", "{0} in Sperrzonen", "{0} dans des zones interdites"}},
-    {"design.left_too_low",
-     {"{0} below 2 m (E14)", "{0} unter 2 m (E14)", "{0} sous 2 m (E14)"}},
+    {"design.left_too_low", {"{0} below 2 m (E14)", "{0} unter 2 m (E14)", "{0} sous 2 m (E14)"}},
     {"design.left_glaring", {"{0} glaring (E8)", "{0} blendend (E8)", "{0} éblouissants (E8)"}},
 };
 

@@ -79,21 +79,21 @@ std::vector<DesignType> types_of_scene(const SceneDescription& scene) {
 
 /// The light of a luminaire that is in the scene. Keys of light beside it would say another.
 void take_light_of(KeyReader& keys, const std::string& like, Emitter& e) {
-  for (const char* key :
-       {"file", "point_source", "circuit", "group", "mains_factor", "maintenance_factor",
-        "emergency", "emergency_flux", "emergency_factor", "end_of_duration_factor", "onset",
-        "spectrum", "body_material"})
+  for (const char* key : {"file", "point_source", "circuit", "group", "mains_factor",
+                          "maintenance_factor", "emergency", "emergency_flux", "emergency_factor",
+                          "end_of_duration_factor", "onset", "spectrum", "body_material"})
     if (keys.has(key))
-      return keys.problem(key, "'" + std::string(key) + "' and 'like' exclude each other: '" +
-                                   like + "' says it");
+      return keys.problem(
+          key, "'" + std::string(key) + "' and 'like' exclude each other: '" + like + "' says it");
   const auto& emitters = keys.reading().scene.emitters;
   const auto at = std::find_if(emitters.begin(), emitters.end(),
                                [&](const Emitter& one) { return one.name == like; });
   if (at == emitters.end())
     return keys.problem("like", "there is no luminaire or emitter \"" + like + "\" to be like");
   if (at->shape == EmitterShape::mesh)
-    return keys.problem("like", "an emitter of shape mesh stays where its file says: it is no "
-                                "type that can be placed");
+    return keys.problem("like",
+                        "an emitter of shape mesh stays where its file says: it is no "
+                        "type that can be placed");
   e = *at;
 }
 
@@ -140,9 +140,9 @@ Word word_of(KeyReader& keys, const char* key, const std::array<std::string_view
 /// Names of luminaires, each in one list.
 void read_named(KeyReader& keys, DesignSettings& design) {
   std::set<std::string> seen;
-  for (const auto& [key, list] : {std::pair{"fixed", &design.fixed},
-                                  std::pair{"removable", &design.removable},
-                                  std::pair{"removed", &design.removed}}) {
+  for (const auto& [key, list] :
+       {std::pair{"fixed", &design.fixed}, std::pair{"removable", &design.removable},
+        std::pair{"removed", &design.removed}}) {
     if (keys.has(key)) *list = keys.texts(key);
     for (const std::string& name : *list) {
       const auto& emitters = keys.reading().scene.emitters;
@@ -155,8 +155,9 @@ void read_named(KeyReader& keys, DesignSettings& design) {
         keys.problem(key, "'" + std::string(key) + "' names \"" + name +
                               "\", which gives no light in an emergency");
       if (!seen.insert(name).second)
-        keys.problem(key, "\"" + name + "\" is named twice in 'fixed', 'removable' and 'removed': "
-                                        "a luminaire either stays, may go, or goes");
+        keys.problem(key, "\"" + name +
+                              "\" is named twice in 'fixed', 'removable' and 'removed': "
+                              "a luminaire either stays, may go, or goes");
     }
   }
 }

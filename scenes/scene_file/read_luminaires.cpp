@@ -1,4 +1,6 @@
 // Luminaires of photometric files and emitters of simple shape.
+#include "scenes/scene_file/read_luminaires.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -7,7 +9,6 @@
 #include "scenes/geometry/import.hpp"
 #include "scenes/geometry/mesh_tools.hpp"
 #include "scenes/scene_file/read_files.hpp"
-#include "scenes/scene_file/read_luminaires.hpp"
 #include "scenes/scene_file/read_placement.hpp"
 #include "scenes/scene_file/read_spectrum.hpp"
 #include "scenes/scene_file/scene_readers.hpp"

@@ -66,8 +66,7 @@ std::string problem_of(const std::string& text) {
 std::vector<std::string> failing_on_disk(const TemporaryFolder& folder, const fs::path& file,
                                          const DesignResult& result) {
   const auto scene = test::described(file);
-  const fs::path layout =
-      folder.write("layout.toml", variant_text(*scene, result, folder.path()));
+  const fs::path layout = folder.write("layout.toml", variant_text(*scene, result, folder.path()));
   AssessOptions options;
   options.threads = 2;
   options.reality = false;
@@ -80,8 +79,8 @@ std::vector<std::string> failing_on_disk(const TemporaryFolder& folder, const fs
     if (check.verdict != CheckVerdict::fail || !is_of_luminaires(check.rule.id)) continue;
     // Furniture may hide points from all candidates: the result names these, and no others.
     const bool furnished = check.condition.find("with furniture") != std::string::npos;
-    const bool told = std::any_of(
-        result.hidden.begin(), result.hidden.end(), [&](const HiddenByFurniture& one) {
+    const bool told =
+        std::any_of(result.hidden.begin(), result.hidden.end(), [&](const HiddenByFurniture& one) {
           return one.rule == check.rule.id && one.subject == check.subject;
         });
     if (!(furnished && told)) out.push_back(check.rule.id + " of " + check.subject);
@@ -99,18 +98,21 @@ std::string random_room(uint64_t seed) {
   const double x = between(6, 16), y = between(4, 9), z = between(2.4, 4);
   std::string out = box_room(x, y, z) + judged_2013;
   const double way = between(1.2, y - 1.2);
-  out += fmt::format("[[route]]\nname = \"way\"\npath = [[0.6, {0}, 0], [{1}, {0}, 0]]\n"
-                     "width = {2}\n",
-                     way, x - 0.6, between(0.8, 1.8));
+  out += fmt::format(
+      "[[route]]\nname = \"way\"\npath = [[0.6, {0}, 0], [{1}, {0}, 0]]\n"
+      "width = {2}\n",
+      way, x - 0.6, between(0.8, 1.8));
   if (random.uniform_double() < 0.6)
-    out += fmt::format("[[open_area]]\nname = \"floor\"\noutline = [[0.1, 0.1], [{0}, 0.1], [{0}, "
-                       "{1}], [0.1, {1}]]\n",
-                       x - 0.1, y - 0.1);
+    out += fmt::format(
+        "[[open_area]]\nname = \"floor\"\noutline = [[0.1, 0.1], [{0}, 0.1], [{0}, "
+        "{1}], [0.1, {1}]]\n",
+        x - 0.1, y - 0.1);
   if (random.uniform_double() < 0.5) {
     const double at = between(2, x - 3), side = way > y / 2 ? 0.2 : way + 1.1;
-    out += fmt::format("[[object]]\nname = \"cupboard\"\nshape = \"box\"\nlow = [{}, {}, 0]\n"
-                       "high = [{}, {}, {}]\nmaterial = \"grey50\"\ntags = [\"furniture\"]\n",
-                       at, side, at + 0.8, side + 0.5, between(0.8, 2));
+    out += fmt::format(
+        "[[object]]\nname = \"cupboard\"\nshape = \"box\"\nlow = [{}, {}, 0]\n"
+        "high = [{}, {}, {}]\nmaterial = \"grey50\"\ntags = [\"furniture\"]\n",
+        at, side, at + 0.8, side + 0.5, between(0.8, 2));
   }
   out += "[[emphasis]]\nname = \"door\"\nkind = \"exit_door\"\nposition = " +
          fmt::format("[{}, {}, 0]\n", x - 0.2, way);
@@ -144,7 +146,8 @@ void check_random_rooms(uint64_t first, uint64_t count) {
 
 /// A corridor whose luminaires are spots: what lies within a cone is lit, all else is dark.
 std::string spot_corridor(double length) {
-  return box_room(length, 2, 3) + judged_2013 + fmt::format(R"(
+  return box_room(length, 2, 3) + judged_2013 +
+         fmt::format(R"(
 [[emitter]]
 name = "spot"
 shape = "point"
@@ -169,7 +172,7 @@ failure = "none"
 margin = 1
 spacing_m = 0.5
 )",
-                                                            length - 0.5);
+                     length - 0.5);
 }
 
 }  // namespace
@@ -209,9 +212,10 @@ width = 1.2
 TEST_CASE("a room and its mirror image take as many luminaires", "[design]") {
   const auto room = [](double from, double to) {
     return box_room(9, 6, 3) + judged_2013 +
-           fmt::format("[[route]]\nname = \"way\"\npath = [[{}, 2, 0], [{}, 2, 0]]\nwidth = 1\n"
-                       "[design]\nspacing_m = 1\n",
-                       from, to);
+           fmt::format(
+               "[[route]]\nname = \"way\"\npath = [[{}, 2, 0], [{}, 2, 0]]\nwidth = 1\n"
+               "[design]\nspacing_m = 1\n",
+               from, to);
   };
   const TemporaryFolder folder;
   const auto there = designed(folder.write("a.toml", room(1, 6)));
