@@ -33,6 +33,8 @@ constexpr double raised = 1e-5;
 /// Terms below this share of what a row asks for are left out of the program, which makes its row
 /// weaker by all of them together: the bound stays a bound.
 constexpr double small_term = 1e-5;
+/// A place that gives less than this share of what is asked for may fail without a row of its own.
+constexpr double large_share = 0.02;
 /// Rounding of an objective.
 constexpr double rounding = 1e-6;
 
@@ -53,6 +55,11 @@ using RowKey = std::tuple<int, uint32_t, uint32_t, uint32_t>;
 RowKey key_of(const Violation& v) {
   return {static_cast<int>(v.kind), v.index, v.point,
           v.kind == Violation::Kind::spread ? v.brightest : v.place};
+}
+
+/// Of all failures at a point.
+RowKey whole_key(const Violation& v) {
+  return {-1, v.index, v.point, 0};
 }
 
 /// The integer program of those rows that have been asked for so far.
@@ -107,7 +114,11 @@ class GrowingProgram {
       }
       case Violation::Kind::failure: {
         const FailureRows& rows = problem_.failures[v.index];
-        add_cover(*problem_.points[v.point].light, rows.least * more, v.place, rows.group);
+        const std::vector<Term>& light = *problem_.points[v.point].light;
+        if (known_.insert(whole_key(v)).second)
+          add_failure(light, rows.least, rows.group);
+        else
+          add_cover(light, rows.least * more, v.place, rows.group);
         break;
       }
       case Violation::Kind::spread:
@@ -165,6 +176,31 @@ class GrowingProgram {
     row.low = 1 - left_out;
     row.high = infinite;
     add_row(std::move(row), static_cast<int>(group));
+  }
+
+  /// With the luminaire of any one place out, enough is left: all that is there is not below what
+  /// is asked for and the largest share of one place, which is a variable. A row for each place
+  /// that may be out says the same, and is asked for one after another, as neighbours take over.
+  void add_failure(const std::vector<Term>& light, double least, uint32_t group) {
+    const int largest = program_.add_variable(0, 0, 1, false);
+    std::map<uint32_t, LinearRow> of_place_out;
+    for (const Term& term : light) {
+      const double share = std::min(static_cast<double>(term.value) / least, 1.0);
+      if (share < large_share) continue;
+      LinearRow& row = of_place_out[problem_.options[term.option].place];
+      row.column.push_back(static_cast<int>(term.option));
+      row.value.push_back(share);
+    }
+    for (auto& [place, row] : of_place_out) {
+      row.column.push_back(largest);
+      row.value.push_back(-1);
+      row.low = -infinite;
+      row.high = 0;
+      add_row(std::move(row), of_place);
+    }
+    add_cover(light, least, none, group);
+    program_.rows.back().column.push_back(largest);
+    program_.rows.back().value.push_back(-1);
   }
 
   /// The darkest is at most this point's light; the brightest at most `ratio` times the darkest.
