@@ -69,9 +69,9 @@ void print_design(const SceneDescription& scene, const DesignResult& result) {
   if (answer.greedy)
     std::printf("greedy choice: objective %s\n",
                 readable_number(answer.greedy_objective, 4).c_str());
-  std::printf("%zu places, %zu candidates, %zu points; first layout after %.1f s, all of %.1f s\n",
-              result.places, result.candidates, result.points, answer.first_seconds,
-              answer.seconds);
+  std::printf("%zu places, %zu candidates, %zu points; first layout after %.1f s, search %.1f s\n",
+              result.places, result.candidates, result.points,
+              result.prepared_seconds + answer.first_seconds, answer.seconds);
   std::printf("the layout, assessed: %s\n", words_of(counts_of(result.assessment.checks)).c_str());
   for (const Check& check : result.others)
     std::printf("  fails, and is not decided here: %s: %s\n", check.subject.c_str(),

@@ -200,7 +200,7 @@ class Designing {
                            : std::max(moment, options_.seconds - (seconds() - solving_since_));
     settings.gap = options_.gap;
     settings.seed = options_.seed;
-    if (out_.verifications == 1) solving_since_ = seconds();
+    if (out_.verifications == 1) solving_since_ = out_.prepared_seconds = seconds();
     out_.answer = solve_layout(demands_->problem(), settings, interrupt_, progress_);
     if (out_.answer.end == LayoutEnd::infeasible) {
       progress_("looking for what cannot hold together", no_objective, 0);

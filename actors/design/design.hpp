@@ -57,6 +57,7 @@ struct DesignResult {
   bool added_scenario = false;  // the scene has none: the variant has one in emergency operation
   std::vector<std::string> rules, deviations;  // that were asked for and that the scene lacks
   int verifications = 0;
+  double prepared_seconds = 0;  // until the search began
 };
 
 /// Errors: as assess; no place for a luminaire; a layout that the assessment rejects for a reason
