@@ -292,6 +292,57 @@ spacing_m = 2
   CHECK(words.front().find("times as bright") != std::string::npos);
 }
 
+TEST_CASE("a luminaire that is there stays where it saves a new one", "[design]") {
+  const std::string scene = box_room(9, 3, 3) + judged_2013 + R"(
+[[emitter]]
+name = "old"
+shape = "disc"
+diameter = 0.1
+position = [4.5, 1.5, 2.97]
+flux_lm = 300
+emergency = "non-maintained"
+emergency_flux = 300
+maintenance_factor = 0.8
+end_of_duration_factor = 0.7
+
+[[route]]
+name = "way"
+path = [[1, 1.5, 0], [8, 1.5, 0]]
+width = 1
+
+[design]
+objective = "cost"
+failure = "none"
+)";
+  const TemporaryFolder folder;
+  const fs::path file = folder.write("keep.toml", scene + "existing = \"removable\"\n");
+  const auto kept = designed(file);
+  const auto renewed = designed(folder.write("go.toml", scene + "existing = \"removed\"\n"));
+  CHECK(kept.answer.objective < renewed.answer.objective);
+  CHECK(kept.removed.empty());
+  CHECK(kept.luminaires.front().name == "old");
+  CHECK(renewed.removed == std::vector<std::string>{"old"});
+  CHECK(failing_on_disk(folder, file, kept).empty());
+}
+
+TEST_CASE("a layout by NFPA 101 has its means, at first and at the end", "[design]") {
+  const TemporaryFolder folder;
+  const fs::path file = folder.write("scene.toml", box_room(9, 3, 2.6) + R"(
+[assessment]
+rules = ["nfpa101"]
+[[route]]
+name = "way"
+path = [[1, 1.5, 0], [8, 1.5, 0]]
+width = 1
+[design]
+)");
+  const DesignResult result = designed(file);
+  REQUIRE_FALSE(result.luminaires.empty());
+  CHECK(failing_on_disk(folder, file, result).empty());
+  for (const Check& check : result.assessment.checks)
+    if (check.rule.id == "N2") CHECK(check.value.value_or(0) >= 1.25 * 6.5 * (1 - 1e-3));
+}
+
 TEST_CASE("what a design cannot be made of is refused in a sentence", "[design]") {
   const std::string route =
       "[[route]]\nname = \"way\"\npath = [[1, 1.5, 0], [7, 1.5, 0]]\nwidth = 1\n";
