@@ -17,6 +17,7 @@ Command converge_command();
 Command assess_command();
 Command compare_command();
 Command report_command();
+Command design_command();
 // live view
 Command view_command();
 // clusters

@@ -22,7 +22,10 @@ bool numeric(std::string_view column) {
       "column.reflectance",   "column.specular",       "column.internal_transmittance",
       "column.ior",           "column.surfaces",       "column.heights",
       "column.extinction",    "column.wavelength",     "column.angstrom",
-      "column.albedo",        "column.asymmetry",      "column.flame"};
+      "column.albedo",        "column.asymmetry",      "column.flame",
+      "design.x",             "design.y",              "design.z",
+      "design.turn",          "design.cost",           "design.watts",
+      "design.least"};
   return column.starts_with("sight.") ||
          std::find(std::begin(keys), std::end(keys), column) != std::end(keys);
 }

@@ -13,7 +13,8 @@ namespace {
 
 std::map<std::string_view, const ReportText*> index() {
   std::map<std::string_view, const ReportText*> out;
-  for (const auto rows : {page_texts(), section_texts(), word_texts(), rule_texts()})
+  for (const auto rows :
+       {page_texts(), section_texts(), word_texts(), rule_texts(), design_texts()})
     for (const ReportText& row : rows)
       if (!out.emplace(row.key, &row).second)
         throw std::logic_error(std::string("two texts of reports are called ") + row.key);

@@ -28,6 +28,7 @@ std::span<const ReportText> page_texts();
 std::span<const ReportText> section_texts();
 std::span<const ReportText> word_texts();
 std::span<const ReportText> rule_texts();
+std::span<const ReportText> design_texts();
 /// Sentences of the program itself, which have no key: the English one, as checks and states hold
 /// it, is what they are found by.
 std::span<const ReportText> remark_texts();

@@ -10,6 +10,8 @@ namespace {
 
 /// Heights that differ by less are one [m].
 constexpr double level_within_m = 0.01;
+/// What is so near to an edge is on it [m].
+constexpr double on_edge_m = 1e-6;
 
 int pieces(double length, double spacing) {
   return std::max(1, static_cast<int>(std::ceil(length / spacing * (1 - 1e-9))));
@@ -135,6 +137,14 @@ std::vector<Walker> walkers(const EscapeRoute& route, double spacing_m) {
     before += length;
   }
   return out;
+}
+
+bool in_plan_of(const EscapeRoute& route, const glm::dvec2& place) {
+  return nearest_of(route, place).first <= route.width_m / 2 + on_edge_m;
+}
+
+bool in_plan_of(const AssessedArea& area, const glm::dvec2& place) {
+  return lies_in(place, area.outline) || distance_to_outline(place, area.outline) <= on_edge_m;
 }
 
 std::optional<double> floor_below(const SceneDescription& scene, const glm::dvec3& place) {

@@ -33,6 +33,10 @@ struct Walker {
 /// At most `spacing_m` apart, from the start to the end of the route.
 std::vector<Walker> walkers(const EscapeRoute& route, double spacing_m);
 
+/// Whether a place lies over a route or an area, or on its edge, seen from above.
+bool in_plan_of(const EscapeRoute& route, const glm::dvec2& place);
+bool in_plan_of(const AssessedArea& area, const glm::dvec2& place);
+
 /// Where the floor of the nearest route or area is that lies below a place [m]; none where there is
 /// none of them.
 std::optional<double> floor_below(const SceneDescription& scene, const glm::dvec3& place);

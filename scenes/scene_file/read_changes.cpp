@@ -2,7 +2,9 @@
 #include <algorithm>
 
 #include "scenes/geometry/transform.hpp"
+#include "scenes/scene_file/read_placement.hpp"
 #include "scenes/scene_file/scene_readers.hpp"
+#include "scenes/world/design.hpp"
 
 namespace luxodus {
 
@@ -75,6 +77,41 @@ typename List::value_type* chosen(List& list, KeyReader& keys, const std::string
   return &list.back();
 }
 
+/// A luminaire of a type of the design, which stands nowhere yet. Null after a problem.
+Emitter* placed_type(KeyReader& keys) {
+  SceneDescription& scene = keys.reading().scene;
+  const std::string of = keys.text("of");
+  const auto& types = scene.design->types;
+  const auto type = std::find_if(types.begin(), types.end(),
+                                 [&](const DesignType& one) { return one.name == of; });
+  if (type == types.end()) keys.problem("of", "there is no design_type \"" + of + "\" to copy");
+  const auto copy = keys.maybe_text("copy");
+  if (!copy)
+    keys.problem("a 'design_type' is no luminaire yet: give the name of one in 'copy'");
+  else
+    keys.reading().declare("luminaire or emitter", *copy, keys.place("copy"));
+  if (!keys.has("position")) keys.problem("'position' says where the luminaire is: it is missing");
+  if (!keys.clean()) return nullptr;
+  Emitter added = type->emitter;
+  added.name = *copy;
+  added.place = keys.place();
+  scene.emitters.push_back(std::move(added));
+  return &scene.emitters.back();
+}
+
+void turn(KeyReader& keys, Frame& frame) {
+  frame.axes = frame.axes * turn_about_axes({0, 0, keys.number("rotation_deg")});
+}
+
+/// Whether the change takes its luminaire away, which then has nothing else to say.
+bool removes(KeyReader& keys) {
+  if (!keys.flag("remove")) return false;
+  for (const char* key : {"copy", "position", "facing", "rotation_deg", "factor"})
+    if (keys.has(key))
+      keys.problem(key, "'" + std::string(key) + "' says something of a luminaire that goes");
+  return true;
+}
+
 /// In every scenario, whether it names the medium or not.
 void thicken(SceneDescription& scene, const std::string& medium, double factor) {
   if (scene.scenarios.empty()) {
@@ -98,15 +135,29 @@ void read_change(const toml::Table& table, SceneReading& reading) {
   const std::string kind = keys.choice("kind");
   const double factor = keys.number("factor");
   SceneDescription& scene = reading.scene;
+  if (kind != "luminaire" && keys.has("remove"))
+    keys.problem("remove", "'remove' is for luminaires alone");
+  if (kind != "luminaire" && kind != "design_type" && keys.has("rotation_deg"))
+    keys.problem("rotation_deg", "'rotation_deg' is for luminaires alone");
   if (kind == "sign") {
     Sign* const sign = chosen(scene.signs, keys, kind, "sign");
     if (sign == nullptr) return;
     move(keys, sign->frame, frame_facing);
     brighten(*sign, factor);
+  } else if (kind == "luminaire" && removes(keys)) {
+    if (const Emitter* const gone = named(scene.emitters, keys, kind))
+      scene.emitters.erase(scene.emitters.begin() + (gone - scene.emitters.data()));
+  } else if (kind == "design_type") {
+    Emitter* const emitter = placed_type(keys);
+    if (emitter == nullptr) return;
+    move(keys, emitter->frame, frame_aiming);
+    turn(keys, emitter->frame);
+    brighten(*emitter, factor);
   } else if (kind == "luminaire") {
     Emitter* const emitter = chosen(scene.emitters, keys, kind, "luminaire or emitter");
     if (emitter == nullptr) return;
     move(keys, emitter->frame, frame_aiming);
+    turn(keys, emitter->frame);
     brighten(*emitter, factor);
   } else if (const Medium* const medium = named(scene.media, keys, kind)) {
     if (keys.has("copy"))

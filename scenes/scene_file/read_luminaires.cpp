@@ -1,4 +1,6 @@
 // Luminaires of photometric files and emitters of simple shape.
+#include "scenes/scene_file/read_luminaires.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -230,17 +232,12 @@ void add_emitter(KeyReader& keys, const Emitter& e, std::span<const glm::dvec3> 
 
 }  // namespace
 
-void read_luminaire(const toml::Table& table, SceneReading& reading) {
-  KeyReader keys(table, {"luminaire"}, reading);
-  Emitter e;
-  e.place = keys.place();
-  e.name = read_name(keys, "luminaire or emitter");
-  e.frame = read_aim(keys);
+void read_photometric_light(KeyReader& keys, Emitter& e) {
   e.distribution = Distribution::web;
   double rated = 0;
   const bool point = keys.flag("point_source");
   if (const auto path = keys.file("file")) {
-    if (const auto file = read_photometry(*path, keys.place("file"), reading)) {
+    if (const auto file = read_photometry(*path, keys.place("file"), keys.reading())) {
       e.web = file->web;
       e.file = *keys.value("file")->as_text();
       e.product = file->luminaire;
@@ -251,6 +248,15 @@ void read_luminaire(const toml::Table& table, SceneReading& reading) {
   }
   read_operation(keys, e, rated);
   read_body(keys, e);
+}
+
+void read_luminaire(const toml::Table& table, SceneReading& reading) {
+  KeyReader keys(table, {"luminaire"}, reading);
+  Emitter e;
+  e.place = keys.place();
+  e.name = read_name(keys, "luminaire or emitter");
+  e.frame = read_aim(keys);
+  read_photometric_light(keys, e);
   add_emitter(keys, e, read_repeat(keys));
 }
 

@@ -11,6 +11,7 @@
 #include "runtime/toml/document.hpp"
 #include "runtime/toml/text_scan.hpp"
 #include "scenes/scene_file/scene_readers.hpp"
+#include "scenes/world/design.hpp"
 
 namespace luxodus {
 
@@ -158,6 +159,14 @@ void read_all(const Documents& documents, std::string_view key, Reader reader,
   }
 }
 
+void read_designs(const Documents& documents, SceneReading& reading) {
+  DesignSettings design;
+  design.place = {reading.scene.file, 1};
+  for (const auto& d : documents)
+    if (const toml::Table* table = d->keys.table("design")) read_design(*table, reading, design);
+  complete_design(reading, std::move(design));
+}
+
 /// What only the whole scene can show.
 void check_whole(SceneReading& reading) {
   const SceneDescription& s = reading.scene;
@@ -199,9 +208,10 @@ ReadScene read_scene(const std::filesystem::path& path, std::optional<double> at
       {"task_area", read_task_area},
       {"emphasis", read_emphasis},
       {"scenario", read_scenario},
-      {"change", read_change},
   };
   for (const auto& [key, reader] : order) read_all(documents, key, reader, reading);
+  read_designs(documents, reading);
+  read_all(documents, "change", read_change, reading);
   check_whole(reading);
   if (at_s && !reading.has_fire && !reading.incomplete)
     reading.problem({path.string(), 0},

@@ -29,6 +29,10 @@ void read_route(const toml::Table& table, SceneReading& reading);
 void read_open_area(const toml::Table& table, SceneReading& reading);
 void read_task_area(const toml::Table& table, SceneReading& reading);
 void read_emphasis(const toml::Table& table, SceneReading& reading);
+/// Adds to what `design` says already.
+void read_design(const toml::Table& table, SceneReading& reading, DesignSettings& design);
+/// Gives the scene its design, with types where none are stated.
+void complete_design(SceneReading& reading, DesignSettings design);
 void read_scenario(const toml::Table& table, SceneReading& reading);
 void read_change(const toml::Table& table, SceneReading& reading);
 

@@ -22,6 +22,8 @@ inline std::vector<KeySpec> joined(std::vector<KeySpec> a, const std::vector<Key
 
 /// The key `repeat`, wherever things are placed.
 KeySpec repeat_key();
+/// What luminaires give in each operating state.
+std::vector<KeySpec> operation_keys();
 
 // Pieces of the schema, one per source file.
 std::vector<TableSpec> geometry_schema();
@@ -33,5 +35,6 @@ std::vector<TableSpec> measurement_schema();
 std::vector<TableSpec> scenario_schema();
 std::vector<TableSpec> assessment_schema();
 std::vector<TableSpec> project_schema();
+std::vector<TableSpec> design_schema();
 
 }  // namespace luxodus

@@ -44,6 +44,7 @@ TableSpec scene_keys() {
           {"open_area", "tables", "", "", "", "floors without a defined route"},
           {"task_area", "tables", "", "", "", "places of high-risk work"},
           {"emphasis", "tables", "", "", "", "what emergency luminaires must be near to"},
+          {"design", "table", "", "", "", "where emergency luminaires may be placed"},
           {"scenario", "tables", "", "", "", "states of the building; none: mains, as written"},
           {"change", "tables", "", "", "", "what a variant changes in the files it includes"},
       }};

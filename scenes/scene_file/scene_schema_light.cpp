@@ -3,25 +3,7 @@
 
 namespace luxodus {
 
-namespace {
-
-using Keys = std::vector<KeySpec>;
-
-Keys aim_keys() {
-  return {
-      {"position", "point", "m", "required", "[-1e7, 1e7]", "centre of the luminous opening"},
-      {"direction", "direction", "", "", "[-1e7, 1e7]",
-       "where its -z looks, down unless said; instead of `target`"},
-      {"target", "point", "m", "", "[-1e7, 1e7]",
-       "a point its -z looks at; instead of `direction`"},
-      {"rotation_deg", "number", "deg", "0", "[-360, 360]",
-       "turn about local z, counter-clockwise seen against the aim (from above, where it looks "
-       "down); at 0 "
-       "and looking down local x is along +x, else local y is as near to up as can be"},
-  };
-}
-
-Keys operation_keys() {
+std::vector<KeySpec> operation_keys() {
   return {
       {"circuit", "name", "", "", "", "circuit it hangs on"},
       {"group", "name", "", "", "", "source group with tallies of its own"},
@@ -48,6 +30,24 @@ Keys operation_keys() {
        "from 0 s, the last share 1; linear between; without it the light is there at once, and "
        "whether it comes in time is not assessed"},
       {"spectrum", "emission", "", "\"led 4000 K\"", "[0, 1e9]", "shape of its spectrum"},
+  };
+}
+
+namespace {
+
+using Keys = std::vector<KeySpec>;
+
+Keys aim_keys() {
+  return {
+      {"position", "point", "m", "required", "[-1e7, 1e7]", "centre of the luminous opening"},
+      {"direction", "direction", "", "", "[-1e7, 1e7]",
+       "where its -z looks, down unless said; instead of `target`"},
+      {"target", "point", "m", "", "[-1e7, 1e7]",
+       "a point its -z looks at; instead of `direction`"},
+      {"rotation_deg", "number", "deg", "0", "[-360, 360]",
+       "turn about local z, counter-clockwise seen against the aim (from above, where it looks "
+       "down); at 0 "
+       "and looking down local x is along +x, else local y is as near to up as can be"},
   };
 }
 

@@ -27,8 +27,9 @@ std::vector<TableSpec> scenario_schema() {
       {"change",
        "`[[change]]`: what a variant has otherwise than the files that it includes",
        {
-           {"kind", "choice", "", "required", "sign, luminaire, medium",
-            "what is changed; emitters are luminaires, too"},
+           {"kind", "choice", "", "required", "sign, luminaire, medium, design_type",
+            "what is changed; emitters are luminaires, too, and a `design_type` is a "
+            "`[[design.type]]`, or what stands for one, to be copied"},
            {"of", "text", "", "required", "", "its name"},
            {"copy", "name", "", "", "",
             "name of a copy that is added instead, the one in `of` staying as it is; of signs and "
@@ -36,6 +37,9 @@ std::vector<TableSpec> scenario_schema() {
            {"position", "point", "m", "", "[-1e7, 1e7]", "where it is, of signs and luminaires"},
            {"facing", "direction", "", "", "[-1e7, 1e7]",
             "where a sign's face looks, or a luminaire aims; with `position`"},
+           {"rotation_deg", "number", "deg", "0", "[-360, 360]",
+            "further turn of a luminaire about its aim, as `rotation_deg` of `[[luminaire]]`"},
+           {"remove", "flag", "", "false", "", "takes a luminaire out of the scene"},
            {"factor", "number", "", "1", "[0, 1000]",
             "of its light in every operation; of a medium's extinction in every scenario"},
        }},

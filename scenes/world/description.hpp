@@ -356,6 +356,9 @@ struct RunSettings {
 /// Of a scene out of a pack: see scenes/transport/packed_scene.hpp.
 struct PackedScene;
 
+/// What `luxodus design` may place: see design.hpp.
+struct DesignSettings;
+
 struct SceneDescription {
   std::string name;
   std::string title;
@@ -379,6 +382,7 @@ struct SceneDescription {
   std::vector<EmphasisPoint> emphasis;
   AssessmentSettings assessment;
   ProjectSettings project;
+  std::shared_ptr<const DesignSettings> design;  // null in a pack, and in scenes made by programs
   std::vector<Side> open_sides;      // through which light is meant to leave
   std::vector<Scenario> scenarios;   // empty: mains, as written
   uint64_t content_hash = 0;         // of every file read

@@ -155,3 +155,43 @@ TEST_CASE("the revisions of the guide's project have the verdicts that it tells"
       }
   }
 }
+
+TEST_CASE("the guide's store room gets the layout that it tells, and every command takes it",
+          "[program][guide]") {
+  const std::string text = slurp(source / "docs/guide/placement.md");
+  const std::vector<std::string> blocks = toml_blocks(text);
+  REQUIRE(blocks.size() == 2);
+  const TemporaryFolder folder;
+  std::ofstream(folder / "store.toml") << blocks[0];
+  const std::string layout = (folder / "out").string();
+  const Outcome run =
+      run_luxodus(folder, "design " + (folder / "store.toml").string() + " --out " + layout);
+  INFO(run.out << run.err);
+  REQUIRE(run.code == 0);
+  const std::string first = run.out.substr(0, run.out.find('\n'));
+  CHECK(text.find(first) != std::string::npos);
+  for (const char* file : {"design.html", "design.json", "luminaires.csv", "layout.toml",
+                           "plans/installation.svg", "plans/isolux.svg", "plans/plan.dxf"})
+    CHECK(fs::exists(folder / "out" / file));
+  const Outcome assessed = run_luxodus(
+      folder, "assess " + layout + "/layout.toml --codes-alone --out " + layout + "/assessed");
+  INFO(assessed.out << assessed.err);
+  REQUIRE(assessed.code == 0);
+  // Only the sign that the room lacks.
+  const auto a = nlohmann::json::parse(slurp(folder / "out/assessed/assessment.json"));
+  for (const auto& check : a["checks"])
+    if (check["verdict"] == "fail") CHECK(check["rule"] == "S4");
+}
+
+TEST_CASE("a design that cannot be made writes nothing and says what cannot hold",
+          "[program][guide]") {
+  const TemporaryFolder folder;
+  std::string scene = toml_blocks(slurp(source / "docs/guide/placement.md")).at(0);
+  scene += "[design]\nmargin = 10\nspacing_m = 12\n";
+  std::ofstream(folder / "store.toml") << scene;
+  const Outcome run = run_luxodus(
+      folder, "design " + (folder / "store.toml").string() + " --out " + (folder / "out").string());
+  CHECK(run.code == 1);
+  CHECK(run.out.find("no layout exists") != std::string::npos);
+  CHECK_FALSE(fs::exists(folder / "out" / "layout.toml"));
+}

@@ -1,0 +1,215 @@
+#include "actors/assess/code_light.hpp"
+
+#include <algorithm>
+
+#include "actors/inspect/site.hpp"
+#include "scenes/transport/compile_light.hpp"
+#include "scenes/transport/surroundings.hpp"
+
+namespace luxodus {
+
+namespace {
+
+/// A place that lies in a wall or a door is looked from so far beside it [m].
+constexpr double beside_m = 0.3;
+/// So far before a luminous opening a line ends: it may lie in a ceiling [m].
+constexpr double before_opening_m = 0.01;
+/// Of a luminaire's largest intensity: less sent to a place is none.
+constexpr double faint_share = 1e-3;
+/// A floor is looked for so far below a thing, and not in the thing's own body [m].
+constexpr Real deepest_m = 1000, own_body_m = 0.15_r;
+/// What is met so little above a route is no floor: desks, counters [m].
+constexpr double desk_m = 1.3;
+
+DirectOptions clear_air() {
+  DirectOptions options;
+  options.media = false;
+  return options;
+}
+
+}  // namespace
+
+SceneDescription as_switched(const SceneDescription& scene, const Scenario& state) {
+  SceneDescription out = scene;
+  if (state.operation == Operation::mains) return out;
+  for (Emitter& e : out.emitters)
+    e.emergency_flux *= std::min(1.0, factor_of(state.circuits, e.circuit, 1));
+  for (Sign& sign : out.signs) {
+    if (sign.lighting != SignLighting::internal) continue;
+    const double factor = std::min(1.0, factor_of(state.circuits, sign.circuit, 1));
+    sign.emergency.white_cd_m2 *= factor;
+    sign.emergency.green_cd_m2 *= factor;
+  }
+  return out;
+}
+
+SceneDescription code_scene(const SceneDescription& scene, bool furnished) {
+  SceneDescription out = without_measurements(scene);
+  out.media.clear();
+  std::erase_if(out.emitters, [](const Emitter& e) { return !(e.emergency_flux > 0); });
+  // With no emergency luminaire the geometry is still asked for: any light will do to compile it.
+  if (out.emitters.empty()) out.emitters = scene.emitters;
+  if (!furnished) std::erase_if(out.objects, is_furniture);
+  return out;
+}
+
+Scenario code_scenario(const SceneDescription& scene, const Scenario& doors) {
+  Scenario out;
+  out.name = "code mode";
+  out.operation = emergency_luminaires(scene).empty() ? Operation::mains : Operation::emergency;
+  out.doors_open = doors.doors_open;
+  out.doors_closed = doors.doors_closed;
+  return out;
+}
+
+std::vector<glm::dvec3> beside(const EmphasisPoint& point) {
+  if (point.facing) return {point.position + *point.facing * floor_plane_m};
+  const glm::dvec3 place = point.position + glm::dvec3(0, 0, floor_plane_m);
+  std::vector<glm::dvec3> out{place};
+  for (const glm::dvec2 aside : {glm::dvec2(1, 0), {-1, 0}, {0, 1}, {0, -1}})
+    out.push_back(place + glm::dvec3(aside * beside_m, 0));
+  return out;
+}
+
+glm::dvec3 before_face(const Sign& sign) {
+  return sign.frame.origin + sign.frame.axes[2] * (sign.thickness_m / 2 + floor_plane_m);
+}
+
+CodeLight::CodeLight(const SceneDescription& scene, const Building& building,
+                     std::vector<uint32_t> places)
+    : scene_(scene),
+      building_(building),
+      luminaires_(emergency_luminaires(scene)),
+      places_(std::move(places)) {
+  if (luminaires_.empty()) return;
+  const auto& emitters = building.scene().emitters;
+  for (size_t i = 0; i < emitters.size(); ++i)
+    if (emitters[i].sign == none_index) columns_.push_back(i);
+}
+
+std::vector<LitPoint> CodeLight::lit(const std::vector<glm::dvec3>& places,
+                                     const glm::dvec3& normal, double lift_m) const {
+  std::vector<LitPoint> out(places.size());
+  building_.each(places.size(), [&](const GeometryAccess& access, size_t i) {
+    out[i].place = places[i] + normal * lift_m;
+    const auto lux = light_at(access, out[i].place, normal);
+    for (const size_t column : columns_) out[i].lux.push_back(lux[column]);
+  });
+  return out;
+}
+
+/// Of several luminaires in one place the first is looked at; the others are looked at only where
+/// it is hidden in part.
+std::vector<double> CodeLight::light_at(const GeometryAccess& access, const glm::dvec3& place,
+                                        const glm::dvec3& normal) const {
+  const CompiledScene& scene = building_.scene();
+  DirectOptions options = clear_air();
+  if (places_.empty())
+    return direct_by_emitter(scene, access, building_.local(place), glm::vec3(normal), options);
+  std::vector<KnownSight> first(scene.emitters.size(), KnownSight::hidden), rest = first;
+  for (size_t i = 0; i < columns_.size(); ++i)
+    if (i == 0 || places_[i] != places_[i - 1]) first[columns_[i]] = KnownSight::nothing;
+  options.known = first;
+  const auto of_first =
+      direct_lights(scene, access, building_.local(place), glm::vec3(normal), options);
+  std::vector<double> out(scene.emitters.size(), 0);
+  size_t leader = 0;
+  for (size_t i = 0; i < columns_.size(); ++i) {
+    const size_t column = columns_[i];
+    const bool leads = i == 0 || places_[i] != places_[i - 1];
+    if (leads) leader = column;
+    const DirectFromEmitter& seen = of_first[leader];
+    out[column] = leads ? seen.illuminance_lx : 0;
+    if (leads || (seen.illuminance_lx == 0 && seen.open_lx > 0)) continue;
+    const bool clear = seen.open_lx > 0 && seen.illuminance_lx >= seen.open_lx * (1 - 1e-9);
+    rest[column] = clear ? KnownSight::clear : KnownSight::nothing;
+  }
+  options.known = rest;
+  const auto others =
+      direct_by_emitter(scene, access, building_.local(place), glm::vec3(normal), options);
+  for (const size_t column : columns_) out[column] += others[column];
+  return out;
+}
+
+AreaPoints CodeLight::points_of(const AssessedArea& area, double border_m) const {
+  const auto all = within(area, border_m, area_grid_m);
+  std::vector<char> inside(all.size(), 0);
+  building_.each(all.size(), [&](const GeometryAccess& access, size_t i) {
+    inside[i] = building_.in_solid(access, all[i] + glm::dvec3(0, 0, floor_plane_m)) ? 1 : 0;
+  });
+  AreaPoints out;
+  for (size_t i = 0; i < all.size(); ++i)
+    if (inside[i] == 0) out.places.push_back(all[i]);
+  out.in_bodies = all.size() - out.places.size();
+  return out;
+}
+
+std::optional<std::vector<double>> CodeLight::vertical_lux(const EmphasisPoint& point) const {
+  if (!point.facing) return std::nullopt;
+  return lit({point.position}, *point.facing, floor_plane_m).front().lux;
+}
+
+std::vector<double> CodeLight::lux_on_face(const Sign& sign) const {
+  if (sign.lighting != SignLighting::external) return {};
+  std::vector<glm::dvec3> places;
+  for (const double u : {-0.25, 0.25})
+    for (const double v : {-0.25, 0.25})
+      places.push_back(sign.frame.origin + sign.frame.axes[0] * (u * sign.width_m) +
+                       sign.frame.axes[1] * (v * sign.height_m));
+  std::vector<double> out(columns_.size(), 0);
+  for (const LitPoint& p : lit(places, sign.frame.axes[2], 0.002))
+    for (size_t i = 0; i < out.size(); ++i) out[i] += p.lux[i] / static_cast<double>(places.size());
+  return out;
+}
+
+LinesOfSight CodeLight::seen_from(const std::vector<glm::dvec3>& places) const {
+  std::vector<char> seen(luminaires_.size(), 0);
+  building_.each(luminaires_.size(), [&](const GeometryAccess& access, size_t i) {
+    const glm::dvec3 lamp = scene_.emitters[luminaires_[i]].frame.origin;
+    for (const glm::dvec3& place : places) {
+      const double distance = glm::length(place - lamp);
+      if (!(distance > before_opening_m)) continue;
+      const glm::dvec3 before = lamp + (place - lamp) * (before_opening_m / distance);
+      if (clear_share(building_.scene(), access, building_.local(place), building_.local(before)) >
+              0 &&
+          shines_at(access, luminaires_[i], place))
+        seen[i] = 1;
+    }
+  });
+  return LinesOfSight(seen.begin(), seen.end());
+}
+
+bool CodeLight::shines_at(const GeometryAccess& access, uint32_t luminaire,
+                          const glm::dvec3& place) const {
+  const Emitter& e = scene_.emitters[luminaire];
+  if (e.distribution == Distribution::web) {
+    const glm::dvec3 local = glm::transpose(e.frame.axes) * glm::normalize(place - e.frame.origin);
+    return e.web->intensity(local) > faint_share * e.web->peak_cd();
+  }
+  // Of simple shapes by what falls on a face that is turned to them.
+  const auto at = std::find(luminaires_.begin(), luminaires_.end(), luminaire);
+  const auto column = static_cast<size_t>(at - luminaires_.begin());
+  if (column >= columns_.size()) return true;
+  const auto lux =
+      direct_by_emitter(building_.scene(), access, building_.local(place),
+                        glm::vec3(glm::normalize(e.frame.origin - place)), clear_air());
+  return lux[columns_[column]] > 0;
+}
+
+std::optional<double> CodeLight::floor_under(const glm::dvec3& place) const {
+  const auto stated = floor_below(scene_, place);
+  std::optional<double> met;
+  building_.each(1, [&](const GeometryAccess& access, size_t) {
+    const auto stop =
+        first_stop(building_.scene(), access, building_.local(place), glm::vec3(0, 0, -1),
+                   deepest_m, [&](const Facing& f) {
+                     return f.surface >= building_.scene().description->objects.size() ||
+                            lets_light_through(f.kind) || f.distance_m < own_body_m;
+                   });
+    if (stop) met = place.z - static_cast<double>(stop->distance_m);
+  });
+  if (!met) return stated;
+  return stated && *stated < *met && *met - *stated < desk_m ? stated : met;
+}
+
+}  // namespace luxodus

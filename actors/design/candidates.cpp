@@ -1,0 +1,391 @@
+// Places are found in this order, and the first of two that are near to each other stays: over
+// routes, along their centre line, then over open areas, then over task areas.
+#include "actors/design/candidates.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "actors/assess/code_light.hpp"
+#include "scenes/emergency/rule_limits.hpp"
+#include "scenes/emergency/way.hpp"
+#include "scenes/geometry/transform.hpp"
+#include "scenes/transport/surroundings.hpp"
+
+namespace luxodus {
+
+namespace {
+
+/// A ceiling is looked for from here above the floor, up to so far [m].
+constexpr Real above_floor_m = 0.05_r, highest_m = 200;
+/// Two places nearer than this share of the spacing are one.
+constexpr double one_place = 0.5;
+/// Routes that are wider have several rows of places [m].
+constexpr double one_row_width_m = 2.5;
+/// Directions in which walls beside a place are looked for.
+constexpr int wall_directions = 16;
+/// What is on one storey [m].
+constexpr double one_storey_m = 2;
+/// Places are told to the millimetre.
+constexpr double told_m = 1e-3;
+/// Light that changes by less over the azimuth, as a share of its largest, has no direction.
+constexpr double even_share = 0.02;
+
+/// A place on the floor that a candidate may hang over.
+struct Spot {
+  glm::dvec3 floor;
+  double heading_deg = 0;   // of the route below; 0 over areas
+  std::optional<double> z;  // stated
+};
+
+double heading_of(const glm::dvec3& way) {
+  return std::atan2(way.y, way.x) * 180 / std::numbers::pi;
+}
+
+bool wanted(const DesignSettings& design, const std::string& name) {
+  return design.over.empty() ||
+         std::find(design.over.begin(), design.over.end(), name) != design.over.end();
+}
+
+void add_over_route(const EscapeRoute& route, double spacing_m, std::vector<Spot>& out) {
+  const int more = route.width_m <= one_row_width_m
+                       ? 0
+                       : static_cast<int>(std::ceil(route.width_m / spacing_m)) - 1;
+  for (size_t i = 1; i < route.path.size(); ++i) {
+    EscapeRoute leg = route;
+    leg.path = {route.path[i - 1], route.path[i]};
+    const double heading = heading_of(leg.path[1] - leg.path[0]);
+    for (int row = 0; row <= more; ++row) {
+      const double aside = more == 0 ? 0 : route.width_m * ((row + 0.5) / (more + 1) - 0.5);
+      for (const glm::dvec3& p : along(leg, aside, spacing_m))
+        out.push_back({p, heading, std::nullopt});
+    }
+  }
+}
+
+std::vector<Spot> spots_of(const SceneDescription& scene, const DesignSettings& design) {
+  std::vector<Spot> out;
+  if (!design.places.empty()) {
+    for (const glm::dvec3& p : design.places) {
+      const auto floor = floor_below(scene, p);
+      out.push_back({{p.x, p.y, floor.value_or(p.z)}, 0, p.z});
+    }
+    return out;
+  }
+  for (const EscapeRoute& route : scene.routes)
+    if (wanted(design, route.name)) add_over_route(route, design.spacing_m, out);
+  for (const auto* areas : {&scene.open_areas, &scene.task_areas})
+    for (const AssessedArea& area : *areas)
+      if (wanted(design, area.name))
+        for (const glm::dvec3& p : within(area, design.wall_clearance_m, design.spacing_m))
+          out.push_back({p, 0, std::nullopt});
+  return out;
+}
+
+/// Whether the intensity of a type depends on the azimuth about its aim.
+bool has_direction(const Emitter& e) {
+  if (e.distribution != Distribution::web) return e.shape == EmitterShape::tube;
+  constexpr int azimuths = 24, polars = 9;
+  for (int p = 1; p <= polars; ++p) {
+    const double polar = p * std::numbers::pi / 2 / polars;
+    double low = e.web->peak_cd(), high = 0;
+    for (int a = 0; a < azimuths; ++a) {
+      const double azimuth = 2 * std::numbers::pi * a / azimuths;
+      const double candela =
+          e.web->intensity({std::sin(polar) * std::cos(azimuth),
+                            std::sin(polar) * std::sin(azimuth), -std::cos(polar)});
+      low = std::min(low, candela);
+      high = std::max(high, candela);
+    }
+    if (high - low > even_share * e.web->peak_cd()) return true;
+  }
+  return false;
+}
+
+glm::dvec3 rounded(const glm::dvec3& place) {
+  return glm::round(place / told_m) * told_m;
+}
+
+/// Rotations of a type over a way with this heading.
+std::vector<double> rotations_of(const DesignType& type, double heading_deg) {
+  std::vector<double> turns = type.turns_deg;
+  // Light without a direction is not turned: nobody would know which way.
+  if (turns.empty() && !has_direction(type.emitter)) return {0};
+  if (turns.empty()) turns = {0, 90};
+  for (double& turn : turns) turn = std::remainder(heading_deg + turn, 360.0);
+  return turns;
+}
+
+bool near_sign(const SceneDescription& scene, const glm::dvec3& p, double clearance_m) {
+  return std::any_of(scene.signs.begin(), scene.signs.end(), [&](const Sign& sign) {
+    return glm::length(glm::dvec2(sign.frame.origin - p)) < clearance_m &&
+           std::abs(sign.frame.origin.z - p.z) < 2 * one_storey_m;
+  });
+}
+
+bool kept_out(const SceneDescription& scene, const DesignSettings& design, const glm::dvec3& p) {
+  const auto floor = floor_below(scene, p);
+  return std::any_of(design.keep_outs.begin(), design.keep_outs.end(), [&](const KeepOut& zone) {
+    const auto its_floor = floor_below(scene, zone.position);
+    const bool here = floor && its_floor ? std::abs(*floor - *its_floor) < one_storey_m
+                                         : std::abs(zone.position.z - p.z) < 2 * one_storey_m;
+    return here && glm::length(glm::dvec2(zone.position - p)) < zone.radius_m;
+  });
+}
+
+class PlaceFinder {
+ public:
+  PlaceFinder(const SceneDescription& scene, const DesignSettings& design, const Building& bare,
+              const Building& furnished)
+      : scene_(scene), design_(design), bare_(bare), furnished_(furnished) {}
+
+  /// The spots that luminaires can hang over, each at its mounting height.
+  std::vector<Spot> find(LeftOut& left_out) const {
+    const std::vector<Spot> spots = spots_of(scene_, design_);
+    enum class Fate : char { good, no_ceiling, in_body, near_wall };
+    std::vector<Fate> fates(spots.size(), Fate::good);
+    std::vector<double> heights(spots.size(), 0);
+    bare_.each(spots.size(), [&](const GeometryAccess& access, size_t i) {
+      const auto z = spots[i].z ? spots[i].z : mounting_z(access, spots[i].floor);
+      if (z)
+        heights[i] = *z;
+      else
+        fates[i] = Fate::no_ceiling;
+    });
+    furnished_.each(spots.size(), [&](const GeometryAccess& access, size_t i) {
+      if (fates[i] != Fate::good) return;
+      const glm::dvec3 p(spots[i].floor.x, spots[i].floor.y, heights[i]);
+      if (furnished_.in_solid(access, p))
+        fates[i] = Fate::in_body;
+      else if (near_wall(access, p))
+        fates[i] = Fate::near_wall;
+    });
+    std::vector<Spot> out;
+    for (size_t i = 0; i < spots.size(); ++i) {
+      const glm::dvec3 p(spots[i].floor.x, spots[i].floor.y, heights[i]);
+      const bool again = std::any_of(out.begin(), out.end(), [&](const Spot& other) {
+        return glm::length(glm::dvec2(other.floor - p)) < one_place * apart() &&
+               std::abs(*other.z - p.z) < one_storey_m;
+      });
+      if (again) continue;
+      if (fates[i] == Fate::no_ceiling)
+        ++left_out.no_ceiling;
+      else if (fates[i] == Fate::in_body)
+        ++left_out.in_bodies;
+      else if (fates[i] == Fate::near_wall)
+        ++left_out.near_walls;
+      else if (near_sign(scene_, p, design_.sign_clearance_m))
+        ++left_out.near_signs;
+      else if (kept_out(scene_, design_, p))
+        ++left_out.keep_out;
+      else
+        out.push_back({spots[i].floor, spots[i].heading_deg, p.z});
+    }
+    return out;
+  }
+
+ private:
+  /// Listed places are taken as they are, but for two in one place.
+  double apart() const { return design_.places.empty() ? design_.spacing_m : 0.02; }
+
+  static bool passes(const Building& building, const Facing& f) {
+    return f.surface >= building.scene().description->objects.size() || lets_light_through(f.kind);
+  }
+
+  std::optional<double> mounting_z(const GeometryAccess& access, const glm::dvec3& floor) const {
+    const auto stop =
+        first_stop(bare_.scene(), access, bare_.local(floor) + Vec3(0, 0, above_floor_m),
+                   Vec3(0, 0, 1), highest_m, [&](const Facing& f) { return passes(bare_, f); });
+    const double ceiling =
+        stop ? floor.z + static_cast<double>(above_floor_m + stop->distance_m) : 0;
+    if (!design_.mounting_height_m) {
+      if (!stop) return std::nullopt;
+      return ceiling - design_.drop_m;
+    }
+    const double z = floor.z + *design_.mounting_height_m;
+    if (stop && z > ceiling) return std::nullopt;
+    return z;
+  }
+
+  bool near_wall(const GeometryAccess& access, const glm::dvec3& p) const {
+    if (!(design_.wall_clearance_m > 0)) return false;
+    for (int i = 0; i < wall_directions; ++i) {
+      const double azimuth = 2 * std::numbers::pi * (i + 0.5) / wall_directions;
+      const auto stop = first_stop(furnished_.scene(), access, furnished_.local(p),
+                                   Vec3(std::cos(azimuth), std::sin(azimuth), 0),
+                                   static_cast<Real>(design_.wall_clearance_m),
+                                   [&](const Facing& f) { return passes(furnished_, f); });
+      if (stop) return true;
+    }
+    return false;
+  }
+
+  const SceneDescription& scene_;
+  const DesignSettings& design_;
+  const Building& bare_;
+  const Building& furnished_;
+};
+
+/// What becomes of a luminaire that is there.
+ExistingLuminaires fate_of(const DesignSettings& design, const std::string& name) {
+  const auto in = [&](const std::vector<std::string>& list) {
+    return std::find(list.begin(), list.end(), name) != list.end();
+  };
+  if (in(design.fixed)) return ExistingLuminaires::fixed;
+  if (in(design.removable)) return ExistingLuminaires::removable;
+  if (in(design.removed)) return ExistingLuminaires::removed;
+  return design.existing;
+}
+
+void add_existing(const SceneDescription& scene, const DesignSettings& design, Candidates& out) {
+  for (const uint32_t number : emergency_luminaires(scene)) {
+    const Emitter& e = scene.emitters[number];
+    const ExistingLuminaires fate = fate_of(design, e.name);
+    if (fate == ExistingLuminaires::removed) {
+      out.removed.push_back(e.name);
+      continue;
+    }
+    LuminaireCandidate one;
+    one.place = static_cast<uint32_t>(out.all.size());
+    one.position = e.frame.origin;
+    one.name = e.name;
+    one.fixed = fate == ExistingLuminaires::fixed;
+    out.all.push_back(std::move(one));
+  }
+}
+
+void add_new(const DesignSettings& design, const std::vector<Spot>& spots, Candidates& out) {
+  const auto first = static_cast<uint32_t>(out.all.size());
+  for (uint32_t s = 0; s < spots.size(); ++s)
+    for (size_t t = 0; t < design.types.size(); ++t)
+      for (const double rotation_deg : rotations_of(design.types[t], spots[s].heading_deg)) {
+        LuminaireCandidate one;
+        one.type = t;
+        one.place = first + s;
+        one.position = rounded({spots[s].floor.x, spots[s].floor.y, *spots[s].z});
+        one.rotation_deg = rotation_deg;
+        out.all.push_back(std::move(one));
+      }
+  out.places = spots.size();
+}
+
+/// What glares or hangs too low may not be: no other luminaire changes that.
+void leave_out_forbidden(const SceneDescription& scene, const DesignSettings& design,
+                         const std::vector<CodeChoice>& codes, const Building& bare,
+                         Candidates& out) {
+  const SceneDescription all = scene_of(scene, design, out.all);
+  const CodeLight light(all, bare);
+  std::vector<std::optional<double>> floors;
+  const FloorUnder floor = [&](const glm::dvec3& p) { return light.floor_under(p); };
+  std::set<size_t> low, glaring;
+  const auto take = [&](const std::vector<Check>& checks, std::set<size_t>& to) {
+    for (size_t i = 0; i < checks.size(); ++i)
+      if (checks[i].verdict == CheckVerdict::fail) to.insert(i);
+  };
+  // Checks of luminaires are in the order of the luminaires.
+  for (const CodeChoice& choice : codes) {
+    take(checks_of_height(all, choice, floor), low);
+    take(checks_of_glare(all, choice, floor), glaring);
+  }
+  std::vector<LuminaireCandidate> good;
+  for (size_t i = 0; i < out.all.size(); ++i) {
+    const LuminaireCandidate& one = out.all[i];
+    const bool forbidden = low.contains(i) || glaring.contains(i);
+    if (forbidden && !one.fixed) {
+      ++(low.contains(i) ? out.left_out.too_low : out.left_out.glaring);
+      if (one.type == LuminaireCandidate::existing) out.removed.push_back(one.name);
+      continue;
+    }
+    good.push_back(one);
+  }
+  out.all = std::move(good);
+}
+
+std::string words_of(const LeftOut& left) {
+  std::string out;
+  const auto add = [&](size_t count, const char* why) {
+    if (count > 0) out += fmt::format("{}{} {}", out.empty() ? "" : ", ", count, why);
+  };
+  add(left.no_ceiling, "without a ceiling above (give 'mounting_height_m')");
+  add(left.in_bodies, "in bodies");
+  add(left.near_walls, "nearer to a wall than 'wall_clearance_m'");
+  add(left.near_signs, "nearer to a sign than 'sign_clearance_m'");
+  add(left.keep_out, "in keep-out zones");
+  add(left.too_low, "less than 2 m above the floor (E14)");
+  add(left.glaring, "that glare (E8)");
+  return out;
+}
+
+}  // namespace
+
+Emitter emitter_of(const SceneDescription& scene, const DesignSettings& design,
+                   const LuminaireCandidate& candidate) {
+  if (candidate.type == LuminaireCandidate::existing) {
+    const auto at = std::find_if(scene.emitters.begin(), scene.emitters.end(),
+                                 [&](const Emitter& e) { return e.name == candidate.name; });
+    return *at;
+  }
+  Emitter e = design.types[candidate.type].emitter;
+  e.frame.origin = candidate.position;
+  // As `rotation_deg` of a luminaire: about local z.
+  e.frame.axes = e.frame.axes * rotation({0, 0, 1}, candidate.rotation_deg).value().linear;
+  return e;
+}
+
+SceneDescription scene_of(const SceneDescription& scene, const DesignSettings& design,
+                          const std::vector<LuminaireCandidate>& candidates) {
+  SceneDescription out = scene;
+  out.emitters.clear();
+  for (size_t i = 0; i < candidates.size(); ++i) {
+    Emitter e = emitter_of(scene, design, candidates[i]);
+    e.name = std::to_string(i);
+    if (!candidates[i].fixed) e.body_material.clear();
+    out.emitters.push_back(std::move(e));
+  }
+  return out;
+}
+
+Result<Candidates> find_candidates(const SceneDescription& scene, const DesignSettings& design,
+                                   const std::vector<CodeChoice>& codes, const Scenario& doors,
+                                   int threads) {
+  // Luminaires that are there have bodies, which are no walls: the building is looked at bare.
+  SceneDescription dark = scene;
+  for (Emitter& e : dark.emitters) e.body_material.clear();
+  if (dark.emitters.empty()) dark.emitters.push_back(design.types.front().emitter);
+  const auto bare = Building::make(code_scene(dark, false), code_scenario(dark, doors), threads);
+  if (!bare) return bare.problem();
+  const auto furnished =
+      Building::make(code_scene(dark, true), code_scenario(dark, doors), threads);
+  if (!furnished) return furnished.problem();
+  Candidates out;
+  add_existing(scene, design, out);
+  const size_t existing = out.all.size();
+  const std::vector<Spot> spots =
+      PlaceFinder(scene, design, *bare.value(), *furnished.value()).find(out.left_out);
+  if (spots.size() > limits::design_places)
+    return Problem{design.place, fmt::format("there are {} candidate places, and at most {} are "
+                                             "taken: make 'spacing_m' larger, or say 'over'",
+                                             spots.size(), limits::design_places)};
+  add_new(design, spots, out);
+  if (out.all.size() > limits::design_candidates)
+    return Problem{design.place,
+                   fmt::format("there are {} candidates ({} places, types and turns), and at most "
+                               "{} are taken: make 'spacing_m' larger",
+                               out.all.size(), spots.size(), limits::design_candidates)};
+  if (!out.all.empty()) leave_out_forbidden(scene, design, codes, *bare.value(), out);
+  if (out.all.size() == existing &&
+      std::all_of(out.all.begin(), out.all.end(),
+                  [](const LuminaireCandidate& c) { return c.fixed; })) {
+    const std::string why = words_of(out.left_out);
+    return Problem{design.place, "there is no place for a luminaire" +
+                                     (why.empty() ? std::string(": no route or area is there to "
+                                                                "place any over")
+                                                  : "; left out were " + why)};
+  }
+  return out;
+}
+
+}  // namespace luxodus

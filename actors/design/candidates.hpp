@@ -1,0 +1,63 @@
+// Where luminaires may stand: places on a grid over routes and areas, or listed ones, each at its
+// mounting height, with every type and turn; and the emergency luminaires that are there. What may
+// not be is left out and counted, by its reason. Thread rule: one thread, which has rows run on
+// others.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "actors/inspect/building.hpp"
+#include "scenes/emergency/rule_sets.hpp"
+#include "scenes/world/design.hpp"
+
+namespace luxodus {
+
+namespace limits {
+/// Places, and luminaires of all types and turns at them: each has a column of the program, and its
+/// light at every point is computed.
+inline constexpr size_t design_places = 5'000, design_candidates = 20'000;
+}  // namespace limits
+
+/// One luminaire that may be there.
+struct LuminaireCandidate {
+  static constexpr size_t existing = static_cast<size_t>(-1);
+
+  size_t type = existing;  // of DesignSettings::types
+  uint32_t place = 0;      // candidates of one place exclude each other
+  glm::dvec3 position{0};
+  double rotation_deg = 0;  // as a change of the variant writes it
+  std::string name;         // of an existing luminaire
+  bool fixed = false;
+};
+
+/// How many places or candidates were left out, and why.
+struct LeftOut {
+  size_t no_ceiling = 0, in_bodies = 0, near_walls = 0, near_signs = 0, keep_out = 0, taken = 0;
+  size_t too_low = 0, glaring = 0;  // candidates
+};
+
+struct Candidates {
+  std::vector<LuminaireCandidate> all;  // existing luminaires first
+  size_t places = 0;                    // of new luminaires
+  LeftOut left_out;
+  std::vector<std::string> removed;  // luminaires of the scene that go in any case
+};
+
+/// The scene with nothing but candidates as emergency luminaires, in their order; each has a
+/// number for a name. Bodies of luminaires that may be there are left out.
+SceneDescription scene_of(const SceneDescription& scene, const DesignSettings& design,
+                          const std::vector<LuminaireCandidate>& candidates);
+
+/// The emitter of a candidate, at its place.
+Emitter emitter_of(const SceneDescription& scene, const DesignSettings& design,
+                   const LuminaireCandidate& candidate);
+
+/// `scene`: with its emergency luminaires; `doors`: a scenario that gives the doors. Candidates
+/// that a rule of `codes` forbids by themselves (glare, height) are left out.
+/// Errors: no candidate is left, or more than a limit; a scene that cannot be compiled.
+Result<Candidates> find_candidates(const SceneDescription& scene, const DesignSettings& design,
+                                   const std::vector<CodeChoice>& codes, const Scenario& doors,
+                                   int threads);
+
+}  // namespace luxodus

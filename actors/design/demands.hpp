@@ -1,0 +1,60 @@
+// What must hold of a layout, as numbers: the light of every candidate at every point that the
+// rules of the scene ask for, by the code mode's own light (actors/assess/code_light.hpp), and the
+// rows that follow from the rules, the failure of luminaires and the planning margin. Thread rule:
+// one thread, which has rows run on others.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "actors/assess/code_light.hpp"
+#include "actors/design/candidates.hpp"
+#include "actors/design/layout_problem.hpp"
+
+namespace luxodus {
+
+/// "no place below 0.1 lx": our reading of "not in total darkness" after a failure [lx].
+inline constexpr double never_dark_lx = 0.1;
+
+/// Whether a layout of luminaires decides a rule; what others decide stays as the scene has it.
+bool is_of_luminaires(const std::string& rule);
+
+class Demands {
+ public:
+  /// `scene`: as the circuits of the judged state leave it (as_switched).
+  /// Errors: as compile_scene.
+  static Result<std::unique_ptr<Demands>> make(const SceneDescription& scene,
+                                               const DesignSettings& design,
+                                               const std::vector<LuminaireCandidate>& candidates,
+                                               const std::vector<CodeChoice>& codes,
+                                               const Scenario& doors, int threads);
+
+  const LayoutProblem& problem() const { return problem_; }
+
+  /// Whether a check cannot pass with any layout, since furniture hides places from all candidates.
+  bool is_hidden(const Check& check) const;
+
+  /// Rules and subjects that are asked for without furniture alone, and how many points furniture
+  /// hides from all candidates.
+  using Hidden = std::map<std::pair<std::string, std::string>, size_t>;
+  const Hidden& hidden() const { return hidden_; }
+
+  /// After an assessment has found that a check of a layout fails, though its rows hold: asks for
+  /// more where it is worst, by as much as was missing. False where there is nothing to ask for.
+  bool ask_for_more(const Check& check, const Layout& layout);
+
+ private:
+  struct Lit;     // a building, with furniture or without
+  class Builder;  // of the problem
+
+  Demands() = default;
+
+  SceneDescription scene_;  // with all candidates
+  std::unique_ptr<Lit> bare_, furnished_;
+  LayoutProblem problem_;
+  Hidden hidden_;
+};
+
+}  // namespace luxodus

@@ -1,0 +1,287 @@
+#include "actors/design/design.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "actors/design/demands.hpp"
+#include "runtime/core/clock.hpp"
+
+namespace luxodus {
+
+namespace {
+
+/// Layouts that an assessment rejects are solved again with more asked for, so often.
+constexpr int max_verifications = 8;
+/// Of the time of the search, what may go into finding out why no layout exists [s].
+constexpr double conflict_seconds = 60;
+constexpr double no_objective = std::numeric_limits<double>::infinity();
+
+/// A scene without scenarios is as written: to be judged it needs one in emergency operation.
+std::shared_ptr<const SceneDescription> with_scenario(
+    const std::shared_ptr<const SceneDescription>& scene) {
+  if (!scene->scenarios.empty()) return scene;
+  auto out = std::make_shared<SceneDescription>(*scene);
+  Scenario emergency;
+  emergency.name = "emergency";
+  emergency.operation = Operation::emergency;
+  emergency.place = {scene->file, 1};
+  out->scenarios.push_back(std::move(emergency));
+  return out;
+}
+
+std::optional<Problem> cannot_design(const SceneDescription& scene) {
+  if (scene.packed || !scene.design)
+    return problem_in(
+        scene.file, "a pack has its triangles elsewhere: take the scene file that it was made of");
+  if (scene.routes.empty() && scene.open_areas.empty() && scene.task_areas.empty())
+    return problem_in(scene.file,
+                      "there is nothing to light: add [[route]], [[open_area]] or [[task_area]]");
+  return std::nullopt;
+}
+
+std::optional<Problem> first_error(const std::shared_ptr<const SceneDescription>& scene,
+                                   const Scenario& scenario, int threads) {
+  const auto found = inspect(scene, {scenario}, threads);
+  if (!found) return found.problem();
+  if (has_error(found.value())) return found->front().problem;  // errors come first
+  return std::nullopt;
+}
+
+/// The first of "L", "N", "P", ... that no luminaire's name begins with, before a number.
+std::string prefix_of_names(const SceneDescription& scene) {
+  for (const char* prefix : {"L", "N", "P", "design L"}) {
+    const bool taken =
+        std::any_of(scene.emitters.begin(), scene.emitters.end(), [&](const Emitter& e) {
+          return e.name.starts_with(prefix) &&
+                 e.name.find_first_not_of("0123456789", std::string_view(prefix).size()) ==
+                     std::string::npos;
+        });
+    if (!taken) return prefix;
+  }
+  return "designed luminaire ";
+}
+
+/// From floor to floor, from west to east, from south to north, as a schedule is read.
+bool comes_before(const LuminaireCandidate& a, const LuminaireCandidate& b) {
+  const glm::dvec3 p = a.position, q = b.position;
+  if (std::abs(p.z - q.z) > 1) return p.z < q.z;
+  if (std::abs(p.x - q.x) > 1e-6) return p.x < q.x;
+  return p.y < q.y;
+}
+
+void take_layout(const SceneDescription& scene, const Candidates& candidates, const Layout& layout,
+                 DesignResult& out) {
+  out.luminaires.clear();
+  out.removed = candidates.removed;
+  std::vector<LuminaireCandidate> fresh;
+  for (size_t i = 0; i < candidates.all.size(); ++i) {
+    const LuminaireCandidate& one = candidates.all[i];
+    if (one.type == LuminaireCandidate::existing && layout[i] == 0)
+      out.removed.push_back(one.name);
+    else if (one.type == LuminaireCandidate::existing)
+      out.luminaires.push_back({one, one.name});
+    else if (layout[i] != 0)
+      fresh.push_back(one);
+  }
+  std::stable_sort(fresh.begin(), fresh.end(), comes_before);
+  const std::string prefix = prefix_of_names(scene);
+  size_t number = 0;
+  for (LuminaireCandidate& one : fresh)
+    out.luminaires.push_back({std::move(one), prefix + std::to_string(++number)});
+}
+
+std::shared_ptr<const SceneDescription> variant_of(const SceneDescription& scene,
+                                                   const DesignResult& result) {
+  auto out = std::make_shared<SceneDescription>(scene);
+  std::erase_if(out->emitters, [&](const Emitter& e) {
+    return std::find(result.removed.begin(), result.removed.end(), e.name) != result.removed.end();
+  });
+  for (const PlacedLuminaire& one : result.luminaires) {
+    if (!one.is_new()) continue;
+    Emitter e = emitter_of(scene, *scene.design, one.candidate);
+    e.name = one.name;
+    out->emitters.push_back(std::move(e));
+  }
+  return out;
+}
+
+/// Of each group, how much of what it asks for is there where it is least.
+std::vector<double> tightest_of(const LayoutProblem& problem, const Layout& layout) {
+  const LayoutIndex index(problem);
+  LayoutSums sums(index);
+  sums.set(layout);
+  std::vector<double> out(problem.groups.size(), no_objective);
+  for (size_t i = 0; i < problem.covers.size(); ++i) {
+    double& least = out[problem.covers[i].group];
+    least = std::min(least, sums.cover(i));
+  }
+  for (const FailureRows& rows : problem.failures)
+    for (const uint32_t p : rows.points) {
+      double largest = 0;
+      for (const Term& term : *problem.points[p].light)
+        if (layout[term.option] != 0) largest = std::max(largest, static_cast<double>(term.value));
+      out[rows.group] = std::min(out[rows.group], (sums.at_point(p) - largest) / rows.least);
+    }
+  for (const SpreadRows& rows : problem.spreads) {
+    double low = no_objective, high = 0;
+    for (const uint32_t p : rows.low) low = std::min(low, sums.at_point(p));
+    for (const uint32_t p : rows.high) high = std::max(high, sums.at_point(p));
+    if (high > 0) out[rows.group] = std::min(out[rows.group], rows.ratio * low / high);
+  }
+  return out;
+}
+
+class Designing {
+ public:
+  Designing(std::shared_ptr<const SceneDescription> scene, const DesignOptions& options,
+            const std::atomic<bool>& interrupt, const SolveProgress& progress)
+      : scene_(std::move(scene)),
+        options_(options),
+        interrupt_(interrupt),
+        progress_(progress),
+        began_(clock_.now()) {}
+
+  Result<DesignResult> run() {
+    if (auto problem = prepare()) return *problem;
+    for (out_.verifications = 1;; ++out_.verifications) {
+      solve();
+      if (out_.answer.layout.empty()) return std::move(out_);
+      if (auto problem = judge()) return *problem;
+      const auto failing = failing_checks();
+      if (failing.empty()) break;
+      if (out_.verifications == max_verifications || !ask_for_more(failing))
+        return rejected(failing.front());
+    }
+    out_.tightest = tightest_of(demands_->problem(), out_.answer.layout);
+    return std::move(out_);
+  }
+
+ private:
+  double seconds() const { return 1e-9 * static_cast<double>(clock_.now() - began_); }
+
+  std::optional<Problem> prepare() {
+    progress_("inspecting the scene", no_objective, 0);
+    auto scenario = judged_scenario(*scene_, options_.scenario);
+    if (!scenario) return scenario.problem();
+    auto codes = judged_codes(*scene_, options_.rules, options_.deviations);
+    if (!codes) return codes.problem();
+    if (auto problem = first_error(scene_, scenario.value(), options_.threads)) return problem;
+    progress_("finding places", no_objective, 0);
+    const SceneDescription switched = as_switched(*scene_, scenario.value());
+    auto candidates = find_candidates(switched, *scene_->design, codes.value(), scenario.value(),
+                                      options_.threads);
+    if (!candidates) return candidates.problem();
+    candidates_ = std::move(candidates).value();
+    progress_("computing their light", no_objective, 0);
+    auto demands = Demands::make(switched, *scene_->design, candidates_.all, codes.value(),
+                                 scenario.value(), options_.threads);
+    if (!demands) return demands.problem();
+    demands_ = std::move(demands).value();
+    out_.places = candidates_.places;
+    out_.candidates = candidates_.all.size();
+    out_.left_out = candidates_.left_out;
+    out_.points = demands_->problem().points.size();
+    out_.groups = demands_->problem().groups;
+    for (const auto& [what, points] : demands_->hidden())
+      if (!what.first.empty()) out_.hidden.push_back({what.first, what.second, points});
+    return std::nullopt;
+  }
+
+  void solve() {
+    SolveSettings settings;
+    // A layout that was rejected is solved again in what is left, and in no less than a moment.
+    constexpr double moment = 5;
+    settings.seconds = out_.verifications == 1
+                           ? options_.seconds
+                           : std::max(moment, options_.seconds - (seconds() - solving_since_));
+    settings.gap = options_.gap;
+    settings.seed = options_.seed;
+    if (out_.verifications == 1) solving_since_ = out_.prepared_seconds = seconds();
+    out_.answer = solve_layout(demands_->problem(), settings, interrupt_, progress_);
+    if (out_.answer.end == LayoutEnd::infeasible) {
+      progress_("looking for what cannot hold together", no_objective, 0);
+      out_.conflict = conflict_of(demands_->problem(), conflict_seconds, interrupt_);
+    }
+  }
+
+  std::optional<Problem> judge() {
+    progress_("assessing the layout", out_.answer.objective, out_.answer.bound);
+    take_layout(*scene_, candidates_, out_.answer.layout, out_);
+    out_.variant = variant_of(*scene_, out_);
+    AssessOptions asked;
+    asked.scenario = options_.scenario;
+    asked.rules = options_.rules;
+    asked.deviations = options_.deviations;
+    asked.threads = options_.threads;
+    asked.reality = false;
+    // The layout that was found before an interrupt is assessed all the same: it takes seconds.
+    static const std::atomic<bool> never{false};
+    auto assessed = assess(out_.variant, asked, never, [](const std::string&, double) {});
+    if (!assessed) return assessed.problem();
+    out_.assessment = std::move(assessed).value();
+    return std::nullopt;
+  }
+
+  /// Those that luminaires of the layout decide; others go to `others`.
+  std::vector<Check> failing_checks() {
+    std::set<std::string> ours;
+    for (const PlacedLuminaire& one : out_.luminaires)
+      if (one.is_new()) ours.insert("luminaire \"" + one.name + "\"");
+    std::vector<Check> out;
+    out_.others.clear();
+    for (const Check& check : out_.assessment.checks) {
+      if (check.verdict != CheckVerdict::fail) continue;
+      const bool of_one = check.subject.starts_with("luminaire \"");
+      const bool decided = is_of_luminaires(check.rule.id) &&
+                           (!of_one || ours.contains(check.subject)) && !demands_->is_hidden(check);
+      (decided ? out : out_.others).push_back(check);
+    }
+    return out;
+  }
+
+  bool ask_for_more(const std::vector<Check>& failing) {
+    bool any = false;
+    for (const Check& check : failing)
+      any = demands_->ask_for_more(check, out_.answer.layout) || any;
+    return any;
+  }
+
+  Problem rejected(const Check& check) const {
+    return problem_in(
+        scene_->file,
+        fmt::format("no layout was found that passes its own assessment: {} for {} still fails "
+                    "after {} layouts; a larger 'margin' leaves more room",
+                    check.rule.id, check.subject, out_.verifications));
+  }
+
+  std::shared_ptr<const SceneDescription> scene_;
+  const DesignOptions& options_;
+  const std::atomic<bool>& interrupt_;
+  const SolveProgress& progress_;
+  SystemClock clock_;
+  Nanoseconds began_;
+  double solving_since_ = 0;
+  Candidates candidates_;
+  std::unique_ptr<Demands> demands_;
+  DesignResult out_;
+};
+
+}  // namespace
+
+Result<DesignResult> design(const std::shared_ptr<const SceneDescription>& scene,
+                            const DesignOptions& options, const std::atomic<bool>& interrupt,
+                            const SolveProgress& progress) {
+  if (auto problem = cannot_design(*scene)) return *problem;
+  auto result = Designing(with_scenario(scene), options, interrupt, progress).run();
+  if (!result) return result.problem();
+  result->added_scenario = scene->scenarios.empty();
+  if (scene->assessment.rules.empty()) result->rules = options.rules;
+  if (scene->assessment.deviations.empty()) result->deviations = options.deviations;
+  return result;
+}
+
+}  // namespace luxodus

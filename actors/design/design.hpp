@@ -1,0 +1,69 @@
+// Where to put emergency luminaires: candidates, what must hold of them by the rules of the scene,
+// the best layout with its proof, and the verdict of an assessment on it. Whatever is returned with
+// a layout has passed every check of the code mode that luminaires decide. Nothing here says that a
+// building complies with a code. Thread rule: one thread, which has rows run on others; one design
+// at a time in a process.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "actors/assess/assessment.hpp"
+#include "actors/design/candidates.hpp"
+#include "actors/design/solve_layout.hpp"
+
+namespace luxodus {
+
+struct DesignOptions {
+  std::string scenario;                        // gives the doors and the circuits; "": as assess
+  std::vector<std::string> rules, deviations;  // by name; empty: those of the scene
+  uint64_t seed = 1;
+  int threads = 1;
+  double seconds = 120;  // of the search
+  double gap = 0;        // it ends within this share of the best possible
+};
+
+/// A luminaire of the layout.
+struct PlacedLuminaire {
+  LuminaireCandidate candidate;
+  std::string name;
+  bool is_new() const { return candidate.type != LuminaireCandidate::existing; }
+};
+
+/// A rule that is asked for without furniture alone: with it no layout passes.
+struct HiddenByFurniture {
+  std::string rule, subject;
+  size_t points = 0;  // that furniture hides from all candidates
+};
+
+struct DesignResult {
+  /// The scene with the layout, as the variant on disk gives it; null where there is none.
+  std::shared_ptr<const SceneDescription> variant;
+  std::vector<PlacedLuminaire> luminaires;  // those of the scene that stay first
+  std::vector<std::string> removed;         // luminaires of the scene that go
+  size_t places = 0, candidates = 0;        // of new luminaires; of these and those that are there
+  LeftOut left_out;
+  size_t points = 0;  // of calculation
+  std::vector<HiddenByFurniture> hidden;
+  std::vector<ConstraintGroup> groups;
+  std::vector<double> tightest;  // of each group: the least share of what it asks for that is there
+  LayoutAnswer answer;
+  Conflict conflict;  // where no layout exists
+  Assessment assessment;
+  std::vector<Check> others;    // checks that fail and that no luminaire of the layout decides
+  bool added_scenario = false;  // the scene has none: the variant has one in emergency operation
+  std::vector<std::string> rules, deviations;  // that were asked for and that the scene lacks
+  int verifications = 0;
+  double prepared_seconds = 0;  // until the search began
+};
+
+/// Errors: as assess; no place for a luminaire; a layout that the assessment rejects for a reason
+/// that no constraint can express.
+Result<DesignResult> design(const std::shared_ptr<const SceneDescription>& scene,
+                            const DesignOptions& options, const std::atomic<bool>& interrupt,
+                            const SolveProgress& progress);
+
+}  // namespace luxodus

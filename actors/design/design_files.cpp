@@ -1,0 +1,380 @@
+#include "actors/design/design_files.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "actors/assess/assessment_json.hpp"
+#include "actors/design/design_page.hpp"
+#include "actors/report/hand_over.hpp"
+#include "actors/report/plan_svg.hpp"
+#include "runtime/core/output_text.hpp"
+
+namespace luxodus {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A text as TOML writes it between quotes: a JSON string is one.
+std::string quoted(const std::string& text) {
+  return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+/// Coordinates to a tenth of a millimetre.
+std::string metres(double value) {
+  return shortest_number(std::round(value * 1e4) / 1e4);
+}
+
+std::string list_of(const std::vector<std::string>& words) {
+  std::string out;
+  for (const std::string& word : words) out += (out.empty() ? "" : ", ") + quoted(word);
+  return "[" + out + "]";
+}
+
+std::string percent(double share) {
+  return fmt::format("{:.1f} %", 100 * share);
+}
+
+const char* word_of(LayoutEnd end) {
+  switch (end) {
+    case LayoutEnd::optimal:
+      return "optimal";
+    case LayoutEnd::within_gap:
+      return "within the gap";
+    case LayoutEnd::out_of_time:
+      return "out of time";
+    case LayoutEnd::interrupted:
+      return "interrupted";
+    case LayoutEnd::infeasible:
+      return "infeasible";
+    case LayoutEnd::unknown:
+      return "unknown";
+  }
+  return "";
+}
+
+const char* word_of(DemandKind kind) {
+  constexpr std::array<const char*, 9> words{"minimum", "mean", "early",    "spread", "two",
+                                             "failed",  "near", "vertical", "face"};
+  return words[static_cast<size_t>(kind)];
+}
+
+std::string type_of(const SceneDescription& scene, const PlacedLuminaire& one) {
+  return one.is_new() ? scene.design->types[one.candidate.type].name : "";
+}
+
+Json groups_json(const DesignResult& result) {
+  Json out = Json::array();
+  for (size_t i = 0; i < result.groups.size(); ++i) {
+    const ConstraintGroup& group = result.groups[i];
+    out.push_back({{"kind", word_of(group.kind)},
+                   {"rule", group.rule},
+                   {"subject", group.subject},
+                   {"asked", number_json(group.asked)},
+                   {"words", demand_words(group)},
+                   {"least_share", number_json(result.tightest[i])},
+                   {"share_of_bound", number_json(result.answer.share_of_group.empty()
+                                                      ? 0
+                                                      : result.answer.share_of_group[i])}});
+  }
+  return out;
+}
+
+Json luminaires_json_of(const SceneDescription& scene, const DesignResult& result) {
+  Json out = Json::array();
+  for (const PlacedLuminaire& one : result.luminaires)
+    out.push_back({{"name", one.name},
+                   {"type", type_of(scene, one)},
+                   {"is_new", one.is_new()},
+                   {"position", vector_json(one.candidate.position)},
+                   {"rotation_deg", number_json(one.candidate.rotation_deg)}});
+  return out;
+}
+
+Json types_json(const SceneDescription& scene, const DesignResult& result) {
+  Json out = Json::array();
+  const auto& types = scene.design->types;
+  for (size_t i = 0; i < types.size(); ++i) {
+    const auto count = std::count_if(
+        result.luminaires.begin(), result.luminaires.end(),
+        [&](const PlacedLuminaire& one) { return one.is_new() && one.candidate.type == i; });
+    out.push_back({{"name", types[i].name},
+                   {"count", count},
+                   {"cost", number_json(types[i].cost)},
+                   {"watts", number_json(types[i].watts)},
+                   {"emergency_lm", number_json(types[i].emitter.emergency_flux /
+                                                types[i].emitter.emergency_ageing)}});
+  }
+  return out;
+}
+
+Json others_json(const DesignResult& result) {
+  Json out = Json::array();
+  for (const Check& check : result.others)
+    out.push_back({{"rule", check.rule.id},
+                   {"subject", check.subject},
+                   {"title", check.rule.title},
+                   {"reason", check.reason}});
+  return out;
+}
+
+Result<void> write_plans(const fs::path& folder, const Json& a, Language language) {
+  std::error_code failed;
+  fs::create_directories(folder, failed);
+  if (failed) return problem_in(folder, "cannot make this folder: " + failed.message());
+  const Schedule schedule(a);
+  const Texts texts(language);
+  const Plans plans(a, schedule, texts, {});
+  for (size_t i = 0; i < schedule.levels(); ++i) {
+    const std::string level =
+        schedule.levels() > 1 ? "level_" + std::to_string(i + 1) + "_" : std::string();
+    for (const auto& [name, svg] : {std::pair{"installation.svg", plans.installation(i).svg},
+                                    std::pair{"isolux.svg", plans.isolux(i, false).svg}})
+      if (auto ok = write_file_atomically(folder / (level + name), svg); !ok) return ok.problem();
+    if (auto ok = write_plan_dxf(folder / (level + "plan.dxf"), a, schedule, i); !ok)
+      return ok.problem();
+  }
+  return {};
+}
+
+std::string at_words(const glm::dvec3& place) {
+  return fmt::format("({:.2f}, {:.2f}, {:.2f})", place.x, place.y, place.z);
+}
+
+}  // namespace
+
+std::string demand_words(const ConstraintGroup& group) {
+  const std::string value = readable_number(group.asked, 3);
+  std::string what;
+  switch (group.kind) {
+    case DemandKind::minimum:
+      what = "at least " + value + " lx everywhere";
+      break;
+    case DemandKind::mean:
+      what = "a mean of at least " + value + " lx";
+      break;
+    case DemandKind::early:
+      what = "at least " + value + " lx in time after the failure of the mains";
+      break;
+    case DemandKind::spread:
+      what = "largest over smallest illuminance at most " + value;
+      break;
+    case DemandKind::two:
+      what = "two luminaires over it";
+      break;
+    case DemandKind::failed:
+      what = "at least " + value + " lx with any one luminaire failed";
+      break;
+    case DemandKind::near:
+      what = "a luminaire within " + value + " m";
+      break;
+    case DemandKind::vertical:
+      what = "at least " + value + " lx on its front";
+      break;
+    case DemandKind::face:
+      what = "at least " + value + " lx on its face";
+      break;
+  }
+  return fmt::format("{}: {}{}", group.subject, what,
+                     group.rule.empty() ? "" : " (" + group.rule + ")");
+}
+
+std::string outcome_words(const SceneDescription& scene, const DesignResult& result) {
+  const LayoutAnswer& answer = result.answer;
+  const auto fresh = std::count_if(result.luminaires.begin(), result.luminaires.end(),
+                                   [](const PlacedLuminaire& one) { return one.is_new(); });
+  std::string out = fmt::format("{} new luminaire{}", fresh, fresh == 1 ? "" : "s");
+  if (const size_t kept = result.luminaires.size() - static_cast<size_t>(fresh); kept > 0)
+    out += fmt::format(", {} of the scene stay{}", kept, kept == 1 ? "s" : "");
+  if (!result.removed.empty()) out += fmt::format(", {} go", result.removed.size());
+  const std::string objective(objective_words[static_cast<size_t>(scene.design->objective)]);
+  out += fmt::format("; objective ({}) {}", objective, readable_number(answer.objective, 4));
+  switch (answer.end) {
+    case LayoutEnd::optimal:
+      return out + ", the smallest possible with these candidates";
+    case LayoutEnd::within_gap:
+    case LayoutEnd::out_of_time:
+    case LayoutEnd::interrupted:
+      out += fmt::format(", no layout has less than {}: {} are left open",
+                         readable_number(answer.bound, 4), percent(answer.gap()));
+      if (answer.end == LayoutEnd::out_of_time) out += " (the time was out)";
+      if (answer.end == LayoutEnd::interrupted) out += " (interrupted)";
+      return out;
+    case LayoutEnd::infeasible:
+      return "no layout exists";
+    case LayoutEnd::unknown:
+      return "no layout was found in time, and it is not known whether one exists";
+  }
+  return out;
+}
+
+std::vector<std::string> conflict_words(const SceneDescription& scene, const DesignResult& result) {
+  std::vector<std::string> out;
+  for (const Shortage& s : result.conflict.shortages) {
+    const ConstraintGroup& group = result.groups[s.group];
+    std::string line = demand_words(group);
+    line += group.kind == DemandKind::two || group.kind == DemandKind::near
+                ? fmt::format(": no candidates are there, near {}", at_words(s.place))
+                : fmt::format(": all candidates together give {} of it at {}", percent(s.share),
+                              at_words(s.place));
+    line += "; ";
+    switch (group.kind) {
+      case DemandKind::near:
+        line += "a smaller 'spacing_m' or 'wall_clearance_m', or a place in 'places', would help";
+        break;
+      case DemandKind::two:
+        line +=
+            "places over it would help ('over', 'spacing_m', 'wall_clearance_m'), or failure = "
+            "\"none\"";
+        break;
+      default:
+        line += s.share > 0
+                    ? fmt::format("types {:.2g} times as bright would do, or places nearer to it",
+                                  1 / s.share)
+                    : std::string(
+                          "no light reaches it: is it in a body, or in no room that has "
+                          "places?");
+    }
+    out.push_back(std::move(line));
+  }
+  if (!result.conflict.shortages.empty()) return out;
+  for (const uint32_t group : result.conflict.groups)
+    out.push_back(demand_words(result.groups[group]));
+  if (!out.empty())
+    out.push_back(
+        fmt::format("these {} cannot hold together{}; without any one of them the others "
+                    "can: other types, more places or a smaller 'margin' (now {}) would "
+                    "help",
+                    out.size(), result.conflict.proven ? "" : ", as far as is known in this time",
+                    readable_number(scene.design->margin, 3)));
+  return out;
+}
+
+std::string variant_text(const SceneDescription& scene, const DesignResult& result,
+                         const fs::path& folder) {
+  std::error_code failed;
+  fs::path file = fs::absolute(scene.file, failed);
+  const fs::path near =
+      fs::weakly_canonical(file, failed).lexically_relative(fs::weakly_canonical(folder, failed));
+  if (!near.empty()) file = near;
+  std::string out =
+      "# A variant by `luxodus design`: emergency luminaires where it has placed them.\n"
+      "# Written anew by every design into this folder.\n";
+  out += "name = " + quoted(scene.name + "-designed") + "\n";
+  out += "include = [" + quoted(file.generic_string()) + "]\n";
+  if (!result.rules.empty() || !result.deviations.empty()) {
+    out += "\n[assessment]\n";
+    if (!result.rules.empty()) out += "rules = " + list_of(result.rules) + "\n";
+    if (!result.deviations.empty()) out += "deviations = " + list_of(result.deviations) + "\n";
+  }
+  if (result.added_scenario)
+    out += "\n[[scenario]]\nname = \"emergency\"\noperation = \"emergency\"\n";
+  for (const std::string& name : result.removed)
+    out += "\n[[change]]\nkind = \"luminaire\"\nof = " + quoted(name) + "\nremove = true\n";
+  for (const PlacedLuminaire& one : result.luminaires) {
+    if (!one.is_new()) continue;
+    const glm::dvec3& p = one.candidate.position;
+    out += "\n[[change]]\nkind = \"design_type\"\nof = " + quoted(type_of(scene, one)) +
+           "\ncopy = " + quoted(one.name) + "\nposition = [" + metres(p.x) + ", " + metres(p.y) +
+           ", " + metres(p.z) + "]\n";
+    if (one.candidate.rotation_deg != 0)
+      out += "rotation_deg = " + shortest_number(one.candidate.rotation_deg) + "\n";
+  }
+  return out;
+}
+
+CsvTable schedule_csv(const DesignResult& result) {
+  CsvTable table({"name", "state", "type", "file", "x [m]", "y [m]", "z [m]",
+                  "height above floor [m]", "turn [deg]", "emergency flux [lm]",
+                  "maintenance factor [1]", "end of duration factor [1]", "cost", "power [W]"});
+  const SceneDescription& scene = *result.variant;
+  for (const PlacedLuminaire& one : result.luminaires) {
+    const auto at = std::find_if(scene.emitters.begin(), scene.emitters.end(),
+                                 [&](const Emitter& e) { return e.name == one.name; });
+    const glm::dvec3& p = one.candidate.position;
+    table.cell(one.name).cell(one.is_new() ? "new" : "stays").cell(type_of(scene, one));
+    table.cell(at->file).cell(p.x).cell(p.y).cell(p.z);
+    if (const auto floor = floor_below(scene, p))
+      table.cell(p.z - *floor);
+    else
+      table.empty_cell();
+    table.cell(one.candidate.rotation_deg).cell(at->emergency_flux / at->emergency_ageing);
+    table.cell(at->maintenance_factor).cell(at->end_of_duration_factor);
+    if (one.is_new()) {
+      const DesignType& type = scene.design->types[one.candidate.type];
+      table.cell(type.cost).cell(type.watts);
+    } else {
+      table.empty_cell().empty_cell();
+    }
+    table.end_row();
+  }
+  return table;
+}
+
+Json design_json(const SceneDescription& scene, const DesignResult& result,
+                 const std::string& version) {
+  const LayoutAnswer& answer = result.answer;
+  const LeftOut& left = result.left_out;
+  const CheckCounts counts = counts_of(result.assessment.checks);
+  Json out = {{"format", design_format},
+              {"program", "luxodus " + version},
+              {"scene", {{"name", scene.name}, {"title", scene.title}}},
+              {"outcome", {{"end", word_of(answer.end)}, {"words", outcome_words(scene, result)}}}};
+  out["objective"] = {{"kind", objective_words[static_cast<size_t>(scene.design->objective)]},
+                      {"value", number_json(answer.objective)},
+                      {"bound", number_json(answer.bound)},
+                      {"gap", number_json(answer.gap())},
+                      {"greedy", answer.greedy ? number_json(answer.greedy_objective) : Json()}};
+  out["settings"] = {{"margin", number_json(scene.design->margin)},
+                     {"failure", failure_words[static_cast<size_t>(scene.design->failure)]},
+                     {"spacing_m", number_json(scene.design->spacing_m)}};
+  Json codes = Json::array();
+  for (const CodeChoice& choice : result.assessment.state.codes)
+    codes.push_back(named(choice.set).id);
+  out["settings"]["rules"] = std::move(codes);
+  out["candidates"] = {{"places", result.places},
+                       {"luminaires", result.candidates},
+                       {"points", result.points},
+                       {"left_out",
+                        {{"no_ceiling", left.no_ceiling},
+                         {"in_bodies", left.in_bodies},
+                         {"near_walls", left.near_walls},
+                         {"near_signs", left.near_signs},
+                         {"keep_out", left.keep_out},
+                         {"too_low", left.too_low},
+                         {"glaring", left.glaring}}}};
+  out["hidden_by_furniture"] = Json::array();
+  for (const HiddenByFurniture& one : result.hidden)
+    out["hidden_by_furniture"].push_back(
+        {{"rule", one.rule}, {"subject", one.subject}, {"points", one.points}});
+  out["luminaires"] = luminaires_json_of(scene, result);
+  out["removed"] = result.removed;
+  out["types"] = types_json(scene, result);
+  out["constraints"] = groups_json(result);
+  out["checks"] = {{"pass", count_of(counts, CheckVerdict::pass)},
+                   {"fail", count_of(counts, CheckVerdict::fail)},
+                   {"not_assessed", count_of(counts, CheckVerdict::not_assessed)},
+                   {"not_verified", count_of(counts, CheckVerdict::not_verified)}};
+  out["failing_otherwise"] = others_json(result);
+  return out;
+}
+
+Result<void> write_design(const fs::path& folder, const SceneDescription& scene,
+                          const DesignResult& result, Language language,
+                          const std::string& version) {
+  const Json json = design_json(scene, result, version);
+  const Json assessed = assessment_json(*result.variant, result.assessment, version);
+  if (auto ok = write_plans(folder / "plans", assessed, language); !ok) return ok.problem();
+  if (auto ok = write_csv(folder / "luminaires.csv", schedule_csv(result)); !ok)
+    return ok.problem();
+  if (auto ok = write_json(folder / "design.json", json); !ok) return ok.problem();
+  if (auto ok =
+          write_file_atomically(folder / "design.html", design_page(json, assessed, language));
+      !ok)
+    return ok.problem();
+  return write_file_atomically(folder / "layout.toml", variant_text(scene, result, folder));
+}
+
+}  // namespace luxodus

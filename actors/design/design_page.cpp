@@ -1,0 +1,188 @@
+#include "actors/design/design_page.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "actors/output/html_page.hpp"
+#include "actors/report/html.hpp"
+#include "actors/report/page_style.hpp"
+#include "actors/report/plan_svg.hpp"
+
+namespace luxodus {
+
+namespace {
+
+/// Groups that add less than this to the bound bind nothing.
+constexpr double binding_share = 0.05;
+/// Within this of what it asks for a group is tight.
+constexpr double tight_share = 1.02;
+
+std::string heading(const Texts& t, const char* key) {
+  return "<h2>" + escaped(t(key)) + "</h2>\n";
+}
+
+std::string outcome(const Texts& t, const Json& d) {
+  const Json& objective = d["objective"];
+  size_t fresh = 0, kept = 0;
+  for (const Json& one : d["luminaires"]) ++(one["is_new"].get<bool>() ? fresh : kept);
+  std::string words = t.say("design.luminaires", fresh);
+  if (kept > 0) words += ", " + t.say("design.kept", kept);
+  if (const size_t gone = d["removed"].size(); gone > 0) words += ", " + t.say("design.gone", gone);
+  const bool optimal = d["outcome"]["end"] == "optimal";
+  const std::string proof =
+      optimal ? t("design.optimal")
+              : t.say("design.open", t.number(objective["bound"].get<double>(), 4),
+                      t.number(100 * objective["gap"].get<double>(), 2));
+  std::string out =
+      "<div class=\"box\"><svg viewBox=\"-1.25 -1.25 2.5 2.5\" aria-hidden=\"true\">" +
+      verdict_shape("information", 0, 0, 1) + "</svg><div><p class=\"words\">" + escaped(words) +
+      "</p>";
+  out += paragraph(t.say("design.objective", t.word("design.objective", text_in(objective, "kind")),
+                         t.number(objective["value"].get<double>(), 4)) +
+                   " " + proof);
+  if (objective["greedy"].is_number())
+    out +=
+        paragraph(t.say("design.greedy", t.number(objective["greedy"].get<double>(), 4)), "note");
+  const Json& c = d["checks"];
+  std::string chips;
+  for (const auto& [key, verdict] :
+       {std::pair{"pass", "pass"}, std::pair{"fail", "fail"},
+        std::pair{"not_assessed", "not assessed"}, std::pair{"not_verified", "not verified"}})
+    chips += "<span>" + std::to_string(c[key].get<int64_t>()) + " " +
+             verdict_mark(t, "verdict", verdict) + "</span>\n";
+  return out + "<p class=\"chips\">" + chips + "</p></div></div>\n";
+}
+
+std::string notice(const Texts& t) {
+  std::string out = "<div class=\"notice\"><ul>\n";
+  for (const char* key : {"design.notice_codes", "design.notice_smoke", "design.notice_candidates"})
+    out += "<li>" + escaped(t(key)) + "</li>\n";
+  return out + "</ul></div>\n";
+}
+
+std::string plans_of(const Texts& t, const Json& a, const Schedule& schedule) {
+  const Plans plans(a, schedule, t, {});
+  std::string out;
+  for (size_t i = 0; i < schedule.levels(); ++i) {
+    out += figure(plans.installation(i).svg, t("design.plan_installation"));
+    out += figure(plans.isolux(i, false).svg, t("design.plan_isolux"));
+  }
+  return out;
+}
+
+std::string schedule_of(const Texts& t, const Json& d) {
+  std::string types, rows;
+  for (const Json& type : d["types"])
+    if (type["count"].get<int64_t>() > 0)
+      types += "<tr>" + cell(text_in(type, "name")) + number_cell(t, type["count"]) +
+               number_cell(t, type["emergency_lm"], "lm", 4) + number_cell(t, type["cost"], "", 4) +
+               number_cell(t, type["watts"], "W") + "</tr>\n";
+  for (const Json& one : d["luminaires"]) {
+    const Json& p = one["position"];
+    rows += "<tr>" + cell(text_in(one, "name")) +
+            cell(one["is_new"].get<bool>() ? text_in(one, "type") : t("design.stays")) +
+            fixed_cell(t, p[0].get<double>(), 2) + fixed_cell(t, p[1].get<double>(), 2) +
+            fixed_cell(t, p[2].get<double>(), 2) +
+            fixed_cell(t, one["rotation_deg"].get<double>(), 0) + "</tr>\n";
+  }
+  std::string gone;
+  for (const Json& name : d["removed"])
+    gone += (gone.empty() ? "" : ", ") + name.get<std::string>();
+  return table(t,
+               {"column.type", "column.count", "column.emergency_flux", "design.cost",
+                "design.watts"},
+               {40, 12, 18, 15, 15}, types) +
+         table(t, {"design.name", "column.type", "design.x", "design.y", "design.z", "design.turn"},
+               {26, 34, 10, 10, 10, 10}, rows) +
+         (gone.empty() ? "" : paragraph(t.say("design.removed", gone)));
+}
+
+/// What a group asks for, in the language.
+std::string demand_text(const Texts& t, const Json& group) {
+  const std::string key = "design.kind_" + text_in(group, "kind");
+  return t.say(key, t.number(group["asked"].get<double>(), 3));
+}
+
+std::string binding(const Texts& t, const Json& d) {
+  std::vector<const Json*> groups;
+  for (const Json& group : d["constraints"]) groups.push_back(&group);
+  std::stable_sort(groups.begin(), groups.end(), [](const Json* a, const Json* b) {
+    return (*a)["share_of_bound"].get<double>() > (*b)["share_of_bound"].get<double>();
+  });
+  std::string rows;
+  for (const Json* one : groups) {
+    const Json& group = *one;
+    const double share = group["share_of_bound"].get<double>();
+    const Json& least = group["least_share"];
+    const bool tight = least.is_number() && least.get<double>() <= tight_share;
+    const std::string said = share > binding_share ? t.say("design.binds", t.number(share, 2))
+                             : tight               ? std::string(t("design.tight"))
+                                                   : std::string(t("design.slack"));
+    rows +=
+        "<tr>" + cell(text_in(group, "rule")) + cell(subject_text(t, text_in(group, "subject"))) +
+        cell(demand_text(t, group)) +
+        (least.is_number() ? fixed_cell(t, 100 * least.get<double>(), 0) : html_cell("–", "n")) +
+        cell(said) + "</tr>\n";
+  }
+  return paragraph(t("design.binding_note"), "note") +
+         table(t,
+               {"design.rule", "design.subject", "design.asked", "design.least", "design.binding"},
+               {8, 26, 34, 12, 20}, rows);
+}
+
+std::string others(const Texts& t, const Json& d) {
+  std::string rows;
+  for (const Json& check : d["failing_otherwise"])
+    rows += "<tr>" + cell(text_in(check, "rule")) +
+            cell(subject_text(t, text_in(check, "subject"))) + cell(text_in(check, "title")) +
+            cell(text_in(check, "reason")) + "</tr>\n";
+  if (rows.empty()) return "";
+  return heading(t, "design.others") + paragraph(t("design.others_note"), "note") +
+         table(t, {"design.rule", "design.subject", "column.check", "column.remark"},
+               {8, 26, 36, 30}, rows);
+}
+
+std::string hidden(const Texts& t, const Json& d) {
+  std::string out;
+  for (const Json& one : d["hidden_by_furniture"])
+    out += paragraph(t.say("design.hidden", text_in(one, "rule"),
+                           subject_text(t, text_in(one, "subject")), one["points"].get<int64_t>()));
+  return out;
+}
+
+std::string settings(const Texts& t, const Json& d) {
+  const Json& c = d["candidates"];
+  const Json& s = d["settings"];
+  std::string rules;
+  for (const Json& rule : s["rules"])
+    rules += (rules.empty() ? "" : ", ") + rule.get<std::string>();
+  std::string left;
+  for (const auto& [why, count] : c["left_out"].items())
+    if (count.get<int64_t>() > 0)
+      left += (left.empty() ? "" : "; ") + t.say("design.left_" + why, count.get<int64_t>());
+  return paragraph(t.say("design.settings", rules, t.number(s["margin"].get<double>(), 3),
+                         t.word("design.failure", text_in(s, "failure")))) +
+         paragraph(t.say("design.candidates", c["places"].get<int64_t>(),
+                         c["luminaires"].get<int64_t>(), c["points"].get<int64_t>())) +
+         (left.empty() ? "" : paragraph(t.say("design.left_out", left))) + hidden(t, d);
+}
+
+}  // namespace
+
+std::string design_page(const Json& d, const Json& a, Language language) {
+  const Texts t(language);
+  const Schedule schedule(a);
+  std::string title = text_in(d["scene"], "title");
+  if (title.empty()) title = text_in(d["scene"], "name");
+  const std::string body = "<header class=\"cover\"><div>" + paragraph(t("design.page"), "kind") +
+                           "<h1>" + escaped(title) + "</h1></div></header>\n" + outcome(t, d) +
+                           notice(t) + heading(t, "heading.plans") + plans_of(t, a, schedule) +
+                           heading(t, "heading.schedules") + schedule_of(t, d) +
+                           heading(t, "design.binding_heading") + binding(t, d) + others(t, d) +
+                           heading(t, "design.settings_heading") + settings(t, d);
+  return html_page({t.code(), title + " – " + t("design.page"), report_style}, body);
+}
+
+}  // namespace luxodus

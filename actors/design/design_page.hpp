@@ -1,0 +1,15 @@
+// The page of a design: what was found and how good it is, the plan, the schedule, what binds, and
+// what no luminaire decides. From the JSON of the design and that of its assessment; pure; any
+// thread.
+#pragma once
+
+#include <string>
+
+#include "actors/output/json_out.hpp"
+#include "actors/report/texts.hpp"
+
+namespace luxodus {
+
+std::string design_page(const Json& design, const Json& assessment, Language language);
+
+}  // namespace luxodus

@@ -1,0 +1,194 @@
+#include "actors/design/greedy.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <set>
+
+namespace luxodus {
+
+namespace {
+
+/// Luminaires that are in the way of nothing may still cost nothing: shares are over at least this.
+constexpr double least_weight = 1e-3;
+/// Rows of luminaires that are nearer than this are one [m].
+constexpr double one_row_m = 0.05;
+/// Places brighter than this times what is asked for are bright enough.
+constexpr double bright_enough = 2;
+/// What one row of luminaires less is worth beside a place's brightness.
+constexpr double worth_of_row = 0.02;
+/// Luminaires of a neighbourhood that is emptied.
+constexpr size_t fewest_emptied = 2, most_emptied = 5;
+/// Equal but for rounding.
+constexpr double same = 1e-9;
+
+/// What each option would add to what is missing, each row counted as a share of its demand.
+class Gains {
+ public:
+  explicit Gains(const LayoutProblem& problem)
+      : problem_(problem), gain_(problem.options.size(), 0) {}
+
+  /// False where nothing is missing.
+  bool find(const LayoutSums& sums) {
+    std::fill(gain_.begin(), gain_.end(), 0);
+    bool missing = false;
+    for (size_t i = 0; i < problem_.covers.size(); ++i) {
+      const double lack = 1 - sums.cover(i);
+      if (lack <= sum_tolerance) continue;
+      missing = true;
+      const CoverRow& row = problem_.covers[i];
+      add(*row.terms, 1 / row.least, lack, none);
+    }
+    if (missing) return true;
+    // Failures and spreads follow from what is there: they count once the sums are right.
+    for (const Violation& v : sums.violations()) {
+      missing = true;
+      if (v.kind == Violation::Kind::failure) {
+        const FailureRows& rows = problem_.failures[v.index];
+        add(*problem_.points[v.point].light, 1 / rows.least, 1 - v.share, v.place);
+      } else {
+        const double wanted = sums.at_point(v.brightest) / problem_.spreads[v.index].ratio;
+        add(*problem_.points[v.point].light, 1 / wanted, 1 - v.share, none);
+      }
+    }
+    return missing;
+  }
+  double of(size_t option) const {
+    return gain_[option] / std::max(problem_.options[option].weight, least_weight);
+  }
+
+ private:
+  static constexpr uint32_t none = std::numeric_limits<uint32_t>::max();
+
+  void add(const std::vector<Term>& terms, double scale, double lack, uint32_t but_place) {
+    for (const Term& term : terms)
+      if (problem_.options[term.option].place != but_place)
+        gain_[term.option] += std::min(scale * static_cast<double>(term.value), lack);
+  }
+
+  const LayoutProblem& problem_;
+  std::vector<double> gain_;
+};
+
+std::vector<char> taken_places(const LayoutProblem& problem, const Layout& layout) {
+  std::vector<char> out(problem.places(), 0);
+  for (size_t i = 0; i < layout.size(); ++i)
+    if (layout[i] != 0) out[problem.options[i].place] = 1;
+  return out;
+}
+
+/// The chosen ones that may go, the dearest first, then by what they give.
+std::vector<uint32_t> removable_in(const LayoutProblem& problem, const Layout& layout) {
+  std::vector<uint32_t> out;
+  for (uint32_t i = 0; i < layout.size(); ++i)
+    if (layout[i] != 0 && !problem.options[i].fixed) out.push_back(i);
+  std::stable_sort(out.begin(), out.end(), [&](uint32_t a, uint32_t b) {
+    return problem.options[a].weight > problem.options[b].weight;
+  });
+  return out;
+}
+
+/// The layout without a few luminaires that are near to each other.
+Layout emptied(const LayoutProblem& problem, const Layout& layout, Random& random) {
+  std::vector<uint32_t> chosen = removable_in(problem, layout);
+  if (chosen.empty()) return layout;
+  const glm::dvec2 middle = problem.options[chosen[random.bits() % chosen.size()]].position;
+  const size_t wanted = fewest_emptied + random.bits() % (most_emptied - fewest_emptied + 1);
+  std::stable_sort(chosen.begin(), chosen.end(), [&](uint32_t a, uint32_t b) {
+    return glm::length(problem.options[a].position - middle) <
+           glm::length(problem.options[b].position - middle);
+  });
+  Layout out = layout;
+  for (size_t i = 0; i < std::min(wanted, chosen.size()); ++i) out[chosen[i]] = 0;
+  return out;
+}
+
+size_t rows_of(const LayoutProblem& problem, const Layout& layout, int axis) {
+  std::set<int64_t> rows;
+  for (size_t i = 0; i < layout.size(); ++i)
+    if (layout[i] != 0) rows.insert(std::llround(problem.options[i].position[axis] / one_row_m));
+  return rows.size();
+}
+
+}  // namespace
+
+std::optional<Layout> completed(const LayoutIndex& index, const Layout& begun, double noise,
+                                Random& random) {
+  const LayoutProblem& problem = index.problem();
+  LayoutSums sums(index);
+  Layout start = begun;
+  start.resize(problem.options.size(), 0);
+  for (size_t i = 0; i < start.size(); ++i)
+    if (problem.options[i].fixed) start[i] = 1;
+  sums.set(start);
+  std::vector<char> taken = taken_places(problem, start);
+  Gains gains(problem);
+  while (gains.find(sums)) {
+    double best = 0;
+    uint32_t choice = 0;
+    for (uint32_t i = 0; i < problem.options.size(); ++i) {
+      if (taken[problem.options[i].place] != 0 || !(gains.of(i) > 0)) continue;
+      const double score = gains.of(i) * (noise > 0 ? 1 + noise * random.uniform_double() : 1);
+      // In symmetric rooms scores differ by rounding alone: the first is taken.
+      if (score <= best * (1 + same)) continue;
+      best = score;
+      choice = i;
+    }
+    if (!(best > 0)) return std::nullopt;
+    sums.add(choice);
+    taken[problem.options[choice].place] = 1;
+  }
+  return sums.layout();
+}
+
+Layout pruned(const LayoutIndex& index, const Layout& layout) {
+  const LayoutProblem& problem = index.problem();
+  LayoutSums sums(index);
+  sums.set(layout);
+  for (const uint32_t option : removable_in(problem, layout)) {
+    if (!(problem.options[option].weight > 0)) continue;
+    sums.remove(option);
+    if (!sums.holds()) sums.add(option);
+  }
+  return sums.layout();
+}
+
+double preference(const LayoutProblem& problem, const LayoutSums& sums) {
+  std::vector<double> darkest(problem.groups.size(), bright_enough);
+  for (size_t i = 0; i < problem.covers.size(); ++i) {
+    double& d = darkest[problem.covers[i].group];
+    d = std::min(d, sums.cover(i));
+  }
+  const double light = std::accumulate(darkest.begin(), darkest.end(), 0.0);
+  const size_t rows =
+      std::min(rows_of(problem, sums.layout(), 0), rows_of(problem, sums.layout(), 1));
+  return light - worth_of_row * static_cast<double>(rows);
+}
+
+Layout improved(const LayoutIndex& index, Layout layout, int rounds, uint64_t seed,
+                const std::atomic<bool>& interrupt, const std::function<bool()>& out_of_time) {
+  const LayoutProblem& problem = index.problem();
+  Random random(seed, RandomStream::layout, 1);
+  LayoutSums sums(index);
+  sums.set(layout);
+  double weight = objective_of(problem, layout), liked = preference(problem, sums);
+  for (int round = 0; round < rounds && !interrupt && !out_of_time(); ++round) {
+    random.start(static_cast<uint64_t>(round));
+    const auto filled = completed(index, emptied(problem, layout, random), 1, random);
+    if (!filled) continue;
+    // What weighs more before it is pruned may weigh less after it.
+    const Layout next = pruned(index, *filled);
+    const double next_weight = objective_of(problem, next);
+    if (next_weight > weight * (1 + same)) continue;
+    sums.set(next);
+    const double next_liked = preference(problem, sums);
+    if (next_weight > weight * (1 - same) && next_liked <= liked + same) continue;
+    layout = next;
+    weight = next_weight;
+    liked = next_liked;
+  }
+  return layout;
+}
+
+}  // namespace luxodus

@@ -1,0 +1,76 @@
+// Keys of what `luxodus design` places.
+#include "scenes/scene_file/scene_schema.hpp"
+
+namespace luxodus {
+
+std::vector<TableSpec> design_schema() {
+  return {
+      {"design",
+       "`[design]`: where `luxodus design` may place emergency luminaires, and what it seeks",
+       {
+           {"type", "tables", "", "", "",
+            "luminaires that may be placed; none: the emergency luminaires of the scene that look "
+            "down, and where it has none a generic one of 200 lm"},
+           {"over", "texts", "", "[]", "",
+            "names of the routes, open areas and task areas over which luminaires are placed; "
+            "none: all of them"},
+           {"spacing_m", "number", "m", "1", "[0.1, 20]", "between candidate places"},
+           {"wall_clearance_m", "number", "m", "0.3", "[0, 10]",
+            "nearest that a place may be to a wall or another body beside it"},
+           {"sign_clearance_m", "number", "m", "0.3", "[0, 10]",
+            "nearest that a place may be to a sign, seen from above"},
+           {"drop_m", "number", "m", "0.03", "[0, 20]",
+            "of the luminous opening below the ceiling that is met above the floor"},
+           {"mounting_height_m", "number", "m", "", "[0.1, 100]",
+            "of luminous openings above the floor, where they do not hang by `drop_m`"},
+           {"places", "points", "m", "", "[-1e7, 1e7]",
+            "candidate places, listed instead of the grid"},
+           {"keep_out", "tables", "", "", "", "where nothing is mounted"},
+           {"existing", "choice", "", "\"fixed\"", "fixed, removable, removed",
+            "what becomes of the emergency luminaires of the scene: they stay, they may go, they "
+            "go"},
+           {"fixed", "texts", "", "[]", "", "names of luminaires that stay, whatever `existing`"},
+           {"removable", "texts", "", "[]", "", "names of those that may go, likewise"},
+           {"removed", "texts", "", "[]", "", "names of those that go, likewise"},
+           {"failure", "choice", "", "\"two\"", "none, two, full",
+            "what holds when any one luminaire has failed: nothing; two luminaires over each route "
+            "and area, and no place below 0.1 lx; the minima of the rules"},
+           {"margin", "number", "", "1.25", "[1, 10]",
+            "planned minima of illuminance over those of the rules"},
+           {"objective", "choice", "", "\"number\"", "number, cost, watts, weighted",
+            "what is made as small as can be"},
+           {"weight_number", "number", "", "1", "[0, 1e6]",
+            "of one luminaire in the objective `weighted`"},
+           {"weight_cost", "number", "", "0", "[0, 1e6]", "of one unit of `cost`, likewise"},
+           {"weight_watts", "number", "", "0", "[0, 1e6]", "of one watt, likewise"},
+       }},
+      {"design.type", "`[[design.type]]`: a luminaire that may be placed",
+       joined(
+           {{"name", "name", "", "required", "", "name of the type"},
+            {"like", "text", "", "", "",
+             "luminaire or emitter of the scene whose light it has, instead of `file` and all "
+             "that goes with it"},
+            {"file", "path", "", "", "", "EULUMDAT (.ldt) or IES LM-63 (.ies) file"},
+            {"point_source", "flag", "", "false", "",
+             "emit from a point instead of the luminous opening of the file"},
+            {"cost", "number", "", "1", "[0, 1e9]",
+             "of one, installed, with what it costs over its life"},
+            {"watts", "number", "W", "0", "[0, 1e6]", "that one takes"},
+            {"turns_deg", "numbers", "deg", "", "[-360, 360]",
+             "turns about its aim that are tried, from the direction of the route below (over "
+             "areas from +x); without it 0 and 90 of those whose light has a direction, else 0"}},
+           joined(operation_keys(), {{"body_material", "text", "", "", "",
+                                      "material of its body; without it returning light "
+                                      "passes"}}))},
+      {"design.keep_out",
+       "`[[design.keep_out]]`: a vertical cylinder in which nothing is mounted",
+       {
+           {"name", "name", "", "required", "", "what is there: a smoke detector"},
+           {"position", "point", "m", "required", "[-1e7, 1e7]",
+            "where it is; it holds on its storey, 2 m up and down"},
+           {"radius", "number", "m", "0.5", "(0, 1e3]", "of the cylinder"},
+       }},
+  };
+}
+
+}  // namespace luxodus

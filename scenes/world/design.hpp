@@ -1,0 +1,71 @@
+// What `luxodus design` may place, what must hold, and what is sought: the `[design]` table of a
+// scene. Plain values in SI units; any thread. docs/guide/placement.md explains it.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scenes/world/description.hpp"
+
+namespace luxodus {
+
+/// A luminaire that may be placed, at the origin, looking down, unturned. Its emitter has its name.
+struct DesignType {
+  std::string name;
+  SourcePlace place;
+  Emitter emitter;
+  double cost = 1;                // of one, installed, in any currency
+  double watts = 0;               // that one takes from the mains [W]
+  std::vector<double> turns_deg;  // about its aim, against the way below; empty: by its symmetry
+  bool stated = false;            // in the scene; else one that follows from it
+};
+
+/// A vertical cylinder in which nothing is mounted, around a smoke detector for instance.
+struct KeepOut {
+  std::string name;
+  SourcePlace place;
+  glm::dvec3 position{0};
+  double radius_m = 0.5;
+};
+
+/// What becomes of emergency luminaires that are there already.
+enum class ExistingLuminaires { fixed, removable, removed };
+inline constexpr std::array<std::string_view, 3> existing_words{"fixed", "removable", "removed"};
+
+enum class DesignObjective { number, cost, watts, weighted };
+inline constexpr std::array<std::string_view, 4> objective_words{"number", "cost", "watts",
+                                                                 "weighted"};
+
+/// What must still hold when any one luminaire has failed.
+enum class FailureDemand { none, two, full };
+inline constexpr std::array<std::string_view, 3> failure_words{"none", "two", "full"};
+
+struct DesignSettings {
+  SourcePlace place;
+  std::vector<DesignType> types;  // stated ones, else those that the scene has, else a generic one
+
+  // Candidate places
+  std::vector<std::string> over;  // routes and areas; empty: all of them
+  double spacing_m = 1;
+  double wall_clearance_m = 0.3;
+  double sign_clearance_m = 0.3;
+  double drop_m = 0.03;                     // of a luminous opening below its ceiling
+  std::optional<double> mounting_height_m;  // above the floor; else on the ceiling
+  std::vector<glm::dvec3> places;           // listed, instead of the grid
+  std::vector<KeepOut> keep_outs;
+
+  // Luminaires that are there
+  ExistingLuminaires existing = ExistingLuminaires::fixed;
+  std::vector<std::string> fixed, removable, removed;  // by name, whatever `existing` says
+
+  // What must hold, and what is sought
+  FailureDemand failure = FailureDemand::two;
+  double margin = 1.25;  // of minima of illuminance over the limits of the rules
+  DesignObjective objective = DesignObjective::number;
+  double weight_number = 1, weight_cost = 0, weight_watts = 0;
+};
+
+}  // namespace luxodus

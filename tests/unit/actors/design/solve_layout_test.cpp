@@ -1,0 +1,219 @@
+// Layouts against those found by trying every subset, and proofs that there is none.
+#include "actors/design/solve_layout.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+
+#include "actors/design/greedy.hpp"
+#include "runtime/core/random.hpp"
+#include "tests/unit/actors/design/silent.hpp"
+
+namespace luxodus {
+namespace {
+
+using test::nobody;
+using test::silent;
+
+Terms terms(std::vector<Term> list) {
+  return std::make_shared<const std::vector<Term>>(std::move(list));
+}
+
+LayoutAnswer solved(const LayoutProblem& problem, SolveSettings settings = {}) {
+  settings.greedy_rounds = 20;
+  return solve_layout(problem, settings, nobody, silent);
+}
+
+/// A problem with `options` luminaires of one type, each at a place of its own, of weight 1.
+LayoutProblem with_options(uint32_t options) {
+  LayoutProblem out;
+  for (uint32_t i = 0; i < options; ++i)
+    out.options.push_back({i, 1, false, no_region, {static_cast<double>(i), 0}});
+  return out;
+}
+
+void ask(LayoutProblem& problem, std::vector<Term> list, double least, const char* subject) {
+  problem.groups.push_back({DemandKind::minimum, "E1", subject, least, no_region});
+  problem.covers.push_back(
+      {static_cast<uint32_t>(problem.groups.size() - 1), terms(std::move(list)), least, {}});
+}
+
+/// Places and points at random in a square; two types at every other place; failures and a spread.
+LayoutProblem random_problem(uint64_t seed, uint32_t options, uint32_t points) {
+  Random random(seed, RandomStream::test);
+  random.start(0);
+  LayoutProblem out;
+  constexpr double side_m = 12, height_m = 3;
+  for (uint32_t i = 0; i < options; ++i) {
+    LayoutOption option;
+    option.place = i / 2;
+    option.weight = i % 2 == 0 ? 1 : 1 + std::floor(3 * random.uniform_double());
+    const double x = random.uniform_double(), y = random.uniform_double();
+    option.position = i % 2 == 0 ? glm::dvec2(x, y) * side_m : out.options.back().position;
+    out.options.push_back(option);
+  }
+  for (const DemandKind kind : {DemandKind::minimum, DemandKind::failed, DemandKind::spread})
+    out.groups.push_back({kind, "", "square", 1, no_region});
+  FailureRows failures{1, 0.05, {}};
+  SpreadRows spread{2, 25, {}, {}};
+  for (uint32_t p = 0; p < points; ++p) {
+    const double x = random.uniform_double() * side_m, y = random.uniform_double() * side_m;
+    std::vector<Term> light;
+    for (uint32_t i = 0; i < options; ++i) {
+      const glm::dvec2 away = out.options[i].position - glm::dvec2(x, y);
+      const double square = glm::dot(away, away) + height_m * height_m;
+      const double candela = i % 2 == 0 ? 60 : 110;
+      light.push_back({i, static_cast<float>(candela * height_m * height_m / (square * square))});
+    }
+    out.points.push_back({terms(light), {x, y, 0}});
+    out.covers.push_back({0, out.points.back().light, 0.6, {x, y, 0}});
+    failures.points.push_back(p);
+    spread.low.push_back(p);
+    spread.high.push_back(p);
+  }
+  out.failures.push_back(failures);
+  out.spreads.push_back(spread);
+  return out;
+}
+
+/// The smallest objective of all subsets that hold; infinite where none does.
+double best_of_all_subsets(const LayoutProblem& problem) {
+  const LayoutIndex index(problem);
+  LayoutSums sums(index);
+  double best = std::numeric_limits<double>::infinity();
+  const auto count = static_cast<uint32_t>(problem.options.size());
+  for (uint32_t bits = 0; bits < 1u << count; ++bits) {
+    Layout layout(count, 0);
+    std::vector<int> at(problem.places(), 0);
+    bool one_each = true;
+    for (uint32_t i = 0; i < count; ++i) {
+      layout[i] = static_cast<char>(bits >> i & 1);
+      at[problem.options[i].place] += layout[i];
+      one_each = one_each && at[problem.options[i].place] <= 1;
+    }
+    const double objective = objective_of(problem, layout);
+    if (!one_each || objective >= best) continue;
+    sums.set(layout);
+    if (sums.holds()) best = objective;
+  }
+  return best;
+}
+
+}  // namespace
+
+TEST_CASE("a layout is as good as the best of all subsets, and no bound is above that",
+          "[design]") {
+  int feasible = 0;
+  for (uint64_t seed = 1; seed <= 12; ++seed) {
+    INFO("seed " << seed);
+    const LayoutProblem problem = random_problem(seed, 12, 25);
+    const double best = best_of_all_subsets(problem);
+    const LayoutAnswer answer = solved(problem);
+    if (std::isinf(best)) {
+      CHECK(answer.end == LayoutEnd::infeasible);
+      continue;
+    }
+    ++feasible;
+    REQUIRE_FALSE(answer.layout.empty());
+    CHECK(answer.end == LayoutEnd::optimal);
+    CHECK(answer.objective == Approx(best).margin(1e-6));
+    CHECK(answer.bound <= best + 1e-6);
+    const LayoutIndex index(problem);
+    LayoutSums sums(index);
+    sums.set(answer.layout);
+    CHECK(sums.holds());
+  }
+  CHECK(feasible >= 4);
+}
+
+TEST_CASE("a search that is cut short has a bound that no layout is below", "[design]") {
+  for (uint64_t seed = 20; seed < 24; ++seed) {
+    INFO("seed " << seed);
+    const LayoutProblem problem = random_problem(seed, 12, 25);
+    const double best = best_of_all_subsets(problem);
+    SolveSettings hasty;
+    hasty.gap = 0.3;
+    const LayoutAnswer answer = solved(problem, hasty);
+    CHECK(answer.bound <= best + 1e-6);
+    if (!answer.layout.empty()) CHECK(answer.objective >= best - 1e-6);
+  }
+}
+
+TEST_CASE("the same problem and seed give the same layout", "[design]") {
+  const LayoutProblem problem = random_problem(3, 16, 40);
+  CHECK(solved(problem).layout == solved(problem).layout);
+}
+
+TEST_CASE("a fixed luminaire is in every layout and counts nothing more", "[design]") {
+  LayoutProblem problem = with_options(3);
+  problem.options[2].fixed = true;
+  problem.options[2].weight = 0;
+  ask(problem, {{0, 1}, {1, 1}, {2, 0.5}}, 1, "a");
+  const LayoutAnswer answer = solved(problem);
+  REQUIRE(answer.layout.size() == 3);
+  CHECK(answer.layout[2] == 1);
+  CHECK(answer.objective == Approx(1));
+}
+
+TEST_CASE("what no place reaches is named, with the share that all places give", "[design]") {
+  LayoutProblem problem = with_options(3);
+  ask(problem, {{0, 1}, {1, 1}}, 1, "lit");
+  ask(problem, {{0, 0.2f}, {2, 0.3f}}, 2, "dark");
+  CHECK(solved(problem).end == LayoutEnd::infeasible);
+  const Conflict conflict = conflict_of(problem, 10, nobody);
+  REQUIRE(conflict.shortages.size() == 1);
+  CHECK(problem.groups[conflict.shortages[0].group].subject == "dark");
+  CHECK(conflict.shortages[0].share == Approx(0.25));
+}
+
+TEST_CASE("of constraints that cannot hold together the smallest set is named", "[design]") {
+  // One luminaire each at three places; the first point needs all the light of place 0, and the
+  // ratio of the two points forbids it. A third demand is beside the matter.
+  LayoutProblem problem = with_options(3);
+  ask(problem, {{0, 10}}, 10, "bright");
+  ask(problem, {{1, 1}, {2, 1}}, 1, "aside");
+  problem.points.push_back({terms({{0, 10}}), {0, 0, 0}});
+  problem.points.push_back({terms({{0, 0.1f}, {1, 0.1f}, {2, 0.1f}}), {5, 0, 0}});
+  problem.groups.push_back({DemandKind::spread, "E4", "even", 10, no_region});
+  problem.spreads.push_back({2, 10, {1}, {0}});
+  CHECK(solved(problem).end == LayoutEnd::infeasible);
+  const Conflict conflict = conflict_of(problem, 10, nobody);
+  CHECK(conflict.shortages.empty());
+  CHECK(conflict.proven);
+  CHECK(conflict.groups == std::vector<uint32_t>{0, 2});
+}
+
+TEST_CASE("with any one luminaire failed, what the others give is enough", "[design]") {
+  LayoutProblem problem = with_options(4);
+  std::vector<Term> all;
+  for (uint32_t i = 0; i < 4; ++i) all.push_back({i, 1});
+  ask(problem, all, 1, "a");
+  CHECK(solved(problem).objective == Approx(1));
+  problem.points.push_back({terms(all), {}});
+  problem.groups.push_back({DemandKind::failed, "", "a", 2, no_region});
+  problem.failures.push_back({1, 2, {0}});
+  CHECK(solved(problem).objective == Approx(3));
+}
+
+TEST_CASE("greedy layouts hold, and pruning takes out what is not needed", "[design]") {
+  const LayoutProblem problem = random_problem(3, 16, 40);
+  const LayoutIndex index(problem);
+  Random random(1, RandomStream::test);
+  random.start(0);
+  const auto greedy = completed(index, {}, 0, random);
+  REQUIRE(greedy);
+  LayoutSums sums(index);
+  const Layout& all = *greedy;
+  const Layout lean = pruned(index, all);
+  sums.set(lean);
+  CHECK(sums.holds());
+  CHECK(chosen_in(lean) <= chosen_in(all));
+  for (uint32_t i = 0; i < lean.size(); ++i) {
+    if (lean[i] == 0) continue;
+    sums.remove(i);
+    CHECK_FALSE(sums.holds());
+    sums.add(i);
+  }
+}
+
+}  // namespace luxodus
