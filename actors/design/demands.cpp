@@ -78,6 +78,9 @@ struct Demands::Lit {
   std::map<std::array<int64_t, 3>, uint32_t> points;  // that are there, by their places
 };
 
+Demands::Demands() = default;
+Demands::~Demands() = default;
+
 class Demands::Builder {
  public:
   Builder(Demands& out, const DesignSettings& design,

@@ -30,6 +30,7 @@ class Demands {
                                                const std::vector<LuminaireCandidate>& candidates,
                                                const std::vector<CodeChoice>& codes,
                                                const Scenario& doors, int threads);
+  ~Demands();
 
   const LayoutProblem& problem() const { return problem_; }
 
@@ -49,7 +50,7 @@ class Demands {
   struct Lit;     // a building, with furniture or without
   class Builder;  // of the problem
 
-  Demands() = default;
+  Demands();
 
   SceneDescription scene_;  // with all candidates
   std::unique_ptr<Lit> bare_, furnished_;
