@@ -223,11 +223,27 @@ TracedPicture trace_picture(const LocalRun& run, size_t camera, const PictureOpt
   return out;
 }
 
+namespace {
+
+/// Features as the smoke lets them be seen: a surface behind it must not show in the fit more than
+/// its light does in the picture.
+NoisyPicture seen_through_smoke(NoisyPicture noisy) {
+  constexpr size_t transmittance = 4;
+  for (size_t i = 0; i < noisy.pixels(); ++i) {
+    float* features = &noisy.features[picture_features * i];
+    for (size_t k = 0; k < picture_features; ++k)
+      if (k != transmittance) features[k] *= features[transmittance];
+  }
+  return noisy;
+}
+
+}  // namespace
+
 FilteredView filter_traced(const TracedPicture& traced, int threads) {
   const ShareWork share = [&](int64_t count, const std::function<void(int64_t)>& work) {
     parallel_for(count, threads, [&] { return work; });
   };
-  FilteredPicture filtered = filter_picture(traced.noisy, {}, share);
+  FilteredPicture filtered = filter_picture(seen_through_smoke(traced.noisy), {}, share);
   FilteredView out;
   out.light.width = traced.light.width;
   out.light.height = traced.light.height;

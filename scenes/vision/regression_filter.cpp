@@ -19,6 +19,8 @@ constexpr float unseen_difference = 1e-3f;
 constexpr double ridge = 1e-4;
 /// And where colours are fitted: a pixel unlike all others of its window is to have their colour.
 constexpr double colour_ridge = 0.03;
+/// Features that vary less than this are not scaled up any further.
+constexpr double min_spread = 0.1;
 /// Pixels are as far as this asked for the variance of one that has missed all rare paths.
 constexpr int variance_reach_px = 2;
 /// And as far as this to compare what the variances say with how far the halves differ.
@@ -108,7 +110,8 @@ Compared compared(const NoisyPicture& picture, const HalfPicture& half) {
   return out;
 }
 
-/// Every feature shifted and scaled to spread 1 over the picture.
+/// Every feature shifted and scaled to spread 1 over the picture, but none that hardly varies blown
+/// up: it is not to explain more than it does.
 std::vector<float> standardised(const NoisyPicture& picture) {
   const size_t n = picture.feature_count;
   std::vector<double> mean(n, 0.0), squares(n, 0.0);
@@ -123,7 +126,7 @@ std::vector<float> standardised(const NoisyPicture& picture) {
   for (size_t k = 0; k < n; ++k) {
     mean[k] /= pixels;
     const double spread = std::sqrt(std::max(0.0, squares[k] / pixels - mean[k] * mean[k]));
-    const double scale = spread > 0 ? 1 / spread : 0;
+    const double scale = 1 / std::max(spread, min_spread);
     for (size_t i = 0; i < picture.pixels(); ++i)
       out[n * i + k] =
           static_cast<float>((static_cast<double>(picture.features[n * i + k]) - mean[k]) * scale);

@@ -29,7 +29,8 @@ struct NoisyPicture {
   int width = 0;
   int height = 0;
   std::array<HalfPicture, 2> half;
-  /// Values per pixel that the light may be a function of, in any units, finite.
+  /// Values per pixel that the light may be a function of: finite, in units of which 1 is a large
+  /// difference.
   size_t feature_count = 0;
   std::vector<float> features;
 

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
+#include <random>
 
 #include "scenes/images/write_image.hpp"
 #include "tests/kit/read_exr.hpp"
@@ -336,6 +337,45 @@ TEST_CASE("a filtered picture is nearer to the closed form, and says how near", 
   CHECK(said < 5 * squares);
   CHECK(said > squares / 20);
   CHECK(colour < 0.2);
+}
+
+/// Noise about even light before a chequered wall, as if traced through smoke.
+TracedPicture chequers_behind_smoke(float transmittance) {
+  TracedPicture out;
+  const int size = 48;
+  out.light.width = out.light.height = out.noisy.width = out.noisy.height = size;
+  const size_t pixels = out.light.pixels();
+  out.light.xyz.assign(3 * pixels, 1.0f);
+  out.emitted.assign(light_channels * pixels, 0.0f);
+  out.noisy.feature_count = picture_features;
+  std::mt19937 random(3);
+  std::exponential_distribution<float> light(1.0f);
+  for (int y = 0; y < size; ++y)
+    for (int x = 0; x < size; ++x) {
+      const float albedo = (x / 4 + y / 4) % 2 == 0 ? 0.9f : 0.1f;
+      for (const float feature : {1.0f, 0.0f, 0.0f, 0.1f, transmittance, albedo, albedo, albedo})
+        out.noisy.features.push_back(feature);
+    }
+  for (HalfPicture& part : out.noisy.half) {
+    for (size_t i = 0; i < light_channels * pixels; ++i) part.light.push_back(light(random));
+    part.variance.assign(3 * pixels, 1.0f);
+  }
+  return out;
+}
+
+TEST_CASE("what smoke hides does not show in a filtered picture", "[display]") {
+  // Contrast of the fields that a fit makes of noise.
+  const auto contrast = [](float transmittance) {
+    const FilteredView view = filter_traced(chequers_behind_smoke(transmittance), 1);
+    double dark = 0, bright = 0;
+    for (int y = 0; y < 48; ++y)
+      for (int x = 0; x < 48; ++x)
+        ((x / 4 + y / 4) % 2 == 0 ? bright : dark) +=
+            static_cast<double>(view.light.xyz[static_cast<size_t>(3 * (48 * y + x) + 1)]);
+    return std::abs(bright - dark) / (bright + dark);
+  };
+  // All pixels are alike but for chance, which without smoke may choose the fields.
+  CHECK(contrast(1e-4f) < 0.2 * contrast(1.0f));
 }
 
 TEST_CASE("a picture is the same bits for one and three threads, and for geometry in cells",
