@@ -2,8 +2,9 @@
 // traced from the eye; a path ends in the run's flux at the first event after something diffuse, on
 // a surface or in smoke (final gather), so a picture takes seconds once the flux is there. What is
 // traced is neither clamped nor blurred; what PNG files show is filtered (regression_filter.hpp).
-// The standard error of a pixel is that of its paths; what the flux itself errs comes on top. The pixels depend on the scene, the flux, the seed and the paths
-// per pixel, never on the number of threads. One call at a time per run.
+// The standard error of a pixel is that of its paths; what the flux itself errs comes on top. The
+// pixels depend on the scene, the flux, the seed and the paths per pixel, never on the number of
+// threads. One call at a time per run.
 #pragma once
 
 #include <atomic>

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "runtime/core/check.hpp"
 
@@ -366,10 +365,10 @@ class ColourFit {
         add_window(x, y);
   }
 
-  /// Of X, Z or scotopic light to luminance, at least 0.
+  /// Of X, Z or scotopic light to luminance, at least 0; 1 where all is dark.
   double ratio(size_t pixel, size_t channel) const {
     const double* sums = &sums_[(light_channels + 1) * pixel];
-    return std::max(0.0, sums[channel] / sums[light_channels]);
+    return sums[light_channels] > 0 ? std::max(0.0, sums[channel] / sums[light_channels]) : 1;
   }
 
  private:

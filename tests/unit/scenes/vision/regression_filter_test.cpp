@@ -147,3 +147,11 @@ TEST_CASE("pictures smaller than a window are filtered, and no light is negative
     }
   }
 }
+
+TEST_CASE("darkness stays dark", "[filter]") {
+  const NoisyPicture dark = noisy_picture(
+      40, 30, [](int, int) { return 0.0; }, no_feature, 0);
+  const FilteredPicture filtered = filter_picture(dark, {}, in_order);
+  for (const float light : filtered.light) CHECK(light == 0);
+  for (const float error : filtered.standard_error_y) CHECK(error == 0);
+}
