@@ -423,6 +423,7 @@ Envelope read(wire::Envelope::Reader in) {
   out.sent = in.getSent();
   out.grant = {read_enum<Kind>(in.getGrantKind(), last_kind, "kind"),
                read_class(in.getGrantClass()), in.getGrantLimit()};
+  out.actors = {static_cast<ActorName>(in.getFromActor()), static_cast<ActorName>(in.getToActor())};
   return out;
 }
 
@@ -445,6 +446,8 @@ void write(wire::Envelope::Builder out, const Envelope& envelope) {
   out.setGrantKind(static_cast<uint8_t>(envelope.grant.kind));
   out.setGrantClass(envelope.grant.hop_class);
   out.setGrantLimit(envelope.grant.limit);
+  out.setFromActor(static_cast<uint8_t>(envelope.actors.from));
+  out.setToActor(static_cast<uint8_t>(envelope.actors.to));
 }
 
 // ---- the boundary

@@ -16,7 +16,7 @@
 namespace luxodus {
 
 /// Changes when a node of the old version would misunderstand a node of the new one.
-inline constexpr uint16_t protocol_version = 2;
+inline constexpr uint16_t protocol_version = 3;
 
 namespace limits {
 /// Links a frame may pass. AMP graphs of 256 nodes have diameter 6; 15 leaves room for detours
@@ -64,6 +64,33 @@ struct Grant {
   friend bool operator==(const Grant&, const Grant&) = default;
 };
 
+/// The actors of nodes that others may send to. A byte from outside may be none of these.
+enum class ActorName : uint8_t {
+  none = 0,     // the network itself
+  coordinator,  // lends batches, counts flushes
+  tracer,       // traces them
+  tally_shard,  // holds a range of the totals' bins
+  part_server,  // fetches parts of the scene, and gives them to others
+};
+inline constexpr std::array<const char*, 5> actor_names{"none", "coordinator", "tracer",
+                                                        "tally_shard", "part_server"};
+
+/// Of an actor, anywhere in the cluster.
+struct Address {
+  NodeId node;
+  ActorName actor = ActorName::none;
+
+  friend bool operator==(const Address&, const Address&) = default;
+};
+
+/// Who sends a message, and who gets it, on their nodes.
+struct ActorPair {
+  ActorName from = ActorName::none;
+  ActorName to = ActorName::none;
+
+  friend bool operator==(const ActorPair&, const ActorPair&) = default;
+};
+
 struct Envelope {
   NodeId from;  // the neighbour
   Incarnation from_incarnation;
@@ -79,6 +106,7 @@ struct Envelope {
   uint32_t total_bytes = 0;  // of the message, payload included
   uint64_t sent = 0;         // charged to (kind, hops) on this link, this frame included
   Grant grant;
+  ActorPair actors;
 
   friend bool operator==(const Envelope&, const Envelope&) = default;
 };

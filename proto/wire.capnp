@@ -26,6 +26,8 @@ struct Envelope {
   grantLimit @15 :UInt64;
   totalBytes @16 :UInt32;       # of the whole message
   chunkBytes @17 :UInt32;       # of every piece but the last
+  fromActor @18 :UInt8;         # of the source; 0 is the network itself
+  toActor @19 :UInt8;           # of the destination
 }
 
 struct Message {

@@ -49,7 +49,7 @@ Nanoseconds SimWorker::turn() {
   const Nanoseconds due = worker_.shell().turn();
   const uint64_t resumes = worker_.shell().scheduler().counters().resumes;
   const uint64_t batches = worker_.photons().counters().batches;
-  const uint64_t flush_bytes = worker_.leases().counters().flush_bytes;
+  const uint64_t flush_bytes = worker_.tracer().counters().flush_bytes;
   meter_.charge(costs_.switch_ns * static_cast<double>(resumes - charged_.resumes) +
                 costs_.lease_ns * static_cast<double>(batches - charged_.batches) +
                 costs_.pack_byte_ns * static_cast<double>(flush_bytes - charged_.flush_bytes));
@@ -95,10 +95,10 @@ SimController::SimController(const RunSetup& setup, const NodeSetup& node, Local
 }
 
 Nanoseconds SimController::turn() {
-  counted_ = controller().counters().batches;
+  counted_ = coordinator().counters().batches;
   const Nanoseconds due = node_.shell().turn();
-  went_back_ = went_back_ || controller().counters().batches < counted_;
-  const uint64_t flush_bytes = controller().counters().flush_bytes;
+  went_back_ = went_back_ || coordinator().counters().batches < counted_;
+  const uint64_t flush_bytes = coordinator().counters().flush_bytes;
   meter_.charge(costs_.count_byte_ns * static_cast<double>(flush_bytes - charged_flush_bytes_));
   charged_flush_bytes_ = flush_bytes;
   return due;
@@ -112,13 +112,13 @@ std::string SimController::fault() const {
   if (auto fault = fault_of(node_.shell(), node_.shell().scheduler().fibers()); !fault.empty())
     return fault;
   if (went_back_) return "counted batches have become fewer";
-  if (!controller().adding() && !run_.totals().balance().closes())
+  if (!coordinator().adding() && !run_.totals().balance().closes())
     return "the ledger does not close";
   return "";
 }
 
 std::string SimController::regret() const {
-  return controller().fault() ? controller().fault()->what : "";
+  return coordinator().fault() ? coordinator().fault()->what : "";
 }
 
 }  // namespace luxodus

@@ -61,7 +61,7 @@ class SimController final : public CheckedNode {
   void die() override;
   std::string fault() const override;
   std::string regret() const override;
-  const Controller& controller() const { return node_.controller(); }
+  const Coordinator& coordinator() const { return node_.coordinator(); }
 
  private:
   const LocalRun& run_;

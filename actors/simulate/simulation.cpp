@@ -276,12 +276,12 @@ SnapshotJournal::Config Simulation::drawn_journal() const {
 }
 
 void Simulation::note_last(const SimController& controller) {
-  const Controller::Counters& c = controller.controller().counters();
+  const Coordinator::Counters& c = controller.coordinator().counters();
   report_.leases = c.leases;
   report_.leases_fenced = c.fenced;
   report_.flushes_refused = c.flushes_refused;
-  if (!controller.controller().ended()) return;
-  reason_ = controller.controller().reason();
+  if (!controller.coordinator().ended()) return;
+  reason_ = controller.coordinator().reason();
   let_go_ = true;
 }
 

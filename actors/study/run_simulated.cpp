@@ -123,8 +123,8 @@ NodeSeams SimulatedRun::seams(NodeId node) {
 
 void SimulatedRun::look_at_controller() {
   const auto* node = static_cast<const SimController*>(world_->node(controller()));
-  if (node == nullptr || node->controller().took() == 0) return;
-  const Controller& ended = node->controller();
+  if (node == nullptr || node->coordinator().took() == 0) return;
+  const Coordinator& ended = node->coordinator();
   reason_ = ended.reason();
   result_.seconds = 1e-9 * static_cast<double>(ended.took());
   result_.leases = static_cast<double>(ended.counters().leases);

@@ -6,9 +6,10 @@ namespace luxodus {
 
 namespace {
 
-ControllerConfig controller_config(const RunSetup& setup, const NodeSetup& node,
-                                   FlushKeeper* keeper) {
-  ControllerConfig config;
+CoordinatorConfig coordinator_config(const RunSetup& setup, const NodeSetup& node,
+                                     FlushKeeper* keeper) {
+  CoordinatorConfig config;
+  config.self = node.net.self;
   config.keeper = keeper;
   config.lease_time = node.lease_time;
   config.group_ranks = node.group_ranks;
@@ -30,23 +31,23 @@ ControllerNode::ControllerNode(const RunSetup& setup, const NodeSetup& node, Loc
                                FlushKeeper* keeper)
     : setup_(setup),
       self_(node.net.self),
-      shell_({controller_net(setup, node), controller_limits(node), ShellConfig{}.max_room_bytes,
+      shell_({controller_net(setup, node), controller_limits(node), ShellConfig{}.max_payload_bytes,
               node.shutdown_phase, setup.routes},
              setup.graph, seams.clock, seams.transport),
-      controller_(controller_config(setup, node, keeper), run, stop, interrupt, std::move(report),
-                  shell_.scheduler(), shell_.network()) {}
+      coordinator_(coordinator_config(setup, node, keeper), run, stop, interrupt, std::move(report),
+                   shell_.scheduler(), shell_.network(), shell_.actors()) {}
 
 void ControllerNode::start(std::function<bool()> broken) {
-  shell_.add([this](const Delivery& d) { return controller_.deliver(d); });
-  controller_.start();
+  shell_.actors().add(ActorName::coordinator, coordinator_);
+  coordinator_.start();
   if (setup_.observation != nullptr) {
-    metrics_.emplace(setup_.names, self_, "controller", shell_.scheduler(), shell_.network());
-    controller_.add_metrics(metrics_->registry());
+    metrics_.emplace(setup_.names, self_, "controller", shell_);
+    coordinator_.add_metrics(metrics_->registry());
     metrics_->add_rate({"particles_per_second", "", "Particles counted in a second.", ""},
-                       controller_.counters().particles);
+                       coordinator_.counters().particles);
     metrics_->start(*setup_.observation);
   }
-  shell_.begin([this, broken = std::move(broken)] { return controller_.ended() || broken(); });
+  shell_.begin([this, broken = std::move(broken)] { return coordinator_.ended() || broken(); });
 }
 
 }  // namespace luxodus

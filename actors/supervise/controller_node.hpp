@@ -2,7 +2,7 @@
 // has it do so. Made and run on one thread.
 #pragma once
 
-#include "actors/source/controller.hpp"
+#include "actors/source/coordinator.hpp"
 #include "actors/supervise/node_metrics.hpp"
 #include "actors/supervise/node_setup.hpp"
 
@@ -22,13 +22,13 @@ class ControllerNode {
 
   NodeShell& shell() { return shell_; }
   const NodeShell& shell() const { return shell_; }
-  const Controller& controller() const { return controller_; }
+  const Coordinator& coordinator() const { return coordinator_; }
 
  private:
   const RunSetup& setup_;
   const NodeId self_;
   NodeShell shell_;
-  Controller controller_;
+  Coordinator coordinator_;
   std::optional<NodeMetrics> metrics_;
 };
 

@@ -14,15 +14,19 @@ constexpr Nanoseconds rate_span = seconds(1);
 }  // namespace
 
 NodeMetrics::NodeMetrics(const std::vector<std::string>& names, NodeId self,
-                         const std::string& role, Scheduler& scheduler, Network& network)
-    : scheduler_(scheduler),
+                         const std::string& role, NodeShell& shell)
+    : scheduler_(shell.scheduler()),
       registered_(std::make_unique<Metrics>(names[self.value])),
-      mark_(scheduler.clock().now()) {
+      mark_(scheduler_.clock().now()) {
   registry().add_gauge({"node_info", "", "1; what the node is.", fmt::format("role=\"{}\"", role)},
                        info_);
-  scheduler.add_metrics(registry());
-  network.add_metrics(registry(), [&](NodeId node) { return names[node.value]; });
-  add_sample([&network] { network.sample(); });
+  scheduler_.add_metrics(registry());
+  shell.network().add_metrics(registry(), [&](NodeId node) { return names[node.value]; });
+  shell.actors().add_metrics(registry());
+  add_sample([&shell] {
+    shell.network().sample();
+    shell.actors().sample();
+  });
 }
 
 void NodeMetrics::add_rate(const MetricInfo& info, const uint64_t& counter) {

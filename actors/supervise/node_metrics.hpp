@@ -10,18 +10,17 @@
 #include <string>
 #include <vector>
 
+#include "actors/supervise/node_shell.hpp"
 #include "actors/supervise/observation.hpp"
-#include "runtime/actor/scheduler.hpp"
-#include "runtime/net/network.hpp"
 
 namespace luxodus {
 
 class NodeMetrics {
  public:
   /// Registers what every node has. `names` are those of all nodes, by number; `role` is a word.
-  /// Requires: scheduler and network outlive this.
+  /// Requires: the shell outlives this; all its actors have been added.
   NodeMetrics(const std::vector<std::string>& names, NodeId self, const std::string& role,
-              Scheduler& scheduler, Network& network);
+              NodeShell& shell);
 
   /// Where the node's other parts register theirs. Requires: not started.
   Metrics& registry() { return *registered_; }

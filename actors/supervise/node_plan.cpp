@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include "actors/photon/tracer.hpp"
 #include "actors/supervise/node_shell.hpp"
 #include "actors/supervise/residency_setup.hpp"
+#include "actors/tally/tally_shard.hpp"
 
 namespace luxodus {
 
@@ -23,10 +25,16 @@ uint64_t bins_of(const RunSetup& run, size_t shard) {
   return static_cast<uint64_t>(bins.end - bins.first) * run.scene.groups.size();
 }
 
+void add_mailbox(MemoryPlan& plan, const char* actor, uint64_t bytes) {
+  plan.add(fmt::format("mailbox of the {}", actor), bytes,
+           "the sum of its limits x the largest of its messages");
+}
+
 /// Of a worker that holds one: a part of each worker's flush, and the totals.
 void add_shard(MemoryPlan& plan, const RunSetup& run, size_t shard) {
   const uint64_t bins = bins_of(run, shard);
   const size_t workers = run.graph.workers();
+  add_mailbox(plan, "shard of the totals", TallyShard::memory_bytes());
   plan.add("shard of the totals", bins * sizeof(Total),
            fmt::format("{} bins x {} B", bins, sizeof(Total)));
   plan.add(
@@ -142,6 +150,7 @@ MemoryPlan tally_plan(const CompiledScene& scene, const NodeSetup& node) {
 
 MemoryPlan worker_plan(const RunSetup& run, const NodeSetup& node) {
   MemoryPlan plan = common_plan(node.net, worker_limits(run, node));
+  add_mailbox(plan, "tracer", Tracer::memory_bytes());
   plan.add(tally_plan(run.scene, node));
   if (const size_t shard = run.shards.shard_of(node.net.self); shard != 0)
     add_shard(plan, run, shard);
@@ -163,6 +172,7 @@ MemoryPlan worker_plan(const RunSetup& run, const NodeSetup& node) {
 
 MemoryPlan controller_plan(const RunSetup& run, const NodeSetup& node) {
   MemoryPlan plan = common_plan(controller_net(run, node), controller_limits(node));
+  add_mailbox(plan, "coordinator", Coordinator::memory_bytes());
   add_totals(plan, run.scene, 1);
   const uint64_t bins = bins_of(run, 0);  // others' shards have theirs
   plan.add("flush being counted", bins * (flush_bytes_of_bin + sizeof(TotalsGain::Bin)),
@@ -170,9 +180,9 @@ MemoryPlan controller_plan(const RunSetup& run, const NodeSetup& node) {
                        sizeof(TotalsGain::Bin)));
   const size_t workers = run.graph.workers();
   plan.add("flushes coming in",
-           std::min<uint64_t>(ShellConfig{}.max_room_bytes, workers * bins * flush_bytes_of_bin),
+           std::min<uint64_t>(ShellConfig{}.max_payload_bytes, workers * bins * flush_bytes_of_bin),
            fmt::format("of {} workers at once, at most {} B of all", workers,
-                       ShellConfig{}.max_room_bytes));
+                       ShellConfig{}.max_payload_bytes));
   add_metrics(plan, run, 0);
   return plan;
 }

@@ -8,7 +8,7 @@
 
 #include "actors/objects/scene_objects.hpp"
 #include "actors/photon/photon_threads.hpp"
-#include "actors/source/controller.hpp"
+#include "actors/source/coordinator.hpp"
 #include "actors/supervise/node_shell.hpp"
 #include "actors/supervise/observation.hpp"
 #include "runtime/config/cluster_config.hpp"
@@ -49,15 +49,15 @@ struct NodeSetup {
   PhotonConfig photons;
   FiberLimits fibers;  // stacks and guards; how many follows from `photons`
   Nanoseconds stall = SchedulerLimits{}.stall;
-  Nanoseconds start = ControllerConfig{}.start;
-  Nanoseconds lost = ControllerConfig{}.lost;
-  Nanoseconds lease_time = ControllerConfig{}.lease_time;
+  Nanoseconds start = CoordinatorConfig{}.start;
+  Nanoseconds lost = CoordinatorConfig{}.lost;
+  Nanoseconds lease_time = CoordinatorConfig{}.lease_time;
   FetchConfig fetch;
   size_t object_bytes = 0;  // for built objects, where objects are fetched
   double pinned_share = 0;  // of these for pinned ones, at most
   std::vector<uint32_t> pins;
   size_t prefetch = 0;  // cells asked for ahead of the one that is waited for
-  /// The controller's: see ControllerConfig::group_ranks.
+  /// The controller's: see CoordinatorConfig::group_ranks.
   std::vector<std::vector<uint32_t>> group_ranks;
   uint64_t tally_bytes = UINT64_MAX;  // for scores, totals and a flush
   Nanoseconds shutdown_phase = ShellConfig{}.shutdown_phase;

@@ -57,9 +57,7 @@ class NodeShell::Handler final : public NetHandler {
   bool deliver(const Delivery& delivery) override {
     if (is_of_objects(kind_of(delivery.message)))
       return shell_.fetcher_ == nullptr || shell_.fetcher_->deliver(delivery);
-    for (const Deliver& actor : shell_.actors_)
-      if (actor(delivery)) break;
-    rooms_.erase(key_of(delivery.id));
+    shell_.actors_.deliver(delivery);
     return true;
   }
   std::span<std::byte> room_for(const MessageId& id, NodeId, Kind kind, size_t bytes) override {
@@ -67,16 +65,12 @@ class NodeShell::Handler final : public NetHandler {
       return shell_.fetcher_ == nullptr ? std::span<std::byte>{}
                                         : shell_.fetcher_->room_for(id, kind, bytes);
     }
-    size_t taken = 0;
-    for (const auto& [key, room] : rooms_) taken += room.size() * sizeof(uint64_t);
-    if (taken + bytes > shell_.config_.max_room_bytes ||
-        rarely(shell_.config_.net.buggify, Buggify::Site::no_room))
-      return {};
-    auto& room = rooms_[key_of(id)];
-    room.resize((bytes + 7) / 8);
-    return std::as_writable_bytes(std::span(room));
+    if (rarely(shell_.config_.net.buggify, Buggify::Site::no_room)) return {};
+    return shell_.actors_.room_for(id, bytes);
   }
-  void abandoned(const MessageId& id, Kind) override { rooms_.erase(key_of(id)); }
+  void abandoned(const MessageId& id, Kind kind) override {
+    if (!is_of_objects(kind)) shell_.actors_.abandoned(id);
+  }
   bool intercept(const Delivery& request) override {
     return shell_.fetcher_ != nullptr && shell_.fetcher_->intercept(request);
   }
@@ -98,11 +92,8 @@ class NodeShell::Handler final : public NetHandler {
 
  private:
   static bool is_of_objects(Kind kind) { return kind == Kind::request || kind == Kind::reply; }
-  using Key = std::pair<uint64_t, uint64_t>;
-  static Key key_of(const MessageId& id) { return {id.incarnation.value, id.sequence}; }
 
   NodeShell& shell_;
-  std::map<Key, std::vector<uint64_t>> rooms_;  // of messages that come in pieces
 };
 
 NodeShell::NodeShell(const ShellConfig& config, const Graph& graph, const Clock& clock,
@@ -113,6 +104,7 @@ NodeShell::NodeShell(const ShellConfig& config, const Graph& graph, const Clock&
       transport_(transport),
       handler_(std::make_unique<Handler>(*this)),
       network_(config.net, transport, *handler_, clock.now()),
+      actors_(config.net.self, network_, config.max_payload_bytes),
       source_(std::make_unique<Source>(clock, network_, transport)),
       scheduler_(config.scheduler, clock, *source_) {}
 
@@ -122,9 +114,8 @@ void NodeShell::begin(std::function<bool()> ended) {
   ended_ = std::move(ended);
   Shutdown& shutdown = scheduler_.shutdown();
   shutdown.add(scheduler_.end_all_fibers(config_.shutdown_phase));
-  shutdown.add(
-      {"pass on farewells", config_.shutdown_phase, [this] { linger(); },
-       [this] { return may_leave(); }, [] { return "others to hear of it"; }});
+  shutdown.add({"pass on farewells", config_.shutdown_phase, [this] { linger(); },
+                [this] { return may_leave(); }, [] { return "others to hear of it"; }});
   shutdown.add({"leave", milliseconds(100), [this] { network_.say_bye(); }, [] { return true; },
                 [] { return ""; }});
 }

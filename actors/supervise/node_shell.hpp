@@ -1,15 +1,14 @@
-// A node put together: clock, network, scheduler, and the one actor that decides what it is (worker
-// or controller). It brings messages to that actor and keeps the routes. One OS thread runs it, or
-// a simulation gives it its turns. Thread rule: made and run on one thread; wake() from any.
+// A node put together: clock, network, scheduler, and the system of its actors. Which actors those
+// are makes it a worker or the controller. It keeps the routes. One OS thread runs it, or a
+// simulation gives it its turns. Thread rule: made and run on one thread; wake() from any.
 #pragma once
 
 #include <functional>
-#include <map>
 #include <vector>
 
 #include "runtime/actor/scheduler.hpp"
 #include "runtime/fetch/fetcher.hpp"
-#include "runtime/net/network.hpp"
+#include "runtime/messaging/actor_system.hpp"
 #include "topology/routes.hpp"
 
 namespace luxodus {
@@ -22,8 +21,7 @@ std::vector<Edge> edges_of(const Graph& graph);
 struct ShellConfig {
   NetConfig net;
   SchedulerLimits scheduler;
-  /// Bytes of one message in pieces that is taken in at once, and of all of them.
-  size_t max_room_bytes = 1 << 30;
+  size_t max_payload_bytes = 1 << 30;       // behind messages that wait in mailboxes
   Nanoseconds shutdown_phase = seconds(5);  // for each step of its end
   /// Of the whole graph, where somebody has made them: they take seconds for a thousand nodes.
   const Routes* routes = nullptr;
@@ -31,9 +29,6 @@ struct ShellConfig {
 
 class NodeShell {
  public:
-  /// True: the message was for this actor.
-  using Deliver = std::function<bool(const Delivery&)>;
-
   /// Requires: graph and transport outlive this.
   NodeShell(const ShellConfig& config, const Graph& graph, const Clock& clock,
             Transport& transport);
@@ -42,8 +37,7 @@ class NodeShell {
   Scheduler& scheduler() { return scheduler_; }
   const Scheduler& scheduler() const { return scheduler_; }
   Network& network() { return network_; }
-  /// Adds an actor that messages are offered to.
-  void add(Deliver deliver) { actors_.push_back(std::move(deliver)); }
+  ActorSystem& actors() { return actors_; }
 
   /// Has requests and replies for objects go through `fetcher`. Requires: it outlives the run.
   void use(Fetcher& fetcher) { fetcher_ = &fetcher; }
@@ -75,10 +69,10 @@ class NodeShell {
   const Graph& graph_;
   const Clock& clock_;
   Transport& transport_;
-  std::vector<Deliver> actors_;
   Fetcher* fetcher_ = nullptr;
   std::unique_ptr<Handler> handler_;
   Network network_;
+  ActorSystem actors_;
   std::unique_ptr<Source> source_;
   Scheduler scheduler_;
   std::function<bool()> ended_;

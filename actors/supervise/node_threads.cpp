@@ -96,14 +96,14 @@ Result<StopReason> run_controller(const RunSetup& setup, const Machine& machine,
   const Nanoseconds began = machine.clock.now();
   here.start(broken);
   here.shell().run();
-  const Controller& controller = here.controller();
+  const Coordinator& controller = here.coordinator();
   run.add_seconds(static_cast<double>(machine.clock.now() - began - controller.over_for()) * 1e-9);
   const Network& network = here.shell().network();
   if (controller.fault())
     return problem(setup.name_of(node.net.self) + ": " + controller.fault()->what +
                    transport.meeting_trouble(network));
   if (counted != nullptr) {
-    const Controller::Counters& c = controller.counters();
+    const Coordinator::Counters& c = controller.counters();
     *counted = {c.flushes_taken,
                 c.flush_bytes,
                 c.leases,

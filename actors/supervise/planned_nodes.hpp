@@ -45,7 +45,7 @@ struct NodesOptions {
   /// Folder of the local sockets by which nodes of several processes meet; without it all are of
   /// one process, and links are memory.
   std::string sockets;
-  Nanoseconds lease_time = ControllerConfig{}.lease_time;
+  Nanoseconds lease_time = CoordinatorConfig{}.lease_time;
   uint64_t tally_bytes = NodeSetup{}.tally_bytes;  // of each node, for scores, totals and flushes
   int tally_shards = 1;  // of the totals: the controller's, and those of the first workers
   Observation* observation = nullptr;  // where somebody watches

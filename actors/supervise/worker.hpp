@@ -2,9 +2,7 @@
 // objects it holds) it does between the turns of its photon-threads.
 #pragma once
 
-#include <deque>
-
-#include "actors/photon/lease_client.hpp"
+#include "actors/photon/tracer.hpp"
 #include "actors/supervise/fetching_objects.hpp"
 #include "actors/supervise/node_metrics.hpp"
 #include "actors/tally/tally_shard.hpp"
@@ -25,7 +23,7 @@ class Worker {
   /// Runs it, or gives it its turns.
   NodeShell& shell() { return shell_; }
   const NodeShell& shell() const { return shell_; }
-  const LeaseClient& leases() const { return leases_; }
+  const Tracer& tracer() const { return tracer_; }
   const PhotonThreads& photons() const { return photons_; }
   /// Null where the node holds everything.
   const FetchingObjects* objects() const { return objects_.get(); }
@@ -37,8 +35,6 @@ class Worker {
  private:
   void show_to(Observation& seen);
   bool may_leave();
-  SendFunction post();
-  void deliver_own();
   std::unique_ptr<TallyShard> own_shard();
 
   const RunSetup& run_;
@@ -46,15 +42,8 @@ class Worker {
   NodeTrace* const trace_;  // null where nothing is traced
   NodeShell shell_;
   std::unique_ptr<FetchingObjects> objects_;  // where the node does not hold everything
-  struct OwnMessage {
-    MessageId id;
-    Message message;
-    SharedBytes payload;
-  };
-  std::deque<OwnMessage> own_messages_;
-  std::unique_ptr<TallyShard> shard_;  // where it holds one of the totals
-  SliceSender slices_;
-  LeaseClient leases_;
+  std::unique_ptr<TallyShard> shard_;         // where it holds one of the totals
+  Tracer tracer_;
   PhotonThreads photons_;
   std::optional<NodeMetrics> metrics_;
   std::function<bool()> stop_;

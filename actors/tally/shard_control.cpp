@@ -14,12 +14,8 @@ constexpr Nanoseconds patience = seconds(1);
 }  // namespace
 
 ShardControl::ShardControl(const ShardPlan& plan, Totals& totals, const Clock& clock,
-                           std::function<MessageId()> next_id, SendFunction post)
-    : plan_(plan),
-      totals_(totals),
-      clock_(clock),
-      next_id_(std::move(next_id)),
-      post_(std::move(post)) {
+                           Sender& sender, Address self)
+    : plan_(plan), totals_(totals), clock_(clock), sender_(sender), self_(self) {
   for (size_t i = 0; i < plan_.owners.size(); ++i) {
     Shard& shard = shards_.emplace_back();
     shard.owner = plan_.owners[i];
@@ -103,7 +99,7 @@ bool ShardControl::waits(const Shard& shard) const {
 
 /// The next question: decisions come first, whatever is gathered.
 void ShardControl::ask(Shard& shard) {
-  shard.question = next_id_();
+  shard.question = sender_.next_id();
   put(shard);
 }
 
@@ -112,7 +108,7 @@ void ShardControl::put(Shard& shard) {
   const Message message = shard.decisions.empty()
                               ? Message(AskTotals{gather_, static_cast<uint64_t>(shard.next)})
                               : Message(shard.decisions.front());
-  post_(shard.owner, shard.question, message, {});
+  sender_.send(self_, {shard.owner, ActorName::tally_shard}, shard.question, message);
 }
 
 void ShardControl::look() {
@@ -123,19 +119,22 @@ void ShardControl::look() {
   }
 }
 
-bool ShardControl::deliver(const Delivery& delivery) {
-  const auto* settled = std::get_if<FlushSettled>(&delivery.message);
-  const auto* told = std::get_if<TotalsTold>(&delivery.message);
-  if (settled == nullptr && told == nullptr) return false;
-  const size_t index = plan_.shard_of(delivery.source);
-  if (index == 0 || fault_) return true;
+/// The shard that waits for the answer to this question; null where it is old, and was answered.
+ShardControl::Shard* ShardControl::asked(NodeId owner, const MessageId& question) {
+  const size_t index = plan_.shard_of(owner);
+  if (index == 0 || fault_) return nullptr;
   Shard& shard = shards_[index - 1];
-  if (!waits(shard) || delivery.id != shard.question) return true;  // old, and answered before
-  if (settled != nullptr && !shard.decisions.empty())
-    settle(shard, *settled);
-  else if (told != nullptr && shard.decisions.empty())
-    add(shard, *told, delivery.payload);
-  return true;
+  return waits(shard) && question == shard.question ? &shard : nullptr;
+}
+
+void ShardControl::on(const Letter<FlushSettled>& settled) {
+  Shard* const shard = asked(settled.from.node, settled.id);
+  if (shard != nullptr && !shard->decisions.empty()) settle(*shard, settled.body);
+}
+
+void ShardControl::on(const Letter<TotalsTold>& told) {
+  Shard* const shard = asked(told.from.node, told.id);
+  if (shard != nullptr && shard->decisions.empty()) add(*shard, told.body, told.payload.bytes());
 }
 
 }  // namespace luxodus

@@ -5,7 +5,7 @@
 // answer comes, under the same id; an answer to anything but what was asked last is old, and passed
 // over; the shard does not do twice what it is told twice. A piece of the totals is added when its
 // answer comes for the first time, since the next question then has another id.
-// Thread rule: the node's thread. deliver() adds totals, so it may not come from a fiber.
+// Thread rule: the node's thread. Answers add totals, so they may not be handled on a fiber.
 #pragma once
 
 #include <deque>
@@ -14,17 +14,17 @@
 #include <string>
 #include <vector>
 
-#include "actors/tally/send_function.hpp"
 #include "actors/tally/shard_plan.hpp"
 #include "runtime/core/clock.hpp"
+#include "runtime/messaging/actor_system.hpp"
 
 namespace luxodus {
 
 class ShardControl {
  public:
-  /// `next_id` gives questions their names. All that is referred to outlives it.
-  ShardControl(const ShardPlan& plan, Totals& totals, const Clock& clock,
-               std::function<MessageId()> next_id, SendFunction post);
+  /// `self` is the coordinator that it asks for. Requires: all that is referred to outlives it.
+  ShardControl(const ShardPlan& plan, Totals& totals, const Clock& clock, Sender& sender,
+               Address self);
 
   /// Shards beside the controller's.
   size_t others() const { return shards_.size(); }
@@ -38,13 +38,14 @@ class ShardControl {
   /// Every shard has answered every decision.
   bool settled() const;
 
-  /// Adds the shards' totals to those here, and calls `done` from deliver() or from here.
+  /// Adds the shards' totals to those here, and calls `done` from on() or from here.
   /// Requires: settled(), no gather under way; nothing is taken before it is done.
   void gather(std::function<void()> done);
   bool gathering() const { return static_cast<bool>(done_); }
 
-  /// An answer of a shard; false where it is none.
-  bool deliver(const Delivery& delivery);
+  /// Answers of shards.
+  void on(const Letter<FlushSettled>& settled);
+  void on(const Letter<TotalsTold>& told);
   /// Sends again what got no answer in time.
   void look();
   /// Why the totals cannot be had any more.
@@ -71,6 +72,7 @@ class ShardControl {
   void decide(size_t shard, const FlushDecided& decision);
   void ask(Shard& shard);
   void put(Shard& shard);
+  Shard* asked(NodeId owner, const MessageId& question);
   void settle(Shard& shard, const FlushSettled& answer);
   void add(Shard& shard, const TotalsTold& told, std::span<const std::byte> payload);
   bool waits(const Shard& shard) const;
@@ -79,8 +81,8 @@ class ShardControl {
   const ShardPlan plan_;
   Totals& totals_;
   const Clock& clock_;
-  std::function<MessageId()> next_id_;
-  SendFunction post_;
+  Sender& sender_;
+  const Address self_;
   std::vector<Shard> shards_;
   uint32_t gather_ = 0;
   std::function<void()> done_;  // of the gather under way

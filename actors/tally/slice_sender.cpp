@@ -40,8 +40,8 @@ void SliceSender::send(const MessageId& flush, Nanoseconds now) {
 
 void SliceSender::put(size_t index) {
   const Slice& slice = slices_[index];
-  post_(plan_.owners[index], flush_, FlushSlice{slice.hash},
-        {slice.encoder->bytes(), slice.encoder});
+  sender_.send(self_, {plan_.owners[index], ActorName::tally_shard}, flush_, FlushSlice{slice.hash},
+               {slice.encoder->bytes(), slice.encoder});
 }
 
 bool SliceSender::placed() const {
@@ -63,19 +63,21 @@ void SliceSender::ask_again(Nanoseconds now, Nanoseconds patience) {
     if (!slices_[slice].held) put(slice);
 }
 
-bool SliceSender::deliver(NodeId from, const MessageId& id, const Message& message) {
-  const size_t shard = plan_.shard_of(from);
-  const auto* refusal = std::get_if<FlushRefused>(&message);
-  if (shard == 0 || (refusal == nullptr && !std::holds_alternative<SliceHeld>(message)))
-    return false;
-  if (id != flush_) return true;  // of an earlier flush, late
-  if (refusal != nullptr) {
-    log_warning("slice=refused node={} shard={} text=\"{}\"", id.node.value, shard, refusal->text);
-    refused_ = true;
-  } else {
-    slices_[shard - 1].held = true;
-  }
-  return true;
+/// The slice that this shard was asked to hold; null for answers about an earlier flush.
+SliceSender::Slice* SliceSender::asked(NodeId owner, const MessageId& flush) {
+  const size_t shard = plan_.shard_of(owner);
+  return shard == 0 || flush != flush_ ? nullptr : &slices_[shard - 1];
+}
+
+void SliceSender::on(const Letter<SliceHeld>& held) {
+  if (Slice* const slice = asked(held.from.node, held.id)) slice->held = true;
+}
+
+void SliceSender::on(const Letter<FlushRefused>& refused) {
+  if (asked(refused.from.node, refused.id) == nullptr) return;
+  log_warning("slice=refused node={} shard={} text=\"{}\"", refused.id.node.value,
+              plan_.shard_of(refused.from.node), refused.body.text);
+  refused_ = true;
 }
 
 }  // namespace luxodus

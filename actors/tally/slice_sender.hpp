@@ -9,14 +9,16 @@
 #include <vector>
 
 #include "actors/tally/flush_codec.hpp"
-#include "actors/tally/send_function.hpp"
 #include "actors/tally/shard_plan.hpp"
+#include "runtime/messaging/actor_system.hpp"
 
 namespace luxodus {
 
 class SliceSender {
  public:
-  SliceSender(const ShardPlan& plan, SendFunction post) : plan_(plan), post_(std::move(post)) {}
+  /// `self` is the tracer that it sends for. Requires: `sender` outlives it.
+  SliceSender(const ShardPlan& plan, Sender& sender, Address self)
+      : plan_(plan), sender_(sender), self_(self) {}
 
   /// Takes room for flushes of so many source groups and totals each.
   void make_room(int groups, int64_t totals);
@@ -38,8 +40,9 @@ class SliceSender {
   std::vector<uint64_t> hashes() const;
   /// Sends again what got no answer for so long.
   void ask_again(Nanoseconds now, Nanoseconds patience);
-  /// An answer of a shard; false where it is none.
-  bool deliver(NodeId from, const MessageId& id, const Message& message);
+  /// Answers of shards to the slices of a flush.
+  void on(const Letter<SliceHeld>& held);
+  void on(const Letter<FlushRefused>& refused);
 
  private:
   struct Slice {
@@ -48,9 +51,11 @@ class SliceSender {
     bool held = false;
   };
   void put(size_t slice);
+  Slice* asked(NodeId owner, const MessageId& flush);
 
   const ShardPlan plan_;
-  SendFunction post_;
+  Sender& sender_;
+  const Address self_;
   int64_t totals_ = 0;
   std::vector<Slice> slices_;
   MessageId flush_;

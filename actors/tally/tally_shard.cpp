@@ -21,11 +21,10 @@ int64_t piece_of(int groups) {
 }  // namespace
 
 TallyShard::TallyShard(const TallyShardConfig& config, const TallyLayout& layout, int groups,
-                       Scheduler& scheduler, SendFunction post)
-    : config_(config),
+                       Scheduler& scheduler, Sender& sender)
+    : NodeActor(scheduler, sender, {config.self, ActorName::tally_shard}, "shard"),
+      config_(config),
       totals_(layout, groups, {}),
-      scheduler_(scheduler),
-      post_(std::move(post)),
       encoder_(groups, piece_of(groups)) {}
 
 void TallyShard::add_metrics(Metrics& metrics) const {
@@ -39,23 +38,6 @@ void TallyShard::add_metrics(Metrics& metrics) const {
                     c.totals_bytes);
 }
 
-bool TallyShard::deliver(const Delivery& delivery) {
-  if (const auto* slice = std::get_if<FlushSlice>(&delivery.message)) {
-    // The id is that of the worker's flush: nobody sends slices of another's.
-    if (delivery.id.node == delivery.source) take_slice(delivery, *slice);
-    return true;
-  }
-  if (delivery.source != config_.controller) return false;
-  if (const auto* decision = std::get_if<FlushDecided>(&delivery.message)) {
-    take_decision(delivery, *decision);
-  } else if (const auto* question = std::get_if<AskTotals>(&delivery.message)) {
-    tell_totals(delivery, *question);
-  } else {
-    return false;
-  }
-  return true;
-}
-
 uint64_t TallyShard::decided(const Life& life) const {
   const auto at = decided_.find(life);
   return at == decided_.end() ? 0 : at->second;
@@ -63,63 +45,60 @@ uint64_t TallyShard::decided(const Life& life) const {
 
 // ---- slices -------------------------------------------------------------------------------------
 
-void TallyShard::take_slice(const Delivery& delivery, const FlushSlice& slice) {
-  const Life life{delivery.id.node, delivery.id.incarnation};
-  if (delivery.id.sequence <= decided(life)) return;  // it comes late, and again
+void TallyShard::on(Letter<FlushSlice>&& slice) {
+  // The id is that of the worker's flush: nobody sends slices of another's.
+  if (slice.id.node != slice.from.node) return;
+  const Life life{slice.id.node, slice.id.incarnation};
+  if (slice.id.sequence <= decided(life)) return;  // it comes late, and again
   if (const auto at = slices_.find(life); at != slices_.end()) {
-    const Slice& known = *at->second;
-    if (known.flush == delivery.id && known.gain) post_(known.from, known.flush, SliceHeld{}, {});
+    Slice& known = *at->second;
+    if (known.flush == slice.id && known.gain) hold(known);
     return;
   }
-  auto made = std::make_shared<Slice>();
-  made->flush = delivery.id;
-  made->from = delivery.source;
-  made->hash = slice.payload_hash;
-  made->payload.assign(delivery.payload.begin(), delivery.payload.end());
-  counters_.slice_bytes += delivery.payload.size();
-  counters_.held = slices_.size() + 1;
+  counters_.slice_bytes += slice.payload.bytes().size();
+  const auto made = std::make_shared<Slice>(Slice{
+      slice.id, slice.from, slice.body.payload_hash, std::move(slice.payload), {}, {}, false});
   slices_.emplace(life, made);
-  work(std::move(made));
+  counters_.held = slices_.size();
+  if (!work_on(*made)) forget(*made);  // it is sent again
 }
 
-void TallyShard::work(std::shared_ptr<Slice> slice) {
-  due_.push_back(std::move(slice));
-  if (working_) return;
-  working_ = true;
-  LUX_CHECK(scheduler_.fibers().start("shard", [this] { work_off(); }).has_value(),
-            "the plan counts a fiber for it");
+void TallyShard::hold(Slice& slice) {
+  sender().send(address(), slice.from, slice.flush, SliceHeld{});
 }
 
-/// On a fiber of its own.
-void TallyShard::work_off() {
-  while (!due_.empty()) {
-    const std::shared_ptr<Slice> slice = due_.front();
-    due_.pop_front();
-    if (slice->dropped) continue;
-    if (slice->taken)
-      add(*slice);
-    else
-      read(*slice);
-  }
-  working_ = false;
+/// False: there is no room to remember it.
+bool TallyShard::work_on(const Slice& slice) {
+  return offer(WorkOnSlice{slice.flush.node, slice.flush.incarnation}) == Offered::taken;
+}
+
+/// On the actor's fiber.
+void TallyShard::on(const WorkOnSlice& work) {
+  const auto at = slices_.find({work.node, work.life});
+  if (at == slices_.end()) return;  // it was dropped
+  const std::shared_ptr<Slice> slice = at->second;
+  if (!slice->gain)
+    read(*slice);
+  else if (slice->taken)
+    add(*slice);
 }
 
 /// Lets others have their turn. A node that is to end goes on: what is begun is whole in the end.
 bool TallyShard::take_turns() {
-  (void)scheduler_.fibers().yield();
+  (void)scheduler().fibers().yield();
   return true;
 }
 
 /// "" where the slice is right, and then held.
 std::string TallyShard::reading_fault(Slice& slice) {
   Hasher hash;
-  for (std::span<const std::byte> left = slice.payload; !left.empty(); take_turns()) {
+  for (std::span<const std::byte> left = slice.payload.bytes(); !left.empty(); take_turns()) {
     const auto piece = left.first(std::min(left.size(), bytes_of_a_step));
     hash.add(piece.data(), piece.size());
     left = left.subspan(piece.size());
   }
   if (hash.value() != slice.hash) return "a slice is not what its hash says";
-  auto gain = decode_flush(slice.payload, totals_.groups(), config_.bins,
+  auto gain = decode_flush(slice.payload.bytes(), totals_.groups(), config_.bins,
                            [&] { return take_turns() && !slice.dropped; });
   if (!gain) return gain.problem().what;
   // Batches and where their weight went are told to the controller, once.
@@ -132,8 +111,9 @@ void TallyShard::read(Slice& slice) {
   const std::string wrong = reading_fault(slice);
   slice.payload = {};
   if (slice.dropped) return;
-  if (wrong.empty()) return post_(slice.from, slice.flush, SliceHeld{}, {});
-  post_(slice.from, slice.flush, FlushRefused{{}, wrong.substr(0, limits::text_bytes)}, {});
+  if (wrong.empty()) return hold(slice);
+  sender().send(address(), slice.from, slice.flush,
+                FlushRefused{{}, wrong.substr(0, limits::text_bytes)});
   forget(slice);
 }
 
@@ -144,12 +124,11 @@ void TallyShard::forget(const Slice& slice) {
 
 // ---- decisions ---------------------------------------------------------------------------------
 
-void TallyShard::take_decision(const Delivery& delivery, const FlushDecided& decision) {
+void TallyShard::on(const Letter<FlushDecided>& letter) {
+  if (letter.from.node != config_.controller) return;
+  const FlushDecided& decision = letter.body;
   const Life life{decision.flush.node, decision.flush.incarnation};
-  const auto answer = [&](bool whole) {
-    post_(config_.controller, delivery.id, FlushSettled{whole}, {});
-  };
-  if (decision.flush.sequence <= decided(life)) return answer(true);
+  if (decision.flush.sequence <= decided(life)) return settle(letter.id, true);
   const auto at = slices_.find(life);
   const std::shared_ptr<Slice> slice = at == slices_.end() ? nullptr : at->second;
   if (!decision.taken) {
@@ -159,14 +138,18 @@ void TallyShard::take_decision(const Delivery& delivery, const FlushDecided& dec
       forget(*slice);
     }
     decided_[life] = decision.flush.sequence;
-    return answer(true);
+    return settle(letter.id, true);
   }
   const bool held =
       slice && slice->flush == decision.flush && slice->gain && slice->hash == decision.slice_hash;
-  if (!held) return answer(false);  // this shard lacks what was counted
-  if (slice->taken) return;         // it is being added; the answer follows
-  slice->taken = delivery.id;
-  work(slice);
+  if (!held) return settle(letter.id, false);    // this shard lacks what was counted
+  if (slice->taken || !work_on(*slice)) return;  // the answer follows; or it is asked again
+  slice->taken = letter.id;
+}
+
+void TallyShard::settle(const MessageId& decision, bool whole) {
+  sender().send(address(), {config_.controller, ActorName::coordinator}, decision,
+                FlushSettled{whole});
 }
 
 void TallyShard::add(Slice& slice) {
@@ -176,12 +159,14 @@ void TallyShard::add(Slice& slice) {
   decided_[{slice.flush.node, slice.flush.incarnation}] = slice.flush.sequence;
   const MessageId decision = *slice.taken;
   forget(slice);
-  post_(config_.controller, decision, FlushSettled{true}, {});
+  settle(decision, true);
 }
 
 // ---- totals ------------------------------------------------------------------------------------
 
-void TallyShard::tell_totals(const Delivery& delivery, const AskTotals& question) {
+void TallyShard::on(const Letter<AskTotals>& letter) {
+  if (letter.from.node != config_.controller) return;
+  const AskTotals& question = letter.body;
   const bool again = question.gather == told_.gather && question.first == told_.first;
   const bool goes_on = question.gather == told_.gather && question.first == told_.next;
   const bool begins =
@@ -192,7 +177,7 @@ void TallyShard::tell_totals(const Delivery& delivery, const AskTotals& question
     told_.first = question.first;
     told_bytes_ = next_piece(told_);
   }
-  post_(config_.controller, delivery.id, told_, told_bytes_);
+  sender().send(address(), letter.from, letter.id, told_, told_bytes_);
 }
 
 /// Takes the next bins that are not zero out of the totals.

@@ -13,20 +13,18 @@
 //   for, which says that it has come.
 // A life of a worker has one slice here at most: the next one gets no answer, so is sent again,
 // until the one before is decided. That bounds the memory, by one flush of each worker. When a life
-// ends the controller decides about all that was left of it, in one decision. Thread rule: the
-// node's thread.
+// ends the controller decides about all that was left of it, in one decision. What takes long, to
+// read a slice and to add it, is done on the actor's fiber. Thread rule: the node's thread.
 #pragma once
 
-#include <deque>
 #include <map>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "actors/tally/flush_codec.hpp"
-#include "actors/tally/send_function.hpp"
 #include "actors/tally/shard_plan.hpp"
-#include "runtime/actor/scheduler.hpp"
+#include "runtime/messaging/node_actor.hpp"
 
 namespace luxodus {
 
@@ -36,14 +34,27 @@ struct TallyShardConfig {
   BinRange bins;
 };
 
-class TallyShard {
- public:
-  /// Requires: `layout` outlives it; the scheduler has a fiber for it.
-  TallyShard(const TallyShardConfig& config, const TallyLayout& layout, int groups,
-             Scheduler& scheduler, SendFunction post);
+/// Of a shard to itself: the next step of this life's slice is due.
+struct WorkOnSlice {
+  NodeId node;
+  Incarnation life;
+};
 
-  /// A message of a worker or the controller; false where it is none for a shard.
-  bool deliver(const Delivery& delivery);
+class TallyShard final
+    : public NodeActor<TallyShard,
+                       ControlLane<Accepts<Letter<FlushSlice>, 1024, WhenFull::reject>,
+                                   Accepts<Letter<FlushDecided>, 64, WhenFull::reject>,
+                                   Accepts<Letter<AskTotals>, 16, WhenFull::reject>>,
+                       DataLane<Accepts<WorkOnSlice, 2048, WhenFull::reject>>> {
+ public:
+  /// Requires: `layout` and `sender` outlive it; the scheduler has a fiber for it.
+  TallyShard(const TallyShardConfig& config, const TallyLayout& layout, int groups,
+             Scheduler& scheduler, Sender& sender);
+
+  void on(Letter<FlushSlice>&& slice);
+  void on(const Letter<FlushDecided>& decision);
+  void on(const Letter<AskTotals>& question);
+  void on(const WorkOnSlice& work);
 
   struct Counters {
     uint64_t slices = 0;  // added
@@ -60,38 +71,32 @@ class TallyShard {
   /// A slice's way: read -> held -> added, or dropped from either of the first two.
   struct Slice {
     MessageId flush;
-    NodeId from;
+    Address from;
     uint64_t hash = 0;
-    std::vector<std::byte> payload;  // until it is read
+    Payload payload;                 // until it is read
     std::optional<FlushGain> gain;   // from then on: it is held
     std::optional<MessageId> taken;  // the decision that says so
     bool dropped = false;
   };
   using Life = std::pair<NodeId, Incarnation>;
 
-  void take_slice(const Delivery& delivery, const FlushSlice& slice);
-  void take_decision(const Delivery& delivery, const FlushDecided& decision);
-  void tell_totals(const Delivery& delivery, const AskTotals& question);
-  void work(std::shared_ptr<Slice> slice);
-  void work_off();
+  void hold(Slice& slice);
   void read(Slice& slice);
   std::string reading_fault(Slice& slice);
   void add(Slice& slice);
   void forget(const Slice& slice);
+  bool work_on(const Slice& slice);
+  void settle(const MessageId& decision, bool whole);
   bool take_turns();
   uint64_t decided(const Life& life) const;
   SharedBytes next_piece(TotalsTold& told);
 
   const TallyShardConfig config_;
   Totals totals_;
-  Scheduler& scheduler_;
-  SendFunction post_;
   std::map<Life, std::shared_ptr<Slice>> slices_;
-  std::map<Life, uint64_t> decided_;        // by life, the sequence of the last flush decided about
-  std::deque<std::shared_ptr<Slice>> due_;  // to be read or added, on a fiber
-  bool working_ = false;
-  FlushEncoder encoder_;  // of pieces of the totals
-  TotalsTold told_;       // the last piece
+  std::map<Life, uint64_t> decided_;  // by life, the sequence of the last flush decided about
+  FlushEncoder encoder_;              // of pieces of the totals
+  TotalsTold told_;                   // the last piece
   SharedBytes told_bytes_;
   Counters counters_;
 };

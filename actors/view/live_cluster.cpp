@@ -30,6 +30,30 @@ constexpr Nanoseconds farewell = milliseconds(300);
 
 }  // namespace
 
+/// What workers send to.
+class LiveCluster::Coordinator final
+    : public NodeActor<Coordinator,
+                       ControlLane<Accepts<Letter<RequestLease>, 256, WhenFull::reject>,
+                                   Accepts<Letter<BatchesTraced>, 256, WhenFull::reject>>,
+                       DataLane<>> {
+ public:
+  Coordinator(LiveCluster& cluster, NodeId self, NodeShell& shell)
+      : NodeActor(shell.scheduler(), shell.actors(), {self, ActorName::coordinator}, "live"),
+        cluster_(cluster) {
+    shell.actors().add(ActorName::coordinator, *this);
+  }
+
+  void on(const Letter<RequestLease>& request) { cluster_.meet(request); }
+  void on(const Letter<BatchesTraced>& traced) { cluster_.take(traced); }
+
+  SendOutcome send(NodeId worker, const Message& message, SharedBytes payload = {}) {
+    return tell({worker, ActorName::tracer}, message, std::move(payload));
+  }
+
+ private:
+  LiveCluster& cluster_;
+};
+
 Result<std::unique_ptr<LiveCluster>> LiveCluster::start(const RunSetup& run, const Machine& machine,
                                                         const NodeSetup& node) {
   std::unique_ptr<LiveCluster> out(new LiveCluster(run, node));
@@ -98,14 +122,15 @@ void LiveCluster::work(const Machine& machine) {
   try {
     NodeTransport transport(machine, node_);
     NodeShell shell({controller_net(run_, node_), controller_limits(node_),
-                     ShellConfig{}.max_room_bytes, node_.shutdown_phase, run_.routes},
+                     ShellConfig{}.max_payload_bytes, node_.shutdown_phase, run_.routes},
                     run_.graph, machine.clock, transport.transport());
     if (auto joined = join_links(transport.sockets(), node_); !joined)
       return begun(joined.problem());
+    Coordinator coordinator(*this, node_.net.self, shell);
     shell_ = &shell;
+    coordinator_ = &coordinator;
     last_lease_ = node_.net.incarnation.value;  // no lease of an earlier life is taken for one
     begun(std::nullopt);
-    shell.add([this](const Delivery& d) { return deliver(d); });
     look();
     Nanoseconds told = never;
     shell.begin([&] {
@@ -127,7 +152,7 @@ void LiveCluster::work(const Machine& machine) {
 
 void LiveCluster::say_end() {
   for (const auto& [worker, peer] : peers_)
-    if (peer.here) shell_->network().send(worker, shell_->network().next_id(), RunEnded{});
+    if (peer.here) coordinator_->send(worker, RunEnded{});
 }
 
 void LiveCluster::look() {
@@ -173,8 +198,7 @@ void LiveCluster::tell_foreseen() {
 
 SendOutcome LiveCluster::send(NodeId worker, const TraceBatches& order,
                               const std::shared_ptr<const std::string>& edits) {
-  Network& network = shell_->network();
-  return network.send(worker, network.next_id(), order, {std::as_bytes(std::span(*edits)), edits});
+  return coordinator_->send(worker, order, {std::as_bytes(std::span(*edits)), edits});
 }
 
 template <class Which>
@@ -234,69 +258,63 @@ void LiveCluster::lend(NodeId worker, Peer& peer) {
   }
 }
 
-bool LiveCluster::deliver(const Delivery& delivery) {
-  const std::lock_guard lock(mutex_);
-  if (peers_.find(delivery.source) == peers_.end()) return false;
-  if (std::holds_alternative<RequestLease>(delivery.message)) {
-    meet(delivery);
-    return true;
-  }
-  const auto* traced = std::get_if<BatchesTraced>(&delivery.message);
-  if (traced == nullptr) return false;
-  take(delivery, *traced);
-  return true;
-}
-
 /// A worker says that it is there, and has nothing to do.
-void LiveCluster::meet(const Delivery& delivery) {
-  Network& network = shell_->network();
-  network.send(delivery.source, delivery.id, ends_ ? Message(RunEnded{}) : Message(LeaseGranted{}));
+void LiveCluster::meet(const Letter<RequestLease>& request) {
+  const std::lock_guard lock(mutex_);
+  const NodeId worker = request.from.node;
+  const auto known = peers_.find(worker);
+  if (known == peers_.end()) return;
+  shell_->actors().send(coordinator_->address(), request.from, request.id,
+                        ends_ ? Message(RunEnded{}) : Message(LeaseGranted{}));
   if (ends_) return;
-  Peer& peer = peers_[delivery.source];
-  const bool anew = peer.life != delivery.id.incarnation;
+  Peer& peer = known->second;
+  const Incarnation life = request.id.incarnation;
+  const bool anew = peer.life != life;
   if (!peer.here)
-    log_info("worker=here node={} text=\"{} is there\"", delivery.source.value,
-             run_.name_of(delivery.source));
+    log_info("worker=here node={} text=\"{} is there\"", worker.value, run_.name_of(worker));
   const Nanoseconds now = shell_->scheduler().clock().now();
   fence(
       [&](const Lease& lease) {
-        return lease.node == delivery.source && (anew || now - lease.lent >= lost_on_the_way);
+        return lease.node == worker && (anew || now - lease.lent >= lost_on_the_way);
       },
       "its worker has nothing to do");
-  peer = {true, delivery.id.incarnation, anew ? 1 : peer.batches};
-  lend(delivery.source, peer);
+  peer = {true, life, anew ? 1 : peer.batches};
+  lend(worker, peer);
 }
 
-void LiveCluster::take(const Delivery& delivery, const BatchesTraced& traced) {
-  Peer& peer = peers_[delivery.source];
-  const auto at = leases_.find(traced.lease);
-  if (at == leases_.end() || at->second.node != delivery.source ||
-      peer.life != delivery.id.incarnation) {
+void LiveCluster::take(const Letter<BatchesTraced>& traced) {
+  const std::lock_guard lock(mutex_);
+  const NodeId worker = traced.from.node;
+  const auto known = peers_.find(worker);
+  if (known == peers_.end()) return;
+  Peer& peer = known->second;
+  const auto at = leases_.find(traced.body.lease);
+  if (at == leases_.end() || at->second.node != worker || peer.life != traced.id.incarnation) {
     ++counters_.dropped;
     return;
   }
   const Lease lease = at->second;
   Totals& totals = work_->totals();
-  const auto gain = traced.fault.empty()
-                        ? decode_flush(delivery.payload, totals.groups(), totals.layout().totals())
-                        : Result<FlushGain>(problem(traced.fault));
+  const auto gain =
+      traced.body.fault.empty()
+          ? decode_flush(traced.payload.bytes(), totals.groups(), totals.layout().totals())
+          : Result<FlushGain>(problem(traced.body.fault));
   if (!gain || gain.value().batches() != lease.batches.count) {
-    log_error("worker=fails node={} text=\"{}: {}\"", delivery.source.value,
-              run_.name_of(delivery.source),
+    log_error("worker=fails node={} text=\"{}: {}\"", worker.value, run_.name_of(worker),
               gain.ok() ? "other batches than it was lent" : gain.problem().what);
     peer.here = false;  // until it says again that it is
-    fence([&](const Lease& its) { return its.node == delivery.source; }, "its worker fails");
+    fence([&](const Lease& its) { return its.node == worker; }, "its worker fails");
     return;
   }
   gain.value().add_to(totals);
   leases_.erase(at);
   const Nanoseconds took = shell_->scheduler().clock().now() - lease.lent;
-  const bool large = delivery.payload.size() >= large_answer;
+  const bool large = traced.payload.bytes().size() >= large_answer;
   if (took < (large ? large_answer_at_most : lease_at_least))
     peer.batches = std::min(2 * peer.batches, max_batches);
   else if (took > lease_at_most && !large)
     peer.batches = std::max<int64_t>(peer.batches / 2, 1);
-  lend(delivery.source, peer);
+  lend(worker, peer);
   if (all_given_ && leases_.empty()) changed_.notify_all();
 }
 

@@ -14,6 +14,7 @@
 #include "actors/supervise/node_setup.hpp"
 #include "actors/supervise/node_shell.hpp"
 #include "actors/view/live_work.hpp"
+#include "runtime/messaging/node_actor.hpp"
 
 namespace luxodus {
 
@@ -59,9 +60,9 @@ class LiveCluster final : public LiveTracers {
   LiveCluster(const RunSetup& run, const NodeSetup& node) : run_(run), node_(node) {}
   void work(const Machine& machine);
   void look();
-  bool deliver(const Delivery& delivery);
-  void meet(const Delivery& delivery);
-  void take(const Delivery& delivery, const BatchesTraced& traced);
+  class Coordinator;
+  void meet(const Letter<RequestLease>& request);
+  void take(const Letter<BatchesTraced>& traced);
   void lend(NodeId worker, Peer& peer);
   void lend_all();
   SendOutcome send(NodeId worker, const TraceBatches& order,
@@ -92,6 +93,7 @@ class LiveCluster final : public LiveTracers {
   std::optional<Problem> fault_;
   // Of the node's thread.
   NodeShell* shell_ = nullptr;
+  Coordinator* coordinator_ = nullptr;
   std::thread thread_;
 };
 

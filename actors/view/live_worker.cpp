@@ -26,6 +26,47 @@ constexpr uint32_t max_streams = (uint32_t{1} << 20) - 1;
 
 }  // namespace
 
+/// What a live view sends to.
+class LiveWorker::Tracer final
+    : public NodeActor<Tracer,
+                       ControlLane<Accepts<Letter<TraceBatches>, 16, WhenFull::reject>,
+                                   Accepts<Letter<LeaseGranted>, 16, WhenFull::reject>,
+                                   Accepts<Letter<RunEnded>, 4, WhenFull::reject>>,
+                       DataLane<>> {
+ public:
+  Tracer(LiveWorker& worker, NodeId self, NodeId view, NodeShell& shell)
+      : NodeActor(shell.scheduler(), shell.actors(), {self, ActorName::tracer}, "live"),
+        worker_(worker),
+        coordinator_{view, ActorName::coordinator} {
+    shell.actors().add(ActorName::tracer, *this);
+  }
+
+  void on(const Letter<TraceBatches>& order) {
+    if (hears(order.from)) worker_.take(order);
+  }
+  /// A live view that waits for edits says so: by leases of nothing.
+  void on(const Letter<LeaseGranted>& granted) { (void)hears(granted.from); }
+  void on(const Letter<RunEnded>& ended) {
+    if (hears(ended.from)) worker_.ended_ = true;
+  }
+
+  SendOutcome send(const Message& message, SharedBytes payload = {}) {
+    return tell(coordinator_, message, std::move(payload));
+  }
+
+ private:
+  bool hears(Address from) {
+    if (from != coordinator_) return false;
+    worker_.heard_ = true;
+    return true;
+  }
+
+  LiveWorker& worker_;
+  const Address coordinator_;
+};
+
+LiveWorker::~LiveWorker() = default;
+
 Result<std::shared_ptr<const LiveState>> LiveStates::get(const std::string& edits) {
   const std::lock_guard lock(mutex_);
   if (state_ && edits == edits_) return state_;
@@ -49,14 +90,14 @@ LiveWorker::LiveWorker(const RunSetup& run, const NodeSetup& node, const NodeSea
                        LiveStates& states)
     : node_(node),
       states_(states),
-      shell_({node.net, worker_limits(run, node), ShellConfig{}.max_room_bytes, node.shutdown_phase,
-              run.routes},
+      shell_({node.net, worker_limits(run, node), ShellConfig{}.max_payload_bytes,
+              node.shutdown_phase, run.routes},
              run.graph, seams.clock, seams.transport),
+      tracer_(std::make_unique<Tracer>(*this, node.net.self, node.controller, shell_)),
       began_(seams.clock.now()) {}
 
 void LiveWorker::start(std::function<bool()> stop) {
   stop_ = std::move(stop);
-  shell_.add([this](const Delivery& d) { return deliver(d); });
   look();
   shell_.begin([this] { return ended_ || stop_(); });
 }
@@ -79,29 +120,17 @@ void LiveWorker::look() {
     return give_up("the live view has not been heard of", node_.start, "start_s");
   if (heard_ && unreachable_since_ && now - *unreachable_since_ >= node_.lost)
     return give_up("no way has led to the live view", node_.lost, "lost_s");
-  if (orders_.empty() && answers_.empty())
-    shell_.network().send(node_.controller, shell_.network().next_id(), RequestLease{1});
+  if (orders_.empty() && answers_.empty()) tracer_->send(RequestLease{1});
 }
 
-bool LiveWorker::deliver(const Delivery& delivery) {
-  if (delivery.source != node_.controller) return false;
-  heard_ = true;
-  if (std::holds_alternative<RunEnded>(delivery.message)) {
-    ended_ = true;
-    return true;
-  }
-  // A live view that waits for edits says so: by leases of nothing.
-  if (std::holds_alternative<LeaseGranted>(delivery.message)) return true;
-  const auto* order = std::get_if<TraceBatches>(&delivery.message);
-  if (order == nullptr) return false;
-  std::string edits(reinterpret_cast<const char*>(delivery.payload.data()),
-                    delivery.payload.size());
+void LiveWorker::take(const Letter<TraceBatches>& order) {
+  const std::span<const std::byte> text = order.payload.bytes();
+  std::string edits(reinterpret_cast<const char*>(text.data()), text.size());
   // Nobody waits for another state any more.
   if (!orders_.empty() && orders_.back().edits != edits) drop_orders();
-  if (orders_.size() >= max_orders) return true;
-  orders_.push_back({*order, std::move(edits)});
+  if (orders_.size() >= max_orders) return;
+  orders_.push_back({order.body, std::move(edits)});
   wake();
-  return true;
 }
 
 /// And what they have given.
@@ -197,12 +226,9 @@ void LiveWorker::answer(std::string fault) {
 }
 
 void LiveWorker::send_answers() {
-  Network& network = shell_.network();
   while (!answers_.empty()) {
     const Answer& next = answers_.front();
-    const SendOutcome outcome =
-        network.send(node_.controller, network.next_id(), next.message, next.payload);
-    if (outcome == SendOutcome::full) return;
+    if (tracer_->send(next.message, next.payload) == SendOutcome::full) return;
     answers_.pop_front();  // without a way, the lease is fenced there
   }
 }

@@ -13,6 +13,7 @@
 #include "actors/supervise/node_shell.hpp"
 #include "actors/supervise/node_threads.hpp"
 #include "actors/tally/flush_codec.hpp"
+#include "runtime/messaging/node_actor.hpp"
 #include "scenes/transport/readout.hpp"
 
 namespace luxodus {
@@ -45,6 +46,7 @@ class LiveWorker {
   /// Requires: all outlive this.
   LiveWorker(const RunSetup& run, const NodeSetup& node, const NodeSeams& seams,
              LiveStates& states);
+  ~LiveWorker();
 
   /// From the shell's next turn on this traces what it is asked for, until the live view ends or
   /// `stop` says so.
@@ -72,7 +74,8 @@ class LiveWorker {
     SharedBytes payload;
   };
 
-  bool deliver(const Delivery& delivery);
+  class Tracer;
+  void take(const Letter<TraceBatches>& order);
   void look();
   void work();
   void wake();
@@ -87,6 +90,7 @@ class LiveWorker {
   const NodeSetup& node_;
   LiveStates& states_;
   NodeShell shell_;
+  std::unique_ptr<Tracer> tracer_;
   std::function<bool()> stop_;
   std::deque<Order> orders_;  // the first is in work
   int64_t traced_ = 0;        // particles of it

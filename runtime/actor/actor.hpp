@@ -3,7 +3,7 @@
 // needs no fiber, cannot be starved, and its handler may not suspend. A data message is handled on
 // the actor's own fiber, one after another, and its handler may suspend; control may come meanwhile
 // and find the actor between two of its suspends. A class declares what it accepts, and has a
-// handler `void on(const Message&)` for each:
+// handler `void on(Message&&)` or `void on(const Message&)` for each:
 //
 //   struct Stop {};
 //   struct Square { int number; WaitList* answered; };
@@ -41,29 +41,37 @@ class Actor : public ControlReceiver {
 
   /// Sends without waiting; `rejected` where the kind is full and does not coalesce.
   template <class Message>
-  [[nodiscard]] Offered offer(const Message& message) {
+  [[nodiscard]] Offered offer(Message message) {
     if constexpr (is_control<Message>) {
       scheduler_.call_for_control(*this);
-      return control_.offer(message);
+      return control_.offer(std::move(message));
     } else {
-      return announced(data_.offer(message));
+      return announced(data_.offer(std::move(message)));
     }
   }
 
   /// Sends, after a wait where the kind is full and waits; `cancelled` where the sender should end
   /// instead. Requires: on a fiber. Suspends.
   template <class Message>
-  [[nodiscard]] Offered send(const Message& message) {
+  [[nodiscard]] Offered send(Message message) {
     if constexpr (is_control<Message>)
-      return offer(message);
+      return offer(std::move(message));
     else
-      return announced(data_.send(scheduler_.fibers(), message));
+      return announced(data_.send(scheduler_.fibers(), std::move(message)));
   }
 
   size_t waiting() const { return control_.size() + data_.size(); }
 
+  /// Whether the actor is sent messages of this type.
+  template <class Message>
+  static constexpr bool accepts =
+      Control::template accepts<Message> || Data::template accepts<Message>;
+  /// What its mailbox takes.
+  static constexpr size_t memory_bytes() { return Control::memory_bytes() + Data::memory_bytes(); }
+
  protected:
   Scheduler& scheduler() { return scheduler_; }
+  const Scheduler& scheduler() const { return scheduler_; }
 
  private:
   static_assert(!Control::any_waits, "who sends control may be the loop itself, which never waits");
@@ -91,11 +99,11 @@ class Actor : public ControlReceiver {
   }
 
   template <class Any>
-  void dispatch(const Any& any) {
+  void dispatch(Any any) {
     std::visit(
-        [this](const auto& message) {
+        [this](auto& message) {
           if constexpr (!std::is_same_v<std::decay_t<decltype(message)>, std::monostate>)
-            static_cast<Derived*>(this)->on(message);
+            static_cast<Derived*>(this)->on(std::move(message));
         },
         any);
   }

@@ -88,7 +88,7 @@ MessageId Network::next_id() {
 }
 
 SendOutcome Network::send(NodeId destination, const MessageId& id, const Message& message,
-                          SharedBytes payload) {
+                          SharedBytes payload, ActorPair actors) {
   const Kind kind = kind_of(message);
   if (kind == Kind::link || destination == config_.self)
     throw std::logic_error("network: send() is for messages to other nodes");
@@ -100,7 +100,7 @@ SendOutcome Network::send(NodeId destination, const MessageId& id, const Message
   if (!head) throw std::length_error("network: " + head.problem().what);
   if (head.value() + payload.bytes.size() > config_.max_message_bytes)
     throw std::length_error("network: a message is longer than message_bytes_most");
-  outbox.add(destination, id, std::span(scratch_).first(head.value()), std::move(payload));
+  outbox.add(destination, id, actors, std::span(scratch_).first(head.value()), std::move(payload));
   given_ = true;
   return SendOutcome::taken;
 }
@@ -275,10 +275,10 @@ void Network::take_routed(Link& link, const OpenedFrame& frame, Lane lane, Nanos
 
 bool Network::intercepted(const Envelope& envelope, std::span<const std::byte> body) {
   if (body.size() != envelope.total_bytes) return false;  // a piece asks for nothing yet
-  const auto opened = codec_.open_message(body);
+  auto opened = codec_.open_message(body);
   if (!opened || kind_of(opened->message) != Kind::request) return false;
-  return handler_.intercept(
-      {envelope.source, envelope.id, envelope.hops, opened->message, opened->payload});
+  return handler_.intercept({envelope.source, envelope.id, envelope.hops, opened->message,
+                             opened->payload, envelope.actors});
 }
 
 void Network::malformed(NodeId neighbour, const std::string& what, Nanoseconds now) {
@@ -339,14 +339,14 @@ void Network::make_room(NodeId newcomer) {
 }
 
 bool Network::deliver(const Envelope& envelope, std::span<const std::byte> bytes) {
-  const auto opened = codec_.open_message(bytes);
+  auto opened = codec_.open_message(bytes);
   if (!opened || kind_of(opened->message) != envelope.kind) {
     ++counters_.dropped_malformed;
     if (bytes.size() > envelope.chunk_bytes) handler_.abandoned(envelope.id, envelope.kind);
     return true;
   }
-  if (!handler_.deliver(
-          {envelope.source, envelope.id, envelope.hops, opened->message, opened->payload}))
+  if (!handler_.deliver({envelope.source, envelope.id, envelope.hops, opened->message,
+                         opened->payload, envelope.actors}))
     return false;
   ++counters_.messages_delivered;
   return true;

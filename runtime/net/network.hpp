@@ -29,13 +29,14 @@
 
 namespace luxodus {
 
-/// A message that has come.
+/// A message that has come. Who takes it in may move the message out.
 struct Delivery {
   NodeId source;
   MessageId id;
   uint8_t hops = 0;
-  const Message& message;
+  Message& message;
   std::span<const std::byte> payload;  // during the call; for messages in pieces, in their room
+  ActorPair actors = {};
 };
 
 /// Under which a question and its answer are known in a trace, on whichever node.
@@ -91,8 +92,9 @@ class Network {
   /// of its question, so that its pieces find the room set aside for them.
   /// Requires: another node than this one (actors here are reached without a network), a message
   /// that is not of kind link. Errors (exception): a message over its limits.
+  /// `actors`: of this node, and of the destination.
   SendOutcome send(NodeId destination, const MessageId& id, const Message& message,
-                   SharedBytes payload = {});
+                   SharedBytes payload = {}, ActorPair actors = {});
 
   /// Takes what has come, lets time pass, moves what can be moved. Never blocks.
   /// True: there is more to do at once.

@@ -23,13 +23,14 @@ size_t Outbox::memory_bytes(size_t messages, size_t chunk_bytes) {
   return messages * (sizeof(Slot) + usual_head_bytes + 2 * sizeof(size_t)) + chunk_bytes;
 }
 
-void Outbox::add(NodeId destination, const MessageId& id, std::span<const std::byte> head,
-                 SharedBytes payload) {
+void Outbox::add(NodeId destination, const MessageId& id, ActorPair actors,
+                 std::span<const std::byte> head, SharedBytes payload) {
   const size_t at = free_.back();
   free_.pop_back();
   Slot& slot = slots_[at];
   slot.destination = destination;
   slot.id = id;
+  slot.actors = actors;
   slot.head.assign(head.begin(), head.end());
   slot.payload = std::move(payload);
   slot.chunk = 0;
@@ -44,6 +45,7 @@ std::span<const std::byte> Outbox::chunk(size_t n, Envelope& envelope) {
   const size_t end = std::min(total, begin + chunk_bytes_);
   envelope.destination = s.destination;
   envelope.id = s.id;
+  envelope.actors = s.actors;
   envelope.chunk = s.chunk;
   envelope.chunk_bytes = static_cast<uint32_t>(chunk_bytes_);
   envelope.total_bytes = static_cast<uint32_t>(total);

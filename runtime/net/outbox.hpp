@@ -30,8 +30,8 @@ class Outbox {
   size_t size() const { return waiting_.size(); }
 
   /// Requires: not full. The head is copied, the payload lent.
-  void add(NodeId destination, const MessageId& id, std::span<const std::byte> head,
-           SharedBytes payload);
+  void add(NodeId destination, const MessageId& id, ActorPair actors,
+           std::span<const std::byte> head, SharedBytes payload);
 
   NodeId destination(size_t n) const { return slot(n).destination; }
   /// The next chunk of the nth message: its envelope's fields that the chunk decides, and its
@@ -46,6 +46,7 @@ class Outbox {
   struct Slot {
     NodeId destination;
     MessageId id;
+    ActorPair actors;
     std::vector<std::byte> head;  // keeps its capacity for the next message
     SharedBytes payload;
     uint32_t chunk = 0;

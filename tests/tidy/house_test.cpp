@@ -116,6 +116,7 @@ const std::map<std::string, std::vector<std::string>> arrows{
     {"runtime/net", {"proto", "runtime/observe"}},
     {"runtime/config", {"runtime/net", "runtime/toml"}},
     {"runtime/fetch", {"runtime/actor", "runtime/fiber", "runtime/net", "runtime/observe"}},
+    {"runtime/messaging", {"proto", "runtime/actor", "runtime/net", "runtime/observe"}},
     {"runtime/sim", {"runtime/actor", "runtime/net", "runtime/storage"}},
 
     {"scenes/geometry", {}},
@@ -160,7 +161,7 @@ const std::map<std::string, std::vector<std::string>> arrows{
       "actors/tally", "runtime", "scenes", "topology"}},
     {"actors/view",
      {"actors/assess", "actors/inspect", "actors/output", "actors/run", "actors/supervise",
-      "actors/tally", "runtime/http", "scenes"}},
+      "actors/tally", "runtime/http", "runtime/messaging", "scenes"}},
     {"actors/cli", {"actors", "runtime", "scenes", "topology"}},
     {"tests", {"actors", "runtime", "proto", "topology", "scenes"}},
 };

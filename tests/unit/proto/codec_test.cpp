@@ -39,7 +39,7 @@ TEST_CASE("an envelope is read as it was written, and has the bytes it is said t
   Codec codec;
   Bytes out(limits::frame_head_bytes);
   const size_t bytes = codec.encode(sample_envelope(), {}, out);
-  CHECK(bytes == limits::check_bytes + 96);
+  CHECK(bytes == limits::check_bytes + 104);
   const auto read = codec.open_frame(std::span(out).first(bytes));
   REQUIRE(read.ok());
   CHECK(read->envelope == sample_envelope());

@@ -1,6 +1,7 @@
 // Shards of the totals, their owners and the controller, on a wire that loses, repeats and delays
 // what is sent: what is taken is counted once, what is refused never.
 #include <catch2/catch.hpp>
+#include <deque>
 #include <map>
 
 #include "actors/tally/shard_control.hpp"
@@ -24,53 +25,80 @@ TallyLayout layout_of_bins() {
   return layout;
 }
 
-struct Letter {
-  NodeId from, to;
+/// What somebody has sent.
+struct Mail {
+  Address from, to;
   MessageId id;
   Message message;
   std::vector<std::byte> payload;
 };
 
+constexpr Address coordinator{controller, ActorName::coordinator};
+Address tracer_of(NodeId node) {
+  return {node, ActorName::tracer};
+}
+Address shard_of(NodeId node) {
+  return {node, ActorName::tally_shard};
+}
+
 /// A controller, workers of which some hold shards, and the wire between them, moved by hand.
-struct Stage {
+struct Stage : Sender {
   explicit Stage(std::vector<NodeId> owners)
       : plan{std::move(owners)},
         totals(layout, shard_groups, {}),
         expected(layout, shard_groups, {}),
-        control(
-            plan, totals, node.clock,
-            [this] {
-              return MessageId{controller, {1}, ++ids};
-            },
-            post_of(controller)) {
+        control(plan, totals, node.clock, *this, coordinator) {
     for (size_t i = 0; i < plan.owners.size(); ++i) {
       const NodeId owner = plan.owners[i];
-      shards.emplace(owner, std::make_unique<TallyShard>(
-                                TallyShardConfig{owner, controller, plan.range(i + 1, bins)},
-                                layout, shard_groups, node.scheduler, post_of(owner)));
+      const TallyShardConfig config{owner, controller, plan.range(i + 1, bins)};
+      const auto made = shards.emplace(
+          owner, std::make_unique<TallyShard>(config, layout, shard_groups, node.scheduler, *this));
+      made.first->second->start();
     }
   }
-  SendFunction post_of(NodeId from) {
-    return [this, from](NodeId to, const MessageId& id, const Message& message,
-                        const SharedBytes& bytes) {
-      wire.push_back({from, to, id, message, {bytes.bytes.begin(), bytes.bytes.end()}});
-    };
+  ~Stage() override {
+    node.scheduler.fibers().cancel_all();
+    node.settle();
   }
-  void deliver(const Letter& sent) {
-    const Delivery delivery{sent.from, sent.id, 0, sent.message, sent.payload};
-    if (sent.to == controller) {
-      control.deliver(delivery);
-    } else if (const auto at = shards.find(sent.to);
-               at == shards.end() || !at->second->deliver(delivery)) {
-      if (const auto sender = senders.find(sent.to); sender != senders.end())
-        sender->second->deliver(sent.from, sent.id, sent.message);
+
+  MessageId next_id() override { return {controller, {1}, ++ids}; }
+  SendOutcome send(Address from, Address to, const MessageId& id, const Message& message,
+                   SharedBytes bytes = {}) override {
+    wire.push_back({from, to, id, message, {bytes.bytes.begin(), bytes.bytes.end()}});
+    return SendOutcome::taken;
+  }
+
+  /// Calls the handler of one who is no actor by himself, if he has one for the message.
+  template <class... Kinds, class Receiver>
+  void hand_to(Receiver& receiver, const Mail& sent) {
+    const auto hand = [&](const auto* body) {
+      if (body != nullptr)
+        receiver.on(Letter<std::decay_t<decltype(*body)>>{sent.from, sent.id, *body,
+                                                          Payload(bytes_of(sent))});
+    };
+    (hand(std::get_if<Kinds>(&sent.message)), ...);
+  }
+  static SharedBytes bytes_of(const Mail& sent) {
+    const auto owner = std::make_shared<const std::vector<std::byte>>(sent.payload);
+    return {*owner, owner};
+  }
+
+  void deliver(const Mail& sent) {
+    const NodeId to = sent.to.node;
+    if (sent.to == coordinator) {
+      hand_to<FlushSettled, TotalsTold>(control, sent);
+    } else if (const auto sender = senders.find(to); sent.to == tracer_of(to)) {
+      if (sender != senders.end()) hand_to<SliceHeld, FlushRefused>(*sender->second, sent);
+    } else if (const auto shard = shards.find(to); shard != shards.end()) {
+      Message message = sent.message;
+      (void)shard->second->accept({sent.from, sent.id, message, Payload(bytes_of(sent))});
     }
     node.settle();
   }
   /// Delivers what is sent until nothing is; keeps a copy of everything in `passed`.
   void pass() {
     while (!wire.empty()) {
-      const Letter next = wire.front();
+      const Mail next = wire.front();
       wire.pop_front();
       passed.push_back(next);
       deliver(next);
@@ -81,7 +109,7 @@ struct Stage {
   SliceSender& pack(NodeId worker, const MessageId& id, uint64_t seed, bool counts) {
     auto& sender = senders[worker];
     if (!sender) {
-      sender = std::make_unique<SliceSender>(plan, post_of(worker));
+      sender = std::make_unique<SliceSender>(plan, *this, tracer_of(worker));
       sender->make_room(shard_groups, bins);
     }
     Totals own(layout, shard_groups, {});
@@ -138,8 +166,8 @@ struct Stage {
   ShardPlan plan;
   Totals totals, expected;
   uint64_t ids = 0;
-  std::deque<Letter> wire;
-  std::vector<Letter> passed;
+  std::deque<Mail> wire;
+  std::vector<Mail> passed;
   std::map<NodeId, std::unique_ptr<TallyShard>> shards;
   std::map<NodeId, std::unique_ptr<SliceSender>> senders;
   std::vector<std::byte> payload;
@@ -206,7 +234,7 @@ TEST_CASE("what comes again, in any order and however late, adds nothing", "[sha
     stage.pass();
     REQUIRE(stage.gather());
   }
-  const std::vector<Letter> all = stage.passed;
+  const std::vector<Mail> all = stage.passed;
   for (int round = 0; round < 2; ++round) {
     for (size_t i = 0; i < all.size(); ++i) stage.deliver(all[round == 0 ? i : all.size() - 1 - i]);
     stage.pass();
@@ -224,7 +252,7 @@ TEST_CASE("a life has one slice at a shard: the next waits until the first is de
   stage.pass();
   const std::vector<uint64_t> hashes = sender.hashes();
   stage.take(flush_of(worker, 1), hashes);
-  std::deque<Letter> decision;
+  std::deque<Mail> decision;
   decision.swap(stage.wire);  // it is late
   stage.pack(worker, flush_of(worker, 2), 7, true);
   stage.pass();
@@ -245,7 +273,7 @@ TEST_CASE("what a life that ended has left at shards is dropped, and its next li
   Stage stage(std::vector<NodeId>{{2}});
   stage.pack(worker, flush_of(worker, 4, 7), 8, false);
   stage.pass();
-  const std::vector<Letter> late = stage.passed;
+  const std::vector<Mail> late = stage.passed;
   stage.control.end_life(worker, {7});
   SliceSender& sender = stage.pack(worker, flush_of(worker, 1, 8), 8, true);
   stage.pass();
@@ -253,7 +281,7 @@ TEST_CASE("what a life that ended has left at shards is dropped, and its next li
   CHECK(stage.shards.at({2})->counters().held == 1);
   stage.take(flush_of(worker, 1, 8), sender.hashes());
   stage.pass();
-  for (const Letter& sent : late) stage.deliver(sent);
+  for (const Mail& sent : late) stage.deliver(sent);
   stage.pass();
   CHECK(stage.shards.at({2})->counters().held == 0);
   REQUIRE(stage.gather());
@@ -264,29 +292,33 @@ TEST_CASE("a slice that is damaged, of other bins, or counts batches is refused"
   Stage stage(std::vector<NodeId>{{2}});
   stage.pack(worker, flush_of(worker, 1), 9, false);
   REQUIRE(stage.wire.size() == 1);
-  Letter slice = stage.wire.front();
+  Mail slice = stage.wire.front();
   stage.wire.clear();
-  const auto answer_to = [&](const Letter& sent) {
+  const auto answer_to = [&](const Mail& sent) {
     stage.deliver(sent);
     REQUIRE(stage.wire.size() == 1);
     const Message answer = stage.wire.front().message;
     stage.wire.clear();
     return std::holds_alternative<FlushRefused>(answer);
   };
-  Letter damaged = slice;
+  Mail damaged = slice;
   damaged.payload.back() ^= std::byte{1};
   CHECK(answer_to(damaged));
-  Letter other = slice;  // the controller's bins, and its batches
+  Mail other = slice;  // the controller's bins, and its batches
   other.payload = stage.payload;
   other.message = FlushSlice{XXH3_64bits(other.payload.data(), other.payload.size())};
   CHECK(answer_to(other));
   CHECK_FALSE(answer_to(slice));
   CHECK(stage.shards.at({2})->counters().held == 1);
   // Nobody sends slices of somebody else's flush, nor decides but the controller.
-  Letter forged = slice;
-  forged.from = {3};
+  Mail forged = slice;
+  forged.from = tracer_of({3});
   stage.deliver(forged);
-  stage.deliver({{3}, {2}, flush_of({3}, 1), FlushDecided{flush_of(worker, 1), 0, false}, {}});
+  stage.deliver({tracer_of({3}),
+                 shard_of({2}),
+                 flush_of({3}, 1),
+                 FlushDecided{flush_of(worker, 1), 0, false},
+                 {}});
   CHECK(stage.wire.empty());
   CHECK(stage.shards.at({2})->counters().held == 1);
 }
@@ -294,7 +326,7 @@ TEST_CASE("a slice that is damaged, of other bins, or counts batches is refused"
 TEST_CASE("a sender whose slice was refused tells the controller of no slices", "[shards]") {
   Stage stage(std::vector<NodeId>{{0}, {2}});
   SliceSender& sender = stage.pack(worker, flush_of(worker, 1), 9, false);
-  sender.deliver({2}, flush_of(worker, 1), FlushRefused{{}, "damaged"});
+  sender.on(Letter<FlushRefused>{shard_of({2}), flush_of(worker, 1), {{}, "damaged"}});
   CHECK(sender.placed());
   CHECK(sender.hashes().empty());
 }
@@ -337,12 +369,12 @@ TEST_CASE("shards of a wire that loses, repeats and delays have counted what was
       }
       if (!stage.wire.empty()) {
         const size_t which = chance.bits() % stage.wire.size();
-        const Letter sent = stage.wire[which];
+        const Mail sent = stage.wire[which];
         const uint32_t fate = chance.bits() % 8;
         if (fate != 0) stage.deliver(sent);  // 0: lost; 1: comes again
         if (fate != 1) {
           const auto same =
-              std::find_if(stage.wire.begin(), stage.wire.end(), [&](const Letter& other) {
+              std::find_if(stage.wire.begin(), stage.wire.end(), [&](const Mail& other) {
                 return other.id == sent.id && other.to == sent.to &&
                        other.message.index() == sent.message.index();
               });
@@ -365,7 +397,7 @@ TEST_CASE("shards of a wire that loses, repeats and delays have counted what was
         stage.control.look();
       }
       if (stage.wire.empty()) continue;
-      const Letter sent = stage.wire.front();
+      const Mail sent = stage.wire.front();
       stage.wire.pop_front();
       const uint32_t fate = chance.bits() % 8;
       if (fate == 1) stage.wire.push_back(sent);

@@ -1,4 +1,4 @@
-#include "actors/source/controller.hpp"
+#include "actors/source/coordinator.hpp"
 
 #include <fmt/format.h>
 
@@ -26,34 +26,34 @@ double seconds_of(Nanoseconds span) {
 }
 }  // namespace
 
-Controller::Controller(const ControllerConfig& config, LocalRun& run, const StopRule& stop,
-                       const std::atomic<bool>& interrupt,
-                       std::function<void(const Progress&)> report, Scheduler& scheduler,
-                       Network& network)
-    : config_(config),
+Coordinator::Coordinator(const CoordinatorConfig& config, LocalRun& run, const StopRule& stop,
+                         const std::atomic<bool>& interrupt,
+                         std::function<void(const Progress&)> report, Scheduler& scheduler,
+                         Network& network, Sender& sender)
+    : NodeActor(scheduler, sender, {config.self, ActorName::coordinator}, "tally"),
+      config_(config),
       run_(run),
       stop_(stop),
       interrupt_(interrupt),
       report_(std::move(report)),
-      scheduler_(scheduler),
+      clock_(scheduler.clock()),
       network_(network),
       book_(run.batches(), run.missing(), config.first_lease,
             config.look_ahead * static_cast<int64_t>(config.workers.size())),
-      shards_(
-          config.shards, run.totals(), scheduler.clock(), [&network] { return network.next_id(); },
-          [&network](NodeId to, const MessageId& id, const Message& message,
-                     const SharedBytes& payload) { network.send(to, id, message, payload); }),
+      shards_(config.shards, run.totals(), clock_, sender, address()),
       plan_(run.scene()),
       target_(stop.target_batches(run.scene().batch_particles)),
       batches_at_start_(run.traced()),
-      began_(scheduler.clock().now()),
+      began_(clock_.now()),
       error_(std::numeric_limits<double>::quiet_NaN()) {
   for (const NodeId worker : config_.workers) peers_[worker];
   untold_.reserve(config_.workers.size());
+  uncounted_.reserve(2 * config_.workers.size());
 }
 
-void Controller::start() {
-  began_ = scheduler_.clock().now();
+void Coordinator::start() {
+  NodeActor::start();
+  began_ = clock_.now();
   next_word_ = began_ + waiting_word;
   set_timer();
   if (!nothing_left()) return;
@@ -64,7 +64,7 @@ void Controller::start() {
 
 /// Whether what was counted by an earlier life is all that was asked for. Then nobody is waited
 /// for: workers that have heard of the end are gone.
-bool Controller::nothing_left() const {
+bool Coordinator::nothing_left() const {
   if (book_.committed() >= target_) return true;
   if (!stop_.relative_error || book_.committed() == 0 || !book_.missing().empty()) return false;
   if (run_.plan().round_end(book_.committed() - 1) != book_.committed()) return false;
@@ -74,19 +74,18 @@ bool Controller::nothing_left() const {
 // ---- workers that come and go ------------------------------------------------------------------
 
 /// A message of a worker says that it is here, in this life. False: it is of a life that has ended.
-bool Controller::meet(const Delivery& delivery) {
-  const auto at = peers_.find(delivery.source);
+bool Coordinator::meet(Address worker, Incarnation life) {
+  const auto at = peers_.find(worker.node);
   if (at == peers_.end()) return false;
   Peer& peer = at->second;
-  const Incarnation life = delivery.id.incarnation;
   if (std::count(peer.former.begin(), peer.former.end(), life) > 0) return false;
   if (peer.life != life) {
     if (peer.life != Incarnation{}) {
       peer.former.push_back(peer.life);
-      fence(book_.fence_node(delivery.source), "its worker began anew");
-      book_.forgive(delivery.source);
-      shards_.end_life(delivery.source, peer.life);
-      lose_shard(delivery.source, "began anew");
+      fence(book_.fence_node(worker.node), "its worker began anew");
+      book_.forgive(worker.node);
+      shards_.end_life(worker.node, peer.life);
+      lose_shard(worker.node, "began anew");
     }
     peer.life = life;
     peer.told.reset();
@@ -98,15 +97,15 @@ bool Controller::meet(const Delivery& delivery) {
   return true;
 }
 
-void Controller::begin() {
+void Coordinator::begin() {
   begun_ = true;
-  began_ = scheduler_.clock().now();
+  began_ = clock_.now();
   log_info("run=begun workers={}", peers_.size());
   note_book();
   open_round();
 }
 
-void Controller::await_workers(Nanoseconds now) {
+void Coordinator::await_workers(Nanoseconds now) {
   if (const auto taken = network_.taken_elsewhere()) {
     // Where its results go is in the words of the refusal, which the node adds to this.
     fault_ =
@@ -130,13 +129,13 @@ void Controller::await_workers(Nanoseconds now) {
   end_run(StopReason::workers_lost);
 }
 
-std::string Controller::name_of(NodeId node) const {
+std::string Coordinator::name_of(NodeId node) const {
   return node.value < config_.names.size() ? config_.names[node.value]
                                            : fmt::format("node {}", node.value);
 }
 
 /// Who is not here, and why as far as this node can know: of its own links, that is.
-std::string Controller::missing_workers() const {
+std::string Coordinator::missing_workers() const {
   const std::vector<NodeId> own = network_.neighbours();
   std::string text;
   for (const auto& [worker, peer] : peers_) {
@@ -151,7 +150,7 @@ std::string Controller::missing_workers() const {
   return text;
 }
 
-void Controller::watch_workers(Nanoseconds now) {
+void Coordinator::watch_workers(Nanoseconds now) {
   for (auto& [worker, peer] : peers_) {
     if (network_.reaches(worker)) {
       peer.unreachable_since.reset();
@@ -175,14 +174,14 @@ void Controller::watch_workers(Nanoseconds now) {
 }
 
 /// Whether nobody is left to trace: all are lost, or out of reach when the run is ending anyway.
-bool Controller::all_gone() const {
+bool Coordinator::all_gone() const {
   return std::all_of(peers_.begin(), peers_.end(), [&](const auto& entry) {
     return !entry.second.here || (closing_ && entry.second.unreachable_since);
   });
 }
 
 /// What a worker held of the totals is nowhere else.
-void Controller::lose_shard(NodeId worker, const char* how) {
+void Coordinator::lose_shard(NodeId worker, const char* how) {
   if (!begun_ || !shards_.owns(worker)) return;
   fail(
       fmt::format("{} {}, and with it a shard of the totals, so that this run has no result: "
@@ -190,7 +189,7 @@ void Controller::lose_shard(NodeId worker, const char* how) {
                   name_of(worker), how));
 }
 
-void Controller::fail(const std::string& what) {
+void Coordinator::fail(const std::string& what) {
   if (over_) return;
   fault_ = problem(what);
   log_error("run=failed text=\"{}\"", what);
@@ -199,7 +198,7 @@ void Controller::fail(const std::string& what) {
 
 /// Each node is told in as few messages as hold them: hundreds of leases may be fenced at once, and
 /// a message for each would leave no room for an answer that somebody waits for.
-void Controller::fence(const std::vector<Lease>& leases, const char* why) {
+void Coordinator::fence(const std::vector<Lease>& leases, const char* why) {
   std::map<NodeId, LeasesFenced> told;
   for (const Lease& lease : leases) {
     ++counters_.fenced;
@@ -208,25 +207,16 @@ void Controller::fence(const std::vector<Lease>& leases, const char* why) {
     LeasesFenced& of_node = told[lease.node];
     of_node.leases.push_back(lease.id);
     if (of_node.leases.size() < limits::leases) continue;
-    send(lease.node, network_.next_id(), of_node);
+    send(lease.node, sender().next_id(), of_node);
     of_node.leases.clear();
   }
   for (const auto& [node, fenced] : told)
-    if (!fenced.leases.empty()) send(node, network_.next_id(), fenced);
-}
-
-/// A worker has tried these for as long as one waits for a lost node: it cannot have an object.
-void Controller::take_back(NodeId worker, const LeasesFenced& leases) {
-  for (const Lease& lease : book_.give_back(worker, leases.leases))
-    log_warning(
-        "lease=given_back lease={} node={} batch={} text=\"{} cannot have an object that it needs: "
-        "lent to others\"",
-        lease.id, worker.value, lease.batch, name_of(worker));
+    if (!fenced.leases.empty()) send(node, sender().next_id(), fenced);
 }
 
 /// What nobody can trace is lost, and the run with it: what has been lent is brought to its end,
 /// and no more is lent, since the next batches would need the same objects.
-void Controller::lose_batches() {
+void Coordinator::lose_batches() {
   std::vector<NodeId> here;
   for (const auto& [worker, peer] : peers_)
     if (peer.here) here.push_back(worker);
@@ -241,7 +231,7 @@ void Controller::lose_batches() {
   closing_ = true;
 }
 
-void Controller::add_metrics(Metrics& metrics) const {
+void Coordinator::add_metrics(Metrics& metrics) const {
   const Counters& c = counters_;
   metrics.add_counter({"leases_lent", "", "Batches lent.", ""}, c.leases);
   metrics.add_counter({"leases_fenced", "", "Leases that were late, or whose node was gone.", ""},
@@ -268,7 +258,7 @@ void Controller::add_metrics(Metrics& metrics) const {
   metrics.add_gauge({"leases_out", "", "Leases that stand.", ""}, c.leases_out);
 }
 
-void Controller::note_book() {
+void Coordinator::note_book() {
   counters_.batches = static_cast<uint64_t>(book_.committed());
   counters_.leases_out = book_.standing();
   counters_.particles = counters_.batches * static_cast<uint64_t>(run_.scene().batch_particles);
@@ -276,25 +266,25 @@ void Controller::note_book() {
 
 // ---- rounds ----------------------------------------------------------------------------------
 
-void Controller::open_round() {
+void Coordinator::open_round() {
   const int64_t planned =
       stop_.next_wait(book_.committed(), run_.scene().batch_particles, run_.plan());
   const int64_t end = std::max(planned, book_.lent_end());  // of an earlier run, that lacks some
   book_.open_until(end);
   ++counters_.round;
   for (const NodeId worker : config_.workers)
-    send(worker, network_.next_id(), RoundOpened{round(), static_cast<uint64_t>(end)});
+    send(worker, sender().next_id(), RoundOpened{round(), static_cast<uint64_t>(end)});
 }
 
 /// Ends the round when everything of it is counted, and lets somebody look at the totals where that
 /// is due. Not on a fiber: what reads all totals needs more stack. With shards the totals are first
 /// brought here, when every decision is answered; meanwhile no flush is counted, so that they fit
 /// together.
-void Controller::look_at_totals() {
+void Coordinator::look_at_totals() {
   if (!begun_ || over_) return;
   if (shards_.fault()) return fail(*shards_.fault());
   const bool round_done = book_.round_done();
-  if (!round_done && !run_.pause_is_due()) return start_counting();
+  if (!round_done && !run_.pause_is_due()) return go_on_counting();
   if (adding_ || shards_.gathering()) return;
   if (shards_.others() > 0 && !gathered_) {
     if (counting_ || !shards_.settled()) return;  // called again when they are
@@ -307,10 +297,10 @@ void Controller::look_at_totals() {
   run_.pause_if_due();
   gathered_ = false;
   if (round_done) end_round();
-  if (!over_) start_counting();
+  if (!over_) go_on_counting();
 }
 
-void Controller::end_round() {
+void Coordinator::end_round() {
   error_ = Readout(run_.scene(), run_.totals()).worst_relative_error();
   if (book_.lost() > 0) return end_run(StopReason::objects_lost);
   const bool interrupted = closing_ && interrupt_.load();
@@ -319,10 +309,11 @@ void Controller::end_round() {
   reason ? end_run(*reason) : open_round();
 }
 
-void Controller::end_run(StopReason reason) {
+void Coordinator::end_run(StopReason reason) {
   reason_ = reason;
   over_ = true;
-  over_since_ = scheduler_.clock().now();
+  over_since_ = clock_.now();
+  go_on_counting();  // what is left is refused
   next_word_ = over_since_ + waiting_word;
   run_.resume(book_.lent_end(), book_.missing());
   tell_end();
@@ -337,20 +328,20 @@ void Controller::end_run(StopReason reason) {
 // Then all are let go, and tell their neighbours as they leave. Who interrupts the run waits for
 // nobody who is out of reach.
 
-RunEnded Controller::end_word() const {
+RunEnded Coordinator::end_word() const {
   return {round(), fault_ ? fault_->what.substr(0, limits::text_bytes) : ""};
 }
 
 /// Were this node to crash while its journal lacks work, that work would be traced again: by
 /// workers that have not heard of an end. After `lost` the disk is given up.
-bool Controller::awaits_keeper() const {
+bool Coordinator::awaits_keeper() const {
   return config_.keeper != nullptr && !config_.keeper->is_whole() && !fault_ &&
          !interrupt_.load() && over_for() < config_.lost;
 }
 
 /// Whom there was no room for the last time comes first, or a full outbox would hide the end from
 /// the same workers each time.
-void Controller::tell_end() {
+void Coordinator::tell_end() {
   if (awaits_keeper()) return;
   for (const auto& [worker, peer] : peers_)
     if ((peer.here || done_before_) && std::count(untold_.begin(), untold_.end(), worker) == 0)
@@ -360,13 +351,13 @@ void Controller::tell_end() {
 }
 
 /// Until the network has taken the word for each.
-void Controller::tell_untold() {
+void Coordinator::tell_untold() {
   std::erase_if(untold_, [&](NodeId worker) {
-    return network_.send(worker, network_.next_id(), end_word()) != SendOutcome::full;
+    return send(worker, sender().next_id(), end_word()) != SendOutcome::full;
   });
   if (untold_.empty() || telling_) return;
   telling_ = true;
-  scheduler_.timers().set(scheduler_.clock().now() + say_again_after, [this] {
+  scheduler().timers().set(clock_.now() + say_again_after, [this] {
     telling_ = false;
     tell_untold();
   });
@@ -374,21 +365,24 @@ void Controller::tell_untold() {
 
 /// Who asks for work then has begun anew since it was told. An answer without batches would have it
 /// wait for the next round, of a controller that may leave before it can say more.
-void Controller::answer_with_end(const Delivery& delivery) {
-  if (awaits_keeper()) return send(delivery.source, delivery.id, grant_of({}));
-  send(delivery.source, delivery.id, end_word());
-  if (letting_go_) send(delivery.source, network_.next_id(), EnterPhase{EndPhase::leave, 0});
+void Coordinator::answer_with_end(const Letter<RequestLease>& request) {
+  if (awaits_keeper()) {
+    answer(request, grant_of({}));
+    return;
+  }
+  answer(request, end_word());
+  if (letting_go_) tell(request.from, EnterPhase{EndPhase::leave, 0});
 }
 
-bool Controller::knows_end(NodeId worker, const Peer& peer) const {
+bool Coordinator::knows_end(NodeId worker, const Peer& peer) const {
   if (peer.left) return true;
   // Who has not been heard of may wait for a word of the end, when an earlier life counted it.
   if (!peer.here) return !done_before_;
   if (!network_.reaches(worker)) return interrupt_.load();
-  return peer.told && scheduler_.clock().now() - *peer.told <= heard_lately * config_.look_every;
+  return peer.told && clock_.now() - *peer.told <= heard_lately * config_.look_every;
 }
 
-void Controller::let_go_when_told() {
+void Coordinator::let_go_when_told() {
   if (letting_go_) return;
   const auto knows = [&](const auto& entry) { return knows_end(entry.first, entry.second); };
   const bool all_know = std::all_of(peers_.begin(), peers_.end(), knows);
@@ -398,21 +392,20 @@ void Controller::let_go_when_told() {
 }
 
 /// Until the network has taken the word for each that it can reach.
-void Controller::let_go() {
+void Coordinator::let_go() {
   const EnterPhase leave{EndPhase::leave, 0};
   for (auto& [worker, peer] : peers_)
-    if (!peer.gone)
-      peer.gone = network_.send(worker, network_.next_id(), leave) != SendOutcome::full;
+    if (!peer.gone) peer.gone = send(worker, sender().next_id(), leave) != SendOutcome::full;
   if (ended()) return;
-  scheduler_.timers().set(scheduler_.clock().now() + say_again_after, [this] { let_go(); });
+  scheduler().timers().set(clock_.now() + say_again_after, [this] { let_go(); });
 }
 
-bool Controller::ended() const {
+bool Coordinator::ended() const {
   return letting_go_ &&
          std::all_of(peers_.begin(), peers_.end(), [](const auto& at) { return at.second.gone; });
 }
 
-std::string Controller::who_lacks_end() const {
+std::string Coordinator::who_lacks_end() const {
   std::string text;
   for (const auto& [worker, peer] : peers_)
     if (!knows_end(worker, peer)) text += (text.empty() ? "" : ", ") + name_of(worker);
@@ -421,12 +414,12 @@ std::string Controller::who_lacks_end() const {
 
 // ---- what passes with time -------------------------------------------------------------------
 
-void Controller::set_timer() {
-  scheduler_.timers().set(scheduler_.clock().now() + config_.look_every, [this] { look(); });
+void Coordinator::set_timer() {
+  scheduler().timers().set(clock_.now() + config_.look_every, [this] { look(); });
 }
 
-void Controller::look() {
-  const Nanoseconds now = scheduler_.clock().now();
+void Coordinator::look() {
+  const Nanoseconds now = clock_.now();
   set_timer();
   watch_workers(now);
   if (over_) return wait_for_farewells(now);
@@ -445,7 +438,7 @@ void Controller::look() {
   look_at_totals();
 }
 
-void Controller::wait_for_farewells(Nanoseconds now) {
+void Coordinator::wait_for_farewells(Nanoseconds now) {
   let_keeper_rest();
   tell_end();
   if (letting_go_ || now < next_word_) return;
@@ -461,82 +454,85 @@ void Controller::wait_for_farewells(Nanoseconds now) {
            who_lacks_end(), seconds_of(config_.lost));
 }
 
-Progress Controller::progress() const {
-  const double passed = static_cast<double>(scheduler_.clock().now() - began_) * 1e-9;
+Progress Coordinator::progress() const {
+  const double passed = static_cast<double>(clock_.now() - began_) * 1e-9;
   return progress_of(stop_, run_.scene().batch_particles, batches_at_start_, book_.committed(),
                      passed, error_);
 }
 
 // ---- messages --------------------------------------------------------------------------------
 
-void Controller::send(NodeId worker, const MessageId& id, const Message& message) {
-  // What finds no room or no way is asked for again by the worker, or said again by look().
-  network_.send(worker, id, message);
+/// What finds no room or no way is asked for again by the worker, or said again by look().
+SendOutcome Coordinator::send(NodeId worker, const MessageId& id, const Message& message) {
+  return sender().send(address(), {worker, ActorName::tracer}, id, message);
 }
 
-bool Controller::deliver(const Delivery& delivery) {
-  if (shards_.deliver(delivery)) {
-    look_at_totals();
-    return true;
-  }
-  const bool of_a_worker = std::holds_alternative<RequestLease>(delivery.message) ||
-                           std::holds_alternative<LeasesFenced>(delivery.message) ||
-                           std::holds_alternative<Flush>(delivery.message);
-  if (!of_a_worker) return false;
-  if (!meet(delivery)) return true;
-  if (const auto* request = std::get_if<RequestLease>(&delivery.message)) {
-    lend(delivery, *request);
-  } else if (const auto* flush = std::get_if<Flush>(&delivery.message)) {
-    take_flush(delivery, *flush);
-  } else if (const auto* leases = std::get_if<LeasesFenced>(&delivery.message)) {
-    take_back(delivery.source, *leases);
-  }
-  return true;
+void Coordinator::on(const Letter<FlushSettled>& settled) {
+  shards_.on(settled);
+  look_at_totals();
+}
+
+void Coordinator::on(const Letter<TotalsTold>& told) {
+  shards_.on(told);
+  look_at_totals();
+}
+
+/// A worker has tried these for as long as one waits for a lost node: it cannot have an object.
+void Coordinator::on(const Letter<LeasesFenced>& given_back) {
+  const NodeId worker = given_back.from.node;
+  if (!meet(given_back.from, given_back.id.incarnation)) return;
+  for (const Lease& lease : book_.give_back(worker, given_back.body.leases))
+    log_warning(
+        "lease=given_back lease={} node={} batch={} text=\"{} cannot have an object that it needs: "
+        "lent to others\"",
+        lease.id, worker.value, lease.batch, name_of(worker));
 }
 
 /// Nobody takes more than its share of what is left, so that all end together.
-uint32_t Controller::max_to_lend() const {
-  if (scheduler_.rarely(Buggify::Site::small_grant)) return 1;
+uint32_t Coordinator::max_to_lend() const {
+  if (scheduler().rarely(Buggify::Site::small_grant)) return 1;
   const auto workers = static_cast<int64_t>(peers_.size());
   const int64_t share = (book_.waiting() + workers - 1) / workers;
   return static_cast<uint32_t>(std::clamp<int64_t>(share, 1, config_.max_leases));
 }
 
-LeaseGranted Controller::grant_of(const LentBatches& lent) const {
+LeaseGranted Coordinator::grant_of(const LentBatches& lent) const {
   return {lent.first_lease, round(), static_cast<uint64_t>(lent.first_batch),
           static_cast<uint32_t>(lent.count),
           static_cast<uint32_t>(config_.lease_time / milliseconds(1))};
 }
 
-void Controller::lend(const Delivery& delivery, const RequestLease& request) {
-  Peer& peer = peers_[delivery.source];
-  peer.left = request.batches == 0 && !over_;
-  if (request.batches == 0) {
+void Coordinator::on(const Letter<RequestLease>& request) {
+  const NodeId worker = request.from.node;
+  if (!meet(request.from, request.id.incarnation)) return;
+  Peer& peer = peers_[worker];
+  const uint32_t batches = request.body.batches;
+  peer.left = batches == 0 && !over_;
+  if (batches == 0) {
     if (!over_) return;
-    peer.told = scheduler_.clock().now();
+    peer.told = clock_.now();
     return let_go_when_told();
   }
-  if (over_) return answer_with_end(delivery);
-  Answered& last = last_grant_[delivery.source];
-  if (last.question != delivery.id) {
-    const LentBatches lent =
-        book_.lend(delivery.source, std::min(request.batches, max_to_lend()),
-                   scheduler_.clock().now(), config_.lease_time, rank_of(delivery.source));
+  if (over_) return answer_with_end(request);
+  Answered& last = last_grant_[worker];
+  if (last.question != request.id) {
+    const LentBatches lent = book_.lend(worker, std::min(batches, max_to_lend()), clock_.now(),
+                                        config_.lease_time, rank_of(worker));
     counters_.leases += static_cast<uint64_t>(lent.count);
     note_book();
-    last = {delivery.id, grant_of(lent)};
+    last = {request.id, grant_of(lent)};
   }
-  send(delivery.source, delivery.id, last.answer);
+  answer(request, last.answer);
 }
 
-LeaseBook::Rank Controller::rank_of(NodeId worker) {
+LeaseBook::Rank Coordinator::rank_of(NodeId worker) {
   if (worker.value >= config_.group_ranks.size()) return {};
   return [this, &ranks = config_.group_ranks[worker.value]](int64_t batch) {
     return ranks[group_of(batch)];
   };
 }
 
-size_t Controller::group_of(int64_t batch) {
+size_t Coordinator::group_of(int64_t batch) {
   while (static_cast<int64_t>(groups_.size()) <= batch)
     groups_.push_back(static_cast<uint32_t>(plan_.next().group));
   return groups_[static_cast<size_t>(batch)];

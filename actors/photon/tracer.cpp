@@ -1,4 +1,4 @@
-#include "actors/photon/lease_client.hpp"
+#include "actors/photon/tracer.hpp"
 
 #include <fmt/format.h>
 
@@ -17,17 +17,19 @@ constexpr int64_t bins_of_a_step = 16384;
 constexpr Nanoseconds retry_after = milliseconds(20);
 }  // namespace
 
-LeaseClient::LeaseClient(const LeaseClientConfig& config, Scheduler& scheduler, Network& network,
-                         SliceSender& slices)
-    : config_(config),
-      scheduler_(scheduler),
+Tracer::Tracer(const TracerConfig& config, const ShardPlan& shards, Scheduler& scheduler,
+               Network& network, Sender& sender)
+    : NodeActor(scheduler, sender, {config.self, ActorName::tracer}, "flush"),
+      config_(config),
+      clock_(scheduler.clock()),
       network_(network),
-      slices_(slices),
-      began_(scheduler.clock().now()) {}
+      slices_(shards, sender, address()),
+      began_(clock_.now()) {}
 
-void LeaseClient::start(PhotonThreads& photons) {
+void Tracer::start(PhotonThreads& photons) {
+  NodeActor::start();
   photons_ = &photons;
-  began_ = scheduler_.clock().now();
+  began_ = clock_.now();
   const Totals& totals = photons.totals();
   slices_.make_room(totals.groups(), totals.layout().totals());
   const BinRange own = slices_.own_bins();
@@ -37,7 +39,7 @@ void LeaseClient::start(PhotonThreads& photons) {
   set_timer();
 }
 
-void LeaseClient::add_metrics(Metrics& metrics) const {
+void Tracer::add_metrics(Metrics& metrics) const {
   const Counters& c = counters_;
   metrics.add_counter({"leases", "", "Batches lent to this node.", ""}, c.leases);
   metrics.add_counter({"leases_failed", "", "Leases whose batch is traced anew.", ""},
@@ -54,21 +56,23 @@ void LeaseClient::add_metrics(Metrics& metrics) const {
 
 // ---- asking for work -------------------------------------------------------------------------
 
-void LeaseClient::want_leases(size_t count) {
+void Tracer::want_leases(size_t count) {
   wanted_ = count;
   ask();
 }
 
-void LeaseClient::ask() {
+void Tracer::ask() {
   if (asking_ || over_ || draining_ || round_empty_ || wanted_ == 0) return;
-  if (scheduler_.rarely(Buggify::Site::small_wish)) wanted_ = 1;
-  asking_ = Question{network_.next_id(), RequestLease{static_cast<uint32_t>(wanted_)}, {}};
+  if (scheduler().rarely(Buggify::Site::small_wish)) wanted_ = 1;
+  asking_ = Question{sender().next_id(), RequestLease{static_cast<uint32_t>(wanted_)}, {}};
   wanted_ = 0;
   put(*asking_);
 }
 
-void LeaseClient::granted(const MessageId& answered, const LeaseGranted& grant) {
-  if (!asking_ || asking_->id != answered) return;  // an answer that came twice
+void Tracer::on(const Letter<LeaseGranted>& granted) {
+  if (!hears(granted.from)) return;
+  if (!asking_ || asking_->id != granted.id) return;  // an answer that came twice
+  const LeaseGranted& grant = granted.body;
   const uint32_t asked_for = std::get<RequestLease>(asking_->message).batches;
   asking_.reset();
   round_ = grant.round;
@@ -85,49 +89,48 @@ void LeaseClient::granted(const MessageId& answered, const LeaseGranted& grant) 
     return;
   }
   round_empty_ = true;
-  emptied_ = scheduler_.clock().now();
+  emptied_ = clock_.now();
   flush_when_idle();
 }
 
 /// The next round is open, or may be: the word of it can be lost.
-void LeaseClient::begin_round() {
+void Tracer::begin_round() {
   round_empty_ = false;
   photons_->look_again();
 }
 
 // ---- giving results --------------------------------------------------------------------------
 
-void LeaseClient::lease_done(uint64_t lease) {
+void Tracer::lease_done(uint64_t lease) {
   std::erase_if(in_vain_, [&](const InVain& vain) { return vain.lease == lease; });
-  if (done_.empty()) first_done_ = scheduler_.clock().now();
+  if (done_.empty()) first_done_ = clock_.now();
   done_.push_back(lease);
-  if (rested(scheduler_.clock().now()) || done_.size() == limits::leases ||
-      scheduler_.rarely(Buggify::Site::early_flush))
+  if (rested(clock_.now()) || done_.size() == limits::leases ||
+      scheduler().rarely(Buggify::Site::early_flush))
     flush();
   flush_when_idle();
 }
 
 /// Whether the oldest merged batch has waited for as long as it may.
-bool LeaseClient::rested(Nanoseconds now) const {
+bool Tracer::rested(Nanoseconds now) const {
   const Nanoseconds most = flush_interval(config_.flush_every, flush_cost_, lease_time_);
   return !done_.empty() && now - first_done_ >= most;
 }
 
 /// A loss of the moment: the batch is traced anew, the lease stands until its deadline. A loss that
 /// lasts for as long as one waits for a lost node is for good: others may have the object.
-void LeaseClient::lease_failed(uint64_t lease, int64_t batch) {
+void Tracer::lease_failed(uint64_t lease, int64_t batch) {
   ++counters_.leases_failed;
   if (over_) return;
-  if (scheduler_.clock().now() - vain_since(lease, batch) < config_.lost)
-    return photons_->add(lease, batch);
+  if (clock_.now() - vain_since(lease, batch) < config_.lost) return photons_->add(lease, batch);
   ++counters_.leases_given_back;
-  network_.send(config_.controller, network_.next_id(), LeasesFenced{{lease}});
+  tell(config_.coordinator, LeasesFenced{{lease}});
   photons_->look_again();
   flush_when_idle();
 }
 
 /// Since when a batch has been traced in vain here, under whatever leases.
-Nanoseconds LeaseClient::vain_since(uint64_t lease, int64_t batch) {
+Nanoseconds Tracer::vain_since(uint64_t lease, int64_t batch) {
   const auto known = std::find_if(in_vain_.begin(), in_vain_.end(),
                                   [&](const InVain& vain) { return vain.batch == batch; });
   if (known != in_vain_.end()) {
@@ -135,20 +138,20 @@ Nanoseconds LeaseClient::vain_since(uint64_t lease, int64_t batch) {
     return known->since;
   }
   if (in_vain_.size() == limits::leases) in_vain_.erase(in_vain_.begin());
-  return in_vain_.emplace_back(InVain{lease, batch, scheduler_.clock().now()}).since;
+  return in_vain_.emplace_back(InVain{lease, batch, clock_.now()}).since;
 }
 
-void LeaseClient::want_room() {
+void Tracer::want_room() {
   room_wanted_ = true;
   flush();
 }
 
 /// Nothing more is to be had in this round: the controller waits for what is here.
-void LeaseClient::flush_when_idle() {
+void Tracer::flush_when_idle() {
   if ((round_empty_ || draining_) && photons_->at_hand() == 0) flush();
 }
 
-void LeaseClient::flush() {
+void Tracer::flush() {
   if (packing_ || flushing_ || over_ || done_.empty())
     return;  // the answer to that one sends the next
   flush_due_ = !encoder_is_free();
@@ -156,16 +159,16 @@ void LeaseClient::flush() {
   room_wanted_ = false;
   packing_ = true;
   packed_leases_.swap(done_);
-  const auto body = [this, totals = &photons_->give_totals()] { pack(*totals); };
-  LUX_CHECK(scheduler_.fibers().start("flush", body), "the plan counts a fiber for it");
+  LUX_CHECK(offer(PackFlush{&photons_->give_totals()}) == Offered::taken, "it packs one at a time");
 }
 
-bool LeaseClient::encoder_is_free() const {
+bool Tracer::encoder_is_free() const {
   return encoder_.use_count() == 1 && slices_.free();
 }
 
-/// On a fiber of its own, between the turns of the photon-threads.
-void LeaseClient::pack(Totals& totals) {
+/// On the actor's fiber, between the turns of the photon-threads.
+void Tracer::on(const PackFlush& pack) {
+  Totals& totals = *pack.totals;
   packing_took_ = 0;
   for (size_t slice = 0; slice < slices_.slices(); ++slice) {
     if (!pack_bins(slices_.encoder(slice), totals, slices_.bins_of(slice), FlushCounts::without))
@@ -177,46 +180,72 @@ void LeaseClient::pack(Totals& totals) {
   packing_ = false;
   if (over_) return;
   flushing_ = Question{
-      network_.next_id(), Flush{round_, hash, std::move(packed_leases_), {}}, {payload, encoder_}};
+      sender().next_id(), Flush{round_, hash, std::move(packed_leases_), {}}, {payload, encoder_}};
   if (config_.trace != nullptr)
     config_.trace->begin(TraceKind::flush, trace_id(flushing_->id), payload.size());
   ++counters_.flushes;
   counters_.flush_bytes += payload.size();
-  slices_.send(flushing_->id, scheduler_.clock().now());
+  slices_.send(flushing_->id, clock_.now());
   put_flush();
   photons_->look_again();  // the totals that were packed are free
 }
 
 /// False: the node is to end.
-bool LeaseClient::pack_bins(FlushEncoder& encoder, Totals& totals, const BinRange& bins,
-                            FlushCounts counts) {
+bool Tracer::pack_bins(FlushEncoder& encoder, Totals& totals, const BinRange& bins,
+                       FlushCounts counts) {
   encoder.begin(totals, bins, counts);
   for (bool done = false; !done;) {
-    const Nanoseconds begun = scheduler_.clock().now();
+    const Nanoseconds begun = clock_.now();
     done = encoder.step(bins_of_a_step);
-    packing_took_ += scheduler_.clock().now() - begun;
-    if (!done && scheduler_.fibers().yield() == Wake::cancelled) return false;
+    packing_took_ += clock_.now() - begun;
+    if (!done && scheduler().fibers().yield() == Wake::cancelled) return false;
   }
   return true;
 }
 
 /// For the first time when all slices are placed; then as often as no answer comes.
-void LeaseClient::put_flush() {
-  flushing_->asked = scheduler_.clock().now();
+void Tracer::put_flush() {
+  flushing_->asked = clock_.now();
   if (!slices_.placed()) return;
   std::get<Flush>(flushing_->message).slice_hashes = slices_.hashes();
   put(*flushing_);
 }
 
-bool LeaseClient::shard_answered(const Delivery& delivery) {
-  if (!slices_.deliver(delivery.source, delivery.id, delivery.message)) return false;
-  if (flushing_ && flushing_->id == delivery.id && slices_.placed()) put_flush();
-  return true;
+void Tracer::put_when_placed(const MessageId& flush) {
+  if (flushing_ && flushing_->id == flush && slices_.placed()) put_flush();
 }
 
-void LeaseClient::flush_answered(const MessageId& answered, bool taken) {
+void Tracer::on(const Letter<SliceHeld>& held) {
+  slices_.on(held);
+  put_when_placed(held.id);
+}
+
+void Tracer::on(const Letter<FlushTaken>& taken) {
+  if (hears(taken.from)) flush_answered(taken.id, true);
+}
+
+/// By a shard a slice is refused; the coordinator then is told so.
+void Tracer::on(const Letter<FlushRefused>& refused) {
+  if (refused.from.actor == ActorName::tally_shard) {
+    slices_.on(refused);
+    put_when_placed(refused.id);
+  } else if (hears(refused.from)) {
+    flush_answered(refused.id, false);
+  }
+}
+
+void Tracer::on(const Letter<LeasesFenced>& fenced) {
+  if (!hears(fenced.from)) return;
+  for (const uint64_t lease : fenced.body.leases) photons_->drop(lease);
+}
+
+void Tracer::on(const Letter<RoundOpened>& opened) {
+  if (hears(opened.from)) begin_round();
+}
+
+void Tracer::flush_answered(const MessageId& answered, bool taken) {
   if (!flushing_ || flushing_->id != answered) return;
-  const Nanoseconds answer_took = scheduler_.clock().now() - flushing_->asked;
+  const Nanoseconds answer_took = clock_.now() - flushing_->asked;
   flush_cost_ = packing_took_ + answer_took;
   packed_leases_ = std::move(std::get<Flush>(flushing_->message).leases);  // its memory
   packed_leases_.clear();
@@ -230,20 +259,20 @@ void LeaseClient::flush_answered(const MessageId& answered, bool taken) {
 
 // ---- the end ---------------------------------------------------------------------------------
 
-void LeaseClient::drain() {
+void Tracer::drain() {
   draining_ = true;
   flush_when_idle();
 }
 
-bool LeaseClient::drained() const {
+bool Tracer::drained() const {
   return !asking_ && !packing_ && !flushing_ && done_.empty() && photons_->at_hand() == 0;
 }
 
-void LeaseClient::say_goodbye() {
-  network_.send(config_.controller, network_.next_id(), RequestLease{0});
+void Tracer::say_goodbye() {
+  tell(config_.coordinator, RequestLease{0});
 }
 
-void LeaseClient::stop_work(std::optional<Problem> fault) {
+void Tracer::stop_work(std::optional<Problem> fault) {
   if (std::exchange(over_, true)) return;
   fault_ = std::move(fault);
   asking_.reset();
@@ -251,7 +280,7 @@ void LeaseClient::stop_work(std::optional<Problem> fault) {
   photons_->end();
 }
 
-void LeaseClient::end(std::optional<Problem> fault) {
+void Tracer::end(std::optional<Problem> fault) {
   stop_work(std::move(fault));
   ended_ = true;
 }
@@ -260,42 +289,49 @@ void LeaseClient::end(std::optional<Problem> fault) {
 /// a neighbour that was let go. A neighbour's word could be of an earlier run, which that neighbour
 /// has outlived: until the controller has lent this node something it is but a rumour, which is
 /// right if the controller never comes.
-void LeaseClient::hear_of_end(NodeId from, const RunEnded& over) {
-  end_word_ = over;
-  rumour_ = from != config_.controller && counters_.leases == 0;
+void Tracer::on(const Letter<RunEnded>& ended) {
+  const bool first_hand = ended.from == config_.coordinator;
+  heard_ = heard_ || first_hand;
+  end_word_ = ended.body;
+  rumour_ = !first_hand && counters_.leases == 0;
   if (rumour_) return;
-  const auto says = [&] { return problem("the controller says: " + over.text); };
-  stop_work(over.text.empty() ? std::nullopt : std::optional(says()));
-  network_.send(config_.controller, network_.next_id(), RequestLease{0});
-  if (from != config_.controller) let_go();
+  const auto says = [&] { return problem("the controller says: " + end_word_.text); };
+  stop_work(end_word_.text.empty() ? std::nullopt : std::optional(says()));
+  tell(config_.coordinator, RequestLease{0});
+  if (!first_hand) let_go();
+}
+
+void Tracer::on(const Letter<EnterPhase>& phase) {
+  if (hears(phase.from) && phase.body.phase == EndPhase::leave) let_go();
 }
 
 /// Neighbours are told first: with this node they may lose their way to the controller.
-void LeaseClient::let_go() {
+void Tracer::let_go() {
   stop_work(std::nullopt);
   if (tell_) return;
   tell_ = network_.neighbours();
-  std::erase(*tell_, config_.controller);
+  std::erase(*tell_, config_.coordinator.node);
   pass_on();
 }
 
-void LeaseClient::pass_on() {
-  std::erase_if(*tell_, [&](NodeId neighbour) { return tell(neighbour) != SendOutcome::full; });
+void Tracer::pass_on() {
+  std::erase_if(*tell_,
+                [&](NodeId neighbour) { return tell_neighbour(neighbour) != SendOutcome::full; });
   if (tell_->empty()) return end(std::nullopt);
-  scheduler_.timers().set(scheduler_.clock().now() + retry_after, [this] { pass_on(); });
+  scheduler().timers().set(clock_.now() + retry_after, [this] { pass_on(); });
 }
 
-SendOutcome LeaseClient::tell(NodeId neighbour) {
-  return network_.send(neighbour, network_.next_id(), end_word_);
+SendOutcome Tracer::tell_neighbour(NodeId neighbour) {
+  return tell({neighbour, ActorName::tracer}, end_word_);
 }
 
-void LeaseClient::tell_end(NodeId neighbour) {
-  if (tell_ && neighbour != config_.controller) (void)tell(neighbour);
+void Tracer::tell_end(NodeId neighbour) {
+  if (tell_ && neighbour != config_.coordinator.node) (void)tell_neighbour(neighbour);
 }
 
-void LeaseClient::watch_controller(Nanoseconds now) {
+void Tracer::watch_controller(Nanoseconds now) {
   if (ended_ || tell_) return;
-  if (network_.reaches(config_.controller))
+  if (network_.reaches(config_.coordinator.node))
     unreachable_since_.reset();
   else if (!unreachable_since_)
     unreachable_since_ = now;
@@ -314,30 +350,29 @@ void LeaseClient::watch_controller(Nanoseconds now) {
 
 // ---- questions and answers -------------------------------------------------------------------
 
-void LeaseClient::put(Question& question) {
-  const SendOutcome outcome =
-      network_.send(config_.controller, question.id, question.message, question.payload);
-  question.asked = scheduler_.clock().now();
+void Tracer::put(Question& question) {
+  const SendOutcome outcome = sender().send(address(), config_.coordinator, question.id,
+                                            question.message, question.payload);
+  question.asked = clock_.now();
   question.left = outcome == SendOutcome::taken;
   if (question.left || retries_soon_) return;
   retries_soon_ = true;
-  scheduler_.timers().set(question.asked + retry_after, [this] { retry(); });
+  scheduler().timers().set(question.asked + retry_after, [this] { retry(); });
 }
 
 /// What found no room or no way: nobody will answer it.
-void LeaseClient::retry() {
+void Tracer::retry() {
   retries_soon_ = false;
   if (asking_ && !asking_->left) put(*asking_);
   if (flushing_ && !flushing_->left && slices_.placed()) put(*flushing_);
 }
 
-void LeaseClient::set_timer() {
-  scheduler_.timers().set(scheduler_.clock().now() + config_.answer_patience / 4,
-                          [this] { on_timer(); });
+void Tracer::set_timer() {
+  scheduler().timers().set(clock_.now() + config_.answer_patience / 4, [this] { on_timer(); });
 }
 
-void LeaseClient::on_timer() {
-  const Nanoseconds now = scheduler_.clock().now();
+void Tracer::on_timer() {
+  const Nanoseconds now = clock_.now();
   for (std::optional<Question>* question : {&asking_, &flushing_}) {
     if (!*question || now - (*question)->asked < config_.answer_patience) continue;
     ++counters_.asked_again;
@@ -350,30 +385,10 @@ void LeaseClient::on_timer() {
   set_timer();
 }
 
-bool LeaseClient::deliver(const Delivery& delivery) {
-  if (shard_answered(delivery)) return true;
-  if (const auto* over = std::get_if<RunEnded>(&delivery.message)) {
-    heard_ = heard_ || delivery.source == config_.controller;
-    hear_of_end(delivery.source, *over);
-    return true;
-  }
-  if (delivery.source != config_.controller) return false;
+/// Whether a letter is of the coordinator, which so has been heard.
+bool Tracer::hears(Address from) {
+  if (from != config_.coordinator) return false;
   heard_ = true;
-  if (const auto* grant = std::get_if<LeaseGranted>(&delivery.message)) {
-    granted(delivery.id, *grant);
-  } else if (std::holds_alternative<FlushTaken>(delivery.message)) {
-    flush_answered(delivery.id, true);
-  } else if (std::holds_alternative<FlushRefused>(delivery.message)) {
-    flush_answered(delivery.id, false);
-  } else if (const auto* fenced = std::get_if<LeasesFenced>(&delivery.message)) {
-    for (const uint64_t lease : fenced->leases) photons_->drop(lease);
-  } else if (std::holds_alternative<RoundOpened>(delivery.message)) {
-    begin_round();
-  } else if (const auto* phase = std::get_if<EnterPhase>(&delivery.message)) {
-    if (phase->phase == EndPhase::leave) let_go();
-  } else {
-    return false;
-  }
   return true;
 }
 

@@ -1,4 +1,4 @@
-#include "actors/photon/lease_client.hpp"
+#include "actors/photon/tracer.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,8 +1,8 @@
-// A worker's side of leases and flushes: asks the controller for batches, tells the photon-threads,
-// and sends what they have merged, until the run ends or the controller is given up. What gets no
-// answer is asked again under the same id; the controller answers a repeated question as it did
-// before. Where totals lie in shards, a flush goes to the controller when all shards hold theirs.
-// Thread rule: the node's thread.
+// The actor of a node that traces: asks the coordinator for batches, gives them to the
+// photon-threads, and sends what these have merged, until the run ends or the coordinator is given
+// up. What gets no answer is asked again under the same id; the coordinator answers a repeated
+// question as it did before. Where totals lie in shards, a flush goes to the coordinator when all
+// shards hold theirs. Thread rule: the node's thread.
 #pragma once
 
 #include <algorithm>
@@ -12,16 +12,17 @@
 
 #include "actors/photon/photon_threads.hpp"
 #include "actors/tally/slice_sender.hpp"
-#include "runtime/net/network.hpp"
+#include "runtime/messaging/node_actor.hpp"
 
 namespace luxodus {
 
-struct LeaseClientConfig {
-  NodeId controller;
+struct TracerConfig {
+  NodeId self;
+  Address coordinator;
   Nanoseconds answer_patience = seconds(2);  // then a question is asked again
   /// Merged batches rest here for so long at least, unless there is no more to do.
   Nanoseconds flush_every = seconds(5);
-  /// Until the controller is heard for the first time, and then without a way to it: after that it
+  /// Until the coordinator is heard for the first time, and then without a way to it: after that it
   /// is given up.
   Nanoseconds start = seconds(60);
   Nanoseconds lost = seconds(30);
@@ -35,14 +36,42 @@ constexpr Nanoseconds flush_interval(Nanoseconds least, Nanoseconds cost, Nanose
   return std::min(std::max(least, 50 * cost), lease_time / 4);
 }
 
-class LeaseClient final : public LeasePort {
- public:
-  /// `slices` outlives it.
-  LeaseClient(const LeaseClientConfig& config, Scheduler& scheduler, Network& network,
-              SliceSender& slices);
+/// Of a tracer to itself: what is merged is to be packed, on its fiber.
+struct PackFlush {
+  Totals* totals;
+};
 
-  /// Requires: once, before the photon-threads start.
+class Tracer final
+    : public NodeActor<Tracer,
+                       ControlLane<Accepts<Letter<LeaseGranted>, 16, WhenFull::reject>,
+                                   Accepts<Letter<FlushTaken>, 16, WhenFull::reject>,
+                                   Accepts<Letter<FlushRefused>, 64, WhenFull::reject>,
+                                   Accepts<Letter<LeasesFenced>, 64, WhenFull::reject>,
+                                   Accepts<Letter<RoundOpened>, 1, WhenFull::coalesce>,
+                                   Accepts<Letter<RunEnded>, 64, WhenFull::reject>,
+                                   Accepts<Letter<EnterPhase>, 4, WhenFull::reject>,
+                                   Accepts<Letter<SliceHeld>, 256, WhenFull::reject>>,
+                       DataLane<Accepts<PackFlush, 1, WhenFull::fail>>>,
+      public LeasePort {
+ public:
+  /// Requires: all that is referred to outlives it.
+  Tracer(const TracerConfig& config, const ShardPlan& shards, Scheduler& scheduler,
+         Network& network, Sender& sender);
+
+  /// Requires: once, before the photon-threads start; the scheduler has a fiber for it.
   void start(PhotonThreads& photons);
+
+  // Of the coordinator; the end of the run, of neighbours as well.
+  void on(const Letter<LeaseGranted>& granted);
+  void on(const Letter<FlushTaken>& taken);
+  void on(const Letter<FlushRefused>& refused);
+  void on(const Letter<LeasesFenced>& fenced);
+  void on(const Letter<RoundOpened>& opened);
+  void on(const Letter<RunEnded>& ended);
+  void on(const Letter<EnterPhase>& phase);
+  // Of shards.
+  void on(const Letter<SliceHeld>& held);
+  void on(const PackFlush& pack);
 
   void want_leases(size_t count) override;
   void lease_done(uint64_t lease) override;
@@ -52,8 +81,6 @@ class LeaseClient final : public LeasePort {
   size_t flush_bytes() const override { return encoder_->memory_bytes() + slices_.memory_bytes(); }
   void give_up(const Problem& why) override { end(why); }
 
-  /// A message of the controller or a shard; false where it is none of these.
-  bool deliver(const Delivery& delivery);
   /// Whether the run is over, as this node has heard; or the controller was given up.
   bool over() const { return over_; }
   /// Whether it is over and this node may leave. A node that has heard of the end stays until it is
@@ -96,31 +123,29 @@ class LeaseClient final : public LeasePort {
   void flush();
   bool encoder_is_free() const;
   bool rested(Nanoseconds now) const;
-  void pack(Totals& totals);
   bool pack_bins(FlushEncoder& encoder, Totals& totals, const BinRange& bins, FlushCounts counts);
   void put_flush();
-  bool shard_answered(const Delivery& delivery);
+  void put_when_placed(const MessageId& flush);
+  bool hears(Address from);
   void put(Question& question);
   void retry();
   void set_timer();
   void on_timer();
-  void granted(const MessageId& answered, const LeaseGranted& grant);
   void begin_round();
   void flush_when_idle();
   void watch_controller(Nanoseconds now);
   void end(std::optional<Problem> fault);
   void stop_work(std::optional<Problem> fault);
-  void hear_of_end(NodeId from, const RunEnded& over);
   void let_go();
   void pass_on();
-  SendOutcome tell(NodeId neighbour);
+  SendOutcome tell_neighbour(NodeId neighbour);
   void flush_answered(const MessageId& answered, bool taken);
   Nanoseconds vain_since(uint64_t lease, int64_t batch);
 
-  LeaseClientConfig config_;
-  Scheduler& scheduler_;
-  Network& network_;
-  SliceSender& slices_;
+  TracerConfig config_;
+  const Clock& clock_;
+  Network& network_;  // who is within reach
+  SliceSender slices_;
   PhotonThreads* photons_ = nullptr;
   std::optional<Question> asking_;    // for leases
   std::optional<Question> flushing_;  // one at a time; put when all its slices are held

@@ -1,4 +1,4 @@
-// The controller of a run on nodes: lends batches, takes flushes whole or refuses them, decides
+// The actor that leads a run on nodes: lends batches, takes flushes whole or refuses them, decides
 // when a round and the run are over. It holds the run's totals and traces nothing itself. A run
 // begins with all its workers or not at all; once begun it goes on as long as one is left. Where
 // workers hold shards of the totals, it tells these of every decision (shard_control.hpp), brings
@@ -7,7 +7,6 @@
 #pragma once
 
 #include <atomic>
-#include <deque>
 #include <functional>
 #include <map>
 #include <optional>
@@ -17,12 +16,12 @@
 #include "actors/source/flush_keeper.hpp"
 #include "actors/source/lease_book.hpp"
 #include "actors/tally/shard_control.hpp"
-#include "runtime/actor/scheduler.hpp"
-#include "runtime/net/network.hpp"
+#include "runtime/messaging/node_actor.hpp"
 
 namespace luxodus {
 
-struct ControllerConfig {
+struct CoordinatorConfig {
+  NodeId self;
   std::vector<NodeId> workers;
   /// By worker, its rank of each source group, the least the most liked: near what the node holds.
   /// Empty: all batches are lent in their order.
@@ -45,22 +44,41 @@ struct ControllerConfig {
   uint32_t max_leases = 64;                    // for one question
 };
 
-class Controller {
+/// Of a coordinator to itself: this flush is to be counted, on its fiber.
+struct CountFlush {
+  Letter<Flush> letter;
+};
+
+class Coordinator final
+    : public NodeActor<Coordinator,
+                       ControlLane<Accepts<Letter<RequestLease>, 4096, WhenFull::reject>,
+                                   Accepts<Letter<LeasesFenced>, 1024, WhenFull::reject>,
+                                   Accepts<Letter<Flush>, 1024, WhenFull::reject>,
+                                   Accepts<Letter<FlushSettled>, 256, WhenFull::reject>,
+                                   Accepts<Letter<TotalsTold>, 256, WhenFull::reject>>,
+                       DataLane<Accepts<CountFlush, 2048, WhenFull::reject>>> {
  public:
   /// Goes on from the batches that `run` holds. All that is referred to must outlive it.
-  Controller(const ControllerConfig& config, LocalRun& run, const StopRule& stop,
-             const std::atomic<bool>& interrupt, std::function<void(const Progress&)> report,
-             Scheduler& scheduler, Network& network);
+  Coordinator(const CoordinatorConfig& config, LocalRun& run, const StopRule& stop,
+              const std::atomic<bool>& interrupt, std::function<void(const Progress&)> report,
+              Scheduler& scheduler, Network& network, Sender& sender);
 
-  /// Waits for the workers from now on.
+  /// Waits for the workers from now on. Requires: the scheduler has a fiber for it.
   void start();
-  /// A message of a worker; false where it is none of these.
-  bool deliver(const Delivery& delivery);
+
+  // Of workers, in whatever order.
+  void on(const Letter<RequestLease>& request);
+  void on(const Letter<LeasesFenced>& given_back);
+  void on(Letter<Flush>&& flush);
+  // Of shards.
+  void on(const Letter<FlushSettled>& settled);
+  void on(const Letter<TotalsTold>& told);
+  void on(CountFlush&& count);
 
   /// All is over, every worker has heard so, or is lost, and has been let go.
   bool ended() const;
   /// How long ago the run was over.
-  Nanoseconds over_for() const { return over_ ? scheduler_.clock().now() - over_since_ : 0; }
+  Nanoseconds over_for() const { return over_ ? clock_.now() - over_since_ : 0; }
   StopReason reason() const { return reason_; }
   /// From the moment when all workers were here to that when all was counted; 0 before it.
   Nanoseconds took() const { return over_ ? over_since_ - began_ : 0; }
@@ -99,7 +117,7 @@ class Controller {
     bool gone = false;                // it was let go
   };
 
-  bool meet(const Delivery& delivery);
+  bool meet(Address worker, Incarnation life);
   void begin();
   void await_workers(Nanoseconds now);
   void watch_workers(Nanoseconds now);
@@ -107,7 +125,6 @@ class Controller {
   std::string name_of(NodeId node) const;
   std::string missing_workers() const;
   void fence(const std::vector<Lease>& leases, const char* why);
-  void take_back(NodeId worker, const LeasesFenced& leases);
   void lose_batches();
   void open_round();
   void look();
@@ -116,17 +133,14 @@ class Controller {
   bool nothing_left() const;
   uint32_t max_to_lend() const;
   LeaseGranted grant_of(const LentBatches& lent) const;
-  void lend(const Delivery& delivery, const RequestLease& request);
   LeaseBook::Rank rank_of(NodeId worker);
   size_t group_of(int64_t batch);
-  void take_flush(const Delivery& delivery, const Flush& flush);
-  struct Arrived;
-  void start_counting();
-  void count_flushes();
-  void answer_flush(const Arrived& arrived, const std::string& why);
-  std::string count_flush(const Arrived& arrived);
+  bool holds_back() const;
+  void go_on_counting();
+  void answer_flush(const Letter<Flush>& letter, const std::string& why);
+  std::string count_flush(const Letter<Flush>& letter);
   bool take_turns();
-  void keep(const Arrived& arrived);
+  void keep(const Letter<Flush>& letter);
   void let_keeper_rest();
   void look_at_totals();
   void look_soon();
@@ -138,7 +152,7 @@ class Controller {
   void tell_untold();
   bool knows_end(NodeId worker, const Peer& peer) const;
   RunEnded end_word() const;
-  void answer_with_end(const Delivery& delivery);
+  void answer_with_end(const Letter<RequestLease>& request);
   void let_go_when_told();
   void let_go();
   std::string who_lacks_end() const;
@@ -146,15 +160,15 @@ class Controller {
   void note_book();
   uint32_t round() const { return static_cast<uint32_t>(counters_.round); }
   Progress progress() const;
-  void send(NodeId worker, const MessageId& id, const Message& message);
+  SendOutcome send(NodeId worker, const MessageId& id, const Message& message);
 
-  ControllerConfig config_;
+  CoordinatorConfig config_;
   LocalRun& run_;
   StopRule stop_;
   const std::atomic<bool>& interrupt_;
   std::function<void(const Progress&)> report_;
-  Scheduler& scheduler_;
-  Network& network_;
+  const Clock& clock_;
+  Network& network_;  // who is within reach
   LeaseBook book_;
   ShardControl shards_;
   BatchPlan plan_;
@@ -182,16 +196,11 @@ class Controller {
     Message answer;
   };
   std::map<NodeId, Answered> last_grant_, last_flush_;
-  /// Flushes not counted yet, one of a worker at most. They are counted on a fiber, in steps: a
-  /// million bins take a second, in which beats must go on.
-  struct Arrived {
-    NodeId worker;
-    MessageId id;
-    Flush flush;
-    std::vector<std::byte> payload;
-  };
-  std::deque<Arrived> arrived_;
-  bool counting_ = false;    // the fiber runs
+  /// Flushes not counted yet. They are counted on the actor's fiber, in steps: a million bins take
+  /// a second, in which beats must go on.
+  std::vector<MessageId> uncounted_;
+  WaitList held_back_;       // the fiber, while shards are asked for their totals
+  bool counting_ = false;    // a flush
   bool adding_ = false;      // the totals hold a part of a flush
   bool looks_soon_ = false;  // a timer is set for look_at_totals()
   bool gathered_ = false;    // the totals are those of all that is counted, shards included

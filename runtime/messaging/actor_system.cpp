@@ -1,0 +1,124 @@
+#include "runtime/messaging/actor_system.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "runtime/core/check.hpp"
+
+namespace luxodus {
+
+ActorSystem::ActorSystem(NodeId self, Network& network, size_t max_payload_bytes)
+    : self_(self), network_(network), pool_(max_payload_bytes) {}
+
+void ActorSystem::add(ActorName name, Recipient& actor) {
+  Place& place = places_.at(static_cast<size_t>(name));
+  LUX_CHECK(place.actor == nullptr, "two actors of one name");
+  place.actor = &actor;
+}
+
+SendOutcome ActorSystem::send(Address from, Address to, const MessageId& id, const Message& message,
+                              SharedBytes payload) {
+  if (to.node != self_)
+    return network_.send(to.node, id, message, std::move(payload), {from.actor, to.actor});
+  ++counters_.local;
+  Message copy = message;
+  return put(to.actor, {from, id, copy, Payload(std::move(payload))}) ? SendOutcome::taken
+                                                                      : SendOutcome::full;
+}
+
+/// False: the mailbox is full.
+bool ActorSystem::put(ActorName to, Incoming incoming) {
+  const auto name = static_cast<size_t>(to);  // any byte, where it comes from outside
+  if (name >= places_.size() || places_[name].actor == nullptr) {
+    ++counters_.no_actor;
+    return true;
+  }
+  Place& place = places_[name];
+  const std::optional<Offered> offered = place.actor->accept(std::move(incoming));
+  if (!offered) ++counters_.not_accepted;
+  if (offered == Offered::taken) ++place.taken;
+  if (offered != Offered::rejected) return true;
+  ++counters_.rejected;
+  ++place.rejected;
+  return false;
+}
+
+// ---- what the network brings --------------------------------------------------------------------
+
+/// What came in pieces lies in its room already; the rest is copied into one.
+std::optional<Payload> ActorSystem::payload_of(const Delivery& delivery) {
+  if (const auto at = rooms_.find(key_of(delivery.id)); at != rooms_.end()) {
+    Room room = std::move(at->second);
+    rooms_.erase(at);
+    return Payload(pool_, std::move(room), delivery.payload);
+  }
+  if (delivery.payload.empty()) return Payload();
+  Room room = pool_.take(delivery.payload.size());
+  if (room.empty()) return std::nullopt;
+  const auto bytes = std::as_writable_bytes(std::span(room)).first(delivery.payload.size());
+  std::copy(delivery.payload.begin(), delivery.payload.end(), bytes.begin());
+  return Payload(pool_, std::move(room), bytes);
+}
+
+void ActorSystem::deliver(const Delivery& delivery) {
+  auto payload = payload_of(delivery);
+  if (!payload) {
+    ++counters_.no_room;
+    return;
+  }
+  (void)put(delivery.actors.to, {{delivery.source, delivery.actors.from},
+                                 delivery.id,
+                                 delivery.message,
+                                 std::move(*payload)});
+}
+
+std::span<std::byte> ActorSystem::room_for(const MessageId& id, size_t bytes) {
+  abandoned(id);
+  Room room = pool_.take(bytes);
+  if (room.empty()) {
+    ++counters_.no_room;
+    return {};
+  }
+  Room& kept = rooms_[key_of(id)];
+  kept = std::move(room);
+  return std::as_writable_bytes(std::span(kept));
+}
+
+void ActorSystem::abandoned(const MessageId& id) {
+  const auto at = rooms_.find(key_of(id));
+  if (at == rooms_.end()) return;
+  pool_.give_back(std::move(at->second));
+  rooms_.erase(at);
+}
+
+// ---- numbers ------------------------------------------------------------------------------------
+
+void ActorSystem::add_metrics(Metrics& metrics) const {
+  const Counters& c = counters_;
+  metrics.add_counter({"messages_local", "", "Messages between actors of the node.", ""}, c.local);
+  metrics.add_counter({"messages_no_actor", "", "Messages to an actor that is not here.", ""},
+                      c.no_actor);
+  metrics.add_counter(
+      {"messages_not_accepted", "", "Messages of a type that their actor does not receive.", ""},
+      c.not_accepted);
+  metrics.add_counter({"messages_no_room", "", "Messages without room for their payload.", ""},
+                      c.no_room);
+  for (size_t name = 0; name < places_.size(); ++name) {
+    const Place& place = places_[name];
+    if (place.actor == nullptr) continue;
+    const std::string actor = fmt::format("actor=\"{}\"", actor_names[name]);
+    metrics.add_counter({"mailbox_taken", "", "Messages that came to an actor.", actor},
+                        place.taken);
+    metrics.add_counter({"mailbox_rejected", "", "Messages to a full mailbox.", actor},
+                        place.rejected);
+    metrics.add_gauge({"mailbox_waiting", "", "Messages in a mailbox.", actor}, place.waiting);
+  }
+}
+
+void ActorSystem::sample() {
+  for (Place& place : places_)
+    if (place.actor != nullptr) place.waiting = place.actor->waiting();
+}
+
+}  // namespace luxodus

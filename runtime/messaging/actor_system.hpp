@@ -1,0 +1,115 @@
+// The actors of a node and the way between actors, wherever they are: whoever sends says an
+// address, and need not know whether it is of this node. A message to this node goes into the
+// mailbox of its actor; one to another node goes to the network, and there into a mailbox. No
+// message waits in the network for room in a mailbox, where it would hold up what others have sent:
+// it is dropped and counted, and who needs an answer asks again under the same id. Thread rule: one
+// node's thread.
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "runtime/actor/mailbox.hpp"
+#include "runtime/messaging/payload.hpp"
+#include "runtime/net/network.hpp"
+#include "runtime/observe/metrics.hpp"
+
+namespace luxodus {
+
+/// A message as an actor receives it.
+template <class Body>
+struct Letter {
+  Address from;
+  MessageId id;  // of the question, which its answer carries too
+  Body body;
+  Payload payload = {};
+};
+
+/// A message that is on its way into a mailbox.
+struct Incoming {
+  Address from;
+  MessageId id;
+  Message& message;  // may be moved out
+  Payload payload;
+};
+
+/// What others can send to.
+class Recipient {
+ public:
+  virtual ~Recipient() = default;
+  /// Puts the message into the mailbox. Nothing: the actor does not accept messages of its type.
+  virtual std::optional<Offered> accept(Incoming incoming) = 0;
+  /// Messages that wait.
+  virtual size_t waiting() const = 0;
+};
+
+/// How an actor sends.
+class Sender {
+ public:
+  virtual ~Sender() = default;
+  /// An id for a message of this node.
+  virtual MessageId next_id() = 0;
+  /// An answer carries the id of its question. Errors (exception): as Network::send.
+  virtual SendOutcome send(Address from, Address to, const MessageId& id, const Message& message,
+                           SharedBytes payload = {}) = 0;
+};
+
+class ActorSystem final : public Sender {
+ public:
+  /// Payloads take at most `max_payload_bytes`. Requires: `network` outlives this.
+  ActorSystem(NodeId self, Network& network, size_t max_payload_bytes);
+
+  NodeId self() const { return self_; }
+  /// Requires: one actor of a name; it outlives the use of this.
+  void add(ActorName name, Recipient& actor);
+
+  MessageId next_id() override { return network_.next_id(); }
+  SendOutcome send(Address from, Address to, const MessageId& id, const Message& message,
+                   SharedBytes payload = {}) override;
+
+  // ---- what the network brings --------------------------------------------------------------
+
+  void deliver(const Delivery& delivery);
+  /// Room for a message in pieces; empty where there is none.
+  std::span<std::byte> room_for(const MessageId& id, size_t bytes);
+  void abandoned(const MessageId& id);
+
+  struct Counters {
+    uint64_t local = 0;         // messages between actors of this node
+    uint64_t no_actor = 0;      // none of this name is here
+    uint64_t not_accepted = 0;  // the actor does not receive such messages
+    uint64_t rejected = 0;      // its mailbox was full
+    uint64_t no_room = 0;       // for its payload
+  };
+  const Counters& counters() const { return counters_; }
+  /// Requires: all actors have been added.
+  void add_metrics(Metrics& metrics) const;
+  /// Brings what is told of mailboxes up to date: before metrics are published.
+  void sample();
+
+ private:
+  using Key = std::pair<uint64_t, uint64_t>;
+  static Key key_of(const MessageId& id) { return {id.incarnation.value, id.sequence}; }
+
+  struct Place {
+    Recipient* actor = nullptr;
+    uint64_t taken = 0;     // messages in all
+    uint64_t rejected = 0;  // its mailbox was full
+    uint64_t waiting = 0;   // when last sampled
+  };
+
+  bool put(ActorName to, Incoming incoming);
+  std::optional<Payload> payload_of(const Delivery& delivery);
+
+  const NodeId self_;
+  Network& network_;
+  std::array<Place, actor_names.size()> places_{};  // by name
+  RoomPool pool_;
+  std::map<Key, Room> rooms_;  // of messages that come in pieces
+  Counters counters_;
+};
+
+}  // namespace luxodus

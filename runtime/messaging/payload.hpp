@@ -1,0 +1,73 @@
+// The bytes behind a message, as its handler gets them, and the pool of rooms that they lie in.
+// A room goes back to its pool when the handler is done with it, and the next message uses it: once
+// rooms are as large as the messages of a run, no memory is taken any more.
+// Thread rule: one node's thread.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "runtime/net/outbox.hpp"
+
+namespace luxodus {
+
+/// Of words, so that what lies in it is aligned.
+using Room = std::vector<uint64_t>;
+
+class RoomPool {
+ public:
+  /// Rooms that are lent, and those kept for later, have at most `max_bytes` together.
+  explicit RoomPool(size_t max_bytes) : max_bytes_(max_bytes) {}
+  RoomPool(const RoomPool&) = delete;
+  RoomPool& operator=(const RoomPool&) = delete;
+
+  /// Of at least so many bytes; empty where the pool has no more.
+  Room take(size_t bytes);
+  void give_back(Room room);
+
+  /// Of rooms that are lent.
+  size_t lent_bytes() const { return lent_bytes_; }
+
+ private:
+  void forget_kept(size_t bytes);
+
+  const size_t max_bytes_;
+  size_t lent_bytes_ = 0;
+  size_t kept_bytes_ = 0;
+  std::vector<Room> kept_;
+};
+
+/// A handle of bytes that others may use when it is gone: a room of a pool, or what another actor
+/// of the node has sent.
+class Payload {
+ public:
+  Payload() = default;
+  /// `bytes` lie in the room. Requires: `pool` outlives it.
+  Payload(RoomPool& pool, Room room, std::span<const std::byte> bytes)
+      : pool_(&pool), room_(std::move(room)), bytes_(bytes) {}
+  explicit Payload(SharedBytes shared) : shared_(std::move(shared)), bytes_(shared_.bytes) {}
+  Payload(Payload&& other) noexcept { *this = std::move(other); }
+  Payload& operator=(Payload&& other) noexcept {
+    std::swap(pool_, other.pool_);
+    std::swap(room_, other.room_);
+    std::swap(shared_, other.shared_);
+    std::swap(bytes_, other.bytes_);
+    return *this;
+  }
+  ~Payload() {
+    if (pool_ != nullptr) pool_->give_back(std::move(room_));
+  }
+
+  std::span<const std::byte> bytes() const { return bytes_; }
+
+ private:
+  RoomPool* pool_ = nullptr;  // null: the bytes are in no room
+  Room room_;
+  SharedBytes shared_;
+  std::span<const std::byte> bytes_;
+};
+
+}  // namespace luxodus
