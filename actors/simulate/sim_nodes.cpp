@@ -24,6 +24,17 @@ std::string fault_of(const NodeShell& shell, const Fibers& fibers) {
   return "";
 }
 
+/// Of a controller, whose disk takes virtual time.
+NodeSeams disk_seams(SimWorld& world, const NodeSetup& node) {
+  NodeSeams seams{world.clock(node.net.self), world.transport(node.net.self)};
+  seams.make_calls = [buggify = node.buggify](Scheduler& scheduler) {
+    return std::make_unique<SimulatedCalls>(scheduler, [buggify] {
+      return rarely(buggify, Buggify::Site::slow_disk) ? milliseconds(300) : milliseconds(1);
+    });
+  };
+  return seams;
+}
+
 }  // namespace
 
 // ---- workers -----------------------------------------------------------------------------------
@@ -89,8 +100,8 @@ SimController::SimController(const RunSetup& setup, const NodeSetup& node, Local
       meter_(world.clock(node.net.self)),
       costs_(costs),
       node_(
-          setup, node, run, stop, interrupt_, [](const Progress&) {},
-          {world.clock(node.net.self), world.transport(node.net.self)}, keeper) {
+          setup, node, run, stop, interrupt_, [](const Progress&) {}, disk_seams(world, node),
+          keeper) {
   node_.start([] { return false; });
 }
 

@@ -285,7 +285,7 @@ void Coordinator::look_at_totals() {
   if (shards_.fault()) return fail(*shards_.fault());
   const bool round_done = book_.round_done();
   if (!round_done && !run_.pause_is_due()) return go_on_counting();
-  if (adding_ || shards_.gathering()) return;
+  if (adding_ || tidying_ || shards_.gathering()) return;
   if (shards_.others() > 0 && !gathered_) {
     if (counting_ || !shards_.settled()) return;  // called again when they are
     return shards_.gather([this] {
@@ -334,15 +334,15 @@ RunEnded Coordinator::end_word() const {
 
 /// Were this node to crash while its journal lacks work, that work would be traced again: by
 /// workers that have not heard of an end. After `lost` the disk is given up.
-bool Coordinator::awaits_keeper() const {
-  return config_.keeper != nullptr && !config_.keeper->is_whole() && !fault_ &&
+bool Coordinator::awaits_journal() const {
+  return config_.journal != nullptr && !config_.journal->is_whole() && !fault_ &&
          !interrupt_.load() && over_for() < config_.lost;
 }
 
 /// Whom there was no room for the last time comes first, or a full outbox would hide the end from
 /// the same workers each time.
 void Coordinator::tell_end() {
-  if (awaits_keeper()) return;
+  if (awaits_journal()) return;
   for (const auto& [worker, peer] : peers_)
     if ((peer.here || done_before_) && std::count(untold_.begin(), untold_.end(), worker) == 0)
       untold_.push_back(worker);
@@ -366,7 +366,7 @@ void Coordinator::tell_untold() {
 /// Who asks for work then has begun anew since it was told. An answer without batches would have it
 /// wait for the next round, of a controller that may leave before it can say more.
 void Coordinator::answer_with_end(const Letter<RequestLease>& request) {
-  if (awaits_keeper()) {
+  if (awaits_journal()) {
     answer(request, grant_of({}));
     return;
   }
@@ -386,7 +386,7 @@ void Coordinator::let_go_when_told() {
   if (letting_go_) return;
   const auto knows = [&](const auto& entry) { return knows_end(entry.first, entry.second); };
   const bool all_know = std::all_of(peers_.begin(), peers_.end(), knows);
-  if (awaits_keeper() || (!all_know && over_for() < config_.lost)) return;
+  if (awaits_journal() || (!all_know && over_for() < config_.lost)) return;
   letting_go_ = true;
   let_go();
 }
@@ -429,7 +429,7 @@ void Coordinator::look() {
   fence(book_.fence_late(now), "late");
   lose_batches();
   note_book();
-  let_keeper_rest();
+  tidy_journal();
   const double passed = static_cast<double>(now - began_) * 1e-9;
   if (!closing_ && (interrupt_.load() || stop_.time_is_up(passed))) {
     closing_ = true;
@@ -439,11 +439,11 @@ void Coordinator::look() {
 }
 
 void Coordinator::wait_for_farewells(Nanoseconds now) {
-  let_keeper_rest();
+  tidy_journal();
   tell_end();
   if (letting_go_ || now < next_word_) return;
   next_word_ = now + waiting_word;
-  if (awaits_keeper()) {
+  if (awaits_journal()) {
     log_info(
         "run=over text=\"its workers stay until the journal has what it lacks: that takes {:g} s "
         "(lost_s) at most\"",

@@ -13,7 +13,7 @@
 #include <string>
 
 #include "actors/run/local_run.hpp"
-#include "actors/source/flush_keeper.hpp"
+#include "actors/source/journal_actor.hpp"
 #include "actors/source/lease_book.hpp"
 #include "actors/tally/shard_control.hpp"
 #include "runtime/messaging/node_actor.hpp"
@@ -30,9 +30,9 @@ struct CoordinatorConfig {
   /// of the work that a node of eight prefers; ten times as many are what a run that is stopped has
   /// yet to trace.
   int64_t look_ahead = 8;
-  std::vector<std::string> names;  // of nodes, by number, for people; empty: they have none
-  ShardPlan shards;                // of the totals
-  FlushKeeper* keeper = nullptr;   // of what is counted; null: nobody
+  std::vector<std::string> names;   // of nodes, by number, for people; empty: they have none
+  ShardPlan shards;                 // of the totals
+  JournalActor* journal = nullptr;  // of what is counted; null: none is kept
   /// Until every worker has been heard of; else the run does not begin.
   Nanoseconds start = seconds(60);
   /// A worker that no way leads to for so long is lost: long against a link that is made anew.
@@ -82,7 +82,7 @@ class Coordinator final
   StopReason reason() const { return reason_; }
   /// From the moment when all workers were here to that when all was counted; 0 before it.
   Nanoseconds took() const { return over_ ? over_since_ - began_ : 0; }
-  /// The totals hold a part of a flush.
+  /// A flush is being kept, or the totals hold a part of it.
   bool adding() const { return adding_; }
   /// Why the run could not begin.
   const std::optional<Problem>& fault() const { return fault_; }
@@ -140,8 +140,8 @@ class Coordinator final
   void answer_flush(const Letter<Flush>& letter, const std::string& why);
   std::string count_flush(const Letter<Flush>& letter);
   bool take_turns();
-  void keep(const Letter<Flush>& letter);
-  void let_keeper_rest();
+  bool keep(const Letter<Flush>& letter);
+  void tidy_journal();
   void look_at_totals();
   void look_soon();
   void fail(const std::string& what);
@@ -156,7 +156,7 @@ class Coordinator final
   void let_go_when_told();
   void let_go();
   std::string who_lacks_end() const;
-  bool awaits_keeper() const;
+  bool awaits_journal() const;
   void note_book();
   uint32_t round() const { return static_cast<uint32_t>(counters_.round); }
   Progress progress() const;
@@ -199,9 +199,10 @@ class Coordinator final
   /// Flushes not counted yet. They are counted on the actor's fiber, in steps: a million bins take
   /// a second, in which beats must go on.
   std::vector<MessageId> uncounted_;
-  WaitList held_back_;       // the fiber, while shards are asked for their totals
+  WaitList held_back_;       // the fiber, while shards tell their totals or a snapshot is made
+  bool tidying_ = false;     // the journal reads the totals
   bool counting_ = false;    // a flush
-  bool adding_ = false;      // the totals hold a part of a flush
+  bool adding_ = false;      // a flush is being kept, or the totals hold a part of it
   bool looks_soon_ = false;  // a timer is set for look_at_totals()
   bool gathered_ = false;    // the totals are those of all that is counted, shards included
   Counters counters_;

@@ -28,10 +28,10 @@ void Coordinator::on(Letter<Flush>&& letter) {
   if (offer(CountFlush{std::move(letter)}) == Offered::taken) uncounted_.push_back(flush);
 }
 
-/// Between two flushes somebody may look at the totals; where these lie in shards, the flushes that
-/// have come wait.
+/// Between two flushes somebody may look at the totals; where these lie in shards, or become a
+/// snapshot, the flushes that have come wait.
 bool Coordinator::holds_back() const {
-  if (shards_.gathering()) return true;
+  if (shards_.gathering() || tidying_) return true;
   return shards_.others() > 0 && !over_ && run_.pause_is_due();
 }
 
@@ -42,11 +42,12 @@ void Coordinator::go_on_counting() {
 /// On the actor's fiber.
 void Coordinator::on(CountFlush&& count) {
   while (holds_back())
-    if (scheduler().fibers().wait(held_back_, "shards tell their totals") == Wake::cancelled)
-      return;
+    if (scheduler().fibers().wait(held_back_, "totals are read") == Wake::cancelled) return;
   counting_ = true;
-  answer_flush(count.letter, count_flush(count.letter));
+  const std::string why = count_flush(count.letter);
   counting_ = false;
+  if (scheduler().fibers().cancelled()) return;  // its worker asks whoever comes after this node
+  answer_flush(count.letter, why);
   std::erase(uncounted_, count.letter.id);
   look_soon();
 }
@@ -87,22 +88,37 @@ bool Coordinator::take_turns() {
 }
 
 /// On a disk, before anybody is told: the run survives this node. Where that fails the run goes on
-/// without, since its totals are right all the same.
-void Coordinator::keep(const Letter<Flush>& letter) {
-  if (config_.keeper == nullptr) return;
+/// without, since its totals are right all the same. False: this node ends.
+bool Coordinator::keep(const Letter<Flush>& letter) {
+  if (config_.journal == nullptr) return true;
   const std::vector<int64_t> batches = book_.batches_of(letter.body.leases);
-  const auto kept = config_.keeper->keep(batches, letter.payload.bytes());
-  if (kept) return;
+  Kept kept;
+  const KeepFlush keep{batches, letter.payload.bytes(), &kept};
+  bool goes_on = config_.journal->send(keep) == Offered::taken;
+  while (goes_on && !kept.done)
+    goes_on = scheduler().fibers().wait(kept.waiting, "journal") != Wake::cancelled;
+  if (!goes_on) {
+    config_.journal->finish();
+    return false;
+  }
+  if (kept.outcome) return true;
   ++counters_.flushes_not_kept;
   log_error("journal=failed flushes={} text=\"{}: should this node crash, they are traced again\"",
-            counters_.flushes_not_kept, kept.problem().text());
+            counters_.flushes_not_kept, kept.outcome.problem().text());
+  return true;
 }
 
-/// Between flushes, when the totals hold all that was kept.
-void Coordinator::let_keeper_rest() {
-  if (config_.keeper == nullptr || adding_ || counting_ || !config_.keeper->rest_is_due()) return;
+/// Between flushes, when the totals hold all that was kept. Until it is done no flush is counted.
+void Coordinator::tidy_journal() {
+  if (config_.journal == nullptr || adding_ || counting_ || tidying_) return;
+  if (!config_.journal->tidying_is_due()) return;
   run_.resume(book_.lent_end(), book_.missing());
-  config_.keeper->rest();
+  const TidyJournal tidy{[this] {
+    tidying_ = false;
+    go_on_counting();
+    look_soon();
+  }};
+  tidying_ = config_.journal->offer(tidy) == Offered::taken;
 }
 
 /// Takes a flush whole, or says why not.
@@ -126,13 +142,14 @@ std::string Coordinator::count_flush(const Letter<Flush>& letter) {
   if (gain->batches() != static_cast<int64_t>(leases.size()) || !gain->balance().closes())
     return "its batches or its ledger do not add up";
   if (over_) return "the run has ended";
-  // Committed before anything is added, so that no lease of it is fenced while others have turns.
   if (!book_.stand(worker, leases)) return fenced;
-  keep(letter);
+  // From here on no lease of it can be fenced, though others have turns.
+  book_.hold(leases);
+  adding_ = true;
+  if (!keep(letter)) return "this node ends";
   book_.commit(leases);
   gathered_ = false;
   shards_.take(letter.id, letter.body.slice_hashes);
-  adding_ = true;
   gain->add_to(run_.totals(), rest);
   note_book();
   adding_ = false;

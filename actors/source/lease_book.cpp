@@ -71,6 +71,10 @@ std::vector<int64_t> LeaseBook::batches_of(const std::vector<uint64_t>& leases) 
   return batches;
 }
 
+void LeaseBook::hold(const std::vector<uint64_t>& leases) {
+  for (const uint64_t id : leases) leases_.at(id).held = true;
+}
+
 void LeaseBook::commit(const std::vector<uint64_t>& leases) {
   for (const uint64_t id : leases) {
     const auto at = leases_.find(id);
@@ -85,7 +89,7 @@ template <class Which>
 std::vector<Lease> LeaseBook::fence(Which&& which) {
   std::vector<Lease> fenced;
   for (auto at = leases_.begin(); at != leases_.end();) {
-    if (!which(at->second)) {
+    if (at->second.held || !which(at->second)) {
       ++at;
       continue;
     }

@@ -22,6 +22,7 @@ struct Lease {
   NodeId node;
   int64_t batch = 0;  // its number
   Nanoseconds deadline = 0;
+  bool held = false;  // it is being committed: see LeaseBook::hold
 };
 
 /// Leases of consecutive numbers for batches of consecutive numbers, one each.
@@ -65,6 +66,9 @@ class LeaseBook {
   bool stand(NodeId node, const std::vector<uint64_t>& leases) const;
   /// Their batches. Requires: they stand.
   std::vector<int64_t> batches_of(const std::vector<uint64_t>& leases) const;
+  /// Their flush is being kept: they cannot be fenced any more. Requires: stand(node, leases);
+  /// commit(leases) follows.
+  void hold(const std::vector<uint64_t>& leases);
   /// Their batches are counted. Requires: stand(node, leases).
   void commit(const std::vector<uint64_t>& leases);
 
@@ -104,7 +108,7 @@ class LeaseBook {
 
  private:
   template <class Which>
-  std::vector<Lease> fence(Which&& which);
+  std::vector<Lease> fence(Which&& which);  // but for those that are held
   int64_t first_choice(NodeId node, const Rank& rank) const;
   bool may_again(NodeId node, int64_t batch) const;
   bool open(int64_t batch) const;

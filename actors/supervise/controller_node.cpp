@@ -7,10 +7,10 @@ namespace luxodus {
 namespace {
 
 CoordinatorConfig coordinator_config(const RunSetup& setup, const NodeSetup& node,
-                                     FlushKeeper* keeper) {
+                                     JournalActor* journal) {
   CoordinatorConfig config;
   config.self = node.net.self;
-  config.keeper = keeper;
+  config.journal = journal;
   config.lease_time = node.lease_time;
   config.group_ranks = node.group_ranks;
   config.max_leases = static_cast<uint32_t>(node.photons.leases);
@@ -34,12 +34,21 @@ ControllerNode::ControllerNode(const RunSetup& setup, const NodeSetup& node, Loc
       shell_({controller_net(setup, node), controller_limits(node), ShellConfig{}.max_payload_bytes,
               node.shutdown_phase, setup.routes},
              setup.graph, seams.clock, seams.transport),
-      coordinator_(coordinator_config(setup, node, keeper), run, stop, interrupt, std::move(report),
-                   shell_.scheduler(), shell_.network(), shell_.actors()) {}
+      coordinator_(coordinator_config(setup, node, make_journal(keeper, seams)), run, stop,
+                   interrupt, std::move(report), shell_.scheduler(), shell_.network(),
+                   shell_.actors()) {}
+
+/// Null where nothing is kept.
+JournalActor* ControllerNode::make_journal(FlushKeeper* keeper, const NodeSeams& seams) {
+  if (keeper == nullptr) return nullptr;
+  calls_ = seams.make_calls(shell_.scheduler());
+  return &journal_.emplace(shell_.scheduler(), *keeper, *calls_);
+}
 
 void ControllerNode::start(std::function<bool()> broken) {
   shell_.actors().add(ActorName::coordinator, coordinator_);
   coordinator_.start();
+  if (journal_) journal_->start();
   if (setup_.observation != nullptr) {
     metrics_.emplace(setup_.names, self_, "controller", shell_);
     coordinator_.add_metrics(metrics_->registry());

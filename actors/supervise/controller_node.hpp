@@ -26,8 +26,12 @@ class ControllerNode {
 
  private:
   const RunSetup& setup_;
+  JournalActor* make_journal(FlushKeeper* keeper, const NodeSeams& seams);
+
   const NodeId self_;
   NodeShell shell_;
+  std::unique_ptr<BlockingCalls> calls_;  // of the journal
+  std::optional<JournalActor> journal_;   // where what is counted is kept
   Coordinator coordinator_;
   std::optional<NodeMetrics> metrics_;
 };

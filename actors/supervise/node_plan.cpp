@@ -118,7 +118,7 @@ NetConfig controller_net(const RunSetup& run, const NodeSetup& node) {
 SchedulerLimits controller_limits(const NodeSetup& node) {
   SchedulerLimits limits;
   limits.fibers = node.fibers;
-  limits.fibers.count = 1;  // that counts flushes
+  limits.fibers.count = 2;  // of the coordinator, which counts flushes, and of the journal
   limits.stall = node.stall;
   limits.buggify = node.buggify;
   return limits;

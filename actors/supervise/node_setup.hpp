@@ -75,6 +75,12 @@ using BuilderMaker = std::function<std::unique_ptr<ObjectBuilder>(const Compiled
 std::unique_ptr<ObjectBuilder> make_part_builder(const CompiledScene& scene,
                                                  const SceneParts& parts);
 
+/// Makes what an actor's blocking calls are made by.
+using CallsMaker = std::function<std::unique_ptr<BlockingCalls>(Scheduler&)>;
+inline std::unique_ptr<BlockingCalls> calls_on_a_thread(Scheduler& scheduler) {
+  return std::make_unique<BlockingThread>(scheduler.handoff());
+}
+
 /// What stands between a node and its machine: a simulation puts its own here, and nothing else.
 struct NodeSeams {
   const Clock& clock;
@@ -82,6 +88,8 @@ struct NodeSeams {
   /// Of photon-threads.
   TracerMaker make_tracer = make_batch_tracer;
   BuilderMaker make_builder = make_part_builder;
+  /// Of calls that may block.
+  CallsMaker make_calls = calls_on_a_thread;
 };
 
 /// What the real nodes of one process share of their machine.

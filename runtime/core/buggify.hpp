@@ -25,8 +25,9 @@ class Buggify {
     small_wish,      // a node asks for one lease
     small_grant,     // and is granted one
     no_room,         // a message of several pieces finds no room
+    slow_disk,       // what is written is durable after a long time only
   };
-  static constexpr size_t sites = 9;
+  static constexpr size_t sites = 10;
 
   /// Half of the sites are active, each at a share of its own of up to a fifth.
   Buggify(uint64_t seed, uint64_t stream) : random_(seed, RandomStream::faults) {

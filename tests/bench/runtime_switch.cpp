@@ -5,6 +5,7 @@
 
 #include "runtime/actor/actor.hpp"
 #include "runtime/core/random.hpp"
+#include "runtime/messaging/node_actor.hpp"
 #include "tests/bench/measure.hpp"
 #include "tests/bench/tables.hpp"
 
@@ -121,6 +122,64 @@ void print_messages(int repeats) {
   end_all(scheduler.fibers());
 }
 
+/// Of a node without neighbours.
+class NoTransport final : public Transport {
+ public:
+  Sent send(NodeId, Lane, std::span<const std::byte>, std::span<const std::byte>) override {
+    return Sent::unreachable;
+  }
+  void renew(NodeId) override {}
+  std::optional<Arrival> receive() override { return std::nullopt; }
+  void wait_until(Nanoseconds) override {}
+  void wake() noexcept override {}
+};
+class NoHandler final : public NetHandler {
+ public:
+  bool deliver(const Delivery&) override { return true; }
+  std::span<std::byte> room_for(const MessageId&, NodeId, Kind, size_t) override { return {}; }
+  void abandoned(const MessageId&, Kind) override {}
+  bool intercept(const Delivery&) override { return false; }
+  void link_changed(NodeId, LinkPhase) override {}
+  NextHops reroute(std::span<const Edge>) override { return {{no_node}}; }
+};
+
+class Lender final
+    : public NodeActor<Lender, ControlLane<Accepts<Letter<RequestLease>, 64, WhenFull::reject>>,
+                       DataLane<>> {
+ public:
+  Lender(Scheduler& scheduler, Sender& sender)
+      : NodeActor(scheduler, sender, {{0}, ActorName::coordinator}, "lender") {}
+  void on(const Letter<RequestLease>& request) { sum += request.body.batches; }
+  uint64_t sum = 0;
+};
+
+/// By address, as actors of different nodes send.
+void print_letters(int repeats) {
+  const SystemClock clock;
+  QuietSource source(clock);
+  SchedulerLimits limits;
+  limits.fibers = limits_for(1);
+  Scheduler scheduler(limits, clock, source);
+  NoTransport transport;
+  NoHandler handler;
+  NetConfig config;
+  config.self = {0};
+  config.incarnation = {1};
+  config.nodes = 1;
+  Network network(config, transport, handler, clock.now());
+  ActorSystem system({0}, network, 1 << 20);
+  Lender lender(scheduler, system);
+  system.add(ActorName::coordinator, lender);
+  constexpr uint64_t letters = 200'000;
+  print_cost("letter to an actor of the node, 64 a turn", repeats, letters, [&] {
+    for (uint32_t i = 0; i < letters; ++i) {
+      const SendOutcome sent = system.send({{0}, ActorName::tracer}, lender.address(),
+                                           system.next_id(), RequestLease{i});
+      if (sent != SendOutcome::taken || i % 64 == 63) scheduler.turn();
+    }
+  });
+}
+
 void print_timers(int repeats) {
   constexpr size_t standing = 10'000;  // other timers, seconds ahead
   constexpr size_t count = 200'000;
@@ -148,6 +207,7 @@ void print_switch(int repeats) {
   print_switches(repeats);
   print_scheduled(repeats);
   print_messages(repeats);
+  print_letters(repeats);
   print_timers(repeats);
 }
 

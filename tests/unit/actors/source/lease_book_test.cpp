@@ -231,3 +231,24 @@ TEST_CASE("a batch that a node gives back is lent to others, and lost when all h
     CHECK(book.lend(ann, 1, 0, 100).first_batch == 0);
   }
 }
+
+TEST_CASE("a lease whose flush is being kept cannot be fenced, and its batch is not lent again",
+          "[lease]") {
+  LeaseBook book(0);
+  book.open_until(4);
+  const LentBatches lent = book.lend(ann, 4, 0, 100);
+  const uint64_t first = lent.first_lease;
+  book.hold({first, first + 1});
+  CHECK(book.fence_late(1000).size() == 2);
+  CHECK(book.fence_node(ann).empty());
+  CHECK(book.fence_leases(ann, {first, first + 1}).empty());
+  CHECK(book.give_back(ann, {first}).empty());
+  CHECK_FALSE(book.round_done());
+  const LentBatches again = book.lend(bob, 4, 1000, 100);
+  CHECK(again.first_batch == 2);
+  CHECK(again.count == 2);
+  book.commit({first, first + 1});
+  CHECK(book.committed() == 2);
+  book.commit({again.first_lease, again.first_lease + 1});
+  CHECK(book.round_done());
+}
