@@ -180,6 +180,7 @@ std::optional<Problem> inspect_media_of(const SceneDescription& scene, const Sce
   auto building = Building::make(std::move(smoky), lit_scenario(scenario), threads);
   if (!building) return building.problem();
   inspect_media(building.value()->scene(), out);
+  inspect_smoke_places(*building.value(), out);
   inspect_flames(*building.value(), out, misplaced.media);
   inspect_smoke(scene, *building.value(), out);
   inspect_columns(scene, *building.value(), out);

@@ -112,6 +112,9 @@ void inspect_states(const SceneDescription& scene, const std::vector<Scenario>& 
 
 /// Media of a scenario that overlap. `scene`: compiled with its media.
 void inspect_media(const CompiledScene& scene, Findings& out);
+/// Smoke of a scenario that lies outside the building with much of it. Data sets are not asked: the
+/// meshes of simulations reach outside.
+void inspect_smoke_places(const Building& smoky, Findings& out);
 /// Flames of a scenario in bodies, outside, two in one place. `misplaced`: by medium, those of the
 /// first two, added to what it holds.
 void inspect_flames(const Building& smoky, Findings& out, std::vector<char>& misplaced);
