@@ -244,10 +244,12 @@ Result<std::vector<Finding>> inspect(const std::shared_ptr<const SceneDescriptio
   for (const Problem& note : scene->notes) of_scene.push_back({Severity::note, "file", note});
   inspect_sizes(*scene, of_scene);
   inspect_imports(*scene, of_scene);
+  inspect_feet(*scene, of_scene);
   inspect_doubled_objects(*scene, of_scene);
   inspect_doors(*scene, of_scene);
   inspect_reach(*scene, of_scene);
   inspect_fluxes(*scene, of_scene);
+  inspect_odd_ones(*scene, of_scene);
   inspect_materials(*scene, of_scene);
   inspect_sign_light(*scene, of_scene);
   inspect_smoke_numbers(*scene, of_scene);

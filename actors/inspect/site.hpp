@@ -97,10 +97,14 @@ void inspect_turned_rooms(const Site& site, Findings& out);
 // Of the scene as it is written.
 void inspect_sizes(const SceneDescription& scene, Findings& out);
 void inspect_imports(const SceneDescription& scene, Findings& out);
+/// Doors, of any building, as high as if feet had been read as metres.
+void inspect_feet(const SceneDescription& scene, Findings& out);
 void inspect_doubled_objects(const SceneDescription& scene, Findings& out);
 void inspect_doors(const SceneDescription& scene, Findings& out);
 void inspect_reach(const SceneDescription& scene, Findings& out);
 void inspect_fluxes(const SceneDescription& scene, Findings& out);
+/// Luminaires that fail with the mains among others of their file that do not.
+void inspect_odd_ones(const SceneDescription& scene, Findings& out);
 void inspect_materials(const SceneDescription& scene, Findings& out);
 void inspect_sign_light(const SceneDescription& scene, Findings& out);
 void inspect_smoke_numbers(const SceneDescription& scene, Findings& out);
