@@ -200,6 +200,8 @@ constexpr double min_lx = 0.01;
 /// Of one route or area. A few dark places are corners; a doorway's shadow is no more.
 constexpr size_t max_places_of_way = 400;
 constexpr double dark_share = 0.05;
+/// A place of a route has its floor so near below it [m].
+constexpr double on_floor_within_m = 0.5;
 /// A luminaire farther away is not the one that is missing [m].
 constexpr double could_light_m = 8;
 /// Of fewer with one file, none is the odd one.
@@ -269,6 +271,10 @@ DarkPlaces dark_places(const Site& site, const std::vector<uint32_t>& luminaires
     some.push_back(places[i] + glm::dvec3(0, 0, above_floor_m));
   std::vector<char> dark(some.size(), 0);
   site.building.each(some.size(), [&](const GeometryAccess& access, size_t i) {
+    // Routes off their floor and in walls are told as such.
+    if (!solid_ahead(site, access, some[i], glm::dvec3(0, 0, -1), on_floor_within_m) ||
+        site.in_body(access, some[i] + glm::dvec3(0, 0, on_floor_within_m)))
+      return;
     std::vector<uint32_t> nearest = luminaires;
     const auto away = [&](uint32_t e) {
       return glm::length(middle_of(site.scene.emitters[e]) - some[i]);
