@@ -141,6 +141,14 @@ TEST_CASE("the program's own sentences are said in each language", "[report]") {
         "der nirgends gelesen wurde: nachschlagen");
   CHECK(fr.remark("undecided: legible or not: more paths tell (--rounds)") ==
         "indécis : lisible ou non : plus de chemins le diront (--rounds)");
+  CHECK(de.remark("only the codes were asked for") ==
+        "nur die Prüfung nach den Codes war verlangt");
+  CHECK(de.remark("the nearest is \"a\"; \"b\" is 1.5 m away, but on another storey") ==
+        "die nächste ist \"a\"; \"b\" ist 1,5 m entfernt, aber auf einem anderen Geschoss");
+  CHECK(de.remark("floor.toml:7, 2 layers, times 0.5 in this scenario") ==
+        "floor.toml:7, 2 Schichten, mal 0,5 in diesem Szenario");
+  CHECK(fr.remark("fire.toml:7, 8 x 8 x 4 cells, a fire simulation at 60 s (SOOT)") ==
+        "fire.toml:7, 8 x 8 x 4 cellules, une simulation d’incendie à 60 s (SOOT)");
   CHECK_FALSE(de.remark("a sentence that nobody says"));
   for (const ReportText& row : remark_texts()) {
     INFO(row.text[0]);
