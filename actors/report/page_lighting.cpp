@@ -75,8 +75,15 @@ std::string luminaire_schedule(const PageParts& parts) {
   return table(parts.texts,
                {"column.type", "column.luminaire", "column.operation", "column.mains_flux",
                 "column.emergency_flux", "column.maintenance", "column.duration", "column.count"},
-               {6, 32, 15, 11, 12, 8, 8, 8}, rows, "schedule") +
+               {5, 30, 18, 11, 11, 10, 8, 7}, rows, "schedule") +
          paragraph(parts.texts("schedule.luminaires_note"), "note");
+}
+
+/// A path in a narrow column breaks after a folder, and not within its file's ending.
+std::string breaking_at_slashes(const std::string& path) {
+  std::string out;
+  for (const char c : path) out += c == '/' ? "/<wbr>" : escaped(std::string(1, c));
+  return out;
 }
 
 std::string sign_face(const Texts& t, const Json& sign) {
@@ -99,7 +106,7 @@ std::string sign_row(const PageParts& parts, size_t number) {
     luminance = t.number(s["emergency_white"]["value"].get<double>()) + " / " +
                 t.number(s["emergency_green"]["value"].get<double>());
   return "<tr>" + html_cell("<b>" + std::to_string(number + 1) + "</b>", "n") +
-         cell(text_in(s, "name")) + cell(sign_face(t, s)) +
+         cell(text_in(s, "name")) + html_cell(breaking_at_slashes(sign_face(t, s))) +
          cell(t.word("lighting", text_in(s, "lighting")) +
               (s["double_sided"].get<bool>() ? t("sign.double_sided") : "")) +
          cell(length("width") + " × " + length("height")) +
@@ -119,7 +126,7 @@ std::string sign_schedule(const PageParts& parts) {
   return table(parts.texts,
                {"column.number", "column.sign", "column.face", "column.lighting", "column.size",
                 "column.detail", "column.sign_luminance", "column.position", "column.bearing"},
-               {5, 14, 17, 14, 11, 8, 9, 15, 7}, rows) +
+               {4, 14, 18, 12, 11, 10, 9, 15, 7}, rows) +
          paragraph(parts.texts("schedule.signs_note"), "note");
 }
 
@@ -188,7 +195,7 @@ constexpr const char* check_columns[] = {"column.verdict", "column.check",  "col
 
 std::string check_table(const PageParts& parts, const std::string& rows) {
   return table(parts.texts, {std::begin(check_columns), std::end(check_columns)},
-               {13, 23, 10, 9, 8, 15, 22}, rows, "checks");
+               {13, 22, 11, 10, 8, 15, 21}, rows, "checks");
 }
 
 bool is_place(const std::string& subject) {

@@ -405,8 +405,26 @@ constexpr ReportText remarks_rows[] = {
      {"2.2 lx with any one luminaire failed (hospitals)",
       "2,2 lx bei Ausfall einer beliebigen Leuchte (Krankenhäuser)",
       "2,2 lx avec un luminaire quelconque en panne (hôpitaux)"}},
+    // What rules are quoted from.
+    {"", {"of no code", "aus keiner Norm", "d’aucune norme"}},
+    {"", {"{0} of 2013", "{0} von 2013", "{0} de 2013"}},
+    {"", {"secondary texts", "Sekundärtexte", "textes secondaires"}},
+    {"", {"recollection, not a source", "Erinnerung, keine Quelle", "de mémoire, sans source"}},
+    {"", {"makers' guides", "Leitfäden von Herstellern", "guides de fabricants"}},
+    {"", {"makers' guides ({0})", "Leitfäden von Herstellern ({0})", "guides de fabricants ({0})"}},
+    {"", {"BSI excerpt", "Auszug des BSI", "extrait du BSI"}},
+    {"", {"national practice", "nationale Praxis", "pratique nationale"}},
+    {"",
+     {"liteplan.com on the draft FprEN 1838 of June 2024",
+      "liteplan.com zum Entwurf FprEN 1838 vom Juni 2024",
+      "liteplan.com sur le projet FprEN 1838 de juin 2024"}},
+    {"",
+     {"fernkorn, table of durations", "fernkorn, Tabelle der Betriebsdauern",
+      "fernkorn, tableau des autonomies"}},
     // Units that are words.
-    {"", {"of the viewing distance", "der Erkennungsweite", "de la distance de reconnaissance"}},
+    {"",
+     {"of the viewing distance", "der Erkennungs\u00adweite",
+      "de la distance de reconnais\u00adsance"}},
 };
 
 }  // namespace

@@ -149,6 +149,7 @@ TEST_CASE("the program's own sentences are said in each language", "[report]") {
         "floor.toml:7, 2 Schichten, mal 0,5 in diesem Szenario");
   CHECK(fr.remark("fire.toml:7, 8 x 8 x 4 cells, a fire simulation at 60 s (SOOT)") ==
         "fire.toml:7, 8 x 8 x 4 cellules, une simulation d’incendie à 60 s (SOOT)");
+  CHECK(de.remark("4.1.2 of 2013") == "4.1.2 von 2013");
   CHECK_FALSE(de.remark("a sentence that nobody says"));
   for (const ReportText& row : remark_texts()) {
     INFO(row.text[0]);
