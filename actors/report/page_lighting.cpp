@@ -11,6 +11,16 @@ namespace luxodus {
 
 namespace {
 
+/// A path in a narrow column breaks after a folder, and not within its file's ending.
+std::string breaking_at_slashes(const std::string& path) {
+  std::string out;
+  for (const char c : escaped(path)) {
+    out += c;
+    if (c == '/') out += "<wbr>";
+  }
+  return out;
+}
+
 /// On its own sheet, upright or across, whichever shows it larger.
 std::string plan_sheet(const PageParts& parts, const std::string& title, const std::string& note,
                        const Plan& plan) {
@@ -48,7 +58,7 @@ std::string type_rows(const PageParts& parts, const LuminaireType& type) {
                                                t.word("light", text_in(one, "distribution")))
                                      : escaped(product);
   if (const std::string file = text_in(one, "file"); !file.empty() && file != product)
-    what += "<br><code>" + escaped(file) + "</code>";
+    what += "<br><code>" + breaking_at_slashes(file) + "</code>";
   if (const std::string opening = opening_text(t, one); !opening.empty())
     what += "<br>" + escaped(t.say("lamp.opening", opening));
   const auto flux = [&](const char* key) {
@@ -75,15 +85,8 @@ std::string luminaire_schedule(const PageParts& parts) {
   return table(parts.texts,
                {"column.type", "column.luminaire", "column.operation", "column.mains_flux",
                 "column.emergency_flux", "column.maintenance", "column.duration", "column.count"},
-               {5, 30, 18, 11, 11, 10, 8, 7}, rows, "schedule") +
+               {5, 33, 17, 10, 10, 10, 8, 7}, rows, "schedule") +
          paragraph(parts.texts("schedule.luminaires_note"), "note");
-}
-
-/// A path in a narrow column breaks after a folder, and not within its file's ending.
-std::string breaking_at_slashes(const std::string& path) {
-  std::string out;
-  for (const char c : path) out += c == '/' ? "/<wbr>" : escaped(std::string(1, c));
-  return out;
 }
 
 std::string sign_face(const Texts& t, const Json& sign) {
@@ -126,7 +129,7 @@ std::string sign_schedule(const PageParts& parts) {
   return table(parts.texts,
                {"column.number", "column.sign", "column.face", "column.lighting", "column.size",
                 "column.detail", "column.sign_luminance", "column.position", "column.bearing"},
-               {4, 14, 18, 12, 11, 10, 9, 15, 7}, rows) +
+               {4, 14, 17, 14, 11, 10, 9, 15, 6}, rows) +
          paragraph(parts.texts("schedule.signs_note"), "note");
 }
 

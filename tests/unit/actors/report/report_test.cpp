@@ -157,6 +157,14 @@ TEST_CASE("the program's own sentences are said in each language", "[report]") {
   }
 }
 
+TEST_CASE("faces of signs keep their letters, and paths break after folders", "[report]") {
+  CHECK(has(page_in(Language::fr), "“EXIT”"));
+  Json drawn = assessed_json();
+  drawn["signs"][0]["text"] = "";
+  drawn["signs"][0]["file"] = "../zeichen/Ausgänge & mehr.svg";
+  CHECK(has(report_html(drawn, {}, "x", {}), "../<wbr>zeichen/<wbr>Ausgänge &amp; mehr.svg"));
+}
+
 TEST_CASE("a verdict is said in each language", "[report]") {
   const auto counted = [](int fail, int open, int unverified, int pass) {
     return Json{
