@@ -23,6 +23,8 @@ constexpr size_t feet_asked = 8;
 /// A hinge is at its leaf's edge; farther away the leaf leaves its opening [m].
 constexpr double hinge_slack_m = 0.15;
 constexpr double leaf_height_m = 1.5;
+/// A leaf that opens by less is open for nobody: radians, or a slip of the decimal point [deg].
+constexpr double min_open_deg = 10;
 /// So deep in the floor, furniture is not just pressed into a carpet [m].
 constexpr double sunk_m = 0.03;
 /// So far beyond a wall's face on both sides, it reaches through and does not just touch [m].
@@ -184,6 +186,12 @@ void inspect_doors(const SceneDescription& scene, Findings& out) {
            fmt::format("turns about a hinge that is {} away from its leaf, so that it leaves its "
                        "opening: give 'hinge' a point of the leaf's edge, in scene coordinates",
                        length_text(away)));
+    else if (std::abs(door.open_angle_deg) < min_open_deg)
+      tell(
+          Severity::warning,
+          fmt::format("opens by {:.3g} degrees, as good as closed: 'open_angle_deg' is in degrees, "
+                      "90 for a door that stands open",
+                      door.open_angle_deg));
     else if (std::abs(axis.z) < 0.7 && box.high.z - box.low.z > leaf_height_m)
       tell(Severity::warning,
            "turns about a level axis, as a flap does: leave out 'axis' if it is a door");

@@ -1,6 +1,6 @@
 // Imported buildings: whether they lie on their side, and whether their storeys have the height of
 // storeys or that of another unit. Told from their largest areas, and from the names of their
-// parts.
+// parts. Any building: whether all of its doors have the size of doors in feet.
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -33,6 +33,13 @@ constexpr double min_aside_m = 6;
 constexpr double times_more = 2;
 /// A floor of this size that stands upright is no step's front [m2].
 constexpr double min_named_floor_m2 = 2;
+
+/// Leaves of doors [m]; and of those whose feet were read as metres.
+constexpr glm::dvec2 leaf_width_m{0.55, 1.6}, leaf_height_in_m{1.8, 2.9};
+constexpr double metres_of_a_foot = 0.3048;
+/// Faces of signs are mostly 0.1 to 0.3 m high; a lone door in feet is believed if all are as high
+/// as this [m].
+constexpr double sign_in_feet_m = 0.45;
 
 struct Sided {
   glm::dvec3 along{0};  // area whose normal lies along x, y, z
@@ -164,7 +171,52 @@ std::string unit_guess(double clear_m) {
   return guess.empty() ? "?" : ": " + guess + "?";
 }
 
+/// Width and height of a part that may be a door's leaf: upright and thin.
+std::optional<glm::dvec2> leaf_size(const Object& part) {
+  if (part.mesh.positions.empty() || is_furniture(part)) return std::nullopt;
+  if (!part.door && !is_called(part, {"door", "tuer", "tür", "porte"})) return std::nullopt;
+  Bounds box;
+  for (const glm::dvec3& p : part.mesh.positions) box.extend(p);
+  const glm::dvec3 size = box.high - box.low;
+  return glm::dvec2(std::hypot(size.x, size.y), size.z);
+}
+
+bool between(const glm::dvec2& range, double value) {
+  return value >= range.x && value <= range.y;
+}
+
 }  // namespace
+
+void inspect_feet(const SceneDescription& scene, Findings& out) {
+  const Object* first = nullptr;
+  size_t in_feet = 0;
+  double height = 0;
+  for (const Object& object : scene.objects) {
+    const auto leaf = leaf_size(object);
+    if (!leaf) continue;
+    if (between(leaf_width_m, leaf->x) && between(leaf_height_in_m, leaf->y)) return;
+    if (!between(leaf_width_m / metres_of_a_foot, leaf->x) ||
+        !between(leaf_height_in_m / metres_of_a_foot, leaf->y))
+      continue;
+    ++in_feet;
+    height = leaf->y;
+    if (first == nullptr) first = &object;
+  }
+  const bool large_signs = !scene.signs.empty() &&
+                           std::all_of(scene.signs.begin(), scene.signs.end(),
+                                       [](const Sign& s) { return s.height_m >= sign_in_feet_m; });
+  // A lone gate of a hall is as large.
+  if (in_feet == 0 || (in_feet == 1 && !large_signs)) return;
+  out.push_back({Severity::warning,
+                 "unit",
+                 {first->place,
+                  fmt::format("{} {} high, as no door is, and {} if that is in feet: lengths of a "
+                              "scene are in metres; an import says units = \"ft\"",
+                              in_feet == 1 ? "the door \"" + first->name + "\" is"
+                                           : fmt::format("all {} doors, \"{}\" first, are", in_feet,
+                                                         first->name),
+                              length_text(height), length_text(height * metres_of_a_foot))}});
+}
 
 void inspect_imports(const SceneDescription& scene, Findings& out) {
   std::map<std::pair<std::string, int>, std::vector<const Object*>> tables;

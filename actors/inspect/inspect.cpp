@@ -180,6 +180,7 @@ std::optional<Problem> inspect_media_of(const SceneDescription& scene, const Sce
   auto building = Building::make(std::move(smoky), lit_scenario(scenario), threads);
   if (!building) return building.problem();
   inspect_media(building.value()->scene(), out);
+  inspect_smoke_places(*building.value(), out);
   inspect_flames(*building.value(), out, misplaced.media);
   inspect_smoke(scene, *building.value(), out);
   inspect_columns(scene, *building.value(), out);
@@ -243,10 +244,12 @@ Result<std::vector<Finding>> inspect(const std::shared_ptr<const SceneDescriptio
   for (const Problem& note : scene->notes) of_scene.push_back({Severity::note, "file", note});
   inspect_sizes(*scene, of_scene);
   inspect_imports(*scene, of_scene);
+  inspect_feet(*scene, of_scene);
   inspect_doubled_objects(*scene, of_scene);
   inspect_doors(*scene, of_scene);
   inspect_reach(*scene, of_scene);
   inspect_fluxes(*scene, of_scene);
+  inspect_odd_ones(*scene, of_scene);
   inspect_materials(*scene, of_scene);
   inspect_sign_light(*scene, of_scene);
   inspect_smoke_numbers(*scene, of_scene);

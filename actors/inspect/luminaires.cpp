@@ -197,6 +197,15 @@ constexpr double above_floor_m = 0.02;
 constexpr size_t max_places = 4000;
 /// A fiftieth of the 0.5 lx that EN 1838 asks for: less lights nothing.
 constexpr double min_lx = 0.01;
+/// Of one route or area. A few dark places are corners; a doorway's shadow is no more.
+constexpr size_t max_places_of_way = 400;
+constexpr double dark_share = 0.05;
+/// A place of a route has its floor so near below it [m].
+constexpr double on_floor_within_m = 0.5;
+/// A luminaire farther away is not the one that is missing [m].
+constexpr double could_light_m = 8;
+/// Of fewer with one file, none is the odd one.
+constexpr size_t alike_at_least = 3;
 
 std::vector<glm::dvec3> judged_places(const SceneDescription& scene) {
   std::vector<glm::dvec3> all;
@@ -219,8 +228,9 @@ std::vector<glm::dvec3> judged_places(const SceneDescription& scene) {
   return out;
 }
 
+/// `furnished`: furniture hides light; codes judge rooms without it, too.
 bool lights(const Site& site, const GeometryAccess& access, uint32_t emitter,
-            const std::vector<glm::dvec3>& places) {
+            const std::vector<glm::dvec3>& places, bool furnished = true) {
   const CompiledScene& scene = site.building.scene();
   const CompiledEmitter& e = scene.emitters[emitter];
   const double lumens = site.scene.emitters[emitter].emergency_flux;
@@ -239,12 +249,110 @@ bool lights(const Site& site, const GeometryAccess& access, uint32_t emitter,
       const double watt_to_lm = site.scene.emitters[emitter].radiometric ? 100 : 1;
       if (lumens * watt_to_lm * density / (distance * distance) < min_lx) return false;
       const Vec3 before = middle + direction * std::min(0.01_r, static_cast<Real>(distance) / 2);
-      return clear_share(scene, access, site.building.local(place), before) > 0;
+      if (furnished) return clear_share(scene, access, site.building.local(place), before) > 0;
+      return !solid_ahead(site, access, place, glm::dvec3(-direction),
+                          static_cast<double>(glm::length(before - site.building.local(place))),
+                          false);
     });
   });
 }
 
+/// Of a route or an open area: places that no emergency luminaire shines on.
+struct DarkPlaces {
+  size_t all = 0, dark = 0;
+  glm::dvec3 first{0};
+};
+
+DarkPlaces dark_places(const Site& site, const std::vector<uint32_t>& luminaires,
+                       const std::vector<glm::dvec3>& places) {
+  const size_t step = places.size() / max_places_of_way + 1;
+  std::vector<glm::dvec3> some;
+  for (size_t i = 0; i < places.size(); i += step)
+    some.push_back(places[i] + glm::dvec3(0, 0, above_floor_m));
+  std::vector<char> dark(some.size(), 0);
+  site.building.each(some.size(), [&](const GeometryAccess& access, size_t i) {
+    // Routes off their floor and in walls are told as such.
+    if (!solid_ahead(site, access, some[i], glm::dvec3(0, 0, -1), on_floor_within_m) ||
+        site.in_body(access, some[i] + glm::dvec3(0, 0, on_floor_within_m)))
+      return;
+    std::vector<uint32_t> nearest = luminaires;
+    const auto away = [&](uint32_t e) {
+      return glm::length(middle_of(site.scene.emitters[e]) - some[i]);
+    };
+    std::sort(nearest.begin(), nearest.end(),
+              [&](uint32_t a, uint32_t b) { return away(a) < away(b); });
+    dark[i] = std::none_of(nearest.begin(), nearest.end(), [&](uint32_t e) {
+      return site.scene.emitters[e].distribution == Distribution::collimated ||
+             lights(site, access, e, {some[i]}, false);
+    });
+  });
+  DarkPlaces out{some.size(), 0, {}};
+  for (size_t i = 0; i < some.size(); ++i)
+    if (dark[i] != 0 && out.dark++ == 0) out.first = some[i];
+  return out;
+}
+
+/// The nearest luminaire that fails with the mains, and could be meant to light a dark place.
+std::string dark_lamp_near(const SceneDescription& scene, const glm::dvec3& place) {
+  const Emitter* nearest = nullptr;
+  double least = could_light_m;
+  for (const Emitter& e : scene.emitters) {
+    const double away = glm::length(middle_of(e) - place);
+    if (e.emergency_flux > 0 || !(e.mains_flux > 0) || middle_of(e).z < place.z || away >= least)
+      continue;
+    least = away;
+    nearest = &e;
+  }
+  if (nearest == nullptr) return "";
+  return fmt::format(
+      "; {} (line {}) hangs {} from there and fails with the mains: is its "
+      "'emergency' missing?",
+      emitter_text(*nearest), nearest->place.line, length_text(least));
+}
+
+void tell_dark_ways(const Site& site, const std::vector<uint32_t>& luminaires, Findings& out) {
+  const auto tell = [&](const std::string& of, const SourcePlace& place, const DarkPlaces& found) {
+    if (static_cast<double>(found.dark) <= dark_share * static_cast<double>(found.all)) return;
+    out.push_back({Severity::warning,
+                   "no emergency light",
+                   {place, fmt::format("{} gets no direct light of an emergency luminaire on {} of "
+                                       "the {} places that were tried, first at {}{}",
+                                       of, found.dark, found.all, place_text(found.first),
+                                       dark_lamp_near(site.scene, found.first))}});
+  };
+  for (const EscapeRoute& route : site.scene.routes)
+    tell("route \"" + route.name + "\"", route.place,
+         dark_places(site, luminaires, within(route, route.width_m / 4, grid_m)));
+  for (const AssessedArea& area : site.scene.open_areas)
+    tell("open area \"" + area.name + "\"", area.place,
+         dark_places(site, luminaires, within(area, 0.5, grid_m)));
+}
+
 }  // namespace
+
+void inspect_odd_ones(const SceneDescription& scene, Findings& out) {
+  struct OfFile {
+    size_t all = 0, fail = 0;
+    const Emitter* first = nullptr;  // that fails with the mains
+  };
+  std::map<std::string, OfFile> files;
+  for (const Emitter& e : scene.emitters) {
+    if (e.file.empty()) continue;
+    OfFile& file = files[e.file];
+    ++file.all;
+    if (e.emergency_flux > 0) continue;
+    if (file.fail++ == 0) file.first = &e;
+  }
+  for (const auto& [name, file] : files)
+    if (file.fail == 1 && file.all >= alike_at_least)
+      out.push_back(
+          {Severity::note,
+           "flux",
+           {file.first->place,
+            fmt::format("{} fails with the mains, and the other {} of its file \"{}\" are "
+                        "emergency luminaires: is its 'emergency' missing?",
+                        emitter_text(*file.first), file.all - 1, name)}});
+}
 
 void inspect_luminaires(const Site& site, Findings& out, std::vector<char>& outside) {
   const size_t count = site.scene.emitters.size();
@@ -263,6 +371,8 @@ void inspect_judged_places(const Site& site, Findings& out) {
   const auto places = judged_places(site.scene);
   if (places.empty()) return;
   const auto luminaires = emergency_luminaires(site.scene);
+  if (luminaires.empty()) return;  // told of the state that has none
+  tell_dark_ways(site, luminaires, out);
   std::vector<char> useful(luminaires.size(), 0);
   site.building.each(luminaires.size(), [&](const GeometryAccess& access, size_t i) {
     const bool beam = site.scene.emitters[luminaires[i]].distribution == Distribution::collimated;

@@ -1,6 +1,7 @@
 // Media: those that lie in one another, whose extinctions add, which is meant of a haze that lies
 // everywhere, and a mistake where one smoke is written twice; those that reach nothing of the
-// building, and so dim nothing; flames in bodies and outside.
+// building, and so dim nothing, or lie beside it with most of their smoke; flames in bodies and
+// outside.
 #include <algorithm>
 #include <array>
 
@@ -72,6 +73,73 @@ Bounds built(const SceneDescription& scene) {
 bool apart(const Bounds& a, const Bounds& b) {
   return glm::any(glm::greaterThanEqual(a.low, b.high)) ||
          glm::any(glm::greaterThanEqual(b.low, a.high));
+}
+
+/// Smoke of which so much lies outside dims little of what it was written for.
+constexpr double mostly_outside = 0.5;
+/// Another order of its numbers was meant where that leaves no more than this share outside.
+constexpr double fits_inside = 0.1;
+/// A box that is nearly square is much the same with its axes swapped: the other order must bring
+/// so much of the smoke in to be worth a word.
+constexpr double brings_in = 0.3;
+
+/// Of smoke: the share of it that lies outside the building, and of points carried elsewhere.
+class SmokePlaces {
+ public:
+  SmokePlaces(const Building& smoky, size_t medium) : smoky_(smoky) {
+    constexpr int across = 10, up = 4;
+    const CompiledScene& scene = smoky.scene();
+    const Medium* one = &scene.description->media[medium];
+    Bounds box = media_bounds({&one, 1}, everywhere);
+    if (box.empty() || box.high.x - box.low.x > unbounded_m) return;
+    // Heights are told apart from this, by tell_layers.
+    const Bounds building = built(*scene.description);
+    box.low.z = std::max(box.low.z, building.low.z);
+    box.high.z = std::min(box.high.z, building.high.z);
+    if (glm::any(glm::greaterThanEqual(box.low, box.high))) return;
+    box_ = box;
+    ResidentBricks bricks(scene.media);
+    const int band = scene.bands.count() / 2;
+    for (int i = 0; i < across * across * up; ++i) {
+      const glm::dvec3 share =
+          (glm::dvec3(i % across, i / across % across, i / across / across) + 0.5) /
+          glm::dvec3(across, across, up);
+      const glm::dvec3 place = box.low + (box.high - box.low) * share;
+      double sigma = 0;
+      for_each_medium_at(scene.media, band, smoky.local(place), bricks,
+                         [&](int m, int, double extinction, double) {
+                           if (m == static_cast<int>(medium)) sigma += extinction;
+                         });
+      if (sigma > 0) smoke_.push_back({place, share});
+    }
+  }
+
+  bool any() const { return !smoke_.empty(); }
+  const Bounds& box() const { return box_; }
+  /// With the box's sides in plan given by these corners instead of its own.
+  double outside(const glm::dvec2& low, const glm::dvec2& high) const {
+    std::vector<char> out(smoke_.size(), 0);
+    smoky_.each(smoke_.size(), [&](const GeometryAccess& access, size_t i) {
+      const glm::dvec2 plan = low + (high - low) * glm::dvec2(smoke_[i].share);
+      out[i] = is_outside(smoky_.scene(), access, smoky_.local({plan, smoke_[i].place.z})) ? 1 : 0;
+    });
+    return static_cast<double>(std::count(out.begin(), out.end(), 1)) /
+           static_cast<double>(out.size());
+  }
+
+ private:
+  /// No box is as large, and what has none is everywhere [m].
+  static constexpr double unbounded_m = 1e7;
+  struct Point {
+    glm::dvec3 place, share;
+  };
+  const Building& smoky_;
+  Bounds box_;
+  std::vector<Point> smoke_;
+};
+
+std::string corners_text(const glm::dvec2& low, const glm::dvec2& high) {
+  return fmt::format("[[{:.4g}, {:.4g}], [{:.4g}, {:.4g}]]", low.x, low.y, high.x, high.y);
 }
 
 /// Of a flame: points across its box that burn, and where they are.
@@ -157,6 +225,48 @@ void inspect_reach(const SceneDescription& scene, Findings& out) {
            "media",
            {m.place, medium_text(m) + " lies outside the building, with all of it: it dims "
                                       "nothing; are its place and its heights in metres?"}});
+  }
+}
+
+void inspect_smoke_places(const Building& smoky, Findings& out) {
+  const auto& media = smoky.scene().description->media;
+  for (size_t i = 0; i < media.size(); ++i) {
+    const Medium& m = media[i];
+    if (m.emission && m.kind != MediumKind::data_set) continue;    // a flame
+    if (m.simulation || m.kind == MediumKind::data_set) continue;  // its meshes reach outside
+    const SmokePlaces smoke(smoky, i);
+    if (!smoke.any()) continue;
+    const glm::dvec2 low(smoke.box().low), high(smoke.box().high);
+    const double outside = smoke.outside(low, high);
+    if (outside <= fits_inside) continue;
+    std::string meant;
+    // y before x; and [[x, x], [y, y]] for [[x, y], [x, y]], whose corners are kept sorted.
+    const std::pair<glm::dvec2, glm::dvec2> orders[] = {{{low.y, low.x}, {high.y, high.x}},
+                                                        {{low.x, high.x}, {low.y, high.y}},
+                                                        {{high.x, low.x}, {high.y, low.y}}};
+    for (const auto& [from, to] : orders) {
+      if (glm::any(glm::greaterThanEqual(from, to))) continue;
+      const double left = smoke.outside(from, to);
+      if (left > fits_inside || outside - left < brings_in) continue;
+      meant = fmt::format(
+          "; with its numbers in another order, box = {}, {} would: 'box' is two "
+          "opposite corners, [[x, y], [x, y]]",
+          corners_text(from, to), left > 0 ? percent_text(left) : "nothing");
+      break;
+    }
+    // A box that is drawn around all that is built loses nothing.
+    const Bounds building = built(*smoky.scene().description);
+    const bool around = glm::all(glm::lessThanEqual(low, glm::dvec2(building.low))) &&
+                        glm::all(glm::greaterThanEqual(high, glm::dvec2(building.high)));
+    const bool turned = !meant.empty();
+    // All of it outside is told by inspect_reach.
+    if (!turned && (around || outside <= mostly_outside || apart(smoke.box(), building))) continue;
+    if (!turned) meant = ", where it dims nothing that is judged: is its place right?";
+    const bool matters = turned && judges_people(*smoky.scene().description);
+    out.push_back({matters ? Severity::warning : Severity::note,
+                   "media",
+                   {m.place, percent_text(outside) + " of the smoke of " + medium_text(m) +
+                                 " lies outside the building" + meant}});
   }
 }
 

@@ -17,6 +17,11 @@ constexpr double steep = 0.7;
 /// Faces of exit signs are from 5 cm to 1.5 m high [m].
 constexpr double min_face_m = 0.05;
 constexpr double max_face_m = 1.5;
+/// A face that takes more of the room's height is drawn too large, and codes take the distance it
+/// is seen from by its height.
+constexpr double max_of_room = 0.2;
+/// ISO 3864: a lit sign is made to be seen from 200 times its height.
+constexpr double lit_distance_factor = 200;
 /// Signs hang above people or low on walls, as guidance in smoke does: between these heights of
 /// the lower edge above the floor people and furniture hide them [m].
 constexpr double low_sign_m = 0.6;
@@ -82,6 +87,17 @@ std::optional<Finding> hung_wrong(const Site& site, const GeometryAccess& access
   if (site.is_back(*floor) && site.is_outside(access, front))
     return sign_finding(Severity::warning, "outside", sign,
                         "hangs above the ceiling, where nobody sees it: lower it into the room");
+  const auto ceiling = solid_ahead(site, access, front, glm::dvec3(0, 0, 1), floor_below_m, false);
+  const double room_m = static_cast<double>(floor->distance_m) +
+                        (ceiling ? static_cast<double>(ceiling->distance_m) : 0);
+  if (ceiling && sign.height_m > max_of_room * room_m)
+    return sign_finding(
+        Severity::warning, "unit", sign,
+        fmt::format("is {} high in a room of {}: its verdicts follow from its height, by which "
+                    "codes let it be seen from {} (EN 1838: 200 heights where it is lit); are "
+                    "width and height right?",
+                    length_text(sign.height_m), length_text(room_m),
+                    length_text(lit_distance_factor * sign.height_m)));
   const double edge = static_cast<double>(floor->distance_m) - sign.height_m / 2;
   if (edge > low_sign_m && edge < high_sign_m)
     return sign_finding(Severity::note, "height", sign,

@@ -44,13 +44,13 @@ bool sees_place_of(const Site& site, const GeometryAccess& access, const Sign& s
                      site.building.local(sign.frame.origin + to * off)) > 0;
 }
 
-enum class EdgeView { none, edge, face };
+enum class EdgeView { none, edge, back, face };
 
-/// How those on a route who have a sign ahead of them see it. A back is a face: it is the other
-/// way's sign.
+/// How those on a route who have a sign ahead of them see it: the best of their views. A back may
+/// be right: it is the other way's sign.
 EdgeView view_from_route(const Site& site, const GeometryAccess& access, const Sign& sign,
                          const EscapeRoute& route) {
-  size_t readers = 0;
+  size_t readers = 0, backs = 0;
   double least = furthest_reader_m;
   for (const Walker& w : walkers(route, reader_step_m)) {
     const glm::dvec3 eye = w.foot + glm::dvec3(0, 0, reader_eye_m);
@@ -62,9 +62,11 @@ EdgeView view_from_route(const Site& site, const GeometryAccess& access, const S
     if (distance < nearest_reader_m || distance > furthest_reader_m ||
         glm::dot(to / distance, w.ahead) < ahead_cosine || !sees_place_of(site, access, sign, eye))
       continue;
-    if (std::abs(turned_to(sign, eye)) > edge_cosine) return EdgeView::face;
+    if (turned_to(sign, eye) > edge_cosine) return EdgeView::face;
+    backs += turned_to(sign, eye) < -edge_cosine ? 1 : 0;
     ++readers;
   }
+  if (backs > 0) return backs >= min_readers && least < serves_m ? EdgeView::back : EdgeView::none;
   return readers >= min_readers && least < serves_m ? EdgeView::edge : EdgeView::none;
 }
 
@@ -81,21 +83,27 @@ bool serves_area(const Site& site, const GeometryAccess& access, const Sign& sig
 
 std::optional<Finding> shows_edge(const Site& site, const GeometryAccess& access,
                                   const Sign& sign) {
-  const EscapeRoute* served = nullptr;
+  const EscapeRoute *edge = nullptr, *back = nullptr;
   for (const EscapeRoute& route : site.scene.routes) {
     const EdgeView view = view_from_route(site, access, sign, route);
     if (view == EdgeView::face) return std::nullopt;
-    if (view == EdgeView::edge && served == nullptr) served = &route;
+    if (view == EdgeView::edge && edge == nullptr) edge = &route;
+    if (view == EdgeView::back && back == nullptr) back = &route;
   }
+  const EscapeRoute* served = edge != nullptr && back == nullptr ? edge : back;
   if (served == nullptr || serves_area(site, access, sign)) return std::nullopt;
+  const char* how = back == nullptr
+                        ? "shows only its edge to route \"{}\" (line {}), which leads by: its face "
+                          "is turned from all on it by more than 75 degrees"
+                        : "shows only its back to those on route \"{}\" (line {}), who have it "
+                          "ahead, and its face to nobody on any route or area: turn it round, or "
+                          "write the route of those it is for";
   return Finding{
-      Severity::warning,
+      back == nullptr ? Severity::warning : Severity::note,
       "blind",
-      {sign.place,
-       fmt::format("sign \"{}\" shows only its edge to route \"{}\" (line {}), which leads by: "
-                   "its face is turned from all on it by more than 75 degrees; 'facing' is the "
-                   "direction from the face to the person who reads it",
-                   sign.name, served->name, served->place.line)}};
+      {sign.place, "sign \"" + sign.name + "\" " +
+                       fmt::format(fmt::runtime(how), served->name, served->place.line) +
+                       "; 'facing' is the direction from the face to the person who reads it"}};
 }
 
 std::optional<Finding> hangs_in_doorway(const Site& site, const GeometryAccess& access,

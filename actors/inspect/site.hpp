@@ -97,10 +97,14 @@ void inspect_turned_rooms(const Site& site, Findings& out);
 // Of the scene as it is written.
 void inspect_sizes(const SceneDescription& scene, Findings& out);
 void inspect_imports(const SceneDescription& scene, Findings& out);
+/// Doors, of any building, as high as if feet had been read as metres.
+void inspect_feet(const SceneDescription& scene, Findings& out);
 void inspect_doubled_objects(const SceneDescription& scene, Findings& out);
 void inspect_doors(const SceneDescription& scene, Findings& out);
 void inspect_reach(const SceneDescription& scene, Findings& out);
 void inspect_fluxes(const SceneDescription& scene, Findings& out);
+/// Luminaires that fail with the mains among others of their file that do not.
+void inspect_odd_ones(const SceneDescription& scene, Findings& out);
 void inspect_materials(const SceneDescription& scene, Findings& out);
 void inspect_sign_light(const SceneDescription& scene, Findings& out);
 void inspect_smoke_numbers(const SceneDescription& scene, Findings& out);
@@ -112,6 +116,9 @@ void inspect_states(const SceneDescription& scene, const std::vector<Scenario>& 
 
 /// Media of a scenario that overlap. `scene`: compiled with its media.
 void inspect_media(const CompiledScene& scene, Findings& out);
+/// Smoke of a scenario that lies outside the building with much of it. Data sets are not asked: the
+/// meshes of simulations reach outside.
+void inspect_smoke_places(const Building& smoky, Findings& out);
 /// Flames of a scenario in bodies, outside, two in one place. `misplaced`: by medium, those of the
 /// first two, added to what it holds.
 void inspect_flames(const Building& smoky, Findings& out, std::vector<char>& misplaced);

@@ -1,6 +1,6 @@
 // Scenarios and settings of the assessment, as they are written: factors that are percentages,
-// emergency states in which nothing is lit, times that batteries and glows do not last, people who
-// see more than most.
+// emergency states in which nothing is lit, times that batteries and glows do not last or that are
+// not said, smoke that is scaled down to clear air, people who see more than most.
 #include <algorithm>
 
 #include "actors/inspect/site.hpp"
@@ -19,6 +19,10 @@ constexpr double min_standing_m = 1.4, max_standing_m = 1.9;
 constexpr double far_apart_m = 5;
 /// Tasks of high risk are done in 100 lx and more.
 constexpr double min_task_lx = 50;
+/// Lit signs are seen through this for 160 m (Jin, 8/K): no sign of a building is lost in it [1/m].
+constexpr double hides_nothing = 0.05;
+/// A factor this small is a percentage more often than a share.
+constexpr double small_factor = 0.1;
 
 void tell_state(const Scenario& s, Severity severity, const std::string& what, Findings& out) {
   out.push_back({severity, "scenario", {s.place, "scenario \"" + s.name + "\" " + what}});
@@ -63,7 +67,52 @@ void tell_switched_off(const SceneDescription& scene, const Scenario& s, Finding
                out);
 }
 
+/// Glows are brightest at the failure, and those who walk see them minutes later.
+void tell_fresh_glow(const SceneDescription& scene, const Scenario& s, Findings& out) {
+  if (!judges_people(scene)) return;
+  for (const Sign& sign : scene.signs) {
+    if (sign.lighting != SignLighting::photoluminescent || !(sign.emergency.white_cd_m2 > 0))
+      continue;
+    return tell_state(s, Severity::warning,
+                      "does not say how long after the failure of the mains it is: the "
+                      "photoluminescent sign \"" +
+                          sign.name +
+                          "\" is judged as bright as at the failure, which it is for seconds; say "
+                          "seconds_after_failure = 600, or how long people are on their way",
+                      out);
+  }
+}
+
+double largest_extinction(const Medium& m) {
+  double most = m.kind == MediumKind::homogeneous || m.kind == MediumKind::bounded
+                    ? m.optics.extinction.sigma_t
+                    : 0;
+  for (const Layer& layer : m.layers) most = std::max(most, layer.optics.extinction.sigma_t);
+  for (const float cell : m.data.extinction) most = std::max(most, static_cast<double>(cell));
+  return most;
+}
+
+/// Smoke that is something as it is written, and nothing in this state, without being left out.
+void tell_thinned(const SceneDescription& scene, const Scenario& s, Findings& out) {
+  if (!judges_people(scene)) return;
+  for (const Medium& m : scene.media) {
+    const double factor = factor_of_medium(s, m), written = largest_extinction(m);
+    if (m.emission || !(factor > 0) || factor > small_factor || written < hides_nothing ||
+        written * factor >= hides_nothing)
+      continue;
+    return tell_state(
+        s, Severity::warning,
+        fmt::format("leaves {:g} of the smoke \"{}\", at most {:.2g} /m, through which "
+                    "a lit sign is seen for {:.3g} m (Jin, 8/K): smoke_factor and the "
+                    "factors in 'media' are shares, 1 for all of the smoke and 0 for "
+                    "none",
+                    factor, m.name, written * factor, 8 / (written * factor)),
+        out);
+  }
+}
+
 void tell_time(const SceneDescription& scene, const Scenario& s, Findings& out) {
+  if (s.operation != Operation::mains && !s.says_seconds) tell_fresh_glow(scene, s, out);
   if (s.operation == Operation::mains || !s.says_seconds) return;
   const double seconds = s.seconds_after_failure;
   if (seconds > max_hours * hour_s)
@@ -91,7 +140,16 @@ void tell_time(const SceneDescription& scene, const Scenario& s, Findings& out) 
   }
 }
 
-void tell_people(const SceneDescription& scene, Findings& out) {
+bool any_smoke(const SceneDescription& scene, const std::vector<Scenario>& scenarios) {
+  return std::any_of(scene.media.begin(), scene.media.end(), [&](const Medium& m) {
+    return !m.emission && std::any_of(scenarios.begin(), scenarios.end(), [&](const Scenario& s) {
+      return factor_of_medium(s, m) > 0;
+    });
+  });
+}
+
+void tell_people(const SceneDescription& scene, const std::vector<Scenario>& scenarios,
+                 Findings& out) {
   const AssessmentSettings& said = scene.assessment;
   if (said.place.line == 0 || !judges_people(scene)) return;
   const auto tell = [&](Severity severity, std::string what) {
@@ -105,9 +163,10 @@ void tell_people(const SceneDescription& scene, Findings& out) {
   const auto [low, high] =
       std::minmax_element(said.eye_heights_m.begin(), said.eye_heights_m.end());
   if (*high < min_standing_m)
-    tell(Severity::note, fmt::format("eye_heights_m goes up to {:g} m: nobody who walks upright is "
-                                     "judged, whose eyes are in denser smoke",
-                                     *high));
+    tell(any_smoke(scene, scenarios) ? Severity::warning : Severity::note,
+         fmt::format("eye_heights_m goes up to {:g} m: nobody who walks upright is "
+                     "judged, whose eyes are in denser smoke",
+                     *high));
   if (*high > max_standing_m)
     tell(Severity::warning, fmt::format("eye_heights_m goes up to {:g} m: eyes of people are 1.4 "
                                         "to 1.8 m above the floor",
@@ -128,16 +187,10 @@ void tell_people(const SceneDescription& scene, Findings& out) {
 /// Smoke that is described, and left out of every state.
 void tell_unused_smoke(const SceneDescription& scene, const std::vector<Scenario>& scenarios,
                        Findings& out) {
-  const auto smokes = [&](const Medium& m) {
-    return !m.emission && std::any_of(scenarios.begin(), scenarios.end(), [&](const Scenario& s) {
-      return factor_of_medium(s, m) > 0;
-    });
-  };
   const auto first = std::find_if(scene.media.begin(), scene.media.end(),
                                   [](const Medium& m) { return !m.emission; });
   if (first == scene.media.end() || !judges_people(scene) ||
-      scenarios.size() < scene.scenarios.size() ||
-      std::any_of(scene.media.begin(), scene.media.end(), smokes))
+      scenarios.size() < scene.scenarios.size() || any_smoke(scene, scenarios))
     return;
   out.push_back({Severity::warning,
                  "scenario",
@@ -153,8 +206,9 @@ void inspect_states(const SceneDescription& scene, const std::vector<Scenario>& 
     tell_circuit_factors(s, out);
     tell_switched_off(scene, s, out);
     tell_time(scene, s, out);
+    tell_thinned(scene, s, out);
   }
-  tell_people(scene, out);
+  tell_people(scene, scenarios, out);
   tell_unused_smoke(scene, scenarios, out);
   for (const AssessedArea& area : scene.task_areas)
     if (area.mains_lx < min_task_lx)

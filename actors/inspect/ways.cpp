@@ -29,6 +29,8 @@ constexpr double width_slack_m = 0.05;
 /// Doorways are narrower than routes: a corridor is too narrow on more than this share.
 constexpr double narrow_share = 0.1;
 constexpr size_t narrow_steps = 3;
+/// Escape routes are 0.8 m wide or more, for few people (a person's shoulders need 0.6 m).
+constexpr double min_width_m = 0.6;
 /// EN 1838: wider routes are judged in strips [m].
 constexpr double strip_m = 2;
 /// Of areas: points are so far apart, and so far within the outline [m].
@@ -301,6 +303,12 @@ void inspect_route(const Site& site, const EscapeRoute& route, Findings& out) {
   if (wall == nullptr && inside == walk.inside.end()) tell_barriers(site, route, walk, out);
   const bool wrong = std::any_of(out.begin() + static_cast<std::ptrdiff_t>(before), out.end(),
                                  [](const Finding& f) { return f.severity == Severity::error; });
+  if (route.width_m < min_width_m)
+    out.push_back(
+        of_route(Severity::warning, route,
+                 fmt::format("is {} wide, narrower than a person: light is judged on so "
+                             "narrow a strip alone; 'width' is that of the way, in metres",
+                             length_text(route.width_m))));
   if (!wrong) tell_width(site, route, out);
 }
 

@@ -7,7 +7,9 @@ namespace luxodus {
 
 SceneObjects::SceneObjects(const CompiledScene& scene, std::span<const NodeId> holders,
                            uint32_t replicas)
-    : parts_(scene), packed_(scene.description->packed) {
+    : parts_(scene),
+      packed_(scene.description->packed),
+      file_(packed_ != nullptr ? packed_->file->name() : scene.description->file) {
   if (packed_ == nullptr) {
     encode(scene);
   } else {
@@ -41,6 +43,10 @@ void SceneObjects::place(const std::vector<std::vector<NodeId>>& holders) {
 SharedBytes SceneObjects::bytes(uint32_t object) const {
   if (packed_ != nullptr) return {packed_->file->object(object), packed_};
   return {std::span(*bytes_[object]), bytes_[object]};
+}
+
+std::string SceneObjects::stored_name(uint32_t object) const {
+  return "scene part " + std::to_string(object) + " of " + file_;
 }
 
 uint64_t built_bytes_of(const CompiledScene& scene) {

@@ -30,6 +30,8 @@ class SceneObjects {
   const std::vector<ObjectPlace>& places() const { return places_; }
   /// Of a packed scene out of its file, and empty where that holds no objects.
   SharedBytes bytes(uint32_t object) const;
+  /// "scene part 7 of tower.luxpack"; of a scene that is not packed its file.
+  std::string stored_name(uint32_t object) const;
   uint64_t wire_bytes() const { return wire_bytes_; }
   uint64_t largest_wire_bytes() const { return largest_wire_bytes_; }
   /// The most that any of them is expected to take while it is built.
@@ -44,6 +46,7 @@ class SceneObjects {
 
   SceneParts parts_;
   std::shared_ptr<const PackedScene> packed_;  // null: the bytes are below
+  std::string file_;                           // of the scene, or of its pack
   std::vector<std::shared_ptr<const std::vector<std::byte>>> bytes_;
   std::vector<ObjectPlace> places_;
   uint64_t wire_bytes_ = 0;
@@ -61,6 +64,7 @@ class HeldObjects final : public ObjectStore {
   HeldObjects(const SceneObjects& objects, NodeId self);
   SharedBytes find(ObjectId object) override;
   SharedBytes find_in_storage(uint32_t object) override { return objects_.bytes(object); }
+  std::string stored_name(uint32_t object) const override { return objects_.stored_name(object); }
 
  private:
   const SceneObjects& objects_;

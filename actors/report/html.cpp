@@ -12,20 +12,43 @@ namespace {
 
 /// Columns whose cells stand to the right; so do their heads.
 bool numeric(std::string_view column) {
-  constexpr std::string_view keys[] = {
-      "column.mains_flux",    "column.emergency_flux", "column.maintenance",
-      "column.duration",      "column.count",          "column.number",
-      "column.detail",        "column.sign_luminance", "column.bearing",
-      "column.value",         "column.limit",          "column.margin",
-      "column.worst_at",      "column.eye_height",     "column.distance",
-      "column.reading_level", "column.luminances",     "column.transmission",
-      "column.reflectance",   "column.specular",       "column.internal_transmittance",
-      "column.ior",           "column.surfaces",       "column.heights",
-      "column.extinction",    "column.wavelength",     "column.angstrom",
-      "column.albedo",        "column.asymmetry",      "column.flame",
-      "design.x",             "design.y",              "design.z",
-      "design.turn",          "design.cost",           "design.watts",
-      "design.least"};
+  constexpr std::string_view keys[] = {"column.mains_flux",
+                                       "column.emergency_flux",
+                                       "column.maintenance",
+                                       "column.duration",
+                                       "column.count",
+                                       "column.number",
+                                       "column.detail",
+                                       "column.sign_luminance",
+                                       "column.bearing",
+                                       "column.value",
+                                       "column.limit",
+                                       "column.margin",
+                                       "column.worst_at",
+                                       "column.eye_height",
+                                       "column.distance",
+                                       "column.reading_level",
+                                       "column.luminances",
+                                       "column.transmission",
+                                       "column.reflectance",
+                                       "column.specular",
+                                       "column.internal_transmittance",
+                                       "column.ior",
+                                       "column.surfaces",
+                                       "column.heights",
+                                       "column.extinction",
+                                       "column.wavelength",
+                                       "column.angstrom",
+                                       "column.albedo",
+                                       "column.asymmetry",
+                                       "column.flame",
+                                       "design.x",
+                                       "design.y",
+                                       "design.z",
+                                       "design.turn",
+                                       "design.cost",
+                                       "design.watts",
+                                       "design.least"};
   return column.starts_with("sight.") ||
          std::find(std::begin(keys), std::end(keys), column) != std::end(keys);
 }
@@ -116,6 +139,12 @@ std::string remark(const Texts& texts, const std::string& text) {
 }
 
 std::string subject_text(const Texts& texts, const std::string& subject) {
+  // A point of emphasis: its name, and its kind in brackets.
+  const size_t bracket = subject.rfind(" (");
+  if (subject.starts_with('"') && subject.ends_with(')') && bracket != std::string::npos) {
+    const std::string kind = subject.substr(bracket + 2, subject.size() - bracket - 3);
+    return subject.substr(0, bracket + 2) + texts.word("emphasis", kind) + ")";
+  }
   const size_t quote = subject.find(" \"");
   if (quote == std::string::npos) return texts.word("subject", subject);
   return texts.word("subject", subject.substr(0, quote)) + subject.substr(quote);

@@ -11,6 +11,16 @@ namespace luxodus {
 
 namespace {
 
+/// A path in a narrow column breaks after a folder, and not within its file's ending.
+std::string breaking_at_slashes(const std::string& path) {
+  std::string out;
+  for (const char c : escaped(path)) {
+    out += c;
+    if (c == '/') out += "<wbr>";
+  }
+  return out;
+}
+
 /// On its own sheet, upright or across, whichever shows it larger.
 std::string plan_sheet(const PageParts& parts, const std::string& title, const std::string& note,
                        const Plan& plan) {
@@ -48,7 +58,7 @@ std::string type_rows(const PageParts& parts, const LuminaireType& type) {
                                                t.word("light", text_in(one, "distribution")))
                                      : escaped(product);
   if (const std::string file = text_in(one, "file"); !file.empty() && file != product)
-    what += "<br><code>" + escaped(file) + "</code>";
+    what += "<br><code>" + breaking_at_slashes(file) + "</code>";
   if (const std::string opening = opening_text(t, one); !opening.empty())
     what += "<br>" + escaped(t.say("lamp.opening", opening));
   const auto flux = [&](const char* key) {
@@ -75,7 +85,7 @@ std::string luminaire_schedule(const PageParts& parts) {
   return table(parts.texts,
                {"column.type", "column.luminaire", "column.operation", "column.mains_flux",
                 "column.emergency_flux", "column.maintenance", "column.duration", "column.count"},
-               {6, 32, 15, 11, 12, 8, 8, 8}, rows, "schedule") +
+               {5, 33, 17, 10, 10, 10, 8, 7}, rows, "schedule") +
          paragraph(parts.texts("schedule.luminaires_note"), "note");
 }
 
@@ -99,7 +109,7 @@ std::string sign_row(const PageParts& parts, size_t number) {
     luminance = t.number(s["emergency_white"]["value"].get<double>()) + " / " +
                 t.number(s["emergency_green"]["value"].get<double>());
   return "<tr>" + html_cell("<b>" + std::to_string(number + 1) + "</b>", "n") +
-         cell(text_in(s, "name")) + cell(sign_face(t, s)) +
+         cell(text_in(s, "name")) + html_cell(breaking_at_slashes(sign_face(t, s))) +
          cell(t.word("lighting", text_in(s, "lighting")) +
               (s["double_sided"].get<bool>() ? t("sign.double_sided") : "")) +
          cell(length("width") + " × " + length("height")) +
@@ -119,7 +129,7 @@ std::string sign_schedule(const PageParts& parts) {
   return table(parts.texts,
                {"column.number", "column.sign", "column.face", "column.lighting", "column.size",
                 "column.detail", "column.sign_luminance", "column.position", "column.bearing"},
-               {5, 14, 17, 14, 11, 8, 9, 15, 7}, rows) +
+               {4, 14, 17, 14, 11, 10, 9, 15, 6}, rows) +
          paragraph(parts.texts("schedule.signs_note"), "note");
 }
 
@@ -188,7 +198,7 @@ constexpr const char* check_columns[] = {"column.verdict", "column.check",  "col
 
 std::string check_table(const PageParts& parts, const std::string& rows) {
   return table(parts.texts, {std::begin(check_columns), std::end(check_columns)},
-               {13, 23, 10, 9, 8, 15, 22}, rows, "checks");
+               {13, 22, 11, 10, 8, 15, 21}, rows, "checks");
 }
 
 bool is_place(const std::string& subject) {

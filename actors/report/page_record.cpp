@@ -198,6 +198,11 @@ std::string inputs_section(const PageParts& parts) {
   return out;
 }
 
+/// What is said of a rule's source, in the report's language; names stay. A dash where nothing is.
+std::string said(const Texts& t, const std::string& text) {
+  return text.empty() ? "–" : t.remark(text).value_or(text);
+}
+
 std::string clauses_section(const PageParts& parts) {
   const Texts& t = parts.texts;
   std::map<std::string, const Json*> rules;  // by edition, clause and id
@@ -216,8 +221,8 @@ std::string clauses_section(const PageParts& parts) {
       counts += (counts.empty() ? "" : "<br>") + std::to_string(count) + " " +
                 escaped(t.word("verdict", verdict));
     rows += "<tr>" + html_cell("<b>" + escaped(text_in(*check, "rule")) + "</b>") +
-            cell(text_in(*check, "edition")) + cell(clause.empty() ? "–" : clause) +
-            cell(rule_title(t, *check)) + cell(source.empty() ? "–" : source) +
+            cell(said(t, text_in(*check, "edition"))) + cell(said(t, clause)) +
+            cell(rule_title(t, *check)) + cell(said(t, source)) +
             cell(t.word("status", source_status(*check))) + html_cell(counts) + "</tr>\n";
   }
   if (rows.empty()) return paragraph(t("clauses.none"));

@@ -50,7 +50,7 @@ table { border-collapse: collapse; width: 100%; table-layout: fixed; font-size: 
 th, td { border-bottom: 1px solid var(--line); padding: 0.28rem 0.4rem; text-align: left;
   vertical-align: top; overflow-wrap: break-word; hyphens: auto; }
 thead th { border-bottom: 1.5px solid var(--ink); vertical-align: bottom; color: var(--soft);
-  font-weight: bold; }
+  font-weight: bold; font-size: 0.94em; }
 thead { display: table-header-group; }
 tr { break-inside: avoid; }
 td.n, th.n { text-align: right; }
@@ -71,7 +71,7 @@ figure.plan > svg { width: 100%; border: 1px solid var(--line); }
 figcaption { font-size: 0.8rem; color: var(--soft); margin-top: 0.3rem; }
 figcaption b { color: var(--ink); }
 .pictures, .maps { display: grid; grid-template-columns: 1fr 1fr; gap: 0.2rem 1.2rem; }
-.pictures figure, .maps figure { margin: 0.3rem 0; }
+.pictures figure, .maps figure { margin: 0.3rem 0 0; }
 .maps svg { width: 100%; border: 1px solid var(--line); }
 @media print {
   html { font-size: 9.6pt; }
@@ -81,7 +81,7 @@ figcaption b { color: var(--ink); }
   h2.fresh, section.sheet, section.wide { break-before: page; }
   section.wide { page: wide; }
   section.sheet h3, section.wide h3 { margin-top: 0; }
-  table.facts { break-inside: avoid; }
+  table.facts, nav, pre { break-inside: avoid; }
   h2.plans { break-before: page; page: wide; }
   h2.plans + section { break-before: avoid; }
   figure.plan > svg { width: auto; max-height: 165mm; margin: 0 auto; border: 0; }

@@ -10,7 +10,8 @@
 
 namespace luxodus {
 
-inline constexpr double border_mm = 4, text_mm = 2.5;
+/// Numbers of signs on outer walls stand 5 mm beyond them (plan_svg.cpp), and are not cut.
+inline constexpr double border_mm = 5.2, text_mm = 2.5;
 
 std::string text_at(double x, double y, const std::string& text, const char* more = "",
                     double size = text_mm);

@@ -45,8 +45,10 @@ std::optional<std::vector<std::string_view>> filled_in(std::string_view pattern,
   }
 }
 
+/// A clause, 4.1.2, is none: its points stay.
 bool is_number(std::string_view text) {
-  return text.find_first_not_of("0123456789.-") == std::string_view::npos;
+  return text.find_first_not_of("0123456789.-") == std::string_view::npos &&
+         text.find('.') == text.rfind('.');
 }
 
 }  // namespace

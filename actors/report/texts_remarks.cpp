@@ -49,6 +49,10 @@ constexpr ReportText remarks_rows[] = {
       "wie schnell sie angehen („onset“), ist nicht angegeben von {0}",
       "la vitesse d’allumage (« onset ») n’est pas indiquée pour {0}"}},
     {"",
+     {"no luminaire says how fast it comes on ('onset')",
+      "von keiner Leuchte ist angegeben, wie schnell sie angeht („onset“)",
+      "aucun luminaire n’indique sa vitesse d’allumage (« onset »)"}},
+    {"",
      {"a scene says nothing of how long their batteries last",
       "wie lange ihre Batterien reichen, sagt eine Szene nicht",
       "une scène ne dit rien de l’autonomie de leurs batteries"}},
@@ -91,6 +95,10 @@ constexpr ReportText remarks_rows[] = {
       "als ob kein Teil des Netzes einen anderen verdeckte",
       "comme si aucune partie du maillage n’en cachait une autre"}},
     {"",
+     {"{0}; {1} is {2} m away, but on another storey",
+      "{0}; {1} ist {2} m entfernt, aber auf einem anderen Geschoss",
+      "{0} ; {1} est à {2} m, mais à un autre étage"}},
+    {"",
      {"the nearest is {0}; {1} is {2} m away, but behind something solid, or shining elsewhere",
       "die nächste ist {0}; {1} ist {2} m entfernt, aber hinter etwas Festem oder anderswohin "
       "strahlend",
@@ -119,6 +127,9 @@ constexpr ReportText remarks_rows[] = {
     {"", {"'facing' is not given", "„facing“ ist nicht angegeben", "« facing » n’est pas indiqué"}},
     // Reasons of views.
     {"", {"views of signs", "Sichten auf Zeichen", "vues de panneaux"}},
+    {"",
+     {"only the codes were asked for", "nur die Prüfung nach den Codes war verlangt",
+      "seules les vérifications selon les codes étaient demandées"}},
     {"", {"undecided: {0}", "unentschieden: {0}", "indécis : {0}"}},
     {"",
      {"visible or invisible: more paths tell (--rounds)",
@@ -329,6 +340,22 @@ constexpr ReportText remarks_rows[] = {
      {"CLEAR AIR: the scene has smoke, but not in this scenario",
       "KLARE LUFT: die Szene hat Rauch, aber nicht in diesem Szenario",
       "AIR CLAIR : la scène a de la fumée, mais pas dans ce scénario"}},
+    {"",
+     {"{0}, times {1} in this scenario", "{0}, mal {1} in diesem Szenario",
+      "{0}, fois {1} dans ce scénario"}},
+    {"",
+     {"{0}, a fire simulation at {1} s ({2})", "{0}, eine Brandsimulation bei {1} s ({2})",
+      "{0}, une simulation d’incendie à {1} s ({2})"}},
+    {"",
+     {"{0}, {1} x {2} x {3} cells", "{0}, {1} x {2} x {3} Zellen",
+      "{0}, {1} x {2} x {3} cellules"}},
+    {"",
+     {"FLAME GLARE IS MISSING: {0} is the smoke of a fire without the light of its flames, which "
+      "dazzles and veils signs",
+      "DIE BLENDUNG DER FLAMMEN FEHLT: {0} ist der Rauch eines Feuers ohne das Licht seiner "
+      "Flammen, das blendet und Zeichen verschleiert",
+      "L’ÉBLOUISSEMENT DES FLAMMES MANQUE : {0} est la fumée d’un feu sans la lumière de ses "
+      "flammes, qui éblouit et voile les panneaux"}},
     {"", {"{0}, {1} layer", "{0}, {1} Schicht", "{0}, {1} couche"}},
     {"", {"{0}, {1} layers", "{0}, {1} Schichten", "{0}, {1} couches"}},
     // Rule sets and deviations.
@@ -378,8 +405,26 @@ constexpr ReportText remarks_rows[] = {
      {"2.2 lx with any one luminaire failed (hospitals)",
       "2,2 lx bei Ausfall einer beliebigen Leuchte (Krankenhäuser)",
       "2,2 lx avec un luminaire quelconque en panne (hôpitaux)"}},
+    // What rules are quoted from.
+    {"", {"of no code", "aus keiner Norm", "d’aucune norme"}},
+    {"", {"{0} of 2013", "{0} von 2013", "{0} de 2013"}},
+    {"", {"secondary texts", "Sekundärtexte", "textes secondaires"}},
+    {"", {"recollection, not a source", "Erinnerung, keine Quelle", "de mémoire, sans source"}},
+    {"", {"makers' guides", "Leitfäden von Herstellern", "guides de fabricants"}},
+    {"", {"makers' guides ({0})", "Leitfäden von Herstellern ({0})", "guides de fabricants ({0})"}},
+    {"", {"BSI excerpt", "Auszug des BSI", "extrait du BSI"}},
+    {"", {"national practice", "nationale Praxis", "pratique nationale"}},
+    {"",
+     {"liteplan.com on the draft FprEN 1838 of June 2024",
+      "liteplan.com zum Entwurf FprEN 1838 vom Juni 2024",
+      "liteplan.com sur le projet FprEN 1838 de juin 2024"}},
+    {"",
+     {"fernkorn, table of durations", "fernkorn, Tabelle der Betriebsdauern",
+      "fernkorn, tableau des autonomies"}},
     // Units that are words.
-    {"", {"of the viewing distance", "der Erkennungsweite", "de la distance de reconnaissance"}},
+    {"",
+     {"of the viewing distance", "der Erkennungs\u00adweite",
+      "de la distance de reconnais\u00adsance"}},
 };
 
 }  // namespace

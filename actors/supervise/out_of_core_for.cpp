@@ -9,6 +9,7 @@
 #include "actors/supervise/fetching_objects.hpp"
 #include "actors/supervise/node_plan.hpp"
 #include "runtime/core/denormals.hpp"
+#include "scenes/transport/packed_scene.hpp"
 #include "topology/graph.hpp"
 
 namespace luxodus {
@@ -102,6 +103,16 @@ void work(const RunSetup& run, const NodeSetup& node, const Clock& clock,
   shell.run();
 }
 
+/// Why rows could not have a part of the scene: all of its file is looked through, now that it has
+/// failed.
+std::string unread_parts(const CompiledScene& scene) {
+  if (const auto whole = check_objects(scene); !whole) return whole.problem().text();
+  const auto& packed = scene.description->packed;
+  return (packed != nullptr ? packed->file->name() : scene.description->file) +
+         ": parts of this scene could not be read from where it is stored, and can be now: was the "
+         "file replaced? Run again";
+}
+
 }  // namespace
 
 void OutOfCoreParallelFor::run(int64_t rows, const MakeWorker& make,
@@ -133,8 +144,7 @@ void OutOfCoreParallelFor::run(int64_t rows, const MakeWorker& make,
   for (int i = 0; i < config_.threads; ++i) threads.emplace_back(guarded);
   for (std::thread& thread : threads) thread.join();
   if (!wrong.empty()) throw std::runtime_error(wrong);
-  if (shared.failed)
-    throw std::runtime_error("parts of this scene could not be read from where it is stored");
+  if (shared.failed) throw std::runtime_error(unread_parts(*scene_));
 }
 
 }  // namespace luxodus

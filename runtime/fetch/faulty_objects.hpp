@@ -22,6 +22,8 @@ class FaultyObjects final : public ObjectStore {
     return fails() ? SharedBytes{} : below_.find_in_storage(object);
   }
 
+  std::string stored_name(uint32_t object) const override { return below_.stored_name(object); }
+
  private:
   bool fails() const { return plan_.holds(Fault::Kind::failed_read, self_, clock_.now() - began_); }
 

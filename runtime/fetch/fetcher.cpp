@@ -243,12 +243,20 @@ bool Fetcher::take_from_store(PendingFetch& flight) {
   return !bytes.bytes.empty() && accept(flight, std::move(bytes), 0, config_.self);
 }
 
+/// The object by the name that people know, where it has one.
+std::string Fetcher::text_of(uint32_t object, const char* what) const {
+  const std::string name = store_.stored_name(object);
+  return name.empty() ? what : name + ": " + what;
+}
+
 void Fetcher::give_up(PendingFetch& flight) {
   const Wish wish = flight.wish;
   ++counters_.unobtainable;
   if (log_unobtainable_.may(clock_.now()))
-    log_warning("fetch=unobtainable node={} object={:#x} questions={} total={}", config_.self.value,
-                objects_[wish.object].id.value, flight.questions, counters_.unobtainable);
+    log_warning("fetch=unobtainable node={} object={:#x} questions={} total={} text=\"{}\"",
+                config_.self.value, objects_[wish.object].id.value, flight.questions,
+                counters_.unobtainable,
+                text_of(wish.object, "nobody who can be reached gives it whole"));
   end(flight);
   release(wish.object);
   wish.client->unobtainable(wish.object);
@@ -344,8 +352,12 @@ bool Fetcher::accept(PendingFetch& flight, SharedBytes bytes, uint8_t hops, Node
   if (bytes.bytes.size() != place.wire_bytes || object_id_of(bytes.bytes) != place.id) {
     ++counters_.wrong_hash;
     if (log_wrong_.may(clock_.now()))
-      log_warning("fetch=wrong_bytes node={} object={:#x} answered_by={} total={}",
-                  config_.self.value, place.id.value, from.value, counters_.wrong_hash);
+      log_warning("fetch=wrong_bytes node={} object={:#x} answered_by={} total={} text=\"{}\"",
+                  config_.self.value, place.id.value, from.value, counters_.wrong_hash,
+                  text_of(wish.object, from == config_.self
+                                           ? "it is damaged there: pack the scene again, or copy "
+                                             "the pack again"
+                                           : "what the other node gave is damaged"));
     return false;
   }
   delay_[hops].add(clock_.now() - wish.since);

@@ -154,6 +154,7 @@ class Fetcher {
   bool ask_holder(PendingFetch& flight, NodeId holder);
   void wait_for_ways(PendingFetch& flight);
   bool take_from_store(PendingFetch& flight);
+  std::string text_of(uint32_t object, const char* what) const;
   void give_up(PendingFetch& flight);
   void set_timer(PendingFetch& flight, Nanoseconds span, bool answer_due);
   void timer_fired(PendingFetch& flight);

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "runtime/core/hash.hpp"
@@ -37,6 +38,9 @@ class ObjectStore {
   /// The bytes of the object at this place of the run's list, for this node itself when nobody else
   /// gives them; empty where there is no storage.
   virtual SharedBytes find_in_storage([[maybe_unused]] uint32_t object) { return {}; }
+  /// What people know the object at this place by, and where it is stored: "scene part 7 of
+  /// tower.luxpack"; empty where there is no storage.
+  virtual std::string stored_name([[maybe_unused]] uint32_t object) const { return {}; }
 };
 
 }  // namespace luxodus

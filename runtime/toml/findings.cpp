@@ -24,6 +24,12 @@ void Findings::renamed(SourcePlace where, std::string_view old_name, std::string
                                              "'; the next release no longer reads the old name"});
 }
 
+void Findings::warning(SourcePlace where, std::string what) {
+  Problem p{std::move(where), std::move(what)};
+  if (warned_.size() < limits::toml_problems && warned_.insert(p.text()).second)
+    warnings_.push_back(std::move(p));
+}
+
 Problems Findings::take_problems() {
   const auto rank = [this](const Problem& p) {
     const auto file = std::find(files_.begin(), files_.end(), p.where.file) - files_.begin();

@@ -25,6 +25,9 @@ class Findings {
   /// A key stands under a former name: one warning for each such name.
   void renamed(SourcePlace where, std::string_view old_name, std::string_view name);
 
+  /// Kept once for each place and words.
+  void warning(SourcePlace where, std::string what);
+
   bool any_problem() const { return !problems_.empty(); }
   size_t problem_count() const { return problems_.size(); }
   /// All problems, by file in the order of their first, then by line.
@@ -35,6 +38,7 @@ class Findings {
   std::vector<Problem> problems_;
   std::vector<Problem> warnings_;
   std::set<std::string> said_;      // "file:line: what" of every problem
+  std::set<std::string> warned_;    // likewise of warnings, but for those of former names
   std::set<std::string> renamed_;   // "old name, name" of every warning
   std::vector<std::string> files_;  // in the order of their first problem
 };

@@ -24,6 +24,15 @@ std::string shown(double v) {
   return fmt::format("{:.10g}", v);
 }
 
+/// Where a number of degrees is a usual angle in radians, written with three digits or more: that
+/// angle [deg]. Others are too near to angles that are meant.
+std::optional<double> degrees_of_radians(double v) {
+  constexpr double pi = 3.14159265358979323846, rounding = 2e-3;
+  for (const double degrees : {30, 45, 60, 90, 120, 135, 180, 270, 360})
+    if (std::abs(std::abs(v) - degrees * pi / 180) < rounding) return v < 0 ? -degrees : degrees;
+  return std::nullopt;
+}
+
 std::string list_words(std::string_view range) {
   std::string out;
   for (const auto word : words_of(range))
@@ -178,7 +187,13 @@ std::optional<double> TableReader::bounded(const KeySpec& s, const SourcePlace& 
     return std::nullopt;
   }
   const auto range = interval_of(s.range);
-  if (!range || range->holds(v)) return v;
+  if (!range || range->holds(v)) {
+    if (const auto meant = degrees_of_radians(v); meant && s.unit == "deg")
+      findings_.warning(where, fmt::format("'{}'{} is {} deg, and {} rad are {} deg: angles are in "
+                                           "degrees",
+                                           s.name, what, shown(v), shown(v), shown(*meant)));
+    return v;
+  }
   std::string wrong =
       fmt::format("'{}'{} is {} but must lie in {}", s.name, what, shown(v), s.range);
   if (!s.unit.empty()) wrong += fmt::format(" {}", s.unit);

@@ -87,8 +87,9 @@ Result<std::span<const std::byte>> object_bytes(const PackedScene& packed, uint3
                    "use the pack that it was made of"};
   }
   if (object_id_of(bytes) != packed.objects[object].id)
-    return Problem{place, "object " + std::to_string(object) +
-                              " of this pack is damaged: pack the scene again"};
+    return Problem{place,
+                   "scene part " + std::to_string(object) +
+                       " of this pack is damaged: pack the scene again, or copy the pack again"};
   return bytes;
 }
 

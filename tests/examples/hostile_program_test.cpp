@@ -128,7 +128,7 @@ TEST_CASE("a damaged object of a pack is named with its file before nodes begin"
   INFO(told.err);
   CHECK(told.code != 0);
   CHECK(told.code != 124);
-  CHECK(told.err.find("x.luxpack: object 0 of this pack is damaged") != std::string::npos);
+  CHECK(told.err.find("x.luxpack: scene part 0 of this pack is damaged") != std::string::npos);
 }
 
 TEST_CASE("a node that stores a damaged pack ends at once and names its file",
@@ -155,7 +155,7 @@ TEST_CASE("a node that stores a damaged pack ends at once and names its file",
     INFO(command << "\n" << told.out << told.err);
     CHECK(told.code != 0);
     CHECK(told.code != 124);
-    CHECK((told.out + told.err).find("x.luxpack: object 0 of this pack is damaged") !=
+    CHECK((told.out + told.err).find("x.luxpack: scene part 0 of this pack is damaged") !=
           std::string::npos);
     CHECK_FALSE(fs::exists(folder / "out"));
   }

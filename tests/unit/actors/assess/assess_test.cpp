@@ -139,10 +139,13 @@ TEST_CASE("a route through a wall is refused, through a closed door told, with b
   CHECK(refused.problem().where.line > 0);
   const std::string door = "door = { open = false, hinge = [4, -2, 0] }\n";
   const Assessment closed = assessed(across(door), codes_alone());
-  REQUIRE(closed.warnings.size() == 1);
+  // And what lies behind it is dark.
+  REQUIRE(closed.warnings.size() == 2);
   CHECK(closed.warnings.front().what.find("route \"way\" leads through the closed door \"leaf\"") ==
         0);
   CHECK(closed.warnings.front().where.line > 0);
+  CHECK(closed.warnings.back().what.find("gets no direct light of an emergency luminaire") !=
+        std::string::npos);
   AssessOptions options = codes_alone();
   const Assessment open = assessed(across("door = { open = true, hinge = [4, -2, 0] }\n"), options);
   CHECK(open.warnings.empty());

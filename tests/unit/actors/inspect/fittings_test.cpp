@@ -72,6 +72,8 @@ TEST_CASE("signs that look up, hang on their side or have no sign's size are tol
               Severity::warning, "sign \"exit\" hangs upside down");
   check_found(found_in(with("facing = [-1, 0, 0]", "facing = [-1, 0, 0]\nup = [0, 1, 0]")),
               Severity::warning, "sign \"exit\" hangs on its side");
+  check_found(found_in(with("width = 0.4\nheight = 0.2", "width = 1.5\nheight = 0.75")),
+              Severity::warning, "sign \"exit\" is 0.75 m high in a room of 3 m");
   CHECK(found_in(with(in_place, "position = [11.95, 0, 2.3]")).empty());
 }
 
@@ -166,6 +168,8 @@ TEST_CASE("a door that turns about a hinge away from its leaf is told", "[inspec
   check_found(leaf("hinge = [8.07, 1.3, 0]"), Severity::warning, "a hinge that is 0.3 m away");
   check_found(leaf("hinge = [8.07, 1, 0], axis = [1, 0, 0]"), Severity::warning,
               "turns about a level axis");
+  check_found(leaf("hinge = [8.07, 1, 0], open_angle_deg = -1.5"), Severity::warning,
+              "opens by -1.5 degrees, as good as closed");
   CHECK(leaf("hinge = [8.07, 1, 0]").empty());
 }
 

@@ -91,6 +91,22 @@ TEST_CASE("what luminaires share is told once, with their number", "[inspect][li
   check_found(twice, Severity::warning, "is usual (and 1 other)");
 }
 
+TEST_CASE("the one luminaire of a file that fails with the mains is noted", "[inspect][light]") {
+  const auto found = [](const std::string& first, int more) {
+    std::string others;
+    for (int i = 1; i <= more; ++i)
+      others += "[[luminaire]]\nname = \"light " + std::to_string(i) +
+                "\"\nfile = \"lamp.ldt\"\nposition = [" + std::to_string(3 + i) + ", 1, 2.97]\n" +
+                emergency("emergency_factor = 0.5");
+    return with_luminaire(first + others);
+  };
+  check_found(found("", 2), Severity::note,
+              "luminaire \"light\" fails with the mains, and the other 2 of its file \"lamp.ldt\"");
+  const std::string words = "fails with the mains, and";
+  CHECK(that_say(found("", 1), words).empty());
+  CHECK(that_say(found(emergency("emergency_factor = 0.5"), 2), words).empty());
+}
+
 TEST_CASE("photometric files in another unit, of too little light or normalised are told",
           "[inspect][light]") {
   const auto with_file = [](const std::string& from, const std::string& to) {

@@ -228,6 +228,27 @@ material = "grey50"
   CHECK(that_say(judged, "\"lamp\" is an emergency luminaire").empty());
 }
 
+TEST_CASE("a route on which no emergency luminaire shines is told, with the lamp that could",
+          "[inspect]") {
+  const std::string wall =
+      replaced(thick_wall, "opening = [{ at = 1, width = 2, height = 2.1 }]\n",
+               "opening = [{ at = 0.2, width = 1, height = 2.1 }]\n");  // beside the lamp's light
+  const std::string route =
+      "[[route]]\nname = \"way\"\npath = [[9, 1, 0], [11.5, 1, 0]]\nwidth = 1\n";
+  const auto found = [&](const std::string& store) {
+    return found_in(furnished_room + wall + route + lamp_at("store", "[10, 0, 2.5]", store));
+  };
+  const auto dark = found("distribution = \"isotropic\"\n");
+  check_found(dark, Severity::warning,
+              "route \"way\" gets no direct light of an emergency luminaire on ");
+  CHECK(that_say(dark, "fails with the mains: is its 'emergency' missing?").size() == 1);
+  CHECK(that_say(found("distribution = \"isotropic\"\nemergency = \"maintained\"\n"
+                       "emergency_flux = 90\nmaintenance_factor = 0.8\n"
+                       "end_of_duration_factor = 0.8\n"),
+                 "gets no direct light")
+            .empty());
+}
+
 TEST_CASE("eyes and probes in bodies are errors, those that see nothing warnings", "[inspect]") {
   const std::string block = box("[2, -0.5, 0]", "[3, 0.5, 1.2]");
   check_found(found_in(furnished_room + block + camera_at("[2.5, 0, 0.6]", "[8, 0, 1]")),

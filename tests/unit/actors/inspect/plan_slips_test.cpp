@@ -118,7 +118,12 @@ TEST_CASE("a sign that shows only its edge to the route beside it is told", "[in
   check_no_alarm(found_in(lone + hung("[7, 0, 2.4]", "[-1, 0, 0]", "double_sided = true\n")));
   // On the side wall it is read from where one passes; the back is the other way's.
   check_no_alarm(found_in(lone + hung("[7, 1.95, 2.4]", "[0, -1, 0]")));
-  CHECK(that_say(found_in(lone + hung("[7, 0, 2.4]", "[1, 0, 0]")), "its edge").empty());
+  const auto back = found_in(lone + hung("[7, 0, 2.4]", "[1, 0, 0]"));
+  check_no_alarm(back);
+  check_found(back, Severity::note, "sign \"hung\" shows only its back to those on route \"way\"");
+  const std::string return_way = path_named("return", "[[11, 0, 0], [1, 0, 0]]");
+  CHECK(
+      that_say(found_in(lone + return_way + hung("[7, 0, 2.4]", "[1, 0, 0]")), "its back").empty());
   // People on the floor beside the route read it.
   check_no_alarm(found_in(lone + hung("[7, 0, 2.4]", "[0, 1, 0]", "double_sided = true\n") +
                           outline_of("open_area", "[[0, -2], [12, -2], [12, 2], [0, 2]]")));

@@ -97,6 +97,35 @@ TEST_CASE("a plane that follows a ramp is no mistake", "[inspect]") {
   CHECK(that_say(found_in(furnished_room + over), "tilted").size() == 1);
 }
 
+TEST_CASE("a plane aslant over the floor of a route is told", "[inspect]") {
+  const auto found = [](const std::string& corner, const std::string& u, const std::string& v,
+                        const std::string& more = "") {
+    return found_in(furnished_room + long_way + more + desk_plane(corner, u, v));
+  };
+  check_found(found("[1, -1, 0.02]", "[8, 0, 0]", "[0, 2, 0.4]"), Severity::warning,
+              "plane \"desk\" is tilted by 11 degrees over the level floor of route \"way\"");
+  CHECK(found("[1, -1, 0.02]", "[8, 0, 0]", "[0, 2, 0]").empty());
+  // A desk's slope, and a wall's plane, are above the floor or upright.
+  CHECK(found("[5, -1, 0.8]", "[2, 0, 0]", "[0, 2, 0.4]").empty());
+  CHECK(found("[1, -1, 0.02]", "[8, 0, 0]", "[0, 0, 2]").empty());
+  // Over a ramp beside which the route is written level.
+  const std::string ramp =
+      "[[object]]\nname = \"ramp\"\nshape = \"quad\"\ncorner = [1, -1, 0.01]\n"
+      "edge_u = [5, 0, 0]\nedge_v = [0, 2, 0.3]\nmaterial = \"grey50\"\n";
+  CHECK(that_say(found("[1, -1, 0.03]", "[5, 0, 0]", "[0, 2, 0.3]", ramp), "tilted").empty());
+}
+
+TEST_CASE("a plane whose numbers of cells are swapped is told", "[inspect]") {
+  const auto found = [](const std::string& cells) {
+    return found_in(furnished_room + replaced(desk_plane("[1, -1, 0.8]", "[10, 0, 0]", "[0, 2, 0]"),
+                                              "[4, 4]", cells));
+  };
+  check_found(found("[10, 50]"), Severity::warning,
+              "has cells of 1 m by 40 mm, which smear its minimum and its uniformity");
+  CHECK(found("[50, 10]").empty());
+  CHECK(found("[50, 1]").empty());
+}
+
 TEST_CASE("a plane of millimetres is told", "[inspect]") {
   check_found(
       found_in(furnished_room + desk_plane("[1, -1, 0.8]", "[0.005, 0, 0]", "[0, 0.004, 0]")),
@@ -116,6 +145,40 @@ TEST_CASE("a lamp that is larger than any building is told, and its light is no 
               "emitter \"panel\" is 600 m large, and the building 12 m: sizes are in metres");
   CHECK(that_say(found, "not closed").empty());
   CHECK(lamp_of("[0.6, 0.6]").empty());
+}
+
+TEST_CASE("a building whose doors have the size of doors in feet is told", "[inspect]") {
+  // The closed room, its doorway and its leaves, `scale` times as large.
+  const auto found = [](double scale, int leaves, const std::string& more = "") {
+    const auto m = [&](double length) { return fmt::format("{:.6g}", length * scale); };
+    std::string text =
+        "[[object]]\nname = \"room\"\nshape = \"room\"\nlow = [0, 0, 0]\nhigh = [" + m(12) + ", " +
+        m(4) + ", " + m(3) + "]\nmaterial = \"grey50\"\n[[emitter]]\nname = \"lamp\"\n" +
+        "shape = \"point\"\ndistribution = \"isotropic\"\nflux_lm = 100\nposition = [" + m(6) +
+        ", " + m(2) + ", " + m(2.5) + "]\n" + more;
+    for (int i = 0; i < leaves; ++i)
+      text +=
+          fmt::format("[[object]]\nname = \"leaf {}\"\nshape = \"box\"\nlow = [{}, 0, 0]\n", i,
+                      m(2 + 2 * i)) +
+          fmt::format("high = [{}, {}, {}]\nmaterial = \"grey50\"\ndoor = {{ hinge = [{}, 0, 0] ",
+                      m(2.9 + 2 * i), m(0.04), m(2.05), m(2 + 2 * i)) +
+          "}\n";
+    return found_in(text);
+  };
+  const std::string words = "if that is in feet";
+  check_found(
+      found(1 / 0.3048, 2), Severity::warning,
+      "all 2 doors, \"leaf 0\" first, are 6.73 m high, as no door is, and 2.05 m if that is "
+      "in feet");
+  CHECK(that_say(found(1, 2), words).empty());
+  // A lone gate of a hall, and a gate beside a door of this size.
+  CHECK(that_say(found(1 / 0.3048, 1), words).empty());
+  CHECK(that_say(found(1 / 0.3048, 2,
+                       "[[object]]\nname = \"door\"\nshape = \"box\"\nlow = [15, 0, 0]\n"
+                       "high = [15.9, 0.04, 2.05]\nmaterial = \"grey50\"\n"
+                       "door = { hinge = [15, 0, 0] }\n"),
+                 words)
+            .empty());
 }
 
 TEST_CASE("an imported building that lies on its side is told", "[inspect]") {

@@ -77,6 +77,25 @@ TEST_CASE("smoke that reaches nothing of the building is told", "[inspect]") {
   check_no_alarm(found_in(furnished_room + slip_smoke("box = [[10, -2], [28, 2]]\n")));
 }
 
+TEST_CASE("smoke whose box has its numbers in another order is told, with the order that fits",
+          "[inspect]") {
+  const std::string judged = furnished_room + long_way;
+  const auto found = [&](const std::string& box) {
+    return found_in(judged + slip_smoke("box = " + box + "\n"));
+  };
+  check_found(found("[[-2, 0], [2, 12]]"), Severity::warning,
+              "box = [[0, -2], [12, 2]], nothing would");
+  check_found(found("[[1, 11], [-1, 1]]"), Severity::warning,
+              "box = [[1, -1], [11, 1]], nothing would");
+  // As much too far to the east: no order of its numbers fits.
+  check_found(found("[[10, -2], [28, 2]]"), Severity::note,
+              "of the smoke of the medium \"smoke\" lies outside the building, where");
+  CHECK(that_say(found("[[-40, -40], [50, 50]]"), "lies outside").empty());
+  CHECK(that_say(found("[[0, -2], [12, 2]]"), "lies outside").empty());
+  // Where nobody is judged it may be meant.
+  check_no_alarm(found_in(furnished_room + slip_smoke("box = [[-2, 0], [2, 12]]\n")));
+}
+
 TEST_CASE("flames in bodies, outside and twice in one place are told", "[inspect]") {
   const std::string cupboard =
       "[[object]]\nname = \"box\"\nshape = \"box\"\nlow = [3, -1.5, 0]\nhigh = [5, 0, 2]\n"

@@ -167,12 +167,40 @@ TEST_CASE("scenarios with percentages, dark luminaires and late hours are told",
   CHECK(found_in(judged_room + state("seconds_after_failure = 600\n")).empty());
 }
 
+TEST_CASE("smoke that a factor scales down to clear air is told", "[inspect][state][smoke]") {
+  const auto found = [](const std::string& keys) {
+    return found_in(judged_room + even("extinction = 0.5\nalbedo = 0.3") + state(keys));
+  };
+  check_found(found("smoke_factor = 0.01\n"), Severity::warning,
+              "leaves 0.01 of the smoke \"smoke\", at most 0.005 /m");
+  check_found(found("media = { smoke = 0.05 }\n"), Severity::warning, "is seen for 320 m");
+  check_no_alarm(found("smoke_factor = 0.5\n"));
+  check_no_alarm(found("smoke_factor = 0.1\n"));
+}
+
+TEST_CASE("a glow that is judged at the moment of the failure is told", "[inspect][state]") {
+  const std::string glow =
+      replaced(replaced(exit_sign, "mains_white = 500\nmains_green = 50\n", ""),
+               "emergency_white = 100\nemergency_green = 10\n",
+               "lighting = \"photoluminescent\"\nemergency_white = 1\nemergency_green = 0\n"
+               "decay = [[0, 1], [60, 0.3], [600, 0.03], [3600, 0.005]]\n");
+  const auto found = [&](const std::string& keys) {
+    return found_in(closed_room + lamp + long_way + glow + state(keys));
+  };
+  check_found(found(""), Severity::warning,
+              "the photoluminescent sign \"exit\" is judged as bright as at the failure");
+  CHECK(that_say(found("seconds_after_failure = 600\n"), "as at the failure").empty());
+}
+
 TEST_CASE("people who see more than most are told", "[inspect][state]") {
   const auto found = [](const std::string& keys) {
     return found_in(judged_room + state("") + "[assessment]\n" + keys);
   };
   check_found(found("age_years = 25\n"), Severity::note, "signs are judged by young eyes");
   check_found(found("eye_heights_m = [0.6]\n"), Severity::note, "nobody who walks upright");
+  check_found(found_in(judged_room + even("extinction = 0.5\nalbedo = 0.3") + state("") +
+                       "[assessment]\neye_heights_m = [0.6]\nirritant_smoke = true\n"),
+              Severity::warning, "nobody who walks upright");
   check_found(found("eye_heights_m = [2.4]\n"), Severity::warning, "eyes of people are 1.4 to");
   check_found(found("spacing_m = 20\n"), Severity::note, "spacing_m = 20");
   check_found(found("rules = [\"en1838-2013\", \"en1838-2024\"]\n"), Severity::note,

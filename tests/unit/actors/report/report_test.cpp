@@ -141,11 +141,28 @@ TEST_CASE("the program's own sentences are said in each language", "[report]") {
         "der nirgends gelesen wurde: nachschlagen");
   CHECK(fr.remark("undecided: legible or not: more paths tell (--rounds)") ==
         "indécis : lisible ou non : plus de chemins le diront (--rounds)");
+  CHECK(de.remark("only the codes were asked for") ==
+        "nur die Prüfung nach den Codes war verlangt");
+  CHECK(de.remark("the nearest is \"a\"; \"b\" is 1.5 m away, but on another storey") ==
+        "die nächste ist \"a\"; \"b\" ist 1,5 m entfernt, aber auf einem anderen Geschoss");
+  CHECK(de.remark("floor.toml:7, 2 layers, times 0.5 in this scenario") ==
+        "floor.toml:7, 2 Schichten, mal 0,5 in diesem Szenario");
+  CHECK(fr.remark("fire.toml:7, 8 x 8 x 4 cells, a fire simulation at 60 s (SOOT)") ==
+        "fire.toml:7, 8 x 8 x 4 cellules, une simulation d’incendie à 60 s (SOOT)");
+  CHECK(de.remark("4.1.2 of 2013") == "4.1.2 von 2013");
   CHECK_FALSE(de.remark("a sentence that nobody says"));
   for (const ReportText& row : remark_texts()) {
     INFO(row.text[0]);
     CHECK(de.remark(row.text[0]) == std::string(row.text[1]));
   }
+}
+
+TEST_CASE("faces of signs keep their letters, and paths break after folders", "[report]") {
+  CHECK(has(page_in(Language::fr), "“EXIT”"));
+  Json drawn = assessed_json();
+  drawn["signs"][0]["text"] = "";
+  drawn["signs"][0]["file"] = "../zeichen/Ausgänge & mehr.svg";
+  CHECK(has(report_html(drawn, {}, "x", {}), "../<wbr>zeichen/<wbr>Ausgänge &amp; mehr.svg"));
 }
 
 TEST_CASE("a verdict is said in each language", "[report]") {

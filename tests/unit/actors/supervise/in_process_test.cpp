@@ -3,11 +3,18 @@
 
 #include <spdlog/spdlog.h>
 
+#include <array>
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <fstream>
+#include <stdexcept>
 
+#include "actors/objects/scene_objects.hpp"
 #include "actors/supervise/out_of_core_for.hpp"
 #include "actors/supervise/residency_setup.hpp"
 #include "scenes/pack/scene_pack.hpp"
+#include "scenes/transport/packed_scene.hpp"
+#include "scenes/transport/visibility.hpp"
 #include "tests/kit/temporary_folder.hpp"
 #include "tests/unit/actors/supervise/equal_bits.hpp"
 #include "tests/unit/actors/supervise/library_scene.hpp"
@@ -327,4 +334,48 @@ TEST_CASE("nodes of a packed scene that nobody holds whole give the bits of the 
     return out;
   };
   CHECK(direct(plain) == direct(run));
+}
+
+TEST_CASE("a pack that is damaged while it is used is named by its file and part", "[nodes]") {
+  const auto scene = scene_of("office_floor", "clear_emergency", 16);
+  const test::TemporaryFolder folder;
+  const auto file = folder / "floor.luxpack";
+  REQUIRE(write_pack(file, *scene, 16).ok());
+  const auto packed = compile_scene(read_pack(file).value(), scene->scenario, {}).value();
+  REQUIRE(check_objects(*packed).ok());
+  const auto& objects = packed->description->packed->objects;
+  REQUIRE(objects.size() >= 16);
+  const std::array holders{NodeId{0}};
+  CHECK(SceneObjects(*packed, holders, 1).stored_name(3) == "scene part 3 of " + file.string());
+  {
+    // In place, as a disk that fails under a run: eight parts, behind the head of 128 bytes.
+    std::fstream pack(file, std::ios::in | std::ios::out | std::ios::binary);
+    size_t end = 128;
+    for (size_t part = 0; part < 8; ++part) end += objects[part].wire_bytes;
+    for (size_t at = 128; at < end; at += 1024) {
+      pack.seekp(static_cast<std::streamoff>(at));
+      pack.write("damaged", 7);
+    }
+    REQUIRE(pack.good());
+  }
+  OutOfCoreConfig rows;
+  rows.object_bytes = 4'000'000;
+  LocalRun run(packed, 1, 1, std::make_unique<OutOfCoreParallelFor>(packed, rows));
+  std::string told;
+  try {
+    run.rows().run(2000, [&](const GeometryAccess& access) {
+      return [&run, access](int64_t i) {
+        const double angle = 0.7 * static_cast<double>(i);
+        const glm::vec3 way(std::cos(angle), std::sin(angle), 0);
+        const glm::vec3 from(0.7 * static_cast<double>(i % 40 - 20), static_cast<double>(i % 7),
+                             -0.6);
+        next_surface(run.scene(), access, from, way, 100);
+      };
+    });
+  } catch (const std::runtime_error& e) {
+    told = e.what();
+  }
+  INFO(told);
+  CHECK(told.find(file.string() + ": scene part ") == 0);
+  CHECK(told.find("is damaged: pack the scene again, or copy the pack again") != std::string::npos);
 }

@@ -182,6 +182,28 @@ TEST_CASE("a former name of a key is read with one warning, however often it sta
                   "'max_tubes'"});
 }
 
+TEST_CASE("a usual angle in radians, where degrees are read, is read with a warning",
+          "[runtime][toml]") {
+  const KeySpec turn{"turn_deg", "number", "deg", "0", "[-360, 360]", "", {}};
+  const Schema turned{{TableSpec{"lamp", "", {turn}}}};
+  const auto warned = [&](const std::string& number) {
+    const Document document = parsed("turn_deg = " + number + "\n");
+    Findings findings;
+    TableReader keys(document.top, turned, {"lamp"}, findings);
+    CHECK(keys.number("turn_deg") == std::stod(number));
+    CHECK(keys.clean());
+    return findings.take_warnings();
+  };
+  const auto quarter = warned("1.5708");
+  REQUIRE(quarter.size() == 1);
+  CHECK(quarter[0].text() ==
+        "dir/lamp.toml:1: 'turn_deg' is 1.5708 deg, and 1.5708 rad are 90 deg: angles are in "
+        "degrees");
+  CHECK(warned("-3.14").at(0).what.find("are -180 deg") != std::string::npos);
+  for (const char* meant : {"0", "0.5", "1", "1.5", "2", "3", "3.1", "30", "90", "-45", "360"})
+    CHECK(warned(meant).empty());
+}
+
 TEST_CASE("the kind of a table decides which keys it has besides", "[runtime][toml]") {
   const auto kind_of = [](const std::string& text) {
     const Document document = parsed(text);

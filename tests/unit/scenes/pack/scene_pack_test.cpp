@@ -203,7 +203,7 @@ TEST_CASE("a pack whose brick or tile is damaged is refused where it is read", "
   CHECK(load_images(*harmed).ok());
   const auto all = check_objects(*harmed);
   REQUIRE_FALSE(all.ok());
-  CHECK(all.problem().text().find(broken.string() + ": object 1 of this pack is damaged") == 0);
+  CHECK(all.problem().text().find(broken.string() + ": scene part 1 of this pack is damaged") == 0);
 }
 
 TEST_CASE("a pack serves every scenario that leaves its doors alone, and refuses the others",
