@@ -15,7 +15,7 @@ namespace luxodus {
 
 namespace {
 
-/// EmitterSample at once: dead hosts then cost their patience once, and a thread is cheap.
+/// Asked at once: dead hosts then cost their patience once, and a thread is cheap.
 constexpr size_t asked_at_once = 32;
 
 /// What one page says of one node, by the numbers' names; of several links or hops the sum.
@@ -79,6 +79,8 @@ NodeStatus row_of(const std::string& node, const Page& page, const Suspicions& s
   const Numbers& n = known->second;
   row.fibers = number(n, "luxodus_fibers_live");
   row.waiting = number(n, "luxodus_fibers_suspended");
+  row.letters = number(n, "luxodus_mailbox_waiting");
+  row.letters_rejected = number(n, "luxodus_mailbox_rejected_total");
   row.hit_rate = hit_rate(n);
   row.credit_bytes = number(n, "luxodus_link_credit_bytes");
   row.batches = number(n, "luxodus_batches_total");
@@ -93,7 +95,7 @@ std::string shown(const std::optional<double>& value, double unit, int digits) {
   return value ? fmt::format("{:.{}f}", *value / unit, digits) : "-";
 }
 
-using Row = std::array<std::string, 12>;
+using Row = std::array<std::string, 14>;
 
 Row cells_of(const NodeStatus& s) {
   constexpr double mib = 1024.0 * 1024.0;
@@ -103,6 +105,8 @@ Row cells_of(const NodeStatus& s) {
           s.process,
           shown(s.fibers, 1, 0),
           shown(s.waiting, 1, 0),
+          shown(s.letters, 1, 0),
+          shown(s.letters_rejected, 1, 0),
           shown(s.hit_rate, 0.01, 2),
           shown(s.credit_bytes, 1024, 0),
           shown(s.batches, 1, 0),
@@ -173,8 +177,8 @@ std::vector<NodeStatus> status_of(const std::vector<AskedProcess>& processes,
 }
 
 std::string status_table(const std::vector<NodeStatus>& rows) {
-  const Row headings{"node",    "state",       "role",         "process",
-                     "fibers",  "waiting",     "hits %",       "credit KiB",
+  const Row headings{"node",    "state",       "role",         "process",    "fibers",
+                     "waiting", "letters",     "rejected",     "hits %",     "credit KiB",
                      "batches", "particles/s", "resident MiB", "process MiB"};
   constexpr size_t words = 4;  // columns of words stand left, numbers right
   std::vector<Row> cells{headings};

@@ -41,15 +41,17 @@ struct NodeStatus {
   std::string process;
   NodeState state = NodeState::down;
   std::string role;
-  std::optional<double> fibers;           // that live
-  std::optional<double> waiting;          // of those
-  std::optional<double> hit_rate;         // of the cache of cells
-  std::optional<double> credit_bytes;     // over all links
-  std::optional<double> batches;          // merged, or counted by the controller
-  std::optional<double> particles_per_s;  // of the last second or so
-  std::optional<double> resident_bytes;   // cells
-  std::optional<double> process_bytes;    // of the whole process
-  std::string problem;                    // why it is down
+  std::optional<double> fibers;            // that live
+  std::optional<double> waiting;           // of those
+  std::optional<double> letters;           // that wait in the mailboxes of its actors
+  std::optional<double> letters_rejected;  // since it began, by full mailboxes
+  std::optional<double> hit_rate;          // of the cache of cells
+  std::optional<double> credit_bytes;      // over all links
+  std::optional<double> batches;           // merged, or counted by the controller
+  std::optional<double> particles_per_s;   // of the last second or so
+  std::optional<double> resident_bytes;    // cells
+  std::optional<double> process_bytes;     // of the whole process
+  std::string problem;                     // why it is down
 };
 
 /// A row for each node, in the order of processes. Requires: as many pages as processes.

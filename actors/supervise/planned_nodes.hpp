@@ -49,7 +49,7 @@ struct NodesOptions {
   uint64_t tally_bytes = NodeSetup{}.tally_bytes;  // of each node, for scores, totals and flushes
   int tally_shards = 1;  // of the totals: the controller's, and those of the first workers
   Observation* observation = nullptr;  // where somebody watches
-  /// EmitterSample by each worker every few milliseconds, on its own thread: whether it shall end
+  /// Asked by each worker every few milliseconds, on its own thread: whether it shall end
   /// before the run does.
   std::function<bool()> stop = [] { return false; };
 };

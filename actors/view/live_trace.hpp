@@ -1,6 +1,6 @@
 // The tracing behind a live view: one generation after another, each from few particles to many,
 // told of at every doubling, so that the first light is there at once and later ones cost little.
-// A new edits ends the generation under way, and takes over of its light what still holds. Thread
+// New edits end the generation under way, and take over of its light what still holds. Thread
 // rule: its own thread traces and tells; edits and questions may come from any other.
 #pragma once
 
@@ -88,7 +88,7 @@ class LiveTrace {
   void begin(const SceneEdits& edits);
   /// Traces until it is good enough or something comes.
   void refine();
-  /// Traces groups to a level and tells of it; false where a edits or the end has come.
+  /// Traces groups to a level and tells of it; false where edits or the end have come.
   bool reach(int64_t level, LiveRun::Scope scope);
   void tell(bool done);
   void answer_all();

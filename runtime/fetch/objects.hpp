@@ -32,7 +32,7 @@ struct ObjectPlace {
 class ObjectStore {
  public:
   virtual ~ObjectStore() = default;
-  /// The object's bytes; empty where this node does not hold it. EmitterSample at every fetch that
+  /// The object's bytes; empty where this node does not hold it. Asked at every fetch that
   /// comes or passes here: it must not take long.
   virtual SharedBytes find(ObjectId object) = 0;
   /// The bytes of the object at this place of the run's list, for this node itself when nobody else

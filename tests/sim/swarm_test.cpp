@@ -212,7 +212,7 @@ TEST_CASE("a lost frame of a flush of many leases costs the leases of that time,
   const SimReport whole = simulate(scene, options).value();
   REQUIRE(whole.flushes_refused == 0);
   uint64_t max_fenced = 0, max_refused = 0;
-  for (uint64_t frame = 0; frame < whole.world.frames; frame += 100) {
+  for (uint64_t frame = 0; frame < whole.world.frames; frame += 40) {
     SimOptions one = options;
     one.plan->lost_frame = frame;
     const SimReport report = simulate(scene, one).value();

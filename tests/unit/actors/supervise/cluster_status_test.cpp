@@ -17,6 +17,9 @@ const std::string page_of_a =
     "luxodus_process_resident_bytes 1048576\n"
     "luxodus_node_info{node=\"a\",role=\"worker\"} 1\n"
     "luxodus_fibers_live{node=\"a\"} 40\n"
+    "luxodus_mailbox_waiting{node=\"a\",actor=\"tracer\"} 2\n"
+    "luxodus_mailbox_waiting{node=\"a\",actor=\"tally_shard\"} 3\n"
+    "luxodus_mailbox_rejected_total{node=\"a\",actor=\"tracer\"} 1\n"
     "luxodus_cache_hits_total{node=\"a\"} 90\n"
     "luxodus_cache_misses_total{node=\"a\"} 4\n"
     "luxodus_cache_joined_total{node=\"a\"} 6\n"
@@ -42,6 +45,9 @@ TEST_CASE("a node's line has its own numbers, and the state that its neighbours 
   CHECK(rows[0].state == NodeState::up);
   CHECK(rows[0].role == "worker");
   CHECK(rows[0].fibers == 40.0);
+  CHECK(rows[0].letters == 5.0);
+  CHECK(rows[0].letters_rejected == 1.0);
+  CHECK_FALSE(rows[1].letters.has_value());
   CHECK(rows[0].hit_rate == 0.9);
   CHECK(rows[0].credit_bytes == 1024.0);
   CHECK(rows[0].batches == 12.0);
