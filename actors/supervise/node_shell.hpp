@@ -10,12 +10,10 @@
 #include "runtime/actor/scheduler.hpp"
 #include "runtime/fetch/fetcher.hpp"
 #include "runtime/net/network.hpp"
-#include "topology/routes.hpp"
+#include "topology/node_routes.hpp"
 
 namespace luxodus {
 
-/// Next hops of a vertex, for the network.
-NextHops next_hops(const Routes& routes, NodeId self);
 /// All links of a graph.
 std::vector<Edge> edges_of(const Graph& graph);
 
@@ -25,7 +23,7 @@ struct ShellConfig {
   /// Bytes of one message in pieces that is taken in at once, and of all of them.
   size_t max_room_bytes = 1 << 30;
   Nanoseconds shutdown_phase = seconds(5);  // for each step of its end
-  /// Of the whole graph, where somebody has made them: they take seconds for a thousand nodes.
+  /// Of the whole graph, where somebody has made them for all nodes of the process.
   const Routes* routes = nullptr;
 };
 
