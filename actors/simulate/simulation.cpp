@@ -280,6 +280,7 @@ void Simulation::note_last(const SimController& controller) {
   report_.leases = c.leases;
   report_.leases_fenced = c.fenced;
   report_.flushes_refused = c.flushes_refused;
+  report_.took = controller.controller().took();
   if (!controller.controller().ended()) return;
   reason_ = controller.controller().reason();
   let_go_ = true;
