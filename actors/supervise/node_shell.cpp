@@ -93,6 +93,7 @@ class NodeShell::Handler final : public NetHandler {
     failed_.clear();
     for (const Edge& edge : down) failed_.push_back({edge.a.value, edge.b.value});
     NextHops hops;
+    hops.next.reserve(shell_.graph_.vertices());
     for (const std::optional<Vertex> next : routes_.around(failed_))
       hops.next.push_back(next ? NodeId{static_cast<uint16_t>(*next)} : no_node);
     return hops;
