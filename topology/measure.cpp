@@ -72,7 +72,7 @@ PathLengths paths_from_controller(const Graph& graph, const Routes& routes) {
   PathLengths paths;
   paths.pairs = graph.workers();
   for (Vertex to = 0; to < graph.workers(); ++to) {
-    const uint32_t hops = *routes.hops(graph.controller(), to);
+    const uint32_t hops = routes.hops(graph.controller(), to);
     paths.hops += hops;
     paths.diameter = std::max(paths.diameter, hops);
   }

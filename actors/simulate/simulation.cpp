@@ -280,6 +280,7 @@ void Simulation::note_last(const SimController& controller) {
   report_.leases = c.leases;
   report_.leases_fenced = c.fenced;
   report_.flushes_refused = c.flushes_refused;
+  report_.took = controller.coordinator().took();
   if (!controller.coordinator().ended()) return;
   reason_ = controller.coordinator().reason();
   let_go_ = true;

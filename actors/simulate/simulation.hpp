@@ -54,6 +54,7 @@ struct SimOptions {
 struct SimReport {
   std::string failure;  // "": the run ended as it must
   Nanoseconds virtual_time = 0;
+  Nanoseconds took = 0;  // of it, from the first lease to the last flush that was counted
   uint64_t trace_hash = 0;
   SimWorld::Counters world;
   int64_t recovered = 0;   // batches, by controllers that began anew

@@ -18,6 +18,8 @@ namespace {
 constexpr Nanoseconds waiting_word = seconds(10);
 /// Looks, at each of which all are told of the end: an answer is as fresh as two of three.
 constexpr int heard_lately = 3;
+/// Late leases may follow each other closely; what is looked at is more than they.
+constexpr Nanoseconds least_between_looks = milliseconds(20);
 /// Until what found no room in the network is said again.
 constexpr Nanoseconds say_again_after = milliseconds(20);
 
@@ -212,6 +214,16 @@ void Coordinator::fence(const std::vector<Lease>& leases, const char* why) {
   }
   for (const auto& [node, fenced] : told)
     if (!fenced.leases.empty()) send(node, sender().next_id(), fenced);
+  if (!leases.empty()) offer_again();
+}
+
+/// Who was told that there is no more in this round would ask again when its patience is over. That
+/// is too late for batches that have just come back.
+void Coordinator::offer_again() {
+  if (!begun_ || over_ || book_.waiting() == 0) return;
+  const RoundOpened more{round(), static_cast<uint64_t>(book_.end())};
+  for (const auto& [worker, last] : last_grant_)
+    if (std::get<LeaseGranted>(last.answer).batches == 0) send(worker, sender().next_id(), more);
 }
 
 /// What nobody can trace is lost, and the run with it: what has been lent is brought to its end,
@@ -414,13 +426,20 @@ std::string Coordinator::who_lacks_end() const {
 
 // ---- what passes with time -------------------------------------------------------------------
 
+/// After `look_every`, or as soon as a lease is late.
 void Coordinator::set_timer() {
-  scheduler().timers().set(clock_.now() + config_.look_every, [this] { look(); });
+  const Nanoseconds now = clock_.now();
+  Nanoseconds next = now + config_.look_every;
+  if (const auto late = book_.next_deadline(); late && !over_)
+    next = std::min(next, std::max(*late, now + least_between_looks));
+  scheduler().timers().set(next, [this] {
+    look();
+    set_timer();
+  });
 }
 
 void Coordinator::look() {
   const Nanoseconds now = clock_.now();
-  set_timer();
   watch_workers(now);
   if (over_) return wait_for_farewells(now);
   if (!begun_) return await_workers(now);
@@ -486,6 +505,7 @@ void Coordinator::on(const Letter<LeasesFenced>& given_back) {
         "lease=given_back lease={} node={} batch={} text=\"{} cannot have an object that it needs: "
         "lent to others\"",
         lease.id, worker.value, lease.batch, name_of(worker));
+  offer_again();
 }
 
 /// Nobody takes more than its share of what is left, so that all end together.

@@ -40,7 +40,7 @@ struct CoordinatorConfig {
   uint64_t first_lease = 1;  // random, where a controller may be started again
   /// A batch that is not back by then is lent to another: long against the slowest batch.
   Nanoseconds lease_time = seconds(120);
-  Nanoseconds look_every = milliseconds(250);  // at time, interrupt and late leases
+  Nanoseconds look_every = milliseconds(250);  // at time, interrupt and lost workers
   uint32_t max_leases = 64;                    // for one question
 };
 
@@ -125,6 +125,7 @@ class Coordinator final
   std::string name_of(NodeId node) const;
   std::string missing_workers() const;
   void fence(const std::vector<Lease>& leases, const char* why);
+  void offer_again();
   void lose_batches();
   void open_round();
   void look();

@@ -147,7 +147,7 @@ std::vector<int64_t> LeaseBook::missing() const {
 std::optional<Nanoseconds> LeaseBook::next_deadline() const {
   std::optional<Nanoseconds> first;
   for (const auto& [id, lease] : leases_)
-    if (!first || lease.deadline < *first) first = lease.deadline;
+    if (!lease.held && (!first || lease.deadline < *first)) first = lease.deadline;
   return first;
 }
 

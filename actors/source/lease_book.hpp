@@ -53,6 +53,8 @@ class LeaseBook {
 
   /// Batches may be lent up to number `end`. Requires: end is not before an earlier one.
   void open_until(int64_t end) { end_ = end; }
+  /// Of the open round: beyond its last batch.
+  int64_t end() const { return end_; }
 
   /// Lends up to `most` batches; none where none is left in the round. What was fenced goes first,
   /// then what `rank` ranks least, of equals the first; without `rank` all are equal. Batches of

@@ -327,8 +327,11 @@ Result<void> ClusterProcessRun::write_trace(const Observation& seen) const {
 struct ClusterProcessRun::Prepared {
   Prepared(const LocalRun& run, const Graph& graph, std::span<const Admitted> admitted,
            const SceneIndex* index)
-      : context({admitted.begin(), admitted.end()}), setup{run.scene(), index, nullptr, nullptr,
-                                                           run.seed(),  graph, {},      nullptr} {}
+      : context({admitted.begin(), admitted.end()}),
+        routes(balanced_routes(graph)),
+        setup{run.scene(), index, nullptr, nullptr, run.seed(), graph, {}, nullptr} {
+    setup.routes = &routes;
+  }
   SystemClock clock;
   ZmqContext context;
   Machine machine{clock, context};
@@ -338,6 +341,7 @@ struct ClusterProcessRun::Prepared {
   std::optional<SharedObjects> shared;
   std::optional<Residency> residency;
   std::unique_ptr<Observation> seen;
+  Routes routes;
   RunSetup setup;
   std::vector<NodeSetup> workers;
   std::optional<NodeSetup> controller;

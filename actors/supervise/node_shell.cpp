@@ -22,14 +22,15 @@ std::vector<Edge> edges_of(const Graph& graph) {
   return edges;
 }
 
-NextHops next_hops(const Routes& routes, NodeId self) {
-  NextHops out;
-  for (Vertex to = 0; to < routes.vertices(); ++to) {
-    const auto hop = to == self.value ? std::nullopt : routes.next_hop(self.value, to);
-    out.next.push_back(hop ? NodeId{static_cast<uint16_t>(*hop)} : no_node);
-  }
-  return out;
+namespace {
+
+NodeRoutes routes_of(const ShellConfig& config, const Graph& graph) {
+  const Vertex self = config.net.self.value;
+  if (config.routes != nullptr) return NodeRoutes(graph, *config.routes, self);
+  return NodeRoutes(graph, balanced_routes(graph), self);
 }
+
+}  // namespace
 
 /// The network as what the scheduler polls and waits in.
 class NodeShell::Source final : public EventSource {
@@ -52,7 +53,8 @@ class NodeShell::Source final : public EventSource {
 /// Brings what the network delivers to the node's actors, and makes its routes.
 class NodeShell::Handler final : public NetHandler {
  public:
-  explicit Handler(NodeShell& shell) : shell_(shell) {}
+  explicit Handler(NodeShell& shell)
+      : shell_(shell), routes_(routes_of(shell.config_, shell.graph_)) {}
 
   bool deliver(const Delivery& delivery) override {
     if (is_of_objects(kind_of(delivery.message)))
@@ -82,18 +84,21 @@ class NodeShell::Handler final : public NetHandler {
     shell_.linger();
   }
   NextHops reroute(std::span<const Edge> down) override {
-    const NodeId self = shell_.config_.net.self;
-    if (down.empty() && shell_.config_.routes != nullptr)
-      return next_hops(*shell_.config_.routes, self);
-    Failures failures;
-    for (const Edge& edge : down) failures.links.push_back({edge.a.value, edge.b.value});
-    return next_hops(balanced_routes(shell_.graph_, failures), self);
+    failed_.clear();
+    for (const Edge& edge : down) failed_.push_back({edge.a.value, edge.b.value});
+    NextHops hops;
+    hops.next.reserve(shell_.graph_.vertices());
+    for (const std::optional<Vertex> next : routes_.around(failed_))
+      hops.next.push_back(next ? NodeId{static_cast<uint16_t>(*next)} : no_node);
+    return hops;
   }
 
  private:
   static bool is_of_objects(Kind kind) { return kind == Kind::request || kind == Kind::reply; }
 
   NodeShell& shell_;
+  NodeRoutes routes_;
+  std::vector<GraphLink> failed_;
 };
 
 NodeShell::NodeShell(const ShellConfig& config, const Graph& graph, const Clock& clock,

@@ -9,12 +9,10 @@
 #include "runtime/actor/scheduler.hpp"
 #include "runtime/fetch/fetcher.hpp"
 #include "runtime/messaging/actor_system.hpp"
-#include "topology/routes.hpp"
+#include "topology/node_routes.hpp"
 
 namespace luxodus {
 
-/// Next hops of a vertex, for the network.
-NextHops next_hops(const Routes& routes, NodeId self);
 /// All links of a graph.
 std::vector<Edge> edges_of(const Graph& graph);
 
@@ -23,7 +21,7 @@ struct ShellConfig {
   SchedulerLimits scheduler;
   size_t max_payload_bytes = 1 << 30;       // behind messages that wait in mailboxes
   Nanoseconds shutdown_phase = seconds(5);  // for each step of its end
-  /// Of the whole graph, where somebody has made them: they take seconds for a thousand nodes.
+  /// Of the whole graph, where somebody has made them for all nodes of the process.
   const Routes* routes = nullptr;
 };
 

@@ -31,6 +31,7 @@ constexpr Table tables[] = {
     {"pieces", [](const Options& o) { luxodus::bench::print_pieces(o.repeats); }},
     {"flights", [](const Options&) { luxodus::bench::print_flights(); }},
     {"switch", [](const Options& o) { luxodus::bench::print_switch(o.repeats); }},
+    {"routes", [](const Options& o) { luxodus::bench::print_routes(o.repeats); }},
     {"nodes", [](const Options& o) { luxodus::bench::print_nodes(o.repeats); }},
     {"delay", [](const Options& o) { luxodus::bench::print_delay(o.repeats); }},
     {"flushes", [](const Options& o) { luxodus::bench::print_flushes(o.repeats); }},

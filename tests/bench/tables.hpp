@@ -17,6 +17,8 @@ void print_memory(int n);
 void print_pieces(int repeats);
 /// Nanoseconds of the runtime's own steps: switches, messages, timers.
 void print_switch(int repeats);
+/// What routes take: of a whole graph, and of one node after a link has changed.
+void print_routes(int repeats);
 /// Nanoseconds of a free flight and of an optical depth, by kind of media.
 void print_flights();
 /// How often nodes find parts of a scene resident, and what they fetch, with and without a profile:

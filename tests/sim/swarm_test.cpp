@@ -224,6 +224,35 @@ TEST_CASE("a lost frame of a flush of many leases costs the leases of that time,
   CHECK(max_refused <= 2);
 }
 
+// The others have long been told that there is no more: they must hear when there is again. Once
+// they asked by themselves, every 2 s.
+TEST_CASE("a lost worker costs its lease and the work of it, and no wait beside", "[sim]") {
+  const SimScene scene = scene_of("empty_room");
+  SimOptions options = options_of(1, 4);
+  options.draw_nodes = false;
+  options.faults = false;
+  options.work = seconds(4);
+  options.plan.emplace();
+  options.plan->links.delay = microseconds(50);
+  for (const Nanoseconds lease_time : {seconds(4), seconds(5), seconds(6)}) {
+    options.fixed.lease_time = lease_time;
+    options.plan->faults.clear();
+    const SimReport whole = simulate(scene, options).value();
+    REQUIRE(whole.failure == "");
+    Fault crash;
+    crash.node = NodeId{1};
+    crash.lasts = seconds(100);
+    crash.after_events = whole.world.events / 4;
+    options.plan->faults.push_back(crash);
+    const SimReport lost = simulate(scene, options).value();
+    CHECK(lost.failure == "");
+    REQUIRE(lost.leases_fenced > 0);
+    const auto fenced = static_cast<Nanoseconds>(lost.leases_fenced);
+    const Nanoseconds retracing = options.work * fenced / batches / 3;
+    CHECK(lost.took <= whole.took + lease_time + retracing + milliseconds(200));
+  }
+}
+
 // Each a command that once failed, and what it found.
 TEST_CASE("seeds that found a fault of the program do so no more", "[sim]") {
   std::ifstream file(std::string(LUX_SOURCE_DIR) + "/tests/sim/seeds");
