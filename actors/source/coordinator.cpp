@@ -170,7 +170,7 @@ void Coordinator::watch_workers(Nanoseconds now) {
     lose_shard(worker, "is lost");
   }
   // With shards, who is out of reach is waited for until it is lost: then the run has failed.
-  if (!begun_ || over_ || adding_ || !all_gone() || shards_.others() > 0) return;
+  if (!begun_ || over_ || adding_ || reading_ || !all_gone() || shards_.others() > 0) return;
   if (!closing_) return end_run(StopReason::workers_lost);
   end_run(interrupt_.load() ? StopReason::interrupted : StopReason::time);
 }
@@ -289,15 +289,14 @@ void Coordinator::open_round() {
 }
 
 /// Ends the round when everything of it is counted, and lets somebody look at the totals where that
-/// is due. Not on a fiber: what reads all totals needs more stack. With shards the totals are first
-/// brought here, when every decision is answered; meanwhile no flush is counted, so that they fit
-/// together.
+/// is due. With shards the totals are first brought here, when every decision is answered.
+/// Meanwhile no flush is counted, so that they fit together.
 void Coordinator::look_at_totals() {
   if (!begun_ || over_) return;
   if (shards_.fault()) return fail(*shards_.fault());
+  if (adding_ || reading_ || shards_.gathering()) return;
   const bool round_done = book_.round_done();
   if (!round_done && !run_.pause_is_due()) return go_on_counting();
-  if (adding_ || tidying_ || shards_.gathering()) return;
   if (shards_.others() > 0 && !gathered_) {
     if (counting_ || !shards_.settled()) return;  // called again when they are
     return shards_.gather([this] {
@@ -305,15 +304,36 @@ void Coordinator::look_at_totals() {
       look_at_totals();
     });
   }
+  read_totals(round_done);
+}
+
+/// Millions of bins, files and pictures take longer than a turn may.
+void Coordinator::read_totals(bool round_done) {
+  reading_ = true;
   if (run_.pause_is_due()) run_.resume(book_.lent_end(), book_.missing());
-  run_.pause_if_due();
+  const auto read = [this, round_done] {
+    try {
+      run_.pause_if_due();
+      if (round_done) read_error_ = Readout(run_.scene(), run_.totals()).worst_relative_error();
+    } catch (...) {
+      reading_failed_ = std::current_exception();
+    }
+  };
+  config_.calls->begin(read, [this, round_done] { totals_read(round_done); });
+}
+
+void Coordinator::totals_read(bool round_done) {
+  reading_ = false;
   gathered_ = false;
-  if (round_done) end_round();
+  if (reading_failed_) std::rethrow_exception(std::exchange(reading_failed_, nullptr));
+  if (round_done && !over_) {
+    error_ = read_error_;
+    end_round();
+  }
   if (!over_) go_on_counting();
 }
 
 void Coordinator::end_round() {
-  error_ = Readout(run_.scene(), run_.totals()).worst_relative_error();
   if (book_.lost() > 0) return end_run(StopReason::objects_lost);
   const bool interrupted = closing_ && interrupt_.load();
   const RunProgress here{book_.committed(), error_, interrupted, closing_ && !interrupted};
@@ -325,6 +345,8 @@ void Coordinator::end_run(StopReason reason) {
   reason_ = reason;
   over_ = true;
   over_since_ = clock_.now();
+  config_.calls->finish();
+  if (config_.journal != nullptr) config_.journal->finish();
   go_on_counting();  // what is left is refused
   next_word_ = over_since_ + waiting_word;
   run_.resume(book_.lent_end(), book_.missing());

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <atomic>
+#include <exception>
 #include <functional>
 #include <map>
 #include <optional>
@@ -32,6 +33,7 @@ struct CoordinatorConfig {
   int64_t look_ahead = 8;
   std::vector<std::string> names;   // of nodes, by number, for people; empty: they have none
   ShardPlan shards;                 // of the totals
+  BlockingCalls* calls = nullptr;   // by which totals are read; never null
   JournalActor* journal = nullptr;  // of what is counted; null: none is kept
   /// Until every worker has been heard of; else the run does not begin.
   Nanoseconds start = seconds(60);
@@ -62,6 +64,8 @@ class Coordinator final
   Coordinator(const CoordinatorConfig& config, LocalRun& run, const StopRule& stop,
               const std::atomic<bool>& interrupt, std::function<void(const Progress&)> report,
               Scheduler& scheduler, Network& network, Sender& sender);
+
+  ~Coordinator() override { config_.calls->finish(); }
 
   /// Waits for the workers from now on. Requires: the scheduler has a fiber for it.
   void start();
@@ -147,6 +151,8 @@ class Coordinator final
   void look_soon();
   void fail(const std::string& what);
   void lose_shard(NodeId worker, const char* how);
+  void read_totals(bool round_done);
+  void totals_read(bool round_done);
   void end_round();
   void end_run(StopReason reason);
   void tell_end();
@@ -200,8 +206,10 @@ class Coordinator final
   /// Flushes not counted yet. They are counted on the actor's fiber, in steps: a million bins take
   /// a second, in which beats must go on.
   std::vector<MessageId> uncounted_;
-  WaitList held_back_;       // the fiber, while shards tell their totals or a snapshot is made
-  bool tidying_ = false;     // the journal reads the totals
+  WaitList held_back_;     // the fiber, while shards tell their totals or a snapshot is made
+  bool reading_ = false;   // somebody reads the totals: nothing is added to them
+  double read_error_ = 0;  // what was read last
+  std::exception_ptr reading_failed_;
   bool counting_ = false;    // a flush
   bool adding_ = false;      // a flush is being kept, or the totals hold a part of it
   bool looks_soon_ = false;  // a timer is set for look_at_totals()

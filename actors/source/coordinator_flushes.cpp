@@ -31,7 +31,7 @@ void Coordinator::on(Letter<Flush>&& letter) {
 /// Between two flushes somebody may look at the totals; where these lie in shards, or become a
 /// snapshot, the flushes that have come wait.
 bool Coordinator::holds_back() const {
-  if (shards_.gathering() || tidying_) return true;
+  if (shards_.gathering() || reading_) return true;
   return shards_.others() > 0 && !over_ && run_.pause_is_due();
 }
 
@@ -110,15 +110,15 @@ bool Coordinator::keep(const Letter<Flush>& letter) {
 
 /// Between flushes, when the totals hold all that was kept. Until it is done no flush is counted.
 void Coordinator::tidy_journal() {
-  if (config_.journal == nullptr || adding_ || counting_ || tidying_) return;
+  if (config_.journal == nullptr || adding_ || counting_ || reading_) return;
   if (!config_.journal->tidying_is_due()) return;
   run_.resume(book_.lent_end(), book_.missing());
   const TidyJournal tidy{[this] {
-    tidying_ = false;
+    reading_ = false;
     go_on_counting();
     look_soon();
   }};
-  tidying_ = config_.journal->offer(tidy) == Offered::taken;
+  reading_ = config_.journal->offer(tidy) == Offered::taken;
 }
 
 /// Takes a flush whole, or says why not.

@@ -37,6 +37,8 @@ class JournalActor final : public Actor<JournalActor, ControlLane<>,
   JournalActor(Scheduler& scheduler, FlushKeeper& keeper, BlockingCalls& calls)
       : Actor(scheduler, "journal"), keeper_(keeper), calls_(calls), whole_(keeper.is_whole()) {}
 
+  ~JournalActor() override { calls_.finish(); }
+
   void on(const KeepFlush& keep);
   void on(const TidyJournal& tidy);
 

@@ -7,9 +7,10 @@ namespace luxodus {
 namespace {
 
 CoordinatorConfig coordinator_config(const RunSetup& setup, const NodeSetup& node,
-                                     JournalActor* journal) {
+                                     BlockingCalls& calls, JournalActor* journal) {
   CoordinatorConfig config;
   config.self = node.net.self;
+  config.calls = &calls;
   config.journal = journal;
   config.lease_time = node.lease_time;
   config.group_ranks = node.group_ranks;
@@ -34,15 +35,16 @@ ControllerNode::ControllerNode(const RunSetup& setup, const NodeSetup& node, Loc
       shell_({controller_net(setup, node), controller_limits(node), ShellConfig{}.max_payload_bytes,
               node.shutdown_phase, setup.routes},
              setup.graph, seams.clock, seams.transport),
-      coordinator_(coordinator_config(setup, node, make_journal(keeper, seams)), run, stop,
+      calls_(seams.make_calls(shell_.scheduler())),
+      coordinator_(coordinator_config(setup, node, *calls_, make_journal(keeper, seams)), run, stop,
                    interrupt, std::move(report), shell_.scheduler(), shell_.network(),
                    shell_.actors()) {}
 
 /// Null where nothing is kept.
 JournalActor* ControllerNode::make_journal(FlushKeeper* keeper, const NodeSeams& seams) {
   if (keeper == nullptr) return nullptr;
-  calls_ = seams.make_calls(shell_.scheduler());
-  return &journal_.emplace(shell_.scheduler(), *keeper, *calls_);
+  disk_calls_ = seams.make_calls(shell_.scheduler());
+  return &journal_.emplace(shell_.scheduler(), *keeper, *disk_calls_);
 }
 
 void ControllerNode::start(std::function<bool()> broken) {

@@ -30,8 +30,9 @@ class ControllerNode {
 
   const NodeId self_;
   NodeShell shell_;
-  std::unique_ptr<BlockingCalls> calls_;  // of the journal
-  std::optional<JournalActor> journal_;   // where what is counted is kept
+  std::unique_ptr<BlockingCalls> disk_calls_;  // of the journal
+  std::optional<JournalActor> journal_;        // where what is counted is kept
+  std::unique_ptr<BlockingCalls> calls_;       // of the coordinator
   Coordinator coordinator_;
   std::optional<NodeMetrics> metrics_;
 };

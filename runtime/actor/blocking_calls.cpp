@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "runtime/core/check.hpp"
+#include "runtime/core/denormals.hpp"
 
 namespace luxodus {
 
@@ -33,6 +34,7 @@ void BlockingThread::finish() {
 }
 
 void BlockingThread::work() {
+  flush_denormals();
   std::unique_lock lock(mutex_);
   for (;;) {
     changed_.wait(lock, [this] { return call_ || ends_; });
