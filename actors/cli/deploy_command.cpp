@@ -1,5 +1,7 @@
-// luxodus deploy: writes what systemd, Slurm or ssh start the processes of a cluster with.
+// luxodus deploy: writes what systemd, Slurm, ssh or Kubernetes start a cluster's processes with.
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <array>
 #include <filesystem>
@@ -23,23 +25,38 @@ struct DeployChoice {
   std::string out = "deploy";
   std::string program;
   std::string user = "luxodus";
+  std::string image;
 };
+
+using Files = std::vector<DeployFile>;
+
+/// Of what never fails.
+template <Files (*files)(const ClusterConfig&, const DeployOptions&)>
+Result<Files> always(const ClusterConfig& cluster, const DeployOptions& options) {
+  return files(cluster, options);
+}
 
 struct Means {
   const char* name;
-  std::vector<DeployFile> (*files)(const ClusterConfig&, const DeployOptions&);
+  Result<Files> (*files)(const ClusterConfig&, const DeployOptions&);
   const char* next_step;
 };
-constexpr std::array<Means, 3> all_means{{
-    {"systemd", systemd_files,
+constexpr std::array<Means, 4> all_means{{
+    {"systemd", always<systemd_files>,
      "copy each host's folder to its /etc/systemd/system and start the target there"},
-    {"slurm", slurm_files, "sbatch the file"},
-    {"ssh", ssh_files, "run the script; with the argument stop it stops all"},
+    {"slurm", always<slurm_files>, "sbatch the file"},
+    {"ssh", always<ssh_files>, "run the script; with the argument stop it stops all"},
+    {"kubernetes", kubernetes_files, "kubectl apply the files; the one with keys is secret"},
 }};
 
 Result<void> write_file(const fs::path& path, const DeployFile& file) {
   std::error_code failed;
   fs::create_directories(path.parent_path(), failed);
+  if (file.secret) {  // a file keeps the rights that it has when it is written anew
+    if (const int made = ::open(path.c_str(), O_CREAT | O_WRONLY | O_CLOEXEC, 0600); made >= 0)
+      ::close(made);
+    fs::permissions(path, fs::perms::owner_read | fs::perms::owner_write, failed);
+  }
   auto written = write_file_atomically(behind_links(path), std::string_view(file.text));
   if (!written || !file.executable) return written;
   fs::permissions(path, fs::perms::owner_exec | fs::perms::group_exec | fs::perms::others_exec,
@@ -60,15 +77,27 @@ int deploy(const DeployChoice& choice) {
     tell({{}, fmt::format("\"{}\" is no user's name", choice.user)});
     return ExitCode::bad_input;
   }
+  if (choice.means == "kubernetes" && choice.image.empty()) {
+    tell({{}, "say --image: of containers that have the program and the scene at their paths"});
+    return ExitCode::bad_input;
+  }
   ClusterConfig cluster = *read;
+  if (!cluster.keys.folder.empty())
+    cluster.keys.folder = fs::absolute(cluster.keys.folder).lexically_normal();
   cluster.run.out = fs::absolute(cluster.run.out).lexically_normal();
   const fs::path program =
       choice.program.empty() ? fs::read_symlink("/proc/self/exe") : fs::absolute(choice.program);
   const DeployOptions options{program.lexically_normal(),
-                              fs::absolute(choice.cluster).lexically_normal(), choice.user};
+                              fs::absolute(choice.cluster).lexically_normal(), choice.user,
+                              choice.image};
   for (const Means& means : all_means) {
     if (choice.means != means.name) continue;
-    for (const DeployFile& file : means.files(cluster, options)) {
+    const Result<Files> files = means.files(cluster, options);
+    if (!files) {
+      tell(files.problem());
+      return ExitCode::bad_input;
+    }
+    for (const DeployFile& file : files.value()) {
       const fs::path path = choice.out / file.path;
       if (const auto written = write_file(path, file); !written) {
         tell(written.problem());
@@ -101,12 +130,17 @@ Command deploy_command() {
                    &o->program,
                    "Path of luxodus on the hosts",
                    {.form = Form::file, .otherwise = "the path of this program"}},
-                  {"--user", &o->user, "User whom units of systemd run as", {.form = Form::name}}},
+                  {"--user", &o->user, "User whom units of systemd run as", {.form = Form::name}},
+                  {"--image",
+                   &o->image,
+                   "Image of containers, for kubernetes",
+                   {.form = Form::name, .otherwise = "none"}}},
       .notes =
           "Program, cluster file, scene and keys must have the same paths on every host.\n"
           "  luxodus deploy cluster.toml --for systemd --user lux\n"
           "  luxodus deploy cluster.toml --for slurm && sbatch deploy/RUN.sbatch\n"
-          "  luxodus deploy cluster.toml --for ssh && deploy/RUN.sh",
+          "  luxodus deploy cluster.toml --for ssh && deploy/RUN.sh\n"
+          "  luxodus deploy cluster.toml --for kubernetes --image registry/luxodus:1",
       .run = [o] { return deploy(*o); }};
 }
 

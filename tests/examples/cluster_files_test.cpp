@@ -243,6 +243,101 @@ done <"$SLURM_HOSTFILE"
   CHECK(lines_with(run.out, "lux1: node --config") == 2);
 }
 
+TEST_CASE("manifests have a pod for each process, with its nodes, its address and its keys alone",
+          "[program]") {
+  const TemporaryFolder folder;
+  const fs::path cluster = folder / "pods.toml";
+  const auto write = [&](const std::string& first_address) {
+    std::ofstream(cluster)
+        << "[run]\nname = \"hall\"\nscene = \"s.toml\"\nout = \"results\"\n"
+        << "[keys]\nfolder = \"keys\"\n"
+        << "[[host]]\nname = \"a\"\naddress = \"" << first_address << "\"\n"
+        << "[[host]]\nname = \"b\"\naddress = \"luxodus-hall-two-0.luxodus-hall\"\n"
+        << "[[node]]\nname = \"n\"\ncount = 2\nhost = \"a\"\nprocess = \"one\"\n"
+        << "[[node]]\nname = \"m\"\nhost = \"b\"\nprocess = \"two\"\n"
+        << "[[node]]\nname = \"c\"\nrole = \"controller\"\nhost = \"a\"\n"
+        << "process = \"one\"\n";
+  };
+  const std::string deploy = "deploy " + cluster.string() + " --for kubernetes --out " +
+                             (folder / "out").string() + " --program /opt/luxodus";
+  write("luxodus-hall-one-0.luxodus-hall");
+  REQUIRE(run_luxodus(folder, "keygen --cluster " + cluster.string()).code == 0);
+  const Outcome made = run_luxodus(folder, deploy + " --image registry/luxodus:1");
+  INFO(made.err);
+  REQUIRE(made.code == 0);
+  const fs::path keys = folder / "out" / "hall-keys.yaml";
+  CHECK((fs::status(keys).permissions() & (fs::perms::group_all | fs::perms::others_all)) ==
+        fs::perms::none);
+
+  // As a reader of YAML understands it.
+  std::ofstream(folder / "read.py") << R"py(
+import sys, yaml
+things = [t for f in sys.argv[1:3] for t in yaml.safe_load_all(open(f)) if t]
+kind = lambda k: {t["metadata"]["name"]: t for t in things if t["kind"] == k}
+service = kind("Service")["luxodus-hall"]["spec"]
+assert service["clusterIP"] == "None" and service["publishNotReadyAddresses"] is True
+text = kind("ConfigMap")["luxodus-hall"]["data"]["cluster.toml"]
+assert text == open(sys.argv[3]).read()
+sets, secrets = kind("StatefulSet"), kind("Secret")
+assert set(sets) == set(secrets) == {"luxodus-hall-one", "luxodus-hall-two"}
+for name, one in sets.items():
+    spec = one["spec"]
+    pod = spec["template"]
+    assert spec["serviceName"] == "luxodus-hall" and spec["replicas"] == 1
+    assert spec["selector"]["matchLabels"] == pod["metadata"]["labels"]
+    assert service["selector"].items() <= pod["metadata"]["labels"].items()
+    node = pod["spec"]["containers"][0]
+    volumes = {v["name"] for v in pod["spec"]["volumes"]}
+    volumes |= {c["metadata"]["name"] for c in spec.get("volumeClaimTemplates", [])}
+    for box in [node] + pod["spec"]["initContainers"]:
+        assert {m["name"] for m in box["volumeMounts"]} <= volumes
+        assert box["securityContext"]["capabilities"]["drop"] == ["ALL"]
+        assert box["image"] == "registry/luxodus:1"
+    assert pod["spec"]["securityContext"]["runAsNonRoot"] is True
+    assert node["args"][:3] == ["/opt/luxodus", "node", "--config"]
+    names = [node["args"][i + 1] for i, a in enumerate(node["args"]) if a == "--name"]
+    ports = [p["containerPort"] for p in node["ports"]]
+    assert len(set(ports)) == len(ports) == 2 * len(names)
+    secret = [k for k in secrets[name]["data"] if k.endswith(".key")]
+    assert sorted(secret) == sorted(n + ".key" for n in names)
+    assert sum(k.endswith(".key.pub") for k in secrets[name]["data"]) == 4
+    open(sys.argv[4], "w").write(node["command"][2])
+    print(name, *names, "keeps" if "volumeClaimTemplates" in spec else "")
+)py";
+  const Outcome read =
+      shell(folder, "python3 " + (folder / "read.py").string() + " " +
+                        (folder / "out" / "hall.yaml").string() + " " + keys.string() + " " +
+                        cluster.string() + " " + (folder / "pod.sh").string());
+  INFO(read.out << read.err);
+  REQUIRE(read.code == 0);
+  CHECK(lines_with(read.out, "luxodus-hall-one n0 n1 c keeps") == 1);
+  CHECK(lines_with(read.out, "luxodus-hall-two m") == 1);
+
+  // What a container runs: it hands signals on, returns what failed, and rests when all went well.
+  const std::string pod = "sh -c \"$(cat " + (folder / "pod.sh").string() + ")\" ";
+  CHECK(shell(folder, pod + stand_in(folder, "exit 3\n")).code == 3);
+  const std::string node =
+      stand_in(folder, "trap 'echo told; exit 0' TERM; echo up; sleep 60 & wait\n");
+  const Outcome told = shell(folder, pod + node + " & sleep 1; kill -TERM $!; wait $!");
+  CHECK(told.code == 0);
+  CHECK(lines_with(told.out, "told") == 1);
+  const Outcome rests = shell(folder, pod + stand_in(folder, "echo done\n") +
+                                          " & sleep 1; kill -0 $! && kill -TERM $!; wait $!");
+  CHECK(rests.code == 0);
+  CHECK(lines_with(rests.out, "done") == 1);
+
+  fs::remove_all(folder / "out");
+  write("192.168.10.11");
+  const Outcome elsewhere = run_luxodus(folder, deploy + " --image i");
+  CHECK(elsewhere.code == 2);
+  CHECK(elsewhere.err.find("\"luxodus-hall-one-0.luxodus-hall\" for host \"a\"") !=
+        std::string::npos);
+  const Outcome without = run_luxodus(folder, deploy);
+  CHECK(without.code == 2);
+  CHECK(without.err.find("--image") != std::string::npos);
+  CHECK_FALSE(fs::exists(folder / "out"));
+}
+
 TEST_CASE("deploy tells every problem of a cluster and writes nothing then", "[program]") {
   const TemporaryFolder folder;
   const fs::path file = folder / "bad.toml";
