@@ -41,6 +41,7 @@ struct Network::Watched {
   bool usable = false;
   uint64_t sessions = 0;
   LinkPhase phase = LinkPhase::connecting;
+  bool to_tell = false;  // the handler has not been told of it
   Nanoseconds may_log_at = 0;
   int denied = 0;  // beats for which others have said that it is down, and it works
 };
@@ -379,7 +380,7 @@ void Network::watch_links() {
     last.phase = state.phase();
     log_debug("link={} node={} neighbour={}", name_of(state.phase()), config_.self.value,
               links_[i].neighbour().value);
-    handler_.link_changed(links_[i].neighbour(), state.phase());
+    last.to_tell = true;
 
     if (state.phase() == LinkPhase::down) transport_.renew(links_[i].neighbour());
     const bool gone = state.phase() == LinkPhase::down || state.phase() == LinkPhase::refused;
@@ -388,6 +389,10 @@ void Network::watch_links() {
     if (view_.set(edge, !gone)) news.changes.push_back({edge.a, edge.b, view_.version(edge)});
   }
   spread(news, nullptr);
+  // When routes know it: who is told that a link is up may send over it.
+  for (size_t i = 0; i < links_.size(); ++i)
+    if (std::exchange(watched_[i].to_tell, false))
+      handler_.link_changed(links_[i].neighbour(), watched_[i].phase);
 }
 
 void Network::spread(const LinkChanges& news, const Link* except) {

@@ -64,6 +64,7 @@ class NetHandler {
   /// A request on its way to another node passes here. True: this node has answered it.
   virtual bool intercept(const Delivery& request) = 0;
 
+  /// Routes know of it: over a link that is up the neighbour can be sent to.
   virtual void link_changed(NodeId neighbour, LinkPhase phase) = 0;
 
   /// Next hops on the graph without these links; the same at every node that sees the same links.

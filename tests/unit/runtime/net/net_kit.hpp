@@ -96,6 +96,7 @@ class Handler : public NetHandler {
   std::vector<MessageId> abandoned_ids;
   std::function<bool(const Delivery&)> on_deliver;  // before it is remembered
   std::function<bool(const Delivery&)> on_intercept;
+  std::function<void(NodeId, LinkPhase)> on_link;
   bool wants_pieces = true;
 
   bool deliver(const Delivery& d) override {
@@ -111,7 +112,10 @@ class Handler : public NetHandler {
   }
   void abandoned(const MessageId& id, Kind) override { abandoned_ids.push_back(id); }
   bool intercept(const Delivery& d) override { return on_intercept && on_intercept(d); }
-  void link_changed(NodeId n, LinkPhase phase) override { changes.emplace_back(n, phase); }
+  void link_changed(NodeId n, LinkPhase phase) override {
+    changes.emplace_back(n, phase);
+    if (on_link) on_link(n, phase);
+  }
   NextHops reroute(std::span<const Edge> down) override {
     return shortest(config_.self, config_.nodes, config_.edges, down);
   }

@@ -159,6 +159,29 @@ TEST_CASE("a node that restarts learns what became of the links meanwhile", "[ru
   CHECK(cluster[4].handler.taken[0].hops == 2);
 }
 
+TEST_CASE("who is told that a link is up can send over it, also where routes had given it up",
+          "[runtime][router]") {
+  Cluster pair(2, ring(2));
+  pair.bring_up();
+  NetConfig again = pair[1].config;
+  again.incarnation = {2001};
+  pair.stop(1);
+  pair.run(seconds(4));
+  REQUIRE_FALSE(pair[0].network.reaches({1}));
+  int ups = 0;
+  SendOutcome sent = SendOutcome::full;
+  pair[0].handler.on_link = [&](NodeId neighbour, LinkPhase phase) {
+    if (phase != LinkPhase::up) return;
+    ++ups;
+    sent = pair[0].network.send(neighbour, pair[0].network.next_id(), AskStatus{});
+  };
+  pair.start(again);
+  pair.run(seconds(15));
+  CHECK(ups == 1);
+  CHECK(sent == SendOutcome::taken);
+  CHECK(pair[1].handler.count<AskStatus>() == 1);
+}
+
 // Without hop classes this one stops for good: every node fills the next one's buffer with frames
 // that have to go on, and no buffer ever becomes free.
 TEST_CASE("a full circle of frames that all have to go on does not deadlock", "[runtime][router]") {
