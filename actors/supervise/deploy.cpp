@@ -6,6 +6,8 @@
 #include <cctype>
 #include <string_view>
 
+#include "actors/supervise/deploy_process.hpp"
+
 namespace luxodus {
 
 namespace {
@@ -63,15 +65,7 @@ std::string shell_word(const std::string& word) {
   return out + "'";
 }
 
-bool hosts_controller(const ClusterConfig& cluster, const ClusterProcess& process) {
-  return process.nodes.back() == cluster.controller();
-}
-
 // ---- systemd -----------------------------------------------------------------------------------
-
-/// Steps of a node's end, each with a deadline of its own (EnterPhase in proto/PROTOCOL.md), and
-/// one more for what comes after.
-constexpr int shutdown_steps = 5;
 
 std::string target_name(const ClusterConfig& cluster) {
   return "luxodus-" + cluster.run.name + ".target";
@@ -108,7 +102,6 @@ SystemCallFilter=@system-service
 
 std::string unit_text(const ClusterConfig& cluster, const ClusterProcess& process,
                       const DeployOptions& options) {
-  const auto stop_s = cluster.timeouts.shutdown_phase * shutdown_steps / seconds(1) + 1;
   std::string results;
   if (hosts_controller(cluster, process)) {
     results = fmt::format(
@@ -144,7 +137,7 @@ WantedBy={target}
       fmt::arg("host", cluster.hosts[process.host].name), fmt::arg("target", target_name(cluster)),
       fmt::arg("user", options.user),
       fmt::arg("command", node_command(cluster, process, options, unit_word)),
-      fmt::arg("stop_s", stop_s), fmt::arg("results", results),
+      fmt::arg("stop_s", stop_seconds(cluster)), fmt::arg("results", results),
       fmt::arg("confinement", confinement));
 }
 

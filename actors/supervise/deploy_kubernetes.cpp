@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <cctype>
-#include <fstream>
-#include <iterator>
 
 #include "actors/supervise/deploy.hpp"
+#include "actors/supervise/deploy_process.hpp"
 #include "runtime/core/base64.hpp"
+#include "runtime/core/regular_file.hpp"
 
 namespace luxodus {
 
@@ -17,8 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// As for systemd: steps of a node's end, and one for what comes after.
-constexpr int pod_shutdown_steps = 5;
+/// Of a file that a pod needs: a cluster's file, a key.
+constexpr uint64_t max_manifest_file_bytes = uint64_t{1} << 20;  // as much as a ConfigMap holds
 
 std::string service_of(const ClusterConfig& cluster) {
   return "luxodus-" + cluster.run.name;
@@ -54,13 +54,6 @@ std::string indented(std::string_view text, size_t blanks) {
     text.remove_prefix(std::min(text.size(), line.size() + 1));
   }
   return out;
-}
-
-Result<std::string> text_of(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(in), {}};
-  if (!in) return problem_in(path, "cannot be read, and a pod needs it");
-  return text;
 }
 
 /// A label of the DNS: what names of pods and services are made of.
@@ -216,13 +209,9 @@ std::string ports_of(const ClusterConfig& cluster, const ClusterProcess& process
   return "          ports:\n" + ports;
 }
 
-bool leads(const ClusterConfig& cluster, const ClusterProcess& process) {
-  return process.nodes.back() == cluster.controller();
-}
-
 /// Of the pod that writes the results: they and its journal outlive the pod.
 std::string claim_of(const ClusterConfig& cluster, const ClusterProcess& process) {
-  if (!leads(cluster, process)) return "";
+  if (!hosts_controller(cluster, process)) return "";
   return fmt::format(
       "  volumeClaimTemplates:\n"
       "    - metadata: {{name: results, labels: {{app: luxodus, run: \"{}\"}}}}\n"
@@ -245,10 +234,9 @@ std::string manifest_of(const ClusterConfig& cluster, const ClusterProcess& proc
         "        - name: keys\n          emptyDir: {{medium: Memory}}\n",
         set);
   }
-  if (leads(cluster, process))
+  if (hosts_controller(cluster, process))
     mounts += fmt::format("            - {{name: results, mountPath: {}}}\n",
                           yaml_text(cluster.run.out.string()));
-  const auto grace_s = cluster.timeouts.shutdown_phase * pod_shutdown_steps / seconds(1) + 1;
   const std::string init =
       keyed ? fmt::format(keys_copied, fmt::arg("image", yaml_text(options.image)),
                           fmt::arg("folder", folder))
@@ -256,7 +244,7 @@ std::string manifest_of(const ClusterConfig& cluster, const ClusterProcess& proc
   return fmt::format(
       set_manifest, fmt::arg("set", set), fmt::arg("run", cluster.run.name),
       fmt::arg("process", process.name), fmt::arg("service", service_of(cluster)),
-      fmt::arg("grace_s", grace_s), fmt::arg("init", init),
+      fmt::arg("grace_s", stop_seconds(cluster)), fmt::arg("init", init),
       fmt::arg("image", yaml_text(options.image)),
       fmt::arg("args", words_of(cluster, process, options)),
       fmt::arg("threads", process.nodes.size()), fmt::arg("script", yaml_text(keep_running)),
@@ -269,7 +257,7 @@ std::string manifest_of(const ClusterConfig& cluster, const ClusterProcess& proc
 Result<std::string> secret_of(const ClusterConfig& cluster, const ClusterProcess& process) {
   std::string data;
   const auto add = [&](const fs::path& path) -> Result<void> {
-    const auto text = text_of(path);
+    const auto text = read_regular_file(path, max_manifest_file_bytes);
     if (!text) return text.problem();
     data += fmt::format("  {}: {}\n", yaml_text(path.filename().string()), base64(text.value()));
     return {};
@@ -292,7 +280,7 @@ Result<std::vector<DeployFile>> kubernetes_files(const ClusterConfig& cluster,
                                                  const DeployOptions& options) {
   if (const std::string fault = pod_fault(cluster); !fault.empty())
     return problem_in(cluster.file, fault);
-  const auto config = text_of(options.config);
+  const auto config = read_regular_file(options.config, max_manifest_file_bytes);
   if (!config) return config.problem();
   const std::string keys_file =
       cluster.keys.folder.empty() ? "" : " -f " + cluster.run.name + "-keys.yaml";
