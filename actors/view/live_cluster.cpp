@@ -31,13 +31,13 @@ constexpr Nanoseconds farewell = milliseconds(300);
 }  // namespace
 
 /// What workers send to.
-class LiveCluster::Coordinator final
-    : public NodeActor<Coordinator,
+class LiveCluster::LiveCoordinator final
+    : public NodeActor<LiveCoordinator,
                        ControlLane<Accepts<Letter<RequestLease>, 256, WhenFull::reject>,
                                    Accepts<Letter<BatchesTraced>, 256, WhenFull::reject>>,
                        DataLane<>> {
  public:
-  Coordinator(LiveCluster& cluster, NodeId self, NodeShell& shell)
+  LiveCoordinator(LiveCluster& cluster, NodeId self, NodeShell& shell)
       : NodeActor(shell.scheduler(), shell.actors(), {self, ActorName::coordinator}, "live"),
         cluster_(cluster) {
     shell.actors().add(ActorName::coordinator, *this);
@@ -126,7 +126,7 @@ void LiveCluster::work(const Machine& machine) {
                     run_.graph, machine.clock, transport.transport());
     if (auto joined = join_links(transport.sockets(), node_); !joined)
       return begun(joined.problem());
-    Coordinator coordinator(*this, node_.net.self, shell);
+    LiveCoordinator coordinator(*this, node_.net.self, shell);
     shell_ = &shell;
     coordinator_ = &coordinator;
     last_lease_ = node_.net.incarnation.value;  // no lease of an earlier life is taken for one

@@ -60,7 +60,7 @@ class LiveCluster final : public LiveTracers {
   LiveCluster(const RunSetup& run, const NodeSetup& node) : run_(run), node_(node) {}
   void work(const Machine& machine);
   void look();
-  class Coordinator;
+  class LiveCoordinator;
   void meet(const Letter<RequestLease>& request);
   void take(const Letter<BatchesTraced>& traced);
   void lend(NodeId worker, Peer& peer);
@@ -93,7 +93,7 @@ class LiveCluster final : public LiveTracers {
   std::optional<Problem> fault_;
   // Of the node's thread.
   NodeShell* shell_ = nullptr;
-  Coordinator* coordinator_ = nullptr;
+  LiveCoordinator* coordinator_ = nullptr;
   std::thread thread_;
 };
 

@@ -27,14 +27,14 @@ constexpr uint32_t max_streams = (uint32_t{1} << 20) - 1;
 }  // namespace
 
 /// What a live view sends to.
-class LiveWorker::Tracer final
-    : public NodeActor<Tracer,
+class LiveWorker::LiveTracer final
+    : public NodeActor<LiveTracer,
                        ControlLane<Accepts<Letter<TraceBatches>, 16, WhenFull::reject>,
                                    Accepts<Letter<LeaseGranted>, 16, WhenFull::reject>,
                                    Accepts<Letter<RunEnded>, 4, WhenFull::reject>>,
                        DataLane<>> {
  public:
-  Tracer(LiveWorker& worker, NodeId self, NodeId view, NodeShell& shell)
+  LiveTracer(LiveWorker& worker, NodeId self, NodeId view, NodeShell& shell)
       : NodeActor(shell.scheduler(), shell.actors(), {self, ActorName::tracer}, "live"),
         worker_(worker),
         coordinator_{view, ActorName::coordinator} {
@@ -93,7 +93,7 @@ LiveWorker::LiveWorker(const RunSetup& run, const NodeSetup& node, const NodeSea
       shell_({node.net, worker_limits(run, node), ShellConfig{}.max_payload_bytes,
               node.shutdown_phase, run.routes},
              run.graph, seams.clock, seams.transport),
-      tracer_(std::make_unique<Tracer>(*this, node.net.self, node.controller, shell_)),
+      tracer_(std::make_unique<LiveTracer>(*this, node.net.self, node.controller, shell_)),
       began_(seams.clock.now()) {}
 
 void LiveWorker::start(std::function<bool()> stop) {

@@ -74,7 +74,7 @@ class LiveWorker {
     SharedBytes payload;
   };
 
-  class Tracer;
+  class LiveTracer;
   void take(const Letter<TraceBatches>& order);
   void look();
   void work();
@@ -90,7 +90,7 @@ class LiveWorker {
   const NodeSetup& node_;
   LiveStates& states_;
   NodeShell shell_;
-  std::unique_ptr<Tracer> tracer_;
+  std::unique_ptr<LiveTracer> tracer_;
   std::function<bool()> stop_;
   std::deque<Order> orders_;  // the first is in work
   int64_t traced_ = 0;        // particles of it
