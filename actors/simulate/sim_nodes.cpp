@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "runtime/core/check.hpp"
+#include "runtime/sim/simulated_calls.hpp"
 
 namespace luxodus {
 

@@ -43,16 +43,3 @@ TEST_CASE("one blocking call after another, each with its own end", "[runtime][a
     CHECK(done == i);
   }
 }
-
-TEST_CASE("a simulated call is made at once, and done when its time has passed",
-          "[runtime][actor]") {
-  Node node;
-  SimulatedCalls calls(node.scheduler, [] { return milliseconds(5); });
-  bool called = false, done = false;
-  calls.begin([&called] { called = true; }, [&done] { done = true; });
-  CHECK(called);
-  node.advance(milliseconds(4));
-  CHECK_FALSE(done);
-  node.advance(milliseconds(1));
-  CHECK(done);
-}
