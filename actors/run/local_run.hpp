@@ -41,8 +41,9 @@ class LocalRun {
   void trace_with(MakeTracer make) { make_tracer_ = std::move(make); }
 
   /// Has `pause` called between batches whenever `due` says so, while nobody adds to the totals and
-  /// these hold all batches() but the missing ones: by run() on its thread, by a controller on its.
-  /// Until remove_pause() of the same owner. Requires: the run does not go on meanwhile.
+  /// these hold all batches() but the missing ones: by run() on its thread, by a coordinator on one
+  /// that reads for it. Until remove_pause() of the same owner. Requires: the run does not go on
+  /// meanwhile.
   void add_pause(const void* owner, std::function<bool()> due, std::function<void()> pause) {
     pauses_.push_back({owner, std::move(due), std::move(pause)});
   }

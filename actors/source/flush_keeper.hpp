@@ -1,4 +1,5 @@
-// Who keeps what a controller counts, so that a run survives its controller.
+// Who keeps what a coordinator counts, so that a run survives its node.
+// Thread rule: one call at a time, of whatever thread; see JournalActor.
 #pragma once
 
 #include <cstddef>
@@ -18,8 +19,8 @@ class FlushKeeper {
   /// Whether all that was counted outlives the node. Workers stay until it does, since without
   /// them nobody could trace again what a crash of the node loses.
   virtual bool is_whole() const = 0;
-  /// Whether it wants to tidy up; then rest() is called soon, off any fiber, when the run and its
-  /// totals hold all that was kept.
+  /// Whether it wants to tidy up; then rest() is called soon, when the run and its totals hold all
+  /// that was kept.
   virtual bool rest_is_due() const { return false; }
   virtual void rest() {}
 };

@@ -1,7 +1,7 @@
 // What a controller has counted, on a disk before anybody is told: one record for each flush, the
 // batches and the bytes of it. A run that begins again counts them once more, and has the totals it
 // had, bit for bit. Together with a flux file that is older than some of its records, too. Thread
-// rule: the controller's thread.
+// rule: as FlushKeeper.
 #pragma once
 
 #include <memory>

@@ -1,7 +1,7 @@
 // A journal that does not grow for ever: when it is long, or lacks a flush that a full disk did not
 // take, the totals of the run become a snapshot, and the journal is cut. Where a snapshot fails it
 // is tried again every so often. Where snapshots lie is for the owner to say: beside the results,
-// or on a simulated disk. Thread rule: the controller's thread.
+// or on a simulated disk. Thread rule: as FlushKeeper.
 #pragma once
 
 #include <functional>

@@ -10,7 +10,7 @@
 // journal is cut, which gives room again. Where even that fails it is tried again every so often.
 // At the end the room is given back for the results.
 //
-// Thread rule: the controller's thread.
+// Thread rule: as FlushKeeper.
 #pragma once
 
 #include <filesystem>
