@@ -120,9 +120,15 @@ data:
 /// A pod is started again whatever its process returns, so one that has ended well rests. Signals
 /// are the shell's, which is the first process of the container; it hands them on.
 constexpr std::string_view keep_running =
-    R"sh(stopped=; "$0" "$@" & child=$!; trap "stopped=1; kill -TERM $child 2>/dev/null" TERM INT
+    R"sh(stopped= told=
+"$0" "$@" & child=$!
+trap "stopped=1 told=1; kill -TERM $child 2>/dev/null" TERM INT
 status=0; wait $child || status=$?
-while kill -0 $child 2>/dev/null; do status=0; wait $child || status=$?; done
+# A signal ends a wait, which then says nothing of the process; 127: it was waited for before.
+while [ -n "$told" ]; do
+  told= again=0; wait $child || again=$?
+  [ $again -eq 127 ] || status=$again
+done
 if [ -n "$stopped" ] || [ $status -ne 0 ]; then exit $status; fi
 trap "exit 0" TERM INT; while :; do sleep 3600 & wait $!; done)sh";
 
