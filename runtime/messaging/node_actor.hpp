@@ -48,7 +48,7 @@ class NodeActor : public Actor<Derived, Control, Data>, public Recipient {
   SendOutcome tell(Address to, const Message& message, SharedBytes payload = {}) {
     return sender_.send(self_, to, sender_.next_id(), message, std::move(payload));
   }
-  /// An answer to a letter, or to the question of that id.
+  /// An answer to a letter, under its id.
   template <class Body>
   SendOutcome answer(const Letter<Body>& question, const Message& message) {
     return sender_.send(self_, question.from, question.id, message);
