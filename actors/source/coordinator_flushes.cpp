@@ -147,7 +147,7 @@ std::string Coordinator::count_flush(const Letter<Flush>& letter) {
   book_.hold(leases);
   adding_ = true;
   if (!keep(letter)) return "this node ends";
-  book_.commit(leases);
+  book_.commit(leases, clock_.now());
   gathered_ = false;
   shards_.take(letter.id, letter.body.slice_hashes);
   gain->add_to(run_.totals(), rest);

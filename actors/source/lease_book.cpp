@@ -37,7 +37,8 @@ void LeaseBook::take(int64_t batch) {
 Nanoseconds LeaseBook::patience(int64_t batch, Nanoseconds span) const {
   constexpr int max_doublings = 10;
   const auto late = late_.find(batch);
-  return late == late_.end() ? span : span << std::min(late->second, max_doublings);
+  const int doublings = late == late_.end() ? 0 : std::min(late->second, max_doublings);
+  return std::max(span << doublings, slowest_ + slowest_ / 2);
 }
 
 LentBatches LeaseBook::lend(NodeId node, int64_t most, Nanoseconds now, Nanoseconds span,
@@ -51,7 +52,7 @@ LentBatches LeaseBook::lend(NodeId node, int64_t most, Nanoseconds now, Nanoseco
     if (!again && rank && lent.count > 0 && rank(batch) != rank(lent.first_batch)) break;
     if (!again) take(batch);
     const uint64_t id = ++last_id_;
-    leases_.emplace(id, Lease{id, node, batch, now + patience(batch, span)});
+    leases_.emplace(id, Lease{id, node, batch, now, now + patience(batch, span)});
     ++lent.count;
   }
   return lent;
@@ -75,9 +76,10 @@ void LeaseBook::hold(const std::vector<uint64_t>& leases) {
   for (const uint64_t id : leases) leases_.at(id).held = true;
 }
 
-void LeaseBook::commit(const std::vector<uint64_t>& leases) {
+void LeaseBook::commit(const std::vector<uint64_t>& leases, Nanoseconds now) {
   for (const uint64_t id : leases) {
     const auto at = leases_.find(id);
+    slowest_ = std::max(slowest_, now - at->second.lent);
     late_.erase(at->second.batch);
     given_back_.erase(at->second.batch);
     leases_.erase(at);

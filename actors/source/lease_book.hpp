@@ -21,6 +21,7 @@ struct Lease {
   uint64_t id = 0;
   NodeId node;
   int64_t batch = 0;  // its number
+  Nanoseconds lent = 0;
   Nanoseconds deadline = 0;
   bool held = false;  // it is being committed: see LeaseBook::hold
 };
@@ -59,8 +60,8 @@ class LeaseBook {
   /// Lends up to `most` batches; none where none is left in the round. What was fenced goes first,
   /// then what `rank` ranks least, of equals the first; without `rank` all are equal. Batches of
   /// different ranks, or with others between them, are not lent together. They shall be back after
-  /// `span`, doubled for each time that the batch was late before: however slow a node is, in the
-  /// end its work is in time.
+  /// `span`, doubled for each time that the batch was late before, and after half as much again as
+  /// the slowest batch so far: however slow nodes are, in the end their work is in time.
   LentBatches lend(NodeId node, int64_t most, Nanoseconds now, Nanoseconds span,
                    const Rank& rank = {});
 
@@ -72,7 +73,7 @@ class LeaseBook {
   /// commit(leases) follows.
   void hold(const std::vector<uint64_t>& leases);
   /// Their batches are counted. Requires: stand(node, leases).
-  void commit(const std::vector<uint64_t>& leases);
+  void commit(const std::vector<uint64_t>& leases, Nanoseconds now);
 
   /// Fences what is late, and gives the leases that were; their batches are lent again first.
   std::vector<Lease> fence_late(Nanoseconds now);
@@ -125,7 +126,8 @@ class LeaseBook {
   std::set<int64_t> ahead_;  // lent before their turn: beyond next_
   uint64_t last_id_;
   int64_t look_ahead_;
-  int64_t next_;  // the first that was never lent
+  Nanoseconds slowest_ = 0;  // from the lease of a batch to when it was counted
+  int64_t next_;             // the first that was never lent
   int64_t end_;
   int64_t committed_;
 };

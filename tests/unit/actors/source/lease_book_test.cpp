@@ -20,10 +20,27 @@ TEST_CASE("a batch that was late is given twice the time, until it is counted", 
     REQUIRE(book.fence_late(now).size() == 1);
   }
   const uint64_t lease = book.lend(NodeId{1}, 1, now, 100).first_lease;
-  book.commit({lease});
+  book.commit({lease}, now);
   book.open_until(2);
   REQUIRE(book.lend(NodeId{1}, 1, now, 100).count == 1);
   CHECK(book.fence_late(now + 100).size() == 1);
+}
+
+TEST_CASE("where a batch took longer than a lease, the next are given as long and half as much",
+          "[leases]") {
+  LeaseBook book(0);
+  book.open_until(3);
+  const auto lent_for = [&](Nanoseconds now) {
+    REQUIRE(book.lend(ann, 1, now, 100).count == 1);
+    return *book.next_deadline() - now;
+  };
+  CHECK(lent_for(0) == 100);
+  CHECK(book.fence_late(100).size() == 1);
+  CHECK(lent_for(100) == 200);
+  book.commit({2}, 260);  // it took 160
+  CHECK(lent_for(300) == 240);
+  book.commit({3}, 310);  // a quick one changes nothing
+  CHECK(lent_for(400) == 240);
 }
 
 TEST_CASE("a book that goes on lends the batches that are missing first, and tells them",
@@ -40,7 +57,7 @@ TEST_CASE("a book that goes on lends the batches that are missing first, and tel
   const LentBatches fresh = book.lend(NodeId{2}, 5, 0, 100);
   CHECK(fresh.first_batch == 10);
   CHECK(fresh.count == 2);
-  book.commit({1000});
+  book.commit({1000}, 0);
   CHECK(book.missing() == std::vector<int64_t>{7, 10, 11});
   CHECK(book.fence_leases(NodeId{2}, {1001, 1002}).size() == 1);  // the other is of node 1
   CHECK(book.lend(NodeId{1}, 1, 0, 100).first_batch == 10);
@@ -59,7 +76,7 @@ TEST_CASE("a lease book lends every batch of a round once and none beyond it", "
   CHECK(second.first_lease == first.first_lease + 4);
   CHECK(book.lend(ann, 4, 0, 100).count == 0);
   CHECK_FALSE(book.round_done());
-  for (uint64_t i = 0; i < 7; ++i) book.commit({first.first_lease + i});
+  for (uint64_t i = 0; i < 7; ++i) book.commit({first.first_lease + i}, 0);
   CHECK(book.round_done());
   CHECK(book.committed() == 10);
 }
@@ -114,7 +131,7 @@ TEST_CASE("a round that is closed ends with what was lent", "[lease]") {
   book.close();
   CHECK(book.lend(ann, 5, 0, 100).count == 0);
   CHECK_FALSE(book.round_done());
-  book.commit({lent.first_lease, lent.first_lease + 1});
+  book.commit({lent.first_lease, lent.first_lease + 1}, 0);
   CHECK(book.round_done());
   CHECK(book.lent_end() == 2);
 }
@@ -156,7 +173,7 @@ TEST_CASE("preferences change who traces a batch, never which batches a round ho
     REQUIRE(lent.count == 1);
     CHECK(lent.first_batch < 25);
     CHECK(seen.insert(lent.first_batch).second);
-    book.commit({lent.first_lease});
+    book.commit({lent.first_lease}, 0);
   }
   CHECK(*seen.begin() == 5);
   CHECK(book.round_done());
@@ -170,14 +187,14 @@ TEST_CASE("a round that is closed holds no gaps: what was skipped is still lent"
   const uint64_t second = book.lend(ann, 1, 0, 100, likes(1)).first_lease;  // 3
   book.close();
   CHECK(book.lent_end() == 4);
-  book.commit({first, second});
+  book.commit({first, second}, 0);
   CHECK_FALSE(book.round_done());
   const LentBatches zero = book.lend(bob, 9, 0, 100);
   const LentBatches two = book.lend(bob, 9, 0, 100, likes(1));
   CHECK(zero.first_batch == 0);
   CHECK(two.first_batch == 2);
   CHECK(book.lend(bob, 9, 0, 100).count == 0);
-  book.commit({zero.first_lease, two.first_lease});
+  book.commit({zero.first_lease, two.first_lease}, 0);
   CHECK(book.round_done());
 }
 
@@ -207,7 +224,7 @@ TEST_CASE("a batch that a node gives back is lent to others, and lost when all h
   const LentBatches of_bob = book.lend(bob, 1, 0, 100);
   CHECK(of_bob.first_batch == 0);
   SECTION("it is counted where another can trace it") {
-    book.commit({of_bob.first_lease});
+    book.commit({of_bob.first_lease}, 0);
     CHECK(book.lose_what_all_gave_back({ann}) == 0);
     CHECK(book.lost() == 0);
   }
@@ -220,7 +237,7 @@ TEST_CASE("a batch that a node gives back is lent to others, and lost when all h
     const LentBatches last = book.lend(bob, 5, 0, 100);
     CHECK(last.first_batch == 3);
     CHECK(last.count == 1);
-    book.commit({lent.first_lease + 1, of_bob.first_lease - 1, last.first_lease});
+    book.commit({lent.first_lease + 1, of_bob.first_lease - 1, last.first_lease}, 0);
     CHECK(book.round_done());
     CHECK(book.missing() == std::vector<int64_t>{0});
   }
@@ -247,8 +264,8 @@ TEST_CASE("a lease whose flush is being kept cannot be fenced, and its batch is 
   const LentBatches again = book.lend(bob, 4, 1000, 100);
   CHECK(again.first_batch == 2);
   CHECK(again.count == 2);
-  book.commit({first, first + 1});
+  book.commit({first, first + 1}, 0);
   CHECK(book.committed() == 2);
-  book.commit({again.first_lease, again.first_lease + 1});
+  book.commit({again.first_lease, again.first_lease + 1}, 0);
   CHECK(book.round_done());
 }
