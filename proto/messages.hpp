@@ -71,9 +71,11 @@ enum class ActorName : uint8_t {
   tracer,       // traces them
   tally_shard,  // holds a range of the totals' bins
   part_server,  // fetches parts of the scene, and gives them to others
+  display,      // shows what is counted, and writes the results
+  journal,      // of its node's coordinator; no message from elsewhere is for it
 };
-inline constexpr std::array<const char*, 5> actor_names{"none", "coordinator", "tracer",
-                                                        "tally_shard", "part_server"};
+inline constexpr std::array<const char*, 7> actor_names{
+    "none", "coordinator", "tracer", "tally_shard", "part_server", "display", "journal"};
 
 /// Of an actor, anywhere in the cluster.
 struct Address {

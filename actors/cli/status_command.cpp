@@ -30,6 +30,7 @@ Json row_json(const NodeStatus& row) {
   json["role"] = row.role;
   json["fibers"] = value(row.fibers);
   json["fibers_waiting"] = value(row.waiting);
+  json["restarts"] = value(row.restarts);
   json["hit_rate"] = value(row.hit_rate);
   json["credit_bytes"] = value(row.credit_bytes);
   json["batches"] = value(row.batches);

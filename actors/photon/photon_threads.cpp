@@ -85,9 +85,22 @@ PhotonThreads::~PhotonThreads() = default;
 
 void PhotonThreads::start() {
   for (const auto& tracer : tracers_) {
-    const auto body = [this, tracer = tracer.get()] { trace_portions(*tracer); };
+    const auto body = [this, tracer = tracer.get()] { trace_until_the_end(*tracer); };
     LUX_CHECK(scheduler_.fibers().start("photon", body), "the plan counts a fiber for each");
   }
+}
+
+/// What leaves it is a failure of the tracer.
+void PhotonThreads::trace_until_the_end(BatchTracer& tracer) {
+  std::exception_ptr why;
+  try {
+    trace_portions(tracer);
+  } catch (...) {
+    why = std::current_exception();
+  }
+  if (!why) return;
+  end();  // the others would go on with what it has left
+  port_.thread_failed(why);
 }
 
 void PhotonThreads::add(uint64_t lease, int64_t batch) {

@@ -64,6 +64,8 @@ class LeasePort {
   virtual size_t flush_bytes() const = 0;
   /// This node cannot go on.
   virtual void give_up(const Problem& why) = 0;
+  /// An exception has left a photon-thread, which has ended.
+  virtual void thread_failed(const std::exception_ptr& why) = 0;
 };
 
 /// Makes what traces for one photon-thread: make_batch_tracer, but in a simulation.
@@ -118,6 +120,7 @@ class PhotonThreads {
   struct Portion;
   struct Tracing;
 
+  void trace_until_the_end(BatchTracer& tracer);
   void trace_portions(BatchTracer& tracer);
   void trace_particles(BatchTracer& tracer, const Portion& portion);
   void trace_row(BatchTracer& tracer, OpenBatch& open, uint64_t first, int64_t count);

@@ -318,7 +318,7 @@ void Tracer::pass_on() {
   std::erase_if(*tell_,
                 [&](NodeId neighbour) { return tell_neighbour(neighbour) != SendOutcome::full; });
   if (tell_->empty()) return end(std::nullopt);
-  scheduler().timers().set(clock_.now() + retry_after, [this] { pass_on(); });
+  scheduler().timers().set(clock_.now() + retry_after, own_task([this] { pass_on(); }));
 }
 
 SendOutcome Tracer::tell_neighbour(NodeId neighbour) {
@@ -357,7 +357,7 @@ void Tracer::put(Question& question) {
   question.left = outcome == SendOutcome::taken;
   if (question.left || retries_soon_) return;
   retries_soon_ = true;
-  scheduler().timers().set(question.asked + retry_after, [this] { retry(); });
+  scheduler().timers().set(question.asked + retry_after, own_task([this] { retry(); }));
 }
 
 /// What found no room or no way: nobody will answer it.
@@ -368,7 +368,8 @@ void Tracer::retry() {
 }
 
 void Tracer::set_timer() {
-  scheduler().timers().set(clock_.now() + config_.answer_patience / 4, [this] { on_timer(); });
+  scheduler().timers().set(clock_.now() + config_.answer_patience / 4,
+                           own_task([this] { on_timer(); }));
 }
 
 void Tracer::on_timer() {

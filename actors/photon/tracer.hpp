@@ -80,6 +80,7 @@ class Tracer final
   bool room_to_come() const override { return packing_ || flushing_ || !done_.empty(); }
   size_t flush_bytes() const override { return encoder_->memory_bytes() + slices_.memory_bytes(); }
   void give_up(const Problem& why) override { end(why); }
+  void thread_failed(const std::exception_ptr& why) override { fail_with(why); }
 
   /// Whether the run is over, as this node has heard; or the controller was given up.
   bool over() const { return over_; }

@@ -53,7 +53,9 @@ SimWorker::SimWorker(const RunSetup& run, const NodeSetup& node, const NodeSeams
 }
 
 SimWorker::~SimWorker() {
-  if (worker_.objects() != nullptr) all_.add(worker_.objects()->report());
+  WorkerReport report = worker_.objects() != nullptr ? worker_.objects()->report() : WorkerReport{};
+  if (const auto& verdict = worker_.shell().supervisor().verdict()) report.failed = verdict->actor;
+  all_.add(report);
 }
 
 /// What the loop did beside tracing and building is charged when its turn has ended.

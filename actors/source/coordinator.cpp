@@ -319,7 +319,7 @@ void Coordinator::read_totals(bool round_done) {
       reading_failed_ = std::current_exception();
     }
   };
-  config_.calls->begin(read, [this, round_done] { totals_read(round_done); });
+  config_.calls->begin(read, own_task([this, round_done] { totals_read(round_done); }));
 }
 
 void Coordinator::totals_read(bool round_done) {
@@ -391,10 +391,10 @@ void Coordinator::tell_untold() {
   });
   if (untold_.empty() || telling_) return;
   telling_ = true;
-  scheduler().timers().set(clock_.now() + say_again_after, [this] {
-    telling_ = false;
-    tell_untold();
-  });
+  scheduler().timers().set(clock_.now() + say_again_after, own_task([this] {
+                             telling_ = false;
+                             tell_untold();
+                           }));
 }
 
 /// Who asks for work then has begun anew since it was told. An answer without batches would have it
@@ -431,7 +431,7 @@ void Coordinator::let_go() {
   for (auto& [worker, peer] : peers_)
     if (!peer.gone) peer.gone = send(worker, sender().next_id(), leave) != SendOutcome::full;
   if (ended()) return;
-  scheduler().timers().set(clock_.now() + say_again_after, [this] { let_go(); });
+  scheduler().timers().set(clock_.now() + say_again_after, own_task([this] { let_go(); }));
 }
 
 bool Coordinator::ended() const {
@@ -454,10 +454,10 @@ void Coordinator::set_timer() {
   Nanoseconds next = now + config_.look_every;
   if (const auto late = book_.next_deadline(); late && !over_)
     next = std::min(next, std::max(*late, now + least_between_looks));
-  scheduler().timers().set(next, [this] {
-    look();
-    set_timer();
-  });
+  scheduler().timers().set(next, own_task([this] {
+                             look();
+                             set_timer();
+                           }));
 }
 
 void Coordinator::look() {

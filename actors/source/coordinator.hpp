@@ -79,6 +79,9 @@ class Coordinator final
   void on(const Letter<TotalsTold>& told);
   void on(CountFlush&& count);
 
+  /// Ends the run, with this error: all that take part in it are told.
+  void fail(const std::string& what);
+
   /// All is over, every worker has heard so, or is lost, and has been let go.
   bool ended() const;
   /// How long ago the run was over.
@@ -149,7 +152,6 @@ class Coordinator final
   void tidy_journal();
   void look_at_totals();
   void look_soon();
-  void fail(const std::string& what);
   void lose_shard(NodeId worker, const char* how);
   void read_totals(bool round_done);
   void totals_read(bool round_done);

@@ -55,10 +55,10 @@ void Coordinator::on(CountFlush&& count) {
 /// Not on the fiber that asks. One timer does for all flushes of a turn: hundreds may come at once.
 void Coordinator::look_soon() {
   if (std::exchange(looks_soon_, true)) return;
-  scheduler().timers().set(clock_.now(), [this] {
-    looks_soon_ = false;
-    look_at_totals();
-  });
+  scheduler().timers().set(clock_.now(), own_task([this] {
+                             looks_soon_ = false;
+                             look_at_totals();
+                           }));
 }
 
 /// `why` it is refused; "" where it was counted.

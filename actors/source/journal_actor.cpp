@@ -1,12 +1,21 @@
 #include "actors/source/journal_actor.hpp"
 
+#include <utility>
+
 namespace luxodus {
 
-/// False: the node ends, and the call has returned.
+/// False: the node ends, and the call has returned. What the call throws is thrown here.
 bool JournalActor::make_call(std::function<void()> call) {
   working_ = true;
   returned_ = false;
-  calls_.begin(std::move(call), [this] {
+  const auto caught = [this, call = std::move(call)] {
+    try {
+      call();
+    } catch (...) {
+      thrown_ = std::current_exception();
+    }
+  };
+  calls_.begin(caught, [this] {
     returned_ = true;
     scheduler().fibers().wake_all(returning_);
   });
@@ -16,6 +25,7 @@ bool JournalActor::make_call(std::function<void()> call) {
   if (!goes_on) calls_.finish();
   whole_ = keeper_.is_whole();
   working_ = false;
+  if (thrown_) std::rethrow_exception(std::exchange(thrown_, nullptr));
   return goes_on;
 }
 

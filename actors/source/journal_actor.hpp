@@ -4,6 +4,8 @@
 // rule: the node's thread.
 #pragma once
 
+#include <exception>
+
 #include "actors/source/flush_keeper.hpp"
 #include "runtime/actor/actor.hpp"
 #include "runtime/actor/blocking_calls.hpp"
@@ -57,8 +59,9 @@ class JournalActor final : public Actor<JournalActor, ControlLane<>,
   BlockingCalls& calls_;
   bool whole_;  // as the keeper said when it was last called
   bool working_ = false;
-  bool returned_ = false;  // the call that was made
-  WaitList returning_;     // this actor's fiber, while a call is under way
+  bool returned_ = false;      // the call that was made
+  std::exception_ptr thrown_;  // by it
+  WaitList returning_;         // this actor's fiber, while a call is under way
 };
 
 }  // namespace luxodus

@@ -415,6 +415,7 @@ Result<std::optional<StopReason>> ClusterProcessRun::run(
   }
   threads.join();
   if (threads.failed()) return threads.problem();
+  if (!nodes.controller && threads.lost()) return *threads.lost();
   if (nodes.residency) residency_lines_ = residency_table(*nodes.residency, threads.by_node());
   if (auto ok = write_trace(*nodes.seen); !ok) return ok.problem();
   return reason;

@@ -81,6 +81,7 @@ NodeStatus row_of(const std::string& node, const Page& page, const Suspicions& s
   row.waiting = number(n, "luxodus_fibers_suspended");
   row.letters = number(n, "luxodus_mailbox_waiting");
   row.letters_rejected = number(n, "luxodus_mailbox_rejected_total");
+  row.restarts = number(n, "luxodus_actor_restarts_total");
   row.hit_rate = hit_rate(n);
   row.credit_bytes = number(n, "luxodus_link_credit_bytes");
   row.batches = number(n, "luxodus_batches_total");
@@ -95,7 +96,7 @@ std::string shown(const std::optional<double>& value, double unit, int digits) {
   return value ? fmt::format("{:.{}f}", *value / unit, digits) : "-";
 }
 
-using Row = std::array<std::string, 14>;
+using Row = std::array<std::string, 15>;
 
 Row cells_of(const NodeStatus& s) {
   constexpr double mib = 1024.0 * 1024.0;
@@ -107,6 +108,7 @@ Row cells_of(const NodeStatus& s) {
           shown(s.waiting, 1, 0),
           shown(s.letters, 1, 0),
           shown(s.letters_rejected, 1, 0),
+          shown(s.restarts, 1, 0),
           shown(s.hit_rate, 0.01, 2),
           shown(s.credit_bytes, 1024, 0),
           shown(s.batches, 1, 0),
@@ -177,9 +179,9 @@ std::vector<NodeStatus> status_of(const std::vector<AskedProcess>& processes,
 }
 
 std::string status_table(const std::vector<NodeStatus>& rows) {
-  const Row headings{"node",    "state",       "role",         "process",    "fibers",
-                     "waiting", "letters",     "rejected",     "hits %",     "credit KiB",
-                     "batches", "particles/s", "resident MiB", "process MiB"};
+  const Row headings{"node",       "state",   "role",        "process",      "fibers",
+                     "waiting",    "letters", "rejected",    "restarts",     "hits %",
+                     "credit KiB", "batches", "particles/s", "resident MiB", "process MiB"};
   constexpr size_t words = 4;  // columns of words stand left, numbers right
   std::vector<Row> cells{headings};
   for (const NodeStatus& row : rows) cells.push_back(cells_of(row));

@@ -45,6 +45,7 @@ struct NodeStatus {
   std::optional<double> waiting;           // of those
   std::optional<double> letters;           // that wait in the mailboxes of its actors
   std::optional<double> letters_rejected;  // since it began, by full mailboxes
+  std::optional<double> restarts;          // of its actors, since it began
   std::optional<double> hit_rate;          // of the cache of cells
   std::optional<double> credit_bytes;      // over all links
   std::optional<double> batches;           // merged, or counted by the controller

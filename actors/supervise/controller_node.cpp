@@ -31,6 +31,7 @@ ControllerNode::ControllerNode(const RunSetup& setup, const NodeSetup& node, Loc
                                std::function<void(const Progress&)> report, const NodeSeams& seams,
                                FlushKeeper* keeper)
     : setup_(setup),
+      node_(node),
       self_(node.net.self),
       shell_({controller_net(setup, node), controller_limits(node), ShellConfig{}.max_payload_bytes,
               node.shutdown_phase, setup.routes},
@@ -40,6 +41,23 @@ ControllerNode::ControllerNode(const RunSetup& setup, const NodeSetup& node, Loc
                    interrupt, std::move(report), shell_.scheduler(), shell_.network(),
                    shell_.actors()) {}
 
+/// The coordinator ends the run with this error; where it is itself what has failed, its workers
+/// are told in its place, and this node leaves.
+bool ControllerNode::end_run(const Verdict& verdict) {
+  if (verdict.actor != ActorName::coordinator) {
+    coordinator_.fail(verdict.text);
+    return true;
+  }
+  const std::string text = verdict.text.substr(0, limits::text_bytes);
+  ActorSystem& actors = shell_.actors();
+  for (uint16_t i = 0; i < setup_.graph.workers(); ++i) {
+    const Address worker{{i}, ActorName::tracer};
+    actors.send(coordinator_.address(), worker, actors.next_id(), RunEnded{0, text});
+    actors.send(coordinator_.address(), worker, actors.next_id(), EnterPhase{EndPhase::leave, 0});
+  }
+  return false;
+}
+
 /// Null where nothing is kept.
 JournalActor* ControllerNode::make_journal(FlushKeeper* keeper, const NodeSeams& seams) {
   if (keeper == nullptr) return nullptr;
@@ -48,9 +66,14 @@ JournalActor* ControllerNode::make_journal(FlushKeeper* keeper, const NodeSeams&
 }
 
 void ControllerNode::start(std::function<bool()> broken) {
-  shell_.actors().add(ActorName::coordinator, coordinator_);
+  shell_.add(ActorName::coordinator, coordinator_);
   coordinator_.start();
-  if (journal_) journal_->start();
+  if (journal_) {
+    shell_.supervisor().watch(ActorName::journal, *journal_);
+    journal_->start();
+  }
+  shell_.supervisor().end_runs_by([this](const Verdict& verdict) { return end_run(verdict); });
+  shell_.supervisor().rehearse(node_.faults);
   if (setup_.observation != nullptr) {
     metrics_.emplace(setup_.names, self_, "controller", shell_);
     coordinator_.add_metrics(metrics_->registry());

@@ -25,9 +25,11 @@ class ControllerNode {
   const Coordinator& coordinator() const { return coordinator_; }
 
  private:
-  const RunSetup& setup_;
   JournalActor* make_journal(FlushKeeper* keeper, const NodeSeams& seams);
+  bool end_run(const Verdict& verdict);
 
+  const RunSetup& setup_;
+  const NodeSetup& node_;
   const NodeId self_;
   NodeShell shell_;
   std::unique_ptr<BlockingCalls> disk_calls_;  // of the journal

@@ -57,6 +57,7 @@ void WorkerReport::add(const WorkerReport& other) {
   object_wait.merge(other.object_wait);
   hops += other.hops;
   processor_ns += other.processor_ns;
+  if (failed == ActorName::none) failed = other.failed;
 }
 
 FetchingObjects::FetchingObjects(const RunSetup& run, const NodeSetup& node, NodeShell& shell,

@@ -28,6 +28,7 @@ struct WorkerReport {
   Histogram object_wait;         // of fibers: from asking for an object to going on with it
   uint64_t hops = 0;             // links that fetched objects passed, all together
   uint64_t processor_ns = 0;     // of real nodes' threads while they ran
+  ActorName failed = ActorName::none;  // why one left before the end; none: all stayed
 
   void add(const WorkerReport& other);
   /// Of all references to objects, those that found the object resident; 1 where there was none.

@@ -32,6 +32,7 @@ Result<StopReason> run_on_nodes(LocalRun& run, const NodesOptions& options, cons
       nodes.setup(), machine, nodes.controller(), run, stop, interrupt, report,
       [&] { return workers.failed(); }, counted);
   workers.join();
+  if (!reason) return reason;
   if (workers.failed()) return workers.problem();
   if (counted != nullptr) {
     counted->workers = workers.report();

@@ -23,6 +23,7 @@ NodeMetrics::NodeMetrics(const std::vector<std::string>& names, NodeId self,
   scheduler_.add_metrics(registry());
   shell.network().add_metrics(registry(), [&](NodeId node) { return names[node.value]; });
   shell.actors().add_metrics(registry());
+  shell.supervisor().add_metrics(registry());
   add_sample([&shell] {
     shell.network().sample();
     shell.actors().sample();

@@ -57,15 +57,19 @@ class NodeShell::Handler final : public NetHandler {
       : shell_(shell), routes_(routes_of(shell.config_, shell.graph_)) {}
 
   bool deliver(const Delivery& delivery) override {
-    if (is_of_objects(kind_of(delivery.message)))
-      return shell_.fetcher_ == nullptr || shell_.fetcher_->deliver(delivery);
+    if (is_of_objects(kind_of(delivery.message))) {
+      bool taken = true;
+      serve_parts([&](Fetcher& fetcher) { taken = fetcher.deliver(delivery); });
+      return taken;
+    }
     shell_.actors_.deliver(delivery);
     return true;
   }
   std::span<std::byte> room_for(const MessageId& id, NodeId, Kind kind, size_t bytes) override {
     if (is_of_objects(kind)) {
-      return shell_.fetcher_ == nullptr ? std::span<std::byte>{}
-                                        : shell_.fetcher_->room_for(id, kind, bytes);
+      std::span<std::byte> room;
+      serve_parts([&](Fetcher& fetcher) { room = fetcher.room_for(id, kind, bytes); });
+      return room;
     }
     if (rarely(shell_.config_.net.buggify, Buggify::Site::no_room)) return {};
     return shell_.actors_.room_for(id, bytes);
@@ -74,7 +78,9 @@ class NodeShell::Handler final : public NetHandler {
     if (!is_of_objects(kind)) shell_.actors_.abandoned(id);
   }
   bool intercept(const Delivery& request) override {
-    return shell_.fetcher_ != nullptr && shell_.fetcher_->intercept(request);
+    bool taken = false;
+    serve_parts([&](Fetcher& fetcher) { taken = fetcher.intercept(request); });
+    return taken;
   }
   void link_changed(NodeId neighbour, LinkPhase phase) override {
     log_debug("link node={} neighbour={} phase={}", shell_.config_.net.self.value, neighbour.value,
@@ -95,6 +101,10 @@ class NodeShell::Handler final : public NetHandler {
 
  private:
   static bool is_of_objects(Kind kind) { return kind == Kind::request || kind == Kind::reply; }
+  template <class Work>
+  void serve_parts(Work&& work) {
+    if (shell_.fetcher_ != nullptr) shell_.part_server_.guarded([&] { work(*shell_.fetcher_); });
+  }
 
   NodeShell& shell_;
   NodeRoutes routes_;
@@ -111,9 +121,15 @@ NodeShell::NodeShell(const ShellConfig& config, const Graph& graph, const Clock&
       network_(config.net, transport, *handler_, clock.now()),
       actors_(config.net.self, network_, config.max_payload_bytes),
       source_(std::make_unique<Source>(clock, network_, transport)),
-      scheduler_(config.scheduler, clock, *source_) {}
+      scheduler_(config.scheduler, clock, *source_),
+      supervisor_(scheduler_, config.net.self) {}
 
 NodeShell::~NodeShell() = default;
+
+void NodeShell::use(Fetcher& fetcher) {
+  fetcher_ = &fetcher;
+  supervisor_.watch(ActorName::part_server, part_server_);
+}
 
 void NodeShell::begin(std::function<bool()> ended) {
   ended_ = std::move(ended);
@@ -135,9 +151,10 @@ bool NodeShell::may_leave() const {
 }
 
 void NodeShell::leave_if_ended() {
-  if (leaving_ || !ended_()) return;
+  const bool fails = supervisor_.verdict().has_value();
+  if (leaving_ || (!fails && !ended_())) return;
   leaving_ = true;
-  scheduler_.shutdown().begin("the run has ended");
+  scheduler_.shutdown().begin(fails ? supervisor_.verdict()->text : "the run has ended");
 }
 
 Nanoseconds NodeShell::turn() {

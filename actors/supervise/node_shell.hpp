@@ -1,11 +1,13 @@
-// A node put together: clock, network, scheduler, and the system of its actors. Which actors those
-// are makes it a worker or the controller. It keeps the routes. One OS thread runs it, or a
-// simulation gives it its turns. Thread rule: made and run on one thread; wake() from any.
+// A node put together: clock, network, scheduler, the system of its actors, and their supervisor.
+// Which actors those are makes it a worker or the controller. It keeps the routes. One OS thread
+// runs it, or a simulation gives it its turns. Thread rule: made and run on one thread; wake() from
+// any.
 #pragma once
 
 #include <functional>
 #include <vector>
 
+#include "actors/supervise/supervisor.hpp"
 #include "runtime/actor/scheduler.hpp"
 #include "runtime/fetch/fetcher.hpp"
 #include "runtime/messaging/actor_system.hpp"
@@ -36,12 +38,23 @@ class NodeShell {
   const Scheduler& scheduler() const { return scheduler_; }
   Network& network() { return network_; }
   ActorSystem& actors() { return actors_; }
+  Supervisor& supervisor() { return supervisor_; }
+  const Supervisor& supervisor() const { return supervisor_; }
+
+  /// An actor of this node, which others reach by its name and its supervisor watches.
+  /// Requires: it outlives the run.
+  template <class NodeActorType>
+  void add(ActorName name, NodeActorType& actor) {
+    actors_.add(name, actor);
+    supervisor_.watch(name, actor);
+  }
 
   /// Has requests and replies for objects go through `fetcher`. Requires: it outlives the run.
-  void use(Fetcher& fetcher) { fetcher_ = &fetcher; }
+  void use(Fetcher& fetcher);
 
   /// Says when this node's work is over: then it leaves, fibers end, neighbours are told. `ended`
-  /// is asked after every turn. Requires: once, before the first turn.
+  /// is asked after every turn. It leaves as well when its supervisor has a verdict.
+  /// Requires: once, before the first turn.
   void begin(std::function<bool()> ended);
   /// Has `tell` called for each neighbour that is met while this node is about to leave: nobody
   /// else may be left who could tell it that the run is over.
@@ -58,6 +71,10 @@ class NodeShell {
  private:
   class Source;
   class Handler;
+  /// The part server, as its supervisor knows it: the fetcher is handed what the network brings.
+  struct PartServer final : Supervised {
+    void handle_control() override {}
+  };
 
   void leave_if_ended();
   void linger();
@@ -73,6 +90,8 @@ class NodeShell {
   ActorSystem actors_;
   std::unique_ptr<Source> source_;
   Scheduler scheduler_;
+  Supervisor supervisor_;
+  PartServer part_server_;
   std::function<bool()> ended_;
   std::function<void(NodeId)> tell_newcomer_;
   bool leaving_ = false;

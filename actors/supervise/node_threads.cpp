@@ -54,7 +54,12 @@ void WorkerThreads::work(const RunSetup& run, const Machine& machine, const Node
   try {
     auto done = run_one(run, machine, node, stop);
     const std::lock_guard lock(mutex_);
-    if (done) return reports_.push_back(done.value());
+    if (done) {
+      if (done->failed != ActorName::none && !lost_)
+        lost_ = luxodus::problem(run.name_of(node.net.self) + ": the " + spoken_name(done->failed) +
+                                 " has failed, and its node has left; its log says why");
+      return reports_.push_back(done.value());
+    }
     wrong = done.problem();
   } catch (const std::exception& e) {
     wrong = {{}, "node " + std::to_string(node.net.self.value) + ": " + e.what()};
@@ -99,6 +104,8 @@ Result<StopReason> run_controller(const RunSetup& setup, const Machine& machine,
   const Coordinator& controller = here.coordinator();
   run.add_seconds(static_cast<double>(machine.clock.now() - began - controller.over_for()) * 1e-9);
   const Network& network = here.shell().network();
+  if (const auto& verdict = here.shell().supervisor().verdict())
+    return problem(setup.name_of(node.net.self) + ": " + verdict->text);
   if (controller.fault())
     return problem(setup.name_of(node.net.self) + ": " + controller.fault()->what +
                    transport.meeting_trouble(network));

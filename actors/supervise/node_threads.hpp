@@ -53,6 +53,9 @@ class WorkerThreads {
   bool failed() const { return failed_; }
   /// Requires: failed().
   Problem problem() const;
+  /// Why a worker left before the end: one of its actors had failed. The others go on without it.
+  /// Requires: joined.
+  const std::optional<Problem>& lost() const { return lost_; }
   /// Requires: joined.
   WorkerReport report() const;
   /// By number. Requires: joined.
@@ -65,6 +68,7 @@ class WorkerThreads {
   mutable std::mutex mutex_;
   std::vector<WorkerReport> reports_;
   Problem problem_;
+  std::optional<Problem> lost_;
   std::atomic<bool> failed_{false};
   std::vector<std::thread> threads_;
 };

@@ -72,7 +72,9 @@ NodeSetup setup_of(const RunSetup& run, const NetConfig& common, NodeId self,
   node.tally_bytes = options.tally_bytes;
   node.faults.links.delay = options.link_delay;
   node.faults.links.bytes_per_second = options.link_bytes_per_second;
+  node.faults.faults = options.faults;
   node.lease_time = options.lease_time;
+  node.lost = options.lost;
   return node;
 }
 

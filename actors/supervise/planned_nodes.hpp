@@ -46,6 +46,8 @@ struct NodesOptions {
   /// one process, and links are memory.
   std::string sockets;
   Nanoseconds lease_time = CoordinatorConfig{}.lease_time;
+  Nanoseconds lost = CoordinatorConfig{}.lost;     // a node without a way to it for so long is
+  std::vector<Fault> faults;                       // what happens to nodes, on purpose
   uint64_t tally_bytes = NodeSetup{}.tally_bytes;  // of each node, for scores, totals and flushes
   int tally_shards = 1;  // of the totals: the controller's, and those of the first workers
   Observation* observation = nullptr;  // where somebody watches

@@ -70,15 +70,16 @@ void Worker::show_to(Observation& seen) {
 
 void Worker::start(std::function<bool()> stop) {
   stop_ = std::move(stop);
-  shell_.actors().add(ActorName::tracer, tracer_);
+  shell_.add(ActorName::tracer, tracer_);
   tracer_.start(photons_);
   if (shard_) {
-    shell_.actors().add(ActorName::tally_shard, *shard_);
+    shell_.add(ActorName::tally_shard, *shard_);
     shard_->start();
   }
   if (objects_) objects_->pin(node_.pins);
   photons_.start();
   if (run_.observation != nullptr) show_to(*run_.observation);
+  shell_.supervisor().rehearse(node_.faults);
   shell_.begin([this] { return may_leave(); });
   shell_.tell_newcomers([this](NodeId neighbour) { tracer_.tell_end(neighbour); });
   shell_.scheduler().seal();
@@ -102,6 +103,7 @@ bool Worker::may_leave() {
 Result<WorkerReport> Worker::result() const {
   if (tracer_.fault()) return *tracer_.fault();
   WorkerReport report = objects_ ? objects_->report() : WorkerReport{};
+  if (const auto& verdict = shell_.supervisor().verdict()) report.failed = verdict->actor;
   report.waited = shell_.scheduler().counters().waited;
   report.tally_full = photons_.counters().tally_full;
   report.max_tally_bytes = photons_.counters().max_tally_bytes;

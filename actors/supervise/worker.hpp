@@ -28,7 +28,8 @@ class Worker {
   /// Null where the node holds everything.
   const FetchingObjects* objects() const { return objects_.get(); }
 
-  /// What it did. Errors: a controller that never came, was lost, or could not begin.
+  /// What it did; a node that left since an actor of it had failed says so (WorkerReport::failed).
+  /// Errors: a controller that never came, was lost, or could not begin.
   /// Requires: shell().finished().
   Result<WorkerReport> result() const;
 

@@ -10,11 +10,12 @@
 //   class Squarer final : public Actor<Squarer, ControlLane<Accepts<Stop, 1, WhenFull::coalesce>>,
 //                                      DataLane<Accepts<Square, 64, WhenFull::wait>>> { ... };
 //
+// What leaves a handler is a failure of the actor (supervised.hpp).
 // Belongs to one node: all calls are made on its thread.
 #pragma once
 
 #include "runtime/actor/mailbox.hpp"
-#include "runtime/actor/scheduler.hpp"
+#include "runtime/actor/supervised.hpp"
 
 namespace luxodus {
 
@@ -24,7 +25,7 @@ template <class... Kinds>
 using DataLane = MailboxLane<Kinds...>;
 
 template <class Derived, class Control, class Data>
-class Actor : public ControlReceiver {
+class Actor : public Supervised {
  public:
   /// `name` is a literal, the tag of the actor's fiber.
   Actor(Scheduler& scheduler, const char* name) : scheduler_(scheduler), name_(name) {}
@@ -82,30 +83,37 @@ class Actor : public ControlReceiver {
 
   void handle_control() final {
     for (size_t left = control_.size(); left > 0; --left)
-      dispatch(control_.take(scheduler_.fibers()));
+      handle(control_.take(scheduler_.fibers()));
     if (!control_.empty()) scheduler_.call_for_control(*this);
   }
 
   void handle_data() {
     Fibers& fibers = scheduler_.fibers();
     for (size_t handled = 0; !fibers.cancelled();) {
-      if (data_.empty()) {
-        if (fibers.wait(idle_, "mailbox empty") == Wake::cancelled) return;
+      if (data_.empty() || failed()) {
+        if (fibers.wait(idle_, failed() ? "failed" : "mailbox empty") == Wake::cancelled) return;
         continue;
       }
-      dispatch(data_.take(fibers));
+      handle(data_.take(fibers));
       if (++handled % messages_at_once == 0 && fibers.yield() == Wake::cancelled) return;
     }
   }
 
   template <class Any>
-  void dispatch(Any any) {
-    std::visit(
-        [this](auto& message) {
-          if constexpr (!std::is_same_v<std::decay_t<decltype(message)>, std::monostate>)
-            static_cast<Derived*>(this)->on(std::move(message));
-        },
-        any);
+  void handle(Any any) {
+    guarded([&] {
+      std::visit(
+          [this](auto& message) {
+            if constexpr (!std::is_same_v<std::decay_t<decltype(message)>, std::monostate>)
+              static_cast<Derived*>(this)->on(std::move(message));
+          },
+          any);
+    });
+  }
+
+  void forget_mailbox() final {
+    while (!control_.empty()) (void)control_.take(scheduler_.fibers());
+    while (!data_.empty()) (void)data_.take(scheduler_.fibers());
   }
 
   Offered announced(Offered sent) {

@@ -28,6 +28,15 @@ NodeId named(TableReader& keys, std::string_view key, const ClusterConfig& clust
   return {};
 }
 
+/// Of what happens to an actor of the node, and of nothing else.
+void read_actor(TableReader& keys, Fault& fault) {
+  const bool of_actor = fault.kind == Fault::Kind::failure;
+  fault.actor = keys.choice("actor");
+  if (of_actor != keys.has("actor"))
+    keys.problem(of_actor ? "kind" : "actor", of_actor ? "an actor fails: say 'actor', too"
+                                                       : "'actor' is for kind = \"failure\"");
+}
+
 Fault read_event(const toml::Table& table, ClusterReading& reading) {
   TableReader keys(table, cluster_schema(), {"faults.event"}, reading.findings);
   Fault fault;
@@ -36,6 +45,7 @@ Fault read_event(const toml::Table& table, ClusterReading& reading) {
   fault.lasts = span_of_ms(1e3 * keys.number("lasts_s"));
   fault.node = named(keys, "node", reading.cluster);
   fault.factor = keys.number("factor");
+  read_actor(keys, fault);
   if (!is_between_two(fault.kind)) {
     if (keys.has("peer")) keys.problem("peer", "'peer' is for what happens between two nodes");
     return fault;

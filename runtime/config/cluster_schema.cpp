@@ -286,15 +286,20 @@ std::vector<TableSpec> fault_tables() {
        "`[[faults.event]]`: something that happens to a node, or between two",
        {
            {"kind", "choice", "", "required",
-            "crash, pause, slow, cut, clog, disconnect, full_disk, failed_read",
+            "crash, pause, slow, cut, clog, disconnect, full_disk, failed_read, failure",
             "the node's process ends at once; it stands still; its work takes `factor` as long; "
             "frames from `node` to `peer` are lost; they wait; both ends lose the connection; its "
-            "journal finds no room; it can read nothing of the scene that it holds"},
+            "journal finds no room; it can read nothing of the scene that it holds; one of its "
+            "actors "
+            "fails at what it does next"},
            {"at_s", "number", "s", "required", "[0, 1e8]", "since the start of the node"},
            {"lasts_s", "number", "s", "1", "(0, 1e8]", "how long"},
            {"node", "text", "", "required", "", "a node's name"},
            {"peer", "text", "", "", "", "a neighbour's name, for what happens between two"},
            {"factor", "number", "", "10", "[1, 1e6]", "of `slow`"},
+           {"actor", "choice", "", "\"tracer\"",
+            "coordinator, journal, tracer, tally_shard, part_server, display",
+            "of `failure`: which actor of the node"},
        }},
   };
 }

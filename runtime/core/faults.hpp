@@ -8,6 +8,7 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "runtime/core/clock.hpp"
@@ -39,14 +40,15 @@ struct LinkTraits {
 
 struct Fault {
   enum class Kind : uint8_t {
-    crash,       // node: it is gone with all it knew; a simulated one begins anew after `lasts`
-    pause,       // node: it stands still and its clock goes on
-    slow,        // node: all its work takes `factor` as long
-    cut,         // node to peer: frames are lost, nobody is told
-    clog,        // node to peer: frames wait until it is over
-    disconnect,  // node and peer: the connection breaks, frames on the way are lost, both are told
-    full_disk,   // node: what it keeps for a crash finds no room
-    failed_read  // node: of the scene it reads nothing, as from a broken disk
+    crash,        // node: it is gone with all it knew; a simulated one begins anew after `lasts`
+    pause,        // node: it stands still and its clock goes on
+    slow,         // node: all its work takes `factor` as long
+    cut,          // node to peer: frames are lost, nobody is told
+    clog,         // node to peer: frames wait until it is over
+    disconnect,   // node and peer: the connection breaks, frames on the way are lost, both are told
+    full_disk,    // node: what it keeps for a crash finds no room
+    failed_read,  // node: of the scene it reads nothing, as from a broken disk
+    failure       // node: the next handler of its `actor` throws
   };
   Kind kind = Kind::crash;
   Nanoseconds at = 0;  // since the start
@@ -56,14 +58,17 @@ struct Fault {
   double factor = 1;
   /// In a simulated world, instead of `at`: after so many events.
   std::optional<uint64_t> after_events = {};
+  std::string actor = {};  // of `failure`: its name on the node
 
   bool holds(Nanoseconds moment) const { return moment >= at && moment < at + lasts; }
 };
 
-inline constexpr int fault_kinds = 8;
+inline constexpr int fault_kinds = 9;
+/// Those that swarm() draws: all but the last.
+inline constexpr int drawn_fault_kinds = 8;
 constexpr const char* name_of(Fault::Kind kind) {
-  constexpr const char* names[] = {"crash", "pause",      "slow",      "cut",
-                                   "clog",  "disconnect", "full_disk", "failed_read"};
+  constexpr const char* names[] = {"crash",      "pause",     "slow",        "cut",    "clog",
+                                   "disconnect", "full_disk", "failed_read", "failure"};
   return names[static_cast<size_t>(kind)];
 }
 

@@ -361,7 +361,8 @@ void SimWorld::begin(const Fault& fault) {
       return break_connection(fault.node, fault.peer);
     case Fault::Kind::full_disk:
     case Fault::Kind::failed_read:
-      return;  // its stores look at the plan
+    case Fault::Kind::failure:
+      return;  // its stores and its supervisor look at the plan
   }
 }
 

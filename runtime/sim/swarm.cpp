@@ -97,7 +97,7 @@ FaultPlan swarm(uint64_t seed, const SwarmFrame& frame) {
   plan.seed = seed;
   plan.links = draw_links(draw);
   plan.healed_at = frame.lasts;
-  for (int k = 0; k < fault_kinds; ++k) {
+  for (int k = 0; k < drawn_fault_kinds; ++k) {
     const auto kind = static_cast<Fault::Kind>(k);
     if (draw.chance(0.5)) continue;
     const auto count = static_cast<size_t>(draw.between(1, 8));

@@ -199,6 +199,32 @@ TEST_CASE("a controller whose disk is full and that crashes goes on from a snaps
   CHECK(begun_anew.recovered > 0);
 }
 
+// Their node leaves; others trace what it had, and give the parts that it held.
+TEST_CASE("an actor of a worker that fails takes its node, and the others leave the same bits",
+          "[sim][supervision]") {
+  const SimScene scene = scene_of("office_floor");
+  for (const char* actor : {"tracer", "part_server"}) {
+    INFO(actor);
+    SimOptions options = small_run();
+    options.nodes = 3;
+    options.work = seconds(30);
+    options.patience = seconds(20);
+    options.fixed.object_bytes = 1 << 20;
+    options.fixed.replicas = 2;
+    Fault failure;
+    failure.kind = Fault::Kind::failure;
+    failure.at = seconds(3);
+    failure.lasts = 1;
+    failure.node = {1};
+    failure.actor = actor;
+    options.plan->faults.push_back(failure);
+    const SimReport report = simulate(scene, options).value();
+    CHECK(report.failure == "");
+    CHECK(report.leases_fenced > 0);
+    CHECK(actor_names[static_cast<size_t>(report.caches.failed)] == std::string(actor));
+  }
+}
+
 // Hundreds of leases are late when one frame of their flush is lost. To be told so of each by
 // itself once left no room for the answer to the flush, so that the next was late as well, and so
 // on.

@@ -20,6 +20,8 @@ const std::string page_of_a =
     "luxodus_mailbox_waiting{node=\"a\",actor=\"tracer\"} 2\n"
     "luxodus_mailbox_waiting{node=\"a\",actor=\"tally_shard\"} 3\n"
     "luxodus_mailbox_rejected_total{node=\"a\",actor=\"tracer\"} 1\n"
+    "luxodus_actor_restarts_total{node=\"a\",actor=\"tracer\"} 0\n"
+    "luxodus_actor_restarts_total{node=\"a\",actor=\"display\"} 2\n"
     "luxodus_cache_hits_total{node=\"a\"} 90\n"
     "luxodus_cache_misses_total{node=\"a\"} 4\n"
     "luxodus_cache_joined_total{node=\"a\"} 6\n"
@@ -47,6 +49,7 @@ TEST_CASE("a node's line has its own numbers, and the state that its neighbours 
   CHECK(rows[0].fibers == 40.0);
   CHECK(rows[0].letters == 5.0);
   CHECK(rows[0].letters_rejected == 1.0);
+  CHECK(rows[0].restarts == 2.0);
   CHECK_FALSE(rows[1].letters.has_value());
   CHECK(rows[0].hit_rate == 0.9);
   CHECK(rows[0].credit_bytes == 1024.0);

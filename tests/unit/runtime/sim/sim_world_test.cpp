@@ -238,7 +238,7 @@ TEST_CASE("swarms differ from seed to seed, and nothing outlasts their healing",
     for (uint16_t j = static_cast<uint16_t>(i + 1); j < 5; ++j) frame.edges.push_back({{i}, {j}});
   frame.spared = {{4}};
   std::set<size_t> sizes;
-  std::array<int, fault_kinds> seen{};
+  std::array<int, drawn_fault_kinds> seen{};
   for (uint64_t seed = 0; seed < 200; ++seed) {
     const FaultPlan plan = swarm(seed, frame);
     sizes.insert(plan.faults.size());
