@@ -120,6 +120,26 @@ void write_order(wire::TraceBatches::Builder out, const TraceBatches& m) {
   out.setStream(m.stream);
 }
 
+void write_shown(wire::TotalsShown::Builder out, const TotalsShown& m) {
+  out.setShow(m.show);
+  out.setPiece(m.piece);
+  out.setPieces(m.pieces);
+  out.setFirst(m.first);
+  out.setNext(m.next);
+  out.setOver(m.over);
+  out.setStopped(m.stopped);
+  out.setBatches(m.batches);
+  out.setTracedUs(m.traced_us);
+  out.setUntimedBatches(m.untimed_batches);
+  out.setUntimedRays(m.untimed_rays);
+}
+
+TotalsShown read_shown(wire::TotalsShown::Reader in) {
+  return {in.getShow(),     in.getPiece(),          in.getPieces(),     in.getFirst(),
+          in.getNext(),     in.getOver(),           in.getStopped(),    in.getBatches(),
+          in.getTracedUs(), in.getUntimedBatches(), in.getUntimedRays()};
+}
+
 void write(wire::Message::Builder out, const Message& message) {
   std::visit(
       Overloaded{
@@ -196,6 +216,17 @@ void write(wire::Message::Builder out, const Message& message) {
             traced.setLease(m.lease);
             traced.setFault(m.fault.c_str());
           },
+          [&](const ShowTotals& m) {
+            auto show = out.initShowTotals();
+            show.setShow(m.show);
+            show.setPiece(m.piece);
+          },
+          [&](const TotalsShown& m) { write_shown(out.initTotalsShown(), m); },
+          [&](const FluxSaved& m) {
+            auto saved = out.initFluxSaved();
+            saved.setShow(m.show);
+            saved.setFault(m.fault.c_str());
+          },
       },
       message);
 }
@@ -220,6 +251,7 @@ bool within_limits(const Message& message) {
           [&](const FlushRefused& m) { return leases_fit(m.fenced) && text_fits(m.text); },
           [&](const RunEnded& m) { return text_fits(m.text); },
           [&](const BatchesTraced& m) { return text_fits(m.fault); },
+          [&](const FluxSaved& m) { return text_fits(m.fault); },
           [&](const auto&) { return true; },
       },
       message);
@@ -402,6 +434,14 @@ Message read(wire::Message::Reader in) {
       const auto traced = in.getBatchesTraced();
       return BatchesTraced{traced.getLease(), read_text(traced.getFault())};
     }
+    case wire::Message::SHOW_TOTALS:
+      return ShowTotals{in.getShowTotals().getShow(), in.getShowTotals().getPiece()};
+    case wire::Message::TOTALS_SHOWN:
+      return read_shown(in.getTotalsShown());
+    case wire::Message::FLUX_SAVED: {
+      const auto saved = in.getFluxSaved();
+      return FluxSaved{saved.getShow(), read_text(saved.getFault())};
+    }
   }
   throw malformed("no such message");
 }
@@ -506,6 +546,7 @@ Kind kind_of(const Message& message) {
                         [](const FlushSlice&) { return Kind::commit; },
                         [](const TotalsTold&) { return Kind::commit; },
                         [](const BatchesTraced&) { return Kind::commit; },
+                        [](const TotalsShown&) { return Kind::commit; },
                         [](const auto&) { return Kind::control; },
                     },
                     message);

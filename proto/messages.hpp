@@ -331,12 +331,42 @@ struct BatchesTraced {
   friend bool operator==(const BatchesTraced&, const BatchesTraced&) = default;
 };
 
+/// For a piece of all totals as they are, in the how-manieth show. To ask for the first is to ask
+/// for new ones.
+struct ShowTotals {
+  uint32_t show = 0;
+  uint32_t piece = 0;
+  friend bool operator==(const ShowTotals&, const ShowTotals&) = default;
+};
+/// What belongs to all pieces, and bins [first, next) that are not zero, as payload. Of the first
+/// piece the payload is the numbers of missing batches, eight bytes each.
+struct TotalsShown {
+  uint32_t show = 0;
+  uint32_t piece = 0;
+  uint32_t pieces = 0;  // 0: this show is gone
+  uint64_t first = 0;
+  uint64_t next = 0;
+  bool over = false;     // the run is
+  uint8_t stopped = 0;   // why, where it is
+  uint64_t batches = 0;  // given out
+  uint64_t traced_us = 0;
+  uint64_t untimed_batches = 0;
+  uint64_t untimed_rays = 0;
+  friend bool operator==(const TotalsShown&, const TotalsShown&) = default;
+};
+/// The flux of the run is on a disk, under its name.
+struct FluxSaved {
+  uint32_t show = 0;
+  std::string fault;  // why it never will be; "" where it is
+  friend bool operator==(const FluxSaved&, const FluxSaved&) = default;
+};
+
 using Message =
     std::variant<Hello, Welcome, Refuse, Bye, Beat, LinkChanges, FetchObject, ObjectFound,
                  ObjectNotHere, RequestLease, LeaseGranted, LeasesFenced, Flush, FlushTaken,
                  FlushRefused, RoundOpened, RunEnded, ProfileCounted, AskStatus, StatusAnswered,
                  EnterPhase, FlushSlice, SliceHeld, FlushDecided, FlushSettled, AskTotals,
-                 TotalsTold, TraceBatches, BatchesTraced>;
+                 TotalsTold, TraceBatches, BatchesTraced, ShowTotals, TotalsShown, FluxSaved>;
 
 /// The kind whose buffers and credit a message uses.
 Kind kind_of(const Message& message);

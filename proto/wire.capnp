@@ -61,6 +61,9 @@ struct Message {
     totalsTold @26 :TotalsTold;
     traceBatches @27 :TraceBatches;
     batchesTraced @28 :BatchesTraced;
+    showTotals @29 :ShowTotals;
+    totalsShown @30 :TotalsShown;
+    fluxSaved @31 :FluxSaved;
   }
 }
 
@@ -193,5 +196,29 @@ struct TraceBatches {
 
 struct BatchesTraced {
   lease @0 :UInt64;
+  fault @1 :Text;
+}
+
+struct ShowTotals {
+  show @0 :UInt32;
+  piece @1 :UInt32;
+}
+
+struct TotalsShown {
+  show @0 :UInt32;
+  piece @1 :UInt32;
+  pieces @2 :UInt32;
+  stopped @3 :UInt8;
+  over @4 :Bool;
+  first @5 :UInt64;
+  next @6 :UInt64;
+  batches @7 :UInt64;
+  tracedUs @8 :UInt64;
+  untimedBatches @9 :UInt64;
+  untimedRays @10 :UInt64;
+}
+
+struct FluxSaved {
+  show @0 :UInt32;
   fault @1 :Text;
 }

@@ -70,15 +70,16 @@ class Children {
 
   /// Waits until all have ended. The process of the controller decides: where it fails, the others
   /// are ended, and its exit code is returned; where it does not, the run went on without those
-  /// that failed. Without it (it is on another host), the first that fails says the code.
-  int wait(const std::string& controller) {
-    for (reap(controller); !living_.empty(); reap(controller)) {
+  /// that failed. That of the display, which may write results for longer, is the next to decide.
+  /// Without a controller (it is on another host), the first that fails says the code.
+  int wait(const std::string& controller, const std::string& display) {
+    for (reap(controller, display); !living_.empty(); reap(controller, display)) {
       int signal = 0;
       if (::sigwait(&watched_, &signal) != 0 || signal == SIGCHLD) continue;
       if (told_) std::_Exit(ExitCode::interrupted);  // for the second time: it shall not wait
       tell_all();
     }
-    return result_;
+    return result_ != 0 ? result_ : shown_;
   }
 
  private:
@@ -88,7 +89,7 @@ class Children {
   };
 
   /// Takes leave of those that have ended.
-  void reap(const std::string& controller) {
+  void reap(const std::string& controller, const std::string& display) {
     int status = 0;
     for (pid_t pid = 0; (pid = ::waitpid(-1, &status, WNOHANG)) > 0;) {
       const auto child = std::find_if(living_.begin(), living_.end(),
@@ -99,6 +100,7 @@ class Children {
       const bool all_end = code != 0 && child->name == controller;
       if (code != 0) log_error("process {} ended with {}", child->name, code);
       if (decides) result_ = code;
+      if (child->name == display) shown_ = code;
       living_.erase(child);
       if (all_end) tell_all();
     }
@@ -115,6 +117,7 @@ class Children {
   std::vector<Child> living_;
   bool told_ = false;
   int result_ = 0;
+  int shown_ = 0;  // the display's
 };
 
 int cluster_up(const ClusterOptions& options) {
@@ -131,16 +134,19 @@ int cluster_up(const ClusterOptions& options) {
     return ExitCode::bad_input;
   }
   Children children;
-  std::string controller;
+  std::string controller, display;
   for (const ClusterProcess& process : cluster.processes) {
     if (&cluster.hosts[process.host] != &*host) continue;
     if (process.nodes.back() == cluster.controller()) controller = process.name;
+    const auto& nodes = process.nodes;
+    if (!cluster.view.live && std::count(nodes.begin(), nodes.end(), cluster.display.node) > 0)
+      display = process.name;
     if (auto ok = children.start(cluster, process); !ok) {
       tell(ok.problem());
       return ExitCode::failure;
     }
   }
-  return children.wait(controller);
+  return children.wait(controller, display);
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 #include "actors/cli/commands.hpp"
 #include "actors/cli/load_cluster.hpp"
 #include "actors/cli/progress_line.hpp"
-#include "actors/cli/report_aloud.hpp"
+#include "actors/cli/run_display.hpp"
 #include "actors/cli/serve_view.hpp"
 #include "actors/cli/signals.hpp"
 #include "actors/display/pictures.hpp"
@@ -35,52 +35,35 @@ struct NodeOptions {
   std::vector<std::string> names;
 };
 
-/// A disk that is full when hours of work are to be written may have room soon: somebody is told,
-/// and it is tried again for ten minutes.
-Result<void> save_patiently(const fs::path& file, const LocalRun& run) {
-  constexpr int tries = 60;
-  constexpr int pause_ms = 10'000;
-  for (int i = 1;; ++i) {
-    auto saved = save_flux(file, run);
-    if (saved || i == tries || interrupt_flag()) return saved;
-    log_error("{}: tried again in {} s; Ctrl-C ends without", saved.problem().text(),
-              pause_ms / 1000);
-    ::poll(nullptr, 0, pause_ms);  // a signal ends it
-  }
-}
-
 /// The folder of the results, where this process is to write them: held until it ends.
 Result<std::optional<OutputFolder>> claim_results(const ClusterConfig& cluster,
-                                                  const ClusterProcessRun& process,
-                                                  const std::vector<NodeId>& nodes) {
-  if (cluster.view.live || std::count(nodes.begin(), nodes.end(), cluster.controller()) == 0)
-    return std::optional<OutputFolder>();
+                                                  const ClusterProcessRun& process) {
+  if (cluster.view.live || !process.shows()) return std::optional<OutputFolder>();
   const fs::path folder =
       cluster.run.out.empty() ? fs::path("out") / file_name_of(cluster.run.name) : cluster.run.out;
-  OutputPlan plan = run_output(*process.local_run().scene().description, false);
+  OutputPlan plan = run_output(*process.local_run().scene().description, cluster.display.pictures);
   auto out = OutputFolder::claim(folder, plan);
   if (!out) return out.problem();
   if (auto ok = refuse_foreign_files(out->path(), plan); !ok) return ok.problem();
   return std::optional(std::move(out).value());
 }
 
-/// What the controller leaves, as `luxodus run` does, but for pictures: `luxodus render` makes
-/// them.
-Result<void> write_results(const ClusterConfig& cluster, const ClusterProcessRun& process,
-                           const fs::path& folder, StopReason reason) {
-  RunRecord record;
-  record.scene_file = fs::absolute(cluster.run.scene).string();
-  record.stopped_by = name_of(reason);
-  record.cells = process.cells();
-  const LocalRun& run = process.local_run();
-  process.make_room();
-  if (auto ok = save_patiently(folder / "flux.lux", run); !ok) return ok.problem();
-  const auto result = write_report_aloud(folder, run, record);
-  if (!result) return result.problem();
-  process.forget_journal();
-  std::printf("%s in %s\n%s", cluster.run.name.c_str(), folder.string().c_str(),
-              summary_text(result.value()).c_str());
-  return {};
+/// What the node that shows the run leaves, as `luxodus run` does.
+RunDisplayOptions display_options(const ClusterConfig& cluster, const ClusterProcessRun& process,
+                                  const fs::path& folder) {
+  constexpr int preview_paths = 4;
+  RunDisplayOptions options;
+  options.folder = folder;
+  options.record.scene_file = fs::absolute(cluster.run.scene).string();
+  options.record.cells = process.cells();
+  options.pictures = cluster.display.pictures;
+  options.picture.interrupt = options.preview.interrupt = &interrupt_flag();
+  options.preview.paths_per_pixel = preview_paths;
+  options.preview_s = cluster.display.preview_s;
+  options.preview_asked = &preview_flag();
+  options.patient = true;
+  options.make_room = [&process] { process.make_room(); };
+  return options;
 }
 
 /// A controller that traces brings its worker.
@@ -155,7 +138,7 @@ int run_nodes(const NodeOptions& options) {
     tell(process.problem());
     return ExitCode::bad_input;
   }
-  const auto out = claim_results(cluster, *process.value(), nodes);
+  const auto out = claim_results(cluster, *process.value());
   if (!out) {
     tell(out.problem());
     return ExitCode::bad_input;
@@ -167,19 +150,25 @@ int run_nodes(const NodeOptions& options) {
     tell(viewed.problem());
     return ExitCode::failure;
   }
+  std::optional<RunDisplay> display;
+  if (process.value()->shows()) {
+    install_preview_handler();
+    display.emplace(process.value()->local_run(),
+                    display_options(cluster, *process.value(), out.value()->path()));
+  }
   ProgressLine line(cluster.run.name);
-  auto ended = process.value()->run(interrupt_flag(), [&](const Progress& p) { line.show(p); });
+  auto ended = process.value()->run(
+      interrupt_flag(), [&](const Progress& p) { line.show(p); }, display ? &*display : nullptr);
   if (!ended) {
     tell(ended.problem());
     return ExitCode::failure;
   }
   for (const std::string& text : process.value()->residency_lines()) log_info("{}", text);
+  if (display && !display->result().is_null())
+    std::printf("%s in %s\n%s", cluster.run.name.c_str(), out.value()->path().string().c_str(),
+                summary_text(display->result()).c_str());
   if (!ended.value()) return ExitCode::success;
-  if (auto ok = write_results(cluster, *process.value(), out.value()->path(), *ended.value());
-      !ok) {
-    tell(ok.problem());
-    return ExitCode::failure;
-  }
+  process.value()->forget_journal();
   if (*ended.value() == StopReason::workers_lost) {
     tell({{options.config, 0},
           "all workers were lost; what they had counted was written: go on with "
@@ -218,7 +207,8 @@ Command node_command() {
           "for each other.\n"
           "  luxodus node --config cluster.toml --name n3\n"
           "  luxodus node --config cluster.toml --name n0 --name n1     two in a process\n"
-          "The process of the controller writes the results. `luxodus cluster up` starts all "
+          "The process of the display, by default the controller's, writes the results. `luxodus "
+          "cluster up` starts all "
           "that belong to this machine, `luxodus deploy` writes what starts them on many.",
       .run = [o] { return run_nodes(*o); }};
 }

@@ -9,7 +9,7 @@
 #include "actors/cli/load_scene.hpp"
 #include "actors/cli/progress_line.hpp"
 #include "actors/cli/quantities.hpp"
-#include "actors/cli/report_aloud.hpp"
+#include "actors/cli/run_display.hpp"
 #include "actors/cli/run_folder.hpp"
 #include "actors/cli/run_options.hpp"
 #include "actors/cli/signals.hpp"
@@ -34,28 +34,8 @@ namespace fs = std::filesystem;
 /// Of a pixel in a preview: grainy, and there in seconds.
 constexpr int preview_paths = 4;
 
-/// Everything that a run leaves; returns result.json.
-Result<Json> write_all(const RunFolder& out, const LocalRun& run, const RunRecord& record,
-                       const RunOptions& options) {
-  const fs::path& folder = out.path();
-  out.room->release();
-  if (auto ok = save_flux(folder / "flux.lux", run); !ok) return ok.problem();
-  auto result = write_report_aloud(folder, run, record);
-  const bool pictures = !options.no_views && !run.scene().description->cameras.empty();
-  if (!result || !pictures || record.stopped_by == "interrupted") return result;
-  ProgressLine line("pictures");
-  PictureOptions picture;
-  picture.paths_per_pixel = options.picture_paths;
-  picture.raw = options.raw;
-  picture.interrupt = &interrupt_flag();
-  const auto drawn =
-      render_views(folder, run, "", picture, [&](double share) { line.show_share(share); });
-  if (!drawn) return drawn.problem();
-  return result;
-}
-
 Result<NodesOptions> nodes_options(const RunOptions& options, Nanoseconds link_delay,
-                                   Observation* observation) {
+                                   Observation* observation, DisplayWork* display) {
   NodesOptions nodes;
   if (options.profile == "0") {
     nodes.profile_share = 0;
@@ -75,12 +55,13 @@ Result<NodesOptions> nodes_options(const RunOptions& options, Nanoseconds link_d
   nodes.prefetch = options.prefetch;
   nodes.link_delay = link_delay;
   nodes.observation = observation;
+  nodes.display = display;
   return nodes;
 }
 
-/// Traces with the plain loop, or on nodes.
+/// Traces with the plain loop; or on nodes, which have the run shown, and leave its results.
 Result<StopReason> trace(LocalRun& run, const Scenario& scenario, const fs::path& folder,
-                         const RunOptions& options, const StopRule& rule) {
+                         const RunOptions& options, const StopRule& rule, DisplayWork& display) {
   std::optional<ProgressLine> line(scenario.name);
   const auto show = [&](const Progress& p) { line->show(p); };
   const auto delay = link_delay_of(options);
@@ -94,7 +75,7 @@ Result<StopReason> trace(LocalRun& run, const Scenario& scenario, const fs::path
   const auto port = seen.value()->port();
   if (port) log_info("metrics at http://{}:{}/metrics", observe.address, *port);
   Observation* const watched = seen.value()->watches() ? seen.value().get() : nullptr;
-  const auto nodes = nodes_options(options, delay.value(), watched);
+  const auto nodes = nodes_options(options, delay.value(), watched, &display);
   if (!nodes) return nodes.problem();
   NodesReport report;
   auto reason = run_on_nodes(run, nodes.value(), rule, interrupt_flag(), show, &report);
@@ -107,17 +88,33 @@ Result<StopReason> trace(LocalRun& run, const Scenario& scenario, const fs::path
   return reason;
 }
 
-/// What shows the run while it goes on; null where nobody asks.
-Result<std::unique_ptr<Preview>> preview_of(LocalRun& run, const fs::path& folder,
-                                            const RunOptions& options) {
-  if (options.preview.empty()) return std::unique_ptr<Preview>();
-  const auto every = parse_seconds(options.preview);
+/// What shows and leaves the run. Errors: spans of time that are none.
+Result<RunDisplayOptions> display_options(const RunFolder& folder, const RunRecord& record,
+                                          const RunOptions& options) {
+  RunDisplayOptions display;
+  display.folder = folder.path();
+  display.record = record;
+  display.keep_particles = folder.keep_particles;
+  display.make_room = [room = folder.room.get()] { room->release(); };
+  display.pictures = !options.no_views;
+  display.picture.paths_per_pixel = options.picture_paths;
+  display.picture.raw = options.raw;
+  display.preview.paths_per_pixel = preview_paths;
+  display.picture.interrupt = display.preview.interrupt = &interrupt_flag();
+  if (!options.preview.empty()) {
+    const auto every = parse_seconds(options.preview);
+    if (!every) return every.problem();
+    display.preview_s = every.value();
+    display.preview_asked = &preview_flag();
+    install_preview_handler();
+  }
+  if (options.checkpoint == "0") return display;
+  const auto every = parse_seconds(options.checkpoint);
   if (!every) return every.problem();
-  install_preview_handler();
-  PictureOptions picture;
-  picture.paths_per_pixel = preview_paths;
-  picture.interrupt = &interrupt_flag();
-  return std::make_unique<Preview>(folder, run, every.value(), preview_flag(), picture);
+  if (every.value() < 1)
+    return problem("--checkpoint " + options.checkpoint + ": write 1s or more, or 0 for none");
+  display.checkpoint_s = every.value();
+  return display;
 }
 
 /// With a budget for scene parts, nothing else is to hold geometry either.
@@ -135,29 +132,18 @@ std::unique_ptr<LocalRun> prepare(std::shared_ptr<const CompiledScene> scene, ui
   return std::make_unique<LocalRun>(std::move(scene), seed, options.threads, std::move(rows));
 }
 
-/// What shows or saves the run while it goes on.
-class Watchers {
- public:
-  /// Errors: spans of time that are none.
-  static Result<Watchers> start(LocalRun& run, const RunFolder& folder, const RunRecord& record,
-                                const RunOptions& options) {
-    Watchers watchers;
-    auto preview = preview_of(run, folder.path(), options);
-    if (!preview) return preview.problem();
-    watchers.preview_ = std::move(preview).value();
-    if (options.checkpoint == "0") return watchers;
-    const auto every = parse_seconds(options.checkpoint);
-    if (!every) return every.problem();
-    if (every.value() < 1)
-      return problem("--checkpoint " + options.checkpoint + ": write 1s or more, or 0 for none");
-    watchers.checkpoint_ = std::make_unique<Checkpoint>(folder.path(), run, record, every.value(),
-                                                        folder.keep_particles);
-    return watchers;
+/// What shows or saves a run of the plain loop while it goes on.
+struct Watchers {
+  Watchers(LocalRun& run, const RunDisplayOptions& options) {
+    if (options.preview_asked != nullptr)
+      preview.emplace(options.folder, run, options.preview_s, *options.preview_asked,
+                      options.preview);
+    if (options.checkpoint_s > 0)
+      checkpoint.emplace(options.folder, run, options.record, options.checkpoint_s,
+                         options.keep_particles);
   }
-
- private:
-  std::unique_ptr<Preview> preview_;
-  std::unique_ptr<Checkpoint> checkpoint_;
+  std::optional<Preview> preview;
+  std::optional<Checkpoint> checkpoint;
 };
 
 struct Traced {
@@ -226,7 +212,8 @@ Result<std::shared_ptr<const CompiledScene>> scene_to_trace(
 
 Result<Traced> print_plan(const LocalRun& run, const Scenario& scenario,
                           const RunOptions& options) {
-  const auto nodes = nodes_options(options, 0, nullptr);
+  RunDisplay display(run, RunDisplayOptions());
+  const auto nodes = nodes_options(options, 0, nullptr, &display);
   if (!nodes) return nodes.problem();
   auto plan = plan_on_nodes(run, nodes.value());
   if (!plan) return plan.problem();
@@ -258,10 +245,13 @@ Result<Traced> run_scenario(const std::shared_ptr<const SceneDescription>& descr
   record.at_s = time_asked(options.at);
   record.cells = options.cells;
   record.stop = rule;
-  auto watchers = Watchers::start(run, folder, record, options);
-  if (!watchers) return watchers.problem();
-  auto reason = trace(run, scenario, folder.path(), options, rule);
-  { const Watchers ended = std::move(watchers).value(); }
+  auto shown = display_options(folder, record, options);
+  if (!shown) return shown.problem();
+  RunDisplay display(run, shown.value());
+  std::optional<Watchers> watchers;
+  if (options.nodes == 0) watchers.emplace(run, shown.value());
+  auto reason = trace(run, scenario, folder.path(), options, rule, display);
+  watchers.reset();
   if (!reason) return reason.problem();
   if (reason.value() == StopReason::interrupted && run.particles() <= folder.keep_particles) {
     log_warning("{} keeps the run of {} particles that it held: this one had {}",
@@ -270,16 +260,17 @@ Result<Traced> run_scenario(const std::shared_ptr<const SceneDescription>& descr
                 short_number(static_cast<double>(run.particles())));
     return Traced{StopReason::interrupted, {}};
   }
-  record.stopped_by = name_of(reason.value());
-  auto result = write_all(folder, run, record, options);
-  if (!result) return result.problem();
+  if (options.nodes == 0) {
+    if (auto ok = display.keep_flux(run, reason.value()); !ok) return ok.problem();
+    if (auto ok = display.write_results(run, reason.value()); !ok) return ok.problem();
+  }
   if (!options.json) {
     std::printf("%s, in %s\n%s", description->name.c_str(), folder.output.named().string().c_str(),
-                summary_text(result.value(), options.verbose).c_str());
+                summary_text(display.result(), options.verbose).c_str());
   }
   // Pictures may have been interrupted; what was traced is written.
   if (interrupt_flag()) reason = StopReason::interrupted;
-  return Traced{reason.value(), std::move(result).value()};
+  return Traced{reason.value(), display.result()};
 }
 
 /// Folders of all scenarios are held before the first begins: who waits for hours is not to learn

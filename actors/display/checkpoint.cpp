@@ -36,12 +36,17 @@ void Checkpoint::take() {
 }
 
 Result<void> Checkpoint::save() {
-  if (taken_ == 0)
-    if (auto ok = remove_old_maps(folder_); !ok) return ok.problem();
   const double passed = std::chrono::duration<double>(Clock::now() - began_).count();
-  const Json begun = begun_json(run_, record_, run_.seconds() + passed);
-  if (auto ok = write_json(folder_ / "result.json", begun); !ok) return ok.problem();
-  return save_flux(folder_ / "flux.lux", run_);
+  return save_checkpoint(folder_, run_, record_, run_.seconds() + passed, taken_ == 0);
+}
+
+Result<void> save_checkpoint(const std::filesystem::path& folder, const LocalRun& run,
+                             const RunRecord& record, double seconds, bool first) {
+  if (first)
+    if (auto ok = remove_old_maps(folder); !ok) return ok.problem();
+  const Json begun = begun_json(run, record, seconds);
+  if (auto ok = write_json(folder / "result.json", begun); !ok) return ok.problem();
+  return save_flux(folder / "flux.lux", run);
 }
 
 }  // namespace luxodus

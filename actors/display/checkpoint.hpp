@@ -10,6 +10,11 @@
 
 namespace luxodus {
 
+/// Puts the totals of a run that goes on into its folder, with the time that they took. With the
+/// `first` of a run the maps of an earlier one go. Errors: as write_json and save_flux.
+Result<void> save_checkpoint(const std::filesystem::path& folder, const LocalRun& run,
+                             const RunRecord& record, double seconds, bool first);
+
 class Checkpoint {
  public:
   /// Saves from now on while `run` traces, `every_s` seconds apart. What the folder holds of an

@@ -6,27 +6,21 @@
 
 namespace luxodus {
 
-namespace {
-
-/// Another run's way to geometry.
-class RowsOf final : public ParallelFor {
- public:
-  explicit RowsOf(const ParallelFor& rows) : rows_(rows) {}
-  void run(int64_t rows, const MakeWorker& make, const Finished& finished) const override {
-    rows_.run(rows, make, finished);
+void render_preview(const std::filesystem::path& folder, const LocalRun& run,
+                    const PictureOptions& options) {
+  try {
+    const auto done = render_views(folder / "preview", run, "", options, {});
+    if (!done) log_warning("preview: {}", done.problem().text());
+  } catch (const std::exception& e) {
+    log_warning("preview: {}", e.what());
   }
-
- private:
-  const ParallelFor& rows_;
-};
-
-}  // namespace
+}
 
 Preview::Preview(std::filesystem::path folder, LocalRun& run, double every_s,
                  std::atomic<bool>& requested, const PictureOptions& options)
     : folder_(std::move(folder)),
       run_(run),
-      copy_(run.shared_scene(), run.seed(), run.threads(), std::make_unique<RowsOf>(run.rows())),
+      copy_(run.empty_copy()),
       every_(every_s),
       requested_(requested),
       options_(options) {
@@ -51,19 +45,14 @@ void Preview::take() {
   if (thread_.joinable()) thread_.join();
   int64_t batches = 0;
   for (int g = 0; g < run_.totals().groups(); ++g) {
-    copy_.totals().restore(g, run_.totals().state(g));
+    copy_->totals().restore(g, run_.totals().state(g));
     batches += run_.totals().batches(g);
   }
-  copy_.resume(batches);
+  copy_->resume(batches);
   rendering_ = true;
   ++taken_;
   thread_ = std::thread([this] {
-    try {
-      const auto done = render_views(folder_ / "preview", copy_, "", options_, {});
-      if (!done) log_warning("preview: {}", done.problem().text());
-    } catch (const std::exception& e) {
-      log_warning("preview: {}", e.what());
-    }
+    render_preview(folder_, *copy_, options_);
     rendering_ = false;
   });
 }

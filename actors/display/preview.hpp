@@ -7,11 +7,16 @@
 #include <atomic>
 #include <chrono>
 #include <filesystem>
+#include <memory>
 #include <thread>
 
 #include "actors/display/pictures.hpp"
 
 namespace luxodus {
+
+/// Renders into folder/preview/views. What goes wrong is logged: the run goes on.
+void render_preview(const std::filesystem::path& folder, const LocalRun& run,
+                    const PictureOptions& options);
 
 class Preview {
  public:
@@ -35,7 +40,7 @@ class Preview {
 
   const std::filesystem::path folder_;
   LocalRun& run_;
-  LocalRun copy_;  // of its totals; reaches geometry as it does
+  const std::unique_ptr<LocalRun> copy_;  // of its totals
   const std::chrono::duration<double> every_;
   std::atomic<bool>& requested_;
   const PictureOptions options_;

@@ -16,6 +16,27 @@ constexpr double report_every_s = 0.25;
 
 }  // namespace
 
+namespace {
+
+/// Another run's way to geometry.
+class RowsOfAnother final : public ParallelFor {
+ public:
+  explicit RowsOfAnother(const ParallelFor& rows) : rows_(rows) {}
+  void run(int64_t rows, const MakeWorker& make, const Finished& finished) const override {
+    rows_.run(rows, make, finished);
+  }
+
+ private:
+  const ParallelFor& rows_;
+};
+
+}  // namespace
+
+std::unique_ptr<LocalRun> LocalRun::empty_copy() const {
+  return std::make_unique<LocalRun>(scene_, seed_, threads_,
+                                    std::make_unique<RowsOfAnother>(*rows_));
+}
+
 class LocalRun::Clock {
  public:
   double seconds() const {

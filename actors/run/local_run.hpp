@@ -71,6 +71,22 @@ class LocalRun {
     untimed_ = {};
   }
 
+  /// What is known of the time that the totals took, to carry over to a copy of the run.
+  struct Timing {
+    double seconds = 0;
+    int64_t untimed_batches = 0;  // resumed from, of unknown time
+    uint64_t untimed_rays = 0;
+  };
+  Timing timing() const { return {seconds_, untimed_.batches, untimed_.rays}; }
+  void set_timing(const Timing& timing) {
+    seconds_ = timing.seconds;
+    untimed_ = {timing.untimed_batches, timing.untimed_rays};
+  }
+
+  /// A run of the same scene without totals, which reaches geometry as this one does.
+  /// Requires: this outlives it.
+  std::unique_ptr<LocalRun> empty_copy() const;
+
   /// Of the run: which batches it consists of, and where its rounds end.
   const BatchPlan& plan() const { return plan_; }
 

@@ -25,14 +25,18 @@ std::string fault_of(const NodeShell& shell, const Fibers& fibers) {
   return "";
 }
 
-/// Of a controller, whose disk takes virtual time.
-NodeSeams disk_seams(SimWorld& world, const NodeSetup& node) {
-  NodeSeams seams{world.clock(node.net.self), world.transport(node.net.self)};
-  seams.make_calls = [buggify = node.buggify](Scheduler& scheduler) {
+/// Of what waits for a disk, which takes virtual time.
+CallsMaker calls_in_virtual_time(Buggify* buggify) {
+  return [buggify](Scheduler& scheduler) {
     return std::make_unique<SimulatedCalls>(scheduler, [buggify] {
       return rarely(buggify, Buggify::Site::slow_disk) ? milliseconds(300) : milliseconds(1);
     });
   };
+}
+
+NodeSeams disk_seams(SimWorld& world, const NodeSetup& node) {
+  NodeSeams seams{world.clock(node.net.self), world.transport(node.net.self)};
+  seams.make_calls = calls_in_virtual_time(node.buggify);
   return seams;
 }
 
@@ -40,10 +44,10 @@ NodeSeams disk_seams(SimWorld& world, const NodeSetup& node) {
 
 // ---- workers -----------------------------------------------------------------------------------
 
-NodeSeams charged_seams(SimWorld& world, NodeId self, const SimCosts& costs) {
+NodeSeams charged_seams(SimWorld& world, NodeId self, const SimCosts& costs, Buggify* buggify) {
   SimClock& clock = world.clock(self);
   return {clock, world.transport(self), charged_tracers(clock, costs),
-          charged_builders(clock, costs, make_part_builder)};
+          charged_builders(clock, costs, make_part_builder), calls_in_virtual_time(buggify)};
 }
 
 SimWorker::SimWorker(const RunSetup& run, const NodeSetup& node, const NodeSeams& seams,
@@ -131,8 +135,9 @@ std::string SimController::fault() const {
   return "";
 }
 
+/// A display that has written the results may be gone when a controller begins anew.
 std::string SimController::regret() const {
-  return coordinator().fault() ? coordinator().fault()->what : "";
+  return coordinator().fault() && !coordinator().lost_display() ? coordinator().fault()->what : "";
 }
 
 }  // namespace luxodus

@@ -21,7 +21,8 @@ class CheckedNode : public SimNode {
 };
 
 /// A node's place in the world, where work is real and takes what it costs.
-NodeSeams charged_seams(SimWorld& world, NodeId self, const SimCosts& costs);
+NodeSeams charged_seams(SimWorld& world, NodeId self, const SimCosts& costs,
+                        Buggify* buggify = nullptr);
 
 class SimWorker final : public CheckedNode {
  public:

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "actors/run/flux_store.hpp"
+#include "actors/showing/display_work.hpp"
 #include "actors/source/snapshot_journal.hpp"
 #include "runtime/core/check.hpp"
 #include "runtime/core/random.hpp"
@@ -108,10 +109,51 @@ uint64_t draw_life(uint64_t seed, NodeId node, uint32_t life) {
   return random.bits64() | 1;
 }
 
+/// A display's disk, which outlives it. It looks at the run every now and then.
+class SimDisplay final : public DisplayWork {
+ public:
+  explicit SimDisplay(const SimScene& scene) : scene_(scene) {}
+  std::unique_ptr<LocalRun> fresh_run() override { return scene_.fresh_run(false); }
+  uint64_t picture_bytes() const override { return 0; }
+  bool wants_show() override { return ++looks_ % 8 == 0; }
+  void show(const LocalRun& run) override { whole_ = whole_ && run.totals().balance().closes(); }
+  Result<void> keep_flux(const LocalRun& run, StopReason) override {
+    flux_ = flux_of(run);
+    return {};
+  }
+  Result<void> write_results(const LocalRun&, StopReason) override { return {}; }
+
+  /// What is wrong with what it has; "" where it is the flux of the plain loop.
+  std::string fault() const {
+    if (!whole_) return "the display was shown a part of a flush";
+    if (!flux_) return "the display has not kept the flux";
+    const auto kept = scene_.fresh_run(false);
+    if (auto ok = take_flux(*flux_, {}, *kept); !ok) return ok.problem().what;
+    const std::string difference = scene_.difference(*kept);
+    return difference.empty() ? "" : "what the display has kept: " + difference;
+  }
+
+ private:
+  const SimScene& scene_;
+  uint64_t looks_ = 0;
+  bool whole_ = true;
+  std::optional<FluxFile> flux_;
+};
+
 /// Of RandomStream::faults: the swarm, the nodes' habits and torn ends have those before.
 constexpr uint64_t rare_ways_stream = uint64_t{1} << 32;
 /// Behind those of all nodes.
 constexpr uint64_t journal_stream = uint64_t{1} << 33;
+constexpr uint64_t display_stream = journal_stream + 1;
+
+/// Anywhere; where nodes are not drawn, at the controller's.
+NodeId drawn_display(const SimOptions& options) {
+  const auto nodes = static_cast<uint16_t>(options.nodes);
+  if (!options.draw_nodes) return options.fixed.display_node.value_or(NodeId{nodes});
+  Random random(options.seed, RandomStream::faults);
+  random.start(display_stream);
+  return {static_cast<uint16_t>(random.bits() % (nodes + 1u))};
+}
 
 // ---- a run ------------------------------------------------------------------------------------
 
@@ -120,7 +162,8 @@ class Simulation {
   static Result<SimReport> run(const SimScene& scene, const SimOptions& options);
 
  private:
-  Simulation(const SimScene& scene, const SimOptions& options, PlannedNodes& nodes);
+  Simulation(const SimScene& scene, const SimOptions& options, PlannedNodes& nodes,
+             const SimDisplay& display);
   void set_up(const PlannedNodes& nodes);
   FaultPlan fault_plan() const;
   std::unique_ptr<SimNode> make(NodeId node, uint32_t life);
@@ -135,6 +178,7 @@ class Simulation {
 
   const SimScene& scene_;
   const SimOptions options_;
+  const SimDisplay& display_;
   std::unique_ptr<LocalRun> run_;     // of the controller's present life
   std::vector<std::byte> disk_;       // of the controller: its journal,
   std::optional<FluxFile> snapshot_;  // and the snapshot, for which there is room, as on a real one
@@ -151,8 +195,9 @@ class Simulation {
   std::vector<bool> late_;  // of each: its life began after that
 };
 
-Simulation::Simulation(const SimScene& scene, const SimOptions& options, PlannedNodes& nodes)
-    : scene_(scene), options_(options), setup_(nodes.setup()) {
+Simulation::Simulation(const SimScene& scene, const SimOptions& options, PlannedNodes& nodes,
+                       const SimDisplay& display)
+    : scene_(scene), options_(options), display_(display), setup_(nodes.setup()) {
   stop_.particles = scene.particles();
   costs_.particle_ns = static_cast<double>(options.work) / static_cast<double>(scene.particles());
   set_up(nodes);
@@ -232,7 +277,8 @@ std::unique_ptr<SimNode> Simulation::make(NodeId node, uint32_t life) {
     return std::make_unique<SimController>(setup_, setup, *run_, stop_, *world_, costs_,
                                            journal_.get());
   }
-  return std::make_unique<SimWorker>(setup_, setup, charged_seams(*world_, node, costs_),
+  return std::make_unique<SimWorker>(setup_, setup,
+                                     charged_seams(*world_, node, costs_, setup.buggify),
                                      world_->clock(node), costs_, report_.caches);
 }
 
@@ -324,22 +370,27 @@ std::string Simulation::ended_well() const {
   if (!reason_) return "nobody has anything to do, and the run has not ended";
   if (*reason_ != StopReason::particles)
     return fmt::format("the run ended by {}, not by its particles", name_of(*reason_));
-  return scene_.difference(*run_);
+  const std::string difference = scene_.difference(*run_);
+  return difference.empty() ? display_.fault() : difference;
 }
 
 Result<SimReport> Simulation::run(const SimScene& scene, const SimOptions& options) {
   Draw draw(options.seed);
-  const NodesOptions wanted = drawn_nodes(draw, *scene.scene(), options);
+  NodesOptions wanted = drawn_nodes(draw, *scene.scene(), options);
+  SimDisplay display(scene);
+  wanted.display = &display;
+  wanted.display_node = drawn_display(options);
   const std::unique_ptr<LocalRun> run = scene.fresh_run(wanted.object_bytes == 0);
   StopRule stop;
   stop.particles = scene.particles();
   auto nodes = PlannedNodes::make(*run, wanted, stop, options.seed | 1);
   if (!nodes) return nodes.problem();
-  Simulation simulation(scene, options, *nodes.value());
+  Simulation simulation(scene, options, *nodes.value(), display);
   simulation.go();
   simulation.report_.nodes =
-      fmt::format("{} nodes, {} fibers, {} replicas, {} shards, objects {} KiB", wanted.nodes,
-                  wanted.fibers, wanted.replicas, wanted.tally_shards, wanted.object_bytes >> 10);
+      fmt::format("{} nodes, {} fibers, {} replicas, {} shards, objects {} KiB, display {}",
+                  wanted.nodes, wanted.fibers, wanted.replicas, wanted.tally_shards,
+                  wanted.object_bytes >> 10, wanted.display_node->value);
   return std::move(simulation.report_);
 }
 

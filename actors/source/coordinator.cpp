@@ -43,6 +43,7 @@ Coordinator::Coordinator(const CoordinatorConfig& config, LocalRun& run, const S
       book_(run.batches(), run.missing(), config.first_lease,
             config.look_ahead * static_cast<int64_t>(config.workers.size())),
       shards_(config.shards, run.totals(), clock_, sender, address()),
+      shows_(config.display, run, sender, address()),
       plan_(run.scene()),
       target_(stop.target_batches(run.scene().batch_particles)),
       batches_at_start_(run.traced()),
@@ -87,6 +88,7 @@ bool Coordinator::meet(Address worker, Incarnation life) {
       fence(book_.fence_node(worker.node), "its worker began anew");
       book_.forgive(worker.node);
       shards_.end_life(worker.node, peer.life);
+      shows_.end_life(worker.node);
       lose_shard(worker.node, "began anew");
     }
     peer.life = life;
@@ -296,7 +298,7 @@ void Coordinator::look_at_totals() {
   if (shards_.fault()) return fail(*shards_.fault());
   if (adding_ || reading_ || shards_.gathering()) return;
   const bool round_done = book_.round_done();
-  if (!round_done && !run_.pause_is_due()) return go_on_counting();
+  if (!round_done && !run_.pause_is_due() && !shows_.wanted()) return go_on_counting();
   if (shards_.others() > 0 && !gathered_) {
     if (counting_ || !shards_.settled()) return;  // called again when they are
     return shards_.gather([this] {
@@ -310,10 +312,12 @@ void Coordinator::look_at_totals() {
 /// Millions of bins, files and pictures take longer than a turn may.
 void Coordinator::read_totals(bool round_done) {
   reading_ = true;
-  if (run_.pause_is_due()) run_.resume(book_.lent_end(), book_.missing());
-  const auto read = [this, round_done] {
+  packing_ = shows_.begin_pack();
+  if (run_.pause_is_due() || packing_) run_.resume(book_.lent_end(), book_.missing());
+  const auto read = [this, round_done, packs = packing_, seconds = shown_seconds()] {
     try {
       run_.pause_if_due();
+      if (packs) shows_.pack(run_, seconds);
       if (round_done) read_error_ = Readout(run_.scene(), run_.totals()).worst_relative_error();
     } catch (...) {
       reading_failed_ = std::current_exception();
@@ -326,11 +330,12 @@ void Coordinator::totals_read(bool round_done) {
   reading_ = false;
   gathered_ = false;
   if (reading_failed_) std::rethrow_exception(std::exchange(reading_failed_, nullptr));
+  if (std::exchange(packing_, false)) shows_.packed(over_, reason_);
   if (round_done && !over_) {
     error_ = read_error_;
     end_round();
   }
-  if (!over_) go_on_counting();
+  over_ ? show_last_totals() : go_on_counting();
 }
 
 void Coordinator::end_round() {
@@ -377,6 +382,7 @@ bool Coordinator::awaits_journal() const {
 /// the same workers each time.
 void Coordinator::tell_end() {
   if (awaits_journal()) return;
+  shows_.tell_end(end_word());  // first: without room it would be told at the next look
   for (const auto& [worker, peer] : peers_)
     if ((peer.here || done_before_) && std::count(untold_.begin(), untold_.end(), worker) == 0)
       untold_.push_back(worker);
@@ -420,7 +426,8 @@ void Coordinator::let_go_when_told() {
   if (letting_go_) return;
   const auto knows = [&](const auto& entry) { return knows_end(entry.first, entry.second); };
   const bool all_know = std::all_of(peers_.begin(), peers_.end(), knows);
-  if (awaits_journal() || (!all_know && over_for() < config_.lost)) return;
+  if (awaits_journal() || !show_is_settled() || (!all_know && over_for() < config_.lost)) return;
+  if (letting_go_) return;
   letting_go_ = true;
   let_go();
 }

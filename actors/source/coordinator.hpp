@@ -14,6 +14,7 @@
 #include <string>
 
 #include "actors/run/local_run.hpp"
+#include "actors/showing/show_control.hpp"
 #include "actors/source/journal_actor.hpp"
 #include "actors/source/lease_book.hpp"
 #include "actors/tally/shard_control.hpp"
@@ -35,6 +36,7 @@ struct CoordinatorConfig {
   ShardPlan shards;                 // of the totals
   BlockingCalls* calls = nullptr;   // by which totals are read; never null
   JournalActor* journal = nullptr;  // of what is counted; null: none is kept
+  std::optional<NodeId> display;    // where the run is shown; nothing: nowhere
   /// Until every worker has been heard of; else the run does not begin.
   Nanoseconds start = seconds(60);
   /// A worker that no way leads to for so long is lost: long against a link that is made anew.
@@ -57,7 +59,9 @@ class Coordinator final
                                    Accepts<Letter<LeasesFenced>, 1024, WhenFull::reject>,
                                    Accepts<Letter<Flush>, 1024, WhenFull::reject>,
                                    Accepts<Letter<FlushSettled>, 256, WhenFull::reject>,
-                                   Accepts<Letter<TotalsTold>, 256, WhenFull::reject>>,
+                                   Accepts<Letter<TotalsTold>, 256, WhenFull::reject>,
+                                   Accepts<Letter<ShowTotals>, 8, WhenFull::reject>,
+                                   Accepts<Letter<FluxSaved>, 8, WhenFull::reject>>,
                        DataLane<Accepts<CountFlush, 2048, WhenFull::reject>>> {
  public:
   /// Goes on from the batches that `run` holds. All that is referred to must outlive it.
@@ -77,21 +81,30 @@ class Coordinator final
   // Of shards.
   void on(const Letter<FlushSettled>& settled);
   void on(const Letter<TotalsTold>& told);
+  // Of the display.
+  void on(const Letter<ShowTotals>& show);
+  void on(const Letter<FluxSaved>& saved);
   void on(CountFlush&& count);
 
   /// Ends the run, with this error: all that take part in it are told.
   void fail(const std::string& what);
 
-  /// All is over, every worker has heard so, or is lost, and has been let go.
+  /// The display never will write the results: ends the run, or leaves them unwritten.
+  void lose_display(const std::string& why);
+
+  /// All is over, every worker has heard so, or is lost, and has been let go. The flux is on a
+  /// disk, where there is a display.
   bool ended() const;
   /// How long ago the run was over.
   Nanoseconds over_for() const { return over_ ? clock_.now() - over_since_ : 0; }
   StopReason reason() const { return reason_; }
+  /// The run is over, and no display has written its results, as far as is known here.
+  bool lost_display() const { return lost_display_; }
   /// From the moment when all workers were here to that when all was counted; 0 before it.
   Nanoseconds took() const { return over_ ? over_since_ - began_ : 0; }
   /// A flush is being kept, or the totals hold a part of it.
   bool adding() const { return adding_; }
-  /// Why the run could not begin.
+  /// Why the run could not begin, or has no results.
   const std::optional<Problem>& fault() const { return fault_; }
 
   struct Counters {
@@ -110,6 +123,7 @@ class Coordinator final
   };
   const Counters& counters() const { return counters_; }
   const ShardControl::Counters& shard_counters() const { return shards_.counters(); }
+  const ShowControl::Counters& show_counters() const { return shows_.counters(); }
   void add_metrics(Metrics& metrics) const;
 
  private:
@@ -151,6 +165,9 @@ class Coordinator final
   bool keep(const Letter<Flush>& letter);
   void tidy_journal();
   void look_at_totals();
+  void show_last_totals();
+  double shown_seconds() const;
+  bool show_is_settled();
   void look_soon();
   void lose_shard(NodeId worker, const char* how);
   void read_totals(bool round_done);
@@ -180,6 +197,7 @@ class Coordinator final
   Network& network_;  // who is within reach
   LeaseBook book_;
   ShardControl shards_;
+  ShowControl shows_;
   BatchPlan plan_;
   std::vector<uint32_t> groups_;  // of batches, as far as asked; where groups are ranked
   int64_t target_;
@@ -208,8 +226,10 @@ class Coordinator final
   /// Flushes not counted yet. They are counted on the actor's fiber, in steps: a million bins take
   /// a second, in which beats must go on.
   std::vector<MessageId> uncounted_;
-  WaitList held_back_;     // the fiber, while shards tell their totals or a snapshot is made
-  bool reading_ = false;   // somebody reads the totals: nothing is added to them
+  WaitList held_back_;    // the fiber, while shards tell their totals or a snapshot is made
+  bool reading_ = false;  // somebody reads the totals: nothing is added to them
+  bool packing_ = false;  // for the display
+  bool lost_display_ = false;
   double read_error_ = 0;  // what was read last
   std::exception_ptr reading_failed_;
   bool counting_ = false;    // a flush

@@ -32,7 +32,7 @@ void Coordinator::on(Letter<Flush>&& letter) {
 /// snapshot, the flushes that have come wait.
 bool Coordinator::holds_back() const {
   if (shards_.gathering() || reading_) return true;
-  return shards_.others() > 0 && !over_ && run_.pause_is_due();
+  return shards_.others() > 0 && !over_ && (run_.pause_is_due() || shows_.wanted());
 }
 
 void Coordinator::go_on_counting() {

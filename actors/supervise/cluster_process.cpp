@@ -193,7 +193,7 @@ Result<void> ClusterProcessRun::load_scene() {
         "scene with a smaller --cell-kib");
   }
   OutOfCoreConfig rows;
-  rows.object_bytes = cluster_.node(cluster_.controller()).budget.object_bytes;
+  rows.object_bytes = cluster_.node(cluster_.display.node).budget.object_bytes;
   rows.sharing = cluster_.run.sharing;
   run_ = std::make_unique<LocalRun>(scene.value(), seed, 1,
                                     std::make_unique<OutOfCoreParallelFor>(scene.value(), rows));
@@ -208,6 +208,10 @@ Result<void> ClusterProcessRun::check_stored_objects() const {
     return node == cluster_.controller() ? !packed->file->object(0).empty()
                                          : cluster_.node(node).stores;
   });
+  if (shows() && packed->file->object(0).empty())
+    return problem_in(cluster_.run.scene,
+                      "this is the skeleton of a pack, and the results are written here: give the "
+                      "whole pack, or name another node in [display]");
   return here ? check_objects(run_->scene()) : Result<void>{};
 }
 
@@ -285,6 +289,10 @@ ObserveOptions ClusterProcessRun::observe_options() const {
   return options;
 }
 
+bool ClusterProcessRun::shows() const {
+  return !cluster_.view.live && std::count(nodes_.begin(), nodes_.end(), cluster_.display.node) > 0;
+}
+
 Result<void> ClusterProcessRun::open_journal(const Clock& clock) {
   RunJournalConfig config;
   config.folder = cluster_.run.out;
@@ -347,7 +355,8 @@ struct ClusterProcessRun::Prepared {
   std::optional<NodeSetup> controller;
 };
 
-Result<std::unique_ptr<ClusterProcessRun::Prepared>> ClusterProcessRun::prepare_nodes() {
+Result<std::unique_ptr<ClusterProcessRun::Prepared>> ClusterProcessRun::prepare_nodes(
+    DisplayWork* display) {
   std::vector<Admitted> admitted;
   for (const auto& [node, key] : public_keys_) admitted.push_back({node, key});
   auto out =
@@ -355,6 +364,7 @@ Result<std::unique_ptr<ClusterProcessRun::Prepared>> ClusterProcessRun::prepare_
   RunSetup& setup = out->setup;
   for (const ClusterNode& node : cluster_.nodes) setup.names.push_back(node.name);
   setup.shards.owners = cluster_.tally.shards;
+  if (!cluster_.view.live) setup.display = cluster_.display.node;
   if (fetches_) {
     const std::vector<NodeId> holders = holders_of(cluster_);
     out->objects.emplace(run_->scene(), holders, std::min<size_t>(replicas(), holders.size()));
@@ -376,6 +386,7 @@ Result<std::unique_ptr<ClusterProcessRun::Prepared>> ClusterProcessRun::prepare_
   for (const NodeId node : nodes_) {
     auto own = setup_of(node, setup);
     if (!own) return own.problem();
+    if (node == cluster_.display.node) own.value().display = display;
     if (out->residency) settle(own.value(), *out->residency);
     if (node == cluster_.controller())
       out->controller = std::move(own).value();
@@ -389,8 +400,9 @@ Result<std::unique_ptr<ClusterProcessRun::Prepared>> ClusterProcessRun::prepare_
 }
 
 Result<std::optional<StopReason>> ClusterProcessRun::run(
-    const std::atomic<bool>& interrupt, const std::function<void(const Progress&)>& report) {
-  auto prepared = prepare_nodes();
+    const std::atomic<bool>& interrupt, const std::function<void(const Progress&)>& report,
+    DisplayWork* display) {
+  auto prepared = prepare_nodes(display);
   if (!prepared) return prepared.problem();
   Prepared& nodes = *prepared.value();
   // With shards the journal would hold a part of the totals.
@@ -427,7 +439,7 @@ Result<std::optional<StopReason>> ClusterProcessRun::run(const std::atomic<bool>
     return problem_in(cluster_.file,
                       "a live view needs nodes that hold the whole scene: raise object_bytes in "
                       "[budget]");
-  auto prepared = prepare_nodes();
+  auto prepared = prepare_nodes(nullptr);
   if (!prepared) return prepared.problem();
   const Prepared& nodes = *prepared.value();
   WorkerThreads threads(

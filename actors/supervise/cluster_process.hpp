@@ -49,10 +49,14 @@ class ClusterProcessRun {
                                                             const std::vector<NodeId>& nodes);
   ~ClusterProcessRun();
 
-  /// Runs the nodes until the run has ended; with the controller here, says why it ended.
-  /// Errors: as join_links; a worker that failed.
+  /// Whether the run is shown by a node of this process.
+  bool shows() const;
+  /// Runs the nodes until the run has ended; with the controller here, says why it ended. `display`
+  /// shows it. Requires: shows(), or `display` is null.
+  /// Errors: as join_links; a worker that failed; results that could not be written.
   Result<std::optional<StopReason>> run(const std::atomic<bool>& interrupt,
-                                        const std::function<void(const Progress&)>& report);
+                                        const std::function<void(const Progress&)>& report,
+                                        DisplayWork* display);
   /// As run(), for other work, for which every node holds the whole scene. Nothing is kept of it.
   /// Errors: as run(); a scene that is more than some node's budget.
   Result<std::optional<StopReason>> run(const std::atomic<bool>& interrupt, const NodeWork& work);
@@ -80,7 +84,7 @@ class ClusterProcessRun {
     return std::min<uint32_t>(2, static_cast<uint32_t>(cluster_.workers()));
   }
   struct Prepared;
-  Result<std::unique_ptr<Prepared>> prepare_nodes();
+  Result<std::unique_ptr<Prepared>> prepare_nodes(DisplayWork* display);
   Result<void> load_scene();
   /// What is damaged in the scene's file, other nodes would ask this process for again and again.
   Result<void> check_stored_objects() const;

@@ -12,6 +12,7 @@ CoordinatorConfig coordinator_config(const RunSetup& setup, const NodeSetup& nod
   config.self = node.net.self;
   config.calls = &calls;
   config.journal = journal;
+  config.display = setup.display;
   config.lease_time = node.lease_time;
   config.group_ranks = node.group_ranks;
   config.max_leases = static_cast<uint32_t>(node.photons.leases);
@@ -39,13 +40,19 @@ ControllerNode::ControllerNode(const RunSetup& setup, const NodeSetup& node, Loc
       calls_(seams.make_calls(shell_.scheduler())),
       coordinator_(coordinator_config(setup, node, *calls_, make_journal(keeper, seams)), run, stop,
                    interrupt, std::move(report), shell_.scheduler(), shell_.network(),
-                   shell_.actors()) {}
+                   shell_.actors()) {
+  if (node.display == nullptr) return;
+  display_calls_ = seams.make_calls(shell_.scheduler());
+  display_.emplace(display_config(node), *node.display, *display_calls_, shell_.scheduler(),
+                   shell_.network(), shell_.actors());
+}
 
 /// The coordinator ends the run with this error; where it is itself what has failed, its workers
 /// are told in its place, and this node leaves.
 bool ControllerNode::end_run(const Verdict& verdict) {
   if (verdict.actor != ActorName::coordinator) {
-    coordinator_.fail(verdict.text);
+    verdict.actor == ActorName::display ? coordinator_.lose_display(verdict.text)
+                                        : coordinator_.fail(verdict.text);
     return true;
   }
   const std::string text = verdict.text.substr(0, limits::text_bytes);
@@ -66,6 +73,10 @@ JournalActor* ControllerNode::make_journal(FlushKeeper* keeper, const NodeSeams&
 }
 
 void ControllerNode::start(std::function<bool()> broken) {
+  if (display_) {
+    shell_.add(ActorName::display, *display_);
+    display_->begin();
+  }
   shell_.add(ActorName::coordinator, coordinator_);
   coordinator_.start();
   if (journal_) {
@@ -77,11 +88,14 @@ void ControllerNode::start(std::function<bool()> broken) {
   if (setup_.observation != nullptr) {
     metrics_.emplace(setup_.names, self_, "controller", shell_);
     coordinator_.add_metrics(metrics_->registry());
+    if (display_) display_->add_metrics(metrics_->registry());
     metrics_->add_rate({"particles_per_second", "", "Particles counted in a second.", ""},
                        coordinator_.counters().particles);
     metrics_->start(*setup_.observation);
   }
-  shell_.begin([this, broken = std::move(broken)] { return coordinator_.ended() || broken(); });
+  shell_.begin([this, broken = std::move(broken)] {
+    return (coordinator_.ended() && is_shown()) || broken();
+  });
 }
 
 }  // namespace luxodus

@@ -23,10 +23,13 @@ class ControllerNode {
   NodeShell& shell() { return shell_; }
   const NodeShell& shell() const { return shell_; }
   const Coordinator& coordinator() const { return coordinator_; }
+  /// Null where the run is shown elsewhere, or nowhere.
+  const DisplayActor* display() const { return display_ ? &*display_ : nullptr; }
 
  private:
   JournalActor* make_journal(FlushKeeper* keeper, const NodeSeams& seams);
   bool end_run(const Verdict& verdict);
+  bool is_shown() const { return !display_ || display_->done(); }
 
   const RunSetup& setup_;
   const NodeSetup& node_;
@@ -35,6 +38,8 @@ class ControllerNode {
   std::unique_ptr<BlockingCalls> disk_calls_;  // of the journal
   std::optional<JournalActor> journal_;        // where what is counted is kept
   std::unique_ptr<BlockingCalls> calls_;       // of the coordinator
+  std::unique_ptr<BlockingCalls> display_calls_;
+  std::optional<DisplayActor> display_;  // where the run is shown here
   Coordinator coordinator_;
   std::optional<NodeMetrics> metrics_;
 };

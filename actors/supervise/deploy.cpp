@@ -103,7 +103,7 @@ SystemCallFilter=@system-service
 std::string unit_text(const ClusterConfig& cluster, const ClusterProcess& process,
                       const DeployOptions& options) {
   std::string results;
-  if (hosts_controller(cluster, process)) {
+  if (writes_results(cluster, process)) {
     results = fmt::format(
         "# The results' folder: it must be there, and belong to the user.\n"
         "ReadWritePaths={}\n",

@@ -95,7 +95,8 @@ std::string pod_fault(const ClusterConfig& cluster) {
 constexpr std::string_view shared_manifest = R"(# Run {run} on Kubernetes.
 # Written by `luxodus deploy`; change the cluster's file instead.
 #   kubectl apply{keys_file} -f {run}.yaml
-# A pod whose process has ended well rests; the results lie in the claim of the controller's pod.
+# A pod whose process has ended well rests; the results lie in the claim of the display's pod, which
+# is the controller's unless the cluster's file names another.
 # Delete what this file makes when they have been copied: kubectl delete -f {run}.yaml
 apiVersion: v1
 kind: Service
@@ -215,9 +216,9 @@ std::string ports_of(const ClusterConfig& cluster, const ClusterProcess& process
   return "          ports:\n" + ports;
 }
 
-/// Of the pod that writes the results: they and its journal outlive the pod.
+/// Of a pod that writes results or journal: they outlive the pod.
 std::string claim_of(const ClusterConfig& cluster, const ClusterProcess& process) {
-  if (!hosts_controller(cluster, process)) return "";
+  if (!writes_results(cluster, process)) return "";
   return fmt::format(
       "  volumeClaimTemplates:\n"
       "    - metadata: {{name: results, labels: {{app: luxodus, run: \"{}\"}}}}\n"
@@ -240,7 +241,7 @@ std::string manifest_of(const ClusterConfig& cluster, const ClusterProcess& proc
         "        - name: keys\n          emptyDir: {{medium: Memory}}\n",
         set);
   }
-  if (hosts_controller(cluster, process))
+  if (writes_results(cluster, process))
     mounts += fmt::format("            - {{name: results, mountPath: {}}}\n",
                           yaml_text(cluster.run.out.string()));
   const std::string init =

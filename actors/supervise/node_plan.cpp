@@ -49,6 +49,19 @@ void add_totals(MemoryPlan& plan, const CompiledScene& scene, uint64_t copies) {
                        scene.groups.size(), sizeof(Total)));
 }
 
+/// Of a node that shows the run: a copy of the totals, and what is made of them. The scene that it
+/// is rendered in is the process's.
+void add_display(MemoryPlan& plan, const RunSetup& run, const NodeSetup& node) {
+  if (node.display == nullptr) return;
+  add_mailbox(plan, "display", DisplayActor::memory_bytes());
+  const uint64_t bytes = bins_of(run.scene) * sizeof(Total);
+  plan.add(
+      "totals that are shown", 2 * bytes,
+      fmt::format("a copy and the flux file made of it, {} bins x {} source groups x {} B each",
+                  run.scene.layout.totals(), run.scene.groups.size(), sizeof(Total)));
+  plan.add("pictures", node.display->picture_bytes(), "the largest, with its features and errors");
+}
+
 uint64_t histogram_bytes(const RunSetup& run) {
   const uint64_t own = 1;  // of batches; those of fetches are counted with the fetcher
   return (own + (run.objects != nullptr ? 2 : 0)) * sizeof(Histogram);
@@ -124,6 +137,14 @@ SchedulerLimits controller_limits(const NodeSetup& node) {
   return limits;
 }
 
+DisplayConfig display_config(const NodeSetup& node) {
+  DisplayConfig config;
+  config.self = node.net.self;
+  config.coordinator = {node.controller, ActorName::coordinator};
+  config.lost = node.lost;
+  return config;
+}
+
 CacheConfig cache_config(const SceneObjects& objects, const NodeSetup& node) {
   return object_cache(objects, node.object_bytes, node.pinned_share);
 }
@@ -163,6 +184,7 @@ MemoryPlan worker_plan(const RunSetup& run, const NodeSetup& node) {
   }
   plan.add("histograms", histogram_bytes(run),
            "of batches; of builds and waits where scene parts are fetched");
+  add_display(plan, run, node);
   add_metrics(plan, run, histograms);
   if (run.observation != nullptr && run.observation->traces())
     plan.add("trace", limits::trace_events * sizeof(TraceEvent),
@@ -183,6 +205,11 @@ MemoryPlan controller_plan(const RunSetup& run, const NodeSetup& node) {
            std::min<uint64_t>(ShellConfig{}.max_payload_bytes, workers * bins * flush_bytes_of_bin),
            fmt::format("of {} workers at once, at most {} B of all", workers,
                        ShellConfig{}.max_payload_bytes));
+  if (run.display)
+    plan.add(
+        "totals for the display", bins_of(run.scene) * flush_bytes_of_bin,
+        fmt::format("{} bins x {} B at most, packed less", bins_of(run.scene), flush_bytes_of_bin));
+  add_display(plan, run, node);
   add_metrics(plan, run, 0);
   return plan;
 }

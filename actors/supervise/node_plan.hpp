@@ -19,6 +19,9 @@ SchedulerLimits controller_limits(const NodeSetup& node);
 /// A controller's network: it may have two words for every worker at once.
 NetConfig controller_net(const RunSetup& run, const NodeSetup& node);
 
+/// The display's, where the node has one.
+DisplayConfig display_config(const NodeSetup& node);
+
 /// The cache of a worker that fetches objects.
 CacheConfig cache_config(const SceneObjects& objects, const NodeSetup& node);
 

@@ -9,11 +9,15 @@
 namespace luxodus {
 
 namespace {
-/// Nodes that look for objects or shards in different places do not belong together.
+/// Nodes that look for objects, shards or the display in different places do not belong together.
 uint64_t hash_of(const RunSetup& run) {
-  if (run.objects == nullptr && run.shards.owners.empty()) return run.scene.scene_hash;
+  const NodeId controller{static_cast<uint16_t>(run.graph.controller())};
+  const bool shown_elsewhere = run.display && *run.display != controller;
+  if (run.objects == nullptr && run.shards.owners.empty() && !shown_elsewhere)
+    return run.scene.scene_hash;
   Hasher hash;
   hash.add(run.scene.scene_hash);
+  if (shown_elsewhere) hash.add(uint64_t{run.display->value});
   for (const NodeId owner : run.shards.owners) hash.add(uint64_t{owner.value});
   if (run.objects == nullptr) return hash.value();
   for (const ObjectPlace& place : run.objects->places()) {

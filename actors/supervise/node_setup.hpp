@@ -8,6 +8,7 @@
 
 #include "actors/objects/scene_objects.hpp"
 #include "actors/photon/photon_threads.hpp"
+#include "actors/showing/display_actor.hpp"
 #include "actors/source/coordinator.hpp"
 #include "actors/supervise/node_shell.hpp"
 #include "actors/supervise/observation.hpp"
@@ -31,6 +32,7 @@ struct RunSetup {
   ShardPlan shards = {};               // of the totals
   SharedObjects* shared = nullptr;  // what nodes of the process have built; null: to each its own
   const Routes* routes = nullptr;   // of the whole graph, where they were made once for all
+  std::optional<NodeId> display = {};  // where the run is shown; nothing: nowhere
 
   /// Of a node, for people.
   std::string name_of(NodeId node) const {
@@ -63,7 +65,8 @@ struct NodeSetup {
   Nanoseconds shutdown_phase = ShellConfig{}.shutdown_phase;
   /// What shall go wrong, on purpose. Requires: the same at all nodes.
   FaultPlan faults;
-  bool one_clock = true;  // all nodes are on one host
+  bool one_clock = true;           // all nodes are on one host
+  DisplayWork* display = nullptr;  // of the node where the run is shown; else null
   /// Rare ways, in simulations: the same in `net`. Null: none.
   Buggify* buggify = nullptr;
 };

@@ -109,6 +109,7 @@ Result<StopReason> run_controller(const RunSetup& setup, const Machine& machine,
   if (controller.fault())
     return problem(setup.name_of(node.net.self) + ": " + controller.fault()->what +
                    transport.meeting_trouble(network));
+  if (here.display() != nullptr && here.display()->fault()) return *here.display()->fault();
   if (counted != nullptr) {
     const Coordinator::Counters& c = controller.counters();
     *counted = {c.flushes_taken,

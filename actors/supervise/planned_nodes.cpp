@@ -127,6 +127,8 @@ PlannedNodes::PlannedNodes(const LocalRun& run, const NodesOptions& options, Gra
   for (int i = 0; i < options.nodes; ++i) setup_.names.push_back("n" + std::to_string(i));
   setup_.names.push_back("controller");
   setup_.routes = &routes_;
+  if (options.display != nullptr)
+    setup_.display = options.display_node.value_or(NodeId{static_cast<uint16_t>(options.nodes)});
   for (uint16_t i = 0; i + 1 < options.tally_shards; ++i) setup_.shards.owners.push_back({i});
   if (options.object_bytes == 0) return;
   std::vector<NodeId> holders;
@@ -154,6 +156,7 @@ void PlannedNodes::set_up(const NodesOptions& options, uint64_t run_id) {
   complete(common, setup_);
   for (uint16_t i = 0; i <= options.nodes; ++i) {
     workers_.push_back(setup_of(setup_, common, {i}, options, run_id));
+    if (setup_.display == NodeId{i}) workers_.back().display = options.display;
     if (residency_) settle(workers_.back(), *residency_);
   }
   controller_ = workers_.back();

@@ -51,6 +51,8 @@ struct NodesOptions {
   uint64_t tally_bytes = NodeSetup{}.tally_bytes;  // of each node, for scores, totals and flushes
   int tally_shards = 1;  // of the totals: the controller's, and those of the first workers
   Observation* observation = nullptr;  // where somebody watches
+  DisplayWork* display = nullptr;      // shows the run; null: nobody does
+  std::optional<NodeId> display_node;  // where; by the controller's node unless said
   /// Asked by each worker every few milliseconds, on its own thread: whether it shall end
   /// before the run does.
   std::function<bool()> stop = [] { return false; };

@@ -43,7 +43,12 @@ Worker::Worker(const RunSetup& run, const NodeSetup& node, const NodeSeams& seam
                objects_ ? GeometryAccess::through(*run.proxies, objects_->source())
                         : GeometryAccess::resident(*run.index),
                run.seed, photon_config(node, trace_), shell_.scheduler(), tracer_,
-               seams.make_tracer) {}
+               seams.make_tracer) {
+  if (node.display == nullptr) return;
+  display_calls_ = seams.make_calls(shell_.scheduler());
+  display_.emplace(display_config(node), *node.display, *display_calls_, shell_.scheduler(),
+                   shell_.network(), shell_.actors());
+}
 
 Worker::~Worker() = default;
 
@@ -63,6 +68,7 @@ void Worker::show_to(Observation& seen) {
   photons_.add_metrics(metrics_->registry());
   if (shard_) shard_->add_metrics(metrics_->registry());
   if (objects_) objects_->add_metrics(metrics_->registry());
+  if (display_) display_->add_metrics(metrics_->registry());
   metrics_->add_rate({"particles_per_second", "", "Particles traced in a second.", ""},
                      photons_.counters().particles);
   metrics_->start(seen);
@@ -76,6 +82,11 @@ void Worker::start(std::function<bool()> stop) {
     shell_.add(ActorName::tally_shard, *shard_);
     shard_->start();
   }
+  if (display_) {
+    shell_.add(ActorName::display, *display_);
+    display_->begin();
+  }
+  shell_.supervisor().end_runs_by([this](const Verdict& verdict) { return end_run(verdict); });
   if (objects_) objects_->pin(node_.pins);
   photons_.start();
   if (run_.observation != nullptr) show_to(*run_.observation);
@@ -85,23 +96,39 @@ void Worker::start(std::function<bool()> stop) {
   shell_.scheduler().seal();
 }
 
+/// The run ends with its display; should the coordinator not hear of it, this node is lost to it.
+bool Worker::end_run(const Verdict& verdict) {
+  if (display_) display_->tell_failure(verdict.text);
+  return false;
+}
+
+/// A display that has heard of the end stays until all is written.
 bool Worker::may_leave() {
-  if (tracer_.ended()) return true;
+  const bool shows = display_ && !display_->done();
+  if (tracer_.ended()) return !shows || tracer_.fault().has_value();
   if (!stop_()) return false;
-  if (tracer_.over()) return true;  // it would but have passed others' word on
+  if (display_ && display_->is_ending()) return !shows;
+  if (tracer_.over()) return !shows;  // it would but have passed others' word on
+  return leaves_early();
+}
+
+bool Worker::leaves_early() {
   const Nanoseconds now = shell_.scheduler().clock().now();
   if (leave_at_ == never) {
     leave_at_ = now + node_.shutdown_phase;
     tracer_.drain();
   }
-  // What it holds of the totals goes with it: it stays until the run ends, if that is soon.
-  const bool leaves = (tracer_.drained() && !shard_) || now >= leave_at_;
+  // What it holds of the totals goes with it; the way to a display that is to write the results may
+  // lead through it: then it stays until the run ends, if that is soon.
+  const bool is_needed = shard_ || (run_.display && *run_.display != node_.controller);
+  const bool leaves = (tracer_.drained() && !is_needed) || now >= leave_at_;
   if (leaves) tracer_.say_goodbye();
   return leaves;
 }
 
 Result<WorkerReport> Worker::result() const {
   if (tracer_.fault()) return *tracer_.fault();
+  if (display_ && display_->fault()) return *display_->fault();
   WorkerReport report = objects_ ? objects_->report() : WorkerReport{};
   if (const auto& verdict = shell_.supervisor().verdict()) report.failed = verdict->actor;
   report.waited = shell_.scheduler().counters().waited;

@@ -36,6 +36,8 @@ class Worker {
  private:
   void show_to(Observation& seen);
   bool may_leave();
+  bool leaves_early();
+  bool end_run(const Verdict& verdict);
   std::unique_ptr<TallyShard> own_shard();
 
   const RunSetup& run_;
@@ -46,6 +48,8 @@ class Worker {
   std::unique_ptr<TallyShard> shard_;         // where it holds one of the totals
   Tracer tracer_;
   PhotonThreads photons_;
+  std::unique_ptr<BlockingCalls> display_calls_;
+  std::optional<DisplayActor> display_;  // where the run is shown here
   std::optional<NodeMetrics> metrics_;
   std::function<bool()> stop_;
   Nanoseconds leave_at_ = never;

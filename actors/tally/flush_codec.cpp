@@ -181,15 +181,27 @@ FlushEncoder::FlushEncoder(int groups, int64_t totals) : zstd_(std::make_unique<
 
 uint64_t FlushEncoder::batches_of_group() {
   if (counts_ == FlushCounts::without) return 0;
-  return static_cast<uint64_t>(totals_->take_batches(group_));
+  return static_cast<uint64_t>(emptied_ != nullptr ? emptied_->take_batches(group_)
+                                                   : totals_->batches(group_));
 }
 
 EnergyBalance FlushEncoder::balance() {
-  return counts_ == FlushCounts::without ? EnergyBalance{} : totals_->take_ledger();
+  if (counts_ == FlushCounts::without) return {};
+  return emptied_ != nullptr ? emptied_->take_ledger() : totals_->balance();
 }
 
 void FlushEncoder::begin(Totals& totals, const BinRange& bins, FlushCounts counts) {
+  totals_ = emptied_ = &totals;
+  begin_bins(bins, counts);
+}
+
+void FlushEncoder::begin_copy(const Totals& totals, const BinRange& bins, FlushCounts counts) {
   totals_ = &totals;
+  emptied_ = nullptr;
+  begin_bins(bins, counts);
+}
+
+void FlushEncoder::begin_bins(const BinRange& bins, FlushCounts counts) {
   bins_ = bins;
   counts_ = counts;
   group_ = 0;
@@ -197,7 +209,7 @@ void FlushEncoder::begin(Totals& totals, const BinRange& bins, FlushCounts count
   raw_.clear();
   packed_.clear();
   ZSTD_CCtx_reset(zstd_->context.get(), ZSTD_reset_session_only);
-  put(raw_, static_cast<uint64_t>(totals.groups()));
+  put(raw_, static_cast<uint64_t>(totals_->groups()));
   put(raw_, batches_of_group());
 }
 
@@ -208,13 +220,24 @@ bool FlushEncoder::step(int64_t bins) {
   Numbers numbers;
   next_ = std::min(totals_->next_bin(group_, next_), bins_.end);
   const int64_t end = std::min(next_ + bins, bins_.end);
-  totals_->take_bins(group_, next_, end, [&](int64_t index, const Total& total) {
+  const auto put_bin = [&](int64_t index, const Total& total) {
     numbers.put(static_cast<uint64_t>(index - after_last_ + 1));
     numbers.put_signed(total.sum);
     numbers.put(total.squares);
     numbers.move_to(raw_);
     after_last_ = index + 1;
-  });
+  };
+  if (emptied_ != nullptr) {
+    emptied_->take_bins(group_, next_, end, put_bin);
+  } else {
+    const SparseArray<Total>& totals = totals_->state(group_).totals;
+    totals.for_each_touched(next_, end, [&](int64_t begin, int64_t behind) {
+      for (int64_t i = begin; i < behind; ++i) {
+        const Total& total = totals[static_cast<size_t>(i)];
+        if (total.sum != 0 || total.squares != 0) put_bin(i, total);
+      }
+    });
+  }
   next_ = end;
   const bool group_done = next_ == bins_.end;
   bool done = false;

@@ -38,6 +38,8 @@ class FlushEncoder {
   void begin(Totals& totals) { begin(totals, {0, totals.layout().totals()}, FlushCounts::with); }
   /// The same for some of the bins, of all groups.
   void begin(Totals& totals, const BinRange& bins, FlushCounts counts);
+  /// The same, of totals that keep what they have.
+  void begin_copy(const Totals& totals, const BinRange& bins, FlushCounts counts);
 
   /// Goes through the next `bins` bins; true when there are no more.
   bool step(int64_t bins);
@@ -53,7 +55,10 @@ class FlushEncoder {
   uint64_t batches_of_group();
   EnergyBalance balance();
 
-  Totals* totals_ = nullptr;
+  void begin_bins(const BinRange& bins, FlushCounts counts);
+
+  const Totals* totals_ = nullptr;
+  Totals* emptied_ = nullptr;  // the same, where they are emptied
   BinRange bins_;
   FlushCounts counts_ = FlushCounts::with;
   int group_ = 0;

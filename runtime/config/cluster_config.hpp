@@ -134,6 +134,13 @@ struct ObserveChoice {
   std::string log_level;     // debug, info, warn, error
 };
 
+/// Where the run is shown and its results are written.
+struct DisplayChoice {
+  NodeId node;
+  bool pictures = false;  // of every camera, when the run has ended
+  double preview_s = 0;   // between previews while it goes on; 0: none
+};
+
 /// Whether nodes trace for a live view, which the controller's process serves.
 struct ViewChoice {
   bool live = false;
@@ -156,6 +163,7 @@ struct ClusterConfig {
   LeaseChoice lease;
   Timeouts timeouts;
   TallyChoice tally;
+  DisplayChoice display;
   KeysChoice keys;
   ObserveChoice observe;
   ViewChoice view;

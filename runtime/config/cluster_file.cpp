@@ -87,6 +87,13 @@ void read_services(TableReader& top, ClusterReading& reading) {
 
   reading.shards = reader_of(top, "tally").names("shards");
 
+  TableReader display = reader_of(top, "display");
+  reading.display = {display.text("node"), display.place("node")};
+  reading.cluster.display.pictures = display.flag("pictures");
+  reading.cluster.display.preview_s = display.number("preview_s");
+  if (top.has("display") && top.has("view"))
+    display.problem("node", "a live view writes no results: leave out [display] or [view]");
+
   TableReader keys = reader_of(top, "keys");
   reading.cluster.keys = {keys.path("folder"), keys.flag("insecure")};
   if (keys.has("folder") && reading.cluster.keys.insecure)
@@ -143,6 +150,7 @@ void read_tables(const toml::Table& document, ClusterReading& reading) {
   give_ports(reading);
   connect_nodes(reading);
   place_shards(reading);
+  place_display(reading);
   resolve_fault_events(reading);
   check_keys(reading);
 }

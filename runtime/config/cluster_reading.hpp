@@ -26,6 +26,7 @@ struct ClusterReading {
   std::map<size_t, uint16_t> ports;          // by node: as said
   std::vector<TableReader::NamePair> links;  // as said
   std::vector<TableReader::Name> shards;     // as said
+  TableReader::Name display;                 // as said; "": the controller
   std::vector<const toml::Table*> fault_events;
 };
 
@@ -42,6 +43,7 @@ void form_processes(ClusterReading& reading, uint16_t metrics_port);
 void give_ports(ClusterReading& reading);
 void connect_nodes(ClusterReading& reading);
 void place_shards(ClusterReading& reading);
+void place_display(ClusterReading& reading);
 /// Requires: nodes have their numbers.
 void resolve_fault_events(ClusterReading& reading);
 

@@ -27,6 +27,7 @@ std::vector<TableSpec> run_tables() {
            {"lease", "table", "", "", "", "how work is given out"},
            {"timeouts", "table", "", "", "", "how long is waited for what"},
            {"tally", "table", "", "", "", "where what is counted lies"},
+           {"display", "table", "", "", "", "where the run is shown and its results are written"},
            {"keys", "table", "", "", "", "by which nodes know each other"},
            {"observe", "table", "", "", "", "what can be seen of a run"},
            {"view", "table", "", "", "", "a live view in place of a run that ends"},
@@ -43,7 +44,7 @@ std::vector<TableSpec> run_tables() {
            {"scenario", "text", "", "\"\"", "",
             "state of the building; the scene's first if empty"},
            {"out", "path", "", "", "",
-            "folder of the results, on the controller's host; `out/NAME` beside this file unless "
+            "folder of the results, on the host of the display; `out/NAME` beside this file unless "
             "said"},
            {"profile", "path", "", "", "",
             "file of `luxodus profile`, by which nodes that fetch objects plan who traces, holds "
@@ -218,6 +219,17 @@ std::vector<TableSpec> service_tables() {
            {"shards", "names", "", "", "",
             "workers that hold a share of the totals each, in equal ranges of bins; the first "
             "share stays with the controller. Losing one of them ends the run without a result"},
+       }},
+      {"display",
+       "`[display]`",
+       {
+           {"node", "text", "", "\"\"", "",
+            "the node that shows the run and writes the results, on its host; the controller "
+            "unless said. Losing it loses no flux: begun again, it asks for it anew"},
+           {"pictures", "flag", "", "false", "",
+            "a picture of every camera when the run has ended, as `luxodus run` makes them"},
+           {"preview_s", "number", "s", "0", "[0, 1e8]",
+            "between previews while the run goes on; 0: none but when the process gets SIGUSR1"},
        }},
       {"keys",
        "`[keys]`",

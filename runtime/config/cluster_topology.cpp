@@ -90,6 +90,22 @@ void place_shards(ClusterReading& reading) {
   }
 }
 
+void place_display(ClusterReading& reading) {
+  const ClusterConfig& cluster = reading.cluster;
+  NodeId& node = reading.cluster.display.node;
+  node = cluster.controller();
+  if (reading.display.text.empty()) return;
+  const NodeId named_one = named(reading.display.text, reading.display.place, reading);
+  if (named_one == no_node) return;
+  node = named_one;
+  if (!cluster.node(node).stores)
+    reading.findings.problem(
+        reading.display.place,
+        fmt::format("\"{}\" has no scene parts of its own (stores = false), and pictures are "
+                    "rendered in the whole scene: name another node",
+                    reading.display.text));
+}
+
 void connect_nodes(ClusterReading& reading) {
   const ClusterConfig& cluster = reading.cluster;
   TopologyChoice& choice = reading.cluster.topology;

@@ -7,14 +7,14 @@ using namespace luxodus::program;
 
 namespace {
 
-std::string smoke_tank() {
+std::string tank_scene() {
   return (fs::path(LUX_SOURCE_DIR) / "scenes/library/smoke_tank.toml").string();
 }
 
 /// A controller and three workers, each a process; `more` is added to the file.
 fs::path cluster_file(const TemporaryFolder& folder, const std::string& more) {
   const fs::path file = folder / "cluster.toml";
-  std::ofstream(file) << "[run]\nname = \"test\"\nscene = \"" << smoke_tank()
+  std::ofstream(file) << "[run]\nname = \"test\"\nscene = \"" << tank_scene()
                       << "\"\nparticles = 100_000\nout = \"" << (folder / "out").string()
                       << "\"\n[[host]]\nname = \"here\"\n[[node]]\nname = \"n\"\ncount = 3\n"
                          "[[node]]\nname = \"controller\"\nrole = \"controller\"\n"
@@ -26,7 +26,7 @@ void check_same_flux(const TemporaryFolder& folder, const fs::path& cluster) {
   const Outcome up = run_luxodus(folder, "cluster up " + cluster.string());
   INFO(up.err);
   REQUIRE(up.code == 0);
-  REQUIRE(run_luxodus(folder, "run " + smoke_tank() + " --particles 100k --no-views --out " +
+  REQUIRE(run_luxodus(folder, "run " + tank_scene() + " --particles 100k --no-views --out " +
                                   (folder / "plain").string())
               .code == 0);
   const std::string flux = slurp(folder / "out" / "flux.lux");
@@ -79,7 +79,7 @@ TEST_CASE("a controller that traces, alone in one process, leaves the flux of th
           "[cluster]") {
   const TemporaryFolder folder;
   const fs::path file = folder / "cluster.toml";
-  std::ofstream(file) << "[run]\nname = \"alone\"\nscene = \"" << smoke_tank()
+  std::ofstream(file) << "[run]\nname = \"alone\"\nscene = \"" << tank_scene()
                       << "\"\nparticles = 100_000\nout = \"" << (folder / "out").string()
                       << "\"\n[[host]]\nname = \"here\"\n[[node]]\nname = \"controller\"\n"
                          "role = \"controller\"\ntraces = true\n";
@@ -115,7 +115,7 @@ TEST_CASE("four hosts with addresses of their own leave the flux file of the pla
   const TemporaryFolder folder;
   const std::string script = std::string(LUX_SOURCE_DIR) + "/tests/tools/four_hosts.sh";
   const int status =
-      std::system((script + " " + LUX_PROGRAM + " " + smoke_tank() + " " + folder.path().string() +
+      std::system((script + " " + LUX_PROGRAM + " " + tank_scene() + " " + folder.path().string() +
                    " >" + (folder / "hosts").string() + " 2>&1")
                       .c_str());
   constexpr int not_here = 77;
@@ -125,7 +125,7 @@ TEST_CASE("four hosts with addresses of their own leave the flux file of the pla
   }
   INFO(slurp(folder / "hosts"));
   REQUIRE(WEXITSTATUS(status) == 0);
-  REQUIRE(run_luxodus(folder, "run " + smoke_tank() + " --particles 100k --no-views --out " +
+  REQUIRE(run_luxodus(folder, "run " + tank_scene() + " --particles 100k --no-views --out " +
                                   (folder / "plain").string())
               .code == 0);
   CHECK(slurp(folder / "out" / "flux.lux") == slurp(folder / "plain" / "flux.lux"));

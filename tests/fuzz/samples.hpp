@@ -49,6 +49,9 @@ inline std::vector<Message> sample_messages() {
       TotalsTold{48, 49, 50},
       TraceBatches{51, 52, 53, 54, 55, 57},
       BatchesTraced{56, "no memory"},
+      ShowTotals{58, 59},
+      TotalsShown{60, 61, 62, 63, 64, true, 2, 65, 66, 67, 68},
+      FluxSaved{69, "the disk is full"},
   };
 }
 

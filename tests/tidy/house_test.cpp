@@ -144,18 +144,19 @@ const std::map<std::string, std::vector<std::string>> arrows{
     {"actors/assess", {"actors/inspect", "actors/output", "actors/run", "scenes"}},
     {"actors/report", {"actors/assess", "actors/output"}},
     {"actors/design",
-     {"actors/assess", "actors/inspect", "actors/output", "actors/report", "actors/run",
-      "scenes"}},
+     {"actors/assess", "actors/inspect", "actors/output", "actors/report", "actors/run", "scenes"}},
     {"actors/validate", {"actors/output", "actors/run", "scenes"}},
     {"actors/tally", {"runtime", "scenes/tally"}},
-    {"actors/source", {"actors/run", "actors/tally", "runtime"}},
+    {"actors/showing", {"actors/run", "actors/tally", "proto", "runtime"}},
+    {"actors/source", {"actors/run", "actors/showing", "actors/tally", "runtime"}},
     {"actors/photon", {"actors/run", "actors/tally", "proto", "runtime", "scenes/transport"}},
     {"actors/objects", {"actors/output", "runtime", "scenes/transport"}},
     {"actors/supervise",
-     {"actors/objects", "actors/output", "actors/photon", "actors/run", "actors/source",
-      "actors/tally", "runtime", "scenes", "topology"}},
+     {"actors/objects", "actors/output", "actors/photon", "actors/run", "actors/showing",
+      "actors/source", "actors/tally", "runtime", "scenes", "topology"}},
     {"actors/simulate",
-     {"actors/objects", "actors/run", "actors/source", "actors/supervise", "runtime"}},
+     {"actors/objects", "actors/run", "actors/showing", "actors/source", "actors/supervise",
+      "runtime"}},
     {"actors/study",
      {"actors/objects", "actors/output", "actors/run", "actors/simulate", "actors/supervise",
       "actors/tally", "runtime", "scenes", "topology"}},
@@ -253,8 +254,7 @@ TEST_CASE("no room is below itself, and every folder of sources is a room", "[ti
 
 TEST_CASE("scenes are pure, and a local run links no network", "[tidy]") {
   for (const char* room : {"scenes/pack", "scenes/scene_file", "actors/run", "actors/assess",
-                           "actors/design", "actors/display", "actors/report",
-                           "actors/validate"}) {
+                           "actors/design", "actors/display", "actors/report", "actors/validate"}) {
     INFO(room);
     const std::set<std::string> below = rooms_below(room);
     for (const char* network :

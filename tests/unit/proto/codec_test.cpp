@@ -158,6 +158,9 @@ TEST_CASE("messages go by the kinds that the protocol names", "[proto][codec]") 
   CHECK(kind_of(TotalsTold{}) == Kind::commit);
   CHECK(kind_of(TraceBatches{}) == Kind::control);
   CHECK(kind_of(BatchesTraced{}) == Kind::commit);
+  CHECK(kind_of(ShowTotals{}) == Kind::control);
+  CHECK(kind_of(TotalsShown{}) == Kind::commit);
+  CHECK(kind_of(FluxSaved{}) == Kind::control);
   CHECK(kind_of(FlushDecided{}) == Kind::control);
   CHECK(kind_of(FlushTaken{}) == Kind::control);
   CHECK(kind_of(LeaseGranted{}) == Kind::control);

@@ -54,6 +54,18 @@ TEST_CASE("shards of the totals are workers by their names", "[runtime][config]"
   CHECK(cluster.tally.shards == std::vector<NodeId>{{3}, {0}});
 }
 
+TEST_CASE("the run is shown by the controller, or by the node that the file names",
+          "[runtime][config]") {
+  const ClusterConfig usual = good(small_cluster);
+  CHECK(usual.display.node == usual.controller());
+  CHECK_FALSE(usual.display.pictures);
+  const ClusterConfig cluster =
+      good(small_cluster + "count = 4\n[display]\nnode = \"n2\"\npictures = true\npreview_s = 5\n");
+  CHECK(cluster.display.node == NodeId{2});
+  CHECK(cluster.display.pictures);
+  CHECK(cluster.display.preview_s == 5);
+}
+
 TEST_CASE("a node's own budget replaces what it names of the common one", "[runtime][config]") {
   const ClusterConfig cluster = good(small_cluster +
                                      "[node.budget]\nfibers = 7\nobject_bytes = \"2 GiB\"\n"
@@ -110,6 +122,8 @@ TEST_CASE("what is wrong with a key is told once, with its line", "[runtime][con
       {small_cluster + "[tally]\nshards = [\"c\"]\n", 12, "name workers"},
       {small_cluster + "[tally]\nshards = [\"n\", \"n\"]\n", 12, "a share of the totals already"},
       {small_cluster + "[tally]\nshard = [\"n\"]\n", 12, "did you mean 'shards'?"},
+      {small_cluster + "[display]\nnode = \"m\"\n", 12, "there is no node \"m\""},
+      {small_cluster + "[view]\n[display]\npictures = true\n", 12, "a live view writes no results"},
       {small_cluster + "[node.budget]\nfibers = 0\n", 12, "must lie in [1, 100000]"},
       {small_cluster + "host = \"g\"\n", 11, "there is no host \"g\""},
       {small_cluster + worker_part, 12, "there is a node \"n\" already, in line 10"},

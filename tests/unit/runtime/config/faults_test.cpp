@@ -48,6 +48,10 @@ TEST_CASE("faults of nobody, or of too few, are told with their line", "[runtime
         std::string::npos);
   CHECK(wrong(small_cluster + event + "kind = \"pause\"\nnode = \"n\"\npeer = \"c\"\n")
             .find("between two") != std::string::npos);
+  CHECK(wrong(small_cluster + event + "kind = \"failure\"\nnode = \"n\"\n").find("say 'actor'") !=
+        std::string::npos);
+  CHECK(wrong(small_cluster + event + "kind = \"pause\"\nnode = \"n\"\nactor = \"tracer\"\n")
+            .find("'actor' is for") != std::string::npos);
   CHECK(wrong(small_cluster + event + "kind = \"flood\"\nnode = \"n\"\n").find("flood") !=
         std::string::npos);
   CHECK(wrong(small_cluster + event + "node = \"n\"\n").find("'kind' is missing") !=

@@ -1,0 +1,107 @@
+#include "actors/cli/run_display.hpp"
+
+#include <poll.h>
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "actors/cli/progress_line.hpp"
+#include "actors/cli/report_aloud.hpp"
+#include "actors/cli/signals.hpp"
+#include "actors/display/preview.hpp"
+#include "actors/run/flux_store.hpp"
+#include "runtime/core/log.hpp"
+
+namespace luxodus::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A disk that is full when hours of work are to be written may have room soon: somebody is told,
+/// and it is tried again for ten minutes.
+Result<void> save_patiently(const fs::path& file, const LocalRun& run) {
+  constexpr int tries = 60;
+  constexpr int pause_ms = 10'000;
+  for (int i = 1;; ++i) {
+    auto saved = save_flux(file, run);
+    if (saved || i == tries || interrupt_flag()) return saved;
+    log_error("{}: tried again in {} s; Ctrl-C ends without", saved.problem().text(),
+              pause_ms / 1000);
+    for (int slept = 0; slept < pause_ms && !interrupt_flag(); slept += 100)
+      ::poll(nullptr, 0, 100);
+  }
+}
+
+}  // namespace
+
+RunDisplay::RunDisplay(const LocalRun& base, RunDisplayOptions options)
+    : base_(base),
+      options_(std::move(options)),
+      last_checkpoint_(Clock::now()),
+      last_preview_(Clock::now()) {}
+
+bool RunDisplay::checkpoint_is_due() const {
+  return options_.checkpoint_s > 0 && Clock::now() - last_checkpoint_.load() >=
+                                          std::chrono::duration<double>(options_.checkpoint_s);
+}
+
+bool RunDisplay::preview_is_due() const {
+  if (options_.preview_asked == nullptr) return false;
+  return *options_.preview_asked ||
+         (options_.preview_s > 0 &&
+          Clock::now() - last_preview_.load() >= std::chrono::duration<double>(options_.preview_s));
+}
+
+/// Light, errors and the features of its filter, twice: as traced and filtered.
+uint64_t RunDisplay::picture_bytes() const {
+  constexpr uint64_t floats_of_a_pixel = 2 * (4 + 4 + 1 + picture_features);
+  uint64_t pixels = 0;
+  for (const Camera& camera : base_.scene().description->cameras)
+    pixels = std::max(pixels,
+                      static_cast<uint64_t>(camera.width) * static_cast<uint64_t>(camera.height));
+  return pixels * floats_of_a_pixel * sizeof(float);
+}
+
+void RunDisplay::show(const LocalRun& run) {
+  if (checkpoint_is_due()) {
+    if (run.traced() > 0 && run.particles() > options_.keep_particles) {
+      const auto saved = save_checkpoint(options_.folder, run, options_.record, run.seconds(),
+                                         !std::exchange(checkpointed_, true));
+      if (!saved) log_warning("checkpoint: {}; the run goes on", saved.problem().text());
+    }
+    last_checkpoint_ = Clock::now();  // not before: a slow disk must not be all that is served
+  }
+  if (!preview_is_due()) return;
+  *options_.preview_asked = false;
+  last_preview_ = Clock::now();
+  if (run.totals().balance().rays > 0) render_preview(options_.folder, run, options_.preview);
+}
+
+/// Of a run in the folder that is longer.
+bool RunDisplay::keeps_other(const LocalRun& run, StopReason reason) const {
+  return reason == StopReason::interrupted && run.particles() <= options_.keep_particles;
+}
+
+Result<void> RunDisplay::keep_flux(const LocalRun& run, StopReason reason) {
+  if (keeps_other(run, reason)) return {};
+  options_.make_room();
+  const fs::path file = options_.folder / "flux.lux";
+  return options_.patient ? save_patiently(file, run) : save_flux(file, run);
+}
+
+Result<void> RunDisplay::write_results(const LocalRun& run, StopReason reason) {
+  if (keeps_other(run, reason)) return {};
+  options_.record.stopped_by = name_of(reason);
+  auto result = write_report_aloud(options_.folder, run, options_.record);
+  if (!result) return result.problem();
+  result_ = std::move(result).value();
+  const bool pictures = options_.pictures && !run.scene().description->cameras.empty();
+  if (!pictures || reason == StopReason::interrupted) return {};
+  ProgressLine line("pictures");
+  return render_views(options_.folder, run, "", options_.picture,
+                      [&](double share) { line.show_share(share); });
+}
+
+}  // namespace luxodus::cli
