@@ -20,10 +20,11 @@ DisplayActor::DisplayActor(const DisplayConfig& config, DisplayWork& work, Block
 
 void DisplayActor::add_metrics(Metrics& metrics) const {
   const Counters& c = counters_;
-  metrics.add_counter({"copies", "", "Copies of the totals that the display has had.", ""},
+  metrics.add_counter({"display_copies", "", "Copies of the totals that the display has had.", ""},
                       c.copies);
-  metrics.add_counter({"copied", "bytes", "Bytes of them as they came.", ""}, c.copied_bytes);
-  metrics.add_counter({"shows_asked_again", "", "Questions of the display asked again.", ""},
+  metrics.add_counter({"display_copied", "bytes", "Bytes of copies as they came.", ""},
+                      c.copied_bytes);
+  metrics.add_counter({"display_asked_again", "", "Questions of the display asked again.", ""},
                       c.asked_again);
 }
 

@@ -225,6 +225,26 @@ TEST_CASE("an actor of a worker that fails takes its node, and the others leave 
   }
 }
 
+TEST_CASE("a display that fails in the middle of a run begins anew, and keeps the same flux",
+          "[sim][supervision]") {
+  const SimScene scene = scene_of("empty_room");
+  for (const NodeId node : {NodeId{0}, NodeId{2}}) {  // a worker, and the controller
+    SimOptions options = small_run();
+    options.work = seconds(20);
+    options.fixed.display_node = node;
+    for (const Nanoseconds at : {seconds(2), seconds(5), seconds(10)}) {
+      Fault failure;
+      failure.kind = Fault::Kind::failure;
+      failure.at = at;
+      failure.lasts = 1;
+      failure.node = node;
+      failure.actor = "display";
+      options.plan->faults.push_back(failure);
+    }
+    CHECK(simulate(scene, options).value().failure == "");
+  }
+}
+
 // Hundreds of leases are late when one frame of their flush is lost. To be told so of each by
 // itself once left no room for the answer to the flush, so that the next was late as well, and so
 // on.
