@@ -51,6 +51,7 @@ Result<NodesOptions> nodes_options(const RunOptions& options, Nanoseconds link_d
   if (options.tally_mib > 0)
     nodes.tally_bytes = static_cast<uint64_t>(options.tally_mib * 1024 * 1024);
   nodes.tally_shards = options.tally_shards;
+  nodes.fan_out = options.fan_out;
   nodes.sharing = !options.no_sharing;
   nodes.prefetch = options.prefetch;
   nodes.link_delay = link_delay;

@@ -99,6 +99,11 @@ std::vector<Option> node_options(RunOptions& o) {
        &o.tally_shards,
        "Number of shares of the totals: one stays with the controller, nodes hold the others",
        {.range = Range{1, limits::nodes_in_process + 1}}},
+      {"--fan-out",
+       &o.fan_out,
+       "Number of nodes that a coordinator leads at most: beyond it some nodes lead the others and "
+       "trace nothing; 0: all below 64 nodes, else their square root",
+       {.range = Range{0, limits::nodes_in_process}}},
       {"--link-delay",
        &o.link_delay,
        "Delay of every link, to see what a distance costs and how many fibers hide it, e.g. 1ms",
@@ -180,6 +185,7 @@ Result<void> fit_together(const RunOptions& options) {
       {"--trace-every", options.trace_every != 0},
       {"--tally-mib", options.tally_mib > 0},
       {"--tally-shards", options.tally_shards > 1},
+      {"--fan-out", options.fan_out > 0},
       {"--link-delay", !options.link_delay.empty()}};
   for (const auto& [name, given] : about_nodes)
     if (given && options.nodes == 0)

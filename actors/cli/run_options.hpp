@@ -29,6 +29,7 @@ struct RunOptions {
   double part_cache_mib = 0;
   double tally_mib = 0;
   int tally_shards = 1;
+  uint32_t fan_out = 0;
   std::string profile = "1%";
   bool no_sharing = false;
   uint64_t prefetch = 0;

@@ -24,6 +24,7 @@ struct SimCommandOptions {
   uint64_t seed = 0;
   int nodes = 4;
   int links = 4;
+  uint32_t fan_out = 0;
   int cells = 16;
   std::string particles = "4k";
   int batches = 40;
@@ -77,6 +78,9 @@ Result<SimOptions> sim_options(const SimCommandOptions& options) {
   SimOptions sim;
   sim.nodes = options.nodes;
   sim.links = options.links;
+  sim.fan_out = options.fan_out;
+  // Leases of each level are four times as long as those of the next.
+  if (sim.fan_out > 0) sim.patience *= 4;
   sim.faults = options.faults == "swarm";
   if (!sim.faults && options.faults != "none") {
     auto plan = fault_plan_in(options);
@@ -117,6 +121,7 @@ std::string command_of(const SimCommandOptions& options, uint64_t seed) {
   add("--scenario", options.scenario, usual.scenario);
   add("--nodes", std::to_string(options.nodes), std::to_string(usual.nodes));
   add("--links", std::to_string(options.links), std::to_string(usual.links));
+  add("--fan-out", std::to_string(options.fan_out), std::to_string(usual.fan_out));
   add("--cells", std::to_string(options.cells), std::to_string(usual.cells));
   add("--particles", options.particles, usual.particles);
   add("--batches", std::to_string(options.batches), std::to_string(usual.batches));
@@ -221,8 +226,12 @@ Command sim_command() {
             {.form = Form::name, .otherwise = "the first"}},
            {"--seed", &o->seed, "Seed of faults and nodes"},
            {"--seeds", &o->seeds, "Range of seeds, as 0..200; the last is not included"},
-           {"--nodes", &o->nodes, "Number of workers", {.range = Range{1, 64}}},
+           {"--nodes", &o->nodes, "Number of workers", {.range = Range{1, 1023}}},
            {"--links", &o->links, "Largest number of links of a node", {.range = Range{1, 16}}},
+           {"--fan-out",
+            &o->fan_out,
+            "Number of nodes that a coordinator leads at most; 0: all",
+            {.range = Range{0, 1023}}},
            {"--cells", &o->cells, "Number of geometry cells", {.range = Range{1, 100000}}},
            {"--particles", &o->particles, "Number of particles", {.form = Form::count}},
            {"--batches",

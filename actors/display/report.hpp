@@ -13,7 +13,7 @@ namespace luxodus {
 /// How the run came to its end, for the record.
 struct RunRecord {
   std::string scene_file;
-  std::string stopped_by;           // name_of(StopReason)
+  std::string stopped_by;  // name_of(StopReason)
   int cells = 1;
   StopRule stop = {};               // what was asked for
   std::optional<double> at_s = {};  // of --at, where it was given

@@ -99,7 +99,7 @@ void PhotonThreads::trace_until_the_end(BatchTracer& tracer) {
     why = std::current_exception();
   }
   if (!why) return;
-  end();  // the others would go on with what it has left
+  end("");  // the others would go on with what it has left
   port_.thread_failed(why);
 }
 
@@ -138,7 +138,13 @@ void PhotonThreads::drop(uint64_t lease) {
     if (open.used && open.lease == lease) open.dropped = true;
 }
 
-void PhotonThreads::end() {
+void PhotonThreads::drop_all() {
+  leases_.clear();
+  for (OpenBatch& open : open_) open.dropped = open.used;
+  look_again();
+}
+
+void PhotonThreads::end(const std::string&) {
   ending_ = true;
   scheduler_.fibers().wake_all(work_);
 }
@@ -373,7 +379,7 @@ void PhotonThreads::close(OpenBatch& open) {
   counters_.rays += open.scores.balance.rays;
   counters_.collisions += open.scores.balance.collisions;
   batch_time_.add(scheduler_.clock().now() - open.since);
-  port_.lease_done(open.lease);
+  port_.leases_done({&open.lease, 1});
 }
 
 }  // namespace luxodus

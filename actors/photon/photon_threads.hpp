@@ -15,6 +15,7 @@
 
 #include "actors/photon/tally_need.hpp"
 #include "actors/run/batch_plan.hpp"
+#include "actors/source/leased_work.hpp"
 #include "runtime/actor/scheduler.hpp"
 #include "runtime/observe/node_trace.hpp"
 #include "scenes/transport/trace.hpp"
@@ -44,60 +45,30 @@ struct PhotonConfig {
   size_t batches_in_work() const { return std::min(open_batches, leases); }
 };
 
-/// How photon-threads get work. Called on the node's thread, from within a fiber or not.
-class LeasePort {
- public:
-  virtual ~LeasePort() = default;
-  /// Fewer leases are at hand than shall be: ask for so many.
-  virtual void want_leases(size_t count) = 0;
-  /// The batch of this lease is merged into the node's totals.
-  virtual void lease_done(uint64_t lease) = 0;
-  /// The batch of this lease could not be traced here: an object was not to be had.
-  virtual void lease_failed(uint64_t lease, int64_t batch) = 0;
-
-  /// The tally is full: what is merged shall leave as soon as it can.
-  virtual void want_room() = 0;
-  /// Whether memory of the tally will become free although no batch ends: of batches that are
-  /// merged and not yet flushed, or of a flush under way.
-  virtual bool room_to_come() const = 0;
-  /// What flushes take in memory.
-  virtual size_t flush_bytes() const = 0;
-  /// This node cannot go on.
-  virtual void give_up(const Problem& why) = 0;
-  /// An exception has left a photon-thread, which has ended.
-  virtual void thread_failed(const std::exception_ptr& why) = 0;
-};
-
 /// Makes what traces for one photon-thread: make_batch_tracer, but in a simulation.
 using TracerMaker = std::function<std::unique_ptr<BatchTracer>(
     const CompiledScene& scene, const GeometryAccess& access, uint64_t seed)>;
 
-class PhotonThreads {
+class PhotonThreads final : public LeasedWork {
  public:
   /// All that is referred to must outlive it.
   PhotonThreads(const CompiledScene& scene, const GeometryAccess& access, uint64_t seed,
                 const PhotonConfig& config, Scheduler& scheduler, LeasePort& port,
                 const TracerMaker& make_tracer = make_batch_tracer);
-  ~PhotonThreads();
+  ~PhotonThreads() override;
 
   /// Starts the fibers.
   void start();
-  /// Adds work. A lease is of one batch, so that what is merged is always whole leases.
-  void add(uint64_t lease, int64_t batch);
-  /// Forgets a lease that has not been merged yet.
-  void drop(uint64_t lease);
-  /// There may be leases to ask for again.
-  void look_again() { scheduler_.fibers().wake_all(work_); }
+  void add(uint64_t lease, int64_t batch) override;
+  void drop(uint64_t lease) override;
+  void drop_all() override;
+  void look_again() override { scheduler_.fibers().wake_all(work_); }
   /// Lets every fiber return at its next chance.
-  void end();
+  void end(const std::string& why) override;
 
-  /// What has been merged so far, to be emptied at leisure; what is merged from now on goes
-  /// elsewhere. Requires: what was given before is empty.
-  Totals& give_totals();
-  /// Both kinds are of this size.
-  const Totals& totals() const { return totals_[0]; }
-  /// Leases not merged yet.
-  size_t at_hand() const;
+  Totals& give_totals() override;
+  const Totals& totals() const override { return totals_[0]; }
+  size_t at_hand() const override;
 
   struct Counters {
     uint64_t particles = 0;

@@ -7,6 +7,7 @@
 
 #include "runtime/core/check.hpp"
 #include "runtime/core/hash.hpp"
+#include "runtime/core/log.hpp"
 
 namespace luxodus {
 
@@ -26,11 +27,11 @@ Tracer::Tracer(const TracerConfig& config, const ShardPlan& shards, Scheduler& s
       slices_(shards, sender, address()),
       began_(clock_.now()) {}
 
-void Tracer::start(PhotonThreads& photons) {
+void Tracer::start(LeasedWork& work) {
   NodeActor::start();
-  photons_ = &photons;
+  work_ = &work;
   began_ = clock_.now();
-  const Totals& totals = photons.totals();
+  const Totals& totals = work.totals();
   slices_.make_room(totals.groups(), totals.layout().totals());
   const BinRange own = slices_.own_bins();
   encoder_ = std::make_shared<FlushEncoder>(totals.groups(), own.end - own.first);
@@ -46,6 +47,8 @@ void Tracer::add_metrics(Metrics& metrics) const {
                       c.leases_failed);
   metrics.add_counter({"leases_given_back", "", "Leases whose batch cannot be traced here.", ""},
                       c.leases_given_back);
+  metrics.add_counter({"coordinators_left", "", "Coordinators that were lost and left.", ""},
+                      c.coordinators_left);
   metrics.add_counter({"flushes", "", "Flushes made.", ""}, c.flushes);
   metrics.add_counter({"flushes_refused", "", "Flushes that the controller refused.", ""},
                       c.flushes_refused);
@@ -75,15 +78,20 @@ void Tracer::on(const Letter<LeaseGranted>& granted) {
   const LeaseGranted& grant = granted.body;
   const uint32_t asked_for = std::get<RequestLease>(asking_->message).batches;
   asking_.reset();
-  round_ = grant.round;
+  if (asked_for == 0) return work_->drop_all();  // they were returned
+  const uint32_t last_round = std::exchange(round_, grant.round);
   lease_time_ = milliseconds(grant.duration_ms);
   counters_.leases += grant.batches;
   rumour_ = rumour_ && grant.batches == 0;
+  // What is merged and not flushed when another round begins is of leases that were fenced.
+  if (grant.round != last_round && !done_.empty()) flush();
+  work_->enter_round(grant.round);
   for (uint32_t i = 0; i < grant.batches; ++i) {
-    photons_->add(grant.first_lease + i, static_cast<int64_t>(grant.first_batch + i));
+    work_->add(grant.first_lease + i, static_cast<int64_t>(grant.first_batch + i));
   }
   wanted_ = 0;  // said before this answer
   if (grant.batches > 0) {
+    work_->look_again();
     // Batches that this node prefers are seldom neighbours, and come in several answers.
     if (grant.batches < asked_for) want_leases(asked_for - grant.batches);
     return;
@@ -96,16 +104,17 @@ void Tracer::on(const Letter<LeaseGranted>& granted) {
 /// The next round is open, or may be: the word of it can be lost.
 void Tracer::begin_round() {
   round_empty_ = false;
-  photons_->look_again();
+  work_->look_again();
 }
 
 // ---- giving results --------------------------------------------------------------------------
 
-void Tracer::lease_done(uint64_t lease) {
-  std::erase_if(in_vain_, [&](const InVain& vain) { return vain.lease == lease; });
+void Tracer::leases_done(std::span<const uint64_t> leases) {
+  for (const uint64_t lease : leases)
+    std::erase_if(in_vain_, [&](const InVain& vain) { return vain.lease == lease; });
   if (done_.empty()) first_done_ = clock_.now();
-  done_.push_back(lease);
-  if (rested(clock_.now()) || done_.size() == limits::leases ||
+  done_.insert(done_.end(), leases.begin(), leases.end());
+  if (rested(clock_.now()) || flush_due_ || done_.size() == limits::leases ||
       scheduler().rarely(Buggify::Site::early_flush))
     flush();
   flush_when_idle();
@@ -122,11 +131,23 @@ bool Tracer::rested(Nanoseconds now) const {
 void Tracer::lease_failed(uint64_t lease, int64_t batch) {
   ++counters_.leases_failed;
   if (over_) return;
-  if (clock_.now() - vain_since(lease, batch) < config_.lost) return photons_->add(lease, batch);
-  ++counters_.leases_given_back;
-  tell(config_.coordinator, LeasesFenced{{lease}});
-  photons_->look_again();
+  if (clock_.now() - vain_since(lease, batch) < config_.lost) return work_->add(lease, batch);
+  give_back(lease);
+  work_->look_again();
   flush_when_idle();
+}
+
+void Tracer::give_back(uint64_t lease) {
+  ++counters_.leases_given_back;
+  tell(coordinator(), LeasesFenced{{lease}});
+}
+
+void Tracer::return_leases() {
+  if (over_) return;
+  if (packing_ || flushing_ || !done_.empty()) return flush();
+  if (asking_) return;
+  asking_ = Question{sender().next_id(), RequestLease{0}, {}};
+  put(*asking_);
 }
 
 /// Since when a batch has been traced in vain here, under whatever leases.
@@ -148,18 +169,18 @@ void Tracer::want_room() {
 
 /// Nothing more is to be had in this round: the controller waits for what is here.
 void Tracer::flush_when_idle() {
-  if ((round_empty_ || draining_) && photons_->at_hand() == 0) flush();
+  if ((round_empty_ || draining_) && work_->at_hand() == 0) flush();
 }
 
 void Tracer::flush() {
   if (packing_ || flushing_ || over_ || done_.empty())
     return;  // the answer to that one sends the next
-  flush_due_ = !encoder_is_free();
+  flush_due_ = !encoder_is_free() || !work_->may_give();
   if (flush_due_) return;
   room_wanted_ = false;
   packing_ = true;
   packed_leases_.swap(done_);
-  LUX_CHECK(offer(PackFlush{&photons_->give_totals()}) == Offered::taken, "it packs one at a time");
+  LUX_CHECK(offer(PackFlush{&work_->give_totals()}) == Offered::taken, "it packs one at a time");
 }
 
 bool Tracer::encoder_is_free() const {
@@ -187,7 +208,7 @@ void Tracer::on(const PackFlush& pack) {
   counters_.flush_bytes += payload.size();
   slices_.send(flushing_->id, clock_.now());
   put_flush();
-  photons_->look_again();  // the totals that were packed are free
+  work_->look_again();  // the totals that were packed are free
 }
 
 /// False: the node is to end.
@@ -236,7 +257,7 @@ void Tracer::on(const Letter<FlushRefused>& refused) {
 
 void Tracer::on(const Letter<LeasesFenced>& fenced) {
   if (!hears(fenced.from)) return;
-  for (const uint64_t lease : fenced.body.leases) photons_->drop(lease);
+  for (const uint64_t lease : fenced.body.leases) work_->drop(lease);
 }
 
 void Tracer::on(const Letter<RoundOpened>& opened) {
@@ -254,7 +275,7 @@ void Tracer::flush_answered(const MessageId& answered, bool taken) {
   if (!taken) ++counters_.flushes_refused;  // its leases are lent again: nothing to mend here
   flush_when_idle();
   if (room_wanted_) flush();
-  photons_->look_again();
+  work_->look_again();
 }
 
 // ---- the end ---------------------------------------------------------------------------------
@@ -265,11 +286,11 @@ void Tracer::drain() {
 }
 
 bool Tracer::drained() const {
-  return !asking_ && !packing_ && !flushing_ && done_.empty() && photons_->at_hand() == 0;
+  return !asking_ && !packing_ && !flushing_ && done_.empty() && work_->at_hand() == 0;
 }
 
 void Tracer::say_goodbye() {
-  tell(config_.coordinator, RequestLease{0});
+  tell(coordinator(), RequestLease{0});
 }
 
 void Tracer::stop_work(std::optional<Problem> fault) {
@@ -277,11 +298,12 @@ void Tracer::stop_work(std::optional<Problem> fault) {
   fault_ = std::move(fault);
   asking_.reset();
   flushing_.reset();  // all is counted, or nothing more will be
-  photons_->end();
+  work_->end(end_word_.text.empty() && fault_ ? fault_->what : end_word_.text);
 }
 
 void Tracer::end(std::optional<Problem> fault) {
   stop_work(std::move(fault));
+  work_->let_go();
   ended_ = true;
 }
 
@@ -290,14 +312,20 @@ void Tracer::end(std::optional<Problem> fault) {
 /// has outlived: until the controller has lent this node something it is but a rumour, which is
 /// right if the controller never comes.
 void Tracer::on(const Letter<RunEnded>& ended) {
-  const bool first_hand = ended.from == config_.coordinator;
+  const bool first_hand = ended.from == coordinator();
+  // Of one that was left for another: it need not wait for this node.
+  if (!first_hand && ended.from.actor == ActorName::coordinator) {
+    tell(ended.from, RequestLease{0});
+    return;
+  }
   heard_ = heard_ || first_hand;
   end_word_ = ended.body;
   rumour_ = !first_hand && counters_.leases == 0;
   if (rumour_) return;
   const auto says = [&] { return problem("the controller says: " + end_word_.text); };
   stop_work(end_word_.text.empty() ? std::nullopt : std::optional(says()));
-  tell(config_.coordinator, RequestLease{0});
+  // It says so again and again: until those below know, it is told nothing.
+  if (work_->end_is_known()) say_goodbye();
   if (!first_hand) let_go();
 }
 
@@ -310,7 +338,7 @@ void Tracer::let_go() {
   stop_work(std::nullopt);
   if (tell_) return;
   tell_ = network_.neighbours();
-  std::erase(*tell_, config_.coordinator.node);
+  std::erase(*tell_, config_.coordinators.back().node);  // which has said so
   pass_on();
 }
 
@@ -326,12 +354,12 @@ SendOutcome Tracer::tell_neighbour(NodeId neighbour) {
 }
 
 void Tracer::tell_end(NodeId neighbour) {
-  if (tell_ && neighbour != config_.coordinator.node) (void)tell_neighbour(neighbour);
+  if (tell_ && neighbour != config_.coordinators.back().node) (void)tell_neighbour(neighbour);
 }
 
-void Tracer::watch_controller(Nanoseconds now) {
+void Tracer::watch_coordinator(Nanoseconds now) {
   if (ended_ || tell_) return;
-  if (network_.reaches(config_.coordinator.node))
+  if (network_.reaches(coordinator().node))
     unreachable_since_.reset();
   else if (!unreachable_since_)
     unreachable_since_ = now;
@@ -339,20 +367,41 @@ void Tracer::watch_controller(Nanoseconds now) {
     if (rumour_) return end(std::nullopt);
     end(problem(fmt::format("{} for {:g} s ({})", what, static_cast<double>(after) * 1e-9, key)));
   };
+  const Nanoseconds unreachable = unreachable_since_ ? now - *unreachable_since_ : 0;
+  const bool lost = unreachable >= config_.lost;
   // Begun again after a crash the controller would ask anew who has heard of the end.
-  const bool lost = unreachable_since_ && now - *unreachable_since_ >= config_.lost;
   if (over_) return lost ? end(std::nullopt) : void();
+  if (unreachable >= (heard_ ? config_.rejoin : config_.start / 2) && join_another()) return;
   if (!heard_ && now - began_ >= config_.start)
     give_up("the controller has not been heard of", config_.start, "start_s");
   else if (heard_ && lost)
     give_up("no way has led to the controller", config_.lost, "lost_s");
 }
 
+/// The first coordinator that there is a way to; false: there is none. The leases of the lost one
+/// are gone, as is what it was told. A flush that has had no answer is put to the next one, which
+/// knows none of its leases, and refuses it.
+bool Tracer::join_another() {
+  size_t next = 0;
+  const auto& all = config_.coordinators;
+  while (next < all.size() && (next == led_by_ || !network_.reaches(all[next].node))) ++next;
+  if (next == all.size()) return false;
+  ++counters_.coordinators_left;
+  log_warning("coordinator=lost node={} next={}", coordinator().node.value, all[next].node.value);
+  led_by_ = next;
+  unreachable_since_.reset();
+  asking_.reset();
+  round_empty_ = false;
+  work_->drop_all();
+  work_->look_again();
+  return true;
+}
+
 // ---- questions and answers -------------------------------------------------------------------
 
 void Tracer::put(Question& question) {
-  const SendOutcome outcome = sender().send(address(), config_.coordinator, question.id,
-                                            question.message, question.payload);
+  const SendOutcome outcome =
+      sender().send(address(), coordinator(), question.id, question.message, question.payload);
   question.asked = clock_.now();
   question.left = outcome == SendOutcome::taken;
   if (question.left || retries_soon_) return;
@@ -382,13 +431,13 @@ void Tracer::on_timer() {
   if (flushing_) slices_.ask_again(now, config_.answer_patience);
   if (rested(now) || flush_due_) flush();
   if (round_empty_ && !over_ && now - emptied_ >= config_.answer_patience) begin_round();
-  watch_controller(now);
+  watch_coordinator(now);
   set_timer();
 }
 
 /// Whether a letter is of the coordinator, which so has been heard.
 bool Tracer::hears(Address from) {
-  if (from != config_.coordinator) return false;
+  if (from != coordinator()) return false;
   heard_ = true;
   return true;
 }

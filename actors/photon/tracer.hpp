@@ -1,8 +1,10 @@
-// The actor of a node that traces: asks the coordinator for batches, gives them to the
-// photon-threads, and sends what these have merged, until the run ends or the coordinator is given
-// up. What gets no answer is asked again under the same id; the coordinator answers a repeated
-// question as it did before. Where totals lie in shards, a flush goes to the coordinator when all
-// shards hold theirs. Thread rule: the node's thread.
+// The actor of a node that works for a coordinator: asks it for batches, gives them to those who
+// trace them, and sends what these have merged, until the run ends or the coordinator is given up.
+// Those are the node's photon-threads or, where the node coordinates others, these (LeasedWork). A
+// coordinator that is lost is left for the next one: what was told to it is as good as lost. What
+// gets no answer is asked again under the same id; the coordinator answers a repeated question as
+// it did before. Where totals lie in shards, a flush goes to the coordinator when all shards hold
+// theirs. Thread rule: the node's thread.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +20,9 @@ namespace luxodus {
 
 struct TracerConfig {
   NodeId self;
-  Address coordinator;
+  /// By whom it may be led: first its own coordinator; where that is lost, the first of them that
+  /// there is a way to. Last the one that leads the run. At least one.
+  std::vector<Address> coordinators;
   Nanoseconds answer_patience = seconds(2);  // then a question is asked again
   /// Merged batches rest here for so long at least, unless there is no more to do.
   Nanoseconds flush_every = seconds(5);
@@ -26,6 +30,9 @@ struct TracerConfig {
   /// is given up.
   Nanoseconds start = seconds(60);
   Nanoseconds lost = seconds(30);
+  /// Without a way to a coordinator, until the next one is joined, where there is one. Who has not
+  /// heard of its coordinator yet waits for half of `start`: a run begins with all its workers.
+  Nanoseconds rejoin = seconds(30);
   NodeTrace* trace = nullptr;  // null: nothing is traced
 };
 
@@ -58,8 +65,8 @@ class Tracer final
   Tracer(const TracerConfig& config, const ShardPlan& shards, Scheduler& scheduler,
          Network& network, Sender& sender);
 
-  /// Requires: once, before the photon-threads start; the scheduler has a fiber for it.
-  void start(PhotonThreads& photons);
+  /// Requires: once, before `work` starts; the scheduler has a fiber for it.
+  void start(LeasedWork& work);
 
   // Of the coordinator; the end of the run, of neighbours as well.
   void on(const Letter<LeaseGranted>& granted);
@@ -74,8 +81,13 @@ class Tracer final
   void on(const PackFlush& pack);
 
   void want_leases(size_t count) override;
-  void lease_done(uint64_t lease) override;
+  void leases_done(std::span<const uint64_t> leases) override;
+  bool has_room_for(size_t leases) const override {
+    return done_.size() + leases <= limits::leases;
+  }
   void lease_failed(uint64_t lease, int64_t batch) override;
+  void give_back(uint64_t lease) override;
+  void return_leases() override;
   void want_room() override;
   bool room_to_come() const override { return packing_ || flushing_ || !done_.empty(); }
   size_t flush_bytes() const override { return encoder_->memory_bytes() + slices_.memory_bytes(); }
@@ -86,7 +98,7 @@ class Tracer final
   bool over() const { return over_; }
   /// Whether it is over and this node may leave. A node that has heard of the end stays until it is
   /// let go, since others' word of it may have to pass through it.
-  bool ended() const { return ended_; }
+  bool ended() const { return ended_ && work_->gone(); }
   /// Passes the word of the run's end on to a neighbour, if this node has heard it.
   void tell_end(NodeId neighbour);
   /// Why the run ended without this node, or could not begin.
@@ -107,6 +119,7 @@ class Tracer final
     uint64_t asked_again = 0;
     uint64_t leases_failed = 0;
     uint64_t leases_given_back = 0;
+    uint64_t coordinators_left = 0;  // that were lost
   };
   const Counters& counters() const { return counters_; }
   void add_metrics(Metrics& metrics) const;
@@ -134,7 +147,9 @@ class Tracer final
   void on_timer();
   void begin_round();
   void flush_when_idle();
-  void watch_controller(Nanoseconds now);
+  Address coordinator() const { return config_.coordinators[led_by_]; }
+  void watch_coordinator(Nanoseconds now);
+  bool join_another();
   void end(std::optional<Problem> fault);
   void stop_work(std::optional<Problem> fault);
   void let_go();
@@ -147,7 +162,8 @@ class Tracer final
   const Clock& clock_;
   Network& network_;  // who is within reach
   SliceSender slices_;
-  PhotonThreads* photons_ = nullptr;
+  LeasedWork* work_ = nullptr;
+  size_t led_by_ = 0;                 // of config_.coordinators
   std::optional<Question> asking_;    // for leases
   std::optional<Question> flushing_;  // one at a time; put when all its slices are held
   std::vector<uint64_t> done_;        // merged, in no flush yet

@@ -66,12 +66,15 @@ SimWorker::~SimWorker() {
 Nanoseconds SimWorker::turn() {
   const Nanoseconds due = worker_.shell().turn();
   const uint64_t resumes = worker_.shell().scheduler().counters().resumes;
-  const uint64_t batches = worker_.photons().counters().batches;
+  const uint64_t batches = worker_.photons() ? worker_.photons()->counters().batches : 0;
+  const uint64_t counted =
+      worker_.coordinator() ? worker_.coordinator()->counters().flush_bytes : 0;
   const uint64_t flush_bytes = worker_.tracer().counters().flush_bytes;
   meter_.charge(costs_.switch_ns * static_cast<double>(resumes - charged_.resumes) +
                 costs_.lease_ns * static_cast<double>(batches - charged_.batches) +
-                costs_.pack_byte_ns * static_cast<double>(flush_bytes - charged_.flush_bytes));
-  charged_ = {resumes, batches, flush_bytes};
+                costs_.pack_byte_ns * static_cast<double>(flush_bytes - charged_.flush_bytes) +
+                costs_.count_byte_ns * static_cast<double>(counted - charged_.counted_bytes));
+  charged_ = {resumes, batches, flush_bytes, counted};
   return due;
 }
 
@@ -82,6 +85,9 @@ void SimWorker::die() {
 std::string SimWorker::fault() const {
   const Scheduler& scheduler = worker_.shell().scheduler();
   if (auto fault = fault_of(worker_.shell(), scheduler.fibers()); !fault.empty()) return fault;
+  const SubCoordinator* leads = worker_.coordinator();
+  if (leads != nullptr && !leads->adding() && !leads->merged().balance().closes())
+    return "the ledger of a coordinator does not close";
   if (worker_.objects() == nullptr) return "";
   const ObjectCache::Counters& cache = worker_.objects()->cache().counters();
   if (cache.resident_bytes > node_.object_bytes)

@@ -45,7 +45,7 @@ class SimWorker final : public CheckedNode {
   Meter meter_;
   const SimCosts costs_;
   struct Charged {
-    uint64_t resumes = 0, batches = 0, flush_bytes = 0;
+    uint64_t resumes = 0, batches = 0, flush_bytes = 0, counted_bytes = 0;
   };
   Charged charged_;
   Worker worker_;
@@ -62,7 +62,7 @@ class SimController final : public CheckedNode {
   void die() override;
   std::string fault() const override;
   std::string regret() const override;
-  const Coordinator& coordinator() const { return node_.coordinator(); }
+  const RunCoordinator& coordinator() const { return node_.coordinator(); }
 
  private:
   const LocalRun& run_;

@@ -76,6 +76,7 @@ NodesOptions drawn_nodes(Draw& draw, const CompiledScene& scene, const SimOption
   NodesOptions nodes = options.fixed;
   nodes.nodes = options.nodes;
   nodes.links = options.links;
+  nodes.fan_out = options.fan_out;
   nodes.profile_share = 0;
   nodes.sharing = false;  // each stands for a machine
   if (!options.draw_nodes) return nodes;
@@ -86,6 +87,7 @@ NodesOptions drawn_nodes(Draw& draw, const CompiledScene& scene, const SimOption
   nodes.prefetch = draw.one_of<size_t>({0, 0, 1, 4});
   nodes.replicas = std::min(draw.one_of<uint32_t>({1, 2, 3}), static_cast<uint32_t>(options.nodes));
   nodes.tally_shards = std::min(draw.one_of<int>({1, 1, 2, 3}), options.nodes + 1);
+  if (options.fan_out > 0) nodes.tally_shards = 1;  // there is one level with them
   return nodes;
 }
 
@@ -101,6 +103,7 @@ void draw_habits(Draw& draw, NodeSetup& node) {
   node.photons.leases = draw.one_of<size_t>({1, 2, 4});
   node.photons.open_batches = draw.one_of<size_t>({1, 2});
   node.fetch.tries = draw.one_of<uint8_t>({1, 2, 4});
+  node.rejoin = draw.one_of<Nanoseconds>({seconds(3), seconds(10), seconds(60)});
 }
 
 uint64_t draw_life(uint64_t seed, NodeId node, uint32_t life) {
@@ -191,8 +194,8 @@ class Simulation {
   SimReport report_;
   std::unique_ptr<SimWorld> world_;
   std::optional<StopReason> reason_;
-  bool let_go_ = false;     // the controller has let all nodes go
-  std::vector<bool> late_;  // of each: its life began after that
+  Nanoseconds let_go_ = never;       // when the controller let all nodes go
+  std::vector<Nanoseconds> begins_;  // of each node's present life
 };
 
 Simulation::Simulation(const SimScene& scene, const SimOptions& options, PlannedNodes& nodes,
@@ -207,7 +210,7 @@ Simulation::Simulation(const SimScene& scene, const SimOptions& options, Planned
   world.plan = fault_plan();
   for (NodeSetup& node : setups_) node.faults = world.plan;  // of its stores
   world_ = std::make_unique<SimWorld>(world);
-  late_.resize(setups_.size());
+  begins_.resize(setups_.size());
 }
 
 void Simulation::set_up(const PlannedNodes& nodes) {
@@ -226,6 +229,7 @@ void Simulation::set_up(const PlannedNodes& nodes) {
     node.net.self = own.self;
     node.net.identity = own.identity;
     node.lease_time = habits.lease_time;
+    node.rejoin = habits.rejoin;
     node.fetch.tries = habits.fetch.tries;
     node.photons.leases = habits.photons.leases;
     node.photons.open_batches = habits.photons.open_batches;
@@ -269,7 +273,7 @@ FaultPlan Simulation::fault_plan() const {
 }
 
 std::unique_ptr<SimNode> Simulation::make(NodeId node, uint32_t life) {
-  late_[node.value] = let_go_;
+  begins_[node.value] = world_->now();
   NodeSetup& setup = setups_[node.value];
   setup.net.incarnation = {draw_life(options_.seed, node, life)};
   if (node == controller()) {
@@ -329,13 +333,16 @@ void Simulation::note_last(const SimController& controller) {
   report_.took = controller.coordinator().took();
   if (!controller.coordinator().ended()) return;
   reason_ = controller.coordinator().reason();
-  let_go_ = true;
+  let_go_ = std::min(let_go_, world_->now());
 }
 
 /// A worker has heard of the end, however it was parted from the others. Who begins anew when all
-/// have been let go finds nobody who could tell it.
+/// have been let go finds nobody who could tell it; nor may who does so shortly before, when what
+/// its former life said is still fresh.
 void Simulation::note_left(NodeId node, const CheckedNode& left) {
-  if (late_[node.value]) return;
+  if (let_go_ != never &&
+      begins_[node.value] >= let_go_ - Coordinator::word_is_fresh(CoordinatorConfig{}))
+    return;
   if (auto why = left.regret(); !why.empty())
     report_.failure = fmt::format("{} has left with \"{}\"", setup_.name_of(node), why);
 }

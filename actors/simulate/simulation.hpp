@@ -38,6 +38,7 @@ struct SimOptions {
   uint64_t seed = 0;
   int nodes = 4;  // workers
   int links = 4;
+  uint32_t fan_out = 0;  // nodes that a coordinator leads; 0: as usual for so many
   /// What the nodes are like is drawn from the seed: fibers, budgets, windows, times.
   bool draw_nodes = true;
   NodesOptions fixed;      // otherwise

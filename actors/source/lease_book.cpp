@@ -58,6 +58,18 @@ LentBatches LeaseBook::lend(NodeId node, int64_t most, Nanoseconds now, Nanoseco
   return lent;
 }
 
+bool LeaseBook::remove(int64_t batch, std::vector<Lease>& fenced) {
+  for (const Lease& lease : fence([&](const Lease& one) { return one.batch == batch; }))
+    fenced.push_back(lease);
+  given_back_.erase(batch);
+  return again_.erase(batch) > 0;
+}
+
+void LeaseBook::renew(NodeId node, Nanoseconds deadline) {
+  for (auto& [id, lease] : leases_)
+    if (lease.node == node) lease.deadline = std::max(lease.deadline, deadline);
+}
+
 bool LeaseBook::stand(NodeId node, const std::vector<uint64_t>& leases) const {
   std::set<uint64_t> named;
   return std::all_of(leases.begin(), leases.end(), [&](uint64_t id) {

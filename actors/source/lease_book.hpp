@@ -10,6 +10,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "runtime/core/clock.hpp"
@@ -57,6 +58,15 @@ class LeaseBook {
   /// Of the open round: beyond its last batch.
   int64_t end() const { return end_; }
 
+  /// A batch that is lent beside those of rounds, by who coordinates for another. Requires: the
+  /// book does not hold it.
+  void add(int64_t batch) { again_.insert(batch); }
+  /// It is lent no more. Gives its lease if one stood, which is fenced. False: its flush is being
+  /// kept, so that it will be counted.
+  bool remove(int64_t batch, std::vector<Lease>& fenced);
+  /// This node makes progress: none of its leases is late before `deadline`.
+  void renew(NodeId node, Nanoseconds deadline);
+
   /// Lends up to `most` batches; none where none is left in the round. What was fenced goes first,
   /// then what `rank` ranks least, of equals the first; without `rank` all are equal. Batches of
   /// different ranks, or with others between them, are not lent together. They shall be back after
@@ -96,6 +106,8 @@ class LeaseBook {
   /// more, and a round may end without them. Gives those that are lost since the last call.
   int64_t lose_what_all_gave_back(const std::vector<NodeId>& nodes);
   int64_t lost() const { return static_cast<int64_t>(lost_.size()); }
+  /// The lost batches, which the book then holds no more.
+  std::set<int64_t> take_lost() { return std::exchange(lost_, {}); }
 
   /// Batches 0..lent_end() - 1 that are not committed.
   std::vector<int64_t> missing() const;

@@ -16,6 +16,7 @@ struct StudyResult {
   WorkerReport workers;     // of all together
   double busy_s = 0;        // of all workers: charged; of real ones their threads' processor time
   double controller_s = 0;  // the same of the controller
+  double busiest_s = 0;     // of whoever coordinates, the busiest; simulated ones alone
   double frames = 0;        // on links; those of real nodes are not counted
   double link_bytes = 0;    // likewise
   double leases = 0;

@@ -124,7 +124,7 @@ NodeSeams SimulatedRun::seams(NodeId node) {
 void SimulatedRun::look_at_controller() {
   const auto* node = static_cast<const SimController*>(world_->node(controller()));
   if (node == nullptr || node->coordinator().took() == 0) return;
-  const Coordinator& ended = node->coordinator();
+  const RunCoordinator& ended = node->coordinator();
   reason_ = ended.reason();
   result_.seconds = 1e-9 * static_cast<double>(ended.took());
   result_.leases = static_cast<double>(ended.counters().leases);
@@ -135,7 +135,10 @@ void SimulatedRun::look_at_controller() {
 void SimulatedRun::note_world() {
   for (const NodeSetup& node : setups_) {
     const double busy_s = 1e-9 * static_cast<double>(world_->clock(node.net.self).busy());
-    (node.net.self == controller() ? result_.controller_s : result_.busy_s) += busy_s;
+    const bool leads = node.net.self == controller();
+    (leads ? result_.controller_s : result_.busy_s) += busy_s;
+    if (leads || setup_.coordinates(node.net.self))
+      result_.busiest_s = std::max(result_.busiest_s, busy_s);
   }
   result_.particles = static_cast<double>(local_->totals().balance().particles);
   result_.nodes = options_.nodes;

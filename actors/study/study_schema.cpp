@@ -49,6 +49,9 @@ TableSpec sweep_table() {
           {"nodes", "integer sweep", "", "4", "[1, 1023]", "workers"},
           {"links", "integer sweep", "", "4", "[1, 16]",
            "of a node at most, for amp and random-regular"},
+          {"fan_out", "integer sweep", "", "0", "[0, 1023]",
+           "nodes that a coordinator leads at most; 0: all below 64 workers, else their square "
+           "root"},
           {"delay_ms", "number sweep", "ms", "0.05", "[0, 10000]", "of every link, one way"},
           {"bytes_per_second", "number sweep", "B/s", "1e9", "[0, 1e13]",
            "of every link, each way; 0: no limit"},

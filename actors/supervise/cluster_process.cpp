@@ -41,6 +41,15 @@ Incarnation fresh_incarnation() {
   return life;
 }
 
+/// Neither shards nor the live view go together with levels of coordinators: whoever did not ask
+/// for levels gets one.
+uint32_t fan_out_of(const ClusterConfig& cluster) {
+  const auto workers = static_cast<uint32_t>(cluster.workers());
+  if (cluster.lease.fan_out > 0) return cluster.lease.fan_out;
+  const bool one_level = !cluster.tally.shards.empty() || cluster.view.live;
+  return one_level ? std::max(workers, 2u) : usual_fan_out(workers);
+}
+
 Result<Graph> found_graph(const ClusterConfig& cluster) {
   const TopologyChoice& choice = cluster.topology;
   AmpRequest request;
@@ -264,7 +273,7 @@ Result<NodeSetup> ClusterProcessRun::setup_of(NodeId self, const RunSetup& run) 
   if (budget.max_maps > 0) node.fibers.max_maps = budget.max_maps;
   node.stall = cluster_.timeouts.stall;
   node.start = cluster_.timeouts.start;
-  node.lost = cluster_.timeouts.lost;
+  node.lost = node.rejoin = cluster_.timeouts.lost;
   node.lease_time = cluster_.lease.duration;
   node.photons.leases = cluster_.lease.batches;
   node.tally_bytes = budget.tally_bytes;
@@ -333,12 +342,14 @@ Result<void> ClusterProcessRun::write_trace(const Observation& seen) const {
 
 /// What the nodes of the process are made from; they refer to it.
 struct ClusterProcessRun::Prepared {
-  Prepared(const LocalRun& run, const Graph& graph, std::span<const Admitted> admitted,
-           const SceneIndex* index)
+  Prepared(const LocalRun& run, const Graph& graph, uint32_t fan_out,
+           std::span<const Admitted> admitted, const SceneIndex* index)
       : context({admitted.begin(), admitted.end()}),
+        tree(graph, fan_out),
         routes(balanced_routes(graph)),
         setup{run.scene(), index, nullptr, nullptr, run.seed(), graph, {}, nullptr} {
     setup.routes = &routes;
+    setup.tree = &tree;
   }
   SystemClock clock;
   ZmqContext context;
@@ -349,6 +360,7 @@ struct ClusterProcessRun::Prepared {
   std::optional<SharedObjects> shared;
   std::optional<Residency> residency;
   std::unique_ptr<Observation> seen;
+  CoordinationTree tree;
   Routes routes;
   RunSetup setup;
   std::vector<NodeSetup> workers;
@@ -359,8 +371,8 @@ Result<std::unique_ptr<ClusterProcessRun::Prepared>> ClusterProcessRun::prepare_
     DisplayWork* display) {
   std::vector<Admitted> admitted;
   for (const auto& [node, key] : public_keys_) admitted.push_back({node, key});
-  auto out =
-      std::make_unique<Prepared>(*run_, graph_, admitted, fetches_ ? nullptr : &run_->index());
+  auto out = std::make_unique<Prepared>(*run_, graph_, fan_out_of(cluster_), admitted,
+                                        fetches_ ? nullptr : &run_->index());
   RunSetup& setup = out->setup;
   for (const ClusterNode& node : cluster_.nodes) setup.names.push_back(node.name);
   setup.shards.owners = cluster_.tally.shards;

@@ -6,22 +6,10 @@ namespace luxodus {
 
 namespace {
 
-CoordinatorConfig coordinator_config(const RunSetup& setup, const NodeSetup& node,
-                                     BlockingCalls& calls, JournalActor* journal) {
-  CoordinatorConfig config;
-  config.self = node.net.self;
-  config.calls = &calls;
-  config.journal = journal;
-  config.display = setup.display;
-  config.lease_time = node.lease_time;
-  config.group_ranks = node.group_ranks;
-  config.max_leases = static_cast<uint32_t>(node.photons.leases);
-  config.start = node.start;
-  config.lost = node.lost;
-  config.names = setup.names;
-  config.shards = setup.shards;
-  config.first_lease = node.net.incarnation.value;
-  for (uint16_t i = 0; i < setup.graph.workers(); ++i) config.workers.push_back({i});
+CoordinatorConfig lead_config(const RunSetup& setup, const NodeSetup& node) {
+  CoordinatorConfig config = coordinator_config(setup, node);
+  // Who coordinates others lends on to whoever asks.
+  if (!setup.tree->has_levels()) config.group_ranks = node.group_ranks;
   return config;
 }
 
@@ -38,9 +26,10 @@ ControllerNode::ControllerNode(const RunSetup& setup, const NodeSetup& node, Loc
               node.shutdown_phase, setup.routes},
              setup.graph, seams.clock, seams.transport),
       calls_(seams.make_calls(shell_.scheduler())),
-      coordinator_(coordinator_config(setup, node, *calls_, make_journal(keeper, seams)), run, stop,
-                   interrupt, std::move(report), shell_.scheduler(), shell_.network(),
-                   shell_.actors()) {
+      coordinator_(lead_config(setup, node),
+                   {run, stop, interrupt, std::move(report), setup.shards, *calls_,
+                    make_journal(keeper, seams), setup.display},
+                   shell_.scheduler(), shell_.network(), shell_.actors()) {
   if (node.display == nullptr) return;
   display_calls_ = seams.make_calls(shell_.scheduler());
   display_.emplace(display_config(node), *node.display, *display_calls_, shell_.scheduler(),
@@ -57,8 +46,8 @@ bool ControllerNode::end_run(const Verdict& verdict) {
   }
   const std::string text = verdict.text.substr(0, limits::text_bytes);
   ActorSystem& actors = shell_.actors();
-  for (uint16_t i = 0; i < setup_.graph.workers(); ++i) {
-    const Address worker{{i}, ActorName::tracer};
+  for (const Vertex v : setup_.tree->children(self_.value)) {
+    const Address worker{{static_cast<uint16_t>(v)}, ActorName::tracer};
     actors.send(coordinator_.address(), worker, actors.next_id(), RunEnded{0, text});
     actors.send(coordinator_.address(), worker, actors.next_id(), EnterPhase{EndPhase::leave, 0});
   }

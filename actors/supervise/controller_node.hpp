@@ -2,7 +2,7 @@
 // has it do so. Made and run on one thread.
 #pragma once
 
-#include "actors/source/coordinator.hpp"
+#include "actors/source/run_coordinator.hpp"
 #include "actors/supervise/node_metrics.hpp"
 #include "actors/supervise/node_setup.hpp"
 
@@ -22,7 +22,7 @@ class ControllerNode {
 
   NodeShell& shell() { return shell_; }
   const NodeShell& shell() const { return shell_; }
-  const Coordinator& coordinator() const { return coordinator_; }
+  const RunCoordinator& coordinator() const { return coordinator_; }
   /// Null where the run is shown elsewhere, or nowhere.
   const DisplayActor* display() const { return display_ ? &*display_ : nullptr; }
 
@@ -40,7 +40,7 @@ class ControllerNode {
   std::unique_ptr<BlockingCalls> calls_;       // of the coordinator
   std::unique_ptr<BlockingCalls> display_calls_;
   std::optional<DisplayActor> display_;  // where the run is shown here
-  Coordinator coordinator_;
+  RunCoordinator coordinator_;
   std::optional<NodeMetrics> metrics_;
 };
 

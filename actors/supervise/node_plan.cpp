@@ -107,12 +107,23 @@ MemoryPlan process_plan(const RunSetup& run) {
   return plan;
 }
 
+/// The first of them, and how many more there are.
+std::string list_of(const std::vector<std::string>& names) {
+  constexpr size_t most = 8;
+  std::string text;
+  for (size_t i = 0; i < std::min(names.size(), most); ++i)
+    text += (text.empty() ? "" : ", ") + names[i];
+  return names.size() > most ? text + fmt::format(" and {} more", names.size() - most) : text;
+}
+
 }  // namespace
 
 SchedulerLimits worker_limits(const RunSetup& run, const NodeSetup& node) {
   SchedulerLimits limits;
   limits.fibers = node.fibers;
-  limits.fibers.count = node.photons.fibers + 1;  // and the one that packs flushes
+  // And the one that packs flushes. Who coordinates has one that counts them instead.
+  const bool coordinates = run.coordinates(node.net.self);
+  limits.fibers.count = (coordinates ? 1 : node.photons.fibers) + 1;
   if (run.shards.shard_of(node.net.self) != 0) ++limits.fibers.count;  // that adds parts of others'
   limits.stall = node.stall;
   limits.buggify = node.buggify;
@@ -123,9 +134,14 @@ SchedulerLimits worker_limits(const RunSetup& run, const NodeSetup& node) {
 
 NetConfig controller_net(const RunSetup& run, const NodeSetup& node) {
   NetConfig net = node.net;
-  const size_t words = 2 * run.graph.workers();  // that a round begins, and an answer
+  // That a round begins, and an answer.
+  const size_t words = 2 * run.tree->children(node.net.self.value).size();
   if (words > defaults::outbox_messages) net.outbox_messages = std::max(net.outbox_messages, words);
   return net;
+}
+
+NetConfig worker_net(const RunSetup& run, const NodeSetup& node) {
+  return run.coordinates(node.net.self) ? controller_net(run, node) : node.net;
 }
 
 SchedulerLimits controller_limits(const NodeSetup& node) {
@@ -169,10 +185,33 @@ MemoryPlan tally_plan(const CompiledScene& scene, const NodeSetup& node) {
   return plan;
 }
 
+/// Flushes of those whom a coordinator leads, and what it counts them into.
+void add_coordinator(MemoryPlan& plan, const RunSetup& run, const NodeSetup& node,
+                     uint64_t copies) {
+  add_mailbox(plan, "coordinator", Coordinator::memory_bytes());
+  add_totals(plan, run.scene, copies);
+  const uint64_t bins = bins_of(run, 0);  // others' shards have theirs
+  plan.add("flush being counted", bins * (flush_bytes_of_bin + sizeof(TotalsGain::Bin)),
+           fmt::format("{} bins x ({} B packed + {} B read)", bins, flush_bytes_of_bin,
+                       sizeof(TotalsGain::Bin)));
+  const size_t led = run.tree->children(node.net.self.value).size();
+  plan.add("flushes coming in",
+           std::min<uint64_t>(ShellConfig{}.max_payload_bytes, led * bins * flush_bytes_of_bin),
+           fmt::format("of {} nodes at once, at most {} B of all", led,
+                       ShellConfig{}.max_payload_bytes));
+}
+
 MemoryPlan worker_plan(const RunSetup& run, const NodeSetup& node) {
-  MemoryPlan plan = common_plan(node.net, worker_limits(run, node));
+  MemoryPlan plan = common_plan(worker_net(run, node), worker_limits(run, node));
   add_mailbox(plan, "tracer", Tracer::memory_bytes());
-  plan.add(tally_plan(run.scene, node));
+  if (run.coordinates(node.net.self)) {
+    add_coordinator(plan, run, node, 2);
+    plan.add(
+        "flush", bins_of(run.scene) * flush_bytes_of_bin,
+        fmt::format("{} bins x {} B at most, packed less", bins_of(run.scene), flush_bytes_of_bin));
+  } else {
+    plan.add(tally_plan(run.scene, node));
+  }
   if (const size_t shard = run.shards.shard_of(node.net.self); shard != 0)
     add_shard(plan, run, shard);
   uint64_t histograms = 2;
@@ -194,17 +233,7 @@ MemoryPlan worker_plan(const RunSetup& run, const NodeSetup& node) {
 
 MemoryPlan controller_plan(const RunSetup& run, const NodeSetup& node) {
   MemoryPlan plan = common_plan(controller_net(run, node), controller_limits(node));
-  add_mailbox(plan, "coordinator", Coordinator::memory_bytes());
-  add_totals(plan, run.scene, 1);
-  const uint64_t bins = bins_of(run, 0);  // others' shards have theirs
-  plan.add("flush being counted", bins * (flush_bytes_of_bin + sizeof(TotalsGain::Bin)),
-           fmt::format("{} bins x ({} B packed + {} B read)", bins, flush_bytes_of_bin,
-                       sizeof(TotalsGain::Bin)));
-  const size_t workers = run.graph.workers();
-  plan.add("flushes coming in",
-           std::min<uint64_t>(ShellConfig{}.max_payload_bytes, workers * bins * flush_bytes_of_bin),
-           fmt::format("of {} workers at once, at most {} B of all", workers,
-                       ShellConfig{}.max_payload_bytes));
+  add_coordinator(plan, run, node, 1);
   if (run.display)
     plan.add(
         "totals for the display", bins_of(run.scene) * flush_bytes_of_bin,
@@ -261,10 +290,9 @@ std::string plan_text(const RunSetup& run, const std::vector<NodeSetup>& workers
   if (controller) add(*controller, controller_plan(run, *controller));
   std::string text = "process, shared by its nodes:\n" + process_plan(run).table();
   for (const Alike& alike : plans) {
-    const bool several = alike.names.size() > 1;
-    text += several ? fmt::format("nodes {} to {}, each of {}:\n", alike.names.front(),
-                                  alike.names.back(), alike.names.size())
-                    : fmt::format("node {}:\n", alike.names.front());
+    const size_t nodes = alike.names.size();
+    text += nodes == 1 ? fmt::format("node {}:\n", alike.names.front())
+                       : fmt::format("each of {} nodes: {}\n", nodes, list_of(alike.names));
     text += alike.plan.table();
   }
   return text;

@@ -16,7 +16,8 @@ namespace luxodus {
 /// What a node's scheduler is made with.
 SchedulerLimits worker_limits(const RunSetup& run, const NodeSetup& node);
 SchedulerLimits controller_limits(const NodeSetup& node);
-/// A controller's network: it may have two words for every worker at once.
+/// Their networks: who coordinates may have two words at once for everyone whom it leads.
+NetConfig worker_net(const RunSetup& run, const NodeSetup& node);
 NetConfig controller_net(const RunSetup& run, const NodeSetup& node);
 
 /// The display's, where the node has one.

@@ -9,15 +9,19 @@
 namespace luxodus {
 
 namespace {
-/// Nodes that look for objects, shards or the display in different places do not belong together.
+/// Nodes that look for objects, shards, coordinators or the display in different places do not
+/// belong together.
 uint64_t hash_of(const RunSetup& run) {
   const NodeId controller{static_cast<uint16_t>(run.graph.controller())};
   const bool shown_elsewhere = run.display && *run.display != controller;
-  if (run.objects == nullptr && run.shards.owners.empty() && !shown_elsewhere)
+  const bool levels = run.tree != nullptr && run.tree->has_levels();
+  if (run.objects == nullptr && run.shards.owners.empty() && !shown_elsewhere && !levels)
     return run.scene.scene_hash;
   Hasher hash;
   hash.add(run.scene.scene_hash);
   if (shown_elsewhere) hash.add(uint64_t{run.display->value});
+  for (Vertex v = 0; levels && v < run.graph.workers(); ++v)
+    hash.add(uint64_t{run.tree->parent(v)});
   for (const NodeId owner : run.shards.owners) hash.add(uint64_t{owner.value});
   if (run.objects == nullptr) return hash.value();
   for (const ObjectPlace& place : run.objects->places()) {
@@ -27,9 +31,37 @@ uint64_t hash_of(const RunSetup& run) {
   return hash.value();
 }
 
+/// Leases of different coordinators are never taken for each other's, nor those of two lives.
+uint64_t first_lease_of(Incarnation life) {
+  Hasher hash;
+  hash.add(life.value);
+  return hash.value() >> 1;
+}
+
 /// A flush of ten million bins has a third of it.
 constexpr size_t longest_message = 1u << 30;
 }  // namespace
+
+CoordinatorConfig coordinator_config(const RunSetup& run, const NodeSetup& node) {
+  CoordinatorConfig config;
+  config.self = node.net.self;
+  const Vertex self = node.net.self.value;
+  for (Vertex v = 0; v < run.graph.workers(); ++v) {
+    const NodeId other{static_cast<uint16_t>(v)};
+    if (run.tree->parent(v) == self)
+      config.workers.push_back(other);
+    else if (run.tree->has_levels() && v != self && run.tree->height(v) < run.tree->height(self))
+      config.orphans.push_back(other);
+    config.below.push_back({run.tree->tracers(v), run.tree->height(v)});
+  }
+  config.lease_time = node.lease_time;
+  config.max_leases = static_cast<uint32_t>(node.photons.leases);
+  config.start = node.start;
+  config.lost = node.lost;
+  config.names = run.names;
+  config.first_lease = first_lease_of(node.net.incarnation);
+  return config;
+}
 
 Result<void> join_links(ZmqTransport& transport, const NodeSetup& node) {
   for (const Endpoints& where : node.links.listen) {

@@ -8,14 +8,16 @@
 
 #include "actors/objects/scene_objects.hpp"
 #include "actors/photon/photon_threads.hpp"
+#include "actors/photon/tracer.hpp"
 #include "actors/showing/display_actor.hpp"
-#include "actors/source/coordinator.hpp"
+#include "actors/source/run_coordinator.hpp"
+#include "actors/source/sub_coordinator.hpp"
 #include "actors/supervise/node_shell.hpp"
 #include "actors/supervise/observation.hpp"
 #include "runtime/config/cluster_config.hpp"
 #include "runtime/net/faulty_transport.hpp"
 #include "runtime/net/zmq_transport.hpp"
-#include "topology/graph.hpp"
+#include "topology/coordination_tree.hpp"
 
 namespace luxodus {
 
@@ -33,6 +35,13 @@ struct RunSetup {
   SharedObjects* shared = nullptr;  // what nodes of the process have built; null: to each its own
   const Routes* routes = nullptr;   // of the whole graph, where they were made once for all
   std::optional<NodeId> display = {};  // where the run is shown; nothing: nowhere
+  /// Over the graph: who coordinates whom. Null: nobody does.
+  const CoordinationTree* tree = nullptr;
+
+  /// Whether a worker coordinates others.
+  bool coordinates(NodeId worker) const {
+    return tree != nullptr && tree->coordinates(worker.value);
+  }
 
   /// Of a node, for people.
   std::string name_of(NodeId node) const {
@@ -53,6 +62,7 @@ struct NodeSetup {
   Nanoseconds stall = SchedulerLimits{}.stall;
   Nanoseconds start = CoordinatorConfig{}.start;
   Nanoseconds lost = CoordinatorConfig{}.lost;
+  Nanoseconds rejoin = TracerConfig{}.rejoin;
   Nanoseconds lease_time = CoordinatorConfig{}.lease_time;
   FetchConfig fetch;
   size_t object_bytes = 0;  // for built objects, where objects are fetched
@@ -126,6 +136,9 @@ class NodeTransport {
   ZmqTransport sockets_;
   std::optional<FaultyTransport> faulty_;
 };
+
+/// What a coordinator of the run has in common with the others: whom it leads, by what times.
+CoordinatorConfig coordinator_config(const RunSetup& run, const NodeSetup& node);
 
 /// Listens and connects as the setup says.
 /// Errors: an endpoint that is taken, is none, or asks for keys that there are not.

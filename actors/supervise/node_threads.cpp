@@ -101,7 +101,7 @@ Result<StopReason> run_controller(const RunSetup& setup, const Machine& machine,
   const Nanoseconds began = machine.clock.now();
   here.start(broken);
   here.shell().run();
-  const Coordinator& controller = here.coordinator();
+  const RunCoordinator& controller = here.coordinator();
   run.add_seconds(static_cast<double>(machine.clock.now() - began - controller.over_for()) * 1e-9);
   const Network& network = here.shell().network();
   if (const auto& verdict = here.shell().supervisor().verdict())

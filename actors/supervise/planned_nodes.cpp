@@ -13,6 +13,13 @@ namespace {
 
 constexpr uint32_t max_controller_links = 4;
 
+/// Shards and levels of coordinators do not go together: whoever did not ask for levels gets one.
+uint32_t fan_out_of(const NodesOptions& options) {
+  const auto workers = static_cast<uint32_t>(options.nodes);
+  if (options.fan_out > 0) return options.fan_out;
+  return options.tally_shards > 1 ? std::max(workers, 2u) : usual_fan_out(workers);
+}
+
 Result<Graph> graph_for(const NodesOptions& options) {
   if (options.graph) return *options.graph;
   AmpRequest request;
@@ -28,6 +35,11 @@ std::optional<std::string> fault_of(const NodesOptions& options, const CompiledS
       options.tally_shards > static_cast<int>(limits::tally_shards))
     return "the totals can have 1 to " + std::to_string(options.nodes + 1) +
            " shards: one of the controller, and one of each node";
+  if (options.fan_out == 1) return "a coordinator leads at least 2 nodes (fan_out)";
+  if (options.tally_shards > 1 && options.fan_out > 0 &&
+      options.fan_out < static_cast<uint32_t>(options.nodes))
+    return "totals in shards need one coordinator for all nodes: leave out the shards or the "
+           "fan-out";
   if (options.object_bytes == 0) {
     if (resident) return std::nullopt;
     return "nodes that do not hold the whole scene need a budget for scene parts";
@@ -119,6 +131,7 @@ Result<std::unique_ptr<PlannedNodes>> PlannedNodes::make(const LocalRun& run,
 
 PlannedNodes::PlannedNodes(const LocalRun& run, const NodesOptions& options, Graph graph)
     : graph_(std::move(graph)),
+      tree_(graph_, fan_out_of(options)),
       routes_(balanced_routes(graph_)),
       setup_{run.scene(), run.resident() ? &run.index() : nullptr,
              nullptr,     nullptr,
@@ -129,6 +142,7 @@ PlannedNodes::PlannedNodes(const LocalRun& run, const NodesOptions& options, Gra
   setup_.routes = &routes_;
   if (options.display != nullptr)
     setup_.display = options.display_node.value_or(NodeId{static_cast<uint16_t>(options.nodes)});
+  setup_.tree = &tree_;
   for (uint16_t i = 0; i + 1 < options.tally_shards; ++i) setup_.shards.owners.push_back({i});
   if (options.object_bytes == 0) return;
   std::vector<NodeId> holders;

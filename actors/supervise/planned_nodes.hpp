@@ -24,8 +24,11 @@ inline constexpr int nodes_in_process = 64;
 inline constexpr int64_t usual_particles = 4'000'000;
 
 struct NodesOptions {
-  int nodes = 2;         // workers; the controller comes on top and traces nothing
-  int links = 4;         // of a node at most
+  int nodes = 2;  // workers; the controller comes on top and traces nothing
+  int links = 4;  // of a node at most
+  /// Nodes that a coordinator leads at most; 0: usual_fan_out(). Beyond that there are several
+  /// levels, and their coordinators trace nothing.
+  uint32_t fan_out = 0;
   size_t fibers = 1;     // photon-threads of a node
   size_t portion = 128;  // particles a fiber takes at once, at most
   /// For built objects, of each node. 0: everything is resident, and shared. With a budget each
@@ -80,6 +83,7 @@ class PlannedNodes {
   void set_up(const NodesOptions& options, uint64_t run_id);
 
   const Graph graph_;
+  const CoordinationTree tree_;
   const Routes routes_;
   const EmbreeDevice device_;
   std::optional<SceneObjects> objects_;

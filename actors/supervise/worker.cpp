@@ -7,12 +7,14 @@ namespace luxodus {
 
 namespace {
 
-TracerConfig tracer_config(const NodeSetup& node, NodeTrace* trace) {
+TracerConfig tracer_config(const RunSetup& run, const NodeSetup& node, NodeTrace* trace) {
   TracerConfig config;
   config.self = node.net.self;
-  config.coordinator = {node.controller, ActorName::coordinator};
+  for (const Vertex leads : run.tree->coordinators_of(node.net.self.value))
+    config.coordinators.push_back({{static_cast<uint16_t>(leads)}, ActorName::coordinator});
   config.start = node.start;
   config.lost = node.lost;
+  config.rejoin = node.rejoin;
   config.trace = trace;
   return config;
 }
@@ -30,20 +32,17 @@ Worker::Worker(const RunSetup& run, const NodeSetup& node, const NodeSeams& seam
     : run_(run),
       node_(node),
       trace_(run.observation == nullptr ? nullptr : run.observation->trace_of(node.net.self)),
-      shell_({node.net, worker_limits(run, node), ShellConfig{}.max_payload_bytes,
+      shell_({worker_net(run, node), worker_limits(run, node), ShellConfig{}.max_payload_bytes,
               node.shutdown_phase, run.routes},
              run.graph, seams.clock, seams.transport),
       objects_(run.objects == nullptr ? nullptr
                                       : std::make_unique<FetchingObjects>(
                                             run, node, shell_, seams.make_builder, trace_)),
       shard_(own_shard()),
-      tracer_(tracer_config(node, trace_), run.shards, shell_.scheduler(), shell_.network(),
+      tracer_(tracer_config(run, node, trace_), run.shards, shell_.scheduler(), shell_.network(),
               shell_.actors()),
-      photons_(run.scene,
-               objects_ ? GeometryAccess::through(*run.proxies, objects_->source())
-                        : GeometryAccess::resident(*run.index),
-               run.seed, photon_config(node, trace_), shell_.scheduler(), tracer_,
-               seams.make_tracer) {
+      photons_(coordinates() ? nullptr : own_photons(seams)),
+      coordinator_(coordinates() ? own_coordinator() : nullptr) {
   if (node.display == nullptr) return;
   display_calls_ = seams.make_calls(shell_.scheduler());
   display_.emplace(display_config(node), *node.display, *display_calls_, shell_.scheduler(),
@@ -62,22 +61,50 @@ std::unique_ptr<TallyShard> Worker::own_shard() {
                                       shell_.scheduler(), shell_.actors());
 }
 
+std::unique_ptr<PhotonThreads> Worker::own_photons(const NodeSeams& seams) {
+  const GeometryAccess access = objects_
+                                    ? GeometryAccess::through(*run_.proxies, objects_->source())
+                                    : GeometryAccess::resident(*run_.index);
+  return std::make_unique<PhotonThreads>(run_.scene, access, run_.seed,
+                                         photon_config(node_, trace_), shell_.scheduler(), tracer_,
+                                         seams.make_tracer);
+}
+
+std::unique_ptr<SubCoordinator> Worker::own_coordinator() {
+  return std::make_unique<SubCoordinator>(coordinator_config(run_, node_), run_.scene, tracer_,
+                                          shell_.scheduler(), shell_.network(), shell_.actors());
+}
+
+LeasedWork& Worker::work() {
+  if (coordinator_) return *coordinator_;
+  return *photons_;
+}
+
 void Worker::show_to(Observation& seen) {
   metrics_.emplace(run_.names, node_.net.self, "worker", shell_);
   tracer_.add_metrics(metrics_->registry());
-  photons_.add_metrics(metrics_->registry());
+  if (photons_) photons_->add_metrics(metrics_->registry());
+  if (coordinator_) coordinator_->add_metrics(metrics_->registry());
   if (shard_) shard_->add_metrics(metrics_->registry());
   if (objects_) objects_->add_metrics(metrics_->registry());
   if (display_) display_->add_metrics(metrics_->registry());
-  metrics_->add_rate({"particles_per_second", "", "Particles traced in a second.", ""},
-                     photons_.counters().particles);
+  if (photons_)
+    metrics_->add_rate({"particles_per_second", "", "Particles traced in a second.", ""},
+                       photons_->counters().particles);
+  else
+    metrics_->add_rate({"particles_per_second", "", "Particles counted in a second.", ""},
+                       coordinator_->counters().particles);
   metrics_->start(seen);
 }
 
 void Worker::start(std::function<bool()> stop) {
   stop_ = std::move(stop);
   shell_.add(ActorName::tracer, tracer_);
-  tracer_.start(photons_);
+  tracer_.start(work());
+  if (coordinator_) {
+    shell_.add(ActorName::coordinator, *coordinator_);
+    coordinator_->start();
+  }
   if (shard_) {
     shell_.add(ActorName::tally_shard, *shard_);
     shard_->start();
@@ -88,7 +115,7 @@ void Worker::start(std::function<bool()> stop) {
   }
   shell_.supervisor().end_runs_by([this](const Verdict& verdict) { return end_run(verdict); });
   if (objects_) objects_->pin(node_.pins);
-  photons_.start();
+  if (photons_) photons_->start();
   if (run_.observation != nullptr) show_to(*run_.observation);
   shell_.supervisor().rehearse(node_.faults);
   shell_.begin([this] { return may_leave(); });
@@ -132,8 +159,9 @@ Result<WorkerReport> Worker::result() const {
   WorkerReport report = objects_ ? objects_->report() : WorkerReport{};
   if (const auto& verdict = shell_.supervisor().verdict()) report.failed = verdict->actor;
   report.waited = shell_.scheduler().counters().waited;
-  report.tally_full = photons_.counters().tally_full;
-  report.max_tally_bytes = photons_.counters().max_tally_bytes;
+  if (!photons_) return report;
+  report.tally_full = photons_->counters().tally_full;
+  report.max_tally_bytes = photons_->counters().max_tally_bytes;
   return report;
 }
 

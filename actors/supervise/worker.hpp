@@ -1,5 +1,6 @@
-// A worker: a node that traces. It is made and run on one thread; what it does for others (routes,
-// objects it holds) it does between the turns of its photon-threads.
+// A worker: a node that traces, or coordinates others that do in the stead of the controller. It is
+// made and run on one thread; what it does for others (routes, objects it holds) it does between
+// the turns of its photon-threads.
 #pragma once
 
 #include "actors/photon/tracer.hpp"
@@ -24,7 +25,10 @@ class Worker {
   NodeShell& shell() { return shell_; }
   const NodeShell& shell() const { return shell_; }
   const Tracer& tracer() const { return tracer_; }
-  const PhotonThreads& photons() const { return photons_; }
+  /// Null where it coordinates.
+  const PhotonThreads* photons() const { return photons_.get(); }
+  /// Null where it traces.
+  const SubCoordinator* coordinator() const { return coordinator_.get(); }
   /// Null where the node holds everything.
   const FetchingObjects* objects() const { return objects_.get(); }
 
@@ -39,6 +43,10 @@ class Worker {
   bool leaves_early();
   bool end_run(const Verdict& verdict);
   std::unique_ptr<TallyShard> own_shard();
+  std::unique_ptr<PhotonThreads> own_photons(const NodeSeams& seams);
+  std::unique_ptr<SubCoordinator> own_coordinator();
+  LeasedWork& work();
+  bool coordinates() const { return run_.coordinates(node_.net.self); }
 
   const RunSetup& run_;
   const NodeSetup& node_;
@@ -47,7 +55,9 @@ class Worker {
   std::unique_ptr<FetchingObjects> objects_;  // where the node does not hold everything
   std::unique_ptr<TallyShard> shard_;         // where it holds one of the totals
   Tracer tracer_;
-  PhotonThreads photons_;
+  // What is done with its leases: one of these.
+  std::unique_ptr<PhotonThreads> photons_;
+  std::unique_ptr<SubCoordinator> coordinator_;
   std::unique_ptr<BlockingCalls> display_calls_;
   std::optional<DisplayActor> display_;  // where the run is shown here
   std::optional<NodeMetrics> metrics_;

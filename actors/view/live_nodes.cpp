@@ -16,7 +16,9 @@ Result<std::unique_ptr<LiveNodes>> LiveNodes::start(std::shared_ptr<const SceneD
   LiveNodes& self = *out;
   self.run_ = std::make_unique<LocalRun>(compiled.value(), 1, 1);
   const auto run_id = static_cast<uint64_t>(self.clock_.now()) | 1;
-  auto nodes = PlannedNodes::make(*self.run_, options, {}, run_id);
+  NodesOptions one_level = options;  // nobody coordinates for another there
+  one_level.fan_out = static_cast<uint32_t>(std::max(options.nodes, 2));
+  auto nodes = PlannedNodes::make(*self.run_, one_level, {}, run_id);
   if (!nodes) return nodes.problem();
   self.nodes_ = std::move(nodes).value();
   const RunSetup& setup = self.nodes_->setup();

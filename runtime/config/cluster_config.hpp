@@ -106,6 +106,7 @@ struct RunChoice {
 struct LeaseChoice {
   uint32_t batches = 0;
   Nanoseconds duration = 0;
+  uint32_t fan_out = 0;  // 0: as usual for so many workers
 };
 
 struct Timeouts {

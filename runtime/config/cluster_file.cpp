@@ -74,7 +74,10 @@ void read_links(TableReader& top, ClusterReading& reading) {
 void read_services(TableReader& top, ClusterReading& reading) {
   TableReader lease = reader_of(top, "lease");
   reading.cluster.lease = {static_cast<uint32_t>(lease.integer("batches")),
-                           span_of(lease.number("duration_s"))};
+                           span_of(lease.number("duration_s")),
+                           static_cast<uint32_t>(lease.integer("fan_out"))};
+  if (reading.cluster.lease.fan_out == 1)
+    lease.problem("fan_out", "'fan_out' is 0, or at least 2: a coordinator leads several nodes");
 
   TableReader timeouts = reader_of(top, "timeouts");
   Timeouts& t = reading.cluster.timeouts;
@@ -123,6 +126,15 @@ void read_view(TableReader& top, ClusterReading& reading) {
   view.save_folder = keys.path("save_folder");
 }
 
+void check_fan_out(ClusterReading& reading) {
+  const ClusterConfig& cluster = reading.cluster;
+  if (cluster.tally.shards.empty() || cluster.lease.fan_out == 0) return;
+  if (cluster.lease.fan_out >= cluster.workers()) return;
+  reading.findings.problem(reading.shards.front().place,
+                           "shards of the totals need one coordinator for all nodes: leave out "
+                           "'shards', or 'fan_out' in [lease]");
+}
+
 void check_keys(ClusterReading& reading) {
   const KeysChoice& keys = reading.cluster.keys;
   if (!leaves_host(reading.cluster) || !keys.folder.empty() || keys.insecure) return;
@@ -151,6 +163,7 @@ void read_tables(const toml::Table& document, ClusterReading& reading) {
   connect_nodes(reading);
   place_shards(reading);
   place_display(reading);
+  check_fan_out(reading);
   resolve_fault_events(reading);
   check_keys(reading);
 }

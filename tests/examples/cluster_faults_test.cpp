@@ -97,6 +97,36 @@ std::string cells_of(const TemporaryFolder& folder) {
   return " --cells " + std::to_string(number_in(folder, "cells"));
 }
 
+/// Nine workers, of which three lead the six others.
+ClusterText of_two_levels() {
+  ClusterText text = quick(9);
+  const std::string lease = "[lease]\n";
+  text.more.insert(text.more.find(lease) + lease.size(), "fan_out = 3\n");
+  return text;
+}
+
+/// The first of these workers that leads others, and one whom it leads, when it is gone.
+size_t leader_among(const Running& nodes) {
+  for (size_t i = 0; i < nodes.workers.size(); ++i) {
+    (void)nodes.workers[i]->now();
+    if (nodes.workers[i]->said("coordinator=begun")) return i;
+  }
+  FAIL("nobody leads others");
+  return 0;
+}
+
+/// Those whom the lost one led work for another, whose flushes are taken.
+void check_orphans(const Running& nodes, size_t leader) {
+  size_t orphans = 0;
+  const std::string lost_one = "coordinator=lost node=" + std::to_string(leader) + " ";
+  for (size_t i = 0; i < nodes.workers.size(); ++i) {
+    if (i == leader) continue;
+    (void)nodes.workers[i]->now();
+    if (nodes.workers[i]->said(lost_one)) ++orphans;
+  }
+  CHECK(orphans == 2);
+}
+
 /// Ends the run, and compares what it left.
 void end_with_same_bits(const TemporaryFolder& folder, const Running& nodes, const FaultRow& row) {
   nodes.end();
@@ -118,6 +148,58 @@ TEST_CASE("half of the workers may be killed at once, or all but one, with the s
   row.noticed(change_of(4, 0));
   row.given_up(lost(killed - 1));
   row.well(flush_of(3));
+  end_with_same_bits(folder, nodes, row);
+}
+
+TEST_CASE("a node that leads others may be killed, and these work for the next, same bits",
+          "[cluster][faults][levels]") {
+  const TemporaryFolder folder;
+  const Running nodes = start(write_cluster(folder, over_tcp(of_two_levels())), 9);
+  const size_t leader = leader_among(nodes);
+  REQUIRE(nodes.controller->says(flush_of(static_cast<int>(leader))));
+  FaultRow row("one of 3 coordinators below the controller is killed", *nodes.controller);
+  nodes.workers[leader]->kill(SIGKILL);
+  row.given_up(lost(static_cast<int>(leader)));
+  row.well("flush=taken node=");
+  end_with_same_bits(folder, nodes, row);
+  check_orphans(nodes, leader);
+}
+
+TEST_CASE("a node that leads others may be stopped, and goes on", "[cluster][faults][levels]") {
+  const TemporaryFolder folder;
+  const Running nodes = start(write_cluster(folder, over_tcp(of_two_levels())), 9);
+  const size_t leader = leader_among(nodes);
+  REQUIRE(nodes.controller->says(flush_of(static_cast<int>(leader))));
+  FaultRow row("one of 3 coordinators is stopped (SIGSTOP)", *nodes.controller);
+  nodes.workers[leader]->kill(SIGSTOP);
+  row.given_up(lost(static_cast<int>(leader)));
+  row.healed();
+  nodes.workers[leader]->kill(SIGCONT);
+  row.well("flush=taken node=");
+  end_with_same_bits(folder, nodes, row);
+}
+
+TEST_CASE("a node that leads others may be cut off, with the same bits",
+          "[cluster][faults][levels]") {
+  const TemporaryFolder folder;
+  size_t leader = 0;
+  {
+    const Running nodes = start(write_cluster(folder, over_tcp(of_two_levels())), 9);
+    leader = leader_among(nodes);
+    REQUIRE(nodes.controller->says("flush=taken node="));
+    nodes.end();
+    fs::remove_all(folder / "out");
+  }
+  const ProxiedCluster cluster = behind_proxy(folder, of_two_levels(), leader);
+  Running nodes = start(cluster, 9, static_cast<int>(leader));
+  REQUIRE(nodes.controller->says(flush_of(static_cast<int>(leader))));
+  FaultRow row("one of 3 coordinators is cut off for more than lost_s", *nodes.controller);
+  cluster.proxy->order("stall");
+  row.given_up(lost(static_cast<int>(leader)));
+  row.well("flush=taken node=");
+  CHECK(nodes.workers[leader]->wait() == 1);
+  check_orphans(nodes, leader);
+  nodes.workers.erase(nodes.workers.begin() + static_cast<std::ptrdiff_t>(leader));
   end_with_same_bits(folder, nodes, row);
 }
 

@@ -51,10 +51,10 @@ SimReport checked(const SimScene& scene, const std::string& name, const SimOptio
   const auto twice = simulate(scene, options);
   REQUIRE(once.ok());
   REQUIRE(twice.ok());
-  INFO("luxodus sim scenes/library/" << name << ".toml --seed " << options.seed << " --nodes "
-                                     << options.nodes << " --particles " << particles << " --work "
-                                     << options.work / seconds(1) << "s --faults-last "
-                                     << options.faults_last / seconds(1) << "s");
+  INFO("luxodus sim scenes/library/"
+       << name << ".toml --seed " << options.seed << " --nodes " << options.nodes << " --particles "
+       << particles << " --work " << options.work / seconds(1) << "s --faults-last "
+       << options.faults_last / seconds(1) << "s --fan-out " << options.fan_out);
   CHECK(once->failure == "");
   CHECK(once->trace_hash == twice->trace_hash);
   return once.value();
@@ -126,6 +126,21 @@ TEST_CASE("swarms change no bit of a run on 32 nodes", "[sim]") {
     options.work = seconds(240);
     checked(scene, "empty_room", options);
   }
+}
+
+// Two and three levels, whose coordinators crash, pause and are cut off as all others are.
+TEST_CASE("swarms change no bit of a run with coordinators of coordinators", "[sim][levels]") {
+  const SimScene scene = scene_of("empty_room");
+  Trouble all;
+  const uint64_t seeds = test::in_full() ? 40 : 8;
+  for (uint64_t seed = 3000; seed < 3000 + seeds; ++seed) {
+    SimOptions options = options_of(seed, 7 + static_cast<int>(seed % 4) * 6);
+    options.fan_out = 3;
+    options.work = seconds(60);
+    all.add(checked(scene, "empty_room", options));
+  }
+  CHECK(all.crashes > 0);
+  CHECK(all.rare_ways > 1000);
 }
 
 TEST_CASE("without faults nothing is lost, lent again or refused", "[sim]") {
@@ -268,6 +283,32 @@ TEST_CASE("a lost frame of a flush of many leases costs the leases of that time,
   }
   CHECK(max_fenced > NetConfig{}.outbox_messages);  // some frame was of such a flush
   CHECK(max_refused <= 2);
+}
+
+// Whoever leads others may crash after any event: what it had merged is traced again, once.
+TEST_CASE("a run of two levels bears the crash of a coordinator after any event", "[sim][levels]") {
+  const SimScene scene = scene_of("empty_room", particles / 5);
+  SimOptions options = small_run();
+  options.nodes = 5;
+  options.fan_out = 3;
+  const uint64_t events = simulate(scene, options).value().world.events;
+  REQUIRE(events > 300);
+  // The first vertex leads some of the others: topology/coordination_tree.hpp.
+  const uint64_t step = test::in_full() ? 1 : 5;
+  for (uint64_t event = 1; event < events; event += step) {
+    for (const uint16_t node : {uint16_t{0}, uint16_t{1}}) {
+      SimOptions one = options;
+      Fault crash;
+      crash.node = {node};
+      crash.lasts = milliseconds(700);
+      crash.after_events = event;
+      one.plan->faults.push_back(crash);
+      const auto report = simulate(scene, one);
+      INFO("node " << node << " crashes after event " << event << " of " << events);
+      REQUIRE(report.ok());
+      REQUIRE(report->failure == "");
+    }
+  }
 }
 
 // The others have long been told that there is no more: they must hear when there is again. Once

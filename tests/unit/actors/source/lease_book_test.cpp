@@ -43,6 +43,50 @@ TEST_CASE("where a batch took longer than a lease, the next are given as long an
   CHECK(lent_for(400) == 240);
 }
 
+TEST_CASE("a book beside rounds lends what is added, and no more what is removed", "[leases]") {
+  LeaseBook book(0);
+  for (const int64_t batch : {7, 8, 11}) book.add(batch);
+  CHECK(book.waiting() == 3);
+  const LentBatches first = book.lend(ann, 5, 0, 100);
+  CHECK(first.first_batch == 7);
+  CHECK(first.count == 2);
+  std::vector<Lease> fenced;
+  CHECK(book.remove(8, fenced));
+  REQUIRE(fenced.size() == 1);
+  CHECK(fenced.front().id == first.first_lease + 1);
+  CHECK(book.remove(11, fenced));
+  CHECK(fenced.size() == 1);  // nobody had it
+  CHECK(book.lend(bob, 5, 0, 100).count == 0);
+  book.hold({first.first_lease});
+  CHECK_FALSE(book.remove(7, fenced));  // it is being counted
+  book.commit({first.first_lease}, 0);
+  CHECK_FALSE(book.remove(7, fenced));
+  CHECK(book.standing() == 0);
+  CHECK(book.waiting() == 0);
+}
+
+TEST_CASE("leases of a node that makes progress are not late before it stops", "[leases]") {
+  LeaseBook book(0);
+  book.open_until(4);
+  book.lend(ann, 2, 0, 100);
+  book.lend(bob, 2, 0, 100);
+  book.renew(ann, 150);
+  CHECK(book.fence_late(120).size() == 2);
+  CHECK(book.fence_late(149).empty());
+  CHECK(book.fence_late(150).size() == 2);
+}
+
+TEST_CASE("batches that nobody can trace are taken out of a book that returns them", "[leases]") {
+  LeaseBook book(0);
+  book.add(3);
+  const uint64_t lease = book.lend(ann, 1, 0, 100).first_lease;
+  book.give_back(ann, {lease});
+  CHECK(book.lose_what_all_gave_back({ann}) == 1);
+  CHECK(book.take_lost() == std::set<int64_t>{3});
+  CHECK(book.lost() == 0);
+  CHECK(book.waiting() == 0);
+}
+
 TEST_CASE("a book that goes on lends the batches that are missing first, and tells them",
           "[lease]") {
   LeaseBook book(10, {3, 7}, 1000);

@@ -57,6 +57,46 @@ TEST_CASE("1, 2, 8 and 32 nodes give the bits of the plain loop", "[nodes]") {
                   {nodes_of(1, 1), nodes_of(2, 5), nodes_of(8, 1), nodes_of(32, 3)});
 }
 
+TEST_CASE("nodes that lead others in the controller's stead change no bit", "[nodes][levels]") {
+  StopRule stop;
+  stop.particles = 200'000;
+  std::vector<NodesOptions> cases{nodes_of(64, 1), nodes_of(13, 3)};  // by themselves; 3 levels
+  cases[1].fan_out = 3;
+  check_same_bits(scene_of("smoke_tank", "", 1), stop, cases);
+  stop.particles = 60'000;
+  cases = {nodes_of(9, 2)};
+  cases[0].fan_out = 3;
+  cases[0].object_bytes = 4 << 20;  // parts are held by who coordinates, too
+  check_same_bits(scene_of("office_floor", "smoke_emergency", 6), stop, cases);
+}
+
+TEST_CASE("by error, runs of two levels have the rounds of one", "[nodes][levels]") {
+  StopRule stop;
+  stop.relative_error = 0.02;
+  std::vector<NodesOptions> cases{nodes_of(7, 1)};
+  cases[0].fan_out = 3;
+  check_same_bits(scene_of("smoke_tank", "", 1), stop, cases);
+}
+
+TEST_CASE("levels of coordinators and shards of the totals are refused together",
+          "[nodes][levels][shards]") {
+  const auto scene = scene_of("smoke_tank", "", 1);
+  NodesOptions options = nodes_of(8, 1);
+  options.fan_out = 3;
+  options.tally_shards = 2;
+  LocalRun run(scene, 1, 1);
+  StopRule stop;
+  stop.particles = 1000;
+  const auto refused = run_on_nodes(run, options, stop, nobody, ignore);
+  REQUIRE_FALSE(refused.ok());
+  CHECK(refused.problem().what.find("need one coordinator") != std::string::npos);
+  options.tally_shards = 1;
+  options.fan_out = 1;
+  const auto alone = run_on_nodes(run, options, stop, nobody, ignore);
+  REQUIRE_FALSE(alone.ok());
+  CHECK(alone.problem().what.find("at least 2 nodes") != std::string::npos);
+}
+
 TEST_CASE("a partitioned scene with signs, probes and bands is the same on nodes", "[nodes]") {
   StopRule stop;
   stop.particles = 60'000;

@@ -81,7 +81,7 @@ TEST_CASE("the plan names what nodes take, alike nodes once, and what they share
   const auto plan = plan_on_nodes(run, options);
   REQUIRE(plan.ok());
   for (const char* part :
-       {"process, shared", "geometry", "nodes n0 to n2, each of 3", "fiber stacks", "timers",
+       {"process, shared", "geometry", "each of 3 nodes: n0, n1, n2", "fiber stacks", "timers",
         "frames on their way", "outboxes", "scores", "totals", "flush", "objects received",
         "table of objects", "histograms", "node controller", "flushes coming in"}) {
     INFO(part);

@@ -4,19 +4,19 @@
 
 #include <algorithm>
 
-#include "actors/source/coordinator.hpp"
+#include "actors/source/run_coordinator.hpp"
 #include "runtime/core/log.hpp"
 
 namespace luxodus {
 
 /// Of tracing, in this life.
-double Coordinator::shown_seconds() const {
-  const Nanoseconds until = over_ ? over_since_ : clock_.now();
+double RunCoordinator::shown_seconds() const {
+  const Nanoseconds until = over_ ? over_since_ : clock().now();
   return static_cast<double>(until - began_) * 1e-9;
 }
 
 /// Of a run that is over nothing is added any more.
-void Coordinator::show_last_totals() {
+void RunCoordinator::show_last_totals() {
   if (!over_ || fault_ || reading_ || !shows_.wanted()) return;
   reading_ = packing_ = shows_.begin_pack();
   const auto read = [this, seconds = shown_seconds()] {
@@ -26,16 +26,16 @@ void Coordinator::show_last_totals() {
       reading_failed_ = std::current_exception();
     }
   };
-  config_.calls->begin(read, own_task([this] { totals_read(false); }));
+  calls_.begin(read, own_task([this] { totals_read(false); }));
 }
 
-void Coordinator::on(const Letter<ShowTotals>& show) {
+void RunCoordinator::on(const Letter<ShowTotals>& show) {
   if (!shows_.is_display(show.from)) return;
   shows_.on(show);
   over_ ? show_last_totals() : look_at_totals();
 }
 
-void Coordinator::on(const Letter<FluxSaved>& saved) {
+void RunCoordinator::on(const Letter<FluxSaved>& saved) {
   if (!shows_.is_display(saved.from)) return;
   if (!saved.body.fault.empty()) return lose_display(saved.body.fault);
   if (!over_) return;
@@ -45,11 +45,11 @@ void Coordinator::on(const Letter<FluxSaved>& saved) {
 
 /// Whether the results are safe, or never will be written. The display is waited for as long as it
 /// lives: a disk may be slow, or full for a while. Who interrupts waits for nobody out of reach.
-bool Coordinator::show_is_settled() {
+bool RunCoordinator::show_is_settled() {
   if (!shows_.any() || shows_.is_saved() || fault_) return true;
   const NodeId node = shows_.node();
   if (node == config_.self || network_.reaches(node)) return false;
-  const Nanoseconds now = clock_.now();
+  const Nanoseconds now = clock().now();
   const Nanoseconds since = peers_.at(node).unreachable_since.value_or(now);
   // After an earlier life has counted all, it may yet have to come.
   const Nanoseconds patience = done_before_ ? std::max(config_.start, config_.lost) : config_.lost;
@@ -59,7 +59,7 @@ bool Coordinator::show_is_settled() {
   return true;
 }
 
-void Coordinator::lose_display(const std::string& why) {
+void RunCoordinator::lose_display(const std::string& why) {
   if (!over_) return fail(why);
   if (fault_) return;
   lost_display_ = true;

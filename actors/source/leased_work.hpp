@@ -1,0 +1,80 @@
+// The two sides of a tracer, the actor that stands between a coordinator and those who do its work:
+// LeasedWork does what was leased, in a node's own photon-threads or, where a node coordinates
+// others in its coordinator's stead, in theirs; LeasePort is how it gets leases and gives results.
+// Neither knows messages. Thread rule: the node's thread, from within a fiber or not.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <span>
+#include <string>
+
+#include "runtime/core/result.hpp"
+#include "scenes/tally/totals.hpp"
+
+namespace luxodus {
+
+class LeasePort {
+ public:
+  virtual ~LeasePort() = default;
+  /// Fewer leases are at hand than shall be: ask for so many.
+  virtual void want_leases(size_t count) = 0;
+  /// The batches of these leases are merged into the node's totals, together.
+  /// Requires: has_room_for(leases.size()).
+  virtual void leases_done(std::span<const uint64_t> leases) = 0;
+  /// Whether so many leases more can be named by the flush that holds what is merged now.
+  virtual bool has_room_for(size_t leases) const = 0;
+  /// The batch of this lease could not be traced here: an object was not to be had.
+  virtual void lease_failed(uint64_t lease, int64_t batch) = 0;
+  /// Nobody is left here who could ever trace the batch of this lease.
+  virtual void give_back(uint64_t lease) = 0;
+  /// Nobody is here who could trace, for now: what is merged is sent, and then the leases are
+  /// returned, to be lent to others, and dropped. To be called again until none is at hand.
+  virtual void return_leases() = 0;
+
+  /// The tally is full: what is merged shall leave as soon as it can.
+  virtual void want_room() = 0;
+  /// Whether memory of the tally will become free although no batch ends: of batches that are
+  /// merged and not yet flushed, or of a flush under way.
+  virtual bool room_to_come() const = 0;
+  /// What flushes take in memory.
+  virtual size_t flush_bytes() const = 0;
+  /// This node cannot go on.
+  virtual void give_up(const Problem& why) = 0;
+  /// An exception has left a photon-thread, which has ended.
+  virtual void thread_failed(const std::exception_ptr& why) = 0;
+};
+
+class LeasedWork {
+ public:
+  virtual ~LeasedWork() = default;
+  /// What is added from now on is of this round of the run.
+  virtual void enter_round(uint32_t /*round*/) {}
+  /// Adds work. A lease is of one batch, so that what is merged is always whole leases.
+  virtual void add(uint64_t lease, int64_t batch) = 0;
+  /// Forgets a lease that has not been merged yet; all of them.
+  virtual void drop(uint64_t lease) = 0;
+  virtual void drop_all() = 0;
+  /// There may be leases to ask for again.
+  virtual void look_again() = 0;
+
+  /// What has been merged so far, to be emptied at leisure; what is merged from now on goes
+  /// elsewhere. Requires: may_give(); what was given before is empty.
+  virtual Totals& give_totals() = 0;
+  virtual bool may_give() const { return true; }
+  /// All that are given are of this size.
+  virtual const Totals& totals() const = 0;
+  /// Leases not merged yet.
+  virtual size_t at_hand() const = 0;
+
+  /// The run is over, or its coordinator lost, for this reason; "": it ended well.
+  virtual void end(const std::string& why) = 0;
+  /// Whether all whom it coordinates have heard of the end.
+  virtual bool end_is_known() const { return true; }
+  /// They may leave; whether all of them have been told.
+  virtual void let_go() {}
+  virtual bool gone() const { return true; }
+};
+
+}  // namespace luxodus

@@ -1,0 +1,70 @@
+// The coordinator that leads some of a run's nodes in another coordinator's stead. Downwards it is
+// a coordinator as the one that leads the run. Upwards it behaves as a node that traces: the same
+// tracer asks for batches and flushes what is merged, and finds here, instead of photon-threads,
+// leases that are lent on. What it was given since its last flush upwards is nowhere else: should
+// it be lost, that is traced again. It has two sets of totals: one is merged into while the other
+// is packed.
+// Thread rule: its node's thread.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "actors/source/coordinator.hpp"
+
+namespace luxodus {
+
+class SubCoordinator final : public Coordinator, public LeasedWork {
+ public:
+  /// All that is referred to must outlive it.
+  SubCoordinator(const CoordinatorConfig& config, const CompiledScene& scene, LeasePort& port,
+                 Scheduler& scheduler, Network& network, Sender& sender);
+
+  /// Waits for those whom it leads. Requires: the scheduler has a fiber for it.
+  void start();
+
+  // ---- upwards ----------------------------------------------------------------------------------
+
+  void enter_round(uint32_t round) override { counters_.round = round; }
+  void add(uint64_t lease, int64_t batch) override;
+  void drop(uint64_t lease) override;
+  void drop_all() override;
+  void look_again() override;
+  Totals& give_totals() override;
+  bool may_give() const override { return !adding(); }
+  const Totals& totals() const override { return totals_[0]; }
+  size_t at_hand() const override { return lease_of_.size(); }
+  /// Since what was given last.
+  const Totals& merged() const { return totals_[merging_]; }
+  void end(const std::string& why) override;
+  bool end_is_known() const override { return all_know_end(); }
+  void let_go() override;
+  bool gone() const override { return ended(); }
+
+ private:
+  void look_at_work(Nanoseconds now) override;
+  void look_at_totals() override {}
+  void all_are_here() override { begin("all are here"); }
+  void lent() override { want_more(); }
+  Totals& totals() override { return totals_[merging_]; }
+  bool holds_back(size_t leases) override;
+  void counted(const Letter<Flush>& letter, const std::vector<int64_t>& batches) override;
+  RunEnded end_word() const override { return {round(), why_ended_}; }
+  void wait_for_farewells(Nanoseconds now) override;
+
+  uint32_t tracers_here() const;
+  void begin(const char* how);
+  size_t wish() const;
+  void want_more();
+  void give_back_lost();
+
+  LeasePort& port_;
+  Totals totals_[2];
+  size_t merging_ = 0;
+  std::map<int64_t, uint64_t> lease_of_;  // of batches that are not merged: the one it was given
+  Nanoseconds began_ = 0;
+  std::string why_ended_;
+};
+
+}  // namespace luxodus
