@@ -274,7 +274,7 @@ Fault missing(const Json& value, std::string_view path, Kind kind, const std::st
 /// Texts, numbers and depth of all there is.
 Fault too_large(const Json& value, const std::string& where, int depth) {
   if (depth > limits::assessment_depth) return where + " is nested too deep";
-  if (value.is_string() && value.get_ref<const std::string&>().size() > limits::assessment_text &&
+  if (value.is_string() && value.text().size() > limits::assessment_text &&
       where != "project.logo_png")
     return where + fmt::format(" has more than {} characters", limits::assessment_text);
   if (value.is_number() && !(std::abs(value.get<double>()) <= limits::assessment_number))
@@ -357,7 +357,7 @@ Fault bad_counts(const Json& a) {
     if (!count.is_number()) return "sight_counts." + word + " is not a number";
   const auto logo = a["project"].find("logo_png");
   if (logo == a["project"].end()) return std::nullopt;
-  const auto& text = logo->get_ref<const std::string&>();
+  const auto& text = logo->text();
   const bool base64 = std::all_of(text.begin(), text.end(), [](char c) {
     return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '+' ||
            c == '/' || c == '=';

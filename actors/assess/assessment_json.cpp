@@ -128,8 +128,7 @@ Json sweep_json(const Assessment& assessment) {
 /// The value at "a.b" or "a.0" of an object; null where there is none.
 const Json* value_at(const Json& row, std::string path) {
   std::replace(path.begin(), path.end(), '.', '/');
-  const Json::json_pointer pointer("/" + path);
-  return row.contains(pointer) ? &row[pointer] : nullptr;
+  return row.at_path(path);
 }
 
 /// A row of every entry, with the values at these paths.
@@ -249,7 +248,7 @@ Result<void> write_assessment(const fs::path& folder, const Json& assessment) {
 
 Result<void> refuse_files_of_others(const fs::path& folder, const std::vector<std::string>& files) {
   const auto text = read_regular_file(folder / "assessment.json", limits::assessment_bytes);
-  const Json old = text ? Json::parse(text.value(), nullptr, false) : Json();
+  const Json old = text ? Json::parse(text.value()) : Json();
   if (old.is_object() && old.value("format", Json()) == assessment_format) return {};
   std::error_code error;
   for (const std::string& file : files) {
@@ -266,7 +265,7 @@ Result<Json> read_assessment(const fs::path& folder) {
   auto text = read_regular_file(path, limits::assessment_bytes);
   if (!text)
     return problem_in(text.problem().where.file, text.problem().what + "; luxodus assess makes it");
-  Json read = Json::parse(text.value(), nullptr, false);
+  Json read = Json::parse(text.value());
   if (!read.is_object() || read.value("format", "") != assessment_format)
     return problem_in(path, std::string("is not a \"") + assessment_format + "\": make it anew");
   if (const auto fault = fault_of_assessment(read))

@@ -103,9 +103,8 @@ std::string shown(const Json& value, const char* where) {
 /// medium stands is none of it.
 Json changed_state(const Json& before, const Json& after) {
   const auto rows_of = [](Json assessment) {
-    const Json::json_pointer media("/state/smoke/media");
-    if (assessment.contains(media))
-      for (Json& medium : assessment[media]) medium.erase("source");
+    if (Json* const media = assessment.at_path("state/smoke/media"))
+      for (Json& medium : *media) medium.erase("source");
     std::map<std::string, std::string> out;
     for (const auto& [what, words] : state_rows(assessment))
       if (!what.empty() && what != "not assessed") out[what] = words;

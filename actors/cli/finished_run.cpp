@@ -29,7 +29,7 @@ Result<Json> read_json_file(const fs::path& file) {
   auto bytes = read_whole_file(file, max_bytes);
   if (!bytes) return bytes.problem();
   const auto* text = reinterpret_cast<const char*>(bytes->data());
-  return Json::parse(text, text + bytes->size(), nullptr, false);
+  return Json::parse({text, bytes->size()});
 }
 
 Result<FinishedRun> read_finished_run(const fs::path& folder) {
@@ -62,7 +62,7 @@ Result<FinishedRun> read_finished_run(const fs::path& folder) {
   for (const Json& group : json.value("source_groups", Json::array())) {
     if (!group.is_object() || !group.contains("batch_share")) continue;
     const Json& share = group["batch_share"];
-    if (!share.is_number() || !(share > 0.0 && share <= 1.0))
+    if (!share.is_number() || !(share.get<double>() > 0 && share.get<double>() <= 1))
       return problem_in(file, "a batch_share is not between 0 and 1: run the scene again");
     out.batch_shares.push_back(share);
   }

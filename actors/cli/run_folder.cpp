@@ -36,7 +36,7 @@ int64_t whole_or_zero(const Json& json, const char* key) {
 EarlierRun earlier_run(const fs::path& folder, const CompiledScene& scene) {
   const auto flux = read_flux_file(folder / "flux.lux");
   if (!flux) return {};
-  const Json head = Json::parse(flux->header_json, nullptr, false);
+  const Json head = Json::parse(flux->header_json);
   if (!head.is_object()) return {};
   const bool same = head.value("scene_hash", Json()) == fmt::format("{:016x}", scene.scene_hash) &&
                     head.value("scenario", Json()) == scene.scenario.name;

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 /// A text as TOML writes it between quotes: a JSON string is one.
 std::string quoted(const std::string& text) {
-  return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
+  return Json(text).dump();
 }
 
 /// Coordinates to a tenth of a millimetre.

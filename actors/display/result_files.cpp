@@ -28,7 +28,7 @@ Json old_result(const fs::path& folder) {
   const auto bytes = read_whole_file(folder / "result.json", limits::max_result_bytes);
   if (!bytes) return nullptr;
   const auto* text = reinterpret_cast<const char*>(bytes->data());
-  Json result = Json::parse(text, text + bytes->size(), nullptr, false);
+  Json result = Json::parse({text, bytes->size()});
   if (!result.is_object() || result.value("program", Json()) != "luxodus") return nullptr;
   return result;
 }

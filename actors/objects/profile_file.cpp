@@ -82,7 +82,7 @@ Result<ReferenceProfile> read_profile(const std::filesystem::path& path, const C
   auto file = read_flux_file(path);
   if (!file) return file.problem();
   const SourcePlace place{path.string(), 0};
-  const Json header = Json::parse(file->header_json, nullptr, false);
+  const Json header = Json::parse(file->header_json);
   if (!header.is_object() || header.value("profile", Json()) != Json(schema_version))
     return Problem{place,
                    "this is no profile that this version reads: make it with `luxodus "

@@ -34,7 +34,7 @@ Json exact_json(double value, std::string_view unit) {
 }
 
 std::string json_text(const Json& document) {
-  return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return document.dump(2) + "\n";
 }
 
 Result<void> write_json(const std::filesystem::path& path, const Json& document) {

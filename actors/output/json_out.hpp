@@ -5,16 +5,14 @@
 
 #include <filesystem>
 #include <glm/glm.hpp>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 
+#include "actors/output/json.hpp"
 #include "runtime/core/atomic_file.hpp"
 #include "runtime/core/result.hpp"
 
 namespace luxodus {
-
-using Json = nlohmann::ordered_json;
 
 /// The number, or null where it is not finite.
 Json number_json(double value);

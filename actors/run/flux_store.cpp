@@ -171,7 +171,7 @@ Result<void> load_flux(const std::filesystem::path& path, LocalRun& run) {
 }
 
 Result<void> take_flux(const FluxFile& file, const SourcePlace& place, LocalRun& run) {
-  const Json header = Json::parse(file.header_json, nullptr, false);
+  const Json header = Json::parse(file.header_json);
   if (!header.is_object()) return Problem{place, "the flux file's header is no JSON object"};
   const Json wanted = describe_run(run);
   for (const char* key :

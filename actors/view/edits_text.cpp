@@ -49,7 +49,7 @@ std::string edits_text(const SceneEdits& edits) {
                        {"signs", moves_json(edits.signs)},
                        {"luminaires", moves_json(edits.luminaires)},
                        {"added", copies_json(edits.added)}};
-  return object.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return object.dump();
 }
 
 Result<SceneEdits> parse_edits(std::string_view text) {

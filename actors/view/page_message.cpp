@@ -122,7 +122,7 @@ Result<PageMessage> decode_page_message(std::string_view text) {
     if (c == '[' || c == '{') ++depth;
     if (depth > 64) return problem("a message has at most 64 brackets");
   }
-  const Json object = Json::parse(text, nullptr, false);
+  const Json object = Json::parse(text);
   if (!object.is_object() || !object.contains("type") || !object["type"].is_string())
     return problem("a message is a JSON object with a type");
   Members members(object);

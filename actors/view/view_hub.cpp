@@ -19,8 +19,7 @@ namespace {
 constexpr double sizes_outside = 10;
 
 LiveFrame text_of(const Json& message) {
-  return std::make_shared<const std::string>(
-      message.dump(-1, ' ', false, Json::error_handler_t::replace));
+  return std::make_shared<const std::string>(message.dump());
 }
 
 bool is_there(const SceneDescription& scene, bool is_sign, const std::string& name) {

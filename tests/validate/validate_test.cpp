@@ -98,7 +98,7 @@ TEST_CASE("every case with a reference passes quickly, and z is distributed as i
   record.threads = 2;
   REQUIRE(write_suite(folder.path(), results, record, verdict).ok());
   std::ifstream in(folder / "validate.json");
-  const Json json = Json::parse(in);
+  const Json json = Json::parse(std::string(std::istreambuf_iterator<char>(in), {}));
   CHECK(json["passed"] == true);
   CHECK(json["cases"].size() == cases.size());
   CHECK(std::filesystem::file_size(folder / "validate.html") > 100000);
