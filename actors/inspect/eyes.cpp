@@ -5,7 +5,7 @@
 
 #include "actors/inspect/site.hpp"
 #include "scenes/emergency/sign_geometry.hpp"
-#include "scenes/transport/connect.hpp"
+#include "scenes/transport/emitted_light.hpp"
 
 namespace luxodus {
 
@@ -161,17 +161,14 @@ std::optional<Finding> wrong_eye(const Site& site, const GeometryAccess& access,
 double best_transmission(const Building& smoky, const GeometryAccess& access, const EyePlace& eye) {
   const CompiledScene& scene = smoky.scene();
   const Vec3 at = smoky.local(eye.at);
-  const int band = scene.bands.count() / 2;
   double best = 0;
-  with_resolver(scene, access, [&](auto resolver) {
-    for (const Vec3& d : eye.directions) {
-      const auto met = first_stop(scene, access, at, d, sight_m,
-                                  [](const Facing& f) { return lets_light_through(f.kind); });
-      const Real length = met ? met->distance_m : sight_m;
-      best = std::max(best, medium_transmittance(scene, {at, d}, length, band, resolver));
-      if (best >= min_transmission) return;
-    }
-  });
+  for (const Vec3& d : eye.directions) {
+    const auto met = first_stop(scene, access, at, d, sight_m,
+                                [](const Facing& f) { return lets_light_through(f.kind); });
+    const Real length = met ? met->distance_m : sight_m;
+    best = std::max(best, media_share(scene, access, at, d, length));
+    if (best >= min_transmission) break;
+  }
   return best;
 }
 

@@ -7,12 +7,11 @@
 #include <numeric>
 
 #include "actors/inspect/site.hpp"
-#include "runtime/core/random.hpp"
 #include "scenes/emergency/rules.hpp"
 #include "scenes/emergency/way.hpp"
 #include "scenes/geometry/mesh_tools.hpp"
 #include "scenes/optics/offset_ray.hpp"
-#include "scenes/transport/emission.hpp"
+#include "scenes/transport/emitted_light.hpp"
 #include "scenes/transport/near_field.hpp"
 
 namespace luxodus {
@@ -62,28 +61,22 @@ Ends ends_of(const Site& site, const GeometryAccess& access, uint32_t emitter, i
   const CompiledEmitter& e = scene.emitters[emitter];
   std::map<uint32_t, int> by_surface;
   int near = 0, back = 0, close_back = 0;
-  with_resolver(scene, access, [&](auto resolver) {
-    Random random(ends_seed, RandomStream::layout);
-    for (int i = 0; i < rays; ++i) {
-      random.start(static_cast<uint64_t>(i));
-      const EmissionPoint point = emission_point(scene, e, random, resolver);
-      const Vec3 direction = emission_direction(e, point, random, resolver);
-      Vec3 origin = point.position;
-      if (e.distribution != Distribution::collimated) {
-        const Vec3 side = glm::dot(point.axis, direction) >= 0 ? point.axis : -point.axis;
-        origin = offset_ray(origin, side, scene.min_offset_m);
-      }
-      const auto end =
-          first_stop(scene, access, origin, direction, light_reach_m, [&](const Facing& f) {
-            return lets_light_through(f.kind) || scene.surfaces[f.surface].body_emitter == emitter;
-          });
-      if (!end) continue;
-      near += end->distance_m <= near_m ? 1 : 0;
-      back += site.is_back(*end) ? 1 : 0;
-      close_back += site.is_back(*end) && end->distance_m <= recess_m ? 1 : 0;
-      if (end->distance_m <= near_m || site.is_back(*end)) ++by_surface[end->surface];
+  for (const auto& [point, direction] : emitted_rays(scene, access, emitter, ends_seed, rays)) {
+    Vec3 origin = point.position;
+    if (e.distribution != Distribution::collimated) {
+      const Vec3 side = glm::dot(point.axis, direction) >= 0 ? point.axis : -point.axis;
+      origin = offset_ray(origin, side, scene.min_offset_m);
     }
-  });
+    const auto end =
+        first_stop(scene, access, origin, direction, light_reach_m, [&](const Facing& f) {
+          return lets_light_through(f.kind) || scene.surfaces[f.surface].body_emitter == emitter;
+        });
+    if (!end) continue;
+    near += end->distance_m <= near_m ? 1 : 0;
+    back += site.is_back(*end) ? 1 : 0;
+    close_back += site.is_back(*end) && end->distance_m <= recess_m ? 1 : 0;
+    if (end->distance_m <= near_m || site.is_back(*end)) ++by_surface[end->surface];
+  }
   const double all = rays;
   Ends out{near / all, back / all, close_back / all};
   const auto most =
@@ -236,24 +229,23 @@ bool lights(const Site& site, const GeometryAccess& access, uint32_t emitter,
   const double lumens = site.scene.emitters[emitter].emergency_flux;
   const Vec3 middle =
       e.kind == EmitterKind::mesh ? emission_point(e, 0.4_r, 0.4_r, 0.5).position : e.origin;
-  return with_resolver(scene, access, [&](auto resolver) {
-    return std::any_of(places.begin(), places.end(), [&](const glm::dvec3& place) {
-      const Vec3 way = Vec3(site.building.local(place)) - middle;
-      const auto distance = static_cast<double>(glm::length(way));
-      if (!(distance > 0)) return true;
-      const Vec3 direction = way / static_cast<Real>(distance);
-      // Round bodies shine from the side that is turned to the place.
-      const bool round = e.kind == EmitterKind::sphere || e.kind == EmitterKind::tube;
-      const EmissionPoint point{middle, round ? direction : -e.axes[2]};
-      const auto density = static_cast<double>(directional_density(e, point, direction, resolver));
-      const double watt_to_lm = site.scene.emitters[emitter].radiometric ? 100 : 1;
-      if (lumens * watt_to_lm * density / (distance * distance) < min_lx) return false;
-      const Vec3 before = middle + direction * std::min(0.01_r, static_cast<Real>(distance) / 2);
-      if (furnished) return clear_share(scene, access, site.building.local(place), before) > 0;
-      return !solid_ahead(site, access, place, glm::dvec3(-direction),
-                          static_cast<double>(glm::length(before - site.building.local(place))),
-                          false);
-    });
+  return std::any_of(places.begin(), places.end(), [&](const glm::dvec3& place) {
+    const Vec3 way = Vec3(site.building.local(place)) - middle;
+    const auto distance = static_cast<double>(glm::length(way));
+    if (!(distance > 0)) return true;
+    const Vec3 direction = way / static_cast<Real>(distance);
+    // Round bodies shine from the side that is turned to the place.
+    const bool round = e.kind == EmitterKind::sphere || e.kind == EmitterKind::tube;
+    const EmissionPoint point{middle, round ? direction : -e.axes[2]};
+    const auto density =
+        static_cast<double>(emitted_density(scene, access, emitter, point, direction));
+    const double watt_to_lm = site.scene.emitters[emitter].radiometric ? 100 : 1;
+    if (lumens * watt_to_lm * density / (distance * distance) < min_lx) return false;
+    const Vec3 before = middle + direction * std::min(0.01_r, static_cast<Real>(distance) / 2);
+    if (furnished) return clear_share(scene, access, site.building.local(place), before) > 0;
+    return !solid_ahead(site, access, place, glm::dvec3(-direction),
+                        static_cast<double>(glm::length(before - site.building.local(place))),
+                        false);
   });
 }
 

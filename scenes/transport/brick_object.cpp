@@ -9,15 +9,15 @@ namespace luxodus {
 
 namespace {
 
-constexpr uint64_t magic = 0x316b6972'6278756c;  // "luxbrik1"
+constexpr uint64_t brick_magic = 0x316b6972'6278756c;  // "luxbrik1"
 constexpr size_t array_bytes = limits::brick_cells * sizeof(float);
 
-struct Header {
+struct BrickHeader {
   uint64_t magic;
   uint32_t quantities;  // 1: extinction, 2: albedo, 4: emission
   uint32_t unused;
 };
-static_assert(sizeof(Header) == 16);
+static_assert(sizeof(BrickHeader) == 16);
 
 uint32_t quantities_of(bool extinction, bool albedo, bool emission) {
   return (extinction ? 1u : 0u) | (albedo ? 2u : 0u) | (emission ? 4u : 0u);
@@ -30,8 +30,8 @@ bool sound(const std::vector<float>& values, float most) {
 }  // namespace
 
 std::vector<std::byte> encode_brick(const Brick& brick) {
-  const Header header{
-      magic,
+  const BrickHeader header{
+      brick_magic,
       quantities_of(!brick.extinction.empty(), !brick.albedo.empty(), !brick.emission.empty()), 0};
   std::vector<std::byte> out(sizeof header);
   std::memcpy(out.data(), &header, sizeof header);
@@ -44,11 +44,11 @@ std::vector<std::byte> encode_brick(const Brick& brick) {
 
 Result<Brick> decode_brick(std::span<const std::byte> bytes, const BrickTable& table,
                            size_t brick) {
-  Header header{};
+  BrickHeader header{};
   if (bytes.size() < sizeof header) return problem("a brick of smoke data is cut short");
   std::memcpy(&header, bytes.data(), sizeof header);
   bytes = bytes.subspan(sizeof header);
-  if (header.magic != magic) return problem("these bytes are no brick of smoke data");
+  if (header.magic != brick_magic) return problem("these bytes are no brick of smoke data");
   if (header.unused != 0 ||
       header.quantities !=
           quantities_of(table.has_extinction, table.has_albedo, table.has_emission))

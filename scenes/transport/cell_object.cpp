@@ -9,15 +9,15 @@ namespace luxodus {
 
 namespace {
 
-constexpr uint64_t magic = 0x326c6c6563'78756c;  // "luxcell2"
+constexpr uint64_t cell_magic = 0x326c6c6563'78756c;  // "luxcell2"
 
-struct Header {
+struct CellHeader {
   uint64_t magic;
   uint32_t triangles;
   uint32_t texture_uvs;
   glm::vec3 low, high;
 };
-static_assert(sizeof(Header) == 40);
+static_assert(sizeof(CellHeader) == 40);
 static_assert(sizeof(GeometryCell::TriangleUv) == 28);
 
 /// Farther than any scene reaches; squares of it are far from a float's end.
@@ -49,8 +49,8 @@ bool fits(const TriangleRecord& t, const CellLimits& limits) {
 }  // namespace
 
 std::vector<std::byte> encode_cell(const GeometryCell& cell) {
-  const Header header{magic, static_cast<uint32_t>(cell.triangles.size()),
-                      static_cast<uint32_t>(cell.texture_uv.size()), cell.low, cell.high};
+  const CellHeader header{cell_magic, static_cast<uint32_t>(cell.triangles.size()),
+                          static_cast<uint32_t>(cell.texture_uv.size()), cell.low, cell.high};
   const size_t triangle_bytes = cell.triangles.size() * sizeof(TriangleRecord);
   const size_t uv_bytes = cell.texture_uv.size() * sizeof(GeometryCell::TriangleUv);
   std::vector<std::byte> out(sizeof header + triangle_bytes + uv_bytes);
@@ -63,11 +63,11 @@ std::vector<std::byte> encode_cell(const GeometryCell& cell) {
 }
 
 Result<GeometryCell> decode_cell(std::span<const std::byte> bytes, const CellLimits& limits) {
-  Header header{};
+  CellHeader header{};
   if (bytes.size() < sizeof header) return problem("a geometry cell is cut short");
   std::memcpy(&header, bytes.data(), sizeof header);
   bytes = bytes.subspan(sizeof header);
-  if (header.magic != magic) return problem("these bytes are no geometry cell");
+  if (header.magic != cell_magic) return problem("these bytes are no geometry cell");
   const size_t triangle_bytes = size_t{header.triangles} * sizeof(TriangleRecord);
   const size_t uv_bytes = size_t{header.texture_uvs} * sizeof(GeometryCell::TriangleUv);
   if (bytes.size() != triangle_bytes + uv_bytes)

@@ -271,9 +271,9 @@ Result<void> set_bounds(CompiledScene& scene) {
 
 /// How far light may go within it; across, where it has no end.
 double extent_of(const VolumeGroupMeasure& group) {
-  using Shape = VolumeGroupMeasure::Shape;
-  if (group.shape == Shape::box) return glm::length(group.high - group.low);
-  if (group.shape == Shape::layer) return group.high.z - group.low.z;
+  using GroupShape = VolumeGroupMeasure::Shape;
+  if (group.shape == GroupShape::box) return glm::length(group.high - group.low);
+  if (group.shape == GroupShape::layer) return group.high.z - group.low.z;
   return 2 * group.radius;
 }
 

@@ -16,8 +16,6 @@ namespace luxodus {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
-
 double emitter_flux(const Emitter& e, const Scenario& scenario) {
   switch (scenario.operation) {
     case Operation::mains:
@@ -67,7 +65,7 @@ void add_signs(const SceneDescription& scene, const Scenario& scenario,
         s.colour = colour;
         s.shape = colour == SignColour::white ? sign.white_shape : sign.green_shape;
         // L cos^n over the hemisphere, projected: L A 2 pi / (n + 2).
-        s.lumens = luminance * area * 2 * pi / (sign.angular_exponent + 2);
+        s.lumens = luminance * area * 2 * std::numbers::pi / (sign.angular_exponent + 2);
         s.watts = s.lumens / efficacy_lm_per_w(s.shape);
         s.name =
             sign.name + (back ? " back" : "") + (colour == SignColour::white ? " white" : " green");
@@ -191,15 +189,15 @@ void compile_shape(CompiledEmitter& out, const Emitter& e, const CompiledScene& 
       break;
     case EmitterShape::disc:
       out.kind = EmitterKind::disc;
-      out.area_m2 = pi * e.size.x * e.size.x / 4;
+      out.area_m2 = std::numbers::pi * e.size.x * e.size.x / 4;
       break;
     case EmitterShape::sphere:
       out.kind = EmitterKind::sphere;
-      out.area_m2 = pi * e.size.x * e.size.x;
+      out.area_m2 = std::numbers::pi * e.size.x * e.size.x;
       break;
     case EmitterShape::tube:
       out.kind = EmitterKind::tube;
-      out.area_m2 = pi * e.size.x * e.size.y;
+      out.area_m2 = std::numbers::pi * e.size.x * e.size.y;
       break;
     case EmitterShape::mesh:
       out.kind = EmitterKind::mesh;

@@ -23,9 +23,9 @@ Real length_in_sphere(const Vec3& centre, Real radius, const FlightPiece& piece)
 }  // namespace
 
 Real length_inside(const CompiledVolumeGroup& group, const FlightPiece& piece) {
-  using Shape = VolumeGroupMeasure::Shape;
+  using GroupShape = VolumeGroupMeasure::Shape;
   switch (group.shape) {
-    case Shape::layer: {
+    case GroupShape::layer: {
       const Real inverse = finite_inverse(piece.direction.z);
       const Real t0 = (group.low.z - piece.origin.z) * inverse;
       const Real t1 = (group.high.z - piece.origin.z) * inverse;
@@ -33,13 +33,13 @@ Real length_inside(const CompiledVolumeGroup& group, const FlightPiece& piece) {
       const Real last = std::min(std::max(t0, t1), piece.length);
       return std::max(0.0_r, last - first);
     }
-    case Shape::box: {
+    case GroupShape::box: {
       const BoxStretch stretch = stretch_in_box(group.low, group.high, piece);
       return std::max(0.0_r, stretch.last - stretch.first);
     }
-    case Shape::sphere:
+    case GroupShape::sphere:
       return length_in_sphere(group.centre, group.radius, piece);
-    case Shape::shell:
+    case GroupShape::shell:
       return length_in_sphere(group.centre, group.radius, piece) -
              length_in_sphere(group.centre, group.inner_radius, piece);
   }
@@ -47,13 +47,13 @@ Real length_inside(const CompiledVolumeGroup& group, const FlightPiece& piece) {
 }
 
 bool inside(const CompiledVolumeGroup& group, const Vec3& p) {
-  using Shape = VolumeGroupMeasure::Shape;
-  if (group.shape == Shape::box || group.shape == Shape::layer) {
+  using GroupShape = VolumeGroupMeasure::Shape;
+  if (group.shape == GroupShape::box || group.shape == GroupShape::layer) {
     return glm::all(glm::greaterThanEqual(p, group.low)) && glm::all(glm::lessThan(p, group.high));
   }
   const Vec3 d = p - group.centre;
   const Real r2 = glm::dot(d, d);
-  const Real inner = group.shape == Shape::shell ? group.inner_radius : 0;
+  const Real inner = group.shape == GroupShape::shell ? group.inner_radius : 0;
   return r2 < group.radius * group.radius && r2 >= inner * inner;
 }
 

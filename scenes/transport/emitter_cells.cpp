@@ -13,7 +13,6 @@ namespace luxodus {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr double plastic = 1.2207440846057596;  // root of x^4 = x + 1
 /// Points of the Gauss-Legendre rule of two, from 0 to 1.
 constexpr Real gauss[2] = {0.2113248654051871_r, 0.7886751345948129_r};
@@ -107,8 +106,9 @@ EmitterPart EmitterCells::at(uint32_t patch, Real u, Real v) const {
       Vec3 a, b;
       across(w, a, b);
       const Real radius = 0.5_r * e.size.x;
-      const double reach =
-          emits_outwards() ? std::acos(std::min(1.0, static_cast<double>(radius / away))) : pi;
+      const double reach = emits_outwards()
+                               ? std::acos(std::min(1.0, static_cast<double>(radius / away)))
+                               : std::numbers::pi;
       const double theta = static_cast<double>(u) * reach;
       const SinCos phi = sin_cos_two_pi(v);
       const auto sine = static_cast<Real>(std::sin(theta));
@@ -123,13 +123,13 @@ EmitterPart EmitterCells::at(uint32_t patch, Real u, Real v) const {
       const auto z = static_cast<double>(glm::dot(to_place, e.axes[2]));
       const auto radius = static_cast<double>(0.5_r * e.size.y);
       const double reach =
-          emits_outwards() ? std::acos(std::min(1.0, radius / std::hypot(y, z))) : pi;
+          emits_outwards() ? std::acos(std::min(1.0, radius / std::hypot(y, z))) : std::numbers::pi;
       const double psi = std::atan2(z, y) + (2 * static_cast<double>(v) - 1) * reach;
       const Vec3 n = e.axes[1] * static_cast<Real>(std::cos(psi)) +
                      e.axes[2] * static_cast<Real>(std::sin(psi));
       return {{e.origin + e.axes[0] * ((u - 0.5_r) * e.size.x) + n * (0.5_r * e.size.y),
                e.distribution == Distribution::web ? down : n},
-              reach / pi};
+              reach / std::numbers::pi};
     }
     case EmitterKind::mesh: {
       if (is_mesh_of_points()) {

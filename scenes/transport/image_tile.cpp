@@ -7,14 +7,14 @@ namespace luxodus {
 
 namespace {
 
-constexpr uint64_t magic = 0x31'6c69'7478'756c;  // "luxtil1"
+constexpr uint64_t tile_magic = 0x31'6c69'7478'756c;  // "luxtil1"
 
-struct Header {
+struct TileHeader {
   uint64_t magic;
   uint32_t width, height;
   uint32_t channels, unused;
 };
-static_assert(sizeof(Header) == 24);
+static_assert(sizeof(TileHeader) == 24);
 
 /// The tile's size, without its texels.
 ImageTile outline(const Image& image, uint32_t tile) {
@@ -55,8 +55,9 @@ void place_tile(const ImageTile& from, uint32_t tile, Image& image) {
 }
 
 std::vector<std::byte> encode_tile(const ImageTile& tile) {
-  const Header header{magic, static_cast<uint32_t>(tile.width), static_cast<uint32_t>(tile.height),
-                      static_cast<uint32_t>(tile.channels), 0};
+  const TileHeader header{tile_magic, static_cast<uint32_t>(tile.width),
+                          static_cast<uint32_t>(tile.height), static_cast<uint32_t>(tile.channels),
+                          0};
   std::vector<std::byte> out(sizeof header + tile.texels.size() * sizeof(float));
   std::memcpy(out.data(), &header, sizeof header);
   std::memcpy(out.data() + sizeof header, tile.texels.data(), tile.texels.size() * sizeof(float));
@@ -64,11 +65,11 @@ std::vector<std::byte> encode_tile(const ImageTile& tile) {
 }
 
 Result<ImageTile> decode_tile(std::span<const std::byte> bytes, const Image& image, uint32_t tile) {
-  Header header{};
+  TileHeader header{};
   if (bytes.size() < sizeof header) return problem("a tile of a picture is cut short");
   std::memcpy(&header, bytes.data(), sizeof header);
   bytes = bytes.subspan(sizeof header);
-  if (header.magic != magic) return problem("these bytes are no tile of a picture");
+  if (header.magic != tile_magic) return problem("these bytes are no tile of a picture");
   ImageTile out = outline(image, tile);
   const size_t texels = row_floats(out) * static_cast<size_t>(out.height);
   if (header.width != static_cast<uint32_t>(out.width) ||
