@@ -12,9 +12,9 @@ namespace luxodus::light {
 
 namespace {
 
-constexpr double slab_edge = 20;  // [m], wide: few reflections on the mirrors
-constexpr double height = 3;      // of every stack
-constexpr double gap = 1e-3;      // clear air between stack and receiving face
+constexpr double slab_edge = 20;    // [m], wide: few reflections on the mirrors
+constexpr double stack_height = 3;  // of every stack
+constexpr double gap = 1e-3;        // clear air between stack and receiving face
 
 /// Albedos are single precision and err by 6e-8, at each of many collisions; the table has nine
 /// digits.
@@ -31,13 +31,13 @@ SceneDescription stack_of(const Row& row) {
   SceneDescription scene;
   scene.run.voxels = false;
   const bool from_top = row.text("from") == "top";
-  const double low = from_top ? -gap : 0, high = from_top ? height : height + gap;
+  const double low = from_top ? -gap : 0, high = from_top ? stack_height : stack_height + gap;
   add_mirror_walls(scene, {0, 0, low}, {slab_edge, slab_edge, high});
   const BoxFace far = faces_of_box({0, 0, low}, {slab_edge, slab_edge, high})[from_top ? 4 : 5];
   add_quad(scene, "far", far.corner, far.u, far.v, add_grey(scene, row.number("floor_rho")));
   const glm::dvec3 way(0, 0, from_top ? -1 : 1);
-  Emitter& e = add_rectangle(scene, {slab_edge / 2, slab_edge / 2, from_top ? height : 0}, way,
-                             slab_edge, slab_edge, 1);
+  Emitter& e = add_rectangle(scene, {slab_edge / 2, slab_edge / 2, from_top ? stack_height : 0},
+                             way, slab_edge, slab_edge, 1);
   if (row.text("incidence") == "normal") e.distribution = Distribution::collimated;
 
   const std::vector<double> sigma = row.numbers("sigma_t"), thickness = row.numbers("thickness"),
@@ -53,7 +53,7 @@ SceneDescription stack_of(const Row& row) {
 
   CountingPlaneMeasure plane;  // forward is the way of the light
   plane.name = "before far";
-  plane.corner = {0, 0, from_top ? -gap / 2 : height + gap / 2};
+  plane.corner = {0, 0, from_top ? -gap / 2 : stack_height + gap / 2};
   plane.edge_u = from_top ? glm::dvec3(0, slab_edge, 0) : glm::dvec3(slab_edge, 0, 0);
   plane.edge_v = from_top ? glm::dvec3(slab_edge, 0, 0) : glm::dvec3(0, slab_edge, 0);
   scene.counting_planes.push_back(plane);
@@ -98,17 +98,17 @@ PreparedCase half_space_plan(double albedo, double cosine, double reflected) {
   PreparedCase plan;
   SceneDescription& scene = plan.scene;
   scene.run.voxels = false;
-  const double top = height + 10 * gap;
+  const double top = stack_height + 10 * gap;
   add_mirror_walls(scene, {0, 0, 0}, {slab_edge, slab_edge, top});
   add_quad(scene, "end", {0, 0, 0}, {slab_edge, 0, 0}, {0, slab_edge, 0}, add_grey(scene, 0));
   // Fluence falls by e in at least 1 / sqrt(3 (1 - albedo)) free paths; what is scattered beyond
   // would have to come back as well.
   const double depth = 15 + 8 / std::sqrt(3 * (1 - albedo));
-  add_layers(scene, 0, {height}, {smoke(depth / height, albedo)});
+  add_layers(scene, 0, {stack_height}, {smoke(depth / stack_height, albedo)});
   const bool beam = cosine > 0;
   const glm::dvec3 way(beam ? std::sqrt(1 - cosine * cosine) : 0, 0, beam ? -cosine : -1);
-  Emitter& lamp =
-      add_rectangle(scene, {slab_edge / 2, slab_edge / 2, height + 5 * gap}, way, gap, gap, 1);
+  Emitter& lamp = add_rectangle(scene, {slab_edge / 2, slab_edge / 2, stack_height + 5 * gap}, way,
+                                gap, gap, 1);
   if (beam) lamp.distribution = Distribution::collimated;
   plan.quick_particles = affordable(0.5 / (1 - albedo));
   plan.add("reflected", reflected, [](const Traced& run) { return run.escaped(5); }).bias =
