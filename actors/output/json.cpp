@@ -415,7 +415,9 @@ Json::const_iterator Json::find(std::string_view key) const {
 
 const std::vector<JsonMember>& Json::items() const {
   static const std::vector<JsonMember> none;
-  return kind_ == Kind::object ? *object_ : none;
+  if (is_null()) return none;
+  if (kind_ != Kind::object) refuse("this JSON value is no object");
+  return *object_;
 }
 
 bool Json::equals(const Json& other) const {

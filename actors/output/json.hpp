@@ -226,7 +226,8 @@ class Json {
   const_iterator end() const;
   iterator find(std::string_view key);
   const_iterator find(std::string_view key) const;
-  /// The keys and values of an object; none of all else: `for (const auto& [key, value] : ...)`.
+  /// The keys and values of an object, none of null: `for (const auto& [key, value] : ...)`.
+  /// Errors: throws, where it is neither.
   const std::vector<JsonMember>& items() const;
 
   friend bool operator==(const Json& a, const Json& b) { return a.equals(b); }

@@ -109,6 +109,7 @@ TEST_CASE("JSON is read by key, place and path, and refuses what it is not", "[f
   CHECK(json["t"].get<bool>());
   CHECK_THROWS_AS(json["m"], Json::exception);
   CHECK_THROWS_AS(json["a"][2], Json::exception);
+  CHECK_THROWS_AS(json["a"].items(), Json::exception);
   CHECK_THROWS_AS(json["a"].get<double>(), Json::exception);
   CHECK_THROWS_AS(json["n"].get<std::string>(), Json::exception);
   std::string keys;

@@ -270,10 +270,11 @@ namespace {
 /// The paths of all values that are neither lists nor objects.
 void add_paths(const Json& value, const std::string& path, std::vector<std::string>& out) {
   if (!value.is_structured() || value.empty()) return out.push_back(path);
-  for (const auto& [key, one] : value.items()) add_paths(one, path + "/" + key, out);
-  if (!value.is_array()) return;
-  for (size_t i = 0; i < value.size(); ++i)
-    add_paths(value[i], path + "/" + std::to_string(i), out);
+  if (value.is_object())
+    for (const auto& [key, one] : value.items()) add_paths(one, path + "/" + key, out);
+  if (value.is_array())
+    for (size_t i = 0; i < value.size(); ++i)
+      add_paths(value[i], path + "/" + std::to_string(i), out);
 }
 
 }  // namespace
