@@ -48,6 +48,11 @@ uint32_t usual_fan_out(uint32_t workers) {
   return static_cast<uint32_t>(std::ceil(std::sqrt(workers)));
 }
 
+uint32_t chosen_fan_out(uint32_t asked, uint32_t workers, bool one_level) {
+  if (asked > 0) return asked;
+  return one_level ? std::max(workers, 2u) : usual_fan_out(workers);
+}
+
 CoordinationTree::CoordinationTree(const Graph& graph, uint32_t fan_out)
     : parent_(graph.workers(), graph.controller()),
       height_(graph.vertices()),

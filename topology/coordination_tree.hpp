@@ -21,6 +21,8 @@ inline constexpr uint32_t workers_of_one_level = 64;
 /// The fan-out for so many workers that nobody has chosen: one level below
 /// limits::workers_of_one_level, else the square root, rounded up.
 uint32_t usual_fan_out(uint32_t workers);
+/// The fan-out that was `asked` for; 0: as usual, or for `one_level` where there can be no more.
+uint32_t chosen_fan_out(uint32_t asked, uint32_t workers, bool one_level);
 
 class CoordinationTree {
  public:

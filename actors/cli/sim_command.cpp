@@ -80,7 +80,9 @@ Result<SimOptions> sim_options(const SimCommandOptions& options) {
   sim.links = options.links;
   sim.fan_out = options.fan_out;
   // Leases of each level are four times as long as those of the next.
-  if (sim.fan_out > 0) sim.patience *= 4;
+  if (sim.fan_out > 0 ||
+      usual_fan_out(static_cast<uint32_t>(sim.nodes)) < static_cast<uint32_t>(sim.nodes))
+    sim.patience *= 4;
   sim.faults = options.faults == "swarm";
   if (!sim.faults && options.faults != "none") {
     auto plan = fault_plan_in(options);
@@ -230,7 +232,8 @@ Command sim_command() {
            {"--links", &o->links, "Largest number of links of a node", {.range = Range{1, 16}}},
            {"--fan-out",
             &o->fan_out,
-            "Number of nodes that a coordinator leads at most; 0: all",
+            "Number of nodes that a coordinator leads at most; 0: all below 64 nodes, else their "
+            "square root",
             {.range = Range{0, 1023}}},
            {"--cells", &o->cells, "Number of geometry cells", {.range = Range{1, 100000}}},
            {"--particles", &o->particles, "Number of particles", {.form = Form::count}},

@@ -132,10 +132,13 @@ void PhotonThreads::add_metrics(Metrics& metrics) const {
   metrics.add_histogram({"batch", "", "From a batch's opening to its merging.", ""}, batch_time_);
 }
 
-void PhotonThreads::drop(uint64_t lease) {
-  std::erase_if(leases_, [&](const WaitingLease& waiting) { return waiting.id == lease; });
+void PhotonThreads::drop(std::span<const uint64_t> leases) {
+  const auto named = [&](uint64_t id) {
+    return std::find(leases.begin(), leases.end(), id) != leases.end();
+  };
+  std::erase_if(leases_, [&](const WaitingLease& waiting) { return named(waiting.id); });
   for (OpenBatch& open : open_)
-    if (open.used && open.lease == lease) open.dropped = true;
+    if (open.used && named(open.lease)) open.dropped = true;
 }
 
 void PhotonThreads::drop_all() {

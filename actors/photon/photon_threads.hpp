@@ -15,7 +15,7 @@
 
 #include "actors/photon/tally_need.hpp"
 #include "actors/run/batch_plan.hpp"
-#include "actors/source/leased_work.hpp"
+#include "actors/run/leased_work.hpp"
 #include "runtime/actor/scheduler.hpp"
 #include "runtime/observe/node_trace.hpp"
 #include "scenes/transport/trace.hpp"
@@ -60,7 +60,7 @@ class PhotonThreads final : public LeasedWork {
   /// Starts the fibers.
   void start();
   void add(uint64_t lease, int64_t batch) override;
-  void drop(uint64_t lease) override;
+  void drop(std::span<const uint64_t> leases) override;
   void drop_all() override;
   void look_again() override { scheduler_.fibers().wake_all(work_); }
   /// Lets every fiber return at its next chance.

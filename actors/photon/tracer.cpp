@@ -73,7 +73,10 @@ void Tracer::ask() {
 }
 
 void Tracer::on(const Letter<LeaseGranted>& granted) {
-  if (!hears(granted.from)) return;
+  if (!hears(granted.from)) {
+    std::erase(left_, granted.from);
+    return;
+  }
   if (!asking_ || asking_->id != granted.id) return;  // an answer that came twice
   const LeaseGranted& grant = granted.body;
   const uint32_t asked_for = std::get<RequestLease>(asking_->message).batches;
@@ -132,14 +135,15 @@ void Tracer::lease_failed(uint64_t lease, int64_t batch) {
   ++counters_.leases_failed;
   if (over_) return;
   if (clock_.now() - vain_since(lease, batch) < config_.lost) return work_->add(lease, batch);
-  give_back(lease);
+  give_back({&lease, 1});
   work_->look_again();
   flush_when_idle();
 }
 
-void Tracer::give_back(uint64_t lease) {
-  ++counters_.leases_given_back;
-  tell(coordinator(), LeasesFenced{{lease}});
+bool Tracer::give_back(std::span<const uint64_t> leases) {
+  counters_.leases_given_back += leases.size();
+  const LeasesFenced given_back{{leases.begin(), leases.end()}};
+  return tell(coordinator(), given_back) != SendOutcome::full;
 }
 
 void Tracer::return_leases() {
@@ -257,7 +261,7 @@ void Tracer::on(const Letter<FlushRefused>& refused) {
 
 void Tracer::on(const Letter<LeasesFenced>& fenced) {
   if (!hears(fenced.from)) return;
-  for (const uint64_t lease : fenced.body.leases) work_->drop(lease);
+  work_->drop(fenced.body.leases);
 }
 
 void Tracer::on(const Letter<RoundOpened>& opened) {
@@ -293,16 +297,17 @@ void Tracer::say_goodbye() {
   tell(coordinator(), RequestLease{0});
 }
 
-void Tracer::stop_work(std::optional<Problem> fault) {
+/// `abandoned`: this node gives the run up; else it has heard of the end.
+void Tracer::stop_work(std::optional<Problem> fault, bool abandoned) {
   if (std::exchange(over_, true)) return;
   fault_ = std::move(fault);
   asking_.reset();
   flushing_.reset();  // all is counted, or nothing more will be
-  work_->end(end_word_.text.empty() && fault_ ? fault_->what : end_word_.text);
+  abandoned ? work_->abandon() : work_->end(end_word_.text);
 }
 
 void Tracer::end(std::optional<Problem> fault) {
-  stop_work(std::move(fault));
+  stop_work(std::move(fault), true);
   work_->let_go();
   ended_ = true;
 }
@@ -323,7 +328,7 @@ void Tracer::on(const Letter<RunEnded>& ended) {
   rumour_ = !first_hand && counters_.leases == 0;
   if (rumour_) return;
   const auto says = [&] { return problem("the controller says: " + end_word_.text); };
-  stop_work(end_word_.text.empty() ? std::nullopt : std::optional(says()));
+  stop_work(end_word_.text.empty() ? std::nullopt : std::optional(says()), false);
   // It says so again and again: until those below know, it is told nothing.
   if (work_->end_is_known()) say_goodbye();
   if (!first_hand) let_go();
@@ -335,7 +340,7 @@ void Tracer::on(const Letter<EnterPhase>& phase) {
 
 /// Neighbours are told first: with this node they may lose their way to the controller.
 void Tracer::let_go() {
-  stop_work(std::nullopt);
+  stop_work(std::nullopt, false);
   if (tell_) return;
   tell_ = network_.neighbours();
   std::erase(*tell_, config_.coordinators.back().node);  // which has said so
@@ -371,7 +376,8 @@ void Tracer::watch_coordinator(Nanoseconds now) {
   const bool lost = unreachable >= config_.lost;
   // Begun again after a crash the controller would ask anew who has heard of the end.
   if (over_) return lost ? end(std::nullopt) : void();
-  if (unreachable >= (heard_ ? config_.rejoin : config_.start / 2) && join_another()) return;
+  const Nanoseconds patience = heard_ ? std::min(config_.rejoin, config_.lost) : config_.start / 2;
+  if (unreachable >= patience && join_another()) return;
   if (!heard_ && now - began_ >= config_.start)
     give_up("the controller has not been heard of", config_.start, "start_s");
   else if (heard_ && lost)
@@ -388,6 +394,8 @@ bool Tracer::join_another() {
   if (next == all.size()) return false;
   ++counters_.coordinators_left;
   log_warning("coordinator=lost node={} next={}", coordinator().node.value, all[next].node.value);
+  left_.push_back(coordinator());
+  std::erase(left_, all[next]);
   led_by_ = next;
   unreachable_since_.reset();
   asking_.reset();
@@ -395,6 +403,12 @@ bool Tracer::join_another() {
   work_->drop_all();
   work_->look_again();
   return true;
+}
+
+/// Again and again, as soon as there is a way to whom was left.
+void Tracer::take_leave() {
+  for (const Address& former : left_)
+    if (network_.reaches(former.node)) tell(former, RequestLease{0});
 }
 
 // ---- questions and answers -------------------------------------------------------------------
@@ -432,6 +446,7 @@ void Tracer::on_timer() {
   if (rested(now) || flush_due_) flush();
   if (round_empty_ && !over_ && now - emptied_ >= config_.answer_patience) begin_round();
   watch_coordinator(now);
+  take_leave();
   set_timer();
 }
 

@@ -12,9 +12,10 @@
 #include <optional>
 #include <vector>
 
-#include "actors/photon/photon_threads.hpp"
+#include "actors/run/leased_work.hpp"
 #include "actors/tally/slice_sender.hpp"
 #include "runtime/messaging/node_actor.hpp"
+#include "runtime/observe/node_trace.hpp"
 
 namespace luxodus {
 
@@ -86,7 +87,7 @@ class Tracer final
     return done_.size() + leases <= limits::leases;
   }
   void lease_failed(uint64_t lease, int64_t batch) override;
-  void give_back(uint64_t lease) override;
+  bool give_back(std::span<const uint64_t> leases) override;
   void return_leases() override;
   void want_room() override;
   bool room_to_come() const override { return packing_ || flushing_ || !done_.empty(); }
@@ -150,8 +151,9 @@ class Tracer final
   Address coordinator() const { return config_.coordinators[led_by_]; }
   void watch_coordinator(Nanoseconds now);
   bool join_another();
+  void take_leave();
   void end(std::optional<Problem> fault);
-  void stop_work(std::optional<Problem> fault);
+  void stop_work(std::optional<Problem> fault, bool abandoned);
   void let_go();
   void pass_on();
   SendOutcome tell_neighbour(NodeId neighbour);
@@ -163,7 +165,10 @@ class Tracer final
   Network& network_;  // who is within reach
   SliceSender slices_;
   LeasedWork* work_ = nullptr;
-  size_t led_by_ = 0;                 // of config_.coordinators
+  size_t led_by_ = 0;  // of config_.coordinators
+  /// Coordinators that were left, and have yet to answer that they heard so: they would keep
+  /// batches for this node.
+  std::vector<Address> left_;
   std::optional<Question> asking_;    // for leases
   std::optional<Question> flushing_;  // one at a time; put when all its slices are held
   std::vector<uint64_t> done_;        // merged, in no flush yet

@@ -14,10 +14,6 @@ namespace {
 constexpr Nanoseconds least_between_looks = milliseconds(20);
 /// Until what found no room in the network is said again.
 constexpr Nanoseconds say_again_after = milliseconds(20);
-
-double seconds_of(Nanoseconds span) {
-  return static_cast<double>(span) * 1e-9;
-}
 }  // namespace
 
 Coordinator::Coordinator(const CoordinatorConfig& config, const CompiledScene& scene,
@@ -80,13 +76,13 @@ void Coordinator::watch_workers(Nanoseconds now) {
       continue;
     }
     if (!peer.unreachable_since) peer.unreachable_since = now;
-    if (!begun_ || !peer.here || now - *peer.unreachable_since < config_.lost) continue;
+    if (!(begun_ || over_) || !peer.here || now - *peer.unreachable_since < config_.lost) continue;
     peer.here = false;
     ++counters_.workers_lost;
     log_error(
         "worker=lost node={} text=\"no way has led to {} for {:g} s: its batches are lent "
         "again\"",
-        worker.value, name_of(worker), seconds_of(config_.lost));
+        worker.value, name_of(worker), seconds_in(config_.lost));
     fence(book_.fence_node(worker), "its worker is lost");
     worker_gone(worker, "is lost");
   }
@@ -185,30 +181,33 @@ LeaseGranted Coordinator::grant_of(NodeId worker, const LentBatches& lent) const
 void Coordinator::on(const Letter<RequestLease>& request) {
   const NodeId worker = request.from.node;
   if (!meet(request.from, request.id.incarnation)) return;
-  Peer& peer = peers_[worker];
-  const uint32_t batches = request.body.batches;
-  peer.left = batches == 0 && !over_;
-  if (batches == 0) {
-    if (!over_) {
-      fence(book_.fence_node(worker), "its worker returns it");
-      answer(request, grant_of(worker, {}));
-      return;
-    }
-    peer.told = clock_.now();
-    return farewell_heard();
-  }
-  if (over_) return answer_with_end(request);
   Answered& last = last_grant_[worker];
   if (is_older(request.id, last.question)) return;
+  const uint32_t batches = request.body.batches;
+  if (over_ && batches > 0) return answer_with_end(request);
+  if (over_) {
+    peers_[worker].told = clock_.now();
+    return farewell_heard();
+  }
   if (last.question != request.id) {
-    const LentBatches lent = book_.lend(worker, std::min(batches, max_to_lend(worker)),
-                                        clock_.now(), span_of(worker), rank_of(worker));
-    counters_.leases += static_cast<uint64_t>(lent.count);
-    note_book();
-    last = {request.id, grant_of(worker, lent)};
+    peers_[worker].left = batches == 0;
+    last = {request.id, grant_of(worker, lend(worker, batches))};
   }
   answer(request, last.answer);
   lent();
+}
+
+/// None: it returns those that it has.
+LentBatches Coordinator::lend(NodeId worker, uint32_t batches) {
+  if (batches == 0) {
+    fence(book_.fence_node(worker), "its worker returns it");
+    return {};
+  }
+  const LentBatches lent = book_.lend(worker, std::min(batches, max_to_lend(worker)), clock_.now(),
+                                      span_of(worker), rank_of(worker));
+  counters_.leases += static_cast<uint64_t>(lent.count);
+  note_book();
+  return lent;
 }
 
 /// A worker has tried these for as long as one waits for a lost node: it cannot have an object.

@@ -6,13 +6,11 @@
 // Thread rule: its node's thread.
 #pragma once
 
-#include <functional>
 #include <map>
 #include <optional>
 #include <string>
 
 #include "actors/source/lease_book.hpp"
-#include "actors/source/leased_work.hpp"
 #include "actors/tally/flush_codec.hpp"
 #include "runtime/messaging/node_actor.hpp"
 #include "runtime/observe/metrics.hpp"
@@ -47,11 +45,11 @@ struct CoordinatorConfig {
   /// A worker that no way leads to for so long is lost: long against a link that is made anew.
   Nanoseconds lost = seconds(30);
   uint64_t first_lease = 1;  // random, where a controller may be started again
-  /// A batch that is not back by then is lent to another: long against the slowest batch. Who
-  /// coordinates others has four times as long a level, from its last flush on.
+  /// A batch that is not back by then is lent to another: long against the slowest batch. A node
+  /// that leads others has four times as long for each of its levels, from its last flush on.
   Nanoseconds lease_time = seconds(120);
   Nanoseconds look_every = milliseconds(250);  // at time, interrupt and lost workers
-  uint32_t max_leases = 64;                    // for one question, and each tracer below
+  uint32_t max_leases = 64;                    // for one question of a node that traces
 };
 
 /// Of a coordinator to itself: this flush is to be counted, on its fiber.
@@ -191,6 +189,7 @@ class Coordinator
   std::string who_lacks_end() const;
 
   uint32_t tracers_of(NodeId worker) const;
+  uint32_t levels_below(NodeId worker) const;
   std::string name_of(NodeId node) const;
   SendOutcome send(NodeId worker, const MessageId& id, const Message& message);
   uint32_t round() const { return static_cast<uint32_t>(counters_.round); }
@@ -212,7 +211,7 @@ class Coordinator
   bool meet(Address worker, Incarnation life);
   void watch_workers(Nanoseconds now);
   static bool is_older(const MessageId& question, const MessageId& last);
-  uint32_t levels_below(NodeId worker) const;
+  LentBatches lend(NodeId worker, uint32_t batches);
   Nanoseconds span_of(NodeId worker) const;
   uint32_t max_to_lend(NodeId worker) const;
   LeaseGranted grant_of(NodeId worker, const LentBatches& lent) const;

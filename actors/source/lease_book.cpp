@@ -58,11 +58,13 @@ LentBatches LeaseBook::lend(NodeId node, int64_t most, Nanoseconds now, Nanoseco
   return lent;
 }
 
-bool LeaseBook::remove(int64_t batch, std::vector<Lease>& fenced) {
-  for (const Lease& lease : fence([&](const Lease& one) { return one.batch == batch; }))
-    fenced.push_back(lease);
-  given_back_.erase(batch);
-  return again_.erase(batch) > 0;
+std::vector<Lease> LeaseBook::remove(std::set<int64_t>& batches) {
+  auto fenced = fence([&](const Lease& lease) { return batches.count(lease.batch) > 0; });
+  std::erase_if(batches, [&](int64_t batch) {
+    given_back_.erase(batch);
+    return again_.erase(batch) > 0;
+  });
+  return fenced;
 }
 
 void LeaseBook::renew(NodeId node, Nanoseconds deadline) {

@@ -61,9 +61,10 @@ class LeaseBook {
   /// A batch that is lent beside those of rounds, by who coordinates for another. Requires: the
   /// book does not hold it.
   void add(int64_t batch) { again_.insert(batch); }
-  /// It is lent no more. Gives its lease if one stood, which is fenced. False: its flush is being
-  /// kept, so that it will be counted.
-  bool remove(int64_t batch, std::vector<Lease>& fenced);
+  /// Those of these batches that it holds are lent no more, and taken from the set, but for those
+  /// whose flush is being kept: they will be counted. Gives the leases that stood, which are
+  /// fenced.
+  std::vector<Lease> remove(std::set<int64_t>& batches);
   /// This node makes progress: none of its leases is late before `deadline`.
   void renew(NodeId node, Nanoseconds deadline);
 

@@ -13,10 +13,6 @@ namespace luxodus {
 namespace {
 /// Between lines about who is waited for.
 constexpr Nanoseconds waiting_word = seconds(10);
-
-double to_seconds(Nanoseconds span) {
-  return static_cast<double>(span) * 1e-9;
-}
 }  // namespace
 
 RunCoordinator::RunCoordinator(const CoordinatorConfig& config, RunLead lead, Scheduler& scheduler,
@@ -94,7 +90,7 @@ void RunCoordinator::await_workers(Nanoseconds now) {
     return;
   }
   fault_ = problem(fmt::format("the run did not begin: after {:g} s (start_s) {}",
-                               to_seconds(config_.start), missing_workers()));
+                               seconds_in(config_.start), missing_workers()));
   end_run(StopReason::workers_lost);
 }
 
@@ -122,12 +118,14 @@ void RunCoordinator::workers_watched() {
 }
 
 /// Whether nobody is left to trace: all are lost, or out of reach when the run is ending anyway.
-/// Who may come, since its own coordinator is lost, is none of these as long as it is in reach.
+/// A node that leads others and has returned its leases leads nobody any more. A node that traces
+/// and is led by another may come when that one is lost, as long as it is in reach.
 bool RunCoordinator::all_gone() const {
   return std::all_of(peers_.begin(), peers_.end(), [&](const auto& entry) {
-    const Peer& peer = entry.second;
-    if (!peer.here) return peer.expected || peer.unreachable_since;
-    return closing_ && peer.unreachable_since;
+    const auto& [worker, peer] = entry;
+    const bool leads = levels_below(worker) > 0;
+    if (peer.here && !(peer.left && leads)) return closing_ && peer.unreachable_since;
+    return peer.expected || leads || peer.unreachable_since;
   });
 }
 
@@ -152,7 +150,7 @@ void RunCoordinator::fail(const std::string& what) {
 void RunCoordinator::lose_batches() {
   std::vector<NodeId> here;
   for (const auto& [worker, peer] : peers_)
-    if (peer.here) here.push_back(worker);
+    if (peer.here && !peer.left) here.push_back(worker);
   const int64_t lost = book_.lose_what_all_gave_back(here);
   if (lost == 0) return;
   counters_.batches_lost += static_cast<uint64_t>(lost);
@@ -285,11 +283,11 @@ void RunCoordinator::wait_for_farewells(Nanoseconds now) {
     log_info(
         "run=over text=\"its workers stay until the journal has what it lacks: that takes {:g} s "
         "(lost_s) at most\"",
-        to_seconds(config_.lost));
+        seconds_in(config_.lost));
     return;
   }
   log_info("run=over text=\"{} must hear of it, or be lost: that takes {:g} s (lost_s) at most\"",
-           who_lacks_end(), to_seconds(config_.lost));
+           who_lacks_end(), seconds_in(config_.lost));
 }
 
 // ---- what passes with time -------------------------------------------------------------------

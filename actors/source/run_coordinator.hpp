@@ -95,6 +95,7 @@ class RunCoordinator final : public Coordinator {
   bool nothing_left() const;
   size_t group_of(int64_t batch);
   void tidy_journal();
+  void meet_display(Incarnation life);
   void show_last_totals();
   double shown_seconds() const;
   bool show_is_settled();
@@ -130,6 +131,7 @@ class RunCoordinator final : public Coordinator {
   bool reading_ = false;  // somebody reads the totals: nothing is added to them
   bool packing_ = false;  // for the display
   bool lost_display_ = false;
+  std::optional<Incarnation> display_life_;
   double read_error_ = 0;  // what was read last
   std::exception_ptr reading_failed_;
   bool gathered_ = false;  // the totals are those of all that is counted, shards included

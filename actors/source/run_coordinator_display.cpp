@@ -29,14 +29,23 @@ void RunCoordinator::show_last_totals() {
   calls_.begin(read, own_task([this] { totals_read(false); }));
 }
 
+/// What a display has said in an earlier life holds no more. Its node may be led by another, whom
+/// alone its tracer tells that it began anew.
+void RunCoordinator::meet_display(Incarnation life) {
+  if (display_life_ && *display_life_ != life) shows_.end_life(shows_.node());
+  display_life_ = life;
+}
+
 void RunCoordinator::on(const Letter<ShowTotals>& show) {
   if (!shows_.is_display(show.from)) return;
+  meet_display(show.id.incarnation);
   shows_.on(show);
   over_ ? show_last_totals() : look_at_totals();
 }
 
 void RunCoordinator::on(const Letter<FluxSaved>& saved) {
   if (!shows_.is_display(saved.from)) return;
+  meet_display(saved.id.incarnation);
   if (!saved.body.fault.empty()) return lose_display(saved.body.fault);
   if (!over_) return;
   shows_.saved();

@@ -25,7 +25,7 @@ void SubCoordinator::start() {
 
 /// Asks for nothing before: the run begins when all its nodes are there. Whoever has not come by
 /// then may have joined another coordinator.
-void SubCoordinator::begin(const char* how) {
+void SubCoordinator::begin(const std::string& how) {
   begun_ = true;
   log_info("coordinator=begun workers={} tracers={} text=\"{}\"", config_.workers.size(),
            tracers_here(), how);
@@ -33,26 +33,32 @@ void SubCoordinator::begin(const char* how) {
   port_.want_leases(std::max<size_t>(wish(), 1));
 }
 
-/// What a lost word of fencing left here is now of another lease.
+/// A batch that is here already has a lease that was fenced, of which no word came.
 void SubCoordinator::add(uint64_t lease, int64_t batch) {
   if (lease_of_.insert_or_assign(batch, lease).second) book_.add(batch);
 }
 
-/// A batch whose flush is being counted is merged under its lease all the same, and that flush
-/// upwards refused.
-void SubCoordinator::drop(uint64_t lease) {
-  const auto at = std::find_if(lease_of_.begin(), lease_of_.end(),
-                               [&](const auto& entry) { return entry.second == lease; });
-  std::vector<Lease> fenced;
-  if (at == lease_of_.end() || !book_.remove(at->first, fenced)) return;
-  lease_of_.erase(at);
-  tell_fenced(fenced);
+void SubCoordinator::drop(std::span<const uint64_t> leases) {
+  const std::set<uint64_t> named(leases.begin(), leases.end());
+  std::set<int64_t> batches;
+  for (const auto& [batch, lease] : lease_of_)
+    if (named.count(lease) > 0) batches.insert(batch);
+  remove(std::move(batches));
 }
 
 void SubCoordinator::drop_all() {
-  std::vector<Lease> fenced;
-  std::erase_if(lease_of_, [&](const auto& entry) { return book_.remove(entry.first, fenced); });
-  tell_fenced(fenced);
+  std::set<int64_t> batches;
+  for (const auto& [batch, lease] : lease_of_) batches.insert(batch);
+  remove(std::move(batches));
+}
+
+/// A batch whose flush is being counted is merged under its lease all the same, and that flush
+/// upwards refused.
+void SubCoordinator::remove(std::set<int64_t> batches) {
+  std::set<int64_t> kept = batches;
+  tell_fenced(book_.remove(kept));
+  for (const int64_t batch : batches)
+    if (kept.count(batch) == 0) lease_of_.erase(batch);
 }
 
 void SubCoordinator::look_again() {
@@ -66,6 +72,13 @@ uint32_t SubCoordinator::tracers_here() const {
   for (const auto& [worker, peer] : peers_)
     if (peer.here && !peer.left) tracers += tracers_of(worker);
   return tracers;
+}
+
+std::string SubCoordinator::missing() const {
+  std::string names;
+  for (const auto& [worker, peer] : peers_)
+    if (peer.expected && !peer.here) names += (names.empty() ? "" : ", ") + name_of(worker);
+  return names;
 }
 
 /// As many batches shall wait here as all may ask for at once: nobody waits for an answer from
@@ -84,18 +97,22 @@ void SubCoordinator::want_more() {
 void SubCoordinator::give_back_lost() {
   std::vector<NodeId> here;
   for (const auto& [worker, peer] : peers_)
-    if (peer.here) here.push_back(worker);
+    if (peer.here && !peer.left) here.push_back(worker);
   book_.lose_what_all_gave_back(here);
-  for (const int64_t batch : book_.take_lost()) {
-    const auto at = lease_of_.find(batch);
-    port_.give_back(at->second);
-    lease_of_.erase(at);
+  lost_.merge(book_.take_lost());
+  std::vector<uint64_t> leases;
+  for (const int64_t batch : lost_)
+    if (leases.size() < limits::leases) leases.push_back(lease_of_.at(batch));
+  if (leases.empty() || !port_.give_back(leases)) return;  // once more at the next look
+  for (size_t i = 0; i < leases.size(); ++i) {
+    lease_of_.erase(*lost_.begin());
+    lost_.erase(lost_.begin());
   }
 }
 
 void SubCoordinator::look_at_work(Nanoseconds now) {
   if (!begun_) {
-    if (now - began_ >= config_.start / 2) begin("not all have come in time");
+    if (now - began_ >= config_.start / 2) begin(missing() + " has not come in time");
     return;
   }
   fence(book_.fence_late(now), "late");
@@ -138,12 +155,18 @@ void SubCoordinator::end(const std::string& why) {
   tell_end();
 }
 
+/// Those below find this node lost, and join another.
+void SubCoordinator::abandon() {
+  abandoned_ = true;
+  end_work();
+}
+
 void SubCoordinator::wait_for_farewells(Nanoseconds) {
-  if (!letting_go_) tell_end();
+  if (!letting_go_ && !abandoned_) tell_end();
 }
 
 void SubCoordinator::let_go() {
-  if (!letting_go_) Coordinator::let_go();
+  if (!letting_go_ && !abandoned_) Coordinator::let_go();
 }
 
 }  // namespace luxodus

@@ -8,9 +8,11 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
+#include "actors/run/leased_work.hpp"
 #include "actors/source/coordinator.hpp"
 
 namespace luxodus {
@@ -28,7 +30,7 @@ class SubCoordinator final : public Coordinator, public LeasedWork {
 
   void enter_round(uint32_t round) override { counters_.round = round; }
   void add(uint64_t lease, int64_t batch) override;
-  void drop(uint64_t lease) override;
+  void drop(std::span<const uint64_t> leases) override;
   void drop_all() override;
   void look_again() override;
   Totals& give_totals() override;
@@ -38,9 +40,10 @@ class SubCoordinator final : public Coordinator, public LeasedWork {
   /// Since what was given last.
   const Totals& merged() const { return totals_[merging_]; }
   void end(const std::string& why) override;
+  void abandon() override;
   bool end_is_known() const override { return all_know_end(); }
   void let_go() override;
-  bool gone() const override { return ended(); }
+  bool gone() const override { return abandoned_ || ended(); }
 
  private:
   void look_at_work(Nanoseconds now) override;
@@ -54,17 +57,21 @@ class SubCoordinator final : public Coordinator, public LeasedWork {
   void wait_for_farewells(Nanoseconds now) override;
 
   uint32_t tracers_here() const;
-  void begin(const char* how);
+  void begin(const std::string& how);
   size_t wish() const;
   void want_more();
   void give_back_lost();
+  void remove(std::set<int64_t> batches);
+  std::string missing() const;
 
   LeasePort& port_;
   Totals totals_[2];
   size_t merging_ = 0;
   std::map<int64_t, uint64_t> lease_of_;  // of batches that are not merged: the one it was given
   Nanoseconds began_ = 0;
+  std::set<int64_t> lost_;  // batches to be given back
   std::string why_ended_;
+  bool abandoned_ = false;
 };
 
 }  // namespace luxodus

@@ -69,6 +69,9 @@ class SimulatedRun {
 void SimulatedRun::settle_in(NodeSetup& node) {
   node.start = node.lost = longest_run;
   node.stall = seconds(3600);
+  // However long a particle takes, others' messages pass through the node meanwhile.
+  const Nanoseconds particle = std::max<Nanoseconds>(whole_ns(run_.costs.particle_ns), 1);
+  node.photons.portion = std::clamp<int64_t>(milliseconds(1) / particle, 1, node.photons.portion);
   node.fibers.max_maps = std::max<size_t>(2, maps_of_all_nodes / setups_.size());
   node.faults = {};  // the world's links do it
 }

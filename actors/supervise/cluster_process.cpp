@@ -41,15 +41,6 @@ Incarnation fresh_incarnation() {
   return life;
 }
 
-/// Neither shards nor the live view go together with levels of coordinators: whoever did not ask
-/// for levels gets one.
-uint32_t fan_out_of(const ClusterConfig& cluster) {
-  const auto workers = static_cast<uint32_t>(cluster.workers());
-  if (cluster.lease.fan_out > 0) return cluster.lease.fan_out;
-  const bool one_level = !cluster.tally.shards.empty() || cluster.view.live;
-  return one_level ? std::max(workers, 2u) : usual_fan_out(workers);
-}
-
 Result<Graph> found_graph(const ClusterConfig& cluster) {
   const TopologyChoice& choice = cluster.topology;
   AmpRequest request;
@@ -371,7 +362,9 @@ Result<std::unique_ptr<ClusterProcessRun::Prepared>> ClusterProcessRun::prepare_
     DisplayWork* display) {
   std::vector<Admitted> admitted;
   for (const auto& [node, key] : public_keys_) admitted.push_back({node, key});
-  auto out = std::make_unique<Prepared>(*run_, graph_, fan_out_of(cluster_), admitted,
+  const bool one_level = !cluster_.tally.shards.empty() || cluster_.view.live;
+  const uint32_t fan_out = chosen_fan_out(cluster_.lease.fan_out, graph_.workers(), one_level);
+  auto out = std::make_unique<Prepared>(*run_, graph_, fan_out, admitted,
                                         fetches_ ? nullptr : &run_->index());
   RunSetup& setup = out->setup;
   for (const ClusterNode& node : cluster_.nodes) setup.names.push_back(node.name);

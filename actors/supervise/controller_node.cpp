@@ -46,8 +46,8 @@ bool ControllerNode::end_run(const Verdict& verdict) {
   }
   const std::string text = verdict.text.substr(0, limits::text_bytes);
   ActorSystem& actors = shell_.actors();
-  for (const Vertex v : setup_.tree->children(self_.value)) {
-    const Address worker{{static_cast<uint16_t>(v)}, ActorName::tracer};
+  for (uint16_t i = 0; i < setup_.graph.workers(); ++i) {
+    const Address worker{{i}, ActorName::tracer};  // some may have joined it
     actors.send(coordinator_.address(), worker, actors.next_id(), RunEnded{0, text});
     actors.send(coordinator_.address(), worker, actors.next_id(), EnterPhase{EndPhase::leave, 0});
   }

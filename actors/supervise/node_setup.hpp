@@ -35,7 +35,7 @@ struct RunSetup {
   SharedObjects* shared = nullptr;  // what nodes of the process have built; null: to each its own
   const Routes* routes = nullptr;   // of the whole graph, where they were made once for all
   std::optional<NodeId> display = {};  // where the run is shown; nothing: nowhere
-  /// Over the graph: who coordinates whom. Null: nobody does.
+  /// Over the graph: who coordinates whom. Null: the controller all, where it is another process.
   const CoordinationTree* tree = nullptr;
 
   /// Whether a worker coordinates others.

@@ -13,13 +13,6 @@ namespace {
 
 constexpr uint32_t max_controller_links = 4;
 
-/// Shards and levels of coordinators do not go together: whoever did not ask for levels gets one.
-uint32_t fan_out_of(const NodesOptions& options) {
-  const auto workers = static_cast<uint32_t>(options.nodes);
-  if (options.fan_out > 0) return options.fan_out;
-  return options.tally_shards > 1 ? std::max(workers, 2u) : usual_fan_out(workers);
-}
-
 Result<Graph> graph_for(const NodesOptions& options) {
   if (options.graph) return *options.graph;
   AmpRequest request;
@@ -131,7 +124,7 @@ Result<std::unique_ptr<PlannedNodes>> PlannedNodes::make(const LocalRun& run,
 
 PlannedNodes::PlannedNodes(const LocalRun& run, const NodesOptions& options, Graph graph)
     : graph_(std::move(graph)),
-      tree_(graph_, fan_out_of(options)),
+      tree_(graph_, chosen_fan_out(options.fan_out, graph_.workers(), options.tally_shards > 1)),
       routes_(balanced_routes(graph_)),
       setup_{run.scene(), run.resident() ? &run.index() : nullptr,
              nullptr,     nullptr,

@@ -10,7 +10,9 @@ namespace {
 TracerConfig tracer_config(const RunSetup& run, const NodeSetup& node, NodeTrace* trace) {
   TracerConfig config;
   config.self = node.net.self;
-  for (const Vertex leads : run.tree->coordinators_of(node.net.self.value))
+  std::vector<Vertex> coordinators{node.controller.value};
+  if (run.tree != nullptr) coordinators = run.tree->coordinators_of(node.net.self.value);
+  for (const Vertex leads : coordinators)
     config.coordinators.push_back({{static_cast<uint16_t>(leads)}, ActorName::coordinator});
   config.start = node.start;
   config.lost = node.lost;
@@ -123,9 +125,10 @@ void Worker::start(std::function<bool()> stop) {
   shell_.scheduler().seal();
 }
 
-/// The run ends with its display; should the coordinator not hear of it, this node is lost to it.
+/// The run ends with its display. Should the coordinator not hear of it, this node is lost to it,
+/// as it is where what has failed leads others in the controller's stead.
 bool Worker::end_run(const Verdict& verdict) {
-  if (display_) display_->tell_failure(verdict.text);
+  if (display_ && verdict.actor == ActorName::display) display_->tell_failure(verdict.text);
   return false;
 }
 

@@ -198,7 +198,7 @@ std::vector<TableSpec> service_tables() {
             "batches lent to a node at once: two in work, the others at hand"},
            {"duration_s", "number", "s", "60", "(0, 86400]",
             "after which they are given to another"},
-           {"fan_out", "integer", "", "0", "[0, 1024]",
+           {"fan_out", "integer", "", "0", "[0, 1023]",
             "nodes that a coordinator leads at most. 0: the controller leads all below 64 workers, "
             "else a square root of them, which lead the others and trace nothing"},
        }},

@@ -20,6 +20,11 @@ constexpr Nanoseconds seconds(std::int64_t n) {
   return n * 1'000'000'000;
 }
 
+/// For people [s].
+constexpr double seconds_in(Nanoseconds span) {
+  return static_cast<double>(span) * 1e-9;
+}
+
 /// Tells the time; never goes back.
 class Clock {
  public:

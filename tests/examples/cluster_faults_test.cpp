@@ -203,6 +203,51 @@ TEST_CASE("a node that leads others may be cut off, with the same bits",
   end_with_same_bits(folder, nodes, row);
 }
 
+TEST_CASE("where all nodes that trace are lost, those that lead them do not keep a run alive",
+          "[cluster][faults][levels]") {
+  const TemporaryFolder folder;
+  ClusterText text = quick(4);
+  const std::string lease = "[lease]\n";
+  text.more.insert(text.more.find(lease) + lease.size(), "fan_out = 2\n");
+  const Running nodes = start(write_cluster(folder, over_tcp(text)), 4);
+  REQUIRE(nodes.controller->says("flush=taken"));
+  int killed = 0;
+  for (const auto& worker : nodes.workers) {
+    (void)worker->now();
+    if (worker->said("coordinator=begun")) continue;
+    worker->kill(SIGKILL);
+    ++killed;
+  }
+  CHECK(killed == 2);
+  CHECK(nodes.controller->wait() == 1);
+  INFO(nodes.controller->text());
+  CHECK(nodes.controller->said("all workers were lost"));
+  check_goes_on(folder, 1'000);
+}
+
+TEST_CASE("a coordinator that fails on a worker costs that worker, and the run goes on",
+          "[cluster][faults][levels]") {
+  const TemporaryFolder folder;
+  ClusterText text = of_two_levels();
+  size_t leader = 0;
+  {
+    const Running nodes = start(write_cluster(folder, over_tcp(text)), 9);
+    leader = leader_among(nodes);
+    REQUIRE(nodes.controller->says("flush=taken node="));
+    nodes.end();
+    fs::remove_all(folder / "out");
+  }
+  const std::string name = "n" + std::to_string(leader);
+  text.more += "[[faults.event]]\nkind = \"failure\"\nactor = \"coordinator\"\nnode = \"" + name +
+               "\"\nat_s = 2\n[display]\nnode = \"" + name + "\"\n";
+  Running nodes = start(write_cluster(folder, over_tcp(text)), 9);
+  FaultRow row("one of 3 coordinators below the controller fails", *nodes.controller);
+  row.given_up(lost(static_cast<int>(leader)));
+  CHECK(nodes.workers[leader]->wait() == 1);
+  row.well("flush=taken node=");
+  CHECK_FALSE(nodes.controller->said("run=failed"));
+}
+
 TEST_CASE("a worker that is stopped is given up, and works again when it goes on",
           "[cluster][faults]") {
   const TemporaryFolder folder;

@@ -101,7 +101,10 @@ void list_unknown(const Json& in, const std::string& path, std::vector<std::stri
     if (!in["value"].is_number()) out.push_back(path);
     return;
   }
-  if (!in.is_structured()) return;
+  if (in.is_array())
+    for (size_t i = 0; i < in.size(); ++i)
+      list_unknown(in[i], path + "/" + std::to_string(i), out);
+  if (!in.is_object()) return;
   for (const auto& [key, item] : in.items()) {
     if (key.starts_with("contrast") || key == "uniformity") continue;
     list_unknown(item, path + "/" + key, out);

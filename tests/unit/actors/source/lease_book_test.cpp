@@ -50,17 +50,18 @@ TEST_CASE("a book beside rounds lends what is added, and no more what is removed
   const LentBatches first = book.lend(ann, 5, 0, 100);
   CHECK(first.first_batch == 7);
   CHECK(first.count == 2);
-  std::vector<Lease> fenced;
-  CHECK(book.remove(8, fenced));
-  REQUIRE(fenced.size() == 1);
+  std::set<int64_t> batches{8, 11};
+  const std::vector<Lease> fenced = book.remove(batches);
+  REQUIRE(fenced.size() == 1);  // nobody had the other
   CHECK(fenced.front().id == first.first_lease + 1);
-  CHECK(book.remove(11, fenced));
-  CHECK(fenced.size() == 1);  // nobody had it
+  CHECK(batches.empty());
   CHECK(book.lend(bob, 5, 0, 100).count == 0);
   book.hold({first.first_lease});
-  CHECK_FALSE(book.remove(7, fenced));  // it is being counted
+  batches = {7};
+  CHECK(book.remove(batches).empty());
+  CHECK(batches == std::set<int64_t>{7});  // it is being counted
   book.commit({first.first_lease}, 0);
-  CHECK_FALSE(book.remove(7, fenced));
+  CHECK(book.remove(batches).empty());
   CHECK(book.standing() == 0);
   CHECK(book.waiting() == 0);
 }

@@ -27,8 +27,9 @@ class LeasePort {
   virtual bool has_room_for(size_t leases) const = 0;
   /// The batch of this lease could not be traced here: an object was not to be had.
   virtual void lease_failed(uint64_t lease, int64_t batch) = 0;
-  /// Nobody is left here who could ever trace the batch of this lease.
-  virtual void give_back(uint64_t lease) = 0;
+  /// Nobody is left here who could ever trace the batches of these leases. False: there was no room
+  /// to say so. Requires: limits::leases at most.
+  virtual bool give_back(std::span<const uint64_t> leases) = 0;
   /// Nobody is here who could trace, for now: what is merged is sent, and then the leases are
   /// returned, to be lent to others, and dropped. To be called again until none is at hand.
   virtual void return_leases() = 0;
@@ -53,8 +54,8 @@ class LeasedWork {
   virtual void enter_round(uint32_t /*round*/) {}
   /// Adds work. A lease is of one batch, so that what is merged is always whole leases.
   virtual void add(uint64_t lease, int64_t batch) = 0;
-  /// Forgets a lease that has not been merged yet; all of them.
-  virtual void drop(uint64_t lease) = 0;
+  /// Forgets those of these leases that have not been merged yet; all of them.
+  virtual void drop(std::span<const uint64_t> leases) = 0;
   virtual void drop_all() = 0;
   /// There may be leases to ask for again.
   virtual void look_again() = 0;
@@ -68,8 +69,10 @@ class LeasedWork {
   /// Leases not merged yet.
   virtual size_t at_hand() const = 0;
 
-  /// The run is over, or its coordinator lost, for this reason; "": it ended well.
+  /// The run is over, for this reason; "": it ended well.
   virtual void end(const std::string& why) = 0;
+  /// This node gives the run up; for others it may go on.
+  virtual void abandon() { end(""); }
   /// Whether all whom it coordinates have heard of the end.
   virtual bool end_is_known() const { return true; }
   /// They may leave; whether all of them have been told.
