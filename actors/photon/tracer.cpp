@@ -25,7 +25,9 @@ Tracer::Tracer(const TracerConfig& config, const ShardPlan& shards, Scheduler& s
       clock_(scheduler.clock()),
       network_(network),
       slices_(shards, sender, address()),
-      began_(clock_.now()) {}
+      began_(clock_.now()) {
+  counters_.led_by = coordinator().node.value;
+}
 
 void Tracer::start(LeasedWork& work) {
   NodeActor::start();
@@ -47,6 +49,8 @@ void Tracer::add_metrics(Metrics& metrics) const {
                       c.leases_failed);
   metrics.add_counter({"leases_given_back", "", "Leases whose batch cannot be traced here.", ""},
                       c.leases_given_back);
+  metrics.add_gauge({"led_by", "", "Number of the node whose coordinator leads this one.", ""},
+                    c.led_by);
   metrics.add_counter({"coordinators_left", "", "Coordinators that were lost and left.", ""},
                       c.coordinators_left);
   metrics.add_counter({"flushes", "", "Flushes made.", ""}, c.flushes);
@@ -397,6 +401,7 @@ bool Tracer::join_another() {
   left_.push_back(coordinator());
   std::erase(left_, all[next]);
   led_by_ = next;
+  counters_.led_by = coordinator().node.value;
   unreachable_since_.reset();
   asking_.reset();
   round_empty_ = false;

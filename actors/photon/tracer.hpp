@@ -121,6 +121,7 @@ class Tracer final
     uint64_t leases_failed = 0;
     uint64_t leases_given_back = 0;
     uint64_t coordinators_left = 0;  // that were lost
+    uint64_t led_by = 0;             // number of the node whose coordinator leads this one
   };
   const Counters& counters() const { return counters_; }
   void add_metrics(Metrics& metrics) const;

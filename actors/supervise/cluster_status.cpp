@@ -27,6 +27,9 @@ struct Page {
   std::optional<double> process_bytes;
 };
 
+/// Names of nodes, by number.
+using NodeNames = std::map<std::string, std::string, std::less<>>;
+
 /// The neighbours' views of a node: the worst phase that any has of it.
 using Suspicions = std::map<std::string, bool>;
 
@@ -36,13 +39,16 @@ bool is_silent(double phase) {
          phase == static_cast<double>(LinkPhase::refused);
 }
 
-Page read_page(const std::string& text, Suspicions& suspicions) {
+Page read_page(const std::string& text, Suspicions& suspicions, NodeNames& names) {
   Page page;
   for (const MetricSample& sample : parse_metrics(text)) {
     if (sample.name == "luxodus_process_resident_bytes") page.process_bytes = sample.value;
     const std::string node(sample.label("node"));
     if (node.empty()) continue;
-    if (sample.name == "luxodus_node_info") page.roles[node] = sample.label("role");
+    if (sample.name == "luxodus_node_info") {
+      page.roles[node] = sample.label("role");
+      names[std::string(sample.label("number"))] = node;
+    }
     if (sample.name == "luxodus_link_phase" && is_silent(sample.value))
       suspicions[std::string(sample.label("neighbour"))] = true;
     page.nodes[node][sample.name] += sample.value;
@@ -64,7 +70,8 @@ std::optional<double> hit_rate(const Numbers& numbers) {
   return asked > 0 ? std::optional(*hits / asked) : std::nullopt;
 }
 
-NodeStatus row_of(const std::string& node, const Page& page, const Suspicions& suspicions) {
+NodeStatus row_of(const std::string& node, const Page& page, const Suspicions& suspicions,
+                  const NodeNames& names) {
   NodeStatus row;
   row.node = node;
   row.process_bytes = page.process_bytes;
@@ -77,6 +84,11 @@ NodeStatus row_of(const std::string& node, const Page& page, const Suspicions& s
   const auto role = page.roles.find(node);
   if (role != page.roles.end()) row.role = role->second;
   const Numbers& n = known->second;
+  if (const auto leads = number(n, "luxodus_led_by")) {
+    const std::string number_of_it = fmt::format("{:.0f}", *leads);
+    const auto name = names.find(number_of_it);
+    row.led_by = name == names.end() ? "node " + number_of_it : name->second;
+  }
   row.fibers = number(n, "luxodus_fibers_live");
   row.waiting = number(n, "luxodus_fibers_suspended");
   row.letters = number(n, "luxodus_mailbox_waiting");
@@ -96,13 +108,14 @@ std::string shown(const std::optional<double>& value, double unit, int digits) {
   return value ? fmt::format("{:.{}f}", *value / unit, digits) : "-";
 }
 
-using Row = std::array<std::string, 15>;
+using Row = std::array<std::string, 16>;
 
 Row cells_of(const NodeStatus& s) {
   constexpr double mib = 1024.0 * 1024.0;
   return {s.node,
           name_of(s.state),
           s.role.empty() ? "-" : s.role,
+          s.led_by.empty() ? "-" : s.led_by,
           s.process,
           shown(s.fibers, 1, 0),
           shown(s.waiting, 1, 0),
@@ -158,9 +171,10 @@ std::vector<Result<std::string>> ask(const std::vector<AskedProcess>& processes,
 std::vector<NodeStatus> status_of(const std::vector<AskedProcess>& processes,
                                   const std::vector<Result<std::string>>& pages) {
   Suspicions suspicions;
+  NodeNames names;
   std::vector<Page> read;
   for (const Result<std::string>& page : pages)
-    read.push_back(page ? read_page(page.value(), suspicions) : Page{});
+    read.push_back(page ? read_page(page.value(), suspicions, names) : Page{});
   std::vector<NodeStatus> rows;
   for (size_t i = 0; i < processes.size(); ++i) {
     std::vector<std::string> nodes = processes[i].nodes;
@@ -168,7 +182,7 @@ std::vector<NodeStatus> status_of(const std::vector<AskedProcess>& processes,
       for (const auto& [name, numbers] : read[i].nodes) nodes.push_back(name);
     if (nodes.empty()) nodes.emplace_back("?");
     for (const std::string& node : nodes) {
-      NodeStatus row = pages[i].ok() ? row_of(node, read[i], suspicions) : NodeStatus{};
+      NodeStatus row = pages[i].ok() ? row_of(node, read[i], suspicions, names) : NodeStatus{};
       row.node = node;
       row.process = processes[i].name;
       if (!pages[i].ok()) row.problem = pages[i].problem().what;
@@ -179,10 +193,11 @@ std::vector<NodeStatus> status_of(const std::vector<AskedProcess>& processes,
 }
 
 std::string status_table(const std::vector<NodeStatus>& rows) {
-  const Row headings{"node",       "state",   "role",        "process",      "fibers",
-                     "waiting",    "letters", "rejected",    "restarts",     "hits %",
-                     "credit KiB", "batches", "particles/s", "resident MiB", "process MiB"};
-  constexpr size_t words = 4;  // columns of words stand left, numbers right
+  const Row headings{"node",     "state",       "role",         "led by",
+                     "process",  "fibers",      "waiting",      "letters",
+                     "rejected", "restarts",    "hits %",       "credit KiB",
+                     "batches",  "particles/s", "resident MiB", "process MiB"};
+  constexpr size_t words = 5;  // columns of words stand left, numbers right
   std::vector<Row> cells{headings};
   for (const NodeStatus& row : rows) cells.push_back(cells_of(row));
   std::array<size_t, std::tuple_size_v<Row>> widths{};

@@ -41,6 +41,7 @@ struct NodeStatus {
   std::string process;
   NodeState state = NodeState::down;
   std::string role;
+  std::string led_by;                      // whose coordinator leads it
   std::optional<double> fibers;            // that live
   std::optional<double> waiting;           // of those
   std::optional<double> letters;           // that wait in the mailboxes of its actors

@@ -18,7 +18,8 @@ NodeMetrics::NodeMetrics(const std::vector<std::string>& names, NodeId self,
     : scheduler_(shell.scheduler()),
       registered_(std::make_unique<Metrics>(names[self.value])),
       mark_(scheduler_.clock().now()) {
-  registry().add_gauge({"node_info", "", "1; what the node is.", fmt::format("role=\"{}\"", role)},
+  registry().add_gauge({"node_info", "", "1; what the node is.",
+                        fmt::format("role=\"{}\",number=\"{}\"", role, self.value)},
                        info_);
   scheduler_.add_metrics(registry());
   shell.network().add_metrics(registry(), [&](NodeId node) { return names[node.value]; });

@@ -83,7 +83,7 @@ LeasedWork& Worker::work() {
 }
 
 void Worker::show_to(Observation& seen) {
-  metrics_.emplace(run_.names, node_.net.self, "worker", shell_);
+  metrics_.emplace(run_.names, node_.net.self, coordinates() ? "coordinator" : "worker", shell_);
   tracer_.add_metrics(metrics_->registry());
   if (photons_) photons_->add_metrics(metrics_->registry());
   if (coordinator_) coordinator_->add_metrics(metrics_->registry());

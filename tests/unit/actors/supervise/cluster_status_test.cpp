@@ -15,7 +15,8 @@ AskedProcess process_of(const std::string& name, std::vector<std::string> nodes)
 
 const std::string page_of_a =
     "luxodus_process_resident_bytes 1048576\n"
-    "luxodus_node_info{node=\"a\",role=\"worker\"} 1\n"
+    "luxodus_node_info{node=\"a\",role=\"worker\",number=\"0\"} 1\n"
+    "luxodus_led_by{node=\"a\"} 2\n"
     "luxodus_fibers_live{node=\"a\"} 40\n"
     "luxodus_mailbox_waiting{node=\"a\",actor=\"tracer\"} 2\n"
     "luxodus_mailbox_waiting{node=\"a\",actor=\"tally_shard\"} 3\n"
@@ -37,8 +38,9 @@ TEST_CASE("a node's line has its own numbers, and the state that its neighbours 
           "[supervise][status]") {
   const std::vector<AskedProcess> processes{process_of("p", {"a"}), process_of("q", {"b", "c"})};
   const std::string page_of_others =
-      "luxodus_node_info{node=\"b\",role=\"worker\"} 1\n"
-      "luxodus_node_info{node=\"c\",role=\"controller\"} 1\n"
+      "luxodus_node_info{node=\"b\",role=\"worker\",number=\"1\"} 1\n"
+      "luxodus_led_by{node=\"b\"} 7\n"
+      "luxodus_node_info{node=\"c\",role=\"controller\",number=\"2\"} 1\n"
       "luxodus_batches_counted_total{node=\"c\"} 30\n";
   const auto rows = status_of(processes, {page_of_a, page_of_others});
   REQUIRE(rows.size() == 3);
@@ -46,6 +48,9 @@ TEST_CASE("a node's line has its own numbers, and the state that its neighbours 
   CHECK(rows[0].process == "p");
   CHECK(rows[0].state == NodeState::up);
   CHECK(rows[0].role == "worker");
+  CHECK(rows[0].led_by == "c");
+  CHECK(rows[1].led_by == "node 7");  // no page tells its name
+  CHECK(rows[2].led_by.empty());
   CHECK(rows[0].fibers == 40.0);
   CHECK(rows[0].letters == 5.0);
   CHECK(rows[0].letters_rejected == 1.0);
