@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "runtime/core/log.hpp"
@@ -173,9 +174,10 @@ uint32_t Coordinator::max_to_lend(NodeId worker) const {
 }
 
 LeaseGranted Coordinator::grant_of(NodeId worker, const LentBatches& lent) const {
+  constexpr Nanoseconds longest = milliseconds(std::numeric_limits<uint32_t>::max());
+  const auto span_ms = static_cast<uint32_t>(std::min(span_of(worker), longest) / milliseconds(1));
   return {lent.first_lease, round(), static_cast<uint64_t>(lent.first_batch),
-          static_cast<uint32_t>(lent.count),
-          static_cast<uint32_t>(span_of(worker) / milliseconds(1))};
+          static_cast<uint32_t>(lent.count), span_ms};
 }
 
 void Coordinator::on(const Letter<RequestLease>& request) {
@@ -197,7 +199,7 @@ void Coordinator::on(const Letter<RequestLease>& request) {
   lent();
 }
 
-/// None: it returns those that it has.
+/// Asked for none, it returns those that it has.
 LentBatches Coordinator::lend(NodeId worker, uint32_t batches) {
   if (batches == 0) {
     fence(book_.fence_node(worker), "its worker returns it");
