@@ -374,7 +374,7 @@ void Tracer::watch_coordinator(Nanoseconds now) {
     unreachable_since_ = now;
   const auto give_up = [&](const char* what, Nanoseconds after, const char* key) {
     if (rumour_) return end(std::nullopt);
-    end(problem(fmt::format("{} for {:g} s ({})", what, static_cast<double>(after) * 1e-9, key)));
+    end(problem(fmt::format("{} for {:g} s ({})", what, seconds_in(after), key)));
   };
   const Nanoseconds unreachable = unreachable_since_ ? now - *unreachable_since_ : 0;
   const bool lost = unreachable >= config_.lost;

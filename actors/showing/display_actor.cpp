@@ -75,7 +75,7 @@ void DisplayActor::watch_coordinator() {
   if (!state_.unreachable_since) state_.unreachable_since = clock_.now();
   if (state_.saved || clock_.now() - *state_.unreachable_since < config_.lost) return;
   end(problem(fmt::format("no way has led to the controller for {:g} s (lost_s)",
-                          static_cast<double>(config_.lost) * 1e-9)));
+                          seconds_in(config_.lost))));
 }
 
 /// For all of them as they are now, from the first piece on.

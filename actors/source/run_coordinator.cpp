@@ -300,7 +300,7 @@ void RunCoordinator::look_at_work(Nanoseconds now) {
   lose_batches();
   note_book();
   tidy_journal();
-  const double passed = static_cast<double>(now - began_) * 1e-9;
+  const double passed = seconds_in(now - began_);
   if (!closing_ && (interrupt_.load() || stop_.time_is_up(passed))) {
     closing_ = true;
     book_.close();
@@ -309,7 +309,7 @@ void RunCoordinator::look_at_work(Nanoseconds now) {
 }
 
 Progress RunCoordinator::progress() const {
-  const double passed = static_cast<double>(clock().now() - began_) * 1e-9;
+  const double passed = seconds_in(clock().now() - began_);
   return progress_of(stop_, run_.scene().batch_particles, batches_at_start_, book_.committed(),
                      passed, error_);
 }

@@ -12,7 +12,7 @@ namespace luxodus {
 /// Of tracing, in this life.
 double RunCoordinator::shown_seconds() const {
   const Nanoseconds until = over_ ? over_since_ : clock().now();
-  return static_cast<double>(until - began_) * 1e-9;
+  return seconds_in(until - began_);
 }
 
 /// Of a run that is over nothing is added any more.

@@ -29,7 +29,7 @@ void SnapshotJournal::rest() {
     return;
   }
   log_error("journal=snapshot_failed text=\"{}: tried again in {:g} s\"", made.problem().text(),
-            static_cast<double>(config_.retry) * 1e-9);
+            seconds_in(config_.retry));
 }
 
 }  // namespace luxodus
