@@ -11,6 +11,7 @@
 #include "actors/cli/quantities.hpp"
 #include "actors/cli/signals.hpp"
 #include "actors/simulate/simulation.hpp"
+#include "actors/supervise/planned_nodes.hpp"
 #include "runtime/config/cluster_file.hpp"
 #include "runtime/core/clock.hpp"
 #include "scenes/transport/compile.hpp"
@@ -78,6 +79,9 @@ Result<SimOptions> sim_options(const SimCommandOptions& options) {
   SimOptions sim;
   sim.nodes = options.nodes;
   sim.links = options.links;
+  auto graph = graph_of_process(sim.nodes, sim.links);  // once, for all seeds
+  if (!graph) return graph.problem();
+  sim.fixed.graph = std::move(graph).value();
   sim.fan_out = options.fan_out;
   // Leases of each level are four times as long as those of the next.
   if (sim.fan_out > 0 ||

@@ -14,8 +14,6 @@ namespace luxodus {
 namespace {
 /// At some 20 ns a bin this is half a turn of fibers.
 constexpr int64_t bins_of_a_step = 16384;
-/// Until a question is put again that did not leave this node: about as soon as links stand.
-constexpr Nanoseconds retry_after = milliseconds(20);
 }  // namespace
 
 Tracer::Tracer(const TracerConfig& config, const ShardPlan& shards, Scheduler& scheduler,

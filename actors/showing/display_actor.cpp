@@ -82,14 +82,24 @@ void DisplayActor::watch_coordinator() {
 void DisplayActor::ask() {
   ++show_;
   state_.copy.emplace(work_.fresh_run());
-  state_.question = Question{sender().next_id(), 0};
+  state_.question = Question{sender().next_id()};
   put();
 }
 
 void DisplayActor::put() {
-  state_.question->asked = clock_.now();
-  sender().send(address(), config_.coordinator, state_.question->id,
-                ShowTotals{show_, state_.copy->next()});
+  Question& question = *state_.question;
+  const SendOutcome outcome = sender().send(address(), config_.coordinator, question.id,
+                                            ShowTotals{show_, state_.copy->next()});
+  question.asked = clock_.now();
+  question.left = outcome == SendOutcome::taken;
+  if (question.left || state_.retries_soon) return;
+  state_.retries_soon = true;
+  scheduler().timers().set(question.asked + retry_after, own_task([this] { retry(); }));
+}
+
+void DisplayActor::retry() {
+  state_.retries_soon = false;
+  if (state_.question && !state_.question->left) put();
 }
 
 void DisplayActor::on(const Letter<TotalsShown>& shown) {
@@ -100,7 +110,7 @@ void DisplayActor::on(const Letter<TotalsShown>& shown) {
   if (auto taken = state_.copy->take(shown.body, shown.payload.bytes()); !taken)
     throw std::runtime_error(taken.problem().what);
   if (state_.copy->whole()) return copied();
-  state_.question = Question{sender().next_id(), 0};
+  state_.question = Question{sender().next_id()};
   put();
 }
 

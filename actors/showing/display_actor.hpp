@@ -68,10 +68,12 @@ class DisplayActor final
   struct Question {
     MessageId id;
     Nanoseconds asked = 0;
+    bool left = false;  // this node
   };
   /// All that a new life forgets.
   struct State {
     std::optional<Question> question;
+    bool retries_soon = false;  // a timer puts again what has not left
     std::optional<TotalsCopy> copy;
     std::shared_ptr<const LocalRun> last;  // of the run that is over
     bool over = false;
@@ -88,6 +90,7 @@ class DisplayActor final
   void watch_coordinator();
   void ask();
   void put();
+  void retry();
   void copied();
   void call(Call what);
   void returned(uint32_t life);

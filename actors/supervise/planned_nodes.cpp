@@ -13,15 +13,6 @@ namespace {
 
 constexpr uint32_t max_controller_links = 4;
 
-Result<Graph> graph_for(const NodesOptions& options) {
-  if (options.graph) return *options.graph;
-  AmpRequest request;
-  request.nodes = static_cast<uint32_t>(options.nodes);
-  request.links = static_cast<uint32_t>(options.links);
-  request.controller_links = std::min(request.nodes, max_controller_links);
-  return minimum_path_graph(request);
-}
-
 std::optional<std::string> fault_of(const NodesOptions& options, const CompiledScene& scene,
                                     bool resident) {
   if (options.tally_shards < 1 || options.tally_shards > options.nodes + 1 ||
@@ -104,11 +95,20 @@ Result<std::optional<Residency>> planned_residency(const RunSetup& run, const No
 
 }  // namespace
 
+Result<Graph> graph_of_process(int nodes, int links) {
+  AmpRequest request;
+  request.nodes = static_cast<uint32_t>(nodes);
+  request.links = static_cast<uint32_t>(links);
+  request.controller_links = std::min(request.nodes, max_controller_links);
+  return minimum_path_graph(request);
+}
+
 Result<std::unique_ptr<PlannedNodes>> PlannedNodes::make(const LocalRun& run,
                                                          const NodesOptions& options,
                                                          const StopRule& stop, uint64_t run_id) {
   if (auto fault = fault_of(options, run.scene(), run.resident())) return problem(*fault);
-  auto graph = graph_for(options);
+  auto graph = options.graph ? Result<Graph>(*options.graph)
+                             : graph_of_process(options.nodes, options.links);
   if (!graph) return graph.problem();
   std::unique_ptr<PlannedNodes> made(new PlannedNodes(run, options, std::move(graph).value()));
   if (const uint32_t longest = made->routes_.longest(); longest > limits::hops)

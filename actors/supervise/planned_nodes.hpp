@@ -61,6 +61,9 @@ struct NodesOptions {
   std::function<bool()> stop = [] { return false; };
 };
 
+/// The minimum-path graph of so many workers and a controller. Errors: as find_amp.
+Result<Graph> graph_of_process(int nodes, int links);
+
 class PlannedNodes {
  public:
   /// `run_id` is not 0, and another for every run. Requires: `run` outlives this.
