@@ -94,6 +94,7 @@ void write_lease(wire::LeaseGranted::Builder out, const LeaseGranted& m) {
   out.setFirstBatch(m.first_batch);
   out.setBatches(m.batches);
   out.setDurationMs(m.duration_ms);
+  out.setState(m.state.value);
 }
 
 void write_flush(wire::Flush::Builder out, const Flush& m) {
@@ -109,15 +110,6 @@ void write_decision(wire::FlushDecided::Builder out, const FlushDecided& m) {
   out.setSequence(m.flush.sequence);
   out.setSliceHash(m.slice_hash);
   out.setTaken(m.taken);
-}
-
-void write_order(wire::TraceBatches::Builder out, const TraceBatches& m) {
-  out.setLease(m.lease);
-  out.setSeed(m.seed);
-  out.setGroup(m.group);
-  out.setBatches(m.batches);
-  out.setFirstBatch(m.first_batch);
-  out.setStream(m.stream);
 }
 
 void write_shown(wire::TotalsShown::Builder out, const TotalsShown& m) {
@@ -177,6 +169,7 @@ void write(wire::Message::Builder out, const Message& message) {
             auto opened = out.initRoundOpened();
             opened.setRound(m.round);
             opened.setBatches(m.batches);
+            opened.setState(m.state.value);
           },
           [&](const RunEnded& m) {
             auto ended = out.initRunEnded();
@@ -210,12 +203,8 @@ void write(wire::Message::Builder out, const Message& message) {
             told.setFirst(m.first);
             told.setNext(m.next);
           },
-          [&](const TraceBatches& m) { write_order(out.initTraceBatches(), m); },
-          [&](const BatchesTraced& m) {
-            auto traced = out.initBatchesTraced();
-            traced.setLease(m.lease);
-            traced.setFault(m.fault.c_str());
-          },
+          [&](const AskState& m) { out.setAskState(m.state.value); },
+          [&](const StateTold& m) { out.setStateTold(m.state.value); },
           [&](const ShowTotals& m) {
             auto show = out.initShowTotals();
             show.setShow(m.show);
@@ -250,7 +239,6 @@ bool within_limits(const Message& message) {
           },
           [&](const FlushRefused& m) { return leases_fit(m.fenced) && text_fits(m.text); },
           [&](const RunEnded& m) { return text_fits(m.text); },
-          [&](const BatchesTraced& m) { return text_fits(m.fault); },
           [&](const FluxSaved& m) { return text_fits(m.fault); },
           [&](const auto&) { return true; },
       },
@@ -348,8 +336,8 @@ Refuse read_refuse(wire::Refuse::Reader in) {
 }
 
 LeaseGranted read_lease(wire::LeaseGranted::Reader in) {
-  return {in.getFirstLease(), in.getRound(), in.getFirstBatch(), in.getBatches(),
-          in.getDurationMs()};
+  return {in.getFirstLease(), in.getRound(),      in.getFirstBatch(),
+          in.getBatches(),    in.getDurationMs(), {in.getState()}};
 }
 
 FetchObject read_fetch(wire::FetchObject::Reader in) {
@@ -392,7 +380,7 @@ Message read(wire::Message::Reader in) {
     }
     case wire::Message::ROUND_OPENED: {
       const auto opened = in.getRoundOpened();
-      return RoundOpened{opened.getRound(), opened.getBatches()};
+      return RoundOpened{opened.getRound(), opened.getBatches(), {opened.getState()}};
     }
     case wire::Message::RUN_ENDED: {
       const auto ended = in.getRunEnded();
@@ -425,15 +413,10 @@ Message read(wire::Message::Reader in) {
       const auto told = in.getTotalsTold();
       return TotalsTold{told.getGather(), told.getFirst(), told.getNext()};
     }
-    case wire::Message::TRACE_BATCHES: {
-      const auto order = in.getTraceBatches();
-      return TraceBatches{order.getLease(),   order.getSeed(),       order.getGroup(),
-                          order.getBatches(), order.getFirstBatch(), order.getStream()};
-    }
-    case wire::Message::BATCHES_TRACED: {
-      const auto traced = in.getBatchesTraced();
-      return BatchesTraced{traced.getLease(), read_text(traced.getFault())};
-    }
+    case wire::Message::ASK_STATE:
+      return AskState{{in.getAskState()}};
+    case wire::Message::STATE_TOLD:
+      return StateTold{{in.getStateTold()}};
     case wire::Message::SHOW_TOTALS:
       return ShowTotals{in.getShowTotals().getShow(), in.getShowTotals().getPiece()};
     case wire::Message::TOTALS_SHOWN:
@@ -545,7 +528,7 @@ Kind kind_of(const Message& message) {
                         [](const ProfileCounted&) { return Kind::commit; },
                         [](const FlushSlice&) { return Kind::commit; },
                         [](const TotalsTold&) { return Kind::commit; },
-                        [](const BatchesTraced&) { return Kind::commit; },
+                        [](const StateTold&) { return Kind::commit; },
                         [](const TotalsShown&) { return Kind::commit; },
                         [](const auto&) { return Kind::control; },
                     },

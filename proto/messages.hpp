@@ -16,7 +16,7 @@
 namespace luxodus {
 
 /// Changes when a node of the old version would misunderstand a node of the new one.
-inline constexpr uint16_t protocol_version = 3;
+inline constexpr uint16_t protocol_version = 4;
 
 namespace limits {
 /// Links a frame may pass. AMP graphs of 256 nodes have diameter 6; 15 leaves room for detours
@@ -218,6 +218,7 @@ struct LeaseGranted {
   uint64_t first_batch = 0;
   uint32_t batches = 0;  // 0: none is left in this round
   uint32_t duration_ms = 0;
+  ObjectId state = {};  // of the scene: what is to be traced
   friend bool operator==(const LeaseGranted&, const LeaseGranted&) = default;
 };
 struct LeasesFenced {
@@ -243,9 +244,11 @@ struct FlushRefused {
   friend bool operator==(const FlushRefused&, const FlushRefused&) = default;
 };
 
+/// What leases are of from now on, or what they may be of next.
 struct RoundOpened {
   uint32_t round = 0;
   uint64_t batches = 0;
+  ObjectId state = {};
   friend bool operator==(const RoundOpened&, const RoundOpened&) = default;
 };
 struct RunEnded {
@@ -313,22 +316,15 @@ struct TotalsTold {
   friend bool operator==(const TotalsTold&, const TotalsTold&) = default;
 };
 
-/// Of a live view: these batches of a source group, in the building that follows as payload (what
-/// viewers wish, as text).
-struct TraceBatches {
-  uint64_t lease = 0;
-  uint64_t seed = 0;
-  uint32_t group = 0;
-  uint32_t batches = 0;
-  uint64_t first_batch = 0;  // of the group
-  uint32_t stream = 0;       // of random numbers, that the group has
-  friend bool operator==(const TraceBatches&, const TraceBatches&) = default;
+/// For what a state of the scene is made from, by who was lent batches of it and has not seen it.
+struct AskState {
+  ObjectId state;
+  friend bool operator==(const AskState&, const AskState&) = default;
 };
-/// What they have given follows as payload, as of a flush.
-struct BatchesTraced {
-  uint64_t lease = 0;
-  std::string fault;  // why they could not be traced; "" where they were
-  friend bool operator==(const BatchesTraced&, const BatchesTraced&) = default;
+/// It follows as payload; without one it is gone, and no lease is of it any more.
+struct StateTold {
+  ObjectId state;
+  friend bool operator==(const StateTold&, const StateTold&) = default;
 };
 
 /// For a piece of all totals as they are, in the how-manieth show. To ask for the first is to ask
@@ -366,7 +362,7 @@ using Message =
                  ObjectNotHere, RequestLease, LeaseGranted, LeasesFenced, Flush, FlushTaken,
                  FlushRefused, RoundOpened, RunEnded, ProfileCounted, AskStatus, StatusAnswered,
                  EnterPhase, FlushSlice, SliceHeld, FlushDecided, FlushSettled, AskTotals,
-                 TotalsTold, TraceBatches, BatchesTraced, ShowTotals, TotalsShown, FluxSaved>;
+                 TotalsTold, AskState, StateTold, ShowTotals, TotalsShown, FluxSaved>;
 
 /// The kind whose buffers and credit a message uses.
 Kind kind_of(const Message& message);

@@ -59,8 +59,8 @@ struct Message {
     flushSettled @24 :FlushSettled;
     askTotals @25 :AskTotals;
     totalsTold @26 :TotalsTold;
-    traceBatches @27 :TraceBatches;
-    batchesTraced @28 :BatchesTraced;
+    askState @27 :UInt64;
+    stateTold @28 :UInt64;
     showTotals @29 :ShowTotals;
     totalsShown @30 :TotalsShown;
     fluxSaved @31 :FluxSaved;
@@ -124,6 +124,7 @@ struct LeaseGranted {
   firstBatch @2 :UInt64;
   batches @3 :UInt32;
   durationMs @4 :UInt32;
+  state @5 :UInt64;
 }
 
 struct Flush {
@@ -141,6 +142,7 @@ struct FlushRefused {
 struct RoundOpened {
   round @0 :UInt32;
   batches @1 :UInt64;
+  state @2 :UInt64;
 }
 
 struct RunEnded {
@@ -183,20 +185,6 @@ struct TotalsTold {
   gather @0 :UInt32;
   first @1 :UInt64;
   next @2 :UInt64;
-}
-
-struct TraceBatches {
-  lease @0 :UInt64;
-  seed @1 :UInt64;
-  group @2 :UInt32;
-  batches @3 :UInt32;
-  firstBatch @4 :UInt64;
-  stream @5 :UInt32;
-}
-
-struct BatchesTraced {
-  lease @0 :UInt64;
-  fault @1 :Text;
 }
 
 struct ShowTotals {

@@ -9,6 +9,7 @@
 
 #include "actors/assess/judged_state.hpp"
 #include "actors/inspect/inspect.hpp"
+#include "actors/run/run_executor.hpp"
 #include "scenes/emergency/legibility.hpp"
 #include "scenes/emergency/rules.hpp"
 
@@ -29,6 +30,7 @@ struct AssessOptions {
   std::vector<std::string> rules, deviations;  // by name; empty: those of the scene
   uint64_t seed = 1;
   int threads = 1;
+  RunExecutor* executor = nullptr;         // who traces; null: the threads
   int rounds = 4;                          // until nothing is undecided, or so many
   bool reality = true;                     // else the code mode alone
   std::string sign;                        // judged alone, by name; "": all are

@@ -10,7 +10,7 @@
 
 #include "actors/assess/aged_light.hpp"
 #include "actors/inspect/building.hpp"
-#include "actors/run/local_run.hpp"
+#include "actors/run/run_executor.hpp"
 #include "scenes/emergency/sign_face.hpp"
 #include "scenes/emergency/veil.hpp"
 #include "scenes/geometry/polygon.hpp"
@@ -403,10 +403,13 @@ Result<void> RealityMode::trace(int round, const std::atomic<bool>& interrupt,
   LocalRun run(compiled.value(), options_.seed + static_cast<uint64_t>(round), options_.threads);
   StopRule stop;
   stop.particles = RoundSize(round).batches * batch_particles;
-  const auto reason = run.run(stop, interrupt, [&](const Progress& p) {
+  RunThreads threads;
+  RunExecutor& executor = options_.executor == nullptr ? threads : *options_.executor;
+  const auto reason = executor.run(run, stop, interrupt, [&](const Progress& p) {
     progress(what, static_cast<double>(p.particles) / static_cast<double>(*stop.particles));
   });
-  if (reason == StopReason::interrupted) return problem("interrupted");
+  if (!reason) return reason.problem();
+  if (reason.value() == StopReason::interrupted) return problem("interrupted");
   out_.paths += run.batches() * int64_t{run.scene().eye_paths_per_batch} *
                 static_cast<int64_t>(3 * run.scene().eye_targets.size());
   judge(run.scene(), run.totals());

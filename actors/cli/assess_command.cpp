@@ -11,6 +11,7 @@
 #include "actors/cli/commands.hpp"
 #include "actors/cli/findings.hpp"
 #include "actors/cli/load_scene.hpp"
+#include "actors/cli/nodes_option.hpp"
 #include "actors/cli/progress_line.hpp"
 #include "actors/cli/report_options.hpp"
 #include "actors/cli/signals.hpp"
@@ -29,6 +30,7 @@ struct AssessCommandOptions {
   std::string scene;
   std::string out;
   AssessOptions assess;
+  int nodes = 0;
   std::string at;
   bool codes_alone = false;
   bool strict = false;
@@ -101,6 +103,8 @@ Result<ExitCode> assess_scene(const AssessCommandOptions& options) {
   install_interrupt_handler();
   AssessOptions asked = options.assess;
   asked.reality = !options.codes_alone;
+  const auto nodes = nodes_that_trace(options.nodes);
+  asked.executor = nodes.get();
   ProgressLine line("assess");
   const auto assessed =
       assess(scene, asked, interrupt_flag(), [&](const std::string& what, double share) {
@@ -174,6 +178,7 @@ Command assess_command() {
             &o->assess.threads,
             "Number of threads",
             {.otherwise = "all cores", .range = Range{1, 1024}}},
+           nodes_option(o->nodes),
            {"--rounds",
             &o->assess.rounds,
             "Largest number of rounds of paths, each of four times as many, for what is undecided",

@@ -20,8 +20,8 @@
 #include "actors/output/output_folder.hpp"
 #include "actors/run/flux_store.hpp"
 #include "actors/supervise/cluster_process.hpp"
-#include "actors/view/live_cluster.hpp"
-#include "actors/view/live_worker.hpp"
+#include "actors/supervise/node_executor.hpp"
+#include "actors/view/live_states.hpp"
 #include "runtime/core/log.hpp"
 
 namespace luxodus::cli {
@@ -89,23 +89,25 @@ Result<std::optional<StopReason>> view_on_nodes(const ClusterConfig& cluster,
   NodeWork work;
   work.worker = [&](const RunSetup& run, const Machine& machine, const NodeSetup& node,
                     const std::function<bool()>& stop) {
-    return run_live_worker(run, machine, node, stop, states);
+    RunSetup of_states = run;
+    of_states.states = &states;
+    return run_worker(of_states, machine, node, stop);
   };
   work.controller = [&](const RunSetup& run, const Machine& machine,
                         const NodeSetup& node) -> Result<StopReason> {
-    auto started = LiveCluster::start(run, machine, node);
+    auto started = NodeExecutor::start(run, machine, node);
     if (!started) return started.problem();
     HubOptions hub{{}, {}, cluster.view.save_folder.empty() ? "." : cluster.view.save_folder};
     hub.live.seed = base.seed();
     hub.live.threads = default_threads();
     if (cluster.run.particles) hub.live.particles = static_cast<int64_t>(*cluster.run.particles);
     if (cluster.run.relative_error) hub.live.relative_error = *cluster.run.relative_error;
-    const std::shared_ptr<LiveCluster> tracers = std::move(started).value();
-    hub.live.tracers = tracers;
+    const std::shared_ptr<NodeExecutor> executor = std::move(started).value();
+    hub.live.executor = executor;
     hub.first.scenario = cluster.run.scenario;
     HttpAddress server{cluster.view.address, cluster.view.port, ""};
     if (!cluster.view.allow_host.empty()) server.allowed_hosts = {cluster.view.allow_host};
-    const auto served = serve_view(scene, server, hub, [&] { return tracers->fault(); });
+    const auto served = serve_view(scene, server, hub, [&] { return executor->fault(); });
     if (!served) return served.problem();
     return StopReason::interrupted;
   };

@@ -6,6 +6,7 @@
 
 #include "actors/cli/command.hpp"
 #include "actors/cli/commands.hpp"
+#include "actors/cli/nodes_option.hpp"
 #include "actors/cli/progress_line.hpp"
 #include "actors/cli/quantities.hpp"
 #include "actors/cli/signals.hpp"
@@ -27,6 +28,7 @@ struct ValidateOptions {
   std::string out = "out/validate";
   uint64_t seed = 1;
   int threads = default_threads();
+  int nodes = 0;
 };
 
 std::string seconds_text(double seconds) {
@@ -87,6 +89,8 @@ Result<ExitCode> validate(const ValidateOptions& options) {
   suite.threads = record.threads;
   suite.error = record.error;
   suite.case_seconds = record.case_seconds;
+  const auto nodes = nodes_that_trace(options.nodes);
+  suite.executor = nodes.get();
   ProgressLine line("validate");
   const auto show = [&](const light::SuiteProgress& p) {
     line.put(fmt::format("{} of {} cases, {}, about {} left: {}", p.done, p.cases,
@@ -145,7 +149,8 @@ Command validate_command() {
            {"--threads",
             &o->threads,
             "Number of threads",
-            {.otherwise = "all cores", .range = Range{1, 1024}}}},
+            {.otherwise = "all cores", .range = Range{1, 1024}}},
+           nodes_option(o->nodes)},
       .notes =
           "Cases are scenes whose light is known: closed forms, deterministic solvers, published "
           "values. Each is run at growing numbers of particles. The page shows every quantity with "

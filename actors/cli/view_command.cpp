@@ -6,10 +6,12 @@
 #include "actors/cli/findings.hpp"
 #include "actors/cli/finished_run.hpp"
 #include "actors/cli/load_scene.hpp"
+#include "actors/cli/nodes_option.hpp"
 #include "actors/cli/quantities.hpp"
 #include "actors/cli/serve_view.hpp"
 #include "actors/cli/signals.hpp"
-#include "actors/view/live_nodes.hpp"
+#include "actors/supervise/process_executor.hpp"
+#include "actors/view/live_states.hpp"
 #include "runtime/http/served_names.hpp"
 
 namespace luxodus::cli {
@@ -52,14 +54,17 @@ Result<ExitCode> view(const ViewOptions& options) {
   HubOptions hub{options.live, {}, options.save_folder};
   hub.live.particles = parse_count(options.particles).value();
   hub.first.scenario = scenario;
-  std::unique_ptr<LiveNodes> nodes;
+  LiveStates states(scene);
+  std::unique_ptr<ProcessExecutor> nodes;
   if (options.nodes > 0) {
     NodesOptions of_nodes;
     of_nodes.nodes = options.nodes;
-    auto started = LiveNodes::start(scene, of_nodes);
+    auto compiled = compile_scene(scene, found.value(), {1});
+    if (!compiled) return compiled.problem();
+    auto started = ProcessExecutor::start(compiled.value(), states, of_nodes);
     if (!started) return started.problem();
     nodes = std::move(started).value();
-    hub.live.tracers = nodes->tracers();
+    hub.live.executor = nodes->executor();
   }
   const auto served = serve_view(scene, options.server, hub);
   if (!served) return served.problem();
@@ -109,10 +114,7 @@ Command view_command() {
                 &o->live.threads,
                 "Number of threads",
                 {.otherwise = "all cores", .range = Range{1, 1024}}},
-               {"--nodes",
-                &o->nodes,
-                "Number of nodes of this process that trace, as those of a cluster do",
-                {.otherwise = "none: threads", .range = Range{1, limits::nodes_in_process}}}},
+               nodes_option(o->nodes)},
           .notes =
               "Traces while you walk; dim, move, thicken, and see it at once. Beyond this machine "
               "(--address) the page is served only to those who have the token that is printed.\n"

@@ -88,6 +88,7 @@ void Tracer::on(const Letter<LeaseGranted>& granted) {
   lease_time_ = milliseconds(grant.duration_ms);
   counters_.leases += grant.batches;
   rumour_ = rumour_ && grant.batches == 0;
+  if (grant.batches > 0 && !work_->is_in(grant.state)) begin_state(grant.state);
   // What is merged and not flushed when another round begins is of leases that were fenced.
   if (grant.round != last_round && !done_.empty()) flush();
   work_->enter_round(grant.round);
@@ -110,6 +111,51 @@ void Tracer::on(const Letter<LeaseGranted>& granted) {
 void Tracer::begin_round() {
   round_empty_ = false;
   work_->look_again();
+}
+
+// ---- states of the scene -----------------------------------------------------------------------
+
+/// What is here is of another state, whose leases are fenced.
+void Tracer::begin_state(ObjectId state) {
+  if (entering_ == state) return;
+  entering_ = state;
+  work_->leave_state();
+  done_.clear();
+  if (flushing_) forget_flush();
+  work_->knows(state) ? enter_state() : ask_state(state);
+}
+
+void Tracer::ask_state(ObjectId state) {
+  learning_ = Question{sender().next_id(), AskState{state}, {}};
+  put(*learning_);
+}
+
+/// It is made here and now: until then this node has nothing else to do.
+void Tracer::on(const Letter<StateTold>& told) {
+  if (!hears(told.from) || !learning_ || learning_->id != told.id) return;
+  learning_.reset();
+  const std::span<const std::byte> bytes = told.payload.bytes();
+  if (bytes.empty()) return cannot_enter(problem("nobody knows it any more"));
+  if (const auto learnt = work_->learn(told.body.state, bytes); !learnt)
+    return cannot_enter(learnt.problem());
+  enter_state();
+}
+
+/// As soon as it is known, and what is being packed of the one before is packed.
+void Tracer::enter_state() {
+  if (!entering_ || packing_ || !work_->knows(*entering_)) return;
+  work_->enter(*std::exchange(entering_, std::nullopt));
+  const Totals& totals = work_->totals();
+  encoder_ = std::make_shared<FlushEncoder>(totals.groups(), totals.layout().totals());
+  work_->look_again();
+}
+
+/// Others may. One that was only foreseen is asked for again when it is entered.
+void Tracer::cannot_enter(const Problem& why) {
+  if (!entering_) return;
+  log_error("state=unknown text=\"this node cannot enter a state of the scene: {}\"", why.what);
+  entering_.reset();
+  work_->give_back_all();
 }
 
 // ---- giving results --------------------------------------------------------------------------
@@ -206,6 +252,10 @@ void Tracer::on(const PackFlush& pack) {
   const uint64_t hash = XXH3_64bits(payload.data(), payload.size());  // as Hasher, in no memory
   packing_ = false;
   if (over_) return;
+  if (entering_) {
+    packed_leases_.clear();
+    return enter_state();
+  }
   flushing_ = Question{
       sender().next_id(), Flush{round_, hash, std::move(packed_leases_), {}}, {payload, encoder_}};
   if (config_.trace != nullptr)
@@ -267,17 +317,23 @@ void Tracer::on(const Letter<LeasesFenced>& fenced) {
 }
 
 void Tracer::on(const Letter<RoundOpened>& opened) {
-  if (hears(opened.from)) begin_round();
+  if (!hears(opened.from)) return;
+  if (!learning_ && !work_->knows(opened.body.state)) ask_state(opened.body.state);
+  begin_round();
+}
+
+void Tracer::forget_flush() {
+  packed_leases_ = std::move(std::get<Flush>(flushing_->message).leases);  // its memory
+  packed_leases_.clear();
+  flushing_.reset();
 }
 
 void Tracer::flush_answered(const MessageId& answered, bool taken) {
   if (!flushing_ || flushing_->id != answered) return;
   const Nanoseconds answer_took = clock_.now() - flushing_->asked;
   flush_cost_ = packing_took_ + answer_took;
-  packed_leases_ = std::move(std::get<Flush>(flushing_->message).leases);  // its memory
-  packed_leases_.clear();
   if (config_.trace != nullptr) config_.trace->end(TraceKind::flush, trace_id(answered), taken);
-  flushing_.reset();
+  forget_flush();
   if (!taken) ++counters_.flushes_refused;  // its leases are lent again: nothing to mend here
   flush_when_idle();
   if (room_wanted_) flush();
@@ -304,6 +360,7 @@ void Tracer::stop_work(std::optional<Problem> fault, bool abandoned) {
   if (std::exchange(over_, true)) return;
   fault_ = std::move(fault);
   asking_.reset();
+  learning_.reset();
   flushing_.reset();  // all is counted, or nothing more will be
   abandoned ? work_->abandon() : work_->end(end_word_.text);
 }
@@ -430,6 +487,7 @@ void Tracer::put(Question& question) {
 void Tracer::retry() {
   retries_soon_ = false;
   if (asking_ && !asking_->left) put(*asking_);
+  if (learning_ && !learning_->left) put(*learning_);
   if (flushing_ && !flushing_->left && slices_.placed()) put(*flushing_);
 }
 
@@ -440,7 +498,7 @@ void Tracer::set_timer() {
 
 void Tracer::on_timer() {
   const Nanoseconds now = clock_.now();
-  for (std::optional<Question>* question : {&asking_, &flushing_}) {
+  for (std::optional<Question>* question : {&asking_, &flushing_, &learning_}) {
     if (!*question || now - (*question)->asked < config_.answer_patience) continue;
     ++counters_.asked_again;
     question == &flushing_ ? put_flush() : put(**question);

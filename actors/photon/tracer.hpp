@@ -56,6 +56,7 @@ class Tracer final
                                    Accepts<Letter<FlushRefused>, 64, WhenFull::reject>,
                                    Accepts<Letter<LeasesFenced>, 64, WhenFull::reject>,
                                    Accepts<Letter<RoundOpened>, 1, WhenFull::coalesce>,
+                                   Accepts<Letter<StateTold>, 4, WhenFull::reject>,
                                    Accepts<Letter<RunEnded>, 64, WhenFull::reject>,
                                    Accepts<Letter<EnterPhase>, 4, WhenFull::reject>,
                                    Accepts<Letter<SliceHeld>, 256, WhenFull::reject>>,
@@ -75,6 +76,7 @@ class Tracer final
   void on(const Letter<FlushRefused>& refused);
   void on(const Letter<LeasesFenced>& fenced);
   void on(const Letter<RoundOpened>& opened);
+  void on(const Letter<StateTold>& told);
   void on(const Letter<RunEnded>& ended);
   void on(const Letter<EnterPhase>& phase);
   // Of shards.
@@ -148,6 +150,11 @@ class Tracer final
   void set_timer();
   void on_timer();
   void begin_round();
+  void begin_state(ObjectId state);
+  void ask_state(ObjectId state);
+  void enter_state();
+  void cannot_enter(const Problem& why);
+  void forget_flush();
   void flush_when_idle();
   Address coordinator() const { return config_.coordinators[led_by_]; }
   void watch_coordinator(Nanoseconds now);
@@ -172,6 +179,8 @@ class Tracer final
   std::vector<Address> left_;
   std::optional<Question> asking_;    // for leases
   std::optional<Question> flushing_;  // one at a time; put when all its slices are held
+  std::optional<Question> learning_;  // what a state of the scene is made from
+  std::optional<ObjectId> entering_;  // batches of it are lent, and nothing is merged until it is
   std::vector<uint64_t> done_;        // merged, in no flush yet
   std::vector<uint64_t> packed_leases_;
   std::shared_ptr<FlushEncoder> encoder_;  // shared with the network while it sends

@@ -10,6 +10,7 @@
 #include <span>
 #include <string>
 
+#include "runtime/core/ids.hpp"
 #include "runtime/core/result.hpp"
 #include "scenes/tally/totals.hpp"
 
@@ -50,6 +51,19 @@ class LeasePort {
 class LeasedWork {
  public:
   virtual ~LeasedWork() = default;
+  /// Whether it is batches of this state of the scene that are traced, and what is merged is of. A
+  /// run has one state, which all know.
+  virtual bool is_in(ObjectId /*state*/) const { return true; }
+  virtual bool knows(ObjectId /*state*/) const { return true; }
+  /// Makes a state of its bytes, so that it may be entered. Errors: bytes of no state.
+  virtual Result<void> learn(ObjectId /*state*/, std::span<const std::byte> /*bytes*/) {
+    return {};
+  }
+  /// Forgets all that is at hand: what is added from now on is of another state, and waits for it.
+  virtual void leave_state() {}
+  /// What has been added since, and is added from now on, is of this state. Requires: knows(it); no
+  /// totals are being emptied.
+  virtual void enter(ObjectId /*state*/) {}
   /// What is added from now on is of this round of the run.
   virtual void enter_round(uint32_t /*round*/) {}
   /// Adds work. A lease is of one batch, so that what is merged is always whole leases.
@@ -57,6 +71,8 @@ class LeasedWork {
   /// Forgets those of these leases that have not been merged yet; all of them.
   virtual void drop(std::span<const uint64_t> leases) = 0;
   virtual void drop_all() = 0;
+  /// Cannot trace any of what is at hand, ever: it goes back.
+  virtual void give_back_all() { drop_all(); }
   /// There may be leases to ask for again.
   virtual void look_again() = 0;
 

@@ -39,6 +39,7 @@ class LocalRun {
       const CompiledScene&, const GeometryAccess&, uint64_t seed)>;
   /// Has batches traced by another loop than the program's own.
   void trace_with(MakeTracer make) { make_tracer_ = std::move(make); }
+  const MakeTracer& make_tracer() const { return make_tracer_; }
 
   /// Has `pause` called between batches whenever `due` says so, while nobody adds to the totals and
   /// these hold all batches() but the missing ones: by run() on its thread, by a coordinator on one

@@ -80,10 +80,10 @@ void Coordinator::watch_workers(Nanoseconds now) {
     if (!(begun_ || over_) || !peer.here || now - *peer.unreachable_since < config_.lost) continue;
     peer.here = false;
     ++counters_.workers_lost;
-    log_error(
-        "worker=lost node={} text=\"no way has led to {} for {:g} s: its batches are lent "
-        "again\"",
-        worker.value, name_of(worker), seconds_in(config_.lost));
+    const std::string since =
+        config_.lost > 0 ? fmt::format(" for {:g} s", seconds_in(config_.lost)) : "";
+    log_error("worker=lost node={} text=\"no way has led to {}{}: its batches are lent again\"",
+              worker.value, name_of(worker), since);
     fence(book_.fence_node(worker), "its worker is lost");
     worker_gone(worker, "is lost");
   }
@@ -118,7 +118,7 @@ void Coordinator::tell_fenced(const std::vector<Lease>& leases) {
 /// is too late for batches that have just come back.
 void Coordinator::offer_again() {
   if (!begun_ || over_ || book_.waiting() == 0) return;
-  const RoundOpened more{round(), static_cast<uint64_t>(book_.end())};
+  const RoundOpened more{round(), static_cast<uint64_t>(book_.end()), state()};
   for (const auto& [worker, last] : last_grant_)
     if (std::get<LeaseGranted>(last.answer).batches == 0) send(worker, sender().next_id(), more);
 }
@@ -177,7 +177,7 @@ LeaseGranted Coordinator::grant_of(NodeId worker, const LentBatches& lent) const
   constexpr Nanoseconds longest = milliseconds(std::numeric_limits<uint32_t>::max());
   const auto span_ms = static_cast<uint32_t>(std::min(span_of(worker), longest) / milliseconds(1));
   return {lent.first_lease, round(), static_cast<uint64_t>(lent.first_batch),
-          static_cast<uint32_t>(lent.count), span_ms};
+          static_cast<uint32_t>(lent.count), span_ms, state()};
 }
 
 void Coordinator::on(const Letter<RequestLease>& request) {

@@ -44,6 +44,7 @@ struct CoordinatorConfig {
   Nanoseconds start = seconds(60);
   /// A worker that no way leads to for so long is lost: long against a link that is made anew.
   Nanoseconds lost = seconds(30);
+  ObjectId state = {};       // of the scene, named in every lease
   uint64_t first_lease = 1;  // random, where a controller may be started again
   /// A batch that is not back by then is lent to another: long against the slowest batch. A node
   /// that leads others has four times as long for each of its levels, from its last flush on.
@@ -62,6 +63,7 @@ class Coordinator
                        ControlLane<Accepts<Letter<RequestLease>, 4096, WhenFull::reject>,
                                    Accepts<Letter<LeasesFenced>, 1024, WhenFull::reject>,
                                    Accepts<Letter<Flush>, 1024, WhenFull::reject>,
+                                   Accepts<Letter<AskState>, 256, WhenFull::reject>,
                                    Accepts<Letter<FlushSettled>, 256, WhenFull::reject>,
                                    Accepts<Letter<TotalsTold>, 256, WhenFull::reject>,
                                    Accepts<Letter<ShowTotals>, 8, WhenFull::reject>,
@@ -73,6 +75,7 @@ class Coordinator
   void on(const Letter<LeasesFenced>& given_back);
   void on(Letter<Flush>&& flush);
   void on(CountFlush&& count);
+  virtual void on(const Letter<AskState>&) {}  // who leads a run has one state, which all know
   // Of shards and of the display, which only who leads a run has.
   virtual void on(const Letter<FlushSettled>&) {}
   virtual void on(const Letter<TotalsTold>&) {}
@@ -137,6 +140,7 @@ class Coordinator
   /// A worker has another life than before, or is lost.
   virtual void life_ended(NodeId, Incarnation) {}
   virtual void worker_gone(NodeId, const char* /*how*/) {}
+  virtual ObjectId state() const { return config_.state; }
   /// Batches were lent, or there are none.
   virtual void lent() {}
   virtual LeaseBook::Rank rank_of(NodeId) { return {}; }

@@ -186,7 +186,7 @@ void RunCoordinator::open_round() {
   ++counters_.round;
   for (const auto& [worker, peer] : peers_)
     if (peer.here || peer.expected)
-      send(worker, sender().next_id(), RoundOpened{round(), static_cast<uint64_t>(end)});
+      send(worker, sender().next_id(), RoundOpened{round(), static_cast<uint64_t>(end), state()});
 }
 
 /// Ends the round when everything of it is counted, and lets somebody look at the totals where that

@@ -27,7 +27,11 @@ Result<StopReason> run_on_nodes(LocalRun& run, const NodesOptions& options, cons
   PlannedNodes& nodes = *made.value();
   ZmqContext context({});
   const Machine machine{clock, context};
-  WorkerThreads workers(nodes.setup(), machine, nodes.workers(), options.stop);
+  const auto run_one = [&](const RunSetup& setup, const Machine& on, const NodeSetup& node,
+                           const std::function<bool()>& stops) {
+    return run_worker_by(run.make_tracer(), setup, on, node, stops);
+  };
+  WorkerThreads workers(nodes.setup(), machine, nodes.workers(), options.stop, run_one);
   auto reason = run_controller(
       nodes.setup(), machine, nodes.controller(), run, stop, interrupt, report,
       [&] { return workers.failed(); }, counted);
@@ -40,6 +44,12 @@ Result<StopReason> run_on_nodes(LocalRun& run, const NodesOptions& options, cons
     counted->residency = std::move(nodes.residency());
   }
   return reason;
+}
+
+Result<StopReason> RunNodes::run(LocalRun& run, const StopRule& stop,
+                                 const std::atomic<bool>& interrupt,
+                                 const std::function<void(const Progress&)>& report) {
+  return run_on_nodes(run, options_, stop, interrupt, report);
 }
 
 }  // namespace luxodus

@@ -3,6 +3,7 @@
 // Thread rule: called from one thread, which becomes the controller's.
 #pragma once
 
+#include "actors/run/run_executor.hpp"
 #include "actors/supervise/node_threads.hpp"
 #include "actors/supervise/planned_nodes.hpp"
 
@@ -17,5 +18,16 @@ Result<StopReason> run_on_nodes(LocalRun& run, const NodesOptions& options, cons
                                 const std::atomic<bool>& interrupt,
                                 const std::function<void(const Progress&)>& report,
                                 NodesReport* counted = nullptr);
+
+/// Nodes that are made for each run, and end with it.
+class RunNodes final : public RunExecutor {
+ public:
+  explicit RunNodes(NodesOptions options) : options_(std::move(options)) {}
+  Result<StopReason> run(LocalRun& run, const StopRule& stop, const std::atomic<bool>& interrupt,
+                         const std::function<void(const Progress&)>& report) override;
+
+ private:
+  const NodesOptions options_;
+};
 
 }  // namespace luxodus

@@ -59,6 +59,7 @@ CoordinatorConfig coordinator_config(const RunSetup& run, const NodeSetup& node)
   config.start = node.start;
   config.lost = node.lost;
   config.names = run.names;
+  config.state = {node.net.identity.scene_hash};
   config.first_lease = first_lease_of(node.net.incarnation);
   return config;
 }

@@ -9,6 +9,7 @@
 #include "actors/objects/scene_objects.hpp"
 #include "actors/photon/photon_threads.hpp"
 #include "actors/photon/tracer.hpp"
+#include "actors/run/scene_state.hpp"
 #include "actors/showing/display_actor.hpp"
 #include "actors/source/run_coordinator.hpp"
 #include "actors/source/sub_coordinator.hpp"
@@ -37,6 +38,8 @@ struct RunSetup {
   std::optional<NodeId> display = {};  // where the run is shown; nothing: nowhere
   /// Over the graph: who coordinates whom. Null: the controller all, where it is another process.
   const CoordinationTree* tree = nullptr;
+  /// Makes states of the scene for workers that trace whatever is entered; null: they trace a run.
+  StateMaker* states = nullptr;
 
   /// Whether a worker coordinates others.
   bool coordinates(NodeId worker) const {

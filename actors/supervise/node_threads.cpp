@@ -24,8 +24,16 @@ uint64_t processor_ns() {
 
 Result<WorkerReport> run_worker(const RunSetup& run, const Machine& machine, const NodeSetup& node,
                                 const std::function<bool()>& stop) {
+  return run_worker_by(make_batch_tracer, run, machine, node, stop);
+}
+
+Result<WorkerReport> run_worker_by(const TracerMaker& make_tracer, const RunSetup& run,
+                                   const Machine& machine, const NodeSetup& node,
+                                   const std::function<bool()>& stop) {
   NodeTransport transport(machine, node);
-  Worker worker(run, node, transport.seams());
+  NodeSeams seams = transport.seams();
+  seams.make_tracer = make_tracer;
+  Worker worker(run, node, seams);
   if (auto joined = join_links(transport.sockets(), node); !joined) return joined.problem();
   worker.start(stop);
   const uint64_t before = processor_ns();

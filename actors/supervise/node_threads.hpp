@@ -33,6 +33,10 @@ struct NodesReport {
 /// Errors: as join_links and Worker::result.
 Result<WorkerReport> run_worker(const RunSetup& run, const Machine& machine, const NodeSetup& node,
                                 const std::function<bool()>& stop);
+/// As it, with photon-threads that trace by another loop than the program's own.
+Result<WorkerReport> run_worker_by(const TracerMaker& make_tracer, const RunSetup& run,
+                                   const Machine& machine, const NodeSetup& node,
+                                   const std::function<bool()>& stop);
 
 /// As run_worker.
 using RunWorker =

@@ -7,6 +7,9 @@ namespace luxodus {
 
 namespace {
 
+/// Somebody looks at what is traced: it leaves before a person would notice.
+constexpr Nanoseconds flush_states_every = milliseconds(20);
+
 TracerConfig tracer_config(const RunSetup& run, const NodeSetup& node, NodeTrace* trace) {
   TracerConfig config;
   config.self = node.net.self;
@@ -18,6 +21,7 @@ TracerConfig tracer_config(const RunSetup& run, const NodeSetup& node, NodeTrace
   config.lost = node.lost;
   config.rejoin = node.rejoin;
   config.trace = trace;
+  if (run.states != nullptr) config.flush_every = flush_states_every;
   return config;
 }
 
@@ -43,8 +47,9 @@ Worker::Worker(const RunSetup& run, const NodeSetup& node, const NodeSeams& seam
       shard_(own_shard()),
       tracer_(tracer_config(run, node, trace_), run.shards, shell_.scheduler(), shell_.network(),
               shell_.actors()),
-      photons_(coordinates() ? nullptr : own_photons(seams)),
-      coordinator_(coordinates() ? own_coordinator() : nullptr) {
+      photons_(own_photons(seams)),
+      coordinator_(own_coordinator()),
+      states_(own_states()) {
   if (node.display == nullptr) return;
   display_calls_ = seams.make_calls(shell_.scheduler());
   display_.emplace(display_config(node), *node.display, *display_calls_, shell_.scheduler(),
@@ -64,6 +69,7 @@ std::unique_ptr<TallyShard> Worker::own_shard() {
 }
 
 std::unique_ptr<PhotonThreads> Worker::own_photons(const NodeSeams& seams) {
+  if (coordinates() || run_.states != nullptr) return nullptr;
   const GeometryAccess access = objects_
                                     ? GeometryAccess::through(*run_.proxies, objects_->source())
                                     : GeometryAccess::resident(*run_.index);
@@ -72,13 +78,20 @@ std::unique_ptr<PhotonThreads> Worker::own_photons(const NodeSeams& seams) {
                                          seams.make_tracer);
 }
 
+std::unique_ptr<StateTracing> Worker::own_states() {
+  if (run_.states == nullptr) return nullptr;
+  return std::make_unique<StateTracing>(run_.scene, *run_.states, shell_.scheduler(), tracer_);
+}
+
 std::unique_ptr<SubCoordinator> Worker::own_coordinator() {
+  if (!coordinates()) return nullptr;
   return std::make_unique<SubCoordinator>(coordinator_config(run_, node_), run_.scene, tracer_,
                                           shell_.scheduler(), shell_.network(), shell_.actors());
 }
 
 LeasedWork& Worker::work() {
   if (coordinator_) return *coordinator_;
+  if (states_) return *states_;
   return *photons_;
 }
 
@@ -86,13 +99,14 @@ void Worker::show_to(Observation& seen) {
   metrics_.emplace(run_.names, node_.net.self, coordinates() ? "coordinator" : "worker", shell_);
   tracer_.add_metrics(metrics_->registry());
   if (photons_) photons_->add_metrics(metrics_->registry());
+  if (states_) states_->add_metrics(metrics_->registry());
   if (coordinator_) coordinator_->add_metrics(metrics_->registry());
   if (shard_) shard_->add_metrics(metrics_->registry());
   if (objects_) objects_->add_metrics(metrics_->registry());
   if (display_) display_->add_metrics(metrics_->registry());
-  if (photons_)
+  if (photons_ || states_)
     metrics_->add_rate({"particles_per_second", "", "Particles traced in a second.", ""},
-                       photons_->counters().particles);
+                       photons_ ? photons_->counters().particles : states_->counters().particles);
   else
     metrics_->add_rate({"particles_per_second", "", "Particles counted in a second.", ""},
                        coordinator_->counters().particles);
@@ -118,6 +132,7 @@ void Worker::start(std::function<bool()> stop) {
   shell_.supervisor().end_runs_by([this](const Verdict& verdict) { return end_run(verdict); });
   if (objects_) objects_->pin(node_.pins);
   if (photons_) photons_->start();
+  if (states_) states_->start();
   if (run_.observation != nullptr) show_to(*run_.observation);
   shell_.supervisor().rehearse(node_.faults);
   shell_.begin([this] { return may_leave(); });

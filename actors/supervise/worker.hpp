@@ -3,6 +3,7 @@
 // the turns of its photon-threads.
 #pragma once
 
+#include "actors/photon/state_tracing.hpp"
 #include "actors/photon/tracer.hpp"
 #include "actors/supervise/fetching_objects.hpp"
 #include "actors/supervise/node_metrics.hpp"
@@ -25,7 +26,7 @@ class Worker {
   NodeShell& shell() { return shell_; }
   const NodeShell& shell() const { return shell_; }
   const Tracer& tracer() const { return tracer_; }
-  /// Null where it coordinates.
+  /// Null where it coordinates, or traces states.
   const PhotonThreads* photons() const { return photons_.get(); }
   /// Null where it traces.
   const SubCoordinator* coordinator() const { return coordinator_.get(); }
@@ -44,6 +45,7 @@ class Worker {
   bool end_run(const Verdict& verdict);
   std::unique_ptr<TallyShard> own_shard();
   std::unique_ptr<PhotonThreads> own_photons(const NodeSeams& seams);
+  std::unique_ptr<StateTracing> own_states();
   std::unique_ptr<SubCoordinator> own_coordinator();
   LeasedWork& work();
   bool coordinates() const { return run_.coordinates(node_.net.self); }
@@ -58,6 +60,7 @@ class Worker {
   // What is done with its leases: one of these.
   std::unique_ptr<PhotonThreads> photons_;
   std::unique_ptr<SubCoordinator> coordinator_;
+  std::unique_ptr<StateTracing> states_;
   std::unique_ptr<BlockingCalls> display_calls_;
   std::optional<DisplayActor> display_;  // where the run is shown here
   std::optional<NodeMetrics> metrics_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 #include "actors/validate/statistics.hpp"
 #include "runtime/core/clock.hpp"
@@ -101,7 +102,11 @@ class Suite {
  public:
   Suite(const Cases& cases, const SuiteOptions& options, const std::atomic<bool>& interrupt,
         const ReportSuite& report)
-      : cases_(cases), options_(options), interrupt_(interrupt), report_(report) {}
+      : cases_(cases),
+        options_(options),
+        executor_(options.executor == nullptr ? threads_ : *options.executor),
+        interrupt_(interrupt),
+        report_(report) {}
 
   std::vector<CaseResult> run() {
     began_ = clock_.now();
@@ -123,6 +128,8 @@ class Suite {
 
   const Cases& cases_;
   const SuiteOptions& options_;
+  RunThreads threads_;
+  RunExecutor& executor_;
   const std::atomic<bool>& interrupt_;
   const ReportSuite& report_;
   const SystemClock clock_;
@@ -190,8 +197,10 @@ void Suite::trace(const Case& c, const PreparedCase& plan, double error, CaseRes
   for (int64_t n = plan.quick_particles / first_share;;) {
     StopRule stop;
     stop.particles = n;
-    run.local().run(stop, interrupt_,
-                    [&](const Progress&) { show(done_, name_, run.local().seconds()); });
+    const auto reason = executor_.run(run.local(), stop, interrupt_, [&](const Progress&) {
+      show(done_, name_, run.local().seconds());
+    });
+    if (!reason) throw std::runtime_error(reason.problem().text());
     result.particles = run.local().particles();
     result.batches = run.local().batches();
     result.seconds = run.local().seconds();

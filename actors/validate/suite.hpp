@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "actors/run/run_executor.hpp"
 #include "actors/validate/case.hpp"
 
 namespace luxodus::light {
@@ -25,6 +26,7 @@ inline constexpr double suite_error = 1e-4;
 struct SuiteOptions {
   uint64_t seed = 1;
   int threads = 1;
+  RunExecutor* executor = nullptr;  // who traces; null: the threads
   /// Relative standard error that every quantity is to reach; 0: as many particles as are quick.
   double error = 0;
   /// Of one case on its way to the error [s]; what it has not reached by then is told. Its quick
@@ -105,6 +107,7 @@ double figure_of_merit(const QuantityResult& finding, double seconds);
 
 /// Runs the cases one after another. A suite that is to reach an error first runs all of them
 /// quickly, to know how long it will take. What was done is returned when `interrupt` is set.
+/// Errors (exception): those of the executor.
 std::vector<CaseResult> run_suite(const Cases& cases, const SuiteOptions& options,
                                   const std::atomic<bool>& interrupt, const ReportSuite& report);
 

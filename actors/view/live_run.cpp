@@ -17,6 +17,8 @@ namespace luxodus {
 namespace {
 
 constexpr double tick_every_s = 0.25;
+/// For batches under way, of whoever wants a stop soon: longer than a node has work at hand.
+constexpr double patience_s = 0.1;
 /// Light of before ends when a group's own has one in so many of its batches: errors twice as
 /// large, of the right building.
 constexpr int64_t caught_up_at = 4;
@@ -112,7 +114,7 @@ void LiveRun::take_over(const LiveRun& before, const BinMap& bins) {
       if (!shares) own_->totals.restore(group, before.own_->totals.state(old));
       issued_[g] = before.issued_[was];
       again_[g] = before.again_[was];
-      for (LiveBatches& batches : again_[g]) batches.group = group;
+      for (BatchRange& batches : again_[g]) batches.group = group;
       told_[g] = before.told_[was];
     }
     lights_[g] = same_geometry_ ? before.lights_[was] : ShownLight::before;
@@ -152,7 +154,7 @@ int64_t LiveRun::wanted(size_t group, int64_t level) const {
 /// Batches that are traced, or are being traced.
 int64_t LiveRun::given(size_t group) const {
   int64_t out = issued_[group];
-  for (const LiveBatches& batches : again_[group]) out -= batches.count;
+  for (const BatchRange& batches : again_[group]) out -= batches.count;
   return out;
 }
 
@@ -173,14 +175,14 @@ int LiveRun::neediest(const std::vector<int64_t>& goal) const {
 }
 
 /// The next batches of a group: first what was given back.
-LiveBatches LiveRun::give(size_t group, int64_t most) {
+BatchRange LiveRun::give(size_t group, int64_t most) {
   if (again_[group].empty()) {
-    const LiveBatches out{static_cast<int>(group), stream_[group], issued_[group], most};
+    const BatchRange out{static_cast<int>(group), stream_[group], issued_[group], most};
     issued_[group] += most;
     return out;
   }
-  LiveBatches& left = again_[group].back();
-  const LiveBatches out{left.group, left.stream, left.first, std::min(left.count, most)};
+  BatchRange& left = again_[group].back();
+  const BatchRange out{left.group, left.stream, left.first, std::min(left.count, most)};
   left.first += out.count;
   left.count -= out.count;
   if (left.count == 0) again_[group].pop_back();
@@ -188,21 +190,26 @@ LiveBatches LiveRun::give(size_t group, int64_t most) {
 }
 
 /// One call of LiveRun::trace.
-class LiveRun::Work final : public LiveWork {
+class LiveRun::LevelWork final : public Work {
  public:
-  Work(LiveRun& run, std::vector<int64_t> goal, const std::function<bool()>& stop,
-       const std::function<void()>& tick)
+  LevelWork(LiveRun& run, std::vector<int64_t> goal, const std::function<Stop()>& stop,
+            const std::function<void()>& tick)
       : run_(run), goal_(std::move(goal)), stop_(stop), tick_(tick), start_(SteadyClock::now()) {}
 
   const CompiledScene& scene() const override { return *run_.scene_; }
   GeometryAccess access() const override { return GeometryAccess::resident(run_.geometry_->index); }
   uint64_t seed() const override { return run_.seed_; }
-  bool stopped() const override { return stop_(); }
+  bool stopped() const override {
+    const Stop stop = stop_();
+    const double now = since(start_);
+    if (stop == Stop::soon && !waits_since_) waits_since_ = now;
+    return stop == Stop::now || (waits_since_ && now - *waits_since_ > patience_s);
+  }
   Totals& totals() override { return run_.own_->totals; }
 
-  std::optional<LiveBatches> next(int64_t most) override {
+  std::optional<BatchRange> next(int64_t most) override {
     const std::lock_guard lock(mutex_);
-    if (stop_()) return std::nullopt;
+    if (stop_() != Stop::none) return std::nullopt;
     if (const double now = since(start_); now - ticked_ >= tick_every_s) {
       ticked_ = now;
       tick_();
@@ -212,13 +219,7 @@ class LiveRun::Work final : public LiveWork {
     const auto g = static_cast<size_t>(group);
     return run_.give(g, std::min(most, goal_[g] - run_.given(g)));
   }
-  int64_t left() override {
-    const std::lock_guard lock(mutex_);
-    int64_t out = 0;
-    for (size_t g = 0; g < goal_.size(); ++g) out += std::max<int64_t>(0, goal_[g] - run_.given(g));
-    return out;
-  }
-  void give_back(const LiveBatches& batches) override {
+  void give_back(const BatchRange& batches) override {
     const std::lock_guard lock(mutex_);
     run_.again_[static_cast<size_t>(batches.group)].push_back(batches);
   }
@@ -226,22 +227,23 @@ class LiveRun::Work final : public LiveWork {
  private:
   LiveRun& run_;
   const std::vector<int64_t> goal_;
-  const std::function<bool()>& stop_;
+  const std::function<Stop()>& stop_;
   const std::function<void()>& tick_;
   const SteadyClock::time_point start_;
   std::mutex mutex_;
   double ticked_ = 0;
+  mutable std::optional<double> waits_since_;  // of whoever asks stopped()
 };
 
-bool LiveRun::trace(int64_t level, Scope scope, LiveTracers& tracers,
-                    const std::function<bool()>& stop, const std::function<void()>& tick) {
+bool LiveRun::trace(int64_t level, Scope scope, Executor& executor,
+                    const std::function<Stop()>& stop, const std::function<void()>& tick) {
   std::vector<int64_t> goal(issued_.size(), 0);
   for (size_t g = 0; g < goal.size(); ++g)
     if (is_of(scope, g)) goal[g] = wanted(g, level);
   if (neediest(goal) < 0) return true;
   const SteadyClock::time_point start = SteadyClock::now();
-  Work work(*this, goal, stop, tick);
-  tracers.trace(work);
+  LevelWork work(*this, goal, stop, tick);
+  executor.trace(work);
   seconds_ += since(start);
   return neediest(goal) < 0;
 }

@@ -8,9 +8,9 @@
 #include <memory>
 #include <vector>
 
+#include "actors/run/executor.hpp"
 #include "actors/run/parallel_for.hpp"
 #include "actors/view/bin_map.hpp"
-#include "actors/view/live_work.hpp"
 #include "scenes/transport/readout.hpp"
 #include "scenes/transport/trace.hpp"
 
@@ -44,8 +44,10 @@ class LiveRun {
   enum class Scope { fresh, own, all };
   /// Has batches traced until groups have those that a level asks for: each its share of `level`
   /// times the groups. True when they have them; false when `stop` says so, which any thread may
-  /// ask. `tick` is called about four times a second, from one thread at a time.
-  bool trace(int64_t level, Scope scope, LiveTracers& tracers, const std::function<bool()>& stop,
+  /// ask: soon, after what is being traced, or now. `tick` is called about four times a second,
+  /// from one thread at a time.
+  enum class Stop { none, soon, now };
+  bool trace(int64_t level, Scope scope, Executor& executor, const std::function<Stop()>& stop,
              const std::function<void()>& tick);
 
   /// Groups of a scope that have batches which nobody has been told of, and own light to show:
@@ -89,7 +91,7 @@ class LiveRun {
     std::shared_ptr<const CompiledScene> scene;  // which the totals refer to
     Totals totals;
   };
-  class Work;
+  class LevelWork;
   void take_over(const LiveRun& before, const BinMap& bins);
   /// Groups that go on keep their random numbers under another number of their own, and no two
   /// have the same.
@@ -98,7 +100,7 @@ class LiveRun {
   int64_t wanted(size_t group, int64_t level) const;
   int64_t given(size_t group) const;
   int neediest(const std::vector<int64_t>& goal) const;
-  LiveBatches give(size_t group, int64_t most);
+  BatchRange give(size_t group, int64_t most);
 
   std::shared_ptr<const CompiledScene> scene_;
   const uint64_t seed_;
@@ -110,11 +112,10 @@ class LiveRun {
   std::shared_ptr<TracedTotals> own_;
   std::vector<std::shared_ptr<const TracedTotals>> before_;  // of groups that show light of before
   std::vector<ShownLight> lights_;
-  std::vector<int64_t> issued_, told_;  // batches of each group
-  std::vector<std::vector<LiveBatches>>
-      again_;                  // of those issued, by group: nobody has traced them
-  std::vector<double> share_;  // of all batches
-  std::vector<int> stream_;    // what stands for a group in the ids of its particles
+  std::vector<int64_t> issued_, told_;          // batches of each group
+  std::vector<std::vector<BatchRange>> again_;  // of those issued, by group: nobody has traced them
+  std::vector<double> share_;                   // of all batches
+  std::vector<int> stream_;  // what stands for a group in the ids of its particles
   double seconds_ = 0;
 };
 

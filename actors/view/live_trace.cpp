@@ -4,6 +4,8 @@
 #include <limits>
 #include <utility>
 
+#include "actors/view/edits_text.hpp"
+
 namespace luxodus {
 
 namespace {
@@ -48,7 +50,8 @@ LiveTrace::LiveTrace(std::shared_ptr<const SceneDescription> scene, const LiveOp
                      SceneEdits first, LiveAudience& audience)
     : scene_(std::move(scene)),
       options_(options),
-      tracers_(options.tracers ? options.tracers : std::make_shared<LiveThreads>(options.threads)),
+      executor_(options.executor ? options.executor
+                                 : std::make_shared<ThreadExecutor>(options.threads)),
       audience_(audience),
       next_(std::move(first)),
       thread_([this] { work(); }) {}
@@ -115,8 +118,13 @@ void LiveTrace::answer_all() {
       audience_.answers(answer_to(question, *run_, geometry_.patches[question.triangle]));
 }
 
+/// As nodes that trace for this make it (live_states.hpp).
+StateObject LiveTrace::state_of(const SceneEdits& edits) const {
+  return {options_.seed, edits_text(edits)};
+}
+
 void LiveTrace::begin(const SceneEdits& edits) {
-  tracers_->foresee(edits);
+  executor_->foresee(state_of(edits));
   auto compiled = compile_live(*scene_, edits);
   if (!compiled) return audience_.refuses(number_, compiled.problem().text());
   const bool same_air = run_ && traced_.scenario == edits.scenario && traced_.smoke == edits.smoke;
@@ -134,7 +142,7 @@ void LiveTrace::begin(const SceneEdits& edits) {
   if (!same_air || !run->same_geometry())
     smoke_ = smoke_frame(run->scene(), run->index(), generation);
   run_ = std::move(run);
-  tracers_->enter(edits);
+  executor_->enter(state_of(edits));
   traced_ = edits;
   generation_ = generation;
   refined_ = false;
@@ -149,11 +157,13 @@ void LiveTrace::tell(bool done) {
 }
 
 bool LiveTrace::reach(int64_t level, LiveRun::Scope scope) {
+  const auto stop = [this] {
+    if (interrupt_) return LiveRun::Stop::now;
+    return asked_ ? LiveRun::Stop::soon : LiveRun::Stop::none;
+  };
   bool reached = false;
   while (!reached && !interrupt_) {
-    reached = run_->trace(
-        level, scope, *tracers_, [this] { return interrupt_.load() || asked_.load(); },
-        [this] { tell(false); });
+    reached = run_->trace(level, scope, *executor_, stop, [this] { tell(false); });
     if (asked_) answer_all();
   }
   const std::vector<int> groups = run_->news(scope);

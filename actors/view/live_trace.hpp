@@ -67,7 +67,7 @@ struct LiveOptions {
   int threads = 1;
   int64_t particles = 100'000'000;            // of a generation, at most
   double relative_error = 0.002;              // at which it ends
-  std::shared_ptr<LiveTracers> tracers = {};  // null: `threads` of this process
+  std::shared_ptr<Executor> executor = {};  // null: `threads` of this process
 };
 
 class LiveTrace {
@@ -86,6 +86,7 @@ class LiveTrace {
  private:
   void work();
   void begin(const SceneEdits& edits);
+  StateObject state_of(const SceneEdits& edits) const;
   /// Traces until it is good enough or something comes.
   void refine();
   /// Traces groups to a level and tells of it; false where edits or the end have come.
@@ -95,7 +96,7 @@ class LiveTrace {
 
   const std::shared_ptr<const SceneDescription> scene_;
   const LiveOptions options_;
-  const std::shared_ptr<LiveTracers> tracers_;
+  const std::shared_ptr<Executor> executor_;
   LiveAudience& audience_;
   std::mutex mutex_;
   std::condition_variable changed_;

@@ -17,9 +17,9 @@
 
 namespace luxodus {
 
-/// A question that did not leave its node, for lack of room or of a way, is put again so soon: about
-/// as soon as links stand. Who waited for its next look instead might find the same others before
-/// it in the outbox, look after look.
+/// A question that did not leave its node, for lack of room or of a way, is put again so soon:
+/// about as soon as links stand. Who waited for its next look instead might find the same others
+/// before it in the outbox, look after look.
 constexpr Nanoseconds retry_after = milliseconds(20);
 
 template <class Derived, class Control, class Data>

@@ -134,3 +134,19 @@ TEST_CASE("a limit that was read nowhere is told, and with --strict it is open",
   CHECK(has(said.out, " 1 not verified"));
   CHECK(assess(folder, scene, "--codes-alone --strict --rules en1838-2024").code == 1);
 }
+
+TEST_CASE("nodes give an assessment the light of threads", "[program][assess][nodes]") {
+  const TemporaryFolder folder;
+  const std::string scene =
+      corridor + smoky + emergency +
+      "[assessment]\nirritant_smoke = true\nspacing_m = 4\nrules = [\"en1838-2024\"]\n";
+  const auto assessed = [&](const std::string& options) {
+    const Outcome outcome = assess(folder, scene, "--rounds 1 --overwrite " + options);
+    INFO(outcome.err);
+    CHECK(outcome.code == 0);
+    return slurp(folder / "out" / "sights.csv");
+  };
+  const std::string by_threads = assessed("--threads 1");
+  CHECK(has(by_threads, "exit"));
+  CHECK(assessed("--nodes 3") == by_threads);
+}

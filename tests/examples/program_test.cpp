@@ -422,3 +422,23 @@ TEST_CASE("a run shows pictures of itself while it goes on, and its result does 
   CHECK(flux(folder, "shown") == flux(folder, "plain"));
   CHECK(run_luxodus(folder, common + out(folder, "never") + " --preview soon").code == 2);
 }
+
+TEST_CASE("nodes give validation the estimates of threads, weighted sums included",
+          "[program][nodes]") {
+  const TemporaryFolder folder;
+  const auto estimates = [&](const std::string& options) {
+    const Outcome outcome =
+        run_luxodus(folder, "validate --only \"area lamp L1_600x600_h2.5, traced\" --out " +
+                                (folder / "v").string() + " " + options);
+    INFO(outcome.err << outcome.out);
+    CHECK(outcome.code == 0);
+    std::vector<std::string> found;
+    const auto page = nlohmann::json::parse(slurp(folder / "v" / "validate.json"));
+    for (const auto& quantity : page["cases"][0]["quantities"])
+      found.push_back(quantity["result"].dump() + quantity["standard_error"].dump());
+    return found;
+  };
+  const std::vector<std::string> by_threads = estimates("--threads 1");
+  CHECK_FALSE(by_threads.empty());
+  CHECK(estimates("--nodes 2") == by_threads);
+}

@@ -156,8 +156,8 @@ TEST_CASE("messages go by the kinds that the protocol names", "[proto][codec]") 
   CHECK(kind_of(ProfileCounted{}) == Kind::commit);
   CHECK(kind_of(FlushSlice{}) == Kind::commit);
   CHECK(kind_of(TotalsTold{}) == Kind::commit);
-  CHECK(kind_of(TraceBatches{}) == Kind::control);
-  CHECK(kind_of(BatchesTraced{}) == Kind::commit);
+  CHECK(kind_of(AskState{}) == Kind::control);
+  CHECK(kind_of(StateTold{}) == Kind::commit);
   CHECK(kind_of(ShowTotals{}) == Kind::control);
   CHECK(kind_of(TotalsShown{}) == Kind::commit);
   CHECK(kind_of(FluxSaved{}) == Kind::control);

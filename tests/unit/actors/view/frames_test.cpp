@@ -57,9 +57,9 @@ TEST_CASE("a flame's own light is in the voxels that it is in", "[view]") {
     }
   REQUIRE(group >= 0);
   REQUIRE(lumens > 0);
-  LiveThreads threads(1);
+  ThreadExecutor threads(1);
   CHECK(run.trace(
-      2, LiveRun::Scope::all, threads, [] { return false; }, [] {}));
+      2, LiveRun::Scope::all, threads, [] { return LiveRun::Stop::none; }, [] {}));
   run.tell(run.news());
   const auto geometry = geometry_of(scene, 1);
   REQUIRE(geometry.ok());

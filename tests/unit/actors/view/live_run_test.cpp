@@ -25,9 +25,9 @@ body_material = "grey50"
 )";
 
 void reach(LiveRun& run, int64_t level, LiveRun::Scope scope = LiveRun::Scope::all) {
-  LiveThreads threads(2);
+  ThreadExecutor threads(2);
   CHECK(run.trace(
-      level, scope, threads, [] { return false; }, [] {}));
+      level, scope, threads, [] { return LiveRun::Stop::none; }, [] {}));
 }
 
 std::vector<int> told(LiveRun& run) {
@@ -297,9 +297,10 @@ TEST_CASE("tracing stops between batches when it is told to, and goes on", "[vie
   const LiveRoom room;
   LiveRun run(room.compiled({}), 1, 1, nullptr, false);
   int asked = 0;
-  LiveThreads one(1);
+  ThreadExecutor one(1);
   CHECK_FALSE(run.trace(
-      8, LiveRun::Scope::all, one, [&] { return ++asked > 3; }, [] {}));
+      8, LiveRun::Scope::all, one,
+      [&] { return ++asked > 3 ? LiveRun::Stop::now : LiveRun::Stop::none; }, [] {}));
   CHECK(run.particles() == 3 * run.scene().batch_particles);
   reach(run, 8);
   CHECK(run.particles() >= 3 * 8 * run.scene().batch_particles - 3 * run.scene().batch_particles);

@@ -1,13 +1,13 @@
 // A live view that nodes trace for: their light is that of threads, to the bit, whoever comes and
 // goes. Real nodes of this process, over inproc.
-#include "actors/view/live_cluster.hpp"
-
 #include <atomic>
 #include <catch2/catch.hpp>
 #include <thread>
 
-#include "actors/view/live_nodes.hpp"
+#include "actors/supervise/process_executor.hpp"
+#include "actors/view/edits_text.hpp"
 #include "actors/view/live_run.hpp"
+#include "actors/view/live_states.hpp"
 #include "tests/unit/actors/view/live_room.hpp"
 
 using namespace luxodus;
@@ -17,13 +17,25 @@ namespace {
 
 constexpr int64_t level_batches = 24;
 
-const auto never_stop = [] { return false; };
+const auto never_stop = [] { return LiveRun::Stop::none; };
 const auto no_tick = [] {};
 
-std::unique_ptr<LiveNodes> nodes_for(const LiveRoom& room, NodesOptions options = {}) {
-  auto nodes = LiveNodes::start(room.scene(), options);
-  REQUIRE(nodes.ok());
-  return std::move(nodes).value();
+/// Nodes of this process, and what makes states for them.
+struct LiveNodes {
+  explicit LiveNodes(const LiveRoom& room, const NodesOptions& options = {})
+      : states(room.scene()) {
+    auto started = ProcessExecutor::start(room.compiled({}), states, options);
+    REQUIRE(started.ok());
+    nodes = std::move(started).value();
+  }
+  NodeExecutor& executor() { return *nodes->executor(); }
+
+  LiveStates states;
+  std::unique_ptr<ProcessExecutor> nodes;
+};
+
+StateObject state_of(const SceneEdits& edits) {
+  return {1, edits_text(edits)};
 }
 
 void same_light(const LiveRun& a, const LiveRun& b) {
@@ -43,7 +55,7 @@ void same_light(const LiveRun& a, const LiveRun& b) {
 /// The light of threads.
 LiveRun traced_here(const LiveRoom& room, const SceneEdits& edits) {
   LiveRun run(room.compiled(edits), 1, 1, nullptr, false);
-  LiveThreads threads(1);
+  ThreadExecutor threads(1);
   CHECK(run.trace(level_batches, LiveRun::Scope::all, threads, never_stop, no_tick));
   return run;
 }
@@ -52,44 +64,44 @@ LiveRun traced_here(const LiveRoom& room, const SceneEdits& edits) {
 
 TEST_CASE("nodes give a live view the light of threads, state after state", "[view][nodes]") {
   const LiveRoom room;
-  const auto nodes = nodes_for(room);
-  LiveCluster& cluster = *nodes->tracers();
-  cluster.enter({});
+  LiveNodes nodes(room);
+  NodeExecutor& executor = nodes.executor();
+  executor.enter(state_of({}));
   LiveRun first(room.compiled({}), 1, 1, nullptr, false);
-  CHECK(first.trace(level_batches, LiveRun::Scope::all, cluster, never_stop, no_tick));
+  CHECK(first.trace(level_batches, LiveRun::Scope::all, executor, never_stop, no_tick));
   same_light(first, traced_here(room, {}));
-  CHECK(cluster.counters().workers == 2);
+  CHECK(executor.counters().workers == 2);
   first.tell(first.news());
   // A lamp moves: its group alone is traced by the nodes, in the other building.
   const int64_t particles = first.particles();
-  cluster.foresee(moved_lamp());
-  cluster.enter(moved_lamp());
+  executor.foresee(state_of(moved_lamp()));
+  executor.enter(state_of(moved_lamp()));
   LiveRun second(room.compiled(moved_lamp()), 1, 1, &first, true);
   CHECK(second.light(right) == ShownLight::own);
-  CHECK(second.trace(level_batches, LiveRun::Scope::all, cluster, never_stop, no_tick));
+  CHECK(second.trace(level_batches, LiveRun::Scope::all, executor, never_stop, no_tick));
   same_light(second, traced_here(room, moved_lamp()));
   CHECK(second.particles() == particles);
 }
 
 TEST_CASE("nodes trace what a viewer has added, by its own random numbers", "[view][nodes]") {
   const LiveRoom room;
-  const auto nodes = nodes_for(room);
-  LiveCluster& cluster = *nodes->tracers();
+  LiveNodes nodes(room);
+  NodeExecutor& executor = nodes.executor();
   LiveRun first(room.compiled({}), 1, 1, nullptr, false);
   LiveRun beside(room.compiled({}), 1, 1, nullptr, false);
-  LiveThreads threads(1);
-  cluster.enter({});
-  CHECK(first.trace(level_batches, LiveRun::Scope::all, cluster, never_stop, no_tick));
+  ThreadExecutor threads(1);
+  executor.enter(state_of({}));
+  CHECK(first.trace(level_batches, LiveRun::Scope::all, executor, never_stop, no_tick));
   CHECK(beside.trace(level_batches, LiveRun::Scope::all, threads, never_stop, no_tick));
   first.tell(first.news());
   beside.tell(beside.news());
   SceneEdits edits;
   edits.added = {{false, "left", "left copy"}};
   edits.luminaires["left copy"] = {{1, 1, 1}, std::nullopt};
-  cluster.enter(edits);
+  executor.enter(state_of(edits));
   LiveRun second(room.compiled(edits), 1, 1, &first, true);
   LiveRun second_beside(room.compiled(edits), 1, 1, &beside, true);
-  CHECK(second.trace(level_batches, LiveRun::Scope::all, cluster, never_stop, no_tick));
+  CHECK(second.trace(level_batches, LiveRun::Scope::all, executor, never_stop, no_tick));
   CHECK(second_beside.trace(level_batches, LiveRun::Scope::all, threads, never_stop, no_tick));
   REQUIRE(second.lights().size() == 4);
   same_light(second, second_beside);
@@ -97,25 +109,25 @@ TEST_CASE("nodes trace what a viewer has added, by its own random numbers", "[vi
 
 TEST_CASE("a building that was foreseen and never entered changes nothing", "[view][nodes]") {
   const LiveRoom room;
-  const auto nodes = nodes_for(room);
-  LiveCluster& cluster = *nodes->tracers();
-  cluster.enter({});
+  LiveNodes nodes(room);
+  NodeExecutor& executor = nodes.executor();
+  executor.enter(state_of({}));
   LiveRun run(room.compiled({}), 1, 1, nullptr, false);
-  CHECK(run.trace(4, LiveRun::Scope::all, cluster, never_stop, no_tick));
+  CHECK(run.trace(4, LiveRun::Scope::all, executor, never_stop, no_tick));
   SceneEdits refused;
   refused.scenario = "there is none";
-  cluster.foresee(refused);
-  CHECK(run.trace(8, LiveRun::Scope::all, cluster, never_stop, no_tick));
-  cluster.foresee(moved_lamp());
-  CHECK(run.trace(level_batches, LiveRun::Scope::all, cluster, never_stop, no_tick));
+  executor.foresee(state_of(refused));
+  CHECK(run.trace(8, LiveRun::Scope::all, executor, never_stop, no_tick));
+  executor.foresee(state_of(moved_lamp()));
+  CHECK(run.trace(level_batches, LiveRun::Scope::all, executor, never_stop, no_tick));
   same_light(run, traced_here(room, {}));
 }
 
 TEST_CASE("what nodes have not given when tracing stops is traced later", "[view][nodes]") {
   const LiveRoom room;
-  const auto nodes = nodes_for(room);
-  LiveCluster& cluster = *nodes->tracers();
-  cluster.enter({});
+  LiveNodes nodes(room);
+  NodeExecutor& executor = nodes.executor();
+  executor.enter(state_of({}));
   LiveRun run(room.compiled({}), 1, 1, nullptr, false);
   int stops = 0;
   bool done = false;
@@ -124,7 +136,8 @@ TEST_CASE("what nodes have not given when tracing stops is traced later", "[view
   for (int patience = 6; !done; patience *= 2) {
     std::atomic<int> asked = 0;
     done = run.trace(
-        level_batches, LiveRun::Scope::all, cluster, [&] { return ++asked > patience; }, no_tick);
+        level_batches, LiveRun::Scope::all, executor,
+        [&] { return ++asked > patience ? LiveRun::Stop::now : LiveRun::Stop::none; }, no_tick);
     stops += done ? 0 : 1;
   }
   CHECK(stops > 0);
@@ -143,13 +156,13 @@ TEST_CASE("a live view goes on when one of its nodes leaves", "[view][nodes][fai
     leaver.compare_exchange_strong(nobody, std::this_thread::get_id());
     return leaver.load() == std::this_thread::get_id();
   };
-  const auto nodes = nodes_for(room, options);
-  LiveCluster& cluster = *nodes->tracers();
-  cluster.enter({});
+  LiveNodes nodes(room, options);
+  NodeExecutor& executor = nodes.executor();
+  executor.enter(state_of({}));
   LiveRun run(room.compiled({}), 1, 1, nullptr, false);
-  CHECK(run.trace(4, LiveRun::Scope::all, cluster, never_stop, no_tick));
+  CHECK(run.trace(4, LiveRun::Scope::all, executor, never_stop, no_tick));
   one_leaves = true;
-  CHECK(run.trace(level_batches, LiveRun::Scope::all, cluster, never_stop, no_tick));
+  CHECK(run.trace(level_batches, LiveRun::Scope::all, executor, never_stop, no_tick));
   same_light(run, traced_here(room, {}));
 }
 
@@ -157,13 +170,14 @@ TEST_CASE("a live view without nodes waits until it is told to stop", "[view][no
   const LiveRoom room;
   NodesOptions options;
   options.stop = [] { return true; };  // all workers leave at once
-  const auto nodes = nodes_for(room, options);
-  LiveCluster& cluster = *nodes->tracers();
-  cluster.enter({});
+  LiveNodes nodes(room, options);
+  NodeExecutor& executor = nodes.executor();
+  executor.enter(state_of({}));
   LiveRun run(room.compiled({}), 1, 1, nullptr, false);
   std::atomic<int> asked = 0;
   constexpr int64_t endless = int64_t{1} << 30;
   CHECK_FALSE(run.trace(
-      endless, LiveRun::Scope::all, cluster, [&] { return ++asked > 300; }, no_tick));
-  CHECK(cluster.counters().workers == 0);
+      endless, LiveRun::Scope::all, executor,
+      [&] { return ++asked > 300 ? LiveRun::Stop::now : LiveRun::Stop::none; }, no_tick));
+  CHECK(executor.counters().workers == 0);
 }

@@ -1,19 +1,13 @@
-#include "actors/view/live_work.hpp"
+#include "actors/run/executor.hpp"
 
 #include <thread>
 #include <vector>
 
 #include "runtime/core/denormals.hpp"
-#include "scenes/transport/history.hpp"
 
 namespace luxodus {
 
-uint64_t first_particle_of(const CompiledScene& scene, int stream, int64_t batch) {
-  return (static_cast<uint64_t>(stream) << limits::group_id_shift) +
-         static_cast<uint64_t>(batch * scene.batch_particles);
-}
-
-void LiveThreads::trace(LiveWork& work) {
+void ThreadExecutor::trace(Work& work) {
   const auto one = [&] {
     flush_denormals();
     const CompiledScene& scene = work.scene();

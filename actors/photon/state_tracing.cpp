@@ -1,0 +1,171 @@
+#include "actors/photon/state_tracing.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "actors/run/batch_range.hpp"
+#include "runtime/core/check.hpp"
+#include "scenes/transport/readout.hpp"
+
+namespace luxodus {
+
+namespace {
+
+/// Particles of one turn: some 0.2 ms.
+constexpr int64_t portion_particles = 128;
+/// Leases at hand take about so long: short against what a person notices, long against the way to
+/// the coordinator and back.
+constexpr Nanoseconds leases_take = milliseconds(40);
+constexpr size_t min_leases = 4, max_leases = 256;
+
+}  // namespace
+
+StateTracing::StateTracing(const CompiledScene& first, StateMaker& maker, Scheduler& scheduler,
+                           LeasePort& port)
+    : maker_(maker), scheduler_(scheduler), port_(port) {
+  make_totals(first);
+}
+
+void StateTracing::start() {
+  LUX_CHECK(scheduler_.fibers().start("photon", [this] { trace_until_the_end(); }),
+            "the plan counts a fiber for it");
+}
+
+void StateTracing::add_metrics(Metrics& metrics) const {
+  const Counters& c = counters_;
+  metrics.add_counter({"particles", "", "Particles traced.", ""}, c.particles);
+  metrics.add_counter({"batches", "", "Batches merged here.", ""}, c.batches);
+  metrics.add_counter({"states", "", "States of the scene entered.", ""}, c.states);
+}
+
+// ---- states -------------------------------------------------------------------------------------
+
+Result<void> StateTracing::learn(ObjectId state, std::span<const std::byte> bytes) try {
+  const auto object = StateObject::parse(bytes);
+  if (!object) return object.problem();
+  auto made = maker_.make(object->text);
+  if (!made) return made.problem();
+  learnt_ = Known{state, object->seed, std::move(made).value()};
+  return {};
+} catch (const std::exception& e) {
+  return problem(e.what());
+}
+
+void StateTracing::leave_state() {
+  drop_all();
+  tracing_.reset();
+}
+
+void StateTracing::enter(ObjectId) {
+  ++counters_.states;
+  tracing_ = learnt_;
+  const CompiledScene& scene = *tracing_->state->scene;
+  tracer_ =
+      make_batch_tracer(scene, GeometryAccess::resident(tracing_->state->index), tracing_->seed);
+  make_totals(scene);
+  batch_takes_ = 0;
+}
+
+void StateTracing::make_totals(const CompiledScene& scene) {
+  for (std::unique_ptr<Totals>& totals : totals_)
+    totals = std::make_unique<Totals>(scene.layout, static_cast<int>(scene.groups.size()),
+                                      photopic_weights(scene));
+}
+
+// ---- leases -------------------------------------------------------------------------------------
+
+void StateTracing::drop(std::span<const uint64_t> leases) {
+  const auto named = [&](const Waiting& waiting) {
+    return std::find(leases.begin(), leases.end(), waiting.lease) != leases.end();
+  };
+  std::erase_if(leases_, named);
+  if (open_ && named(*open_)) open_.reset();
+}
+
+void StateTracing::drop_all() {
+  leases_.clear();
+  open_.reset();
+}
+
+void StateTracing::give_back_all() {
+  std::vector<uint64_t> leases;
+  for (const Waiting& waiting : leases_)
+    if (leases.size() < limits::leases) leases.push_back(waiting.lease);
+  if (!leases.empty()) port_.give_back(leases);
+  drop_all();
+}
+
+/// Nothing is asked for while batches wait for their state.
+void StateTracing::look_again() {
+  if (at_hand() == 0 || tracing_) ask_for_more();
+  scheduler_.fibers().wake_all(work_);
+}
+
+void StateTracing::ask_for_more() {
+  size_t wish = min_leases;
+  if (batch_takes_ > 0)
+    wish = std::clamp(static_cast<size_t>(leases_take / batch_takes_), min_leases, max_leases);
+  if (at_hand() <= wish / 2) port_.want_leases(wish - at_hand());
+}
+
+Totals& StateTracing::give_totals() {
+  merging_ = 1 - merging_;
+  return *totals_[1 - merging_];
+}
+
+void StateTracing::end(const std::string&) {
+  ending_ = true;
+  scheduler_.fibers().wake_all(work_);
+}
+
+// ---- tracing ------------------------------------------------------------------------------------
+
+/// What leaves it is a failure of the tracer.
+void StateTracing::trace_until_the_end() try {
+  Fibers& fibers = scheduler_.fibers();
+  ask_for_more();  // which says that this node is here
+  while (!ending_) {
+    const Wake how = trace_portion() ? fibers.yield() : fibers.wait(work_, "work");
+    if (how == Wake::cancelled) return;
+  }
+} catch (...) {
+  port_.thread_failed(std::current_exception());
+}
+
+/// False: there is nothing to trace.
+bool StateTracing::trace_portion() {
+  if (!open_ && !open_next()) return false;
+  const CompiledScene& scene = *tracing_->state->scene;
+  const BatchRange batch = batch_of(open_->batch);
+  const int64_t count = std::min(portion_particles, scene.batch_particles - traced_);
+  const uint64_t first = first_particle_of(scene, batch.stream, batch.first);
+  tracer_->trace(batch.group, first + static_cast<uint64_t>(traced_), count, scores_);
+  counters_.particles += static_cast<uint64_t>(count);
+  traced_ += count;
+  if (traced_ == scene.batch_particles) close();
+  return true;
+}
+
+bool StateTracing::open_next() {
+  if (!tracing_ || leases_.empty()) return false;
+  open_ = leases_.front();
+  leases_.pop_front();
+  if (static_cast<size_t>(batch_of(open_->batch).group) >= tracing_->state->scene->groups.size())
+    throw std::runtime_error("a batch was lent of a source group that is not there");
+  traced_ = 0;
+  opened_ = scheduler_.clock().now();
+  scores_.reset(tracing_->state->scene->layout);
+  ask_for_more();
+  return true;
+}
+
+void StateTracing::close() {
+  const uint64_t lease = open_->lease;
+  totals_[merging_]->merge(scores_, batch_of(open_->batch).group);
+  open_.reset();
+  ++counters_.batches;
+  batch_takes_ = std::max<Nanoseconds>(scheduler_.clock().now() - opened_, 1);
+  port_.leases_done({&lease, 1});
+}
+
+}  // namespace luxodus

@@ -1,0 +1,92 @@
+// What a node traces for a view of a scene that changes: batches of whatever state is entered, of
+// which it holds the whole. One photon-thread, a portion a turn; no object is ever waited for. How
+// many leases are at hand follows from how long a batch takes. Entering a state takes memory.
+// Thread rule: the node's thread.
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "actors/run/leased_work.hpp"
+#include "actors/run/scene_state.hpp"
+#include "runtime/actor/scheduler.hpp"
+#include "runtime/observe/metrics.hpp"
+
+namespace luxodus {
+
+class StateTracing final : public LeasedWork {
+ public:
+  /// Until a state is entered, totals are of `first`. Requires: all that is referred to outlives
+  /// it.
+  StateTracing(const CompiledScene& first, StateMaker& maker, Scheduler& scheduler,
+               LeasePort& port);
+
+  /// Starts its fiber.
+  void start();
+
+  bool is_in(ObjectId state) const override { return tracing_ && tracing_->id == state; }
+  bool knows(ObjectId state) const override {
+    return is_in(state) || (learnt_ && learnt_->id == state);
+  }
+  Result<void> learn(ObjectId state, std::span<const std::byte> bytes) override;
+  void leave_state() override;
+  void enter(ObjectId state) override;
+
+  void add(uint64_t lease, int64_t batch) override { leases_.push_back({lease, batch}); }
+  void drop(std::span<const uint64_t> leases) override;
+  void drop_all() override;
+  void give_back_all() override;
+  void look_again() override;
+  Totals& give_totals() override;
+  const Totals& totals() const override { return *totals_[0]; }
+  size_t at_hand() const override { return leases_.size() + (open_ ? 1 : 0); }
+  void end(const std::string& why) override;
+
+  struct Counters {
+    uint64_t particles = 0;
+    uint64_t batches = 0;
+    uint64_t states = 0;  // entered
+  };
+  const Counters& counters() const { return counters_; }
+  void add_metrics(Metrics& metrics) const;
+
+ private:
+  struct Waiting {
+    uint64_t lease;
+    int64_t batch;
+  };
+  struct Known {
+    ObjectId id;
+    uint64_t seed = 0;
+    std::shared_ptr<const TracedState> state;
+  };
+
+  void trace_until_the_end();
+  bool trace_portion();
+  bool open_next();
+  void close();
+  void ask_for_more();
+  void make_totals(const CompiledScene& scene);
+
+  StateMaker& maker_;
+  Scheduler& scheduler_;
+  LeasePort& port_;
+  std::optional<Known> learnt_;   // the last
+  std::optional<Known> tracing_;  // the one that is entered
+  std::unique_ptr<BatchTracer> tracer_;
+  BatchScores scores_;
+  std::unique_ptr<Totals> totals_[2];  // one is merged into while the other is emptied
+  size_t merging_ = 0;
+  std::deque<Waiting> leases_;   // not begun, the oldest first
+  std::optional<Waiting> open_;  // in work
+  int64_t traced_ = 0;           // particles of it
+  Nanoseconds opened_ = 0;
+  Nanoseconds batch_takes_ = 0;  // lately
+  WaitList work_;                // the fiber, while there is nothing to do
+  bool ending_ = false;
+  Counters counters_;
+};
+
+}  // namespace luxodus

@@ -1,0 +1,20 @@
+#include "actors/view/live_states.hpp"
+
+#include "actors/view/edits_text.hpp"
+#include "actors/view/live_scene.hpp"
+
+namespace luxodus {
+
+Result<std::shared_ptr<const TracedState>> LiveStates::make(const std::string& edits) {
+  const std::lock_guard lock(mutex_);
+  if (state_ && edits == edits_) return state_;
+  auto parsed = parse_edits(edits);
+  if (!parsed) return parsed.problem();
+  auto scene = compile_live(*scene_, parsed.value());
+  if (!scene) return scene.problem();
+  state_ = std::make_shared<TracedState>(std::move(scene).value());
+  edits_ = edits;
+  return state_;
+}
+
+}  // namespace luxodus

@@ -1,0 +1,28 @@
+// States of the building as nodes that trace for a live view make them: of edits, as text.
+// Any thread.
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "actors/run/scene_state.hpp"
+#include "scenes/world/description.hpp"
+
+namespace luxodus {
+
+/// What the nodes of a process share: the last state that any of them was asked for.
+class LiveStates final : public StateMaker {
+ public:
+  explicit LiveStates(std::shared_ptr<const SceneDescription> scene) : scene_(std::move(scene)) {}
+  /// Compiles it, unless it is the last. Errors: as parse_edits and compile_live.
+  Result<std::shared_ptr<const TracedState>> make(const std::string& edits) override;
+
+ private:
+  const std::shared_ptr<const SceneDescription> scene_;
+  std::mutex mutex_;
+  std::string edits_;
+  std::shared_ptr<const TracedState> state_;
+};
+
+}  // namespace luxodus
