@@ -23,7 +23,7 @@ constexpr size_t min_leases = 4, max_leases = 256;
 StateTracing::StateTracing(const CompiledScene& first, StateMaker& maker, Scheduler& scheduler,
                            LeasePort& port)
     : maker_(maker), scheduler_(scheduler), port_(port) {
-  make_totals(first);
+  for (std::unique_ptr<Totals>& totals : totals_) totals = totals_of(first);
 }
 
 void StateTracing::start() {
@@ -62,14 +62,20 @@ void StateTracing::enter(ObjectId) {
   const CompiledScene& scene = *tracing_->state->scene;
   tracer_ =
       make_batch_tracer(scene, GeometryAccess::resident(tracing_->state->index), tracing_->seed);
-  make_totals(scene);
+  for (std::unique_ptr<Totals>& totals : totals_) totals = totals_of(scene);
   batch_takes_ = 0;
 }
 
-void StateTracing::make_totals(const CompiledScene& scene) {
-  for (std::unique_ptr<Totals>& totals : totals_)
-    totals = std::make_unique<Totals>(scene.layout, static_cast<int>(scene.groups.size()),
-                                      photopic_weights(scene));
+std::unique_ptr<Totals> StateTracing::totals_of(const CompiledScene& scene) {
+  return std::make_unique<Totals>(scene.layout, static_cast<int>(scene.groups.size()),
+                                  photopic_weights(scene));
+}
+
+/// New memory is empty already.
+bool StateTracing::forget_merged() {
+  if (!tracing_) return false;
+  totals_[merging_] = totals_of(*tracing_->state->scene);
+  return true;
 }
 
 // ---- leases -------------------------------------------------------------------------------------

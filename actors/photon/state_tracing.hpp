@@ -37,6 +37,7 @@ class StateTracing final : public LeasedWork {
   void add(uint64_t lease, int64_t batch) override { leases_.push_back({lease, batch}); }
   void drop(std::span<const uint64_t> leases) override;
   void drop_all() override;
+  bool forget_merged() override;
   void give_back_all() override;
   void look_again() override;
   Totals& give_totals() override;
@@ -68,7 +69,7 @@ class StateTracing final : public LeasedWork {
   bool open_next();
   void close();
   void ask_for_more();
-  void make_totals(const CompiledScene& scene);
+  static std::unique_ptr<Totals> totals_of(const CompiledScene& scene);
 
   StateMaker& maker_;
   Scheduler& scheduler_;

@@ -31,13 +31,18 @@ void Tracer::start(LeasedWork& work) {
   NodeActor::start();
   work_ = &work;
   began_ = clock_.now();
-  const Totals& totals = work.totals();
-  slices_.make_room(totals.groups(), totals.layout().totals());
-  const BinRange own = slices_.own_bins();
-  encoder_ = std::make_shared<FlushEncoder>(totals.groups(), own.end - own.first);
+  make_encoders();
   done_.reserve(limits::leases);
   packed_leases_.reserve(limits::leases);
   set_timer();
+}
+
+/// For totals as they are now: another state of the scene may have others.
+void Tracer::make_encoders() {
+  const Totals& totals = work_->totals();
+  slices_.make_room(totals.groups(), totals.layout().totals());
+  const BinRange own = slices_.own_bins();
+  encoder_ = std::make_shared<FlushEncoder>(totals.groups(), own.end - own.first);
 }
 
 void Tracer::add_metrics(Metrics& metrics) const {
@@ -143,10 +148,13 @@ void Tracer::on(const Letter<StateTold>& told) {
 
 /// As soon as it is known, and what is being packed of the one before is packed.
 void Tracer::enter_state() {
-  if (!entering_ || packing_ || !work_->knows(*entering_)) return;
+  if (!entering_ || packing_) return;
+  if (!work_->knows(*entering_)) {  // another was learnt meanwhile
+    if (!learning_) ask_state(*entering_);
+    return;
+  }
   work_->enter(*std::exchange(entering_, std::nullopt));
-  const Totals& totals = work_->totals();
-  encoder_ = std::make_shared<FlushEncoder>(totals.groups(), totals.layout().totals());
+  make_encoders();
   work_->look_again();
 }
 
@@ -241,21 +249,16 @@ bool Tracer::encoder_is_free() const {
 
 /// On the actor's fiber, between the turns of the photon-threads.
 void Tracer::on(const PackFlush& pack) {
-  Totals& totals = *pack.totals;
   packing_took_ = 0;
-  for (size_t slice = 0; slice < slices_.slices(); ++slice) {
-    if (!pack_bins(slices_.encoder(slice), totals, slices_.bins_of(slice), FlushCounts::without))
-      return;
+  if (!pack_all(*pack.totals)) {
+    packing_ = false;
+    packed_leases_.clear();
+    return enter_state();
   }
-  if (!pack_bins(*encoder_, totals, slices_.own_bins(), FlushCounts::with)) return;
   const std::span<const std::byte> payload = encoder_->bytes();
   const uint64_t hash = XXH3_64bits(payload.data(), payload.size());  // as Hasher, in no memory
   packing_ = false;
   if (over_) return;
-  if (entering_) {
-    packed_leases_.clear();
-    return enter_state();
-  }
   flushing_ = Question{
       sender().next_id(), Flush{round_, hash, std::move(packed_leases_), {}}, {payload, encoder_}};
   if (config_.trace != nullptr)
@@ -267,11 +270,19 @@ void Tracer::on(const PackFlush& pack) {
   work_->look_again();  // the totals that were packed are free
 }
 
-/// False: the node is to end.
+/// False: the node is to end, or another state to be entered.
+bool Tracer::pack_all(Totals& totals) {
+  for (size_t slice = 0; slice < slices_.slices(); ++slice)
+    if (!pack_bins(slices_.encoder(slice), totals, slices_.bins_of(slice), FlushCounts::without))
+      return false;
+  return pack_bins(*encoder_, totals, slices_.own_bins(), FlushCounts::with);
+}
+
 bool Tracer::pack_bins(FlushEncoder& encoder, Totals& totals, const BinRange& bins,
                        FlushCounts counts) {
   encoder.begin(totals, bins, counts);
   for (bool done = false; !done;) {
+    if (entering_) return false;
     const Nanoseconds begun = clock_.now();
     done = encoder.step(bins_of_a_step);
     packing_took_ += clock_.now() - begun;
@@ -313,7 +324,14 @@ void Tracer::on(const Letter<FlushRefused>& refused) {
 
 void Tracer::on(const Letter<LeasesFenced>& fenced) {
   if (!hears(fenced.from)) return;
-  work_->drop(fenced.body.leases);
+  const std::vector<uint64_t>& leases = fenced.body.leases;
+  work_->drop(leases);
+  const auto is_fenced = [&](uint64_t lease) {
+    return std::find(leases.begin(), leases.end(), lease) != leases.end();
+  };
+  if (!done_.empty() && std::all_of(done_.begin(), done_.end(), is_fenced) &&
+      work_->forget_merged())
+    done_.clear();
 }
 
 void Tracer::on(const Letter<RoundOpened>& opened) {

@@ -141,6 +141,7 @@ class Tracer final
   void flush();
   bool encoder_is_free() const;
   bool rested(Nanoseconds now) const;
+  bool pack_all(Totals& totals);
   bool pack_bins(FlushEncoder& encoder, Totals& totals, const BinRange& bins, FlushCounts counts);
   void put_flush();
   void put_when_placed(const MessageId& flush);
@@ -150,6 +151,7 @@ class Tracer final
   void set_timer();
   void on_timer();
   void begin_round();
+  void make_encoders();
   void begin_state(ObjectId state);
   void ask_state(ObjectId state);
   void enter_state();

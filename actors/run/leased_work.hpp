@@ -71,6 +71,9 @@ class LeasedWork {
   /// Forgets those of these leases that have not been merged yet; all of them.
   virtual void drop(std::span<const uint64_t> leases) = 0;
   virtual void drop_all() = 0;
+  /// Empties what has been merged since it was last given, whose leases are fenced. False: it
+  /// cannot; then that leaves in a flush, which is refused.
+  virtual bool forget_merged() { return false; }
   /// Cannot trace any of what is at hand, ever: it goes back.
   virtual void give_back_all() { drop_all(); }
   /// There may be leases to ask for again.

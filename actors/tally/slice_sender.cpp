@@ -9,6 +9,7 @@ namespace luxodus {
 
 void SliceSender::make_room(int groups, int64_t totals) {
   totals_ = totals;
+  slices_.clear();
   for (size_t slice = 0; slice < slices(); ++slice) {
     const BinRange bins = bins_of(slice);
     slices_.push_back({std::make_shared<FlushEncoder>(groups, bins.end - bins.first), 0, true});
