@@ -112,8 +112,8 @@ void LiveWorker::look() {
   else if (!unreachable_since_)
     unreachable_since_ = now;
   const auto give_up = [&](const char* what, Nanoseconds after, const char* key) {
-    fault_ = Problem{
-        {}, fmt::format("{} for {:g} s ({})", what, static_cast<double>(after) * 1e-9, key)};
+    fault_ =
+        problem(fmt::format("{} for {:g} s ({})", what, static_cast<double>(after) * 1e-9, key));
     ended_ = true;
   };
   if (!heard_ && now - began_ >= node_.start)
