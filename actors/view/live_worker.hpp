@@ -85,7 +85,6 @@ class LiveWorker {
   std::string trace_portion(const Order& order);
   void answer(std::string fault);
   void send_answers();
-  bool may_end();
 
   const NodeSetup& node_;
   LiveStates& states_;
