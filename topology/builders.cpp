@@ -152,8 +152,8 @@ Result<Graph> make_random_regular(uint32_t nodes, uint32_t links, uint64_t seed)
     const GraphPlan plan{nodes, links, ControllerRole::none, 1, list};
     if (!fault_of(plan)) return Graph(plan);
   }
-  return Problem{
-      {}, fmt::format("no connected graph of {} nodes with {} links each was found", nodes, links)};
+  return problem(
+      fmt::format("no connected graph of {} nodes with {} links each was found", nodes, links));
 }
 
 Result<Graph> with_controller(const Graph& graph, uint32_t links) {

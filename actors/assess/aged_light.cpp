@@ -40,10 +40,10 @@ Result<Ageing> group_by_ageing(SceneDescription& scene, Operation operation) {
     if (at == ageing.shares.end()) at = ageing.shares.insert(at, share);
     e.group = group_name(static_cast<size_t>(at - ageing.shares.begin()));
     if (ageing.shares.size() > limits::ageings)
-      return Problem{e.place,
-                     fmt::format("luminaires have more than {} different products of "
-                                 "maintenance_factor and end_of_duration_factor: round them",
-                                 limits::ageings)};
+      return problem_in(e.place,
+                        fmt::format("luminaires have more than {} different products of "
+                                    "maintenance_factor and end_of_duration_factor: round them",
+                                    limits::ageings));
   }
   for (Sign& sign : scene.signs) sign.group = group_name(0);
   for (Medium& medium : scene.media)

@@ -99,10 +99,11 @@ std::string candidates(const SceneDescription& scene) {
 }
 
 Problem unclear(const SceneDescription& scene, const SourcePlace& place, const std::string& why) {
-  return Problem{place, "which state is to be judged is not clear: " + why +
-                            ". Name it by --scenario, or write operation = \"emergency\" where it "
-                            "is missing; there are: " +
-                            candidates(scene)};
+  return problem_in(place,
+                    "which state is to be judged is not clear: " + why +
+                        ". Name it by --scenario, or write operation = \"emergency\" where it "
+                        "is missing; there are: " +
+                        candidates(scene));
 }
 
 /// What views are judged with, of a state whose lit luminaires are known.
@@ -349,7 +350,7 @@ Result<std::vector<CodeChoice>> judged_codes(const SceneDescription& scene,
                             deviations.empty() ? said.deviations : deviations);
   if (codes) return codes;
   const bool by_scene = rules.empty() && deviations.empty() && said.place.line > 0;
-  return Problem{by_scene ? said.place : SourcePlace{scene.file, 0}, codes.problem().what};
+  return problem_in(by_scene ? said.place : SourcePlace{scene.file, 0}, codes.problem().what);
 }
 
 Result<void> irritation_is_said(const SceneDescription& scene, const Scenario& scenario) {
@@ -357,12 +358,13 @@ Result<void> irritation_is_said(const SceneDescription& scene, const Scenario& s
   const auto smoke = std::find_if(scene.media.begin(), scene.media.end(), [&](const Medium& m) {
     return !is_flame(m) && extinction_factor(scenario, m.name) > 0;
   });
-  return Problem{scene.assessment.place.line > 0 ? scene.assessment.place : smoke->place,
-                 fmt::format("whether the smoke \"{}\" of scenario \"{}\" stings is not said, and "
-                             "verdicts on signs follow from it: write irritant_smoke = true (wood, "
-                             "plastics and most fires) or irritant_smoke = false (theatre smoke) "
-                             "in [assessment]",
-                             smoke->name, scenario.name)};
+  return problem_in(
+      scene.assessment.place.line > 0 ? scene.assessment.place : smoke->place,
+      fmt::format("whether the smoke \"{}\" of scenario \"{}\" stings is not said, and "
+                  "verdicts on signs follow from it: write irritant_smoke = true (wood, "
+                  "plastics and most fires) or irritant_smoke = false (theatre smoke) "
+                  "in [assessment]",
+                  smoke->name, scenario.name));
 }
 
 std::vector<std::string> overruled(const SceneDescription& scene,

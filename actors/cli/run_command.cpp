@@ -42,8 +42,8 @@ Result<NodesOptions> nodes_options(const RunOptions& options, Nanoseconds link_d
   } else if (auto share = parse_share(options.profile); share) {
     nodes.profile_share = share.value();
   } else {
-    return Problem{
-        {}, "--profile \"" + options.profile + "\" is no share: write 1% or 0.01, or 0 for none"};
+    return problem("--profile \"" + options.profile +
+                   "\" is no share: write 1% or 0.01, or 0 for none");
   }
   nodes.nodes = options.nodes;
   nodes.fibers = options.fibers;

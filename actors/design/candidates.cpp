@@ -366,24 +366,25 @@ Result<Candidates> find_candidates(const SceneDescription& scene, const DesignSe
   const std::vector<Spot> spots =
       PlaceFinder(scene, design, *bare.value(), *furnished.value()).find(out.left_out);
   if (spots.size() > limits::design_places)
-    return Problem{design.place, fmt::format("there are {} candidate places, and at most {} are "
-                                             "taken: make 'spacing_m' larger, or say 'over'",
-                                             spots.size(), limits::design_places)};
+    return problem_in(design.place, fmt::format("there are {} candidate places, and at most {} are "
+                                                "taken: make 'spacing_m' larger, or say 'over'",
+                                                spots.size(), limits::design_places));
   add_new(design, spots, out);
   if (out.all.size() > limits::design_candidates)
-    return Problem{design.place,
-                   fmt::format("there are {} candidates ({} places, types and turns), and at most "
-                               "{} are taken: make 'spacing_m' larger",
-                               out.all.size(), spots.size(), limits::design_candidates)};
+    return problem_in(
+        design.place,
+        fmt::format("there are {} candidates ({} places, types and turns), and at most "
+                    "{} are taken: make 'spacing_m' larger",
+                    out.all.size(), spots.size(), limits::design_candidates));
   if (!out.all.empty()) leave_out_forbidden(scene, design, codes, *bare.value(), out);
   if (out.all.size() == existing &&
       std::all_of(out.all.begin(), out.all.end(),
                   [](const LuminaireCandidate& c) { return c.fixed; })) {
     const std::string why = words_of(out.left_out);
-    return Problem{design.place, "there is no place for a luminaire" +
-                                     (why.empty() ? std::string(": no route or area is there to "
-                                                                "place any over")
-                                                  : "; left out were " + why)};
+    return problem_in(design.place, "there is no place for a luminaire" +
+                                        (why.empty() ? std::string(": no route or area is there to "
+                                                                   "place any over")
+                                                     : "; left out were " + why));
   }
   return out;
 }

@@ -18,10 +18,6 @@ double objective_of(const LayoutProblem& problem, const Layout& layout) {
   return sum;
 }
 
-size_t chosen_in(const Layout& layout) {
-  return static_cast<size_t>(std::count(layout.begin(), layout.end(), 1));
-}
-
 LayoutIndex::LayoutIndex(const LayoutProblem& problem)
     : problem_(problem), covers_(problem.options.size()), points_(problem.options.size()) {
   for (uint32_t i = 0; i < problem.covers.size(); ++i)

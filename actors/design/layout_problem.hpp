@@ -97,7 +97,6 @@ struct LayoutProblem {
 using Layout = std::vector<char>;
 
 double objective_of(const LayoutProblem& problem, const Layout& layout);
-size_t chosen_in(const Layout& layout);
 
 /// Sums may be below what is asked for by this share of it: rounding.
 inline constexpr double sum_tolerance = 1e-6;

@@ -224,7 +224,7 @@ const char* word_of(Severity severity) {
 }
 
 std::string Finding::text() const {
-  return Problem{problem.where, std::string(word_of(severity)) + ": " + problem.what}.text();
+  return problem_in(problem.where, std::string(word_of(severity)) + ": " + problem.what).text();
 }
 
 bool has_error(const std::vector<Finding>& findings) {

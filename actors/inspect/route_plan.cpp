@@ -2,6 +2,7 @@
 // or are written twice.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "actors/inspect/doorway.hpp"
 #include "scenes/emergency/sign_geometry.hpp"
@@ -83,7 +84,7 @@ bool has_opening(const Site& site, const GeometryAccess& access, const glm::dvec
   const glm::dvec2 level(ahead);
   const double first = glm::length(level) > 0 ? std::atan2(level.y, level.x) : 0;
   for (int i = 0; i < ways_out; ++i) {
-    const double angle = first + 2 * 3.14159265358979 * i / ways_out;
+    const double angle = first + 2 * std::numbers::pi * i / ways_out;
     const glm::dvec3 way(std::cos(angle), std::sin(angle), 0);
     const auto wall = wall_ahead(site, access, place, way, exit_within_m);
     const double clear = wall ? static_cast<double>(wall->distance_m) : exit_within_m;

@@ -84,13 +84,13 @@ Result<ReferenceProfile> read_profile(const std::filesystem::path& path, const C
   const SourcePlace place{path.string(), 0};
   const Json header = Json::parse(file->header_json);
   if (!header.is_object() || header.value("profile", Json()) != Json(schema_version))
-    return Problem{place,
-                   "this is no profile that this version reads: make it with `luxodus "
-                   "profile`"};
+    return problem_in(place,
+                      "this is no profile that this version reads: make it with `luxodus "
+                      "profile`");
   if (header.value("scene_hash", Json()) != Json(fmt::format("{:016x}", scene.scene_hash)))
-    return Problem{place,
-                   "this profile is of another scene, scenario or partition: make it anew with "
-                   "`luxodus profile`"};
+    return problem_in(place,
+                      "this profile is of another scene, scenario or partition: make it anew with "
+                      "`luxodus profile`");
   ReferenceProfile profile;
   profile.scene_hash = scene.scene_hash;
   Blocks blocks(file.value(), objects);
@@ -99,7 +99,7 @@ Result<ReferenceProfile> read_profile(const std::filesystem::path& path, const C
   profile.eyes = blocks.take_counts("eyes");
   profile.built_bytes = blocks.take("built bytes", objects);
   if (!blocks.wrong().empty())
-    return Problem{place, "this profile lacks \"" + blocks.wrong() + "\", or has another size"};
+    return problem_in(place, "this profile lacks \"" + blocks.wrong() + "\", or has another size");
   return profile;
 }
 

@@ -496,27 +496,28 @@ Result<void> check(const FalseColourPicture& p, const SourcePlace& place) {
       p.cells_v > limits::max_grid_edge ||
       static_cast<uint64_t>(p.cells_u) * static_cast<uint64_t>(p.cells_v) >
           limits::max_drawn_cells) {
-    return Problem{place, "a grid of " + std::to_string(p.cells_u) + " x " +
-                              std::to_string(p.cells_v) +
-                              " cells cannot be drawn; edges are 1 to " +
-                              std::to_string(limits::max_grid_edge) + " cells"};
+    return problem_in(place, "a grid of " + std::to_string(p.cells_u) + " x " +
+                                 std::to_string(p.cells_v) +
+                                 " cells cannot be drawn; edges are 1 to " +
+                                 std::to_string(limits::max_grid_edge) + " cells");
   }
   if (p.values.size() != static_cast<size_t>(p.cells_u) * static_cast<size_t>(p.cells_v)) {
-    return Problem{place, "a grid of " + std::to_string(p.cells_u) + " x " +
-                              std::to_string(p.cells_v) + " cells has " +
-                              std::to_string(p.values.size()) + " values"};
+    return problem_in(place, "a grid of " + std::to_string(p.cells_u) + " x " +
+                                 std::to_string(p.cells_v) + " cells has " +
+                                 std::to_string(p.values.size()) + " values");
   }
   const auto length_good = [](double m) { return std::isfinite(m) && m > 0; };
   if (!length_good(p.length_u_m) || !length_good(p.length_v_m) || !std::isfinite(p.origin_u_m) ||
       !std::isfinite(p.origin_v_m)) {
-    return Problem{place, "the edges of a grid must be longer than zero and its corner finite"};
+    return problem_in(place, "the edges of a grid must be longer than zero and its corner finite");
   }
   if (p.width_px < limits::min_picture_edge_px || p.width_px > limits::max_picture_edge_px) {
-    return Problem{place, "a picture is " + std::to_string(limits::min_picture_edge_px) + " to " +
-                              std::to_string(limits::max_picture_edge_px) + " pixels wide"};
+    return problem_in(place, "a picture is " + std::to_string(limits::min_picture_edge_px) +
+                                 " to " + std::to_string(limits::max_picture_edge_px) +
+                                 " pixels wide");
   }
   if (p.contours.size() > limits::max_contours) {
-    return Problem{place, "at most " + std::to_string(limits::max_contours) + " contour lines"};
+    return problem_in(place, "at most " + std::to_string(limits::max_contours) + " contour lines");
   }
   return {};
 }
@@ -529,13 +530,13 @@ Result<PngImage> draw_false_colour(const FalseColourPicture& picture, const Sour
   const Scale scale = scale_of(picture, statistics);
   if (!std::isfinite(scale.low) || !std::isfinite(scale.high) || scale.low >= scale.high ||
       (scale.logarithmic && scale.low <= 0)) {
-    return Problem{place, "the colour scale from " + shortest_number(scale.low) + " to " +
-                              shortest_number(scale.high) +
-                              " has no order; a logarithmic one must lie above zero"};
+    return problem_in(place, "the colour scale from " + shortest_number(scale.low) + " to " +
+                                 shortest_number(scale.high) +
+                                 " has no order; a logarithmic one must lie above zero");
   }
   Painter painter(picture, statistics);
   Canvas& canvas = painter.draw();
-  if (!canvas.good()) return Problem{place, "cannot draw this picture: " + canvas.failure()};
+  if (!canvas.good()) return problem_in(place, "cannot draw this picture: " + canvas.failure());
   PngImage image;
   image.width = cairo_image_surface_get_width(cairo_get_target(canvas.context()));
   image.height = cairo_image_surface_get_height(cairo_get_target(canvas.context()));

@@ -71,7 +71,7 @@ Result<void> put_record(std::vector<std::byte>& out, std::string_view name,
   const size_t size =
       ZSTD_compress(packed.data(), packed.size(), raw.data(), raw.size(), compression_level);
   if (ZSTD_isError(size)) {
-    return Problem{place, "cannot compress " + called(name) + ": " + ZSTD_getErrorName(size)};
+    return problem_in(place, "cannot compress " + called(name) + ": " + ZSTD_getErrorName(size));
   }
   packed.resize(size);
   put(out, static_cast<uint32_t>(name.size()));
@@ -164,13 +164,13 @@ Result<std::vector<std::byte>> RecordReader::unpack(const std::string& what, uin
 Result<void> check_names(const FluxFile& file, const SourcePlace& place) {
   std::set<std::string_view> names;
   for (const Block& block : file.blocks) {
-    if (block.name.empty()) return Problem{place, "a block of a flux file needs a name"};
+    if (block.name.empty()) return problem_in(place, "a block of a flux file needs a name");
     if (block.name.size() > limits::max_flux_name_bytes) {
-      return Problem{place, called(block.name) + " has too long a name; the most is " +
-                                std::to_string(limits::max_flux_name_bytes) + " bytes"};
+      return problem_in(place, called(block.name) + " has too long a name; the most is " +
+                                   std::to_string(limits::max_flux_name_bytes) + " bytes");
     }
     if (!names.insert(block.name).second) {
-      return Problem{place, called(block.name) + " is there twice; names must differ"};
+      return problem_in(place, called(block.name) + " is there twice; names must differ");
     }
   }
   return {};
@@ -180,24 +180,25 @@ Result<void> check_names(const FluxFile& file, const SourcePlace& place) {
 Result<uint32_t> read_start(std::span<const std::byte> bytes, const SourcePlace& place) {
   const size_t compared = std::min(bytes.size(), magic.size());
   if (bytes.empty() || std::memcmp(bytes.data(), magic.data(), compared) != 0) {
-    return Problem{place, "this is not a flux file: it does not begin with LUXFLUX"};
+    return problem_in(place, "this is not a flux file: it does not begin with LUXFLUX");
   }
   if (bytes.size() < start_bytes + checksum_bytes) {
-    return Problem{place,
-                   "this file is cut short: it ends before the end of its start; "
-                   "copy it again or compute it anew"};
+    return problem_in(place,
+                      "this file is cut short: it ends before the end of its start; "
+                      "copy it again or compute it anew");
   }
   const auto version = get<uint32_t>(bytes, 8);
   if (version > limits::flux_file_version) {
-    return Problem{place, "this flux file has version " + std::to_string(version) +
-                              ", this program reads up to " +
-                              std::to_string(limits::flux_file_version) +
-                              "; use a newer program or compute the file anew"};
+    return problem_in(place, "this flux file has version " + std::to_string(version) +
+                                 ", this program reads up to " +
+                                 std::to_string(limits::flux_file_version) +
+                                 "; use a newer program or compute the file anew");
   }
-  if (version == 0) return Problem{place, "this file is damaged: it has version 0"};
+  if (version == 0) return problem_in(place, "this file is damaged: it has version 0");
   const auto blocks = get<uint32_t>(bytes, 12);
   if (blocks > limits::max_flux_blocks) {
-    return Problem{place, "this file is damaged: it claims " + std::to_string(blocks) + " blocks"};
+    return problem_in(place,
+                      "this file is damaged: it claims " + std::to_string(blocks) + " blocks");
   }
   return blocks;
 }
@@ -214,18 +215,18 @@ const Block* FluxFile::find(std::string_view name) const {
 Result<std::vector<std::byte>> encode_flux_file(const FluxFile& file, const SourcePlace& place) {
   if (Result<void> named = check_names(file, place); !named) return named.problem();
   if (file.blocks.size() > limits::max_flux_blocks) {
-    return Problem{
-        place, "a flux file holds at most " + std::to_string(limits::max_flux_blocks) + " blocks"};
+    return problem_in(
+        place, "a flux file holds at most " + std::to_string(limits::max_flux_blocks) + " blocks");
   }
   if (file.header_json.size() > limits::max_flux_header_bytes) {
-    return Problem{place, "the header of a flux file is too long"};
+    return problem_in(place, "the header of a flux file is too long");
   }
   uint64_t total = file.header_json.size();
   for (const Block& block : file.blocks) total += block.bytes.size();
   if (total > limits::max_flux_bytes) {
-    return Problem{place,
-                   std::to_string(total) + " bytes are too much for one flux file (the most is " +
-                       std::to_string(limits::max_flux_bytes) + "); use larger patches or voxels"};
+    return problem_in(
+        place, std::to_string(total) + " bytes are too much for one flux file (the most is " +
+                   std::to_string(limits::max_flux_bytes) + "); use larger patches or voxels");
   }
   std::vector<std::byte> out;
   put_bytes(out, bytes_of({magic.data(), magic.size()}));
@@ -258,16 +259,16 @@ Result<FluxFile> decode_flux_file(std::span<const std::byte> bytes, const Source
     file.blocks.push_back(std::move(block).value());
   }
   if (reader.left() != 0) {
-    return Problem{place,
-                   "this file is damaged: it goes on after its last block; "
-                   "copy it again or compute it anew"};
+    return problem_in(place,
+                      "this file is damaged: it goes on after its last block; "
+                      "copy it again or compute it anew");
   }
   const Checksum sum = checksum(content);
   if (!header->name.empty() ||
       std::memcmp(sum.data(), bytes.data() + content.size(), sum.size()) != 0) {
-    return Problem{place,
-                   "this file is damaged: it does not match the checksum at its end; "
-                   "copy it again or compute it anew"};
+    return problem_in(place,
+                      "this file is damaged: it does not match the checksum at its end; "
+                      "copy it again or compute it anew");
   }
   if (Result<void> named = check_names(file, place); !named) return named.problem();
   return file;

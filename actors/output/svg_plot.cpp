@@ -369,21 +369,22 @@ void SvgPainter::texts() {
 
 Result<std::string> svg_plot_text(const SvgPlot& plot, const SourcePlace& place) {
   if (plot.width < 320 || plot.height < 240 || plot.width > 10000 || plot.height > 10000) {
-    return Problem{place, "a plot is 320 x 240 to 10000 x 10000 units large"};
+    return problem_in(place, "a plot is 320 x 240 to 10000 x 10000 units large");
   }
   if (plot.series.size() > limits::max_plot_series) {
-    return Problem{place,
-                   "at most " + std::to_string(limits::max_plot_series) + " series in a plot"};
+    return problem_in(place,
+                      "at most " + std::to_string(limits::max_plot_series) + " series in a plot");
   }
   for (const PlotSeries& s : plot.series) {
     const std::string name = "series '" + clean_utf8(s.name) + "'";
     if (s.y.size() != s.x.size() || (!s.error.empty() && s.error.size() != s.x.size())) {
-      return Problem{place, name + " has columns of different length"};
+      return problem_in(place, name + " has columns of different length");
     }
-    if (s.x.size() > limits::max_plot_points) return Problem{place, name + " has too many points"};
+    if (s.x.size() > limits::max_plot_points)
+      return problem_in(place, name + " has too many points");
   }
   if (plot.reference && (plot.log_x != plot.log_y || !std::isfinite(plot.reference->slope))) {
-    return Problem{place, "a reference slope needs two linear or two logarithmic axes"};
+    return problem_in(place, "a reference slope needs two linear or two logarithmic axes");
   }
   return SvgPainter(plot).draw();
 }

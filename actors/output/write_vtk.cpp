@@ -71,16 +71,17 @@ Result<void> check_arrays(const std::vector<VtkArray>& arrays, uint64_t cells,
                           const SourcePlace& place) {
   std::set<std::string_view> names;
   for (const VtkArray& array : arrays) {
-    if (array.name.empty()) return Problem{place, "an array of a VTK file needs a name"};
+    if (array.name.empty()) return problem_in(place, "an array of a VTK file needs a name");
     if (!names.insert(array.name).second) {
-      return Problem{place,
-                     "array '" + clean_utf8(array.name) + "' is there twice; names must differ"};
+      return problem_in(place,
+                        "array '" + clean_utf8(array.name) + "' is there twice; names must differ");
     }
     const size_t size = std::visit([](const auto& values) { return values.size(); }, array.values);
     if (array.components < 1 || size != cells * static_cast<uint64_t>(array.components)) {
-      return Problem{place, "array '" + clean_utf8(array.name) + "' has " + std::to_string(size) +
-                                " values; " + std::to_string(cells) + " cells with " +
-                                std::to_string(array.components) + " components were expected"};
+      return problem_in(place, "array '" + clean_utf8(array.name) + "' has " +
+                                   std::to_string(size) + " values; " + std::to_string(cells) +
+                                   " cells with " + std::to_string(array.components) +
+                                   " components were expected");
     }
   }
   return {};
@@ -110,14 +111,14 @@ std::string file_end(const Appended& appended) {
 Result<void> check_surface(const VtkSurface& surface, const SourcePlace& place) {
   if (surface.points.size() > limits::max_vtk_cells ||
       surface.triangles.size() > limits::max_vtk_cells) {
-    return Problem{place, "too many triangles for one VTK file; use larger patches"};
+    return problem_in(place, "too many triangles for one VTK file; use larger patches");
   }
   for (const glm::dvec3& point : surface.points) {
-    if (!finite(point)) return Problem{place, "a point has a coordinate that is not a number"};
+    if (!finite(point)) return problem_in(place, "a point has a coordinate that is not a number");
   }
   for (const glm::uvec3& t : surface.triangles) {
     if (std::max({t.x, t.y, t.z}) >= surface.points.size()) {
-      return Problem{place, "a triangle names a point that is not there"};
+      return problem_in(place, "a triangle names a point that is not there");
     }
   }
   return check_arrays(surface.cell_data, surface.triangles.size(), place);
@@ -161,15 +162,16 @@ Result<void> write_vti(const std::filesystem::path& path, const VtkVolume& volum
   uint64_t cells = 1;
   for (const int n : volume.cells) {
     if (n < 1 || static_cast<uint64_t>(n) > limits::max_vtk_cells / cells) {
-      return Problem{place, "a volume needs at least one voxel each way and at most " +
-                                std::to_string(limits::max_vtk_cells) + " in all"};
+      return problem_in(place, "a volume needs at least one voxel each way and at most " +
+                                   std::to_string(limits::max_vtk_cells) + " in all");
     }
     cells *= static_cast<uint64_t>(n);
   }
   const glm::dvec3& spacing = volume.spacing;
   if (!finite(volume.origin) || !finite(spacing) ||
       std::min({spacing.x, spacing.y, spacing.z}) <= 0) {
-    return Problem{place, "the origin of a volume must be finite and its voxels larger than zero"};
+    return problem_in(place,
+                      "the origin of a volume must be finite and its voxels larger than zero");
   }
   if (auto good = check_arrays(volume.cell_data, cells, place); !good) return good.problem();
 

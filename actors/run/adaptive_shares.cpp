@@ -115,16 +115,17 @@ Result<std::vector<double>> find_adaptive_shares(
     const std::atomic<bool>& interrupt, const std::function<void(const Progress&)>& report) {
   const SourcePlace place{scene->description->file, 0};
   if (scene->groups.size() < 2) {
-    return Problem{place,
-                   "there is one source group, so there is nothing to be dealt by need: say [run] "
-                   "groups = \"emitter\" or \"circuit\""};
+    return problem_in(
+        place,
+        "there is one source group, so there is nothing to be dealt by need: say [run] "
+        "groups = \"emitter\" or \"circuit\"");
   }
   const ErrorTarget& judged = scene->error_target;
   if (!judged.asks_bins()) {
-    return Problem{
+    return problem_in(
         place,
         "batches are dealt by the need of planes, cells, surfaces or patches, and the error is "
-        "wanted of none of them: see --error-of"};
+        "wanted of none of them: see --error-of");
   }
   Hasher other_numbers;
   other_numbers.add(seed);
@@ -139,7 +140,7 @@ Result<std::vector<double>> find_adaptive_shares(
   round.particles =
       first_batches * static_cast<int64_t>(scene->groups.size()) * small->batch_particles;
   if (run.run(round, interrupt, report) == StopReason::interrupted)
-    return Problem{place, "interrupted in the first round, before anything was kept"};
+    return problem_in(place, "interrupted in the first round, before anything was kept");
   return adaptive_shares(*small, run.totals(), BatchPlan(*scene).shares());
 }
 

@@ -77,13 +77,13 @@ Result<std::vector<int64_t>> missing_of(const Json& header, int64_t batches,
                                         const SourcePlace& place) {
   std::vector<int64_t> missing;
   const Json numbers = header.contains("missing") ? header["missing"] : Json::array();
-  if (!numbers.is_array()) return Problem{place, "the flux file's missing batches are no list"};
+  if (!numbers.is_array()) return problem_in(place, "the flux file's missing batches are no list");
   for (const Json& number : numbers) {
     const int64_t batch = number.is_number_integer() ? number.get<int64_t>() : -1;
     if (batch < 0 || batch >= batches || (!missing.empty() && batch <= missing.back()))
-      return Problem{place,
-                     "the flux file's missing batches are no ascending numbers below its "
-                     "batches: it is damaged"};
+      return problem_in(place,
+                        "the flux file's missing batches are no ascending numbers below its "
+                        "batches: it is damaged");
     missing.push_back(batch);
   }
   return missing;
@@ -111,7 +111,7 @@ Result<Counted> counted_of(const Json& header, const LocalRun& run, const Source
   Counted out;
   out.batches = count_in(header);
   if (out.batches < 0)
-    return Problem{place, "the flux file does not say how many batches it holds: it is damaged"};
+    return problem_in(place, "the flux file does not say how many batches it holds: it is damaged");
   auto missing = missing_of(header, out.batches, place);
   if (!missing) return missing.problem();
   out.missing = std::move(missing).value();
@@ -127,11 +127,12 @@ Result<Counted> counted_of(const Json& header, const LocalRun& run, const Source
   }
   const Json groups = header.contains("groups") ? header["groups"] : Json();
   if (!groups.is_array() || groups.size() != planned.size())
-    return Problem{place, "the flux file has not the source groups of this scene: it is damaged"};
+    return problem_in(place,
+                      "the flux file has not the source groups of this scene: it is damaged");
   for (size_t g = 0; g < planned.size(); ++g) {
     if (count_in(groups[g]) != planned[g])
-      return Problem{place, "the flux file counts batches of source group " + std::to_string(g) +
-                                " that are not those of its run: it is damaged"};
+      return problem_in(place, "the flux file counts batches of source group " + std::to_string(g) +
+                                   " that are not those of its run: it is damaged");
   }
   out.groups = std::move(planned);
   return out;
@@ -141,9 +142,9 @@ Result<void> same(const Json& header, const Json& wanted, const char* key,
                   const SourcePlace& place) {
   const Json found = header.value(key, Json());
   if (found == wanted[key]) return {};
-  return Problem{place, std::string("this flux is of another ") + key + " (" + found.dump() +
-                            " here, the run has " + wanted[key].dump() +
-                            "): give another --out, or run without --resume"};
+  return problem_in(place, std::string("this flux is of another ") + key + " (" + found.dump() +
+                               " here, the run has " + wanted[key].dump() +
+                               "): give another --out, or run without --resume");
 }
 
 }  // namespace
@@ -172,7 +173,7 @@ Result<void> load_flux(const std::filesystem::path& path, LocalRun& run) {
 
 Result<void> take_flux(const FluxFile& file, const SourcePlace& place, LocalRun& run) {
   const Json header = Json::parse(file.header_json);
-  if (!header.is_object()) return Problem{place, "the flux file's header is no JSON object"};
+  if (!header.is_object()) return problem_in(place, "the flux file's header is no JSON object");
   const Json wanted = describe_run(run);
   for (const char* key :
        {"schema", "scenario", "seed", "scene_hash", "batch_particles", "layout"}) {
@@ -181,7 +182,7 @@ Result<void> take_flux(const FluxFile& file, const SourcePlace& place, LocalRun&
   Totals& totals = run.totals();
   const Block* ledger_block = file.find("ledger");
   if (ledger_block == nullptr || ledger_block->bytes.size() != sizeof(EnergyBalance))
-    return Problem{place, "the flux file holds no ledger of the expected size"};
+    return problem_in(place, "the flux file holds no ledger of the expected size");
   EnergyBalance balance;
   std::memcpy(&balance, ledger_block->bytes.data(), sizeof balance);
   auto counted = counted_of(header, run, place);
@@ -189,14 +190,14 @@ Result<void> take_flux(const FluxFile& file, const SourcePlace& place, LocalRun&
   const auto particles =
       static_cast<uint64_t>(counted->traced()) * static_cast<uint64_t>(run.scene().batch_particles);
   if (balance.particles != particles)
-    return Problem{place, "the flux file's ledger has " + std::to_string(balance.particles) +
-                              " particles, its batches " + std::to_string(particles) +
-                              ": it is damaged"};
+    return problem_in(place, "the flux file's ledger has " + std::to_string(balance.particles) +
+                                 " particles, its batches " + std::to_string(particles) +
+                                 ": it is damaged");
   for (int g = 0; g < totals.groups(); ++g) {
     const Block* block = file.find(group_block_name(g));
     const size_t count = static_cast<size_t>(run.scene().layout.totals());
     if (block == nullptr || block->bytes.size() != count * sizeof(Total)) {
-      return Problem{place, "the flux file lacks totals of source group " + std::to_string(g)};
+      return problem_in(place, "the flux file lacks totals of source group " + std::to_string(g));
     }
     Totals::GroupState state;
     state.totals = SparseArray<Total>(static_cast<int64_t>(count));

@@ -61,7 +61,6 @@ class DisplayActor final
     uint64_t copied_bytes = 0;
     uint64_t asked_again = 0;
   };
-  const Counters& counters() const { return counters_; }
   void add_metrics(Metrics& metrics) const;
 
  private:

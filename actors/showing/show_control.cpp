@@ -39,7 +39,6 @@ void ShowControl::packed(bool over, StopReason reason) {
   shown_ = std::exchange(wanted_, std::nullopt);
   over_ = over;
   reason_ = reason;
-  ++counters_.shows;
   if (!shown_) return;  // who asked has begun anew
   answer(shown_->from, shown_->question, shown_->asked);
 }
@@ -49,9 +48,7 @@ void ShowControl::answer(Address to, const MessageId& question, const ShowTotals
   shown.show = asked.show;
   shown.over = over_;
   shown.stopped = static_cast<uint8_t>(reason_);
-  const SharedBytes bytes = snapshot_->bytes(asked.piece);
-  counters_.shown_bytes += bytes.bytes.size();
-  sender_.send(self_, to, question, shown, bytes);
+  sender_.send(self_, to, question, shown, snapshot_->bytes(asked.piece));
 }
 
 void ShowControl::tell_end(const RunEnded& ended) {

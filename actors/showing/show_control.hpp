@@ -44,12 +44,6 @@ class ShowControl {
   void saved();
   bool is_saved() const { return saved_; }
 
-  struct Counters {
-    uint64_t shows = 0;
-    uint64_t shown_bytes = 0;
-  };
-  const Counters& counters() const { return counters_; }
-
  private:
   void answer(Address to, const MessageId& question, const ShowTotals& asked);
 
@@ -68,7 +62,6 @@ class ShowControl {
   StopReason reason_ = StopReason::particles;
   bool packing_ = false;  // what is packed belongs to another thread
   bool saved_ = false;
-  Counters counters_;
 };
 
 }  // namespace luxodus

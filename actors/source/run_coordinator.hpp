@@ -60,7 +60,6 @@ class RunCoordinator final : public Coordinator {
   /// Why the run could not begin, or has no results.
   const std::optional<Problem>& fault() const { return fault_; }
   const ShardControl::Counters& shard_counters() const { return shards_.counters(); }
-  const ShowControl::Counters& show_counters() const { return shows_.counters(); }
   void add_metrics(Metrics& metrics) const override;
 
  private:

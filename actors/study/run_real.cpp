@@ -61,9 +61,8 @@ Result<StudyResult> run_real(const StudyRun& run, const std::atomic<bool>& inter
   auto nodes = nodes_of(run);
   if (!nodes) return nodes.problem();
   if (nodes->nodes > limits::nodes_in_process)
-    return Problem{
-        {},
-        "one machine takes " + std::to_string(limits::nodes_in_process) + " real nodes at most"};
+    return problem("one machine takes " + std::to_string(limits::nodes_in_process) +
+                   " real nodes at most");
   const bool resident = nodes->object_bytes == 0;
   LocalRun local =
       resident ? LocalRun(run.scene, run.seed, 1) : LocalRun(run.scene, run.seed, 1, nullptr);

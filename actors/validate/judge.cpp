@@ -149,8 +149,8 @@ std::vector<std::string> rule_text() {
       "z is the normal deviate that is as probable as (estimate - reference) / standard error, "
       "which follows Student's t of so many batches less one.",
       fmt::format(
-          "Each estimate differs from its reference by no more than its declared bias and z_most "
-          "standard errors; z_most is such that a right program fails with probability {} "
+          "Each estimate differs from its reference by no more than its declared bias and z_max "
+          "standard errors; z_max is such that a right program fails with probability {} "
           "(Bonferroni over all statistical quantities).",
           rule::false_alarm),
       "What is computed without chance differs by no more than its stated tolerance; the ledger "

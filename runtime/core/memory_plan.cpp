@@ -38,12 +38,11 @@ std::optional<Problem> MemoryPlan::against(uint64_t budget_bytes) const {
   const uint64_t total = total_bytes();
   if (total <= budget_bytes) return std::nullopt;
   const Term largest = largest_first(terms_).front();
-  return Problem{
-      {},
+  return problem(
       fmt::format("the memory plan needs {:.1f} MiB, {:.1f} more than the budget of {:.1f} MiB; "
                   "the largest part is {}, {:.1f} MiB ({})",
                   mebibytes(total), mebibytes(total - budget_bytes), mebibytes(budget_bytes),
-                  largest.name, mebibytes(largest.bytes), largest.derivation)};
+                  largest.name, mebibytes(largest.bytes), largest.derivation));
 }
 
 std::string MemoryPlan::rows() const {

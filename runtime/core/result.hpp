@@ -40,6 +40,9 @@ inline Problem problem_in(std::string file, std::string what) {
 inline Problem problem_in(std::string file, int line, std::string what) {
   return {{std::move(file), line}, std::move(what)};
 }
+inline Problem problem_in(SourcePlace where, std::string what) {
+  return {std::move(where), std::move(what)};
+}
 
 /// What the system did not do with a file, and its reason: "what: Permission denied".
 Problem system_problem(std::string file, std::string what, int error);

@@ -100,7 +100,7 @@ SendOutcome Network::send(NodeId destination, const MessageId& id, const Message
   const auto head = codec_.encode(message, scratch_);
   if (!head) throw std::length_error("network: " + head.problem().what);
   if (head.value() + payload.bytes.size() > config_.max_message_bytes)
-    throw std::length_error("network: a message is longer than message_bytes_most");
+    throw std::length_error("network: a message is longer than max_message_bytes");
   outbox.add(destination, id, actors, std::span(scratch_).first(head.value()), std::move(payload));
   given_ = true;
   return SendOutcome::taken;

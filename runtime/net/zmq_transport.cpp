@@ -113,7 +113,7 @@ void ZmqTransport::set_options(LaneSockets& lane) {
 
   log_debug(
       "zmq=options node={} lane={} mandatory=1 handover=1 immediate=1 linger_ms=0 "
-      "hwm_frames={} frame_bytes_most={} handshake_ms=2000 tcp_maxrt_ms=5000 "
+      "hwm_frames={} max_frame_bytes={} handshake_ms=2000 tcp_maxrt_ms=5000 "
       "reconnect_ms=100..5000 curve={}",
       config_.self.value, lane.name, config_.high_water_frames, max_frame_bytes,
       config_.keys.has_value());

@@ -62,9 +62,8 @@ Value value_of(const ::toml::node& node, Origin outer) {
 Result<Document> parse(std::string_view text, const std::string& file, size_t max_bytes,
                        Quoting quoting) {
   if (text.size() > max_bytes)
-    return Problem{
-        {file, 0},
-        "this file is longer than " + std::to_string(max_bytes) + " bytes, the most that is read"};
+    return problem_in(file, "this file is longer than " + std::to_string(max_bytes) +
+                                " bytes, the most that is read");
   if (auto deep = too_deep(text, file)) return std::move(*deep);
   try {
     Document document{std::make_shared<const std::string>(file), {}};

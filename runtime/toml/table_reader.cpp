@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <numbers>
 #include <stdexcept>
 
 #include "runtime/core/printable.hpp"
@@ -27,7 +28,7 @@ std::string shown(double v) {
 /// Where a number of degrees is a usual angle in radians, written with three digits or more: that
 /// angle [deg]. Others are too near to angles that are meant.
 std::optional<double> degrees_of_radians(double v) {
-  constexpr double pi = 3.14159265358979323846, rounding = 2e-3;
+  constexpr double pi = std::numbers::pi, rounding = 2e-3;
   for (const double degrees : {30, 45, 60, 90, 120, 135, 180, 270, 360})
     if (std::abs(std::abs(v) - degrees * pi / 180) < rounding) return v < 0 ? -degrees : degrees;
   return std::nullopt;

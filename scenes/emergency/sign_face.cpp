@@ -64,7 +64,7 @@ class Classifier {
 /// An empty grid (every texel `other`) for a face of this size.
 Result<SignFace> blank_face(double width_m, double height_m, int texels_across) {
   for (double edge_m : {width_m, height_m})
-    if (!(edge_m >= limits::face_edge_least_m && edge_m <= limits::face_edge_most_m))
+    if (!(edge_m >= limits::min_face_edge_m && edge_m <= limits::max_face_edge_m))
       return problem("a sign's edge is " + std::to_string(edge_m) +
                      " m; width and height must lie between 0.01 m and 20 m");
   if (texels_across < limits::min_face_texels_across ||

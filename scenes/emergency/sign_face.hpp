@@ -22,8 +22,8 @@ inline constexpr int min_face_texels_across = 8;
 /// 2048 texels on a 1 m face are 0.5 mm, finer than any eye at 2 m; more only costs memory.
 inline constexpr int max_face_texels_across = 2048;
 inline constexpr int64_t max_face_texels = int64_t{1} << 22;
-inline constexpr double face_edge_least_m = 0.01;
-inline constexpr double face_edge_most_m = 20.0;
+inline constexpr double min_face_edge_m = 0.01;
+inline constexpr double max_face_edge_m = 20.0;
 inline constexpr int64_t max_drawing_bytes = int64_t{4} << 20;
 inline constexpr int64_t max_picture_bytes = int64_t{64} << 20;
 inline constexpr int64_t max_picture_pixels = int64_t{1} << 24;

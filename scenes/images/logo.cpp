@@ -31,18 +31,18 @@ Result<std::string> read_logo(const std::filesystem::path& path) {
   std::error_code failed;
   const SourcePlace place{path.string(), 0};
   if (!std::filesystem::is_regular_file(path, failed))
-    return Problem{place, "there is no such file"};
+    return problem_in(place, "there is no such file");
   const uint64_t size = std::filesystem::file_size(path, failed);
   if (failed || size > limits::logo_bytes)
-    return Problem{place, "a logo has at most " + std::to_string(limits::logo_bytes >> 20) +
-                              " MiB; make it smaller"};
+    return problem_in(place, "a logo has at most " + std::to_string(limits::logo_bytes >> 20) +
+                                 " MiB; make it smaller");
   const auto image = read_png(path.string());
   if (!image)
-    return Problem{image.problem().where,
-                   image.problem().what + "; a logo is a PNG picture: convert it to one"};
+    return problem_in(image.problem().where,
+                      image.problem().what + "; a logo is a PNG picture: convert it to one");
   if (image->width > limits::logo_side || image->height > limits::logo_side)
-    return Problem{place, "a logo has at most " + std::to_string(limits::logo_side) +
-                              " pixels a side; make it smaller"};
+    return problem_in(place, "a logo has at most " + std::to_string(limits::logo_side) +
+                                 " pixels a side; make it smaller");
   const auto png = encode_png(on_white(image.value()), place);
   if (!png) return png.problem();
   return std::string(reinterpret_cast<const char*>(png->data()), png->size());

@@ -60,10 +60,11 @@ Result<uint64_t> pixel_count(int64_t width, int64_t height, const SourcePlace& p
   if (width < 1 || height < 1 || width > limits::max_image_edge ||
       height > limits::max_image_edge ||
       static_cast<uint64_t>(width * height) > limits::max_image_pixels) {
-    return Problem{place, "a picture of " + std::to_string(width) + " x " + std::to_string(height) +
-                              " pixels is not possible; edges are 1 to " +
-                              std::to_string(limits::max_image_edge) + " and at most " +
-                              std::to_string(limits::max_image_pixels) + " pixels in all"};
+    return problem_in(place, "a picture of " + std::to_string(width) + " x " +
+                                 std::to_string(height) +
+                                 " pixels is not possible; edges are 1 to " +
+                                 std::to_string(limits::max_image_edge) + " and at most " +
+                                 std::to_string(limits::max_image_pixels) + " pixels in all");
   }
   return static_cast<uint64_t>(width * height);
 }
@@ -71,11 +72,11 @@ Result<uint64_t> pixel_count(int64_t width, int64_t height, const SourcePlace& p
 Result<void> check_exr_name(const std::string& name, std::set<std::string>& names,
                             const SourcePlace& place) {
   if (name.empty() || name.size() > max_exr_name_bytes || name.find('\0') != std::string::npos) {
-    return Problem{place, "'" + clean_utf8(name) + "' cannot name anything in an EXR picture; " +
-                              "names have 1 to 255 bytes and no zero byte"};
+    return problem_in(place, "'" + clean_utf8(name) + "' cannot name anything in an EXR picture; " +
+                                 "names have 1 to 255 bytes and no zero byte");
   }
   if (!names.insert(name).second) {
-    return Problem{place, "'" + clean_utf8(name) + "' is there twice; names must differ"};
+    return problem_in(place, "'" + clean_utf8(name) + "' is there twice; names must differ");
   }
   return {};
 }
@@ -84,8 +85,8 @@ Result<void> check_exr(const ExrImage& image, const SourcePlace& place) {
   const Result<uint64_t> pixels = pixel_count(image.width, image.height, place);
   if (!pixels) return pixels.problem();
   if (image.channels.empty() || image.channels.size() > limits::max_exr_channels) {
-    return Problem{
-        place, "a picture needs 1 to " + std::to_string(limits::max_exr_channels) + " channels"};
+    return problem_in(
+        place, "a picture needs 1 to " + std::to_string(limits::max_exr_channels) + " channels");
   }
   std::set<std::string> channel_names;
   for (const ExrChannel& channel : image.channels) {
@@ -93,13 +94,13 @@ Result<void> check_exr(const ExrImage& image, const SourcePlace& place) {
       return good.problem();
     const std::string name = "channel '" + clean_utf8(channel.name) + "'";
     if (channel.values.size() != pixels.value()) {
-      return Problem{place, name + " has " + std::to_string(channel.values.size()) +
-                                " values for " + std::to_string(pixels.value()) + " pixels"};
+      return problem_in(place, name + " has " + std::to_string(channel.values.size()) +
+                                   " values for " + std::to_string(pixels.value()) + " pixels");
     }
     const auto beyond = [](float v) { return std::isfinite(v) && std::abs(v) > half_largest; };
     if (image.half && std::any_of(channel.values.begin(), channel.values.end(), beyond)) {
-      return Problem{place, name + " has a value beyond 65504, the largest half float; " +
-                                "write full floats"};
+      return problem_in(place, name + " has a value beyond 65504, the largest half float; " +
+                                   "write full floats");
     }
   }
   std::set<std::string> names = {"unit", "chromaticities", "whitePoint", "whiteLuminance"};
@@ -214,15 +215,16 @@ Result<void> check_png(const PngImage& image, const SourcePlace& place) {
   const Result<uint64_t> pixels = pixel_count(image.width, image.height, place);
   if (!pixels) return pixels.problem();
   if (image.rgb.size() != pixels.value() * 3) {
-    return Problem{place, "a picture of " + std::to_string(pixels.value()) + " pixels has " +
-                              std::to_string(image.rgb.size()) + " bytes, not three a pixel"};
+    return problem_in(place, "a picture of " + std::to_string(pixels.value()) + " pixels has " +
+                                 std::to_string(image.rgb.size()) + " bytes, not three a pixel");
   }
   for (const auto& [key, text] : image.text) {
     const bool printable =
         std::all_of(key.begin(), key.end(), [](char c) { return c >= 32 && c < 127; });
     if (key.empty() || key.size() > 79 || !printable || key.front() == ' ' || key.back() == ' ') {
-      return Problem{place, "'" + clean_utf8(key) + "' cannot be the key of a text in a PNG; " +
-                                "keys have 1 to 79 printable ASCII characters, no space at an end"};
+      return problem_in(place,
+                        "'" + clean_utf8(key) + "' cannot be the key of a text in a PNG; " +
+                            "keys have 1 to 79 printable ASCII characters, no space at an end");
     }
   }
   return {};
@@ -245,7 +247,7 @@ Result<void> write_exr(const std::filesystem::path& path, const ExrImage& image)
     Imf::Header header = exr_header(image);
     write_exr_pixels(image, header, out);
   } catch (const std::exception& error) {
-    return Problem{place, std::string("cannot make this EXR picture: ") + error.what()};
+    return problem_in(place, std::string("cannot make this EXR picture: ") + error.what());
   }
   return write_file_atomically(path, std::span<const std::byte>(out.bytes()));
 }
@@ -273,8 +275,8 @@ Result<std::vector<std::byte>> encode_png(const PngImage& image, const SourcePla
                                                     static_cast<int>(texts.size()));
   png_destroy_write_struct(&png, &info);
   if (!written || sink.out_of_memory) {
-    return Problem{place, "cannot make this PNG picture: " +
-                              (sink.error.empty() ? std::string("out of memory") : sink.error)};
+    return problem_in(place, "cannot make this PNG picture: " +
+                                 (sink.error.empty() ? std::string("out of memory") : sink.error));
   }
   return std::move(sink.bytes);
 }

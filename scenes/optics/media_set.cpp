@@ -61,7 +61,7 @@ class MediaCompiler {
       bricks_.emplace_back();
       add_medium();
       if (!fault_.empty()) {
-        return Problem{medium_->place, "medium \"" + medium_->name + "\" " + fault_};
+        return problem_in(medium_->place, "medium \"" + medium_->name + "\" " + fault_);
       }
     }
     if (std::string fault = lay_out(); !fault.empty()) return problem(std::move(fault));

@@ -50,7 +50,7 @@ Result<PhaseFunction> PhaseFunction::make(const Phase& phase, const SourcePlace&
   out.kind_ = phase.kind;
   if (phase.kind == PhaseKind::henyey_greenstein) {
     if (!(std::fabs(phase.g) <= 1.0)) {
-      return Problem{where, "the asymmetry g of a phase function lies between -1 and 1"};
+      return problem_in(where, "the asymmetry g of a phase function lies between -1 and 1");
     }
     const double magnitude = std::fabs(phase.g);
     const bool straight = 1.0 - magnitude < phase_limits::min_one_minus_g;
@@ -62,7 +62,7 @@ Result<PhaseFunction> PhaseFunction::make(const Phase& phase, const SourcePlace&
   }
   if (phase.kind == PhaseKind::tabulated) {
     const std::string fault = table_fault(phase);
-    if (!fault.empty()) return Problem{where, fault};
+    if (!fault.empty()) return problem_in(where, fault);
     out.compile_table(phase);
   }
   return out;

@@ -78,7 +78,7 @@ std::string frame_fault(const Frame& frame) {
 
 Result<QuadricBody> QuadricBody::make(const Medium& medium, const glm::dvec3& local_origin) {
   const auto fault = [&](const std::string& what) {
-    return Problem{medium.place, "medium \"" + medium.name + "\" " + what};
+    return problem_in(medium.place, "medium \"" + medium.name + "\" " + what);
   };
   if (const std::string f = frame_fault(medium.frame); !f.empty()) return fault(f);
   const Quadric& q = medium.quadric;

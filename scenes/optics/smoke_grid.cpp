@@ -145,7 +145,7 @@ Result<SmokeGrid> SmokeGrid::make(const Medium& medium, int medium_index,
                                   const glm::dvec3& local_origin) {
   std::string fault = frame_fault(medium.frame);
   if (fault.empty()) fault = data_fault(medium.data);
-  if (!fault.empty()) return Problem{medium.place, "medium \"" + medium.name + "\" " + fault};
+  if (!fault.empty()) return problem_in(medium.place, "medium \"" + medium.name + "\" " + fault);
   const DataSet& d = medium.data;
   SmokeGrid out;
   out.medium_ = medium_index;

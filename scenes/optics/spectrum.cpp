@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "scenes/optics/chromaticity.hpp"
@@ -255,24 +254,6 @@ Spectrum white_led_shape(double cct_kelvin) {
 
 Spectrum equal_energy_shape() {
   return Spectrum::constant(1 / (spectrum_last_nm - spectrum_first_nm));
-}
-
-double blackbody_visible_fraction(double kelvin) {
-  // With x = c2/(w T): integral of x^3/(e^x - 1) over the visible range, over its value pi^4/15
-  // from 0 to infinity. Simpson's rule: 4000 panels leave an error below 1e-8 of the result from
-  // 300 K up.
-  constexpr int panels = 4000;
-  const double low = second_radiation_nm_k / (spectrum_last_nm * kelvin);
-  const double high = second_radiation_nm_k / (spectrum_first_nm * kelvin);
-  const double h = (high - low) / panels;
-  double sum = 0;
-  for (int i = 0; i <= panels; ++i) {
-    const double x = low + h * i;
-    const double f = x * x * x * std::exp(-x) / -std::expm1(-x);
-    sum += f * (i == 0 || i == panels ? 1 : (i % 2 == 1 ? 4 : 2));
-  }
-  const double pi = std::numbers::pi;
-  return sum * h / 3 / (pi * pi * pi * pi / 15);
 }
 
 double efficacy_lm_per_w(const Spectrum& shape) {

@@ -50,9 +50,6 @@ Spectrum illuminant_d65_shape();
 Spectrum white_led_shape(double cct_kelvin);
 Spectrum equal_energy_shape();
 
-/// Share of a black body's total radiant power that lies in [380, 780] nm.
-double blackbody_visible_fraction(double kelvin);
-
 /// Luminous flux [lm] per radiant watt within [380, 780] nm of a shape.
 double efficacy_lm_per_w(const Spectrum& shape);
 

@@ -25,7 +25,6 @@ class VolumeEmitter {
   int medium() const { return medium_; }
   double volume_m3() const { return body_ ? body_->volume().m3 : grid_.volume_m3(); }
   /// Of volume_m3; 0 where it is a closed form.
-  double volume_error_m3() const { return body_ ? body_->volume().error_m3 : 0; }
   /// False where nothing glows: every cell's strength is 0.
   bool glows() const { return body_ || !grid_.has_emission() || total_ > 0; }
 

@@ -140,23 +140,23 @@ Result<Head> head_of(const MappedPack& pack) {
   Head head{};
   std::memcpy(&head, pack.bytes().data(), sizeof head);
   const SourcePlace place{pack.name(), 0};
-  if (head.magic != magic) return Problem{place, "this is no pack of a scene"};
+  if (head.magic != magic) return problem_in(place, "this is no pack of a scene");
   if (head.version != limits::pack_version) {
-    return Problem{place, "this pack has format " + std::to_string(head.version) +
-                              ", this program reads " + std::to_string(limits::pack_version) +
-                              ": pack the scene again"};
+    return problem_in(place, "this pack has format " + std::to_string(head.version) +
+                                 ", this program reads " + std::to_string(limits::pack_version) +
+                                 ": pack the scene again");
   }
   if (head.head_hash != hash_of(head) || head.holds_objects > 1)
-    return Problem{place, "the head of this pack is damaged: pack the scene again"};
+    return problem_in(place, "the head of this pack is damaged: pack the scene again");
   if (head.file_bytes != pack.bytes().size()) {
-    return Problem{place, "this pack has " + std::to_string(pack.bytes().size()) +
-                              " bytes and should have " + std::to_string(head.file_bytes) +
-                              ": copy it again"};
+    return problem_in(place, "this pack has " + std::to_string(pack.bytes().size()) +
+                                 " bytes and should have " + std::to_string(head.file_bytes) +
+                                 ": copy it again");
   }
   if (head.skeleton_offset < sizeof(Head) || head.skeleton_offset > head.file_bytes ||
       head.skeleton_bytes != head.file_bytes - head.skeleton_offset ||
       head.skeleton_bytes > limits::max_skeleton_bytes)
-    return Problem{place, "the head of this pack is damaged: pack the scene again"};
+    return problem_in(place, "the head of this pack is damaged: pack the scene again");
   return head;
 }
 

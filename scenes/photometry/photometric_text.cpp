@@ -81,13 +81,15 @@ Result<std::string> read_photometric_bytes(const std::filesystem::path& path) {
   const SourcePlace place{path.string(), 0};
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) {
-    return Problem{place, "no such photometric file; check the path, it is taken from the scene"};
+    return problem_in(place,
+                      "no such photometric file; check the path, it is taken from the scene");
   }
   const std::uintmax_t size = std::filesystem::file_size(path, error);
   if (error)
-    return Problem{place, "the photometric file's size cannot be read; is it still there?"};
+    return problem_in(place, "the photometric file's size cannot be read; is it still there?");
   if (size > max_file_bytes) {
-    return Problem{place, "the file is larger than 16 MiB, more than any photometric file needs"};
+    return problem_in(place,
+                      "the file is larger than 16 MiB, more than any photometric file needs");
   }
   return read_regular_file(path, max_file_bytes);
 }

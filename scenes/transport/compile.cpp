@@ -199,8 +199,8 @@ Result<void> resolve_surface_groups(CompiledScene& scene) {
       if (named || (is_object && d.objects[s].group == measure.name)) members.push_back(s);
     }
     if (members.empty()) {
-      return Problem{measure.place, "surface group \"" + measure.name +
-                                        "\" holds no object: name an object or a tag of one"};
+      return problem_in(measure.place, "surface group \"" + measure.name +
+                                           "\" holds no object: name an object or a tag of one");
     }
     scene.surface_groups.push_back(std::move(members));
   }
@@ -294,10 +294,10 @@ Result<void> compile_emitters(CompiledScene& scene, const std::vector<ActiveSour
   for (const ActiveSource& s : sources) {
     scene.emitters.push_back(compile_emitter(s, scene));
     if (scene.emitters.back().kind == EmitterKind::mesh && !(scene.emitters.back().area_m2 > 0))
-      return Problem{s.emitter->place, "emitter \"" + s.name +
-                                           "\": its triangles are too small to be told from a "
-                                           "point where they are: make them larger, or the "
-                                           "emitter a point"};
+      return problem_in(s.emitter->place, "emitter \"" + s.name +
+                                              "\": its triangles are too small to be told from a "
+                                              "point where they are: make them larger, or the "
+                                              "emitter a point");
     groups.push_back(group_name(s, d.run.groups));
     if (s.sign == nullptr) continue;
     const CompiledEmitter& e = scene.emitters.back();

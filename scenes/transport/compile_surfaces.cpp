@@ -160,12 +160,12 @@ class TriangleBuilder {
     for (const glm::uvec3& t : mesh.triangles) {
       add_triangle(surface, index, mesh, t, patch_edge_m);
       if (patches_ > limits::patches) {
-        return Problem{place, "with \"" + surface.name + "\" the scene has more than " +
-                                  std::to_string(limits::patches) + " flux patches: " +
-                                  (length_of(mesh) > max_length_m
-                                       ? "it is longer than a kilometre: is it in another unit "
-                                         "than metres? Else make patch_edge_m larger"
-                                       : "make patch_edge_m larger")};
+        return problem_in(place, "with \"" + surface.name + "\" the scene has more than " +
+                                     std::to_string(limits::patches) + " flux patches: " +
+                                     (length_of(mesh) > max_length_m
+                                          ? "it is longer than a kilometre: is it in another unit "
+                                            "than metres? Else make patch_edge_m larger"
+                                          : "make patch_edge_m larger"));
       }
     }
     surface.patches = patches() - surface.first_patch;

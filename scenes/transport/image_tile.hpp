@@ -1,4 +1,4 @@
-// A reflectance picture cut into tiles, the data objects that are shared between machines; every
+// A reflectance picture cut into tiles, the scene parts that are shared between machines; every
 // machine keeps a picture's size, and reads texels through a resolver. As bytes a tile is named by
 // their hash; bytes come from other machines and are held against the picture before they are used.
 // Pure; any thread.

@@ -82,14 +82,14 @@ Result<std::span<const std::byte>> object_bytes(const PackedScene& packed, uint3
   const auto bytes = packed.file->object(object);
   const SourcePlace place{packed.file->name(), 0};
   if (bytes.empty()) {
-    return Problem{place,
-                   "this pack holds no objects, so the whole scene cannot be read from it: "
-                   "use the pack that it was made of"};
+    return problem_in(place,
+                      "this pack holds no objects, so the whole scene cannot be read from it: "
+                      "use the pack that it was made of");
   }
   if (object_id_of(bytes) != packed.objects[object].id)
-    return Problem{place,
-                   "scene part " + std::to_string(object) +
-                       " of this pack is damaged: pack the scene again, or copy the pack again"};
+    return problem_in(place,
+                      "scene part " + std::to_string(object) +
+                          " of this pack is damaged: pack the scene again, or copy the pack again");
   return bytes;
 }
 

@@ -17,7 +17,7 @@
 
 namespace luxodus {
 
-/// Data objects by their place, wherever they lie.
+/// Scene parts by their place, wherever they lie.
 class ObjectFile {
  public:
   virtual ~ObjectFile() = default;

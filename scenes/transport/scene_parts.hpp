@@ -57,7 +57,7 @@ bool in_parts(const CompiledScene& scene);
 /// names.
 std::vector<std::shared_ptr<const Image>> distinct_images(const SceneDescription& description);
 
-/// A part as the bytes of a data object. Requires: the scene is not packed.
+/// A part as bytes. Requires: the scene is not packed.
 std::vector<std::byte> encode_part(const CompiledScene& scene, const ScenePart& part);
 
 }  // namespace luxodus

@@ -10,7 +10,8 @@ ClusterText shown_by(const std::string& node, const std::string& run) {
   ClusterText text;
   text.workers = 3;
   text.run = run;
-  text.more = "[timeouts]\nlost_s = 1\n[display]\nnode = \"" + node + "\"\n";
+  text.more =
+      "[timeouts]\nlost_s = 1\n[display]\nnode = \"" + node + "\"\n" + slow_workers(text.workers);
   return text;
 }
 
@@ -46,13 +47,13 @@ TEST_CASE("a worker that shows the run writes the results of the plain loop",
 
 TEST_CASE("a display that is killed and started again loses no flux", "[cluster][display]") {
   const TemporaryFolder folder;
-  const std::string cluster = write_cluster(folder, shown_by("n1", "particles = 1_500_000\n"));
+  const std::string cluster = write_cluster(folder, shown_by("n1", "particles = 400_000\n"));
   Running nodes = start(cluster, 3);
   nodes.workers[1]->kill(SIGKILL);
   CHECK(nodes.workers[1]->wait() == 128 + SIGKILL);
   nodes.workers[1] = node(cluster, "n1");
   check_all_end_well(nodes);
-  check_plain_flux(folder, "1500k");
+  check_plain_flux(folder, "400k");
   const std::string result = slurp(folder / "out" / "result.json");
   CHECK(result.find("\"finished\": false") == std::string::npos);
 }
@@ -60,7 +61,7 @@ TEST_CASE("a display that is killed and started again loses no flux", "[cluster]
 TEST_CASE("a run whose display does not come back keeps its journal, and is ended by the next",
           "[cluster][display]") {
   const TemporaryFolder folder;
-  const std::string cluster = write_cluster(folder, shown_by("n1", "particles = 1_500_000\n"));
+  const std::string cluster = write_cluster(folder, shown_by("n1", "particles = 400_000\n"));
   Running nodes = start(cluster, 3);
   nodes.workers[1]->kill(SIGKILL);
   CHECK(nodes.controller->wait() == 1);
@@ -73,7 +74,7 @@ TEST_CASE("a run whose display does not come back keeps its journal, and is ende
   INFO(again.err);
   CHECK(again.code == 0);
   CHECK_FALSE(fs::exists(folder / "out" / "run.journal"));
-  check_plain_flux(folder, "1500k");
+  check_plain_flux(folder, "400k");
 }
 
 TEST_CASE("a cluster that is told to end has its display write what there is",
@@ -96,8 +97,8 @@ TEST_CASE("a tracer that fails makes its node leave, and the others leave the sa
   const TemporaryFolder folder;
   ClusterText text;
   text.workers = 3;
-  text.run = "particles = 3_000_000\n";
-  text.more = "[timeouts]\nlost_s = 1\n" + failure("n1", "tracer", "1");
+  text.run = "particles = 1_200_000\n";
+  text.more = "[timeouts]\nlost_s = 1\n" + failure("n1", "tracer", "1") + slow_workers(3);
   const Running nodes = start(write_cluster(folder, text), 3);
   CHECK(nodes.workers[1]->wait() == 1);
   INFO(nodes.workers[1]->text());
@@ -106,7 +107,7 @@ TEST_CASE("a tracer that fails makes its node leave, and the others leave the sa
   INFO(nodes.controller->text());
   CHECK(nodes.workers[0]->wait() == 0);
   CHECK(nodes.workers[2]->wait() == 0);
-  check_plain_flux(folder, "3M");
+  check_plain_flux(folder, "1200k");
 }
 
 TEST_CASE("a coordinator or journal that fails ends the run, and the journal stays",
@@ -117,7 +118,7 @@ TEST_CASE("a coordinator or journal that fails ends the run, and the journal sta
     ClusterText text;
     text.workers = 2;
     text.run = endless;
-    text.more = "[timeouts]\nlost_s = 5\n" + failure("controller", actor, "10");
+    text.more = "[timeouts]\nlost_s = 5\n" + failure("controller", actor, "10") + slow_workers(2);
     const Running nodes = start(write_cluster(folder, text), 2);
     CHECK(nodes.controller->wait() == 1);
     INFO(nodes.controller->text());
@@ -132,12 +133,12 @@ TEST_CASE("a coordinator or journal that fails ends the run, and the journal sta
 TEST_CASE("a display that fails on purpose begins anew, and the run ends well",
           "[cluster][supervision]") {
   const TemporaryFolder folder;
-  ClusterText text = shown_by("n0", "particles = 2_000_000\n");
+  ClusterText text = shown_by("n0", "particles = 600_000\n");
   text.more += failure("n0", "display", "0.5");
   const Running nodes = start(write_cluster(folder, text), 3);
   check_all_end_well(nodes);
   CHECK(nodes.workers[0]->said("a failure on purpose: it begins anew"));
-  check_plain_flux(folder, "2M");
+  check_plain_flux(folder, "600k");
 }
 
 TEST_CASE("a display on a node that is not there is refused, with the one that was meant",

@@ -16,9 +16,7 @@ ClusterText quick(int workers) {
   text.more =
       "[timeouts]\nlost_s = 0.5\n[lease]\nduration_s = 2\n[observe]\nlog_level = \"debug\"\n";
   text.links = "beat_ms = 50\n";
-  for (int i = 0; i < workers; ++i)
-    text.more += "[[faults.event]]\nkind = \"slow\"\nnode = \"n" + std::to_string(i) +
-                 "\"\nat_s = 0\nlasts_s = 1000\nfactor = 4\n";
+  text.more += slow_workers(workers);
   return text;
 }
 
@@ -44,41 +42,6 @@ std::string lost(int worker) {
 
 std::string flush_of(int worker) {
   return "flush=taken node=" + std::to_string(worker) + " ";
-}
-
-/// A hall of 900 boxes, twice as large as a budget, and batches that are soon traced.
-std::string boxes(const TemporaryFolder& folder) {
-  const fs::path path = folder / "boxes.toml";
-  std::ofstream(path) << R"(title = "Boxes in rows"
-patch_edge_m = 5
-[run]
-batch_particles = 200
-[[material]]
-name = "white"
-reflectance = "white80"
-[[object]]
-name = "hall"
-shape = "room"
-low = [0, 0, 0]
-high = [31, 31, 4]
-material = "white"
-[[object]]
-name = "box"
-shape = "box"
-low = [0.3, 0.3, 0]
-high = [0.7, 0.7, 1]
-material = "white"
-one_patch = true
-repeat = [{ count = 30, step = [1, 0, 0] }, { count = 30, step = [0, 1, 0] }]
-[[emitter]]
-name = "lamp"
-shape = "rectangle"
-position = [15.5, 15.5, 3.9]
-size = [0.6, 0.6]
-distribution = "lambertian"
-flux_lm = 3000
-)";
-  return path.string();
 }
 
 /// Three workers with room for half of a scene, of which the last stores nothing of it: it has what
@@ -131,7 +94,7 @@ void check_orphans(const Running& nodes, size_t leader) {
 void end_with_same_bits(const TemporaryFolder& folder, const Running& nodes, const FaultRow& row) {
   nodes.end();
   INFO(nodes.controller->text());
-  check_goes_on(folder, 100'000);
+  check_goes_on(folder);
   row.end("same bits");
 }
 

@@ -120,6 +120,51 @@ struct ClusterText {
   std::vector<uint16_t> ports;
 };
 
+/// Events by which workers compute at a quarter of their speed, so that a run lasts as long with a
+/// quarter of the particles, which the plain loop is to trace as well.
+inline std::string slow_workers(int count) {
+  std::string text;
+  for (int i = 0; i < count; ++i)
+    text += "[[faults.event]]\nkind = \"slow\"\nnode = \"n" + std::to_string(i) +
+            "\"\nat_s = 0\nlasts_s = 1000\nfactor = 4\n";
+  return text;
+}
+
+/// A hall of 900 boxes, twice as large as a budget of 1 MiB, and batches that are soon traced.
+inline std::string boxes(const TemporaryFolder& folder) {
+  const fs::path path = folder / "boxes.toml";
+  std::ofstream(path) << R"(title = "Boxes in rows"
+patch_edge_m = 5
+[run]
+batch_particles = 200
+[[material]]
+name = "white"
+reflectance = "white80"
+[[object]]
+name = "hall"
+shape = "room"
+low = [0, 0, 0]
+high = [31, 31, 4]
+material = "white"
+[[object]]
+name = "box"
+shape = "box"
+low = [0.3, 0.3, 0]
+high = [0.7, 0.7, 1]
+material = "white"
+one_patch = true
+repeat = [{ count = 30, step = [1, 0, 0] }, { count = 30, step = [0, 1, 0] }]
+[[emitter]]
+name = "lamp"
+shape = "rectangle"
+position = [15.5, 15.5, 3.9]
+size = [0.6, 0.6]
+distribution = "lambertian"
+flux_lm = 3000
+)";
+  return path.string();
+}
+
 /// Writes FOLDER/FILE.toml: workers n0, n1, ... and a controller, each a process, on this machine.
 /// All of a folder are the same run, whatever their files are called.
 inline std::string write_cluster(const TemporaryFolder& folder, const ClusterText& text,
@@ -203,7 +248,7 @@ inline int64_t particles_in(const TemporaryFolder& folder) {
 
 /// Goes on from OUT, somewhat farther than it is, and compares. What was lent and lost is made up
 /// for first, which may be farther still.
-inline void check_goes_on(const TemporaryFolder& folder, int64_t more = 500'000,
+inline void check_goes_on(const TemporaryFolder& folder, int64_t more = 100'000,
                           const std::string& scene = smoke_tank(), const std::string& how = "") {
   const int64_t farther = particles_in(folder) + more;
   REQUIRE(run_luxodus(folder, "run " + scene + " --resume --no-views --particles " +

@@ -10,7 +10,7 @@ ClusterText workers(int count, const std::string& run) {
   ClusterText text;
   text.workers = count;
   text.run = run;
-  text.more = "[timeouts]\nlost_s = 1\n";
+  text.more = "[timeouts]\nlost_s = 1\n" + slow_workers(count);
   return text;
 }
 
@@ -18,19 +18,19 @@ ClusterText workers(int count, const std::string& run) {
 
 TEST_CASE("a worker that is killed is done without: the others leave the same bits", "[cluster]") {
   const TemporaryFolder folder;
-  const Running nodes = start(write_cluster(folder, workers(3, "particles = 1_500_000\n")), 3);
+  const Running nodes = start(write_cluster(folder, workers(3, "particles = 400_000\n")), 3);
   nodes.workers[1]->kill(SIGKILL);
   CHECK(nodes.controller->wait() == 0);
   INFO(nodes.controller->text());
   CHECK(nodes.workers[0]->wait() == 0);
   CHECK(nodes.workers[2]->wait() == 0);
-  check_plain_flux(folder, "1500k");
+  check_plain_flux(folder, "400k");
 }
 
 TEST_CASE("a worker that is killed and started again is taken in, with the same bits",
           "[cluster]") {
   const TemporaryFolder folder;
-  const std::string cluster = write_cluster(folder, workers(2, "particles = 1_500_000\n"));
+  const std::string cluster = write_cluster(folder, workers(2, "particles = 400_000\n"));
   Running nodes = start(cluster, 2);
   nodes.workers[0]->kill(SIGKILL);
   CHECK(nodes.workers[0]->wait() == 128 + SIGKILL);
@@ -39,14 +39,14 @@ TEST_CASE("a worker that is killed and started again is taken in, with the same 
   INFO(nodes.controller->text());
   CHECK(nodes.workers[0]->wait() == 0);
   CHECK(nodes.workers[1]->wait() == 0);
-  check_plain_flux(folder, "1500k");
+  check_plain_flux(folder, "400k");
 }
 
 TEST_CASE("a controller that is killed and started again begins anew, with the same bits",
           "[cluster]") {
   const TemporaryFolder folder;
-  ClusterText text = workers(2, "particles = 1_500_000\n");
-  text.more = "[timeouts]\nlost_s = 60\n";
+  ClusterText text = workers(2, "particles = 400_000\n");
+  text.more = "[timeouts]\nlost_s = 60\n" + slow_workers(2);
   const std::string cluster = write_cluster(folder, text);
   Running nodes = start(cluster, 2);
   nodes.controller->kill(SIGKILL);
@@ -56,7 +56,7 @@ TEST_CASE("a controller that is killed and started again begins anew, with the s
   INFO(nodes.controller->text());
   CHECK(nodes.workers[0]->wait() == 0);
   CHECK(nodes.workers[1]->wait() == 0);
-  check_plain_flux(folder, "1500k");
+  check_plain_flux(folder, "400k");
 }
 
 TEST_CASE("a worker whose controller has vanished ends and says so", "[cluster]") {
@@ -93,7 +93,7 @@ TEST_CASE("a worker that is killed takes the run with it where it holds a shard 
 TEST_CASE("a worker that is killed and started again beside shards is taken in, with the same bits",
           "[cluster][shards]") {
   const TemporaryFolder folder;
-  ClusterText text = workers(3, "particles = 1_500_000\n");
+  ClusterText text = workers(3, "particles = 400_000\n");
   text.more += "[tally]\nshards = [\"n0\", \"n2\"]\n";
   const std::string cluster = write_cluster(folder, text);
   Running nodes = start(cluster, 3);
@@ -103,7 +103,7 @@ TEST_CASE("a worker that is killed and started again beside shards is taken in, 
   CHECK(nodes.controller->wait() == 0);
   INFO(nodes.controller->text());
   for (const auto& worker : nodes.workers) CHECK(worker->wait() == 0);
-  check_plain_flux(folder, "1500k");
+  check_plain_flux(folder, "400k");
 }
 
 TEST_CASE("a controller whose workers have all vanished leaves what can be gone on from",
@@ -143,16 +143,17 @@ TEST_CASE("a cluster that is told to end leaves whole batches that can be gone o
 TEST_CASE("a disk that fills up under the journal costs the journal, and not the run",
           "[cluster][loss]") {
   const TemporaryFolder folder;
-  ClusterText text = workers(2, "particles = 3_000_000\n");
+  ClusterText text = workers(2, "particles = 800_000\n");
   text.more =
       "[lease]\nduration_s = 4\n[[faults.event]]\nkind = \"full_disk\"\n"
-      "node = \"controller\"\nat_s = 0.2\nlasts_s = 1000\n";
+      "node = \"controller\"\nat_s = 0.2\nlasts_s = 1000\n" +
+      slow_workers(2);
   Running nodes = start(write_cluster(folder, text), 2);
   CHECK(nodes.controller->wait() == 0);
   INFO(nodes.controller->text());
   CHECK(nodes.controller->said("journal=failed"));
   for (const auto& worker : nodes.workers) CHECK(worker->wait() == 0);
-  check_plain_flux(folder, "3M");
+  check_plain_flux(folder, "800k");
 }
 
 TEST_CASE("a disk that is really full when a cluster ends has room for the results",
@@ -195,9 +196,10 @@ TEST_CASE("who stops cluster up stops all its nodes, and the results are written
 TEST_CASE("a controller that is killed and started again goes on from its journal",
           "[cluster][loss]") {
   const TemporaryFolder folder;
-  ClusterText text = workers(2, "particles = 3_000_000\n");
+  ClusterText text = workers(2, "particles = 800_000\n");
   text.more =
-      "[timeouts]\nlost_s = 30\n[lease]\nduration_s = 4\n[observe]\nlog_level = \"debug\"\n";
+      "[timeouts]\nlost_s = 30\n[lease]\nduration_s = 4\n[observe]\nlog_level = \"debug\"\n" +
+      slow_workers(2);
   const std::string cluster = write_cluster(folder, text);
   Running nodes = start(cluster, 2);
   REQUIRE(nodes.controller->says("flush=taken"));
@@ -213,6 +215,6 @@ TEST_CASE("a controller that is killed and started again goes on from its journa
   CHECK(nodes.controller->said("journal=torn bytes=21"));
   CHECK(nodes.controller->said("run=recovered"));
   for (const auto& worker : nodes.workers) CHECK(worker->wait() == 0);
-  check_plain_flux(folder, "3M");
+  check_plain_flux(folder, "800k");
   CHECK_FALSE(fs::exists(journal));
 }

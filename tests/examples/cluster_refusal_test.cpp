@@ -131,8 +131,8 @@ TEST_CASE("a second cluster of one file with other results is refused, and the f
   const TemporaryFolder folder;
   ClusterText text;
   text.workers = 3;
-  text.run = "particles = 3_000_000\n";
-  text.more = "[timeouts]\nlost_s = 20\n";
+  text.run = "particles = 1_200_000\n";
+  text.more = "[timeouts]\nlost_s = 20\n" + slow_workers(text.workers);
   const std::string first = write_cluster(folder, text, "first");
   text.out = "elsewhere";
   const std::string second = write_cluster(folder, text, "second");
@@ -168,7 +168,7 @@ TEST_CASE("a second cluster of one file with other results is refused, and the f
     INFO(nodes.controller->text());
     for (const auto& worker : nodes.workers) CHECK(worker->wait() == 0);
   }
-  check_plain_flux(folder, "3000k");
+  check_plain_flux(folder, "1200k");
 }
 
 TEST_CASE("a run without one of its workers does not begin, and names it", "[cluster]") {

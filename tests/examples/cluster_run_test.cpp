@@ -1,20 +1,16 @@
 // Whole clusters as a person starts them: processes that meet over sockets, and leave what the
 // plain program leaves, to the bit.
-#include "tests/examples/program_kit.hpp"
+#include "tests/examples/cluster_kit.hpp"
 #include "tests/kit/test_length.hpp"
 
 using namespace luxodus::program;
 
 namespace {
 
-std::string tank_scene() {
-  return (fs::path(LUX_SOURCE_DIR) / "scenes/library/smoke_tank.toml").string();
-}
-
 /// A controller and three workers, each a process; `more` is added to the file.
 fs::path cluster_file(const TemporaryFolder& folder, const std::string& more) {
   const fs::path file = folder / "cluster.toml";
-  std::ofstream(file) << "[run]\nname = \"test\"\nscene = \"" << tank_scene()
+  std::ofstream(file) << "[run]\nname = \"test\"\nscene = \"" << smoke_tank()
                       << "\"\nparticles = 100_000\nout = \"" << (folder / "out").string()
                       << "\"\n[[host]]\nname = \"here\"\n[[node]]\nname = \"n\"\ncount = 3\n"
                          "[[node]]\nname = \"controller\"\nrole = \"controller\"\n"
@@ -26,7 +22,7 @@ void check_same_flux(const TemporaryFolder& folder, const fs::path& cluster) {
   const Outcome up = run_luxodus(folder, "cluster up " + cluster.string());
   INFO(up.err);
   REQUIRE(up.code == 0);
-  REQUIRE(run_luxodus(folder, "run " + tank_scene() + " --particles 100k --no-views --out " +
+  REQUIRE(run_luxodus(folder, "run " + smoke_tank() + " --particles 100k --no-views --out " +
                                   (folder / "plain").string())
               .code == 0);
   const std::string flux = slurp(folder / "out" / "flux.lux");
@@ -44,11 +40,13 @@ TEST_CASE("four processes over local sockets leave the flux file of the plain lo
 
 TEST_CASE("processes that plan by a profile leave the flux file of the plain loop", "[cluster]") {
   const TemporaryFolder folder;
-  const std::string particles = luxodus::test::in_full() ? "60000" : "15000";
+  const bool full = luxodus::test::in_full();
+  const std::string particles = full ? "60000" : "4000";
   const fs::path cluster = folder / "cluster.toml";
-  const std::string office =
-      (fs::path(LUX_SOURCE_DIR) / "scenes/library/office_floor.toml").string();
-  std::ofstream(cluster) << "[run]\nname = \"planned\"\nscene = \"" << office
+  const std::string scene =
+      full ? (fs::path(LUX_SOURCE_DIR) / "scenes/library/office_floor.toml").string()
+           : boxes(folder);
+  std::ofstream(cluster) << "[run]\nname = \"planned\"\nscene = \"" << scene
                          << "\"\nparticles = " << particles
                          << "\nprofile = \"its.profile\"\nout = \"" << (folder / "out").string()
                          << "\"\n[[host]]\nname = \"here\"\n[[node]]\nname = \"n\"\ncount = 2\n"
@@ -66,7 +64,7 @@ TEST_CASE("processes that plan by a profile leave the flux file of the plain loo
   REQUIRE(up.code == 0);
   const std::string cells = profiled.out.substr(
       0, profiled.out.find(' '));  // "N objects, ...": this scene has cells only
-  REQUIRE(run_luxodus(folder, "run " + office + " --particles " + particles +
+  REQUIRE(run_luxodus(folder, "run " + scene + " --particles " + particles +
                                   " --no-views --cells " + cells + " --out " +
                                   (folder / "plain").string())
               .code == 0);
@@ -79,7 +77,7 @@ TEST_CASE("a controller that traces, alone in one process, leaves the flux of th
           "[cluster]") {
   const TemporaryFolder folder;
   const fs::path file = folder / "cluster.toml";
-  std::ofstream(file) << "[run]\nname = \"alone\"\nscene = \"" << tank_scene()
+  std::ofstream(file) << "[run]\nname = \"alone\"\nscene = \"" << smoke_tank()
                       << "\"\nparticles = 100_000\nout = \"" << (folder / "out").string()
                       << "\"\n[[host]]\nname = \"here\"\n[[node]]\nname = \"controller\"\n"
                          "role = \"controller\"\ntraces = true\n";
@@ -115,7 +113,7 @@ TEST_CASE("four hosts with addresses of their own leave the flux file of the pla
   const TemporaryFolder folder;
   const std::string script = std::string(LUX_SOURCE_DIR) + "/tests/tools/four_hosts.sh";
   const int status =
-      std::system((script + " " + LUX_PROGRAM + " " + tank_scene() + " " + folder.path().string() +
+      std::system((script + " " + LUX_PROGRAM + " " + smoke_tank() + " " + folder.path().string() +
                    " >" + (folder / "hosts").string() + " 2>&1")
                       .c_str());
   constexpr int not_here = 77;
@@ -125,7 +123,7 @@ TEST_CASE("four hosts with addresses of their own leave the flux file of the pla
   }
   INFO(slurp(folder / "hosts"));
   REQUIRE(WEXITSTATUS(status) == 0);
-  REQUIRE(run_luxodus(folder, "run " + tank_scene() + " --particles 100k --no-views --out " +
+  REQUIRE(run_luxodus(folder, "run " + smoke_tank() + " --particles 100k --no-views --out " +
                                   (folder / "plain").string())
               .code == 0);
   CHECK(slurp(folder / "out" / "flux.lux") == slurp(folder / "plain" / "flux.lux"));

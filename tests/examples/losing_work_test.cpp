@@ -114,12 +114,13 @@ TEST_CASE("pictures never leave the folder of their run through a link", "[progr
 TEST_CASE("a run that is killed goes on from its last checkpoint with the same bits",
           "[program][keep]") {
   const LostRoom place;
-  const std::string nodes = GENERATE("", " --nodes 2");
+  const std::string nodes = GENERATE(" --threads 1", " --nodes 2");
   const Outcome killed =
-      shell(place.folder, std::string(LUX_PROGRAM) + " run " + place.scene + " --out " +
-                              place.out.string() + " --no-views --checkpoint 1s" + nodes + endless +
-                              "& run=$!; until [ -e " + (place.out / "flux.lux").string() +
-                              " ]; do kill -0 $run || exit 9; done; kill -KILL $run; wait $run");
+      shell(place.folder,
+            std::string(LUX_PROGRAM) + " run " + place.scene + " --out " + place.out.string() +
+                " --no-views --checkpoint 1s" + nodes + endless + "& run=$!; until [ -e " +
+                (place.out / "flux.lux").string() +
+                " ]; do kill -0 $run || exit 9; sleep 0.05; done; kill -KILL $run; wait $run");
   INFO(killed.err);
   REQUIRE(killed.code == 128 + 9);
   const auto begun = nlohmann::json::parse(slurp(place.out / "result.json"));
@@ -179,9 +180,9 @@ TEST_CASE("a command that stops by time or error may be repeated", "[program][ke
 
 TEST_CASE("a repeated run that is interrupted leaves the longer one as it was", "[program][keep]") {
   const LostRoom place;
-  REQUIRE(place.run("--no-views --time 4s").code == 0);
+  REQUIRE(place.run("--no-views --threads 1 --time 4s").code == 0);
   const std::string long_run = slurp(place.out / "flux.lux");
-  const Outcome stopped = place.run("--no-views --checkpoint 1s" + endless,
+  const Outcome stopped = place.run("--no-views --threads 1 --checkpoint 1s" + endless,
                                     "timeout --preserve-status --signal=INT 2 ");
   INFO(stopped.err);
   CHECK(stopped.code == 130);
@@ -210,12 +211,13 @@ TEST_CASE("files that no run has written are not replaced unasked", "[program][k
 TEST_CASE("two runs do not write into one folder", "[program][keep]") {
   const LostRoom place;
   const std::string run = std::string(LUX_PROGRAM) + " run " + place.scene + " --out " +
-                          place.out.string() + " --no-views" + endless;
+                          place.out.string() + " --no-views --threads 1" + endless;
   // The lock is there before the first particle; the second command waits for it, then is refused.
-  const Outcome both = shell(
-      place.folder, run + " & first=$!; until [ -s " + (place.out / ".luxodus.lock").string() +
-                        " ]; do kill -0 $first || exit 9; done; timeout --signal=KILL 20 " + run +
-                        "; code=$?; kill -KILL $first; wait $first; exit $code");
+  const Outcome both =
+      shell(place.folder,
+            run + " & first=$!; until [ -s " + (place.out / ".luxodus.lock").string() +
+                " ]; do kill -0 $first || exit 9; sleep 0.05; done; timeout --signal=KILL 20 " +
+                run + "; code=$?; kill -KILL $first; wait $first; exit $code");
   INFO(both.err);
   CHECK(both.code == 2);
   CHECK_THAT(both.err, Contains("process ") && Contains("writes into this folder"));
@@ -232,12 +234,13 @@ TEST_CASE("Ctrl-C and SIGTERM end the making of pictures, and keep what is done"
     // 1200 pixels of a hundred thousand paths take minutes.
     const std::string under =
         "timeout --kill-after=15 --preserve-status --signal=" + signal + " 2 ";
-    const Outcome drawn = place.luxodus("render " + place.out.string() + " --paths 60000", under);
+    const Outcome drawn =
+        place.luxodus("render " + place.out.string() + " --paths 60000 --threads 1", under);
     INFO(signal << "\n" << drawn.err);
     CHECK(drawn.code == 130);
     CHECK_THAT(drawn.err, Contains("interrupted"));
     CHECK(fs::exists(place.out / "flux.lux"));
-    const Outcome run = place.run("--particles 20k --picture-paths 60000", under);
+    const Outcome run = place.run("--particles 20k --picture-paths 60000 --threads 1", under);
     INFO(run.err);
     CHECK(run.code == 130);
     CHECK(nlohmann::json::parse(slurp(place.out / "result.json"))["finished"] == true);

@@ -67,7 +67,7 @@ ClusterText viewed() {
   ClusterText text;
   text.workers = 2;
   text.scene = (fs::path(LUX_SOURCE_DIR) / "scenes/library/office_floor.toml").string();
-  text.run = "particles = 400_000\n";
+  text.run = "particles = 100_000\n";
   text.more = "[view]\nport = 0\n[timeouts]\nstart_s = 20\nlost_s = 20\n";
   return text;
 }
@@ -145,8 +145,10 @@ TEST_CASE("a folder of nothing cannot be viewed, nor one of something else",
 TEST_CASE("a second live view whose workers trace for another ends, and says why",
           "[cluster][view][failure]") {
   const TemporaryFolder folder;
-  const std::string first = write_cluster(folder, viewed(), "first");
-  const std::string second = write_cluster(folder, viewed(), "second");
+  ClusterText text = viewed();
+  text.scene = smoke_tank();  // which is soon traced
+  const std::string first = write_cluster(folder, text, "first");
+  const std::string second = write_cluster(folder, text, "second");
   Process up(LUX_PROGRAM, {"cluster", "up", first});
   REQUIRE(up.says("n1 is there"));
   const auto intruder = node(second, "controller");

@@ -1,6 +1,7 @@
 // Layouts against those found by trying every subset, and proofs that there is none.
 #include "actors/design/solve_layout.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
@@ -207,7 +208,10 @@ TEST_CASE("greedy layouts hold, and pruning takes out what is not needed", "[des
   const Layout lean = pruned(index, all);
   sums.set(lean);
   CHECK(sums.holds());
-  CHECK(chosen_in(lean) <= chosen_in(all));
+  const auto chosen = [](const Layout& layout) {
+    return std::count(layout.begin(), layout.end(), 1);
+  };
+  CHECK(chosen(lean) <= chosen(all));
   for (uint32_t i = 0; i < lean.size(); ++i) {
     if (lean[i] == 0) continue;
     sums.remove(i);

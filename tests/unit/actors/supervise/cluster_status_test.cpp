@@ -71,8 +71,8 @@ TEST_CASE("nodes of a process that does not answer are down, each with the reaso
           "[supervise][status]") {
   const std::vector<AskedProcess> processes{process_of("p", {"a"}), process_of("q", {"b", "c"}),
                                             process_of("r", {"d"})};
-  const auto rows = status_of(
-      processes, {page_of_a, Problem{{}, "127.0.0.1:1: Connection refused"}, std::string()});
+  const auto rows =
+      status_of(processes, {page_of_a, problem("127.0.0.1:1: Connection refused"), std::string()});
   REQUIRE(rows.size() == 4);
   CHECK(rows[0].state == NodeState::up);
   CHECK(rows[1].state == NodeState::down);

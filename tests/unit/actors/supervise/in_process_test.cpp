@@ -63,7 +63,7 @@ TEST_CASE("nodes that lead others in the controller's stead change no bit", "[no
   std::vector<NodesOptions> cases{nodes_of(64, 1), nodes_of(13, 3)};  // by themselves; 3 levels
   cases[1].fan_out = 3;
   check_same_bits(scene_of("smoke_tank", "", 1), stop, cases);
-  stop.particles = 60'000;
+  stop.particles = 24'000;
   cases = {nodes_of(9, 2)};
   cases[0].fan_out = 3;
   cases[0].object_bytes = 4 << 20;  // parts are held by who coordinates, too
@@ -99,7 +99,7 @@ TEST_CASE("levels of coordinators and shards of the totals are refused together"
 
 TEST_CASE("a partitioned scene with signs, probes and bands is the same on nodes", "[nodes]") {
   StopRule stop;
-  stop.particles = 60'000;
+  stop.particles = 24'000;
   check_same_bits(scene_of("office_floor", "smoke_emergency", 6), stop, {nodes_of(3, 7)});
 }
 
@@ -112,7 +112,7 @@ TEST_CASE("totals in shards are those of the plain loop", "[nodes][shards]") {
   cases[2].tally_shards = 4;  // of every worker one
   cases[2].link_delay = milliseconds(5);
   check_same_bits(scene_of("smoke_tank", "", 1), stop, cases);
-  stop.particles = 40'000;
+  stop.particles = 16'000;
   check_same_bits(scene_of("office_floor", "smoke_emergency", 6), stop, {cases[1]});
 }
 
@@ -346,7 +346,7 @@ TEST_CASE("nodes of a packed scene that nobody holds whole give the bits of the 
   const auto description = read_pack(file).value();
   const auto packed = compile_scene(description, scene->scenario, {}).value();
   StopRule stop;
-  stop.particles = 40'000;
+  stop.particles = 16'000;
   LocalRun plain(scene, 1, 2);
   plain.run(stop, nobody, ignore);
   OutOfCoreConfig rows;

@@ -85,7 +85,7 @@ TEST_CASE("a worker that fetches takes memory for cells and what is built of the
   if (!test::allocations_are_counted()) return;
   const auto scene = scene_of("office_floor", "smoke_emergency", 64);
   NodesOptions options;
-  options.fibers = 20;
+  options.fibers = 4;
   options.object_bytes = built_bytes_of(*scene) / 4;
   const Taken taken = taken_by_a_worker(scene, options);
   REQUIRE(taken.report.builds > 100);

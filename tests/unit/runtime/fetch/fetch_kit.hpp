@@ -64,7 +64,7 @@ class TestBuilder final : public ObjectBuilder {
   void answer() {
     REQUIRE(pending_.second != nullptr);
     const auto [object, client] = std::exchange(pending_, {});
-    if (problem) return client->built(object, Problem{{}, "no such thing"});
+    if (problem) return client->built(object, luxodus::problem("no such thing"));
     const size_t size = charges.contains(object) ? charges[object] : charge;
     client->built(object, {std::make_shared<TestObject>(object, size, alive)});
   }

@@ -43,7 +43,7 @@ class DiskStore final : public AppendStore {
     const size_t left = disk_.room - std::min<size_t>(disk_.room, bytes_.size());
     if (bytes.size() <= left) return bytes_.append(bytes);
     (void)bytes_.append(bytes.first(left));
-    return Problem{{}, "the disk is full"};
+    return problem("the disk is full");
   }
   Result<void> truncate(uint64_t size) override { return bytes_.truncate(size); }
 

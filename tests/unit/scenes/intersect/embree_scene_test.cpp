@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <numbers>
 
 #include "runtime/core/random.hpp"
 #include "scenes/geometry/partition.hpp"
@@ -52,7 +53,7 @@ GeometryCell closed_box(int n) {
 
 glm::vec3 any_direction(Random& random) {
   const float z = 2 * random.uniform() - 1;
-  const float phi = 6.2831853f * random.uniform();
+  const float phi = 2 * std::numbers::pi_v<float> * random.uniform();
   const float r = std::sqrt(1 - z * z);
   return glm::normalize(glm::vec3(r * std::cos(phi), r * std::sin(phi), z));
 }

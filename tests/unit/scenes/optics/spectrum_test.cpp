@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <numbers>
 
 #include "scenes/optics/chromaticity.hpp"
+#include "tests/kit/visible_share.hpp"
 
 using namespace luxodus;
 
@@ -45,18 +45,6 @@ double largest_difference(const std::array<double, 3>& a, const std::array<doubl
   double most = 0;
   for (size_t i = 0; i < 3; ++i) most = std::max(most, std::abs(a[i] - b[i]));
   return most;
-}
-
-// Share of black-body radiance between x1 < x2 (x = c2/(w T)) by the series of Planck's integral.
-double planck_share(double x1, double x2) {
-  const auto tail = [](double x) {
-    double total = 0;
-    for (int n = 1; n < 400; ++n)
-      total += std::exp(-n * x) * (x * x * x / n + 3 * x * x / (n * n) + 6 * x / (1.0 * n * n * n) +
-                                   6 / (1.0 * n * n * n * n));
-    return total * 15 / std::pow(std::numbers::pi, 4);
-  };
-  return tail(x1) - tail(x2);
 }
 
 }  // namespace
@@ -133,7 +121,7 @@ TEST_CASE("a spectrum is linear between its nodes and constant beyond the ends",
 TEST_CASE("a black body of 1400 K gives 0.035 lm/W and one of 2856 K 16 to 17 lm/W",
           "[optics][spectrum]") {
   const auto blackbody_efficacy_lm_per_w = [](double kelvin) {
-    return blackbody_visible_fraction(kelvin) * efficacy_lm_per_w(blackbody_shape(kelvin));
+    return test::visible_share_of_black_body(kelvin) * efficacy_lm_per_w(blackbody_shape(kelvin));
   };
   // The literature of light in smoke quotes 0.034 for 1400 K, which is the value of 1396 K.
   CHECK(blackbody_efficacy_lm_per_w(1400) == Approx(0.03516).epsilon(1e-3));
@@ -145,16 +133,6 @@ TEST_CASE("a black body of 1400 K gives 0.035 lm/W and one of 2856 K 16 to 17 lm
   CHECK(blackbody_efficacy_lm_per_w(6600) == Approx(95).margin(1));
   CHECK(blackbody_efficacy_lm_per_w(6600) > blackbody_efficacy_lm_per_w(5000));
   CHECK(blackbody_efficacy_lm_per_w(6600) > blackbody_efficacy_lm_per_w(9000));
-}
-
-TEST_CASE("the visible share of a black body agrees with the series of Planck's integral",
-          "[optics][spectrum]") {
-  for (double kelvin : {300.0, 1400.0, 2856.0, 5778.0, 20000.0}) {
-    const double c2 = 1.438776877e7;
-    CHECK(blackbody_visible_fraction(kelvin) ==
-          Approx(planck_share(c2 / (780 * kelvin), c2 / (380 * kelvin))).epsilon(1e-8));
-  }
-  CHECK(blackbody_visible_fraction(10) == Approx(0).margin(1e-300));
 }
 
 TEST_CASE("colour temperature of a black body is its temperature", "[optics][chromaticity]") {

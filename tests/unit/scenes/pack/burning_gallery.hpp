@@ -1,5 +1,5 @@
 // A room with a picture on its wall, smoke from a data set and a fire from another, some of it
-// clear: a scene of all kinds of data objects, made as files in a folder.
+// clear: a scene of all kinds of scene parts, made as files in a folder.
 #pragma once
 
 #include <catch2/catch.hpp>

@@ -9,6 +9,7 @@
 #include "scenes/optics/flame_spectrum.hpp"
 #include "scenes/scene_file/read_spectrum.hpp"
 #include "scenes/scene_file/scene_schema.hpp"
+#include "tests/kit/visible_share.hpp"
 #include "tests/unit/scenes/scene_file/scene_fixture.hpp"
 
 namespace luxodus {
@@ -144,7 +145,7 @@ TEST_CASE("a flame's visible share is Planck's, with the emissivity of soot or o
   for (const double kelvin : {900.0, 1400.0, 2700.0, 5800.0}) {
     INFO(kelvin << " K");
     CHECK(flame_spectrum(kelvin, false).visible_fraction ==
-          Approx(blackbody_visible_fraction(kelvin)).epsilon(2e-3));
+          Approx(test::visible_share_of_black_body(kelvin)).epsilon(2e-3));
     const Spectrum black = blackbody_shape(kelvin), flame = flame_spectrum(kelvin, false).shape;
     CHECK(flame.at(450) == Approx(black.at(450)).epsilon(1e-3));
     // Soot: midpoint rule over wavelength, dense enough for six digits.
