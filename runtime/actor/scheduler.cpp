@@ -86,10 +86,11 @@ Wake Scheduler::wait_until(WaitList& list, Nanoseconds deadline, const char* rea
 
 Nanoseconds Scheduler::turn() {
   ++counters_.turns;
-  handle_controls();
   const size_t timers = rarely(Buggify::Site::few_timers) ? 1 : limits_.timers_per_turn;
   counters_.timers_fired += timers_.run_due(clock_.now(), timers);
   const bool more_arrives = source_.poll();
+  // What has come is answered before fibers take their time.
+  if (handle_controls()) source_.send_out();
   counters_.handed_over += handoff_.run();
   run_fibers();
   counters_.fibers_live = fibers_.live();
@@ -102,13 +103,16 @@ Nanoseconds Scheduler::turn() {
 }
 
 /// Those who wait now, once each: an actor that sends control to itself is called in the next turn.
-void Scheduler::handle_controls() {
+/// False: nobody waits.
+bool Scheduler::handle_controls() {
+  if (controls_.empty()) return false;
   IntrusiveList<ControlReceiver> waiting;
   while (ControlReceiver* receiver = controls_.pop_front()) waiting.push_back(*receiver);
   while (ControlReceiver* receiver = waiting.pop_front()) {
     receiver->handle_control();
     ++counters_.controls;
   }
+  return true;
 }
 
 void Scheduler::run_fibers() {

@@ -62,6 +62,8 @@ class Payload {
   }
 
   std::span<const std::byte> bytes() const { return bytes_; }
+  /// Bytes that are in no room of a pool, and what keeps them.
+  SharedBytes shared() && { return std::move(shared_); }
 
  private:
   RoomPool* pool_ = nullptr;  // null: the bytes are in no room

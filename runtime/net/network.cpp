@@ -180,6 +180,10 @@ bool Network::poll(Nanoseconds now) {
   return more_arrivals || more_moves;
 }
 
+void Network::send_out(Nanoseconds now) {
+  if (given_) given_ = router_.pump(view_.epoch(), now);
+}
+
 // Fibers run after a turn's poll. What one gives away as the last thing before its node rests would
 // otherwise lie here until the next beat.
 Nanoseconds Network::next_deadline() const {
@@ -308,7 +312,7 @@ bool Network::take_piece(const Envelope& envelope, std::span<const std::byte> bo
                          Nanoseconds now) {
   if (!assembler_.open(envelope)) {
     const auto room =
-        handler_.room_for(envelope.id, envelope.source, envelope.kind, envelope.total_bytes);
+        handler_.room_for(envelope.id, envelope.source, envelope.actors, envelope.total_bytes);
     const bool welcome = room.size() >= envelope.total_bytes;
     if (welcome && assembler_.full()) make_room(envelope.from);
     if (!welcome || assembler_.full()) {

@@ -80,11 +80,12 @@ struct Member final : NetHandler {
     system.deliver(delivery);
     return true;
   }
-  std::span<std::byte> room_for(const MessageId& id, NodeId, Kind, size_t bytes) override {
-    return system.room_for(id, bytes);
+  std::span<std::byte> room_for(const MessageId& id, NodeId, ActorPair actors,
+                                size_t bytes) override {
+    return system.room_for(id, actors.to, bytes);
   }
   void abandoned(const MessageId& id, Kind) override { system.abandoned(id); }
-  bool intercept(const Delivery&) override { return false; }
+  bool intercept(const Delivery& d) override { return system.intercept(d); }
   void link_changed(NodeId, LinkPhase) override {}
   NextHops reroute(std::span<const Edge>) override { return {{here, there}}; }
 
