@@ -58,6 +58,7 @@ void WorkerReport::add(const WorkerReport& other) {
   object_wait.merge(other.object_wait);
   hops += other.hops;
   processor_ns += other.processor_ns;
+  longest_turn = std::max(longest_turn, other.longest_turn);
   if (failed == ActorName::none) failed = other.failed;
 }
 

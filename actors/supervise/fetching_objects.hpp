@@ -29,6 +29,7 @@ struct WorkerReport {
   Histogram object_wait;         // of fibers: from asking for an object to going on with it
   uint64_t hops = 0;             // links that fetched objects passed, all together
   uint64_t processor_ns = 0;     // of real nodes' threads while they ran
+  uint64_t longest_turn = 0;     // [ns] of processor time, of one node
   ActorName failed = ActorName::none;  // why one left before the end; none: all stayed
 
   void add(const WorkerReport& other);

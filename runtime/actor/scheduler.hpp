@@ -107,6 +107,7 @@ class Scheduler {
     uint64_t handed_over = 0;
     uint64_t stalls = 0;
     uint64_t waited = 0;            // [ns] with nothing to do
+    uint64_t longest_turn = 0;      // [ns] of processor time
     uint64_t fibers_live = 0;       // at the end of the last turn
     uint64_t fibers_suspended = 0;  // of those
   };
@@ -117,6 +118,7 @@ class Scheduler {
   bool rarely(Buggify::Site site) const { return luxodus::rarely(limits_.buggify, site); }
 
  private:
+  Nanoseconds take_turn();
   bool handle_controls();
   void run_fibers();
   void report_stall(const Fiber& fiber, Nanoseconds ran);

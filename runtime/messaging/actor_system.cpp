@@ -53,14 +53,14 @@ std::optional<Offered> ActorSystem::put(Place& place, Incoming incoming) {
 /// What came in pieces lies in its room already; the rest is copied into one.
 std::optional<Payload> ActorSystem::payload_of(const Delivery& delivery) {
   if (const auto at = rooms_.find(key_of(delivery.id)); at != rooms_.end()) {
-    Room room = std::move(at->second);
+    PayloadRoom room = std::move(at->second);
     rooms_.erase(at);
     return Payload(pool_, std::move(room), delivery.payload);
   }
   if (delivery.payload.empty()) return Payload();
-  Room room = pool_.take(delivery.payload.size());
+  PayloadRoom room = pool_.take(delivery.payload.size());
   if (room.empty()) return std::nullopt;
-  const auto bytes = std::as_writable_bytes(std::span(room)).first(delivery.payload.size());
+  const auto bytes = room.bytes().first(delivery.payload.size());
   std::copy(delivery.payload.begin(), delivery.payload.end(), bytes.begin());
   return Payload(pool_, std::move(room), bytes);
 }
@@ -102,14 +102,14 @@ std::span<std::byte> ActorSystem::room_for(const MessageId& id, ActorName to, si
   if (place == nullptr) return {};
   if (AwaitedRooms* rooms = place->actor->rooms()) return rooms->room_for(id, bytes);
   abandoned(id);
-  Room room = pool_.take(bytes);
+  PayloadRoom room = pool_.take(bytes);
   if (room.empty()) {
     ++counters_.no_room;
     return {};
   }
-  Room& kept = rooms_[key_of(id)];
+  PayloadRoom& kept = rooms_[key_of(id)];
   kept = std::move(room);
-  return std::as_writable_bytes(std::span(kept));
+  return kept.bytes();
 }
 
 void ActorSystem::abandoned(const MessageId& id) {

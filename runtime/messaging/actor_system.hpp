@@ -8,6 +8,7 @@
 
 #include <array>
 #include <map>
+#include <memory_resource>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -130,7 +131,8 @@ class ActorSystem final : public Sender {
   Network& network_;
   std::array<Place, actor_names.size()> places_{};  // by name
   RoomPool pool_;
-  std::map<Key, Room> rooms_;  // of messages that come in pieces
+  std::pmr::unsynchronized_pool_resource memory_;    // of the map below
+  std::pmr::map<Key, PayloadRoom> rooms_{&memory_};  // of messages that come in pieces
   Counters counters_;
 };
 

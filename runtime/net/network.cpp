@@ -13,6 +13,7 @@ namespace {
 /// Frames taken from the transport in one turn: as many as are moved on in one (router.cpp), so
 /// that neither starves the other.
 constexpr size_t arrivals_per_turn = 256;
+constexpr size_t arriving_bytes_per_turn = 1 << 20;
 
 /// Of one kind of trouble at one link, one line a minute: a peer cannot fill the log.
 constexpr Nanoseconds log_interval = seconds(60);
@@ -205,9 +206,11 @@ void Network::own_lag(Nanoseconds now) {
 }
 
 bool Network::receive(Nanoseconds now) {
-  for (size_t n = 0; n < arrivals_per_turn; ++n) {
+  size_t bytes = 0;
+  for (size_t n = 0; n < arrivals_per_turn && bytes < arriving_bytes_per_turn; ++n) {
     const auto arrival = transport_.receive();
     if (!arrival) return false;
+    bytes += arrival->bytes.size();
     ++counters_.frames_received;
     counters_.bytes_received += arrival->bytes.size();
     take_frame(*arrival, now);
