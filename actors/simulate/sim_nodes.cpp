@@ -59,6 +59,7 @@ SimWorker::SimWorker(const RunSetup& run, const NodeSetup& node, const NodeSeams
 SimWorker::~SimWorker() {
   WorkerReport report = worker_.objects() != nullptr ? worker_.objects()->report() : WorkerReport{};
   if (const auto& verdict = worker_.shell().supervisor().verdict()) report.failed = verdict->actor;
+  report.longest_turn = worker_.shell().scheduler().counters().longest_turn;
   all_.add(report);
 }
 
