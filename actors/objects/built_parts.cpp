@@ -5,6 +5,15 @@
 
 namespace luxodus {
 
+namespace {
+
+SharedBytes shared(std::vector<std::byte> bytes) {
+  const auto owner = std::make_shared<const std::vector<std::byte>>(std::move(bytes));
+  return {std::span(*owner), owner};
+}
+
+}  // namespace
+
 BuiltCell::BuiltCell(std::shared_ptr<BuildDevice> device, GeometryCell cell)
     : device_(std::move(device)), cell_(std::move(cell)) {
   const std::lock_guard lock(device_->measuring);
@@ -18,6 +27,16 @@ BuiltCell::BuiltCell(std::shared_ptr<BuildDevice> device, GeometryCell cell)
 BuiltCell::~BuiltCell() {
   const std::lock_guard lock(device_->measuring);
   scene_.reset();
+}
+
+SharedBytes BuiltCell::wire_bytes() const {
+  return shared(encode_cell(cell_));
+}
+SharedBytes BuiltBrick::wire_bytes() const {
+  return shared(encode_brick(brick_));
+}
+SharedBytes BuiltTile::wire_bytes() const {
+  return shared(encode_tile(tile_));
 }
 
 PartBuilder::PartBuilder(const CompiledScene& scene, const SceneParts& parts)

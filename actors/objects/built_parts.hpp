@@ -27,6 +27,7 @@ class BuiltCell final : public BuiltObject {
   BuiltCell(std::shared_ptr<BuildDevice> device, GeometryCell cell);
   ~BuiltCell() override;
   size_t bytes() const override { return bytes_; }
+  SharedBytes wire_bytes() const override;
   const CellScene& scene() const { return *scene_; }
 
  private:
@@ -40,6 +41,7 @@ class BuiltBrick final : public BuiltObject {
  public:
   explicit BuiltBrick(Brick brick) : brick_(std::move(brick)) {}
   size_t bytes() const override { return sizeof *this - sizeof brick_ + brick_.bytes(); }
+  SharedBytes wire_bytes() const override;
   const Brick& brick() const { return brick_; }
 
  private:
@@ -50,6 +52,7 @@ class BuiltTile final : public BuiltObject {
  public:
   explicit BuiltTile(ImageTile tile) : tile_(std::move(tile)) {}
   size_t bytes() const override { return sizeof *this + tile_.texels.capacity() * sizeof(float); }
+  SharedBytes wire_bytes() const override;
   const ImageTile& tile() const { return tile_; }
 
  private:

@@ -21,6 +21,8 @@ namespace {
 /// Batches whose plan is remembered: a lease that is late is lent again while some hundred others
 /// are out.
 constexpr size_t recent_batches = 1024;
+/// Scores set to zero at once: a megabyte, some 0.1 ms.
+constexpr int64_t scores_of_a_step = 1 << 17;
 }  // namespace
 
 /// A batch in work.
@@ -31,6 +33,7 @@ struct PhotonThreads::OpenBatch {
   uint64_t lease = 0;
   Batch batch;
   BatchScores scores;
+  bool cleared = true;          // the scores are zero
   int64_t next_particle = 0;    // of the batch, not yet given out
   std::vector<uint32_t> order;  // of its particles; empty: as they are numbered
   uint32_t next_unit = 0;       // of the eye paths
@@ -266,7 +269,8 @@ PhotonThreads::OpenBatch* PhotonThreads::open_next() {
     order_by_emitter(scene_, places_, seed_, free->batch.group, free->batch.first_particle,
                      static_cast<uint32_t>(scene_.batch_particles), free->order);
   }
-  free->scores.reset(scene_.layout);
+  if (!std::exchange(free->cleared, false)) free->scores.reset(scene_.layout);
+  free->scores.balance = {};
   free->since = scheduler_.clock().now();
   ++counters_.batches_open;
   if (holds_sampled(*free))
@@ -356,31 +360,53 @@ bool PhotonThreads::finish(OpenBatch& open) {
     if (needed() <= more) break;  // else the totals were given up meanwhile, and these are empty
   }
   close(open);
-  open.scores.scores.clear();
+  if (!std::exchange(open.cleared, true)) open.scores.scores.clear();
   totals_bytes_[merging_] = totals_[merging_].bytes();
   if (totals_bytes_[merging_] > totals_share(config_.tally_bytes)) port_.want_room();
   return true;
 }
 
 void PhotonThreads::close(OpenBatch& open) {
+  const bool counts = !open.dropped && !open.failed;
+  if (counts) merge(open);
   open.used = false;
   --counters_.batches_open;
   if (holds_sampled(open))
     config_.trace->end(TraceKind::batch, open.lease, static_cast<uint64_t>(open.batch.number));
-  if (open.dropped) {  // somebody else traces it
+  if (!counts && open.dropped) {  // somebody else traces it
     ++counters_.batches_dropped;
     return;
   }
-  if (open.failed) {
+  if (!counts) {
     ++counters_.batches_failed;
     return port_.lease_failed(open.lease, open.batch.number);
   }
-  totals_[merging_].merge(open.scores, open.batch.group);
   ++counters_.batches;
   counters_.rays += open.scores.balance.rays;
   counters_.collisions += open.scores.balance.collisions;
   batch_time_.add(scheduler_.clock().now() - open.since);
   port_.leases_done({&open.lease, 1});
+}
+
+/// Millions of bins take longer than a turn may: between steps others have theirs. What is merged
+/// is not given away meanwhile, so it is always of whole batches.
+void PhotonThreads::merge(OpenBatch& open) {
+  ++merges_;
+  if (scheduler_.rarely(Buggify::Site::short_turn)) rest();
+  totals_[merging_].merge(open.scores, open.batch.group, [this] { rest(); });
+  --merges_;
+  SparseArray<int64_t>& scores = open.scores.scores;
+  const auto size = static_cast<int64_t>(scores.size());
+  for (int64_t first = 0; first < size; first += scores_of_a_step) {
+    if (first > 0) rest();
+    scores.clear(first, std::min(size, first + scores_of_a_step));
+  }
+  open.cleared = true;
+}
+
+/// A node that is to end goes on: what is begun is whole in the end.
+void PhotonThreads::rest() {
+  (void)scheduler_.fibers().yield();
 }
 
 }  // namespace luxodus

@@ -67,6 +67,7 @@ class PhotonThreads final : public LeasedWork {
   void end(const std::string& why) override;
 
   Totals& give_totals() override;
+  bool may_give() const override { return merges_ == 0; }
   const Totals& totals() const override { return totals_[0]; }
   size_t at_hand() const override;
 
@@ -105,6 +106,8 @@ class PhotonThreads final : public LeasedWork {
   void outgrown(const OpenBatch& open);
   bool finish(OpenBatch& open);
   void close(OpenBatch& batch);
+  void merge(OpenBatch& batch);
+  void rest();
   bool holds_sampled(const OpenBatch& open) const;
 
   const CompiledScene& scene_;
@@ -120,6 +123,7 @@ class PhotonThreads final : public LeasedWork {
   std::vector<OpenBatch> open_;
   Totals totals_[2];  // one is merged into while the other is emptied
   size_t merging_ = 0;
+  size_t merges_ = 0;                // of batches, under way
   size_t totals_bytes_[2] = {0, 0};  // in memory, when last counted: since then less at most
   size_t tally_bytes_ = 0;           // of all, as fits() has found it, or more
   BatchPlan plan_;

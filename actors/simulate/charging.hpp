@@ -17,16 +17,17 @@ namespace luxodus {
 class Meter {
  public:
   /// Requires: `clock` outlives this.
-  explicit Meter(SimClock& clock) : clock_(clock) {}
+  explicit Meter(SimClock& clock, Work what = Work::other) : clock_(clock), what_(what) {}
   void charge(double work_ns) {
     owed_ns_ += work_ns;
     const auto whole = static_cast<Nanoseconds>(owed_ns_);
     owed_ns_ -= static_cast<double>(whole);
-    clock_.charge(whole);
+    clock_.charge(whole, what_);
   }
 
  private:
   SimClock& clock_;
+  const Work what_;
   double owed_ns_ = 0;
 };
 

@@ -59,6 +59,7 @@ SimWorker::SimWorker(const RunSetup& run, const NodeSetup& node, const NodeSeams
 SimWorker::~SimWorker() {
   WorkerReport report = worker_.objects() != nullptr ? worker_.objects()->report() : WorkerReport{};
   if (const auto& verdict = worker_.shell().supervisor().verdict()) report.failed = verdict->actor;
+  report.longest_turn = worker_.shell().scheduler().counters().longest_turn;
   all_.add(report);
 }
 
@@ -89,12 +90,12 @@ std::string SimWorker::fault() const {
   if (leads != nullptr && !leads->adding() && !leads->merged().balance().closes())
     return "the ledger of a coordinator does not close";
   if (worker_.objects() == nullptr) return "";
-  const ObjectCache::Counters& cache = worker_.objects()->cache().counters();
+  const ObjectCache::Counters& cache = worker_.objects()->server().cache().counters();
   if (cache.resident_bytes > node_.object_bytes)
     return fmt::format("{} B are resident, with a budget of {} B", cache.resident_bytes,
                        node_.object_bytes);
   if (cache.pinned_bytes > cache.resident_bytes) return "more bytes are pinned than resident";
-  if (cache.builds > worker_.objects()->fetcher().counters().fetches)
+  if (cache.builds > worker_.objects()->server().fetcher().counters().fetches)
     return "an object was built twice for one fetch";
   return "";
 }

@@ -63,6 +63,8 @@ class SimController final : public CheckedNode {
   std::string fault() const override;
   std::string regret() const override;
   const RunCoordinator& coordinator() const { return node_.coordinator(); }
+  /// Of its loop [ns], of what was charged.
+  uint64_t longest_turn() const { return node_.shell().scheduler().counters().longest_turn; }
 
  private:
   const LocalRun& run_;

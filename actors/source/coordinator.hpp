@@ -155,7 +155,7 @@ class Coordinator
   /// Before it is counted. False: this node ends.
   virtual bool keep(const Letter<Flush>&) { return true; }
   /// It is; of these batches.
-  virtual void counted(const Letter<Flush>& letter, const std::vector<int64_t>& batches) = 0;
+  virtual void counted(const Letter<Flush>& letter, std::span<const int64_t> batches) = 0;
   virtual void refused(const MessageId&) {}
 
   virtual RunEnded end_word() const = 0;
@@ -241,6 +241,7 @@ class Coordinator
   /// Flushes not counted yet. They are counted on the actor's fiber, in steps: a million bins take
   /// a second, in which beats must go on.
   std::vector<MessageId> uncounted_;
+  FlushReader reader_;
   WaitList held_back_;       // the fiber, while nothing may be counted
   bool counting_ = false;    // a flush
   bool adding_ = false;      // a flush is being kept, or the totals hold a part of it

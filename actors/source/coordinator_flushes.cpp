@@ -96,14 +96,14 @@ std::string Coordinator::count_flush(const Letter<Flush>& letter) {
   }
   if (hash.value() != letter.body.payload_hash) return "the payload is not what its hash says";
   const auto rest = [this] { return take_turns(); };
-  const auto gain = decode_flush(letter.payload.bytes(), totals().groups(), bins(), rest);
+  auto gain = reader_.read(letter.payload.bytes(), totals().groups(), bins(), rest);
   if (!gain) return gain.problem().what;
   if (gain->batches() != static_cast<int64_t>(leases.size()) || !gain->balance().closes())
     return "its batches or its ledger do not add up";
   if (over_) return "the run has ended";
   if (!book_.stand(worker, leases)) return fenced;
   // From here on no lease of it can be fenced, though others have turns.
-  const std::vector<int64_t> batches = book_.batches_of(leases);
+  const std::span<const int64_t> batches = book_.batches_of(leases);
   book_.hold(leases);
   adding_ = true;
   if (!keep(letter)) return "this node ends";
@@ -111,6 +111,7 @@ std::string Coordinator::count_flush(const Letter<Flush>& letter) {
   // Of who coordinates others, one batch may be late there while the others come.
   if (levels_below(worker) > 0) book_.renew(worker, clock_.now() + span_of(worker));
   gain->add_to(totals(), rest);
+  reader_.take_back(std::move(gain).value());
   note_book();
   adding_ = false;
   counted(letter, batches);

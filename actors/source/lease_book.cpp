@@ -73,17 +73,19 @@ void LeaseBook::renew(NodeId node, Nanoseconds deadline) {
 }
 
 bool LeaseBook::stand(NodeId node, const std::vector<uint64_t>& leases) const {
-  std::set<uint64_t> named;
-  return std::all_of(leases.begin(), leases.end(), [&](uint64_t id) {
+  named_.assign(leases.begin(), leases.end());
+  std::sort(named_.begin(), named_.end());
+  const bool twice = std::adjacent_find(named_.begin(), named_.end()) != named_.end();
+  return !twice && std::all_of(leases.begin(), leases.end(), [&](uint64_t id) {
     const auto at = leases_.find(id);
-    return named.insert(id).second && at != leases_.end() && at->second.node == node;
+    return at != leases_.end() && at->second.node == node;
   });
 }
 
-std::vector<int64_t> LeaseBook::batches_of(const std::vector<uint64_t>& leases) const {
-  std::vector<int64_t> batches;
-  for (const uint64_t id : leases) batches.push_back(leases_.at(id).batch);
-  return batches;
+std::span<const int64_t> LeaseBook::batches_of(const std::vector<uint64_t>& leases) {
+  batches_.clear();
+  for (const uint64_t id : leases) batches_.push_back(leases_.at(id).batch);
+  return batches_;
 }
 
 void LeaseBook::hold(const std::vector<uint64_t>& leases) {
@@ -152,7 +154,7 @@ int64_t LeaseBook::lose_what_all_gave_back(const std::vector<NodeId>& nodes) {
 }
 
 std::vector<int64_t> LeaseBook::missing() const {
-  std::set<int64_t> batches = again_;
+  std::set<int64_t> batches(again_.begin(), again_.end());
   batches.insert(lost_.begin(), lost_.end());
   for (const auto& [id, lease] : leases_) batches.insert(lease.batch);
   for (int64_t batch = next_; batch < lent_end(); ++batch)

@@ -8,8 +8,11 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
+#include <memory_resource>
 #include <optional>
 #include <set>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -46,12 +49,15 @@ class LeaseBook {
   /// Requires: look_ahead >= 1.
   explicit LeaseBook(int64_t next, const std::vector<int64_t>& missing = {},
                      uint64_t first_lease = 1, int64_t look_ahead = 1)
-      : again_(missing.begin(), missing.end()),
+      : again_(missing.begin(), missing.end(), memory_.get()),
         last_id_(first_lease - 1),
         look_ahead_(look_ahead),
         next_(next),
         end_(next),
         committed_(next - static_cast<int64_t>(missing.size())) {}
+
+  LeaseBook(LeaseBook&&) = default;
+  LeaseBook& operator=(LeaseBook&&) = delete;
 
   /// Batches may be lent up to number `end`. Requires: end is not before an earlier one.
   void open_until(int64_t end) { end_ = end; }
@@ -78,8 +84,8 @@ class LeaseBook {
 
   /// Whether all of these leases stand, and are this node's: then a flush of them may be counted.
   bool stand(NodeId node, const std::vector<uint64_t>& leases) const;
-  /// Their batches. Requires: they stand.
-  std::vector<int64_t> batches_of(const std::vector<uint64_t>& leases) const;
+  /// Their batches, until the next call. Requires: they stand.
+  std::span<const int64_t> batches_of(const std::vector<uint64_t>& leases);
   /// Their flush is being kept: they cannot be fenced any more. Requires: stand(node, leases);
   /// commit(leases) follows.
   void hold(const std::vector<uint64_t>& leases);
@@ -101,6 +107,7 @@ class LeaseBook {
   /// A node gives back those of these leases that stand and are its own: it cannot trace their
   /// batches, and is not lent them again.
   std::vector<Lease> give_back(NodeId node, const std::vector<uint64_t>& leases);
+  bool has_given_back() const { return !given_back_.empty(); }
   /// The node is another one now, and may be lent what it has given back.
   void forgive(NodeId node);
   /// Batches that every one of these nodes has given back are lost: no lease of them is lent any
@@ -108,7 +115,11 @@ class LeaseBook {
   int64_t lose_what_all_gave_back(const std::vector<NodeId>& nodes);
   int64_t lost() const { return static_cast<int64_t>(lost_.size()); }
   /// The lost batches, which the book then holds no more.
-  std::set<int64_t> take_lost() { return std::exchange(lost_, {}); }
+  std::set<int64_t> take_lost() {
+    std::set<int64_t> lost(lost_.begin(), lost_.end());
+    lost_.clear();
+    return lost;
+  }
 
   /// Batches 0..lent_end() - 1 that are not committed.
   std::vector<int64_t> missing() const;
@@ -131,12 +142,17 @@ class LeaseBook {
   void take(int64_t batch);
   Nanoseconds patience(int64_t batch, Nanoseconds span) const;
 
-  std::map<uint64_t, Lease> leases_;
-  std::set<int64_t> again_;      // fenced, to be lent before new ones
-  std::map<int64_t, int> late_;  // how often batches were, while they are not counted
-  std::map<int64_t, std::set<NodeId>> given_back_;  // of again_: who could not trace them
+  /// What is struck out of the book leaves its memory to what comes.
+  using Memory = std::pmr::unsynchronized_pool_resource;
+  std::unique_ptr<Memory> memory_ = std::make_unique<Memory>();
+  std::pmr::map<uint64_t, Lease> leases_{memory_.get()};
+  std::pmr::set<int64_t> again_;                     // fenced, to be lent before new ones
+  std::pmr::map<int64_t, int> late_{memory_.get()};  // how often batches not yet counted were
+  std::map<int64_t, std::set<NodeId>> given_back_;   // of again_: who could not trace them
   std::set<int64_t> lost_;
-  std::set<int64_t> ahead_;  // lent before their turn: beyond next_
+  std::pmr::set<int64_t> ahead_{memory_.get()};  // lent before their turn: beyond next_
+  std::vector<int64_t> batches_;                 // as batches_of() told them
+  mutable std::vector<uint64_t> named_;          // by a flush, in order
   uint64_t last_id_;
   int64_t look_ahead_;
   Nanoseconds slowest_ = 0;  // from the lease of a batch to when it was counted

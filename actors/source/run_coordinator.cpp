@@ -148,6 +148,7 @@ void RunCoordinator::fail(const std::string& what) {
 /// What nobody can trace is lost, and the run with it: what has been lent is brought to its end,
 /// and no more is lent, since the next batches would need the same objects.
 void RunCoordinator::lose_batches() {
+  if (!book_.has_given_back()) return;
   std::vector<NodeId> here;
   for (const auto& [worker, peer] : peers_)
     if (peer.here && !peer.left) here.push_back(worker);
@@ -213,11 +214,13 @@ void RunCoordinator::read_totals(bool round_done) {
   reading_ = true;
   packing_ = shows_.begin_pack();
   if (run_.pause_is_due() || packing_) run_.resume(book_.lent_end(), book_.missing());
-  const auto read = [this, round_done, packs = packing_, seconds = shown_seconds()] {
+  reads_round_ = round_done;
+  read_seconds_ = shown_seconds();
+  const auto read = [this] {
     try {
       run_.pause_if_due();
-      if (packs) shows_.pack(run_, seconds);
-      if (round_done) read_error_ = Readout(run_.scene(), run_.totals()).worst_relative_error();
+      if (packing_) shows_.pack(run_, read_seconds_);
+      if (reads_round_) read_error_ = Readout(run_.scene(), run_.totals()).worst_relative_error();
     } catch (...) {
       reading_failed_ = std::current_exception();
     }
@@ -361,7 +364,7 @@ std::string RunCoordinator::objection(const Letter<Flush>& letter) const {
 /// without, since its totals are right all the same. False: this node ends.
 bool RunCoordinator::keep(const Letter<Flush>& letter) {
   if (journal_ == nullptr) return true;
-  const std::vector<int64_t> batches = book_.batches_of(letter.body.leases);
+  const std::span<const int64_t> batches = book_.batches_of(letter.body.leases);
   Kept kept;
   const KeepFlush keep{batches, letter.payload.bytes(), &kept};
   bool goes_on = journal_->send(keep) == Offered::taken;
@@ -378,7 +381,7 @@ bool RunCoordinator::keep(const Letter<Flush>& letter) {
   return true;
 }
 
-void RunCoordinator::counted(const Letter<Flush>& letter, const std::vector<int64_t>&) {
+void RunCoordinator::counted(const Letter<Flush>& letter, std::span<const int64_t>) {
   gathered_ = false;
   shards_.take(letter.id, letter.body.slice_hashes);
 }

@@ -75,7 +75,7 @@ class RunCoordinator final : public Coordinator {
   bool holds_back(size_t leases) override;
   std::string objection(const Letter<Flush>& letter) const override;
   bool keep(const Letter<Flush>& letter) override;
-  void counted(const Letter<Flush>& letter, const std::vector<int64_t>& batches) override;
+  void counted(const Letter<Flush>& letter, std::span<const int64_t> batches) override;
   void refused(const MessageId& flush) override { shards_.refuse(flush); }
   RunEnded end_word() const override;
   bool keeps_end_to_itself() const override { return awaits_journal(); }
@@ -133,6 +133,8 @@ class RunCoordinator final : public Coordinator {
   std::optional<Incarnation> display_life_;
   double read_error_ = 0;  // what was read last
   std::exception_ptr reading_failed_;
+  bool reads_round_ = false;  // what is being read: its error
+  double read_seconds_ = 0;
   bool gathered_ = false;  // the totals are those of all that is counted, shards included
 };
 

@@ -95,6 +95,7 @@ void SubCoordinator::want_more() {
 
 /// Batches that none of those who are here can trace: others may.
 void SubCoordinator::give_back_lost() {
+  if (!book_.has_given_back() && lost_.empty()) return;
   std::vector<NodeId> here;
   for (const auto& [worker, peer] : peers_)
     if (peer.here && !peer.left) here.push_back(worker);
@@ -131,7 +132,7 @@ bool SubCoordinator::holds_back(size_t leases) {
   return true;
 }
 
-void SubCoordinator::counted(const Letter<Flush>&, const std::vector<int64_t>& batches) {
+void SubCoordinator::counted(const Letter<Flush>&, std::span<const int64_t> batches) {
   std::vector<uint64_t> leases;
   for (const int64_t batch : batches) {
     const auto at = lease_of_.find(batch);

@@ -52,7 +52,7 @@ class SubCoordinator final : public Coordinator, public LeasedWork {
   void lent() override { want_more(); }
   Totals& totals() override { return totals_[merging_]; }
   bool holds_back(size_t leases) override;
-  void counted(const Letter<Flush>& letter, const std::vector<int64_t>& batches) override;
+  void counted(const Letter<Flush>& letter, std::span<const int64_t> batches) override;
   RunEnded end_word() const override { return {round(), why_ended_}; }
   void wait_for_farewells(Nanoseconds now) override;
 

@@ -86,6 +86,7 @@ Result<StudyResult> run_real(const StudyRun& run, const std::atomic<bool>& inter
   result.leases = static_cast<double>(report.leases);
   result.fenced = static_cast<double>(report.leases_fenced);
   result.flush_bytes = static_cast<double>(report.flush_bytes);
+  result.longest_turn_s = 1e-9 * static_cast<double>(report.longest_turn);
   result.flux_hash = flux_hash_of(local.totals());
   return result;
 }

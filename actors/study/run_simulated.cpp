@@ -133,13 +133,22 @@ void SimulatedRun::look_at_controller() {
   result_.leases = static_cast<double>(ended.counters().leases);
   result_.fenced = static_cast<double>(ended.counters().fenced);
   result_.flush_bytes = static_cast<double>(ended.counters().flush_bytes);
+  result_.longest_turn_s = 1e-9 * static_cast<double>(node->longest_turn());
 }
 
 void SimulatedRun::note_world() {
   for (const NodeSetup& node : setups_) {
-    const double busy_s = 1e-9 * static_cast<double>(world_->clock(node.net.self).busy());
+    const SimClock& clock = world_->clock(node.net.self);
+    const double busy_s = 1e-9 * static_cast<double>(clock.busy());
     const bool leads = node.net.self == controller();
     (leads ? result_.controller_s : result_.busy_s) += busy_s;
+    if (!leads) {
+      const auto of = [&](Work what) { return 1e-9 * static_cast<double>(clock.busy(what)); };
+      result_.tracing_s += of(Work::tracing);
+      result_.building_s += of(Work::building);
+      result_.frames_s += of(Work::frames);
+      result_.resting_s += of(Work::resting);
+    }
     if (leads || setup_.coordinates(node.net.self))
       result_.busiest_s = std::max(result_.busiest_s, busy_s);
   }

@@ -15,6 +15,7 @@ FetchConfig fetch_config(const RunSetup& run, const NodeSetup& node, NodeTrace* 
   config.self = node.net.self;
   config.trace = trace;
   config.buggify = node.buggify;
+  config.requests = std::max<size_t>(config.requests, 4 * run.graph.vertices());
   return config;
 }
 
@@ -57,6 +58,7 @@ void WorkerReport::add(const WorkerReport& other) {
   object_wait.merge(other.object_wait);
   hops += other.hops;
   processor_ns += other.processor_ns;
+  longest_turn = std::max(longest_turn, other.longest_turn);
   if (failed == ActorName::none) failed = other.failed;
 }
 
@@ -66,23 +68,23 @@ FetchingObjects::FetchingObjects(const RunSetup& run, const NodeSetup& node, Nod
       store_(*run.objects, node.net.self),
       faulty_(faulty(store_, node, shell.scheduler().clock())),
       builder_(make_builder(run.scene, run.objects->parts())),
-      fetcher_(fetch_config(run, node, trace), run.objects->places(),
-               faulty_ ? static_cast<ObjectStore&>(*faulty_) : store_, shell.network(),
-               shell.scheduler().timers(), shell.scheduler().clock(), jitter_of(node.net.self)),
-      cache_(cache_of(run, node, trace), run.objects->places().size(), fetcher_, *builder_,
-             shell.scheduler().fibers(), shell.scheduler().timers(), shell.scheduler().clock()),
-      source_(run.objects->parts(), cache_, shell.scheduler().fibers(), node.prefetch, trace) {
-  shell.use(fetcher_);
+      server_(fetch_config(run, node, trace), cache_of(run, node, trace), run.objects->places(),
+              faulty_ ? static_cast<ObjectStore&>(*faulty_) : store_, *builder_, shell.scheduler(),
+              shell.actors(), jitter_of(node.net.self)),
+      source_(run.objects->parts(), server_.cache(), shell.scheduler().fibers(), node.prefetch,
+              trace) {
+  shell.add(ActorName::part_server, server_);
 }
 
 void FetchingObjects::add_metrics(Metrics& metrics) const {
-  fetcher_.add_metrics(metrics);
-  cache_.add_metrics(metrics);
+  server_.add_metrics(metrics);
 }
 
 WorkerReport FetchingObjects::report() const {
-  const ObjectCache::Counters& c = cache_.counters();
-  const Fetcher::Counters& f = fetcher_.counters();
+  const ObjectCache& cache = server_.cache();
+  const ObjectCache::Counters& c = cache.counters();
+  const Fetcher& fetcher = server_.fetcher();
+  const Fetcher::Counters& f = fetcher.counters();
   WorkerReport report;
   report.node = self_;
   report.hits = c.hits;
@@ -95,10 +97,10 @@ WorkerReport FetchingObjects::report() const {
   report.fetched_bytes = f.bytes_in;
   report.largest_resident_bytes = c.resident_bytes;
   report.pinned_bytes = c.pinned_bytes;
-  report.object_wait = cache_.wait_time();
+  report.object_wait = cache.wait_time();
   for (uint8_t hops = 1; hops <= limits::hops; ++hops) {
-    report.fetch_delay.merge(fetcher_.delay(hops));
-    report.hops += hops * fetcher_.delay(hops).count();
+    report.fetch_delay.merge(fetcher.delay(hops));
+    report.hops += hops * fetcher.delay(hops).count();
   }
   return report;
 }

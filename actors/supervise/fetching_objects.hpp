@@ -5,6 +5,7 @@
 #include "actors/supervise/node_setup.hpp"
 #include "actors/supervise/node_shell.hpp"
 #include "runtime/fetch/faulty_objects.hpp"
+#include "runtime/fetch/part_server.hpp"
 
 namespace luxodus {
 
@@ -28,6 +29,7 @@ struct WorkerReport {
   Histogram object_wait;         // of fibers: from asking for an object to going on with it
   uint64_t hops = 0;             // links that fetched objects passed, all together
   uint64_t processor_ns = 0;     // of real nodes' threads while they ran
+  uint64_t longest_turn = 0;     // [ns] of processor time, of one node
   ActorName failed = ActorName::none;  // why one left before the end; none: all stayed
 
   void add(const WorkerReport& other);
@@ -40,15 +42,15 @@ struct WorkerReport {
 
 class FetchingObjects {
  public:
+  /// Adds the part server to the node's actors.
   /// Requires: run.objects is not null; all outlive this.
   FetchingObjects(const RunSetup& run, const NodeSetup& node, NodeShell& shell,
                   const BuilderMaker& make_builder = make_part_builder, NodeTrace* trace = nullptr);
 
   ObjectSource& source() { return source_; }
-  const ObjectCache& cache() const { return cache_; }
-  const Fetcher& fetcher() const { return fetcher_; }
+  const PartServer& server() const { return server_; }
   /// Keeps these for good, as far as their share of the budget goes.
-  void pin(std::span<const uint32_t> objects) { cache_.pin(objects); }
+  void pin(std::span<const uint32_t> objects) { server_.cache().pin(objects); }
   void add_metrics(Metrics& metrics) const;
   WorkerReport report() const;
 
@@ -57,8 +59,7 @@ class FetchingObjects {
   HeldObjects store_;
   std::optional<FaultyObjects> faulty_;  // where reads shall fail
   const std::unique_ptr<ObjectBuilder> builder_;
-  Fetcher fetcher_;
-  ObjectCache cache_;
+  PartServer server_;
   CachedObjects source_;
 };
 

@@ -128,7 +128,7 @@ SchedulerLimits worker_limits(const RunSetup& run, const NodeSetup& node) {
   limits.stall = node.stall;
   limits.buggify = node.buggify;
   // Leases, the watch for the end, publishing, and a few to spare.
-  limits.timers_beside_fibers = 16 + Fetcher::max_timers(node.fetch) + ObjectCache::max_timers;
+  limits.timers_beside_fibers = 16 + PartServer::max_timers(node.fetch);
   return limits;
 }
 
@@ -217,8 +217,7 @@ MemoryPlan worker_plan(const RunSetup& run, const NodeSetup& node) {
   uint64_t histograms = 2;
   if (run.objects != nullptr) {
     const size_t objects = run.objects->places().size();
-    Fetcher::plan_memory(plan, node.fetch, objects);
-    ObjectCache::plan_memory(plan, cache_config(*run.objects, node), objects);
+    PartServer::plan_memory(plan, node.fetch, cache_config(*run.objects, node), objects);
     histograms += limits::hops + 2;  // by hops from 0, and of waits
   }
   plan.add("histograms", histogram_bytes(run),

@@ -39,6 +39,7 @@ class NodeShell::Source final : public EventSource {
       : clock_(clock), network_(network), transport_(transport) {}
 
   bool poll() override { return network_.poll(clock_.now()); }
+  void send_out() override { network_.send_out(clock_.now()); }
   void wait_until(Nanoseconds deadline) override {
     transport_.wait_until(std::min(deadline, network_.next_deadline()));
   }
@@ -57,31 +58,16 @@ class NodeShell::Handler final : public NetHandler {
       : shell_(shell), routes_(routes_of(shell.config_, shell.graph_)) {}
 
   bool deliver(const Delivery& delivery) override {
-    if (is_of_objects(kind_of(delivery.message))) {
-      bool taken = true;
-      serve_parts([&](Fetcher& fetcher) { taken = fetcher.deliver(delivery); });
-      return taken;
-    }
     shell_.actors_.deliver(delivery);
     return true;
   }
-  std::span<std::byte> room_for(const MessageId& id, NodeId, Kind kind, size_t bytes) override {
-    if (is_of_objects(kind)) {
-      std::span<std::byte> room;
-      serve_parts([&](Fetcher& fetcher) { room = fetcher.room_for(id, kind, bytes); });
-      return room;
-    }
+  std::span<std::byte> room_for(const MessageId& id, NodeId, ActorPair actors,
+                                size_t bytes) override {
     if (rarely(shell_.config_.net.buggify, Buggify::Site::no_room)) return {};
-    return shell_.actors_.room_for(id, bytes);
+    return shell_.actors_.room_for(id, actors.to, bytes);
   }
-  void abandoned(const MessageId& id, Kind kind) override {
-    if (!is_of_objects(kind)) shell_.actors_.abandoned(id);
-  }
-  bool intercept(const Delivery& request) override {
-    bool taken = false;
-    serve_parts([&](Fetcher& fetcher) { taken = fetcher.intercept(request); });
-    return taken;
-  }
+  void abandoned(const MessageId& id, Kind) override { shell_.actors_.abandoned(id); }
+  bool intercept(const Delivery& request) override { return shell_.actors_.intercept(request); }
   void link_changed(NodeId neighbour, LinkPhase phase) override {
     log_debug("link node={} neighbour={} phase={}", shell_.config_.net.self.value, neighbour.value,
               name_of(phase));
@@ -100,12 +86,6 @@ class NodeShell::Handler final : public NetHandler {
   }
 
  private:
-  static bool is_of_objects(Kind kind) { return kind == Kind::request || kind == Kind::reply; }
-  template <class Work>
-  void serve_parts(Work&& work) {
-    if (shell_.fetcher_ != nullptr) shell_.part_server_.guarded([&] { work(*shell_.fetcher_); });
-  }
-
   NodeShell& shell_;
   NodeRoutes routes_;
   std::vector<GraphLink> failed_;
@@ -125,11 +105,6 @@ NodeShell::NodeShell(const ShellConfig& config, const Graph& graph, const Clock&
       supervisor_(scheduler_, config.net.self) {}
 
 NodeShell::~NodeShell() = default;
-
-void NodeShell::use(Fetcher& fetcher) {
-  fetcher_ = &fetcher;
-  supervisor_.watch(ActorName::part_server, part_server_);
-}
 
 void NodeShell::begin(std::function<bool()> ended) {
   ended_ = std::move(ended);

@@ -9,7 +9,6 @@
 
 #include "actors/supervise/supervisor.hpp"
 #include "runtime/actor/scheduler.hpp"
-#include "runtime/fetch/fetcher.hpp"
 #include "runtime/messaging/actor_system.hpp"
 #include "topology/node_routes.hpp"
 
@@ -49,9 +48,6 @@ class NodeShell {
     supervisor_.watch(name, actor);
   }
 
-  /// Has requests and replies for objects go through `fetcher`. Requires: it outlives the run.
-  void use(Fetcher& fetcher);
-
   /// Says when this node's work is over: then it leaves, fibers end, neighbours are told. `ended`
   /// is asked after every turn. It leaves as well when its supervisor has a verdict.
   /// Requires: once, before the first turn.
@@ -71,10 +67,6 @@ class NodeShell {
  private:
   class Source;
   class Handler;
-  /// The part server, as its supervisor knows it: the fetcher is handed what the network brings.
-  struct PartServer final : Supervised {
-    void handle_control() override {}
-  };
 
   void leave_if_ended();
   void linger();
@@ -84,14 +76,12 @@ class NodeShell {
   const Graph& graph_;
   const Clock& clock_;
   Transport& transport_;
-  Fetcher* fetcher_ = nullptr;
   std::unique_ptr<Handler> handler_;
   Network network_;
   ActorSystem actors_;
   std::unique_ptr<Source> source_;
   Scheduler scheduler_;
   Supervisor supervisor_;
-  PartServer part_server_;
   std::function<bool()> ended_;
   std::function<void(NodeId)> tell_newcomer_;
   bool leaving_ = false;

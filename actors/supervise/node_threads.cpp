@@ -129,7 +129,8 @@ Result<StopReason> run_controller(const RunSetup& setup, const Machine& machine,
                 {},
                 {},
                 std::nullopt,
-                controller.took()};
+                controller.took(),
+                here.shell().scheduler().counters().longest_turn};
   }
   return controller.reason();
 }

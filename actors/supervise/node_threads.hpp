@@ -27,6 +27,7 @@ struct NodesReport {
   std::vector<WorkerReport> by_node;
   std::optional<Residency> residency;  // where there was a plan
   Nanoseconds took = 0;                // from all workers' being there to the last batch's count
+  uint64_t longest_turn = 0;           // [ns] of processor time, of the controller
 };
 
 /// Runs a worker on the calling thread until it has left; see Worker::start.

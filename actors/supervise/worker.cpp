@@ -177,6 +177,7 @@ Result<WorkerReport> Worker::result() const {
   WorkerReport report = objects_ ? objects_->report() : WorkerReport{};
   if (const auto& verdict = shell_.supervisor().verdict()) report.failed = verdict->actor;
   report.waited = shell_.scheduler().counters().waited;
+  report.longest_turn = shell_.scheduler().counters().longest_turn;
   if (!photons_) return report;
   report.tally_full = photons_->counters().tally_full;
   report.max_tally_bytes = photons_->counters().max_tally_bytes;

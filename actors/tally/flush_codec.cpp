@@ -139,30 +139,6 @@ size_t max_bytes(int groups, int64_t totals) {
   return (bins * 3 + static_cast<size_t>(groups) * 2 + numbers_of_ledger + 1) * longest_number;
 }
 
-/// Unpacks frames whose size nobody has told, up to `most` bytes.
-Result<std::vector<std::byte>> unpack(std::span<const std::byte> bytes, size_t most,
-                                      const FlushRest& rest) {
-  const std::unique_ptr<ZSTD_DCtx, decltype(&ZSTD_freeDCtx)> context(ZSTD_createDCtx(),
-                                                                     ZSTD_freeDCtx);
-  std::vector<std::byte> out;
-  std::vector<std::byte> piece(ZSTD_DStreamOutSize());
-  ZSTD_inBuffer in{bytes.data(), bytes.size(), 0};
-  size_t hint = 1;
-  size_t rest_at = unpacked_between_rests;
-  while (in.pos < in.size) {
-    ZSTD_outBuffer to{piece.data(), piece.size(), 0};
-    hint = ZSTD_decompressStream(context.get(), &to, &in);
-    if (ZSTD_isError(hint) || out.size() + to.pos > most)
-      return problem("the flush is no packed totals of this scene");
-    out.insert(out.end(), piece.begin(), piece.begin() + static_cast<std::ptrdiff_t>(to.pos));
-    if (out.size() < rest_at) continue;
-    rest_at = out.size() + unpacked_between_rests;
-    if (!rest()) return problem(abandoned);
-  }
-  if (hint != 0) return problem("the flush is cut short");
-  return out;
-}
-
 }  // namespace
 
 struct FlushEncoder::Zstd {
@@ -283,16 +259,52 @@ size_t FlushEncoder::pack_more(ZSTD_inBuffer_s& in, int how) {
 
 // ---- reading ---------------------------------------------------------------------------------
 
-Result<FlushGain> decode_flush(std::span<const std::byte> bytes, int groups, const BinRange& bins,
-                               const FlushRest& rest) {
-  auto raw = unpack(bytes, max_bytes(groups, bins.end - bins.first), rest);
-  if (!raw) return raw.problem();
+struct FlushReader::Zstd {
+  std::unique_ptr<ZSTD_DCtx, decltype(&ZSTD_freeDCtx)> context{ZSTD_createDCtx(), ZSTD_freeDCtx};
+};
+
+FlushReader::FlushReader() : zstd_(std::make_unique<Zstd>()), piece_(ZSTD_DStreamOutSize()) {}
+FlushReader::~FlushReader() = default;
+FlushReader::FlushReader(FlushReader&&) noexcept = default;
+
+/// Unpacks frames whose size nobody has told, up to `most` bytes.
+Result<void> FlushReader::unpack(std::span<const std::byte> bytes, size_t most,
+                                 const FlushRest& rest, std::vector<std::byte>& out) {
+  ZSTD_DCtx_reset(zstd_->context.get(), ZSTD_reset_session_only);
+  out.clear();
+  out.reserve(std::min<size_t>(most, max_reserved_bytes));  // address space, which memory follows
+  ZSTD_inBuffer in{bytes.data(), bytes.size(), 0};
+  size_t hint = 1;
+  size_t rest_at = unpacked_between_rests;
+  while (in.pos < in.size) {
+    ZSTD_outBuffer to{piece_.data(), piece_.size(), 0};
+    hint = ZSTD_decompressStream(zstd_->context.get(), &to, &in);
+    if (ZSTD_isError(hint) || out.size() + to.pos > most)
+      return problem("the flush is no packed totals of this scene");
+    out.insert(out.end(), piece_.begin(), piece_.begin() + static_cast<std::ptrdiff_t>(to.pos));
+    if (out.size() < rest_at) continue;
+    rest_at = out.size() + unpacked_between_rests;
+    if (!rest()) return problem(abandoned);
+  }
+  if (hint != 0) return problem("the flush is cut short");
+  return {};
+}
+
+Result<FlushGain> FlushReader::read(std::span<const std::byte> bytes, int groups,
+                                    const BinRange& bins, const FlushRest& rest) {
   FlushGain gain;
-  gain.raw_ = std::move(raw).value();
+  if (!spare_.empty()) {
+    gain = std::move(spare_.back());
+    spare_.pop_back();
+  }
+  const size_t most = max_bytes(groups, bins.end - bins.first);
+  if (auto raw = unpack(bytes, most, rest, gain.raw_); !raw) return raw.problem();
   gain.range_ = bins;
+  gain.batches_.clear();
+  gain.begins_.clear();
   Reader in(gain.raw_);
-  const Problem wrong{{}, "the flush does not fit this scene's totals"};
-  if (in.get_up_to(static_cast<uint64_t>(groups)) != static_cast<uint64_t>(groups)) return wrong;
+  const auto wrong = [] { return problem("the flush does not fit this scene's totals"); };
+  if (in.get_up_to(static_cast<uint64_t>(groups)) != static_cast<uint64_t>(groups)) return wrong();
   TotalsGain::Bin bin;
   int64_t count = 0;
   for (int g = 0; g < groups; ++g) {
@@ -304,7 +316,7 @@ Result<FlushGain> decode_flush(std::span<const std::byte> bytes, int groups, con
   }
   gain.bins_ = count;
   gain.ledger_ = get_ledger(in);
-  if (!in.ok() || !in.at_end()) return wrong;
+  if (!in.ok() || !in.at_end()) return wrong();
   return gain;
 }
 
@@ -313,16 +325,18 @@ int64_t FlushGain::batches() const {
 }
 
 void FlushGain::add_to(Totals& totals, const FlushRest& rest) const {
-  TotalsGain piece;
-  piece.groups.resize(batches_.size());
-  for (size_t g = 0; g < batches_.size(); ++g) piece.groups[g].batches = batches_[g];
-  piece.balance = ledger_;
-  totals.add(piece);
-  piece = {};
-  piece.groups.resize(batches_.size());
+  piece_.groups.resize(batches_.size());
+  for (size_t g = 0; g < batches_.size(); ++g) {
+    piece_.groups[g].batches = batches_[g];
+    piece_.groups[g].bins.clear();
+  }
+  piece_.balance = ledger_;
+  totals.add(piece_);
+  piece_.balance = {};
+  for (auto& group : piece_.groups) group.batches = 0;
   for (size_t g = 0; g < batches_.size(); ++g) {
     Reader in({raw_.data() + begins_[g], raw_.size() - begins_[g]});
-    auto& bins = piece.groups[g].bins;
+    auto& bins = piece_.groups[g].bins;
     auto after_last = static_cast<uint64_t>(range_.first);
     TotalsGain::Bin bin;
     for (bool more = true; more;) {
@@ -330,7 +344,7 @@ void FlushGain::add_to(Totals& totals, const FlushRest& rest) const {
       while (bins.size() < bins_added_between_rests &&
              (more = next_bin(in, after_last, range_, bin)))
         bins.push_back(bin);
-      totals.add(piece);
+      totals.add(piece_);
       rest();
     }
     bins.clear();

@@ -91,8 +91,7 @@ class FlushGain {
   void add_to(Totals& totals, const FlushRest& rest = no_rest) const;
 
  private:
-  friend Result<FlushGain> decode_flush(std::span<const std::byte>, int, const BinRange&,
-                                        const FlushRest&);
+  friend class FlushReader;
 
   std::vector<std::byte> raw_;
   std::vector<size_t> begins_;  // of each group's bins, in raw_
@@ -100,12 +99,38 @@ class FlushGain {
   BinRange range_;
   int64_t bins_ = 0;
   EnergyBalance ledger_;
+  mutable TotalsGain piece_;  // of what is being added
 };
 
-/// Errors: not such bytes; more groups than `groups` or an index outside `bins`; indices that do
-/// not ascend; more bytes than such totals can have; `rest` said so.
-Result<FlushGain> decode_flush(std::span<const std::byte> bytes, int groups, const BinRange& bins,
-                               const FlushRest& rest = no_rest);
+/// Reads flushes, one after another in the same memory. Thread rule: one thread.
+class FlushReader {
+ public:
+  FlushReader();
+  ~FlushReader();
+  FlushReader(FlushReader&&) noexcept;
+
+  /// Errors: not such bytes; more groups than `groups` or an index outside `bins`; indices that do
+  /// not ascend; more bytes than such totals can have; `rest` said so.
+  Result<FlushGain> read(std::span<const std::byte> bytes, int groups, const BinRange& bins,
+                         const FlushRest& rest = no_rest);
+  /// What was read is done with: the next flush is read into its memory.
+  void take_back(FlushGain&& gain) { spare_.push_back(std::move(gain)); }
+
+ private:
+  struct Zstd;
+  Result<void> unpack(std::span<const std::byte> bytes, size_t most, const FlushRest& rest,
+                      std::vector<std::byte>& out);
+
+  std::unique_ptr<Zstd> zstd_;
+  std::vector<std::byte> piece_;
+  std::vector<FlushGain> spare_;
+};
+
+/// The same, of one flush.
+inline Result<FlushGain> decode_flush(std::span<const std::byte> bytes, int groups,
+                                      const BinRange& bins, const FlushRest& rest = no_rest) {
+  return FlushReader().read(bytes, groups, bins, rest);
+}
 inline Result<FlushGain> decode_flush(std::span<const std::byte> bytes, int groups, int64_t totals,
                                       const FlushRest& rest = no_rest) {
   return decode_flush(bytes, groups, BinRange{0, totals}, rest);

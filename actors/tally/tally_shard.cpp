@@ -56,8 +56,11 @@ void TallyShard::on(Letter<FlushSlice>&& slice) {
     return;
   }
   counters_.slice_bytes += slice.payload.bytes().size();
-  const auto made = std::make_shared<Slice>(Slice{
-      slice.id, slice.from, slice.body.payload_hash, std::move(slice.payload), {}, {}, false});
+  const auto made = std::allocate_shared<Slice>(std::pmr::polymorphic_allocator<Slice>(&memory_));
+  made->flush = slice.id;
+  made->from = slice.from;
+  made->hash = slice.body.payload_hash;
+  made->payload = std::move(slice.payload);
   slices_.emplace(life, made);
   counters_.held = slices_.size();
   if (!work_on(*made)) forget(*made);  // it is sent again
@@ -98,7 +101,7 @@ std::string TallyShard::reading_fault(Slice& slice) {
     left = left.subspan(piece.size());
   }
   if (hash.value() != slice.hash) return "a slice is not what its hash says";
-  auto gain = decode_flush(slice.payload.bytes(), totals_.groups(), config_.bins,
+  auto gain = reader_.read(slice.payload.bytes(), totals_.groups(), config_.bins,
                            [&] { return take_turns() && !slice.dropped; });
   if (!gain) return gain.problem().what;
   // Batches and where their weight went are told to the controller, once.
@@ -117,7 +120,9 @@ void TallyShard::read(Slice& slice) {
   forget(slice);
 }
 
-void TallyShard::forget(const Slice& slice) {
+void TallyShard::forget(Slice& slice) {
+  if (slice.gain) reader_.take_back(std::move(*slice.gain));
+  slice.gain.reset();
   slices_.erase({slice.flush.node, slice.flush.incarnation});
   counters_.held = slices_.size();
 }
@@ -175,13 +180,14 @@ void TallyShard::on(const Letter<AskTotals>& letter) {
     if (!goes_on && !begins) return;  // a question of before, that comes late
     told_.gather = question.gather;
     told_.first = question.first;
-    told_bytes_ = next_piece(told_);
+    pack_next_piece();
   }
-  sender().send(address(), letter.from, letter.id, told_, told_bytes_);
+  sender().send(address(), letter.from, letter.id, told_, {std::span(*told_bytes_), told_bytes_});
 }
 
 /// Takes the next bins that are not zero out of the totals.
-SharedBytes TallyShard::next_piece(TotalsTold& told) {
+void TallyShard::pack_next_piece() {
+  TotalsTold& told = told_;
   int64_t first = config_.bins.end;
   for (int g = 0; g < totals_.groups(); ++g)
     first = std::min(first, totals_.next_bin(g, static_cast<int64_t>(told.first)));
@@ -191,8 +197,9 @@ SharedBytes TallyShard::next_piece(TotalsTold& told) {
   }
   told.next = static_cast<uint64_t>(end);
   counters_.totals_bytes = totals_.bytes();
-  auto bytes = std::make_shared<const std::vector<std::byte>>(encoder_.bytes());
-  return {std::span(*bytes), bytes};
+  // Else the last piece has not left yet.
+  if (told_bytes_.use_count() != 1) told_bytes_ = std::make_shared<std::vector<std::byte>>();
+  *told_bytes_ = encoder_.bytes();
 }
 
 }  // namespace luxodus

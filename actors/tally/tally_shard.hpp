@@ -19,6 +19,7 @@
 
 #include <map>
 #include <memory>
+#include <memory_resource>
 #include <optional>
 #include <vector>
 
@@ -84,20 +85,23 @@ class TallyShard final
   void read(Slice& slice);
   std::string reading_fault(Slice& slice);
   void add(Slice& slice);
-  void forget(const Slice& slice);
+  void forget(Slice& slice);
   bool work_on(const Slice& slice);
   void settle(const MessageId& decision, bool whole);
   bool take_turns();
   uint64_t decided(const Life& life) const;
-  SharedBytes next_piece(TotalsTold& told);
+  void pack_next_piece();
 
   const TallyShardConfig config_;
   Totals totals_;
-  std::map<Life, std::shared_ptr<Slice>> slices_;
+  /// Of slices: one that is done with leaves it to the next.
+  std::pmr::unsynchronized_pool_resource memory_;
+  std::pmr::map<Life, std::shared_ptr<Slice>> slices_{&memory_};
   std::map<Life, uint64_t> decided_;  // by life, the sequence of the last flush decided about
-  FlushEncoder encoder_;              // of pieces of the totals
-  TotalsTold told_;                   // the last piece
-  SharedBytes told_bytes_;
+  FlushReader reader_;
+  FlushEncoder encoder_;  // of pieces of the totals
+  TotalsTold told_;       // the last piece
+  std::shared_ptr<std::vector<std::byte>> told_bytes_;
   Counters counters_;
 };
 

@@ -1,6 +1,6 @@
 // An actor: state that only its own handlers touch, and a mailbox of two lanes. A control message
-// is handled at the beginning of the next turn, on the scheduler's stack: it overtakes all data,
-// needs no fiber, cannot be starved, and its handler may not suspend. A data message is handled on
+// is handled in the turn that brings it, on the scheduler's stack: it overtakes all data, needs no
+// fiber, cannot be starved, and its handler may not suspend. A data message is handled on
 // the actor's own fiber, one after another, and its handler may suspend; control may come meanwhile
 // and find the actor between two of its suspends. A class declares what it accepts, and has a
 // handler `void on(Message&&)` or `void on(const Message&)` for each:

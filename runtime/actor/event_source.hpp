@@ -14,6 +14,9 @@ class EventSource {
   /// more. On the node's thread.
   virtual bool poll() = 0;
 
+  /// Sends what was given away since poll(). On the node's thread.
+  virtual void send_out() {}
+
   /// Waits until something arrives, `deadline` passes, or wake() was called since the last wait; it
   /// may return earlier. On the node's thread.
   virtual void wait_until(Nanoseconds deadline) = 0;

@@ -49,6 +49,8 @@ void Scheduler::add_metrics(Metrics& metrics) const {
   metrics.add_counter({"timers_fired", "", "Timers that came due.", ""}, c.timers_fired);
   metrics.add_counter({"handed_over", "", "Results of other threads.", ""}, c.handed_over);
   metrics.add_counter({"waited", "nanoseconds", "Time with nothing to do.", ""}, c.waited);
+  metrics.add_gauge({"longest_turn", "nanoseconds", "Processor time of the longest turn.", ""},
+                    c.longest_turn);
   metrics.add_counter({"stalls", "", "Fibers that ran for too long at once.", ""}, c.stalls);
   metrics.add_gauge({"fibers_live", "", "Fibers that have work.", ""}, c.fibers_live);
   metrics.add_gauge({"fibers_suspended", "", "Fibers that wait.", ""}, c.fibers_suspended);
@@ -85,11 +87,20 @@ Wake Scheduler::wait_until(WaitList& list, Nanoseconds deadline, const char* rea
 }
 
 Nanoseconds Scheduler::turn() {
+  const Nanoseconds began = clock_.processor();
+  const Nanoseconds due = take_turn();
+  const auto took = static_cast<uint64_t>(clock_.processor() - began);
+  counters_.longest_turn = std::max(counters_.longest_turn, took);
+  return due;
+}
+
+Nanoseconds Scheduler::take_turn() {
   ++counters_.turns;
-  handle_controls();
   const size_t timers = rarely(Buggify::Site::few_timers) ? 1 : limits_.timers_per_turn;
   counters_.timers_fired += timers_.run_due(clock_.now(), timers);
   const bool more_arrives = source_.poll();
+  // What has come is answered before fibers take their time.
+  if (handle_controls()) source_.send_out();
   counters_.handed_over += handoff_.run();
   run_fibers();
   counters_.fibers_live = fibers_.live();
@@ -102,13 +113,16 @@ Nanoseconds Scheduler::turn() {
 }
 
 /// Those who wait now, once each: an actor that sends control to itself is called in the next turn.
-void Scheduler::handle_controls() {
+/// False: nobody waits.
+bool Scheduler::handle_controls() {
+  if (controls_.empty()) return false;
   IntrusiveList<ControlReceiver> waiting;
   while (ControlReceiver* receiver = controls_.pop_front()) waiting.push_back(*receiver);
   while (ControlReceiver* receiver = waiting.pop_front()) {
     receiver->handle_control();
     ++counters_.controls;
   }
+  return true;
 }
 
 void Scheduler::run_fibers() {

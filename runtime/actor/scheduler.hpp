@@ -1,6 +1,6 @@
 // The loop of a node, which is one OS thread. A turn goes through what may be waiting, the urgent
 // first and each with a budget, so that nothing starves and heartbeats are on time:
-//   control messages > timers > what arrives > results of other threads > ready fibers
+//   timers > what arrives > control messages > results of other threads > ready fibers
 // With nothing ready it waits where things arrive. Everything of a node is owned by its scheduler
 // and touched by its thread alone, but for handoff().give(). It knows time by its Clock only and
 // keeps nothing outside itself, so many schedulers can take turns on one thread, simulated.
@@ -35,7 +35,7 @@ struct SchedulerLimits {
   Buggify* buggify = nullptr;            // rare ways of all that runs here; null: none
 };
 
-/// What has control messages to handle. The scheduler calls back in the next turn.
+/// What has control messages to handle. The scheduler calls back once a turn.
 class ControlReceiver : public ListHook {
  public:
   virtual ~ControlReceiver() = default;
@@ -80,7 +80,7 @@ class Scheduler {
   void seal() { sealed_ = true; }
   bool sealed() const { return sealed_; }
 
-  /// Has `receiver` called at the beginning of the next turn.
+  /// Has `receiver` called in the next turn, or in this one if what arrives is still to come.
   void call_for_control(ControlReceiver& receiver);
 
   // ---- from inside a fiber -----------------------------------------------------------------
@@ -107,6 +107,7 @@ class Scheduler {
     uint64_t handed_over = 0;
     uint64_t stalls = 0;
     uint64_t waited = 0;            // [ns] with nothing to do
+    uint64_t longest_turn = 0;      // [ns] of processor time
     uint64_t fibers_live = 0;       // at the end of the last turn
     uint64_t fibers_suspended = 0;  // of those
   };
@@ -117,7 +118,8 @@ class Scheduler {
   bool rarely(Buggify::Site site) const { return luxodus::rarely(limits_.buggify, site); }
 
  private:
-  void handle_controls();
+  Nanoseconds take_turn();
+  bool handle_controls();
   void run_fibers();
   void report_stall(const Fiber& fiber, Nanoseconds ran);
   Task wake_by_deadline();

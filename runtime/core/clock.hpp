@@ -30,12 +30,16 @@ class Clock {
  public:
   virtual ~Clock() = default;
   virtual Nanoseconds now() const = 0;
+  /// Processor time of the thread that asks, since a start of no meaning; of a node whose time is
+  /// virtual what it was charged.
+  virtual Nanoseconds processor() const { return now(); }
 };
 
 /// The machine's monotonic clock.
 class SystemClock final : public Clock {
  public:
   Nanoseconds now() const override;
+  Nanoseconds processor() const override;
 };
 
 /// Stands still until it is moved: for tests and simulation.

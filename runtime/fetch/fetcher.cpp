@@ -54,12 +54,13 @@ void check_fetch(const FetchConfig& config, const std::vector<ObjectPlace>& obje
 }  // namespace
 
 Fetcher::Fetcher(const FetchConfig& config, const std::vector<ObjectPlace>& objects,
-                 ObjectStore& store, Network& network, Timers& timers, const Clock& clock,
-                 const Random& jitter)
+                 ObjectStore& store, Sender& sender, Supervised& owner, Timers& timers,
+                 const Clock& clock, const Random& jitter)
     : config_((check_fetch(config, objects), config)),
       objects_(objects),
       store_(store),
-      network_(network),
+      sender_(sender),
+      owner_(owner),
       timers_(timers),
       clock_(clock),
       jitter_(jitter),
@@ -73,7 +74,7 @@ Fetcher::~Fetcher() {
     PendingFetch& flight = flights_.at(i);
     if (flight.id.sequence == 0) continue;
     timers_.cancel(flight.timer);
-    network_.forget(flight.id, Kind::reply);
+    sender_.forget(flight.id, Kind::reply);
   }
 }
 
@@ -98,11 +99,6 @@ void Fetcher::add_metrics(Metrics& metrics) const {
                       c.outbox_full);
   metrics.add_counter({"fetch_unobtainable", "", "Fetches in vain.", ""}, c.unobtainable);
   metrics.add_counter({"fetch_in", "bytes", "Bytes of objects that came.", ""}, c.bytes_in);
-  metrics.add_counter({"fetch_out", "bytes", "Bytes of objects given to others.", ""}, c.bytes_out);
-  metrics.add_counter({"objects_served", "", "Objects given to others.", ""}, c.served);
-  metrics.add_counter({"objects_refused", "", "Requests for what is not here.", ""}, c.refused);
-  metrics.add_counter({"objects_intercepted", "", "Requests answered on their way.", ""},
-                      c.intercepted);
   metrics.add_gauge({"receive_held", "bytes", "Bytes asked for and not yet built.", ""},
                     c.receive_bytes_held);
   for (size_t hops = 0; hops < delay_.size(); ++hops)
@@ -128,7 +124,7 @@ void Fetcher::release(uint32_t object) {
 void Fetcher::begin_soon() {
   if (begins_soon_ || waiting_.empty()) return;
   begins_soon_ = true;
-  begin_timer_ = timers_.set(clock_.now(), [this] { begin_flights(); });
+  begin_timer_ = timers_.set(clock_.now(), owner_.own_task([this] { begin_flights(); }));
 }
 
 void Fetcher::begin_flights() {
@@ -144,7 +140,7 @@ void Fetcher::begin_flights() {
 void Fetcher::begin(const Wish& wish) {
   PendingFetch& flight = *flights_.take();
   flight.wish = wish;
-  flight.id = network_.next_id();
+  flight.id = sender_.next_id();
   flight.timer = {};
   flight.questions = 0;
   flight.holder = nearest_holder(wish.object);
@@ -168,7 +164,7 @@ void Fetcher::end(PendingFetch& flight) {
   if (flight.trace_id != 0)
     config_.trace->end(TraceKind::fetch, flight.trace_id, flight.wish.object);
   timers_.cancel(flight.timer);
-  network_.forget(flight.id, Kind::reply);
+  sender_.forget(flight.id, Kind::reply);
   flight.id = {};
   flight.room.reset();
   flights_.give(flight);
@@ -214,7 +210,8 @@ bool Fetcher::ask_holder(PendingFetch& flight, NodeId holder) {
   const FetchObject question{objects_[flight.wish.object].id,
                              static_cast<uint64_t>(patience / microseconds(1)),
                              static_cast<uint16_t>(flight.questions + 1)};
-  const SendOutcome outcome = network_.send(holder, flight.id, question);
+  const SendOutcome outcome =
+      sender_.send(config_.address(), {holder, ActorName::part_server}, flight.id, question);
   if (outcome == SendOutcome::unreachable) return false;
   if (outcome == SendOutcome::full) {
     ++counters_.outbox_full;
@@ -265,7 +262,8 @@ void Fetcher::give_up(PendingFetch& flight) {
 void Fetcher::set_timer(PendingFetch& flight, Nanoseconds span, bool answer_due) {
   timers_.cancel(flight.timer);
   flight.answer_due = answer_due;
-  flight.timer = timers_.set(clock_.now() + span, [this, &flight] { timer_fired(flight); });
+  flight.timer =
+      timers_.set(clock_.now() + span, owner_.own_task([this, &flight] { timer_fired(flight); }));
 }
 
 void Fetcher::timer_fired(PendingFetch& flight) {
@@ -284,17 +282,8 @@ Nanoseconds Fetcher::with_jitter(Nanoseconds span) {
 
 // ---- answers
 
-bool Fetcher::deliver(const Delivery& delivery) {
-  if (const auto* wanted = std::get_if<FetchObject>(&delivery.message))
-    return serve(delivery, *wanted);
-  if (const auto* answer = std::get_if<ObjectFound>(&delivery.message)) found(delivery, *answer);
-  if (const auto* answer = std::get_if<ObjectNotHere>(&delivery.message))
-    not_here(delivery, *answer);
-  return true;
-}
-
-std::span<std::byte> Fetcher::room_for(const MessageId& id, Kind kind, size_t bytes) {
-  PendingFetch* flight = kind == Kind::reply ? flight_of(id) : nullptr;
+std::span<std::byte> Fetcher::room_for(const MessageId& id, size_t bytes) {
+  PendingFetch* flight = flight_of(id);
   if (flight == nullptr) return {};
   const size_t most = objects_[flight->wish.object].wire_bytes + max_reply_head_bytes;
   if (bytes > most) return {};
@@ -304,37 +293,41 @@ std::span<std::byte> Fetcher::room_for(const MessageId& id, Kind kind, size_t by
   return std::as_writable_bytes(std::span(flight->room.get(), (most + 7) / 8)).first(most);
 }
 
-void Fetcher::found(const Delivery& delivery, const ObjectFound& answer) {
-  counters_.bytes_in += delivery.payload.size();
-  PendingFetch* flight = flight_of(delivery.id);
-  if (flight == nullptr) {
-    ++counters_.late;
-    return;
-  }
-  const std::vector<NodeId>& holders = objects_[flight->wish.object].holders;
-  if (flight->questions == 1)
-    routes_[holders[flight->holder].value].answered(clock_.now() - flight->asked_at);
-  if (accept(*flight, kept(*flight, delivery.payload), delivery.hops, answer.answered_by)) return;
-  network_.forget(flight->id, Kind::reply);
-  flight->id = network_.next_id();
-  flight->holder = (flight->holder + 1) % holders.size();
-  ask(*flight);
-}
-
 /// In pieces it lies in the room that was set aside; else it is the network's for this call.
-SharedBytes Fetcher::kept(const PendingFetch& flight, std::span<const std::byte> payload) {
-  const auto* room = reinterpret_cast<const std::byte*>(flight.room.get());
-  const size_t room_bytes =
-      room == nullptr ? 0 : objects_[flight.wish.object].wire_bytes + max_reply_head_bytes;
-  if (payload.data() >= room && payload.data() < room + room_bytes) return {payload, flight.room};
-  const auto copy = room_of(std::max<size_t>(payload.size(), 1));
+SharedBytes Fetcher::keep(const MessageId& id, std::span<const std::byte> payload) {
+  const PendingFetch* flight = flight_of(id);
+  if (flight == nullptr) return {};
+  const auto* room = reinterpret_cast<const std::byte*>(flight->room.get());
+  const size_t most = objects_[flight->wish.object].wire_bytes + max_reply_head_bytes;
+  if (room != nullptr && payload.data() >= room && payload.data() < room + most)
+    return {payload, flight->room};
+  if (payload.empty() || payload.size() > most) return {};
+  const auto copy = room_of(payload.size());
   const std::span to = std::as_writable_bytes(std::span(copy.get(), (payload.size() + 7) / 8));
   std::copy(payload.begin(), payload.end(), to.begin());
   return {to.first(payload.size()), copy};
 }
 
-void Fetcher::not_here(const Delivery& delivery, const ObjectNotHere& answer) {
-  PendingFetch* flight = flight_of(delivery.id);
+void Fetcher::found(const MessageId& id, uint8_t hops, const ObjectFound& answer,
+                    SharedBytes bytes) {
+  PendingFetch* flight = flight_of(id);
+  if (flight == nullptr) {
+    ++counters_.late;
+    return;
+  }
+  counters_.bytes_in += bytes.bytes.size();
+  const std::vector<NodeId>& holders = objects_[flight->wish.object].holders;
+  if (flight->questions == 1)
+    routes_[holders[flight->holder].value].answered(clock_.now() - flight->asked_at);
+  if (accept(*flight, std::move(bytes), hops, answer.answered_by)) return;
+  sender_.forget(flight->id, Kind::reply);
+  flight->id = sender_.next_id();
+  flight->holder = (flight->holder + 1) % holders.size();
+  ask(*flight);
+}
+
+void Fetcher::not_here(const MessageId& id, const ObjectNotHere& answer) {
+  PendingFetch* flight = flight_of(id);
   if (flight == nullptr ||
       answer.answered_by != objects_[flight->wish.object].holders[flight->holder]) {
     ++counters_.late;
@@ -363,45 +356,6 @@ bool Fetcher::accept(PendingFetch& flight, SharedBytes bytes, uint8_t hops, Node
   delay_[hops].add(clock_.now() - wish.since);
   end(flight);
   wish.client->fetched(wish.object, std::move(bytes));
-  return true;
-}
-
-// ---- others' requests
-
-/// What others may have of an object here; empty where that is nothing.
-SharedBytes Fetcher::held(ObjectId object) {
-  if (rarely(config_.buggify, Buggify::Site::object_missing)) return {};
-  return store_.find(object);
-}
-
-bool Fetcher::serve(const Delivery& request, const FetchObject& wanted) {
-  if (request.source == config_.self) return true;  // a forgery: this node does not ask itself
-  SharedBytes bytes = held(wanted.object);
-  const size_t size = bytes.bytes.size();
-  const SendOutcome outcome =
-      size > 0
-          ? network_.send(request.source, request.id, ObjectFound{wanted.object, config_.self},
-                          std::move(bytes))
-          : network_.send(request.source, request.id, ObjectNotHere{wanted.object, config_.self});
-  if (outcome == SendOutcome::full) return false;
-  if (outcome == SendOutcome::unreachable) return true;  // it will ask again, or has gone
-  ++(size > 0 ? counters_.served : counters_.refused);
-  counters_.bytes_out += size;
-  return true;
-}
-
-bool Fetcher::intercept(const Delivery& request) {
-  const auto* wanted = std::get_if<FetchObject>(&request.message);
-  if (wanted == nullptr || request.source == config_.self) return false;
-  SharedBytes bytes = held(wanted->object);
-  const size_t size = bytes.bytes.size();
-  if (size == 0) return false;
-  const ObjectFound answer{wanted->object, config_.self};
-  if (network_.send(request.source, request.id, answer, std::move(bytes)) != SendOutcome::taken)
-    return false;
-  ++counters_.served;
-  ++counters_.intercepted;
-  counters_.bytes_out += size;
   return true;
 }
 

@@ -1,8 +1,9 @@
-// Brings the bytes of objects from wherever they are, and gives others what this node holds. An
-// object is asked of its holders in their order, each several times with growing patience, then of
-// this node's own store; only when all of them have said no or nothing is it unobtainable, for now.
-// Bytes are checked against the object's name: wrong ones are dropped and asked for elsewhere.
-// It keeps nothing: who keeps objects, and sees that each is fetched once, is the ObjectCache.
+// Brings the bytes of objects from wherever they are. An object is asked of its holders in their
+// order, each several times with growing patience, then of this node's own store; only when all of
+// them have said no or nothing is it unobtainable, for now. Bytes are checked against the object's
+// name: wrong ones are dropped and asked for elsewhere. It keeps nothing: who keeps objects, and
+// sees that each is fetched once, is the ObjectCache. Both are state of the part server, which is
+// the actor that holders answer.
 //
 // Memory: a fetch begins when the object's bytes, known beforehand, find room under receive_bytes,
 // and holds that room until release(); fetches beyond it wait in turn. The bytes themselves are the
@@ -19,6 +20,7 @@
 #include <span>
 #include <vector>
 
+#include "runtime/actor/supervised.hpp"
 #include "runtime/actor/timers.hpp"
 #include "runtime/core/buggify.hpp"
 #include "runtime/core/fixed_pool.hpp"
@@ -28,7 +30,7 @@
 #include "runtime/core/ring.hpp"
 #include "runtime/fetch/objects.hpp"
 #include "runtime/fetch/route_delay.hpp"
-#include "runtime/net/network.hpp"
+#include "runtime/messaging/actor_system.hpp"
 #include "runtime/observe/histogram.hpp"
 #include "runtime/observe/metrics.hpp"
 #include "runtime/observe/node_trace.hpp"
@@ -46,12 +48,18 @@ struct FetchConfig {
   /// Questions to one holder. If it is silent from the start it has 1, 2, 4 and 5 s for them: long
   /// enough for routes to be made anew (2 s), short enough for a batch to be leased again.
   uint8_t tries = 4;
+  /// Requests of others that wait for room to be answered: four of each of 64 nodes.
+  size_t requests = 256;
+  /// Whether others are given what this node has ready for itself, and holds for nobody.
+  bool shares_cache = true;
   TimeoutLimits timeouts;
   /// Links to each node, by number: of an object's holders the nearest is asked first, then those
   /// that follow it. Empty: in the order of ObjectPlace.
   std::vector<uint32_t> hops;
   NodeTrace* trace = nullptr;  // null: nothing is traced
   Buggify* buggify = nullptr;  // rare ways; null: none
+
+  Address address() const { return {self, ActorName::part_server}; }
 };
 
 /// Who wants an object. Called on the scheduler's stack.
@@ -66,11 +74,13 @@ class FetchClient {
 
 class Fetcher {
  public:
-  /// Takes all memory there will be but for objects' bytes. `jitter` is a stream of its own.
+  /// Takes all memory there will be but for objects' bytes. Timers are set as those of `owner`.
+  /// `jitter` is a stream of its own.
   /// Requires: all references outlive this; `objects` does not change.
   /// Errors (exception): an object without bytes, or longer than receive_bytes; too many holders.
   Fetcher(const FetchConfig& config, const std::vector<ObjectPlace>& objects, ObjectStore& store,
-          Network& network, Timers& timers, const Clock& clock, const Random& jitter);
+          Sender& sender, Supervised& owner, Timers& timers, const Clock& clock,
+          const Random& jitter);
   ~Fetcher();
   Fetcher(const Fetcher&) = delete;
   Fetcher& operator=(const Fetcher&) = delete;
@@ -87,17 +97,15 @@ class Fetcher {
   /// The bytes of a fetched object are no longer needed: their room is free for others.
   void release(uint32_t object);
 
-  // ---- what the node's NetHandler passes on ------------------------------------------------
-  // All requests and replies are of fetches. NetHandler::abandoned() has nothing to pass on: the
-  // room for a reply stays with its fetch, which asks again.
+  // ---- what others answer ------------------------------------------------------------------
 
-  /// Answers a request from the store; takes a reply in. False: no room to send the answer now.
-  /// Requires: a message of kind request or reply.
-  bool deliver(const Delivery& delivery);
-  /// Room for a reply that is awaited, of its object's size; empty for all others.
-  std::span<std::byte> room_for(const MessageId& id, Kind kind, size_t bytes);
-  /// Answers a request that passes, where the store holds the object.
-  bool intercept(const Delivery& request);
+  void found(const MessageId& id, uint8_t hops, const ObjectFound& answer, SharedBytes bytes);
+  void not_here(const MessageId& id, const ObjectNotHere& answer);
+  /// Room for an answer that is awaited, of its object's size; empty for all others. It stays with
+  /// its fetch, which asks again if no more pieces come.
+  std::span<std::byte> room_for(const MessageId& id, size_t bytes);
+  /// The bytes of an answer that is awaited, where they stay; empty for all others.
+  SharedBytes keep(const MessageId& id, std::span<const std::byte> payload);
 
   // ---- counts ------------------------------------------------------------------------------
 
@@ -110,11 +118,7 @@ class Fetcher {
     uint64_t late = 0;          // answers that nobody waited for any more
     uint64_t outbox_full = 0;   // questions that had to wait for the network
     uint64_t unobtainable = 0;  // fetches in vain
-    uint64_t bytes_in = 0;      // of objects, wrong and late ones included
-    uint64_t bytes_out = 0;
-    uint64_t served = 0;       // objects given to others
-    uint64_t refused = 0;      // requests for what this node does not hold
-    uint64_t intercepted = 0;  // of those served: on their way to another node
+    uint64_t bytes_in = 0;      // of objects, wrong ones included, and late ones not
     uint64_t receive_bytes_held = 0;
   };
   const Counters& counters() const { return counters_; }
@@ -160,17 +164,13 @@ class Fetcher {
   void timer_fired(PendingFetch& flight);
   Nanoseconds with_jitter(Nanoseconds span);
 
-  void found(const Delivery& delivery, const ObjectFound& answer);
-  SharedBytes kept(const PendingFetch& flight, std::span<const std::byte> payload);
-  void not_here(const Delivery& delivery, const ObjectNotHere& answer);
   bool accept(PendingFetch& flight, SharedBytes bytes, uint8_t hops, NodeId from);
-  SharedBytes held(ObjectId object);
-  bool serve(const Delivery& request, const FetchObject& wanted);
 
   FetchConfig config_;
   const std::vector<ObjectPlace>& objects_;
   ObjectStore& store_;
-  Network& network_;
+  Sender& sender_;
+  Supervised& owner_;
   Timers& timers_;
   const Clock& clock_;
   Random jitter_;

@@ -20,6 +20,8 @@ class BuiltObject {
   virtual ~BuiltObject() = default;
   /// What it takes in memory, everything that it keeps alive included: what a cache is charged.
   virtual size_t bytes() const = 0;
+  /// The bytes that it was built of, made anew for a node that asks for them.
+  virtual SharedBytes wire_bytes() const = 0;
 };
 
 class ObjectBuilder {

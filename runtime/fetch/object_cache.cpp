@@ -27,10 +27,12 @@ void check_cache(const CacheConfig& config) {
 }  // namespace
 
 ObjectCache::ObjectCache(const CacheConfig& config, size_t objects, Fetcher& fetcher,
-                         ObjectBuilder& builder, Fibers& fibers, Timers& timers, const Clock& clock)
+                         ObjectBuilder& builder, Supervised& owner, Fibers& fibers, Timers& timers,
+                         const Clock& clock)
     : config_((check_cache(config), config)),
       fetcher_(fetcher),
       builder_(builder),
+      owner_(owner),
       fibers_(fibers),
       timers_(timers),
       clock_(clock),
@@ -157,7 +159,7 @@ void ObjectCache::built(uint32_t object, Result<std::shared_ptr<const BuiltObjec
 // waiting.
 void ObjectCache::step_soon() {
   if (std::exchange(steps_soon_, true)) return;
-  step_timer_ = timers_.set(clock_.now() + 1, [this] { step(); });
+  step_timer_ = timers_.set(clock_.now() + 1, owner_.own_task([this] { step(); }));
 }
 
 void ObjectCache::step() {

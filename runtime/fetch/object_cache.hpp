@@ -74,10 +74,11 @@ struct Got {
 
 class ObjectCache final : private FetchClient, private ObjectBuilder::Client {
  public:
+  /// Timers are set as those of `owner`.
   /// Requires: all references outlive this; objects are named by their place, below `objects`.
   /// Errors (exception): a budget that has no room for the pinned, an object, and a build.
   ObjectCache(const CacheConfig& config, size_t objects, Fetcher& fetcher, ObjectBuilder& builder,
-              Fibers& fibers, Timers& timers, const Clock& clock);
+              Supervised& owner, Fibers& fibers, Timers& timers, const Clock& clock);
   /// Requires: !building().
   ~ObjectCache() override;
   ObjectCache(const ObjectCache&) = delete;
@@ -100,6 +101,9 @@ class ObjectCache final : private FetchClient, private ObjectBuilder::Client {
     }
     return entry.built.get();
   }
+
+  /// The object if it is resident, without a use of it: it is evicted as soon as it would be.
+  const BuiltObject* peek(uint32_t object) const { return entries_[object].built.get(); }
 
   /// The object, after a wait if need be. Requires: on a fiber. Suspends where it is not resident.
   /// `traced`: if this begins a fetch, its times are told to the trace. `ahead`: where it waits,
@@ -170,6 +174,7 @@ class ObjectCache final : private FetchClient, private ObjectBuilder::Client {
   CacheConfig config_;
   Fetcher& fetcher_;
   ObjectBuilder& builder_;
+  Supervised& owner_;
   Fibers& fibers_;
   Timers& timers_;
   const Clock& clock_;

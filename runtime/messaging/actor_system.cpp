@@ -22,26 +22,30 @@ SendOutcome ActorSystem::send(Address from, Address to, const MessageId& id, con
   if (to.node != self_)
     return network_.send(to.node, id, message, std::move(payload), {from.actor, to.actor});
   ++counters_.local;
+  Place* place = place_of(to.actor);
+  if (place == nullptr) return SendOutcome::taken;
   Message copy = message;
-  return put(to.actor, {from, id, copy, Payload(std::move(payload))}) ? SendOutcome::taken
-                                                                      : SendOutcome::full;
+  const auto offered = put(*place, {from, id, copy, Payload(std::move(payload))});
+  return offered == Offered::rejected ? SendOutcome::full : SendOutcome::taken;
 }
 
-/// False: the mailbox is full.
-bool ActorSystem::put(ActorName to, Incoming incoming) {
+/// Null, and counted, where no actor of this name is here.
+ActorSystem::Place* ActorSystem::place_of(ActorName to) {
   const auto name = static_cast<size_t>(to);  // any byte, where it comes from outside
-  if (name >= places_.size() || places_[name].actor == nullptr) {
-    ++counters_.no_actor;
-    return true;
-  }
-  Place& place = places_[name];
+  if (name < places_.size() && places_[name].actor != nullptr) return &places_[name];
+  ++counters_.no_actor;
+  return nullptr;
+}
+
+std::optional<Offered> ActorSystem::put(Place& place, Incoming incoming) {
   const std::optional<Offered> offered = place.actor->accept(std::move(incoming));
   if (!offered) ++counters_.not_accepted;
   if (offered == Offered::taken) ++place.taken;
-  if (offered != Offered::rejected) return true;
-  ++counters_.rejected;
-  ++place.rejected;
-  return false;
+  if (offered == Offered::rejected) {
+    ++counters_.rejected;
+    ++place.rejected;
+  }
+  return offered;
 }
 
 // ---- what the network brings --------------------------------------------------------------------
@@ -49,40 +53,63 @@ bool ActorSystem::put(ActorName to, Incoming incoming) {
 /// What came in pieces lies in its room already; the rest is copied into one.
 std::optional<Payload> ActorSystem::payload_of(const Delivery& delivery) {
   if (const auto at = rooms_.find(key_of(delivery.id)); at != rooms_.end()) {
-    Room room = std::move(at->second);
+    PayloadRoom room = std::move(at->second);
     rooms_.erase(at);
     return Payload(pool_, std::move(room), delivery.payload);
   }
   if (delivery.payload.empty()) return Payload();
-  Room room = pool_.take(delivery.payload.size());
+  PayloadRoom room = pool_.take(delivery.payload.size());
   if (room.empty()) return std::nullopt;
-  const auto bytes = std::as_writable_bytes(std::span(room)).first(delivery.payload.size());
+  const auto bytes = room.bytes().first(delivery.payload.size());
   std::copy(delivery.payload.begin(), delivery.payload.end(), bytes.begin());
   return Payload(pool_, std::move(room), bytes);
 }
 
 void ActorSystem::deliver(const Delivery& delivery) {
-  auto payload = payload_of(delivery);
+  Place* place = place_of(delivery.actors.to);
+  if (place == nullptr) return abandoned(delivery.id);
+  AwaitedRooms* rooms = place->actor->rooms();
+  std::optional<Payload> payload;
+  if (rooms == nullptr)
+    payload = payload_of(delivery);
+  else
+    payload.emplace(rooms->keep(delivery.id, delivery.payload));
   if (!payload) {
     ++counters_.no_room;
     return;
   }
-  (void)put(delivery.actors.to, {{delivery.source, delivery.actors.from},
-                                 delivery.id,
-                                 delivery.message,
-                                 std::move(*payload)});
+  (void)put(*place, {{delivery.source, delivery.actors.from},
+                     delivery.id,
+                     delivery.message,
+                     std::move(*payload),
+                     delivery.hops});
 }
 
-std::span<std::byte> ActorSystem::room_for(const MessageId& id, size_t bytes) {
+bool ActorSystem::intercept(const Delivery& passing) {
+  const auto name = static_cast<size_t>(passing.actors.to);
+  if (name >= places_.size() || places_[name].actor == nullptr) return false;
+  if (passing.source == self_ || !passing.payload.empty()) return false;
+  Place& place = places_[name];
+  return place.actor->answers(passing.message) && put(place, {{passing.source, passing.actors.from},
+                                                              passing.id,
+                                                              passing.message,
+                                                              Payload(),
+                                                              passing.hops}) == Offered::taken;
+}
+
+std::span<std::byte> ActorSystem::room_for(const MessageId& id, ActorName to, size_t bytes) {
+  Place* place = place_of(to);
+  if (place == nullptr) return {};
+  if (AwaitedRooms* rooms = place->actor->rooms()) return rooms->room_for(id, bytes);
   abandoned(id);
-  Room room = pool_.take(bytes);
+  PayloadRoom room = pool_.take(bytes);
   if (room.empty()) {
     ++counters_.no_room;
     return {};
   }
-  Room& kept = rooms_[key_of(id)];
+  PayloadRoom& kept = rooms_[key_of(id)];
   kept = std::move(room);
-  return std::as_writable_bytes(std::span(kept));
+  return kept.bytes();
 }
 
 void ActorSystem::abandoned(const MessageId& id) {

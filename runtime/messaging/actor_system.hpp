@@ -8,6 +8,7 @@
 
 #include <array>
 #include <map>
+#include <memory_resource>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -26,6 +27,7 @@ struct Letter {
   MessageId id;  // of the question, which its answer carries too
   Body body;
   Payload payload = {};
+  uint8_t hops = 0;  // links that it has passed
 };
 
 /// A message that is on its way into a mailbox.
@@ -34,6 +36,17 @@ struct Incoming {
   MessageId id;
   Message& message;  // may be moved out
   Payload payload;
+  uint8_t hops = 0;
+};
+
+/// Rooms that an actor has set aside for payloads which it awaits, as they are to be kept.
+class AwaitedRooms {
+ public:
+  virtual ~AwaitedRooms() = default;
+  /// For a message in pieces; empty where it is not awaited. It may be filled more than once.
+  virtual std::span<std::byte> room_for(const MessageId& id, size_t bytes) = 0;
+  /// The payload of a message that has come, where it is to stay; empty where it is not awaited.
+  virtual SharedBytes keep(const MessageId& id, std::span<const std::byte> payload) = 0;
 };
 
 /// What others can send to.
@@ -44,6 +57,10 @@ class Recipient {
   virtual std::optional<Offered> accept(Incoming incoming) = 0;
   /// Messages that wait.
   virtual size_t waiting() const = 0;
+  /// Where payloads for this actor lie; null: in rooms of the system's pool.
+  virtual AwaitedRooms* rooms() { return nullptr; }
+  /// Whether this one will answer a message that passes its node on the way to its like elsewhere.
+  virtual bool answers([[maybe_unused]] const Message& passing) { return false; }
 };
 
 /// How an actor sends.
@@ -55,6 +72,8 @@ class Sender {
   /// An answer carries the id of its question. Errors (exception): as Network::send.
   virtual SendOutcome send(Address from, Address to, const MessageId& id, const Message& message,
                            SharedBytes payload = {}) = 0;
+  /// Pieces of an answer of this kind that are on their way are not wanted any more.
+  virtual void forget([[maybe_unused]] const MessageId& id, [[maybe_unused]] Kind kind) {}
 };
 
 class ActorSystem final : public Sender {
@@ -69,13 +88,16 @@ class ActorSystem final : public Sender {
   MessageId next_id() override { return network_.next_id(); }
   SendOutcome send(Address from, Address to, const MessageId& id, const Message& message,
                    SharedBytes payload = {}) override;
+  void forget(const MessageId& id, Kind kind) override { network_.forget(id, kind); }
 
   // ---- what the network brings --------------------------------------------------------------
 
   void deliver(const Delivery& delivery);
-  /// Room for a message in pieces; empty where there is none.
-  std::span<std::byte> room_for(const MessageId& id, size_t bytes);
+  /// Room for a message in pieces to this actor; empty where there is none.
+  std::span<std::byte> room_for(const MessageId& id, ActorName to, size_t bytes);
   void abandoned(const MessageId& id);
+  /// Has a message that passes here answered by an actor of this node, if that wants to.
+  bool intercept(const Delivery& passing);
 
   struct Counters {
     uint64_t local = 0;         // messages between actors of this node
@@ -101,14 +123,16 @@ class ActorSystem final : public Sender {
     uint64_t waiting = 0;   // when last sampled
   };
 
-  bool put(ActorName to, Incoming incoming);
+  Place* place_of(ActorName to);
+  std::optional<Offered> put(Place& place, Incoming incoming);
   std::optional<Payload> payload_of(const Delivery& delivery);
 
   const NodeId self_;
   Network& network_;
   std::array<Place, actor_names.size()> places_{};  // by name
   RoomPool pool_;
-  std::map<Key, Room> rooms_;  // of messages that come in pieces
+  std::pmr::unsynchronized_pool_resource memory_;    // of the map below
+  std::pmr::map<Key, PayloadRoom> rooms_{&memory_};  // of messages that come in pieces
   Counters counters_;
 };
 

@@ -39,7 +39,7 @@ class NodeActor : public Actor<Derived, Control, Data>, public Recipient {
           using Body = std::decay_t<decltype(body)>;
           if constexpr (Base::template accepts<Letter<Body>>)
             return this->offer(Letter<Body>{incoming.from, incoming.id, std::move(body),
-                                            std::move(incoming.payload)});
+                                            std::move(incoming.payload), incoming.hops});
           else
             return std::nullopt;
         },
@@ -55,8 +55,9 @@ class NodeActor : public Actor<Derived, Control, Data>, public Recipient {
   }
   /// An answer to a letter, under its id.
   template <class Body>
-  SendOutcome answer(const Letter<Body>& question, const Message& message) {
-    return sender_.send(self_, question.from, question.id, message);
+  SendOutcome answer(const Letter<Body>& question, const Message& message,
+                     SharedBytes payload = {}) {
+    return sender_.send(self_, question.from, question.id, message, std::move(payload));
   }
 
  private:

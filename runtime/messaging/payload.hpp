@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
@@ -14,8 +15,28 @@
 
 namespace luxodus {
 
-/// Of words, so that what lies in it is aligned.
-using Room = std::vector<uint64_t>;
+/// Memory for a payload: of words, so that what lies in it is aligned. It is not set to zero, which
+/// would take milliseconds for a large one.
+class PayloadRoom {
+ public:
+  PayloadRoom() = default;
+  explicit PayloadRoom(size_t words)
+      : words_(std::make_unique_for_overwrite<uint64_t[]>(words)), count_(words) {}
+  PayloadRoom(PayloadRoom&& other) noexcept { *this = std::move(other); }
+  PayloadRoom& operator=(PayloadRoom&& other) noexcept {
+    words_ = std::move(other.words_);
+    count_ = std::exchange(other.count_, 0);
+    return *this;
+  }
+
+  bool empty() const { return count_ == 0; }
+  size_t size_bytes() const { return count_ * sizeof(uint64_t); }
+  std::span<std::byte> bytes() { return std::as_writable_bytes(std::span(words_.get(), count_)); }
+
+ private:
+  std::unique_ptr<uint64_t[]> words_;
+  size_t count_ = 0;
+};
 
 class RoomPool {
  public:
@@ -25,8 +46,8 @@ class RoomPool {
   RoomPool& operator=(const RoomPool&) = delete;
 
   /// Of at least so many bytes; empty where the pool has no more.
-  Room take(size_t bytes);
-  void give_back(Room room);
+  PayloadRoom take(size_t bytes);
+  void give_back(PayloadRoom room);
 
   /// Of rooms that are lent.
   size_t lent_bytes() const { return lent_bytes_; }
@@ -37,7 +58,7 @@ class RoomPool {
   const size_t max_bytes_;
   size_t lent_bytes_ = 0;
   size_t kept_bytes_ = 0;
-  std::vector<Room> kept_;
+  std::vector<PayloadRoom> kept_;
 };
 
 /// A handle of bytes that others may use when it is gone: a room of a pool, or what another actor
@@ -46,7 +67,7 @@ class Payload {
  public:
   Payload() = default;
   /// `bytes` lie in the room. Requires: `pool` outlives it.
-  Payload(RoomPool& pool, Room room, std::span<const std::byte> bytes)
+  Payload(RoomPool& pool, PayloadRoom room, std::span<const std::byte> bytes)
       : pool_(&pool), room_(std::move(room)), bytes_(bytes) {}
   explicit Payload(SharedBytes shared) : shared_(std::move(shared)), bytes_(shared_.bytes) {}
   Payload(Payload&& other) noexcept { *this = std::move(other); }
@@ -62,10 +83,12 @@ class Payload {
   }
 
   std::span<const std::byte> bytes() const { return bytes_; }
+  /// Bytes that are in no room of a pool, and what keeps them.
+  SharedBytes shared() && { return std::move(shared_); }
 
  private:
   RoomPool* pool_ = nullptr;  // null: the bytes are in no room
-  Room room_;
+  PayloadRoom room_;
   SharedBytes shared_;
   std::span<const std::byte> bytes_;
 };

@@ -13,6 +13,7 @@ namespace {
 /// Frames taken from the transport in one turn: as many as are moved on in one (router.cpp), so
 /// that neither starves the other.
 constexpr size_t arrivals_per_turn = 256;
+constexpr size_t arriving_bytes_per_turn = 1 << 20;
 
 /// Of one kind of trouble at one link, one line a minute: a peer cannot fill the log.
 constexpr Nanoseconds log_interval = seconds(60);
@@ -180,6 +181,10 @@ bool Network::poll(Nanoseconds now) {
   return more_arrivals || more_moves;
 }
 
+void Network::send_out(Nanoseconds now) {
+  if (given_) given_ = router_.pump(view_.epoch(), now);
+}
+
 // Fibers run after a turn's poll. What one gives away as the last thing before its node rests would
 // otherwise lie here until the next beat.
 Nanoseconds Network::next_deadline() const {
@@ -201,9 +206,11 @@ void Network::own_lag(Nanoseconds now) {
 }
 
 bool Network::receive(Nanoseconds now) {
-  for (size_t n = 0; n < arrivals_per_turn; ++n) {
+  size_t bytes = 0;
+  for (size_t n = 0; n < arrivals_per_turn && bytes < arriving_bytes_per_turn; ++n) {
     const auto arrival = transport_.receive();
     if (!arrival) return false;
+    bytes += arrival->bytes.size();
     ++counters_.frames_received;
     counters_.bytes_received += arrival->bytes.size();
     take_frame(*arrival, now);
@@ -308,7 +315,7 @@ bool Network::take_piece(const Envelope& envelope, std::span<const std::byte> bo
                          Nanoseconds now) {
   if (!assembler_.open(envelope)) {
     const auto room =
-        handler_.room_for(envelope.id, envelope.source, envelope.kind, envelope.total_bytes);
+        handler_.room_for(envelope.id, envelope.source, envelope.actors, envelope.total_bytes);
     const bool welcome = room.size() >= envelope.total_bytes;
     if (welcome && assembler_.full()) make_room(envelope.from);
     if (!welcome || assembler_.full()) {

@@ -56,7 +56,7 @@ class NetHandler {
   /// Room for a message in several pieces, which stays valid until it is delivered, abandoned(),
   /// or given up by Network::forget(). Empty, or too short: the message is not wanted (a reply
   /// that nobody waits for) or must come again (no room now).
-  virtual std::span<std::byte> room_for(const MessageId& id, NodeId source, Kind kind,
+  virtual std::span<std::byte> room_for(const MessageId& id, NodeId source, ActorPair actors,
                                         size_t bytes) = 0;
   /// Pieces have stopped coming: the room is the handler's again.
   virtual void abandoned(const MessageId& id, Kind kind) = 0;
@@ -100,6 +100,9 @@ class Network {
   /// Takes what has come, lets time pass, moves what can be moved. Never blocks.
   /// True: there is more to do at once.
   bool poll(Nanoseconds now);
+
+  /// Sends what was given away since the last poll(), as far as there is room.
+  void send_out(Nanoseconds now);
 
   /// When poll() has something to do even if no frame comes: at once after a send().
   Nanoseconds next_deadline() const;

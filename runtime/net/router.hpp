@@ -56,6 +56,7 @@ class Router {
   bool pump_kind(Kind kind, Nanoseconds now);
   bool step(Link& from, Kind kind, uint8_t hop_class, Nanoseconds now);
   bool step_outbox(Kind kind, Nanoseconds now);
+  void spend(size_t bytes);
   Link* hop_to(NodeId destination) const;
 
   const NetConfig& config_;
@@ -66,7 +67,8 @@ class Router {
   std::vector<Outbox> outboxes_;
   uint64_t epoch_ = 0;
   size_t first_link_ = 0;  // whose turn it is to be first
-  size_t budget_ = 0;
+  size_t budget_ = 0;      // frames that this turn may move
+  size_t bytes_left_ = 0;
 };
 
 }  // namespace luxodus

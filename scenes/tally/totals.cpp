@@ -44,7 +44,8 @@ void Totals::for_each_scored(const BatchScores& batch, const TallyBlock& block, 
                                 block.first_score + end_bin * width, visit_pages);
 }
 
-void Totals::fill_aggregates(BatchScores& batch) const {
+void Totals::fill_aggregates(BatchScores& batch, const std::function<void()>& rest) const {
+  uint32_t added = 0;
   for (const Aggregate& a : layout_.aggregates()) {
     const TallyBlock& from = layout_.block(a.from_block);
     const TallyBlock& into = layout_.block(a.to_block);
@@ -54,6 +55,7 @@ void Totals::fill_aggregates(BatchScores& batch) const {
       int64_t* to = batch.scores.touch(layout_.score_index(a.to_block, a.to_bin, 0, 0),
                                        static_cast<int64_t>(bands * into.quantities));
       const int64_t* source = batch.scores.data() + layout_.score_index(a.from_block, first, 0, 0);
+      added += end - first;
       for (uint32_t bin = first; bin < end; ++bin, source += width) {
         for (size_t b = 0; b < bands; ++b) {
           const int64_t* s = source + b * from.quantities;
@@ -64,7 +66,15 @@ void Totals::fill_aggregates(BatchScores& batch) const {
         }
       }
     };
-    for_each_scored(batch, from, a.first_bin, a.first_bin + a.bin_count, add_bins);
+    const uint32_t behind = a.first_bin + a.bin_count;
+    for (uint32_t first = a.first_bin; first < behind;) {
+      const uint32_t end = first + std::min(stripe_bins, behind - first);
+      for_each_scored(batch, from, first, end, add_bins);
+      first = end;
+      if (added < 4 * stripe_bins) continue;
+      added = 0;
+      rest();
+    }
   }
 }
 
@@ -96,19 +106,23 @@ void Totals::merge_bins(const BatchScores& batch, GroupState& to, const TallyBlo
   }
 }
 
-void Totals::merge(BatchScores& batch, int group) {
+void Totals::merge(BatchScores& batch, int group, const std::function<void()>& rest) {
   batch.scores.find_touched();
-  fill_aggregates(batch);
+  fill_aggregates(batch, rest);
   GroupState& to = groups_[static_cast<size_t>(group)];
   const auto& photopic = photopic_weights_[static_cast<size_t>(group)];
-  uint32_t stripe = 0;
+  uint32_t stripe = 0, merged = 0;
   for (const TallyBlock& block : layout_.blocks()) {
     for (uint32_t first = 0; first < block.bins; first += stripe_bins, ++stripe) {
       const auto merge_run = [&](uint32_t from, uint32_t end) {
         const std::lock_guard lock(stripes_[stripe % stripes_.size()]);
         merge_bins(batch, to, block, photopic, from, end);
+        merged += end - from;
       };
       for_each_scored(batch, block, first, std::min(block.bins, first + stripe_bins), merge_run);
+      if (merged < stripe_bins) continue;
+      merged = 0;
+      rest();
     }
   }
   const std::lock_guard lock(ledger_mutex_);

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <mutex>
 #include <utility>
 #include <vector>
@@ -62,7 +63,12 @@ class Totals {
 
   /// Fills the aggregate bins of the batch, then adds its scores and their squares to group's
   /// totals.
-  void merge(BatchScores& batch, int group);
+  void merge(BatchScores& batch, int group) {
+    merge(batch, group, [] {});
+  }
+  /// The same in steps of some 16 000 bins, a fraction of a millisecond each; between them `rest`
+  /// is called. Only in the end are the totals those of whole batches.
+  void merge(BatchScores& batch, int group, const std::function<void()>& rest);
 
   /// Takes bins [first, end) of a group out, leaving zero: calls visit(index, total) for those that
   /// are not zero. With take_batches and take_ledger this empties totals piece by piece. Not beside
@@ -125,7 +131,7 @@ class Totals {
   template <class Visit>
   void for_each_scored(const BatchScores& batch, const TallyBlock& block, uint32_t first_bin,
                        uint32_t end_bin, Visit&& visit) const;
-  void fill_aggregates(BatchScores& batch) const;
+  void fill_aggregates(BatchScores& batch, const std::function<void()>& rest) const;
   void merge_bins(const BatchScores& batch, GroupState& to, const TallyBlock& block,
                   const std::vector<int64_t>& photopic, uint32_t first_bin, uint32_t end_bin) const;
 

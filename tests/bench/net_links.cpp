@@ -61,7 +61,7 @@ class Peer final : public NetHandler {
     ++answers;
     return true;
   }
-  std::span<std::byte> room_for(const MessageId&, NodeId, Kind, size_t) override {
+  std::span<std::byte> room_for(const MessageId&, NodeId, ActorPair, size_t) override {
     return std::as_writable_bytes(std::span(room_));  // nobody reads it: all may share it
   }
   void abandoned(const MessageId&, Kind) override {}

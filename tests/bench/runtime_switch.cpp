@@ -136,7 +136,7 @@ class NoTransport final : public Transport {
 class NoHandler final : public NetHandler {
  public:
   bool deliver(const Delivery&) override { return true; }
-  std::span<std::byte> room_for(const MessageId&, NodeId, Kind, size_t) override { return {}; }
+  std::span<std::byte> room_for(const MessageId&, NodeId, ActorPair, size_t) override { return {}; }
   void abandoned(const MessageId&, Kind) override {}
   bool intercept(const Delivery&) override { return false; }
   void link_changed(NodeId, LinkPhase) override {}

@@ -115,7 +115,9 @@ const std::map<std::string, std::vector<std::string>> arrows{
     {"runtime/actor", {"runtime/fiber", "runtime/observe"}},
     {"runtime/net", {"proto", "runtime/observe"}},
     {"runtime/config", {"runtime/net", "runtime/toml"}},
-    {"runtime/fetch", {"runtime/actor", "runtime/fiber", "runtime/net", "runtime/observe"}},
+    {"runtime/fetch",
+     {"proto", "runtime/actor", "runtime/fiber", "runtime/messaging", "runtime/net",
+      "runtime/observe"}},
     {"runtime/messaging", {"proto", "runtime/actor", "runtime/net", "runtime/observe"}},
     {"runtime/sim", {"runtime/actor", "runtime/net", "runtime/storage"}},
 

@@ -156,6 +156,18 @@ TEST_CASE("nodes that share what they build build less, and give the same bits",
   CHECK(shared.workers.builds < apart.workers.builds);
 }
 
+TEST_CASE("every part that is built gives the bytes that it was built of", "[nodes][objects]") {
+  const Gallery gallery(4);
+  const SceneObjects objects(*gallery.scene, std::array{NodeId{0}}, 1);
+  PartBuilder builder(*gallery.scene, objects.parts());
+  for (uint32_t i = 0; i < objects.places().size(); ++i) {
+    INFO("object " << i);
+    const auto built = builder.built(i, objects.bytes(i).bytes);
+    REQUIRE(built.ok());
+    CHECK(object_id_of(built.value()->wire_bytes().bytes) == objects.places()[i].id);
+  }
+}
+
 TEST_CASE("an object that is lost for a while spoils batches, which are traced again",
           "[nodes][objects]") {
   const Gallery gallery(4);

@@ -1,5 +1,5 @@
-// After its start a worker's thread takes no memory, whatever it traces, asks and sends; where
-// cells are fetched, only for their bytes and what is built of them.
+// After its start a node's thread takes no memory, whatever it traces, leads, holds, asks and
+// sends; where cells are fetched, only for their bytes and what is built of them.
 #include <spdlog/spdlog.h>
 
 #include <atomic>
@@ -25,6 +25,19 @@ double batches_shown(const Observation& seen) {
     if (sample.name == "luxodus_batches_total") batches += sample.value;
   return batches;
 }
+
+/// By a node's thread between its first look and its last.
+struct Looked {
+  uint64_t at_start = 0;
+  uint64_t at_end = 0;
+  int looks = 0;
+
+  void look() {
+    if (looks++ == 0) at_start = so_far();
+    at_end = so_far();
+  }
+  uint64_t allocations() const { return at_end - at_start; }
+};
 
 struct Taken {
   uint64_t allocations = 0;  // libzmq's messages aside
@@ -78,6 +91,46 @@ TEST_CASE("a worker that holds its scene takes no memory while it traces, flushe
   // A place in the outbox grows once, for the longest list of leases that goes through it.
   CHECK(taken_by_a_worker(scene_of("smoke_tank", "", 1), options).allocations <=
         defaults::outbox_messages);
+}
+
+TEST_CASE("a worker that holds a shard of the totals takes no memory for the slices it adds",
+          "[nodes][seal]") {
+  if (!test::allocations_are_counted()) return;
+  NodesOptions options;
+  options.fibers = 3;
+  options.tally_shards = 2;  // the controller's, and its own
+  CHECK(taken_by_a_worker(scene_of("smoke_tank", "", 1), options).allocations <=
+        2 * defaults::outbox_messages);
+}
+
+TEST_CASE("a coordinator takes no memory but for the names of a flush's leases", "[nodes][seal]") {
+  if (!test::allocations_are_counted()) return;
+  spdlog::set_level(spdlog::level::err);
+  constexpr int warm = 8, looks = 30;  // a quarter of a second apart
+  std::atomic<bool> interrupt{false};
+  Looked looked;
+  int seen = 0;
+  LocalRun run(scene_of("smoke_tank", "", 1), 1, 1);
+  StopRule rounds;
+  rounds.relative_error = 1e-9;
+  NodesOptions options;
+  options.nodes = 2;
+  options.fibers = 3;
+  NodesReport report;
+  const auto ended = run_on_nodes(
+      run, options, rounds, interrupt,
+      [&](const Progress&) {  // on the controller's thread
+        if (++seen > warm) looked.look();
+        if (looked.looks == looks) interrupt = true;
+      },
+      &report);
+  REQUIRE(ended.ok());
+  REQUIRE(looked.looks >= looks);
+  REQUIRE(report.flushes > 4);
+  INFO(looked.allocations() << " for " << report.flushes << " flushes, " << report.leases
+                            << " leases");
+  // Rooms for payloads grow to the longest flush of each worker.
+  CHECK(looked.allocations() <= report.flushes + 16);
 }
 
 TEST_CASE("a worker that fetches takes memory for cells and what is built of them alone",

@@ -26,7 +26,7 @@ struct NotingReceiver final : ControlReceiver {
 
 }  // namespace
 
-TEST_CASE("a turn goes from the urgent to the ready: control, timers, arrivals, results, fibers",
+TEST_CASE("a turn goes from the urgent to the ready: timers, arrivals, control, results, fibers",
           "[runtime][scheduler]") {
   Node node;
   NotingReceiver receiver(node);
@@ -37,7 +37,7 @@ TEST_CASE("a turn goes from the urgent to the ready: control, timers, arrivals, 
   node.scheduler.call_for_control(receiver);
   node.scheduler.call_for_control(receiver);
   node.scheduler.turn();
-  CHECK(node.noted == "control timer arrival result fiber ");
+  CHECK(node.noted == "timer arrival control result fiber ");
   CHECK(node.scheduler.counters().controls == 1);
 }
 

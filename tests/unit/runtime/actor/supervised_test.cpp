@@ -121,7 +121,7 @@ TEST_CASE("an actor that begins anew has an empty mailbox, and no timer of its e
   office.give(4, 5);
   office.clerk.set_timer(1, 6);
   office.node.advance(2);
-  CHECK(office.node.noted == "order4 timer6 task5 ");
+  CHECK(office.node.noted == "timer6 order4 task5 ");
 }
 
 TEST_CASE("an actor fails on purpose once, at what it does next", "[actor][supervision]") {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "runtime/fetch/object_cache.hpp"
+#include "runtime/fetch/part_server.hpp"
 #include "tests/unit/runtime/net/net_kit.hpp"
 
 namespace luxodus::test {
@@ -38,16 +38,18 @@ struct MapStore final : ObjectStore {
 
 struct TestObject final : BuiltObject {
   /// `alive` counts, and outlives its node where objects are shared.
-  TestObject(uint32_t n, size_t charged, std::shared_ptr<int> alive)
-      : number(n), charge(charged), alive_(std::move(alive)) {
+  TestObject(uint32_t n, size_t charged, std::shared_ptr<int> alive, SharedBytes wire = {})
+      : number(n), charge(charged), wire_(std::move(wire)), alive_(std::move(alive)) {
     ++*alive_;
   }
   ~TestObject() override { --*alive_; }
   size_t bytes() const override { return charge; }
+  SharedBytes wire_bytes() const override { return wire_; }
   uint32_t number;
   size_t charge;
 
  private:
+  SharedBytes wire_;
   std::shared_ptr<int> alive_;
 };
 
@@ -59,6 +61,7 @@ class TestBuilder final : public ObjectBuilder {
     if (on_build) on_build(object);
     built.push_back(object);
     pending_ = {object, &client};
+    bytes_ = std::move(bytes);
     if (at_once) answer();
   }
   void answer() {
@@ -66,7 +69,8 @@ class TestBuilder final : public ObjectBuilder {
     const auto [object, client] = std::exchange(pending_, {});
     if (problem) return client->built(object, luxodus::problem("no such thing"));
     const size_t size = charges.contains(object) ? charges[object] : charge;
-    client->built(object, {std::make_shared<TestObject>(object, size, alive)});
+    client->built(object,
+                  {std::make_shared<TestObject>(object, size, alive, std::exchange(bytes_, {}))});
   }
   bool pending() const { return pending_.second != nullptr; }
 
@@ -80,6 +84,7 @@ class TestBuilder final : public ObjectBuilder {
 
  private:
   std::pair<uint32_t, Client*> pending_{0, nullptr};
+  SharedBytes bytes_;
 };
 
 /// What a test node is made of, where it matters.
@@ -90,29 +95,33 @@ struct FetchSetup {
   uint64_t seed = 1;
 };
 
-class FetchNode final : public NetHandler {
+class FetchNode final : public NetHandler, public EventSource {
  public:
   FetchNode(SimNet& net, const NetConfig& net_config, const Objects& objects, FetchSetup setup,
             const ManualClock& clock)
       : config(net_config),
         transport(net, config.self),
         network(config, transport, *this, clock.now()),
-        fibers({.count = setup.fibers, .max_maps = 1000}),
-        timers(200, clock.now()),
-        fetcher(on(config.self, setup.fetch), objects.places, store, network, timers, clock,
-                chance(setup.seed, config.self)),
-        cache(setup.cache, objects.places.size(), fetcher, builder, fibers, timers, clock),
-        clock_(clock) {}
+        system(config.self, network, 1 << 20),
+        scheduler(limits_of(setup), clock, *this),
+        server(on(config.self, setup.fetch), setup.cache, objects.places, store, builder, scheduler,
+               system, chance(setup.seed, config.self)),
+        clock_(clock) {
+    system.add(ActorName::part_server, server);
+  }
 
   NetConfig config;
   SimTransport transport;
   Network network;
-  Fibers fibers;
-  Timers timers;
+  ActorSystem system;
+  Scheduler scheduler;
+  Fibers& fibers = scheduler.fibers();
+  Timers& timers = scheduler.timers();
   MapStore store;
   TestBuilder builder;
-  Fetcher fetcher;
-  ObjectCache cache;
+  PartServer server;
+  ObjectCache& cache = server.cache();
+  const Fetcher& fetcher = server.fetcher();
   std::function<void(const Delivery&)> on_deliver;
   bool mute = false;  // takes requests, and answers none
   bool intercepts = true;
@@ -126,26 +135,43 @@ class FetchNode final : public NetHandler {
     while (fibers.any_ready()) fibers.run_next();
   }
   void turn() {
-    timers.run_due(clock_.now(), 256);
-    network.poll(clock_.now());
+    scheduler.turn();
     run_fibers();
   }
+  /// As if the part server of this node said it to that of another.
+  void say(NodeId to, const MessageId& id, const Message& message, SharedBytes bytes = {}) {
+    (void)system.send(server.address(), {to, ActorName::part_server}, id, message,
+                      std::move(bytes));
+  }
+
+  bool poll() override { return network.poll(clock_.now()); }
+  void send_out() override { network.send_out(clock_.now()); }
+  void wait_until(Nanoseconds) override {}
+  void wake() noexcept override {}
 
   bool deliver(const Delivery& d) override {
     if (on_deliver) on_deliver(d);
-    return mute || fetcher.deliver(d);
+    if (!mute) system.deliver(d);
+    return true;
   }
-  std::span<std::byte> room_for(const MessageId& id, NodeId, Kind kind, size_t bytes) override {
-    return fetcher.room_for(id, kind, bytes);
+  std::span<std::byte> room_for(const MessageId& id, NodeId, ActorPair actors,
+                                size_t bytes) override {
+    return system.room_for(id, actors.to, bytes);
   }
-  void abandoned(const MessageId&, Kind) override {}
-  bool intercept(const Delivery& d) override { return intercepts && fetcher.intercept(d); }
+  void abandoned(const MessageId& id, Kind) override { system.abandoned(id); }
+  bool intercept(const Delivery& d) override { return intercepts && system.intercept(d); }
   void link_changed(NodeId, LinkPhase) override {}
   NextHops reroute(std::span<const Edge> down) override {
     return shortest(config.self, config.nodes, config.edges, down);
   }
 
  private:
+  static SchedulerLimits limits_of(const FetchSetup& setup) {
+    SchedulerLimits limits;
+    limits.fibers = {.count = setup.fibers, .max_maps = 1000};
+    limits.timers_beside_fibers = 200;
+    return limits;
+  }
   static FetchConfig on(NodeId self, FetchConfig fetch) {
     fetch.self = self;
     return fetch;

@@ -48,8 +48,8 @@ TEST_CASE("objects of one piece and of many come from their holder, whole", "[ru
   CHECK(counted.fetches == 2);
   CHECK(counted.retries == 0);
   CHECK(counted.bytes_in == small + large);
-  CHECK(cluster[1].fetcher.counters().served == 2);
-  CHECK(cluster[1].fetcher.counters().bytes_out == small + large);
+  CHECK(cluster[1].server.counters().served == 2);
+  CHECK(cluster[1].server.counters().bytes_out == small + large);
   CHECK(cluster[0].fetcher.delay(1).count() == 2);
   cluster.run(milliseconds(10), milliseconds(1));
   check_at_rest(cluster[0]);
@@ -63,8 +63,8 @@ TEST_CASE("a holder without the object is asked once, then the replica", "[runti
   CHECK(fetch(cluster, object).how == Got::How::resident);
   CHECK(cluster[0].fetcher.counters().not_here == 1);
   CHECK(cluster[0].fetcher.counters().timeouts == 0);
-  CHECK(cluster[1].fetcher.counters().refused == 1);
-  CHECK(cluster[2].fetcher.counters().served == 1);
+  CHECK(cluster[1].server.counters().refused == 1);
+  CHECK(cluster[2].server.counters().served == 1);
 }
 
 TEST_CASE("the nearest holder is asked first where distances are known, then the others",
@@ -76,13 +76,13 @@ TEST_CASE("the nearest holder is asked first where distances are known, then the
   FetchCluster near(3, objects, setup);
   CHECK(fetch(near, object).how == Got::How::resident);
   CHECK(near[0].fetcher.counters().retries == 0);
-  CHECK(near[1].fetcher.counters().served == 1);
-  CHECK(near[1].fetcher.counters().intercepted == 0);
+  CHECK(near[1].server.counters().served == 1);
+  CHECK(near[1].server.counters().intercepted == 0);
   FetchCluster gone(3, objects, setup);
   gone[1].store.held.clear();
   CHECK(fetch(gone, object).how == Got::How::resident);
-  CHECK(gone[1].fetcher.counters().refused == 1);
-  CHECK(gone[2].fetcher.counters().served == 1);
+  CHECK(gone[1].server.counters().refused == 1);
+  CHECK(gone[2].server.counters().served == 1);
 }
 
 TEST_CASE("a holder that is gone costs no time where a replica can be reached",
@@ -95,7 +95,7 @@ TEST_CASE("a holder that is gone costs no time where a replica can be reached",
   cluster.run(milliseconds(100));
   CHECK(fetch(cluster, object).how == Got::How::resident);
   CHECK(cluster[0].fetcher.counters().timeouts == 0);
-  CHECK(cluster[1].fetcher.counters().served == 1);
+  CHECK(cluster[1].server.counters().served == 1);
 }
 
 TEST_CASE("a silent holder is asked the agreed number of times, with growing patience",
@@ -121,7 +121,7 @@ TEST_CASE("a silent holder is asked the agreed number of times, with growing pat
   CHECK(asked[2] - asked[1] >= seconds(2));
   CHECK(cluster[0].fetcher.counters().timeouts == 3);
   CHECK(cluster[0].fetcher.counters().retries == 3);
-  CHECK(cluster[2].fetcher.counters().served == 1);
+  CHECK(cluster[2].server.counters().served == 1);
 }
 
 TEST_CASE("this node's own store is the last resort, and the first where it is a holder",
@@ -203,7 +203,7 @@ TEST_CASE("an answer that comes late, or twice, is dropped", "[runtime][fetch]")
   CHECK(fetch(cluster, object).how == Got::How::resident);
   REQUIRE(questions.size() == 1);
   const auto say = [&](const Message& answer, SharedBytes bytes) {
-    cluster[1].network.send(a, questions[0], answer, std::move(bytes));
+    cluster[1].say(a, questions[0], answer, std::move(bytes));
     cluster.run(milliseconds(20), milliseconds(1));
   };
   say(ObjectFound{objects.id(object), b}, objects.bytes[object]);
@@ -229,11 +229,10 @@ TEST_CASE("the answer of a holder that was given up is taken while another is as
   cluster[0].start(asking.body());
   cluster.run(milliseconds(1500));
   REQUIRE(questions.size() == 1);
-  cluster[1].network.send(a, questions[0], ObjectNotHere{objects.id(object), b});
+  cluster[1].say(a, questions[0], ObjectNotHere{objects.id(object), b});
   cluster.run(milliseconds(10), milliseconds(1));
   CHECK_FALSE(asking.done);  // b's word is of no weight any more
-  cluster[1].network.send(a, questions[0], ObjectFound{objects.id(object), b},
-                          objects.bytes[object]);
+  cluster[1].say(a, questions[0], ObjectFound{objects.id(object), b}, objects.bytes[object]);
   cluster.run(milliseconds(10), milliseconds(1));
   CHECK(asking.got.how == Got::How::resident);
 }
@@ -246,13 +245,13 @@ TEST_CASE("wrong bytes are counted, dropped, and asked for elsewhere", "[runtime
     spoil(cluster[1].store, objects, object);
     cluster[1].intercepts = false;
     cluster[1].on_deliver = [&](const Delivery& d) {  // it answers twice: what comes late stays out
-      cluster[1].network.send(d.source, d.id, ObjectFound{objects.id(object), b},
-                              cluster[1].store.find(objects.id(object)));
+      cluster[1].say(d.source, d.id, ObjectFound{objects.id(object), b},
+                     cluster[1].store.find(objects.id(object)));
     };
     CHECK(fetch(cluster, object).how == Got::How::resident);
     CHECK(cluster[0].fetcher.counters().wrong_hash == 1);
-    CHECK(cluster[1].fetcher.counters().served == 1);
-    CHECK(cluster[2].fetcher.counters().served == 1);
+    CHECK(cluster[1].server.counters().served == 1);
+    CHECK(cluster[2].server.counters().served == 1);
   }
 }
 
@@ -313,8 +312,8 @@ TEST_CASE("a node on the way that has the object answers in the holder's place",
   FetchCluster cluster(3, objects);
   cluster.give(b, objects, objects.id(object));
   CHECK(fetch(cluster, object).how == Got::How::resident);
-  CHECK(cluster[1].fetcher.counters().intercepted == 1);
-  CHECK(cluster[2].fetcher.counters().served == 0);
+  CHECK(cluster[1].server.counters().intercepted == 1);
+  CHECK(cluster[2].server.counters().served == 0);
   CHECK(cluster[0].fetcher.delay(1).count() == 1);
 }
 
@@ -362,7 +361,7 @@ TEST_CASE("a fetcher that ends in the middle of a fetch leaves nothing behind",
   CHECK(cluster[0].cache.state(object) == ObjectState::requested);
   cluster.stop(0);  // pieces are there, and timers set
   cluster.run(seconds(1));
-  CHECK(cluster[1].fetcher.counters().served == 1);
+  CHECK(cluster[1].server.counters().served == 1);
 }
 
 TEST_CASE("the same seed gives the same fetches, moment by moment", "[runtime][fetch]") {
@@ -394,8 +393,7 @@ TEST_CASE("what is counted can be read by name, and what is taken stands in the 
   const FetchSetup setup;
   FetchCluster cluster(2, objects, setup);
   Metrics metrics("0");
-  cluster[0].fetcher.add_metrics(metrics);
-  cluster[0].cache.add_metrics(metrics);
+  cluster[0].server.add_metrics(metrics);
   CHECK(fetch(cluster, object).how == Got::How::resident);
   REQUIRE(metrics.publish());
   const std::string text = Metrics::published({&metrics});
@@ -405,8 +403,7 @@ TEST_CASE("what is counted can be read by name, and what is taken stands in the 
   CHECK(says("luxodus_objects_resident_bytes{node=\"0\"} 100\n"));
 
   MemoryPlan plan;
-  Fetcher::plan_memory(plan, setup.fetch, objects.places.size());
-  ObjectCache::plan_memory(plan, setup.cache, objects.places.size());
+  PartServer::plan_memory(plan, setup.fetch, setup.cache, objects.places.size());
   CHECK(plan.total_bytes() > setup.fetch.receive_bytes + setup.cache.budget_bytes);
 }
 

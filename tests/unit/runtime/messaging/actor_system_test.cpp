@@ -80,11 +80,12 @@ struct Member final : NetHandler {
     system.deliver(delivery);
     return true;
   }
-  std::span<std::byte> room_for(const MessageId& id, NodeId, Kind, size_t bytes) override {
-    return system.room_for(id, bytes);
+  std::span<std::byte> room_for(const MessageId& id, NodeId, ActorPair actors,
+                                size_t bytes) override {
+    return system.room_for(id, actors.to, bytes);
   }
   void abandoned(const MessageId& id, Kind) override { system.abandoned(id); }
-  bool intercept(const Delivery&) override { return false; }
+  bool intercept(const Delivery& d) override { return system.intercept(d); }
   void link_changed(NodeId, LinkPhase) override {}
   NextHops reroute(std::span<const Edge>) override { return {{here, there}}; }
 
@@ -274,16 +275,16 @@ TEST_CASE("payloads beyond the pool are dropped and counted, and later ones have
 
 TEST_CASE("rooms are used again: a pool that has grown takes no more memory", "[messaging]") {
   RoomPool pool(1 << 20);
-  const uint64_t* places[2] = {};
+  const std::byte* places[2] = {};
   for (int round = 0; round < 4; ++round) {
-    Room large = pool.take(100'000), small = pool.take(100);
-    REQUIRE(large.size() * sizeof(uint64_t) >= 100'000);
+    PayloadRoom large = pool.take(100'000), small = pool.take(100);
+    REQUIRE(large.size_bytes() >= 100'000);
     if (round == 1) {
-      places[0] = large.data();
-      places[1] = small.data();
+      places[0] = large.bytes().data();
+      places[1] = small.bytes().data();
     } else if (round > 1) {
-      CHECK(large.data() == places[0]);
-      CHECK(small.data() == places[1]);
+      CHECK(large.bytes().data() == places[0]);
+      CHECK(small.bytes().data() == places[1]);
     }
     pool.give_back(std::move(large));
     pool.give_back(std::move(small));

@@ -70,7 +70,7 @@ struct Holder final : NetHandler {
     ++answers;
     return true;
   }
-  std::span<std::byte> room_for(const MessageId&, NodeId, Kind, size_t) override {
+  std::span<std::byte> room_for(const MessageId&, NodeId, ActorPair, size_t) override {
     return std::as_writable_bytes(std::span(room));
   }
   void abandoned(const MessageId&, Kind) override {}

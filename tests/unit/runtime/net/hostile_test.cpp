@@ -89,7 +89,7 @@ TEST_CASE("a neighbour that floods without credit fills its own windows and no m
     siege.say(Flush{1, 2, {3}, {}}, 60'000);
     if (i % 100 == 99) siege.nodes.turn();
   }
-  siege.nodes.turn();
+  siege.nodes.run(milliseconds(100), milliseconds(1));  // a turn takes in a megabyte
   // A window holds four such frames; what it holds is passed over to nobody here.
   CHECK(siege.victim().counters().dropped_over_credit - before >= frames - 5);
   CHECK(siege.victim().memory_bytes() == memory);

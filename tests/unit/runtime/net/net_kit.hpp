@@ -104,7 +104,7 @@ class Handler : public NetHandler {
     taken.push_back({d.source, d.id, d.hops, d.message, {d.payload.begin(), d.payload.end()}});
     return true;
   }
-  std::span<std::byte> room_for(const MessageId& id, NodeId, Kind, size_t bytes) override {
+  std::span<std::byte> room_for(const MessageId& id, NodeId, ActorPair, size_t bytes) override {
     if (!wants_pieces) return {};
     auto& room = rooms_[id.sequence];
     room.resize((bytes + 7) / 8);

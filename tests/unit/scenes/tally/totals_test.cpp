@@ -210,6 +210,28 @@ TEST_CASE("a value is averaged over the batches of all groups alike", "[tally]")
   CHECK(m.standard_error / unit == Approx(std::sqrt(4.0 / 3)));
 }
 
+TEST_CASE("a batch that is merged in steps has the totals of one merged at once", "[tally]") {
+  constexpr uint32_t bins = 200'000;
+  TallyLayout layout(1);
+  const uint32_t patches = layout.add_block({"patches", bins, 2, ScoreUnit::weight});
+  const uint32_t surface = layout.add_block({"surface", 1, 3, ScoreUnit::weight});
+  layout.add_aggregate({patches, 10, bins - 20, surface, 0});
+  Totals at_once(layout, 1, ones(1, 1)), in_steps(layout, 1, ones(1, 1));
+  int rests = 0;
+  for (int number = 0; number < 2; ++number) {
+    BatchScores one, other;
+    for (BatchScores* batch : {&one, &other}) {
+      batch->reset(layout);
+      for (uint32_t bin = 0; bin < bins; ++bin)
+        batch->scores.data()[layout.score_index(patches, bin, 0, 0)] = (bin + 7) * (number + 1);
+    }
+    at_once.merge(one, 0);
+    in_steps.merge(other, 0, [&] { ++rests; });
+  }
+  CHECK(rests >= 2 * 10);  // 200 000 bins in steps of some 16 000
+  check_equal(at_once, in_steps);
+}
+
 TEST_CASE("batches that touch few pages have the totals of a walk over all bins",
           "[tally][sparse]") {
   constexpr int bands = 3;

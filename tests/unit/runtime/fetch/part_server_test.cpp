@@ -1,0 +1,138 @@
+// What a node does for others' requests. How it fetches for itself: fetcher_test.cpp.
+#include "runtime/fetch/part_server.hpp"
+
+#include "tests/unit/runtime/fetch/fetch_kit.hpp"
+
+using namespace luxodus;
+using namespace luxodus::test;
+
+namespace {
+
+constexpr NodeId b{1}, c{2};
+
+Got::How fetch(FetchCluster& cluster, size_t node, uint32_t object) {
+  Asking asking{cluster[node], object};
+  cluster[node].start(asking.body());
+  cluster.until([&] { return asking.done; });
+  return asking.got.how;
+}
+
+}  // namespace
+
+TEST_CASE("what a node has ready for itself it gives to others, though it does not hold it",
+          "[runtime][fetch]") {
+  for (const size_t size : {1000, 200'000}) {
+    Objects objects;
+    const uint32_t object = objects.add(size, {c});
+    FetchCluster cluster(3, objects);
+    REQUIRE(fetch(cluster, 1, object) == Got::How::resident);
+    REQUIRE(cluster[2].server.counters().served == 1);
+    CHECK(fetch(cluster, 0, object) == Got::How::resident);
+    CHECK(cluster[2].server.counters().served == 1);
+    CHECK(cluster[1].server.counters().from_cache == 1);
+    CHECK(cluster[1].server.counters().intercepted == 1);
+    CHECK(cluster[0].fetcher.delay(1).count() == 1);
+    CHECK(cluster[0].fetcher.counters().wrong_hash == 0);
+  }
+}
+
+TEST_CASE("a node that shares nothing but what it holds passes requests on", "[runtime][fetch]") {
+  Objects objects;
+  const uint32_t object = objects.add(1000, {c});
+  FetchSetup setup;
+  setup.fetch.shares_cache = false;
+  FetchCluster cluster(3, objects, setup);
+  REQUIRE(fetch(cluster, 1, object) == Got::How::resident);
+  CHECK(fetch(cluster, 0, object) == Got::How::resident);
+  CHECK(cluster[1].server.counters().from_cache == 0);
+  CHECK(cluster[2].server.counters().served == 2);
+}
+
+TEST_CASE("a request from outside does not keep an object from being evicted", "[runtime][fetch]") {
+  Objects objects;
+  for (int i = 0; i < 3; ++i) objects.add(1000, {c});
+  FetchSetup setup;
+  setup.cache = {.budget_bytes = 300, .largest_build_bytes = 100, .pinned_share = 0};  // two of 100
+  FetchCluster cluster(3, objects, setup);
+  REQUIRE(fetch(cluster, 1, 0) == Got::How::resident);
+  REQUIRE(fetch(cluster, 1, 1) == Got::How::resident);
+  REQUIRE(fetch(cluster, 0, 0) == Got::How::resident);
+  REQUIRE(cluster[1].server.counters().from_cache == 1);
+  REQUIRE(fetch(cluster, 1, 2) == Got::How::resident);
+  CHECK(cluster[1].cache.peek(0) == nullptr);
+  CHECK(cluster[1].cache.peek(1) != nullptr);
+}
+
+TEST_CASE("requests without room for an answer wait for it, and are answered in their turn",
+          "[runtime][fetch]") {
+  Objects objects;
+  for (int i = 0; i < 50; ++i) objects.add(1000, {b});
+  FetchSetup setup;
+  setup.fibers = 50;
+  setup.fetch.tries = 1;
+  FetchCluster cluster(2, objects, setup, [](NetConfig& config) {
+    if (config.self == b) config.outbox_messages = 1;
+  });
+  std::vector<Asking> askings;
+  for (uint32_t i = 0; i < 50; ++i) askings.push_back({cluster[0], i});
+  for (Asking& asking : askings) cluster[0].start(asking.body());
+  cluster.until([&] { return cluster[0].fibers.live() == 0; });
+  for (const Asking& asking : askings) CHECK(asking.got.how == Got::How::resident);
+  CHECK(cluster[1].server.counters().waited > 0);
+  CHECK(cluster[1].server.counters().dropped == 0);
+  CHECK(cluster[0].fetcher.counters().timeouts == 0);
+}
+
+TEST_CASE("requests beyond those that may wait are dropped, counted, and asked again",
+          "[runtime][fetch]") {
+  Objects objects;
+  for (int i = 0; i < 50; ++i) objects.add(1000, {b});
+  FetchSetup setup;
+  setup.fibers = 50;
+  setup.fetch.requests = 4;
+  FetchCluster cluster(2, objects, setup, [](NetConfig& config) {
+    if (config.self == b) config.outbox_messages = 1;
+  });
+  std::vector<Asking> askings;
+  for (uint32_t i = 0; i < 50; ++i) askings.push_back({cluster[0], i});
+  for (Asking& asking : askings) cluster[0].start(asking.body());
+  cluster.until([&] { return cluster[0].fibers.live() == 0; });
+  for (const Asking& asking : askings) CHECK(asking.got.how == Got::How::resident);
+  CHECK(cluster[1].server.counters().dropped > 0);
+  CHECK(cluster[0].fetcher.counters().timeouts > 0);
+}
+
+TEST_CASE("requests and answers go through the mailbox, and others' messages do not",
+          "[runtime][fetch]") {
+  Objects objects;
+  const uint32_t object = objects.add(1000, {b});
+  FetchCluster cluster(2, objects);
+  cluster[0].say(b, cluster[0].network.next_id(), RequestLease{1});
+  REQUIRE(fetch(cluster, 0, object) == Got::How::resident);
+  cluster.run(milliseconds(20));
+  CHECK(cluster[1].system.counters().not_accepted == 1);
+  Metrics metrics("1");
+  cluster[1].system.add_metrics(metrics);
+  REQUIRE(metrics.publish());
+  CHECK(Metrics::published({&metrics})
+            .find("luxodus_mailbox_taken_total{node=\"1\",actor=\"part_server\"} 1\n") !=
+        std::string::npos);
+}
+
+TEST_CASE("a part server that has failed answers nobody", "[runtime][fetch]") {
+  struct Listener final : FailureListener {
+    void on_failure(Supervised&, const std::exception_ptr&) noexcept override { ++failures; }
+    int failures = 0;
+  } listener;
+  Objects objects;
+  const uint32_t object = objects.add(1000, {b, c});
+  FetchSetup setup;
+  setup.fetch.tries = 1;
+  FetchCluster cluster(3, objects, setup);
+  cluster[1].server.supervise_by(listener);
+  cluster[1].server.fail_next();
+  CHECK(fetch(cluster, 0, object) == Got::How::resident);
+  CHECK(listener.failures == 1);
+  CHECK(cluster[1].server.counters().served == 0);
+  CHECK(cluster[2].server.counters().served == 1);
+}
