@@ -99,7 +99,7 @@ void StateCoordinator::stop() {
   end_when_done();
 }
 
-void StateCoordinator::counted(const Letter<Flush>&, const std::vector<int64_t>& batches) {
+void StateCoordinator::counted(const Letter<Flush>&, std::span<const int64_t> batches) {
   for (const int64_t batch : batches) out_.erase(batch);
   end_when_done();
 }
@@ -117,7 +117,7 @@ void StateCoordinator::take_back_lost() {
     if (peer.here && !peer.left) here.push_back(worker);
   if (here.empty() || book_.lose_what_all_gave_back(here) == 0) return;
   const std::set<int64_t> lost = book_.take_lost();
-  log_error("view=stuck batches={} text=\"none of the nodes can enter this state of the scene\"",
+  log_error("state=stuck batches={} text=\"none of the nodes can enter this state of the scene\"",
             lost.size());
   give_back(lost);
   for (const int64_t batch : lost) out_.erase(batch);

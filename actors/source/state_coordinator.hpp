@@ -55,7 +55,7 @@ class StateCoordinator final : public Coordinator {
   Totals& totals() override { return work_->totals(); }
   BinRange bins() const override { return {0, work_->totals().layout().totals()}; }
   bool holds_back(size_t) override { return false; }
-  void counted(const Letter<Flush>& letter, const std::vector<int64_t>& batches) override;
+  void counted(const Letter<Flush>& letter, std::span<const int64_t> batches) override;
   RunEnded end_word() const override { return {round(), ""}; }
   bool hurries() const override { return true; }
   void wait_for_farewells(Nanoseconds now) override;

@@ -98,8 +98,6 @@ class LdtReader {
     text("the date");
   }
 
-  /// Ityp says point, line or other, which the light of the file does not depend on; but what is
-  /// not 0 to 3 hints at lines that were lost.
   /// The file's unit is the millimetre, and a luminaire is no smaller than what shines of it.
   void check_opening(int line) {
     const glm::dvec3 lit = out_.opening.size_m, housing = out_.housing_m;
@@ -124,6 +122,8 @@ class LdtReader {
                       "\", is no colour temperature in kelvin; it is not used");
   }
 
+  /// Ityp says point, line or other, which the light of the file does not depend on; but what is
+  /// not 0 to 3 hints at lines that were lost.
   void read_type() {
     const std::string_view type = text("the type indicator");
     const std::optional<double> value = decimal(type, true);

@@ -150,6 +150,24 @@ TEST_CASE("what nodes have not given when tracing stops is traced later", "[view
   same_light(run, traced_here(room, {}));
 }
 
+TEST_CASE("a state that no node can make is given back, and the next one is traced",
+          "[view][nodes][failure]") {
+  const LiveRoom room;
+  LiveNodes nodes(room);
+  NodeExecutor& executor = nodes.executor();
+  LiveRun run(room.compiled({}), 1, 1, nullptr, false);
+  SceneEdits impossible;
+  impossible.scenario = "there is none";
+  executor.enter(state_of(impossible));
+  std::atomic<int> asked = 0;
+  const auto soon = [&] { return ++asked > 100 ? LiveRun::Stop::now : LiveRun::Stop::none; };
+  CHECK_FALSE(run.trace(level_batches, LiveRun::Scope::all, executor, soon, no_tick));
+  CHECK(run.particles() == 0);
+  executor.enter(state_of({}));
+  CHECK(run.trace(level_batches, LiveRun::Scope::all, executor, never_stop, no_tick));
+  same_light(run, traced_here(room, {}));
+}
+
 TEST_CASE("a live view goes on when one of its nodes leaves", "[view][nodes][failure]") {
   const LiveRoom room;
   NodesOptions options;
