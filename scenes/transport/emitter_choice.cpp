@@ -12,6 +12,17 @@ Vec3 centre_of(const CompiledEmitter& e) {
 
 }  // namespace
 
+EmitterChoice::EmitterChoice(const CompiledScene& scene) : scene_(scene) {
+  for (const CompiledEmitter& e : scene.emitters) {
+    double power = 0;
+    for (int b = 0; b < scene.bands.count(); ++b) {
+      const Band& band = scene.bands[b];
+      power += e.power_w[static_cast<size_t>(b)] * (band.lm_per_w + band.x_per_w + band.z_per_w);
+    }
+    seen_power_.push_back(power);
+  }
+}
+
 /// In proportion to power times weight(emitter), of each that sends light in more than one
 /// direction. Returns the sum.
 template <class WeightOf>
@@ -20,8 +31,9 @@ double EmitterChoice::weigh(Cumulative& cumulative, int band, WeightOf&& weight)
   double total = 0;
   for (size_t i = 0; i < cumulative.size(); ++i) {
     const CompiledEmitter& e = scene_.emitters[i];
-    const double power =
-        e.distribution == Distribution::collimated ? 0 : e.power_w[static_cast<size_t>(band)];
+    const double in_band =
+        band == all_bands ? seen_power_[i] : e.power_w[static_cast<size_t>(band)];
+    const double power = e.distribution == Distribution::collimated ? 0 : in_band;
     if (power > 0) total += power * weight(e);
     cumulative[i] = total;
   }
