@@ -24,6 +24,8 @@ constexpr int variance_reach_px = 2;
 constexpr int calibration_reach_px = 8;
 /// Of a pixel's own light beside what windows say of it: it decides where no centre is like it.
 constexpr double own_weight = 0.25;
+/// Of the mean luminance of its windows: a fit of less is the chance of what is around it.
+constexpr double least_coloured = 0.1;
 constexpr size_t max_features = 16;
 constexpr size_t colour_channels = 3;
 
@@ -143,6 +145,7 @@ class NormalEquations {
   }
   void add_to_diagonal(size_t i, double amount) { matrix_[i][i] += amount; }
   double diagonal(size_t i) const { return matrix_[i][i]; }
+  const std::array<double, Sides>& side(size_t i) const { return side_[i]; }
 
   /// In place; a pivot that is nothing leaves its unknown at 0.
   void solve() {
@@ -189,7 +192,8 @@ class HalfFilter {
         features_(features),
         offsets_(static_cast<size_t>(2 * filter.window_px + 1) *
                  static_cast<size_t>(2 * filter.window_px + 1)),
-        sums_((light_channels + 1) * picture.pixels(), 0.0) {}
+        sums_((light_channels + 1) * picture.pixels(), 0.0),
+        means_(light_channels * picture.pixels(), 0.0) {}
 
   int bands() const {
     const int centres = (picture_.height + filter_.stride_px - 1) / filter_.stride_px;
@@ -213,6 +217,11 @@ class HalfFilter {
     const double* sums = &sums_[(light_channels + 1) * pixel];
     const auto own = static_cast<double>(light_.light[light_channels * pixel + channel]);
     return (sums[channel] + own_weight * own) / (sums[light_channels] + own_weight);
+  }
+  /// Of the windows around a pixel, without regard to its features [cd/m2].
+  double mean(size_t pixel, size_t channel) const {
+    const double weight = sums_[(light_channels + 1) * pixel + light_channels];
+    return weight > 0 ? means_[light_channels * pixel + channel] / weight : 0;
   }
 
  private:
@@ -310,6 +319,8 @@ class HalfFilter {
       equations.add(weight, row.data(), &light_.light[light_channels * pixel]);
     });
     const double weight_of_all = equations.diagonal(0);
+    std::array<double, light_channels> mean = equations.side(0);
+    for (double& light : mean) light /= weight_of_all;
     for (size_t k = 1; k <= features; ++k) equations.add_to_diagonal(k, ridge * weight_of_all);
     equations.solve();
     for_each_pixel([&](size_t pixel, double weight) {
@@ -318,6 +329,7 @@ class HalfFilter {
         double fit = 0;
         for (size_t k = 0; k <= features; ++k) fit += row[k] * equations.solution(k)[c];
         sums[c] += weight * fit;
+        means_[light_channels * pixel + c] += weight * mean[c];
       }
       sums[light_channels] += weight;
     });
@@ -329,7 +341,8 @@ class HalfFilter {
   const HalfPicture& light_;
   const std::vector<float>& features_;
   const size_t offsets_;
-  std::vector<double> sums_;  // per pixel: light_channels weighted values, and the weights
+  std::vector<double> sums_;   // per pixel: light_channels weighted values, and the weights
+  std::vector<double> means_;  // per pixel: weighted means of windows
 };
 
 /// Windows of a band reach into its neighbours, but no further.
@@ -338,6 +351,28 @@ void filter_half(HalfFilter& half, const ShareWork& share) {
     const int64_t count = (half.bands() + 1 - parity) / 2;
     share(count, [&](int64_t i) { half.filter_band(static_cast<int>(2 * i) + parity); });
   }
+}
+
+/// What both halves say of a pixel. Where the fit leaves it too little light to have a colour, or
+/// less than none of one channel, its colour is that of its windows.
+std::array<double, light_channels> filtered_light(const std::vector<HalfFilter>& halves,
+                                                  size_t pixel) {
+  std::array<double, light_channels> fit{}, mean{};
+  for (const HalfFilter& half : halves)
+    for (size_t c = 0; c < light_channels; ++c) {
+      fit[c] += half.value(pixel, c) / 2;
+      mean[c] += half.mean(pixel, c) / 2;
+    }
+  const double luminance = std::max(0.0, fit[1]);
+  const bool coloured =
+      *std::min_element(fit.begin(), fit.end()) >= 0 && luminance > least_coloured * mean[1];
+  if (coloured || !(mean[1] > 0)) {
+    for (double& light : fit) light = std::max(0.0, light);
+    return fit;
+  }
+  for (size_t c = 0; c < light_channels; ++c)
+    fit[c] = luminance * std::max(0.0, mean[c]) / mean[1];
+  return fit;
 }
 
 }  // namespace
@@ -360,9 +395,9 @@ FilteredPicture filter_picture(const NoisyPicture& picture, const RegressionFilt
   out.light.resize(light_channels * picture.pixels());
   std::vector<float> squares(picture.pixels()), count(picture.pixels(), 1.0f), scratch;
   for (size_t i = 0; i < picture.pixels(); ++i) {
+    const std::array<double, light_channels> light = filtered_light(halves, i);
     for (size_t c = 0; c < light_channels; ++c)
-      out.light[light_channels * i + c] =
-          static_cast<float>(std::max(0.0, (halves[0].value(i, c) + halves[1].value(i, c)) / 2));
+      out.light[light_channels * i + c] = static_cast<float>(light[c]);
     const double half_difference = (halves[0].value(i, 1) - halves[1].value(i, 1)) / 2;
     squares[i] = static_cast<float>(half_difference * half_difference);
   }
