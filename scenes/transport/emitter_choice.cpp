@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "scenes/transport/glow_guide.hpp"
+
 namespace luxodus {
 
 namespace {
@@ -13,14 +15,7 @@ Vec3 centre_of(const CompiledEmitter& e) {
 }  // namespace
 
 EmitterChoice::EmitterChoice(const CompiledScene& scene) : scene_(scene) {
-  for (const CompiledEmitter& e : scene.emitters) {
-    double power = 0;
-    for (int b = 0; b < scene.bands.count(); ++b) {
-      const Band& band = scene.bands[b];
-      power += e.power_w[static_cast<size_t>(b)] * (band.lm_per_w + band.x_per_w + band.z_per_w);
-    }
-    seen_power_.push_back(power);
-  }
+  for (const CompiledEmitter& e : scene.emitters) seen_power_.push_back(power_seen(scene, e));
 }
 
 /// In proportion to power times weight(emitter), of each that sends light in more than one

@@ -19,6 +19,7 @@
 #include "scenes/transport/connect.hpp"
 #include "scenes/transport/emission.hpp"
 #include "scenes/transport/emitter_choice.hpp"
+#include "scenes/transport/glow_guide.hpp"
 #include "scenes/transport/group_light.hpp"
 #include "scenes/transport/known_radiance.hpp"
 #include "scenes/transport/media_bands.hpp"
@@ -47,10 +48,26 @@ struct PathTurn {
 template <class Resolver>
 class NextEvent {
  public:
-  NextEvent(const CompiledScene& scene, Resolver& resolver, Random& random)
-      : scene_(scene), resolver_(resolver), random_(random), choice_(scene), media_(scene) {}
+  /// `aimed`: whether paths are also turned towards the glow around emitters.
+  NextEvent(const CompiledScene& scene, Resolver& resolver, Random& random, bool aimed)
+      : scene_(scene),
+        resolver_(resolver),
+        random_(random),
+        choice_(scene),
+        media_(scene),
+        aimed_(aimed) {}
 
   const MediaBands& media() const { return media_; }
+  GlowGuide& guide() { return guide_; }
+
+  /// Before an event of a path. Glows are found at the first: only then may the resolver wait.
+  void start_event(int event) {
+    if (aimed_ && !knows_glows_) {
+      guide_ = GlowGuide(glows_of(scene_, resolver_));
+      knows_glows_ = true;
+    }
+    guide_.start_event(event);
+  }
 
   /// Adds `weight` times the light of an emitter that a surface sends against `direction`. One
   /// emitter is sampled. `models`: of the path's bands.
@@ -69,7 +86,10 @@ class NextEvent {
     const double hit = bands.mixed([&](size_t i) {
       return static_cast<double>(surface_pdf(models[i], -direction, towards, normal));
     });
-    const double density = sampled.probability + hit * arriving_.apparent_sr;
+    const double turned = models[0].kind == SurfaceKind::lambertian && !guide_.empty()
+                              ? turned_at(place, towards, hit)
+                              : hit;
+    const double density = sampled.probability + turned * arriving_.apparent_sr;
     for (size_t i = 0; i < bands.count(); ++i) {
       if (arriving_.irradiance[i] <= 0) continue;
       const double sent =
@@ -127,6 +147,13 @@ class NextEvent {
     double apparent_sr = 0;
     BandValues irradiance;
   };
+
+  /// Density [1/sr] of turns at a place, where the phase function or the surface alone has `own`.
+  double turned_at(const Vec3& place, const Vec3& direction, double own) {
+    if (guide_.empty()) return own;
+    guide_.stand_at(place);
+    return guide_.density(direction, own);
+  }
 
   /// Emitters are chosen for all bands of a path at once.
   static int chosen_by(const PathBands& bands) { return bands.many() ? all_bands : bands.hero(); }
@@ -209,7 +236,8 @@ class NextEvent {
     const PhaseFunction& phase = scene_.phases[static_cast<size_t>(flight.phase)];
     const auto turned =
         static_cast<double>(evaluate(phase, glm::dot(arriving_.direction, s.ray.direction)));
-    double probability = sampled.probability + turned * arriving_.apparent_sr;
+    double probability =
+        sampled.probability + turned_at(place, arriving_.direction, turned) * arriving_.apparent_sr;
     if (emitters_near)
       probability += drawn_near(s, place, flight.t, sampled.emitter, point.position);
     for (size_t i = 0; i < s.bands.count(); ++i) {
@@ -236,6 +264,7 @@ class NextEvent {
     const double drawn = share * line.density(static_cast<double>(t));
     const double sampled = choice_.probability_at(chosen);
     const Real cosine = glm::dot(arriving_.direction, s.ray.direction);
+    if (!guide_.empty()) guide_.stand_at(place);
     for (size_t i = 0; i < s.bands.count(); ++i) {
       if (!(sigma_[i] > 0)) continue;
       double scattered = 0;  // of each medium here, since each turns a path in its own way
@@ -243,8 +272,9 @@ class NextEvent {
                          [&](int, int phase, double sigma, double albedo) {
                            const auto turned = static_cast<double>(
                                evaluate(scene_.phases[static_cast<size_t>(phase)], cosine));
+                           const double hit = guide_.density(arriving_.direction, turned);
                            scattered += sigma * albedo * turned /
-                                        (drawn + here * (sampled + turned * arriving_.apparent_sr));
+                                        (drawn + here * (sampled + hit * arriving_.apparent_sr));
                          });
       // What passes up to here is in the density of collisions already.
       const double arrived = weight * s.bands.light(i) * s.share * (here_[i] / sigma_[i]);
@@ -257,6 +287,8 @@ class NextEvent {
   Random& random_;
   EmitterChoice choice_;
   MediaBands media_;
+  bool aimed_, knows_glows_ = false;
+  GlowGuide guide_;
 
   // Of the last call that has filled them, by the path's bands.
   Arriving arriving_;

@@ -43,7 +43,7 @@ class PathTracer {
       : scene_(scene),
         resolver_(resolver),
         random_(seed, stream),
-        next_event_(scene, resolver, random_),
+        next_event_(scene, resolver, random_, stream == RandomStream::picture),
         models_(static_cast<size_t>(scene.bands.count())),
         straight_(scene.groups.size(), static_cast<size_t>(scene.bands.count())) {
     // A picture shows colours, an estimate of luminance needs few.
@@ -253,6 +253,7 @@ class PathTracer {
 
   void trace(Path path, const KnownRadiance* known) {
     for (int event = 0; event < limits::eye_events; ++event) {
+      next_event_.start_event(event);
       const Hit hit = resolver_.nearest(path.ray);
       if (path.counted != EmitterHits::none) add_emitted_along(path, hit);
       const Stretch stretch{path.ray, line_end(hit.distance), 1, path.bands};
@@ -319,15 +320,32 @@ class PathTracer {
         p.add_known(i, known->of_medium(place, p.ray.direction, phase, p.bands.band(i)));
       return false;
     }
+    const auto choice = aims() ? random_.uniform_double() : 1.0;
     const Real u = random_.uniform();
     const Real v = random_.uniform();
-    const Vec3 direction = sample(phase, p.ray.direction, u, v);
+    if (aims()) next_event_.guide().stand_at(place);
+    const bool aimed = choice < next_event_.guide().aimed();
+    const Vec3 direction =
+        aimed ? next_event_.guide().direction(choice, u, v) : sample(phase, p.ray.direction, u, v);
     p.turn = scattered(stretch, flight, direction);
+    weigh_aimed(p, direction);
     p.ray = {p.turn.place, direction};
     p.counted = EmitterHits::weighted;
     p.travelled = 0;
     p.diffused = true;
     return true;
+  }
+
+  /// Whether a part of the turns goes towards glows.
+  bool aims() { return !next_event_.guide().empty(); }
+
+  /// Of a turn whose own density is `p.turn.pdf`: the density of both ways, and the light by it.
+  /// Roulette does not ask for that: aimed turns are rare in the other way, not poor.
+  void weigh_aimed(Path& p, const Vec3& direction) {
+    if (!aims()) return;
+    const double own = p.turn.pdf;
+    p.turn.pdf = next_event_.guide().density(direction, own);
+    p.weight *= own / p.turn.pdf;
   }
 
   PathTurn scattered(const Stretch& stretch, const FreeFlight& flight, const Vec3& direction) {
@@ -365,7 +383,10 @@ class PathTracer {
     const Real lobe = random_.uniform();
     const Real u = random_.uniform();
     const Real v = random_.uniform();
-    const SurfaceSample s = sample_surface(model, p.ray.direction, normal, front, lobe, u, v);
+    SurfaceSample s = sample_surface(model, p.ray.direction, normal, front, lobe, u, v);
+    const bool aimed = aims() && model.kind == SurfaceKind::lambertian;
+    if (aimed && !aim_reflection(offset_ray(place, normal, scene_.min_offset_m), normal, u, v, s))
+      return false;
     double pdf = 0;
     if (!reflect_bands(p, s, normal, pdf)) return false;
     // Straight through a pane nothing has happened that asking does not know of.
@@ -383,7 +404,19 @@ class PathTracer {
     p.turn.place = p.ray.origin;
     p.turn.pdf = pdf;
     p.turn.in_medium = false;
+    if (aimed) weigh_aimed(p, s.direction);
     return true;
+  }
+
+  /// Draws the direction of a Lambertian reflection anew, where it is an aimed one. False: it goes
+  /// below the horizon, where nothing is sent.
+  bool aim_reflection(const Vec3& place, const Vec3& normal, Real u, Real v, SurfaceSample& s) {
+    GlowGuide& guide = next_event_.guide();
+    guide.stand_at(place);
+    const double choice = random_.uniform_double();
+    if (choice >= guide.aimed()) return true;
+    s.direction = guide.direction(choice, u, v);
+    return glm::dot(s.direction, normal) > 0;
   }
 
   /// What `models_` let go on of each band where the hero's has drawn the sample; and the density
