@@ -1,13 +1,14 @@
-// Tracing. Pixels and bands are sampled together by Roberts' R3 sequence, shifted at random for
-// every pixel: the paths of a pixel are spread over its area and over the bands at once, without
-// making one depend on the other. Standard errors take them as independent, which errs on the safe
-// side.
+// Tracing. A path carries all bands, and one of them, its hero, decides how it goes on. Places in a
+// pixel and heroes are drawn together by points of one scrambled Sobol' set, so that the paths of a
+// pixel are spread over its area and over the bands at once. Standard errors take them as
+// independent, which errs on the safe side.
 #include "actors/display/pictures.hpp"
 
 #include <array>
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "actors/run/parallel_for.hpp"
 #include "scenes/optics/sampling.hpp"
@@ -57,11 +58,14 @@ constexpr int columns_at_once = 32;
 struct ChannelLight {
   std::array<double, light_channels> values{};
 
-  void add(const Band& band, double radiance) {
-    values[0] += radiance * band.x_per_w;
-    values[1] += radiance * band.lm_per_w;
-    values[2] += radiance * band.z_per_w;
-    values[3] += radiance * band.scotopic_lm_per_w;
+  void add(const Bands& bands, std::span<const double> radiance) {
+    for (size_t b = 0; b < radiance.size(); ++b) {
+      const Band& band = bands[static_cast<int>(b)];
+      values[0] += radiance[b] * band.x_per_w;
+      values[1] += radiance[b] * band.lm_per_w;
+      values[2] += radiance[b] * band.z_per_w;
+      values[3] += radiance[b] * band.scotopic_lm_per_w;
+    }
   }
 };
 
@@ -104,7 +108,7 @@ class PixelTracer {
         first_path_(static_cast<uint64_t>(camera) << camera_shift),
         paths_(options.paths_per_pixel),
         flux_(flux) {
-    for (int b = 0; b < scene_.bands.count(); ++b) white_.add(scene_.bands[b], 1);
+    white_.add(scene_.bands, std::vector<double>(static_cast<size_t>(scene_.bands.count()), 1.0));
   }
 
   PixelSums trace(int column, int row, uint64_t pixel) {
@@ -114,16 +118,14 @@ class PixelTracer {
       tracer_->start(first, static_cast<uint32_t>(paths_), static_cast<uint32_t>(i));
       const auto x = static_cast<double>(tracer_->uniform());
       const auto y = static_cast<double>(tracer_->uniform());
-      const int band = tracer_->choose_band(static_cast<double>(tracer_->uniform()));
-      const double probability = tracer_->band_probability(band);
+      const int hero = tracer_->choose_band(static_cast<double>(tracer_->uniform()));
       const Ray ray = pinhole_.ray(column + x, row + y);
       ChannelLight turned;
-      turned.add(scene_.bands[band], tracer_->radiance(ray, band, flux_) / probability);
+      turned.add(scene_.bands, tracer_->radiance(ray, hero, flux_));
       sums.half[i < paths_ / 2 ? 0 : 1].add(turned);
       tracer_->meet_first(ray, first_);
       ChannelLight straight;
-      for (int b = 0; b < scene_.bands.count(); ++b)
-        straight.add(scene_.bands[b], first_.emitted[static_cast<size_t>(b)]);
+      straight.add(scene_.bands, first_.emitted);
       sums.emitted.add(straight);
       for (size_t c = 0; c < light_channels; ++c) turned.values[c] += straight.values[c];
       sums.all.add(turned);
@@ -136,8 +138,7 @@ class PixelTracer {
   /// Means over the paths of the normal, the nearness, the transmittance and the albedo's X, Y, Z.
   void add_features(std::array<double, picture_features>& into) const {
     ChannelLight reflected;
-    for (int b = 0; b < scene_.bands.count(); ++b)
-      reflected.add(scene_.bands[b], first_.reflectance[static_cast<size_t>(b)]);
+    reflected.add(scene_.bands, first_.reflectance);
     const std::array<double, picture_features> own{static_cast<double>(first_.normal.x),
                                                    static_cast<double>(first_.normal.y),
                                                    static_cast<double>(first_.normal.z),

@@ -110,9 +110,10 @@ class ResidentBricks {
 
 /// How a flight through media ends.
 struct FreeFlight {
-  Real t = 0;         // distance flown [m]; t_max where nothing collided
-  int medium = -1;    // that collided
-  int phase = -1;     // its phase function
+  Real t = 0;       // distance flown [m]; t_max where nothing collided
+  int medium = -1;  // that collided
+  int phase = -1;   // its phase function
+  int component = -1;
   double albedo = 0;  // there; double, since 1 - albedo may be 1e-6
   bool collided = false;
 };
@@ -134,7 +135,8 @@ inline FreeFlight collision_in_stack(const MediaTables& tables, int band, LayerS
     }
   }
   const MediaComponent& c = tables.component(chosen);
-  return {static_cast<Real>(stop.t), c.medium, c.phase, tables.albedo_of(band, chosen), true};
+  return {static_cast<Real>(stop.t),      c.medium, c.phase, chosen,
+          tables.albedo_of(band, chosen), true};
 }
 
 inline FreeFlight flight_in_stack(const MediaTables& tables, int band, const Vec3& origin,
@@ -161,7 +163,7 @@ FreeFlight flight_in_all(const MediaTables& tables, int band, const Vec3& origin
       const double t = walk.t0() + tau / walk.sigma_t();
       const auto chosen = walk.choose(choice);
       const MediaComponent& c = tables.component(chosen.component);
-      return {static_cast<Real>(t), c.medium, c.phase, chosen.albedo, true};
+      return {static_cast<Real>(t), c.medium, c.phase, chosen.component, chosen.albedo, true};
     }
     tau -= here;
   }
@@ -220,6 +222,27 @@ double optical_depth(const MediaSet& set, int band, const Vec3& origin, const Ve
       return walk.depth();
     }
   }
+}
+
+/// The same of several bands at once: of_band(i) is the i-th of them, into out[i]. Works whatever
+/// set.need() is.
+template <class Resolver, class OfBand>
+void optical_depths(const MediaSet& set, size_t bands, OfBand&& of_band, const Vec3& origin,
+                    const Vec3& direction, Real t_max, Resolver& resolver, double* out) {
+  const MediaTables& tables = set.tables();
+  const auto length = static_cast<double>(t_max);
+  for (size_t i = 0; i < bands; ++i)
+    out[i] = tables.stack.depth(of_band(i), static_cast<double>(origin.z),
+                                static_cast<double>(direction.z), length);
+  if (tables.bodies.empty() && tables.grids.empty()) return;
+  using Walk = MediaWalk<Resolver>;
+  Walk walk(tables, Walk::no_band, origin, direction, length, resolver);
+  walk.for_each_column([&](int component, double amount) {
+    for (size_t i = 0; i < bands; ++i) {
+      const double sigma = tables.sigma_of(of_band(i), component);
+      if (sigma > 0) out[i] += sigma * amount;
+    }
+  });
 }
 
 /// What glows in a segment: a medium and the mean of its emission per volume [1/m3], unit total.

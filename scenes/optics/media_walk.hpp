@@ -15,6 +15,9 @@ namespace luxodus {
 template <class Resolver>
 class MediaWalk {
  public:
+  /// Instead of a band, where only `for_each_column` is asked.
+  static constexpr int no_band = -1;
+
   MediaWalk(const MediaTables& tables, int band, const Vec3& origin, const Vec3& direction,
             double t_max, Resolver& resolver)
       : tables_(&tables), band_(band), o_(origin), d_(direction), t_max_(t_max), bricks_(resolver) {
@@ -49,6 +52,12 @@ class MediaWalk {
   /// merged.
   double depth();
 
+  /// Calls column(component, amount) for what lies on the whole way but for the stack, perhaps more
+  /// than once; before the first next(). Optical depth in any band is the component's extinction
+  /// times the amount. Requires: made of no_band.
+  template <class Column>
+  void for_each_column(Column&& column);
+
  private:
   struct Stretch {
     double t0;
@@ -72,6 +81,9 @@ class MediaWalk {
     }
   }
   void advance_grid(GridOnWay& g);
+  /// Calls with(depth) for the cells of a grid on the whole way.
+  template <class With>
+  void for_each_cell_depth(GridOnWay& g, With&& with);
   void enter_stack();
   void advance_stack();
   /// Calls each(component, sigma_t, grid or null) for all that is in the present piece, in a fixed
@@ -125,7 +137,7 @@ void MediaWalk<Resolver>::find_grids() {
     GridOnWay& g = grids_[grids_count_];
     if (!g.cursor.begin(placed.grid, o_, d_, {0, t_max_})) continue;
     g.placed = &placed;
-    g.factor = tables_->sigma_of(band_, placed.component);
+    g.factor = band_ == no_band ? 1 : tables_->sigma_of(band_, placed.component);
     g.sigma_t = 0;
     ++grids_count_;
   }
@@ -263,15 +275,33 @@ double MediaWalk<Resolver>::depth() {
   for (size_t i = 0; i < grids_count_; ++i) {
     GridOnWay& g = grids_[i];
     if (g.factor == 0) continue;
-    double t = 0;
-    while (g.cursor.t_end() < std::numeric_limits<double>::infinity()) {
-      const double end = std::max(t, g.cursor.t_end());
-      sum += g.sigma_t * (end - t);
-      t = end;
-      advance_grid(g);
-    }
+    for_each_cell_depth(g, [&](double depth) { sum += depth; });
   }
   return sum;
+}
+
+template <class Resolver>
+template <class Column>
+void MediaWalk<Resolver>::for_each_column(Column&& column) {
+  for (size_t i = 0; i < stretches_count_; ++i)
+    column(stretches_[i].component, stretches_[i].t1 - stretches_[i].t0);
+  for (size_t i = 0; i < grids_count_; ++i) {
+    double sum = 0;
+    for_each_cell_depth(grids_[i], [&](double depth) { sum += depth; });
+    column(grids_[i].placed->component, sum);
+  }
+}
+
+template <class Resolver>
+template <class With>
+void MediaWalk<Resolver>::for_each_cell_depth(GridOnWay& g, With&& with) {
+  double t = 0;
+  while (g.cursor.t_end() < std::numeric_limits<double>::infinity()) {
+    const double end = std::max(t, g.cursor.t_end());
+    with(g.sigma_t * (end - t));
+    t = end;
+    advance_grid(g);
+  }
 }
 
 }  // namespace luxodus

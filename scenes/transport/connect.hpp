@@ -18,33 +18,45 @@ namespace limits {
 inline constexpr int panes_per_line = 64;
 }  // namespace limits
 
-/// Product of the transmittances of all panes within `length` of the ray, per band; 0 when blocked.
-template <class Resolver>
-double solid_transmittance(const CompiledScene& scene, Ray ray, Real length, int band,
-                           Resolver& resolver) {
+/// False: something within `length` of the ray stops light. Calls pane(material, cosine) for every
+/// pane before that.
+template <class Resolver, class Pane>
+bool passes_solids(const CompiledScene& scene, Ray ray, Real length, Resolver& resolver,
+                   Pane&& pane_met) {
   ray.length = length;
-  if (!scene.features.surfaces) return resolver.occluded(ray) ? 0 : 1;
-  double share = 1;
+  if (!scene.features.surfaces) return !resolver.occluded(ray);
   for (int pane = 0; pane < limits::panes_per_line; ++pane) {
     const Hit hit = resolver.nearest(ray);
-    if (!hit.found()) return share;
+    if (!hit.found()) return true;
     const TriangleRecord& t = *hit.triangle;
     const Real cosine = glm::dot(t.unit_normal(), ray.direction);
     const size_t side = cosine < 0 ? 0 : 1;
     const CompiledMaterial& material = scene.materials[scene.surfaces[t.surface].material[side]];
     if (material.kind == MaterialKind::glass_pane) {
-      share *= static_cast<double>(
-          pane_transmittance(material.by_band[static_cast<size_t>(band)], cosine));
+      pane_met(material, cosine);
     } else if (material.kind != MaterialKind::open) {
-      return 0;
+      return false;
     }
     const Vec3 end = ray.origin + ray.direction * ray.length;
     ray.origin = offset_ray(t.at(hit.u, hit.v), cosine < 0 ? -t.unit_normal() : t.unit_normal(),
                             scene.min_offset_m);
     ray.length = glm::dot(end - ray.origin, ray.direction);
-    if (ray.length <= 0) return share;
+    if (ray.length <= 0) return true;
   }
-  return 0;
+  return false;
+}
+
+/// Product of the transmittances of all panes within `length` of the ray, per band; 0 when blocked.
+template <class Resolver>
+double solid_transmittance(const CompiledScene& scene, const Ray& ray, Real length, int band,
+                           Resolver& resolver) {
+  double share = 1;
+  const bool passes = passes_solids(
+      scene, ray, length, resolver, [&](const CompiledMaterial& material, Real cosine) {
+        share *= static_cast<double>(
+            pane_transmittance(material.by_band[static_cast<size_t>(band)], cosine));
+      });
+  return passes ? share : 0;
 }
 
 /// exp(-optical depth) along the ray.

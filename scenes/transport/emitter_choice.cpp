@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "scenes/transport/glow_guide.hpp"
+
 namespace luxodus {
 
 namespace {
@@ -12,6 +14,10 @@ Vec3 centre_of(const CompiledEmitter& e) {
 
 }  // namespace
 
+EmitterChoice::EmitterChoice(const CompiledScene& scene) : scene_(scene) {
+  for (const CompiledEmitter& e : scene.emitters) seen_power_.push_back(power_seen(scene, e));
+}
+
 /// In proportion to power times weight(emitter), of each that sends light in more than one
 /// direction. Returns the sum.
 template <class WeightOf>
@@ -20,8 +26,9 @@ double EmitterChoice::weigh(Cumulative& cumulative, int band, WeightOf&& weight)
   double total = 0;
   for (size_t i = 0; i < cumulative.size(); ++i) {
     const CompiledEmitter& e = scene_.emitters[i];
-    const double power =
-        e.distribution == Distribution::collimated ? 0 : e.power_w[static_cast<size_t>(band)];
+    const double in_band =
+        band == all_bands ? seen_power_[i] : e.power_w[static_cast<size_t>(band)];
+    const double power = e.distribution == Distribution::collimated ? 0 : in_band;
     if (power > 0) total += power * weight(e);
     cumulative[i] = total;
   }

@@ -17,6 +17,9 @@ inline constexpr size_t nearby_emitters = 256;  // up to here distance decides w
 inline constexpr Real near_line = 0.125_r;
 }  // namespace limits
 
+/// Of the light of all bands together, as a path that carries them all asks.
+inline constexpr int all_bands = -1;
+
 struct EmitterSample {
   size_t emitter = 0;
   double probability = 0;  // 0: there is none to choose
@@ -24,10 +27,10 @@ struct EmitterSample {
 
 class EmitterChoice {
  public:
-  explicit EmitterChoice(const CompiledScene& scene) : scene_(scene) {}
+  explicit EmitterChoice(const CompiledScene& scene);
 
   /// Weighs all emitters as seen from a place, by squared distance where they are few. False where
-  /// none shines in this band.
+  /// none shines in this band, or with `all_bands` in any.
   bool weigh_at(const Vec3& place, int band);
   /// Of the last weigh_at, by a uniform number u in [0, 1).
   EmitterSample choose_at(double u) const { return choose(at_, u); }
@@ -48,6 +51,7 @@ class EmitterChoice {
   static double share_of(size_t emitter, const Cumulative& cumulative);
 
   const CompiledScene& scene_;
+  std::vector<double> seen_power_;  // of each emitter, in all bands, by how they look
   Cumulative at_, along_;
 };
 

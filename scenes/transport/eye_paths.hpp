@@ -206,8 +206,7 @@ class EyeScores {
                      static_cast<double>(rho[static_cast<size_t>(chosen.band)]), 0, 1, 1, 1);
     const Vec3 normal = sign.axes[2];
     const Vec3 start = offset_ray(place, normal, scene_.min_offset_m);
-    const SourceLight asked = eye_.reflected_light(start, direction, normal, model, chosen.band);
-    light_.add(asked.group, chosen.lm_per_w * asked.radiance);
+    eye_.add_reflected_light(start, direction, normal, model, chosen.band, chosen.lm_per_w, light_);
     const Real u = random_.uniform();
     const Real v = random_.uniform();
     const Ray onward{start, to_world(normal, cosine_hemisphere(u, v))};

@@ -1,8 +1,10 @@
-// Light on its way to an eye or a probe, kept apart by source group. Pure; one thread or fiber.
+// Light on its way to an eye or a probe, kept apart by source group, or by band. Pure; one thread
+// or fiber.
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 namespace luxodus {
@@ -13,21 +15,31 @@ struct SourceLight {
   double radiance = 0;
 };
 
-/// Light that arrives at a place, by source group: what an eye path adds up.
+/// Light that arrives at a place, by source group and by band: what an eye path adds up.
 class GroupLight {
  public:
-  explicit GroupLight(size_t groups) : by_group_(groups, 0.0) {}
+  /// `bands`: 0 where nobody asks which.
+  explicit GroupLight(size_t groups, size_t bands = 0)
+      : by_group_(groups, 0.0), by_band_(bands, 0.0) {}
 
   void clear() {
     std::fill(by_group_.begin(), by_group_.end(), 0.0);
+    std::fill(by_band_.begin(), by_band_.end(), 0.0);
     total_ = 0;
   }
   void add(int group, double amount) {
     by_group_[static_cast<size_t>(group)] += amount;
     total_ += amount;
   }
+  void add(int group, int band, double amount) {
+    add(group, amount);
+    add_to_band(band, amount);
+  }
   /// Light of which nobody knows the source, as of a patch that all groups have lit.
-  void add_of_all(double amount) { total_ += amount; }
+  void add_of_all(int band, double amount) {
+    total_ += amount;
+    add_to_band(band, amount);
+  }
 
   void add_scaled(const GroupLight& light, double factor) {
     for (size_t g = 0; g < by_group_.size(); ++g) by_group_[g] += factor * light.by_group_[g];
@@ -36,9 +48,14 @@ class GroupLight {
 
   double total() const { return total_; }
   double of(size_t group) const { return by_group_[group]; }
+  std::span<const double> by_band() const { return by_band_; }
 
  private:
-  std::vector<double> by_group_;
+  void add_to_band(int band, double amount) {
+    if (!by_band_.empty()) by_band_[static_cast<size_t>(band)] += amount;
+  }
+
+  std::vector<double> by_group_, by_band_;
   double total_ = 0;
 };
 

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "runtime/core/random.hpp"
 #include "scenes/geometry/real.hpp"
@@ -18,8 +19,11 @@
 #include "scenes/transport/connect.hpp"
 #include "scenes/transport/emission.hpp"
 #include "scenes/transport/emitter_choice.hpp"
+#include "scenes/transport/glow_guide.hpp"
 #include "scenes/transport/group_light.hpp"
 #include "scenes/transport/known_radiance.hpp"
+#include "scenes/transport/media_bands.hpp"
+#include "scenes/transport/path_bands.hpp"
 
 namespace luxodus {
 
@@ -29,7 +33,7 @@ struct Stretch {
   Real end = 0;      // places near emitters are drawn up to here
   double share = 1;  // collisions have the density sigma_t exp(-depth) / share: 1 if the flight was
                      // free, less if a collision was forced
-  int band = 0;
+  PathBands bands;   // before it
 };
 
 /// The last event that spread a path over directions, and how densely it drew the one taken.
@@ -37,54 +41,86 @@ struct PathTurn {
   Vec3 place{0};
   double pdf = 0;          // [1/sr]
   bool in_medium = false;  // then the place is `t` along the stretch
-  Stretch stretch;
+  Stretch stretch{{}, 0, 1, PathBands::one(0)};
   Real t = 0;
 };
 
 template <class Resolver>
 class NextEvent {
  public:
-  NextEvent(const CompiledScene& scene, Resolver& resolver, Random& random)
-      : scene_(scene), resolver_(resolver), random_(random), choice_(scene) {}
+  /// `aimed`: whether paths are also turned towards the glow around emitters.
+  NextEvent(const CompiledScene& scene, Resolver& resolver, Random& random, bool aimed)
+      : scene_(scene),
+        resolver_(resolver),
+        random_(random),
+        choice_(scene),
+        media_(scene),
+        aimed_(aimed) {}
 
-  /// Light of an emitter that a surface sends against `direction`. One emitter is sampled.
-  SourceLight reflected(const Vec3& place, const Vec3& direction, const Vec3& normal,
-                        const SurfaceModel& model, int band) {
-    if (!choice_.weigh_at(place, band)) return {};
+  const MediaBands& media() const { return media_; }
+  GlowGuide& guide() { return guide_; }
+
+  /// Before an event of a path. Glows are found at the first: only then may the resolver wait.
+  void start_event(int event) {
+    if (aimed_ && !knows_glows_) {
+      guide_ = GlowGuide(glows_of(scene_, resolver_));
+      knows_glows_ = true;
+    }
+    guide_.start_event(event);
+  }
+
+  /// Adds `weight` times the light of an emitter that a surface sends against `direction`. One
+  /// emitter is sampled. `models`: of the path's bands.
+  void add_reflected(const Vec3& place, const Vec3& direction, const Vec3& normal,
+                     std::span<const SurfaceModel> models, const PathBands& bands, double weight,
+                     GroupLight& into) {
+    if (!choice_.weigh_at(place, chosen_by(bands))) return;
     const EmitterSample sampled = choice_.choose_at(random_.uniform_double());
-    if (sampled.probability <= 0) return {};
+    if (sampled.probability <= 0) return;
     const CompiledEmitter& e = scene_.emitters[sampled.emitter];
     const EmissionPoint point = emission_point(scene_, e, random_, resolver_);
-    const Arriving a = light_from(e, point, place, band);
-    const Real cosine = glm::dot(a.direction, normal);
-    if (a.irradiance <= 0 || cosine <= 0) return {};
-    const auto hit = static_cast<double>(surface_pdf(model, -direction, a.direction, normal));
-    return {e.group,
-            a.irradiance / (sampled.probability + hit * a.apparent_sr) *
-                static_cast<double>(cosine) *
-                static_cast<double>(evaluate_surface(model, -direction, a.direction, normal))};
+    if (!arrive(e, point, place, bands)) return;
+    const Vec3& towards = arriving_.direction;
+    const Real cosine = glm::dot(towards, normal);
+    if (cosine <= 0) return;
+    const double hit = bands.mixed([&](size_t i) {
+      return static_cast<double>(surface_pdf(models[i], -direction, towards, normal));
+    });
+    const double turned = models[0].kind == SurfaceKind::lambertian && !guide_.empty()
+                              ? turned_at(place, towards, hit)
+                              : hit;
+    const double density = sampled.probability + turned * arriving_.apparent_sr;
+    for (size_t i = 0; i < bands.count(); ++i) {
+      if (arriving_.irradiance[i] <= 0) continue;
+      const double sent =
+          arriving_.irradiance[i] / density * static_cast<double>(cosine) *
+          static_cast<double>(evaluate_surface(models[i], -direction, towards, normal));
+      into.add(e.group, bands.band(i), weight * bands.light(i) * sent);
+    }
   }
 
   /// Adds `weight` times the radiance [W/(m2 sr)] that emitters send to the stretch and the medium
   /// there turns against its ray, once; but for places where `known` has all light. `flight` is one
-  /// along it. Suspends: where the resolver does.
-  void add_scattered(const Stretch& s, const FreeFlight& flight, double weight, GroupLight& into,
-                     const KnownRadiance* known = nullptr) {
-    const bool emitters_near = choice_.weigh_along(s.ray, s.end, s.band);
+  /// along it, and `passed` is what its collision lets go on of the light of each band. Suspends:
+  /// where the resolver does.
+  void add_scattered(const Stretch& s, const FreeFlight& flight, const BandValues& passed,
+                     double weight, GroupLight& into, const KnownRadiance* known = nullptr) {
+    const bool emitters_near = choice_.weigh_along(s.ray, s.end, chosen_by(s.bands));
     const auto is_known = [&](Real t) {
       return known != nullptr && known->knows(s.ray.origin + s.ray.direction * t);
     };
     if (flight.collided && flight.albedo > 0 && !is_known(flight.t))
-      add_at_collision(s, flight, emitters_near, weight * s.share * flight.albedo, into);
+      add_at_collision(s, flight, emitters_near, passed, weight, into);
     if (emitters_near) add_near_emitter(s, is_known, weight, into);
   }
 
-  /// Weight of light that a path meets at a point of an emitter by its own direction.
+  /// Weight of light that a path of such bands meets at a point of an emitter by its own direction.
   /// `apparent_sr`: as of `apparent_solid_angle`, from the place of the turn.
   double weight_of_hit(const PathTurn& turn, size_t emitter, const Vec3& point, double apparent_sr,
-                       int band) {
+                       const PathBands& bands) {
     const double hit = turn.pdf * apparent_sr;
     if (!(hit > 0)) return 0;
+    const int band = chosen_by(bands);
     double sampled = choice_.weigh_at(turn.place, band) ? choice_.probability_at(emitter) : 0;
     if (turn.in_medium && choice_.weigh_along(turn.stretch.ray, turn.stretch.end, band))
       sampled += drawn_near(turn.stretch, turn.place, turn.t, emitter, point);
@@ -105,35 +141,70 @@ class NextEvent {
   }
 
  private:
-  /// Irradiance [W/m2] of a point of an emitter, normal to the line between.
+  /// Irradiance [W/m2] of a point of an emitter, normal to the line between, by the path's bands.
   struct Arriving {
     Vec3 direction{0};  // towards the emitter
-    double irradiance = 0;
     double apparent_sr = 0;
+    BandValues irradiance;
   };
 
-  Arriving light_from(const CompiledEmitter& e, const EmissionPoint& point, const Vec3& place,
-                      int band) {
+  /// Density [1/sr] of turns at a place, where the phase function or the surface alone has `own`.
+  double turned_at(const Vec3& place, const Vec3& direction, double own) {
+    if (guide_.empty()) return own;
+    guide_.stand_at(place);
+    return guide_.density(direction, own);
+  }
+
+  /// Emitters are chosen for all bands of a path at once.
+  static int chosen_by(const PathBands& bands) { return bands.many() ? all_bands : bands.hero(); }
+
+  /// Into `arriving_`. False: none of any band.
+  bool arrive(const CompiledEmitter& e, const EmissionPoint& point, const Vec3& place,
+              const PathBands& bands) {
     const ShadowRay c =
         connect(scene_, place, point.position, point.axis, e.kind != EmitterKind::volume);
-    if (!(c.distance > 0)) return {};
+    if (!(c.distance > 0)) return false;
     const auto density =
         static_cast<double>(directional_density(e, point, -c.ray.direction, resolver_));
-    if (density <= 0) return {};
-    const double solid = solid_transmittance(scene_, c.ray, c.ray.length, band, resolver_);
-    if (solid <= 0) return {};
-    const double medium = medium_transmittance(scene_, c.ray, c.distance, band, resolver_);
+    if (density <= 0) return false;
+    std::fill_n(solid_.begin(), bands.count(), 1.0);
+    const bool passes = passes_solids(
+        scene_, c.ray, c.ray.length, resolver_, [&](const CompiledMaterial& pane, Real cosine) {
+          for (size_t i = 0; i < bands.count(); ++i)
+            solid_[i] *= static_cast<double>(
+                pane_transmittance(pane.by_band[static_cast<size_t>(bands.band(i))], cosine));
+        });
+    if (!passes) return false;
+    media_.transmittances(c.ray, c.distance, bands, through_, resolver_);
     const auto d = static_cast<double>(c.distance);
-    return {c.ray.direction,
-            e.power_w[static_cast<size_t>(band)] * density * solid * medium / (d * d),
-            apparent_solid_angle(e, point, -c.ray.direction, c.distance)};
+    bool any = false;
+    for (size_t i = 0; i < bands.count(); ++i) {
+      const double power = e.power_w[static_cast<size_t>(bands.band(i))];
+      arriving_.irradiance[i] = power * density * solid_[i] * through_[i] / (d * d);
+      any |= arriving_.irradiance[i] > 0;
+    }
+    if (!any) return false;
+    arriving_.direction = c.ray.direction;
+    arriving_.apparent_sr = apparent_solid_angle(e, point, -c.ray.direction, c.distance);
+    return true;
   }
 
   // ---- light scattered into a stretch of a path
   // -------------------------------------------------------------------------
 
-  double collision_density(const Stretch& s, Real t, double sigma_t) {
-    return sigma_t * medium_transmittance(scene_, s.ray, t, s.band, resolver_) / s.share;
+  /// Extinction of each band at a place, into `sigma_`. False: none.
+  bool may_collide_at(const Stretch& s, const Vec3& place) {
+    media_.extinctions(place, s.bands, sigma_, resolver_);
+    return std::any_of(sigma_.begin(), sigma_.begin() + s.bands.count(),
+                       [](double sigma) { return sigma > 0; });
+  }
+
+  /// Density [1/m] of collisions of each band at a place of the stretch, into `here_`. Returns that
+  /// of its heroes together. Requires: may_collide_at was of this place.
+  double density_of_collisions(const Stretch& s, Real t) {
+    media_.transmittances(s.ray, t, s.bands, through_, resolver_);
+    for (size_t i = 0; i < s.bands.count(); ++i) here_[i] = sigma_[i] * through_[i] / s.share;
+    return s.bands.mixed([&](size_t i) { return here_[i]; });
   }
 
   /// Places on a stretch as a point of an emitter sees them.
@@ -146,8 +217,7 @@ class NextEvent {
   /// collisions at that place. Requires: the last weigh_along was of this stretch.
   double drawn_near(const Stretch& s, const Vec3& place, Real t, size_t emitter,
                     const Vec3& point) {
-    const double here =
-        collision_density(s, t, extinction_at(scene_.media, s.band, place, resolver_));
+    const double here = may_collide_at(s, place) ? density_of_collisions(s, t) : 0;
     if (!(here > 0)) return std::numeric_limits<double>::infinity();
     return choice_.probability_along(emitter) *
            seen_from(point, s).density(static_cast<double>(t)) / here;
@@ -155,22 +225,25 @@ class NextEvent {
 
   /// The place is where a flight has collided; an emitter is sampled there.
   void add_at_collision(const Stretch& s, const FreeFlight& flight, bool emitters_near,
-                        double weight, GroupLight& into) {
+                        const BandValues& passed, double weight, GroupLight& into) {
     const Vec3 place = s.ray.origin + s.ray.direction * flight.t;
-    if (!choice_.weigh_at(place, s.band)) return;
+    if (!choice_.weigh_at(place, chosen_by(s.bands))) return;
     const EmitterSample sampled = choice_.choose_at(random_.uniform_double());
     if (sampled.probability <= 0) return;
     const CompiledEmitter& e = scene_.emitters[sampled.emitter];
     const EmissionPoint point = emission_point(scene_, e, random_, resolver_);
-    const Arriving a = light_from(e, point, place, s.band);
-    if (a.irradiance <= 0) return;
+    if (!arrive(e, point, place, s.bands)) return;
     const PhaseFunction& phase = scene_.phases[static_cast<size_t>(flight.phase)];
     const auto turned =
-        static_cast<double>(evaluate(phase, glm::dot(a.direction, s.ray.direction)));
-    double probability = sampled.probability + turned * a.apparent_sr;
+        static_cast<double>(evaluate(phase, glm::dot(arriving_.direction, s.ray.direction)));
+    double probability =
+        sampled.probability + turned_at(place, arriving_.direction, turned) * arriving_.apparent_sr;
     if (emitters_near)
       probability += drawn_near(s, place, flight.t, sampled.emitter, point.position);
-    into.add(e.group, weight * turned * a.irradiance / probability);
+    for (size_t i = 0; i < s.bands.count(); ++i) {
+      const double arrived = weight * s.bands.light(i) * s.share * passed[i];
+      into.add(e.group, s.bands.band(i), arrived * turned * arriving_.irradiance[i] / probability);
+    }
   }
 
   /// The emitter is chosen first, and the place as its light falls on the stretch.
@@ -184,31 +257,42 @@ class NextEvent {
     const auto t = static_cast<Real>(line.sample(random_.uniform_double()));
     if (is_known(t)) return;
     const Vec3 place = s.ray.origin + s.ray.direction * t;
-    const double sigma_t = extinction_at(scene_.media, s.band, place, resolver_);
-    if (!(sigma_t > 0)) return;
-    const Arriving a = light_from(e, point, place, s.band);
-    if (a.irradiance <= 0) return;
-    const double here = collision_density(s, t, sigma_t);
-    choice_.weigh_at(place, s.band);
+    if (!may_collide_at(s, place) || !arrive(e, point, place, s.bands)) return;
+    const double here = density_of_collisions(s, t);
+    if (!(here > 0)) return;
+    choice_.weigh_at(place, chosen_by(s.bands));
     const double drawn = share * line.density(static_cast<double>(t));
     const double sampled = choice_.probability_at(chosen);
-    const Real cosine = glm::dot(a.direction, s.ray.direction);
-    double scattered = 0;  // of each medium here, since each turns a path in its own way
-    for_each_medium_at(
-        scene_.media, s.band, place, resolver_, [&](int, int phase, double sigma, double albedo) {
-          const auto turned =
-              static_cast<double>(evaluate(scene_.phases[static_cast<size_t>(phase)], cosine));
-          scattered +=
-              sigma * albedo * turned / (drawn + here * (sampled + turned * a.apparent_sr));
-        });
-    // What passes up to here is in the density of collisions already.
-    into.add(e.group, weight * s.share * (here / sigma_t) * scattered * a.irradiance);
+    const Real cosine = glm::dot(arriving_.direction, s.ray.direction);
+    if (!guide_.empty()) guide_.stand_at(place);
+    for (size_t i = 0; i < s.bands.count(); ++i) {
+      if (!(sigma_[i] > 0)) continue;
+      double scattered = 0;  // of each medium here, since each turns a path in its own way
+      for_each_medium_at(scene_.media, s.bands.band(i), place, resolver_,
+                         [&](int, int phase, double sigma, double albedo) {
+                           const auto turned = static_cast<double>(
+                               evaluate(scene_.phases[static_cast<size_t>(phase)], cosine));
+                           const double hit = guide_.density(arriving_.direction, turned);
+                           scattered += sigma * albedo * turned /
+                                        (drawn + here * (sampled + hit * arriving_.apparent_sr));
+                         });
+      // What passes up to here is in the density of collisions already.
+      const double arrived = weight * s.bands.light(i) * s.share * (here_[i] / sigma_[i]);
+      into.add(e.group, s.bands.band(i), arrived * scattered * arriving_.irradiance[i]);
+    }
   }
 
   const CompiledScene& scene_;
   Resolver& resolver_;
   Random& random_;
   EmitterChoice choice_;
+  MediaBands media_;
+  bool aimed_, knows_glows_ = false;
+  GlowGuide guide_;
+
+  // Of the last call that has filled them, by the path's bands.
+  Arriving arriving_;
+  BandValues solid_, through_, sigma_, here_;
 };
 
 }  // namespace luxodus

@@ -1,10 +1,10 @@
 // A path tracer: radiance along a ray, traced from where it is seen, the eye or a probe. Paths run
-// backwards (all laws are reciprocal). At every event one emitter is sampled directly (next-event
-// estimation, next_event.hpp), and a path also counts the emitters that it hits, each by its
-// weight. Unbiased, except where pictures end a path in what a run has counted (final gather).
-// eye_paths.hpp estimates signs and probes with it. Not seen: point emitters and caustics through
-// mirrors and refracting solids; the forward tracer counts those. Thread rule: one PathTracer per
-// thread or fiber.
+// backwards (all laws are reciprocal), in one band or in all at once. At every event one emitter is
+// sampled directly (next-event estimation, next_event.hpp), and a path also counts the emitters
+// that it hits, each by its weight. Unbiased, except where pictures end a path in what a run has
+// counted (final gather). eye_paths.hpp estimates signs and probes with it. Not seen: point
+// emitters and caustics through mirrors and refracting solids; the forward tracer counts those.
+// Thread rule: one PathTracer per thread or fiber.
 #pragma once
 
 #include <cmath>
@@ -43,8 +43,9 @@ class PathTracer {
       : scene_(scene),
         resolver_(resolver),
         random_(seed, stream),
-        next_event_(scene, resolver, random_),
-        straight_(scene.groups.size()) {
+        next_event_(scene, resolver, random_, stream == RandomStream::picture),
+        models_(static_cast<size_t>(scene.bands.count())),
+        straight_(scene.groups.size(), static_cast<size_t>(scene.bands.count())) {
     // A picture shows colours, an estimate of luminance needs few.
     const double colour = stream == RandomStream::picture ? 1.0 : 0.05;
     double total = 0;
@@ -57,11 +58,12 @@ class PathTracer {
       if (band.lm_per_w > scene.bands[brightest_band_].lm_per_w) brightest_band_ = b;
     }
     for (double& c : band_cdf_) c /= total;
+    for (int b = 0; b < scene.bands.count(); ++b) hero_.push_back(band_probability(b));
   }
 
   Random& random() { return random_; }
 
-  /// A band for a path, from a uniform number; and the probability of it.
+  /// A band for a path, or the hero of all, from a uniform number; and the probability of it.
   int choose_band(double u) const {
     const auto it = std::upper_bound(band_cdf_.begin(), band_cdf_.end(), u);
     return static_cast<int>(std::min<std::ptrdiff_t>(
@@ -75,16 +77,19 @@ class PathTracer {
   void meet_first(const Ray& ray, FirstHit& first) {
     const auto bands = static_cast<size_t>(scene_.bands.count());
     first.emitted.assign(bands, 0.0);
-    through_.assign(bands, 1.0);
+    straight_.clear();
+    PathBands through = PathBands::all(hero_, brightest_band_);  // what panes and media let pass
     Ray rest = ray;
     Real passed = 0;
     Hit hit = resolver_.nearest(rest);
     for (int pane = 0; pane < limits::panes_per_line; ++pane) {
-      add_straight_light(rest, hit, first.emitted);
-      if (!hit.found() || !pass_straight(rest, hit)) break;
+      Path path{rest, through, EmitterHits::all, 1, straight_};
+      add_emitted_along(path, hit);
+      if (!hit.found() || !pass_straight(rest, hit, through)) break;
       passed += hit.distance;
       hit = resolver_.nearest(rest);
     }
+    std::copy_n(straight_.by_band().begin(), bands, first.emitted.begin());
     describe(hit, rest, passed, first);
     first.transmittance = medium_transmittance(scene_, ray, line_end(passed + hit.distance),
                                                brightest_band_, resolver_);
@@ -95,14 +100,21 @@ class PathTracer {
   /// paths may end after their first diffuse event; null traces them to their end.
   void radiance(const Ray& ray, int band, EmitterHits counted, double weight, GroupLight& into,
                 const KnownRadiance* known = nullptr) {
-    trace({ray, band, counted, weight, into}, known);
+    trace({ray, PathBands::one(band), counted, weight, into}, known);
+  }
+
+  /// The same of all bands, by `into.by_band()`, where the path goes as a hero's. Requires: heroes
+  /// are drawn by choose_band.
+  void radiance_of_all(const Ray& ray, int hero, EmitterHits counted, GroupLight& into,
+                       const KnownRadiance* known = nullptr) {
+    trace({ray, PathBands::all(hero_, hero), counted, 1, into}, known);
   }
 
   /// The same of a path that a Lambertian surface has sent along `ray`, where `reflected_light` has
   /// sampled emitters.
   void radiance_after_reflection(const Ray& ray, const Vec3& normal, int band, double weight,
                                  GroupLight& into) {
-    Path path{ray, band, EmitterHits::weighted, weight, into};
+    Path path{ray, PathBands::one(band), EmitterHits::weighted, weight, into};
     path.turn.place = ray.origin;
     path.turn.pdf = static_cast<double>(cosine_pdf(glm::dot(ray.direction, normal)));
     trace(path, nullptr);
@@ -113,8 +125,9 @@ class PathTracer {
   void radiance_after_scattering(const Ray& line, Real length, const FreeFlight& flight,
                                  double share, const Vec3& direction, int band, double weight,
                                  GroupLight& into) {
-    const PathTurn turn = scattered({line, line_end(length), share, band}, flight, direction);
-    Path path{{turn.place, direction}, band, EmitterHits::weighted, weight, into};
+    const PathTurn turn =
+        scattered({line, line_end(length), share, PathBands::one(band)}, flight, direction);
+    Path path{{turn.place, direction}, PathBands::one(band), EmitterHits::weighted, weight, into};
     path.turn = turn;
     trace(path, nullptr);
   }
@@ -126,13 +139,16 @@ class PathTracer {
   void add_single_scattering(const Ray& ray, Real length, const FreeFlight& flight, double share,
                              int band, double weight, GroupLight& into) {
     if (scene_.features.media == MediaNeed::none) return;
-    next_event_.add_scattered({ray, line_end(length), share, band}, flight, weight, into);
+    next_event_.add_scattered({ray, line_end(length), share, PathBands::one(band)}, flight,
+                              {flight.albedo}, weight, into);
   }
 
-  /// Light of an emitter that a surface sends against `direction`; one emitter is sampled.
-  SourceLight reflected_light(const Vec3& place, const Vec3& direction, const Vec3& normal,
-                              const SurfaceModel& model, int band) {
-    return next_event_.reflected(place, direction, normal, model, band);
+  /// Adds `weight` times the light of an emitter that a surface sends against `direction`; one
+  /// emitter is sampled.
+  void add_reflected_light(const Vec3& place, const Vec3& direction, const Vec3& normal,
+                           const SurfaceModel& model, int band, double weight, GroupLight& into) {
+    next_event_.add_reflected(place, direction, normal, {&model, 1}, PathBands::one(band), weight,
+                              into);
   }
 
   /// Own light of a point of a sign's face towards an eye, without path or room light.
@@ -150,10 +166,11 @@ class PathTracer {
   }
 
   /// Adds `weight` times the emission of flames along `length` of the ray, of one medium or of all
-  /// (-1).
-  void add_flames(const Ray& ray, Real length, int band, int medium, double weight,
+  /// (-1). False where the ray meets none of them.
+  bool add_flames(const Ray& ray, Real length, int band, int medium, double weight,
                   GroupLight& into) {
     double depth = 0;
+    bool met = false;
     for_each_segment(
         scene_.media, band, ray.origin, ray.direction, std::min(length, 4 * scene_.diagonal_m),
         resolver_, [&](const MediaSegment& s) {
@@ -161,60 +178,55 @@ class PathTracer {
           const double through = s.sigma_t > 0 ? -std::expm1(-tau) / s.sigma_t : s.length;
           for (const EmissionPart& part : s.emission) {
             if (medium >= 0 && part.medium != medium) continue;
+            met = true;
             const CompiledEmitter* flame = flame_of(part.medium);
             if (flame == nullptr) continue;  // the scenario has put it out
             const double power = flame->power_w[static_cast<size_t>(band)] * part.density;
-            into.add(flame->group,
+            into.add(flame->group, band,
                      weight * power * std::exp(-depth) * through / (4 * static_cast<double>(pi_f)));
           }
           depth += tau;
           return depth < 50;
         });
+    return met || depth >= 50;
   }
 
  private:
   struct Path {
     Ray ray;
-    int band;
+    PathBands bands;
     EmitterHits counted;
     double weight;
     GroupLight& into;
-    double throughput = 1;
     PathTurn turn{};        // where `counted` is weighted
     Real travelled = 0;     // from the last event to the ray's origin, through panes
     bool diffused = false;  // a surface or a medium has spread it
 
-    void add(const SourceLight& light) {
-      into.add(light.group, weight * throughput * light.radiance);
+    /// Light of the band in place `i`.
+    void add(size_t i, const SourceLight& light) {
+      into.add(light.group, bands.band(i), weight * bands.light(i) * light.radiance);
+    }
+    /// Ends in known radiance.
+    void add_known(size_t i, double radiance) {
+      into.add_of_all(bands.band(i), weight * bands.light(i) * radiance);
     }
   };
 
   // ---- what is known without chance
   // ------------------------------------------------------------------------------------
 
-  /// Adds what emitters send along the ray up to the hit, of all bands, as `through_` lets pass.
-  void add_straight_light(const Ray& ray, const Hit& hit, std::vector<double>& emitted) {
-    for (int b = 0; b < scene_.bands.count(); ++b) {
-      const auto band = static_cast<size_t>(b);
-      straight_.clear();
-      Path path{ray, b, EmitterHits::all, through_[band], straight_};
-      add_emitted_along(path, hit);
-      emitted[band] += straight_.total();
-    }
-  }
-
   /// Through a pane or an open surface, on the same line; false: something else ends the line.
-  bool pass_straight(Ray& ray, const Hit& hit) {
+  bool pass_straight(Ray& ray, const Hit& hit, PathBands& through) {
     const TriangleRecord& t = *hit.triangle;
     const Real cosine = glm::dot(t.unit_normal(), ray.direction);
     const CompiledMaterial& material = material_at(hit, cosine < 0);
     if (material.kind != MaterialKind::glass_pane && material.kind != MaterialKind::open)
       return false;
-    for (size_t b = 0; b < through_.size(); ++b) {
+    next_event_.media().transmittances(ray, line_end(hit.distance), through, passed_, resolver_);
+    for (size_t b = 0; b < through.count(); ++b) {
       if (material.kind == MaterialKind::glass_pane)
-        through_[b] *= static_cast<double>(pane_transmittance(material.by_band[b], cosine));
-      through_[b] *=
-          medium_transmittance(scene_, ray, line_end(hit.distance), static_cast<int>(b), resolver_);
+        passed_[b] *= static_cast<double>(pane_transmittance(material.by_band[b], cosine));
+      through.scale(b, passed_[b]);
     }
     ray.origin = offset_ray(t.at(hit.u, hit.v), cosine < 0 ? -t.unit_normal() : t.unit_normal(),
                             scene_.min_offset_m);
@@ -222,7 +234,7 @@ class PathTracer {
   }
 
   void describe(const Hit& hit, const Ray& ray, Real passed, FirstHit& first) {
-    first.reflectance.assign(through_.size(), 0.0);
+    first.reflectance.assign(models_.size(), 0.0);
     first.normal = Vec3(0);
     first.nearness = 0;
     if (!hit.found()) return;
@@ -231,7 +243,7 @@ class PathTracer {
     first.normal = front ? normal : -normal;
     first.nearness = 1 / static_cast<double>(passed + hit.distance);
     const CompiledMaterial& material = material_at(hit, front);
-    for (size_t b = 0; b < through_.size(); ++b)
+    for (size_t b = 0; b < models_.size(); ++b)
       first.reflectance[b] = static_cast<double>(
           surface_at(scene_, hit, front, static_cast<int>(b), material, resolver_).reflectance);
   }
@@ -241,20 +253,19 @@ class PathTracer {
 
   void trace(Path path, const KnownRadiance* known) {
     for (int event = 0; event < limits::eye_events; ++event) {
+      next_event_.start_event(event);
       const Hit hit = resolver_.nearest(path.ray);
       if (path.counted != EmitterHits::none) add_emitted_along(path, hit);
-      const Ray stretch = path.ray;
-      const double weight = path.weight * path.throughput;
-      const FreeFlight flight = fly(stretch, hit.distance, path.band);
+      const Stretch stretch{path.ray, line_end(hit.distance), 1, path.bands};
+      const FreeFlight flight = fly(path.ray, hit.distance, path.bands.hero());
+      pass_media(path, flight);
       const KnownRadiance* end = path.diffused ? known : nullptr;  // where the path may end here
       const bool alive =
-          flight.collided ? scatter(path, flight, hit.distance, end) : meet_surface(path, hit, end);
+          flight.collided ? scatter(path, flight, stretch, end) : meet_surface(path, hit, end);
       // Last, since asking may drop the cell that the hit is of.
-      if (scene_.features.media != MediaNeed::none) {
-        next_event_.add_scattered({stretch, line_end(hit.distance), 1, path.band}, flight, weight,
-                                  path.into, end);
-      }
-      if (!alive || (event >= 2 && !survives_roulette(path.throughput))) return;
+      if (scene_.features.media != MediaNeed::none)
+        next_event_.add_scattered(stretch, flight, passed_, path.weight, path.into, end);
+      if (!alive || (event >= 2 && !survives_roulette(path.bands))) return;
     }
   }
 
@@ -272,6 +283,21 @@ class PathTracer {
                                            tau, choice, resolver_);
   }
 
+  /// The light and the shares of bands after a flight; `passed_` keeps what a collision lets go on.
+  void pass_media(Path& p, const FreeFlight& flight) {
+    if (scene_.features.media == MediaNeed::none) return;
+    if (flight.collided) next_event_.media().albedos(flight, p.bands, passed_);
+    if (p.bands.many() && !next_event_.media().grey()) {
+      next_event_.media().flight_densities(p.ray, flight, p.bands, drawn_, resolver_);
+      const double all = p.bands.mixed([&](size_t i) { return drawn_[i]; });
+      for (size_t i = 0; i < p.bands.count(); ++i)
+        passed_[i] = (flight.collided ? passed_[i] : 1) * drawn_[i] / all;
+      p.bands.go_on(passed_, drawn_, all);
+    } else if (flight.collided) {
+      for (size_t i = 0; i < p.bands.count(); ++i) p.bands.scale(i, passed_[i]);
+    }
+  }
+
   const CompiledMaterial& material_at(const Hit& hit, bool front) const {
     return scene_.materials[scene_.surfaces[hit.triangle->surface].material[front ? 0 : 1]];
   }
@@ -284,25 +310,42 @@ class PathTracer {
 
   /// Medium event: a new direction, or the end in known light. Light sampled from emitters is
   /// NextEvent's, where it is not of the known. False ends the path.
-  bool scatter(Path& p, const FreeFlight& flight, Real length, const KnownRadiance* known) {
-    p.throughput *= flight.albedo;
-    if (p.throughput <= 0) return false;
+  bool scatter(Path& p, const FreeFlight& flight, const Stretch& stretch,
+               const KnownRadiance* known) {
+    if (p.bands.brightest() <= 0) return false;
     const PhaseFunction& phase = scene_.phases[static_cast<size_t>(flight.phase)];
     const Vec3 place = p.ray.origin + p.ray.direction * flight.t;
     if (known != nullptr && known->knows(place)) {
-      p.into.add_of_all(p.weight * p.throughput *
-                        known->of_medium(place, p.ray.direction, phase, p.band));
+      for (size_t i = 0; i < p.bands.count(); ++i)
+        p.add_known(i, known->of_medium(place, p.ray.direction, phase, p.bands.band(i)));
       return false;
     }
+    const auto choice = aims() ? random_.uniform_double() : 1.0;
     const Real u = random_.uniform();
     const Real v = random_.uniform();
-    const Vec3 direction = sample(phase, p.ray.direction, u, v);
-    p.turn = scattered({p.ray, line_end(length), 1, p.band}, flight, direction);
+    if (aims()) next_event_.guide().stand_at(place);
+    const bool aimed = choice < next_event_.guide().aimed();
+    const Vec3 direction =
+        aimed ? next_event_.guide().direction(choice, u, v) : sample(phase, p.ray.direction, u, v);
+    p.turn = scattered(stretch, flight, direction);
+    weigh_aimed(p, direction);
     p.ray = {p.turn.place, direction};
     p.counted = EmitterHits::weighted;
     p.travelled = 0;
     p.diffused = true;
     return true;
+  }
+
+  /// Whether a part of the turns goes towards glows.
+  bool aims() { return !next_event_.guide().empty(); }
+
+  /// Of a turn whose own density is `p.turn.pdf`: the density of both ways, and the light by it.
+  /// Roulette does not ask for that: aimed turns are rare in the other way, not poor.
+  void weigh_aimed(Path& p, const Vec3& direction) {
+    if (!aims()) return;
+    const double own = p.turn.pdf;
+    p.turn.pdf = next_event_.guide().density(direction, own);
+    p.weight *= own / p.turn.pdf;
   }
 
   PathTurn scattered(const Stretch& stretch, const FreeFlight& flight, const Vec3& direction) {
@@ -318,7 +361,8 @@ class PathTracer {
     if (!hit.found()) return false;
     if (known == nullptr || !reflects_diffusely(hit, p.ray)) return bounce(p, hit);
     const bool front = glm::dot(hit.triangle->unit_normal(), p.ray.direction) < 0;
-    p.into.add_of_all(p.weight * p.throughput * known->of_surface(hit, front, p.band));
+    for (size_t i = 0; i < p.bands.count(); ++i)
+      p.add_known(i, known->of_surface(hit, front, p.bands.band(i)));
     return false;
   }
 
@@ -326,20 +370,25 @@ class PathTracer {
   bool bounce(Path& p, const Hit& hit) {
     const TriangleRecord& t = *hit.triangle;
     const bool front = glm::dot(t.unit_normal(), p.ray.direction) < 0;
-    const SurfaceModel model =
-        surface_at(scene_, hit, front, p.band, material_at(hit, front), resolver_);
+    for (size_t i = 0; i < p.bands.count(); ++i)
+      models_[i] =
+          surface_at(scene_, hit, front, p.bands.band(i), material_at(hit, front), resolver_);
+    const SurfaceModel& model = models_[p.bands.hero_place()];
     const Vec3 normal = front ? t.unit_normal() : -t.unit_normal();
     const Vec3 place = t.at(hit.u, hit.v);
     if (model.kind == SurfaceKind::lambertian || model.kind == SurfaceKind::glossy) {
-      p.add(reflected_light(offset_ray(place, normal, scene_.min_offset_m), p.ray.direction, normal,
-                            model, p.band));
+      next_event_.add_reflected(offset_ray(place, normal, scene_.min_offset_m), p.ray.direction,
+                                normal, models_, p.bands, p.weight, p.into);
     }
     const Real lobe = random_.uniform();
     const Real u = random_.uniform();
     const Real v = random_.uniform();
-    const SurfaceSample s = sample_surface(model, p.ray.direction, normal, front, lobe, u, v);
-    p.throughput *= static_cast<double>(s.weight);
-    if (p.throughput <= 0) return false;
+    SurfaceSample s = sample_surface(model, p.ray.direction, normal, front, lobe, u, v);
+    const bool aimed = aims() && model.kind == SurfaceKind::lambertian;
+    if (aimed && !aim_reflection(offset_ray(place, normal, scene_.min_offset_m), normal, u, v, s))
+      return false;
+    double pdf = 0;
+    if (!reflect_bands(p, s, normal, pdf)) return false;
     // Straight through a pane nothing has happened that asking does not know of.
     const bool straight = s.specular && s.transmitted && model.kind != SurfaceKind::dielectric;
     if (straight) {
@@ -348,25 +397,79 @@ class PathTracer {
       p.counted = s.specular ? EmitterHits::all : EmitterHits::weighted;
       p.travelled = 0;
     }
-    const Vec3 incoming = p.ray.direction;
     p.ray.direction = s.direction;
     p.ray.origin = offset_ray(place, s.transmitted ? -normal : normal, scene_.min_offset_m);
     if (s.specular) return true;
     p.diffused = true;
-    p.turn = {p.ray.origin,
-              static_cast<double>(surface_pdf(model, -incoming, s.direction, normal)),
-              false,
-              {},
-              0};
+    p.turn.place = p.ray.origin;
+    p.turn.pdf = pdf;
+    p.turn.in_medium = false;
+    if (aimed) weigh_aimed(p, s.direction);
     return true;
   }
 
-  bool survives_roulette(double& throughput) {
-    if (throughput >= 0.2) return true;
-    const double survival = throughput / 0.4;
+  /// Draws the direction of a Lambertian reflection anew, where it is an aimed one. False: it goes
+  /// below the horizon, where nothing is sent.
+  bool aim_reflection(const Vec3& place, const Vec3& normal, Real u, Real v, SurfaceSample& s) {
+    GlowGuide& guide = next_event_.guide();
+    guide.stand_at(place);
+    const double choice = random_.uniform_double();
+    if (choice >= guide.aimed()) return true;
+    s.direction = guide.direction(choice, u, v);
+    return glm::dot(s.direction, normal) > 0;
+  }
+
+  /// What `models_` let go on of each band where the hero's has drawn the sample; and the density
+  /// [1/sr] of the direction drawn, by the path's bands together. False: nothing goes on.
+  bool reflect_bands(Path& p, const SurfaceSample& s, const Vec3& normal, double& pdf) {
+    const SurfaceModel& hero = models_[p.bands.hero_place()];
+    const Vec3 wo = -p.ray.direction;
+    const auto density_of = [&](const SurfaceModel& model) {
+      return static_cast<double>(surface_pdf(model, wo, s.direction, normal));
+    };
+    if (!p.bands.many() || hero.kind == SurfaceKind::open || hero.kind == SurfaceKind::dielectric) {
+      for (size_t i = 0; i < p.bands.count(); ++i) p.bands.scale(i, static_cast<double>(s.weight));
+      if (!s.specular) pdf = density_of(hero);
+    } else if (hero.kind == SurfaceKind::lambertian || hero.kind == SurfaceKind::mirror) {
+      const bool mirror = hero.kind == SurfaceKind::mirror;
+      for (size_t i = 0; i < p.bands.count(); ++i)
+        p.bands.scale(i,
+                      static_cast<double>(mirror ? models_[i].specular : models_[i].reflectance));
+      if (!mirror) pdf = density_of(hero);
+    } else {
+      for (size_t i = 0; i < p.bands.count(); ++i) share_lobes(models_[i], s, wo, normal, i);
+      if (!(s.weight > 0 && drawn_[p.bands.hero_place()] > 0)) return false;
+      pdf = p.bands.mixed([&](size_t i) { return drawn_[i]; });
+      for (size_t i = 0; i < p.bands.count(); ++i) passed_[i] /= pdf;
+      p.bands.go_on(passed_, drawn_, pdf);
+    }
+    return p.bands.brightest() > 0;
+  }
+
+  /// Of a glossy surface or a pane in the band in place `i`: into `passed_` what of the light takes
+  /// the sampled way, into `drawn_` how densely that is sampled.
+  void share_lobes(const SurfaceModel& model, const SurfaceSample& s, const Vec3& wo,
+                   const Vec3& normal, size_t i) {
+    if (model.kind == SurfaceKind::glossy) {
+      const auto cosine = static_cast<double>(glm::dot(s.direction, normal));
+      drawn_[i] = static_cast<double>(surface_pdf(model, wo, s.direction, normal));
+      passed_[i] = std::max(0.0, cosine) *
+                   static_cast<double>(evaluate_surface(model, wo, s.direction, normal));
+      return;
+    }
+    const PaneShares shares = pane_shares(model, glm::dot(wo, normal));
+    passed_[i] = static_cast<double>(s.transmitted ? shares.transmitted : shares.reflected);
+    const auto sum = static_cast<double>(shares.transmitted + shares.reflected);
+    drawn_[i] = sum > 0 ? passed_[i] / sum : 0;
+  }
+
+  bool survives_roulette(PathBands& bands) {
+    const double brightest = bands.brightest();
+    if (brightest >= 0.2) return true;
+    const double survival = brightest / 0.4;
     const auto u = static_cast<double>(random_.uniform());
     if (u >= survival) return false;
-    throughput /= survival;
+    bands.survive(survival);
     return true;
   }
 
@@ -385,10 +488,13 @@ class PathTracer {
       if (e.emitter == none_index) break;
       const CompiledEmitter& emitter = scene_.emitters[e.emitter];
       const Real distance = before + e.distance;
-      p.add({emitter.group,
-             weight_of_face(p, e.emitter, e.point, distance) *
-                 emitted_radiance(emitter, e.point, -p.ray.direction, p.band, resolver_) *
-                 medium_transmittance(scene_, p.ray, distance, p.band, resolver_)});
+      const double weight = weight_of_face(p, e.emitter, e.point, distance);
+      next_event_.media().transmittances(p.ray, distance, p.bands, through_, resolver_);
+      for (size_t i = 0; i < p.bands.count(); ++i) {
+        const double sent =
+            emitted_radiance(emitter, e.point, -p.ray.direction, p.bands.band(i), resolver_);
+        p.add(i, {emitter.group, weight * sent * through_[i]});
+      }
       // Past it by more than rounding, or the same face would be hit again.
       const Real step = e.distance * slack + scene_.min_offset_m;
       rest.origin += rest.direction * step;
@@ -406,7 +512,7 @@ class PathTracer {
     if (p.counted == EmitterHits::all) return 1;
     const double apparent_sr =
         apparent_face(scene_.emitters[emitter], point, -p.ray.direction, p.travelled + distance);
-    return next_event_.weight_of_hit(p.turn, emitter, point.position, apparent_sr, p.band);
+    return next_event_.weight_of_hit(p.turn, emitter, point.position, apparent_sr, p.bands);
   }
 
   void add_emitted_by_sign(Path& p, const Hit& hit) {
@@ -414,12 +520,19 @@ class PathTracer {
     const uint32_t index = scene_.surfaces[hit.triangle->surface].sign;
     if (index == none_index || glm::dot(hit.triangle->unit_normal(), p.ray.direction) >= 0) return;
     const CompiledSign& sign = scene_.signs[index];
-    const SourceLight own = texel_light(sign, texture_uv(*hit.cell, hit), -p.ray.direction, p.band);
-    if (own.radiance <= 0) return;
+    const Vec2 uv = texture_uv(*hit.cell, hit);
+    const int group = texel_light(sign, uv, -p.ray.direction, p.bands.hero()).group;
     const EmissionPoint point{hit.triangle->at(hit.u, hit.v), sign.axes[2]};
-    const Real distance = hit.distance;
-    p.add({own.group, weight_of_sign(p, index, own.group, point, distance) * own.radiance *
-                          medium_transmittance(scene_, p.ray, distance, p.band, resolver_)});
+    double weight = -1;  // not known yet
+    for (size_t i = 0; i < p.bands.count(); ++i) {
+      const SourceLight own = texel_light(sign, uv, -p.ray.direction, p.bands.band(i));
+      if (own.radiance <= 0) continue;
+      if (weight < 0) {
+        weight = weight_of_sign(p, index, group, point, hit.distance);
+        next_event_.media().transmittances(p.ray, hit.distance, p.bands, through_, resolver_);
+      }
+      p.add(i, {group, weight * own.radiance * through_[i]});
+    }
   }
 
   /// Of a sign's face, each colour is an emitter.
@@ -437,8 +550,12 @@ class PathTracer {
   /// Flames on the line, up to the surface: all of their light, or what the weight leaves of it.
   void add_flames_met(const Path& p, Real length) {
     if (scene_.volume_points.empty()) return;
-    if (p.counted == EmitterHits::all)
-      return add_flames(p.ray, length, p.band, -1, p.weight * p.throughput, p.into);
+    if (p.counted == EmitterHits::all) {
+      bool met = true;
+      for (size_t i = 0; i < p.bands.count() && met; ++i)
+        met = add_flames(p.ray, length, p.bands.band(i), -1, p.weight * p.bands.light(i), p.into);
+      return;
+    }
     for (uint32_t i = 0; i < scene_.emitters.size(); ++i) {
       if (scene_.emitters[i].kind == EmitterKind::volume) add_flame_hit(p, i, length);
     }
@@ -450,14 +567,16 @@ class PathTracer {
         0;  // of the whole line: emission density, times what passes, times length [1/m2]
     double density = 0;  // mean of the segment [1/m3]
     Real t = 0;
+    bool missed = false;  // the line does not meet the flame
   };
 
-  FlamePlace place_in_flame(const Path& p, const CompiledEmitter& flame, Real length) {
+  /// `u`: uniform.
+  FlamePlace place_in_flame(const Path& p, int band, const CompiledEmitter& flame, Real length,
+                            double u) {
     FlamePlace chosen;
     double depth = 0;
-    double u = random_.uniform_double();  // used again for each segment: what is left is uniform
     for_each_segment(
-        scene_.media, p.band, p.ray.origin, p.ray.direction, line_end(length), resolver_,
+        scene_.media, band, p.ray.origin, p.ray.direction, line_end(length), resolver_,
         [&](const MediaSegment& s) {
           const double tau = s.sigma_t * s.length;
           for (const EmissionPart& part : s.emission) {
@@ -467,7 +586,7 @@ class PathTracer {
             if (!(light > 0)) continue;
             chosen.light += light;
             const double share = light / chosen.light;
-            if (u >= share) {
+            if (u >= share) {  // used again for each segment: what is left is uniform
               u = (u - share) / (1 - share);
               continue;
             }
@@ -480,24 +599,43 @@ class PathTracer {
           depth += tau;
           return depth < 50;
         });
+    chosen.missed = !(chosen.light > 0) && depth < 50;
     return chosen;
   }
 
   void add_flame_hit(const Path& p, uint32_t emitter, Real length) {
     const CompiledEmitter& flame = scene_.emitters[emitter];
-    const double power = flame.power_w[static_cast<size_t>(p.band)];
-    if (!(power > 0)) return;
-    const FlamePlace place = place_in_flame(p, flame, length);
+    const auto power = [&](size_t i) {
+      return flame.power_w[static_cast<size_t>(p.bands.band(i))];
+    };
+    const size_t hero = p.bands.hero_place();
+    if (!p.bands.many() && !(power(hero) > 0)) return;
+    const double u = random_.uniform_double();
+    const FlamePlace place = place_in_flame(p, p.bands.hero(), flame, length, u);
+    if (place.missed) return;
+    for (size_t i = 0; i < p.bands.count(); ++i) {
+      if (!(power(i) > 0)) continue;
+      // Bands see the flame through different depths of smoke.
+      const bool same = i == hero || next_event_.media().grey();
+      add_flame_place(p, i, emitter, power(i),
+                      same ? place : place_in_flame(p, p.bands.band(i), flame, length, u));
+    }
+  }
+
+  void add_flame_place(const Path& p, size_t i, uint32_t emitter, double power,
+                       const FlamePlace& place) {
     if (!(place.light > 0)) return;
+    const CompiledEmitter& flame = scene_.emitters[emitter];
     const EmissionPoint point{p.ray.origin + p.ray.direction * place.t, Vec3(0, 0, -1)};
     const double density =
         scene_.media.emission_density(static_cast<int>(flame.medium), point.position, resolver_);
     const double apparent_sr =
         next_event_.apparent_solid_angle(flame, point, -p.ray.direction, p.travelled + place.t);
     const double weight =
-        next_event_.weight_of_hit(p.turn, emitter, point.position, apparent_sr, p.band);
-    p.into.add(flame.group, p.weight * p.throughput * weight * power * place.light *
-                                (density / place.density) / (4 * static_cast<double>(pi_f)));
+        next_event_.weight_of_hit(p.turn, emitter, point.position, apparent_sr, p.bands);
+    p.into.add(flame.group, p.bands.band(i),
+               p.weight * p.bands.light(i) * weight * power * place.light *
+                   (density / place.density) / (4 * static_cast<double>(pi_f)));
   }
 
   /// The emitter that stands for a medium's glow; null where the scenario has put it out.
@@ -516,11 +654,12 @@ class PathTracer {
   const CompiledScene& scene_;
   Resolver& resolver_;
   Random random_;
-  std::vector<double> band_cdf_;
+  std::vector<double> band_cdf_, hero_;  // hero_: probabilities
   NextEvent<Resolver> next_event_;
-  int brightest_band_ = 0;       // of the most lumens a watt
-  std::vector<double> through_;  // by band: what panes and media of a straight line let pass
-  GroupLight straight_;          // of one band
+  int brightest_band_ = 0;            // of the most lumens a watt
+  std::vector<SurfaceModel> models_;  // of the path's bands, at the last surface
+  BandValues passed_, drawn_, through_;
+  GroupLight straight_;
 };
 
 }  // namespace luxodus

@@ -74,7 +74,7 @@ class ResolverPictureTracer final : public PictureTracer {
         eye_(scene, resolver_, seed, RandomStream::picture),
         set_(seed, RandomStream::picture),
         stratified_(scene.description->run.stratified),
-        light_(scene.groups.size()) {}
+        light_(scene.groups.size(), static_cast<size_t>(scene.bands.count())) {}
 
   void start(uint64_t set, uint32_t count, uint32_t path) override {
     if (!stratified_) return eye_.random().start(set + path);
@@ -83,8 +83,12 @@ class ResolverPictureTracer final : public PictureTracer {
   }
   Real uniform() override { return eye_.random().uniform(); }
   int choose_band(double u) const override { return eye_.choose_band(u); }
-  double band_probability(int band) const override { return eye_.band_probability(band); }
-  double radiance(const Ray& ray, int band, const KnownRadiance* gather) override {
+  std::span<const double> radiance(const Ray& ray, int hero, const KnownRadiance* gather) override {
+    light_.clear();
+    eye_.radiance_of_all(ray, hero, EmitterHits::none, light_, gather);
+    return light_.by_band();
+  }
+  double radiance_in_band(const Ray& ray, int band, const KnownRadiance* gather) override {
     light_.clear();
     eye_.radiance(ray, band, EmitterHits::none, 1, light_, gather);
     return light_.total();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 
 #include "scenes/geometry/real.hpp"
@@ -35,17 +36,21 @@ std::unique_ptr<BatchTracer> make_batch_tracer(const CompiledScene& scene,
 DirectLight direct_light_at(const CompiledScene& scene, const GeometryAccess& access,
                             const Vec3& point, const Vec3& normal, const DirectOptions& options);
 
-/// Radiance along one ray of a picture [W/(m2 sr)]; see PathTracer::radiance.
+/// Radiance along one ray of a picture [W/(m2 sr)]; see PathTracer.
 class PictureTracer {
  public:
   virtual ~PictureTracer() = default;
   /// Begins path number `path` of `count` in a set, whose first draws are low-discrepancy points.
   virtual void start(uint64_t set, uint32_t count, uint32_t path) = 0;
   virtual Real uniform() = 0;
+  /// The hero of a path of all bands, from a uniform number.
   virtual int choose_band(double u) const = 0;
-  virtual double band_probability(int band) const = 0;
-  /// But for what emitters send straight to the eye: meet_first() has that without chance.
-  virtual double radiance(const Ray& ray, int band, const KnownRadiance* gather) = 0;
+  /// By band, from one path that goes as the hero's; until the next call. But for what emitters
+  /// send straight to the eye: meet_first() has that without chance.
+  virtual std::span<const double> radiance(const Ray& ray, int hero,
+                                           const KnownRadiance* gather) = 0;
+  /// The same in one band, from a path of that band alone.
+  virtual double radiance_in_band(const Ray& ray, int band, const KnownRadiance* gather) = 0;
   /// What is known of the ray without chance. `first` keeps its memory.
   virtual void meet_first(const Ray& ray, FirstHit& first) = 0;
 };

@@ -16,19 +16,16 @@ constexpr float unseen_difference = 1e-3f;
 /// Ridge of the regression, relative to the features' own spread: where they do not vary in a
 /// window, they explain nothing.
 constexpr double ridge = 1e-4;
-/// And where colours are fitted: a pixel unlike all others of its window is to have their colour.
-constexpr double colour_ridge = 0.03;
 /// Features that vary less than this are not scaled up any further.
 constexpr double min_spread = 0.1;
 /// Pixels are as far as this asked for the variance of one that has missed all rare paths.
 constexpr int variance_reach_px = 2;
 /// And as far as this to compare what the variances say with how far the halves differ.
 constexpr int calibration_reach_px = 8;
-/// Of the windows in which colours are fitted: their reach, the steps between the pixels that are
-/// asked, and between centres.
-constexpr int colour_window_px = 27, colour_step_px = 2, colour_stride_px = 9;
 /// Of a pixel's own light beside what windows say of it: it decides where no centre is like it.
 constexpr double own_weight = 0.25;
+/// Of the mean luminance of its windows: a fit of less is the chance of what is around it.
+constexpr double least_coloured = 0.1;
 constexpr size_t max_features = 16;
 constexpr size_t colour_channels = 3;
 
@@ -148,6 +145,7 @@ class NormalEquations {
   }
   void add_to_diagonal(size_t i, double amount) { matrix_[i][i] += amount; }
   double diagonal(size_t i) const { return matrix_[i][i]; }
+  const std::array<double, Sides>& side(size_t i) const { return side_[i]; }
 
   /// In place; a pivot that is nothing leaves its unknown at 0.
   void solve() {
@@ -194,7 +192,8 @@ class HalfFilter {
         features_(features),
         offsets_(static_cast<size_t>(2 * filter.window_px + 1) *
                  static_cast<size_t>(2 * filter.window_px + 1)),
-        sums_((light_channels + 1) * picture.pixels(), 0.0) {}
+        sums_((light_channels + 1) * picture.pixels(), 0.0),
+        means_(light_channels * picture.pixels(), 0.0) {}
 
   int bands() const {
     const int centres = (picture_.height + filter_.stride_px - 1) / filter_.stride_px;
@@ -218,6 +217,11 @@ class HalfFilter {
     const double* sums = &sums_[(light_channels + 1) * pixel];
     const auto own = static_cast<double>(light_.light[light_channels * pixel + channel]);
     return (sums[channel] + own_weight * own) / (sums[light_channels] + own_weight);
+  }
+  /// Of the windows around a pixel, without regard to its features [cd/m2].
+  double mean(size_t pixel, size_t channel) const {
+    const double weight = sums_[(light_channels + 1) * pixel + light_channels];
+    return weight > 0 ? means_[light_channels * pixel + channel] / weight : 0;
   }
 
  private:
@@ -315,6 +319,8 @@ class HalfFilter {
       equations.add(weight, row.data(), &light_.light[light_channels * pixel]);
     });
     const double weight_of_all = equations.diagonal(0);
+    std::array<double, light_channels> mean = equations.side(0);
+    for (double& light : mean) light /= weight_of_all;
     for (size_t k = 1; k <= features; ++k) equations.add_to_diagonal(k, ridge * weight_of_all);
     equations.solve();
     for_each_pixel([&](size_t pixel, double weight) {
@@ -323,6 +329,7 @@ class HalfFilter {
         double fit = 0;
         for (size_t k = 0; k <= features; ++k) fit += row[k] * equations.solution(k)[c];
         sums[c] += weight * fit;
+        means_[light_channels * pixel + c] += weight * mean[c];
       }
       sums[light_channels] += weight;
     });
@@ -334,7 +341,8 @@ class HalfFilter {
   const HalfPicture& light_;
   const std::vector<float>& features_;
   const size_t offsets_;
-  std::vector<double> sums_;  // per pixel: light_channels weighted values, and the weights
+  std::vector<double> sums_;   // per pixel: light_channels weighted values, and the weights
+  std::vector<double> means_;  // per pixel: weighted means of windows
 };
 
 /// Windows of a band reach into its neighbours, but no further.
@@ -345,89 +353,27 @@ void filter_half(HalfFilter& half, const ShareWork& share) {
   }
 }
 
-/// Gives filtered light its colour: X, Z and scotopic light as multiples of the filtered luminance,
-/// by ratios that are linear in the features of a wide window. A path carries one band, so colours
-/// are noisier than luminance, and eyes resolve them less finely.
-class ColourFit {
- public:
-  ColourFit(const NoisyPicture& picture, const std::vector<float>& features,
-            const std::vector<float>& luminance)
-      : picture_(picture),
-        features_(features),
-        luminance_(luminance),
-        sums_((light_channels + 1) * picture.pixels(), 0.0) {}
-
-  void fit_all() {
-    for (int y = std::min(colour_stride_px / 2, picture_.height - 1); y < picture_.height;
-         y += colour_stride_px)
-      for (int x = std::min(colour_stride_px / 2, picture_.width - 1); x < picture_.width;
-           x += colour_stride_px)
-        add_window(x, y);
+/// What both halves say of a pixel. Where the fit leaves it too little light to have a colour, or
+/// less than none of one channel, its colour is that of its windows.
+std::array<double, light_channels> filtered_light(const std::vector<HalfFilter>& halves,
+                                                  size_t pixel) {
+  std::array<double, light_channels> fit{}, mean{};
+  for (const HalfFilter& half : halves)
+    for (size_t c = 0; c < light_channels; ++c) {
+      fit[c] += half.value(pixel, c) / 2;
+      mean[c] += half.mean(pixel, c) / 2;
+    }
+  const double luminance = std::max(0.0, fit[1]);
+  const bool coloured =
+      *std::min_element(fit.begin(), fit.end()) >= 0 && luminance > least_coloured * mean[1];
+  if (coloured || !(mean[1] > 0)) {
+    for (double& light : fit) light = std::max(0.0, light);
+    return fit;
   }
-
-  /// Of X, Z or scotopic light to luminance, at least 0; 1 where all is dark.
-  double ratio(size_t pixel, size_t channel) const {
-    const double* sums = &sums_[(light_channels + 1) * pixel];
-    return sums[light_channels] > 0 ? std::max(0.0, sums[channel] / sums[light_channels]) : 1;
-  }
-
- private:
-  template <class With>
-  void for_each_pixel(int x, int y, int step, const With& with) const {
-    const int reach = colour_window_px;
-    for (int j = y - reach; j <= y + reach; j += step)
-      for (int i = x - reach; i <= x + reach; i += step)
-        if (i >= 0 && j >= 0 && i < picture_.width && j < picture_.height)
-          with(static_cast<size_t>(j * picture_.width + i), i - x, j - y);
-  }
-
-  void add_window(int x, int y) {
-    const size_t features = picture_.feature_count;
-    const float* own = &features_[features * static_cast<size_t>(y * picture_.width + x)];
-    NormalEquations<max_features + 1, light_channels> equations(features + 1);
-    std::array<double, max_features + 1> row{};
-    const auto describe = [&](size_t pixel) {
-      row[0] = 1;
-      for (size_t k = 0; k < features; ++k)
-        row[k + 1] = static_cast<double>(features_[features * pixel + k] - own[k]);
-    };
-    for_each_pixel(x, y, colour_step_px, [&](size_t pixel, int, int) {
-      const auto level = static_cast<double>(luminance_[pixel]);
-      if (!(level > 0)) return;
-      std::array<float, light_channels> ratios{};
-      for (size_t c = 0; c < light_channels; ++c)
-        ratios[c] = static_cast<float>(
-            static_cast<double>(picture_.half[0].light[light_channels * pixel + c] +
-                                picture_.half[1].light[light_channels * pixel + c]) /
-            2 / level);
-      describe(pixel);
-      equations.add(1, row.data(), ratios.data());
-    });
-    const double weight_of_all = equations.diagonal(0);
-    if (!(weight_of_all > 0)) return;
-    for (size_t k = 1; k <= features; ++k)
-      equations.add_to_diagonal(k, colour_ridge * weight_of_all);
-    equations.solve();
-    for_each_pixel(x, y, 1, [&](size_t pixel, int dx, int dy) {
-      describe(pixel);
-      double* sums = &sums_[(light_channels + 1) * pixel];
-      const double near = (1 - std::abs(dx) / (colour_window_px + 1.0)) *
-                          (1 - std::abs(dy) / (colour_window_px + 1.0));
-      std::array<double, light_channels> fit{};
-      for (size_t c = 0; c < light_channels; ++c)
-        for (size_t k = 0; k <= features; ++k) fit[c] += row[k] * equations.solution(k)[c];
-      // Relative to the luminance that the same paths have found, whose noise is then shared.
-      if (!(fit[1] > 0)) return;
-      for (size_t c = 0; c < light_channels; ++c) sums[c] += near * fit[c] / fit[1];
-      sums[light_channels] += near;
-    });
-  }
-
-  const NoisyPicture& picture_;
-  const std::vector<float>& features_;
-  const std::vector<float>& luminance_;  // filtered [cd/m2]
-  std::vector<double> sums_;             // per pixel: weighted ratios, and the weights
-};
+  for (size_t c = 0; c < light_channels; ++c)
+    fit[c] = luminance * std::max(0.0, mean[c]) / mean[1];
+  return fit;
+}
 
 }  // namespace
 
@@ -447,17 +393,11 @@ FilteredPicture filter_picture(const NoisyPicture& picture, const RegressionFilt
 
   FilteredPicture out;
   out.light.resize(light_channels * picture.pixels());
-  std::vector<float> luminance(picture.pixels());
-  for (size_t i = 0; i < picture.pixels(); ++i)
-    luminance[i] =
-        static_cast<float>(std::max(0.0, (halves[0].value(i, 1) + halves[1].value(i, 1)) / 2));
-  ColourFit colour(picture, features, luminance);
-  colour.fit_all();
   std::vector<float> squares(picture.pixels()), count(picture.pixels(), 1.0f), scratch;
   for (size_t i = 0; i < picture.pixels(); ++i) {
+    const std::array<double, light_channels> light = filtered_light(halves, i);
     for (size_t c = 0; c < light_channels; ++c)
-      out.light[light_channels * i + c] =
-          c == 1 ? luminance[i] : luminance[i] * static_cast<float>(colour.ratio(i, c));
+      out.light[light_channels * i + c] = static_cast<float>(light[c]);
     const double half_difference = (halves[0].value(i, 1) - halves[1].value(i, 1)) / 2;
     squares[i] = static_cast<float>(half_difference * half_difference);
   }

@@ -39,6 +39,9 @@ void print_merit(int turns, const std::string& scene);
 /// How far pictures are from a long run, by paths and seconds, and by the size of patches; with a
 /// share of the particles and of the long picture's paths.
 void print_images(double share);
+/// What paths of all bands gain over paths of one, and how true colours of filtered pictures are;
+/// with a share of the particles and of the long picture's paths.
+void print_colours(double share);
 /// Processor seconds that pictures of a furnished room take to an error of 10 %, in clear air and
 /// in smoke; with a share of the particles and of the long picture's paths.
 void print_rooms(double share);

@@ -171,9 +171,10 @@ class Tracing {
     const auto tracer = make_picture_tracer(scene_, access_, seed_);
     for (uint32_t path = 0; path < 4; ++path) {
       tracer->start(0, 4, path);
-      const int band = tracer->choose_band(static_cast<double>(tracer->uniform()));
+      const int hero = tracer->choose_band(static_cast<double>(tracer->uniform()));
       const Ray ray{glm::vec3(camera.eye - scene_.local_origin), glm::vec3(glm::normalize(way))};
-      check_value(tracer->radiance(ray, band, nullptr), "radiance in a picture");
+      for (const double radiance : tracer->radiance(ray, hero, nullptr))
+        check_value(radiance, "radiance in a picture");
     }
   }
 

@@ -148,6 +148,29 @@ TEST_CASE("pictures smaller than a window are filtered, and no light is negative
   }
 }
 
+TEST_CASE("light that has all channels everywhere keeps them in every pixel", "[filter]") {
+  // Rare bright paths of unlike colours, and features that chance seems to follow: fits fall below
+  // nothing in some channels of some pixels, and a pixel of one channel has a glaring colour.
+  NoisyPicture noisy = noisy_picture(
+      60, 40, [](int, int) { return 0.0; }, [](int x, int y) { return (x * x + 3 * y) % 7 / 7.0; },
+      0);
+  std::mt19937 random(3);
+  std::exponential_distribution<double> chance(1);
+  for (HalfPicture& half : noisy.half)
+    for (size_t i = 0; i < half.light.size(); ++i) {
+      const double light = 1e-3 + std::pow(chance(random), 5);
+      half.light[i] = static_cast<float>(light);
+      if (i % light_channels < 3)
+        half.variance[i / light_channels * 3 + i % light_channels] =
+            static_cast<float>(light * light);
+    }
+  const FilteredPicture filtered = filter_picture(noisy, {}, in_order);
+  for (size_t i = 0; i < noisy.pixels(); ++i) {
+    if (luminance(filtered, i) == 0) continue;
+    for (size_t c = 0; c < light_channels; ++c) CHECK(filtered.light[light_channels * i + c] > 0);
+  }
+}
+
 TEST_CASE("darkness stays dark", "[filter]") {
   const NoisyPicture dark = noisy_picture(
       40, 30, [](int, int) { return 0.0; }, no_feature, 0);
