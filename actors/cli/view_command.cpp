@@ -51,11 +51,11 @@ Result<ExitCode> view(const ViewOptions& options) {
   if (!found) return found.problem();
   if (!passes_inspection(scene, {found.value()}, options.live.threads)) return ExitCode::bad_input;
   install_interrupt_handler();
+  LiveStates states(scene);
+  std::unique_ptr<ProcessExecutor> nodes;  // outlives whatever holds its executor
   HubOptions hub{options.live, {}, options.save_folder};
   hub.live.particles = parse_count(options.particles).value();
   hub.first.scenario = scenario;
-  LiveStates states(scene);
-  std::unique_ptr<ProcessExecutor> nodes;
   if (options.nodes > 0) {
     NodesOptions of_nodes;
     of_nodes.nodes = options.nodes;
@@ -66,7 +66,9 @@ Result<ExitCode> view(const ViewOptions& options) {
     nodes = std::move(started).value();
     hub.live.executor = nodes->executor();
   }
-  const auto served = serve_view(scene, options.server, hub);
+  const auto served = serve_view(scene, options.server, hub, [&] {
+    return nodes ? nodes->executor()->fault() : std::optional<Problem>();
+  });
   if (!served) return served.problem();
   return ExitCode::success;
 }

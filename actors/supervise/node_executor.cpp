@@ -71,14 +71,13 @@ void NodeExecutor::trace(Work& work) {
   stops_ = false;
   tracing_ = true;
   ask_node();
-  while (tracing_ && shell_ != nullptr) {
+  // Where its node is gone, nothing comes any more; whoever traces hears so elsewhere (fault).
+  while (tracing_ && !(shell_ == nullptr && work.stopped())) {
     changed_.wait_for(lock, stop_every);
     if (!tracing_ || stops_ || !work.stopped()) continue;
     stops_ = true;
     ask_node();
   }
-  if (!tracing_) return;
-  // Its node is gone; nothing that it was given will come any more.
   tracing_ = false;
   next_ = nullptr;
 }

@@ -113,7 +113,7 @@ std::vector<TableSpec> node_tables() {
             "particles followed at once; more hide more delay and share more fetches"},
            {"prefetch", "integer", "", "0", "[0, 64]",
             "cells that a ray enters next, asked for ahead of the one that is waited for"},
-           {"stack_kb", "integer", "KiB", "32", "[16, 1024]", "stack of one fiber"},
+           {"stack_kb", "integer", "KiB", "64", "[48, 1024]", "stack of one fiber"},
            {"max_maps", "integer", "", "0", "[0, 1e7]",
             "memory maps for guards between stacks; 0: its part of the system's limit",
             "maps_most"},

@@ -49,7 +49,7 @@ size_t to_pages(size_t bytes) {
 }  // namespace
 
 size_t default_stack_bytes() {
-  return sanitizers::stack_factor * 32 * 1024;
+  return sanitizers::stack_factor * 64 * 1024;
 }
 
 size_t max_process_maps() {

@@ -14,9 +14,9 @@
 
 namespace luxodus {
 
-/// Bytes of a fiber's stack unless told otherwise: 32 KB, of which a particle that collects
-/// candidates through Embree used 10.8 KB, and a log line needs a few; four times that in builds
-/// with sanitizers or without an optimiser.
+/// Bytes of a fiber's stack unless told otherwise: 64 KB. A particle that collects candidates
+/// through Embree uses 10.8 KB, a path from the eye that looks for a flame through media 34 KB, and
+/// a log line needs a few; four times that in builds with sanitizers or without an optimiser.
 size_t default_stack_bytes();
 
 /// vm.max_map_count of this machine; the kernel's default, 65530, where it cannot be read.

@@ -31,7 +31,7 @@ TEST_CASE("a file that says little has the defaults of the rooms that use them",
   CHECK(cluster.run.id != 0);
   CHECK_FALSE(cluster.node(cluster.controller()).traces);
   CHECK(cluster.nodes[0].budget.object_bytes == uint64_t{1} << 30);
-  CHECK(cluster.nodes[0].budget.stack_bytes == 32 * 1024);
+  CHECK(cluster.nodes[0].budget.stack_bytes == 64 * 1024);
   CHECK_FALSE(cluster.run.particles.has_value());
   CHECK(cluster.run.sharing);
   CHECK_FALSE(
@@ -69,11 +69,11 @@ TEST_CASE("the run is shown by the controller, or by the node that the file name
 TEST_CASE("a node's own budget replaces what it names of the common one", "[runtime][config]") {
   const ClusterConfig cluster = good(small_cluster +
                                      "[node.budget]\nfibers = 7\nobject_bytes = \"2 GiB\"\n"
-                                     "[budget]\nfibers = 100\nstack_kb = 64\n");
+                                     "[budget]\nfibers = 100\nstack_kb = 96\n");
   const NodeBudget worker = cluster.nodes[0].budget, controller = cluster.nodes[1].budget;
   CHECK(worker.fibers == 7);
   CHECK(worker.object_bytes == uint64_t{2} << 30);
-  CHECK(worker.stack_bytes == 64 * 1024);
+  CHECK(worker.stack_bytes == 96 * 1024);
   CHECK(controller.fibers == 100);
   CHECK(controller.object_bytes == uint64_t{1} << 30);
 }
