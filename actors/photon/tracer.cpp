@@ -164,6 +164,7 @@ void Tracer::cannot_enter(const Problem& why) {
   log_error("state=unknown text=\"this node cannot enter a state of the scene: {}\"", why.what);
   entering_.reset();
   work_->give_back_all();
+  work_->look_again();
 }
 
 // ---- giving results --------------------------------------------------------------------------

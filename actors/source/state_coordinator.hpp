@@ -66,6 +66,7 @@ class StateCoordinator final : public Coordinator {
   void give_back(const std::set<int64_t>& batches);
   void end_when_done();
   void leave_when_told();
+  void tell_who_is_here();
   void note_refusal();
   const StateObject* known(ObjectId id) const;
 
@@ -74,6 +75,7 @@ class StateCoordinator final : public Coordinator {
   Work* work_ = nullptr;
   bool all_given_ = false;  // the work has no more
   std::set<int64_t> out_;   // its batches that are here, and neither counted nor given back
+  std::set<NodeId> told_here_;  // workers that were there at the last look
   std::optional<Problem> fault_;
 };
 
