@@ -1,6 +1,7 @@
 // The two sides of a tracer, the actor that stands between a coordinator and those who do its work:
 // LeasedWork does what was leased, in a node's own photon-threads or, where a node coordinates
-// others in its coordinator's stead, in theirs; LeasePort is how it gets leases and gives results.
+// others in its coordinator's stead, in theirs; of a scene whose states change it traces the one
+// that was entered. LeasePort is how it gets leases and gives results.
 // Neither knows messages. Thread rule: the node's thread, from within a fiber or not.
 #pragma once
 

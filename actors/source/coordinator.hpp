@@ -2,7 +2,8 @@
 // or refuses them, fences what is late or lost, and sees to it that all have heard of the end
 // before any is let go. Where its batches come from and where its totals go is said by those who
 // derive from it: RunCoordinator leads a run; SubCoordinator leads in another coordinator's stead,
-// and behaves towards that one as a tracer does. It traces nothing itself.
+// and behaves towards that one as a tracer does; StateCoordinator leads work on a scene that
+// changes. It traces nothing itself.
 // Thread rule: its node's thread.
 #pragma once
 
