@@ -1,6 +1,8 @@
 // What a node does for others' requests. How it fetches for itself: fetcher_test.cpp.
 #include "runtime/fetch/part_server.hpp"
 
+#include <functional>
+
 #include "tests/unit/runtime/fetch/fetch_kit.hpp"
 
 using namespace luxodus;
@@ -15,6 +17,23 @@ Got::How fetch(FetchCluster& cluster, size_t node, uint32_t object) {
   cluster[node].start(asking.body());
   cluster.until([&] { return asking.done; });
   return asking.got.how;
+}
+
+/// Fifty fibers get what they ask of a holder whose outbox takes one message at a time; `look` sees
+/// how.
+void crowd(FetchSetup setup, const std::function<void(FetchCluster&)>& look) {
+  Objects objects;
+  for (int i = 0; i < 50; ++i) objects.add(1000, {b});
+  setup.fibers = 50;
+  FetchCluster cluster(2, objects, setup, [](NetConfig& config) {
+    if (config.self == b) config.outbox_messages = 1;
+  });
+  std::vector<Asking> askings;
+  for (uint32_t i = 0; i < 50; ++i) askings.push_back({cluster[0], i});
+  for (Asking& asking : askings) cluster[0].start(asking.body());
+  cluster.until([&] { return cluster[0].fibers.live() == 0; });
+  for (const Asking& asking : askings) CHECK(asking.got.how == Got::How::resident);
+  look(cluster);
 }
 
 }  // namespace
@@ -65,41 +84,23 @@ TEST_CASE("a request from outside does not keep an object from being evicted", "
 
 TEST_CASE("requests without room for an answer wait for it, and are answered in their turn",
           "[runtime][fetch]") {
-  Objects objects;
-  for (int i = 0; i < 50; ++i) objects.add(1000, {b});
   FetchSetup setup;
-  setup.fibers = 50;
   setup.fetch.tries = 1;
-  FetchCluster cluster(2, objects, setup, [](NetConfig& config) {
-    if (config.self == b) config.outbox_messages = 1;
+  crowd(setup, [](FetchCluster& cluster) {
+    CHECK(cluster[1].server.counters().waited > 0);
+    CHECK(cluster[1].server.counters().dropped == 0);
+    CHECK(cluster[0].fetcher.counters().timeouts == 0);
   });
-  std::vector<Asking> askings;
-  for (uint32_t i = 0; i < 50; ++i) askings.push_back({cluster[0], i});
-  for (Asking& asking : askings) cluster[0].start(asking.body());
-  cluster.until([&] { return cluster[0].fibers.live() == 0; });
-  for (const Asking& asking : askings) CHECK(asking.got.how == Got::How::resident);
-  CHECK(cluster[1].server.counters().waited > 0);
-  CHECK(cluster[1].server.counters().dropped == 0);
-  CHECK(cluster[0].fetcher.counters().timeouts == 0);
 }
 
 TEST_CASE("requests beyond those that may wait are dropped, counted, and asked again",
           "[runtime][fetch]") {
-  Objects objects;
-  for (int i = 0; i < 50; ++i) objects.add(1000, {b});
   FetchSetup setup;
-  setup.fibers = 50;
   setup.fetch.requests = 4;
-  FetchCluster cluster(2, objects, setup, [](NetConfig& config) {
-    if (config.self == b) config.outbox_messages = 1;
+  crowd(setup, [](FetchCluster& cluster) {
+    CHECK(cluster[1].server.counters().dropped > 0);
+    CHECK(cluster[0].fetcher.counters().timeouts > 0);
   });
-  std::vector<Asking> askings;
-  for (uint32_t i = 0; i < 50; ++i) askings.push_back({cluster[0], i});
-  for (Asking& asking : askings) cluster[0].start(asking.body());
-  cluster.until([&] { return cluster[0].fibers.live() == 0; });
-  for (const Asking& asking : askings) CHECK(asking.got.how == Got::How::resident);
-  CHECK(cluster[1].server.counters().dropped > 0);
-  CHECK(cluster[0].fetcher.counters().timeouts > 0);
 }
 
 TEST_CASE("requests and answers go through the mailbox, and others' messages do not",
