@@ -24,12 +24,6 @@ std::optional<Problem> cannot_assess(const SceneDescription& scene) {
   return std::nullopt;
 }
 
-/// The extinction of all media times a factor, named ones too.
-void thicken(Scenario& scenario, double factor) {
-  scenario.smoke_factor *= factor;
-  for (Scenario::Factor& medium : scenario.media) medium.factor *= factor;
-}
-
 /// From how many places each sign is legible.
 void count_sweep(double factor, const std::vector<SightRow>& sights, std::vector<SweepRow>& out) {
   const auto first = static_cast<std::ptrdiff_t>(out.size());
@@ -94,13 +88,14 @@ Result<Assessment> assess(const std::shared_ptr<const SceneDescription>& scene,
   if (auto ok = assess_by_codes(*scene, scenario.value(), options, progress, out); !ok)
     return ok.problem();
   if (options.reality)
-    if (auto ok = assess_sights(*scene, scenario.value(), options, interrupt, progress, out); !ok)
+    if (auto ok = assess_sights(*scene, scenario.value(), 1, options, interrupt, progress, out);
+        !ok)
       return ok.problem();
   for (const double factor : options.smoke_factors) {
-    Scenario thick = scenario.value();
-    thicken(thick, factor);
     Assessment at_density;
-    if (auto ok = assess_sights(*scene, thick, options, interrupt, progress, at_density); !ok)
+    if (auto ok = assess_sights(*scene, scenario.value(), factor, options, interrupt, progress,
+                                at_density);
+        !ok)
       return ok.problem();
     count_sweep(factor, at_density.sights, out.sweep);
     out.paths += at_density.paths;

@@ -22,8 +22,6 @@ namespace {
 /// Batches of a round at least, whose spread is the error; paths to each part of a sign in the
 /// first round's batches, and at most in any: beyond that a round has more batches.
 constexpr int64_t min_batches = 64, first_paths = 8, max_paths = 512;
-/// Paths from the eye cost far more than particles, of which a run traces some beside them.
-constexpr int64_t batch_particles = 256;
 /// compile's share of paths: 0.1 of the particles, divided among the parts.
 constexpr double paths_per_particle = 0.1;
 
@@ -156,16 +154,15 @@ Uncertain product(const Uncertain& a, const Uncertain& b) {
 
 class RealityMode {
  public:
-  RealityMode(const SceneDescription& scene, const Scenario& scenario, const AssessOptions& options,
-              Assessment& out)
-      : scene_(without_measurements(scene)),
-        observers_(scene.observers),
-        scenario_(scenario),
+  /// `observers`: those that the scene names. Requires: all outlive it.
+  RealityMode(const JudgedScene& judged, const std::vector<Observer>& observers,
+              double smoke_factor, const AssessOptions& options, Assessment& out)
+      : judged_(judged),
+        observers_(observers),
+        smoke_factor_(smoke_factor),
         options_(options),
         out_(out) {}
 
-  /// Tells apart what has aged and what has not. Errors: as group_by_ageing.
-  Result<void> tell_ageing_apart();
   /// Who can see what, by straight lines. Errors: as assess_sights.
   Result<void> look_for_lines(const AssessProgress& progress);
   /// One round of paths for what is undecided. Errors: as assess_sights.
@@ -180,35 +177,28 @@ class RealityMode {
     uint32_t sign;
     Veil veil;
   };
-  SceneDescription round_scene(int round) const;
+  RoundState round_state(int round) const;
   void judge_view(const Readout& readout, const CompiledScene& scene, const EyeTarget& target,
                   const Open& open) const;
   void judge(const CompiledScene& scene, const Totals& totals);
 
-  SceneDescription scene_;  // measures nothing; sources are grouped by ageing
+  const JudgedScene& judged_;
+  const SceneDescription& scene_ = judged_.scene;
   const std::vector<Observer>& observers_;
-  const Scenario& scenario_;
+  const double smoke_factor_;
   const AssessOptions& options_;
   Assessment& out_;
-  Ageing ageing_;
   std::vector<Stand> stands_;
   std::vector<Open> open_;
   std::vector<size_t> asked_;  // stands of the round's observers
 };
 
-Result<void> RealityMode::tell_ageing_apart() {
-  auto ageing = group_by_ageing(scene_, scenario_.operation);
-  if (!ageing) return ageing.problem();
-  ageing_ = std::move(ageing).value();
-  return {};
-}
-
 Result<void> RealityMode::look_for_lines(const AssessProgress& progress) {
   progress("lines of sight", 0);
-  auto made = Building::make(scene_, scenario_, options_.threads);
+  auto made = Building::make(scene_, judged_.scenario, options_.threads);
   if (!made) return made.problem();
   const Building& building = *made.value();
-  const std::vector<double> renewals = ageing_.renewals(building.scene());
+  const std::vector<double> renewals = judged_.ageing.renewals(building.scene());
   stands_ = stands_of(scene_, observers_);
   if (stands_.size() * scene_.signs.size() > limits::sights)
     return problem_in(scene_.file,
@@ -254,24 +244,24 @@ Result<void> RealityMode::look_for_lines(const AssessProgress& progress) {
   return {};
 }
 
-/// The scene with those who still have to look, and as many paths as the round has.
-SceneDescription RealityMode::round_scene(int round) const {
-  SceneDescription scene = scene_;
+/// Those who still have to look, and as many paths as the round has.
+RoundState RealityMode::round_state(int round) const {
+  RoundState out{judged_.scenario.name, smoke_factor_, 0, {}};
   size_t last = stands_.size();
   for (const Open& open : open_) {
     if (open.stand != last) {
-      scene.observers.push_back(stands_[open.stand].observer);
-      scene.observers.back().signs.emplace();
+      out.observers.push_back(stands_[open.stand].observer);
+      out.observers.back().signs.emplace();
       last = open.stand;
     }
-    scene.observers.back().signs->push_back(open.sign);
+    out.observers.back().signs->push_back(open.sign);
   }
-  scene.run.batch_particles = batch_particles;
   const auto paths = static_cast<double>(RoundSize(round).paths);
   const auto parts = static_cast<double>(3 * open_.size());
   // Half a path more, so that rounding down gives this many.
-  scene.run.eye_path_factor = (paths + 0.5) * parts / (paths_per_particle * batch_particles);
-  return scene;
+  out.eye_path_factor = (paths + 0.5) * parts /
+                        (paths_per_particle * static_cast<double>(limits::round_batch_particles));
+  return out;
 }
 
 /// What arrives at the eye from one sign, in aged light, or in new: its source groups, each times
@@ -350,14 +340,14 @@ void RealityMode::judge_view(const Readout& readout, const CompiledScene& scene,
                              const EyeTarget& target, const Open& open) const {
   const SightRules rules{{scene_.assessment.age_years},
                          scene_.assessment.irritant_smoke.value_or(false)};
-  const ViewReadout view(readout, scene, target, ageing_.renewals(scene));
+  const ViewReadout view(readout, scene, target, judged_.ageing.renewals(scene));
   const Sign& sign = scene_.signs[open.sign];
   SightRow& row = out_.sights[open.row];
   row.look = view.look(open.veil.aged, false);
   row.sight = judge_sight(sign, row.view, row.look, rules);
   row.in_new_light = false;
   row.other.reset();
-  if (!ageing_.any()) return;
+  if (!judged_.ageing.any()) return;
   SightRow::Other as_new{view.look(open.veil.as_new, true), {}};
   as_new.sight = judge_sight(sign, row.view, as_new.look, rules);
   if (is_worse(as_new.sight, row.sight)) {
@@ -397,14 +387,16 @@ Result<void> RealityMode::trace(int round, const std::atomic<bool>& interrupt,
   asked_.clear();
   for (const Open& open : open_)
     if (asked_.empty() || asked_.back() != open.stand) asked_.push_back(open.stand);
-  auto compiled =
-      compile_scene(std::make_shared<SceneDescription>(round_scene(round)), scenario_, {});
+  const RoundState state = round_state(round);
+  auto compiled = compile_round(judged_, state);
   if (!compiled) return compiled.problem();
-  LocalRun run(compiled.value(), options_.seed + static_cast<uint64_t>(round), options_.threads);
+  const uint64_t seed = options_.seed + static_cast<uint64_t>(round);
+  LocalRun run(compiled.value(), seed, options_.threads);
   StopRule stop;
-  stop.particles = RoundSize(round).batches * batch_particles;
+  stop.particles = RoundSize(round).batches * limits::round_batch_particles;
   RunThreads threads;
   RunExecutor& executor = options_.executor == nullptr ? threads : *options_.executor;
+  executor.enter({seed, round_text(state)});
   const auto reason = executor.run(run, stop, interrupt, [&](const Progress& p) {
     progress(what, static_cast<double>(p.particles) / static_cast<double>(*stop.particles));
   });
@@ -420,11 +412,13 @@ Result<void> RealityMode::trace(int round, const std::atomic<bool>& interrupt,
 }  // namespace
 
 Result<void> assess_sights(const SceneDescription& scene, const Scenario& scenario,
-                           const AssessOptions& options, const std::atomic<bool>& interrupt,
-                           const AssessProgress& progress, Assessment& out) {
-  if (auto ok = irritation_is_said(scene, scenario); !ok) return ok.problem();
-  RealityMode mode(scene, scenario, options, out);
-  if (auto ok = mode.tell_ageing_apart(); !ok) return ok.problem();
+                           double smoke_factor, const AssessOptions& options,
+                           const std::atomic<bool>& interrupt, const AssessProgress& progress,
+                           Assessment& out) {
+  const auto judged = judged_scene(scene, thickened(scenario, smoke_factor));
+  if (!judged) return judged.problem();
+  if (auto ok = irritation_is_said(scene, judged->scenario); !ok) return ok.problem();
+  RealityMode mode(judged.value(), scene.observers, smoke_factor, options, out);
   if (auto ok = mode.look_for_lines(progress); !ok) return ok.problem();
   for (int round = 0; round < options.rounds && mode.anything_open(); ++round)
     if (auto ok = mode.trace(round, interrupt, progress); !ok) return ok.problem();

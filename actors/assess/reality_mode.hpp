@@ -4,14 +4,17 @@
 #pragma once
 
 #include "actors/assess/assessment.hpp"
+#include "actors/assess/round_state.hpp"
 #include "runtime/core/atomic_file.hpp"
 
 namespace luxodus {
 
-/// Adds sights to `out`. Errors: irritation_is_said; `interrupt`; more pairs of place and sign than
-/// a limit.
+/// Adds sights to `out`, in smoke of so many times the scenario's density. Requires, where nodes
+/// trace: the scenario is one of the scene's file. Errors: as judged_scene; irritation_is_said;
+/// `interrupt`; more pairs of place and sign than a limit.
 Result<void> assess_sights(const SceneDescription& scene, const Scenario& scenario,
-                           const AssessOptions& options, const std::atomic<bool>& interrupt,
-                           const AssessProgress& progress, Assessment& out);
+                           double smoke_factor, const AssessOptions& options,
+                           const std::atomic<bool>& interrupt, const AssessProgress& progress,
+                           Assessment& out);
 
 }  // namespace luxodus

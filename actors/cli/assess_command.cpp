@@ -1,4 +1,6 @@
 // luxodus assess, compare: whether signs and routes do their job, as data and as a report.
+#include "actors/cli/assess_command.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -90,44 +92,14 @@ Result<ExitCode> assess_scene(const AssessCommandOptions& options) {
   const auto scene =
       load_scene(options.scene, ReadingWarnings::left_to_inspection, time_asked(options.at));
   if (!scene) return ExitCode::bad_input;
-  const fs::path folder = options.out.empty()
-                              ? fs::path("out") / file_name_of(scene->name + "-assessed")
-                              : fs::path(options.out);
-  const OutputPlan plan{
-      {"report.html", "report.pdf", "assessment.json", "checks.csv", "sights.csv"},
-      {"plans", "schedules"}};
-  const auto out = OutputFolder::claim(folder, plan);
-  if (!out) return out.problem();
-  if (!options.overwrite)
-    if (auto ok = refuse_files_of_others(out->path(), plan.files); !ok) return ok.problem();
+  AssessmentJob job{scene,          options.out,   options.assess, options.overwrite,
+                    options.strict, options.report};
+  if (options.out.empty()) job.folder = fs::path("out") / file_name_of(scene->name + "-assessed");
   install_interrupt_handler();
-  AssessOptions asked = options.assess;
-  asked.reality = !options.codes_alone;
+  job.options.reality = !options.codes_alone;
   const auto nodes = nodes_that_trace(options.nodes);
-  asked.executor = nodes.get();
-  ProgressLine line("assess");
-  const auto assessed =
-      assess(scene, asked, interrupt_flag(), [&](const std::string& what, double share) {
-        line.put(fmt::format("{}: {:.0f} %", what, 100 * share), share >= 1, share);
-      });
-  if (!assessed) {
-    if (!interrupt_flag()) {
-      tell(assessed.problem());
-      return ExitCode::bad_input;
-    }
-    log_warning("interrupted; nothing was written");
-    return ExitCode::interrupted;
-  }
-  tell_findings(assessed->findings);
-  for (const Problem& warning : assessed->warnings)
-    if (std::none_of(assessed->findings.begin(), assessed->findings.end(),
-                     [&](const Finding& f) { return f.problem.text() == warning.text(); }))
-      warn(warning);
-  const Json json = assessment_json(*scene, assessed.value(), build.version);
-  if (auto ok = write_assessment(out->path(), json); !ok) return ok.problem();
-  print_summary(json);
-  if (auto ok = write_report_and_tell(out.value(), json, options.report); !ok) return ok.problem();
-  return options.strict && anything_open(json) ? ExitCode::failure : ExitCode::success;
+  job.options.executor = nodes.get();
+  return assess_into(job);
 }
 
 Result<ExitCode> compare_folders(const std::string& before, const std::string& after,
@@ -144,6 +116,39 @@ Result<ExitCode> compare_folders(const std::string& before, const std::string& a
 }
 
 }  // namespace
+
+Result<ExitCode> assess_into(const AssessmentJob& job) {
+  const OutputPlan plan{
+      {"report.html", "report.pdf", "assessment.json", "checks.csv", "sights.csv"},
+      {"plans", "schedules"}};
+  const auto out = OutputFolder::claim(job.folder, plan);
+  if (!out) return out.problem();
+  if (!job.overwrite)
+    if (auto ok = refuse_files_of_others(out->path(), plan.files); !ok) return ok.problem();
+  ProgressLine line("assess");
+  const auto assessed =
+      assess(job.scene, job.options, interrupt_flag(), [&](const std::string& what, double share) {
+        line.put(fmt::format("{}: {:.0f} %", what, 100 * share), share >= 1, share);
+      });
+  if (!assessed) {
+    if (!interrupt_flag()) {
+      tell(assessed.problem());
+      return ExitCode::bad_input;
+    }
+    log_warning("interrupted; nothing was written");
+    return ExitCode::interrupted;
+  }
+  tell_findings(assessed->findings);
+  for (const Problem& warning : assessed->warnings)
+    if (std::none_of(assessed->findings.begin(), assessed->findings.end(),
+                     [&](const Finding& f) { return f.problem.text() == warning.text(); }))
+      warn(warning);
+  const Json json = assessment_json(*job.scene, assessed.value(), build.version);
+  if (auto ok = write_assessment(out->path(), json); !ok) return ok.problem();
+  print_summary(json);
+  if (auto ok = write_report_and_tell(out.value(), json, job.report); !ok) return ok.problem();
+  return job.strict && anything_open(json) ? ExitCode::failure : ExitCode::success;
+}
 
 Command assess_command() {
   const auto o = std::make_shared<AssessCommandOptions>();

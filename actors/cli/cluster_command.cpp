@@ -139,7 +139,7 @@ int cluster_up(const ClusterOptions& options) {
     if (&cluster.hosts[process.host] != &*host) continue;
     if (process.nodes.back() == cluster.controller()) controller = process.name;
     const auto& nodes = process.nodes;
-    if (!cluster.view.live && std::count(nodes.begin(), nodes.end(), cluster.display.node) > 0)
+    if (cluster.is_run() && std::count(nodes.begin(), nodes.end(), cluster.display.node) > 0)
       display = process.name;
     if (auto ok = children.start(cluster, process); !ok) {
       tell(ok.problem());

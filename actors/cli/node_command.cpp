@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "actors/assess/round_state.hpp"
+#include "actors/cli/assess_command.hpp"
 #include "actors/cli/command.hpp"
 #include "actors/cli/commands.hpp"
 #include "actors/cli/load_cluster.hpp"
@@ -19,6 +21,7 @@
 #include "actors/output/file_names.hpp"
 #include "actors/output/output_folder.hpp"
 #include "actors/run/flux_store.hpp"
+#include "actors/run/run_in_pieces.hpp"
 #include "actors/supervise/cluster_process.hpp"
 #include "actors/supervise/node_executor.hpp"
 #include "actors/view/live_states.hpp"
@@ -38,7 +41,7 @@ struct NodeOptions {
 /// The folder of the results, where this process is to write them: held until it ends.
 Result<std::optional<OutputFolder>> claim_results(const ClusterConfig& cluster,
                                                   const ClusterProcessRun& process) {
-  if (cluster.view.live || !process.shows()) return std::optional<OutputFolder>();
+  if (!process.shows()) return std::optional<OutputFolder>();
   const fs::path folder =
       cluster.run.out.empty() ? fs::path("out") / file_name_of(cluster.run.name) : cluster.run.out;
   OutputPlan plan = run_output(*process.local_run().scene().description, cluster.display.pictures);
@@ -80,19 +83,25 @@ void tell_the_time() {
   spdlog::set_pattern("%Y-%m-%dT%H:%M:%S.%eZ %^%l%$ %v", spdlog::pattern_time_type::utc);
 }
 
+/// Workers of states that are made by `states`, which outlives them.
+NodeWork work_of_states(StateMaker& states) {
+  NodeWork work;
+  work.worker = [&states](const RunSetup& run, const Machine& machine, const NodeSetup& node,
+                          const std::function<bool()>& stop) {
+    RunSetup of_states = run;
+    of_states.states = &states;
+    return run_worker(of_states, machine, node, stop);
+  };
+  return work;
+}
+
 /// The nodes of a cluster whose file has a table [view].
 Result<std::optional<StopReason>> view_on_nodes(const ClusterConfig& cluster,
                                                 ClusterProcessRun& process) {
   const LocalRun& base = process.local_run();
   const auto& scene = base.scene().description;
   LiveStates states(scene);
-  NodeWork work;
-  work.worker = [&](const RunSetup& run, const Machine& machine, const NodeSetup& node,
-                    const std::function<bool()>& stop) {
-    RunSetup of_states = run;
-    of_states.states = &states;
-    return run_worker(of_states, machine, node, stop);
-  };
+  NodeWork work = work_of_states(states);
   work.controller = [&](const RunSetup& run, const Machine& machine,
                         const NodeSetup& node) -> Result<StopReason> {
     auto started = NodeExecutor::start(run, machine, node);
@@ -112,6 +121,75 @@ Result<std::optional<StopReason>> view_on_nodes(const ClusterConfig& cluster,
     return StopReason::interrupted;
   };
   return process.run(interrupt_flag(), work);
+}
+
+/// Why nobody will trace any more for whoever waits for workers.
+class WorkerWatch {
+ public:
+  WorkerWatch(const ClusterConfig& cluster, const NodeExecutor& executor)
+      : cluster_(cluster), executor_(executor), without_since_(clock_.now()) {}
+
+  std::optional<Problem> fault() {
+    if (auto refused = executor_.fault()) return refused;
+    if (executor_.counters().workers > 0) {
+      any_ = true;
+      without_since_.reset();
+      return std::nullopt;
+    }
+    const Nanoseconds now = clock_.now();
+    if (!without_since_) without_since_ = now;  // nobody may have asked for a while
+    const Timeouts& patience = cluster_.timeouts;
+    if (now - *without_since_ <= (any_ ? patience.lost : patience.start)) return std::nullopt;
+    return problem_in(cluster_.file,
+                      any_ ? "all workers were lost: see to them and start anew"
+                           : "no worker has come within 'start_s' of [timeouts]: start them");
+  }
+
+ private:
+  const ClusterConfig& cluster_;
+  const NodeExecutor& executor_;
+  const SystemClock clock_;
+  std::optional<Nanoseconds> without_since_;
+  bool any_ = false;
+};
+
+/// What a cluster's file asks for in its table [assess].
+AssessmentJob assessment_of(const ClusterConfig& cluster, const LocalRun& base) {
+  AssessmentJob job;
+  job.scene = base.scene().description;
+  job.folder = cluster.run.out;
+  job.options.scenario = cluster.run.scenario;
+  job.options.rules = cluster.assess.rules;
+  job.options.deviations = cluster.assess.deviations;
+  job.options.seed = base.seed();
+  job.options.threads = default_threads();
+  job.options.rounds = cluster.assess.rounds;
+  job.options.smoke_factors = cluster.assess.smoke_scale;
+  return job;
+}
+
+/// The nodes of a cluster whose file has a table [assess].
+Result<ExitCode> assess_on_nodes(const ClusterConfig& cluster, ClusterProcessRun& process) {
+  AssessmentJob job = assessment_of(cluster, process.local_run());
+  RoundStates states(job.scene);
+  ExitCode code = ExitCode::success;
+  NodeWork work = work_of_states(states);
+  work.controller = [&](const RunSetup& run, const Machine& machine,
+                        const NodeSetup& node) -> Result<StopReason> {
+    auto started = NodeExecutor::start(run, machine, node);
+    if (!started) return started.problem();
+    NodeExecutor& executor = *started.value();
+    WorkerWatch watch(cluster, executor);
+    RunInPieces pieces(executor, [&] { return watch.fault(); });
+    job.options.executor = &pieces;
+    const auto assessed = assess_into(job);
+    if (!assessed) return assessed.problem();
+    code = watch.fault() ? ExitCode::failure : assessed.value();
+    return StopReason::particles;
+  };
+  const auto ended = process.run(interrupt_flag(), work);
+  if (!ended) return ended.problem();
+  return code;
 }
 
 int run_nodes(const NodeOptions& options) {
@@ -150,6 +228,12 @@ int run_nodes(const NodeOptions& options) {
     const auto viewed = view_on_nodes(cluster, *process.value());
     if (viewed) return ExitCode::success;
     tell(viewed.problem());
+    return ExitCode::failure;
+  }
+  if (cluster.assess.asked) {
+    const auto assessed = assess_on_nodes(cluster, *process.value());
+    if (assessed) return assessed.value();
+    tell(assessed.problem());
     return ExitCode::failure;
   }
   std::optional<RunDisplay> display;

@@ -3,6 +3,7 @@
 
 #include <charconv>
 #include <chrono>
+#include <functional>
 
 #include "actors/cli/command.hpp"
 #include "actors/cli/commands.hpp"
@@ -10,7 +11,7 @@
 #include "actors/cli/progress_line.hpp"
 #include "actors/cli/quantities.hpp"
 #include "actors/cli/signals.hpp"
-#include "actors/simulate/simulation.hpp"
+#include "actors/simulate/state_simulation.hpp"
 #include "actors/supervise/planned_nodes.hpp"
 #include "runtime/config/cluster_file.hpp"
 #include "runtime/core/clock.hpp"
@@ -32,6 +33,7 @@ struct SimCommandOptions {
   std::string faults = "swarm";
   std::string faults_last = "30s";
   std::string work = "60s";
+  bool states = false;
   bool twice = false;
   bool log = false;
 };
@@ -103,7 +105,12 @@ Result<SimOptions> sim_options(const SimCommandOptions& options) {
 }
 
 /// The scene with batches so small that there are many.
-Result<std::unique_ptr<SimScene>> sim_scene(const SimCommandOptions& options) {
+struct SimulatedScene {
+  std::shared_ptr<const CompiledScene> scene;
+  uint64_t seed = 0;
+  int64_t particles = 0;
+};
+Result<SimulatedScene> sim_scene(const SimCommandOptions& options) {
   const auto particles = parse_count(options.particles);
   if (!particles) return particles.problem();
   const auto loaded = load_scene(options.scene);
@@ -114,7 +121,7 @@ Result<std::unique_ptr<SimScene>> sim_scene(const SimCommandOptions& options) {
   if (!scenario) return scenario.problem();
   auto scene = compile_scene(description, scenario.value(), {options.cells});
   if (!scene) return scene.problem();
-  return std::make_unique<SimScene>(scene.value(), description->run.seed, particles.value());
+  return SimulatedScene{scene.value(), description->run.seed, particles.value()};
 }
 
 /// The one command that repeats it.
@@ -134,6 +141,7 @@ std::string command_of(const SimCommandOptions& options, uint64_t seed) {
   add("--faults", options.faults, usual.faults);
   add("--faults-last", options.faults_last, usual.faults_last);
   add("--work", options.work, usual.work);
+  if (options.states) text += " --states";
   return text;
 }
 
@@ -167,11 +175,23 @@ void print_run(uint64_t seed, const SimReport& report) {
               static_cast<unsigned long long>(report.caches.builds));
 }
 
+using Simulator = std::function<Result<SimReport>(const SimOptions&)>;
+
+/// Of a run, or of states of a scene that changes.
+Simulator simulator_of(const SimulatedScene& of, bool states) {
+  if (states) {
+    const auto all = std::make_shared<SimStates>(of.scene, of.seed, of.particles);
+    return [all](const SimOptions& options) { return simulate_states(*all, options); };
+  }
+  const auto run = std::make_shared<SimScene>(of.scene, of.seed, of.particles);
+  return [run](const SimOptions& options) { return simulate(*run, options); };
+}
+
 /// Errors: as simulate; with `twice`, a second run that is not the same.
-Result<SimReport> simulated(const SimScene& scene, const SimOptions& options, bool twice) {
-  auto report = simulate(scene, options);
+Result<SimReport> simulated(const Simulator& simulator, const SimOptions& options, bool twice) {
+  auto report = simulator(options);
   if (!report || !twice || !report->failure.empty()) return report;
-  const auto again = simulate(scene, options);
+  const auto again = simulator(options);
   if (again && again->trace_hash != report->trace_hash)
     report->failure =
         "a second run of this seed takes another course: something beside the seed decides";
@@ -185,6 +205,7 @@ Result<ExitCode> simulate_seeds(const SimCommandOptions& options) {
   if (!sim) return sim.problem();
   const auto scene = sim_scene(options);
   if (!scene) return scene.problem();
+  const Simulator simulator = simulator_of(scene.value(), options.states);
   install_interrupt_handler();
   if (!options.log) spdlog::set_level(spdlog::level::off);
   const SystemClock clock;
@@ -195,7 +216,7 @@ Result<ExitCode> simulate_seeds(const SimCommandOptions& options) {
   double virtual_s = 0;
   for (; done < seeds->count && !interrupt_flag(); ++done) {
     const uint64_t seed = sim->seed = seeds->first + done;
-    const auto report = simulated(*scene.value(), sim.value(), options.twice);
+    const auto report = simulated(simulator, sim.value(), options.twice);
     if (!report) return report.problem();
     events += report->world.events;
     virtual_s += static_cast<double>(report->virtual_time) * 1e-9;
@@ -257,6 +278,9 @@ Command sim_command() {
             &o->work,
             "Virtual time that one worker alone would trace for",
             {.form = Form::duration}},
+           {"--states", &o->states,
+            "States of a scene that changes, in place of a run: they are traced, left and traced "
+            "on"},
            {"--twice", &o->twice, "Two runs of each seed, which must be the same"},
            {"--log", &o->log, "Log of the nodes"}},
       .notes =

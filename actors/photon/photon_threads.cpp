@@ -18,9 +18,6 @@
 namespace luxodus {
 
 namespace {
-/// Batches whose plan is remembered: a lease that is late is lent again while some hundred others
-/// are out.
-constexpr size_t recent_batches = 1024;
 /// Scores set to zero at once: a megabyte, some 0.1 ms.
 constexpr int64_t scores_of_a_step = 1 << 17;
 }  // namespace
@@ -76,8 +73,7 @@ PhotonThreads::PhotonThreads(const CompiledScene& scene, const GeometryAccess& a
                tight_ ? Cleared::given_back : Cleared::kept},
               {scene.layout, static_cast<int>(scene.groups.size()), photopic_weights(scene),
                tight_ ? Cleared::given_back : Cleared::kept}},
-      plan_(scene),
-      recent_(recent_batches) {
+      planned_(scene) {
   for (size_t i = 0; i < config.fibers; ++i) tracers_.push_back(make_tracer(scene, access, seed));
   for (OpenBatch& batch : open_)
     batch.scores.reset(scene.layout, tight_ ? Cleared::given_back : Cleared::kept);
@@ -262,7 +258,7 @@ PhotonThreads::OpenBatch* PhotonThreads::open_next() {
   free->used = true;
   free->dropped = free->failed = false;
   free->lease = lease.id;
-  free->batch = planned(lease.batch);
+  free->batch = planned_.at(lease.batch);
   free->next_particle = 0;
   free->next_unit = 0;
   if (source_ != nullptr) {
@@ -277,18 +273,6 @@ PhotonThreads::OpenBatch* PhotonThreads::open_next() {
     config_.trace->begin(TraceKind::batch, free->lease, static_cast<uint64_t>(free->batch.number));
   scheduler_.fibers().wake_all(work_);  // there is work for more than who asked
   return &*free;
-}
-
-Batch PhotonThreads::planned(int64_t number) {
-  const auto place = [&](int64_t n) { return static_cast<size_t>(n) % recent_.size(); };
-  while (plan_.given() <= number) {
-    const Batch next = plan_.next();
-    recent_[place(next.number)] = next;
-  }
-  if (recent_[place(number)].number == number) return recent_[place(number)];
-  BatchPlan again(scene_);  // of a lease that was late, long ago
-  again.skip(number);
-  return again.next();
 }
 
 // ---- a tally that may be full ----------------------------------------------------------------

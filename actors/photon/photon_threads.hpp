@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "actors/photon/tally_need.hpp"
-#include "actors/run/batch_plan.hpp"
 #include "actors/run/leased_work.hpp"
+#include "actors/run/planned_batches.hpp"
 #include "runtime/actor/scheduler.hpp"
 #include "runtime/observe/node_trace.hpp"
 #include "scenes/transport/trace.hpp"
@@ -98,7 +98,6 @@ class PhotonThreads final : public LeasedWork {
   void trace_row(BatchTracer& tracer, OpenBatch& open, uint64_t first, int64_t count);
   std::optional<Portion> next_portion();
   OpenBatch* open_next();
-  Batch planned(int64_t number);
   void count_totals();
   bool fits(OpenBatch& open, size_t more);
   bool room_for_batch();
@@ -126,8 +125,7 @@ class PhotonThreads final : public LeasedWork {
   size_t merges_ = 0;                // of batches, under way
   size_t totals_bytes_[2] = {0, 0};  // in memory, when last counted: since then less at most
   size_t tally_bytes_ = 0;           // of all, as fits() has found it, or more
-  BatchPlan plan_;
-  std::vector<Batch> recent_;  // what was planned last, by number modulo its size
+  PlannedBatches planned_;
   struct WaitingLease {
     uint64_t id;
     int64_t batch;

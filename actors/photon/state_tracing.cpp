@@ -11,8 +11,6 @@ namespace luxodus {
 
 namespace {
 
-/// Particles of one turn: some 0.2 ms.
-constexpr int64_t portion_particles = 128;
 /// Leases at hand take about so long: short against what a person notices, long against the way to
 /// the coordinator and back.
 constexpr Nanoseconds leases_take = milliseconds(40);
@@ -20,9 +18,13 @@ constexpr size_t min_leases = 4, max_leases = 256;
 
 }  // namespace
 
-StateTracing::StateTracing(const CompiledScene& first, StateMaker& maker, Scheduler& scheduler,
-                           LeasePort& port)
-    : maker_(maker), scheduler_(scheduler), port_(port) {
+StateTracing::StateTracing(const CompiledScene& first, StateMaker& maker, int64_t portion,
+                           Scheduler& scheduler, LeasePort& port, TracerMaker make_tracer)
+    : maker_(maker),
+      portion_(portion),
+      scheduler_(scheduler),
+      port_(port),
+      make_tracer_(std::move(make_tracer)) {
   for (std::unique_ptr<Totals>& totals : totals_) totals = totals_of(first);
 }
 
@@ -34,6 +36,7 @@ void StateTracing::start() {
 void StateTracing::add_metrics(Metrics& metrics) const {
   const Counters& c = counters_;
   metrics.add_counter({"particles", "", "Particles traced.", ""}, c.particles);
+  metrics.add_counter({"eye_units", "", "Parts of signs, and probes, looked at.", ""}, c.eye_units);
   metrics.add_counter({"batches", "", "Batches merged here.", ""}, c.batches);
   metrics.add_counter({"states", "", "States of the scene entered.", ""}, c.states);
 }
@@ -60,8 +63,10 @@ void StateTracing::enter(ObjectId) {
   ++counters_.states;
   tracing_ = learnt_;
   const CompiledScene& scene = *tracing_->state->scene;
-  tracer_ =
-      make_batch_tracer(scene, GeometryAccess::resident(tracing_->state->index), tracing_->seed);
+  tracer_ = make_tracer_(scene, GeometryAccess::resident(tracing_->state->index), tracing_->seed);
+  planned_.reset();
+  if (tracing_->state->is_run) planned_.emplace(scene);
+  look_units_ = planned_ ? tracer_->look_units() : 0;
   for (std::unique_ptr<Totals>& totals : totals_) totals = totals_of(scene);
   batch_takes_ = 0;
 }
@@ -80,12 +85,14 @@ bool StateTracing::forget_merged() {
 
 // ---- leases -------------------------------------------------------------------------------------
 
+/// Others are asked for: nobody else knows that this node has nothing to do.
 void StateTracing::drop(std::span<const uint64_t> leases) {
   const auto named = [&](const Waiting& waiting) {
     return std::find(leases.begin(), leases.end(), waiting.lease) != leases.end();
   };
   std::erase_if(leases_, named);
   if (open_ && named(*open_)) open_.reset();
+  look_again();
 }
 
 void StateTracing::drop_all() {
@@ -141,24 +148,37 @@ void StateTracing::trace_until_the_end() try {
 /// False: there is nothing to trace.
 bool StateTracing::trace_portion() {
   if (!open_ && !open_next()) return false;
-  const CompiledScene& scene = *tracing_->state->scene;
-  const BatchRange batch = batch_of(open_->batch);
-  const int64_t count = std::min(portion_particles, scene.batch_particles - traced_);
-  const uint64_t first = first_particle_of(scene, batch.stream, batch.first);
-  tracer_->trace(batch.group, first + static_cast<uint64_t>(traced_), count, scores_);
-  counters_.particles += static_cast<uint64_t>(count);
-  traced_ += count;
-  if (traced_ == scene.batch_particles) close();
+  const int64_t batch_particles = tracing_->state->scene->batch_particles;
+  if (traced_ < batch_particles) {
+    const int64_t count = std::min(portion_, batch_particles - traced_);
+    const uint64_t first = batch_.first_particle + static_cast<uint64_t>(traced_);
+    tracer_->trace(batch_.group, first, count, scores_);
+    counters_.particles += static_cast<uint64_t>(count);
+    traced_ += count;
+  } else {
+    tracer_->look(batch_.number, looked_++, scores_);
+    ++counters_.eye_units;
+  }
+  if (traced_ == batch_particles && looked_ == look_units_) close();
   return true;
+}
+
+Batch StateTracing::batch_of_lease(int64_t number) {
+  const BatchRange batch = batch_of(number);
+  if (planned_) return planned_->at(batch.first);
+  const CompiledScene& scene = *tracing_->state->scene;
+  if (static_cast<size_t>(batch.group) >= scene.groups.size())
+    throw std::runtime_error("a batch was lent of a source group that is not there");
+  return {batch.first, batch.group, first_particle_of(scene, batch.stream, batch.first)};
 }
 
 bool StateTracing::open_next() {
   if (!tracing_ || leases_.empty()) return false;
   open_ = leases_.front();
   leases_.pop_front();
-  if (static_cast<size_t>(batch_of(open_->batch).group) >= tracing_->state->scene->groups.size())
-    throw std::runtime_error("a batch was lent of a source group that is not there");
+  batch_ = batch_of_lease(open_->batch);
   traced_ = 0;
+  looked_ = 0;
   opened_ = scheduler_.clock().now();
   scores_.reset(tracing_->state->scene->layout);
   ask_for_more();
@@ -167,7 +187,7 @@ bool StateTracing::open_next() {
 
 void StateTracing::close() {
   const uint64_t lease = open_->lease;
-  totals_[merging_]->merge(scores_, batch_of(open_->batch).group);
+  totals_[merging_]->merge(scores_, batch_.group);
   open_.reset();
   ++counters_.batches;
   batch_takes_ = std::max<Nanoseconds>(scheduler_.clock().now() - opened_, 1);

@@ -9,7 +9,8 @@
 
 namespace luxodus {
 
-/// Batches [first, first + count) of a source group.
+/// Batches [first, first + count) of a source group; of a run, by their numbers: then group and
+/// stream are 0.
 struct BatchRange {
   int group = 0;
   int stream = 0;  // what stands for the group in the ids of its particles

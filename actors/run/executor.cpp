@@ -18,6 +18,7 @@ void ThreadExecutor::trace(Work& work) {
       tracer->trace(batch->group, first_particle_of(scene, batch->stream, batch->first),
                     scene.batch_particles, scores);
       work.totals().merge(scores, batch->group);
+      work.merged(1);
     }
   };
   std::vector<std::thread> threads;

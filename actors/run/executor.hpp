@@ -27,6 +27,8 @@ class Work {
   virtual void give_back(const BatchRange& batches) = 0;
   virtual bool stopped() const = 0;
   virtual Totals& totals() = 0;
+  /// So many batches more are in totals(). Called by whoever merges.
+  virtual void merged(int64_t /*batches*/) {}
 };
 
 class Executor {

@@ -12,12 +12,6 @@ namespace luxodus {
 
 namespace {
 
-constexpr double report_every_s = 0.25;
-
-}  // namespace
-
-namespace {
-
 /// Another run's way to geometry.
 class RowsOfAnother final : public ParallelFor {
  public:

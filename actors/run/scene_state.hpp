@@ -31,6 +31,9 @@ struct TracedState {
   explicit TracedState(std::shared_ptr<const CompiledScene> of)
       : scene(std::move(of)), index(device, *scene) {}
   std::shared_ptr<const CompiledScene> scene;
+  /// Its batches are those of a run, by their numbers (BatchPlan), with paths from the eye; else
+  /// BatchRange says what they are.
+  bool is_run = false;
   EmbreeDevice device;
   SceneIndex index;
 };

@@ -40,6 +40,8 @@ struct StopRule {
   std::optional<StopReason> reason_to_stop(const RunProgress& run, int64_t batch_particles) const;
 };
 
+inline constexpr double report_every_s = 0.25;
+
 /// What people hear of a run while it goes on.
 struct Progress {
   int64_t particles = 0;

@@ -7,9 +7,6 @@
 
 namespace luxodus {
 
-namespace {
-
-/// Has all fibers return, as they do when they are cancelled.
 void end_fibers(Fibers& fibers) {
   fibers.cancel_all();
   while (fibers.live() > 0) {
@@ -24,6 +21,8 @@ std::string fault_of(const NodeShell& shell, const Fibers& fibers) {
     return fmt::format("it has left, and has {}", fibers.describe_live());
   return "";
 }
+
+namespace {
 
 /// Of what waits for a disk, which takes virtual time.
 CallsMaker calls_in_virtual_time(Buggify* buggify) {

@@ -20,6 +20,11 @@ class CheckedNode : public SimNode {
   virtual std::string regret() const = 0;
 };
 
+/// Has all fibers return, as they do when they are cancelled.
+void end_fibers(Fibers& fibers);
+/// What is wrong with the fibers of a node; "" where nothing is.
+std::string fault_of(const NodeShell& shell, const Fibers& fibers);
+
 /// A node's place in the world, where work is real and takes what it costs.
 NodeSeams charged_seams(SimWorld& world, NodeId self, const SimCosts& costs,
                         Buggify* buggify = nullptr);

@@ -11,7 +11,6 @@
 #include "actors/source/snapshot_journal.hpp"
 #include "runtime/core/check.hpp"
 #include "runtime/core/random.hpp"
-#include "runtime/sim/swarm.hpp"
 #include "runtime/storage/faulty_store.hpp"
 #include "runtime/storage/memory_store.hpp"
 
@@ -46,71 +45,7 @@ std::string SimScene::difference(const LocalRun& run) const {
   return "";
 }
 
-// ---- what nodes are like ----------------------------------------------------------------------
-
 namespace {
-
-/// Draws about nodes, in one order.
-class Draw {
- public:
-  explicit Draw(uint64_t seed) : random_(seed, RandomStream::faults) { random_.start(1); }
-  template <class T>
-  T one_of(std::initializer_list<T> choices) {
-    const auto at =
-        static_cast<size_t>(random_.uniform_double() * static_cast<double>(choices.size()));
-    return choices.begin()[std::min(at, choices.size() - 1)];
-  }
-
- private:
-  Random random_;
-};
-
-/// Room for the largest cell and one that is built, `more` times over.
-size_t tight_budget(const CompiledScene& scene, size_t more) {
-  const std::array holders{NodeId{0}};
-  const SceneObjects objects(scene, holders, 1);
-  return 2 * more * objects.largest_build_bytes();
-}
-
-NodesOptions drawn_nodes(Draw& draw, const CompiledScene& scene, const SimOptions& options) {
-  NodesOptions nodes = options.fixed;
-  nodes.nodes = options.nodes;
-  nodes.links = options.links;
-  nodes.fan_out = options.fan_out;
-  nodes.profile_share = 0;
-  nodes.sharing = false;  // each stands for a machine
-  if (!options.draw_nodes) return nodes;
-  nodes.pinned_share = 0;
-  nodes.fibers = draw.one_of<size_t>({1, 2, 4, 16, 64});
-  const auto room = draw.one_of<size_t>({0, 1, 1, 2, 8});
-  if (in_parts(scene) && room > 0) nodes.object_bytes = tight_budget(scene, room);
-  nodes.prefetch = draw.one_of<size_t>({0, 0, 1, 4});
-  nodes.replicas = std::min(draw.one_of<uint32_t>({1, 2, 3}), static_cast<uint32_t>(options.nodes));
-  nodes.tally_shards = std::min(draw.one_of<int>({1, 1, 2, 3}), options.nodes + 1);
-  if (options.fan_out > 0) nodes.tally_shards = 1;  // there is one level with them
-  return nodes;
-}
-
-/// Times and windows so small or so large that seldom ways are taken often.
-void draw_habits(Draw& draw, NodeSetup& node) {
-  node.net.small_chunk_bytes = draw.one_of<size_t>({256, 1024, 4096});
-  node.net.bulk_chunk_bytes = draw.one_of<size_t>({1024, 8192, 65536});
-  const auto chunks = draw.one_of<size_t>({1, 2, 4});
-  node.net.small_window_bytes = chunks * (node.net.small_chunk_bytes + 128);
-  node.net.bulk_window_bytes = chunks * (node.net.bulk_chunk_bytes + 128);
-  node.net.outbox_messages = draw.one_of<size_t>({2, 8, 64});
-  node.lease_time = draw.one_of<Nanoseconds>({seconds(3), seconds(10), seconds(60)});
-  node.photons.leases = draw.one_of<size_t>({1, 2, 4});
-  node.photons.open_batches = draw.one_of<size_t>({1, 2});
-  node.fetch.tries = draw.one_of<uint8_t>({1, 2, 4});
-  node.rejoin = draw.one_of<Nanoseconds>({seconds(3), seconds(10), seconds(60)});
-}
-
-uint64_t draw_life(uint64_t seed, NodeId node, uint32_t life) {
-  Random random(seed, RandomStream::simulation);
-  random.start(1 + (uint64_t{node.value} << 32) + life);
-  return random.bits64() | 1;
-}
 
 /// A display's disk, which outlives it. It looks at the run every now and then.
 class SimDisplay final : public DisplayWork {
@@ -143,9 +78,7 @@ class SimDisplay final : public DisplayWork {
   std::optional<FluxFile> flux_;
 };
 
-/// Of RandomStream::faults: the swarm, the nodes' habits and torn ends have those before.
-constexpr uint64_t rare_ways_stream = uint64_t{1} << 32;
-/// Behind those of all nodes.
+/// Of RandomStream::faults: behind those of drawn_nodes.cpp.
 constexpr uint64_t journal_stream = uint64_t{1} << 33;
 constexpr uint64_t display_stream = journal_stream + 1;
 
@@ -167,14 +100,13 @@ class Simulation {
  private:
   Simulation(const SimScene& scene, const SimOptions& options, PlannedNodes& nodes,
              const SimDisplay& display);
-  void set_up(const PlannedNodes& nodes);
-  FaultPlan fault_plan() const;
+  std::vector<NodeId> spared() const;
   std::unique_ptr<SimNode> make(NodeId node, uint32_t life);
   void begin_controller(uint32_t life);
   SnapshotJournal::Config drawn_journal() const;
   void go();
   std::string ended_well() const;
-  NodeId controller() const { return {static_cast<uint16_t>(setups_.size() - 1)}; }
+  NodeId controller() const { return setups_.controller(); }
   void note_last(const SimController& controller);
   void note_left(NodeId node, const CheckedNode& left);
   bool sharded() const { return !setup_.shards.owners.empty(); }
@@ -187,10 +119,10 @@ class Simulation {
   std::optional<FluxFile> snapshot_;  // and the snapshot, for which there is room, as on a real one
   std::unique_ptr<SnapshotJournal> journal_;
   const RunSetup& setup_;
-  std::vector<NodeSetup> setups_;   // the controller's is the last
-  std::vector<Buggify> rare_ways_;  // of each, of all its lives
+  const SimCosts costs_;
+  const FaultPlan faults_;
+  DrawnSetups setups_;
   StopRule stop_;
-  SimCosts costs_;
   SimReport report_;
   std::unique_ptr<SimWorld> world_;
   std::optional<StopReason> reason_;
@@ -200,82 +132,33 @@ class Simulation {
 
 Simulation::Simulation(const SimScene& scene, const SimOptions& options, PlannedNodes& nodes,
                        const SimDisplay& display)
-    : scene_(scene), options_(options), display_(display), setup_(nodes.setup()) {
+    : scene_(scene),
+      options_(options),
+      display_(display),
+      setup_(nodes.setup()),
+      costs_(costs_of(options, scene.particles())),
+      faults_(faults_of(options, setup_, spared())),
+      setups_(nodes, *scene.scene(), options, costs_, faults_),
+      begins_(setups_.count()) {
   stop_.particles = scene.particles();
-  costs_.particle_ns = static_cast<double>(options.work) / static_cast<double>(scene.particles());
-  set_up(nodes);
   SimSetup world;
-  world.nodes = static_cast<uint16_t>(setups_.size());
+  world.nodes = static_cast<uint16_t>(setups_.count());
   world.edges = edges_of(setup_.graph);
-  world.plan = fault_plan();
-  for (NodeSetup& node : setups_) node.faults = world.plan;  // of its stores
+  world.plan = faults_;
   world_ = std::make_unique<SimWorld>(world);
-  begins_.resize(setups_.size());
 }
 
-void Simulation::set_up(const PlannedNodes& nodes) {
-  setups_ = nodes.workers();
-  setups_.push_back(nodes.controller());
-  NodeSetup habits = nodes.controller();
-  Draw draw(options_.seed);
-  (void)drawn_nodes(draw, *scene_.scene(), options_);  // these draws come first
-  if (options_.draw_nodes) draw_habits(draw, habits);
-  // A turn shall be short against a beat.
-  const auto portion = std::clamp<int64_t>(
-      milliseconds(5) / std::max<Nanoseconds>(whole_ns(costs_.particle_ns), 1), 1, 128);
-  for (NodeSetup& node : setups_) {
-    const NetConfig own = node.net;
-    node.net = habits.net;
-    node.net.self = own.self;
-    node.net.identity = own.identity;
-    node.lease_time = habits.lease_time;
-    node.rejoin = habits.rejoin;
-    node.fetch.tries = habits.fetch.tries;
-    node.photons.leases = habits.photons.leases;
-    node.photons.open_batches = habits.photons.open_batches;
-    node.photons.portion = std::min(node.photons.portion, portion);
-    // Who waits so long sees the healing, and the world sees who has waited in vain.
-    node.start = node.lost = options_.patience / 2;
-    node.stall = seconds(3600);
-  }
-  if (!options_.draw_nodes && !options_.rare_ways) return;
-  rare_ways_.reserve(setups_.size());
-  for (NodeSetup& node : setups_) {
-    rare_ways_.emplace_back(options_.seed, rare_ways_stream + node.net.self.value);
-    node.buggify = node.net.buggify = &rare_ways_.back();
-  }
-}
-
-FaultPlan Simulation::fault_plan() const {
-  if (options_.plan) {
-    FaultPlan plan = *options_.plan;
-    plan.seed ^= options_.seed;  // the same faults, otherwise by chance
-    return plan;
-  }
-  if (!options_.faults) {
-    FaultPlan quiet;  // a rack's network
-    quiet.seed = options_.seed;
-    quiet.links.delay = microseconds(50);
-    quiet.links.jitter = microseconds(20);
-    quiet.links.bytes_per_second = 1e9;
-    return quiet;
-  }
-  SwarmFrame frame;
-  frame.edges = edges_of(setup_.graph);
-  frame.nodes = static_cast<uint16_t>(setups_.size());
-  frame.lasts = options_.faults_last;
-  // A shard of the totals does not survive its node, nor a run in shards its controller.
-  if (sharded()) {
-    frame.spared = setup_.shards.owners;
-    frame.spared.push_back(controller());
-  }
-  return swarm(options_.seed, frame);
+/// A shard of the totals does not survive its node, nor a run in shards its controller.
+std::vector<NodeId> Simulation::spared() const {
+  if (!sharded()) return {};
+  std::vector<NodeId> out = setup_.shards.owners;
+  out.push_back({static_cast<uint16_t>(setup_.graph.workers())});
+  return out;
 }
 
 std::unique_ptr<SimNode> Simulation::make(NodeId node, uint32_t life) {
   begins_[node.value] = world_->now();
-  NodeSetup& setup = setups_[node.value];
-  setup.net.incarnation = {draw_life(options_.seed, node, life)};
+  NodeSetup& setup = setups_.of_life(node, life);
   if (node == controller()) {
     begin_controller(life);
     return std::make_unique<SimController>(setup_, setup, *run_, stop_, *world_, costs_,
@@ -302,7 +185,7 @@ void Simulation::begin_controller(uint32_t life) {
   if (snapshot_)
     LUX_CHECK(take_flux(*snapshot_, {}, *run_).ok(), "a simulated disk gives back a snapshot");
   auto store = std::make_unique<FaultyStore>(std::make_unique<MemoryStore>(disk_), controller(),
-                                             fault_plan(), world_->clock(controller()));
+                                             faults_, world_->clock(controller()));
   auto journal = FluxJournal::open(std::move(store), *run_);
   LUX_CHECK(journal.ok(), "a simulated disk gives back what was kept");
   const auto make_snapshot = [this]() -> Result<void> {
@@ -370,7 +253,7 @@ void Simulation::go() {
   report_.trace_hash = world_->trace_hash();
   report_.world = world_->counters();
   world_.reset();  // its nodes add what they did
-  for (const Buggify& ways : rare_ways_) report_.rare_ways += ways.taken();
+  report_.rare_ways = setups_.rare_ways_taken();
 }
 
 std::string Simulation::ended_well() const {
@@ -382,8 +265,7 @@ std::string Simulation::ended_well() const {
 }
 
 Result<SimReport> Simulation::run(const SimScene& scene, const SimOptions& options) {
-  Draw draw(options.seed);
-  NodesOptions wanted = drawn_nodes(draw, *scene.scene(), options);
+  NodesOptions wanted = drawn_nodes(*scene.scene(), options);
   SimDisplay display(scene);
   wanted.display = &display;
   wanted.display_node = drawn_display(options);

@@ -101,6 +101,7 @@ void StateCoordinator::stop() {
 
 void StateCoordinator::counted(const Letter<Flush>&, std::span<const int64_t> batches) {
   for (const int64_t batch : batches) out_.erase(batch);
+  if (work_ != nullptr) work_->merged(static_cast<int64_t>(batches.size()));
   end_when_done();
 }
 

@@ -290,7 +290,7 @@ ObserveOptions ClusterProcessRun::observe_options() const {
 }
 
 bool ClusterProcessRun::shows() const {
-  return !cluster_.view.live && std::count(nodes_.begin(), nodes_.end(), cluster_.display.node) > 0;
+  return cluster_.is_run() && std::count(nodes_.begin(), nodes_.end(), cluster_.display.node) > 0;
 }
 
 Result<void> ClusterProcessRun::open_journal(const Clock& clock) {
@@ -362,14 +362,14 @@ Result<std::unique_ptr<ClusterProcessRun::Prepared>> ClusterProcessRun::prepare_
     DisplayWork* display) {
   std::vector<Admitted> admitted;
   for (const auto& [node, key] : public_keys_) admitted.push_back({node, key});
-  const bool one_level = !cluster_.tally.shards.empty() || cluster_.view.live;
+  const bool one_level = !cluster_.tally.shards.empty() || !cluster_.is_run();
   const uint32_t fan_out = chosen_fan_out(cluster_.lease.fan_out, graph_.workers(), one_level);
   auto out = std::make_unique<Prepared>(*run_, graph_, fan_out, admitted,
                                         fetches_ ? nullptr : &run_->index());
   RunSetup& setup = out->setup;
   for (const ClusterNode& node : cluster_.nodes) setup.names.push_back(node.name);
   setup.shards.owners = cluster_.tally.shards;
-  if (!cluster_.view.live) setup.display = cluster_.display.node;
+  if (cluster_.is_run()) setup.display = cluster_.display.node;
   if (fetches_) {
     const std::vector<NodeId> holders = holders_of(cluster_);
     out->objects.emplace(run_->scene(), holders, std::min<size_t>(replicas(), holders.size()));
@@ -441,9 +441,10 @@ Result<std::optional<StopReason>> ClusterProcessRun::run(
 Result<std::optional<StopReason>> ClusterProcessRun::run(const std::atomic<bool>& interrupt,
                                                          const NodeWork& work) {
   if (fetches_)
-    return problem_in(cluster_.file,
-                      "a live view needs nodes that hold the whole scene: raise object_bytes in "
-                      "[budget]");
+    return problem_in(
+        cluster_.file,
+        "[view] and [assess] need nodes that hold the whole scene: raise object_bytes in "
+        "[budget]");
   auto prepared = prepare_nodes(nullptr);
   if (!prepared) return prepared.problem();
   const Prepared& nodes = *prepared.value();

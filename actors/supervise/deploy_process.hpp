@@ -17,7 +17,7 @@ inline bool hosts_controller(const ClusterConfig& cluster, const ClusterProcess&
 inline bool writes_results(const ClusterConfig& cluster, const ClusterProcess& process) {
   const auto& nodes = process.nodes;
   return hosts_controller(cluster, process) ||
-         (!cluster.view.live &&
+         (cluster.is_run() &&
           std::find(nodes.begin(), nodes.end(), cluster.display.node) != nodes.end());
 }
 

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "actors/supervise/node_plan.hpp"
+#include "actors/supervise/state_node.hpp"
 #include "runtime/core/log.hpp"
 
 namespace luxodus {
@@ -11,16 +11,6 @@ namespace {
 
 /// How often whoever traces asks whether it shall stop.
 constexpr std::chrono::milliseconds stop_every(5);
-/// Batches of one question: a worker wants as many as take some 40 ms.
-constexpr uint32_t leases_at_once = 256;
-
-/// Who is out of reach is not waited for: what it had is traced by others at once.
-CoordinatorConfig impatient_config(const RunSetup& run, const NodeSetup& node) {
-  CoordinatorConfig config = coordinator_config(run, node);
-  config.lost = 0;
-  config.max_leases = leases_at_once;
-  return config;
-}
 
 }  // namespace
 
@@ -101,44 +91,47 @@ void NodeExecutor::begun(std::optional<Problem> fault) {
   changed_.notify_all();
 }
 
+/// While it is open, whoever traces reaches the node.
+class NodeExecutor::Door {
+ public:
+  Door(NodeExecutor& executor, StateNode& node) : executor_(executor) {
+    const std::lock_guard lock(executor_.mutex_);
+    executor_.shell_ = &node.shell();
+    executor_.coordinator_ = &node.coordinator();
+  }
+  ~Door() {
+    const std::lock_guard lock(executor_.mutex_);
+    executor_.shell_ = nullptr;
+    executor_.coordinator_ = nullptr;
+    executor_.changed_.notify_all();
+  }
+  Door(const Door&) = delete;
+  Door& operator=(const Door&) = delete;
+
+ private:
+  NodeExecutor& executor_;
+};
+
 void NodeExecutor::work(const Machine& machine) {
   try {
     NodeTransport transport(machine, node_);
-    NodeShell shell({controller_net(run_, node_), controller_limits(node_),
-                     ShellConfig{}.max_payload_bytes, node_.shutdown_phase, run_.routes},
-                    run_.graph, machine.clock, transport.transport());
-    const auto done = [this] {
+    StateNode node(run_, node_, transport.seams(), [this] {
       const std::lock_guard lock(mutex_);
       tracing_ = false;
       changed_.notify_all();
-    };
-    StateCoordinator coordinator(impatient_config(run_, node_), run_.scene, done, shell.scheduler(),
-                                 shell.network(), shell.actors());
+    });
     if (auto joined = join_links(transport.sockets(), node_); !joined)
       return begun(joined.problem());
-    shell.add(ActorName::coordinator, coordinator);
-    coordinator.start();
-    {
-      const std::lock_guard lock(mutex_);
-      shell_ = &shell;
-      coordinator_ = &coordinator;
-    }
+    node.start([this] { do_what_is_wished(); });
+    const Door door(*this, node);
     begun(std::nullopt);
-    shell.begin([&] {
-      do_what_is_wished();
-      return coordinator.ended();
-    });
-    shell.run();
-    const auto& verdict = shell.supervisor().verdict();
+    node.shell().run();
+    const auto& verdict = node.shell().supervisor().verdict();
     begun(verdict ? std::optional(problem(verdict->text)) : std::nullopt);
   } catch (const std::exception& e) {
     log_error("view=broken text=\"{}\"", e.what());
     begun(problem(e.what()));
   }
-  const std::lock_guard lock(mutex_);
-  shell_ = nullptr;
-  coordinator_ = nullptr;
-  changed_.notify_all();
 }
 
 /// In the order in which it may have been wished.

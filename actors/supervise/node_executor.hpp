@@ -44,6 +44,7 @@ class NodeExecutor final : public Executor {
   Counters counters() const;
 
  private:
+  class Door;
   NodeExecutor(const RunSetup& run, const NodeSetup& node) : run_(run), node_(node) {}
   void work(const Machine& machine);
   void begun(std::optional<Problem> fault);

@@ -49,7 +49,7 @@ Worker::Worker(const RunSetup& run, const NodeSetup& node, const NodeSeams& seam
               shell_.actors()),
       photons_(own_photons(seams)),
       coordinator_(own_coordinator()),
-      states_(own_states()) {
+      states_(own_states(seams)) {
   if (node.display == nullptr) return;
   display_calls_ = seams.make_calls(shell_.scheduler());
   display_.emplace(display_config(node), *node.display, *display_calls_, shell_.scheduler(),
@@ -78,9 +78,10 @@ std::unique_ptr<PhotonThreads> Worker::own_photons(const NodeSeams& seams) {
                                          seams.make_tracer);
 }
 
-std::unique_ptr<StateTracing> Worker::own_states() {
+std::unique_ptr<StateTracing> Worker::own_states(const NodeSeams& seams) {
   if (run_.states == nullptr) return nullptr;
-  return std::make_unique<StateTracing>(run_.scene, *run_.states, shell_.scheduler(), tracer_);
+  return std::make_unique<StateTracing>(run_.scene, *run_.states, node_.photons.portion,
+                                        shell_.scheduler(), tracer_, seams.make_tracer);
 }
 
 std::unique_ptr<SubCoordinator> Worker::own_coordinator() {

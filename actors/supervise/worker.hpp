@@ -45,7 +45,7 @@ class Worker {
   bool end_run(const Verdict& verdict);
   std::unique_ptr<TallyShard> own_shard();
   std::unique_ptr<PhotonThreads> own_photons(const NodeSeams& seams);
-  std::unique_ptr<StateTracing> own_states();
+  std::unique_ptr<StateTracing> own_states(const NodeSeams& seams);
   std::unique_ptr<SubCoordinator> own_coordinator();
   LeasedWork& work();
   bool coordinates() const { return run_.coordinates(node_.net.self); }

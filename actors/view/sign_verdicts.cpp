@@ -73,8 +73,6 @@ Json sign_verdicts(const SceneDescription& scene, const SceneEdits& edits,
     return refused("there is no sign \"" + sign + "\"");
   auto scenario = find_scenario(scene, edits.scenario);
   if (!scenario) return refused(scenario.problem().what);
-  scenario->smoke_factor *= edits.smoke;
-  for (Scenario::Factor& medium : scenario->media) medium.factor *= edits.smoke;
   scenario->seconds_after_failure = 0;  // what time does is among the factors
   scenario->says_seconds = false;
   AssessOptions asked;
@@ -84,7 +82,8 @@ Json sign_verdicts(const SceneDescription& scene, const SceneEdits& edits,
   asked.sign = sign;
   Assessment found;
   const auto done = assess_sights(
-      now.value(), scenario.value(), asked, interrupt, [](const std::string&, double) {}, found);
+      now.value(), scenario.value(), edits.smoke, asked, interrupt,
+      [](const std::string&, double) {}, found);
   if (!done) return refused(done.problem().what);
   Json rows = Json::array();
   for (const SightRow& row : found.sights)
@@ -97,7 +96,7 @@ Json sign_verdicts(const SceneDescription& scene, const SceneEdits& edits,
   return {{"type", "sign"},
           {"name", sign},
           {"rows", rows},
-          {"note", state_note(now.value(), scenario.value())}};
+          {"note", state_note(now.value(), thickened(scenario.value(), edits.smoke))}};
 }
 
 }  // namespace luxodus

@@ -151,6 +151,14 @@ struct ViewChoice {
   std::filesystem::path save_folder;  // of variants, on the controller's host
 };
 
+/// Whether nodes trace for an assessment, which the controller's process makes.
+struct AssessChoice {
+  bool asked = false;
+  std::vector<std::string> rules, deviations;  // none: those of the scene
+  int rounds = 4;
+  std::vector<double> smoke_scale;  // factors of a sweep
+};
+
 struct ClusterConfig {
   std::filesystem::path file;
   RunChoice run;
@@ -168,12 +176,16 @@ struct ClusterConfig {
   KeysChoice keys;
   ObserveChoice observe;
   ViewChoice view;
+  AssessChoice assess;
   FaultPlan faults;  // on purpose; none in most files
 
   const ClusterNode& node(NodeId id) const { return nodes[id.value]; }
   const ClusterHost& host_of(NodeId id) const { return hosts[node(id).host]; }
   NodeId controller() const { return NodeId{static_cast<uint16_t>(nodes.size() - 1)}; }
   size_t workers() const { return nodes.size() - 1; }
+  /// Whether the nodes trace one run, which a display shows; else what the controller's process
+  /// asks for, piece by piece.
+  bool is_run() const { return !view.live && !assess.asked; }
 };
 
 /// The worker by which a controller of this name traces, where it does.

@@ -96,6 +96,10 @@ void read_services(TableReader& top, ClusterReading& reading) {
   reading.cluster.display.preview_s = display.number("preview_s");
   if (top.has("display") && top.has("view"))
     display.problem("node", "a live view writes no results: leave out [display] or [view]");
+  if (top.has("display") && top.has("assess"))
+    display.problem("node",
+                    "the controller's process writes an assessment: leave out [display] or "
+                    "[assess]");
 
   TableReader keys = reader_of(top, "keys");
   reading.cluster.keys = {keys.path("folder"), keys.flag("insecure")};
@@ -124,6 +128,25 @@ void read_view(TableReader& top, ClusterReading& reading) {
   view.address = keys.text("address");
   if (keys.has("allow_host")) view.allow_host = keys.text("allow_host");
   view.save_folder = keys.path("save_folder");
+}
+
+/// An assessment traces until its verdicts are there.
+void read_assess(TableReader& top, ClusterReading& reading) {
+  AssessChoice& assess = reading.cluster.assess;
+  assess.asked = top.has("assess");
+  TableReader keys = reader_of(top, "assess");
+  assess.rules = keys.texts("rules");
+  assess.deviations = keys.texts("deviations");
+  assess.rounds = static_cast<int>(keys.integer("rounds"));
+  assess.smoke_scale = keys.numbers("smoke_scale");
+  if (!assess.asked) return;
+  if (top.has("view"))
+    keys.problem("one cluster serves a live view or assesses: leave out [view] or [assess]");
+  const RunChoice& run = reading.cluster.run;
+  if (run.particles || run.relative_error || run.time_s)
+    keys.problem(
+        "an assessment traces what its verdicts need: leave out 'particles', "
+        "'relative_error' and 'time_s' in [run], and say 'rounds' here");
 }
 
 void check_fan_out(ClusterReading& reading) {
@@ -155,6 +178,7 @@ void read_tables(const toml::Table& document, ClusterReading& reading) {
   read_services(top, reading);
   const uint16_t metrics_port = read_observe(top, reading);
   read_view(top, reading);
+  read_assess(top, reading);
   read_faults(top, reading);
   if (reading.findings.any_problem()) return;
   form_processes(reading, metrics_port);

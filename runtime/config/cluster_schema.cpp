@@ -31,6 +31,7 @@ std::vector<TableSpec> run_tables() {
            {"keys", "table", "", "", "", "by which nodes know each other"},
            {"observe", "table", "", "", "", "what can be seen of a run"},
            {"view", "table", "", "", "", "a live view in place of a run that ends"},
+           {"assess", "table", "", "", "", "an assessment in place of a run"},
            {"faults", "table", "", "", "", "what shall go wrong, on purpose: for rehearsals"},
        }},
       {"run",
@@ -268,6 +269,19 @@ std::vector<TableSpec> service_tables() {
            {"save_folder", "path", "", "", "",
             "where variants are saved, on the controller's host; the folder it was started in "
             "unless said"},
+       }},
+      {"assess",
+       "`[assess]`: the controller's process assesses the scene, as `luxodus assess` does, and all "
+       "workers trace for it; every node must hold the whole scene. The report goes to `out` of "
+       "`[run]`, whose `scenario` is judged",
+       {
+           {"rules", "texts", "", "", "", "rule sets; those of the scene unless said"},
+           {"deviations", "texts", "", "", "",
+            "national deviations from them; those of the scene unless said"},
+           {"rounds", "integer", "", "4", "[1, 8]",
+            "of paths, each of four times as many, for what is undecided"},
+           {"smoke_scale", "numbers", "", "[]", "[0, 1e6]",
+            "signs are assessed again with all smoke times each of these"},
        }},
   };
 }
