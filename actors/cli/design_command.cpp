@@ -12,6 +12,7 @@
 #include "actors/cli/signals.hpp"
 #include "actors/cli/version.hpp"
 #include "actors/design/design_files.hpp"
+#include "actors/design/smoke_section.hpp"
 #include "actors/output/file_names.hpp"
 #include "actors/output/output_folder.hpp"
 #include "runtime/core/log.hpp"
@@ -88,6 +89,14 @@ void print_design(const SceneDescription& scene, const DesignResult& result) {
   }
 }
 
+void print_smoke(const DesignResult& result) {
+  const Json smoke = smoke_json(*result.smoke);
+  for (const std::string& words : smoke_words(Texts(Language::en), smoke))
+    std::printf("in smoke: %s\n", words.c_str());
+  std::printf("%zu layouts judged in smoke in %.1f s\n", result.smoke->layouts.size(),
+              result.smoke->seconds);
+}
+
 Result<ExitCode> tell_none(const SceneDescription& scene, const DesignResult& result) {
   if (result.answer.end == LayoutEnd::infeasible) {
     std::printf("no layout exists:\n");
@@ -116,7 +125,7 @@ Result<ExitCode> design_scene(DesignCommandOptions o) {
   if (!scene) return ExitCode::bad_input;
   const fs::path folder =
       o.out.empty() ? fs::path("out") / file_name_of(scene->name + "-designed") : fs::path(o.out);
-  const auto out = OutputFolder::claim(folder, {design_files, {"plans"}});
+  const auto out = OutputFolder::claim(folder, {design_files, {"plans", "alternatives"}});
   if (!out) return out.problem();
   if (!o.overwrite)
     if (auto ok = refuse_designs_of_others(out->path()); !ok) return ok.problem();
@@ -138,9 +147,10 @@ Result<ExitCode> design_scene(DesignCommandOptions o) {
       !ok)
     return ok.problem();
   print_design(*scene, result.value());
+  if (result->smoke) print_smoke(result.value());
   for (const char* file : {"design.html", "layout.toml"})
     std::printf("written to %s\n", (out->named() / file).string().c_str());
-  if (result->answer.end == LayoutEnd::interrupted) {
+  if (result->answer.end == LayoutEnd::interrupted || interrupt_flag()) {
     log_warning("interrupted; the best layout so far was written");
     return ExitCode::interrupted;
   }
@@ -174,6 +184,11 @@ Command design_command() {
             &o->design.deviations,
             "National deviations from the rule sets, as of assess",
             {.form = Form::name, .otherwise = "those of the scene", .comma_separated = true}},
+           {"--in-smoke",
+            &o->design.in_smoke,
+            "Scenarios in whose smoke the best layout and others are judged, by what people read "
+            "of the signs",
+            {.form = Form::name, .otherwise = "those of the scene", .comma_separated = true}},
            {"--time", &o->time, "Time of the search, e.g. 30s, 5m", {.form = Form::duration}},
            {"--gap",
             &o->gap,
@@ -190,10 +205,12 @@ Command design_command() {
       .notes =
           "Needs routes or areas in the scene; [design] says what may be placed where, and has "
           "defaults. Writes layout.toml, a variant that assess, compare, run and view take, "
-          "design.html, design.json, luminaires.csv and plans/ (SVG, DXF). Ctrl-C keeps the best "
-          "layout so far. Exit code 1 where no layout exists, with what cannot hold.\n"
+          "design.html, design.json, luminaires.csv and plans/ (SVG, DXF); with --in-smoke also "
+          "alternatives/, other layouts as variants. Ctrl-C keeps the best layout so far. Exit "
+          "code 1 where no layout exists, with what cannot hold.\n"
           "  luxodus design scenes/library/office_floor.toml --out out/layout\n"
           "  luxodus design office.toml --rules en1838-2024 --time 30s --gap 3%\n"
+          "  luxodus design office.toml --in-smoke smoke_emergency\n"
           "  luxodus assess out/layout/layout.toml",
       .run = [o] { return exit_code_of(design_scene(*o)); }};
 }

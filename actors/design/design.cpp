@@ -7,6 +7,7 @@
 #include <limits>
 #include <set>
 
+#include "actors/design/alternatives.hpp"
 #include "actors/design/demands.hpp"
 #include "runtime/core/clock.hpp"
 
@@ -73,9 +74,24 @@ bool comes_before(const LuminaireCandidate& a, const LuminaireCandidate& b) {
   return p.y < q.y;
 }
 
-void take_layout(const SceneDescription& scene, const Candidates& candidates, const Layout& layout,
-                 DesignResult& out) {
-  out.luminaires.clear();
+std::shared_ptr<const SceneDescription> variant_of(const SceneDescription& scene,
+                                                   const PlacedLayout& layout) {
+  auto out = std::make_shared<SceneDescription>(scene);
+  std::erase_if(out->emitters, [&](const Emitter& e) {
+    return std::find(layout.removed.begin(), layout.removed.end(), e.name) != layout.removed.end();
+  });
+  for (const PlacedLuminaire& one : layout.luminaires) {
+    if (!one.is_new()) continue;
+    Emitter e = emitter_of(scene, *scene.design, one.candidate);
+    e.name = one.name;
+    out->emitters.push_back(std::move(e));
+  }
+  return out;
+}
+
+PlacedLayout placed(const SceneDescription& scene, const Candidates& candidates,
+                    const Layout& layout) {
+  PlacedLayout out;
   out.removed = candidates.removed;
   std::vector<LuminaireCandidate> fresh;
   for (size_t i = 0; i < candidates.all.size(); ++i) {
@@ -92,20 +108,7 @@ void take_layout(const SceneDescription& scene, const Candidates& candidates, co
   size_t number = 0;
   for (LuminaireCandidate& one : fresh)
     out.luminaires.push_back({std::move(one), prefix + std::to_string(++number)});
-}
-
-std::shared_ptr<const SceneDescription> variant_of(const SceneDescription& scene,
-                                                   const DesignResult& result) {
-  auto out = std::make_shared<SceneDescription>(scene);
-  std::erase_if(out->emitters, [&](const Emitter& e) {
-    return std::find(result.removed.begin(), result.removed.end(), e.name) != result.removed.end();
-  });
-  for (const PlacedLuminaire& one : result.luminaires) {
-    if (!one.is_new()) continue;
-    Emitter e = emitter_of(scene, *scene.design, one.candidate);
-    e.name = one.name;
-    out->emitters.push_back(std::move(e));
-  }
+  out.variant = variant_of(scene, out);
   return out;
 }
 
@@ -151,12 +154,14 @@ class Designing {
       solve();
       if (out_.answer.layout.empty()) return std::move(out_);
       if (auto problem = judge()) return *problem;
-      const auto failing = failing_checks();
+      const auto failing = failing_checks(out_, out_.assessment, &out_.others);
       if (failing.empty()) break;
       if (out_.verifications == max_verifications || !ask_for_more(failing))
         return rejected(failing.front());
     }
     out_.tightest = tightest_of(demands_->problem(), out_.answer.layout);
+    if (!scenarios_in_smoke().empty() && !interrupt_)
+      if (auto problem = judge_alternatives()) return *problem;
     return std::move(out_);
   }
 
@@ -165,6 +170,8 @@ class Designing {
 
   std::optional<Problem> prepare() {
     progress_("inspecting the scene", no_objective, 0);
+    if (const auto& smoke = scenarios_in_smoke(); !smoke.empty())
+      if (auto ok = check_smoke_stage(*scene_, smoke); !ok) return ok.problem();
     auto scenario = judged_scenario(*scene_, options_.scenario);
     if (!scenario) return scenario.problem();
     auto codes = judged_codes(*scene_, options_.rules, options_.deviations);
@@ -210,37 +217,94 @@ class Designing {
 
   std::optional<Problem> judge() {
     progress_("assessing the layout", out_.answer.objective, out_.answer.bound);
-    take_layout(*scene_, candidates_, out_.answer.layout, out_);
-    out_.variant = variant_of(*scene_, out_);
+    static_cast<PlacedLayout&>(out_) = placed(*scene_, candidates_, out_.answer.layout);
+    auto assessed = assessed_by_codes(out_.variant);
+    if (!assessed) return assessed.problem();
+    out_.assessment = std::move(assessed).value();
+    return std::nullopt;
+  }
+
+  /// A layout that was found before an interrupt is assessed all the same: it takes seconds.
+  Result<Assessment> assessed_by_codes(const std::shared_ptr<const SceneDescription>& variant) {
     AssessOptions asked;
     asked.scenario = options_.scenario;
     asked.rules = options_.rules;
     asked.deviations = options_.deviations;
     asked.threads = options_.threads;
     asked.reality = false;
-    // The layout that was found before an interrupt is assessed all the same: it takes seconds.
     static const std::atomic<bool> never{false};
-    auto assessed = assess(out_.variant, asked, never, [](const std::string&, double) {});
-    if (!assessed) return assessed.problem();
-    out_.assessment = std::move(assessed).value();
-    return std::nullopt;
+    return assess(variant, asked, never, [](const std::string&, double) {});
   }
 
-  /// Those that luminaires of the layout decide; others go to `others`.
-  std::vector<Check> failing_checks() {
+  /// Those that luminaires of the layout decide; others go to `others`, unless it is null.
+  std::vector<Check> failing_checks(const PlacedLayout& layout, const Assessment& assessment,
+                                    std::vector<Check>* others) {
     std::set<std::string> ours;
-    for (const PlacedLuminaire& one : out_.luminaires)
+    for (const PlacedLuminaire& one : layout.luminaires)
       if (one.is_new()) ours.insert("luminaire \"" + one.name + "\"");
     std::vector<Check> out;
-    out_.others.clear();
-    for (const Check& check : out_.assessment.checks) {
+    if (others != nullptr) others->clear();
+    for (const Check& check : assessment.checks) {
       if (check.verdict != CheckVerdict::fail) continue;
       const bool of_one = check.subject.starts_with("luminaire \"");
       const bool decided = is_of_luminaires(check.rule.id) &&
                            (!of_one || ours.contains(check.subject)) && !demands_->is_hidden(check);
-      (decided ? out : out_.others).push_back(check);
+      if (decided)
+        out.push_back(check);
+      else if (others != nullptr)
+        others->push_back(check);
     }
     return out;
+  }
+
+  const std::vector<std::string>& scenarios_in_smoke() const {
+    return options_.in_smoke.empty() ? scene_->design->in_smoke : options_.in_smoke;
+  }
+
+  JudgedLayout contender(std::string name, PlacedLayout layout, const Layout& chosen) const {
+    JudgedLayout out;
+    out.name = std::move(name);
+    out.objective = objective_of(demands_->problem(), chosen);
+    for (const PlacedLuminaire& one : layout.luminaires) {
+      if (!one.is_new()) continue;
+      const DesignType& type = scene_->design->types[one.candidate.type];
+      out.cost += type.cost;
+      out.watts += type.watts;
+      ++out.placed;
+    }
+    out.layout = std::move(layout);
+    return out;
+  }
+
+  /// The best by the rules, and others that pass them, race in smoke.
+  std::optional<Problem> judge_alternatives() {
+    const auto tell = [&](const std::string& what) {
+      progress_(what, out_.answer.objective, out_.answer.bound);
+    };
+    tell("looking for other layouts");
+    AlternativesWish wish;
+    wish.count = scene_->design->alternatives;
+    wish.seed = options_.seed;
+    std::vector<JudgedLayout> layouts{contender("A", out_, out_.answer.layout)};
+    for (const Layout& chosen :
+         alternatives_to(demands_->problem(), out_.answer.layout, wish, interrupt_)) {
+      if (interrupt_) break;
+      tell("assessing other layouts by the rules");
+      PlacedLayout layout = placed(*scene_, candidates_, chosen);
+      const auto assessed = assessed_by_codes(layout.variant);
+      if (!assessed) return assessed.problem();
+      if (!failing_checks(layout, assessed.value(), nullptr).empty()) continue;
+      const auto letter = static_cast<char>('A' + layouts.size());
+      layouts.push_back(contender(std::string(1, letter), std::move(layout), chosen));
+    }
+    SmokeStageOptions asked;
+    asked.scenarios = scenarios_in_smoke();
+    asked.seed = options_.seed;
+    asked.threads = options_.threads;
+    auto stage = judge_in_smoke(std::move(layouts), asked, interrupt_, tell);
+    if (!stage) return stage.problem();
+    if (!stage->layouts.empty()) out_.smoke = std::move(stage).value();
+    return std::nullopt;
   }
 
   bool ask_for_more(const std::vector<Check>& failing) {

@@ -13,6 +13,8 @@
 
 #include "actors/assess/assessment.hpp"
 #include "actors/design/candidates.hpp"
+#include "actors/design/placed_layout.hpp"
+#include "actors/design/smoke_stage.hpp"
 #include "actors/design/solve_layout.hpp"
 
 namespace luxodus {
@@ -24,13 +26,8 @@ struct DesignOptions {
   int threads = 1;
   double seconds = 120;  // of the search
   double gap = 0;        // it ends within this share of the best possible
-};
-
-/// A luminaire of the layout.
-struct PlacedLuminaire {
-  LuminaireCandidate candidate;
-  std::string name;
-  bool is_new() const { return candidate.type != LuminaireCandidate::existing; }
+  /// Scenarios in whose smoke layouts are judged; empty: those of the scene's [design].
+  std::vector<std::string> in_smoke;
 };
 
 /// A rule that is asked for without furniture alone: with it no layout passes.
@@ -39,12 +36,9 @@ struct HiddenByFurniture {
   size_t points = 0;  // that furniture hides from all candidates
 };
 
-struct DesignResult {
-  /// The scene with the layout, as the variant on disk gives it; null where there is none.
-  std::shared_ptr<const SceneDescription> variant;
-  std::vector<PlacedLuminaire> luminaires;  // those of the scene that stay first
-  std::vector<std::string> removed;         // luminaires of the scene that go
-  size_t places = 0, candidates = 0;        // of new luminaires; of these and those that are there
+/// The layout is the best by the rules alone.
+struct DesignResult : PlacedLayout {
+  size_t places = 0, candidates = 0;  // of new luminaires; of these and those that are there
   LeftOut left_out;
   size_t points = 0;  // of calculation
   std::vector<HiddenByFurniture> hidden;
@@ -57,7 +51,8 @@ struct DesignResult {
   bool added_scenario = false;  // the scene has none: the variant has one in emergency operation
   std::vector<std::string> rules, deviations;  // that were asked for and that the scene lacks
   int verifications = 0;
-  double prepared_seconds = 0;  // until the search began
+  std::optional<SmokeStage> smoke;  // where layouts were judged in smoke
+  double prepared_seconds = 0;      // until the search began
 };
 
 /// Errors: as assess; no place for a luminaire; a layout that the assessment rejects for a reason

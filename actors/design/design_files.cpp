@@ -7,6 +7,7 @@
 
 #include "actors/assess/assessment_json.hpp"
 #include "actors/design/design_page.hpp"
+#include "actors/design/smoke_section.hpp"
 #include "actors/report/hand_over.hpp"
 #include "actors/report/plan_svg.hpp"
 #include "runtime/core/output_text.hpp"
@@ -139,6 +140,23 @@ Result<void> write_plans(const fs::path& folder, const Json& a, Language languag
   return {};
 }
 
+/// Layouts beside the best one, as variants.
+Result<void> write_alternatives(const fs::path& folder, const SceneDescription& scene,
+                                const DesignResult& result) {
+  for (const JudgedLayout& one : result.smoke->layouts) {
+    const std::string file = file_of(one);
+    if (file.empty() || file == "layout.toml") continue;
+    const fs::path path = folder / file;
+    std::error_code failed;
+    fs::create_directories(path.parent_path(), failed);
+    if (failed)
+      return problem_in(path.parent_path(), "cannot make this folder: " + failed.message());
+    const std::string text = variant_text(scene, result, one.layout, path.parent_path());
+    if (auto ok = write_file_atomically(path, text); !ok) return ok.problem();
+  }
+  return {};
+}
+
 std::string at_words(const glm::dvec3& place) {
   return fmt::format("({:.2f}, {:.2f}, {:.2f})", place.x, place.y, place.z);
 }
@@ -253,7 +271,7 @@ std::vector<std::string> conflict_words(const SceneDescription& scene, const Des
 }
 
 std::string variant_text(const SceneDescription& scene, const DesignResult& result,
-                         const fs::path& folder) {
+                         const PlacedLayout& layout, const fs::path& folder) {
   std::error_code failed;
   fs::path file = fs::absolute(scene.file, failed);
   const fs::path near =
@@ -271,9 +289,9 @@ std::string variant_text(const SceneDescription& scene, const DesignResult& resu
   }
   if (result.added_scenario)
     out += "\n[[scenario]]\nname = \"emergency\"\noperation = \"emergency\"\n";
-  for (const std::string& name : result.removed)
+  for (const std::string& name : layout.removed)
     out += "\n[[change]]\nkind = \"luminaire\"\nof = " + quoted(name) + "\nremove = true\n";
-  for (const PlacedLuminaire& one : result.luminaires) {
+  for (const PlacedLuminaire& one : layout.luminaires) {
     if (!one.is_new()) continue;
     const glm::dvec3& p = one.candidate.position;
     out += "\n[[change]]\nkind = \"design_type\"\nof = " + quoted(type_of(scene, one)) +
@@ -358,6 +376,7 @@ Json design_json(const SceneDescription& scene, const DesignResult& result,
                    {"not_assessed", count_of(counts, CheckVerdict::not_assessed)},
                    {"not_verified", count_of(counts, CheckVerdict::not_verified)}};
   out["failing_otherwise"] = others_json(result);
+  if (result.smoke) out["smoke"] = smoke_json(*result.smoke);
   return out;
 }
 
@@ -374,7 +393,9 @@ Result<void> write_design(const fs::path& folder, const SceneDescription& scene,
           write_file_atomically(folder / "design.html", design_page(json, assessed, language));
       !ok)
     return ok.problem();
-  return write_file_atomically(folder / "layout.toml", variant_text(scene, result, folder));
+  if (result.smoke)
+    if (auto ok = write_alternatives(folder, scene, result); !ok) return ok.problem();
+  return write_file_atomically(folder / "layout.toml", variant_text(scene, result, result, folder));
 }
 
 }  // namespace luxodus

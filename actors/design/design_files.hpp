@@ -1,5 +1,6 @@
 // A layout on disk: a variant of the scene (layout.toml) that assess, compare, run and view take
-// like any scene, the schedule (luminaires.csv), design.json, the page (design.html) and plans.
+// like any scene, the schedule (luminaires.csv), design.json, the page (design.html), plans, and
+// where layouts were judged in smoke the others (alternatives/).
 // Times are in none of them: the same scene and seed give the same bytes. Any thread; one design of
 // a folder at a time.
 #pragma once
@@ -15,10 +16,10 @@ namespace luxodus {
 
 inline constexpr const char* design_format = "luxodus design 1";
 
-/// The variant, to be written into `folder`, from which it includes the scene.
-/// Requires everywhere: a result with a layout.
+/// A layout of the result as a variant, to be written into `folder`, from which it includes the
+/// scene. Requires everywhere: a result with a layout.
 std::string variant_text(const SceneDescription& scene, const DesignResult& result,
-                         const std::filesystem::path& folder);
+                         const PlacedLayout& layout, const std::filesystem::path& folder);
 
 CsvTable schedule_csv(const DesignResult& result);
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "actors/design/smoke_section.hpp"
 #include "actors/output/html_page.hpp"
 #include "actors/report/html.hpp"
 #include "actors/report/page_style.hpp"
@@ -55,9 +56,11 @@ std::string outcome(const Texts& t, const Json& d) {
   return out + "<p class=\"chips\">" + chips + "</p></div></div>\n";
 }
 
-std::string notice(const Texts& t) {
+std::string notice(const Texts& t, bool in_smoke) {
   std::string out = "<div class=\"notice\"><ul>\n";
-  for (const char* key : {"design.notice_codes", "design.notice_smoke", "design.notice_candidates"})
+  for (const char* key :
+       {"design.notice_codes", in_smoke ? "design.notice_in_smoke" : "design.notice_smoke",
+        "design.notice_candidates"})
     out += "<li>" + escaped(t(key)) + "</li>\n";
   return out + "</ul></div>\n";
 }
@@ -176,12 +179,13 @@ std::string design_page(const Json& d, const Json& a, Language language) {
   const Schedule schedule(a);
   std::string title = text_in(d["scene"], "title");
   if (title.empty()) title = text_in(d["scene"], "name");
-  const std::string body = "<header class=\"cover\"><div>" + paragraph(t("design.page"), "kind") +
-                           "<h1>" + escaped(title) + "</h1></div></header>\n" + outcome(t, d) +
-                           notice(t) + heading(t, "heading.plans") + plans_of(t, a, schedule) +
-                           heading(t, "heading.schedules") + schedule_of(t, d) +
-                           heading(t, "design.binding_heading") + binding(t, d) + others(t, d) +
-                           heading(t, "design.settings_heading") + settings(t, d);
+  const std::string body =
+      "<header class=\"cover\"><div>" + paragraph(t("design.page"), "kind") + "<h1>" +
+      escaped(title) + "</h1></div></header>\n" + outcome(t, d) + notice(t, d.contains("smoke")) +
+      (d.contains("smoke") ? smoke_section(t, d) : "") + heading(t, "heading.plans") +
+      plans_of(t, a, schedule) + heading(t, "heading.schedules") + schedule_of(t, d) +
+      heading(t, "design.binding_heading") + binding(t, d) + others(t, d) +
+      heading(t, "design.settings_heading") + settings(t, d);
   return html_page({t.code(), title + " – " + t("design.page"), report_style}, body);
 }
 

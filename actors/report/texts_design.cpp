@@ -164,6 +164,92 @@ constexpr ReportText design_rows[] = {
     {"design.left_keep_out",
      {"{0} in keep-out zones", "{0} in Sperrzonen", "{0} dans des zones interdites"}},
     {"design.left_too_low", {"{0} below 2 m (E14)", "{0} unter 2 m (E14)", "{0} sous 2 m (E14)"}},
+    {"design.notice_in_smoke",
+     {"Layouts were compared in the smoke of the scenarios that are named; of other fires they say "
+      "nothing.",
+      "Anordnungen wurden im Rauch der genannten Szenarien verglichen; über andere Brände sagen "
+      "sie nichts.",
+      "Les implantations ont été comparées dans la fumée des scénarios nommés ; elles ne disent "
+      "rien d’autres feux."}},
+    {"design.smoke_heading", {"In smoke", "Im Rauch", "Dans la fumée"}},
+    {"design.smoke_range", {"{0} to {1} %", "{0} bis {1} %", "{0} à {1} %"}},
+    {"design.smoke_first",
+     {"With layout {0}, the best by the rules alone, a sign ahead is read from {1} of the routes’ "
+      "length, in the worst of the scenarios.",
+      "Mit Anordnung {0}, der besten allein nach den Regeln, ist im schlechtesten der Szenarien "
+      "von {1} der Weglänge ein Zeichen voraus lesbar.",
+      "Avec l’implantation {0}, la meilleure d’après les seules règles, un panneau est lisible "
+      "devant soi depuis {1} de la longueur des itinéraires, dans le pire des scénarios."}},
+    {"design.smoke_same",
+     {"With no other layout is a sign surely read from more places: other luminaires, or more of "
+      "them, do not help people to read these signs in this smoke.",
+      "Mit keiner anderen Anordnung ist sicher von mehr Orten ein Zeichen lesbar: andere oder mehr "
+      "Leuchten helfen nicht, diese Zeichen in diesem Rauch zu lesen.",
+      "Avec aucune autre implantation un panneau n’est lisible avec certitude depuis plus de "
+      "places : d’autres luminaires, ou davantage, n’aident pas à lire ces panneaux dans cette "
+      "fumée."}},
+    {"design.smoke_better",
+     {"Layout {0} has {1} new luminaires instead of {2}, and a sign is read from {3}: it is "
+      "recommended.",
+      "Anordnung {0} hat {1} statt {2} neue Leuchten, und von {3} ist ein Zeichen lesbar: sie wird "
+      "empfohlen.",
+      "L’implantation {0} a {1} luminaires neufs au lieu de {2}, et un panneau est lisible depuis "
+      "{3} : elle est recommandée."}},
+    {"design.smoke_signs_help",
+     {"Signs {0} times as bright would be read from {1}: that helps more than any layout that was "
+      "tried.",
+      "Zeichen mit der {0}-fachen Leuchtdichte wären von {1} lesbar: das hilft mehr als jede "
+      "Anordnung, die versucht wurde.",
+      "Des panneaux {0} fois plus lumineux seraient lisibles depuis {1} : cela aide plus que toute "
+      "implantation essayée."}},
+    {"design.smoke_signs",
+     {"Signs {0} times as bright would be read from {1}.",
+      "Zeichen mit der {0}-fachen Leuchtdichte wären von {1} lesbar.",
+      "Des panneaux {0} fois plus lumineux seraient lisibles depuis {1}."}},
+    {"design.smoke_veil",
+     {"Layout {0} has more light, and from {1} places where a sign is read with layout {2} none is "
+      "read: light in the smoke veils it.",
+      "Anordnung {0} hat mehr Licht, und an {1} Orten, an denen mit Anordnung {2} ein Zeichen "
+      "lesbar ist, ist es keines: Licht im Rauch verschleiert es.",
+      "L’implantation {0} a plus de lumière, et depuis {1} places d’où un panneau est lisible avec "
+      "l’implantation {2} aucun ne l’est : la lumière dans la fumée le voile."}},
+    {"design.smoke_interrupted",
+     {"Interrupted before all layouts were judged.",
+      "Unterbrochen, bevor alle Anordnungen beurteilt waren.",
+      "Interrompu avant que toutes les implantations soient jugées."}},
+    {"design.smoke_plot",
+     {"What is read in smoke, against what it takes", "Was im Rauch lesbar ist, gegen den Aufwand",
+      "Ce qui est lisible dans la fumée, selon l’effort"}},
+    {"design.smoke_plot_note",
+     {"Error bars reach from “undecided is not read” to “undecided is read”.",
+      "Die Balken reichen von „Unentschiedenes ist nicht lesbar“ bis „ist lesbar“.",
+      "Les barres vont de « l’indécis n’est pas lu » à « l’indécis est lu »."}},
+    {"design.smoke_axis",
+     {"routes from which a sign is read [%]", "Wege, von denen ein Zeichen lesbar ist [%]",
+      "itinéraires d’où un panneau est lisible [%]"}},
+    {"design.smoke_front",
+     {"none is read more for no more", "keine ist lesbarer bei gleichem Aufwand",
+      "aucune n’est plus lisible pour autant"}},
+    {"design.smoke_others", {"other layouts", "andere Anordnungen", "autres implantations"}},
+    {"design.smoke_bright", {"brighter signs", "hellere Zeichen", "panneaux plus lumineux"}},
+    {"design.smoke_bright_row",
+     {"{0}, brighter signs", "{0}, hellere Zeichen", "{0}, panneaux plus lumineux"}},
+    {"design.smoke_layout", {"Layout", "Anordnung", "Implantation"}},
+    {"design.smoke_read",
+     {"A sign ahead is read from", "Ein Zeichen voraus ist lesbar von",
+      "Un panneau est lisible depuis"}},
+    {"design.smoke_file", {"File", "Datei", "Fichier"}},
+    {"design.smoke_note",
+     {"Of the length of all routes, at all eye heights of the scene. A sign is ahead within {0} "
+      "degrees of the way. ● marks layouts than which no other is read from more for no more. All "
+      "pass the rules that luminaires decide.",
+      "Von der Länge aller Wege, in allen Augenhöhen der Szene. Ein Zeichen ist voraus innerhalb "
+      "von {0} Grad vom Weg. ● bezeichnet Anordnungen, zu denen keine mit gleichem Aufwand "
+      "lesbarer ist. Alle erfüllen die Regeln, über die Leuchten entscheiden.",
+      "De la longueur de tous les itinéraires, à toutes les hauteurs d’œil de la scène. Un panneau "
+      "est devant à {0} degrés du chemin au plus. ● marque les implantations dont aucune autre "
+      "n’est plus lisible pour autant. Toutes respectent les règles que les luminaires "
+      "décident."}},
     {"design.left_glaring", {"{0} glaring (E8)", "{0} blendend (E8)", "{0} éblouissants (E8)"}},
 };
 

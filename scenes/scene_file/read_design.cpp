@@ -203,6 +203,8 @@ void read_design(const toml::Table& table, SceneReading& reading, DesignSettings
   if (says("failure")) design.failure = word_of<FailureDemand>(keys, "failure", failure_words);
   if (says("objective"))
     design.objective = word_of<DesignObjective>(keys, "objective", objective_words);
+  if (says("in_smoke")) design.in_smoke = keys.texts("in_smoke");
+  if (says("alternatives")) design.alternatives = static_cast<size_t>(keys.integer("alternatives"));
   read_named(keys, design);
   if (design.objective == DesignObjective::weighted && design.weight_number == 0 &&
       design.weight_cost == 0 && design.weight_watts == 0)

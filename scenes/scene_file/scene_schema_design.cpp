@@ -43,6 +43,12 @@ std::vector<TableSpec> design_schema() {
             "of one luminaire in the objective `weighted`"},
            {"weight_cost", "number", "", "0", "[0, 1e6]", "of one unit of `cost`, likewise"},
            {"weight_watts", "number", "", "0", "[0, 1e6]", "of one watt, likewise"},
+           {"in_smoke", "texts", "", "[]", "",
+            "scenarios with smoke in which the best layout and others that pass the rules are "
+            "judged by what people on the routes read of the signs; none: nothing is judged in "
+            "smoke"},
+           {"alternatives", "integer", "", "8", "[0, 24]",
+            "other layouts that are judged in smoke, up to 30 % above the objective of the best"},
        }},
       {"design.type", "`[[design.type]]`: a luminaire that may be placed",
        joined(

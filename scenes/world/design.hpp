@@ -66,6 +66,10 @@ struct DesignSettings {
   double margin = 1.25;  // of minima of illuminance over the limits of the rules
   DesignObjective objective = DesignObjective::number;
   double weight_number = 1, weight_cost = 0, weight_watts = 0;
+
+  // What is judged in smoke, beside the best layout
+  std::vector<std::string> in_smoke;  // scenarios; empty: nothing is
+  size_t alternatives = 8;            // other layouts
 };
 
 }  // namespace luxodus

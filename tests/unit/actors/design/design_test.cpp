@@ -66,7 +66,8 @@ std::string problem_of(const std::string& text) {
 std::vector<std::string> failing_on_disk(const TemporaryFolder& folder, const fs::path& file,
                                          const DesignResult& result) {
   const auto scene = test::described(file);
-  const fs::path layout = folder.write("layout.toml", variant_text(*scene, result, folder.path()));
+  const fs::path layout =
+      folder.write("layout.toml", variant_text(*scene, result, result, folder.path()));
   AssessOptions options;
   options.threads = 2;
   options.reality = false;
@@ -229,7 +230,7 @@ TEST_CASE("the same scene and seed give the same files", "[design]") {
   const auto scene = test::described(file);
   const auto text = [&] {
     const DesignResult result = designed(file);
-    return variant_text(*scene, result, folder.path()) +
+    return variant_text(*scene, result, result, folder.path()) +
            json_text(design_json(*scene, result, "1"));
   };
   CHECK(text() == text());

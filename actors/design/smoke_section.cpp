@@ -1,0 +1,200 @@
+#include "actors/design/smoke_section.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "actors/output/svg_plot.hpp"
+#include "actors/report/html.hpp"
+
+namespace luxodus {
+
+namespace {
+
+Json share_json(const LegibleShare& share) {
+  return {{"least", number_json(share.least)}, {"most", number_json(share.most)}};
+}
+
+Json layout_json(const SmokeStage& stage, const JudgedLayout& one) {
+  Json scenarios = Json::array();
+  for (const SmokeVerdict& verdict : one.smoke) {
+    Json heights = Json::array();
+    for (size_t i = 0; i < verdict.by_height.size(); ++i) {
+      Json share = share_json(verdict.by_height[i]);
+      share["height_m"] = number_json(stage.heights_m[i]);
+      heights.push_back(std::move(share));
+    }
+    scenarios.push_back({{"name", verdict.scenario},
+                         {"all", share_json(verdict.all)},
+                         {"by_height", std::move(heights)}});
+  }
+  return {{"name", one.name},
+          {"file", file_of(one)},
+          {"on_front", one.on_front},
+          {"objective", number_json(one.objective)},
+          {"luminaires", one.placed},
+          {"cost", number_json(one.cost)},
+          {"watts", number_json(one.watts)},
+          {"sign_factor", number_json(one.sign_factor)},
+          {"rounds", one.rounds},
+          {"places_lost", one.lost},
+          {"places_won", one.won},
+          {"worst", share_json(one.worst())},
+          {"scenarios", std::move(scenarios)}};
+}
+
+double least_of(const Json& layout) {
+  return layout["worst"]["least"].get<double>();
+}
+double most_of(const Json& layout) {
+  return layout["worst"]["most"].get<double>();
+}
+bool has_brighter_signs(const Json& layout) {
+  return layout["sign_factor"].get<double>() != 1;
+}
+
+/// "62 %", "62 to 70 %".
+std::string share_words(const Texts& t, const Json& share) {
+  const std::string least = t.fixed(100 * share["least"].get<double>(), 0),
+                    most = t.fixed(100 * share["most"].get<double>(), 0);
+  return least == most ? least + " %" : t.say("design.smoke_range", least, most);
+}
+
+const Json& named_layout(const Json& smoke, const std::string& name) {
+  const Json& layouts = smoke["layouts"];
+  for (const Json& one : layouts)
+    if (text_in(one, "name") == name) return one;
+  return layouts[0];
+}
+
+/// The dearer layout with which most places are lost, of those with which more are lost than won.
+const Json* most_veiling(const Json& smoke) {
+  const Json& first = smoke["layouts"][0];
+  const Json* out = nullptr;
+  int64_t most = 1;  // a single place may be an accident of the paths
+  for (const Json& one : smoke["layouts"]) {
+    const int64_t net = one["places_lost"].get<int64_t>() - one["places_won"].get<int64_t>();
+    if (has_brighter_signs(one) || net <= most ||
+        !(one["objective"].get<double>() > first["objective"].get<double>()))
+      continue;
+    most = net;
+    out = &one;
+  }
+  return out;
+}
+
+PlotSeries series_of(const Texts& t, const char* name, const Json& smoke,
+                     const std::function<bool(const Json&)>& belongs) {
+  PlotSeries out;
+  out.name = t(name);
+  out.line = false;
+  for (const Json& one : smoke["layouts"]) {
+    if (!belongs(one)) continue;
+    out.x.push_back(one["objective"].get<double>());
+    out.y.push_back(50 * (least_of(one) + most_of(one)));
+    out.error.push_back(50 * (most_of(one) - least_of(one)));
+  }
+  return out;
+}
+
+std::string plot_of(const Texts& t, const Json& design) {
+  const Json& smoke = design["smoke"];
+  SvgPlot plot;
+  plot.title = t("design.smoke_plot");
+  plot.label_x = t.word("design.objective", text_in(design["objective"], "kind"));
+  plot.label_y = t("design.smoke_axis");
+  plot.height = 420;
+  const auto as_they_are = [](const Json& one) { return !has_brighter_signs(one); };
+  for (PlotSeries series : {series_of(t, "design.smoke_front", smoke,
+                                      [&](const Json& one) { return one["on_front"].get<bool>(); }),
+                            series_of(t, "design.smoke_others", smoke,
+                                      [&](const Json& one) {
+                                        return as_they_are(one) && !one["on_front"].get<bool>();
+                                      }),
+                            series_of(t, "design.smoke_bright", smoke, has_brighter_signs)})
+    if (!series.x.empty()) plot.series.push_back(std::move(series));
+  const auto svg = svg_plot_text(plot, {});
+  return svg ? figure(svg.value(), t("design.smoke_plot_note")) : "";
+}
+
+std::string rows_of(const Texts& t, const Json& smoke) {
+  std::string out;
+  for (const Json& one : smoke["layouts"]) {
+    std::string by_scenario;
+    for (const Json& scenario : one["scenarios"])
+      by_scenario += (by_scenario.empty() ? "" : "; ") + text_in(scenario, "name") + ": " +
+                     share_words(t, scenario["all"]);
+    const std::string name =
+        has_brighter_signs(one)
+            ? t.say("design.smoke_bright_row", text_in(smoke["layouts"][0], "name"))
+            : text_in(one, "name") + (one["on_front"].get<bool>() ? " ●" : "");
+    const std::string file = text_in(one, "file");
+    out += "<tr>" + cell(name) + number_cell(t, one["luminaires"]) +
+           number_cell(t, one["cost"], "", 4) + number_cell(t, one["watts"], "W") +
+           cell(by_scenario) +
+           html_cell(file.empty() ? "–"
+                                  : "<a href=\"" + escaped(file) + "\">" + escaped(file) + "</a>") +
+           "</tr>\n";
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string file_of(const JudgedLayout& layout) {
+  if (layout.sign_factor != 1) return "";
+  return layout.name == "A" ? "layout.toml" : "alternatives/layout_" + layout.name + ".toml";
+}
+
+Json smoke_json(const SmokeStage& stage) {
+  Json layouts = Json::array();
+  for (const JudgedLayout& one : stage.layouts) layouts.push_back(layout_json(stage, one));
+  Json heights = Json::array();
+  for (const double height : stage.heights_m) heights.push_back(number_json(height));
+  return {{"scenarios", stage.scenarios},
+          {"heights_m", std::move(heights)},
+          {"ahead_deg", number_json(ahead_deg)},
+          {"interrupted", stage.interrupted},
+          {"recommended", stage.recommended().name},
+          {"layouts", std::move(layouts)}};
+}
+
+std::vector<std::string> smoke_words(const Texts& t, const Json& smoke) {
+  const Json &first = smoke["layouts"][0],
+             &best = named_layout(smoke, text_in(smoke, "recommended"));
+  const std::string first_name = text_in(first, "name"), best_name = text_in(best, "name");
+  std::vector<std::string> out{
+      t.say("design.smoke_first", first_name, share_words(t, first["worst"]))};
+  if (best_name == first_name)
+    out.emplace_back(t("design.smoke_same"));
+  else
+    out.push_back(t.say("design.smoke_better", best_name, best["luminaires"].get<int64_t>(),
+                        first["luminaires"].get<int64_t>(), share_words(t, best["worst"])));
+  for (const Json& one : smoke["layouts"]) {
+    if (!has_brighter_signs(one)) continue;
+    const bool helps = least_of(one) > most_of(best);
+    out.push_back(t.say(helps ? "design.smoke_signs_help" : "design.smoke_signs",
+                        t.number(one["sign_factor"].get<double>(), 2),
+                        share_words(t, one["worst"])));
+  }
+  if (const Json* veiling = most_veiling(smoke))
+    out.push_back(t.say("design.smoke_veil", text_in(*veiling, "name"),
+                        (*veiling)["places_lost"].get<int64_t>(), first_name));
+  if (smoke["interrupted"].get<bool>()) out.emplace_back(t("design.smoke_interrupted"));
+  return out;
+}
+
+std::string smoke_section(const Texts& t, const Json& design) {
+  const Json& smoke = design["smoke"];
+  std::string out = "<h2>" + escaped(t("design.smoke_heading")) + "</h2>\n";
+  for (const std::string& words : smoke_words(t, smoke)) out += paragraph(words);
+  return out + plot_of(t, design) +
+         table(t,
+               {"design.smoke_layout", "column.count", "design.cost", "design.watts",
+                "design.smoke_read", "design.smoke_file"},
+               {16, 10, 12, 12, 30, 20}, rows_of(t, smoke)) +
+         paragraph(t.say("design.smoke_note", t.number(smoke["ahead_deg"].get<double>(), 2)),
+                   "note");
+}
+
+}  // namespace luxodus
