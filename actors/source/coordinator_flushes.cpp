@@ -95,6 +95,8 @@ std::string Coordinator::count_flush(const Letter<Flush>& letter) {
     left = left.subspan(piece.size());
   }
   if (hash.value() != letter.body.payload_hash) return "the payload is not what its hash says";
+  // Others had turns: without leases that stand there may be nothing left to count into.
+  if (!book_.stand(worker, leases)) return fenced;
   const auto rest = [this] { return take_turns(); };
   auto gain = reader_.read(letter.payload.bytes(), totals().groups(), bins(), rest);
   if (!gain) return gain.problem().what;
