@@ -27,6 +27,8 @@ packages=(
   libcereal-dev
   # pictures, drawings, data
   libdxflib-dev
+  # containers of luminaires (GLDF)
+  libzip-dev libpugixml-dev
   # mixed-integer programs: where emergency luminaires go
   coinor-libcbc-dev
   libopenexr-dev libpng-dev librsvg2-dev libcairo2-dev fonts-dejavu-core libzstd-dev libxxhash-dev

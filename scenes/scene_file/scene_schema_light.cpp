@@ -3,6 +3,21 @@
 
 namespace luxodus {
 
+std::vector<KeySpec> photometric_file_keys(const char* whether) {
+  return {
+      {"file", "path", "", whether, "",
+       "EULUMDAT (.ldt) or IES LM-63 (.ies) file, or a GLDF container (.gldf) of them"},
+      {"variant", "text", "", "", "", "id of the variant in a GLDF container that has several"},
+      {"emitter", "text", "", "", "",
+       "id of the light emitter, where the variant has several; `ID#2` for the second of an id"},
+      {"duration_h", "number", "h", "", "(0, 100]",
+       "takes the emergency flux that the container states for this duration; without it what its "
+       "emitter rates for emergency, else its rated flux times its ballast's factor"},
+      {"point_source", "flag", "", "false", "",
+       "emit from a point instead of the luminous opening of the file"},
+  };
+}
+
 std::vector<KeySpec> operation_keys() {
   return {
       {"circuit", "name", "", "", "", "circuit it hangs on"},
@@ -17,8 +32,7 @@ std::vector<KeySpec> operation_keys() {
        "`\"non-maintained\"`: only then"},
       {"emergency_flux", "number", "lm or W", "", "[0, 1e9]",
        "flux on emergency supply, in the unit of the mains flux; this or `emergency_factor` is "
-       "mandatory "
-       "where `emergency` is not false"},
+       "mandatory where `emergency` is not false and no GLDF container says it"},
       {"emergency_factor", "number", "", "", "[0, 1000]",
        "flux on emergency supply as a share of the rated flux (ballast lumen factor)"},
       {"end_of_duration_factor", "number", "", "", "(0, 1]",
@@ -54,16 +68,13 @@ Keys aim_keys() {
 std::vector<TableSpec> luminaire_keys() {
   return {
       {"luminaire", "`[[luminaire]]`: a luminaire of a photometric file",
-       joined(
-           joined({{"name", "name", "", "required", "", "name of the luminaire"},
-                   {"file", "path", "", "required", "", "EULUMDAT (.ldt) or IES LM-63 (.ies) file"},
-                   {"point_source", "flag", "", "false", "",
-                    "emit from a point instead of the luminous opening of the file"}},
-                  aim_keys()),
-           joined(operation_keys(),
-                  {repeat_key(),
-                   {"body_material", "text", "", "", "",
-                    "material of its body; without it returning light passes"}}))},
+       joined(joined(joined({{"name", "name", "", "required", "", "name of the luminaire"}},
+                            photometric_file_keys("required")),
+                     aim_keys()),
+              joined(operation_keys(),
+                     {repeat_key(),
+                      {"body_material", "text", "", "", "",
+                       "material of its body; without it returning light passes"}}))},
       {"emitter", "`[[emitter]]`: a light source of simple shape",
        joined(
            joined(
