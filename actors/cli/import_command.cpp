@@ -5,7 +5,7 @@
 
 #include "actors/cli/command.hpp"
 #include "actors/cli/commands.hpp"
-#include "actors/cli/import_files.hpp"
+#include "actors/import/import_files.hpp"
 #include "actors/cli/load_scene.hpp"
 #include "runtime/core/atomic_file.hpp"
 #include "scenes/fields/fds_building.hpp"
@@ -120,7 +120,7 @@ Command import_command() {
   return {.name = "import",
           .summary = "Make a scene of what other programs know",
           .heading = "Scenes",
-          .commands = {std::move(fds), import_gldf_command()}};
+          .commands = {std::move(fds), import_gldf_command(), import_ifc_command()}};
 }
 
 }  // namespace luxodus::cli

@@ -4,7 +4,8 @@
 #include <set>
 
 #include "actors/cli/command.hpp"
-#include "actors/cli/import_files.hpp"
+#include "actors/cli/commands.hpp"
+#include "actors/import/import_files.hpp"
 #include "runtime/core/atomic_file.hpp"
 #include "scenes/photometry/gldf.hpp"
 

@@ -13,6 +13,7 @@
 #include "scenes/scene_file/read_files.hpp"
 #include "scenes/scene_file/read_placement.hpp"
 #include "scenes/scene_file/read_spectrum.hpp"
+#include "scenes/scene_file/read_types.hpp"
 #include "scenes/scene_file/scene_readers.hpp"
 
 namespace luxodus {
@@ -309,9 +310,11 @@ void read_photometric_light(KeyReader& keys, Emitter& e) {
   read_body(keys, e);
 }
 
-void read_luminaire(const toml::Table& table, SceneReading& reading) {
+void read_luminaire(const toml::Table& stated, SceneReading& reading) {
+  const toml::Table table = with_type(stated, "luminaire_type", reading);
   KeyReader keys(table, {"luminaire"}, reading);
   Emitter e;
+  e.ifc_guid = keys.text("ifc_guid");
   e.place = keys.place();
   e.name = read_name(keys, "luminaire or emitter");
   e.frame = read_aim(keys);

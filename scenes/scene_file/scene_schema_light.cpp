@@ -3,6 +3,11 @@
 
 namespace luxodus {
 
+KeySpec ifc_guid_key() {
+  return {"ifc_guid", "text", "",
+          "\"\"",     "",     "GlobalId in the IFC model that it came from; results name it"};
+}
+
 std::vector<KeySpec> photometric_file_keys(const char* whether) {
   return {
       {"file", "path", "", whether, "",
@@ -68,13 +73,24 @@ Keys aim_keys() {
 std::vector<TableSpec> luminaire_keys() {
   return {
       {"luminaire", "`[[luminaire]]`: a luminaire of a photometric file",
-       joined(joined(joined({{"name", "name", "", "required", "", "name of the luminaire"}},
-                            photometric_file_keys("required")),
-                     aim_keys()),
-              joined(operation_keys(),
-                     {repeat_key(),
-                      {"body_material", "text", "", "", "",
-                       "material of its body; without it returning light passes"}}))},
+       joined(
+           joined(joined({{"name", "name", "", "required", "", "name of the luminaire"},
+                          {"type", "text", "", "", "",
+                           "name of a `[[luminaire_type]]`, whose keys it has but for those that "
+                           "it says itself"},
+                          ifc_guid_key()},
+                         photometric_file_keys("required")),
+                  aim_keys()),
+           joined(operation_keys(),
+                  {repeat_key(),
+                   {"body_material", "text", "", "", "",
+                    "material of its body; without it returning light passes"}}))},
+      {"luminaire_type", "`[[luminaire_type]]`: what several luminaires have in common",
+       joined(joined({{"name", "name", "", "required", "", "name of the type"}},
+                     photometric_file_keys("")),
+              joined(operation_keys(), {{"body_material", "text", "", "", "",
+                                         "material of its body; without it returning light "
+                                         "passes"}}))},
       {"emitter", "`[[emitter]]`: a light source of simple shape",
        joined(
            joined(
@@ -133,6 +149,9 @@ TableSpec sign_keys() {
       "`[[sign]]`: a safety sign",
       {
           {"name", "name", "", "required", "", "name of the sign"},
+          {"type", "text", "", "", "",
+           "name of a `[[sign_type]]`, whose keys it has but for those that it says itself"},
+          ifc_guid_key(),
           {"position", "point", "m", "required", "[-1e7, 1e7]", "centre of the sign"},
           {"facing", "direction", "", "required", "[-1e7, 1e7]", "where its (front) face looks"},
           {"up", "direction", "", "[0, 0, 1]", "[-1e7, 1e7]", "what is up on the face"},
@@ -299,11 +318,28 @@ std::vector<TableSpec> medium_keys() {
   };
 }
 
+/// Those of a sign, without its place; none is required of a type.
+TableSpec sign_type_keys() {
+  TableSpec spec{"sign_type", "`[[sign_type]]`: what several signs have in common", {}};
+  for (KeySpec key : sign_keys().keys) {
+    if (key.name == "position" || key.name == "facing" || key.name == "type" ||
+        key.name == "ifc_guid")
+      continue;
+    if (key.name == "name")
+      key.meaning = "name of the type";
+    else if (key.fallback == "required")
+      key.fallback = "";
+    spec.keys.push_back(key);
+  }
+  return spec;
+}
+
 }  // namespace
 
 std::vector<TableSpec> light_schema() {
   std::vector<TableSpec> all = luminaire_keys();
   all.push_back(sign_keys());
+  all.push_back(sign_type_keys());
   for (auto& t : medium_keys()) all.push_back(std::move(t));
   for (auto& t : data_set_schema()) all.push_back(std::move(t));
   return all;

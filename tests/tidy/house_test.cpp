@@ -129,6 +129,7 @@ const std::map<std::string, std::vector<std::string>> arrows{
     {"scenes/vision", {"scenes/optics"}},
     {"scenes/photometry", {"scenes/optics"}},
     {"scenes/fields", {"scenes/geometry", "scenes/optics"}},
+    {"scenes/ifc", {"scenes/geometry"}},
     {"scenes/images", {"scenes/optics", "scenes/world"}},
     {"scenes/emergency", {"scenes/world"}},
     {"scenes/scene_file",
@@ -141,6 +142,7 @@ const std::map<std::string, std::vector<std::string>> arrows{
 
     {"actors/output", {"scenes"}},
     {"actors/run", {"actors/output", "scenes"}},
+    {"actors/import", {"runtime/toml", "scenes/geometry", "scenes/ifc"}},
     {"actors/inspect", {"actors/run", "scenes"}},
     {"actors/display", {"actors/inspect", "actors/output", "actors/run", "scenes"}},
     {"actors/assess", {"actors/inspect", "actors/output", "actors/run", "scenes"}},

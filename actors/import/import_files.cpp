@@ -1,4 +1,4 @@
-#include "actors/cli/import_files.hpp"
+#include "actors/import/import_files.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include "runtime/core/output_path.hpp"
 #include "runtime/core/printable.hpp"
 
-namespace luxodus::cli {
+namespace luxodus {
 
 namespace fs = std::filesystem;
 
@@ -73,4 +73,4 @@ Result<bool> write_unless_there(const fs::path& file, const std::string& text) {
   return false;
 }
 
-}  // namespace luxodus::cli
+}  // namespace luxodus

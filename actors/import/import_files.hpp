@@ -4,13 +4,11 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
-#include "actors/cli/options.hpp"
 #include "runtime/core/result.hpp"
 
-namespace luxodus::cli {
-
-Command import_gldf_command();
+namespace luxodus {
 
 /// `file` as a scene in `folder` names it, with quotes.
 /// Errors: a path that TOML would take for the end of a text.
@@ -29,4 +27,4 @@ Result<std::filesystem::path> import_folder(const std::string& out);
 /// Writes a file that a person goes on with, only where there is none. Whether it was kept.
 Result<bool> write_unless_there(const std::filesystem::path& file, const std::string& text);
 
-}  // namespace luxodus::cli
+}  // namespace luxodus
