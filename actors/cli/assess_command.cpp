@@ -94,7 +94,7 @@ Result<ExitCode> assess_scene(const AssessCommandOptions& options) {
                               ? fs::path("out") / file_name_of(scene->name + "-assessed")
                               : fs::path(options.out);
   const OutputPlan plan{
-      {"report.html", "report.pdf", "assessment.json", "checks.csv", "sights.csv"},
+      {"report.html", "report.pdf", "assessment.json", "checks.csv", "sights.csv", "by_guid.csv"},
       {"plans", "schedules"}};
   const auto out = OutputFolder::claim(folder, plan);
   if (!out) return out.problem();
@@ -196,7 +196,8 @@ Command assess_command() {
             "Exit code 1 where anything fails, is undecided, not assessed or not verified"}},
       .notes =
           "Needs routes, areas or observers in the scene. Writes report.html, assessment.json, "
-          "checks.csv, sights.csv, plans/ (SVG, DXF), schedules/ (CSV).\n"
+          "checks.csv, sights.csv, by_guid.csv (of what came from IFC), plans/ (SVG, DXF), "
+          "schedules/ (CSV).\n"
           "  luxodus assess scenes/library/office_floor.toml --out out/office\n"
           "  luxodus assess office.toml --scenario fire --rules en1838-2013 \\\n"
           "    --deviation de-asr-a3.4-3\n"
