@@ -27,6 +27,8 @@ packages=(
   libcereal-dev
   # pictures, drawings, data
   libdxflib-dev
+  # containers of luminaires (GLDF)
+  libzip-dev libpugixml-dev
   # mixed-integer programs: where emergency luminaires go
   coinor-libcbc-dev
   libopenexr-dev libpng-dev librsvg2-dev libcairo2-dev fonts-dejavu-core libzstd-dev libxxhash-dev
@@ -85,14 +87,21 @@ if [ ${#missing[@]} -gt 0 ]; then
   install_missing
 fi
 
-# npm's packages of the live view's page, as its lock says. Without them the page says so, and all
-# else is built.
-page=actors/view/page
-have=$page/node_modules/.package-lock.json
-if [ ! -e "$have" ] || [ "$page/package-lock.json" -nt "$have" ]; then
-  echo "setup.sh: fetching what the live view's page is built with"
-  if ! (cd "$page" && npm ci --no-audit --no-fund --loglevel=error); then
-    rm -rf "$page/node_modules"
-    echo "setup.sh: npm could not; the live view will have no page" >&2
+# Packages of npm, as the lock in a folder says: without them something is missing, which says so
+# itself, and all else is built.
+fetch_packages() {
+  local folder=$1 what=$2 without=$3
+  local have=$folder/node_modules/.package-lock.json
+  if [ -e "$have" ] && [ ! "$folder/package-lock.json" -nt "$have" ]; then
+    return
   fi
-fi
+  echo "setup.sh: fetching what $what"
+  if ! (cd "$folder" && npm ci --no-audit --no-fund --loglevel=error); then
+    rm -rf "$folder/node_modules"
+    echo "setup.sh: npm could not; $without" >&2
+  fi
+}
+fetch_packages actors/view/page "the live view's page is built with" \
+  "the live view will have no page"
+fetch_packages actors/import/shapes "computes the shapes of IFC models" \
+  "luxodus import ifc will not work"

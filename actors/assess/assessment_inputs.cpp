@@ -72,6 +72,7 @@ Json luminaire_json(const Emitter& e) {
               {"maintenance_factor", e.maintenance_factor},
               {"end_of_duration_factor", e.end_of_duration_factor},
               {"emergency_ageing", e.emergency_ageing}};
+  if (!e.ifc_guid.empty()) out["ifc_guid"] = e.ifc_guid;
   if (e.opening_m != glm::dvec3(0)) out["opening_m"] = vector_json(e.opening_m);
   if (e.shape == EmitterShape::mesh && !e.mesh.positions.empty()) {
     glm::dvec3 sum(0);
@@ -95,6 +96,7 @@ Json sign_json(const Sign& s) {
               {"double_sided", s.double_sided},
               {"lighting", word_of(s.lighting)},
               {"circuit", s.circuit}};
+  if (!s.ifc_guid.empty()) out["ifc_guid"] = s.ifc_guid;
   if (s.lighting != SignLighting::external) {
     out["mains_white"] = exact_json(s.mains.white_cd_m2, "cd/m2");
     out["mains_green"] = exact_json(s.mains.green_cd_m2, "cd/m2");
@@ -107,7 +109,9 @@ Json sign_json(const Sign& s) {
 Json area_json(const AssessedArea& area, const char* kind) {
   Json outline = Json::array();
   for (const glm::dvec2& p : area.outline) outline.push_back({p.x, p.y});
-  return {{"name", area.name}, {"kind", kind}, {"outline", outline}, {"z", area.z_m}};
+  Json out = {{"name", area.name}, {"kind", kind}, {"outline", outline}, {"z", area.z_m}};
+  if (!area.ifc_guid.empty()) out["ifc_guid"] = area.ifc_guid;
+  return out;
 }
 
 /// The extinction of a layer or a body, as it is written.

@@ -7,6 +7,7 @@
 
 #include "actors/assess/assessment_check.hpp"
 #include "actors/assess/assessment_inputs.hpp"
+#include "actors/assess/guid_results.hpp"
 #include "actors/assess/state_words.hpp"
 #include "actors/output/csv.hpp"
 #include "runtime/core/regular_file.hpp"
@@ -243,6 +244,8 @@ Result<void> write_assessment(const fs::path& folder, const Json& assessment) {
                                                     "jin.legible",
                                                     "viewing_distance.within"});
   if (auto ok = write_csv(folder / "sights.csv", sights); !ok) return ok.problem();
+  if (const auto by_guid = results_by_guid(assessment))
+    if (auto ok = write_csv(folder / "by_guid.csv", *by_guid); !ok) return ok.problem();
   return {};
 }
 

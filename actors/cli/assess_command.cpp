@@ -119,7 +119,7 @@ Result<ExitCode> compare_folders(const std::string& before, const std::string& a
 
 Result<ExitCode> assess_into(const AssessmentJob& job) {
   const OutputPlan plan{
-      {"report.html", "report.pdf", "assessment.json", "checks.csv", "sights.csv"},
+      {"report.html", "report.pdf", "assessment.json", "checks.csv", "sights.csv", "by_guid.csv"},
       {"plans", "schedules"}};
   const auto out = OutputFolder::claim(job.folder, plan);
   if (!out) return out.problem();
@@ -201,7 +201,8 @@ Command assess_command() {
             "Exit code 1 where anything fails, is undecided, not assessed or not verified"}},
       .notes =
           "Needs routes, areas or observers in the scene. Writes report.html, assessment.json, "
-          "checks.csv, sights.csv, plans/ (SVG, DXF), schedules/ (CSV).\n"
+          "checks.csv, sights.csv, by_guid.csv (of what came from IFC), plans/ (SVG, DXF), "
+          "schedules/ (CSV).\n"
           "  luxodus assess scenes/library/office_floor.toml --out out/office\n"
           "  luxodus assess office.toml --scenario fire --rules en1838-2013 \\\n"
           "    --deviation de-asr-a3.4-3\n"

@@ -9,6 +9,8 @@ namespace luxodus::cli {
 Command check_command();
 Command pack_command();
 Command import_command();
+Command import_gldf_command();
+Command import_ifc_command();
 // results
 Command run_command();
 Command render_command();

@@ -5,9 +5,9 @@
 
 #include "actors/cli/command.hpp"
 #include "actors/cli/commands.hpp"
+#include "actors/import/import_files.hpp"
 #include "actors/cli/load_scene.hpp"
 #include "runtime/core/atomic_file.hpp"
-#include "runtime/core/output_path.hpp"
 #include "scenes/fields/fds_building.hpp"
 
 namespace luxodus::cli {
@@ -22,13 +22,6 @@ struct ImportOptions {
   std::string at = "60s";
 };
 
-/// `file` as a scene in `folder` names it.
-std::string named_from(const fs::path& folder, const fs::path& file) {
-  std::error_code failed;
-  const fs::path relative = fs::proximate(file, folder, failed);
-  return (failed ? fs::absolute(file) : relative).generic_string();
-}
-
 std::string geometry_text(const ImportOptions& options, const FireBuilding& building) {
   std::string out = fmt::format(
       "# The building of {} as FDS computed it, snapped to its grid, at {}.\n"
@@ -41,7 +34,8 @@ std::string geometry_text(const ImportOptions& options, const FireBuilding& buil
 }
 
 /// What a person goes on with: the smoke, a light, and what is left to do.
-std::string scene_text(const ImportOptions& options, const FireBuilding& building) {
+std::string scene_text(const ImportOptions& options, const FireBuilding& building,
+                       const std::string& index) {
   std::string sides, exits;
   for (const std::string& side : building.open_sides)
     sides += fmt::format("{}\"{}\"", sides.empty() ? "" : ", ", side);
@@ -58,7 +52,7 @@ open_sides = [{}]
 [[medium]]
 name = "fire"
 kind = "fds"
-file = "{}"
+file = {}
 at_s = {:g}
 albedo = 0.2      # soot of flaming fires: 0.15 to 0.3
 g = 0.6           # smoke: 0.5 to 0.8
@@ -77,36 +71,30 @@ distribution = "isotropic"
 position = [{:.6g}, {:.6g}, {:.6g}]
 flux_lm = 1000
 {})",
-      fs::path(options.index).stem().string(), sides, named_from(options.out, options.index),
-      time_asked(options.at).value_or(0), building.lamp.x, building.lamp.y, building.lamp.z, exits);
+      fs::path(options.index).stem().string(), sides, index, time_asked(options.at).value_or(0),
+      building.lamp.x, building.lamp.y, building.lamp.z, exits);
 }
 
 Result<ExitCode> import_fds(const ImportOptions& options) {
   const auto building = read_fire_building(options.index, time_asked(options.at).value_or(0));
   if (!building) return building.problem();
-  // TOML would take them for the end of a text.
-  if (named_from(options.out, options.index).find_first_of("\"\\\n") != std::string::npos)
-    return problem_in(options.index,
-                      "a path with quotes, backslashes or line ends is not imported");
-  const fs::path folder = behind_links(fs::path(options.out) / ".").parent_path();
-  std::error_code failed;
-  fs::create_directories(folder, failed);
-  if (!fs::is_directory(folder, failed))
-    return problem_in(folder.string(), "this is no folder, and none can be made there");
+  const auto index = quoted_from(options.out, options.index);
+  if (!index) return index.problem();
+  const auto folder = import_folder(options.out);
+  if (!folder) return folder.problem();
   const std::string geometry = geometry_text(options, building.value());
-  if (auto ok = write_file_atomically(folder / "geometry.toml", std::string_view(geometry)); !ok)
+  if (auto ok = write_file_atomically(folder.value() / "geometry.toml", std::string_view(geometry));
+      !ok)
     return ok.problem();
-  const bool kept = fs::exists(fs::symlink_status(folder / "scene.toml", failed));
-  const std::string scene = scene_text(options, building.value());
-  if (!kept)
-    if (auto ok = write_file_atomically(folder / "scene.toml", std::string_view(scene)); !ok)
-      return ok.problem();
+  const auto kept = write_unless_there(folder.value() / "scene.toml",
+                                       scene_text(options, building.value(), index.value()));
+  if (!kept) return kept.problem();
   std::printf(
       "boxes %zu, plates %zu, rectangles of walls, floors and ceilings %zu; obstructions that are "
       "not there at %s: %zu\n%s%s\n",
       building->solids, building->plates, building->faces, options.at.c_str(),
       building->absent.size(), (fs::path(options.out) / "geometry.toml").c_str(),
-      kept ? ", and scene.toml as it was" : " and scene.toml");
+      kept.value() ? ", and scene.toml as it was" : " and scene.toml");
   return ExitCode::success;
 }
 
@@ -132,7 +120,7 @@ Command import_command() {
   return {.name = "import",
           .summary = "Make a scene of what other programs know",
           .heading = "Scenes",
-          .commands = {std::move(fds)}};
+          .commands = {std::move(fds), import_gldf_command(), import_ifc_command()}};
 }
 
 }  // namespace luxodus::cli

@@ -27,6 +27,9 @@ install(TARGETS luxodus RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 set(shared ${CMAKE_INSTALL_DATADIR}/luxodus)
 install(DIRECTORY scenes/library DESTINATION ${shared}/scenes
   PATTERN "*.expected.toml" EXCLUDE)
+# What computes shapes of IFC models, with its package where setup.sh has fetched it.
+install(DIRECTORY actors/import/shapes/ DESTINATION ${shared}/ifc PATTERN ".gitignore" EXCLUDE
+  PATTERN ".package-lock.json" EXCLUDE)
 file(GLOB examples CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/actors/cli/examples/*)
 foreach(example ${examples})
   get_filename_component(name ${example} NAME)
@@ -61,5 +64,5 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS fonts-dejavu-core)  # letters of signs
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS chromium)  # prints report.pdf
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "chromium, nodejs (>= 18)")  # print report.pdf; import ifc
 include(CPack)

@@ -15,6 +15,14 @@ const Value* Table::find(std::string_view key) const {
   return at != entries_.end() && at->key == key ? &at->value : nullptr;
 }
 
+Table Table::over(const Table& base) const {
+  std::vector<Entry> all = entries_;
+  for (const Entry& entry : base.entries_)
+    if (find(entry.key) == nullptr) all.push_back(entry);
+  std::sort(all.begin(), all.end(), [](const Entry& a, const Entry& b) { return a.key < b.key; });
+  return {origin_, std::move(all)};
+}
+
 std::string_view Value::kind() const {
   constexpr std::array<std::string_view, std::variant_size_v<Data>> kinds{
       "a table", "an array", "a text", "an integer", "a number", "true or false", "a date or time"};

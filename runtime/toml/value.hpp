@@ -38,6 +38,8 @@ class Table {
   const Value* find(std::string_view key) const;
   /// Sorted by key.
   const std::vector<Entry>& entries() const { return entries_; }
+  /// This table with the entries of `base` whose keys it has not; each keeps its place.
+  Table over(const Table& base) const;
 
  private:
   Origin origin_;

@@ -33,11 +33,16 @@ Result<PhotometricFile> read_photometric_file(const std::filesystem::path& path)
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  const bool ies = extension == ".ies" || has_tilt_line(bytes.value());
-  Result<PhotometricFile> file = ies ? read_ies(bytes.value(), path.string(), path.parent_path())
-                                     : read_ldt(bytes.value(), path.string());
+  Result<PhotometricFile> file =
+      extension == ".ies" ? read_ies(bytes.value(), path.string(), path.parent_path())
+                          : photometric_file_of(bytes.value(), path.string(), path.parent_path());
   if (file) file->files_read.insert(file->files_read.begin(), path);
   return file;
+}
+
+Result<PhotometricFile> photometric_file_of(std::string_view bytes, const std::string& file,
+                                            const std::filesystem::path& folder) {
+  return has_tilt_line(bytes) ? read_ies(bytes, file, folder) : read_ldt(bytes, file);
 }
 
 std::optional<std::string> odd_efficacy(const PhotometricFile& file) {

@@ -20,6 +20,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "runtime/core/result.hpp"
@@ -95,5 +96,10 @@ std::optional<std::string> odd_efficacy(const PhotometricFile& file);
 /// Reads a photometric file; its contents (a TILT= line) tell IES from EULUMDAT, then its name.
 /// Errors: the file cannot be read, is neither, or breaks its format; one Problem with the line.
 Result<PhotometricFile> read_photometric_file(const std::filesystem::path& path);
+
+/// The same of bytes, told by their contents alone. `file` names them in messages; `folder` is
+/// where an IES file's TILT=<file> is looked for.
+Result<PhotometricFile> photometric_file_of(std::string_view bytes, const std::string& file,
+                                            const std::filesystem::path& folder);
 
 }  // namespace luxodus

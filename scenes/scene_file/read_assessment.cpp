@@ -17,6 +17,7 @@ AssessedArea read_area(KeyReader& keys, const char* kind) {
   AssessedArea area;
   area.name = read_name(keys, kind);
   area.place = keys.place();
+  area.ifc_guid = keys.text("ifc_guid");
   area.z_m = keys.number("z");
   const auto outline = keys.corners("outline");
   if (!keys.clean()) return area;

@@ -79,9 +79,10 @@ std::vector<DesignType> types_of_scene(const SceneDescription& scene) {
 
 /// The light of a luminaire that is in the scene. Keys of light beside it would say another.
 void take_light_of(KeyReader& keys, const std::string& like, Emitter& e) {
-  for (const char* key : {"file", "point_source", "circuit", "group", "mains_factor",
-                          "maintenance_factor", "emergency", "emergency_flux", "emergency_factor",
-                          "end_of_duration_factor", "onset", "spectrum", "body_material"})
+  for (const char* key :
+       {"file", "variant", "emitter", "duration_h", "point_source", "circuit", "group",
+        "mains_factor", "maintenance_factor", "emergency", "emergency_flux", "emergency_factor",
+        "end_of_duration_factor", "onset", "spectrum", "body_material"})
     if (keys.has(key))
       return keys.problem(
           key, "'" + std::string(key) + "' and 'like' exclude each other: '" + like + "' says it");

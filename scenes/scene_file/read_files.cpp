@@ -54,4 +54,20 @@ std::shared_ptr<const PhotometricFile> read_photometry(const std::filesystem::pa
   return std::static_pointer_cast<const PhotometricFile>(kept);
 }
 
+std::shared_ptr<const GldfProduct> read_container(const std::filesystem::path& path,
+                                                  const SourcePlace& place, SceneReading& reading) {
+  const auto [it, fresh] = reading.cache.try_emplace("container " + path.string());
+  auto& kept = it->second;  // null where it failed before: said once is enough
+  if (fresh) {
+    if (!take_hash(path, place, reading)) return nullptr;
+    auto product = read_gldf(path);
+    if (!product) {
+      take_problem(product.problem(), place, reading);
+      return nullptr;
+    }
+    kept = std::make_shared<const GldfProduct>(std::move(product).value());
+  }
+  return std::static_pointer_cast<const GldfProduct>(kept);
+}
+
 }  // namespace luxodus

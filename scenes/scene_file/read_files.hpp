@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "scenes/photometry/gldf.hpp"
 #include "scenes/photometry/photometric_file.hpp"
 #include "scenes/scene_file/scene_reading.hpp"
 
@@ -17,6 +18,9 @@ std::shared_ptr<const Image> read_image(const std::filesystem::path& path, const
 std::shared_ptr<const PhotometricFile> read_photometry(const std::filesystem::path& path,
                                                        const SourcePlace& place,
                                                        SceneReading& reading);
+/// A GLDF container.
+std::shared_ptr<const GldfProduct> read_container(const std::filesystem::path& path,
+                                                  const SourcePlace& place, SceneReading& reading);
 /// Hashes a file; false and a problem where it cannot be read.
 bool take_hash(const std::filesystem::path& path, const SourcePlace& place, SceneReading& reading);
 /// A problem of another reader, with the place that named its file.

@@ -2,7 +2,9 @@
 #include "scenes/scene_file/read_luminaires.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 
 #include "runtime/core/output_text.hpp"
@@ -11,6 +13,7 @@
 #include "scenes/scene_file/read_files.hpp"
 #include "scenes/scene_file/read_placement.hpp"
 #include "scenes/scene_file/read_spectrum.hpp"
+#include "scenes/scene_file/read_types.hpp"
 #include "scenes/scene_file/scene_readers.hpp"
 
 namespace luxodus {
@@ -32,8 +35,10 @@ void read_onset(KeyReader& keys, Emitter& e) {
 }
 
 /// Fluxes of both states from the rated flux: E = rated x factors, each stated in the file, none
-/// guessed.
-void read_operation(KeyReader& keys, Emitter& e, double rated) {
+/// guessed. `container`: of a luminaire that is in one, which may state the emergency flux;
+/// `flux_needed`: there is none.
+void read_operation(KeyReader& keys, Emitter& e, double rated, bool flux_needed = true,
+                    const GldfLuminaire* container = nullptr) {
   if (const auto circuit = keys.maybe_text("circuit")) {
     e.circuit = *circuit;
     keys.reading().note("circuit", e.circuit, keys.place("circuit"));
@@ -62,7 +67,14 @@ void read_operation(KeyReader& keys, Emitter& e, double rated) {
     return;
   }
   const std::string why = " is needed where 'emergency' is set: no standard value is assumed";
-  keys.exactly_one({"emergency_flux", "emergency_factor"}, true);
+  keys.exactly_one({"emergency_flux", "emergency_factor"}, flux_needed);
+  if (container != nullptr && container->emergency_only && mains)
+    keys.problem("emergency",
+                 "this emitter is for emergency operation only: say \"non-maintained\"");
+  const bool contained = container != nullptr && !flux && !factor;
+  if (contained && !container->emergency_lm)
+    take_problem(container->emergency_lm.problem(), keys.place("file"), keys.reading());
+  const double stated = contained && container->emergency_lm ? container->emergency_lm.value() : 0;
   if (factor.value_or(0) > 1)
     keys.reading().warning(
         keys.place("emergency_factor"),
@@ -74,7 +86,8 @@ void read_operation(KeyReader& keys, Emitter& e, double rated) {
   e.end_of_duration_factor = end_of_duration.value_or(1);
   e.maintained = mains;
   e.emergency_ageing = maintenance.value_or(1) * end_of_duration.value_or(1);
-  e.emergency_flux = flux.value_or(rated * factor.value_or(0)) * e.emergency_ageing;
+  e.emergency_flux =
+      (contained ? stated : flux.value_or(rated * factor.value_or(0))) * e.emergency_ageing;
   read_onset(keys, e);
 }
 
@@ -230,29 +243,78 @@ void add_emitter(KeyReader& keys, const Emitter& e, std::span<const glm::dvec3> 
   }
 }
 
+bool ending_is_gldf(const std::filesystem::path& path) {
+  const std::string ending = path.extension().string();
+  return ending.size() == 5 &&
+         std::equal(ending.begin(), ending.end(), ".gldf", [](char a, char b) {
+           return std::tolower(static_cast<unsigned char>(a)) == b;
+         });
+}
+
+/// Which luminaire of a container.
+struct ContainerKeys {
+  std::string variant, emitter;
+  std::optional<double> duration_h;
+};
+
+/// `other_file`: the luminaire's file is none, so that the keys have no meaning.
+ContainerKeys read_container_keys(KeyReader& keys, bool other_file) {
+  for (const char* key : {"variant", "emitter", "duration_h"})
+    if (other_file && keys.has(key))
+      keys.problem(key, "'" + std::string(key) + "' belongs to a GLDF container (.gldf)");
+  return {keys.maybe_text("variant").value_or(""), keys.maybe_text("emitter").value_or(""),
+          keys.maybe_number("duration_h")};
+}
+
+std::optional<GldfLuminaire> contained_luminaire(KeyReader& keys, const std::filesystem::path& path,
+                                                 const ContainerKeys& inside) {
+  const auto product = read_container(path, keys.place("file"), keys.reading());
+  if (!product) return std::nullopt;
+  auto chosen = luminaire_of(*product, inside.variant, inside.emitter, inside.duration_h);
+  if (!chosen) {
+    take_problem(chosen.problem(), keys.place("file"), keys.reading());
+    return std::nullopt;
+  }
+  for (const Problem& w : chosen->photometry.warnings) keys.reading().warning(w.where, w.what);
+  return std::move(chosen).value();
+}
+
 }  // namespace
 
 void read_photometric_light(KeyReader& keys, Emitter& e) {
   e.distribution = Distribution::web;
-  double rated = 0;
   const bool point = keys.flag("point_source");
-  if (const auto path = keys.file("file")) {
-    if (const auto file = read_photometry(*path, keys.place("file"), keys.reading())) {
-      e.web = file->web;
-      e.file = *keys.value("file")->as_text();
-      e.product = file->luminaire;
-      e.opening_m = file->opening.size_m;
-      rated = file->web->flux_lm();
-      if (!point) take_opening(file->opening, e);
+  const auto path = keys.file("file");
+  const bool container = path && ending_is_gldf(*path);
+  const auto inside = read_container_keys(keys, path && !container);
+  std::optional<GldfLuminaire> contained;
+  double rated = 0;
+  const auto take = [&](const PhotometricFile& file) {
+    e.web = file.web;
+    e.file = *keys.value("file")->as_text();
+    e.product = file.luminaire;
+    e.opening_m = file.opening.size_m;
+    rated = file.web->flux_lm();
+    if (!point) take_opening(file.opening, e);
+  };
+  if (container) {
+    contained = contained_luminaire(keys, *path, inside);
+    if (contained) {
+      take(contained->photometry);
+      rated = contained->rated_lm;
     }
+  } else if (path) {
+    if (const auto file = read_photometry(*path, keys.place("file"), keys.reading())) take(*file);
   }
-  read_operation(keys, e, rated);
+  read_operation(keys, e, rated, !container, contained ? &*contained : nullptr);
   read_body(keys, e);
 }
 
-void read_luminaire(const toml::Table& table, SceneReading& reading) {
+void read_luminaire(const toml::Table& stated, SceneReading& reading) {
+  const toml::Table table = with_type(stated, "luminaire_type", reading);
   KeyReader keys(table, {"luminaire"}, reading);
   Emitter e;
+  e.ifc_guid = keys.text("ifc_guid");
   e.place = keys.place();
   e.name = read_name(keys, "luminaire or emitter");
   e.frame = read_aim(keys);

@@ -8,6 +8,7 @@
 #include "scenes/scene_file/read_files.hpp"
 #include "scenes/scene_file/read_placement.hpp"
 #include "scenes/scene_file/read_spectrum.hpp"
+#include "scenes/scene_file/read_types.hpp"
 #include "scenes/scene_file/scene_readers.hpp"
 
 namespace luxodus {
@@ -163,9 +164,11 @@ void read_luminances(KeyReader& keys, Sign& sign) {
 
 }  // namespace
 
-void read_sign(const toml::Table& table, SceneReading& reading) {
+void read_sign(const toml::Table& stated, SceneReading& reading) {
+  const toml::Table table = with_type(stated, "sign_type", reading);
   KeyReader keys(table, {"sign"}, reading);
   Sign sign;
+  sign.ifc_guid = keys.text("ifc_guid");
   sign.place = keys.place();
   sign.name = read_name(keys, "sign");
   sign.width_m = keys.number("width");

@@ -192,6 +192,8 @@ ReadScene read_scene(const std::filesystem::path& path, std::optional<double> at
   const std::pair<std::string_view, Reader> order[] = {
       {"object", read_object},
       {"import", read_import},
+      {"luminaire_type", read_luminaire_type},
+      {"sign_type", read_sign_type},
       {"luminaire", read_luminaire},
       {"emitter", read_emitter},
       {"sign", read_sign},

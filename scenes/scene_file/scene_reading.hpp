@@ -14,6 +14,7 @@
 
 #include "runtime/core/result.hpp"
 #include "runtime/toml/findings.hpp"
+#include "runtime/toml/value.hpp"
 #include "scenes/world/description.hpp"
 
 namespace luxodus {
@@ -80,6 +81,10 @@ class SceneReading {
   /// Errors: a file that cannot be read.
   std::optional<Problem> hash_file(const std::filesystem::path& path);
   void hash_bytes(std::string_view bytes);
+
+  /// What several luminaires or signs have in common, by kind and name; of the documents, which
+  /// outlive the reading.
+  std::map<std::string, const toml::Table*> types;
 
   /// Keeps what was read from a file, so that a file named twice is read once.
   std::map<std::string, std::shared_ptr<const void>> cache;

@@ -22,6 +22,10 @@ inline std::vector<KeySpec> joined(std::vector<KeySpec> a, const std::vector<Key
 
 /// The key `repeat`, wherever things are placed.
 KeySpec repeat_key();
+/// Keys of a photometric file; `whether`: "required", or "" where another key may stand instead.
+std::vector<KeySpec> photometric_file_keys(const char* whether);
+/// The key `ifc_guid`, wherever a thing may come from a model.
+KeySpec ifc_guid_key();
 /// What luminaires give in each operating state.
 std::vector<KeySpec> operation_keys();
 

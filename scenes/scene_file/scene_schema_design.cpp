@@ -56,18 +56,16 @@ std::vector<TableSpec> design_schema() {
             {"like", "text", "", "", "",
              "luminaire or emitter of the scene whose light it has, instead of `file` and all "
              "that goes with it"},
-            {"file", "path", "", "", "", "EULUMDAT (.ldt) or IES LM-63 (.ies) file"},
-            {"point_source", "flag", "", "false", "",
-             "emit from a point instead of the luminous opening of the file"},
             {"cost", "number", "", "1", "[0, 1e9]",
              "of one, installed, with what it costs over its life"},
             {"watts", "number", "W", "0", "[0, 1e6]", "that one takes"},
             {"turns_deg", "numbers", "deg", "", "[-360, 360]",
              "turns about its aim that are tried, from the direction of the route below (over "
              "areas from +x); without it 0 and 90 of those whose light has a direction, else 0"}},
-           joined(operation_keys(), {{"body_material", "text", "", "", "",
-                                      "material of its body; without it returning light "
-                                      "passes"}}))},
+           joined(joined(photometric_file_keys(""), operation_keys()),
+                  {{"body_material", "text", "", "", "",
+                    "material of its body; without it returning light "
+                    "passes"}}))},
       {"design.keep_out",
        "`[[design.keep_out]]`: a vertical cylinder in which nothing is mounted",
        {

@@ -3,6 +3,26 @@
 
 namespace luxodus {
 
+KeySpec ifc_guid_key() {
+  return {"ifc_guid", "text", "",
+          "\"\"",     "",     "GlobalId in the IFC model that it came from; results name it"};
+}
+
+std::vector<KeySpec> photometric_file_keys(const char* whether) {
+  return {
+      {"file", "path", "", whether, "",
+       "EULUMDAT (.ldt) or IES LM-63 (.ies) file, or a GLDF container (.gldf) of them"},
+      {"variant", "text", "", "", "", "id of the variant in a GLDF container that has several"},
+      {"emitter", "text", "", "", "",
+       "id of the light emitter, where the variant has several; `ID#2` for the second of an id"},
+      {"duration_h", "number", "h", "", "(0, 100]",
+       "takes the emergency flux that the container states for this duration; without it what its "
+       "emitter rates for emergency, else its rated flux times its ballast's factor"},
+      {"point_source", "flag", "", "false", "",
+       "emit from a point instead of the luminous opening of the file"},
+  };
+}
+
 std::vector<KeySpec> operation_keys() {
   return {
       {"circuit", "name", "", "", "", "circuit it hangs on"},
@@ -17,8 +37,7 @@ std::vector<KeySpec> operation_keys() {
        "`\"non-maintained\"`: only then"},
       {"emergency_flux", "number", "lm or W", "", "[0, 1e9]",
        "flux on emergency supply, in the unit of the mains flux; this or `emergency_factor` is "
-       "mandatory "
-       "where `emergency` is not false"},
+       "mandatory where `emergency` is not false and no GLDF container says it"},
       {"emergency_factor", "number", "", "", "[0, 1000]",
        "flux on emergency supply as a share of the rated flux (ballast lumen factor)"},
       {"end_of_duration_factor", "number", "", "", "(0, 1]",
@@ -55,15 +74,23 @@ std::vector<TableSpec> luminaire_keys() {
   return {
       {"luminaire", "`[[luminaire]]`: a luminaire of a photometric file",
        joined(
-           joined({{"name", "name", "", "required", "", "name of the luminaire"},
-                   {"file", "path", "", "required", "", "EULUMDAT (.ldt) or IES LM-63 (.ies) file"},
-                   {"point_source", "flag", "", "false", "",
-                    "emit from a point instead of the luminous opening of the file"}},
+           joined(joined({{"name", "name", "", "required", "", "name of the luminaire"},
+                          {"type", "text", "", "", "",
+                           "name of a `[[luminaire_type]]`, whose keys it has but for those that "
+                           "it says itself"},
+                          ifc_guid_key()},
+                         photometric_file_keys("required")),
                   aim_keys()),
            joined(operation_keys(),
                   {repeat_key(),
                    {"body_material", "text", "", "", "",
                     "material of its body; without it returning light passes"}}))},
+      {"luminaire_type", "`[[luminaire_type]]`: what several luminaires have in common",
+       joined(joined({{"name", "name", "", "required", "", "name of the type"}},
+                     photometric_file_keys("")),
+              joined(operation_keys(), {{"body_material", "text", "", "", "",
+                                         "material of its body; without it returning light "
+                                         "passes"}}))},
       {"emitter", "`[[emitter]]`: a light source of simple shape",
        joined(
            joined(
@@ -122,6 +149,9 @@ TableSpec sign_keys() {
       "`[[sign]]`: a safety sign",
       {
           {"name", "name", "", "required", "", "name of the sign"},
+          {"type", "text", "", "", "",
+           "name of a `[[sign_type]]`, whose keys it has but for those that it says itself"},
+          ifc_guid_key(),
           {"position", "point", "m", "required", "[-1e7, 1e7]", "centre of the sign"},
           {"facing", "direction", "", "required", "[-1e7, 1e7]", "where its (front) face looks"},
           {"up", "direction", "", "[0, 0, 1]", "[-1e7, 1e7]", "what is up on the face"},
@@ -288,11 +318,28 @@ std::vector<TableSpec> medium_keys() {
   };
 }
 
+/// Those of a sign, without its place; none is required of a type.
+TableSpec sign_type_keys() {
+  TableSpec spec{"sign_type", "`[[sign_type]]`: what several signs have in common", {}};
+  for (KeySpec key : sign_keys().keys) {
+    if (key.name == "position" || key.name == "facing" || key.name == "type" ||
+        key.name == "ifc_guid")
+      continue;
+    if (key.name == "name")
+      key.meaning = "name of the type";
+    else if (key.fallback == "required")
+      key.fallback = "";
+    spec.keys.push_back(key);
+  }
+  return spec;
+}
+
 }  // namespace
 
 std::vector<TableSpec> light_schema() {
   std::vector<TableSpec> all = luminaire_keys();
   all.push_back(sign_keys());
+  all.push_back(sign_type_keys());
   for (auto& t : medium_keys()) all.push_back(std::move(t));
   for (auto& t : data_set_schema()) all.push_back(std::move(t));
   return all;

@@ -108,6 +108,7 @@ struct Emitter {
   bool maintained = false;            // of an emergency luminaire: lit with the mains, too
   std::string file;         // of the photometric data, as the scene writes it; "" for none
   std::string product;      // what that file calls the luminaire
+  std::string ifc_guid;     // GlobalId in the model that it came from; "" for none
   glm::dvec3 opening_m{0};  // luminous opening: length, width, height; 0 where not said
   /// After a failure of the mains: time [s], share of emergency_flux; ascending in both, linear
   /// between, the last holds. Empty: not said.
@@ -154,8 +155,9 @@ struct Sign {
   double height_m = 0;
   double smallest_detail_m = 0;
   std::optional<SignLetters> letters;
-  std::string file;  // of the drawing of its face, as the scene writes it; "" for none
-  std::string text;  // of its face, if that is words
+  std::string file;      // of the drawing of its face, as the scene writes it; "" for none
+  std::string text;      // of its face, if that is words
+  std::string ifc_guid;  // GlobalId in the model that it came from; "" for none
   bool double_sided = false;
   double thickness_m = 0.03;  // distance between the two faces
   SignFace face;
@@ -251,7 +253,8 @@ struct AssessedArea {
   SourcePlace place;
   std::vector<glm::dvec2> outline;  // counter-clockwise
   double z_m = 0;
-  double mains_lx = 0;  // of a task area: the illuminance maintained in mains operation
+  double mains_lx = 0;   // of a task area: the illuminance maintained in mains operation
+  std::string ifc_guid;  // GlobalId of its space in the model that it came from; "" for none
 };
 
 /// What an emergency luminaire has to be near to.
@@ -383,12 +386,12 @@ struct SceneDescription {
   AssessmentSettings assessment;
   ProjectSettings project;
   std::shared_ptr<const DesignSettings> design;  // null in a pack, and in scenes made by programs
-  std::vector<Side> open_sides;      // through which light is meant to leave
-  std::vector<Scenario> scenarios;   // empty: mains, as written
-  uint64_t content_hash = 0;         // of every file read
-  int64_t degenerate_triangles = 0;  // dropped on reading
-  std::vector<Problem> warnings;     // said by `check`, not fatal
-  std::vector<Problem> notes;        // said by `check`: what a reader of the results should know
+  std::vector<Side> open_sides;                  // through which light is meant to leave
+  std::vector<Scenario> scenarios;               // empty: mains, as written
+  uint64_t content_hash = 0;                     // of every file read
+  int64_t degenerate_triangles = 0;              // dropped on reading
+  std::vector<Problem> warnings;                 // said by `check`, not fatal
+  std::vector<Problem> notes;  // said by `check`: what a reader of the results should know
   /// Where the triangles are, if not in the objects; null where they are.
   std::shared_ptr<const PackedScene> packed;
 };

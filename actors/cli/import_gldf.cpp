@@ -1,0 +1,172 @@
+// luxodus import gldf: what a manufacturer's container holds, and tables of a scene that name it.
+#include <fmt/format.h>
+
+#include <set>
+
+#include "actors/cli/command.hpp"
+#include "actors/cli/commands.hpp"
+#include "actors/import/import_files.hpp"
+#include "runtime/core/atomic_file.hpp"
+#include "scenes/photometry/gldf.hpp"
+
+namespace luxodus::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ImportGldfOptions {
+  std::string file;
+  std::string out;
+};
+
+std::string lumens(const std::optional<double>& flux) {
+  return flux ? fmt::format("{:.6g} lm", *flux) : std::string("not said");
+}
+
+/// What the light gives on emergency supply, in words.
+std::string emergency_words(const GldfLight& light) {
+  if (light.emergency_lm) return lumens(light.emergency_lm);
+  if (light.ballast_factor) return fmt::format("{:.6g} of the rated flux", *light.ballast_factor);
+  return light.behaviour == "EmergencyOnly" ? "the rated flux" : "not said";
+}
+
+std::string duration_words(const GldfVariant& variant) {
+  std::string out;
+  for (const GldfDuration& row : variant.durations)
+    out += fmt::format("{}{:g} h {:.6g} lm", out.empty() ? "" : ", ", row.hours, row.flux_lm);
+  return out;
+}
+
+void list_contents(const GldfProduct& product) {
+  std::string out = fmt::format("product       {}\nnumber        {}\nmanufacturer  {}\n",
+                                product.name, product.number, product.manufacturer);
+  for (const GldfVariant& variant : product.variants) {
+    out += fmt::format("variant \"{}\"{}{}\n", variant.id, variant.name.empty() ? "" : ": ",
+                       variant.name);
+    for (const size_t at : variant.lights) {
+      const GldfLight& light = product.lights[at];
+      out += fmt::format("  emitter \"{}\": {}, rated {}, in an emergency {}{}\n", light.emitter,
+                         light.photometry, lumens(light.rated_lm), emergency_words(light),
+                         light.fault.empty() ? "" : "; " + light.fault);
+    }
+    if (!variant.durations.empty())
+      out += "  emergency flux by duration: " + duration_words(variant) + "\n";
+  }
+  std::printf("%s", out.c_str());
+}
+
+/// The housing as an object that stands on the luminous opening, a millimetre above it, so that it
+/// hides no light that goes down.
+std::string housing_text(const GldfVariant& variant, const std::string& name, double x) {
+  constexpr double gap_m = 1e-3, z = 3 + gap_m;
+  if (!variant.housing) return {};
+  const glm::dvec3 size = variant.housing->size_m;
+  const std::string head = fmt::format("\n[[object]]\nname = {}\nmaterial = \"white70\"\n",
+                                       toml_text(name + " housing"));
+  if (variant.housing->round)
+    return head + fmt::format(
+                      "shape = \"cylinder\"\nradius = {:.6g}\nheight = {:.6g}\n"
+                      "translate = [{:.6g}, 0, {:.6g}]\n",
+                      size.x / 2, size.z, x, z);
+  return head + fmt::format(
+                    "shape = \"box\"\nlow = [{:.6g}, {:.6g}, {:.6g}]\n"
+                    "high = [{:.6g}, {:.6g}, {:.6g}]\n",
+                    x - size.x / 2, -size.y / 2, z, x + size.x / 2, size.y / 2, z + size.z);
+}
+
+std::string luminaire_text(const GldfVariant& variant, const GldfLight& light,
+                           const std::string& name, const std::string& container, double x) {
+  std::string out = fmt::format(
+      "\n[[luminaire]]\nname = {}\nfile = {}\nvariant = {}\nemitter = {}\n"
+      "position = [{:g}, 0, 3]\n",
+      toml_text(name), container, toml_text(variant.id), toml_text(light.emitter), x);
+  if (light.rotation_deg != glm::dvec3(0))
+    out += fmt::format("# The container turns this emitter by [{:g}, {:g}, {:g}] degrees.\n",
+                       light.rotation_deg.x, light.rotation_deg.y, light.rotation_deg.z);
+  const bool knows = light.emergency_lm || light.ballast_factor;
+  if (!knows && light.behaviour != "EmergencyOnly" && variant.durations.empty()) return out;
+  out += fmt::format(
+      "# On emergency supply: {}. State ageing and battery to have it lit then:\n"
+      "# emergency = \"{}\"\n# maintenance_factor = \n# end_of_duration_factor = \n",
+      emergency_words(light), light.behaviour == "EmergencyOnly" ? "non-maintained" : "maintained");
+  if (!variant.durations.empty())
+    out += "# duration_h = " + fmt::format("{:g}", variant.durations.front().hours) +
+           "  # there are: " + duration_words(variant) + "\n";
+  return out;
+}
+
+/// Tables of every light that can be had, in a row.
+std::string luminaires_text(const GldfProduct& product, const std::string& container) {
+  std::string out = fmt::format(
+      "# {}, {}, {}\n"
+      "# Made by `luxodus import gldf`, which writes this file anew: copy its tables to your scene "
+      "and\n# give them their places. Here they hang in a row.\n",
+      as_name(product.name, "a product"), as_name(product.number, "no number"),
+      as_name(product.manufacturer, "no manufacturer"));
+  std::set<std::string> taken;
+  double x = 0;
+  for (const GldfVariant& variant : product.variants) {
+    for (const size_t at : variant.lights) {
+      const GldfLight& light = product.lights[at];
+      if (!light.fault.empty()) {
+        out += "\n# Left out: " + as_name(light.emitter, "an emitter") + ": " +
+               as_name(light.fault, "") + "\n";
+        continue;
+      }
+      const std::string wish = as_name(
+          variant.lights.size() > 1 ? variant.id + " " + light.emitter : variant.id, "luminaire");
+      std::string name = wish;
+      for (int i = 2; !taken.insert(name).second; ++i) name = fmt::format("{} {}", wish, i);
+      out += luminaire_text(variant, light, name, container, x);
+      out += housing_text(variant, name, x);
+      x += 2;
+    }
+  }
+  return out;
+}
+
+Result<ExitCode> import_gldf(const ImportGldfOptions& options) {
+  const auto product = read_gldf(options.file);
+  if (!product) return product.problem();
+  list_contents(product.value());
+  if (options.out.empty()) return ExitCode::success;
+  const auto container = quoted_from(options.out, options.file);
+  if (!container) return container.problem();
+  const auto folder = import_folder(options.out);
+  if (!folder) return folder.problem();
+  for (const GldfFile& file : product->photometry) {
+    // The last part of a name of others, as a name of ours: it leads nowhere else.
+    const std::string name = as_name(fs::path(file.name).filename().string(), "photometry.ldt");
+    if (auto ok = write_file_atomically(folder.value() / name, std::string_view(file.bytes)); !ok)
+      return ok.problem();
+  }
+  const std::string text = luminaires_text(product.value(), container.value());
+  const fs::path tables = folder.value() / "luminaires.toml";
+  if (auto ok = write_file_atomically(tables, std::string_view(text)); !ok) return ok.problem();
+  std::printf("%s\n", (fs::path(options.out) / "luminaires.toml").c_str());
+  return ExitCode::success;
+}
+
+}  // namespace
+
+Command import_gldf_command() {
+  const auto o = std::make_shared<ImportGldfOptions>();
+  return {
+      .name = "gldf",
+      .summary = "List the luminaires of a GLDF container, and write tables of them",
+      .options =
+          {{"container", &o->file, "Container (.gldf)", {.form = Form::file, .required = true}},
+           {"-o,--out",
+            &o->out,
+            "Folder of luminaires.toml and the photometric files; without it nothing is written",
+            {.form = Form::folder}}},
+      .notes =
+          "A scene may name the container itself, as the file of a luminaire, with 'variant' and "
+          "'emitter'. Files that a container names by an address are not fetched.\n"
+          "  luxodus import gldf luminaire.gldf\n"
+          "  luxodus import gldf luminaire.gldf --out luminaires",
+      .run = [o] { return exit_code_of(import_gldf(*o)); }};
+}
+
+}  // namespace luxodus::cli

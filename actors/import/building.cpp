@@ -1,0 +1,427 @@
+// Products are taken in the order of the file, so that the same model gives the same bytes.
+#include "actors/import/building.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <numbers>
+#include <set>
+#include <unordered_map>
+
+#include "actors/import/import_files.hpp"
+#include "scenes/geometry/mesh_tools.hpp"
+
+namespace luxodus {
+namespace {
+
+/// Opacity below which a part is taken for glass.
+constexpr double clear_below = 0.95;
+
+std::string small(std::string_view text) {
+  std::string out(text);
+  std::transform(out.begin(), out.end(), out.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return out;
+}
+
+bool is_fixture(const IfcProduct& p) {
+  return p.kind == "LIGHTFIXTURE" || p.type_class == "IFCLIGHTFIXTURETYPE";
+}
+
+bool is_furniture(const IfcProduct& p) {
+  return p.kind == "FURNITURE" || p.kind == "FURNISHINGELEMENT" ||
+         p.kind == "SYSTEMFURNITUREELEMENT";
+}
+
+/// What has a shape and is nothing to stand in the light's way.
+bool is_no_body(const IfcProduct& p) {
+  static const std::set<std::string, std::less<>> kinds{
+      "OPENINGELEMENT", "OPENING",     "VIRTUALELEMENT", "SPACE", "GRID",
+      "ANNOTATION",     "SPATIALZONE", "VOIDINGFEATURE", "PORT",  "DISTRIBUTIONPORT"};
+  return kinds.contains(p.kind);
+}
+
+/// Its name, or what kind it is, with its GlobalId: unique, and found again in the model.
+std::string part_name(const IfcProduct& p, std::string_view word) {
+  std::string name = as_name(p.name, "");
+  if (name.size() > 60) name = as_name(name.substr(0, 60), "");
+  return std::string(word) + (name.empty() ? "" : " " + name) + " " + p.guid;
+}
+
+/// Whether a point lies within an outline (crossings of a ray to +x).
+bool within(const std::vector<glm::dvec2>& outline, const glm::dvec2& p) {
+  bool inside = false;
+  for (size_t i = 0, j = outline.size() - 1; i < outline.size(); j = i++) {
+    const glm::dvec2 a = outline[i], b = outline[j];
+    if ((a.y > p.y) != (b.y > p.y) && p.x < (b.x - a.x) * (p.y - a.y) / (b.y - a.y) + a.x)
+      inside = !inside;
+  }
+  return inside;
+}
+
+/// Relative luminance of a display colour (IEC 61966-2-1 primaries), kept to what paints reach.
+double grey_of(const ImportedPart& part) {
+  const glm::dvec3 c = part.base_colour.value_or(glm::dvec3(0.5));
+  return std::clamp(0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b, 0.05, 0.85);
+}
+
+class Assembly {
+ public:
+  Assembly(const IfcModel& model, IfcShapes shapes) : model_(model), shapes_(std::move(shapes)) {}
+
+  Building build() {
+    out_.title = model_.project;
+    out_.file = model_.file;
+    out_.schema = model_.schema;
+    for (const Problem& fault : model_.faults) out_.unread.push_back(fault.text());
+    for (const std::string& note : shapes_.notes) out_.unread.push_back(note);
+    make_storeys();
+    for (size_t i = 0; i < shapes_.parts.size(); ++i) {
+      const std::string& name = shapes_.parts[i].name;
+      shapes_of_[name.substr(0, name.find('#'))].push_back(i);
+    }
+    std::set<std::string> known;
+    for (const IfcProduct& product : model_.products) {
+      if (!known.insert(product.guid).second) {
+        out_.unread.push_back(fmt::format("#{} has the GlobalId {} of another product", product.id,
+                                          as_name(product.guid, "\"\"")));
+        continue;
+      }
+      take(product);
+    }
+    for (const auto& [guid, parts] : shapes_of_)
+      if (!known.contains(guid))
+        out_.unread.push_back("a shape of " + as_name(guid, "nothing") +
+                              ", which is no product of the model, was left out");
+    finish();
+    return std::move(out_);
+  }
+
+ private:
+  void make_storeys() {
+    for (const IfcStorey& storey : model_.storeys)
+      if (!storey_at_.contains(storey.name)) {
+        storey_at_[storey.name] = out_.storeys.size();
+        out_.storeys.push_back({as_name(storey.name, "storey"), storey.elevation_m, {}});
+      }
+    storey_at_[""] = out_.storeys.size();
+    out_.storeys.push_back({"no storey", 0, {}});
+    std::set<std::string> taken;
+    for (BuildingStorey& storey : out_.storeys) {
+      const std::string wish = storey.name;
+      for (int i = 2; !taken.insert(storey.name).second; ++i)
+        storey.name = fmt::format("{} {}", wish, i);
+    }
+  }
+
+  BuildingStorey& storey_of(const IfcProduct& p) {
+    const auto it = storey_at_.find(p.storey);
+    return out_.storeys[it == storey_at_.end() ? storey_at_[""] : it->second];
+  }
+
+  /// By the product's material, else its layer, else its kind. Of several materials a clear part
+  /// has the first that is called glass, another one the first that is not.
+  std::string material_of(const IfcProduct& p, const ImportedPart& part) {
+    const bool clear = opacity_of(part) < clear_below;
+    const auto fits = [&](const std::string& name) {
+      return (small(name).find("glas") != std::string::npos) == clear;
+    };
+    const auto at = std::find_if(p.materials.begin(), p.materials.end(), fits);
+    std::string name = at != p.materials.end() ? *at
+                       : !p.materials.empty()  ? p.materials.front()
+                       : !p.layer.empty()      ? "layer " + p.layer
+                                               : small(p.kind);
+    name = as_name(name, "material") + (clear ? ", clear" : "");
+    out_.materials.try_emplace(name, BuildingMaterial{grey_of(part), clear});
+    return name;
+  }
+
+  /// The shapes of a product, joined by material.
+  std::vector<BuildingPart> bodies_of(const IfcProduct& p, std::string_view word) {
+    std::vector<BuildingPart> bodies;
+    for (const size_t i : shapes_of_[p.guid]) {
+      const ImportedPart& part = shapes_.parts[i];
+      const std::string material = material_of(p, part);
+      const auto at = std::find_if(bodies.begin(), bodies.end(),
+                                   [&](const BuildingPart& b) { return b.material == material; });
+      if (at != bodies.end()) {
+        append(at->mesh, part.mesh);
+        continue;
+      }
+      BuildingPart body;
+      body.name = part_name(p, word);
+      if (!bodies.empty()) body.name += fmt::format(" {}", bodies.size() + 1);
+      body.material = material;
+      body.mesh = part.mesh;
+      bodies.push_back(std::move(body));
+    }
+    return bodies;
+  }
+
+  Mesh whole_mesh(const IfcProduct& p) {
+    Mesh mesh;
+    for (const size_t i : shapes_of_[p.guid]) append(mesh, shapes_.parts[i].mesh);
+    join_identical_vertices(mesh);
+    return mesh;
+  }
+
+  void take(const IfcProduct& p) {
+    const bool has_shape = shapes_of_.contains(p.guid);
+    // Volumes of spaces are of what they say of themselves; many are in other units.
+    if (has_shape && !is_no_body(p)) compare_volume(p);
+    if (p.kind == "SPACE") return take_room(p, has_shape);
+    if (is_no_body(p)) return;
+    if (!has_shape) {
+      if (p.has_shape)
+        out_.unread.push_back(fmt::format("#{} ({}, \"{}\", {}) has a shape that gave no triangles",
+                                          p.id, small(p.kind), as_name(p.name, ""), p.guid));
+      if (is_fixture(p) && p.has_shape) take_fixture(p);
+      return;
+    }
+    if (is_fixture(p)) return take_fixture(p);
+    if (p.kind == "DOOR") return take_door(p);
+    for (BuildingPart& body : bodies_of(p, small(p.kind))) {
+      body.furniture = is_furniture(p);
+      if (body.furniture) body.name = "furniture" + body.name.substr(p.kind.size());
+      storey_of(p).parts.push_back(std::move(body));
+    }
+  }
+
+  void compare_volume(const IfcProduct& p) {
+    if (!p.volume_m3 || !(*p.volume_m3 > 0)) return;
+    double mesh_m3 = 0;
+    for (const size_t i : shapes_of_[p.guid])
+      mesh_m3 += std::abs(signed_volume_of(shapes_.parts[i].mesh));
+    ++out_.volumes_compared;
+    if (std::abs(mesh_m3 - *p.volume_m3) > limits::volume_difference * *p.volume_m3)
+      out_.differences.push_back(
+          {p.guid, small(p.kind) + " " + as_name(p.name, ""), p.id, *p.volume_m3, mesh_m3});
+  }
+
+  void take_door(const IfcProduct& p) {
+    std::vector<DoorPiece> parts;
+    for (const size_t i : shapes_of_[p.guid])
+      parts.push_back({shapes_.parts[i].mesh, material_of(p, shapes_.parts[i])});
+    DoorPieces pieces = door_pieces(parts, p.placement, p.operation);
+    BuildingStorey& storey = storey_of(p);
+    int number = 0;
+    for (DoorLeaf& leaf : pieces.leaves)
+      for (BuildingPart& part :
+           joined_by_material(std::move(leaf.pieces), part_name(p, "door"), number)) {
+        part.hinge = leaf.hinge;
+        storey.parts.push_back(std::move(part));
+      }
+    number = 0;
+    for (BuildingPart& part :
+         joined_by_material(std::move(pieces.frame), part_name(p, "frame"), number))
+      storey.parts.push_back(std::move(part));
+    take_exit(p);
+  }
+
+  /// One part a material; from the second part on (`number`) its name ends in a number.
+  static std::vector<BuildingPart> joined_by_material(std::vector<DoorPiece> pieces,
+                                                      const std::string& name, int& number) {
+    std::vector<BuildingPart> parts;
+    for (DoorPiece& piece : pieces) {
+      const auto at = std::find_if(parts.begin(), parts.end(), [&](const BuildingPart& part) {
+        return part.material == piece.material;
+      });
+      if (at != parts.end()) {
+        append(at->mesh, piece.mesh);
+        continue;
+      }
+      BuildingPart part;
+      part.name = ++number == 1 ? name : fmt::format("{} {}", name, number);
+      part.material = piece.material;
+      part.mesh = std::move(piece.mesh);
+      parts.push_back(std::move(part));
+    }
+    return parts;
+  }
+
+  void take_exit(const IfcProduct& p) {
+    if (p.property("Pset_DoorCommon.FireExit") != "T") return;
+    const Bounds bounds = bounds_of(whole_mesh(p));
+    BuildingExit exit;
+    exit.name = as_name(p.name, "door");
+    exit.guid = p.guid;
+    exit.position = {(bounds.low.x + bounds.high.x) / 2, (bounds.low.y + bounds.high.y) / 2,
+                     bounds.low.z};
+    exit.final_exit = p.property("Pset_DoorCommon.IsExternal") == "T";
+    out_.exits.push_back(std::move(exit));
+  }
+
+  /// Out of the door and the wall, to the side of a room, on its floor.
+  void step_into_room(BuildingExit& exit) {
+    constexpr double step_m = 0.5, level_m = 0.5;
+    for (const glm::dvec2 way : {glm::dvec2(step_m, 0), glm::dvec2(-step_m, 0),
+                                 glm::dvec2(0, step_m), glm::dvec2(0, -step_m)}) {
+      const glm::dvec2 at = glm::dvec2(exit.position) + way;
+      for (const BuildingRoom& room : out_.rooms) {
+        if (std::abs(room.z_m - exit.position.z) > level_m || !within(room.outline, at)) continue;
+        exit.position = glm::dvec3(at, room.z_m);
+        return;
+      }
+    }
+    out_of_rooms_.push_back(exit.guid);
+  }
+
+  void take_room(const IfcProduct& p, bool has_shape) {
+    const std::string title = as_name(
+        p.long_name.empty() || p.long_name == p.name ? p.name : p.name + " " + p.long_name, "room");
+    BuildingRoom room;
+    room.name = title;
+    room.guid = p.guid;
+    const Mesh mesh = has_shape ? whole_mesh(p) : Mesh{};
+    room.outline = floor_outline(mesh);
+    if (room.outline.size() < 3) {
+      out_.unread.push_back(fmt::format("#{} (space \"{}\", {}) has no floor that can be outlined",
+                                        p.id, title, p.guid));
+      return;
+    }
+    const Bounds bounds = bounds_of(mesh);
+    room.z_m = bounds.low.z;
+    room.height_m = bounds.high.z - bounds.low.z;
+    out_.rooms.push_back(std::move(room));
+  }
+
+  void take_fixture(const IfcProduct& p);
+  void place_sign(const IfcProduct& p, const Mesh& mesh, BuildingFixture& fixture);
+
+  void finish() {
+    for (BuildingExit& exit : out_.exits) step_into_room(exit);
+    for (const std::string& guid : out_of_rooms_)
+      out_.notes.push_back("fire exit " + guid + " leads to no room; its point lies in the door");
+    for (BuildingFixture& fixture : out_.fixtures)
+      if (fixture.is_sign) turn_sign(fixture);
+    for (BuildingRoom& room : out_.rooms) look_for_openings(out_.storeys, room);
+    std::erase_if(out_.rooms, [&](const BuildingRoom& room) {
+      if (room.has_floor) return false;
+      out_.notes.push_back("room \"" + room.name + "\" " + room.guid +
+                           " has no floor under its middle: it became no open area");
+      return true;
+    });
+    std::erase_if(out_.storeys, [&](const BuildingStorey& s) {
+      return s.parts.empty() &&
+             std::none_of(out_.fixtures.begin(), out_.fixtures.end(),
+                          [&](const BuildingFixture& f) { return f.storey == s.name; });
+    });
+    std::sort(out_.differences.begin(), out_.differences.end(),
+              [](const VolumeDifference& a, const VolumeDifference& b) {
+                return std::abs(a.mesh_m3 / a.authored_m3 - 1) >
+                       std::abs(b.mesh_m3 / b.authored_m3 - 1);
+              });
+    unique_names();
+  }
+
+  /// Rooms and fixtures whose names repeat bear their GlobalId, too.
+  void unique_names() {
+    const auto tell_apart = [](auto& things) {
+      std::map<std::string, int> count;
+      for (const auto& thing : things) ++count[thing.name];
+      for (auto& thing : things)
+        if (count[thing.name] > 1) thing.name += " " + thing.guid;
+    };
+    tell_apart(out_.rooms);
+    tell_apart(out_.fixtures);
+    tell_apart(out_.exits);
+  }
+
+  void turn_sign(BuildingFixture& fixture);
+
+  const IfcModel& model_;
+  IfcShapes shapes_;
+  std::map<std::string, std::vector<size_t>> shapes_of_;
+  std::map<std::string, size_t> storey_at_;
+  std::vector<std::string> out_of_rooms_;
+  Building out_;
+};
+
+/// Words of a person's interest, as the model has them.
+std::vector<std::string> fixture_words(const IfcProduct& p) {
+  std::vector<std::string> out;
+  if (!p.predefined.empty() && p.predefined != "NOTDEFINED") out.push_back("kind " + p.predefined);
+  for (const auto& [name, value] : p.properties) {
+    const size_t dot = name.find('.');
+    if (name.starts_with("Pset_LightFixtureType") && !value.empty())
+      out.push_back(as_name(name.substr(dot + 1), "") + " " + as_name(value, ""));
+  }
+  return out;
+}
+
+bool is_sign(const IfcProduct& p) {
+  const std::string set = "Pset_LightFixtureTypeSecurityLighting.";
+  const std::string kind = p.property(set + "SecurityLightingType");
+  const std::string pictogram = p.property(set + "PictogramEscapeDirection");
+  return kind == "EMERGENCYEXITLIGHT" || (!pictogram.empty() && pictogram != "UNSET" &&
+                                          pictogram != "NOTKNOWN" && pictogram != "OTHER");
+}
+
+void Assembly::take_fixture(const IfcProduct& p) {
+  BuildingFixture fixture;
+  fixture.name = as_name(p.name, "light");
+  fixture.guid = p.guid;
+  fixture.type = as_name(!p.type_name.empty()     ? p.type_name
+                         : !p.object_type.empty() ? p.object_type
+                                                  : p.name,
+                         "light");
+  fixture.is_sign = is_sign(p);
+  fixture.says = fixture_words(p);
+  fixture.storey = storey_of(p).name;
+  const Mesh mesh = shapes_of_.contains(p.guid) ? whole_mesh(p) : Mesh{};
+  const Bounds bounds = bounds_of(mesh);
+  // Without a shape and a light source of its own it hangs where it is placed.
+  constexpr double below_m = 2e-3;
+  fixture.position = p.placement.offset;
+  if (!bounds.empty())
+    fixture.position = {(bounds.low.x + bounds.high.x) / 2, (bounds.low.y + bounds.high.y) / 2,
+                        bounds.low.z - below_m};
+  if (p.light) {
+    fixture.document = as_name(p.light->document, "");
+    fixture.position = p.light->position;
+    fixture.direction = p.light->axis;
+  }
+  const glm::dvec3 x = p.placement.linear[0];
+  if (std::hypot(x.x, x.y) > 0.1)
+    fixture.rotation_deg = std::atan2(x.y, x.x) * 180 / std::numbers::pi;
+  if (fixture.is_sign) place_sign(p, mesh, fixture);
+  if (!bounds.empty()) fixture.body = bodies_of(p, "fixture");
+  out_.fixtures.push_back(std::move(fixture));
+}
+
+/// A sign's face is across the thinnest of its three extents, in the axes of its placement.
+void Assembly::place_sign(const IfcProduct& p, const Mesh& mesh, BuildingFixture& fixture) {
+  Bounds local;
+  const glm::dmat3 to_local = glm::transpose(p.placement.linear);
+  for (const glm::dvec3& q : mesh.positions) local.extend(to_local * (q - p.placement.offset));
+  if (local.empty()) return;
+  const glm::dvec3 size = local.high - local.low;
+  const glm::length_t across = size.x <= size.y ? 0 : 1;
+  fixture.position = p.placement.point((local.low + local.high) / 2.0);
+  fixture.direction = p.placement.linear[across];
+  fixture.width_m = size[1 - across];
+  fixture.height_m = size.z;
+  // The face is the body's, so that what stands behind it counts from there.
+  fixture.double_sided = false;
+}
+
+/// To the side where there is more room; to both where there is room.
+void Assembly::turn_sign(BuildingFixture& fixture) {
+  constexpr double room_m = 0.5;
+  const auto free = [&](const glm::dvec3& way) {
+    return distance_to_part(out_.storeys, fixture.position, way).value_or(1e9);
+  };
+  const double ahead = free(fixture.direction), behind = free(-fixture.direction);
+  if (behind > ahead) fixture.direction = -fixture.direction;
+  fixture.double_sided = std::min(ahead, behind) > room_m;
+}
+
+}  // namespace
+
+Building building_of(const IfcModel& model, IfcShapes shapes) {
+  return Assembly(model, std::move(shapes)).build();
+}
+
+}  // namespace luxodus

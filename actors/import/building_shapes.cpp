@@ -1,0 +1,352 @@
+// Geometry of an import: pieces of meshes, door leaves, floors of rooms, and whether rooms are
+// closed. All in double, since models stand far from their origin.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <numeric>
+
+#include "actors/import/building.hpp"
+#include "scenes/geometry/mesh_tools.hpp"
+#include "scenes/geometry/polygon.hpp"
+
+namespace luxodus {
+namespace {
+
+/// Vertices nearer than this are one [m]: shapes come in single precision.
+constexpr double one_place_m = 1e-4;
+
+/// For each vertex the first one of its place, on a grid.
+std::vector<uint32_t> places_of(const Mesh& mesh) {
+  std::map<std::array<int64_t, 3>, uint32_t> first;
+  std::vector<uint32_t> out;
+  out.reserve(mesh.positions.size());
+  for (uint32_t i = 0; i < mesh.positions.size(); ++i) {
+    const glm::dvec3 p = mesh.positions[i] / one_place_m;
+    out.push_back(first.try_emplace({std::llround(p.x), std::llround(p.y), std::llround(p.z)}, i)
+                      .first->second);
+  }
+  return out;
+}
+
+uint32_t root_of(std::vector<uint32_t>& parent, uint32_t i) {
+  while (parent[i] != i) i = parent[i] = parent[parent[i]];
+  return i;
+}
+
+// ---- rays --------------------------------------------------------------------------------------
+
+/// Distance along a ray to a triangle; nothing where it misses (Moeller and Trumbore 1997).
+std::optional<double> meets(const glm::dvec3& from, const glm::dvec3& way, const glm::dvec3& a,
+                            const glm::dvec3& b, const glm::dvec3& c) {
+  constexpr double edge = 1e-9;  // taken in on both sides: a crack is no opening
+  const glm::dvec3 u = b - a, v = c - a, p = glm::cross(way, v);
+  const double det = glm::dot(u, p);
+  if (std::abs(det) < 1e-14) return std::nullopt;
+  const glm::dvec3 s = from - a;
+  const double s_u = glm::dot(s, p) / det;
+  const glm::dvec3 q = glm::cross(s, u);
+  const double s_v = glm::dot(way, q) / det;
+  if (s_u < -edge || s_v < -edge || s_u + s_v > 1 + edge) return std::nullopt;
+  const double distance = glm::dot(v, q) / det;
+  return distance > 1e-6 ? std::optional(distance) : std::nullopt;
+}
+
+bool passes_box(const glm::dvec3& from, const glm::dvec3& way, const Bounds& box) {
+  double enter = 0, leave = 1e300;
+  for (glm::length_t i = 0; i < 3; ++i) {
+    const double a = (box.low[i] - 1e-6 - from[i]) / way[i];
+    const double b = (box.high[i] + 1e-6 - from[i]) / way[i];
+    if (std::isnan(a) || std::isnan(b)) continue;  // along the plane: not told apart by it
+    enter = std::max(enter, std::min(a, b));
+    leave = std::min(leave, std::max(a, b));
+  }
+  return enter <= leave;
+}
+
+/// Parts with the boxes around them, made once for many rays.
+class Solids {
+ public:
+  explicit Solids(const std::vector<BuildingStorey>& storeys) {
+    for (const BuildingStorey& storey : storeys)
+      for (const BuildingPart& part : storey.parts)
+        if (!part.mesh.triangles.empty()) all_.push_back({&part.mesh, bounds_of(part.mesh)});
+  }
+
+  std::optional<double> first(const glm::dvec3& from, const glm::dvec3& way) const {
+    std::optional<double> nearest;
+    for (const auto& [mesh, box] : all_) {
+      if (!passes_box(from, way, box)) continue;
+      for (const glm::uvec3& t : mesh->triangles) {
+        const auto d =
+            meets(from, way, mesh->positions[t.x], mesh->positions[t.y], mesh->positions[t.z]);
+        if (d && (!nearest || *d < *nearest)) nearest = d;
+      }
+    }
+    return nearest;
+  }
+
+ private:
+  std::vector<std::pair<const Mesh*, Bounds>> all_;
+};
+
+// ---- outlines ----------------------------------------------------------------------------------
+
+/// Loops of directed edges, each from a vertex to the next.
+std::vector<std::vector<uint32_t>> loops_of(std::multimap<uint32_t, uint32_t> edges) {
+  std::vector<std::vector<uint32_t>> loops;
+  while (!edges.empty()) {
+    std::vector<uint32_t> loop;
+    uint32_t at = edges.begin()->first;
+    for (auto edge = edges.find(at); edge != edges.end(); edge = edges.find(at)) {
+      loop.push_back(at);
+      at = edge->second;
+      edges.erase(edge);
+      if (at == loop.front()) break;
+    }
+    if (loop.empty()) break;
+    if (at == loop.front() && loop.size() >= 3) loops.push_back(std::move(loop));
+  }
+  return loops;
+}
+
+/// Without points that lie on the straight line between their neighbours.
+std::vector<glm::dvec2> without_straight_points(const std::vector<glm::dvec2>& loop) {
+  constexpr double off_line_m = 1e-3;
+  std::vector<glm::dvec2> out = loop;
+  for (size_t i = 0; i < out.size() && out.size() > 3;) {
+    const glm::dvec2 before = out[(i + out.size() - 1) % out.size()],
+                     after = out[(i + 1) % out.size()];
+    const glm::dvec2 line = after - before;
+    const double length = glm::length(line);
+    const glm::dvec2 d = out[i] - before;
+    const double off = length > 0 ? std::abs(line.x * d.y - line.y * d.x) / length : 0;
+    if (off < off_line_m)
+      out.erase(out.begin() + static_cast<std::ptrdiff_t>(i));
+    else
+      ++i;
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<Mesh> connected_pieces(const Mesh& mesh) {
+  const std::vector<uint32_t> place = places_of(mesh);
+  std::vector<uint32_t> parent(mesh.positions.size());
+  std::iota(parent.begin(), parent.end(), 0u);
+  for (const glm::uvec3& t : mesh.triangles)
+    for (const uint32_t corner : {t.y, t.z})
+      parent[root_of(parent, place[corner])] = root_of(parent, place[t.x]);
+  std::map<uint32_t, size_t> number;
+  std::vector<Mesh> pieces;
+  std::vector<std::map<uint32_t, uint32_t>> moved;
+  for (const glm::uvec3& t : mesh.triangles) {
+    const uint32_t root = root_of(parent, place[t.x]);
+    const auto [it, fresh] = number.try_emplace(root, pieces.size());
+    if (fresh) pieces.emplace_back(), moved.emplace_back();
+    Mesh& piece = pieces[it->second];
+    glm::uvec3 corners;
+    for (glm::length_t i = 0; i < 3; ++i) {
+      const auto [to, added] =
+          moved[it->second].try_emplace(t[i], static_cast<uint32_t>(piece.positions.size()));
+      if (added) piece.positions.push_back(mesh.positions[t[i]]);
+      corners[i] = to->second;
+    }
+    piece.triangles.push_back(corners);
+  }
+  return pieces;
+}
+
+namespace {
+
+/// A connected piece of a door, with its extent in the door's axes: width, thickness, height.
+struct MeasuredPiece {
+  DoorPiece piece;
+  Bounds bounds;
+  double covered_m2 = 0;  // of the opening, seen from the front
+};
+
+/// Axes of a door: columns are width, thickness and height in scene coordinates.
+glm::dmat3 door_axes(const std::vector<DoorPiece>& parts, const Transform& place) {
+  Bounds local;
+  const glm::dmat3 to_local = glm::transpose(place.linear);
+  for (const DoorPiece& part : parts)
+    for (const glm::dvec3& p : part.mesh.positions) local.extend(to_local * (p - place.offset));
+  const glm::dvec3 size = local.high - local.low;
+  // By the schema the width runs along x; some write it along y.
+  const bool along_x = size.x >= size.y;
+  return {place.linear[along_x ? 0 : 1], place.linear[along_x ? 1 : 0], place.linear[2]};
+}
+
+std::vector<MeasuredPiece> measured_pieces(const std::vector<DoorPiece>& parts,
+                                           const glm::dmat3& axes, const glm::dvec3& origin) {
+  const glm::dmat3 to_local = glm::transpose(axes);
+  std::vector<MeasuredPiece> out;
+  for (const DoorPiece& part : parts)
+    for (Mesh& mesh : connected_pieces(part.mesh)) {
+      MeasuredPiece m;
+      for (const glm::dvec3& p : mesh.positions) m.bounds.extend(to_local * (p - origin));
+      for (const glm::uvec3& t : mesh.triangles) {
+        const glm::dvec3 normal = glm::cross(mesh.positions[t.y] - mesh.positions[t.x],
+                                             mesh.positions[t.z] - mesh.positions[t.x]);
+        m.covered_m2 += std::abs(glm::dot(normal, axes[1])) / 4;  // both sides of a closed body
+      }
+      m.piece = {std::move(mesh), part.material};
+      out.push_back(std::move(m));
+    }
+  return out;
+}
+
+/// Whether a piece is a leaf: it covers much of the opening, or it is a frame of panes that is not
+/// as wide as the whole.
+bool is_leaf(const MeasuredPiece& piece, const glm::dvec3& whole) {
+  constexpr double least_cover = 0.3, least_width = 0.3, most_width = 0.95, least_height = 0.7;
+  const glm::dvec3 size = piece.bounds.high - piece.bounds.low;
+  return piece.covered_m2 > least_cover * whole.x * whole.z ||
+         (size.x > least_width * whole.x && size.x < most_width * whole.x &&
+          size.z > least_height * whole.z);
+}
+
+/// Whether a piece lies within a leaf, as panes do, or on it, as handles do.
+bool is_on(const Bounds& leaf, const Bounds& piece) {
+  const glm::dvec3 margin(0.02, 0.15, 0.02);
+  return glm::all(glm::greaterThanEqual(piece.low, leaf.low - margin)) &&
+         glm::all(glm::lessThanEqual(piece.high, leaf.high + margin));
+}
+
+}  // namespace
+
+DoorPieces door_pieces(const std::vector<DoorPiece>& parts, const Transform& place,
+                       const std::string& operation) {
+  const glm::dmat3 axes = door_axes(parts, place);
+  std::vector<MeasuredPiece> pieces = measured_pieces(parts, axes, place.offset);
+  Bounds whole;
+  for (const MeasuredPiece& piece : pieces) whole.extend(piece.bounds);
+  std::vector<std::pair<DoorLeaf, Bounds>> leaves;
+  std::vector<MeasuredPiece> others;
+  for (MeasuredPiece& piece : pieces) {
+    if (!is_leaf(piece, whole.high - whole.low)) {
+      others.push_back(std::move(piece));
+      continue;
+    }
+    // Layers of one leaf lie on each other.
+    const auto at = std::find_if(leaves.begin(), leaves.end(), [&](const auto& leaf) {
+      return is_on(leaf.second, piece.bounds) || is_on(piece.bounds, leaf.second);
+    });
+    auto& [leaf, bounds] = at != leaves.end() ? *at : leaves.emplace_back();
+    bounds.extend(piece.bounds);
+    leaf.pieces.push_back(std::move(piece.piece));
+  }
+  DoorPieces out;
+  for (MeasuredPiece& piece : others) {
+    const auto at = std::find_if(leaves.begin(), leaves.end(), [&](const auto& leaf) {
+      return is_on(leaf.second, piece.bounds);
+    });
+    (at != leaves.end() ? at->first.pieces : out.frame).push_back(std::move(piece.piece));
+  }
+  if (leaves.empty() && !out.frame.empty()) {  // nothing is told apart: all of it turns
+    leaves.emplace_back(DoorLeaf{std::move(out.frame), {}}, whole);
+    out.frame.clear();
+  }
+  const double middle = (whole.low.x + whole.high.x) / 2;
+  for (auto& [leaf, bounds] : leaves) {
+    const bool right = leaves.size() > 1 ? (bounds.low.x + bounds.high.x) / 2 > middle
+                                         : operation.ends_with("_RIGHT");
+    // The hinge's line runs in the leaf, at the edge that it is hung by.
+    leaf.hinge.point =
+        place.offset + axes * glm::dvec3(right ? bounds.high.x : bounds.low.x,
+                                         (bounds.low.y + bounds.high.y) / 2, bounds.low.z);
+    // Of axes that are right-handed a left leaf turns from width to thickness.
+    const double turn = glm::determinant(axes) > 0 ? 90 : -90;
+    leaf.hinge.open_angle_deg = right ? -turn : turn;
+    out.leaves.push_back(std::move(leaf));
+  }
+  return out;
+}
+
+std::vector<glm::dvec2> floor_outline(const Mesh& mesh) {
+  if (mesh.triangles.empty()) return {};
+  constexpr double level_m = 1e-2;
+  const double floor = bounds_of(mesh).low.z;
+  const std::vector<uint32_t> place = places_of(mesh);
+  const auto low = [&](uint32_t i) { return mesh.positions[i].z < floor + level_m; };
+  // Edges that two triangles share run both ways and go; the boundary stays.
+  std::map<std::pair<uint32_t, uint32_t>, int> count;
+  for (const glm::uvec3& t : mesh.triangles) {
+    if (!low(t.x) || !low(t.y) || !low(t.z)) continue;
+    const uint32_t corner[3] = {place[t.x], place[t.y], place[t.z]};
+    for (int i = 0; i < 3; ++i) {
+      const uint32_t a = corner[i], b = corner[(i + 1) % 3];
+      if (a == b) continue;
+      if (const auto back = count.find({b, a}); back != count.end() && back->second > 0)
+        --back->second;
+      else
+        ++count[{a, b}];
+    }
+  }
+  std::multimap<uint32_t, uint32_t> edges;
+  for (const auto& [edge, n] : count)
+    for (int i = 0; i < n; ++i) edges.emplace(edge.first, edge.second);
+  std::vector<glm::dvec2> largest;
+  double largest_area = 0;
+  for (const auto& loop : loops_of(std::move(edges))) {
+    std::vector<glm::dvec2> points;
+    for (const uint32_t i : loop) points.emplace_back(mesh.positions[i].x, mesh.positions[i].y);
+    points = without_straight_points(points);
+    const double area = std::abs(signed_area(points));
+    if (area > largest_area) {
+      largest = std::move(points);
+      largest_area = area;
+    }
+  }
+  const auto checked = checked_outline(largest);
+  return checked ? checked.value() : std::vector<glm::dvec2>();
+}
+
+std::optional<double> distance_to_part(const std::vector<BuildingStorey>& storeys,
+                                       const glm::dvec3& from, const glm::dvec3& direction) {
+  return Solids(storeys).first(from, direction);
+}
+
+void look_for_openings(const std::vector<BuildingStorey>& storeys, BuildingRoom& room) {
+  const auto triangles = triangulate(room.outline);
+  if (!triangles) return;
+  // The middle of the largest triangle of the floor is within the room, whatever its shape.
+  glm::dvec2 middle(0);
+  double largest = -1;
+  for (const glm::uvec3& t : triangles.value()) {
+    const std::array<glm::dvec2, 3> corners{room.outline[t.x], room.outline[t.y],
+                                            room.outline[t.z]};
+    if (const double area = std::abs(signed_area(corners)); area > largest) {
+      largest = area;
+      middle = (corners[0] + corners[1] + corners[2]) / 3.0;
+    }
+  }
+  const glm::dvec3 from(middle, room.z_m + room.height_m / 2);
+  const Solids solids(storeys);
+  constexpr double under_m = 0.5;
+  const auto floor = solids.first(from, {0, 0, -1});
+  room.has_floor = floor && *floor < room.height_m / 2 + under_m;
+  constexpr int rays = 500;
+  std::map<std::string, int> ways;
+  int open = 0;
+  for (int i = 0; i < rays; ++i) {  // a spiral of equal solid angles
+    const double z = 1 - (2 * i + 1.0) / rays, r = std::sqrt(1 - z * z);
+    const double turn = i * std::numbers::pi * (3 - std::sqrt(5.0));
+    const glm::dvec3 way(r * std::cos(turn), r * std::sin(turn), z);
+    if (solids.first(from, way)) continue;
+    ++open;
+    ++ways[z > 0.7 ? "up" : z < -0.7 ? "down" : "sideways"];
+  }
+  room.open_share = static_cast<double>(open) / rays;
+  int most = 0;
+  for (const auto& [way, count] : ways)
+    if (count > most) {
+      most = count;
+      room.open_towards = way;
+    }
+}
+
+}  // namespace luxodus

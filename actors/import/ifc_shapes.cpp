@@ -1,0 +1,182 @@
+#include "actors/import/ifc_shapes.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+
+#include "runtime/core/file_descriptor.hpp"
+#include "runtime/core/printable.hpp"
+#include "runtime/core/regular_file.hpp"
+
+namespace luxodus {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Of what the process says: a line for each thing that it could not compute.
+constexpr uint64_t max_said_bytes = uint64_t{4} << 20;
+constexpr size_t max_notes = 200;
+/// Exit codes of ifc_shapes.mjs.
+constexpr int no_package = 3, no_shapes = 4;
+/// posix_spawnp: the shell's code of a program that is not there.
+constexpr int not_found = 127;
+
+/// A folder for the answer, removed with all that is in it.
+class AnswerFolder {
+ public:
+  AnswerFolder() {
+    std::error_code failed;
+    const fs::path base = fs::temp_directory_path(failed);
+    std::string name = ((failed ? fs::path("/tmp") : base) / "luxodus-ifc-XXXXXX").string();
+    if (::mkdtemp(name.data()) != nullptr) path_ = name;
+  }
+  ~AnswerFolder() {
+    std::error_code ignored;
+    if (!path_.empty()) fs::remove_all(path_, ignored);
+  }
+  AnswerFolder(const AnswerFolder&) = delete;
+
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+/// Exit code of a process; nothing where it did not end in time and was killed.
+Result<std::optional<int>> run_process(const std::vector<std::string>& words, const fs::path& out,
+                                       const fs::path& err, double seconds) {
+  std::vector<std::string> held = words;
+  std::vector<char*> arguments;
+  for (std::string& word : held) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  posix_spawn_file_actions_t actions;
+  ::posix_spawn_file_actions_init(&actions);
+  ::posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  constexpr int write_flags = O_WRONLY | O_CREAT | O_TRUNC;
+  ::posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, out.c_str(), write_flags, 0600);
+  ::posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, err.c_str(), write_flags, 0600);
+  pid_t process = 0;
+  const int error =
+      ::posix_spawnp(&process, arguments[0], &actions, nullptr, arguments.data(), environ);
+  ::posix_spawn_file_actions_destroy(&actions);
+  if (error == ENOENT) return std::optional(not_found);
+  if (error != 0) return system_problem(words[0], "cannot be started", error);
+  // glibc 2.36 declares pidfd_open without extern "C".
+  const FileDescriptor watched(static_cast<int>(::syscall(SYS_pidfd_open, process, 0)));
+  pollfd ends{watched.number(), POLLIN, 0};
+  const int patience_ms = static_cast<int>(std::min(seconds, 1e6) * 1000);
+  const int ready = watched.valid() ? ::poll(&ends, 1, patience_ms) : 1;
+  if (ready == 0) ::kill(process, SIGKILL);
+  int status = 0;
+  while (::waitpid(process, &status, 0) < 0)
+    if (errno != EINTR) return system_problem(words[0], "was lost", errno);
+  if (ready == 0) return std::optional<int>();
+  return std::optional(WIFEXITED(status) ? WEXITSTATUS(status) : 1);
+}
+
+struct Said {
+  glm::dvec3 offset{0};  // glTF axes
+  std::vector<std::string> notes;
+};
+
+Said said_by(const fs::path& file) {
+  Said said;
+  const auto text = read_regular_file(file, max_said_bytes);
+  if (!text) return said;
+  std::string_view rest = text.value();
+  while (!rest.empty()) {
+    const size_t end = std::min(rest.find('\n'), rest.size());
+    std::string_view line = rest.substr(0, end);
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+    if (line.starts_with("note ") && said.notes.size() < max_notes)
+      said.notes.push_back(excerpt(line.substr(5), 200));
+    if (!line.starts_with("offset ")) continue;
+    line.remove_prefix(7);
+    glm::dvec3 offset(0);
+    for (glm::length_t i = 0; i < 3; ++i) {
+      while (line.starts_with(' ')) line.remove_prefix(1);
+      const auto [stop, error] = std::from_chars(line.data(), line.data() + line.size(), offset[i]);
+      if (error != std::errc()) return said;
+      line.remove_prefix(static_cast<size_t>(stop - line.data()));
+    }
+    if (is_finite(offset)) said.offset = offset;
+  }
+  return said;
+}
+
+/// The first line of what the process complained about.
+std::string complaint(const fs::path& file) {
+  const auto text = read_regular_file(file, max_said_bytes);
+  if (!text) return "it said nothing";
+  std::string_view rest = text.value();
+  while (!rest.empty()) {
+    const std::string_view line = rest.substr(0, rest.find('\n'));
+    if (line.find("Error:") != std::string_view::npos) return excerpt(line, 200);
+    rest.remove_prefix(std::min(line.size() + 1, rest.size()));
+  }
+  return excerpt(text.value(), 200);
+}
+
+}  // namespace
+
+double opacity_of(const ImportedPart& part) {
+  constexpr std::string_view word = "opacity ";
+  const std::string_view name = part.material_name;
+  double opacity = 1;
+  if (name.starts_with(word))
+    (void)std::from_chars(name.data() + word.size(), name.data() + name.size(), opacity);
+  return opacity >= 0 && opacity <= 1 ? opacity : 1;
+}
+
+Result<IfcShapes> ifc_shapes(const fs::path& model, const fs::path& script, double seconds) {
+  const std::string file = model.string();
+  std::error_code failed;
+  if (!fs::is_regular_file(script, failed))
+    return problem_in(script.string(),
+                      "the script that computes the shapes of IFC models is not "
+                      "there: is the program installed whole?");
+  const AnswerFolder folder;
+  if (folder.path().empty())
+    return system_problem(fs::temp_directory_path(failed).string(), "no folder can be made", errno);
+  const fs::path glb = folder.path() / "shapes.glb", out = folder.path() / "out",
+                 err = folder.path() / "err";
+  const auto code = run_process(
+      {"node", script.string(), fs::absolute(model).string(), glb.string()}, out, err, seconds);
+  if (!code) return code.problem();
+  if (!code.value())
+    return problem_in(file, fmt::format("its shapes take longer than {:g} s to compute: give more "
+                                        "by --seconds, or export a part of the model",
+                                        seconds));
+  const Said said = said_by(out);
+  if (code.value() == not_found)
+    return problem_in(file,
+                      "its shapes are computed by Node.js, and there is no program 'node': "
+                      "install Node.js 18 or later (./setup.sh does)");
+  if (code.value() == no_package)
+    return problem_in(file,
+                      "its shapes are computed by the npm package @ifc-lite/wasm, which is "
+                      "not installed beside " +
+                          script.string() + ": run ./setup.sh, or 'npm ci' in that folder");
+  if (code.value() == no_shapes)
+    return problem_in(file, "the model has no shapes: export it with geometry");
+  if (code.value() != 0)
+    return problem_in(file, "its shapes cannot be computed: " + complaint(err));
+  auto parts = import_mesh(glb.string(), 1, UpAxis::y);
+  if (!parts) return problem_in(file, "its shapes cannot be read: " + parts.problem().what);
+  const glm::dvec3 offset = to_z_up(UpAxis::y).vector(said.offset);
+  for (ImportedPart& part : parts.value())
+    for (glm::dvec3& p : part.mesh.positions) p += offset;
+  return IfcShapes{std::move(parts).value(), said.notes};
+}
+
+}  // namespace luxodus

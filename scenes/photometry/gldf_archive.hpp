@@ -1,0 +1,39 @@
+// The files in a ZIP that others made, from memory, within limits. Internal to the reading of GLDF;
+// the only source that includes libzip is gldf_archive.cpp. One thread.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "runtime/core/result.hpp"
+
+struct zip;
+
+namespace luxodus {
+
+class GldfArchive {
+ public:
+  /// `bytes` outlive the archive; `file` names it in messages.
+  /// Errors: no ZIP, too many entries, a name that leads out of the archive.
+  static Result<GldfArchive> open(std::string_view bytes, const std::string& file);
+
+  /// In the archive's order, as UTF-8.
+  const std::vector<std::string>& names() const { return names_; }
+
+  /// Unpacks an entry. A declared size is not believed: it stops at `max_bytes`.
+  /// Errors: more bytes, encrypted, packed by a method that is not known, damaged.
+  Result<std::string> read(size_t entry, uint64_t max_bytes) const;
+
+ private:
+  struct Closed {
+    void operator()(struct zip* archive) const;
+  };
+  std::string file_;
+  std::unique_ptr<struct zip, Closed> zip_;
+  std::vector<std::string> names_;
+};
+
+}  // namespace luxodus

@@ -1,0 +1,286 @@
+// Buildings of models: pieces of doors, floors of rooms, openings, and the folder of a scene, which
+// a second import updates without touching what a person wrote. Tests that compute shapes need
+// Node.js and the npm package, and say so where they are not there.
+#include "actors/import/building.hpp"
+
+#include <catch2/catch.hpp>
+#include <fstream>
+#include <sstream>
+
+#include "actors/import/ifc_shapes.hpp"
+#include "actors/import/import_files.hpp"
+#include "actors/import/write_building.hpp"
+#include "scenes/geometry/mesh_tools.hpp"
+#include "scenes/geometry/primitives.hpp"
+#include "scenes/scene_file/scene_file.hpp"
+#include "tests/kit/small_ifc.hpp"
+#include "tests/kit/temporary_folder.hpp"
+
+using namespace luxodus;
+using namespace luxodus::test;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+Mesh block(const glm::dvec3& low, const glm::dvec3& high) {
+  auto shape = shapes::box(high - low);
+  REQUIRE(shape.ok());
+  for (glm::dvec3& p : shape->mesh.positions) p += (low + high) / 2.0;
+  return std::move(shape).value().mesh;
+}
+
+std::string text_of(const fs::path& file) {
+  std::ifstream in(file);
+  std::stringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+const fs::path script = fs::path(LUX_SOURCE_DIR) / "actors/import/shapes/ifc_shapes.mjs";
+
+/// Whether shapes can be computed here.
+bool can_compute() {
+  if (fs::is_directory(script.parent_path() / "node_modules/@ifc-lite/wasm") &&
+      std::system("node --version > /dev/null 2>&1") == 0)
+    return true;
+  WARN("skipped: Node.js or the package @ifc-lite/wasm is not there (./setup.sh)");
+  return false;
+}
+
+Building building_from(const TemporaryFolder& folder, SmallIfc& small) {
+  const std::string text = small.text();
+  const fs::path file = folder.write("small.ifc", text);
+  auto model = ifc_model_of(text, file.string());
+  REQUIRE(model.ok());
+  auto shapes = ifc_shapes(file, script, 120);
+  if (!shapes) FAIL(shapes.problem().text());
+  return building_of(model.value(), std::move(shapes).value());
+}
+
+const BuildingPart& part_with(const Building& building, const std::string& word) {
+  for (const BuildingStorey& storey : building.storeys)
+    for (const BuildingPart& part : storey.parts)
+      if (part.name.find(word) != std::string::npos) return part;
+  FAIL("no part " << word);
+  return building.storeys.front().parts.front();
+}
+
+const std::string lamp =
+    "IESNA:LM-63-2002\n[TEST] none\nTILT=NONE\n1 -1 1 3 1 1 2 -0.2 -0.2 0\n1 1 10\n0 45 90\n0\n"
+    "300 200 0\n";
+
+SceneDescription read(const fs::path& file) {
+  ReadScene scene = read_scene(file);
+  for (const Problem& p : scene.problems.list()) UNSCOPED_INFO(p.text());
+  REQUIRE(scene.scene.has_value());
+  return *scene.scene;
+}
+
+}  // namespace
+
+TEST_CASE("a mesh falls into its connected pieces", "[import]") {
+  Mesh both = block({0, 0, 0}, {1, 1, 1});
+  append(both, block({2, 0, 0}, {3, 1, 1}));
+  const auto pieces = connected_pieces(both);
+  REQUIRE(pieces.size() == 2);
+  CHECK(signed_volume_of(pieces[0]) == Approx(1));
+  CHECK(bounds_of(pieces[1]).low.x == 2);
+}
+
+TEST_CASE("a leaf turns about its edge with its handle, and the frame stays", "[import]") {
+  const std::vector<DoorPiece> parts{{block({0.05, 0, 0}, {0.95, 0.05, 2}), "wood"},
+                                     {block({0.85, -0.05, 1}, {0.9, 0.1, 1.05}), "steel"},
+                                     {block({0, 0, 0}, {0.05, 0.1, 2.05}), "steel"},
+                                     {block({0.95, 0, 0}, {1, 0.1, 2.05}), "steel"}};
+  const DoorPieces left = door_pieces(parts, Transform{}, "SINGLE_SWING_LEFT");
+  REQUIRE(left.leaves.size() == 1);
+  CHECK(left.leaves[0].pieces.size() == 2);
+  CHECK(left.frame.size() == 2);
+  CHECK(left.leaves[0].hinge.point.x == Approx(0.05));
+  CHECK(left.leaves[0].hinge.open_angle_deg == 90);
+  const DoorPieces right = door_pieces(parts, Transform{}, "SINGLE_SWING_RIGHT");
+  CHECK(right.leaves.at(0).hinge.point.x == Approx(0.95));
+  CHECK(right.leaves[0].hinge.open_angle_deg == -90);
+}
+
+TEST_CASE("leaves of a double door turn about their outer edges", "[import]") {
+  const std::vector<DoorPiece> parts{{block({0, 0, 0}, {0.9, 0.05, 2}), "wood"},
+                                     {block({0.91, 0, 0}, {1.81, 0.05, 2}), "wood"}};
+  const DoorPieces door = door_pieces(parts, Transform{}, "DOUBLE_DOOR_SINGLE_SWING");
+  REQUIRE(door.leaves.size() == 2);
+  CHECK(door.leaves[0].hinge.point.x == Approx(0));
+  CHECK(door.leaves[0].hinge.open_angle_deg == 90);
+  CHECK(door.leaves[1].hinge.point.x == Approx(1.81));
+  CHECK(door.leaves[1].hinge.open_angle_deg == -90);
+}
+
+TEST_CASE("a floor's outline is that of the body's lowest faces", "[import]") {
+  const auto outline = floor_outline(block({1, 2, 0.5}, {4, 3, 3}));
+  REQUIRE(outline.size() == 4);
+  Bounds bounds;
+  for (const glm::dvec2& p : outline) bounds.extend(glm::dvec3(p, 0));
+  CHECK((bounds.low.x == Approx(1) && bounds.high.x == Approx(4)));
+  CHECK((bounds.low.y == Approx(2) && bounds.high.y == Approx(3)));
+  CHECK(floor_outline(Mesh{}).empty());
+}
+
+TEST_CASE("a written binary glTF reads back with its names, materials and places", "[import]") {
+  const TemporaryFolder folder;
+  const glm::dvec3 origin(1000, 2000, 10);
+  BuildingPart a, b;
+  a.name = "wall \"A\" 1z_$$VltRjMBbI94YH0013";
+  a.material = "Brick, red";
+  a.mesh = block({1001, 2001, 10}, {1002, 2004, 13});
+  b.name = "door B";
+  b.material = "Wood";
+  b.mesh = block({1005, 2001, 10}, {1006, 2001.05, 12});
+  const auto file = folder.write("x.glb", glb_of({a, b}, origin));
+  const auto parts = import_mesh(file.string(), 1, UpAxis::y);
+  REQUIRE(parts.ok());
+  REQUIRE(parts->size() == 2);
+  CHECK(parts->at(0).name == a.name);
+  CHECK(parts->at(0).material_name == a.material);
+  CHECK(parts->at(1).material_name == b.material);
+  const Bounds back = bounds_of(parts->at(0).mesh), there = bounds_of(a.mesh);
+  CHECK(glm::length(back.low + origin - there.low) < 1e-6);
+  CHECK(glm::length(back.high + origin - there.high) < 1e-6);
+  CHECK(signed_volume_of(parts->at(0).mesh) == Approx(9));
+}
+
+TEST_CASE("names and texts of others are those of a scene file", "[import]") {
+  CHECK(as_name("a/b\"c\n", "x") == "a-b-c-");
+  CHECK(as_name("..hidden ", "x") == "hidden");
+  CHECK(as_name("", "x") == "x");
+  CHECK(toml_text("a\"b\\c\n\xff") == "\"a\\\"b\\\\c\\u000a?\"");
+}
+
+TEST_CASE("photometric files are found by the letters of their names", "[import]") {
+  const TemporaryFolder folder;
+  folder.write("LED-Panel_600.ldt", "");
+  folder.write("notes.txt", "");
+  const auto files = photometry_by_name(folder.path().string());
+  REQUIRE(files.ok());
+  CHECK(files->size() == 1);
+  CHECK(files->contains(letters_and_digits("led panel 600")));
+  CHECK_FALSE(photometry_by_name((folder / "absent").string()).ok());
+}
+
+TEST_CASE("without the script or in no time there are no shapes, and the reason is said",
+          "[import]") {
+  const TemporaryFolder folder;
+  SmallIfc small;
+  const auto model = folder.write("small.ifc", small.text());
+  const auto absent = ifc_shapes(model, folder / "absent.mjs", 10);
+  REQUIRE_FALSE(absent.ok());
+  CHECK(absent.problem().what.find("installed whole") != std::string::npos);
+  if (!can_compute()) return;
+  // A script of its own folder has no package beside it.
+  fs::copy_file(script, folder / "ifc_shapes.mjs");
+  const auto alone = ifc_shapes(model, folder / "ifc_shapes.mjs", 60);
+  REQUIRE_FALSE(alone.ok());
+  CHECK(alone.problem().what.find("npm package @ifc-lite/wasm") != std::string::npos);
+  const auto endless = folder.write("endless.mjs", "for (;;) {}\n");
+  const auto late = ifc_shapes(model, endless, 0.5);
+  REQUIRE_FALSE(late.ok());
+  CHECK(late.problem().what.find("longer than 0.5 s") != std::string::npos);
+  const auto broken = ifc_shapes(model, folder.write("bad.mjs", "throw new Error('no');\n"), 60);
+  REQUIRE_FALSE(broken.ok());
+  CHECK(broken.problem().what.find("Error: no") != std::string::npos);
+}
+
+TEST_CASE("a model's parts stand where it says, in millimetres, in feet and far away", "[import]") {
+  if (!can_compute()) return;
+  for (const bool far : {false, true}) {
+    SmallIfc small;
+    small.feet = far;
+    if (far) small.site = {500'000, -4'200'000, 350};
+    small.wall_volume_m3 = 5.4 * 0.2 * 3;
+    const TemporaryFolder folder;
+    const Building building = building_from(folder, small);
+    INFO("far " << far);
+    const Bounds north = bounds_of(part_with(building, small.north_guid).mesh);
+    CHECK(glm::length(north.low - small.site - glm::dvec3(-0.2, 4, 1)) < 1e-3);
+    CHECK(glm::length(north.high - small.site - glm::dvec3(5.2, 4.2, 4)) < 1e-3);
+    CHECK(building.volumes_compared == 1);
+    CHECK(building.differences.empty());
+    const BuildingPart& door = part_with(building, small.door_guid);
+    REQUIRE(door.hinge);
+    CHECK(glm::length(door.hinge->point - small.site - glm::dvec3(5.1, 1.5, 1)) < 1e-3);
+    // It opens to the west, where its placement's y axis points.
+    CHECK(door.hinge->open_angle_deg == 90);
+    REQUIRE(building.rooms.size() == 1);
+    CHECK(building.rooms[0].open_share == 0);
+    CHECK(building.rooms[0].name == "1 Hall");
+    REQUIRE(building.exits.size() == 1);
+    CHECK(building.exits[0].position.x - small.site.x < 5);
+    REQUIRE(building.fixtures.size() == 2);
+    const BuildingFixture& sign = building.fixtures[1];
+    CHECK(sign.is_sign);
+    CHECK(sign.direction.x == Approx(-1));  // away from the wall behind it
+    CHECK(sign.width_m == Approx(0.3).epsilon(1e-3));
+    CHECK_FALSE(sign.double_sided);
+  }
+}
+
+TEST_CASE("a wrong volume and a missing ceiling are told", "[import]") {
+  if (!can_compute()) return;
+  SmallIfc small;
+  small.wall_volume_m3 = 3;
+  small.with_ceiling = false;
+  const TemporaryFolder folder;
+  const Building building = building_from(folder, small);
+  REQUIRE(building.differences.size() == 1);
+  CHECK(building.differences[0].guid == small.north_guid);
+  CHECK(building.differences[0].mesh_m3 == Approx(5.4 * 0.2 * 3).epsilon(1e-4));
+  REQUIRE(building.rooms.size() == 1);
+  CHECK(building.rooms[0].open_share > 0.2);
+  CHECK(building.rooms[0].open_towards == "up");
+}
+
+TEST_CASE("a second import updates the building and leaves a person's files as they are",
+          "[import]") {
+  if (!can_compute()) return;
+  const TemporaryFolder folder;
+  SmallIfc small;
+  const fs::path out = folder / "house", lights = folder / "lights";
+  fs::create_directories(lights);
+  std::ofstream(lights / "lamp.ies") << lamp;
+  Building building = building_from(folder, small);
+  const auto first = write_building(building, out.string(), lights.string());
+  REQUIRE(first.ok());
+  CHECK(first->luminaires == 1);
+  CHECK(first->signs == 0);
+  CHECK(first->asked.size() == 1);
+  CHECK_FALSE(first->kept_scene);
+  const SceneDescription scene = read(out / "scene.toml");
+  REQUIRE(scene.emitters.size() == 1);
+  CHECK(scene.emitters[0].ifc_guid == small.lamp_guid);
+  CHECK(scene.open_areas.at(0).ifc_guid == small.space_guid);
+  // Bodies of fixtures whose light comes from a file would stand in its way.
+  for (const Object& object : scene.objects)
+    CHECK(object.name.find(small.lamp_guid) == std::string::npos);
+
+  const std::string edited = text_of(out / "scene.toml") + "\n# mine\n";
+  std::ofstream(out / "scene.toml") << edited;
+  std::string materials = text_of(out / "materials.toml");
+  materials.replace(materials.find("reflectance = "), 18, "reflectance = 0.33");
+  std::ofstream(out / "materials.toml") << materials;
+  std::ofstream(out / "fixtures.toml", std::ios::app)
+      << "\n[[sign_type]]\nname = \"Exit sign\"\nplain = \"green\"\nsmallest_detail = 0.02\n"
+         "mains_white = 500\nmains_green = 100\nemergency_white = 50\nemergency_green = 10\n";
+  small.floor_m = 2;
+  building = building_from(folder, small);
+  const auto second = write_building(building, out.string(), "");
+  REQUIRE(second.ok());
+  CHECK(second->kept_scene);
+  CHECK(second->signs == 1);
+  CHECK(second->luminaires == 1);
+  CHECK(second->asked.empty());
+  CHECK(text_of(out / "scene.toml") == edited);
+  CHECK(text_of(out / "materials.toml") == materials);
+  const SceneDescription again = read(out / "scene.toml");
+  CHECK(again.open_areas.at(0).z_m == Approx(2));
+  REQUIRE(again.signs.size() == 1);
+  CHECK(again.signs[0].ifc_guid == small.sign_guid);
+}
