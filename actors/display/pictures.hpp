@@ -2,9 +2,10 @@
 // traced from the eye; a path ends in the run's flux at the first event after something diffuse, on
 // a surface or in smoke (final gather), so a picture takes seconds once the flux is there. What is
 // traced is neither clamped nor blurred; what PNG files show is filtered (regression_filter.hpp).
-// The standard error of a pixel is that of its paths; what the flux itself errs comes on top. The
-// pixels depend on the scene, the flux, the seed and the paths per pixel, never on the number of
-// threads. One call at a time per run.
+// The standard error of a pixel is that of its paths and of the flux that they end in, which is
+// common to many of them. Pixels depend on the scene, the flux, the seed and the paths per pixel,
+// never on the number of threads, nor on whether their paths were traced at once or in passes. One
+// call at a time per run.
 #pragma once
 
 #include <atomic>
@@ -47,6 +48,7 @@ inline constexpr size_t picture_features = 8;
 struct TracedPicture {
   XyzPicture light;                     // with scotopic luminance from the bands
   std::vector<float> standard_error_y;  // [cd/m2]; NaN with one path per pixel
+  std::vector<float> flux_error_y;      // of it, what the run's flux errs by
   /// X, Y, Z, scotopic of what emitters send straight to the eye, without chance but for where in
   /// the pixel [cd/m2]; the halves of `noisy` are without it.
   std::vector<float> emitted;
@@ -63,6 +65,40 @@ inline constexpr int min_filtered_paths = 4;
 
 /// Requires: min_filtered_paths per pixel at least; threads >= 1. The same for any threads.
 FilteredView filter_traced(const TracedPicture& traced, int threads);
+
+/// A camera's picture as it grows, path by path. Pixels are the same bits however paths were added.
+class ViewPasses {
+ public:
+  /// `number`: of the random numbers, a camera's own; below 2^16. `flux`: where paths end, or null.
+  /// Requires: run and flux outlive this.
+  ViewPasses(const LocalRun& run, const Camera& camera, uint64_t number, const KnownRadiance* flux);
+  ~ViewPasses();
+  ViewPasses(const ViewPasses&) = delete;
+  ViewPasses& operator=(const ViewPasses&) = delete;
+
+  /// Memory that the sums of a picture take [bytes].
+  static uint64_t bytes_of(const Camera& camera);
+
+  /// Adds so many paths to each pixel. False where it was interrupted: then none was added.
+  /// Requires: paths() + `paths` <= limits::max_paths_per_pixel.
+  bool add(int paths, const PictureOptions& options, const ShareDone& progress = {});
+  /// Of each pixel.
+  int paths() const { return paths_; }
+  /// What there is of it. Requires: paths() > 0.
+  TracedPicture picture() const;
+
+ private:
+  struct PixelSums;
+  class PixelTracer;
+  size_t pixels() const;
+
+  const LocalRun& run_;
+  const Camera camera_;
+  const uint64_t number_;
+  const KnownRadiance* flux_;
+  std::vector<PixelSums> sums_;
+  int paths_ = 0;
+};
 
 /// One camera's picture; without meaning where it was interrupted. `flux`: where paths end, or
 /// null. Requires: camera is one of the scene's; 1 <= paths_per_pixel <=

@@ -74,7 +74,10 @@ ExrImage exr_of(const LocalRun& run, const Camera& camera, const TracedPicture& 
   }
   // An error needs two paths: where there are none, there is no channel of it, instead of NaN.
   const bool has_error = options.paths_per_pixel >= 2;
-  if (has_error) image.channels.push_back({"standard_error.Y", traced.standard_error_y});
+  if (has_error) {
+    image.channels.push_back({"standard_error.Y", traced.standard_error_y});
+    image.channels.push_back({"flux_error.Y", traced.flux_error_y});
+  }
   if (filtered != nullptr) {
     add_xyz(image, "filtered.", filtered->light);
     image.channels.push_back({"filtered_error.Y", filtered->standard_error_y});
@@ -87,7 +90,8 @@ ExrImage exr_of(const LocalRun& run, const Camera& camera, const TracedPicture& 
       "comments",
       std::string("X, Y, Z: CIE 1931, Y in cd/m2. R, G, B: linear sRGB of the same light, not "
                   "clipped. scotopic: scotopic cd/m2. All as traced, not filtered. ") +
-          (has_error ? "standard_error.Y: of the pixel's paths. "
+          (has_error ? "standard_error.Y: of the pixel's paths and of the flux that they end in; "
+                       "flux_error.Y: of the latter alone. "
                      : "No standard error: it needs two paths per pixel. ") +
           (filtered != nullptr ? "filtered: the same without most of its noise, and its error by "
                                  "the difference of two halves. "
