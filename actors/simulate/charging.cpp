@@ -9,7 +9,7 @@ namespace {
 class TracingMeter {
  public:
   TracingMeter(SimClock& clock, const SimCosts& costs)
-      : meter_(clock, Work::tracing), costs_(costs) {}
+      : meter_(clock, WorkKind::tracing), costs_(costs) {}
 
   void begin(const BatchScores& scores) {
     ledger_ = &scores.balance;
@@ -101,7 +101,7 @@ class ChargedTracer final : public BatchTracer {
 class ChargedBuilder final : public ObjectBuilder {
  public:
   ChargedBuilder(std::unique_ptr<ObjectBuilder> real, SimClock& clock, const SimCosts& costs)
-      : real_(std::move(real)), meter_(clock, Work::building), costs_(costs) {}
+      : real_(std::move(real)), meter_(clock, WorkKind::building), costs_(costs) {}
 
   void build(uint32_t object, SharedBytes bytes, Client& client) override {
     meter_.charge(costs_.build_ns + costs_.build_byte_ns * static_cast<double>(bytes.bytes.size()));

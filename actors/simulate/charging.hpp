@@ -17,7 +17,7 @@ namespace luxodus {
 class Meter {
  public:
   /// Requires: `clock` outlives this.
-  explicit Meter(SimClock& clock, Work what = Work::other) : clock_(clock), what_(what) {}
+  explicit Meter(SimClock& clock, WorkKind what = WorkKind::other) : clock_(clock), what_(what) {}
   void charge(double work_ns) {
     owed_ns_ += work_ns;
     const auto whole = static_cast<Nanoseconds>(owed_ns_);
@@ -27,7 +27,7 @@ class Meter {
 
  private:
   SimClock& clock_;
-  const Work what_;
+  const WorkKind what_;
   double owed_ns_ = 0;
 };
 

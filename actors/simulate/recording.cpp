@@ -17,7 +17,7 @@ class ReplayTracer final : public BatchTracer {
  public:
   ReplayTracer(const Recording& recording, ObjectSource& source, SimClock& clock,
                const SimCosts& costs)
-      : recording_(recording), source_(source), meter_(clock, Work::tracing), costs_(costs) {}
+      : recording_(recording), source_(source), meter_(clock, WorkKind::tracing), costs_(costs) {}
 
   void trace(int group, uint64_t first, int64_t count, BatchScores& scores) override {
     const Recording::Group& of = recording_.group(group);

@@ -143,11 +143,11 @@ void SimulatedRun::note_world() {
     const bool leads = node.net.self == controller();
     (leads ? result_.controller_s : result_.busy_s) += busy_s;
     if (!leads) {
-      const auto of = [&](Work what) { return 1e-9 * static_cast<double>(clock.busy(what)); };
-      result_.tracing_s += of(Work::tracing);
-      result_.building_s += of(Work::building);
-      result_.frames_s += of(Work::frames);
-      result_.resting_s += of(Work::resting);
+      const auto of = [&](WorkKind what) { return 1e-9 * static_cast<double>(clock.busy(what)); };
+      result_.tracing_s += of(WorkKind::tracing);
+      result_.building_s += of(WorkKind::building);
+      result_.frames_s += of(WorkKind::frames);
+      result_.resting_s += of(WorkKind::resting);
     }
     if (leads || setup_.coordinates(node.net.self))
       result_.busiest_s = std::max(result_.busiest_s, busy_s);

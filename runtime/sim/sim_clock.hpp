@@ -11,7 +11,7 @@
 namespace luxodus {
 
 /// What a simulated node is charged for.
-enum class Work : uint8_t { other, tracing, building, frames, resting };
+enum class WorkKind : uint8_t { other, tracing, building, frames, resting };
 
 class SimClock final : public Clock {
  public:
@@ -20,7 +20,7 @@ class SimClock final : public Clock {
   /// The world's time has come to this node; it may be ahead, busy with what it was charged for.
   void reach(Nanoseconds moment) { now_ = std::max(now_, moment); }
   /// Work that takes so long on a machine of this node's speed.
-  void charge(Nanoseconds work, Work what = Work::other) {
+  void charge(Nanoseconds work, WorkKind what = WorkKind::other) {
     const auto taken = static_cast<Nanoseconds>(slowness_ * static_cast<double>(work));
     now_ += taken;
     busy_ += taken;
@@ -29,7 +29,7 @@ class SimClock final : public Clock {
   /// All that was charged so far, as long as it took.
   Nanoseconds busy() const { return busy_; }
   /// Of that, for work of one kind.
-  Nanoseconds busy(Work what) const { return by_work_[static_cast<size_t>(what)]; }
+  Nanoseconds busy(WorkKind what) const { return by_work_[static_cast<size_t>(what)]; }
   /// 1: as fast as what costs were measured on.
   void set_slowness(double factor) { slowness_ = factor; }
 

@@ -70,7 +70,7 @@ class SimWorld::Port final : public Transport {
       if (queue.empty()) continue;
       given_ = std::move(queue.front());
       queue.pop_front();
-      node_.clock.charge(world_.setup_.frame_cost, Work::frames);
+      node_.clock.charge(world_.setup_.frame_cost, WorkKind::frames);
       world_.charge_bytes(node_, given_.second.size());
       return Arrival{given_.first, lane, given_.second};
     }
@@ -206,7 +206,7 @@ Nanoseconds* SimWorld::free_core(const Node& node) {
 
 void SimWorld::charge_bytes(Node& node, size_t bytes) {
   node.clock.charge(static_cast<Nanoseconds>(setup_.byte_cost_ns * static_cast<double>(bytes)),
-                    Work::frames);
+                    WorkKind::frames);
 }
 
 void SimWorld::take_turn(Node& node) {
@@ -215,7 +215,7 @@ void SimWorld::take_turn(Node& node) {
   Nanoseconds* const core = free_core(node);
   if (core != nullptr && *core > now_) return wake(node, *core);
   node.clock.reach(now_);
-  if (std::exchange(node.rested, false)) node.clock.charge(setup_.rest_cost, Work::resting);
+  if (std::exchange(node.rested, false)) node.clock.charge(setup_.rest_cost, WorkKind::resting);
   const Nanoseconds due = node.node->turn();
   node.clock.charge(setup_.turn_cost);
   if (core != nullptr) *core = node.clock.now();
@@ -255,7 +255,7 @@ Sent SimWorld::send(NodeId from, NodeId to, Lane lane, std::span<const std::byte
   const bool chosen = setup_.plan.lost_frame == counters_.frames;
   ++counters_.frames;
   counters_.bytes += bytes;
-  nodes_[from.value]->clock.charge(setup_.send_cost, Work::frames);
+  nodes_[from.value]->clock.charge(setup_.send_cost, WorkKind::frames);
   charge_bytes(*nodes_[from.value], bytes);
   Frame frame{way, lane, way->connection, false, {}};
   frame.bytes.reserve(bytes);
