@@ -6,6 +6,7 @@
 
 #include <array>
 #include <atomic>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -81,14 +82,17 @@ uint64_t signs_of(uint64_t bin) {
   return z ^ (z >> 31);
 }
 
-/// In which half of a pixel's paths a path is. Points of a Sobol' set that begin at a multiple of
-/// two are spread evenly, and so is every half of a multiple of four.
+/// In which half of a pixel's paths a path is: by the parity of the bits of its number (the
+/// sequence of Thue and Morse). Each half of the first 2^k points of a Sobol' set is spread nearly
+/// as evenly as the first half would be, for all k at once.
 constexpr size_t half_of(int path) {
-  return path % 4 < 2 ? 0 : 1;
+  return static_cast<size_t>(std::popcount(static_cast<unsigned>(path)) % 2);
 }
 constexpr std::array<int, 2> halves_of(int paths) {
-  const int first = paths / 4 * 2 + std::min(paths % 4, 2);
-  return {first, paths - first};
+  const int pairs = paths / 2;
+  std::array<int, 2> counts{pairs, pairs};
+  if (paths % 2 != 0) ++counts[half_of(paths - 1)];
+  return counts;
 }
 
 }  // namespace
@@ -152,8 +156,7 @@ class ViewPasses::PixelTracer {
   void trace(int column, int row, uint64_t pixel, int from, int to, PixelSums& sums) {
     const uint64_t first = first_path_ + (pixel << pixel_shift);
     for (int i = from; i < to; ++i) {
-      // Room for as many as there may ever be: so points do not depend on how many are wanted.
-      tracer_->start(first, limits::max_paths_per_pixel, static_cast<uint32_t>(i));
+      start(first, i);
       const auto x = static_cast<double>(tracer_->uniform());
       const auto y = static_cast<double>(tracer_->uniform());
       const int hero = tracer_->choose_band(static_cast<double>(tracer_->uniform()));
@@ -175,6 +178,15 @@ class ViewPasses::PixelTracer {
   }
 
  private:
+  /// The first paths have a set of points of their own: one with room for all takes longer to make
+  /// than they take to trace. Points do not depend on how many are wanted.
+  void start(uint64_t first, int path) {
+    constexpr int few = 64;
+    if (path < few) return tracer_->start(first, few, static_cast<uint32_t>(path));
+    tracer_->start(first + limits::max_paths_per_pixel, limits::max_paths_per_pixel,
+                   static_cast<uint32_t>(path - few));
+  }
+
   /// The normal, the nearness, the transmittance and the albedo's X, Y, Z.
   void add_features(std::array<double, picture_features>& into) const {
     ChannelLight reflected;
@@ -214,7 +226,9 @@ uint64_t ViewPasses::bytes_of(const Camera& camera) {
          sizeof(PixelSums);
 }
 
-bool ViewPasses::add(int paths, const PictureOptions& options, const ShareDone& progress) {
+template <class PathsOf>
+bool ViewPasses::trace(const PictureOptions& options, const ShareDone& progress,
+                       const PathsOf& paths_of) {
   const std::vector<PixelSums> before = options.interrupt != nullptr ? sums_ : decltype(sums_)();
   // Parts of a row, so that there is work for many fibers.
   const int parts = (camera_.width + columns_at_once - 1) / columns_at_once;
@@ -227,7 +241,8 @@ bool ViewPasses::add(int paths, const PictureOptions& options, const ShareDone& 
            ++column) {
         if (options.interrupted()) return;
         const auto pixel = static_cast<size_t>(int64_t{row} * camera_.width + column);
-        tracer->trace(column, row, pixel, paths_, paths_ + paths, sums_[pixel]);
+        const auto [from, to] = paths_of(column, row);
+        if (from < to) tracer->trace(column, row, pixel, from, to, sums_[pixel]);
       }
     };
   };
@@ -235,21 +250,44 @@ bool ViewPasses::add(int paths, const PictureOptions& options, const ShareDone& 
   run_.rows().run(units, make, [&](int64_t done) {
     if (progress) progress(static_cast<double>(done) / static_cast<double>(units));
   });
-  if (options.interrupted()) {
-    sums_ = before;
-    return false;
-  }
+  if (!options.interrupted()) return true;
+  sums_ = before;
+  return false;
+}
+
+namespace {
+
+bool comes_first(int column, int row) {
+  return column % 2 == 0 && row % 2 == 0;
+}
+
+}  // namespace
+
+bool ViewPasses::add_first(int paths, const PictureOptions& options, const ShareDone& progress) {
+  const bool whole = trace(options, progress, [&](int column, int row) {
+    return std::pair(0, comes_first(column, row) ? paths : 0);
+  });
+  if (whole) first_paths_ = paths;
+  return whole;
+}
+
+bool ViewPasses::add(int paths, const PictureOptions& options, const ShareDone& progress) {
+  const bool whole = trace(options, progress, [&](int column, int row) {
+    return std::pair(paths_ + (comes_first(column, row) ? first_paths_ : 0), paths_ + paths);
+  });
+  if (!whole) return false;
   paths_ += paths;
+  first_paths_ = 0;
   return true;
 }
 
 namespace {
 
 /// Room for a picture of so many pixels.
-TracedPicture empty_picture(const Camera& view) {
+TracedPicture empty_picture(int width, int height) {
   TracedPicture out;
-  out.light.width = out.noisy.width = view.width;
-  out.light.height = out.noisy.height = view.height;
+  out.light.width = out.noisy.width = width;
+  out.light.height = out.noisy.height = height;
   const size_t pixels = out.light.pixels();
   out.light.xyz.resize(3 * pixels);
   out.light.scotopic.resize(pixels);
@@ -289,23 +327,40 @@ constexpr size_t known_reach_px = 3;
 }  // namespace
 
 TracedPicture ViewPasses::picture() const {
-  TracedPicture out = empty_picture(camera_);
-  const std::array<int, 2> halves = halves_of(paths_);
-  const auto paths = static_cast<double>(paths_);
-  std::vector<double> known_squares(pixels()), known_variances(pixels());
-  for (size_t i = 0; i < pixels(); ++i) {
-    known_squares[i] = sums_[i].known * sums_[i].known;
-    known_variances[i] = sums_[i].known_variance();
+  std::vector<const PixelSums*> all;
+  for (const PixelSums& sums : sums_) all.push_back(&sums);
+  return picture_of(all, camera_.width, camera_.height, paths_);
+}
+
+TracedPicture ViewPasses::first_picture() const {
+  std::vector<const PixelSums*> some;
+  for (size_t i = 0; i < sums_.size(); ++i) {
+    const auto at = static_cast<int64_t>(i);
+    if (comes_first(static_cast<int>(at % camera_.width), static_cast<int>(at / camera_.width)))
+      some.push_back(&sums_[i]);
   }
-  const auto width = static_cast<size_t>(camera_.width);
-  const std::vector<double> squares = around(known_squares, width, known_reach_px);
-  const std::vector<double> variances = around(known_variances, width, known_reach_px);
-  for (size_t i = 0; i < pixels(); ++i) {
-    const PixelSums& sums = sums_[i];
+  return picture_of(some, (camera_.width + 1) / 2, (camera_.height + 1) / 2, first_paths_);
+}
+
+TracedPicture ViewPasses::picture_of(const std::vector<const PixelSums*>& all, int width,
+                                     int height, int path_count) const {
+  TracedPicture out = empty_picture(width, height);
+  const std::array<int, 2> halves = halves_of(path_count);
+  const auto paths = static_cast<double>(path_count);
+  std::vector<double> known_squares(all.size()), known_variances(all.size());
+  for (size_t i = 0; i < all.size(); ++i) {
+    known_squares[i] = all[i]->known * all[i]->known;
+    known_variances[i] = all[i]->known_variance();
+  }
+  const auto columns = static_cast<size_t>(width);
+  const std::vector<double> squares = around(known_squares, columns, known_reach_px);
+  const std::vector<double> variances = around(known_variances, columns, known_reach_px);
+  for (size_t i = 0; i < all.size(); ++i) {
+    const PixelSums& sums = *all[i];
     for (size_t c = 0; c < light_channels; ++c) {
       const size_t at = light_channels * i + c;
-      const double all = sums.light[0][c] + sums.light[1][c] + sums.emitted[c];
-      (c < 3 ? out.light.xyz[3 * i + c] : out.light.scotopic[i]) = static_cast<float>(all / paths);
+      const double sum = sums.light[0][c] + sums.light[1][c] + sums.emitted[c];
+      (c < 3 ? out.light.xyz[3 * i + c] : out.light.scotopic[i]) = static_cast<float>(sum / paths);
       out.emitted[at] = static_cast<float>(sums.emitted[c] / paths);
       for (const size_t h : {size_t{0}, size_t{1}}) {
         if (halves[h] == 0) continue;
@@ -318,7 +373,7 @@ TracedPicture ViewPasses::picture() const {
     }
     const double luminance = sums.light[0][1] + sums.light[1][1] + sums.emitted[1];
     const double relative = squares[i] > 0 ? std::max(0.0, variances[i]) / squares[i] : 0;
-    const double of_flux = paths_ < 2 ? 0 : relative * known_squares[i] / (paths * (paths - 1));
+    const double of_flux = path_count < 2 ? 0 : relative * known_squares[i] / (paths * (paths - 1));
     out.flux_error_y[i] = static_cast<float>(std::sqrt(of_flux));
     out.standard_error_y[i] = static_cast<float>(
         std::sqrt(variance_of_mean(luminance, sums.luminance_squares, paths) + of_flux));
@@ -333,6 +388,21 @@ TracedPicture trace_picture(const LocalRun& run, size_t camera, const PictureOpt
   ViewPasses view(run, run.scene().description->cameras[camera], camera, flux);
   view.add(options.paths_per_pixel, options, progress);
   return view.picture();
+}
+
+double relative_error(const XyzPicture& light, const std::vector<float>& standard_error_y) {
+  const auto luminance = [&](size_t i) { return static_cast<double>(light.xyz[3 * i + 1]); };
+  const auto pixels = static_cast<double>(light.pixels());
+  double mean = 0, squares = 0;
+  for (size_t i = 0; i < light.pixels(); ++i) mean += luminance(i) / pixels;
+  constexpr double darkest = 0.01;
+  for (size_t i = 0; i < light.pixels(); ++i) {
+    const double against = std::max(luminance(i), darkest * mean);
+    const auto error = static_cast<double>(standard_error_y[i]);
+    if (against > 0) squares += error * error / (against * against * pixels);
+    if (std::isnan(error)) return error;
+  }
+  return std::sqrt(squares);
 }
 
 namespace {

@@ -432,10 +432,11 @@ TEST_CASE("views are written as luminance data and as pixels", "[display]") {
   double last = 0;
   PictureOptions options;
   options.paths_per_pixel = 4;
-  const auto done = render_views(folder.path(), *run, "inside", options, [&](double share) {
-    CHECK(share >= last);
-    last = share;
-  });
+  const auto done =
+      render_views(folder.path(), *run, "inside", options, [&](const PictureProgress& progress) {
+        CHECK(progress.share >= last);
+        last = progress.share;
+      });
   if (!done.ok()) FAIL(done.problem().text());
   CHECK(last == Approx(1));
   const ExrImage exr = test::read_exr(folder / "views/inside.exr");
@@ -470,7 +471,9 @@ TEST_CASE("pictures that are interrupted end at once, and what is not whole is n
   PictureOptions options;
   options.paths_per_pixel = 4;
   options.interrupt = &interrupt;
-  REQUIRE(render_views(folder.path(), *run, "", options, [&](double) { interrupt = true; }).ok());
+  REQUIRE(render_views(folder.path(), *run, "", options, [&](const PictureProgress&) {
+            interrupt = true;
+          }).ok());
   CHECK(std::filesystem::is_empty(folder.path() / "views"));
   interrupt = false;
   REQUIRE(render_views(folder.path(), *run, "", options, {}).ok());
