@@ -85,8 +85,8 @@ void ProgressLine::show(const Progress& p) {
   put(text, p.seconds_left == 0, share);
 }
 
-void ProgressLine::show_share(double share) {
-  std::string text = fmt::format("{:.0f} %", 100 * share);
+void ProgressLine::show_share(double share, const std::string& what) {
+  std::string text = fmt::format("{:.0f} %{}", 100 * share, what);
   const double passed = now_s() - began_s_;
   if (share > 0.01 && share < 1 && passed > 1)
     text += ", about " + time_text(passed * (1 - share) / share) + " left";

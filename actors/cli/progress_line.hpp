@@ -17,8 +17,8 @@ class ProgressLine {
   explicit ProgressLine(const std::string& title);
   ~ProgressLine();
   void show(const Progress& progress);
-  /// Adds an estimate of the time that is left.
-  void show_share(double share);
+  /// Adds `what` is known beside it (", 12 paths"), and an estimate of the time that is left.
+  void show_share(double share, const std::string& what = "");
   /// `last`: all is done. `share`: of the work, where it is known.
   void put(const std::string& text, bool last, std::optional<double> share = {});
 

@@ -6,12 +6,12 @@
 #include "actors/cli/findings.hpp"
 #include "actors/cli/finished_run.hpp"
 #include "actors/cli/load_scene.hpp"
+#include "actors/cli/picture_limits.hpp"
 #include "actors/cli/progress_line.hpp"
 #include "actors/cli/signals.hpp"
 #include "actors/display/pictures.hpp"
 #include "actors/display/result_files.hpp"
 #include "actors/run/flux_store.hpp"
-#include "runtime/core/log.hpp"
 #include "scenes/transport/compile.hpp"
 
 namespace luxodus::cli {
@@ -24,7 +24,7 @@ struct RenderOptions {
   std::string folder;
   std::string view;
   int threads = default_threads();
-  int paths = 32;
+  PictureLimits limits;
   bool full_paths = false;
   bool raw = false;
 };
@@ -43,6 +43,9 @@ Result<ExitCode> render(const RenderOptions& options) {
   auto scene = compile_scene(description, scenario.value(),
                              {finished->cells, finished->error_of, finished->batch_shares});
   if (!scene) return scene.problem();
+  PictureOptions picture;
+  if (auto ok = read_limits(options.limits, picture); !ok) return ok.problem();
+  if (auto ok = check_views(*description, options.view, picture); !ok) return ok.problem();
   if (description->cameras.empty())
     return problem_in(finished->scene_file, "the scene has no [[camera]] to render");
   if (!passes_inspection(description, {scenario.value()}, options.threads))
@@ -55,18 +58,40 @@ Result<ExitCode> render(const RenderOptions& options) {
   LocalRun run(scene.value(), finished->seed, options.threads);
   if (auto ok = load_flux(out->path() / "flux.lux", run); !ok) return ok.problem();
   install_interrupt_handler();
-  ProgressLine line("pictures");
-  PictureOptions picture;
-  picture.paths_per_pixel = options.paths;
+  picture.progressive = true;
   picture.gather = !options.full_paths;
   picture.raw = options.raw;
   picture.interrupt = &interrupt_flag();
-  const auto drawn = render_views(out->path(), run, options.view, picture,
-                                  [&](double share) { line.show_share(share); });
-  if (!drawn) return drawn.problem();
-  if (!interrupt_flag()) return ExitCode::success;
-  log_warning("interrupted; the pictures that were whole are there");
-  return ExitCode::interrupted;
+  std::optional<ProgressLine> line("pictures");
+  const auto rendered =
+      render_views(out->path(), run, options.view, picture,
+                   [&](const PictureProgress& progress) { show_pictures(*line, progress); });
+  line.reset();
+  if (!rendered) return rendered.problem();
+  tell_rendered(rendered.value());
+  return rendered->interrupted ? ExitCode::interrupted : ExitCode::success;
+}
+
+}  // namespace
+
+namespace {
+
+std::vector<Option> render_options(RenderOptions& o) {
+  std::vector<Option> all{
+      {"dir", &o.folder, "Folder of a finished run", {.form = Form::folder, .required = true}},
+      {"--view", &o.view, "Name of one camera", {.form = Form::name, .otherwise = "all cameras"}}};
+  for (Option& option : options_of(o.limits, "--paths")) all.push_back(std::move(option));
+  const std::vector<Option> more{
+      {"--full-paths", &o.full_paths,
+       "Paths traced to their end instead of to the run's flux: slower and noisier, free of the "
+       "patches' size"},
+      {"--raw", &o.raw, "PNG files of the light as traced, with its noise"},
+      {"--threads",
+       &o.threads,
+       "Number of threads",
+       {.otherwise = "all cores", .range = Range{1, 1024}}}};
+  all.insert(all.end(), more.begin(), more.end());
+  return all;
 }
 
 }  // namespace
@@ -77,27 +102,12 @@ Command render_command() {
       .name = "render",
       .summary = "Make pictures from a finished run, without tracing it again",
       .heading = "Results",
-      .options =
-          {{"dir",
-            &o->folder,
-            "Folder of a finished run",
-            {.form = Form::folder, .required = true}},
-           {"--view",
-            &o->view,
-            "Name of one camera",
-            {.form = Form::name, .otherwise = "all cameras"}},
-           {"--paths", &o->paths, "Number of paths per pixel", {.range = Range{1, 100'000}}},
-           {"--full-paths", &o->full_paths,
-            "Paths traced to their end instead of to the run's flux: slower and noisier, free of "
-            "the patches' size"},
-           {"--raw", &o->raw, "PNG files of the light as traced, with its noise"},
-           {"--threads",
-            &o->threads,
-            "Number of threads",
-            {.otherwise = "all cores", .range = Range{1, 1024}}}},
+      .options = render_options(*o),
       .notes =
           "Reads DIR/result.json, DIR/flux.lux and the scene file; refuses if the scene has "
-          "changed.",
+          "changed. A first picture of each view is there after seconds; it is replaced by better "
+          "ones. Equal paths give equal pictures, bit for bit, however they came together. Ctrl-C "
+          "keeps the pictures of the paths that all of their pixels have.",
       .run = [o] { return exit_code_of(render(*o)); }};
 }
 

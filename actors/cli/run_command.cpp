@@ -98,7 +98,8 @@ Result<RunDisplayOptions> display_options(const RunFolder& folder, const RunReco
   display.keep_particles = folder.keep_particles;
   display.make_room = [room = folder.room.get()] { room->release(); };
   display.pictures = !options.no_views;
-  display.picture.paths_per_pixel = options.picture_paths;
+  if (auto ok = read_limits(options.picture, display.picture); !ok) return ok.problem();
+  display.picture.progressive = true;
   display.picture.raw = options.raw;
   display.preview.paths_per_pixel = preview_paths;
   display.picture.interrupt = display.preview.interrupt = &interrupt_flag();
@@ -181,6 +182,10 @@ Result<PreparedScenario> prepare_scenario(
   auto scene = compile_scene(description, scenario, {options.cells, options.error_of});
   if (!scene) return scene.problem();
   for (const Problem& w : scene.value()->warnings) warn(w);
+  PictureOptions picture;
+  if (auto ok = read_limits(options.picture, picture); !ok) return ok.problem();
+  if (auto ok = check_views(*description, "", picture); !ok && !options.no_views)
+    return ok.problem();
   PreparedScenario prepared{scenario, scene.value(), std::nullopt};
   if (options.plan) return prepared;
   // Of several scenarios the later ones may not have been begun when the run was stopped.

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "actors/cli/picture_limits.hpp"
 #include "actors/cli/progress_line.hpp"
 #include "actors/cli/report_aloud.hpp"
 #include "actors/cli/signals.hpp"
@@ -54,14 +55,21 @@ bool RunDisplay::preview_is_due() const {
           Clock::now() - last_preview_.load() >= std::chrono::duration<double>(options_.preview_s));
 }
 
-/// Light, errors and the features of its filter, twice: as traced and filtered.
+/// Sums, as they are and as they were before the step that is under way; light, errors and the
+/// features of the filter, twice: as traced and filtered. Of as many pictures as grow together.
 uint64_t RunDisplay::picture_bytes() const {
   constexpr uint64_t floats_of_a_pixel = 2 * (4 + 4 + 1 + picture_features);
-  uint64_t pixels = 0;
-  for (const Camera& camera : base_.scene().description->cameras)
-    pixels = std::max(pixels,
-                      static_cast<uint64_t>(camera.width) * static_cast<uint64_t>(camera.height));
-  return pixels * floats_of_a_pixel * sizeof(float);
+  uint64_t sums = 0, largest = 0, pixels = 0;
+  for (const Camera& camera : base_.scene().description->cameras) {
+    const uint64_t bytes = ViewPasses::bytes_of(camera);
+    largest = std::max(largest, bytes);
+    sums += bytes;
+    pixels += static_cast<uint64_t>(camera.width) * static_cast<uint64_t>(camera.height);
+  }
+  const uint64_t together = std::max(largest, std::min(sums, limits::max_growing_bytes));
+  const double share = sums > 0 ? static_cast<double>(together) / static_cast<double>(sums) : 0;
+  const double shown = share * static_cast<double>(pixels * floats_of_a_pixel * sizeof(float));
+  return together + largest + static_cast<uint64_t>(shown);
 }
 
 void RunDisplay::show(const LocalRun& run) {
@@ -99,9 +107,14 @@ Result<void> RunDisplay::write_results(const LocalRun& run, StopReason reason) {
   result_ = std::move(result).value();
   const bool pictures = options_.pictures && !run.scene().description->cameras.empty();
   if (!pictures || reason == StopReason::interrupted) return {};
-  ProgressLine line("pictures");
-  return render_views(options_.folder, run, "", options_.picture,
-                      [&](double share) { line.show_share(share); });
+  std::optional<ProgressLine> line("pictures");
+  const auto rendered =
+      render_views(options_.folder, run, "", options_.picture,
+                   [&](const PictureProgress& progress) { show_pictures(*line, progress); });
+  line.reset();
+  if (!rendered) return rendered.problem();
+  tell_rendered(rendered.value());
+  return {};
 }
 
 }  // namespace luxodus::cli

@@ -119,17 +119,17 @@ std::vector<Option> node_options(RunOptions& o) {
 }
 
 std::vector<Option> picture_options(RunOptions& o) {
-  return {{"--picture-paths",
-           &o.picture_paths,
-           "Number of paths per pixel of the views",
-           {.range = Range{1, 100'000}}},
-          {"--preview",
-           &o.preview,
-           "Interval of pictures during the run, in DIR/preview, e.g. 60s; one more whenever the "
-           "process gets SIGUSR1",
-           {.form = Form::duration, .otherwise = "none"}},
-          {"--raw", &o.raw, "PNG files of the light as traced, with its noise"},
-          {"--no-views", &o.no_views, "No pictures"}};
+  std::vector<Option> all = options_of(o.picture, "--picture-paths");
+  const std::vector<Option> more{
+      {"--preview",
+       &o.preview,
+       "Interval of pictures during the run, in DIR/preview, e.g. 60s; one more whenever the "
+       "process gets SIGUSR1",
+       {.form = Form::duration, .otherwise = "none"}},
+      {"--raw", &o.raw, "PNG files of the light as traced, with its noise"},
+      {"--no-views", &o.no_views, "No pictures"}};
+  all.insert(all.end(), more.begin(), more.end());
+  return all;
 }
 
 std::vector<Option> folder_options(RunOptions& o) {

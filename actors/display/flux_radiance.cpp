@@ -1,6 +1,7 @@
 #include "actors/display/flux_radiance.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 
@@ -68,7 +69,8 @@ class FluxRadiance final : public KnownRadiance {
       : scene_(run.scene()),
         readout_(run.scene(), run.totals()),
         bands_(static_cast<size_t>(run.scene().bands.count())),
-        table_(size_t{run.scene().patch_count} * bands_) {
+        table_(size_t{run.scene().patch_count} * bands_),
+        patch_errors_(run.scene().patch_count) {
     for (const CompiledSurface& s : scene_.surfaces)
       if (s.one_patch) fill(s.first_patch, s.patches, s.area_m2);
     constexpr int64_t per_row = 1024;  // triangles
@@ -87,10 +89,11 @@ class FluxRadiance final : public KnownRadiance {
   }
 
   double of_surface(const Hit& hit, bool front, int band) const override {
-    const TriangleRecord& t = *hit.triangle;
-    const uint32_t n = t.subdivision;
-    const uint32_t patch = t.first_patch + (front ? 0 : n * n) + sub_triangle(hit.u, hit.v, n);
-    return static_cast<double>(table_[patch * bands_ + static_cast<size_t>(band)]);
+    return static_cast<double>(table_[patch_of(hit, front) * bands_ + static_cast<size_t>(band)]);
+  }
+  KnownError error_of_surface(const Hit& hit, bool front) const override {
+    const size_t patch = patch_of(hit, front);
+    return {patch, static_cast<double>(patch_errors_[patch])};
   }
 
   bool knows(const Vec3& place) const override {
@@ -99,8 +102,6 @@ class FluxRadiance final : public KnownRadiance {
     return voxel != none_index && gas_[voxel];
   }
 
-  /// Of the fluence, as much as the net flux goes one way; the rest comes from everywhere. That has
-  /// the moments of the light up to the first, and is exact for a beam and for even light.
   double of_medium(const Vec3& place, const Vec3& direction, const PhaseFunction& phase,
                    int band) const override {
     const uint32_t voxel = voxel_of(scene_.voxels, place);
@@ -109,8 +110,42 @@ class FluxRadiance final : public KnownRadiance {
       return readout_.watts(scene_.blocks.voxels, voxel, band, quantity).value /
              (edge * edge * edge);
     };
-    const double fluence = mean(0);
-    const glm::dvec3 net(mean(1), mean(2), mean(3));
+    return turned(mean(0), {mean(1), mean(2), mean(3)}, direction, phase);
+  }
+
+  /// By the errors of the fluence and of each component of the net flux, as if they were
+  /// independent.
+  KnownError error_of_medium(const Vec3& place, const Vec3& direction,
+                             const PhaseFunction& phase) const override {
+    const uint32_t voxel = voxel_of(scene_.voxels, place);
+    const auto lumens = [&](uint32_t q) { return readout_.lumens(scene_.blocks.voxels, voxel, q); };
+    const Estimate fluence = lumens(0);
+    const std::array<Estimate, 3> flux{lumens(1), lumens(2), lumens(3)};
+    const glm::dvec3 net(flux[0].value, flux[1].value, flux[2].value);
+    const double light = turned(fluence.value, net, direction, phase);
+    double squares = std::pow(fluence.standard_error / (4 * static_cast<double>(pi_f)), 2);
+    for (int k = 0; k < 3; ++k) {
+      glm::dvec3 off(0.0);
+      off[k] = flux[static_cast<size_t>(k)].standard_error;
+      const double change = turned(fluence.value, net + off, direction, phase) -
+                            turned(fluence.value, net - off, direction, phase);
+      squares += change * change / 4;
+    }
+    return {uint64_t{scene_.patch_count} + voxel, light > 0 ? std::sqrt(squares) / light : 0};
+  }
+
+ private:
+  static size_t patch_of(const Hit& hit, bool front) {
+    const TriangleRecord& t = *hit.triangle;
+    const uint32_t n = t.subdivision;
+    return t.first_patch + (front ? 0 : n * n) + sub_triangle(hit.u, hit.v, n);
+  }
+
+  /// What one scattering sends against `direction` of light of that fluence and net flux. Of the
+  /// fluence, as much as the net flux goes one way; the rest comes from everywhere. That has the
+  /// moments of the light up to the first, and is exact for a beam and for even light.
+  static double turned(double fluence, const glm::dvec3& net, const Vec3& direction,
+                       const PhaseFunction& phase) {
     const double beam = glm::length(net);
     const double even = std::max(0.0, fluence - beam) / (4 * static_cast<double>(pi_f));
     if (!(beam > 0)) return even;
@@ -118,7 +153,6 @@ class FluxRadiance final : public KnownRadiance {
     return even + beam * static_cast<double>(evaluate(phase, static_cast<Real>(cosine)));
   }
 
- private:
   void fill_triangle(const TriangleRecord& t) {
     const CompiledSurface& surface = scene_.surfaces[t.surface];
     if (surface.one_patch) return;
@@ -131,14 +165,17 @@ class FluxRadiance final : public KnownRadiance {
         const Estimate out = readout_.watts(scene_.blocks.patches, patch, static_cast<int>(b), 1);
         table_[patch * bands_ + b] = static_cast<float>(out.value * per_watt);
       }
+      const Estimate out = readout_.lumens(scene_.blocks.patches, patch, 1);
+      patch_errors_[patch] = out.value > 0 ? static_cast<float>(out.relative_error()) : 0.0f;
     }
   }
 
   const CompiledScene& scene_;
   const Readout readout_;
   size_t bands_;
-  std::vector<float> table_;  // of patches, by band
-  std::vector<bool> gas_;     // by voxel; empty without voxels
+  std::vector<float> table_;         // of patches, by band
+  std::vector<float> patch_errors_;  // relative, of all bands together
+  std::vector<bool> gas_;            // by voxel; empty without voxels
 };
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <atomic>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -69,73 +70,124 @@ struct ChannelLight {
   }
 };
 
-/// Sums over some of a pixel's paths.
-struct PathSums {
-  double paths = 0;
-  std::array<double, light_channels> light{}, squares{};
+/// Draws of the signs of bins of known light: as many samples of its error.
+constexpr size_t sign_draws = 8;
 
-  void add(const ChannelLight& path) {
-    paths += 1;
-    for (size_t c = 0; c < light_channels; ++c) {
-      light[c] += path.values[c];
-      squares[c] += path.values[c] * path.values[c];
-    }
-  }
-  double mean(size_t c) const { return light[c] / paths; }
-  /// Of the mean. NaN with one path.
-  double variance(size_t c) const {
-    if (paths < 2) return std::numeric_limits<double>::quiet_NaN();
-    return std::max(0.0, squares[c] / paths - mean(c) * mean(c)) / (paths - 1);
-  }
-};
+/// A random sign for each draw, one bit each: a mix of the bin's number (SplitMix64: G. L. Steele,
+/// D. Lea, C. H. Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014).
+uint64_t signs_of(uint64_t bin) {
+  uint64_t z = (bin + 1) * 0x9E3779B97F4A7C15u;
+  z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
+  z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
+  return z ^ (z >> 31);
+}
+
+/// In which half of a pixel's paths a path is: by the parity of the bits of its number (the
+/// sequence of Thue and Morse). Each half of the first 2^k points of a Sobol' set is spread nearly
+/// as evenly as the first half would be, for all k at once.
+constexpr size_t half_of(int path) {
+  return static_cast<size_t>(std::popcount(static_cast<unsigned>(path)) % 2);
+}
+constexpr std::array<int, 2> halves_of(int paths) {
+  const int pairs = paths / 2;
+  std::array<int, 2> counts{pairs, pairs};
+  if (paths % 2 != 0) ++counts[half_of(paths - 1)];
+  return counts;
+}
+
+}  // namespace
 
 /// What the paths of one pixel have found.
-struct PixelSums {
-  PathSums all;                  // everything
-  std::array<PathSums, 2> half;  // of half of the paths each, without what emitters send straight
-  PathSums emitted;              // that
+struct ViewPasses::PixelSums {
+  /// Of half of the paths each, without what emitters send straight.
+  std::array<std::array<double, light_channels>, 2> light{};
+  std::array<std::array<double, 3>, 2> squares{};
+  std::array<double, light_channels> emitted{};
+  double luminance_squares = 0;  // of all light
   std::array<double, picture_features> features{};
+  // Luminance that paths have ended in, as it is known; squares of what that errs by; and the sums
+  // of that by draws of signs: who ends in the same bin errs alike.
+  double known = 0, known_squares = 0;
+  std::array<float, sign_draws> known_signed{};
+
+  void add_known(const KnownEnd& end) {
+    if (!(end.luminance > 0)) return;
+    const double error = end.luminance * end.error.relative;
+    known += end.luminance;
+    known_squares += error * error;
+    const uint64_t signs = signs_of(end.error.bin);
+    for (size_t k = 0; k < sign_draws; ++k)
+      known_signed[k] += static_cast<float>((signs >> k & 1) != 0 ? error : -error);
+  }
+  /// Of the sum of luminances, the variance that paths have in common. What it has of each path by
+  /// itself is in the spread of the paths.
+  double known_variance() const {
+    double squared = 0;
+    for (const float sum : known_signed)
+      squared += static_cast<double>(sum) * static_cast<double>(sum) / sign_draws;
+    return squared - known_squares;
+  }
 };
 
+namespace {
+
+/// Of a mean of so many, by their sum and that of their squares. NaN with one.
+double variance_of_mean(double sum, double squares, double count) {
+  if (count < 2) return std::numeric_limits<double>::quiet_NaN();
+  const double mean = sum / count;
+  return std::max(0.0, squares / count - mean * mean) / (count - 1);
+}
+
+}  // namespace
+
 /// Traces the pixels of one picture; one per thread.
-class PixelTracer {
+class ViewPasses::PixelTracer {
  public:
-  PixelTracer(const LocalRun& run, const GeometryAccess& access, size_t camera,
-              const PictureOptions& options, const KnownRadiance* flux)
-      : scene_(run.scene()),
-        tracer_(make_picture_tracer(run.scene(), access, run.seed())),
-        pinhole_(run.scene().description->cameras[camera], run.scene().local_origin),
-        first_path_(static_cast<uint64_t>(camera) << camera_shift),
-        paths_(options.paths_per_pixel),
-        flux_(flux) {
+  PixelTracer(const ViewPasses& view, const GeometryAccess& access)
+      : scene_(view.run_.scene()),
+        tracer_(make_picture_tracer(scene_, access, view.run_.seed())),
+        pinhole_(view.camera_, scene_.local_origin),
+        first_path_(view.number_ << camera_shift),
+        flux_(view.flux_) {
     white_.add(scene_.bands, std::vector<double>(static_cast<size_t>(scene_.bands.count()), 1.0));
   }
 
-  PixelSums trace(int column, int row, uint64_t pixel) {
+  /// Adds the paths [from, to) of a pixel.
+  void trace(int column, int row, uint64_t pixel, int from, int to, PixelSums& sums) {
     const uint64_t first = first_path_ + (pixel << pixel_shift);
-    PixelSums sums;
-    for (int i = 0; i < paths_; ++i) {
-      tracer_->start(first, static_cast<uint32_t>(paths_), static_cast<uint32_t>(i));
+    for (int i = from; i < to; ++i) {
+      start(first, i);
       const auto x = static_cast<double>(tracer_->uniform());
       const auto y = static_cast<double>(tracer_->uniform());
       const int hero = tracer_->choose_band(static_cast<double>(tracer_->uniform()));
       const Ray ray = pinhole_.ray(column + x, row + y);
       ChannelLight turned;
       turned.add(scene_.bands, tracer_->radiance(ray, hero, flux_));
-      sums.half[i < paths_ / 2 ? 0 : 1].add(turned);
+      sums.add_known(tracer_->end());
+      const size_t half = half_of(i);
+      for (size_t c = 0; c < light_channels; ++c) sums.light[half][c] += turned.values[c];
+      for (size_t c = 0; c < 3; ++c) sums.squares[half][c] += turned.values[c] * turned.values[c];
       tracer_->meet_first(ray, first_);
       ChannelLight straight;
       straight.add(scene_.bands, first_.emitted);
-      sums.emitted.add(straight);
-      for (size_t c = 0; c < light_channels; ++c) turned.values[c] += straight.values[c];
-      sums.all.add(turned);
+      for (size_t c = 0; c < light_channels; ++c) sums.emitted[c] += straight.values[c];
+      const double luminance = turned.values[1] + straight.values[1];
+      sums.luminance_squares += luminance * luminance;
       add_features(sums.features);
     }
-    return sums;
   }
 
  private:
-  /// Means over the paths of the normal, the nearness, the transmittance and the albedo's X, Y, Z.
+  /// The first paths have a set of points of their own: one with room for all takes longer to make
+  /// than they take to trace. Points do not depend on how many are wanted.
+  void start(uint64_t first, int path) {
+    constexpr int few = 64;
+    if (path < few) return tracer_->start(first, few, static_cast<uint32_t>(path));
+    tracer_->start(first + limits::max_paths_per_pixel, limits::max_paths_per_pixel,
+                   static_cast<uint32_t>(path - few));
+  }
+
+  /// The normal, the nearness, the transmittance and the albedo's X, Y, Z.
   void add_features(std::array<double, picture_features>& into) const {
     ChannelLight reflected;
     reflected.add(scene_.bands, first_.reflectance);
@@ -147,28 +199,100 @@ class PixelTracer {
                                                    reflected.values[0] / white_.values[0],
                                                    reflected.values[1] / white_.values[1],
                                                    reflected.values[2] / white_.values[2]};
-    for (size_t k = 0; k < picture_features; ++k) into[k] += own[k] / paths_;
+    for (size_t k = 0; k < picture_features; ++k) into[k] += own[k];
   }
 
   const CompiledScene& scene_;
   std::unique_ptr<PictureTracer> tracer_;
   Pinhole pinhole_;
   uint64_t first_path_;
-  int paths_;
   const KnownRadiance* flux_;
   ChannelLight white_;  // of a reflectance of 1 in all bands
   FirstHit first_;      // of the last path
 };
 
+ViewPasses::ViewPasses(const LocalRun& run, const Camera& camera, uint64_t number,
+                       const KnownRadiance* flux)
+    : run_(run), camera_(camera), number_(number), flux_(flux), sums_(pixels()) {}
+
+ViewPasses::~ViewPasses() = default;
+
+size_t ViewPasses::pixels() const {
+  return static_cast<size_t>(camera_.width) * static_cast<size_t>(camera_.height);
+}
+
+uint64_t ViewPasses::bytes_of(const Camera& camera) {
+  return static_cast<uint64_t>(camera.width) * static_cast<uint64_t>(camera.height) *
+         sizeof(PixelSums);
+}
+
+template <class PathsOf>
+bool ViewPasses::trace(const PictureOptions& options, const ShareDone& progress,
+                       const PathsOf& paths_of) {
+  const std::vector<PixelSums> before = options.interrupt != nullptr ? sums_ : decltype(sums_)();
+  // Parts of a row, so that there is work for many fibers.
+  const int parts = (camera_.width + columns_at_once - 1) / columns_at_once;
+  const auto make = [&](const GeometryAccess& access) {
+    auto tracer = std::make_shared<PixelTracer>(*this, access);
+    return [&, tracer](int64_t unit) {
+      const int row = static_cast<int>(unit / parts);
+      const int first = static_cast<int>(unit % parts) * columns_at_once;
+      for (int column = first; column < std::min(first + columns_at_once, camera_.width);
+           ++column) {
+        if (options.interrupted()) return;
+        const auto pixel = static_cast<size_t>(int64_t{row} * camera_.width + column);
+        const auto [from, to] = paths_of(column, row);
+        if (from < to) tracer->trace(column, row, pixel, from, to, sums_[pixel]);
+      }
+    };
+  };
+  const int64_t units = int64_t{camera_.height} * parts;
+  run_.rows().run(units, make, [&](int64_t done) {
+    if (progress) progress(static_cast<double>(done) / static_cast<double>(units));
+  });
+  if (!options.interrupted()) return true;
+  sums_ = before;
+  return false;
+}
+
+namespace {
+
+bool comes_first(int column, int row) {
+  return column % 2 == 0 && row % 2 == 0;
+}
+
+}  // namespace
+
+bool ViewPasses::add_first(int paths, const PictureOptions& options, const ShareDone& progress) {
+  const bool whole = trace(options, progress, [&](int column, int row) {
+    return std::pair(0, comes_first(column, row) ? paths : 0);
+  });
+  if (whole) first_paths_ = paths;
+  return whole;
+}
+
+bool ViewPasses::add(int paths, const PictureOptions& options, const ShareDone& progress) {
+  const bool whole = trace(options, progress, [&](int column, int row) {
+    return std::pair(paths_ + (comes_first(column, row) ? first_paths_ : 0), paths_ + paths);
+  });
+  if (!whole) return false;
+  paths_ += paths;
+  first_paths_ = 0;
+  return true;
+}
+
+namespace {
+
 /// Room for a picture of so many pixels.
-TracedPicture empty_picture(const Camera& view) {
+TracedPicture empty_picture(int width, int height) {
   TracedPicture out;
-  out.light.width = out.noisy.width = view.width;
-  out.light.height = out.noisy.height = view.height;
+  out.light.width = out.noisy.width = width;
+  out.light.height = out.noisy.height = height;
   const size_t pixels = out.light.pixels();
   out.light.xyz.resize(3 * pixels);
   out.light.scotopic.resize(pixels);
   out.standard_error_y.resize(pixels);
+  out.flux_error_y.resize(pixels);
   out.emitted.resize(light_channels * pixels);
   for (HalfPicture& half : out.noisy.half) {
     half.light.resize(light_channels * pixels);
@@ -179,49 +303,106 @@ TracedPicture empty_picture(const Camera& view) {
   return out;
 }
 
-void store(const PixelSums& sums, size_t pixel, TracedPicture& out) {
-  for (size_t c = 0; c < light_channels; ++c) {
-    const size_t at = light_channels * pixel + c;
-    (c < 3 ? out.light.xyz[3 * pixel + c] : out.light.scotopic[pixel]) =
-        static_cast<float>(sums.all.mean(c));
-    out.emitted[at] = static_cast<float>(sums.emitted.mean(c));
-    for (size_t h : {size_t{0}, size_t{1}}) {
-      if (sums.half[h].paths == 0) continue;
-      out.noisy.half[h].light[at] = static_cast<float>(sums.half[h].mean(c));
-      if (c < 3)
-        out.noisy.half[h].variance[3 * pixel + c] = static_cast<float>(sums.half[h].variance(c));
-    }
-  }
-  out.standard_error_y[pixel] = static_cast<float>(std::sqrt(sums.all.variance(1)));
-  for (size_t k = 0; k < picture_features; ++k)
-    out.noisy.features[picture_features * pixel + k] = static_cast<float>(sums.features[k]);
+/// Adds to each of a row the values as far as `reach` around it, its own included.
+void add_neighbours(const std::vector<double>& values, size_t begin, size_t stride, size_t count,
+                    size_t reach, std::vector<double>& into) {
+  for (size_t i = 0; i < count; ++i)
+    for (size_t j = i > reach ? i - reach : 0; j <= std::min(i + reach, count - 1); ++j)
+      into[begin + i * stride] += values[begin + j * stride];
 }
+
+/// Sums over the (2 reach + 1)^2 surroundings of each pixel.
+std::vector<double> around(const std::vector<double>& values, size_t width, size_t reach) {
+  std::vector<double> rows(values.size(), 0.0), out(values.size(), 0.0);
+  const size_t height = values.size() / width;
+  for (size_t y = 0; y < height; ++y) add_neighbours(values, y * width, 1, width, reach, rows);
+  for (size_t x = 0; x < width; ++x) add_neighbours(rows, x, width, height, reach, out);
+  return out;
+}
+
+/// Pixels whose known light is taken to err alike, relative to it, reach so far: a few draws of
+/// signs alone would know an error to a third.
+constexpr size_t known_reach_px = 3;
 
 }  // namespace
 
+TracedPicture ViewPasses::picture() const {
+  std::vector<const PixelSums*> all;
+  for (const PixelSums& sums : sums_) all.push_back(&sums);
+  return picture_of(all, camera_.width, camera_.height, paths_);
+}
+
+TracedPicture ViewPasses::first_picture() const {
+  std::vector<const PixelSums*> some;
+  for (size_t i = 0; i < sums_.size(); ++i) {
+    const auto at = static_cast<int64_t>(i);
+    if (comes_first(static_cast<int>(at % camera_.width), static_cast<int>(at / camera_.width)))
+      some.push_back(&sums_[i]);
+  }
+  return picture_of(some, (camera_.width + 1) / 2, (camera_.height + 1) / 2, first_paths_);
+}
+
+TracedPicture ViewPasses::picture_of(const std::vector<const PixelSums*>& all, int width,
+                                     int height, int path_count) const {
+  TracedPicture out = empty_picture(width, height);
+  const std::array<int, 2> halves = halves_of(path_count);
+  const auto paths = static_cast<double>(path_count);
+  std::vector<double> known_squares(all.size()), known_variances(all.size());
+  for (size_t i = 0; i < all.size(); ++i) {
+    known_squares[i] = all[i]->known * all[i]->known;
+    known_variances[i] = all[i]->known_variance();
+  }
+  const auto columns = static_cast<size_t>(width);
+  const std::vector<double> squares = around(known_squares, columns, known_reach_px);
+  const std::vector<double> variances = around(known_variances, columns, known_reach_px);
+  for (size_t i = 0; i < all.size(); ++i) {
+    const PixelSums& sums = *all[i];
+    for (size_t c = 0; c < light_channels; ++c) {
+      const size_t at = light_channels * i + c;
+      const double sum = sums.light[0][c] + sums.light[1][c] + sums.emitted[c];
+      (c < 3 ? out.light.xyz[3 * i + c] : out.light.scotopic[i]) = static_cast<float>(sum / paths);
+      out.emitted[at] = static_cast<float>(sums.emitted[c] / paths);
+      for (const size_t h : {size_t{0}, size_t{1}}) {
+        if (halves[h] == 0) continue;
+        const double count = halves[h];
+        out.noisy.half[h].light[at] = static_cast<float>(sums.light[h][c] / count);
+        if (c < 3)
+          out.noisy.half[h].variance[3 * i + c] =
+              static_cast<float>(variance_of_mean(sums.light[h][c], sums.squares[h][c], count));
+      }
+    }
+    const double luminance = sums.light[0][1] + sums.light[1][1] + sums.emitted[1];
+    const double relative = squares[i] > 0 ? std::max(0.0, variances[i]) / squares[i] : 0;
+    const double of_flux = path_count < 2 ? 0 : relative * known_squares[i] / (paths * (paths - 1));
+    out.flux_error_y[i] = static_cast<float>(std::sqrt(of_flux));
+    out.standard_error_y[i] = static_cast<float>(
+        std::sqrt(variance_of_mean(luminance, sums.luminance_squares, paths) + of_flux));
+    for (size_t k = 0; k < picture_features; ++k)
+      out.noisy.features[picture_features * i + k] = static_cast<float>(sums.features[k] / paths);
+  }
+  return out;
+}
+
 TracedPicture trace_picture(const LocalRun& run, size_t camera, const PictureOptions& options,
                             const KnownRadiance* flux, const ShareDone& progress) {
-  const Camera& view = run.scene().description->cameras[camera];
-  TracedPicture out = empty_picture(view);
-  // Parts of a row, so that there is work for many fibers.
-  const int parts = (view.width + columns_at_once - 1) / columns_at_once;
-  const auto make = [&](const GeometryAccess& access) {
-    auto tracer = std::make_shared<PixelTracer>(run, access, camera, options, flux);
-    return [&, tracer](int64_t unit) {
-      const int row = static_cast<int>(unit / parts);
-      const int first = static_cast<int>(unit % parts) * columns_at_once;
-      for (int column = first; column < std::min(first + columns_at_once, view.width); ++column) {
-        if (options.interrupted()) return;
-        const auto pixel = static_cast<size_t>(int64_t{row} * view.width + column);
-        store(tracer->trace(column, row, pixel), pixel, out);
-      }
-    };
-  };
-  const int64_t units = int64_t{view.height} * parts;
-  run.rows().run(units, make, [&](int64_t done) {
-    if (progress) progress(static_cast<double>(done) / static_cast<double>(units));
-  });
-  return out;
+  ViewPasses view(run, run.scene().description->cameras[camera], camera, flux);
+  view.add(options.paths_per_pixel, options, progress);
+  return view.picture();
+}
+
+double relative_error(const XyzPicture& light, const std::vector<float>& standard_error_y) {
+  const auto luminance = [&](size_t i) { return static_cast<double>(light.xyz[3 * i + 1]); };
+  const auto pixels = static_cast<double>(light.pixels());
+  double mean = 0, squares = 0;
+  for (size_t i = 0; i < light.pixels(); ++i) mean += luminance(i) / pixels;
+  constexpr double darkest = 0.01;
+  for (size_t i = 0; i < light.pixels(); ++i) {
+    const double against = std::max(luminance(i), darkest * mean);
+    const auto error = static_cast<double>(standard_error_y[i]);
+    if (against > 0) squares += error * error / (against * against * pixels);
+    if (std::isnan(error)) return error;
+  }
+  return std::sqrt(squares);
 }
 
 namespace {
@@ -255,7 +436,11 @@ FilteredView filter_traced(const TracedPicture& traced, int threads) {
     for (const size_t c : {size_t{0}, size_t{1}, size_t{2}}) out.light.xyz.push_back(value(c));
     out.light.scotopic.push_back(value(3));
   }
-  out.standard_error_y = std::move(filtered.standard_error_y);
+  // The halves share their flux: what that errs by does not show in their difference, and a filter
+  // does not make it larger.
+  for (size_t i = 0; i < traced.light.pixels(); ++i)
+    out.standard_error_y.push_back(
+        std::hypot(filtered.standard_error_y[i], traced.flux_error_y[i]));
   return out;
 }
 

@@ -2,9 +2,10 @@
 // traced from the eye; a path ends in the run's flux at the first event after something diffuse, on
 // a surface or in smoke (final gather), so a picture takes seconds once the flux is there. What is
 // traced is neither clamped nor blurred; what PNG files show is filtered (regression_filter.hpp).
-// The standard error of a pixel is that of its paths; what the flux itself errs comes on top. The
-// pixels depend on the scene, the flux, the seed and the paths per pixel, never on the number of
-// threads. One call at a time per run.
+// The standard error of a pixel is that of its paths and of the flux that they end in, which is
+// common to many of them. Pixels depend on the scene, the flux, the seed and the paths per pixel,
+// never on the number of threads, nor on whether their paths were traced at once or in passes. One
+// call at a time per run.
 #pragma once
 
 #include <atomic>
@@ -24,10 +25,19 @@ namespace luxodus {
 
 namespace limits {
 inline constexpr int max_paths_per_pixel = 1 << 16;  // 17 bits of a path's number
-}
+/// Memory of the sums of one picture [bytes], of 80 megapixels; and of those that grow together.
+inline constexpr uint64_t max_view_bytes = uint64_t{20} << 30;
+inline constexpr uint64_t max_growing_bytes = uint64_t{1} << 30;
+}  // namespace limits
 
 struct PictureOptions {
-  int paths_per_pixel = 32;
+  int paths_per_pixel = 32;  // at most, where one of the two below may end a picture before
+  /// Of all pictures of a call, with what filters and writes them [s]; 0: as long as it takes.
+  double max_seconds = 0;
+  /// Of the worst picture (ViewError): it may end where it is no more; 0: never.
+  double target_error = 0;
+  /// Writes what there is as it grows, the first after one path for each pixel.
+  bool progressive = false;
   /// End paths in the run's flux. Without it they are traced to their end: slower and noisier, free
   /// of the patches' size. A run that has traced nothing has no flux to end in.
   bool gather = true;
@@ -47,6 +57,7 @@ inline constexpr size_t picture_features = 8;
 struct TracedPicture {
   XyzPicture light;                     // with scotopic luminance from the bands
   std::vector<float> standard_error_y;  // [cd/m2]; NaN with one path per pixel
+  std::vector<float> flux_error_y;      // of it, what the run's flux errs by
   /// X, Y, Z, scotopic of what emitters send straight to the eye, without chance but for where in
   /// the pixel [cd/m2]; the halves of `noisy` are without it.
   std::vector<float> emitted;
@@ -64,20 +75,87 @@ inline constexpr int min_filtered_paths = 4;
 /// Requires: min_filtered_paths per pixel at least; threads >= 1. The same for any threads.
 FilteredView filter_traced(const TracedPicture& traced, int threads);
 
+/// Error of a picture as people see it: the root of the mean over pixels of the relative standard
+/// error of luminance, squared. A pixel darker than a hundredth of the mean counts as that bright.
+/// NaN where errors are not known.
+double relative_error(const XyzPicture& light, const std::vector<float>& standard_error_y);
+
+/// A camera's picture as it grows, path by path. Pixels are the same bits however paths were added.
+class ViewPasses {
+ public:
+  /// `number`: of the random numbers, a camera's own; below 2^16. `flux`: where paths end, or null.
+  /// Requires: run and flux outlive this.
+  ViewPasses(const LocalRun& run, const Camera& camera, uint64_t number, const KnownRadiance* flux);
+  ~ViewPasses();
+  ViewPasses(const ViewPasses&) = delete;
+  ViewPasses& operator=(const ViewPasses&) = delete;
+
+  /// Memory that the sums of a picture take [bytes].
+  static uint64_t bytes_of(const Camera& camera);
+
+  /// Adds the first paths of one pixel of four, those of even columns and rows. False where it was
+  /// interrupted. Requires: paths() == 0, and add() adds as many at least.
+  bool add_first(int paths, const PictureOptions& options, const ShareDone& progress = {});
+  /// These pixels as a picture of half the size. Requires: add_first() was the last call.
+  TracedPicture first_picture() const;
+  /// Adds so many paths to each pixel. False where it was interrupted: then none was added.
+  /// Requires: paths() + `paths` <= limits::max_paths_per_pixel.
+  bool add(int paths, const PictureOptions& options, const ShareDone& progress = {});
+  /// Of each pixel.
+  int paths() const { return paths_; }
+  /// What there is of it. Requires: paths() > 0.
+  TracedPicture picture() const;
+
+ private:
+  struct PixelSums;
+  class PixelTracer;
+  size_t pixels() const;
+  template <class PathsOf>
+  bool trace(const PictureOptions& options, const ShareDone& progress, const PathsOf& paths_of);
+  TracedPicture picture_of(const std::vector<const PixelSums*>& sums, int width, int height,
+                           int paths) const;
+
+  const LocalRun& run_;
+  const Camera camera_;
+  const uint64_t number_;
+  const KnownRadiance* flux_;
+  std::vector<PixelSums> sums_;
+  int paths_ = 0;
+  int first_paths_ = 0;  // that pixels of even columns and rows have when others have none
+};
+
 /// One camera's picture; without meaning where it was interrupted. `flux`: where paths end, or
 /// null. Requires: camera is one of the scene's; 1 <= paths_per_pixel <=
 /// limits::max_paths_per_pixel.
 TracedPicture trace_picture(const LocalRun& run, size_t camera, const PictureOptions& options,
                             const KnownRadiance* flux, const ShareDone& progress = {});
 
+/// How far the pictures of a call are.
+struct PictureProgress {
+  double share = 0;           // of the work, as far as anybody knows
+  int paths = 0;              // that every pixel has
+  double relative_error = 0;  // of the worst picture that was shown; NaN: not known yet
+};
+
+struct RenderedViews {
+  bool interrupted = false;   // before all was done that was asked for
+  int paths = 0;              // per pixel, of the picture with the fewest
+  double relative_error = 0;  // of the worst picture as PNG files show it; NaN: not known
+};
+
 /// Traces every camera, or the one named `only_view`, and writes into folder/views (made if
 /// missing): NAME.exr (light as traced and filtered, errors, features), NAME.png (one exposure),
 /// NAME_human.png (what an adapted eye tells apart), NAME_luminance.png (false colours with a
 /// scale; up to 8192 pixels an edge); NAME is that of result_names(). A scene without cameras has
-/// no pictures, which is no error. Where it is interrupted, the pictures that are whole are there.
-/// Errors: no camera of that name, paths per pixel out of range, a file that cannot be written.
-Result<void> render_views(const std::filesystem::path& folder, const LocalRun& run,
-                          const std::string& only_view, const PictureOptions& options,
-                          const ShareDone& progress);
+/// no pictures, which is no error. Where it is interrupted, pictures of the paths that all of their
+/// pixels have are there. Errors: as check_views; a file that cannot be written.
+Result<RenderedViews> render_views(const std::filesystem::path& folder, const LocalRun& run,
+                                   const std::string& only_view, const PictureOptions& options,
+                                   const std::function<void(const PictureProgress&)>& progress);
+
+/// Errors: no camera of that name, paths per pixel out of range, a picture that takes more memory
+/// than limits::max_view_bytes.
+Result<void> check_views(const SceneDescription& scene, const std::string& only_view,
+                         const PictureOptions& options);
 
 }  // namespace luxodus

@@ -1,10 +1,24 @@
 // What a path in a picture may end in: light that is known from a run's flux (final gather).
 #pragma once
 
+#include <cstdint>
+
 #include "scenes/intersect/ray.hpp"
 #include "scenes/optics/phase_function.hpp"
 
 namespace luxodus {
+
+/// What known light errs by: whoever ends in the same bin errs alike.
+struct KnownError {
+  uint64_t bin = 0;
+  double relative = 0;  // standard error of the luminance by the luminance; NaN: not known
+};
+
+/// Where a path has ended in known light.
+struct KnownEnd {
+  KnownError error;
+  double luminance = 0;  // that it brings from there [cd/m2]; 0: it has ended elsewhere
+};
 
 /// Implemented where flux is collected. Any thread.
 class KnownRadiance {
@@ -20,6 +34,11 @@ class KnownRadiance {
   /// light included. Requires: knows(place).
   virtual double of_medium(const Vec3& place, const Vec3& direction, const PhaseFunction& phase,
                            int band) const = 0;
+
+  /// Of `of_surface` and `of_medium`, all bands together.
+  virtual KnownError error_of_surface(const Hit& hit, bool front) const = 0;
+  virtual KnownError error_of_medium(const Vec3& place, const Vec3& direction,
+                                     const PhaseFunction& phase) const = 0;
 };
 
 }  // namespace luxodus

@@ -107,8 +107,12 @@ class PathTracer {
   /// are drawn by choose_band.
   void radiance_of_all(const Ray& ray, int hero, EmitterHits counted, GroupLight& into,
                        const KnownRadiance* known = nullptr) {
+    end_ = {};
     trace({ray, PathBands::all(hero_, hero), counted, 1, into}, known);
   }
+
+  /// Where the last path of radiance_of_all() has ended, if that was in known light.
+  const KnownEnd& end() const { return end_; }
 
   /// The same of a path that a Lambertian surface has sent along `ray`, where `reflected_light` has
   /// sampled emitters.
@@ -205,10 +209,6 @@ class PathTracer {
     /// Light of the band in place `i`.
     void add(size_t i, const SourceLight& light) {
       into.add(light.group, bands.band(i), weight * bands.light(i) * light.radiance);
-    }
-    /// Ends in known radiance.
-    void add_known(size_t i, double radiance) {
-      into.add_of_all(bands.band(i), weight * bands.light(i) * radiance);
     }
   };
 
@@ -317,7 +317,8 @@ class PathTracer {
     const Vec3 place = p.ray.origin + p.ray.direction * flight.t;
     if (known != nullptr && known->knows(place)) {
       for (size_t i = 0; i < p.bands.count(); ++i)
-        p.add_known(i, known->of_medium(place, p.ray.direction, phase, p.bands.band(i)));
+        add_known(p, i, known->of_medium(place, p.ray.direction, phase, p.bands.band(i)));
+      if (end_.luminance > 0) end_.error = known->error_of_medium(place, p.ray.direction, phase);
       return false;
     }
     const auto choice = aims() ? random_.uniform_double() : 1.0;
@@ -362,8 +363,16 @@ class PathTracer {
     if (known == nullptr || !reflects_diffusely(hit, p.ray)) return bounce(p, hit);
     const bool front = glm::dot(hit.triangle->unit_normal(), p.ray.direction) < 0;
     for (size_t i = 0; i < p.bands.count(); ++i)
-      p.add_known(i, known->of_surface(hit, front, p.bands.band(i)));
+      add_known(p, i, known->of_surface(hit, front, p.bands.band(i)));
+    if (end_.luminance > 0) end_.error = known->error_of_surface(hit, front);
     return false;
+  }
+
+  /// Ends in known radiance of the band in place `i`.
+  void add_known(Path& p, size_t i, double radiance) {
+    const double brought = p.weight * p.bands.light(i) * radiance;
+    p.into.add_of_all(p.bands.band(i), brought);
+    end_.luminance += brought * scene_.bands[p.bands.band(i)].lm_per_w;
   }
 
   /// Surface event: light sampled from an emitter, then a new direction. False ends the path.
@@ -660,6 +669,7 @@ class PathTracer {
   std::vector<SurfaceModel> models_;  // of the path's bands, at the last surface
   BandValues passed_, drawn_, through_;
   GroupLight straight_;
+  KnownEnd end_;
 };
 
 }  // namespace luxodus

@@ -1,10 +1,11 @@
 // From traced pictures to files.
+#include "actors/display/view_files.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
 
-#include "actors/display/pictures.hpp"
 #include "actors/display/result_files.hpp"
 #include "actors/output/false_colour_png.hpp"
 #include "scenes/images/write_image.hpp"
@@ -55,9 +56,9 @@ void add_features(ExrImage& image, const NoisyPicture& noisy) {
   }
 }
 
-/// `filtered`: null where there are too few paths.
-ExrImage exr_of(const LocalRun& run, const Camera& camera, const TracedPicture& traced,
-                const FilteredView* filtered, const PictureOptions& options) {
+ExrImage exr_of(const LocalRun& run, const Camera& camera, const ShownView& view) {
+  const TracedPicture& traced = view.traced;
+  const FilteredView* filtered = view.filtered ? &*view.filtered : nullptr;
   ExrImage image;
   image.width = camera.width;
   image.height = camera.height;
@@ -73,8 +74,11 @@ ExrImage exr_of(const LocalRun& run, const Camera& camera, const TracedPicture& 
       image.channels[light_channels + c].values[i] = static_cast<float>(rgb[static_cast<int>(c)]);
   }
   // An error needs two paths: where there are none, there is no channel of it, instead of NaN.
-  const bool has_error = options.paths_per_pixel >= 2;
-  if (has_error) image.channels.push_back({"standard_error.Y", traced.standard_error_y});
+  const bool has_error = view.paths >= 2;
+  if (has_error) {
+    image.channels.push_back({"standard_error.Y", traced.standard_error_y});
+    image.channels.push_back({"flux_error.Y", traced.flux_error_y});
+  }
   if (filtered != nullptr) {
     add_xyz(image, "filtered.", filtered->light);
     image.channels.push_back({"filtered_error.Y", filtered->standard_error_y});
@@ -87,14 +91,15 @@ ExrImage exr_of(const LocalRun& run, const Camera& camera, const TracedPicture& 
       "comments",
       std::string("X, Y, Z: CIE 1931, Y in cd/m2. R, G, B: linear sRGB of the same light, not "
                   "clipped. scotopic: scotopic cd/m2. All as traced, not filtered. ") +
-          (has_error ? "standard_error.Y: of the pixel's paths. "
+          (has_error ? "standard_error.Y: of the pixel's paths and of the flux that they end in; "
+                       "flux_error.Y: of the latter alone. "
                      : "No standard error: it needs two paths per pixel. ") +
           (filtered != nullptr ? "filtered: the same without most of its noise, and its error by "
                                  "the difference of two halves. "
                                : "") +
           "N: normal; nearness: 1/m; transmittance of smoke up to the surface; albedo: relative to "
           "white.");
-  image.numbers = {{"paths_per_pixel", static_cast<double>(options.paths_per_pixel)},
+  image.numbers = {{"paths_per_pixel", static_cast<double>(view.paths)},
                    {"particles", static_cast<double>(run.particles())}};
   return image;
 }
@@ -136,8 +141,7 @@ PngImage png_of(SrgbPicture picture, std::vector<ImageText> texts, const std::st
   return {picture.width, picture.height, std::move(picture.rgb), std::move(texts)};
 }
 
-FalseColourPicture luminance_map(const LocalRun& run, const Camera& camera,
-                                 const TracedPicture& traced, const PictureOptions& options) {
+FalseColourPicture luminance_map(const LocalRun& run, const Camera& camera, const ShownView& view) {
   const SceneDescription& scene = *run.scene().description;
   FalseColourPicture p;
   p.title = "View \"" + camera.name + "\"";
@@ -158,98 +162,90 @@ FalseColourPicture luminance_map(const LocalRun& run, const Camera& camera,
   const auto width = static_cast<size_t>(camera.width);
   for (size_t row = static_cast<size_t>(camera.height); row-- > 0;) {
     for (size_t column = 0; column < width; ++column) {
-      p.values.push_back(static_cast<double>(traced.light.xyz[3 * (row * width + column) + 1]));
+      p.values.push_back(
+          static_cast<double>(view.traced.light.xyz[3 * (row * width + column) + 1]));
     }
   }
-  p.notes = {std::to_string(options.paths_per_pixel) + " paths per pixel, flux of " +
+  p.notes = {std::to_string(view.paths) + " paths per pixel, flux of " +
              std::to_string(run.particles()) + " particles"};
   p.text = texts_of(run, camera);
   return p;
 }
 
-/// `stem`: of its files, without their endings.
-Result<void> write_view(const std::filesystem::path& stem, const LocalRun& run,
-                        const Camera& camera, const TracedPicture& traced,
-                        const PictureOptions& options) {
-  const auto path = [&](const char* ending) { return std::filesystem::path(stem) += ending; };
-  std::optional<FilteredView> filtered;
-  if (options.paths_per_pixel >= min_filtered_paths)
-    filtered = filter_traced(traced, run.threads());
-  const FilteredView* shown = filtered ? &*filtered : nullptr;
-  if (auto ok = write_exr(path(".exr"), exr_of(run, camera, traced, shown, options)); !ok)
-    return ok.problem();
-  const auto texts = texts_of(run, camera);
-  const bool raw = options.raw || shown == nullptr;
-  const XyzPicture balanced = white_balanced(run.scene(), raw ? traced.light : shown->light);
-  const PngImage plain = png_of(
-      tone_plain(balanced, {}), texts,
-      "One exposure, white balanced, as a camera takes it; luminance data is in the EXR file");
-  if (auto ok = write_png(path(".png"), plain); !ok) return ok.problem();
+/// What an eye before the picture sees.
+PngImage human_png(const LocalRun& run, const Camera& camera, const XyzPicture& balanced) {
   HumanTone human;
   human.degrees_per_pixel =
       glm::degrees(2 * std::tan(glm::radians(camera.vertical_fov_deg) / 2) / camera.height);
-  const PngImage seen =
-      png_of(tone_human(balanced, human), texts,
-             "What an adapted eye tells apart (Ward Larson, Rushmeier and Piatko 1997), shown on a "
-             "monitor of 200 cd/m2; luminance data is in the EXR file");
-  if (auto ok = write_png(path("_human.png"), seen); !ok) return ok.problem();
-  if (!is_mapped(camera)) return {};
-  return write_false_colour_png(path("_luminance.png"),
-                                luminance_map(run, camera, traced, options));
+  return png_of(tone_human(balanced, human), texts_of(run, camera),
+                "What an adapted eye tells apart (Ward Larson, Rushmeier and Piatko 1997), shown "
+                "on a monitor of 200 cd/m2; luminance data is in the EXR file");
 }
 
-/// The cameras to render, by number.
-Result<std::vector<size_t>> chosen_views(const SceneDescription& scene, const std::string& only) {
-  std::vector<size_t> out;
-  std::string known;
-  for (size_t i = 0; i < scene.cameras.size(); ++i) {
-    if (only.empty() || scene.cameras[i].name == only) out.push_back(i);
-    known += (known.empty() ? "\"" : ", \"") + scene.cameras[i].name + "\"";
-  }
-  if (!only.empty() && out.empty()) {
-    return problem_in(scene.file,
-                      "there is no camera \"" + only + "\"; there " +
-                          (known.empty() ? "are none: add a [[camera]]" : "are: " + known));
-  }
+PngImage plain_png(const LocalRun& run, const Camera& camera, const XyzPicture& balanced) {
+  return png_of(tone_plain(balanced, {}), texts_of(run, camera),
+                "One exposure, white balanced, as a camera takes it; luminance data is in the EXR "
+                "file");
+}
+
+/// A picture of half the size, enlarged: linear between its pixels.
+XyzPicture enlarged(const XyzPicture& half, int width, int height) {
+  XyzPicture out{width, height, {}, {}};
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const int x0 = x / 2, x1 = std::min(x0 + x % 2, half.width - 1);
+      const int y0 = y / 2, y1 = std::min(y0 + y % 2, half.height - 1);
+      const auto mean = [&](const std::vector<float>& values, size_t stride, size_t c) {
+        const auto at = [&](int column, int row) {
+          return values[stride * (static_cast<size_t>(row) * static_cast<size_t>(half.width) +
+                                  static_cast<size_t>(column)) +
+                        c];
+        };
+        return (at(x0, y0) + at(x1, y0) + at(x0, y1) + at(x1, y1)) / 4;
+      };
+      for (const size_t c : {size_t{0}, size_t{1}, size_t{2}})
+        out.xyz.push_back(mean(half.xyz, 3, c));
+      out.scotopic.push_back(mean(half.scotopic, 1, 0));
+    }
   return out;
 }
 
 }  // namespace
 
-Result<void> render_views(const std::filesystem::path& folder, const LocalRun& run,
-                          const std::string& only_view, const PictureOptions& options,
-                          const ShareDone& progress) {
-  const SceneDescription& scene = *run.scene().description;
-  if (options.paths_per_pixel < 1 || options.paths_per_pixel > limits::max_paths_per_pixel) {
-    return problem_in(scene.file, "paths per pixel must be 1 to " +
-                                      std::to_string(limits::max_paths_per_pixel) + ", not " +
-                                      std::to_string(options.paths_per_pixel));
+ShownView::ShownView(TracedPicture picture, int paths_per_pixel, bool wants_raw, int threads)
+    : traced(std::move(picture)), paths(paths_per_pixel) {
+  if (paths >= min_filtered_paths) filtered = filter_traced(traced, threads);
+  raw = wants_raw || !filtered;
+}
+
+double ShownView::error() const {
+  return raw ? relative_error(traced.light, traced.standard_error_y)
+             : relative_error(filtered->light, filtered->standard_error_y);
+}
+
+Result<void> write_view_file(const std::filesystem::path& stem, ViewFile file, const LocalRun& run,
+                             const Camera& camera, const ShownView& view) {
+  const auto path = [&](const char* ending) { return std::filesystem::path(stem) += ending; };
+  const auto balanced = [&] { return white_balanced(run.scene(), view.shown()); };
+  switch (file) {
+    case ViewFile::light:
+      return write_exr(path(".exr"), exr_of(run, camera, view));
+    case ViewFile::plain:
+      return write_png(path(".png"), plain_png(run, camera, balanced()));
+    case ViewFile::human:
+      return write_png(path("_human.png"), human_png(run, camera, balanced()));
+    case ViewFile::luminance:
+      break;
   }
-  const auto views = chosen_views(scene, only_view);
-  if (!views) return views.problem();
-  if (views.value().empty()) return {};
-  std::error_code error;
-  std::filesystem::create_directories(folder / "views", error);
-  if (error) return problem_in(folder / "views", "cannot make this folder: " + error.message());
-  std::unique_ptr<KnownRadiance> flux;
-  if (options.gather && run.batches() > 0) flux = flux_radiance(run);
-  const std::vector<std::string> names = result_names(scene).views;
-  double all = 0, before = 0;
-  const auto pixels = [&](size_t i) {
-    return static_cast<double>(scene.cameras[i].width) * scene.cameras[i].height;
-  };
-  for (const size_t i : views.value()) all += pixels(i);
-  for (const size_t i : views.value()) {
-    const TracedPicture traced = trace_picture(run, i, options, flux.get(), [&](double share) {
-      if (progress) progress((before + share * pixels(i)) / all);
-    });
-    if (options.interrupted()) return {};
-    before += pixels(i);
-    if (auto ok = write_view(folder / "views" / names[i], run, scene.cameras[i], traced, options);
-        !ok)
-      return ok;
-  }
-  return {};
+  if (!is_mapped(camera)) return {};
+  return write_false_colour_png(path("_luminance.png"), luminance_map(run, camera, view));
+}
+
+Result<void> write_first_view(const std::filesystem::path& stem, const LocalRun& run,
+                              const Camera& camera, const ShownView& half) {
+  const XyzPicture whole = enlarged(half.shown(), camera.width, camera.height);
+  return write_png(std::filesystem::path(stem) += ".png",
+                   plain_png(run, camera, white_balanced(run.scene(), whole)));
 }
 
 }  // namespace luxodus

@@ -1,0 +1,323 @@
+// Pictures of all cameras, as they grow. All of them get a few paths, then all a few more, so that
+// each is there early. Steps follow from the number of paths alone, and where a time or an error
+// ends a picture it does so between steps: the picture is that of as many paths at once. Files are
+// replaced whole. What they cost bounds how often that is done.
+#include <algorithm>
+#include <bit>
+#include <chrono>
+#include <cmath>
+#include <deque>
+#include <limits>
+#include <mutex>
+
+#include "actors/display/result_files.hpp"
+#include "actors/display/view_files.hpp"
+
+namespace luxodus {
+
+namespace {
+
+/// Paths that a step adds at least, and that the first picture has in one pixel of four.
+constexpr int min_step = 4;
+static_assert(min_step >= min_filtered_paths);
+/// Smaller pictures are there at once.
+constexpr int64_t min_first_pixels = 10'000;
+/// Between two writings, so many times what one takes is spent on paths.
+constexpr double paths_per_writing = 10;
+/// What a writing takes before one was, in units of what the first pictures have taken: these are
+/// of one pixel of four, and of one file of four.
+constexpr double whole_by_first = 4;
+/// Of the time, what is left for the last writing beside what the one before took: later pictures
+/// compress no better.
+constexpr double writing_slack = 1.2;
+
+/// Where the next step ends: 4, 8, 16, 32, 48, 64, 96 and so on.
+int next_step(int paths) {
+  if (paths < 32) return std::max(min_step, 2 * paths);
+  return paths + static_cast<int>(std::bit_floor(static_cast<unsigned>(paths))) / 2;
+}
+
+class Stopwatch {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
+};
+
+/// The cameras to render, by number.
+Result<std::vector<size_t>> chosen_views(const SceneDescription& scene, const std::string& only) {
+  std::vector<size_t> out;
+  std::string known;
+  for (size_t i = 0; i < scene.cameras.size(); ++i) {
+    if (only.empty() || scene.cameras[i].name == only) out.push_back(i);
+    known += (known.empty() ? "\"" : ", \"") + scene.cameras[i].name + "\"";
+  }
+  if (!only.empty() && out.empty()) {
+    return problem_in(scene.file,
+                      "there is no camera \"" + only + "\"; there " +
+                          (known.empty() ? "are none: add a [[camera]]" : "are: " + known));
+  }
+  return out;
+}
+
+struct GrowingView {
+  GrowingView(const LocalRun& run, size_t number, const KnownRadiance* flux)
+      : camera(run.scene().description->cameras[number]), passes(run, camera, number, flux) {}
+
+  double pixels() const { return static_cast<double>(camera.width) * camera.height; }
+
+  const Camera& camera;
+  ViewPasses passes;
+  std::filesystem::path stem;
+  int written_paths = 0;
+  double error = std::numeric_limits<double>::quiet_NaN();  // of what is written
+};
+
+/// Views that grow together.
+class GrowingViews {
+ public:
+  using Progress = std::function<void(const PictureProgress&)>;
+
+  /// `seconds`: for all of them; 0: as long as it takes.
+  GrowingViews(const LocalRun& run, const PictureOptions& options, double seconds,
+               Progress progress)
+      : run_(run), options_(options), seconds_(seconds), progress_(std::move(progress)) {}
+
+  void add(size_t camera, const KnownRadiance* flux, const std::filesystem::path& stem) {
+    views_.emplace_back(run_, camera, flux).stem = stem;
+    pixels_ += views_.back().pixels();
+  }
+
+  /// Until all is done that was asked for, or somebody interrupts; then all is written.
+  Result<void> grow() {
+    if (auto ok = show_first(); !ok) return ok;
+    for (int target = next_target(); target > 0 && !interrupted_; target = next_target()) {
+      const double before_s = watch_.seconds();
+      const int added = target - paths_;
+      add_paths(added);
+      if (interrupted_) break;
+      paths_ = target;
+      seconds_per_path_ = (watch_.seconds() - before_s) / added;
+      if (!should_write()) continue;
+      if (auto ok = write(); !ok) return ok;
+    }
+    return write();
+  }
+
+  bool interrupted() const { return interrupted_; }
+  int paths() const {
+    int fewest = std::numeric_limits<int>::max();
+    for (const GrowingView& view : views_) fewest = std::min(fewest, view.passes.paths());
+    return fewest;
+  }
+  /// Of the worst; NaN where one is not known.
+  double error() const {
+    double worst = 0;
+    for (const GrowingView& view : views_)
+      if (!(view.error <= worst)) worst = view.error;
+    return worst;
+  }
+  double seconds() const { return watch_.seconds(); }
+
+ private:
+  Result<void> show_first() {
+    if (!options_.progressive || options_.paths_per_pixel <= min_step) return {};
+    const double before_s = watch_.seconds();
+    for (GrowingView& view : views_) {
+      if (int64_t{view.camera.width} * view.camera.height < min_first_pixels) continue;
+      interrupted_ |= !view.passes.add_first(min_step, options_);
+      if (interrupted_) return {};
+      const ShownView half(view.passes.first_picture(), min_step, options_.raw, run_.threads());
+      if (auto ok = write_first_view(view.stem, run_, view.camera, half); !ok) return ok;
+    }
+    written_s_ = watch_.seconds();
+    writing_s_ = whole_by_first * (written_s_ - before_s);
+    return {};
+  }
+
+  /// How many paths all pixels have after the next step; 0: there is none.
+  int next_target() const {
+    const int most = options_.paths_per_pixel;
+    if (paths_ >= most || (options_.target_error > 0 && error() <= options_.target_error)) return 0;
+    const int target = std::min(most, next_step(paths_));
+    if (!(seconds_ > 0) || paths_ == 0) return target;
+    const double left_s = seconds_ - watch_.seconds() - writing_slack * writing_s_;
+    const double fit = std::min(left_s / seconds_per_path_, double{limits::max_paths_per_pixel});
+    const int steps = static_cast<int>(std::max(0.0, fit)) / min_step;
+    return steps == 0 ? 0 : std::min(target, paths_ + steps * min_step);
+  }
+
+  /// Whoever is interrupted in a view leaves it as it was.
+  void add_paths(int count) {
+    double before = 0;
+    for (GrowingView& view : views_) {
+      const auto tell = [&](double share) {
+        show_progress(paths_ + count * (before + share * view.pixels()) / pixels_);
+      };
+      interrupted_ |= !view.passes.add(count, options_, tell);
+      if (interrupted_) return;
+      before += view.pixels();
+    }
+  }
+
+  void show_progress(double paths) const {
+    if (!progress_) return;
+    double share = paths / options_.paths_per_pixel;
+    if (seconds_ > 0) share = std::max(share, watch_.seconds() / seconds_);
+    // It falls with the root of the paths.
+    if (options_.target_error > 0 && error() > options_.target_error)
+      share = std::max(share, paths / written_ * std::pow(options_.target_error / error(), 2));
+    progress_({std::min(share, 1.0), paths_, error()});
+  }
+
+  bool should_write() const {
+    if (options_.target_error > 0) return true;
+    if (!options_.progressive) return false;
+    // What a writing takes is known after one: that is needed where a time must be kept.
+    if (written_ == 0 && seconds_ > 0) return true;
+    return watch_.seconds() - written_s_ > paths_per_writing * writing_s_;
+  }
+
+  /// Filters and writes the views that have grown since they were written, or were interrupted.
+  Result<void> write() {
+    const double before_s = watch_.seconds();
+    std::deque<std::pair<GrowingView*, ShownView>> shown;
+    for (GrowingView& view : views_) {
+      const int paths = view.passes.paths();
+      if (paths == 0 || paths == view.written_paths) continue;
+      shown.emplace_back(
+          std::piecewise_construct, std::forward_as_tuple(&view),
+          std::forward_as_tuple(view.passes.picture(), paths, options_.raw, run_.threads()));
+      view.error = shown.back().second.error();
+      view.written_paths = paths;
+    }
+    if (auto ok = write_files(shown); !ok) return ok;
+    written_ = paths_;
+    written_s_ = watch_.seconds();
+    writing_s_ = written_s_ - before_s;
+    if (progress_ && !shown.empty()) show_progress(paths_);
+    return {};
+  }
+
+  /// By all threads: a file is packed by one.
+  Result<void> write_files(const std::deque<std::pair<GrowingView*, ShownView>>& shown) const {
+    std::mutex mutex;
+    Result<void> outcome;
+    const auto write_one = [&](int64_t unit) {
+      const auto& [view, picture] = shown[static_cast<size_t>(unit) / view_file_count];
+      const auto file = static_cast<ViewFile>(static_cast<size_t>(unit) % view_file_count);
+      auto written = write_view_file(view->stem, file, run_, view->camera, picture);
+      const std::lock_guard lock(mutex);
+      if (!written && outcome) outcome = written.problem();
+    };
+    parallel_for(static_cast<int64_t>(shown.size() * view_file_count), run_.threads(),
+                 [&] { return write_one; });
+    return outcome;
+  }
+
+  const LocalRun& run_;
+  const PictureOptions& options_;
+  const double seconds_;
+  const Progress progress_;
+  std::deque<GrowingView> views_;
+  double pixels_ = 0;
+  int paths_ = 0;  // of all views
+  bool interrupted_ = false;
+  Stopwatch watch_;
+  double seconds_per_path_ = 0;
+  int written_ = 0;       // paths of what is written
+  double written_s_ = 0;  // when
+  double writing_s_ = 0;  // what that took
+};
+
+/// Views that fit into memory together, one group after another.
+std::vector<std::vector<size_t>> in_groups(const SceneDescription& scene,
+                                           const std::vector<size_t>& views) {
+  std::vector<std::vector<size_t>> groups;
+  uint64_t bytes = 0;
+  for (const size_t view : views) {
+    const uint64_t more = ViewPasses::bytes_of(scene.cameras[view]);
+    if (groups.empty() || bytes + more > limits::max_growing_bytes) {
+      groups.emplace_back();
+      bytes = 0;
+    }
+    groups.back().push_back(view);
+    bytes += more;
+  }
+  return groups;
+}
+
+double pixels_of(const SceneDescription& scene, const std::vector<size_t>& views) {
+  double pixels = 0;
+  for (const size_t view : views)
+    pixels += static_cast<double>(scene.cameras[view].width) * scene.cameras[view].height;
+  return pixels;
+}
+
+}  // namespace
+
+Result<void> check_views(const SceneDescription& scene, const std::string& only_view,
+                         const PictureOptions& options) {
+  if (options.paths_per_pixel < 1 || options.paths_per_pixel > limits::max_paths_per_pixel) {
+    return problem_in(scene.file, "paths per pixel must be 1 to " +
+                                      std::to_string(limits::max_paths_per_pixel) + ", not " +
+                                      std::to_string(options.paths_per_pixel));
+  }
+  const auto views = chosen_views(scene, only_view);
+  if (!views) return views.problem();
+  for (const size_t view : views.value()) {
+    const Camera& camera = scene.cameras[view];
+    if (ViewPasses::bytes_of(camera) <= limits::max_view_bytes) continue;
+    const uint64_t gib = ViewPasses::bytes_of(camera) >> 30;
+    return problem_in(camera.place, "camera \"" + camera.name + "\": a picture of " +
+                                        std::to_string(camera.width) + " x " +
+                                        std::to_string(camera.height) + " pixels takes " +
+                                        std::to_string(gib) + " GiB of memory, and " +
+                                        std::to_string(limits::max_view_bytes >> 30) +
+                                        " GiB is the most: give it fewer pixels");
+  }
+  return {};
+}
+
+Result<RenderedViews> render_views(const std::filesystem::path& folder, const LocalRun& run,
+                                   const std::string& only_view, const PictureOptions& options,
+                                   const std::function<void(const PictureProgress&)>& progress) {
+  const SceneDescription& scene = *run.scene().description;
+  if (auto ok = check_views(scene, only_view, options); !ok) return ok.problem();
+  const auto views = chosen_views(scene, only_view);
+  RenderedViews rendered;
+  if (views->empty()) return rendered;
+  std::error_code error;
+  std::filesystem::create_directories(folder / "views", error);
+  if (error) return problem_in(folder / "views", "cannot make this folder: " + error.message());
+  std::unique_ptr<KnownRadiance> flux;
+  if (options.gather && run.batches() > 0) flux = flux_radiance(run);
+  const std::vector<std::string> names = result_names(scene).views;
+  double seconds = options.max_seconds, done = 0;
+  double left = pixels_of(scene, views.value());
+  const double all = left;
+  rendered.paths = std::numeric_limits<int>::max();
+  for (const std::vector<size_t>& group : in_groups(scene, views.value())) {
+    const double pixels = pixels_of(scene, group);
+    const auto tell = [&](PictureProgress of_group) {
+      of_group.share = (done + of_group.share * pixels) / all;
+      if (progress) progress(of_group);
+    };
+    GrowingViews growing(run, options, seconds * pixels / left, tell);
+    for (const size_t view : group) growing.add(view, flux.get(), folder / "views" / names[view]);
+    if (auto ok = growing.grow(); !ok) return ok.problem();
+    rendered.paths = std::min(rendered.paths, growing.paths());
+    if (!(growing.error() <= rendered.relative_error)) rendered.relative_error = growing.error();
+    rendered.interrupted = growing.interrupted();
+    if (rendered.interrupted) return rendered;
+    seconds = std::max(seconds - growing.seconds(), seconds > 0 ? 1e-3 : 0);
+    left -= pixels;
+    done += pixels;
+  }
+  return rendered;
+}
+
+}  // namespace luxodus

@@ -1,0 +1,40 @@
+// The files of a camera's picture, from what was traced: light, errors and features (OpenEXR), and
+// what people look at (PNG). Any thread.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "actors/display/pictures.hpp"
+
+namespace luxodus {
+
+/// A picture with all that its files hold.
+struct ShownView {
+  /// Filters it, where it has the paths for that. `raw`: PNG files show what was traced.
+  ShownView(TracedPicture picture, int paths_per_pixel, bool wants_raw, int threads);
+
+  /// As PNG files show it.
+  const XyzPicture& shown() const { return raw ? traced.light : filtered->light; }
+  double error() const;  // of that; see relative_error
+
+  TracedPicture traced;
+  int paths;                             // per pixel
+  std::optional<FilteredView> filtered;  // nothing where there are too few paths
+  bool raw;
+};
+
+/// In the order of `view_endings`.
+enum class ViewFile : uint8_t { light, plain, human, luminance };
+inline constexpr size_t view_file_count = 4;
+
+/// Writes one file of a camera; `stem` is its path without ending. A luminance map is left out
+/// where it is too large (is_mapped). Errors: as write_exr and write_png.
+Result<void> write_view_file(const std::filesystem::path& stem, ViewFile file, const LocalRun& run,
+                             const Camera& camera, const ShownView& view);
+
+/// Writes the plain picture alone, from one of half the size.
+Result<void> write_first_view(const std::filesystem::path& stem, const LocalRun& run,
+                              const Camera& camera, const ShownView& half);
+
+}  // namespace luxodus
