@@ -194,7 +194,10 @@ void add_time(const SceneDescription& scene, const AssessedState& state,
               std::vector<std::string>& remarks) {
   if (!state.seconds_after_failure) return;
   const double seconds = *state.seconds_after_failure, rated = rated_hours(state.codes);
-  if (state.operation == Operation::emergency && seconds > 3600 * rated)
+  const bool unknown =
+      std::any_of(scene.emitters.begin(), scene.emitters.end(),
+                  [](const Emitter& e) { return e.emergency_flux > 0 && !e.duration_s; });
+  if (state.operation == Operation::emergency && seconds > 3600 * rated && unknown)
     remarks.push_back(
         fmt::format("{:g} s after the failure of the mains is later than the rated "
                     "duration of {:g} h that the rules ask for: batteries may be "

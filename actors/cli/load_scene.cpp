@@ -32,7 +32,7 @@ std::shared_ptr<const SceneDescription> load_scene(const std::string& file,
 Option at_option(std::string& at) {
   return {"--at",
           &at,
-          "Time of the scene's fire simulations, e.g. 60s, instead of at_s",
+          "Time of the state of a scene that changes in time, e.g. 60s, instead of its own",
           {.form = Form::duration, .fault = [](const std::string& text) {
              const auto seconds = parse_seconds(text);
              return seconds ? std::string() : seconds.problem().what;

@@ -50,7 +50,7 @@ bool alike(const Emitter& a, const Emitter& b) {
   return a.web == b.web && a.shape == b.shape && a.size == b.size &&
          a.distribution == b.distribution && a.cosine_power == b.cosine_power &&
          a.emergency_flux == b.emergency_flux && a.emergency_ageing == b.emergency_ageing &&
-         a.onset == b.onset && a.maintained == b.maintained;
+         a.onset == b.onset && a.duration_s == b.duration_s && a.maintained == b.maintained;
 }
 
 /// The emergency luminaires of the scene that look down, each kind once, by the names of their
@@ -79,9 +79,10 @@ std::vector<DesignType> types_of_scene(const SceneDescription& scene) {
 
 /// The light of a luminaire that is in the scene. Keys of light beside it would say another.
 void take_light_of(KeyReader& keys, const std::string& like, Emitter& e) {
-  for (const char* key : {"file", "point_source", "circuit", "group", "mains_factor",
-                          "maintenance_factor", "emergency", "emergency_flux", "emergency_factor",
-                          "end_of_duration_factor", "onset", "spectrum", "body_material"})
+  for (const char* key :
+       {"file", "point_source", "circuit", "group", "mains_factor", "maintenance_factor",
+        "emergency", "emergency_flux", "emergency_factor", "end_of_duration_factor", "onset",
+        "duration_h", "spectrum", "body_material"})
     if (keys.has(key))
       return keys.problem(
           key, "'" + std::string(key) + "' and 'like' exclude each other: '" + like + "' says it");
