@@ -225,7 +225,7 @@ Result<void> RealityMode::look_for_lines(const AssessProgress& progress) {
       const Sign& sign = scene_.signs[s];
       if (!options_.sign.empty() && sign.name != options_.sign) continue;
       SightRow row = row_of(stand, sign);
-      if (row.view.behind) continue;
+      if (row.view.behind || (options_.wanted && !options_.wanted(row))) continue;
       const double seen = building.seen_share(access, sign, row.view, row.eye);
       row.look.visible_share = seen;
       if (seen == 0) row.sight.verdict = SightVerdict::hidden;

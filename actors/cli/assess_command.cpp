@@ -2,10 +2,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 
 #include "actors/assess/assessment_json.hpp"
 #include "actors/assess/check_words.hpp"
+#include "actors/assess/over_time.hpp"
+#include "actors/assess/over_time_json.hpp"
 #include "actors/assess/state_words.hpp"
 #include "actors/cli/command.hpp"
 #include "actors/cli/commands.hpp"
@@ -13,12 +16,14 @@
 #include "actors/cli/load_scene.hpp"
 #include "actors/cli/nodes_option.hpp"
 #include "actors/cli/progress_line.hpp"
+#include "actors/cli/quantities.hpp"
 #include "actors/cli/report_options.hpp"
 #include "actors/cli/signals.hpp"
 #include "actors/cli/version.hpp"
 #include "actors/output/file_names.hpp"
 #include "actors/output/output_folder.hpp"
 #include "runtime/core/log.hpp"
+#include "scenes/scene_file/scene_file.hpp"
 
 namespace luxodus::cli {
 
@@ -31,7 +36,7 @@ struct AssessCommandOptions {
   std::string out;
   AssessOptions assess;
   int nodes = 0;
-  std::string at;
+  std::vector<std::string> at;
   bool codes_alone = false;
   bool strict = false;
   bool overwrite = false;
@@ -84,17 +89,73 @@ void print_summary(const Json& a) {
   if (!seen.empty()) std::printf("signs, from routes and areas: %s\n", seen.c_str());
   if (const std::string behind = behind_words(a); !behind.empty())
     std::printf("%s\n", behind.c_str());
+  if (const auto over = a.find("over_time"); over != a.end())
+    std::printf("%s", guidance_text(*over).c_str());
+}
+
+/// The times of the states that are assessed, and the scene at the last of them.
+struct AskedStates {
+  std::vector<double> times;  // none: the scene does not change in time
+  std::shared_ptr<const SceneDescription> last;
+};
+
+/// None after every problem was told.
+std::optional<AskedStates> states_of(const AssessCommandOptions& options) {
+  AskedStates out{times_asked(options.at), nullptr};
+  const auto at = [&](std::optional<double> time) {
+    return load_scene(options.scene, ReadingWarnings::left_to_inspection, time);
+  };
+  if (out.times.empty()) {
+    out.last = at(std::nullopt);
+    if (out.last && out.last->time) out.times = times_of(*out.last->time);
+    if (out.times.size() < 2) return out.last ? std::optional(out) : std::nullopt;
+  }
+  out.last = at(out.times.back());
+  return out.last ? std::optional(out) : std::nullopt;
+}
+
+/// What stays to be done, from what is done.
+class Estimate {
+ public:
+  std::string left(double share) const {
+    const double passed =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
+    if (!(share > 0.01 && share < 1) || passed < 1) return "";
+    return ", about " + time_text(passed * (1 - share) / share) + " left";
+  }
+
+ private:
+  std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
+};
+
+/// Errors: as assess_over_time.
+Result<void> add_over_time(const std::string& file, const std::vector<double>& times,
+                           const AssessOptions& options, ProgressLine& line, Assessment& out) {
+  const auto scene_at = [&](double at_s) -> Result<std::shared_ptr<const SceneDescription>> {
+    ReadScene read = read_scene(file, at_s);
+    if (!read.scene) return read.problems.list().front();
+    return std::make_shared<const SceneDescription>(std::move(*read.scene));
+  };
+  const Estimate estimate;
+  auto over_time = assess_over_time(
+      times, scene_at, options, interrupt_flag(), [&](const std::string& what, double share) {
+        line.put(fmt::format("{}: {:.0f} %{}", what, 100 * share, estimate.left(share)), share >= 1,
+                 share);
+      });
+  if (!over_time) return over_time.problem();
+  out.over_time = std::move(over_time).value();
+  return {};
 }
 
 Result<ExitCode> assess_scene(const AssessCommandOptions& options) {
-  const auto scene =
-      load_scene(options.scene, ReadingWarnings::left_to_inspection, time_asked(options.at));
-  if (!scene) return ExitCode::bad_input;
+  const auto states = states_of(options);
+  if (!states) return ExitCode::bad_input;
+  const auto& scene = states->last;
   const fs::path folder = options.out.empty()
                               ? fs::path("out") / file_name_of(scene->name + "-assessed")
                               : fs::path(options.out);
   const OutputPlan plan{
-      {"report.html", "report.pdf", "assessment.json", "checks.csv", "sights.csv"},
+      {"report.html", "report.pdf", "assessment.json", "checks.csv", "sights.csv", "guided.csv"},
       {"plans", "schedules"}};
   const auto out = OutputFolder::claim(folder, plan);
   if (!out) return out.problem();
@@ -106,7 +167,7 @@ Result<ExitCode> assess_scene(const AssessCommandOptions& options) {
   const auto nodes = nodes_that_trace(options.nodes);
   asked.executor = nodes.get();
   ProgressLine line("assess");
-  const auto assessed =
+  auto assessed =
       assess(scene, asked, interrupt_flag(), [&](const std::string& what, double share) {
         line.put(fmt::format("{}: {:.0f} %", what, 100 * share), share >= 1, share);
       });
@@ -117,6 +178,14 @@ Result<ExitCode> assess_scene(const AssessCommandOptions& options) {
     }
     log_warning("interrupted; nothing was written");
     return ExitCode::interrupted;
+  }
+  if (asked.reality && states->times.size() > 1) {
+    asked.scenario = assessed->state.scenario;
+    if (auto ok = add_over_time(options.scene, states->times, asked, line, assessed.value()); !ok) {
+      if (!interrupt_flag()) return ok.problem();
+      log_warning("interrupted; nothing was written");
+      return ExitCode::interrupted;
+    }
   }
   tell_findings(assessed->findings);
   for (const Problem& warning : assessed->warnings)
@@ -160,7 +229,7 @@ Command assess_command() {
             {.form = Form::name,
              .otherwise = "the scenario in emergency operation, with smoke where any has it; none "
                           "is guessed"}},
-           at_option(o->at),
+           times_option(o->at),
            {"--out",
             &o->out,
             "Folder of the results",
@@ -196,12 +265,14 @@ Command assess_command() {
             "Exit code 1 where anything fails, is undecided, not assessed or not verified"}},
       .notes =
           "Needs routes, areas or observers in the scene. Writes report.html, assessment.json, "
-          "checks.csv, sights.csv, plans/ (SVG, DXF), schedules/ (CSV).\n"
+          "checks.csv, sights.csv, guided.csv (over time), plans/ (SVG, DXF), schedules/ "
+          "(CSV). Over several times routes are followed; all else is of the last of them.\n"
           "  luxodus assess scenes/library/office_floor.toml --out out/office\n"
           "  luxodus assess office.toml --scenario fire --rules en1838-2013 \\\n"
           "    --deviation de-asr-a3.4-3\n"
           "  luxodus assess office.toml --rules en1838-2024,nfpa101 --codes-alone\n"
-          "  luxodus assess office.toml --smoke-scale 0.1,0.3,1,3,10",
+          "  luxodus assess office.toml --smoke-scale 0.1,0.3,1,3,10\n"
+          "  luxodus assess office.toml --at 30s,60s,90s",
       .run = [o] { return exit_code_of(assess_scene(*o)); }};
   add_report_options(command, o->report);
   return command;

@@ -195,7 +195,8 @@ void read_fire_medium(KeyReader& keys, Medium m) {
                             source_words(fire->source),
                             false,
                             m.frame,
-                            fire->meshes};
+                            fire->meshes,
+                            largest_depth_error(fire->source)};
   for (const FireGrid& grid : fire->grids) simulation.glows |= flames && grid.heat_kw > 0;
   for (size_t i = 0; i < fire->grids.size(); ++i) {
     FireGrid& grid = fire->grids[i];

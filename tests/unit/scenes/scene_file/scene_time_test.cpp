@@ -94,7 +94,7 @@ TEST_CASE("values over time that cannot be are refused with their line", "[forma
         std::string::npos);
 }
 
-TEST_CASE("[time] says the time of a scene, and its mistakes are told", "[format][scene][time]") {
+TEST_CASE("a clock says the time of a scene, and its mistakes are told", "[format][scene][time]") {
   SceneFolder f;
   const SceneDescription first = good(f, clock + sinking + emergency);
   CHECK(first.at_s == 0);
