@@ -34,7 +34,7 @@ std::shared_ptr<const SceneDescription> load_scene(const std::string& file,
 namespace {
 
 std::string fault_of_time(const std::string& text) {
-  const auto seconds = parse_seconds(text);
+  const auto seconds = parse_time(text);
   return seconds ? std::string() : seconds.problem().what;
 }
 
@@ -53,7 +53,7 @@ Option times_option(std::vector<std::string>& at) {
 
 std::vector<double> times_asked(const std::vector<std::string>& at) {
   std::vector<double> out;
-  for (const std::string& text : at) out.push_back(parse_seconds(text).value());
+  for (const std::string& text : at) out.push_back(parse_time(text).value());
   std::sort(out.begin(), out.end());
   out.erase(std::unique(out.begin(), out.end()), out.end());
   return out;
@@ -68,7 +68,7 @@ Option at_option(std::string& at) {
 
 std::optional<double> time_asked(const std::string& at) {
   if (at.empty()) return std::nullopt;
-  return parse_seconds(at).value();
+  return parse_time(at).value();
 }
 
 Result<std::vector<Scenario>> chosen_scenarios(const SceneDescription& scene,
